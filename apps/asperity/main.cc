@@ -1,0 +1,5 @@
+#include "asperity/base/version.h"
+
+#include <cstdio>
+
+int main() { std::puts(asperity::kVersion); }

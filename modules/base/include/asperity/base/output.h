@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string_view>
+
+namespace asperity {
+
+// Writes `content` under a temporary name beside `path` and renames it there. Throws Error; on any
+// failure `path` is as it was.
+void write_file(const std::filesystem::path& path, std::string_view content);
+
+// A folder written as a whole: files go into path(), a temporary folder beside the target, and
+// commit() puts it in the target's place by rename. Without commit() nothing remains.
+class OutputFolder {
+ public:
+  // Throws Error if the target exists and `is_ours(target)` is false, or if its parent cannot be written.
+  // An empty folder counts as ours.
+  OutputFolder(std::filesystem::path target, const std::function<bool(const std::filesystem::path&)>& is_ours);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+  const std::filesystem::path& path() const { return temporary_; }
+  void commit();
+
+ private:
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;
+};
+
+// Removes the temporary files and folders that are in use now. Called when the program is stopped by
+// a signal; not safe inside the handler itself.
+void remove_unfinished_output();
+
+}  // namespace asperity

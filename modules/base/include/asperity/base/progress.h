@@ -1,0 +1,22 @@
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "asperity/base/error.h"
+
+namespace asperity {
+
+// How a long stage reports and is stopped. Both functions may be empty.
+struct Observer {
+  std::function<void(std::string_view stage, double fraction)> progress;
+  std::function<bool()> cancelled;
+
+  // Reports `fraction` in [0, 1]; throws Cancelled if the user has asked to stop.
+  void update(std::string_view stage, double fraction) const {
+    if (cancelled && cancelled()) throw Cancelled();
+    if (progress) progress(stage, fraction);
+  }
+};
+
+}  // namespace asperity

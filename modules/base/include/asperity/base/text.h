@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace asperity {
+
+// The number that the whole of `text` spells, blanks at its ends apart; "nan" and "inf" are numbers.
+std::optional<double> parse_double(std::string_view text);
+std::optional<std::int64_t> parse_int64(std::string_view text);
+
+// Appends the shortest text that reads back as exactly `value`.
+void append_number(std::string& out, double value);
+void append_number(std::string& out, std::int64_t value);
+std::string number_text(double value);
+
+// True if `text` is well-formed UTF-8.
+bool is_utf8(std::string_view text);
+
+// `text` cut to `limit` bytes with control and non-UTF-8 bytes written as \xNN, for messages.
+std::string printable(std::string_view text, std::size_t limit = 60);
+
+std::string_view trim(std::string_view text);
+
+}  // namespace asperity

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string_view>
+
+namespace asperity {
+
+// Quantities as people type them: a number and its unit. Each throws Error naming `what` and the text.
+double parse_length_m(std::string_view text, std::string_view what);    // 5mm 0.3m 2.5cm 0.5um 0.5µm 120nm
+double parse_speed_mps(std::string_view text, std::string_view what);   // 25mm/s 0.02m/s
+double parse_duration_s(std::string_view text, std::string_view what);  // 10s 250ms 2min
+
+inline constexpr double kStandardGravity_mps2 = 9.80665;
+inline constexpr double kNanosecond_s = 1e-9;
+
+}  // namespace asperity

@@ -1,0 +1,116 @@
+#include "asperity/base/csv.h"
+
+#include <algorithm>
+#include <fstream>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+
+namespace asperity {
+
+std::string read_file(const std::filesystem::path& path, std::uint64_t limit_bytes) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (error || !std::filesystem::exists(status)) throw Error(path.string() + ": no such file");
+  if (!std::filesystem::is_regular_file(status)) throw Error(path.string() + ": not a regular file");
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) throw Error(path.string() + ": " + error.message());
+  if (size > limit_bytes) {
+    throw Error(path.string() + ": " + std::to_string(size) + " bytes, more than the limit of " + std::to_string(limit_bytes));
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(path.string() + ": cannot be opened");
+  std::string text(size, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(size));
+  if (file.bad()) throw Error(path.string() + ": cannot be read");
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+CsvReader::CsvReader(std::string_view text, std::string name) : name_(std::move(name)), rest_(text) {
+  if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);
+  std::string_view header;
+  accept_unterminated_ = true;
+  const bool found = next_line(header);
+  accept_unterminated_ = false;
+  if (!found) throw Error(name_ + ":1: the header line is missing");
+  if (!is_utf8(header)) throw Error(name_ + ":" + std::to_string(line_) + ": the header is not UTF-8 text: " + printable(header));
+  std::size_t start = 0;
+  while (true) {
+    const auto comma = header.find(',', start);
+    const std::string column(trim(header.substr(start, comma - start)));
+    if (column.empty()) throw Error(name_ + ":" + std::to_string(line_) + ": column " + std::to_string(columns_.size() + 1) + " has no name");
+    if (find(column)) throw Error(name_ + ":" + std::to_string(line_) + ": column '" + printable(column) + "' appears twice");
+    if (columns_.size() == 1000) throw Error(name_ + ":" + std::to_string(line_) + ": more than 1000 columns");
+    columns_.push_back(column);
+    if (comma == std::string_view::npos) break;
+    start = comma + 1;
+  }
+  cells_.resize(columns_.size());
+}
+
+std::optional<std::size_t> CsvReader::find(std::string_view column) const {
+  const auto found = std::find(columns_.begin(), columns_.end(), column);
+  if (found == columns_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - columns_.begin());
+}
+
+std::size_t CsvReader::require(std::string_view column) const {
+  const auto found = find(column);
+  if (!found) throw Error(name_ + ":1: column '" + std::string(column) + "' is missing");
+  return *found;
+}
+
+bool CsvReader::next_line(std::string_view& line) {
+  while (!rest_.empty()) {
+    const auto end = rest_.find('\n');
+    if (end == std::string_view::npos && !accept_unterminated_) {
+      truncated_ = true;
+      rest_ = {};
+      return false;
+    }
+    line = rest_.substr(0, end);
+    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    ++line_;
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (!line.starts_with('#') && !trim(line).empty()) return true;
+  }
+  return false;
+}
+
+bool CsvReader::next() {
+  std::string_view line;
+  if (!next_line(line)) return false;
+  std::size_t count = 0;
+  std::size_t start = 0;
+  while (true) {
+    const auto comma = line.find(',', start);
+    if (count < cells_.size()) cells_[count] = trim(line.substr(start, comma - start));
+    ++count;
+    if (comma == std::string_view::npos) break;
+    start = comma + 1;
+  }
+  if (count != cells_.size()) {
+    throw Error(name_ + ":" + std::to_string(line_) + ": " + std::to_string(count) + " cells where the header has " +
+                std::to_string(cells_.size()));
+  }
+  return true;
+}
+
+double CsvReader::number(std::size_t column) const {
+  const auto value = parse_double(cells_[column]);
+  if (!value) fail(column, "'" + printable(cells_[column]) + "' is not a number");
+  return *value;
+}
+
+std::int64_t CsvReader::integer(std::size_t column) const {
+  const auto value = parse_int64(cells_[column]);
+  if (!value) fail(column, "'" + printable(cells_[column]) + "' is not a whole number");
+  return *value;
+}
+
+void CsvReader::fail(std::size_t column, const std::string& message) const {
+  throw Error(name_ + ":" + std::to_string(line_) + ": column '" + printable(columns_[column]) + "': " + message);
+}
+
+}  // namespace asperity

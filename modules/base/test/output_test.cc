@@ -1,0 +1,42 @@
+#include "asperity/base/output.h"
+
+#include <fstream>
+#include <gtest/gtest.h>
+
+#include "asperity/base/csv.h"
+#include "asperity/base/error.h"
+#include "asperity/testkit/temp_dir.h"
+
+namespace asperity {
+namespace {
+
+bool has_mark(const std::filesystem::path& folder) { return std::filesystem::exists(folder / "mark"); }
+
+TEST(Output, FolderAppearsWholeOrNotAtAll) {
+  testkit::TempDir dir;
+  { OutputFolder folder(dir / "out", has_mark); write_file(folder.path() / "mark", "1"); }
+  EXPECT_FALSE(std::filesystem::exists(dir / "out"));
+  {
+    OutputFolder folder(dir / "out", has_mark);
+    write_file(folder.path() / "mark", "1");
+    folder.commit();
+  }
+  {
+    OutputFolder folder(dir / "out", has_mark);
+    write_file(folder.path() / "mark", "2");
+    folder.commit();
+  }
+  EXPECT_EQ(read_file(dir / "out" / "mark", 10), "2");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dir.path()), {}), 1);
+}
+
+TEST(Output, LeavesStrangersAlone) {
+  testkit::TempDir dir;
+  std::filesystem::create_directory(dir / "theirs");
+  std::ofstream(dir / "theirs" / "thesis.doc") << "x";
+  EXPECT_THROW(OutputFolder(dir / "theirs", has_mark), Error);
+  EXPECT_TRUE(std::filesystem::exists(dir / "theirs" / "thesis.doc"));
+}
+
+}  // namespace
+}  // namespace asperity

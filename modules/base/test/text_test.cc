@@ -1,0 +1,48 @@
+#include "asperity/base/text.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "asperity/base/error.h"
+#include "asperity/base/units.h"
+
+namespace asperity {
+namespace {
+
+TEST(Text, ParsesWholeNumbersOnly) {
+  EXPECT_EQ(parse_double(" 1.5 "), 1.5);
+  EXPECT_EQ(parse_double("+2e-3"), 2e-3);
+  EXPECT_TRUE(std::isnan(*parse_double("nan")));
+  EXPECT_FALSE(parse_double("1.5x"));
+  EXPECT_FALSE(parse_double(""));
+  EXPECT_FALSE(parse_double("+-1"));
+  EXPECT_FALSE(parse_double("1,5"));
+  EXPECT_FALSE(parse_int64("9223372036854775808"));
+  EXPECT_EQ(parse_int64("-5"), -5);
+}
+
+TEST(Text, NumbersReadBackExactly) {
+  for (const double value : {0.1, 1.0 / 3.0, 1e-300, -2.5e10, 5e-324}) EXPECT_EQ(parse_double(number_text(value)), value);
+}
+
+TEST(Text, Utf8) {
+  EXPECT_TRUE(is_utf8("µm – ok"));
+  EXPECT_FALSE(is_utf8("\xC0\x80"));         // overlong
+  EXPECT_FALSE(is_utf8("\xED\xA0\x80"));     // surrogate
+  EXPECT_FALSE(is_utf8("\xF5\x80\x80\x80")); // beyond U+10FFFF
+  EXPECT_EQ(printable("a\x1b\xff"), "a\\x1b\\xff");
+}
+
+TEST(Units, NumberWithUnit) {
+  EXPECT_EQ(parse_length_m("5mm", "x"), 0.005);
+  EXPECT_EQ(parse_length_m("0.5um", "x"), 0.5e-6);
+  EXPECT_EQ(parse_length_m("0.3 m", "x"), 0.3);
+  EXPECT_EQ(parse_speed_mps("25mm/s", "x"), 0.025);
+  EXPECT_EQ(parse_duration_s("250ms", "x"), 0.25);
+  EXPECT_THROW(parse_length_m("5", "x"), Error);
+  EXPECT_THROW(parse_length_m("5 parsec", "x"), Error);
+  EXPECT_THROW(parse_length_m("infmm", "x"), Error);
+}
+
+}  // namespace
+}  // namespace asperity

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace asperity {
+
+// The motion of the probe's tip over time, what a trajectory estimate hands to the stages after it.
+// All vectors have one entry a sample; times rise strictly.
+struct TipMotion {
+  std::vector<std::int64_t> t_ns;
+  std::vector<Eigen::Vector3d> p_world_tip_m;
+  std::vector<Eigen::Quaterniond> q_world_marker;
+  std::vector<Eigen::Vector3d> v_world_tip_mps;
+  std::vector<Eigen::Vector3d> a_world_tip_mps2;  // gravity removed
+  std::vector<Eigen::Matrix3d> cov_world_tip_m2;  // covariance of the position; empty if the method gives none
+  std::vector<double> force_N;                    // calibrated axial reading; nan where the sensor gave none
+
+  std::size_t size() const { return t_ns.size(); }
+};
+
+}  // namespace asperity

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "asperity/geometry/pose.h"
+
+namespace asperity {
+
+enum class AccelerometerModel { kScalarOffset, kLinear, kQuadric };
+
+// counts = B φ(f) + C with the specific force f = a − g in the marker frame, m/s² (seed §3.5,
+// errata 4–6). φ(f) = f, and for the quadric model (x, y, z, x², y², z², xy, xz, yz).
+struct AccelerometerCalibration {
+  AccelerometerModel model = AccelerometerModel::kLinear;
+  Eigen::Matrix<double, 3, Eigen::Dynamic> B;  // 3×3, or 3×9 for quadric; counts per m/s² (per (m/s²)²)
+  Eigen::Vector3d C = Eigen::Vector3d::Zero();
+  Eigen::Vector3d residual_counts = Eigen::Vector3d::Zero();  // standard deviation of the fit
+  Eigen::Matrix<double, 3, Eigen::Dynamic> standard_errors;   // 3×(k+1), B's columns then C's; may be empty
+  bool rotation_known = true;  // false: the sensor's rotation to the marker is to be estimated
+  std::optional<Eigen::Vector3d> position_in_marker_m;  // nullopt: at the tip
+  double position_sigma_m = 0.0;  // extra.accelerometer_position_sigma_m: > 0, estimate the position too
+
+  Eigen::Vector3d counts(const Eigen::Vector3d& specific_force_mps2) const;
+  // Inverts the model; Newton's method for the quadric one. Throws Error if the linear part is singular.
+  Eigen::Vector3d specific_force_mps2(const Eigen::Vector3d& counts) const;
+};
+
+// counts = B ω + C, ω in the marker frame, rad/s.
+struct GyroscopeCalibration {
+  Eigen::Matrix3d B = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d C = Eigen::Vector3d::Zero();
+};
+
+struct ForceCalibration {
+  double newton_per_count = 1.0;
+  double offset_newton = 0.0;
+  double residual_newton = 0.0;
+  std::optional<Eigen::Vector3d> axis_in_marker;  // nullopt: from the tip to the marker's origin
+
+  double force_N(double counts) const { return newton_per_count * counts + offset_newton; }
+};
+
+struct TrackerCalibration {
+  Eigen::Vector3d sigma_position_m{0.15e-3, 0.13e-3, 0.54e-3};  // along the world's axes (seed Fig. 9)
+  Eigen::Vector3d sigma_rotation_rad{3.5e-3, 3.5e-3, 3.5e-3};
+  double latency_s = 0.0;  // the pose's true time is t_ns minus this
+  double latency_sigma_s = 0.0;
+};
+
+struct CameraCalibration {
+  int width = 0;
+  int height = 0;
+  double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  // px
+  std::vector<double> distortion;                 // k1, k2, p1, p2, k3
+};
+
+struct MarkerPlacement {
+  int id = 0;
+  std::string family;
+  double size_m = 0.0;
+  Pose T_marker_tag;
+};
+
+struct Calibration {
+  AccelerometerCalibration accelerometer;
+  std::optional<GyroscopeCalibration> gyroscope;
+  ForceCalibration force;
+  Eigen::Vector3d tip_in_marker_m = Eigen::Vector3d::Zero();
+  double tip_radius_m = 0.00032;
+  TrackerCalibration tracker;
+  std::optional<CameraCalibration> camera;
+  std::vector<MarkerPlacement> markers;
+  std::string extra_json = "{}";
+
+  Eigen::Vector3d accelerometer_in_marker_m() const {
+    return accelerometer.position_in_marker_m.value_or(tip_in_marker_m);
+  }
+  // The unit vector of the force sensor's axis in the marker frame, from the tip towards the hand.
+  Eigen::Vector3d force_axis_in_marker() const;
+};
+
+}  // namespace asperity

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "asperity/base/problem.h"
+#include "asperity/geometry/pose.h"
+#include "asperity/recording/calibration.h"
+
+namespace asperity {
+
+// Raw counts as the probe sent them, one entry a row. A sensor slower than the rows has nan where it
+// has no new sample. gyro and force3 are empty, or as long as t_ns.
+struct ProbeStream {
+  std::vector<std::int64_t> t_ns;
+  std::vector<Eigen::Vector3d> accel_counts;
+  std::vector<double> force_counts;
+  std::vector<Eigen::Vector3d> gyro_counts;
+  std::vector<Eigen::Vector3d> force3_counts;
+
+  std::size_t size() const { return t_ns.size(); }
+  bool has_gyro() const { return !gyro_counts.empty(); }
+};
+
+// Poses of the marker body, one for each frame in which it was seen.
+struct TrackerStream {
+  std::vector<std::int64_t> t_ns;  // as received: the latency is still in it
+  std::vector<Pose> T_world_marker;
+  std::vector<int> markers;             // empty, or tags seen
+  std::vector<double> reprojection_px;  // empty, or RMS residual
+
+  std::size_t size() const { return t_ns.size(); }
+};
+
+// What a simulation knows (truth.csv).
+struct Truth {
+  std::vector<std::int64_t> t_ns;
+  std::vector<double> s_m;       // arc length along the base surface (erratum 23)
+  std::vector<double> height_m;  // of the tip along the base surface's normal
+  std::vector<Eigen::Vector3d> p_world_tip_m;
+  std::vector<Eigen::Quaterniond> q_world_marker;
+  std::vector<double> force_N;  // contact force
+
+  std::size_t size() const { return t_ns.size(); }
+};
+
+struct Segment {
+  std::string name;
+  std::int64_t start_ns = 0;
+  std::int64_t end_ns = 0;
+};
+
+// recording.json
+struct RecordingInfo {
+  std::string created = "1970-01-01T00:00:00Z";
+  std::string object;
+  std::string world = "camera";  // or "z_up"
+  std::string probe_model = "open";
+  double probe_rate_Hz = 0.0;  // nominal
+  double adc_min = 0.0;
+  double adc_max = 0.0;
+  double tracker_rate_Hz = 0.0;  // nominal
+  Eigen::Vector3d gravity_world_mps2{0.0, 9.80665, 0.0};
+  std::vector<Segment> segments;
+  std::map<std::string, std::int64_t> problems;  // what the recorder lost or repaired
+  std::string extra_json = "{}";
+};
+
+struct Recording {
+  RecordingInfo info;
+  ProbeStream probe;
+  TrackerStream tracker;
+  Calibration calibration;
+  std::optional<Truth> truth;
+  Problems problems;  // what reading found damaged and repaired or left out
+};
+
+}  // namespace asperity

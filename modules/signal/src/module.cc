@@ -1,0 +1,1 @@
+// Gives the module a translation unit until its first one lands.

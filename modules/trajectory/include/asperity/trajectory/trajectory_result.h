@@ -1,0 +1,20 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "asperity/base/problem.h"
+#include "asperity/geometry/motion.h"
+
+namespace asperity {
+
+// What a trajectory method estimates, with its diagnostics.
+struct TrajectoryResult {
+  TipMotion motion;
+  std::map<std::string, double> figures;  // named measurements of the run, units in the names
+  Problems problems;                      // what was dropped or down-weighted, and why
+  bool trustworthy = true;
+  std::string verdict;  // in words, if not trustworthy
+};
+
+}  // namespace asperity
