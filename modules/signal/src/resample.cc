@@ -31,13 +31,19 @@ std::vector<double> interpolate_rising(std::span<const double> t, std::span<cons
   for (std::size_t i = 0; i < count; ++i) {
     const double point = at(i);
     if (t.empty() || !(point >= t.front() && point <= t.back())) continue;
-    while (k + 1 < t.size() && t[k + 1] <= point) ++k;
-    if (t[k] == point) {
-      out[i] = x[k];
+    if (point == t.back()) {
+      out[i] = x.back();
       continue;
     }
+    // One step without a branch first: whether there is a sample between two points is unpredictable.
+    k += static_cast<std::size_t>(t[k + 1] <= point);
+    while (t[k + 1] <= point) ++k;
     const double step = t[k + 1] - t[k];
-    if (step <= max_step) out[i] = x[k] + (x[k + 1] - x[k]) * ((point - t[k]) / step);
+    if (t[k] == point) {
+      out[i] = x[k];
+    } else if (step <= max_step) {
+      out[i] = x[k] + (x[k + 1] - x[k]) * ((point - t[k]) / step);
+    }
   }
   return out;
 }
