@@ -156,7 +156,7 @@ void ConfigLister::add_choice(std::string_view name, std::vector<std::string> na
   ConfigField& field = add(name, FieldType::kChoice, description, {});
   field.choices = names;
   field.get = [names, get = std::move(get)] { return quoted(names[get()]); };
-  field.set = [names, set = std::move(set), path = field.path](std::string_view text) {
+  field.set = [names = std::move(names), set = std::move(set), path = field.path](std::string_view text) {
     const auto found = std::find(names.begin(), names.end(), unquoted(text));
     if (found == names.end()) {
       std::string all;
