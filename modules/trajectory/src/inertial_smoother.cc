@@ -142,7 +142,7 @@ void apply(const State& d, const Layout& layout, Nominal& x) {
   if (layout.latency >= 0) x.latency += d[layout.latency];
   if (layout.lever >= 0) x.lever += d.segment<3>(layout.lever);
   if (layout.misalignment >= 0) {
-    x.misalignment = (x.misalignment * exp_rotation(d.segment<3>(layout.misalignment))).normalized();
+    x.misalignment = (exp_rotation(d.segment<3>(layout.misalignment)) * x.misalignment).normalized();
   }
 }
 
