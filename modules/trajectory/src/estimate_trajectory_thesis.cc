@@ -20,6 +20,9 @@ constexpr double kLeastScanSpeed_mps = 1e-3;
 // A state that has not been measured may have the velocity of a quick hand.
 constexpr double kInitialVelocity_mps = 0.1;
 
+// A tracker that claims to be exact is believed to a micrometre and a microradian.
+constexpr double kLeastVariance = 1e-12;
+
 // The tip's variance along the world's axes, averaged over the recording so that R is constant: a
 // rotation error δ moves the tip by δ × r.
 Eigen::Vector3d tip_variance_m2(const TrackerCalibration& tracker,
@@ -31,7 +34,8 @@ Eigen::Vector3d tip_variance_m2(const TrackerCalibration& tracker,
     const Eigen::Matrix3d arm = skew(q * tip_in_marker_m);
     sum += (arm * rotation_rad2.asDiagonal() * arm.transpose()).diagonal();
   }
-  return tracker.sigma_position_m.cwiseAbs2() + sum / static_cast<double>(q_world_marker.size());
+  const Eigen::Vector3d R_m2 = tracker.sigma_position_m.cwiseAbs2() + sum / static_cast<double>(q_world_marker.size());
+  return R_m2.cwiseMax(kLeastVariance);
 }
 
 PositionFilterNoise position_noise(const ThesisTrajectoryConfig& config, double speed_mps,
@@ -96,8 +100,8 @@ TrajectoryResult estimate_trajectory_thesis(const Recording& recording, const Th
   const Eigen::Vector3d R_m2 = tip_variance_m2(calibration.tracker, q_world_marker, calibration.tip_in_marker_m);
   FilteredPosition filtered = filter_position(p_world_tip_m, config.period_s, position_noise(config, speed_mps, R_m2));
   const double step_rad = config.rotation_rate_radps * config.period_s;
-  q_world_marker = filter_orientation(q_world_marker, step_rad * step_rad,
-                                      calibration.tracker.sigma_rotation_rad.squaredNorm() / 3.0);
+  const double rotation_rad2 = std::max(kLeastVariance, calibration.tracker.sigma_rotation_rad.squaredNorm() / 3.0);
+  q_world_marker = filter_orientation(q_world_marker, step_rad * step_rad, rotation_rad2);
 
   TrajectoryResult result;
   TipMotion& motion = result.motion;
