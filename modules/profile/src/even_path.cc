@@ -9,7 +9,8 @@
 namespace asperity {
 
 template <int N>
-EvenPath<N> space_evenly(std::span<const double> t_s, std::span<const Eigen::Matrix<double, N, 1>> p_m, double max_rate_hz) {
+EvenPath<N> space_evenly(std::span<const double> t_s, std::span<const Eigen::Matrix<double, N, 1>> p_m,
+                         double max_rate_hz) {
   using Vector = Eigen::Matrix<double, N, 1>;
   const std::size_t n = t_s.size();
   const double duration_s = t_s[n - 1] - t_s[0];

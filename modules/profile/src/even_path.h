@@ -20,7 +20,8 @@ struct EvenPath {
 };
 
 template <int N>
-EvenPath<N> space_evenly(std::span<const double> t_s, std::span<const Eigen::Matrix<double, N, 1>> p_m, double max_rate_hz);
+EvenPath<N> space_evenly(std::span<const double> t_s, std::span<const Eigen::Matrix<double, N, 1>> p_m,
+                         double max_rate_hz);
 
 // Each coordinate through the zero-phase second-order Butterworth low-pass, -3 dB at `cutoff_hz`; the
 // path itself if that is beyond the rate.

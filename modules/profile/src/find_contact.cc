@@ -13,11 +13,13 @@ namespace asperity {
 
 std::vector<char> find_contact(const TipMotion& motion, const ContactConfig& config) {
   if (config.release_N > config.touch_N) {
-    throw Error("contact: release_N " + number_text(config.release_N) + " is above touch_N " + number_text(config.touch_N));
+    throw Error("contact: release_N " + number_text(config.release_N) + " is above touch_N " +
+                number_text(config.touch_N));
   }
   const std::size_t n = motion.size();
   std::vector<char> contact(n, 1);
-  const bool measured = std::any_of(motion.force_N.begin(), motion.force_N.end(), [](double f) { return std::isfinite(f); });
+  const bool measured =
+      std::any_of(motion.force_N.begin(), motion.force_N.end(), [](double f) { return std::isfinite(f); });
   if (n < 2 || !measured) return contact;
 
   std::vector<double> t_s(n);
@@ -39,7 +41,9 @@ std::vector<char> find_contact(const TipMotion& motion, const ContactConfig& con
     std::size_t end = i;
     while (end < n && contact[end] == 0) ++end;
     // A flight has contact on both sides; before the first touch and after the last there is none.
-    if (i > 0 && end < n && t_s[end] - t_s[i - 1] <= config.max_flight_s) std::fill(contact.begin() + static_cast<std::ptrdiff_t>(i), contact.begin() + static_cast<std::ptrdiff_t>(end), 1);
+    if (i > 0 && end < n && t_s[end] - t_s[i - 1] <= config.max_flight_s)
+      std::fill(contact.begin() + static_cast<std::ptrdiff_t>(i), contact.begin() + static_cast<std::ptrdiff_t>(end),
+                1);
     i = end;
   }
   return contact;

@@ -52,14 +52,15 @@ Directions find_directions(const EvenPath<2>& path, const EvenPath<2>& smooth, c
     }
     last = i;
   }
-  if (last != n) std::fill(out.tangent.begin() + static_cast<std::ptrdiff_t>(last), out.tangent.end(), out.tangent[last]);
+  if (last != n)
+    std::fill(out.tangent.begin() + static_cast<std::ptrdiff_t>(last), out.tangent.end(), out.tangent[last]);
   return out;
 }
 
 }  // namespace
 
-ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen::Vector2d> u_m, std::span<const char> usable,
-                             const ArcLengthConfig& config) {
+ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen::Vector2d> u_m,
+                             std::span<const char> usable, const ArcLengthConfig& config) {
   const std::size_t n = t_s.size();
   if (u_m.size() != n || (!usable.empty() && usable.size() != n)) {
     throw Error("measure_arc_length: " + std::to_string(n) + " times, " + std::to_string(u_m.size()) + " points, " +

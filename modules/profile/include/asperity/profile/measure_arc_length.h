@@ -18,7 +18,8 @@ struct ArcLengthConfig {
 
   template <class V>
   void visit(V& v) {
-    v.field("direction_cutoff_hz", direction_cutoff_hz, "low-pass of the path for its direction of travel", {0.05, 100.0});
+    v.field("direction_cutoff_hz", direction_cutoff_hz, "low-pass of the path for its direction of travel",
+            {0.05, 100.0});
     v.field("along_cutoff_hz", along_cutoff_hz, "low-pass of the progress along the path; 0 for none", {0.0, 1e5});
     v.field("rest_speed_mps", rest_speed_mps, "slower than this the tip has no direction of its own", {0.0, 10.0});
     v.field("rest_fraction", rest_fraction, "the same as a fraction of the 80th percentile of the speed", {0.0, 1.0});
@@ -42,7 +43,7 @@ struct ArcLength {
 // rest t is held, so s does not creep; it may step back by what the tip steps back. Where a stroke
 // reverses, the path is cut at its outermost point and s keeps growing.
 // Throws Error if the sizes differ or the times do not rise.
-ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen::Vector2d> u_m, std::span<const char> usable,
-                             const ArcLengthConfig& config);
+ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen::Vector2d> u_m,
+                             std::span<const char> usable, const ArcLengthConfig& config);
 
 }  // namespace asperity
