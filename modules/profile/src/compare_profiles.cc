@@ -46,20 +46,26 @@ BandPassed band_pass(PathKnots knots, double shift_m, const ComparisonConfig& co
                                const auto above = zero_phase_highpass(run, config.low_cycles_per_mm, rate_per_mm);
                                return zero_phase_lowpass(above, high, rate_per_mm);
                              });
-  // The filter's answer to a bridge or an end reaches about this far.
-  const auto margin = static_cast<std::ptrdiff_t>(config.margin_m / config.spacing_m);
+  // How far the filter's answer to an end or a bridge reaches. Ends of the profile count as gaps.
+  const auto total = static_cast<std::ptrdiff_t>(count);
+  const auto bridge = static_cast<std::ptrdiff_t>(config.bridge_m / config.spacing_m);
   std::vector<char> keep(count, 1);
-  const auto strike = [&](std::ptrdiff_t from, std::ptrdiff_t to) {
-    for (auto k = std::max<std::ptrdiff_t>(0, from); k < std::min(to, static_cast<std::ptrdiff_t>(count)); ++k)
-      keep[static_cast<std::size_t>(k)] = 0;
-  };
-  strike(0, margin);
-  strike(static_cast<std::ptrdiff_t>(count) - margin, static_cast<std::ptrdiff_t>(count));
-  for (std::size_t k = 0; k < count; ++k) {
-    const bool gap = !std::isfinite(out.height_m[k]);
-    const bool edge =
-        gap && ((k > 0 && std::isfinite(out.height_m[k - 1])) || (k + 1 < count && std::isfinite(out.height_m[k + 1])));
-    if (edge) strike(static_cast<std::ptrdiff_t>(k) - margin, static_cast<std::ptrdiff_t>(k) + margin + 1);
+  for (std::ptrdiff_t k = -1; k <= total;) {
+    const auto gap = [&](std::ptrdiff_t i) {
+      return i < 0 || i >= total || !std::isfinite(out.height_m[static_cast<std::size_t>(i)]);
+    };
+    if (!gap(k)) {
+      ++k;
+      continue;
+    }
+    std::ptrdiff_t end = k + 1;
+    while (end < total && gap(end)) ++end;
+    const bool bridged = k >= 0 && end < total && end - k <= bridge;
+    const auto margin =
+        static_cast<std::ptrdiff_t>((bridged ? config.bridge_margin_m : config.margin_m) / config.spacing_m);
+    for (auto i = std::max<std::ptrdiff_t>(0, k - margin); i < std::min(end + margin, total); ++i)
+      keep[static_cast<std::size_t>(i)] = 0;
+    k = end;
   }
   for (std::size_t k = 0; k < count; ++k) {
     if (keep[k] == 0) out.height_m[k] = std::numeric_limits<double>::quiet_NaN();

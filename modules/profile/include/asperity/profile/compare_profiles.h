@@ -15,7 +15,8 @@ struct ComparisonConfig {
   double max_shift_m = 3e-3;
   double spacing_m = 0.025e-3;
   double bridge_m = 0.5e-3;
-  double margin_m = 1e-3;
+  double margin_m = 3e-3;
+  double bridge_margin_m = 0.5e-3;
   double max_hole_m = 0.25e-3;
 
   template <class V>
@@ -25,7 +26,8 @@ struct ComparisonConfig {
     v.field("max_shift_m", max_shift_m, "largest rigid shift between the two", {0.0, 1.0});
     v.field("spacing_m", spacing_m, "at which both are compared", {1e-7, 1e-2});
     v.field("bridge_m", bridge_m, "gap across which the band-pass goes on", {0.0, 1.0});
-    v.field("margin_m", margin_m, "left out beside gaps and ends", {0.0, 1.0});
+    v.field("margin_m", margin_m, "left out beside ends and gaps that were not bridged", {0.0, 1.0});
+    v.field("bridge_margin_m", bridge_margin_m, "left out beside bridged gaps", {0.0, 1.0});
     v.field("max_hole_m", max_hole_m, "distance between samples that is still interpolated", {1e-7, 1.0});
   }
 };
