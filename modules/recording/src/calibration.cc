@@ -76,7 +76,9 @@ Eigen::Vector3d Calibration::force_axis_in_marker() const {
   const Eigen::Vector3d axis = force.axis_in_marker.value_or(-tip_in_marker_m);
   const double length = axis.norm();
   if (!(length > 0.0) || !std::isfinite(length)) {
-    throw Error("calibration: the force axis has no direction: force.axis_in_marker is needed where the tip is the marker's origin");
+    throw Error(
+        "calibration: the force axis has no direction: force.axis_in_marker is needed where the tip is the marker's "
+        "origin");
   }
   return axis / length;
 }

@@ -27,7 +27,8 @@ std::string place_in_text(std::string_view text, std::size_t byte) {
 // The reason in nlohmann's "[json.exception…] parse error at line 1, column 2: syntax error … - reason".
 std::string reason_of(const json::exception& error) {
   std::string_view what = error.what();
-  for (const std::string_view mark : {std::string_view("] "), std::string_view("parse error at "), std::string_view(": ")}) {
+  for (const std::string_view mark :
+       {std::string_view("] "), std::string_view("parse error at "), std::string_view(": ")}) {
     const auto at = what.find(mark);
     if (at != std::string_view::npos) what.remove_prefix(at + mark.size());
   }
@@ -121,7 +122,8 @@ void JsonObject::read_integer(const std::string& key, std::int64_t& out, std::in
   const json* value = find(key);
   if (value == nullptr) return;
   if (!value->is_number_integer()) fail(key, "must be a whole number, found " + shown(*value));
-  const bool too_large = value->is_number_unsigned() && value->get<std::uint64_t>() > static_cast<std::uint64_t>(INT64_MAX);
+  const bool too_large =
+      value->is_number_unsigned() && value->get<std::uint64_t>() > static_cast<std::uint64_t>(INT64_MAX);
   if (too_large || value->get<std::int64_t>() < low || value->get<std::int64_t>() > high) {
     fail(key, fmt::format("{} is outside {} to {}", shown(*value), low, high));
   }
@@ -164,13 +166,15 @@ void JsonObject::read_matrix(const std::string& key, Eigen::Matrix<double, 3, Ei
   if (!value->is_array() || value->size() != 3) fail(key, "must be an array of 3 rows");
   const std::size_t width = (*value)[0].is_array() ? (*value)[0].size() : 0;
   if (width > 1000 || columns.count(static_cast<int>(width)) == 0) {
-    fail(key, fmt::format("its first row has {} numbers; allowed: {}", width, fmt::format("{}", *columns.begin()) +
-                          (columns.size() > 1 ? fmt::format(" or {}", *columns.rbegin()) : "")));
+    fail(key, fmt::format("its first row has {} numbers; allowed: {}", width,
+                          fmt::format("{}", *columns.begin()) +
+                              (columns.size() > 1 ? fmt::format(" or {}", *columns.rbegin()) : "")));
   }
   out.resize(3, static_cast<Eigen::Index>(width));
   for (std::size_t row = 0; row < 3; ++row) {
     const json& cells = (*value)[row];
-    if (!cells.is_array() || cells.size() != width) fail(key, fmt::format("row {} must have {} numbers", row + 1, width));
+    if (!cells.is_array() || cells.size() != width)
+      fail(key, fmt::format("row {} must have {} numbers", row + 1, width));
     for (std::size_t i = 0; i < width; ++i) {
       out(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i)) =
           number_of(cells[i], fmt::format("{}[{}][{}]", key, row, i), {});

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include <Eigen/SVD>
 #include <fmt/format.h>
+#include <Eigen/SVD>
 #include <nlohmann/json.hpp>
 
 #include "asperity/recording/parse.h"

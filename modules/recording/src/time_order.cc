@@ -85,7 +85,8 @@ RowOrder order_rows(const std::vector<std::int64_t>& t_ns, const std::vector<std
     const std::int64_t last_ns = t_ns[order.rows.back()];
     for (const std::size_t row : distinct) {
       if (t_ns[row] < first_ns || t_ns[row] > last_ns) {
-        problems.add("time_far_off", line[row], "the time lies beyond a gap too long for one recording; such rows were left out");
+        problems.add("time_far_off", line[row],
+                     "the time lies beyond a gap too long for one recording; such rows were left out");
       }
     }
   }
@@ -93,7 +94,8 @@ RowOrder order_rows(const std::vector<std::int64_t>& t_ns, const std::vector<std
   const std::int64_t last_ns = order.unchanged ? t_ns.back() : t_ns[order.rows.back()];
   const double span_s = static_cast<double>(last_ns - first_ns) / kSecond_ns;
   if (span_s > limits.longest_span_s) {
-    throw Error(fmt::format("{}: its times span {} s, more than the limit of {} s", name, span_s, limits.longest_span_s));
+    throw Error(
+        fmt::format("{}: its times span {} s, more than the limit of {} s", name, span_s, limits.longest_span_s));
   }
   return order;
 }

@@ -20,7 +20,7 @@ struct AccelerometerCalibration {
   Eigen::Vector3d C = Eigen::Vector3d::Zero();
   Eigen::Vector3d residual_counts = Eigen::Vector3d::Zero();  // standard deviation of the fit
   Eigen::Matrix<double, 3, Eigen::Dynamic> standard_errors;   // 3×(k+1), B's columns then C's; may be empty
-  bool rotation_known = true;  // false: the sensor's rotation to the marker is to be estimated
+  bool rotation_known = true;                           // false: the sensor's rotation to the marker is to be estimated
   std::optional<Eigen::Vector3d> position_in_marker_m;  // nullopt: at the tip
   double position_sigma_m = 0.0;  // extra.accelerometer_position_sigma_m: > 0, estimate the position too
 
