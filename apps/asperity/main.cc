@@ -30,7 +30,7 @@ struct Program {
     parser.add_flag("--man", manual, "Print the manual page");
     parser.add_option("--completion", completion, "Print completions for a shell")->check(CLI::IsMember({"bash"}));
     parser.require_subcommand(0, 1);
-    for (const auto make : {make_demo, make_simulate, make_import, make_inspect, make_process, make_roughness}) {
+    for (const auto make : {make_roughness}) {
       commands.push_back(make(parser));
     }
   }
@@ -73,7 +73,7 @@ int run(int argc, char** argv) {
     return usage("which command?", "");
   } catch (const CLI::CallForHelp&) {
     const auto chosen = program.parser.get_subcommands();
-    print((chosen.empty() ? &program.parser : chosen.front())->help("", chosen.empty() ? CLI::AppFormatMode::Normal : CLI::AppFormatMode::Normal));
+    print((chosen.empty() ? &program.parser : chosen.front())->help());
     return kDone;
   } catch (const CLI::CallForVersion& version) {
     return print(std::string(version.what()) + "\n"), kDone;
