@@ -102,7 +102,9 @@ void ConfigLister::field(std::string_view name, bool& value, std::string_view de
 void ConfigLister::field(std::string_view name, int& value, std::string_view description, Range range) {
   ConfigField& field = add(name, FieldType::kInteger, description, range);
   field.get = [&value] { return std::to_string(value); };
-  field.set = [&value, path = field.path, range](std::string_view text) { value = checked_integer<int>(path, text, range); };
+  field.set = [&value, path = field.path, range](std::string_view text) {
+    value = checked_integer<int>(path, text, range);
+  };
 }
 
 void ConfigLister::field(std::string_view name, std::int64_t& value, std::string_view description, Range range) {

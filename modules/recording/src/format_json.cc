@@ -100,9 +100,13 @@ std::string format_calibration(const Calibration& calibration) {
     out.end_array();
   }
   json extra = extra_object(calibration.extra_json, "calibration");
-  if (calibration.accelerometer.position_sigma_m > 0.0) {
-    extra["accelerometer_position_sigma_m"] = calibration.accelerometer.position_sigma_m;
-  }
+  const auto give = [&](const char* key, double value) {
+    if (value != 0.0) extra[key] = value;
+  };
+  give("accelerometer_position_sigma_m", calibration.accelerometer.position_sigma_m);
+  give("accelerometer_rotation_sigma_rad", calibration.accelerometer.rotation_sigma_rad);
+  give("probe_latency_s", calibration.probe_latency_s);
+  give("probe_latency_sigma_s", calibration.probe_latency_sigma_s);
   out.raw("extra", extra.dump());
   return out.finish();
 }

@@ -162,10 +162,15 @@ Calibration parse_calibration(std::string_view text, const std::string& name, co
     }
   }
   if (auto extra = object.object("extra")) {
-    const std::string key = "accelerometer_position_sigma_m";
-    extra->read_number(key, out.accelerometer.position_sigma_m, {0.0, 100.0});
     json rest = root.at("extra");
-    rest.erase(key);
+    const auto take = [&](const std::string& key, double& value, Range range) {
+      extra->read_number(key, value, range);
+      rest.erase(key);
+    };
+    take("accelerometer_position_sigma_m", out.accelerometer.position_sigma_m, {0.0, 100.0});
+    take("accelerometer_rotation_sigma_rad", out.accelerometer.rotation_sigma_rad, {0.0, 4.0});
+    take("probe_latency_s", out.probe_latency_s, {-10.0, 10.0});
+    take("probe_latency_sigma_s", out.probe_latency_sigma_s, {0.0, 10.0});
     out.extra_json = rest.dump();
   }
   object.finish();

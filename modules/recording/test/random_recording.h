@@ -48,6 +48,9 @@ inline Calibration random_calibration(Random& random) {
   out.accelerometer.rotation_known = random.chance(0.5);
   if (random.chance(0.5)) out.accelerometer.position_in_marker_m = Eigen::Vector3d(0.01, -0.02, random.normal());
   if (random.chance(0.5)) out.accelerometer.position_sigma_m = random.uniform(0.001, 0.1);
+  if (random.chance(0.5)) out.accelerometer.rotation_sigma_rad = random.uniform(0.001, 0.1);
+  if (random.chance(0.5)) out.probe_latency_s = random.uniform(-0.01, 0.01);
+  if (random.chance(0.5)) out.probe_latency_sigma_s = random.uniform(0.001, 0.01);
   if (random.chance(0.5)) {
     out.gyroscope =
         GyroscopeCalibration{Eigen::Matrix3d::Identity() * random.uniform(1.0, 900.0), awkward_vector(random)};

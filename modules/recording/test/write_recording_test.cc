@@ -56,6 +56,9 @@ void expect_same(const Calibration& a, const Calibration& b) {
   EXPECT_EQ(a.accelerometer.rotation_known, b.accelerometer.rotation_known);
   EXPECT_TRUE(same(a.accelerometer.position_in_marker_m, b.accelerometer.position_in_marker_m));
   EXPECT_EQ(a.accelerometer.position_sigma_m, b.accelerometer.position_sigma_m);
+  EXPECT_EQ(a.accelerometer.rotation_sigma_rad, b.accelerometer.rotation_sigma_rad);
+  EXPECT_EQ(a.probe_latency_s, b.probe_latency_s);
+  EXPECT_EQ(a.probe_latency_sigma_s, b.probe_latency_sigma_s);
   ASSERT_EQ(a.gyroscope.has_value(), b.gyroscope.has_value());
   if (a.gyroscope) {
     EXPECT_TRUE(same(a.gyroscope->B, b.gyroscope->B));

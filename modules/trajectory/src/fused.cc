@@ -21,24 +21,31 @@ using SmootherProblem = inertial_smoother::Problem;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kPositionFloor_m = 1e-5;   // below this a tracker's σ is not believed
+constexpr double kPositionFloor_m = 1e-5;  // below this a tracker's σ is not believed
 constexpr double kRotationFloor_rad = 1e-4;
+
+// Only the difference of the two streams' latencies shows in the data.
+double latency_sigma_s(const Calibration& calibration) {
+  return std::hypot(calibration.tracker.latency_sigma_s, calibration.probe_latency_sigma_s);
+}
 
 Layout choose_layout(const Recording& recording, const FusedConfig& config) {
   Layout layout;
-  if (config.estimate_latency && recording.calibration.tracker.latency_sigma_s > 0.0) layout.latency = layout.size++;
+  if (config.estimate_latency && latency_sigma_s(recording.calibration) > 0.0) layout.latency = layout.size++;
   if (recording.calibration.accelerometer.position_sigma_m > 0.0) {
     layout.lever = layout.size;
     layout.size += 3;
   }
-  if (!recording.calibration.accelerometer.rotation_known) {
+  const AccelerometerCalibration& accelerometer = recording.calibration.accelerometer;
+  if (!accelerometer.rotation_known || accelerometer.rotation_sigma_rad > 0.0) {
     layout.misalignment = layout.size;
     layout.size += 3;
   }
   return layout;
 }
 
-Square prior(const Recording& recording, const InertialStream& inertial, const FusedConfig& config, const Layout& layout) {
+Square prior(const Recording& recording, const InertialStream& inertial, const FusedConfig& config,
+             const Layout& layout) {
   namespace s = inertial_smoother;
   const Calibration& calibration = recording.calibration;
   Square P = Square::Zero(layout.size, layout.size);
@@ -48,9 +55,13 @@ Square prior(const Recording& recording, const InertialStream& inertial, const F
   set3(s::kPhi, 0.05);  // rad
   set3(s::kBa, config.accel_bias_sigma_mps2);
   set3(s::kBg, inertial.has_gyro ? config.gyro_bias_sigma_radps : 2.0);  // rad/s: a hand turns
-  if (layout.latency >= 0) P(layout.latency, layout.latency) = std::pow(calibration.tracker.latency_sigma_s, 2);
+  if (layout.latency >= 0) P(layout.latency, layout.latency) = std::pow(latency_sigma_s(calibration), 2);
   if (layout.lever >= 0) set3(layout.lever, calibration.accelerometer.position_sigma_m);
-  if (layout.misalignment >= 0) set3(layout.misalignment, 0.2);
+  if (layout.misalignment >= 0) {
+    constexpr double kGuess_rad = 0.2;  // of a rotation found from the recording itself
+    set3(layout.misalignment,
+         calibration.accelerometer.rotation_known ? calibration.accelerometer.rotation_sigma_rad : kGuess_rad);
+  }
   return P;
 }
 
@@ -106,7 +117,8 @@ void weigh_poses(const Smoothed& smoothed, SmootherProblem& problem) {
 }
 
 // Scales each axis' σ by the robust spread of its residuals over what was assumed, within a factor of 5.
-void adapt_sigma(const std::vector<Vector3d>& residuals, const SmootherProblem& problem, double floor, Vector3d& sigma) {
+void adapt_sigma(const std::vector<Vector3d>& residuals, const SmootherProblem& problem, double floor,
+                 Vector3d& sigma) {
   std::vector<double> sizes;
   for (int axis = 0; axis < 3; ++axis) {
     sizes.clear();
@@ -122,7 +134,8 @@ void adapt_sigma(const std::vector<Vector3d>& residuals, const SmootherProblem& 
   }
 }
 
-void write_motion(const InertialStream& inertial, const Smoothed& smoothed, const Vector3d& tip_in_marker, TipMotion& out) {
+void write_motion(const InertialStream& inertial, const Smoothed& smoothed, const Vector3d& tip_in_marker,
+                  TipMotion& out) {
   const std::size_t n = smoothed.sample.size();
   const Vector3d arm_marker = tip_in_marker - smoothed.last.lever;
   out.t_ns.resize(n);
@@ -138,7 +151,8 @@ void write_motion(const InertialStream& inertial, const Smoothed& smoothed, cons
     const std::size_t i0 = i >= reach ? i - reach : 0;
     const std::size_t i1 = std::min(i + reach, n - 1);
     const double dt = static_cast<double>(inertial.t_ns[static_cast<std::size_t>(smoothed.sample[i1])] -
-                                          inertial.t_ns[static_cast<std::size_t>(smoothed.sample[i0])]) * 1e-9;
+                                          inertial.t_ns[static_cast<std::size_t>(smoothed.sample[i0])]) *
+                      1e-9;
     if (dt <= 0.0) return Vector3d::Zero();
     return (smoothed.omega_world[i1] - smoothed.omega_world[i0]) / dt;
   };
@@ -157,8 +171,10 @@ void write_motion(const InertialStream& inertial, const Smoothed& smoothed, cons
     const double t = static_cast<double>(out.t_ns[i] - origin_ns) * 1e-9;
     while (epoch + 2 < smoothed.epoch_t.size() && smoothed.epoch_t[epoch + 1] <= t) ++epoch;
     if (epoch + 1 < smoothed.epoch_t.size()) {
-      const double share = std::clamp((t - smoothed.epoch_t[epoch]) / (smoothed.epoch_t[epoch + 1] - smoothed.epoch_t[epoch]), 0.0, 1.0);
-      out.cov_world_tip_m2[i] = (1.0 - share) * smoothed.tip_covariance[epoch] + share * smoothed.tip_covariance[epoch + 1];
+      const double share =
+          std::clamp((t - smoothed.epoch_t[epoch]) / (smoothed.epoch_t[epoch + 1] - smoothed.epoch_t[epoch]), 0.0, 1.0);
+      out.cov_world_tip_m2[i] =
+          (1.0 - share) * smoothed.tip_covariance[epoch] + share * smoothed.tip_covariance[epoch + 1];
     } else {
       out.cov_world_tip_m2[i] = smoothed.tip_covariance.back();
     }
@@ -177,7 +193,8 @@ double median_norm(const std::vector<Vector3d>& residuals, const SmootherProblem
 
 }  // namespace
 
-TrajectoryResult estimate_trajectory_fused(const Recording& recording, const FusedConfig& config, const Observer& observer) {
+TrajectoryResult estimate_trajectory_fused(const Recording& recording, const FusedConfig& config,
+                                           const Observer& observer) {
   const TrackerCalibration& tracker = recording.calibration.tracker;
   if (recording.tracker.size() < 4) {
     throw Error("tracker.csv: " + std::to_string(recording.tracker.size()) + " poses; at least 4 are needed");
@@ -187,7 +204,8 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
   const std::int64_t origin_ns = inertial.t_ns.front();
   const Layout layout = choose_layout(recording, config);
 
-  double latency_s = tracker.latency_s;
+  const double prior_latency_s = tracker.latency_s - recording.calibration.probe_latency_s;
+  double latency_s = prior_latency_s;  // of the tracker against the probe
   Vector3d sigma_position = tracker.sigma_position_m.cwiseMax(kPositionFloor_m);
   Vector3d sigma_rotation = tracker.sigma_rotation_rad.cwiseMax(kRotationFloor_rad);
   double process_scale = config.process_noise_scale;
@@ -206,7 +224,8 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
     problem.time_sigma = config.tracker_time_sigma_s;
     problem.gate_chi2 = config.gate_chi2;
     problem.accel_bias_psd = std::pow(config.accel_bias_walk_mps2_rts, 2);
-    problem.gyro_bias_psd = std::pow(inertial.has_gyro ? config.gyro_bias_walk_radps_rts : config.angular_accel_radps2_rtHz, 2);
+    problem.gyro_bias_psd =
+        std::pow(inertial.has_gyro ? config.gyro_bias_walk_radps_rts : config.angular_accel_radps2_rtHz, 2);
     problem.start_covariance = prior(recording, inertial, config, layout);
     problem.gate_innovations = pass == 0;
     if (pass > 0) {
@@ -216,7 +235,7 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
       guess = inertial_smoother::first_guess(recording, problem);
     }
     problem.start = guess;
-    problem.start.latency = tracker.latency_s - latency_s;
+    problem.start.latency = prior_latency_s - latency_s;
     problem.process_scale = process_scale > 0.0 ? process_scale : 1.0;
     problem.rate_scale = rate_scale;
     if (config.process_noise_scale == 0.0 && pass < 2) {
@@ -238,12 +257,22 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
     rotation_weight = problem.rotation_weight;
     if (pass + 1 < config.passes) {
       if (layout.latency >= 0) latency_s += smoothed.last.latency;
-      if (layout.misalignment >= 0) guess.misalignment = smoothed.last.misalignment;
+      if (!recording.calibration.accelerometer.rotation_known) guess.misalignment = smoothed.last.misalignment;
     }
   }
 
+  if (layout.latency >= 0) latency_s += smoothed.last.latency;
+  // What the estimate adds to the prior moves each stream's latency by its share of the prior variance.
+  const double added_s = latency_s - prior_latency_s;
+  const double probe_share =
+      layout.latency < 0
+          ? 0.0
+          : std::pow(recording.calibration.probe_latency_sigma_s / latency_sigma_s(recording.calibration), 2);
+  const double probe_latency_s = recording.calibration.probe_latency_s - probe_share * added_s;
+
   TrajectoryResult result;
   write_motion(inertial, smoothed, recording.calibration.tip_in_marker_m, result.motion);
+  for (auto& t_ns : result.motion.t_ns) t_ns -= std::llround(probe_latency_s * 1e9);
   result.problems = inertial.problems;
   std::size_t poses = 0;
   std::size_t outliers = 0;
@@ -253,11 +282,13 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
     const auto i = static_cast<std::size_t>(epoch.pose);
     outliers += position_weight[i] < 0.5 || rotation_weight[i] < 0.5;
   }
-  if (outliers > 0) result.problems.push_back({"pose_outlier", "tracker poses far from the rest lost their weight", outliers});
+  if (outliers > 0)
+    result.problems.push_back({"pose_outlier", "tracker poses far from the rest lost their weight", outliers});
   auto& figures = result.figures;
   figures["poses_used"] = static_cast<double>(poses - outliers);
   figures["poses_outlying"] = static_cast<double>(outliers);
-  figures["latency_s"] = latency_s + (layout.latency >= 0 ? smoothed.last.latency : 0.0);
+  figures["latency_s"] = latency_s + probe_latency_s;  // of the tracker
+  figures["probe_latency_s"] = probe_latency_s;
   if (layout.latency >= 0) figures["latency_sigma_s"] = smoothed.last_sigma[layout.latency];
   figures["probe_rate_Hz"] = inertial.period_s > 0.0 ? 1.0 / inertial.period_s : 0.0;
   figures["probe_clock_jitter_s"] = inertial.clock_jitter_s;
@@ -268,9 +299,11 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
   figures["rotation_residual_median_rad"] = median_norm(smoothed.rotation_residual, problem);
   constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {
-    figures[std::string("tracker_sigma_") + kAxes[static_cast<std::size_t>(axis)] + "_m"] = problem.sigma_position[axis];
+    figures[std::string("tracker_sigma_") + kAxes[static_cast<std::size_t>(axis)] + "_m"] =
+        problem.sigma_position[axis];
     if (layout.lever >= 0) {
-      figures[std::string("accelerometer_position_") + kAxes[static_cast<std::size_t>(axis)] + "_m"] = smoothed.last.lever[axis];
+      figures[std::string("accelerometer_position_") + kAxes[static_cast<std::size_t>(axis)] + "_m"] =
+          smoothed.last.lever[axis];
     }
   }
   if (static_cast<double>(outliers) > 0.4 * static_cast<double>(poses)) {

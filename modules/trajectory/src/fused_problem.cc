@@ -64,7 +64,8 @@ Problem make_problem(const Recording& recording, const InertialStream& inertial,
     ++inside;
   }
   if (inside < 4) {
-    throw Error("tracker.csv: only " + std::to_string(inside) + " poses lie within the probe's time span; at least 4 are needed");
+    throw Error("tracker.csv: only " + std::to_string(inside) +
+                " poses lie within the probe's time span; at least 4 are needed");
   }
   problem.poses = tracker.T_world_marker;
   problem.position_weight.assign(tracker.size(), 1.0);

@@ -74,7 +74,8 @@ std::vector<double> fill_between(const std::vector<std::int64_t>& t_ns, const st
       std::fill(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(i), x[i]);
     } else {
       for (std::size_t j = previous + 1; j < i; ++j) {
-        const double share = static_cast<double>(t_ns[j] - t_ns[previous]) / static_cast<double>(t_ns[i] - t_ns[previous]);
+        const double share =
+            static_cast<double>(t_ns[j] - t_ns[previous]) / static_cast<double>(t_ns[i] - t_ns[previous]);
         out[j] = x[previous] + share * (x[i] - x[previous]);
       }
     }
@@ -85,11 +86,13 @@ std::vector<double> fill_between(const std::vector<std::int64_t>& t_ns, const st
 }
 
 bool at_limit(const Eigen::Vector3d& counts, const RecordingInfo& info) {
-  return info.adc_max > info.adc_min && ((counts.array() <= info.adc_min).any() || (counts.array() >= info.adc_max).any());
+  return info.adc_max > info.adc_min &&
+         ((counts.array() <= info.adc_min).any() || (counts.array() >= info.adc_max).any());
 }
 
 // Adds, to each sample, the error that a share of the moving part of the signal may carry.
-void add_scale_error(const std::vector<Eigen::Vector3d>& x, double share, std::size_t window, std::vector<double>& sigma) {
+void add_scale_error(const std::vector<Eigen::Vector3d>& x, double share, std::size_t window,
+                     std::vector<double>& sigma) {
   if (share <= 0.0 || x.empty()) return;
   const double forget = 1.0 / static_cast<double>(std::max<std::size_t>(window, 2));
   Eigen::Vector3d mean = x.front();
@@ -178,8 +181,11 @@ InertialStream calibrate_inertial(const Recording& recording, const InertialConf
     force[i] = spike[i] ? kNan : calibration.force.force_N(probe.force_counts[i]);
   }
   out.force_N = fill_between(out.t_ns, force);
-  if (out.spikes > 0) out.problems.push_back({"spike", "samples that stand off from both their neighbours were replaced", out.spikes});
-  if (out.saturated > 0) out.problems.push_back({"saturation", "accelerometer samples at the end of their range lost their weight", out.saturated});
+  if (out.spikes > 0)
+    out.problems.push_back({"spike", "samples that stand off from both their neighbours were replaced", out.spikes});
+  if (out.saturated > 0)
+    out.problems.push_back(
+        {"saturation", "accelerometer samples at the end of their range lost their weight", out.saturated});
   return out;
 }
 

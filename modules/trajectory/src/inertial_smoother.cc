@@ -34,7 +34,8 @@ struct Step {
   Vector3d omega0;  // at the first knot
 };
 
-Step advance(Nominal& x, const Knot& k0, const Knot& k1, const Matrix3d& M, const Vector3d& gravity, const Noise& noise) {
+Step advance(Nominal& x, const Knot& k0, const Knot& k1, const Matrix3d& M, const Vector3d& gravity,
+             const Noise& noise) {
   const double dt = k1.t - k0.t;
   Step step;
   step.R0 = x.q.toRotationMatrix();
@@ -142,7 +143,7 @@ void apply(const State& d, const Layout& layout, Nominal& x) {
   if (layout.latency >= 0) x.latency += d[layout.latency];
   if (layout.lever >= 0) x.lever += d.segment<3>(layout.lever);
   if (layout.misalignment >= 0) {
-    x.misalignment = (x.misalignment * exp_rotation(d.segment<3>(layout.misalignment))).normalized();
+    x.misalignment = (exp_rotation(d.segment<3>(layout.misalignment)) * x.misalignment).normalized();
   }
 }
 
@@ -176,8 +177,8 @@ Predicted predict_pose(const Nominal& x, const Vector3d& omega, const Pose& pose
 double redescending(double d2, double gate) { return d2 <= gate ? 1.0 : (gate / d2) * (gate / d2); }
 
 struct Record {
-  Nominal x;       // after the update
-  Square P;        // after the update
+  Nominal x;  // after the update
+  Square P;   // after the update
   Gain K;
   Jacobian H;
   Matrix6d S_inverse;
@@ -345,7 +346,8 @@ Smoothed smooth(const Problem& problem, const Vector3d& tip_in_marker, const Obs
     Nominal smoothed = filtered;
     apply(-(record.P * lambda), layout, smoothed);
     const Matrix3d R = smoothed.q.toRotationMatrix();
-    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMax> J = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMax>::Zero(3, n);
+    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMax> J =
+        Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMax>::Zero(3, n);
     J.block<3, 3>(0, kP).setIdentity();
     J.block<3, 3>(0, kPhi) = -skew(R * (tip_in_marker - smoothed.lever));
     if (layout.lever >= 0) J.block<3, 3>(0, layout.lever) = -R;
@@ -356,7 +358,8 @@ Smoothed smooth(const Problem& problem, const Vector3d& tip_in_marker, const Obs
     const std::int64_t pose = problem.epochs[e].pose;
     if (pose >= 0) {
       const Vector3d omega = M * problem.knots[first].w - smoothed.bg;
-      const Vector6d residual = predict_pose(smoothed, omega, problem.poses[static_cast<std::size_t>(pose)], layout).residual;
+      const Vector6d residual =
+          predict_pose(smoothed, omega, problem.poses[static_cast<std::size_t>(pose)], layout).residual;
       out.position_residual[static_cast<std::size_t>(pose)] = residual.head<3>();
       out.rotation_residual[static_cast<std::size_t>(pose)] = residual.tail<3>();
     }
@@ -375,7 +378,8 @@ Smoothed smooth(const Problem& problem, const Vector3d& tip_in_marker, const Obs
         const Step& step = steps[k];
         noises[k].dv = -problem.process_scale * knot.accel_psd * dt * (lv + 0.5 * dt * lp);
         noises[k].dphi = -knot.gyro_psd * dt * lphi;
-        noises[k].dbg = -problem.rate_scale * problem.gyro_bias_psd * dt * (lbg - 0.5 * dt * (step.R0.transpose() * lphi));
+        noises[k].dbg =
+            -problem.rate_scale * problem.gyro_bias_psd * dt * (lbg - 0.5 * dt * (step.R0.transpose() * lphi));
         lbg -= dt * (step.R0.transpose() * lphi);
         lphi += step.A.cross(dt * lv + 0.5 * dt * dt * lp);
         lv += dt * lp;

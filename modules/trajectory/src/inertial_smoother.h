@@ -57,8 +57,8 @@ struct Epoch {
 struct Problem {
   Layout layout;
   std::vector<Knot> knots;
-  std::vector<Epoch> epochs;  // the first is the first knot
-  std::vector<Pose> poses;    // of the epochs that have one, by Epoch::pose
+  std::vector<Epoch> epochs;            // the first is the first knot
+  std::vector<Pose> poses;              // of the epochs that have one, by Epoch::pose
   std::vector<double> position_weight;  // per pose, from the residuals of the pass before; in (0, 1]
   std::vector<double> rotation_weight;
   Eigen::Vector3d sigma_position = Eigen::Vector3d::Ones();

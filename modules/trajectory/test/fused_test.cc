@@ -1,7 +1,7 @@
 #include "asperity/trajectory/fused.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
+#include <cmath>
 
 #include "asperity/base/error.h"
 #include "hand_motion.h"
@@ -57,8 +57,8 @@ TEST(Fused, ExactSensorsGiveTheExactPath) {
   sensors.gyro_bias.setZero();
   sensors.counts_per_mps2 = 1600.0;
   const Errors errors = errors_of(estimate_trajectory_fused(record(hand, sensors), {}).motion, hand);
-  EXPECT_LT(errors.rms_m.maxCoeff(), 5e-6);        // the trusted floor of the tracker is 10 µm
-  EXPECT_LT(errors.step_rms_m, 2e-6);              // rounding to 1/1600 m/s² twice integrated over 50 ms
+  EXPECT_LT(errors.rms_m.maxCoeff(), 5e-6);  // the trusted floor of the tracker is 10 µm
+  EXPECT_LT(errors.step_rms_m, 2e-6);        // rounding to 1/1600 m/s² twice integrated over 50 ms
   EXPECT_LT(errors.rotation_rms_rad, 1e-3);
 }
 
@@ -106,7 +106,8 @@ TEST(Fused, FlippedPosesAndSpikesLoseTheirWeight) {
   Recording recording = record(hand, sensors);
   Random random(7);
   for (std::size_t i = 100; i + 100 < recording.probe.size(); i += 997) {
-    recording.probe.accel_counts[i] = Eigen::Vector3d(random.uniform(-32768, 32767), random.uniform(-32768, 32767), 31000.0);
+    recording.probe.accel_counts[i] =
+        Eigen::Vector3d(random.uniform(-32768, 32767), random.uniform(-32768, 32767), 31000.0);
   }
   const TrajectoryResult result = estimate_trajectory_fused(recording, {});
   const Errors errors = errors_of(result.motion, hand);

@@ -12,7 +12,7 @@ namespace asperity::testing_motion {
 // an oracle for the trajectory stage that shares no code with it or with the virtual bench.
 struct HandMotion {
   double speed_mps = 0.025;
-  double texture_m = 50e-6;      // amplitude
+  double texture_m = 50e-6;  // amplitude
   double texture_Hz = 20.0;
   double wander_rad = 0.05;
 
@@ -63,29 +63,40 @@ inline Recording record(const HandMotion& hand, const Sensors& sensors) {
   Calibration& c = rec.calibration;
   c.accelerometer.B = Eigen::Matrix3d::Identity() * sensors.counts_per_mps2;
   c.accelerometer.position_in_marker_m = sensors.accel_in_marker;
-  if (sensors.gyro) c.gyroscope = GyroscopeCalibration{Eigen::Matrix3d::Identity() * sensors.counts_per_radps, Eigen::Vector3d::Zero()};
+  if (sensors.gyro)
+    c.gyroscope = GyroscopeCalibration{Eigen::Matrix3d::Identity() * sensors.counts_per_radps, Eigen::Vector3d::Zero()};
   c.tip_in_marker_m = sensors.tip_in_marker;
   c.tracker.sigma_position_m = sensors.tracker_sigma_m;
   c.tracker.sigma_rotation_rad.setConstant(sensors.tracker_rotation_sigma_rad);
   c.tracker.latency_s = sensors.latency_prior_s;
   c.tracker.latency_sigma_s = 0.004;
   Random noise(sensors.seed, 1);
-  const auto three = [&](Random& r, double sigma) -> Eigen::Vector3d { return sigma * Eigen::Vector3d(r.normal(), r.normal(), r.normal()); };
+  const auto three = [&](Random& r, double sigma) -> Eigen::Vector3d {
+    return sigma * Eigen::Vector3d(r.normal(), r.normal(), r.normal());
+  };
   constexpr double kStep_s = 1e-4;
   const auto accel_point = [&](double t) -> Eigen::Vector3d {
     return hand.tip(t) + hand.orientation(t) * (sensors.accel_in_marker - sensors.tip_in_marker);
   };
-  const auto rounded = [](const Eigen::Vector3d& x) -> Eigen::Vector3d { return x.array().round().max(-32768).min(32767); };
+  const auto rounded = [](const Eigen::Vector3d& x) -> Eigen::Vector3d {
+    return x.array().round().max(-32768).min(32767);
+  };
   const auto count = static_cast<int>(sensors.duration_s * sensors.rate_Hz);
   for (int i = 0; i < count; ++i) {
     const double t = 0.1 + i / sensors.rate_Hz;
     const Eigen::Quaterniond q = hand.orientation(t);
-    const Eigen::Vector3d a = (accel_point(t + kStep_s) - 2.0 * accel_point(t) + accel_point(t - kStep_s)) / (kStep_s * kStep_s);
-    const Eigen::Vector3d omega = q.conjugate() * (log_rotation(hand.orientation(t + kStep_s) * hand.orientation(t - kStep_s).conjugate()) / (2.0 * kStep_s));
-    const Eigen::Vector3d f = q.conjugate() * (a - gravity) + sensors.accel_bias + three(noise, sensors.accel_noise_mps2);
+    const Eigen::Vector3d a =
+        (accel_point(t + kStep_s) - 2.0 * accel_point(t) + accel_point(t - kStep_s)) / (kStep_s * kStep_s);
+    const Eigen::Vector3d omega =
+        q.conjugate() *
+        (log_rotation(hand.orientation(t + kStep_s) * hand.orientation(t - kStep_s).conjugate()) / (2.0 * kStep_s));
+    const Eigen::Vector3d f =
+        q.conjugate() * (a - gravity) + sensors.accel_bias + three(noise, sensors.accel_noise_mps2);
     rec.probe.t_ns.push_back(std::llround(t * 1e9));
     rec.probe.accel_counts.push_back(rounded(f * sensors.counts_per_mps2));
-    if (sensors.gyro) rec.probe.gyro_counts.push_back(rounded((omega + sensors.gyro_bias + three(noise, sensors.gyro_noise_radps)) * sensors.counts_per_radps));
+    if (sensors.gyro)
+      rec.probe.gyro_counts.push_back(
+          rounded((omega + sensors.gyro_bias + three(noise, sensors.gyro_noise_radps)) * sensors.counts_per_radps));
     rec.probe.force_counts.push_back(1.0);
   }
   Random tracker(sensors.seed, 2);
@@ -93,7 +104,8 @@ inline Recording record(const HandMotion& hand, const Sensors& sensors) {
     Pose pose;
     const Eigen::Quaterniond q = hand.orientation(t);
     pose.translation_m = hand.tip(t) - q * sensors.tip_in_marker;
-    pose.translation_m += Eigen::Vector3d(tracker.normal(), tracker.normal(), tracker.normal()).cwiseProduct(sensors.tracker_sigma_m);
+    pose.translation_m +=
+        Eigen::Vector3d(tracker.normal(), tracker.normal(), tracker.normal()).cwiseProduct(sensors.tracker_sigma_m);
     pose.rotation = exp_rotation(three(tracker, sensors.tracker_rotation_sigma_rad)) * q;
     if (tracker.chance(sensors.flip_share)) {
       pose.rotation = exp_rotation(Eigen::Vector3d(0.0, 0.8, 0.3)) * pose.rotation;

@@ -1,7 +1,7 @@
 #include "asperity/trajectory/smooth_clock.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "asperity/base/random.h"
 
@@ -35,7 +35,8 @@ TEST(SmoothClock, RemovesTheTicksOfACoarseClock) {
   ASSERT_TRUE(result.applied);
   EXPECT_NEAR(result.period_s, 1.0 / 400.7, 1e-6);
   double mean = 0.0;
-  for (std::size_t i = 0; i < stamps.t_ns.size(); ++i) mean += static_cast<double>(result.t_ns[i]) * 1e-9 - stamps.true_s[i];
+  for (std::size_t i = 0; i < stamps.t_ns.size(); ++i)
+    mean += static_cast<double>(result.t_ns[i]) * 1e-9 - stamps.true_s[i];
   mean /= static_cast<double>(stamps.t_ns.size());
   double worst = 0.0;
   for (std::size_t i = 0; i < stamps.t_ns.size(); ++i) {
@@ -56,7 +57,8 @@ TEST(SmoothClock, KeepsRegularStamps) {
 TEST(SmoothClock, KeepsStampsThatNoRegularClockExplains) {
   std::vector<std::int64_t> t_ns{0};
   Random random(1);
-  for (int i = 0; i < 1000; ++i) t_ns.push_back(t_ns.back() + 1'000'000 + static_cast<std::int64_t>(random.uniform() * 3e7));
+  for (int i = 0; i < 1000; ++i)
+    t_ns.push_back(t_ns.back() + 1'000'000 + static_cast<std::int64_t>(random.uniform() * 3e7));
   const SmoothClockResult result = smooth_clock(t_ns, {});
   for (std::size_t i = 1; i < result.t_ns.size(); ++i) EXPECT_GT(result.t_ns[i], result.t_ns[i - 1]);
 }

@@ -12,12 +12,12 @@
 namespace asperity {
 
 struct InertialConfig {
-  double spike_sigmas = 8.0;             // a sample this far from both its neighbours, which agree, is a spike
-  double scale_error = 0.01;             // share of the moving specific force that calibration leaves wrong
-  double saturation_sigma = 0.5;         // standard deviation given to a saturated sample, share of the range
-  double gap_sigma_mps2 = 3.0;           // standard deviation of the specific force across a gap
-  double accel_noise_floor_mps2 = 0.0;   // per sample; 0: from quantisation and the quietest stretch
-  double gyro_noise_floor_radps = 0.0;   // per sample; likewise
+  double spike_sigmas = 8.0;            // a sample this far from both its neighbours, which agree, is a spike
+  double scale_error = 0.01;            // share of the moving specific force that calibration leaves wrong
+  double saturation_sigma = 0.5;        // standard deviation given to a saturated sample, share of the range
+  double gap_sigma_mps2 = 3.0;          // standard deviation of the specific force across a gap
+  double accel_noise_floor_mps2 = 0.0;  // per sample; 0: from quantisation and the quietest stretch
+  double gyro_noise_floor_radps = 0.0;  // per sample; likewise
   SmoothClockConfig clock;
 
   template <class V>
@@ -37,12 +37,12 @@ struct InertialConfig {
 
 // The probe's stream in SI units with the trust that each sample deserves.
 struct InertialStream {
-  std::vector<std::int64_t> t_ns;                      // the clock's jitter removed, rising strictly
-  std::vector<Eigen::Vector3d> specific_force_mps2;    // in the marker frame, or the sensor's if its rotation is unknown
-  std::vector<Eigen::Vector3d> angular_rate_radps;     // zero without a gyroscope
-  std::vector<double> accel_sigma_mps2;                // standard deviation of one sample
-  std::vector<double> gyro_sigma_radps;                // likewise; zero without a gyroscope
-  std::vector<double> force_N;                         // at every sample, interpolated; nan where there is none
+  std::vector<std::int64_t> t_ns;                    // the clock's jitter removed, rising strictly
+  std::vector<Eigen::Vector3d> specific_force_mps2;  // in the marker frame, or the sensor's if its rotation is unknown
+  std::vector<Eigen::Vector3d> angular_rate_radps;   // zero without a gyroscope
+  std::vector<double> accel_sigma_mps2;              // standard deviation of one sample
+  std::vector<double> gyro_sigma_radps;              // likewise; zero without a gyroscope
+  std::vector<double> force_N;                       // at every sample, interpolated; nan where there is none
   bool has_gyro = false;
   double period_s = 0.0;
   double clock_jitter_s = 0.0;

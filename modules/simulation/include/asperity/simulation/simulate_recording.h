@@ -1,0 +1,20 @@
+#pragma once
+
+#include "asperity/base/progress.h"
+#include "asperity/recording/recording.h"
+#include "asperity/simulation/simulation_config.h"
+#include "asperity/simulation/surface.h"
+
+namespace asperity {
+
+// A hand scans a surface with a probe in front of a tracker: the raw recording, its calibration as a
+// careful person would have measured it, and the truth. The truth has one row for each sample that the
+// probe took, at its true time, those that the link lost included. The same config gives the same
+// recording. Throws Error for a config that cannot be simulated (an unstable step, an empty band, …) and
+// Cancelled.
+Recording simulate_recording(const SimulationConfig& config, const Surface& surface, const Observer& observer = {});
+
+// The same on the surface of `config.surface` (make_surface.h), which may read a file.
+Recording simulate_recording(const SimulationConfig& config, const Observer& observer = {});
+
+}  // namespace asperity

@@ -1,0 +1,102 @@
+#include "asperity/simulation/probe_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "asperity/geometry/pose.h"
+#include "streams.h"
+
+namespace asperity {
+namespace {
+
+ScanPath make_path(const SimulationConfig& config) {
+  Random random(static_cast<std::uint64_t>(config.seed), stream(Stream::kPath));
+  return {config.hand, random};
+}
+
+}  // namespace
+
+ProbeMotion::ProbeMotion(const SimulationConfig& config, const Surface& surface)
+    : config_(config),
+      shape_(config.shape),
+      path_(make_path(config)),
+      hand_(config.hand, path_.length_m(), config.step_s, static_cast<std::uint64_t>(config.seed)),
+      profile_(surface, path_, config.contact, hand_.greatest_force_N()),
+      mean_tilt_(exp_rotation(Eigen::Vector3d(config.hand.tilt_rad.data()))),
+      damping_Ns_per_m_(2.0 * config.contact.damping_ratio *
+                        std::sqrt(config.contact.stiffness_N_per_m * config.hand.normal_mass_kg)) {
+  // The hand rests on the object before time begins.
+  Hand first = hand_;
+  const HandState start = first.next();
+  const double indentation_m = start.force_N / config.contact.stiffness_N_per_m;
+  s_m_ = start.s_m + start.along_m;
+  height_m_ = profile_.at(s_m_, indentation_m).height_m - indentation_m;
+  rest_height_m_ = height_m_ - start.tremor_m;
+}
+
+MotionState ProbeMotion::next() {
+  const HandState hand = hand_.next();
+  const SimulatedContactConfig& contact = config_.contact;
+
+  const ContactProfile::Value relief = profile_.at(s_m_, hand.force_N / contact.stiffness_N_per_m);
+  const double indentation_m = relief.height_m - height_m_;
+  const double rate_mps = relief.slope * v_s_mps_ - v_h_mps_;
+  force_N_ = indentation_m > 0.0
+                 ? std::max(0.0, contact.stiffness_N_per_m * indentation_m + damping_Ns_per_m_ * rate_mps)
+                 : 0.0;
+  slope_ = relief.slope;
+
+  // LuGre friction per newton (Canudas de Wit et al., 1995); the bristle's own decay is taken implicitly,
+  // which stays stable at any speed.
+  const double ratio = v_s_mps_ / contact.friction_stribeck_mps;
+  const double level =
+      contact.friction_dynamic + (contact.friction_static - contact.friction_dynamic) * std::exp(-ratio * ratio);
+  double coefficient = contact.friction_viscous_s_per_m * v_s_mps_;
+  if (level > 0.0) {
+    const double before_m = bristle_m_;
+    bristle_m_ = (before_m + v_s_mps_ * config_.step_s) /
+                 (1.0 + contact.friction_bristle_per_m * std::abs(v_s_mps_) * config_.step_s / level);
+    coefficient += contact.friction_bristle_per_m * bristle_m_ +
+                   contact.friction_bristle_damping_s_per_m * (bristle_m_ - before_m) / config_.step_s;
+  }
+  friction_N_ = force_N_ * coefficient;
+
+  MotionState state;
+  state.t_s = hand.t_s;
+  state.s_m = s_m_;
+  state.height_m = height_m_;
+  state.normal_force_N = force_N_;
+  state.friction_N = friction_N_;
+  const ScanPoint point = path_.at(s_m_);
+  const double cosine = std::cos(point.angle_rad);
+  const double sine = std::sin(point.angle_rad);
+  const double a_m = point.a_m - hand.lateral_m * sine;
+  state.p_world_tip_m = shape_.point_m(a_m, point.v_m + hand.lateral_m * cosine, height_m_);
+  const Eigen::Vector3d direction = cosine * shape_.along(a_m) + sine * shape_.across();
+  state.contact_force_world_N = force_N_ * shape_.normal(a_m) - (friction_N_ + force_N_ * slope_) * direction;
+  // The orientation follows the hand, not the tip: stick and slip does not turn the probe.
+  const double turn = config_.hand.follow_normal * shape_.turn_rad(path_.at(hand.s_m).a_m);
+  state.q_world_marker = exp_rotation(turn * shape_.across()) * mean_tilt_ * exp_rotation(hand.rotation_rad);
+  state.q_world_marker.normalize();
+
+  advance(hand);
+  return state;
+}
+
+void ProbeMotion::advance(const HandState& hand) {
+  const HandConfig& h = config_.hand;
+  const double step_s = config_.step_s;
+  const double hand_N = hand.force_N +
+                        h.normal_stiffness_N_per_m * (height_m_ - rest_height_m_ - hand.lift_m - hand.tremor_m) +
+                        h.normal_damping_Ns_per_m * v_h_mps_;
+  const double pull_N = h.tangential_stiffness_N_per_m * (hand.s_m + hand.along_m - s_m_) +
+                        h.tangential_damping_Ns_per_m * (hand.v_mps - v_s_mps_);
+  if (!hand.lifting) rest_height_m_ += (height_m_ - rest_height_m_) * step_s / h.normal_adaptation_s;
+
+  v_h_mps_ += (force_N_ - hand_N) / h.normal_mass_kg * step_s;
+  height_m_ += v_h_mps_ * step_s;
+  v_s_mps_ += (pull_N - friction_N_ - force_N_ * slope_) / h.tangential_mass_kg * step_s;
+  s_m_ += v_s_mps_ * step_s;
+}
+
+}  // namespace asperity

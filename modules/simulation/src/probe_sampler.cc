@@ -1,0 +1,151 @@
+#include "asperity/simulation/probe_sampler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "noise_bandwidth.h"
+#include "streams.h"
+
+namespace asperity {
+namespace {
+
+constexpr double kFirstSample_s = 1e-3;
+
+std::uint64_t seed_of(const SimulationConfig& config) { return static_cast<std::uint64_t>(config.seed); }
+
+Eigen::Vector3d normal3(Random& random) {
+  const double x = random.normal();
+  const double y = random.normal();
+  return {x, y, random.normal()};
+}
+
+// The length of a burst with the given mean, at least 1, geometric.
+std::int64_t burst(double mean, Random& random) {
+  if (mean <= 1.0) return 1;
+  return 1 + static_cast<std::int64_t>(std::log(1.0 - random.uniform()) / std::log(1.0 - 1.0 / mean));
+}
+
+}  // namespace
+
+ProbeSampler::ProbeSampler(const SimulationConfig& config, const Calibration& truth_calibration, std::int64_t start_ns)
+    : config_(config.probe),
+      calibration_(truth_calibration),
+      gravity_world_mps2_(config.gravity_world_mps2.data()),
+      force_axis_in_marker_(-truth_calibration.tip_in_marker_m.normalized()),
+      start_ns_(start_ns),
+      step_s_(config.step_s),
+      last_stamp_ns_(std::numeric_limits<std::int64_t>::min()),
+      accel_low_pass_(config.probe.accel_bandwidth_Hz, config.probe.accel_poles, 1.0 / config.step_s),
+      gyro_low_pass_(config.probe.gyro_bandwidth_Hz, config.probe.accel_poles, 1.0 / config.step_s),
+      force_low_pass_(config.probe.force_bandwidth_Hz, 1, 1.0 / config.step_s),
+      accel_noise_(seed_of(config), stream(Stream::kAccelNoise)),
+      gyro_noise_(seed_of(config), stream(Stream::kGyroNoise)),
+      force_noise_(seed_of(config), stream(Stream::kForceNoise)),
+      clock_(seed_of(config), stream(Stream::kProbeClock)),
+      radio_(seed_of(config), stream(Stream::kRadio)) {}
+
+void ProbeSampler::push(const MotionState& state) {
+  const Eigen::Vector3d lever_m = *calibration_.accelerometer.position_in_marker_m - calibration_.tip_in_marker_m;
+  const Kinematics now{state, state.p_world_tip_m + state.q_world_marker * lever_m};
+  ++pushed_;
+  if (pushed_ >= 3) {
+    // The signals one step ago, from the states on both sides of it.
+    Signal signal;
+    signal.t_s = current_.state.t_s;
+    const Eigen::Vector3d a_world_mps2 = ((now.p_world_sensor_m - current_.p_world_sensor_m) -
+                                          (current_.p_world_sensor_m - previous_.p_world_sensor_m)) /
+                                         (step_s_ * step_s_);
+    const Eigen::Quaterniond q_marker_world = current_.state.q_world_marker.conjugate();
+    signal.specific_force_mps2 = accel_low_pass_.push(q_marker_world * (a_world_mps2 - gravity_world_mps2_));
+    signal.omega_radps = gyro_low_pass_.push(
+        log_rotation(previous_.state.q_world_marker.conjugate() * state.q_world_marker) / (2.0 * step_s_));
+    signal.force_N =
+        force_low_pass_.push((q_marker_world * current_.state.contact_force_world_N).dot(force_axis_in_marker_));
+    if (pushed_ >= 4) {
+      while (true) {
+        const double t_s = kFirstSample_s + static_cast<double>(taken_) / config_.true_rate_Hz;
+        if (t_s > signal.t_s) break;
+        const double share = std::clamp((t_s - last_signal_.t_s) / step_s_, 0.0, 1.0);
+        Signal sampled;
+        sampled.t_s = t_s;
+        sampled.specific_force_mps2 = lerp(last_signal_.specific_force_mps2, signal.specific_force_mps2, share);
+        sampled.omega_radps = lerp(last_signal_.omega_radps, signal.omega_radps, share);
+        sampled.force_N = last_signal_.force_N + share * (signal.force_N - last_signal_.force_N);
+        take(sampled, previous_.state, current_.state, share);
+      }
+    }
+    last_signal_ = signal;
+  }
+  previous_ = current_;
+  current_ = now;
+}
+
+double ProbeSampler::count(double value) const {
+  return config_.quantise ? std::clamp(std::round(value), config_.adc_min, config_.adc_max) : value;
+}
+
+std::int64_t ProbeSampler::stamp_ns(double t_s) {
+  double stamp_s = t_s;
+  if (config_.clock_jitter_s > 0.0) stamp_s += config_.clock_jitter_s * clock_.normal();
+  if (config_.delivery_delay_s > 0.0) stamp_s -= config_.delivery_delay_s * std::log(1.0 - clock_.uniform());
+  const auto step_ns = std::max<std::int64_t>(1, std::llround(config_.clock_step_s * 1e9));
+  std::int64_t stamp = start_ns_ + std::llround(stamp_s * 1e9);
+  stamp -= stamp % step_ns;
+  // The link keeps the order of its frames, and a host does not read two of them in one tick.
+  if (last_stamp_ns_ != std::numeric_limits<std::int64_t>::min()) stamp = std::max(stamp, last_stamp_ns_ + step_ns);
+  last_stamp_ns_ = stamp;
+  return stamp;
+}
+
+void ProbeSampler::take(const Signal& signal, const MotionState& before, const MotionState& after, double share) {
+  const double rate_Hz = config_.true_rate_Hz;
+  ++taken_;
+  truth.t_ns.push_back(start_ns_ + std::llround(signal.t_s * 1e9));
+  truth.s_m.push_back(before.s_m + share * (after.s_m - before.s_m));
+  truth.height_m.push_back(before.height_m + share * (after.height_m - before.height_m));
+  truth.p_world_tip_m.push_back(lerp(before.p_world_tip_m, after.p_world_tip_m, share));
+  truth.q_world_marker.push_back(slerp(before.q_world_marker, after.q_world_marker, share));
+  truth.force_N.push_back(before.normal_force_N + share * (after.normal_force_N - before.normal_force_N));
+
+  const double accel_sigma = config_.accel_noise_mps2_per_rtHz *
+                             std::sqrt(noise_bandwidth_Hz(config_.accel_bandwidth_Hz, config_.accel_poles, rate_Hz));
+  const Eigen::Vector3d f_mps2 = signal.specific_force_mps2 + accel_sigma * normal3(accel_noise_);
+  Eigen::Vector3d accel = calibration_.accelerometer.B * f_mps2 + calibration_.accelerometer.C;
+  Eigen::Vector3d gyro = Eigen::Vector3d::Zero();
+  if (calibration_.gyroscope) {
+    const double gyro_sigma = config_.gyro_noise_radps_per_rtHz *
+                              std::sqrt(noise_bandwidth_Hz(config_.gyro_bandwidth_Hz, config_.accel_poles, rate_Hz));
+    const Eigen::Vector3d omega_radps = signal.omega_radps + gyro_sigma * normal3(gyro_noise_);
+    gyro = calibration_.gyroscope->B * omega_radps + calibration_.gyroscope->C;
+  }
+  double force = std::numeric_limits<double>::quiet_NaN();
+  if (force_phase_ >= 1.0) {
+    force_phase_ -= 1.0;
+    const double force_N = signal.force_N + config_.force_noise_N * force_noise_.normal();
+    force = count((force_N - calibration_.force.offset_newton) / calibration_.force.newton_per_count);
+  }
+  force_phase_ = std::min(force_phase_ + config_.force_rate_Hz / rate_Hz, 2.0);
+
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    accel[axis] = count(accel[axis]);
+    gyro[axis] = count(gyro[axis]);
+  }
+  if (lost_left_ == 0 && radio_.chance(config_.dropout_chance)) lost_left_ = burst(config_.dropout_samples, radio_);
+  if (radio_.chance(config_.spike_chance)) {
+    const auto any = [&] { return std::round(radio_.uniform(config_.adc_min, config_.adc_max)); };
+    for (Eigen::Index axis = 0; axis < 3; ++axis) accel[axis] = any();
+    for (Eigen::Index axis = 0; axis < 3; ++axis) gyro[axis] = any();
+    if (!std::isnan(force)) force = any();
+  }
+  if (lost_left_ > 0) {
+    --lost_left_;
+    return;
+  }
+  samples.t_ns.push_back(stamp_ns(signal.t_s));
+  samples.accel_counts.push_back(accel);
+  samples.force_counts.push_back(force);
+  if (calibration_.gyroscope) samples.gyro_counts.push_back(gyro);
+}
+
+}  // namespace asperity

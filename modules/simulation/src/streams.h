@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+
+namespace asperity {
+
+// One random stream for each consumer, so that a change to one leaves the others' draws as they were.
+enum class Stream : std::uint64_t {
+  kSurface = 1,
+  kPath,
+  kSpeed,
+  kForce,
+  kLateral,
+  kNormal,
+  kAlong,
+  kWander,
+  kTremor,
+  kAccelNoise,
+  kGyroNoise,
+  kForceNoise,
+  kProbeClock,
+  kRadio,
+  kTrackerNoise,
+  kTrackerClock,
+  kTrackerFaults,
+  kSensorTruth,
+  kCalibration,
+  kGravity,
+};
+
+constexpr std::uint64_t stream(Stream s) { return static_cast<std::uint64_t>(s); }
+
+}  // namespace asperity
