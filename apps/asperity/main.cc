@@ -1,5 +1,105 @@
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "asperity/base/error.h"
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "command.h"
+#include "commands.h"
+#include "interrupt.h"
+#include "parser_pages.h"
+#include "progress_line.h"
 
-#include <cstdio>
+namespace asperity::app {
 
-int main() { std::puts(asperity::kVersion); }
+namespace {
+
+struct Program {
+  CLI::App parser{"measures the fine surface of real objects, to be felt again"};
+  bool manual = false;
+  std::string completion;
+  std::vector<std::unique_ptr<Command>> commands;
+
+  Program() {
+    parser.name("asperity");
+    parser.set_version_flag("--version", std::string("asperity ") + kVersion);
+    parser.add_flag("--man", manual, "Print the manual page");
+    parser.add_option("--completion", completion, "Print completions for a shell")->check(CLI::IsMember({"bash"}));
+    parser.require_subcommand(0, 1);
+    for (const auto make : {make_roughness}) {
+      commands.push_back(make(parser));
+    }
+  }
+};
+
+int usage(const std::string& message, const std::string& command) {
+  complain(message);
+  complain("see asperity " + (command.empty() ? "" : command + " ") + "--help");
+  return kUsage;
+}
+
+int run_command(Command& command) {
+  const std::string name = command.parser().get_name();
+  try {
+    if (!command.resolve()) return kDone;
+    ProgressLine line(command.quiet());
+    return command.run(line.observer());
+  } catch (const UsageError& error) {
+    return usage(name + ": " + error.what(), name);
+  } catch (const Cancelled&) {
+    complain("interrupted; nothing was written");
+    return interrupt_exit_code();
+  } catch (const ClosedPipe&) {
+    return kClosedPipe;
+  } catch (const std::bad_alloc&) {
+    complain(name + ": not enough memory");
+  } catch (const std::exception& error) {
+    complain(error.what());
+  }
+  return kBadInput;
+}
+
+int parse_and_run(Program& program, int argc, char** argv) {
+  try {
+    program.parser.parse(argc, argv);
+    if (program.manual) return print(manual_page(program.parser)), kDone;
+    if (!program.completion.empty()) return print(bash_completion(program.parser)), kDone;
+    for (const auto& command : program.commands) {
+      if (command->parser().parsed()) return run_command(*command);
+    }
+    return usage("which command?", "");
+  } catch (const CLI::CallForHelp&) {
+    print(program.parser.help());
+    return kDone;
+  } catch (const CLI::CallForVersion& version) {
+    return print(std::string(version.what()) + "\n"), kDone;
+  } catch (const CLI::ParseError& error) {
+    const auto chosen = program.parser.get_subcommands();
+    return usage(printable(error.what(), 300), chosen.empty() ? "" : chosen.front()->get_name());
+  }
+}
+
+int run(int argc, char** argv) {
+  try {
+    Program program;
+    return parse_and_run(program, argc, argv);
+  } catch (const ClosedPipe&) {
+    return kClosedPipe;
+  } catch (const std::exception& error) {
+    complain(error.what());
+    return kBadInput;
+  }
+}
+
+}  // namespace
+
+}  // namespace asperity::app
+
+int main(int argc, char** argv) {
+  asperity::app::watch_interrupts();
+  return asperity::app::run(argc, argv);
+}

@@ -102,7 +102,9 @@ void ConfigLister::field(std::string_view name, bool& value, std::string_view de
 void ConfigLister::field(std::string_view name, int& value, std::string_view description, Range range) {
   ConfigField& field = add(name, FieldType::kInteger, description, range);
   field.get = [&value] { return std::to_string(value); };
-  field.set = [&value, path = field.path, range](std::string_view text) { value = checked_integer<int>(path, text, range); };
+  field.set = [&value, path = field.path, range](std::string_view text) {
+    value = checked_integer<int>(path, text, range);
+  };
 }
 
 void ConfigLister::field(std::string_view name, std::int64_t& value, std::string_view description, Range range) {
@@ -156,7 +158,7 @@ void ConfigLister::add_choice(std::string_view name, std::vector<std::string> na
   ConfigField& field = add(name, FieldType::kChoice, description, {});
   field.choices = names;
   field.get = [names, get = std::move(get)] { return quoted(names[get()]); };
-  field.set = [names, set = std::move(set), path = field.path](std::string_view text) {
+  field.set = [names = std::move(names), set = std::move(set), path = field.path](std::string_view text) {
     const auto found = std::find(names.begin(), names.end(), unquoted(text));
     if (found == names.end()) {
       std::string all;

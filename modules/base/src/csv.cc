@@ -16,7 +16,8 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t limit_byt
   const auto size = std::filesystem::file_size(path, error);
   if (error) throw Error(path.string() + ": " + error.message());
   if (size > limit_bytes) {
-    throw Error(path.string() + ": " + std::to_string(size) + " bytes, more than the limit of " + std::to_string(limit_bytes));
+    throw Error(path.string() + ": " + std::to_string(size) + " bytes, more than the limit of " +
+                std::to_string(limit_bytes));
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) throw Error(path.string() + ": cannot be opened");
@@ -34,13 +35,17 @@ CsvReader::CsvReader(std::string_view text, std::string name) : name_(std::move(
   const bool found = next_line(header);
   accept_unterminated_ = false;
   if (!found) throw Error(name_ + ":1: the header line is missing");
-  if (!is_utf8(header)) throw Error(name_ + ":" + std::to_string(line_) + ": the header is not UTF-8 text: " + printable(header));
+  if (!is_utf8(header))
+    throw Error(name_ + ":" + std::to_string(line_) + ": the header is not UTF-8 text: " + printable(header));
   std::size_t start = 0;
   while (true) {
     const auto comma = header.find(',', start);
     const std::string column(trim(header.substr(start, comma - start)));
-    if (column.empty()) throw Error(name_ + ":" + std::to_string(line_) + ": column " + std::to_string(columns_.size() + 1) + " has no name");
-    if (find(column)) throw Error(name_ + ":" + std::to_string(line_) + ": column '" + printable(column) + "' appears twice");
+    if (column.empty())
+      throw Error(name_ + ":" + std::to_string(line_) + ": column " + std::to_string(columns_.size() + 1) +
+                  " has no name");
+    if (find(column))
+      throw Error(name_ + ":" + std::to_string(line_) + ": column '" + printable(column) + "' appears twice");
     if (columns_.size() == 1000) throw Error(name_ + ":" + std::to_string(line_) + ": more than 1000 columns");
     columns_.push_back(column);
     if (comma == std::string_view::npos) break;

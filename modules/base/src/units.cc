@@ -15,7 +15,8 @@ namespace {
 
 using Unit = std::pair<std::string_view, double>;
 
-constexpr std::array<Unit, 7> kLengths{{{"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"µm", 1e-6}, {"μm", 1e-6}, {"nm", 1e-9}}};
+constexpr std::array<Unit, 7> kLengths{
+    {{"m", 1.0}, {"cm", 1e-2}, {"mm", 1e-3}, {"um", 1e-6}, {"µm", 1e-6}, {"μm", 1e-6}, {"nm", 1e-9}}};
 constexpr std::array<Unit, 4> kDurations{{{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"min", 60.0}}};
 constexpr std::array<Unit, 3> kSpeeds{{{"m/s", 1.0}, {"cm/s", 1e-2}, {"mm/s", 1e-3}}};
 
@@ -30,13 +31,18 @@ double parse(std::string_view text, std::string_view what, std::span<const Unit>
       return factor < 1.0 ? *number / std::round(1.0 / factor) : *number * factor;
     }
   }
-  throw Error(std::string(what) + ": '" + printable(text) + "' is not a number with a unit, such as " + std::string(example));
+  throw Error(std::string(what) + ": '" + printable(text) + "' is not a number with a unit, such as " +
+              std::string(example));
 }
 
 }  // namespace
 
-double parse_length_m(std::string_view text, std::string_view what) { return parse(text, what, kLengths, "5mm or 0.3m"); }
+double parse_length_m(std::string_view text, std::string_view what) {
+  return parse(text, what, kLengths, "5mm or 0.3m");
+}
 double parse_speed_mps(std::string_view text, std::string_view what) { return parse(text, what, kSpeeds, "25mm/s"); }
-double parse_duration_s(std::string_view text, std::string_view what) { return parse(text, what, kDurations, "10s or 250ms"); }
+double parse_duration_s(std::string_view text, std::string_view what) {
+  return parse(text, what, kDurations, "10s or 250ms");
+}
 
 }  // namespace asperity

@@ -50,7 +50,8 @@ TEST(Config, RefusesWithPathAndValue) {
   const auto fields = list_fields("stage", config);
   EXPECT_THAT([&] { set_field(fields, "stage.cutof_Hz", "1"); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("did you mean 'stage.cutoff_Hz'")));
-  EXPECT_THAT([&] { set_field(fields, "stage.cutoff_Hz", "nan"); }, testing::ThrowsMessage<Error>(testing::HasSubstr("'nan'")));
+  EXPECT_THAT([&] { set_field(fields, "stage.cutoff_Hz", "nan"); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("'nan'")));
   EXPECT_THROW(set_field(fields, "stage.inner.count", "11"), Error);
   EXPECT_THROW(set_field(fields, "stage.colour", "green"), Error);
   EXPECT_THROW(set_field(fields, "stage.sigma_m", "1,2"), Error);

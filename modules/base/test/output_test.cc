@@ -1,7 +1,7 @@
 #include "asperity/base/output.h"
 
-#include <fstream>
 #include <gtest/gtest.h>
+#include <fstream>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
@@ -14,7 +14,10 @@ bool has_mark(const std::filesystem::path& folder) { return std::filesystem::exi
 
 TEST(Output, FolderAppearsWholeOrNotAtAll) {
   testkit::TempDir dir;
-  { OutputFolder folder(dir / "out", has_mark); write_file(folder.path() / "mark", "1"); }
+  {
+    OutputFolder folder(dir / "out", has_mark);
+    write_file(folder.path() / "mark", "1");
+  }
   EXPECT_FALSE(std::filesystem::exists(dir / "out"));
   {
     OutputFolder folder(dir / "out", has_mark);

@@ -1,7 +1,7 @@
 #include "asperity/base/random.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 namespace asperity {
 namespace {

@@ -1,7 +1,7 @@
 #include "asperity/base/text.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "asperity/base/error.h"
 #include "asperity/base/units.h"
@@ -22,14 +22,15 @@ TEST(Text, ParsesWholeNumbersOnly) {
 }
 
 TEST(Text, NumbersReadBackExactly) {
-  for (const double value : {0.1, 1.0 / 3.0, 1e-300, -2.5e10, 5e-324}) EXPECT_EQ(parse_double(number_text(value)), value);
+  for (const double value : {0.1, 1.0 / 3.0, 1e-300, -2.5e10, 5e-324})
+    EXPECT_EQ(parse_double(number_text(value)), value);
 }
 
 TEST(Text, Utf8) {
   EXPECT_TRUE(is_utf8("µm – ok"));
-  EXPECT_FALSE(is_utf8("\xC0\x80"));         // overlong
-  EXPECT_FALSE(is_utf8("\xED\xA0\x80"));     // surrogate
-  EXPECT_FALSE(is_utf8("\xF5\x80\x80\x80")); // beyond U+10FFFF
+  EXPECT_FALSE(is_utf8("\xC0\x80"));          // overlong
+  EXPECT_FALSE(is_utf8("\xED\xA0\x80"));      // surrogate
+  EXPECT_FALSE(is_utf8("\xF5\x80\x80\x80"));  // beyond U+10FFFF
   EXPECT_EQ(printable("a\x1b\xff"), "a\\x1b\\xff");
 }
 

@@ -1,7 +1,7 @@
 #include "asperity/geometry/pose.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "asperity/base/random.h"
 

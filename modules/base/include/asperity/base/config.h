@@ -51,7 +51,8 @@ class ConfigLister {
   void field(std::string_view name, std::int64_t& value, std::string_view description, Range range = {});
   void field(std::string_view name, double& value, std::string_view description, Range range = {});
   void field(std::string_view name, std::string& value, std::string_view description);
-  void numbers(std::string_view name, double* values, std::size_t count, std::string_view description, Range range = {});
+  void numbers(std::string_view name, double* values, std::size_t count, std::string_view description,
+               Range range = {});
 
   template <std::size_t N>
   void field(std::string_view name, std::array<double, N>& values, std::string_view description, Range range = {}) {
@@ -60,10 +61,12 @@ class ConfigLister {
 
   // An enum whose values count from 0, in the order of `names`.
   template <class Enum, std::size_t N>
-    requires std::is_enum_v<Enum>
-  void choice(std::string_view name, Enum& value, const std::array<std::string_view, N>& names, std::string_view description) {
-    add_choice(name, {names.begin(), names.end()}, description, [&value] { return static_cast<std::size_t>(value); },
-               [&value](std::size_t i) { value = static_cast<Enum>(i); });
+  requires std::is_enum_v<Enum>
+  void choice(std::string_view name, Enum& value, const std::array<std::string_view, N>& names,
+              std::string_view description) {
+    add_choice(
+        name, {names.begin(), names.end()}, description, [&value] { return static_cast<std::size_t>(value); },
+        [&value](std::size_t i) { value = static_cast<Enum>(i); });
   }
 
   template <class Config>

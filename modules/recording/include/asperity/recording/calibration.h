@@ -20,9 +20,10 @@ struct AccelerometerCalibration {
   Eigen::Vector3d C = Eigen::Vector3d::Zero();
   Eigen::Vector3d residual_counts = Eigen::Vector3d::Zero();  // standard deviation of the fit
   Eigen::Matrix<double, 3, Eigen::Dynamic> standard_errors;   // 3×(k+1), B's columns then C's; may be empty
-  bool rotation_known = true;  // false: the sensor's rotation to the marker is to be estimated
+  bool rotation_known = true;                           // false: the sensor's rotation to the marker is to be estimated
   std::optional<Eigen::Vector3d> position_in_marker_m;  // nullopt: at the tip
-  double position_sigma_m = 0.0;  // extra.accelerometer_position_sigma_m: > 0, estimate the position too
+  double position_sigma_m = 0.0;    // extra.accelerometer_position_sigma_m: > 0, estimate the position too
+  double rotation_sigma_rad = 0.0;  // extra.accelerometer_rotation_sigma_rad: > 0, refine the rotation to the marker
 
   Eigen::Vector3d counts(const Eigen::Vector3d& specific_force_mps2) const;
   // Inverts the model; Newton's method for the quadric one. Throws Error if the linear part is singular.
@@ -72,6 +73,8 @@ struct Calibration {
   Eigen::Vector3d tip_in_marker_m = Eigen::Vector3d::Zero();
   double tip_radius_m = 0.00032;
   TrackerCalibration tracker;
+  double probe_latency_s = 0.0;        // extra.probe_latency_s: a sample's true time is its t_ns minus this
+  double probe_latency_sigma_s = 0.0;  // extra.probe_latency_sigma_s
   std::optional<CameraCalibration> camera;
   std::vector<MarkerPlacement> markers;
   std::string extra_json = "{}";

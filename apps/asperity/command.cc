@@ -1,0 +1,74 @@
+#include "command.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "asperity/base/text.h"
+#include "config_file.h"
+
+namespace asperity::app {
+
+Command::Command(CLI::App& root, const std::string& name, const std::string& description)
+    : parser_(root.add_subcommand(name, description)) {
+  parser_->add_flag("--json", json_, "Print one JSON object on standard output");
+  parser_->add_option("--config", config_file_, "Read settings from a TOML file")->type_name("FILE.toml");
+  parser_->add_option("--set", settings_, "Change one setting; may be repeated")
+      ->type_name("STAGE.FIELD=VALUE")
+      ->allow_extra_args(false);
+  parser_->add_flag("--print-config", print_config_, "Print all settings with their meaning, and stop");
+  parser_->add_flag("--quiet", quiet_, "Print no progress and no summary");
+}
+
+CLI::Option* Command::require(CLI::Option* option) {
+  option->description(option->get_description() + " (required)");
+  required_.push_back(option);
+  return option;
+}
+
+bool Command::resolve() {
+  if (!print_config_) {
+    for (const CLI::Option* option : required_) {
+      if (option->count() == 0) throw UsageError(option->get_name(true) + " is missing");
+    }
+  }
+  const std::vector<ConfigField> all = fields();
+  if (!config_file_.empty()) load_config_file(config_file_, all);
+  apply_options();
+  for (const std::string& setting : settings_) {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos) {
+      throw UsageError("--set takes STAGE.FIELD=VALUE, not '" + printable(setting) + "'");
+    }
+    try {
+      set_field(all, trim(std::string_view(setting).substr(0, equals)), std::string_view(setting).substr(equals + 1));
+    } catch (const Error& error) {
+      throw UsageError(std::string("--set: ") + error.what());
+    }
+  }
+  if (print_config_) print(json_ ? fields_to_json(all) + "\n" : to_toml(all, true));
+  return !print_config_;
+}
+
+void Command::say(std::string_view text) const {
+  if (!json_ && !quiet_) print(text);
+}
+
+void Command::print_json(std::string_view object) const {
+  if (!json_) return;
+  print(object);
+  if (!object.ends_with('\n')) print("\n");
+}
+
+void print(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    if (errno == EPIPE) throw ClosedPipe();
+    throw Error(std::string("standard output cannot be written: ") + std::strerror(errno));
+  }
+}
+
+void complain(std::string_view text) {
+  std::fprintf(stderr, "asperity: %.*s\n", static_cast<int>(text.size()), text.data());
+}
+
+}  // namespace asperity::app

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "command.h"
+
+namespace asperity::app {
+
+std::unique_ptr<Command> make_demo(CLI::App& root);
+std::unique_ptr<Command> make_simulate(CLI::App& root);
+std::unique_ptr<Command> make_import(CLI::App& root);
+std::unique_ptr<Command> make_inspect(CLI::App& root);
+std::unique_ptr<Command> make_process(CLI::App& root);
+std::unique_ptr<Command> make_roughness(CLI::App& root);
+
+}  // namespace asperity::app

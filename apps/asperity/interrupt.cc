@@ -1,0 +1,48 @@
+#include "interrupt.h"
+
+#include <pthread.h>
+#include <unistd.h>
+#include <csignal>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "asperity/base/output.h"
+
+namespace asperity::app {
+
+namespace {
+
+std::atomic<int> signal_seen{0};
+
+}  // namespace
+
+void watch_interrupts() {
+  // A reader that closes the pipe shows up as a failed write, not as a death with output half-written.
+  std::signal(SIGPIPE, SIG_IGN);
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    // A shell's background job has SIGINT ignored, nohup SIGHUP: that stays so.
+    struct sigaction current {};
+    sigaction(number, nullptr, &current);
+    if (current.sa_handler != SIG_IGN) sigaddset(&set, number);
+  }
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  std::thread([set] {
+    int number = 0;
+    if (sigwait(&set, &number) != 0) return;
+    signal_seen = number;
+    const timespec patience{1, 0};
+    sigtimedwait(&set, nullptr, &patience);
+    remove_unfinished_output();
+    ::_exit(128 + number);
+  }).detach();
+}
+
+bool interrupted() { return signal_seen != 0; }
+
+int interrupt_exit_code() { return 128 + signal_seen; }
+
+}  // namespace asperity::app

@@ -1,0 +1,14 @@
+#pragma once
+
+namespace asperity::app {
+
+// From now on SIGINT, SIGTERM and SIGHUP ask the program to stop: interrupted() turns true, and if the
+// program has not ended within a second, unfinished output is removed and the process ends with
+// 128 + signal. Call once, before any other thread exists.
+void watch_interrupts();
+
+bool interrupted();
+// 128 + the signal that came, 130 for Ctrl-C.
+int interrupt_exit_code();
+
+}  // namespace asperity::app

@@ -1,0 +1,99 @@
+#include "parser_pages.h"
+
+#include <vector>
+
+#include "asperity/base/version.h"
+
+namespace asperity::app {
+
+namespace {
+
+// roff takes a leading dot or quote as a request, and a bare hyphen as a hyphenation point.
+std::string roff(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool line_start = i == 0 || text[i - 1] == '\n';
+    if (line_start && (text[i] == '.' || text[i] == '\'')) out += "\\&";
+    if (text[i] == '\\') {
+      out += "\\e";
+    } else if (text[i] == '-') {
+      out += "\\-";
+    } else {
+      out += text[i];
+    }
+  }
+  return out;
+}
+
+std::vector<const CLI::Option*> options_of(const CLI::App& app) { return app.get_options(); }
+
+std::string option_heading(const CLI::Option& option) {
+  if (option.get_positional()) return "\\fI" + roff(option.get_name(true)) + "\\fR";
+  std::string out = "\\fB" + roff(option.get_name(false, true)) + "\\fR";
+  if (option.get_items_expected_max() > 0) out += " \\fI" + roff(option.get_type_name()) + "\\fR";
+  return out;
+}
+
+std::string option_list(const CLI::App& app) {
+  std::string out;
+  for (const CLI::Option* option : options_of(app)) {
+    out += ".TP\n" + option_heading(*option) + "\n" + roff(option->get_description()) + "\n";
+  }
+  return out;
+}
+
+std::string words(const CLI::App& app) {
+  std::string out;
+  for (const CLI::Option* option : options_of(app)) {
+    for (const std::string& name : option->get_lnames()) out += (out.empty() ? "--" : " --") + name;
+    for (const std::string& name : option->get_snames()) out += (out.empty() ? "-" : " -") + name;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string manual_page(const CLI::App& root) {
+  std::string out = ".TH ASPERITY 1 \"\" \"asperity " + std::string(kVersion) + "\" \"User Commands\"\n";
+  out += ".SH NAME\nasperity \\- " + roff(root.get_description()) + "\n";
+  out += ".SH SYNOPSIS\n.B asperity\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n.SH OPTIONS\n" + option_list(root);
+  out += ".SH COMMANDS\n";
+  for (const CLI::App* command : root.get_subcommands({})) {
+    out += ".SS asperity " + roff(command->get_name()) + "\n" + roff(command->get_description()) + "\n" +
+           option_list(*command);
+  }
+  out +=
+      ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\nthe input is bad; standard error says where\n.TP\n2\nthe command line is "
+      "wrong\n";
+  out +=
+      ".TP\n3\ndone, but the result is not to be trusted; standard error says why\n.TP\n130\ninterrupted; nothing was "
+      "written\n";
+  return out;
+}
+
+std::string bash_completion(const CLI::App& root) {
+  std::string names;
+  std::string cases;
+  for (const CLI::App* command : root.get_subcommands({})) {
+    names += (names.empty() ? "" : " ") + command->get_name();
+    cases += "    " + command->get_name() + ") words=\"" + words(*command) + "\" ;;\n";
+  }
+  return "# bash completion for asperity: source it, or put it in /etc/bash_completion.d/\n"
+         "_asperity() {\n"
+         "  local current=${COMP_WORDS[COMP_CWORD]} words=\"" +
+         names + " " + words(root) +
+         "\"\n"
+         "  case ${COMP_WORDS[1]-} in\n" +
+         cases +
+         "  esac\n"
+         "  COMPREPLY=()\n"
+         "  if [[ $COMP_CWORD -eq 1 || $current == -* ]]; then\n"
+         "    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")\n"
+         "  else\n"
+         "    mapfile -t COMPREPLY < <(compgen -f -- \"$current\")\n"
+         "  fi\n"
+         "}\n"
+         "complete -o filenames -F _asperity asperity\n";
+}
+
+}  // namespace asperity::app

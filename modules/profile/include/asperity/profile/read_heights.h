@@ -1,0 +1,52 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "asperity/profile/areal_map.h"
+
+namespace asperity {
+
+enum class HeightUnit { kMicrometre, kMillimetre, kMetre, kNanometre };
+inline constexpr std::array<std::string_view, 4> kHeightUnitNames{"um", "mm", "m", "nm"};
+
+struct ReadHeightsConfig {
+  double spacing_m = 0.0;
+  std::string column{};
+  HeightUnit unit = HeightUnit::kMicrometre;
+
+  template <class V>
+  void visit(V& v) {
+    v.field("spacing_m", spacing_m, "distance of the heights, for files without positions; 0: not given", {0.0, 1.0});
+    v.field("column", column, "the column of heights; empty: texture_m, else height_m, else the only one");
+    v.choice("unit", unit, kHeightUnitNames, "of a column whose name ends in no unit");
+  }
+};
+
+// Heights along a line, as a file gave them; nan where missing.
+struct HeightProfile {
+  std::vector<double> height_m;
+  double spacing_m = 0.0;
+  std::string column;  // its name in the file; empty if it had none
+};
+
+using Heights = std::variant<HeightProfile, ArealMap>;
+
+// Heights from a text file of one of these kinds, told apart by their first line:
+//   s_m,height_m,texture_m,…   a profile.csv, uniform in s_m
+//   height                     one column, with or without a header; needs `spacing_m`. A name that
+//                              ends in _nm, _um, _µm, _mm or _m says its unit
+//   x_mm,y_mm,z_µm             an areal map on a full rectangular grid, with or without that header
+//                              (other units by name), rows along x or along y; blank lines allowed
+// Throws Error naming file, line and value for anything else, infinite numbers, uneven positions, a
+// spacing that is missing or contradicts s_m, or a file of more than 512 MiB.
+Heights read_heights(const std::filesystem::path& path, const ReadHeightsConfig& config = {});
+
+// The same from text in memory; `name` is what messages call it.
+Heights parse_heights(std::string_view text, const std::string& name, const ReadHeightsConfig& config = {});
+
+}  // namespace asperity

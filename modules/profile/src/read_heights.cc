@@ -1,0 +1,105 @@
+#include "asperity/profile/read_heights.h"
+
+#include <cmath>
+
+#include "areal_grid.h"
+#include "asperity/base/csv.h"
+#include "asperity/base/text.h"
+#include "number_table.h"
+
+namespace asperity {
+namespace {
+
+constexpr std::uint64_t kLargestFile_bytes = 512ULL << 20;
+constexpr double kPositionTolerance_steps = 1e-3;
+
+double metres(HeightUnit unit) {
+  constexpr std::array<double, 4> kMetres{1e-6, 1e-3, 1.0, 1e-9};
+  return kMetres[static_cast<std::size_t>(unit)];
+}
+
+std::size_t choose_column(const NumberTable& table, const ReadHeightsConfig& config) {
+  if (!config.column.empty()) {
+    const auto found = table.find(config.column);
+    if (!found) table.fail("column '" + printable(config.column) + "' is missing");
+    return *found;
+  }
+  for (const char* name : {"texture_m", "height_m"}) {
+    if (const auto found = table.find(name)) return *found;
+  }
+  if (table.width() != 1) {
+    table.fail(
+        "neither a profile (s_m,height_m), one column of heights, nor an areal map (x_mm,y_mm,z_um); "
+        "with several columns, one must be chosen by name");
+  }
+  return 0;
+}
+
+void take_spacing(const std::vector<double>& s_m, const ReadHeightsConfig& config, const NumberTable& table,
+                  HeightProfile& profile) {
+  profile.spacing_m = (s_m.back() - s_m.front()) / static_cast<double>(s_m.size() - 1);
+  if (!(profile.spacing_m > 0.0)) table.fail("s_m does not rise");
+  if (config.spacing_m > 0.0 && std::abs(config.spacing_m - profile.spacing_m) > 1e-6 * profile.spacing_m) {
+    table.fail("a spacing of " + number_text(config.spacing_m) + " m is given, but s_m has " +
+               number_text(profile.spacing_m));
+  }
+  for (std::size_t i = 0; i < s_m.size(); ++i) {
+    const double expected_m = s_m.front() + static_cast<double>(i) * profile.spacing_m;
+    if (!(std::abs(s_m[i] - expected_m) <= kPositionTolerance_steps * profile.spacing_m)) {
+      table.fail("s_m is not uniform: row " + std::to_string(i + 1) + " has " + number_text(s_m[i]) + " where " +
+                 number_text(expected_m) + " was expected");
+    }
+  }
+}
+
+HeightProfile read_profile_heights(NumberTable& table, const ReadHeightsConfig& config) {
+  HeightProfile profile;
+  const auto position = table.find("s_m");
+  const std::size_t column = choose_column(table, config);
+  if (!table.header().empty()) profile.column = table.header()[column];
+  const double unit_m = unit_in_name_m(profile.column).value_or(metres(config.unit));
+  if (position && !table.ends_in_newline())
+    table.fail("the file does not end in a newline: its last row may be cut off");
+  if (!position && !(config.spacing_m > 0.0))
+    table.fail("the file has no positions (s_m): the spacing of its heights must be given");
+  std::vector<double> s_m;
+  while (table.next()) {
+    profile.height_m.push_back(table.number(column, unit_m));
+    if (position) s_m.push_back(table.number(*position, 1.0));
+  }
+  if (profile.height_m.size() < 2) table.fail("fewer than two heights");
+  if (position) {
+    take_spacing(s_m, config, table, profile);
+  } else {
+    profile.spacing_m = config.spacing_m;
+  }
+  return profile;
+}
+
+// The units of an areal map's three columns, or nullopt if the columns are not one's.
+std::optional<std::array<double, 3>> areal_units_m(const NumberTable& table) {
+  if (table.width() != 3) return std::nullopt;
+  if (table.header().empty()) return std::array<double, 3>{1e-3, 1e-3, 1e-6};
+  std::array<double, 3> units{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string& name = table.header()[i];
+    const auto unit = unit_in_name_m(name);
+    if (!unit || name[0] != "xyz"[i] || name[1] != '_') return std::nullopt;
+    units[i] = *unit;
+  }
+  return units;
+}
+
+}  // namespace
+
+Heights parse_heights(std::string_view text, const std::string& name, const ReadHeightsConfig& config) {
+  NumberTable table(text, name);
+  if (const auto units = areal_units_m(table)) return read_areal_grid(table, *units);
+  return read_profile_heights(table, config);
+}
+
+Heights read_heights(const std::filesystem::path& path, const ReadHeightsConfig& config) {
+  return parse_heights(read_file(path, kLargestFile_bytes), path.string(), config);
+}
+
+}  // namespace asperity

@@ -1,0 +1,100 @@
+#include "asperity/profile/read_heights.h"
+
+#include <cmath>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "asperity/base/error.h"
+
+namespace asperity {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+HeightProfile profile_of(std::string_view text, const ReadHeightsConfig& config = {}) {
+  return std::get<HeightProfile>(parse_heights(text, "f.csv", config));
+}
+
+ArealMap map_of(std::string_view text) { return std::get<ArealMap>(parse_heights(text, "f.txt")); }
+
+void expect_error(std::string_view text, const std::string& message, const ReadHeightsConfig& config = {}) {
+  EXPECT_THAT([&] { parse_heights(text, "f.csv", config); }, ThrowsMessage<Error>(HasSubstr(message))) << text;
+}
+
+TEST(ReadHeights, OneColumn) {
+  const ReadHeightsConfig half_um{.spacing_m = 0.5e-6};
+  const HeightProfile with_header = profile_of("height\n1\n-2.5\nnan\n", half_um);
+  ASSERT_EQ(with_header.height_m.size(), 3u);
+  EXPECT_DOUBLE_EQ(with_header.height_m[1], -2.5e-6);
+  EXPECT_TRUE(std::isnan(with_header.height_m[2]));
+  EXPECT_EQ(with_header.spacing_m, 0.5e-6);
+  EXPECT_EQ(with_header.column, "height");
+  EXPECT_DOUBLE_EQ(profile_of("1\r\n2\r\n3", half_um).height_m[2], 3e-6);
+  EXPECT_EQ(profile_of("height_m\n1\n2\n", half_um).height_m[1], 2.0);
+  EXPECT_DOUBLE_EQ(profile_of("height_mm\n1\n2\n", half_um).height_m[1], 2e-3);
+  EXPECT_DOUBLE_EQ(profile_of("z_µm\n1\n2\n", half_um).height_m[1], 2e-6);
+  EXPECT_DOUBLE_EQ(profile_of("height\n1\n2\n", {.spacing_m = 1e-6, .unit = HeightUnit::kNanometre}).height_m[1], 2e-9);
+}
+
+TEST(ReadHeights, OurOwnProfile) {
+  const std::string text = "s_m,height_m,sigma_m,texture_m\n0.1,1,0,5\n0.100025,2,0,6\n0.10005,nan,0,nan\n";
+  const HeightProfile profile = profile_of(text);
+  EXPECT_EQ(profile.column, "texture_m");
+  EXPECT_EQ(profile.height_m[1], 6.0);
+  EXPECT_NEAR(profile.spacing_m, 25e-6, 1e-12);
+  EXPECT_EQ(profile_of(text, {.column = "height_m"}).height_m[1], 2.0);
+  EXPECT_EQ(profile_of("s_m,height_m\n0,1\n1,2\n").column, "height_m");
+}
+
+TEST(ReadHeights, ArealMapInEitherOrder) {
+  const ArealMap along_x =
+      map_of("0.0000,0.0000,1\n0.0050,0,2\n0.0100,0,3\n\n\n0,0.002,4\n0.005,0.002,5\n0.01,0.002,nan\n");
+  EXPECT_EQ(along_x.columns, 3u);
+  EXPECT_EQ(along_x.rows, 2u);
+  EXPECT_NEAR(along_x.x_spacing_m, 5e-6, 1e-15);
+  EXPECT_NEAR(along_x.y_spacing_m, 2e-6, 1e-15);
+  EXPECT_DOUBLE_EQ(along_x.at(1, 1), 5e-6);
+  EXPECT_TRUE(std::isnan(along_x.at(1, 2)));
+  const ArealMap along_y =
+      map_of("x_mm,y_mm,z_um\n0,0,1\n0,0.002,4\n0.005,0,2\n0.005,0.002,5\n0.01,0,3\n0.01,0.002,6\n");
+  EXPECT_EQ(along_y.columns, 3u);
+  EXPECT_EQ(along_y.rows, 2u);
+  EXPECT_NEAR(along_y.x_spacing_m, 5e-6, 1e-15);
+  EXPECT_DOUBLE_EQ(along_y.at(1, 1), 5e-6);
+  EXPECT_DOUBLE_EQ(along_y.at(0, 2), 3e-6);
+}
+
+TEST(ReadHeights, ArealErrorsNameTheLine) {
+  expect_error("0,0,1\n1,0,2\n0,1,3\n", "f.csv:3: the last row has 1 points where the first has 2");
+  expect_error("0,0,1\n1,0,2\n3,0,3\n", "f.csv:3: the point (0.003, 0) m is not the grid's next");
+  expect_error("0,0,1\n1,0,2\n2,0,3\n0,1,3\n1,1,3\n2,0,3\n", "f.csv:6: the point (0.002, 0) m");
+  expect_error("0,0,1\n1,0,2\n0,1,3\n1,1,x\n", "f.csv:4: column 3: 'x' is not a number");
+  expect_error("0,0,1\n1,0,2\n0,1,inf\n", "f.csv:3: column 3: 'inf' is infinite");
+  expect_error("0,0,1\n1,0,2\n0,1\n", "f.csv:3: 2 cells where the first line has 3");
+  expect_error("0,0,1\n1,0,2\nnan,1,3\n", "f.csv:3: the position is not a number");
+  expect_error("0,0,1\n0,0,2\n", "f.csv:2: the second point is not the next along x or y");
+  expect_error("0,0,1\n1,0,2\n0,0,3\n1,0,2\n", "f.csv:3: the second row does not follow the first");
+  expect_error("0,0,1\n1,0,2\n2,0,3\n", "f.csv:3: an areal map has at least 2 by 2 points");
+  expect_error("0,0,1\n", "f.csv:1: an areal map has at least 2 by 2 points");
+}
+
+TEST(ReadHeights, ProfileErrorsNameTheLine) {
+  expect_error("", "f.csv:1: the file is empty");
+  expect_error("height\n1\n2\n", "the spacing of its heights must be given");
+  const ReadHeightsConfig one_um{.spacing_m = 1e-6};
+  expect_error("height\n1\n", "f.csv:2: fewer than two heights", one_um);
+  expect_error("height\n1\nabc\n", "f.csv:3: column 'height': 'abc' is not a number", one_um);
+  expect_error("a,b\n1,2\n", "one must be chosen by name", one_um);
+  expect_error("a,b\n1,2\n", "f.csv:1: column 'c' is missing", {.spacing_m = 1e-6, .column = "c"});
+  expect_error("a,a\n1,2\n", "f.csv:1: column 'a' appears twice", one_um);
+  expect_error("s_m,height_m\n0,1\n1,2\n2,", "its last row may be cut off");
+  expect_error("s_m,height_m\n0,1\n1,2\n3,3\n", "s_m is not uniform: row 2 has 1 where 1.5 was expected");
+  expect_error("s_m,height_m\n0,1\nnan,2\n2,3\n", "s_m is not uniform: row 2 has nan");
+  expect_error("s_m,height_m\n0,1\n1,2\n", "a spacing of 1e-06 m is given, but s_m has 1", one_um);
+}
+
+}  // namespace
+}  // namespace asperity

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "asperity/recording/recording.h"
+
+namespace asperity {
+
+// The files of a recording as text, exact and deterministic. Throws Error for a number that JSON
+// cannot hold (nan, inf) and for an `extra_json` that is not a JSON object.
+
+std::string format_recording_info(const RecordingInfo& info);
+std::string format_calibration(const Calibration& calibration);
+
+// The header line of probe.csv for the sensors there are, and of tracker.csv; with their newline.
+std::string probe_header(bool has_gyro, bool has_force3);
+std::string tracker_header(bool has_markers, bool has_reprojection);
+
+// Appends rows `first` to `last` (exclusive) as lines; a sample that is nan gives an empty cell.
+void append_probe_rows(std::string& out, const ProbeStream& probe, std::size_t first, std::size_t last);
+void append_tracker_rows(std::string& out, const TrackerStream& tracker, std::size_t first, std::size_t last);
+
+std::string format_probe_csv(const ProbeStream& probe);
+std::string format_tracker_csv(const TrackerStream& tracker);
+std::string format_truth_csv(const Truth& truth);
+
+}  // namespace asperity

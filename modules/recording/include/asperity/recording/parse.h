@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "asperity/recording/read_limits.h"
+#include "asperity/recording/recording.h"
+
+namespace asperity {
+
+// The files of a recording, from text in memory. `name` is what messages call the file. Each throws
+// Error naming the file and the line or key; what was repaired or left out is appended to `problems`.
+
+RecordingInfo parse_recording_info(std::string_view text, const std::string& name, const ReadLimits& limits = {});
+Calibration parse_calibration(std::string_view text, const std::string& name, const ReadLimits& limits = {});
+
+ProbeStream parse_probe_csv(std::string_view text, const std::string& name, Problems& problems,
+                            const ReadLimits& limits = {});
+TrackerStream parse_tracker_csv(std::string_view text, const std::string& name, Problems& problems,
+                                const ReadLimits& limits = {});
+Truth parse_truth_csv(std::string_view text, const std::string& name, Problems& problems,
+                      const ReadLimits& limits = {});
+
+}  // namespace asperity

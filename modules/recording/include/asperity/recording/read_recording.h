@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+
+#include "asperity/recording/read_limits.h"
+#include "asperity/recording/recording.h"
+
+namespace asperity {
+
+// Reads a recording folder: recording.json, probe.csv, tracker.csv, calibration.json and, where it
+// exists, truth.csv. The streams returned have strictly rising times and finite values (force, gyro
+// and force3 are nan where there is no sample); what had to be repaired or left out is in `problems`.
+// Throws Error naming file and line, or file and key, for what cannot be used.
+Recording read_recording(const std::filesystem::path& folder, const ReadLimits& limits = {});
+
+// calibration.json. Throws Error naming the file and the key.
+Calibration read_calibration(const std::filesystem::path& path, const ReadLimits& limits = {});
+
+// truth.csv; s_m, height_m and force_N may be nan. What was left out is appended to `problems`.
+Truth read_truth(const std::filesystem::path& path, Problems& problems, const ReadLimits& limits = {});
+
+// True if the folder holds a recording.json of ours, whatever the state of the rest. Never throws.
+bool is_recording_folder(const std::filesystem::path& folder) noexcept;
+
+}  // namespace asperity

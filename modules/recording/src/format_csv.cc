@@ -1,0 +1,75 @@
+#include "asperity/recording/format.h"
+#include "csv_line.h"
+
+namespace asperity {
+
+std::string probe_header(bool has_gyro, bool has_force3) {
+  std::string out = "t_ns,accel_i,accel_j,accel_k,force";
+  if (has_gyro) out += ",gyro_i,gyro_j,gyro_k";
+  if (has_force3) out += ",force_x,force_y,force_z";
+  return out + "\n";
+}
+
+std::string tracker_header(bool has_markers, bool has_reprojection) {
+  std::string out = "t_ns,px_m,py_m,pz_m,qw,qx,qy,qz";
+  if (has_markers) out += ",markers";
+  if (has_reprojection) out += ",reprojection_px";
+  return out + "\n";
+}
+
+void append_probe_rows(std::string& out, const ProbeStream& probe, std::size_t first, std::size_t last) {
+  for (std::size_t i = first; i < last; ++i) {
+    append_time(out, probe.t_ns[i]);
+    append_cells(out, probe.accel_counts[i]);
+    append_cell(out, probe.force_counts[i]);
+    if (!probe.gyro_counts.empty()) append_cells(out, probe.gyro_counts[i]);
+    if (!probe.force3_counts.empty()) append_cells(out, probe.force3_counts[i]);
+    out += '\n';
+  }
+}
+
+void append_tracker_rows(std::string& out, const TrackerStream& tracker, std::size_t first, std::size_t last) {
+  for (std::size_t i = first; i < last; ++i) {
+    append_time(out, tracker.t_ns[i]);
+    append_cells(out, tracker.T_world_marker[i].translation_m);
+    append_cells(out, tracker.T_world_marker[i].rotation);
+    if (!tracker.markers.empty()) {
+      out += ',';
+      append_number(out, std::int64_t{tracker.markers[i]});
+    }
+    if (!tracker.reprojection_px.empty()) append_cell(out, tracker.reprojection_px[i]);
+    out += '\n';
+  }
+}
+
+std::string format_probe_csv(const ProbeStream& probe) {
+  std::string out = probe_header(!probe.gyro_counts.empty(), !probe.force3_counts.empty());
+  append_probe_rows(out, probe, 0, probe.size());
+  return out;
+}
+
+std::string format_tracker_csv(const TrackerStream& tracker) {
+  std::string out = tracker_header(!tracker.markers.empty(), !tracker.reprojection_px.empty());
+  append_tracker_rows(out, tracker, 0, tracker.size());
+  return out;
+}
+
+std::string format_truth_csv(const Truth& truth) {
+  std::string out = "t_ns,s_m,height_m,px_m,py_m,pz_m,qw,qx,qy,qz,force_N\n";
+  const auto cell_or_nan = [&](double value) {
+    out += ',';
+    append_exact(out, value);
+  };
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    append_time(out, truth.t_ns[i]);
+    cell_or_nan(truth.s_m[i]);
+    cell_or_nan(truth.height_m[i]);
+    append_cells(out, truth.p_world_tip_m[i]);
+    append_cells(out, truth.q_world_marker[i]);
+    cell_or_nan(truth.force_N[i]);
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace asperity

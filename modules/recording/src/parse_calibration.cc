@@ -1,0 +1,180 @@
+#include <cmath>
+
+#include <fmt/format.h>
+#include <Eigen/SVD>
+#include <nlohmann/json.hpp>
+
+#include "asperity/recording/parse.h"
+#include "json_reader.h"
+#include "quaternion_check.h"
+
+namespace asperity {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr Range kNotNegative{0.0, 1e9};
+constexpr Range kWithinMetres{-100.0, 100.0};  // a place on a hand-held probe, generously
+
+// Far below any usable sensor: such a matrix would turn noise into signal.
+constexpr double kLeastRelativeSingularValue = 1e-9;
+
+void require_invertible(const JsonObject& object, const Eigen::Matrix3d& B) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(B);
+  const auto& values = svd.singularValues();
+  if (!(values[2] > kLeastRelativeSingularValue * values[0])) object.fail("B", "its linear part is singular");
+}
+
+std::optional<Eigen::Vector3d> optional_vector(JsonObject& object, const std::string& key, Range range) {
+  const json* value = object.find(key);
+  if (value == nullptr) return std::nullopt;
+  Eigen::Vector3d out;
+  object.read_vector(key, out, range);
+  return out;
+}
+
+AccelerometerCalibration read_accelerometer(JsonObject object) {
+  AccelerometerCalibration out;
+  std::string model;
+  object.require("model");
+  object.read_text("model", model);
+  if (model == "scalar_offset") {
+    out.model = AccelerometerModel::kScalarOffset;
+  } else if (model == "linear") {
+    out.model = AccelerometerModel::kLinear;
+  } else if (model == "quadric") {
+    out.model = AccelerometerModel::kQuadric;
+  } else {
+    object.fail("model", fmt::format("'{}' is not scalar_offset, linear or quadric", model));
+  }
+  const int width = out.model == AccelerometerModel::kQuadric ? 9 : 3;
+  object.require("B");
+  object.read_matrix("B", out.B, {width});
+  require_invertible(object, out.B.leftCols<3>());
+  object.require("C");
+  object.read_vector("C", out.C);
+  object.read_vector("residual_counts", out.residual_counts, kNotNegative);
+  object.read_matrix("stderr", out.standard_errors, {width + 1});
+  object.read_bool("rotation_known", out.rotation_known);
+  out.position_in_marker_m = optional_vector(object, "position_in_marker_m", kWithinMetres);
+  object.finish();
+  return out;
+}
+
+GyroscopeCalibration read_gyroscope(JsonObject object) {
+  GyroscopeCalibration out;
+  Eigen::Matrix<double, 3, Eigen::Dynamic> B;
+  object.require("B");
+  object.read_matrix("B", B, {3});
+  out.B = B;
+  require_invertible(object, out.B);
+  object.require("C");
+  object.read_vector("C", out.C);
+  object.finish();
+  return out;
+}
+
+ForceCalibration read_force(JsonObject object) {
+  ForceCalibration out;
+  object.require("newton_per_count");
+  object.read_number("newton_per_count", out.newton_per_count);
+  object.read_number("offset_newton", out.offset_newton);
+  object.read_number("residual_newton", out.residual_newton, kNotNegative);
+  out.axis_in_marker = optional_vector(object, "axis_in_marker", {});
+  if (out.axis_in_marker && !(out.axis_in_marker->norm() > 0.0)) object.fail("axis_in_marker", "has no direction");
+  object.finish();
+  return out;
+}
+
+TrackerCalibration read_tracker(JsonObject object) {
+  TrackerCalibration out;
+  object.read_vector("sigma_position_m", out.sigma_position_m, {0.0, 100.0});
+  object.read_vector("sigma_rotation_rad", out.sigma_rotation_rad, {0.0, 10.0});
+  object.read_number("latency_s", out.latency_s, {-10.0, 10.0});
+  object.read_number("latency_sigma_s", out.latency_sigma_s, {0.0, 10.0});
+  object.finish();
+  return out;
+}
+
+int required_int(JsonObject& object, const std::string& key, std::int64_t low, std::int64_t high) {
+  std::int64_t value = 0;
+  object.require(key);
+  object.read_integer(key, value, low, high);
+  return static_cast<int>(value);
+}
+
+CameraCalibration read_camera(JsonObject object) {
+  CameraCalibration out;
+  out.width = required_int(object, "width", 1, 100'000);
+  out.height = required_int(object, "height", 1, 100'000);
+  for (const auto& [key, target] : {std::pair{"fx", &out.fx}, {"fy", &out.fy}, {"cx", &out.cx}, {"cy", &out.cy}}) {
+    object.require(key);
+    const bool focal = key[0] == 'f';
+    object.read_number(key, *target, focal ? Range{1e-3, 1e7} : Range{-1e7, 1e7});
+  }
+  if (object.find("distortion") != nullptr) {
+    out.distortion.resize(5);
+    object.read_numbers("distortion", out.distortion.data(), 5);
+  }
+  object.finish();
+  return out;
+}
+
+MarkerPlacement read_marker(JsonObject object) {
+  MarkerPlacement out;
+  out.id = required_int(object, "id", 0, 1'000'000);
+  object.require("family");
+  object.read_text("family", out.family);
+  object.require("size_m");
+  object.read_number("size_m", out.size_m, {1e-6, 100.0});
+  object.require("T_marker_tag");
+  double pose[7] = {};
+  object.read_numbers("T_marker_tag", pose, 7);
+  out.T_marker_tag.translation_m = {pose[0], pose[1], pose[2]};
+  out.T_marker_tag.rotation = {pose[3], pose[4], pose[5], pose[6]};
+  if (make_unit(out.T_marker_tag.rotation) == QuaternionState::kUnusable) {
+    object.fail("T_marker_tag", "its quaternion is not of length one");
+  }
+  object.finish();
+  return out;
+}
+
+}  // namespace
+
+Calibration parse_calibration(std::string_view text, const std::string& name, const ReadLimits& limits) {
+  const json root = parse_json(text, name, limits);
+  JsonObject object(root, name, "");
+  object.require_format("asperity-calibration");
+  Calibration out;
+  out.accelerometer = read_accelerometer(object.required_object("accelerometer"));
+  if (auto gyroscope = object.object("gyroscope")) out.gyroscope = read_gyroscope(*gyroscope);
+  out.force = read_force(object.required_object("force"));
+  object.require("tip_in_marker_m");
+  object.read_vector("tip_in_marker_m", out.tip_in_marker_m, kWithinMetres);
+  object.read_number("tip_radius_m", out.tip_radius_m, {0.0, 1.0});
+  if (auto tracker = object.object("tracker")) out.tracker = read_tracker(*tracker);
+  if (auto camera = object.object("camera")) out.camera = read_camera(*camera);
+  if (const json* markers = object.find("markers")) {
+    if (!markers->is_array()) object.fail("markers", "must be an array");
+    for (std::size_t i = 0; i < markers->size(); ++i) {
+      out.markers.push_back(read_marker(JsonObject((*markers)[i], name, fmt::format("markers[{}]", i))));
+    }
+  }
+  if (auto extra = object.object("extra")) {
+    json rest = root.at("extra");
+    const auto take = [&](const std::string& key, double& value, Range range) {
+      extra->read_number(key, value, range);
+      rest.erase(key);
+    };
+    take("accelerometer_position_sigma_m", out.accelerometer.position_sigma_m, {0.0, 100.0});
+    take("accelerometer_rotation_sigma_rad", out.accelerometer.rotation_sigma_rad, {0.0, 4.0});
+    take("probe_latency_s", out.probe_latency_s, {-10.0, 10.0});
+    take("probe_latency_sigma_s", out.probe_latency_sigma_s, {0.0, 10.0});
+    out.extra_json = rest.dump();
+  }
+  object.finish();
+  return out;
+}
+
+}  // namespace asperity

@@ -1,0 +1,148 @@
+#include <cmath>
+
+#include "asperity/recording/parse.h"
+#include "csv_rows.h"
+#include "pose_rows.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// A sensor slower than the rows may have no sample here, but not half of one.
+Eigen::Vector3d slow_sample(const CsvReader& csv, const Columns3& columns, double limit, RowProblems& problems) {
+  const Eigen::Vector3d sample = numbers3(csv, columns);
+  if (sample.array().isNaN().all() || within(sample, limit)) return sample;
+  problems.add("bad_sample", csv.line(), "a sample that is no reading; it was taken as missing");
+  return Eigen::Vector3d::Constant(kNan);
+}
+
+double slow_sample(const CsvReader& csv, std::size_t column, double limit, RowProblems& problems) {
+  const double sample = number_or_nan(csv, column);
+  if (std::isnan(sample) || std::abs(sample) <= limit) return sample;
+  problems.add("bad_sample", csv.line(), "a sample that is no reading; it was taken as missing");
+  return kNan;
+}
+
+}  // namespace
+
+ProbeStream parse_probe_csv(std::string_view text, const std::string& name, Problems& problems,
+                            const ReadLimits& limits) {
+  CsvReader csv(checked_lines(text, name), name);
+  const std::size_t time = csv.require("t_ns");
+  const Columns3 accel = require3(csv, "accel_i", "accel_j", "accel_k");
+  const std::size_t force = csv.require("force");
+  const auto gyro = find3(csv, "gyro_i", "gyro_j", "gyro_k");
+  const auto force3 = find3(csv, "force_x", "force_y", "force_z");
+
+  ProbeStream out;
+  std::vector<std::uint32_t> line;
+  const std::size_t rows = estimate_rows(text);
+  out.t_ns.reserve(rows);
+  out.accel_counts.reserve(rows);
+  out.force_counts.reserve(rows);
+  if (gyro) out.gyro_counts.reserve(rows);
+  if (force3) out.force3_counts.reserve(rows);
+  line.reserve(rows);
+
+  RowProblems row_problems(name);
+  while (csv.next()) {
+    const auto t_ns = row_time(csv, time, row_problems);
+    if (!t_ns) continue;
+    const Eigen::Vector3d sample = numbers3(csv, accel);
+    if (!within(sample, limits.largest_counts)) {
+      row_problems.add("bad_acceleration", csv.line(), "the acceleration is no reading; the row was left out");
+      continue;
+    }
+    out.t_ns.push_back(*t_ns);
+    line.push_back(static_cast<std::uint32_t>(csv.line()));
+    out.accel_counts.push_back(sample);
+    out.force_counts.push_back(slow_sample(csv, force, limits.largest_counts, row_problems));
+    if (gyro) out.gyro_counts.push_back(slow_sample(csv, *gyro, limits.largest_counts, row_problems));
+    if (force3) out.force3_counts.push_back(slow_sample(csv, *force3, limits.largest_counts, row_problems));
+  }
+  note_truncation(csv, row_problems);
+  const RowOrder order = order_rows(out.t_ns, line, name, limits, row_problems);
+  order.apply(out.t_ns);
+  order.apply(out.accel_counts);
+  order.apply(out.force_counts);
+  order.apply(out.gyro_counts);
+  order.apply(out.force3_counts);
+  row_problems.append_to(problems);
+  return out;
+}
+
+TrackerStream parse_tracker_csv(std::string_view text, const std::string& name, Problems& problems,
+                                const ReadLimits& limits) {
+  CsvReader csv(checked_lines(text, name), name);
+  const std::size_t time = csv.require("t_ns");
+  const PoseColumns columns(csv);
+  const auto markers = csv.find("markers");
+  const auto reprojection = csv.find("reprojection_px");
+
+  TrackerStream out;
+  std::vector<std::uint32_t> line;
+  RowProblems row_problems(name);
+  while (csv.next()) {
+    const auto t_ns = row_time(csv, time, row_problems);
+    if (!t_ns) continue;
+    const auto pose = row_pose(csv, columns, limits, row_problems);
+    if (!pose) continue;
+    if (markers) {
+      const std::int64_t seen = csv.empty(*markers) ? 0 : csv.integer(*markers);
+      if (seen < 0 || seen > 1'000'000) csv.fail(*markers, "is no number of markers");
+      out.markers.push_back(static_cast<int>(seen));
+    }
+    if (reprojection) out.reprojection_px.push_back(number_or_nan(csv, *reprojection));
+    out.t_ns.push_back(*t_ns);
+    line.push_back(static_cast<std::uint32_t>(csv.line()));
+    out.T_world_marker.push_back(*pose);
+  }
+  note_truncation(csv, row_problems);
+  const RowOrder order = order_rows(out.t_ns, line, name, limits, row_problems);
+  order.apply(out.t_ns);
+  order.apply(out.T_world_marker);
+  order.apply(out.markers);
+  order.apply(out.reprojection_px);
+  row_problems.append_to(problems);
+  return out;
+}
+
+Truth parse_truth_csv(std::string_view text, const std::string& name, Problems& problems, const ReadLimits& limits) {
+  CsvReader csv(checked_lines(text, name), name);
+  const std::size_t time = csv.require("t_ns");
+  const std::size_t s = csv.require("s_m");
+  const std::size_t height = csv.require("height_m");
+  const PoseColumns columns(csv);
+  const std::size_t force = csv.require("force_N");
+
+  Truth out;
+  std::vector<std::uint32_t> line;
+  RowProblems row_problems(name);
+  while (csv.next()) {
+    const auto t_ns = row_time(csv, time, row_problems);
+    if (!t_ns) continue;
+    const auto pose = row_pose(csv, columns, limits, row_problems);
+    if (!pose) continue;
+    out.t_ns.push_back(*t_ns);
+    line.push_back(static_cast<std::uint32_t>(csv.line()));
+    out.s_m.push_back(slow_sample(csv, s, limits.largest_position_m, row_problems));
+    out.height_m.push_back(slow_sample(csv, height, limits.largest_position_m, row_problems));
+    out.p_world_tip_m.push_back(pose->translation_m);
+    out.q_world_marker.push_back(pose->rotation);
+    out.force_N.push_back(slow_sample(csv, force, limits.largest_counts, row_problems));
+  }
+  note_truncation(csv, row_problems);
+  const RowOrder order = order_rows(out.t_ns, line, name, limits, row_problems);
+  order.apply(out.t_ns);
+  order.apply(out.s_m);
+  order.apply(out.height_m);
+  order.apply(out.p_world_tip_m);
+  order.apply(out.q_world_marker);
+  order.apply(out.force_N);
+  row_problems.append_to(problems);
+  return out;
+}
+
+}  // namespace asperity

@@ -1,0 +1,52 @@
+#include "asperity/recording/read_recording.h"
+
+#include <nlohmann/json.hpp>
+
+#include "asperity/base/csv.h"
+#include "asperity/base/error.h"
+#include "asperity/recording/parse.h"
+
+namespace asperity {
+
+namespace fs = std::filesystem;
+
+Calibration read_calibration(const fs::path& path, const ReadLimits& limits) {
+  return parse_calibration(read_file(path, limits.json_bytes), path.string(), limits);
+}
+
+Truth read_truth(const fs::path& path, Problems& problems, const ReadLimits& limits) {
+  return parse_truth_csv(read_file(path, limits.csv_bytes), path.string(), problems, limits);
+}
+
+Recording read_recording(const fs::path& folder, const ReadLimits& limits) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) throw Error(folder.string() + ": not a recording folder");
+  const fs::path info = folder / "recording.json";
+  if (!fs::exists(info, error)) throw Error(folder.string() + ": not a recording: recording.json is missing");
+  Recording out;
+  out.info = parse_recording_info(read_file(info, limits.json_bytes), info.string(), limits);
+  const fs::path calibration = folder / "calibration.json";
+  if (!fs::exists(calibration, error)) {
+    throw Error(folder.string() + ": calibration.json is missing; counts and poses mean nothing without it");
+  }
+  out.calibration = read_calibration(calibration, limits);
+  const fs::path probe = folder / "probe.csv";
+  out.probe = parse_probe_csv(read_file(probe, limits.csv_bytes), probe.string(), out.problems, limits);
+  const fs::path tracker = folder / "tracker.csv";
+  out.tracker = parse_tracker_csv(read_file(tracker, limits.csv_bytes), tracker.string(), out.problems, limits);
+  const fs::path truth = folder / "truth.csv";
+  if (fs::exists(truth, error)) out.truth = read_truth(truth, out.problems, limits);
+  return out;
+}
+
+bool is_recording_folder(const fs::path& folder) noexcept {
+  try {
+    constexpr std::uint64_t kLargest_bytes = std::uint64_t{64} << 20;
+    const auto root = nlohmann::json::parse(read_file(folder / "recording.json", kLargest_bytes), nullptr, false);
+    return root.is_object() && root.value("format", "") == "asperity-recording";
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+}  // namespace asperity

@@ -1,0 +1,26 @@
+#include "asperity/recording/write_recording.h"
+
+#include "asperity/base/output.h"
+#include "asperity/recording/format.h"
+#include "asperity/recording/validate.h"
+
+namespace asperity {
+
+void write_recording_info(const std::filesystem::path& path, const RecordingInfo& info) {
+  write_file(path, format_recording_info(info));
+}
+
+void write_calibration(const std::filesystem::path& path, const Calibration& calibration) {
+  write_file(path, format_calibration(calibration));
+}
+
+void write_recording(const std::filesystem::path& folder, const Recording& recording) {
+  validate_recording(recording);
+  write_file(folder / "probe.csv", format_probe_csv(recording.probe));
+  write_file(folder / "tracker.csv", format_tracker_csv(recording.tracker));
+  if (recording.truth) write_file(folder / "truth.csv", format_truth_csv(*recording.truth));
+  write_calibration(folder / "calibration.json", recording.calibration);
+  write_recording_info(folder / "recording.json", recording.info);
+}
+
+}  // namespace asperity

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "asperity/texture/fourier1d.h"
+
+namespace asperity {
+
+// What a texture was made from and by.
+struct TextureSource {
+  std::string recording;
+  std::string config_json;  // the resolved config; empty if unknown
+  std::string version;
+};
+
+// A haptic texture, the content of a *.texture.json. Of the models this version has fourier1d.
+struct Texture {
+  std::string name;
+  Fourier1d fourier1d;
+
+  std::optional<double> compliance_kc;                      // k_c, within 0 and 1 (seed §5.3)
+  std::optional<double> stiffness_N_per_m;                  // overrides the scene's
+  std::optional<double> friction;                           // coefficient; overrides the scene's
+  std::optional<double> lift_m;                             // added to the height (erratum 20)
+  std::map<std::string, double> roughness;                  // by name: Ra_m, Rq_m, RSm_m, Rsk, …
+  std::optional<std::array<double, 2>> band_cycles_per_mm;  // low, high
+  TextureSource source;
+  std::string extra_json = "{}";
+};
+
+}  // namespace asperity

@@ -1,0 +1,126 @@
+#include "asperity/texture/texture_file.h"
+
+#include <limits>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "asperity/base/error.h"
+#include "asperity/testkit/temp_dir.h"
+
+namespace asperity {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+Texture whole_texture() {
+  Texture t;
+  t.name = "sand \"paper\" µ";
+  t.fourier1d = {10.0, {1.0 / 3.0, -2e-6, 0.0}, {5e-324, 4e-6, 1e-6}, 1e-7};
+  t.compliance_kc = 0.9556;
+  t.stiffness_N_per_m = 1200.0;
+  t.friction = 0.3;
+  t.lift_m = 1.25e-4;
+  t.roughness = {{"Ra_m", 1e-5}, {"Rsk", -0.2}};
+  t.band_cycles_per_mm = {0.1, 4.0};
+  t.source = {"scan one", R"({"coefficients":128})", "0.1.0"};
+  t.extra_json = R"({"note":[1,2]})";
+  return t;
+}
+
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = format_texture(whole_texture());
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+void expect_error(const std::string& text, const std::string& place, const std::string& message) {
+  EXPECT_THAT([&] { parse_texture(text, "x.json"); }, ThrowsMessage<Error>(AllOf(HasSubstr(place), HasSubstr(message))))
+      << text.substr(0, 300);
+}
+
+TEST(TextureFile, ComesBackAsItWas) {
+  const testkit::TempDir dir;
+  const auto path = dir.path() / "a.texture.json";
+  const Texture t = whole_texture();
+  write_texture(path, t);
+  const Texture back = read_texture(path);
+  EXPECT_EQ(back.name, t.name);
+  EXPECT_EQ(back.fourier1d.length_mm, 10.0);
+  EXPECT_EQ(back.fourier1d.a_m, t.fourier1d.a_m);
+  EXPECT_EQ(back.fourier1d.b_m, t.fourier1d.b_m);
+  EXPECT_EQ(back.fourier1d.mean_m, t.fourier1d.mean_m);
+  EXPECT_EQ(back.compliance_kc, t.compliance_kc);
+  EXPECT_EQ(back.stiffness_N_per_m, t.stiffness_N_per_m);
+  EXPECT_EQ(back.friction, t.friction);
+  EXPECT_EQ(back.lift_m, t.lift_m);
+  EXPECT_EQ(back.roughness, t.roughness);
+  EXPECT_EQ(back.band_cycles_per_mm, t.band_cycles_per_mm);
+  EXPECT_EQ(back.source.recording, t.source.recording);
+  EXPECT_EQ(back.source.config_json, t.source.config_json);
+  EXPECT_EQ(back.source.version, t.source.version);
+  EXPECT_EQ(back.extra_json, t.extra_json);
+  EXPECT_EQ(format_texture(back), format_texture(t));
+}
+
+TEST(TextureFile, ReadsTheContractsExample) {
+  const Texture t = parse_texture(R"({"format":"asperity-texture","version":1,"name":"x","model":"fourier1d",
+ "fourier1d":{"length_mm":10,"omega_rad_per_mm":0.6283,"a_m":[1e-6],"b_m":[0],"mean_m":0},
+ "roughness":{"Ra_m":1e-6},"band_cycles_per_mm":[0.15,4],"source":{"recording":"r","config":{},"version":"1"},"extra":{}})",
+                                  "x.json");
+  EXPECT_EQ(t.fourier1d.a_m.at(0), 1e-6);
+  EXPECT_FALSE(t.friction.has_value());
+}
+
+TEST(TextureFile, NamesFileLineAndKeyOfWhatIsWrong) {
+  expect_error("", "x.json:1: ", "not JSON");
+  expect_error("{\n\"format\": 1,\n,}", "x.json:3: ", "not JSON");
+  expect_error("[]", "x.json:1: ", "not a JSON object");
+  expect_error("{}", "x.json:1: ", "the key 'format' is missing");
+  expect_error(with("asperity-texture", "asperity-scene"), "x.json:2: 'format'", "is not \"asperity-texture\"");
+  expect_error(with("\"version\": 1", "\"version\": 2"), "x.json:3: 'version'", "2 is not a version");
+  expect_error(with("\"model\": \"fourier1d\"", "\"model\": \"wavelet\""), "x.json:5: 'model'",
+               "'wavelet' is not a model");
+  expect_error(with("\"friction\"", "\"fricton\""), "'fricton'", "is not a key of this format");
+  expect_error(with("\"mean_m\"", "\"man_m\""), "x.json:11: 'fourier1d.man_m'", "is not a key of this format");
+  expect_error(with("\"length_mm\": 10", "\"length_mm\": \"10\""), "x.json:7: 'fourier1d.length_mm'",
+               "is not a number");
+  expect_error(with("\"length_mm\": 10", "\"length_mm\": -10"), "'fourier1d.length_mm'", "-10 is not within");
+  expect_error(with("\"length_mm\": 10", "\"length_mm\": 20"), "x.json:8: 'fourier1d.omega_rad_per_mm'",
+               "is not 2π / length_mm");
+  expect_error(with("-2e-06", "null"), "x.json:9: 'fourier1d.a_m[1]'", "is not a number");
+  expect_error(with("-2e-06", "1e999"), "x.json:9: ", "number overflow");
+  expect_error(with("-2e-06, ", ""), "x.json:10: 'fourier1d.b_m'", "3 numbers where a_m has 2");
+  expect_error(with("0.9556", "1.5"), "x.json:13: 'compliance_kc'", "1.5 is not within 0 and 1");
+  expect_error(with("[0.1, 4]", "[4, 0.1]"), "'band_cycles_per_mm'", "is not [low, high]");
+  expect_error(with("\"lift_m\": ", "\"friction\": 1, \"lift_m\": "),
+               "x.json:16: ", "the key 'friction' appears twice");
+  expect_error(with("{\"note\":[1,2]}", "7"), "'extra'", "is not an object");
+  expect_error(with("[1,2]", std::string(1000, '[') + std::string(1000, ']')), "x.json:20: ", "nested deeper than 32");
+}
+
+TEST(TextureFile, RefusesTooManyCoefficients) {
+  std::string many = "[0";
+  for (int i = 0; i < 65536; ++i) many += ",0";
+  expect_error(with("[0.3333333333333333, -2e-06, 0]", many + "]"), "'fourier1d.a_m'",
+               "65537 numbers, more than 65536");
+}
+
+TEST(TextureFile, WritesOnlyWhatCanBeRead) {
+  Texture t = whole_texture();
+  t.lift_m = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT([&] { format_texture(t); }, ThrowsMessage<Error>(HasSubstr("'lift_m' is nan")));
+  t = whole_texture();
+  t.fourier1d.b_m.pop_back();
+  EXPECT_THAT([&] { format_texture(t); }, ThrowsMessage<Error>(HasSubstr("3 cosine and 2 sine coefficients")));
+  t = whole_texture();
+  t.name = "\xFF";
+  EXPECT_THAT([&] { format_texture(t); }, ThrowsMessage<Error>(HasSubstr("not UTF-8")));
+}
+
+}  // namespace
+}  // namespace asperity

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "asperity/base/problem.h"
+#include "asperity/recording/recording.h"
+#include "asperity/trajectory/smooth_clock.h"
+
+namespace asperity {
+
+struct InertialConfig {
+  double spike_sigmas = 8.0;      // a sample this far from its neighbours, which agree, in two channels is a spike
+  double scale_error = 0.01;      // share of the moving specific force that calibration leaves wrong
+  double saturation_sigma = 0.5;  // standard deviation of a clipped sample, share of the restored or hidden peak
+  double gap_sigma_mps2 = 3.0;    // standard deviation of the specific force across a gap
+  double accel_noise_floor_mps2 = 0.0;  // per sample; 0: from quantisation and the quietest stretch
+  double gyro_noise_floor_radps = 0.0;  // per sample; likewise
+  SmoothClockConfig clock;
+
+  template <class V>
+  void visit(V& v) {
+    v.field("spike_sigmas", spike_sigmas,
+            "a sample this far from its neighbours, which agree, in two channels is a spike", {3, 1000});
+    v.field("scale_error", scale_error, "share of the moving specific force that calibration leaves wrong", {0, 1});
+    v.field("saturation_sigma", saturation_sigma,
+            "standard deviation of a clipped sample, share of the restored or hidden peak", {0, 100});
+    v.field("gap_sigma_mps2", gap_sigma_mps2, "standard deviation of the specific force across a gap, m/s2", {0, 1e4});
+    v.field("accel_noise_floor_mps2", accel_noise_floor_mps2, "accelerometer noise a sample, m/s2; 0: from the data",
+            {0, 1e3});
+    v.field("gyro_noise_floor_radps", gyro_noise_floor_radps, "gyroscope noise a sample, rad/s; 0: from the data",
+            {0, 1e3});
+    v.group("clock", clock);
+  }
+};
+
+// The probe's stream in SI units with the trust that each sample deserves.
+struct InertialStream {
+  std::vector<std::int64_t> t_ns;                    // the clock's jitter removed, rising strictly
+  std::vector<Eigen::Vector3d> specific_force_mps2;  // in the marker frame, or the sensor's if its rotation is unknown
+  std::vector<Eigen::Vector3d> angular_rate_radps;   // zero without a gyroscope
+  std::vector<double> accel_sigma_mps2;              // standard deviation of one sample
+  std::vector<double> gyro_sigma_radps;              // likewise; zero without a gyroscope
+  std::vector<double> force_N;                       // at every sample, interpolated; nan where there is none
+  bool has_gyro = false;
+  double period_s = 0.0;
+  double clock_jitter_s = 0.0;
+  double accel_noise_mps2 = 0.0;  // the floor in use
+  double gyro_noise_radps = 0.0;
+  std::size_t spikes = 0;
+  std::size_t saturated = 0;
+  Problems problems;
+
+  std::size_t size() const { return t_ns.size(); }
+};
+
+// Calibrates the probe's counts (erratum 4) and judges every sample: spikes (seed §4.1) are replaced by
+// their neighbours' mean, clipped peaks are restored by a cubic, and both get a standard deviation that
+// takes their weight. Throws Error if there are fewer than two samples or the calibration is singular.
+InertialStream calibrate_inertial(const Recording& recording, const InertialConfig& config);
+
+}  // namespace asperity

@@ -1,0 +1,443 @@
+#include "inertial_smoother.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace asperity::inertial_smoother {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using Gain = Eigen::Matrix<double, Eigen::Dynamic, 6, 0, kMax, 6>;
+using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMax>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using TopRows = Eigen::Matrix<double, 9, Eigen::Dynamic, 0, 9, kMax>;
+
+// What a segment's noise adds to the nominal motion (zero in the filter, the smoothed value after it).
+struct Noise {
+  Vector3d dv = Vector3d::Zero();
+  Vector3d dphi = Vector3d::Zero();
+  Vector3d dbg = Vector3d::Zero();
+};
+
+// The state between two knots, with what its linearisation needs.
+struct Step {
+  Matrix3d R0;      // at the first knot
+  Vector3d A;       // mean of R f over the segment, gravity not in it
+  Vector3d a0;      // acceleration at the first knot
+  Vector3d omega;   // mean angular rate, marker frame
+  Vector3d omega0;  // at the first knot
+};
+
+Step advance(Nominal& x, const Knot& k0, const Knot& k1, const Matrix3d& M, const Vector3d& gravity,
+             const Noise& noise) {
+  const double dt = k1.t - k0.t;
+  Step step;
+  step.R0 = x.q.toRotationMatrix();
+  step.omega0 = M * k0.w - x.bg;
+  step.omega = M * (0.5 * (k0.w + k1.w)) - x.bg;
+  const Vector3d A0 = step.R0 * (M * k0.f - x.ba);
+  x.q = (x.q * exp_rotation(step.omega * dt)).normalized();
+  const Vector3d A1 = x.q * (M * k1.f - x.ba);
+  step.A = 0.5 * (A0 + A1);
+  step.a0 = A0 + gravity;
+  x.p += dt * x.v + dt * dt * ((2.0 * A0 + A1) / 6.0 + 0.5 * gravity) + 0.5 * dt * noise.dv;
+  x.v += dt * (step.A + gravity) + noise.dv;
+  x.q = exp_rotation(noise.dphi) * x.q;
+  x.bg += noise.dbg;
+  return step;
+}
+
+// Φ − I of an interval: only the rows of p, v and φ differ from zero (docs/trajectory.md).
+struct Transition {
+  Vector3d sv = Vector3d::Zero(), sp = Vector3d::Zero();  // ∫A, ∬A: the effect of φ is −[s]×
+  Matrix3d g1 = Matrix3d::Zero(), g2 = Matrix3d::Zero();  // ∫R, ∬R: of the accelerometer's bias
+  Matrix3d vbg = Matrix3d::Zero(), pbg = Matrix3d::Zero();
+  Matrix3d vmu = Matrix3d::Zero(), pmu = Matrix3d::Zero(), phimu = Matrix3d::Zero();
+  double T = 0.0;
+  double qpp = 0.0, qpv = 0.0, qvv = 0.0, qphi = 0.0;
+
+  void extend(const Step& s, const Knot& k0, double dt, const Vector3d& f_marker, bool misalignment, double scale) {
+    const double half = 0.5 * dt * dt;
+    if (misalignment) {
+      const Matrix3d force = -(s.R0 * skew(f_marker)) - skew(s.A) * phimu;
+      pmu += dt * vmu + half * force;
+      vmu += dt * force;
+      phimu -= dt * s.R0 * skew(s.omega);
+    }
+    const Matrix3d leak = skew(s.A) * (g1 + 0.5 * dt * s.R0);
+    pbg += dt * vbg + half * leak;
+    vbg += dt * leak;
+    g2 += dt * g1 + half * s.R0;
+    g1 += dt * s.R0;
+    sp += dt * sv + half * s.A;
+    sv += dt * s.A;
+    const double white = scale * k0.accel_psd * dt;
+    qpp += dt * (2.0 * qpv + dt * qvv) + 0.25 * dt * dt * white;
+    qpv += dt * qvv + 0.5 * dt * white;
+    qvv += white;
+    qphi += k0.gyro_psd * dt;
+    T += dt;
+  }
+
+  TopRows rows(const Layout& layout) const {
+    TopRows U = TopRows::Zero(9, layout.size);
+    U.block<3, 3>(kP, kV).diagonal().setConstant(T);
+    U.block<3, 3>(kP, kPhi) = -skew(sp);
+    U.block<3, 3>(kP, kBa) = -g2;
+    U.block<3, 3>(kP, kBg) = pbg;
+    U.block<3, 3>(kV, kPhi) = -skew(sv);
+    U.block<3, 3>(kV, kBa) = -g1;
+    U.block<3, 3>(kV, kBg) = vbg;
+    U.block<3, 3>(kPhi, kBg) = -g1;
+    if (layout.misalignment >= 0) {
+      U.block<3, 3>(kP, layout.misalignment) = pmu;
+      U.block<3, 3>(kV, layout.misalignment) = vmu;
+      U.block<3, 3>(kPhi, layout.misalignment) = phimu;
+    }
+    return U;
+  }
+
+  void add_noise(const Problem& problem, Square& P) const {
+    const double rate = problem.rate_scale * problem.gyro_bias_psd;
+    const Matrix3d mean_R = T > 0.0 ? Matrix3d(g1 / T) : Matrix3d::Identity();
+    P.block<3, 3>(kP, kP).diagonal().array() += qpp;
+    P.block<3, 3>(kP, kV).diagonal().array() += qpv;
+    P.block<3, 3>(kV, kP).diagonal().array() += qpv;
+    P.block<3, 3>(kV, kV).diagonal().array() += qvv;
+    P.block<3, 3>(kPhi, kPhi).diagonal().array() += qphi + rate * T * T * T / 3.0;
+    P.block<3, 3>(kPhi, kBg) -= 0.5 * rate * T * T * mean_R;
+    P.block<3, 3>(kBg, kPhi) -= 0.5 * rate * T * T * mean_R.transpose();
+    P.block<3, 3>(kBg, kBg).diagonal().array() += rate * T;
+    P.block<3, 3>(kBa, kBa).diagonal().array() += problem.accel_bias_psd * T;
+  }
+};
+
+// P ← Φ P Φᵀ with Φ = I + U.
+void propagate(Square& P, const TopRows& U) {
+  const TopRows UP = U * P;
+  P.topRows(9) += UP;
+  const Eigen::Matrix<double, Eigen::Dynamic, 9, 0, kMax, 9> PU = P * U.transpose();
+  P.leftCols(9) += PU;
+}
+
+// Λ ← Φᵀ Λ Φ.
+void propagate_back(Square& L, const TopRows& U) {
+  const Square UL = U.transpose() * L.topRows(9);
+  L += UL;
+  const Square LU = L.leftCols(9) * U;
+  L += LU;
+}
+
+void apply(const State& d, const Layout& layout, Nominal& x) {
+  x.p += d.segment<3>(kP);
+  x.v += d.segment<3>(kV);
+  x.q = (exp_rotation(d.segment<3>(kPhi)) * x.q).normalized();
+  x.ba += d.segment<3>(kBa);
+  x.bg += d.segment<3>(kBg);
+  if (layout.latency >= 0) x.latency += d[layout.latency];
+  if (layout.lever >= 0) x.lever += d.segment<3>(layout.lever);
+  if (layout.misalignment >= 0) {
+    x.misalignment = (exp_rotation(d.segment<3>(layout.misalignment)) * x.misalignment).normalized();
+  }
+}
+
+struct Predicted {
+  Vector6d residual;  // measured minus predicted: position, rotation (world)
+  Jacobian H;
+  Vector3d v_marker;
+};
+
+Predicted predict_pose(const Nominal& x, const Vector3d& omega, const Pose& pose, const Layout& layout) {
+  Predicted out;
+  const Matrix3d R = x.q.toRotationMatrix();
+  const Vector3d arm = R * x.lever;
+  const Vector3d omega_world = R * omega;
+  out.v_marker = x.v - omega_world.cross(arm);
+  out.residual.head<3>() = pose.translation_m - (x.p - arm - out.v_marker * x.latency);
+  out.residual.tail<3>() = log_rotation(pose.rotation * x.q.conjugate()) + omega_world * x.latency;
+  out.H = Jacobian::Zero(6, layout.size);
+  out.H.block<3, 3>(0, kP).setIdentity();
+  out.H.block<3, 3>(0, kPhi) = skew(arm);
+  out.H.block<3, 3>(3, kPhi).setIdentity();
+  if (layout.latency >= 0) {
+    out.H.block<3, 1>(0, layout.latency) = -out.v_marker;
+    out.H.block<3, 1>(3, layout.latency) = -omega_world;
+  }
+  if (layout.lever >= 0) out.H.block<3, 3>(0, layout.lever) = -R;
+  return out;
+}
+
+// The weight of a measurement whose normalised square is d2: 1 inside the gate, falling as 1/d⁴.
+double redescending(double d2, double gate) { return d2 <= gate ? 1.0 : (gate / d2) * (gate / d2); }
+
+struct Record {
+  Nominal x;  // after the update
+  Square P;   // after the update
+  Gain K;
+  Jacobian H;
+  Matrix6d S_inverse;
+  Vector6d y;
+  bool updated = false;
+};
+
+struct Forward {
+  std::vector<Record> records;  // per epoch; empty if only the likelihood was wanted
+  double log_likelihood = 0.0;
+};
+
+Matrix3d misalignment_of(const Nominal& x) { return x.misalignment.toRotationMatrix(); }
+
+Forward run_forward(const Problem& problem, bool keep, const Observer& observer) {
+  const Layout& layout = problem.layout;
+  Forward out;
+  if (keep) out.records.resize(problem.epochs.size());
+  Nominal x = problem.start;
+  Square P = problem.start_covariance;
+  int rejected_in_a_row = 0;
+  for (std::size_t e = 0; e < problem.epochs.size(); ++e) {
+    if (e > 0) {
+      const Matrix3d M = misalignment_of(x);
+      Transition transition;
+      for (std::size_t k = problem.epochs[e - 1].knot; k < problem.epochs[e].knot; ++k) {
+        const Knot& k0 = problem.knots[k];
+        const Knot& k1 = problem.knots[k + 1];
+        const Step step = advance(x, k0, k1, M, problem.gravity, {});
+        transition.extend(step, k0, k1.t - k0.t, M * (0.5 * (k0.f + k1.f)), layout.misalignment >= 0,
+                          problem.process_scale);
+      }
+      propagate(P, transition.rows(layout));
+      transition.add_noise(problem, P);
+      P = (0.5 * (P + P.transpose())).eval();
+    }
+    Record record;
+    const std::int64_t pose = problem.epochs[e].pose;
+    if (pose >= 0) {
+      const auto i = static_cast<std::size_t>(pose);
+      const Vector3d omega = misalignment_of(x) * problem.knots[problem.epochs[e].knot].w - x.bg;
+      const Predicted predicted = predict_pose(x, omega, problem.poses[i], layout);
+      const Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMax> HP = predicted.H * P;
+      Matrix6d S = HP * predicted.H.transpose();
+      const Vector3d timing = predicted.v_marker * problem.time_sigma;
+      Matrix6d noise = Matrix6d::Zero();
+      noise.diagonal().head<3>() = problem.sigma_position.cwiseAbs2();
+      noise.diagonal().tail<3>() = problem.sigma_rotation.cwiseAbs2();
+      noise.topLeftCorner<3, 3>() += timing * timing.transpose();
+      double wp = problem.position_weight[i];
+      double wr = problem.rotation_weight[i];
+      if (problem.gate_innovations) {
+        const Matrix6d trial = S + noise;
+        const Vector3d yp = predicted.residual.head<3>();
+        const Vector3d yr = predicted.residual.tail<3>();
+        wp = redescending(yp.dot(trial.topLeftCorner<3, 3>().ldlt().solve(yp)), problem.gate_chi2);
+        wr = redescending(yr.dot(trial.bottomRightCorner<3, 3>().ldlt().solve(yr)), problem.gate_chi2);
+        // A filter that refuses everything is itself wrong: after a dozen poses it listens again.
+        rejected_in_a_row = wp < 0.05 || wr < 0.05 ? rejected_in_a_row + 1 : 0;
+        if (rejected_in_a_row > 12) wp = wr = 1.0, rejected_in_a_row = 0;
+      }
+      // A pose with a wrong orientation seldom has the right position.
+      wp = std::min(wp, std::sqrt(wr));
+      noise.topLeftCorner<3, 3>() /= std::max(wp, 1e-9);
+      noise.bottomRightCorner<3, 3>() /= std::max(wr, 1e-9);
+      S += noise;
+      const Eigen::LLT<Matrix6d> factor(S);
+      const Matrix6d S_inverse = factor.solve(Matrix6d::Identity());
+      const Gain K = HP.transpose() * S_inverse;
+      const Vector6d& y = predicted.residual;
+      const double d2 = y.dot(S_inverse * y);
+      const Vector6d diagonal = factor.matrixL().toDenseMatrix().diagonal();
+      // Down-weighted poses are left out of the likelihood: their share would reward a bad model.
+      if (wp > 0.5 && wr > 0.5) {
+        out.log_likelihood -= 0.5 * std::min(d2, 2.0 * problem.gate_chi2) + diagonal.array().log().sum();
+      } else if (problem.gate_innovations) {
+        out.log_likelihood -= problem.gate_chi2 + diagonal.array().log().sum();
+      }
+      apply(K * y, layout, x);
+      P -= K * HP;
+      P = (0.5 * (P + P.transpose())).eval();
+      if (keep) {
+        record.K = K;
+        record.H = predicted.H;
+        record.S_inverse = S_inverse;
+        record.y = y;
+        record.updated = true;
+      }
+    }
+    if (keep) {
+      record.x = x;
+      record.P = P;
+      out.records[e] = std::move(record);
+      if (e % 256 == 0) observer.update("filter", static_cast<double>(e) / static_cast<double>(problem.epochs.size()));
+    }
+  }
+  return out;
+}
+
+// Shares the small second-order difference between the end of one interval and the start of the next
+// over the interval, so that the path has no steps.
+struct Seam {
+  Vector3d p = Vector3d::Zero();
+  Vector3d v = Vector3d::Zero();
+  Vector3d phi = Vector3d::Zero();
+};
+
+}  // namespace
+
+double log_likelihood(const Problem& problem) { return run_forward(problem, false, {}).log_likelihood; }
+
+Smoothed smooth(const Problem& problem, const Vector3d& tip_in_marker, const Observer& observer) {
+  const Layout& layout = problem.layout;
+  const int n = layout.size;
+  const std::vector<Record> records = run_forward(problem, true, observer).records;
+  const std::size_t epochs = records.size();
+  std::size_t samples = 0;
+  for (const Knot& knot : problem.knots) samples += knot.sample >= 0;
+
+  Smoothed out;
+  out.sample.resize(samples);
+  out.p.resize(samples);
+  out.v.resize(samples);
+  out.a.resize(samples);
+  out.omega_world.resize(samples);
+  out.q.resize(samples);
+  out.position_residual.assign(problem.poses.size(), Vector3d::Zero());
+  out.rotation_residual.assign(problem.poses.size(), Vector3d::Zero());
+  out.epoch_t.resize(epochs);
+  out.tip_covariance.resize(epochs);
+  out.last_sigma = records.back().P.diagonal().cwiseMax(0.0).cwiseSqrt();
+
+  State lambda = State::Zero(n);  // the adjoint after the epoch in hand
+  Square Lambda = Square::Zero(n, n);
+  std::vector<Step> steps;
+  std::vector<Nominal> path;
+  std::vector<Noise> noises;
+  Nominal next;  // the smoothed state at the epoch after the one in hand
+  std::size_t place = samples;
+
+  for (std::size_t e = epochs; e-- > 0;) {
+    const Record& record = records[e];
+    const Nominal filtered = record.x;
+    State lambda_end = lambda;  // at the end of the interval that begins here, before that epoch's update
+    TopRows U;
+    const std::size_t first = problem.epochs[e].knot;
+    const std::size_t last = e + 1 < epochs ? problem.epochs[e + 1].knot : first;
+    const Matrix3d M = misalignment_of(filtered);
+    if (e + 1 < epochs) {
+      Nominal x = filtered;
+      Transition transition;
+      steps.clear();
+      for (std::size_t k = first; k < last; ++k) {
+        const Knot& k0 = problem.knots[k];
+        const Knot& k1 = problem.knots[k + 1];
+        steps.push_back(advance(x, k0, k1, M, problem.gravity, {}));
+        transition.extend(steps.back(), k0, k1.t - k0.t, M * (0.5 * (k0.f + k1.f)), layout.misalignment >= 0,
+                          problem.process_scale);
+      }
+      U = transition.rows(layout);
+      lambda += (U.transpose() * lambda_end.head(9)).eval();
+      propagate_back(Lambda, U);
+    }
+
+    Nominal smoothed = filtered;
+    apply(-(record.P * lambda), layout, smoothed);
+    const Matrix3d R = smoothed.q.toRotationMatrix();
+    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMax> J =
+        Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMax>::Zero(3, n);
+    J.block<3, 3>(0, kP).setIdentity();
+    J.block<3, 3>(0, kPhi) = -skew(R * (tip_in_marker - smoothed.lever));
+    if (layout.lever >= 0) J.block<3, 3>(0, layout.lever) = -R;
+    const Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMax> JP = J * record.P;
+    out.tip_covariance[e] = JP * J.transpose() - JP * Lambda * JP.transpose();
+    out.epoch_t[e] = problem.knots[first].t;
+
+    const std::int64_t pose = problem.epochs[e].pose;
+    if (pose >= 0) {
+      const Vector3d omega = M * problem.knots[first].w - smoothed.bg;
+      const Vector6d residual =
+          predict_pose(smoothed, omega, problem.poses[static_cast<std::size_t>(pose)], layout).residual;
+      out.position_residual[static_cast<std::size_t>(pose)] = residual.head<3>();
+      out.rotation_residual[static_cast<std::size_t>(pose)] = residual.tail<3>();
+    }
+
+    if (e + 1 < epochs) {
+      // Inside the interval the smoothed motion is the dead reckoning from its smoothed start with the
+      // smoothed noise −Q Gᵀ λ(t) as a further input (Bryson and Frazier's form of the smoother).
+      const Vector3d lp = lambda_end.segment<3>(kP);
+      Vector3d lv = lambda_end.segment<3>(kV);
+      Vector3d lphi = lambda_end.segment<3>(kPhi);
+      Vector3d lbg = lambda_end.segment<3>(kBg);
+      noises.resize(steps.size());
+      for (std::size_t k = steps.size(); k-- > 0;) {
+        const Knot& knot = problem.knots[first + k];
+        const double dt = problem.knots[first + k + 1].t - knot.t;
+        const Step& step = steps[k];
+        noises[k].dv = -problem.process_scale * knot.accel_psd * dt * (lv + 0.5 * dt * lp);
+        noises[k].dphi = -knot.gyro_psd * dt * lphi;
+        noises[k].dbg =
+            -problem.rate_scale * problem.gyro_bias_psd * dt * (lbg - 0.5 * dt * (step.R0.transpose() * lphi));
+        lbg -= dt * (step.R0.transpose() * lphi);
+        lphi += step.A.cross(dt * lv + 0.5 * dt * dt * lp);
+        lv += dt * lp;
+      }
+      Nominal x = smoothed;
+      path.resize(steps.size());
+      const Matrix3d Ms = misalignment_of(smoothed);
+      for (std::size_t k = 0; k < steps.size(); ++k) {
+        path[k] = x;
+        steps[k] = advance(x, problem.knots[first + k], problem.knots[first + k + 1], Ms, problem.gravity, noises[k]);
+      }
+      Seam seam;
+      seam.p = next.p - x.p;
+      seam.v = next.v - x.v;
+      seam.phi = log_rotation(next.q * x.q.conjugate());
+      const double t0 = problem.knots[first].t;
+      const double T = problem.knots[last].t - t0;
+      for (std::size_t k = steps.size(); k-- > 0;) {
+        const Knot& knot = problem.knots[first + k];
+        if (knot.sample < 0) continue;
+        const double share = (knot.t - t0) / T;
+        --place;
+        out.sample[place] = knot.sample;
+        out.p[place] = path[k].p + share * seam.p;
+        out.v[place] = path[k].v + share * seam.v;
+        out.q[place] = (exp_rotation(share * seam.phi) * path[k].q).normalized();
+        out.a[place] = steps[k].a0;
+        out.omega_world[place] = steps[k].R0 * steps[k].omega0;
+      }
+    } else {
+      out.last = smoothed;
+      if (problem.knots[first].sample >= 0) {
+        --place;
+        out.sample[place] = problem.knots[first].sample;
+        out.p[place] = smoothed.p;
+        out.v[place] = smoothed.v;
+        out.q[place] = smoothed.q;
+        out.a[place] = smoothed.q * (M * problem.knots[first].f - smoothed.ba) + problem.gravity;
+        out.omega_world[place] = smoothed.q * (M * problem.knots[first].w - smoothed.bg);
+      }
+    }
+    next = smoothed;
+    if (e == 0) out.first = smoothed;
+
+    if (record.updated) {
+      // λ̃ = Cᵀ λ̂ − Hᵀ S⁻¹ y and Λ̃ = Cᵀ Λ̂ C + Hᵀ S⁻¹ H with C = I − K H.
+      const Vector6d correction = record.S_inverse * record.y + record.K.transpose() * lambda;
+      lambda -= record.H.transpose() * correction;
+      const Eigen::Matrix<double, Eigen::Dynamic, 6, 0, kMax, 6> LK = Lambda * record.K;
+      const Matrix6d middle = record.K.transpose() * LK + record.S_inverse;
+      const Eigen::Matrix<double, Eigen::Dynamic, 6, 0, kMax, 6> Ht = record.H.transpose();
+      const Square cross = LK * record.H;
+      Lambda += Ht * middle * record.H - cross - cross.transpose();
+      Lambda = (0.5 * (Lambda + Lambda.transpose())).eval();
+    }
+    if (e % 256 == 0) observer.update("smoother", 1.0 - static_cast<double>(e) / static_cast<double>(epochs));
+  }
+  return out;
+}
+
+}  // namespace asperity::inertial_smoother
