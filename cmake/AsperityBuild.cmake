@@ -29,6 +29,10 @@ if(ASPERITY_SANITIZE)
   add_compile_options(-fsanitize=${ASPERITY_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${ASPERITY_SANITIZE})
 endif()
+if(ASPERITY_FUZZ)
+  # The libraries' own branches must be seen by the fuzzer, not only its target's.
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
 
 set_property(GLOBAL PROPERTY ASPERITY_MODULES "")
 
