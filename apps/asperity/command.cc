@@ -62,6 +62,7 @@ void Command::print_json(std::string_view object) const {
 
 void print(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    if (errno == EPIPE) throw ClosedPipe();
     throw Error(std::string("standard output cannot be written: ") + std::strerror(errno));
   }
 }

@@ -22,6 +22,13 @@ class UsageError : public Error {
   using Error::Error;
 };
 
+// The reader of standard output is gone, as after `| head`: nobody is left to be told.
+class ClosedPipe : public Error {
+ public:
+  ClosedPipe() : Error("standard output was closed") {}
+};
+inline constexpr int kClosedPipe = 141;  // 128 + SIGPIPE, as a shell reports it
+
 // One subcommand: its options are bound in the constructor, its settings listed by fields().
 class Command {
  public:
@@ -62,7 +69,7 @@ class Command {
   std::vector<std::string> settings_;
 };
 
-// Writes to standard output; throws Error if it takes no more (a full disk, a closed pipe).
+// Writes to standard output. Throws ClosedPipe, or Error if it takes no more (a full disk).
 void print(std::string_view text);
 // One line on standard error, "asperity: text".
 void complain(std::string_view text);

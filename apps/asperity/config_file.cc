@@ -21,7 +21,11 @@ constexpr std::uint64_t kLargestFile_bytes = 1 << 20;
 std::string field_text(const std::string& file, const toml::node& node) {
   if (const auto* text = node.as_string()) return '"' + text->get() + '"';
   if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
-  if (const auto* number = node.as_floating_point()) return number_text(number->get());
+  if (const auto* number = node.as_floating_point()) {
+    // A field of whole numbers must see that 5.0 is none.
+    const std::string digits = number_text(number->get());
+    return digits.find_first_of(".en") == std::string::npos ? digits + ".0" : digits;
+  }
   if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
   if (const auto* list = node.as_array()) {
     std::string out = "[";

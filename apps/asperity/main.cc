@@ -30,7 +30,7 @@ struct Program {
     parser.add_flag("--man", manual, "Print the manual page");
     parser.add_option("--completion", completion, "Print completions for a shell")->check(CLI::IsMember({"bash"}));
     parser.require_subcommand(0, 1);
-    for (const auto make : {make_demo, make_simulate, make_import, make_inspect, make_process, make_roughness}) {
+    for (const auto make : {make_roughness}) {
       commands.push_back(make(parser));
     }
   }
@@ -53,6 +53,8 @@ int run_command(Command& command) {
   } catch (const Cancelled&) {
     complain("interrupted; nothing was written");
     return interrupt_exit_code();
+  } catch (const ClosedPipe&) {
+    return kClosedPipe;
   } catch (const std::bad_alloc&) {
     complain(name + ": not enough memory");
   } catch (const std::exception& error) {
@@ -61,8 +63,7 @@ int run_command(Command& command) {
   return kBadInput;
 }
 
-int run(int argc, char** argv) {
-  Program program;
+int parse_and_run(Program& program, int argc, char** argv) {
   try {
     program.parser.parse(argc, argv);
     if (program.manual) return print(manual_page(program.parser)), kDone;
@@ -72,15 +73,23 @@ int run(int argc, char** argv) {
     }
     return usage("which command?", "");
   } catch (const CLI::CallForHelp&) {
-    const auto chosen = program.parser.get_subcommands();
-    print((chosen.empty() ? &program.parser : chosen.front())->help("", chosen.empty() ? CLI::AppFormatMode::Normal : CLI::AppFormatMode::Normal));
+    print(program.parser.help());
     return kDone;
   } catch (const CLI::CallForVersion& version) {
     return print(std::string(version.what()) + "\n"), kDone;
   } catch (const CLI::ParseError& error) {
     const auto chosen = program.parser.get_subcommands();
     return usage(printable(error.what(), 300), chosen.empty() ? "" : chosen.front()->get_name());
-  } catch (const Error& error) {
+  }
+}
+
+int run(int argc, char** argv) {
+  try {
+    Program program;
+    return parse_and_run(program, argc, argv);
+  } catch (const ClosedPipe&) {
+    return kClosedPipe;
+  } catch (const std::exception& error) {
     complain(error.what());
     return kBadInput;
   }

@@ -59,10 +59,15 @@ std::string manual_page(const CLI::App& root) {
   out += ".SH SYNOPSIS\n.B asperity\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n.SH OPTIONS\n" + option_list(root);
   out += ".SH COMMANDS\n";
   for (const CLI::App* command : root.get_subcommands({})) {
-    out += ".SS asperity " + roff(command->get_name()) + "\n" + roff(command->get_description()) + "\n" + option_list(*command);
+    out += ".SS asperity " + roff(command->get_name()) + "\n" + roff(command->get_description()) + "\n" +
+           option_list(*command);
   }
-  out += ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\nthe input is bad; standard error says where\n.TP\n2\nthe command line is wrong\n";
-  out += ".TP\n3\ndone, but the result is not to be trusted; standard error says why\n.TP\n130\ninterrupted; nothing was written\n";
+  out +=
+      ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\nthe input is bad; standard error says where\n.TP\n2\nthe command line is "
+      "wrong\n";
+  out +=
+      ".TP\n3\ndone, but the result is not to be trusted; standard error says why\n.TP\n130\ninterrupted; nothing was "
+      "written\n";
   return out;
 }
 
@@ -75,8 +80,11 @@ std::string bash_completion(const CLI::App& root) {
   }
   return "# bash completion for asperity: source it, or put it in /etc/bash_completion.d/\n"
          "_asperity() {\n"
-         "  local current=${COMP_WORDS[COMP_CWORD]} words=\"" + names + " " + words(root) + "\"\n"
-         "  case ${COMP_WORDS[1]-} in\n" + cases +
+         "  local current=${COMP_WORDS[COMP_CWORD]} words=\"" +
+         names + " " + words(root) +
+         "\"\n"
+         "  case ${COMP_WORDS[1]-} in\n" +
+         cases +
          "  esac\n"
          "  COMPREPLY=()\n"
          "  if [[ $COMP_CWORD -eq 1 || $current == -* ]]; then\n"

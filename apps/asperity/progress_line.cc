@@ -33,7 +33,8 @@ void ProgressLine::show(std::string_view stage, double fraction) {
   last_ = now;
   visible_ = true;
   const int percent = static_cast<int>(std::lround(100.0 * std::clamp(fraction, 0.0, 1.0)));
-  std::fprintf(stderr, "\r\033[K%.*s %3d %%", static_cast<int>(std::min<std::size_t>(stage.size(), 60)), stage.data(), percent);
+  std::fprintf(stderr, "\r\033[K%.*s %3d %%", static_cast<int>(std::min<std::size_t>(stage.size(), 60)), stage.data(),
+               percent);
   std::fflush(stderr);
 }
 

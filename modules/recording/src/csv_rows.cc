@@ -3,9 +3,14 @@
 #include <algorithm>
 #include <string_view>
 
-#include "asperity/base/text.h"
+#include "utf8_check.h"
 
 namespace asperity {
+
+std::string_view checked_lines(std::string_view text, const std::string& name) {
+  require_utf8(text.substr(0, text.rfind('\n') + 1), name);
+  return text;
+}
 
 std::optional<std::int64_t> row_time(const CsvReader& csv, std::size_t column, RowProblems& problems) {
   const std::string_view cell = csv.cell(column);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <Eigen/Core>
 
@@ -13,6 +14,10 @@
 #include "time_order.h"
 
 namespace asperity {
+
+// `text`, once all its whole lines are known to be UTF-8. What follows the last newline is passed over
+// by the reader, and may be anything. Throws Error with file and line.
+std::string_view checked_lines(std::string_view text, const std::string& name);
 
 // A cell as a number, nan where it is empty. Throws Error with file and line for other text.
 inline double number_or_nan(const CsvReader& csv, std::size_t column) {
@@ -34,6 +39,9 @@ std::optional<Columns3> find3(const CsvReader& csv, const char* a, const char* b
 inline Eigen::Vector3d numbers3(const CsvReader& csv, const Columns3& columns) {
   return {number_or_nan(csv, columns[0]), number_or_nan(csv, columns[1]), number_or_nan(csv, columns[2])};
 }
+
+// No component is nan or beyond `limit`.
+inline bool within(const Eigen::Vector3d& v, double limit) { return v.allFinite() && v.cwiseAbs().maxCoeff() <= limit; }
 
 // Says that the last line was cut off, if it was.
 void note_truncation(const CsvReader& csv, RowProblems& problems);

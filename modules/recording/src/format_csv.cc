@@ -1,27 +1,7 @@
-#include <cmath>
-
-#include "asperity/base/text.h"
 #include "asperity/recording/format.h"
-#include "json_writer.h"
+#include "csv_line.h"
 
 namespace asperity {
-
-namespace {
-
-void append_cell(std::string& out, double value) {
-  out += ',';
-  if (!std::isnan(value)) append_exact(out, value);
-}
-
-void append_cells(std::string& out, const Eigen::Vector3d& values) {
-  for (const double value : values) append_cell(out, value);
-}
-
-void append_rotation(std::string& out, const Eigen::Quaterniond& q) {
-  for (const double value : {q.w(), q.x(), q.y(), q.z()}) append_cell(out, value);
-}
-
-}  // namespace
 
 std::string probe_header(bool has_gyro, bool has_force3) {
   std::string out = "t_ns,accel_i,accel_j,accel_k,force";
@@ -39,7 +19,7 @@ std::string tracker_header(bool has_markers, bool has_reprojection) {
 
 void append_probe_rows(std::string& out, const ProbeStream& probe, std::size_t first, std::size_t last) {
   for (std::size_t i = first; i < last; ++i) {
-    append_number(out, probe.t_ns[i]);
+    append_time(out, probe.t_ns[i]);
     append_cells(out, probe.accel_counts[i]);
     append_cell(out, probe.force_counts[i]);
     if (!probe.gyro_counts.empty()) append_cells(out, probe.gyro_counts[i]);
@@ -50,9 +30,9 @@ void append_probe_rows(std::string& out, const ProbeStream& probe, std::size_t f
 
 void append_tracker_rows(std::string& out, const TrackerStream& tracker, std::size_t first, std::size_t last) {
   for (std::size_t i = first; i < last; ++i) {
-    append_number(out, tracker.t_ns[i]);
+    append_time(out, tracker.t_ns[i]);
     append_cells(out, tracker.T_world_marker[i].translation_m);
-    append_rotation(out, tracker.T_world_marker[i].rotation);
+    append_cells(out, tracker.T_world_marker[i].rotation);
     if (!tracker.markers.empty()) {
       out += ',';
       append_number(out, std::int64_t{tracker.markers[i]});
@@ -81,11 +61,11 @@ std::string format_truth_csv(const Truth& truth) {
     append_exact(out, value);
   };
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    append_number(out, truth.t_ns[i]);
+    append_time(out, truth.t_ns[i]);
     cell_or_nan(truth.s_m[i]);
     cell_or_nan(truth.height_m[i]);
     append_cells(out, truth.p_world_tip_m[i]);
-    append_rotation(out, truth.q_world_marker[i]);
+    append_cells(out, truth.q_world_marker[i]);
     cell_or_nan(truth.force_N[i]);
     out += '\n';
   }

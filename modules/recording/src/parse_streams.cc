@@ -2,22 +2,13 @@
 
 #include "asperity/recording/parse.h"
 #include "csv_rows.h"
-#include "quaternion_check.h"
-#include "utf8_check.h"
+#include "pose_rows.h"
 
 namespace asperity {
 
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-// Text after the last newline is passed over by the reader, and may be anything.
-std::string_view checked(std::string_view text, const std::string& name) {
-  require_utf8(text.substr(0, text.rfind('\n') + 1), name);
-  return text;
-}
-
-bool within(const Eigen::Vector3d& v, double limit) { return v.cwiseAbs().maxCoeff() <= limit && v.allFinite(); }
 
 // A sensor slower than the rows may have no sample here, but not half of one.
 Eigen::Vector3d slow_sample(const CsvReader& csv, const Columns3& columns, double limit, RowProblems& problems) {
@@ -34,49 +25,11 @@ double slow_sample(const CsvReader& csv, std::size_t column, double limit, RowPr
   return kNan;
 }
 
-struct PoseColumns {
-  Columns3 position;
-  std::array<std::size_t, 4> rotation;
-
-  explicit PoseColumns(const CsvReader& csv)
-      : position(require3(csv, "px_m", "py_m", "pz_m")),
-        rotation{csv.require("qw"), csv.require("qx"), csv.require("qy"), csv.require("qz")} {}
-};
-
-// The row's pose, or nullopt with a problem.
-std::optional<Pose> row_pose(const CsvReader& csv, const PoseColumns& columns, const ReadLimits& limits,
-                             RowProblems& problems) {
-  Pose pose;
-  pose.translation_m = numbers3(csv, columns.position);
-  std::array<double, 4> q{};
-  for (std::size_t i = 0; i < 4; ++i) q[i] = number_or_nan(csv, columns.rotation[i]);
-  pose.rotation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
-  if (!pose.translation_m.allFinite() || !pose.rotation.coeffs().allFinite()) {
-    problems.add("missing_pose", csv.line(), "the pose is not a number; the row was left out");
-    return std::nullopt;
-  }
-  if (!within(pose.translation_m, limits.largest_position_m)) {
-    problems.add("position_far_off", csv.line(), "the position is too far away to be one; the row was left out");
-    return std::nullopt;
-  }
-  switch (make_unit(pose.rotation)) {
-    case QuaternionState::kUnit:
-      return pose;
-    case QuaternionState::kRepaired:
-      problems.add("quaternion_length", csv.line(), "the quaternion was not of length one and was normalised");
-      return pose;
-    case QuaternionState::kUnusable:
-      break;
-  }
-  problems.add("bad_quaternion", csv.line(), "the quaternion is no rotation; the row was left out");
-  return std::nullopt;
-}
-
 }  // namespace
 
 ProbeStream parse_probe_csv(std::string_view text, const std::string& name, Problems& problems,
                             const ReadLimits& limits) {
-  CsvReader csv(checked(text, name), name);
+  CsvReader csv(checked_lines(text, name), name);
   const std::size_t time = csv.require("t_ns");
   const Columns3 accel = require3(csv, "accel_i", "accel_j", "accel_k");
   const std::size_t force = csv.require("force");
@@ -122,7 +75,7 @@ ProbeStream parse_probe_csv(std::string_view text, const std::string& name, Prob
 
 TrackerStream parse_tracker_csv(std::string_view text, const std::string& name, Problems& problems,
                                 const ReadLimits& limits) {
-  CsvReader csv(checked(text, name), name);
+  CsvReader csv(checked_lines(text, name), name);
   const std::size_t time = csv.require("t_ns");
   const PoseColumns columns(csv);
   const auto markers = csv.find("markers");
@@ -157,7 +110,7 @@ TrackerStream parse_tracker_csv(std::string_view text, const std::string& name, 
 }
 
 Truth parse_truth_csv(std::string_view text, const std::string& name, Problems& problems, const ReadLimits& limits) {
-  CsvReader csv(checked(text, name), name);
+  CsvReader csv(checked_lines(text, name), name);
   const std::size_t time = csv.require("t_ns");
   const std::size_t s = csv.require("s_m");
   const std::size_t height = csv.require("height_m");

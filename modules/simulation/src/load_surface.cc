@@ -73,6 +73,18 @@ Table read_table(const std::string& file) {
   return table;
 }
 
+// A relief of more than this is a wrong unit.
+constexpr double kGreatestHeight_m = 0.1;
+
+double height_of_row(const Table& table, const std::string& file, std::size_t row, std::size_t column, double scale) {
+  const double height_m = table.rows[row][column] * scale;
+  if (!(std::abs(height_m - table.rows[0][column] * scale) <= kGreatestHeight_m)) {
+    throw Error(fmt::format("{}:{}: {} would be {} m above the first height; is the unit right?", file,
+                            table.lines[row], table.rows[row][column], height_m - table.rows[0][column] * scale));
+  }
+  return height_m;
+}
+
 double unit_m(const Table& table, std::size_t column, double without) {
   if (table.header.empty()) return without;
   const std::string& name = table.header[column];
@@ -187,7 +199,7 @@ std::unique_ptr<Surface> make_map(const Table& table, const SimulatedSurfaceConf
       throw Error(fmt::format("{}:{}: ({}, {}) where the grid has ({}, {})", file, table.lines[i], table.rows[i][0],
                               table.rows[i][1], x, y));
     }
-    height_m.push_back(table.rows[i][2] * uz);
+    height_m.push_back(height_of_row(table, file, i, 2, uz));
   }
   return std::make_unique<ArealMap>(std::move(height_m), nx, dx * ux, dy * uy);
 }
@@ -217,7 +229,9 @@ std::unique_ptr<Surface> load_surface(const SimulatedSurfaceConfig& config) {
   }
   std::vector<double> height_m;
   height_m.reserve(table.rows.size());
-  for (const auto& row : table.rows) height_m.push_back(row[column] * scale);
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    height_m.push_back(height_of_row(table, config.file, i, column, scale));
+  }
   return std::make_unique<Profile1d>(std::move(height_m), spacing_m);
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 #include "asperity/base/error.h"
@@ -76,7 +77,7 @@ void set_what(SimulationConfig& config) {
 
 }  // namespace
 
-SimulationConfig make_simulation_config(std::string_view surface, std::string_view probe) {
+SimulationConfig make_simulation_config(std::string_view surface, std::string_view probe, std::string_view material) {
   SimulationConfig config;
   set_surface(config, surface);
   if (probe == "what") {
@@ -84,6 +85,11 @@ SimulationConfig make_simulation_config(std::string_view surface, std::string_vi
   } else if (probe != "open") {
     throw Error(fmt::format("unknown probe '{}': what or open", printable(probe)));
   }
+  const auto found = std::find(kContactMaterialNames.begin(), kContactMaterialNames.end(), material);
+  if (found == kContactMaterialNames.end()) {
+    throw Error(fmt::format("unknown material '{}': stiff, cork or soft_rubber", printable(material)));
+  }
+  config.contact = make_contact(static_cast<ContactMaterial>(found - kContactMaterialNames.begin()));
   return config;
 }
 

@@ -29,7 +29,8 @@ TrackerNoise tracker_noise(const SimulatedTrackerConfig& config, const Pose& T_w
   constexpr double kLeastCosine = 0.2;  // a marker seen at 80 degrees is lost before its noise grows further
   TrackerNoise noise;
   const Eigen::Vector3d along = ray(T_world_marker);
-  const Eigen::Vector3d right = Eigen::Vector3d::UnitY().cross(along).normalized();
+  const Eigen::Vector3d sideways = Eigen::Vector3d::UnitY().cross(along);
+  const Eigen::Vector3d right = sideways.norm() > 1e-6 ? sideways.normalized() : Eigen::Vector3d::UnitX();
   noise.world_from_ray << right, along.cross(right), along;
   const double distance = T_world_marker.translation_m.norm() / config.reference_distance_m;
   const double facing = std::abs((T_world_marker.rotation * Eigen::Vector3d::UnitZ()).dot(along));

@@ -40,28 +40,85 @@ Eigen::Vector3d quiet_noise(const std::vector<Eigen::Vector3d>& x) {
   return noise;
 }
 
-// Marks samples that stand off from both neighbours while these agree, in any channel of `x`, and
-// returns the size of the deviation (0 where none).
-void find_spikes(const std::vector<Eigen::Vector3d>& x, double sigmas, std::vector<char>& spike) {
+// Counts, for every sample, the channels of `x` in which it stands off from its four neighbours while
+// these agree. A peak of the sensor's own, band-limited, raises its neighbours too.
+void count_spiking_channels(const std::vector<Eigen::Vector3d>& x, double sigmas, std::vector<int>& channels) {
   if (x.size() < 5) return;
+  constexpr double kForget = 1.0 / 200.0;  // a sample
   for (int axis = 0; axis < 3; ++axis) {
-    // The usual size of the deviation from the neighbours' mean, smoothly forgotten over 200 samples;
-    // a resolved impact raises it and is kept.
+    const auto deviation_at = [&](std::size_t i) {
+      return std::abs(x[i][axis] - 0.5 * (x[i - 1][axis] + x[i + 1][axis]));
+    };
+    // The usual size of the deviation: a rough stretch raises it.
     double usual = 0.0;
-    std::size_t counted = 0;
-    for (std::size_t i = 1; i + 1 < std::min<std::size_t>(x.size(), 201); ++i) {
-      usual += std::abs(x[i][axis] - 0.5 * (x[i - 1][axis] + x[i + 1][axis]));
-      ++counted;
-    }
-    usual = std::max(usual / static_cast<double>(counted), 0.5);
-    for (std::size_t i = 1; i + 1 < x.size(); ++i) {
-      const double deviation = std::abs(x[i][axis] - 0.5 * (x[i - 1][axis] + x[i + 1][axis]));
-      const double neighbours = std::abs(x[i + 1][axis] - x[i - 1][axis]);
-      const bool found = deviation > sigmas * 1.25 * usual && neighbours < 0.25 * deviation;
-      if (found) spike[i] = 1;
-      if (!found) usual = std::max(0.5, usual + (std::min(deviation, 10.0 * usual) - usual) / 200.0);
+    const std::size_t start = std::min<std::size_t>(x.size() - 1, 201);
+    for (std::size_t i = 1; i < start; ++i) usual += deviation_at(i) / static_cast<double>(start - 1);
+    for (std::size_t i = 2; i + 2 < x.size(); ++i) {
+      usual = std::max(usual, 0.5);  // count
+      const double deviation = deviation_at(i);
+      const auto [low, high] = std::minmax({x[i - 2][axis], x[i - 1][axis], x[i + 1][axis], x[i + 2][axis]});
+      const bool found = deviation > sigmas * 1.25 * usual && high - low < 0.35 * deviation;
+      if (found) ++channels[i];
+      if (!found) usual += kForget * (std::min(deviation, 10.0 * usual) - usual);
     }
   }
+}
+
+// Samples that are a corrupted frame and not a motion: it strikes several channels at once (seed §4.1).
+std::vector<char> find_spikes(const ProbeStream& probe, bool use_gyro, double sigmas) {
+  std::vector<int> channels(probe.size(), 0);
+  count_spiking_channels(probe.accel_counts, sigmas, channels);
+  if (use_gyro) count_spiking_channels(probe.gyro_counts, sigmas, channels);
+  std::vector<char> spike(probe.size(), 0);
+  for (std::size_t i = 0; i < probe.size(); ++i) spike[i] = channels[i] >= 2;
+  return spike;
+}
+
+// One axis' run of samples at the converter's limit, from `first` to before `last`.
+struct ClippedRun {
+  int axis = 0;
+  std::size_t first = 0;
+  std::size_t last = 0;
+  bool upper = true;
+  double limit = 0.0;
+};
+
+std::vector<ClippedRun> find_clipped(const std::vector<Eigen::Vector3d>& x, const RecordingInfo& info) {
+  std::vector<ClippedRun> runs;
+  if (!(info.adc_max > info.adc_min)) return runs;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (x[i][axis] > info.adc_min && x[i][axis] < info.adc_max) continue;
+      const bool upper = x[i][axis] >= info.adc_max;
+      ClippedRun run{axis, i, i, upper, upper ? info.adc_max : info.adc_min};
+      while (run.last < x.size() && (upper ? x[run.last][axis] >= run.limit : x[run.last][axis] <= run.limit))
+        ++run.last;
+      i = run.last - 1;
+      runs.push_back(run);
+    }
+  }
+  return runs;
+}
+
+// Puts a cubic through the samples beside a clipped run, with their slopes, where the converter cut the
+// peak off; returns the mean height of what it added, counts. A sensor's low-pass makes peaks that smooth.
+double restore_peak(const ClippedRun& run, std::vector<Eigen::Vector3d>& x) {
+  if (run.first < 2 || run.last + 1 >= x.size()) return 0.0;
+  const double y0 = x[run.first - 1][run.axis];
+  const double y1 = x[run.last][run.axis];
+  const double length = static_cast<double>(run.last - run.first + 1);
+  const double slope0 = length * (y0 - x[run.first - 2][run.axis]);
+  const double slope1 = length * (x[run.last + 1][run.axis] - y1);
+  double added = 0.0;
+  for (std::size_t i = run.first; i < run.last; ++i) {
+    const double u = static_cast<double>(i - run.first + 1) / length;
+    const double v = 1.0 - u;
+    const double cubic = v * v * ((1.0 + 2.0 * u) * y0 + u * slope0) + u * u * ((1.0 + 2.0 * v) * y1 - v * slope1);
+    const double excess = run.upper ? std::max(0.0, cubic - run.limit) : std::min(0.0, cubic - run.limit);
+    x[i][run.axis] = run.limit + excess;
+    added += std::abs(excess) / static_cast<double>(run.last - run.first);
+  }
+  return added;
 }
 
 // nan cells filled by straight lines between the values present; constant beyond the first and last.
@@ -119,10 +176,7 @@ InertialStream calibrate_inertial(const Recording& recording, const InertialConf
   out.clock_jitter_s = clock.applied ? clock.jitter_s : 0.0;
   out.has_gyro = probe.has_gyro() && calibration.gyroscope.has_value();
 
-  std::vector<char> spike(n, 0);
-  find_spikes(probe.accel_counts, config.spike_sigmas, spike);
-  if (out.has_gyro) find_spikes(probe.gyro_counts, config.spike_sigmas, spike);
-  spike.front() = spike.back() = 0;
+  const std::vector<char> spike = find_spikes(probe, out.has_gyro, config.spike_sigmas);
 
   const Eigen::Matrix3d B = calibration.accelerometer.B.leftCols<3>();
   const double accel_scale = std::pow(std::abs(B.determinant()), 1.0 / 3.0);  // counts per m/s²
@@ -130,7 +184,22 @@ InertialStream calibrate_inertial(const Recording& recording, const InertialConf
   out.accel_noise_mps2 = config.accel_noise_floor_mps2 > 0.0
                              ? config.accel_noise_floor_mps2
                              : std::max(kQuantisation_counts, quiet_noise(probe.accel_counts).mean()) / accel_scale;
-  const double saturated_sigma = config.saturation_sigma * 0.5 * (info.adc_max - info.adc_min) / accel_scale;
+
+  std::vector<Eigen::Vector3d> accel_counts = probe.accel_counts;
+  std::vector<double> clipped_sigma_mps2(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (spike[i]) accel_counts[i] = 0.5 * (probe.accel_counts[i - 1] + probe.accel_counts[i + 1]);
+  }
+  for (const ClippedRun& run : find_clipped(accel_counts, info)) {
+    const double added = restore_peak(run, accel_counts);
+    // A long run hides its peak altogether.
+    const double hidden =
+        std::min(1.0, static_cast<double>(run.last - run.first) / 10.0) * 0.5 * (info.adc_max - info.adc_min);
+    for (std::size_t i = run.first; i < run.last; ++i) {
+      clipped_sigma_mps2[i] =
+          std::max(clipped_sigma_mps2[i], config.saturation_sigma * std::max(added, hidden) / accel_scale);
+    }
+  }
 
   out.specific_force_mps2.resize(n);
   out.accel_sigma_mps2.assign(n, out.accel_noise_mps2);
@@ -152,8 +221,7 @@ InertialStream calibrate_inertial(const Recording& recording, const InertialConf
   out.gyro_sigma_radps.assign(n, out.gyro_noise_radps);
   Eigen::Vector3d gyro_held = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < n; ++i) {
-    Eigen::Vector3d counts = probe.accel_counts[i];
-    if (spike[i]) counts = 0.5 * (probe.accel_counts[i - 1] + probe.accel_counts[i + 1]);
+    const Eigen::Vector3d& counts = accel_counts[i];
     out.specific_force_mps2[i] = linear ? Eigen::Vector3d(inverse * (counts - calibration.accelerometer.C))
                                         : calibration.accelerometer.specific_force_mps2(counts);
     if (out.has_gyro) {
@@ -171,9 +239,10 @@ InertialStream calibrate_inertial(const Recording& recording, const InertialConf
       ++out.spikes;
       const Eigen::Vector3d step = out.specific_force_mps2[i + 1] - out.specific_force_mps2[i - 1];
       out.accel_sigma_mps2[i] = std::hypot(3.0 * out.accel_sigma_mps2[i], 0.5 * step.norm());
-    } else if (at_limit(probe.accel_counts[i], info)) {
+    }
+    if (clipped_sigma_mps2[i] > 0.0) {
       ++out.saturated;
-      out.accel_sigma_mps2[i] = std::max(out.accel_sigma_mps2[i], saturated_sigma);
+      out.accel_sigma_mps2[i] = std::hypot(out.accel_sigma_mps2[i], clipped_sigma_mps2[i]);
     }
   }
   std::vector<double> force(n);

@@ -45,7 +45,7 @@ struct SimulatedProbeConfig {
     v.field("sensor_in_marker_m", sensor_in_marker_m, "accelerometer and gyroscope in the marker frame, m",
             {-1.0, 1.0});
     v.field("nominal_rate_Hz", nominal_rate_Hz, "rate that the probe claims, Hz", {1.0, 1e5});
-    v.field("true_rate_Hz", true_rate_Hz, "rate that it has, Hz", {1.0, 2e4});
+    v.field("true_rate_Hz", true_rate_Hz, "rate that it has, Hz; at most one sample a step", {1.0, 1e5});
     v.field("adc_min", adc_min, "lowest count", {-1e9, 1e9});
     v.field("adc_max", adc_max, "highest count", {-1e9, 1e9});
     v.field("quantise", quantise, "round to counts and clip to the range");

@@ -41,7 +41,9 @@ struct SimulationConfig {
 };
 
 // The defaults for a surface (one of kSurfaceNames but "file", or a path to a height CSV or areal map:
-// anything with a dot or slash) and a probe ("what" or "open"). Throws Error for an unknown name.
-SimulationConfig make_simulation_config(std::string_view surface, std::string_view probe);
+// anything with a dot or slash), a probe ("what" or "open") and what the surface is made of (one of
+// kContactMaterialNames). Throws Error for an unknown name.
+SimulationConfig make_simulation_config(std::string_view surface, std::string_view probe,
+                                        std::string_view material = "stiff");
 
 }  // namespace asperity

@@ -27,7 +27,7 @@ struct SimulatedSurfaceConfig {
   double rq_m = 40e-6;              // sandpaper, clay pot: root mean square height before the tip
   double low_cycles_per_mm = 0.25;  // sandpaper, clay pot: band of the relief
   double high_cycles_per_mm = 2.5;
-  double slope = 1.0;  // sandpaper, clay pot: density along a line falls as frequency^-slope
+  double slope = 1.0;  // sandpaper, clay pot: the waves' density falls as frequency^-slope
 
   std::string file;                // file: a height CSV or areal map
   double file_spacing_m = 0.5e-6;  // file with heights alone: their distance

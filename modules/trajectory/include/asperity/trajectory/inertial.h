@@ -12,20 +12,21 @@
 namespace asperity {
 
 struct InertialConfig {
-  double spike_sigmas = 8.0;            // a sample this far from both its neighbours, which agree, is a spike
-  double scale_error = 0.01;            // share of the moving specific force that calibration leaves wrong
-  double saturation_sigma = 0.5;        // standard deviation given to a saturated sample, share of the range
-  double gap_sigma_mps2 = 3.0;          // standard deviation of the specific force across a gap
+  double spike_sigmas = 8.0;      // a sample this far from its neighbours, which agree, in two channels is a spike
+  double scale_error = 0.01;      // share of the moving specific force that calibration leaves wrong
+  double saturation_sigma = 0.5;  // standard deviation of a clipped sample, share of the restored or hidden peak
+  double gap_sigma_mps2 = 3.0;    // standard deviation of the specific force across a gap
   double accel_noise_floor_mps2 = 0.0;  // per sample; 0: from quantisation and the quietest stretch
   double gyro_noise_floor_radps = 0.0;  // per sample; likewise
   SmoothClockConfig clock;
 
   template <class V>
   void visit(V& v) {
-    v.field("spike_sigmas", spike_sigmas, "a sample this far from both neighbours, which agree, is a spike", {3, 1000});
+    v.field("spike_sigmas", spike_sigmas,
+            "a sample this far from its neighbours, which agree, in two channels is a spike", {3, 1000});
     v.field("scale_error", scale_error, "share of the moving specific force that calibration leaves wrong", {0, 1});
-    v.field("saturation_sigma", saturation_sigma, "standard deviation of a saturated sample, share of the range",
-            {0, 100});
+    v.field("saturation_sigma", saturation_sigma,
+            "standard deviation of a clipped sample, share of the restored or hidden peak", {0, 100});
     v.field("gap_sigma_mps2", gap_sigma_mps2, "standard deviation of the specific force across a gap, m/s2", {0, 1e4});
     v.field("accel_noise_floor_mps2", accel_noise_floor_mps2, "accelerometer noise a sample, m/s2; 0: from the data",
             {0, 1e3});
@@ -56,7 +57,7 @@ struct InertialStream {
 };
 
 // Calibrates the probe's counts (erratum 4) and judges every sample: spikes (seed §4.1) are replaced by
-// their neighbours' mean, saturated samples keep their value, and both get a standard deviation that
+// their neighbours' mean, clipped peaks are restored by a cubic, and both get a standard deviation that
 // takes their weight. Throws Error if there are fewer than two samples or the calibration is singular.
 InertialStream calibrate_inertial(const Recording& recording, const InertialConfig& config);
 

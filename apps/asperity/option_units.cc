@@ -1,0 +1,46 @@
+#include "option_units.h"
+
+#include <string_view>
+
+#include "asperity/base/text.h"
+#include "asperity/base/units.h"
+#include "command.h"
+
+namespace asperity::app {
+
+namespace {
+
+template <class Parse>
+double parsed(Parse parse, std::string_view option, std::string_view text) {
+  try {
+    return parse(text, option);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace
+
+double length_option_m(const std::string& option, const std::string& text) {
+  return parsed(parse_length_m, option, text);
+}
+
+double speed_option_mps(const std::string& option, const std::string& text) {
+  return parsed(parse_speed_mps, option, text);
+}
+
+std::array<double, 3> lengths_option_m(const std::string& option, const std::string& text) {
+  std::array<double, 3> out{};
+  std::string_view rest = text;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto comma = rest.find(',');
+    if ((comma == std::string_view::npos) != (i + 1 == out.size())) {
+      throw UsageError(option + ": '" + printable(text) + "' is not three lengths, such as 0.15mm,0.13mm,0.54mm");
+    }
+    out[i] = length_option_m(option, std::string(rest.substr(0, comma)));
+    rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
+  }
+  return out;
+}
+
+}  // namespace asperity::app

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace asperity::app {
+
+// Option values with units; throw UsageError naming the option and the text.
+double length_option_m(const std::string& option, const std::string& text);
+double speed_option_mps(const std::string& option, const std::string& text);
+// Three lengths with commas between.
+std::array<double, 3> lengths_option_m(const std::string& option, const std::string& text);
+
+}  // namespace asperity::app

@@ -1,1 +1,0 @@
-// Gives the module a translation unit until its first one lands.

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+
+#include "asperity/recording/recording.h"
+
+namespace asperity {
+
+// Which optional columns a recording under way has.
+struct AppendColumns {
+  bool gyro = false;
+  bool force3 = false;
+  bool markers = false;
+  bool reprojection = false;
+};
+
+struct ProbeSample {
+  std::int64_t t_ns = 0;
+  Eigen::Vector3d accel_counts = Eigen::Vector3d::Zero();
+  double force_counts = std::numeric_limits<double>::quiet_NaN();  // nan: the slower sensor has no new sample
+  Eigen::Vector3d gyro_counts = Eigen::Vector3d::Zero();
+  Eigen::Vector3d force3_counts = Eigen::Vector3d::Zero();
+};
+
+struct TrackerSample {
+  std::int64_t t_ns = 0;
+  Pose T_world_marker;
+  int markers = 0;
+  double reprojection_px = std::numeric_limits<double>::quiet_NaN();
+};
+
+// Writes a recording while it is made, so that a process or a machine that dies leaves a folder that
+// read_recording reads up to the last whole line. Not thread-safe.
+class RecordingAppender {
+ public:
+  // Makes the folder with recording.json and calibration.json, each whole, and the headers of the two
+  // streams. Throws Error if the folder exists and is not empty: a measurement is never overwritten.
+  RecordingAppender(std::filesystem::path folder, const RecordingInfo& info, const Calibration& calibration,
+                    const AppendColumns& columns = {});
+  ~RecordingAppender();
+  RecordingAppender(const RecordingAppender&) = delete;
+  RecordingAppender& operator=(const RecordingAppender&) = delete;
+
+  // Keeps whole lines in memory until 64 KiB have gathered or flush() is called.
+  void add(const ProbeSample& sample);
+  void add(const TrackerSample& sample);
+
+  // Hands all whole lines to the operating system, where the death of this process cannot harm them;
+  // with `to_disk`, waits until a power cut cannot either. Throws Error if the disk is full.
+  void flush(bool to_disk = false);
+
+  // Flushes to disk, closes the streams and replaces recording.json by `info` with its final segments
+  // and problems. Throws Error if a stream cannot be written; the rows so far remain readable.
+  void finish(const RecordingInfo& info);
+
+ private:
+  struct Stream {
+    std::filesystem::path path;
+    int file = -1;
+    std::string waiting;
+    void open_new(const std::filesystem::path& new_path, std::string header);
+    void write();
+    void close() noexcept;
+  };
+
+  std::filesystem::path folder_;
+  AppendColumns columns_;
+  Stream probe_;
+  Stream tracker_;
+};
+
+}  // namespace asperity

@@ -1,0 +1,112 @@
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "asperity/recording/inspect.h"
+
+namespace asperity {
+
+using json = nlohmann::ordered_json;
+
+namespace {
+
+json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+json vector(const Eigen::Vector3d& v) { return json::array({number(v.x()), number(v.y()), number(v.z())}); }
+
+json timing_json(const StreamTiming& timing) {
+  return {{"rows", timing.count},
+          {"start_ns", timing.start_ns},
+          {"end_ns", timing.end_ns},
+          {"duration_s", number(timing.duration_s)},
+          {"median_rate_hz", number(timing.median_rate_Hz)},
+          {"mean_rate_hz", number(timing.mean_rate_Hz)},
+          {"jitter_s", number(timing.jitter_s)},
+          {"clock_step_ns", timing.clock_step_ns},
+          {"gaps", timing.gaps},
+          {"longest_gap_s", number(timing.longest_gap_s)},
+          {"lost", timing.lost},
+          {"lost_share", number(timing.lost_share)},
+          {"duplicates", timing.duplicates}};
+}
+
+json quiet_json(const QuietStretch& quiet) {
+  return {{"start_s", number(quiet.start_s)},
+          {"duration_s", number(quiet.duration_s)},
+          {"at_rest", quiet.at_rest},
+          {"specific_force_mps2", vector(quiet.specific_force_mps2)},
+          {"acceleration_noise_mps2", vector(quiet.acceleration_noise_mps2)},
+          {"gravity_mps2", number(quiet.gravity_mps2)},
+          {"gravity_angle_rad", number(quiet.gravity_angle_rad)},
+          {"force_N", number(quiet.force_N)},
+          {"poses", quiet.poses},
+          {"position_noise_m", vector(quiet.position_noise_m)},
+          {"rotation_noise_rad", vector(quiet.rotation_noise_rad)}};
+}
+
+std::string timing_text(const char* stream, const StreamTiming& timing) {
+  return fmt::format(
+      "{:<8} {} rows over {:.3f} s, {:.2f} Hz (median {:.2f}), jitter {:.1f} µs, {} gaps (longest {:.1f} ms), "
+      "{} lost ({:.2f} %), {} duplicates\n",
+      stream, timing.count, timing.duration_s, timing.mean_rate_Hz, timing.median_rate_Hz, 1e6 * timing.jitter_s,
+      timing.gaps, 1e3 * timing.longest_gap_s, timing.lost, 100.0 * timing.lost_share, timing.duplicates);
+}
+
+}  // namespace
+
+std::string inspection_json(const Inspection& inspection) {
+  json channels = json::array();
+  for (const auto& channel : inspection.channels) {
+    channels.push_back({{"name", channel.name},
+                        {"samples", channel.samples},
+                        {"lowest", number(channel.lowest)},
+                        {"highest", number(channel.highest)},
+                        {"saturated_share", number(channel.saturated_share)},
+                        {"quiet_mean", number(channel.quiet_mean)},
+                        {"quiet_noise", number(channel.quiet_noise)}});
+  }
+  const json out = {{"probe", timing_json(inspection.probe)},
+                    {"tracker", timing_json(inspection.tracker)},
+                    {"overlap_s", number(inspection.overlap_s)},
+                    {"channels", channels},
+                    {"quiet", inspection.quiet ? quiet_json(*inspection.quiet) : json(nullptr)},
+                    {"force_lowest_N", number(inspection.force_lowest_N)},
+                    {"force_highest_N", number(inspection.force_highest_N)},
+                    {"force_rate_hz", number(inspection.force_rate_Hz)},
+                    {"flips", inspection.flips},
+                    {"findings", inspection.findings}};
+  return out.dump(2) + "\n";
+}
+
+std::string inspection_text(const Inspection& inspection) {
+  std::string out = timing_text("probe", inspection.probe) + timing_text("tracker", inspection.tracker);
+  out += fmt::format("overlap  {:.3f} s\n", inspection.overlap_s);
+  out += fmt::format("force    {:.3f} to {:.3f} N at {:.1f} Hz\n", inspection.force_lowest_N, inspection.force_highest_N,
+                     inspection.force_rate_Hz);
+  out += fmt::format("flips    {}\n\n", inspection.flips);
+  out += fmt::format("{:<9}{:>12}{:>12}{:>12}{:>12}{:>14}\n", "counts", "lowest", "highest", "quiet mean", "quiet noise",
+                     "saturated");
+  for (const auto& channel : inspection.channels) {
+    const std::string saturated =
+        std::isnan(channel.saturated_share) ? "unknown" : fmt::format("{:.3f} %", 100.0 * channel.saturated_share);
+    out += fmt::format("{:<9}{:>12.6g}{:>12.6g}{:>12.6g}{:>12.4g}{:>14}\n", channel.name, channel.lowest, channel.highest,
+                       channel.quiet_mean, channel.quiet_noise, saturated);
+  }
+  if (inspection.quiet) {
+    const QuietStretch& quiet = *inspection.quiet;
+    out += fmt::format("\nquietest {:.2f} s from {:.2f} s: {}\n", quiet.duration_s, quiet.start_s,
+                       quiet.at_rest ? "at rest" : "not at rest");
+    out += fmt::format("  specific force {:.4f} m/s², noise ({:.4f}, {:.4f}, {:.4f}) m/s², force {:.3f} N\n",
+                       quiet.gravity_mps2, quiet.acceleration_noise_mps2.x(), quiet.acceleration_noise_mps2.y(),
+                       quiet.acceleration_noise_mps2.z(), quiet.force_N);
+    out += fmt::format("  tracker noise ({:.3f}, {:.3f}, {:.3f}) mm, ({:.2f}, {:.2f}, {:.2f}) mrad over {} poses\n",
+                       1e3 * quiet.position_noise_m.x(), 1e3 * quiet.position_noise_m.y(), 1e3 * quiet.position_noise_m.z(),
+                       1e3 * quiet.rotation_noise_rad.x(), 1e3 * quiet.rotation_noise_rad.y(),
+                       1e3 * quiet.rotation_noise_rad.z(), quiet.poses);
+  }
+  out += inspection.findings.empty() ? "\nNothing looks wrong.\n" : "\nWhat looks wrong:\n";
+  for (const auto& finding : inspection.findings) out += "  - " + finding + "\n";
+  return out;
+}
+
+}  // namespace asperity

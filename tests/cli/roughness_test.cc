@@ -1,0 +1,75 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "asperity/testkit/temp_dir.h"
+#include "run_asperity.h"
+
+namespace asperity::cli {
+namespace {
+
+using ::testing::HasSubstr;
+
+// A square wave of ±1 µm: Ra = Rq = 1 µm, Rt = Rz = 2 µm, whatever the rounding of a filter.
+std::string square_wave() {
+  std::string text;
+  for (int i = 0; i < 1000; ++i) text += i / 25 % 2 == 0 ? "1\n" : "-1\n";
+  return text;
+}
+
+TEST(Roughness, OfAColumnOfHeights) {
+  const testkit::TempDir dir;
+  const std::string file = (dir / "heights.csv").string();
+  write_text(file, square_wave());
+  const Outcome outcome = run({"roughness", file, "--spacing", "0.5um", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  constexpr double kRounding_m = 1e-15;
+  EXPECT_EQ(json["kind"], "profile");
+  EXPECT_NEAR(json["roughness"]["Ra_m"].get<double>(), 1e-6, kRounding_m);
+  EXPECT_NEAR(json["roughness"]["Rq_m"].get<double>(), 1e-6, kRounding_m);
+  EXPECT_NEAR(json["roughness"]["Rz_m"].get<double>(), 2e-6, kRounding_m);
+  EXPECT_NEAR(json["roughness"]["Rt_m"].get<double>(), 2e-6, kRounding_m);
+  EXPECT_EQ(json["config"]["input"]["spacing_m"], 5e-7);
+  const Outcome table = run({"roughness", file, "--spacing", "0.5um"});
+  EXPECT_THAT(table.out, HasSubstr("Ra                1 µm\n"));
+}
+
+TEST(Roughness, OfAnArealMap) {
+  const testkit::TempDir dir;
+  const std::string file = (dir / "map.txt").string();
+  std::string text = "x_mm,y_mm,z_um\n";
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      text += std::to_string(x) + "," + std::to_string(y) + "," + ((x + y) % 2 == 0 ? "3" : "-3") + "\n";
+    }
+  }
+  write_text(file, text);
+  const Outcome outcome = run({"roughness", file, "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["kind"], "areal");
+  EXPECT_NEAR(json["roughness"]["Sz_m"].get<double>(), 6e-6, 0.2e-6);  // a plane fits a checkerboard's edges a little
+}
+
+TEST(Roughness, BadFilesEndWith1AndSayWhere) {
+  const testkit::TempDir dir;
+  const std::string file = (dir / "heights.csv").string();
+  const auto outcome_of = [&](const std::string& text) {
+    write_text(file, text);
+    return run({"roughness", file, "--spacing", "0.5um"});
+  };
+  EXPECT_EQ(run({"roughness", (dir / "absent").string()}).code, 1);
+  EXPECT_EQ(run({"roughness", dir.path().string()}).code, 1);
+  for (const std::string& text :
+       {std::string(), std::string("1\n2\nx\n"), std::string("\x00\xff", 2), std::string("1\ninf\n2\n")}) {
+    const Outcome outcome = outcome_of(text);
+    EXPECT_EQ(outcome.code, 1) << text;
+    EXPECT_THAT(outcome.err, HasSubstr(file)) << text;
+  }
+  EXPECT_THAT(outcome_of("1\n2\nx\n").err, HasSubstr(file + ":3"));
+}
+
+}  // namespace
+}  // namespace asperity::cli

@@ -1,0 +1,123 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "asperity/testkit/temp_dir.h"
+#include "run_asperity.h"
+
+namespace asperity::cli {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+const std::vector<std::string> kCommands{"roughness"};
+
+TEST(Usage, VersionAndHelp) {
+  const Outcome version = run({"--version"});
+  EXPECT_EQ(version.code, 0);
+  EXPECT_THAT(version.out, StartsWith("asperity "));
+  const Outcome help = run({"--help"});
+  EXPECT_EQ(help.code, 0);
+  for (const auto& command : kCommands) {
+    EXPECT_THAT(help.out, HasSubstr("\n  " + command + " "));
+    const Outcome one = run({command, "--help"});
+    EXPECT_EQ(one.code, 0) << command;
+    EXPECT_THAT(one.out, HasSubstr("Usage: asperity " + command));
+    for (const char* option : {"--json", "--config", "--set", "--print-config", "--quiet"}) {
+      EXPECT_THAT(one.out, HasSubstr(option)) << command;
+    }
+  }
+}
+
+TEST(Usage, WrongCommandLinesEndWith2AndOneHint) {
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{},
+                                             {"no-such-command"},
+                                             {"--no-such-option"},
+                                             {"roughness"},
+                                             {"roughness", "x", "--no-such-option"},
+                                             {"roughness", "x", "--spacing", "0.5"},
+                                             {"roughness", "x", "--spacing", "0.5 parsec"},
+                                             {"roughness", "x", "--set", "roughness.sections"},
+                                             {"--completion", "tcsh"}}) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2) << ::testing::PrintToString(arguments);
+    EXPECT_THAT(outcome.out, IsEmpty());
+    EXPECT_THAT(outcome.err, HasSubstr("--help"));
+  }
+}
+
+TEST(Usage, UnknownSettingNamesTheNearest) {
+  const Outcome outcome = run({"roughness", "x", "--set", "roughness.section=4"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("'roughness.section'"));
+  EXPECT_THAT(outcome.err, HasSubstr("did you mean 'roughness.sections'?"));
+}
+
+TEST(Usage, PrintedConfigReadsBack) {
+  const testkit::TempDir dir;
+  for (const auto& command : kCommands) {
+    const Outcome printed = run({command, "--print-config"});
+    ASSERT_EQ(printed.code, 0) << command << printed.err;
+    write_text(dir / "settings.toml", printed.out);
+    const Outcome again = run({command, "--print-config", "--config", (dir / "settings.toml").string()});
+    EXPECT_EQ(again.code, 0) << command << again.err;
+    EXPECT_EQ(again.out, printed.out) << command;
+    const Outcome json = run({command, "--print-config", "--json"});
+    EXPECT_TRUE(nlohmann::json::parse(json.out, nullptr, false).is_object()) << command;
+  }
+}
+
+TEST(Usage, ConfigFileFaultsNameFileAndLine) {
+  const testkit::TempDir dir;
+  const std::string file = (dir / "settings.toml").string();
+  const auto message = [&](const std::string& text) {
+    write_text(file, text);
+    const Outcome outcome = run({"roughness", "x", "--config", file});
+    EXPECT_EQ(outcome.code, 1);
+    return outcome.err;
+  };
+  EXPECT_THAT(message("[roughness]\n\nsectionz = 4\n"), HasSubstr(file + ":3: unknown setting 'roughness.sectionz'"));
+  EXPECT_THAT(message("[roughness]\nsections = \"4\"\n"), HasSubstr(file + ":2: roughness.sections: "));
+  EXPECT_THAT(message("[roughness]\nsections = 4.0\n"),
+              HasSubstr(file + ":2: roughness.sections: '4.0' is not a whole number"));
+  EXPECT_THAT(message("[roughness]\nsections = 1979-05-27\n"), HasSubstr(file + ":2: "));
+  EXPECT_THAT(message("[roughness\n"), HasSubstr(file + ":1: "));
+  EXPECT_THAT(message("roughness = 3\n"), HasSubstr(file + ":1: unknown setting 'roughness'"));
+  EXPECT_THAT(message(std::string("\xff\xfe\x00", 3)), HasSubstr(file));
+}
+
+TEST(Usage, SettingsBeatTheFile) {
+  const testkit::TempDir dir;
+  const std::string file = (dir / "settings.toml").string();
+  write_text(file, "[roughness]\nsections = 4\nform = \"line\"\n");
+  const Outcome outcome = run({"roughness", "--print-config", "--config", file, "--set", "roughness.sections=7"});
+  EXPECT_THAT(outcome.out, HasSubstr("sections = 7\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("form = \"line\"\n"));
+}
+
+TEST(Usage, ManualPageAndCompletionNameEveryCommandAndOption) {
+  const Outcome manual = run({"--man"});
+  const Outcome completion = run({"--completion", "bash"});
+  EXPECT_EQ(manual.code, 0);
+  EXPECT_EQ(completion.code, 0);
+  EXPECT_THAT(manual.out, StartsWith(".TH ASPERITY 1"));
+  for (const auto& command : kCommands) {
+    EXPECT_THAT(manual.out, HasSubstr(".SS asperity " + command));
+    EXPECT_THAT(completion.out, HasSubstr("    " + command + ") words=\""));
+  }
+  EXPECT_THAT(completion.out, HasSubstr("--spacing"));
+  EXPECT_THAT(completion.out, HasSubstr("complete -o filenames -F _asperity asperity"));
+}
+
+TEST(Usage, AFullDiskIsAnError) {
+  const Outcome outcome = run_into("/dev/full", {"--help"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("standard output"));
+}
+
+}  // namespace
+}  // namespace asperity::cli
