@@ -87,7 +87,7 @@ Fourier1d transform(const std::vector<double>& z, std::size_t coefficients, doub
 FourierFit fit_fourier1d(std::span<const double> height_m, double spacing_m, const FitFourier1dConfig& config) {
   check(height_m, spacing_m, config);
   FourierFit fit;
-  const BridgedProfile profile = bridge_gaps(height_m, samples_of(config.max_gap_mm, spacing_m));
+  const BridgedProfile profile = bridge_short_gaps(height_m, samples_of(config.max_gap_mm, spacing_m));
   const Window window = choose_window(profile, spacing_m, config, fit.problems);
   const auto periodic_m = close_seam(profile, window, samples_of(config.seam_mm, spacing_m));
 

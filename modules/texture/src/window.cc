@@ -67,7 +67,7 @@ double smooth_step(double x) { return x * x * (3.0 - 2.0 * x); }
 
 }  // namespace
 
-BridgedProfile bridge_gaps(std::span<const double> height_m, std::size_t max_gap) {
+BridgedProfile bridge_short_gaps(std::span<const double> height_m, std::size_t max_gap) {
   BridgedProfile profile{{height_m.begin(), height_m.end()}, std::vector<std::size_t>(height_m.size() + 1, 0)};
   auto& z = profile.height_m;
   std::vector<bool> bridged(z.size(), false);

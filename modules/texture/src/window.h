@@ -13,7 +13,7 @@ struct BridgedProfile {
 };
 
 // Bridges gaps of up to `max_gap` samples between present ones by straight lines.
-BridgedProfile bridge_gaps(std::span<const double> height_m, std::size_t max_gap);
+BridgedProfile bridge_short_gaps(std::span<const double> height_m, std::size_t max_gap);
 
 // `count` samples from `first`, with the gap-free stretch around them.
 struct Window {
