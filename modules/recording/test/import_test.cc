@@ -1,7 +1,7 @@
 #include "asperity/recording/import.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
+#include <cmath>
 
 #include "asperity/base/error.h"
 #include "asperity/recording/format.h"
@@ -44,7 +44,10 @@ TEST(Import, RealMotionKeepsGravityUpAndReadsBack) {
   for (std::size_t i = 0; i < 600; ++i) {
     // Half a count each.
     EXPECT_NEAR((recording.calibration.accelerometer.specific_force_mps2(recording.probe.accel_counts[i]) -
-                 input.specific_force_mps2[i]).cwiseAbs().maxCoeff(), 0.0, 0.5 / 208.8 + 1e-6);
+                 input.specific_force_mps2[i])
+                    .cwiseAbs()
+                    .maxCoeff(),
+                0.0, 0.5 / 208.8 + 1e-6);
   }
   const Inspection inspection = inspect_recording(recording);
   ASSERT_TRUE(inspection.quiet.has_value());
@@ -91,7 +94,8 @@ TEST(Import, NoiseHasTheSizeAskedForAndFollowsTheSeed) {
   for (int i = 0; i < 3; ++i) {  // five standard errors of a deviation from 4500 samples: 5.3 %
     const auto axis = static_cast<std::size_t>(i);
     EXPECT_NEAR(std::sqrt(square_m2[i] / count), config.pose_noise_m[axis], 0.053 * config.pose_noise_m[axis]);
-    EXPECT_NEAR(std::sqrt(square_rad2[i] / count), config.rotation_noise_rad[axis], 0.053 * config.rotation_noise_rad[axis]);
+    EXPECT_NEAR(std::sqrt(square_rad2[i] / count), config.rotation_noise_rad[axis],
+                0.053 * config.rotation_noise_rad[axis]);
   }
   EXPECT_EQ(format_tracker_csv(recording.tracker), format_tracker_csv(import_imu_pose(input, config).tracker));
   config.seed = 2;
@@ -100,8 +104,9 @@ TEST(Import, NoiseHasTheSizeAskedForAndFollowsTheSeed) {
 
 TEST(Import, RowsWithNanAreCounted) {
   ImportInput input;
-  parse_pose_csv("t_s,px_m,py_m,pz_m,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n0.0035,nan,nan,nan,nan,nan,nan,nan\n0.007,0,0,0,1,0,0,0\n",
-                 "m.csv", input);
+  parse_pose_csv(
+      "t_s,px_m,py_m,pz_m,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n0.0035,nan,nan,nan,nan,nan,nan,nan\n0.007,0,0,0,1,0,0,0\n",
+      "m.csv", input);
   EXPECT_THAT(input.pose_t_ns, testing::ElementsAre(0, 7'000'000));
   ASSERT_EQ(input.problems.size(), 1u);
   EXPECT_EQ(input.problems[0].kind, "missing_pose");

@@ -1,7 +1,7 @@
 #include "asperity/recording/inspect.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
+#include <cmath>
 
 #include "asperity/base/random.h"
 #include "asperity/recording/validate.h"
@@ -34,7 +34,8 @@ Recording rest_then_shake() {
     const double shake = i < 2000 ? 0.0 : 3.0 * std::sin(0.05 * i);
     const Eigen::Vector3d noise(random.normal(), random.normal(), random.normal());
     out.probe.t_ns.push_back(1'000'000 * std::int64_t{i});
-    out.probe.accel_counts.push_back(kCountsPer_mps2 * (up_mps2 + Eigen::Vector3d(shake, 0.0, 0.0)) + kNoise_counts * noise);
+    out.probe.accel_counts.push_back(kCountsPer_mps2 * (up_mps2 + Eigen::Vector3d(shake, 0.0, 0.0)) +
+                                     kNoise_counts * noise);
     out.probe.force_counts.push_back(i % 10 == 0 ? 50.0 + i / 100.0 : std::nan(""));
   }
   for (int i = 0; i < 200; ++i) {
