@@ -1,0 +1,166 @@
+#include "asperity/profile/compare_profiles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/profile/resample_over_path.h"
+#include "asperity/signal/zero_phase.h"
+#include "gap_runs.h"
+
+namespace asperity {
+
+namespace {
+
+struct BandPassed {
+  std::ptrdiff_t first = 0;
+  std::vector<double> height_m;  // nan in gaps and margins
+};
+
+PathKnots knots_of(std::span<const double> s_m, std::span<const double> height_m, const ComparisonConfig& config,
+                   const char* side) {
+  if (s_m.size() != height_m.size()) {
+    throw Error(std::string("comparison: the ") + side + " profile has " + std::to_string(s_m.size()) +
+                " positions and " + std::to_string(height_m.size()) + " heights");
+  }
+  const std::array<std::span<const double>, 1> channels{height_m};
+  PathKnots knots = gather_knots(s_m, channels, {}, 0.25 * config.spacing_m);
+  if (knots.s_m.size() < 8) throw Error(std::string("comparison: the ") + side + " profile has fewer than 8 heights");
+  return knots;
+}
+
+BandPassed band_pass(PathKnots knots, double shift_m, const ComparisonConfig& config) {
+  for (double& s : knots.s_m) s += shift_m;
+  BandPassed out;
+  out.first = static_cast<std::ptrdiff_t>(std::ceil(knots.s_m.front() / config.spacing_m));
+  const auto last = static_cast<std::ptrdiff_t>(std::floor(knots.s_m.back() / config.spacing_m));
+  const auto count = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, last - out.first + 1));
+  const std::vector<double> height_m = resample_smooth(knots, out.first, count, config.spacing_m, config.max_hole_m);
+  const double rate_per_mm = 1e-3 / config.spacing_m;
+  const double high = std::min(config.high_cycles_per_mm, 0.38 * rate_per_mm);
+  out.height_m = filter_runs(height_m, static_cast<std::size_t>(config.bridge_m / config.spacing_m), {}, 8,
+                             [&](std::span<const double> run) {
+                               const auto above = zero_phase_highpass(run, config.low_cycles_per_mm, rate_per_mm);
+                               return zero_phase_lowpass(above, high, rate_per_mm);
+                             });
+  // How far the filter's answer to an end or a bridge reaches. Ends of the profile count as gaps.
+  const auto total = static_cast<std::ptrdiff_t>(count);
+  const auto bridge = static_cast<std::ptrdiff_t>(config.bridge_m / config.spacing_m);
+  std::vector<char> keep(count, 1);
+  for (std::ptrdiff_t k = -1; k <= total;) {
+    const auto gap = [&](std::ptrdiff_t i) {
+      return i < 0 || i >= total || !std::isfinite(out.height_m[static_cast<std::size_t>(i)]);
+    };
+    if (!gap(k)) {
+      ++k;
+      continue;
+    }
+    std::ptrdiff_t end = k + 1;
+    while (end < total && gap(end)) ++end;
+    const bool bridged = k >= 0 && end < total && end - k <= bridge;
+    const auto margin =
+        static_cast<std::ptrdiff_t>((bridged ? config.bridge_margin_m : config.margin_m) / config.spacing_m);
+    for (auto i = std::max<std::ptrdiff_t>(0, k - margin); i < std::min(end + margin, total); ++i)
+      keep[static_cast<std::size_t>(i)] = 0;
+    k = end;
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    if (keep[k] == 0) out.height_m[k] = std::numeric_limits<double>::quiet_NaN();
+  }
+  return out;
+}
+
+struct Moments {
+  double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, yy = 0.0, xy = 0.0, dd = 0.0;
+
+  double covariance() const { return xy / n - x / n * (y / n); }
+  double correlation() const {
+    const double square = (xx / n - x / n * (x / n)) * (yy / n - y / n * (y / n));
+    return square > 0.0 ? covariance() / std::sqrt(square) : 0.0;
+  }
+};
+
+// x true, y measured, the measured side moved by `lag` points.
+Moments overlap(const BandPassed& truth, const BandPassed& measured, std::ptrdiff_t lag) {
+  Moments m;
+  const auto begin = std::max(truth.first, measured.first + lag);
+  const auto end = std::min(truth.first + static_cast<std::ptrdiff_t>(truth.height_m.size()),
+                            measured.first + lag + static_cast<std::ptrdiff_t>(measured.height_m.size()));
+  for (auto k = begin; k < end; ++k) {
+    const double x = truth.height_m[static_cast<std::size_t>(k - truth.first)];
+    const double y = measured.height_m[static_cast<std::size_t>(k - lag - measured.first)];
+    if (!std::isfinite(x) || !std::isfinite(y)) continue;
+    m.n += 1.0;
+    m.x += x;
+    m.y += y;
+    m.xx += x * x;
+    m.yy += y * y;
+    m.xy += x * y;
+    m.dd += (y - x) * (y - x);
+  }
+  return m;
+}
+
+double span_m(const PathKnots& knots) { return knots.s_m.back() - knots.s_m.front(); }
+
+}  // namespace
+
+double comparison_limit_cycles_per_mm(double rate_hz, double speed_mps) {
+  if (!(rate_hz > 0.0) || !(speed_mps > 0.0)) {
+    throw Error("comparison: rate " + number_text(rate_hz) + " Hz, speed " + number_text(speed_mps) +
+                " m/s; both must be positive");
+  }
+  return std::min(4.0, 0.4 * rate_hz / (1e3 * speed_mps));
+}
+
+ProfileComparison compare_profiles(std::span<const double> measured_s_m, std::span<const double> measured_height_m,
+                                   std::span<const double> true_s_m, std::span<const double> true_height_m,
+                                   const ComparisonConfig& config) {
+  if (!(config.low_cycles_per_mm > 0.0) || !(config.high_cycles_per_mm > config.low_cycles_per_mm) ||
+      !(config.max_shift_m >= 0.0)) {
+    throw Error("comparison: band " + number_text(config.low_cycles_per_mm) + " to " +
+                number_text(config.high_cycles_per_mm) + " cycles/mm, shift " + number_text(config.max_shift_m) + " m");
+  }
+  const PathKnots measured_knots = knots_of(measured_s_m, measured_height_m, config, "measured");
+  const PathKnots true_knots = knots_of(true_s_m, true_height_m, config, "true");
+  const BandPassed truth = band_pass(true_knots, 0.0, config);
+  const BandPassed measured = band_pass(measured_knots, 0.0, config);
+
+  ProfileComparison out;
+  out.length_error_percent = 100.0 * (span_m(measured_knots) / span_m(true_knots) - 1.0);
+  const auto reach = static_cast<std::ptrdiff_t>(config.max_shift_m / config.spacing_m);
+  // An overlap much shorter than the whole could fit by chance.
+  const double enough = std::max(10.0, 0.5 * overlap(truth, measured, 0).n);
+  std::ptrdiff_t best = 0;
+  double highest = -2.0;
+  for (std::ptrdiff_t lag = -reach; lag <= reach; ++lag) {
+    const Moments m = overlap(truth, measured, lag);
+    if (m.n >= enough && m.correlation() > highest) {
+      highest = m.correlation();
+      best = lag;
+    }
+  }
+  if (highest < -1.5) return out;
+  const double before = overlap(truth, measured, best - 1).correlation(),
+               after = overlap(truth, measured, best + 1).correlation();
+  const double bend = before - 2.0 * highest + after;
+  const double fraction = bend < 0.0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
+  out.shift_m =
+      std::clamp((static_cast<double>(best) + fraction) * config.spacing_m, -config.max_shift_m, config.max_shift_m);
+
+  const BandPassed moved = band_pass(measured_knots, out.shift_m, config);
+  const Moments m = overlap(truth, moved, 0);
+  if (m.n < 10.0) return out;
+  out.correlation = m.correlation();
+  const double true_variance = m.xx / m.n - m.x / m.n * (m.x / m.n);
+  if (true_variance > 0.0) out.gain = m.covariance() / true_variance;
+  out.rms_um = 1e6 * std::sqrt(m.dd / m.n);
+  out.true_rms_um = 1e6 * std::sqrt(m.xx / m.n);
+  out.compared_m = m.n * config.spacing_m;
+  return out;
+}
+
+}  // namespace asperity

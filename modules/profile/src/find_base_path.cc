@@ -1,0 +1,189 @@
+#include "asperity/profile/find_base_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/base/units.h"
+#include "base_curve.h"
+#include "fit_base_shape.h"
+#include "path_evidence.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr double kRadian_deg = 180.0 / std::numbers::pi;
+
+std::vector<double> check_times(const TipMotion& motion) {
+  const std::size_t n = motion.size();
+  if (n < 20) throw Error("base path: " + std::to_string(n) + " samples, at least 20 are needed");
+  if (motion.p_world_tip_m.size() != n || motion.q_world_marker.size() != n ||
+      (!motion.force_N.empty() && motion.force_N.size() != n)) {
+    throw Error("base path: the motion's vectors differ in size");
+  }
+  std::vector<double> t_s(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    t_s[i] = static_cast<double>(motion.t_ns[i] - motion.t_ns[0]) * kNanosecond_s;
+    if (i > 0 && motion.t_ns[i] <= motion.t_ns[i - 1])
+      throw Error("base path: time does not rise at sample " + std::to_string(i));
+    if (!motion.p_world_tip_m[i].allFinite() || !motion.q_world_marker[i].coeffs().allFinite()) {
+      throw Error("base path: sample " + std::to_string(i) + " is not finite");
+    }
+  }
+  return t_s;
+}
+
+// Base points and normals on the plane; returns the developed coordinates.
+std::vector<Eigen::Vector2d> develop_plane(const PlaneCandidate& plane, const TipMotion& motion, BasePath& path) {
+  const Eigen::Vector3d e1 = plane.normal.unitOrthogonal(), e2 = plane.normal.cross(e1);
+  std::vector<Eigen::Vector2d> u;
+  u.reserve(motion.size());
+  for (const Eigen::Vector3d& p : motion.p_world_tip_m) {
+    const Eigen::Vector3d d = p - plane.point_m;
+    path.p_world_m.push_back(p - d.dot(plane.normal) * plane.normal);
+    path.n_world.push_back(plane.normal);
+    u.emplace_back(e1.dot(d), e2.dot(d));
+  }
+  return u;
+}
+
+// The same on the cylinder: R times the angle, and the distance along the axis.
+std::vector<Eigen::Vector2d> develop_circle(const CircleCandidate& circle, const TipMotion& motion, BasePath& path) {
+  const Eigen::Vector3d e1 = circle.axis.unitOrthogonal();
+  std::vector<Eigen::Vector2d> u;
+  u.reserve(motion.size());
+  double angle = 0.0;
+  Eigen::Vector3d before = e1;
+  for (const Eigen::Vector3d& p : motion.p_world_tip_m) {
+    const Eigen::Vector3d d = p - circle.centre_m;
+    const double along = d.dot(circle.axis);
+    const Eigen::Vector3d across = d - along * circle.axis;
+    const Eigen::Vector3d radial = across.norm() > 0.0 ? Eigen::Vector3d(across.normalized()) : before;
+    angle += std::atan2(circle.axis.dot(before.cross(radial)), before.dot(radial));
+    before = radial;
+    path.p_world_m.push_back(circle.centre_m + along * circle.axis + circle.radius_m * radial);
+    path.n_world.push_back(circle.outside ? radial : Eigen::Vector3d(-radial));
+    u.emplace_back(circle.radius_m * angle, along);
+  }
+  return u;
+}
+
+std::vector<Eigen::Vector2d> develop_curve(const PathEvidence& evidence, const std::vector<double>& t_s,
+                                           const TipMotion& motion, double cutoff_cycles_per_mm, BasePath& path) {
+  const BaseCurve curve = make_base_curve(evidence, cutoff_cycles_per_mm);
+  std::vector<Eigen::Vector2d> u;
+  u.reserve(motion.size());
+  for (const CurvePoint& point : project_on_curve(curve, evidence, t_s, motion.p_world_tip_m)) {
+    path.p_world_m.push_back(point.p_m);
+    path.n_world.push_back(point.normal);
+    u.emplace_back(point.s_m, 0.0);
+  }
+  return u;
+}
+
+PathShape choose_shape(const PlaneCandidate& plane, const CircleCandidate& circle, const PathEvidence& evidence,
+                       const BasePathConfig& config, double& probability) {
+  if (config.shape != PathShape::kAuto) return config.shape == PathShape::kLine ? PathShape::kLine : config.shape;
+  const double odds = circle_log_odds(plane, circle, evidence, config);
+  probability = 1.0 / (1.0 + std::exp(-std::abs(odds)));
+  const bool round = odds > 0.0;
+  const double rms_m = round ? circle.rms_m : plane.rms_m;
+  if (rms_m > std::max(config.shape_tolerance_m, 5.0 * config.slow_error_m)) {
+    probability = 1.0;
+    return PathShape::kCurve;
+  }
+  return round ? PathShape::kCircle : PathShape::kPlane;
+}
+
+}  // namespace
+
+BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& tip_in_marker_m,
+                              const BasePathConfig& config) {
+  const std::vector<double> t_s = check_times(motion);
+  if (!tip_in_marker_m.allFinite()) throw Error("base path: tip_in_marker_m is not finite");
+  BasePathResult out;
+  out.contact = find_contact(motion, config.contact);
+  const PathEvidence evidence = gather_evidence(motion, t_s, out.contact, tip_in_marker_m, config);
+  const bool axis_known = tip_in_marker_m.norm() > 0.0;
+  if (!axis_known) {
+    out.problems.push_back(
+        {"no_probe_axis", "the tip lies at the marker's origin: which side is outward is not known"});
+  }
+
+  const PlaneCandidate plane = fit_plane_candidate(evidence, config);
+  const CircleCandidate circle = fit_circle_candidate(evidence, config);
+  out.shape = choose_shape(plane, circle, evidence, config, out.shape_probability);
+
+  out.path.p_world_m.reserve(motion.size());
+  out.path.n_world.reserve(motion.size());
+  std::vector<Eigen::Vector2d> developed;
+  if (out.shape == PathShape::kCircle) {
+    if (!(circle.radius_m > 0.0) || !(circle.significance > 0.0))
+      throw Error("base path: no circle fits a path without curvature");
+    developed = develop_circle(circle, motion, out.path);
+    out.centre_world_m = circle.centre_m;
+    out.axis_world = circle.axis;
+    out.radius_m = circle.radius_m;
+    out.radius_stderr_m = circle.radius_stderr_m;
+    out.outside = circle.outside;
+    out.probe_tilt_deg = kRadian_deg * circle.tilt_rad;
+    out.base_rms_m = circle.rms_m;
+    // A radius that is off by δ over a chord L turns the normals at its ends by about L/2 · δ/R².
+    const double half_m = 0.5 * (evidence.coarse_m.back() - evidence.coarse_m.front()).norm();
+    out.normal_sigma_deg = kRadian_deg * half_m * circle.radius_stderr_m / (circle.radius_m * circle.radius_m);
+  } else if (out.shape == PathShape::kCurve) {
+    developed = develop_curve(evidence, t_s, motion, config.curve_cutoff_cycles_per_mm, out.path);
+    out.normal_sigma_deg = config.probe_axis_sigma_deg;
+    out.undetermined.push_back(
+        {"normal about the direction of travel (from the probe's axis)", config.probe_axis_sigma_deg});
+    double square = 0.0;
+    for (const Eigen::Vector3d& p : evidence.coarse_m) square += std::pow(plane.normal.dot(p - plane.point_m), 2);
+    out.base_rms_m = std::sqrt(square / static_cast<double>(evidence.coarse_m.size()));
+  } else {
+    developed = develop_plane(plane, motion, out.path);
+    out.centre_world_m = plane.point_m;
+    out.axis_world = plane.normal;
+    out.normal_sigma_deg = kRadian_deg * plane.sigma_rad;
+    out.probe_tilt_deg = kRadian_deg * plane.tilt_rad;
+    out.base_rms_m = plane.rms_m;
+  }
+  if (out.shape != PathShape::kCurve && out.normal_sigma_deg > config.undetermined_deg) {
+    out.undetermined.push_back({"normal about the direction of travel", out.normal_sigma_deg});
+  }
+  for (const Undetermined& u : out.undetermined) {
+    out.problems.push_back(
+        {"undetermined_normal",
+         u.freedom + ": standard deviation " + number_text(std::round(u.sigma_deg * 10.0) / 10.0) + " degrees"});
+  }
+  if (out.shape_probability < 0.9) {
+    out.problems.push_back({"uncertain_shape", "base shape " +
+                                                   std::string(kPathShapeNames[static_cast<std::size_t>(out.shape)]) +
+                                                   " chosen with probability " +
+                                                   number_text(std::round(out.shape_probability * 100.0) / 100.0)});
+  }
+
+  if (!evidence.force_measured) {
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+      const double height_m = out.path.n_world[i].dot(motion.p_world_tip_m[i] - out.path.p_world_m[i]);
+      if (std::abs(height_m) > config.max_height_m) out.contact[i] = 0;
+    }
+  }
+  ArcLength arc = measure_arc_length(t_s, developed, out.contact, config.arc_length);
+  out.path.s_m = std::move(arc.s_m);
+  out.speed_mps = std::move(arc.speed_mps);
+  out.turning_points = std::move(arc.turning_points);
+  out.length_m = *std::max_element(out.path.s_m.begin(), out.path.s_m.end());
+  if (out.shape == PathShape::kCurve && !out.turning_points.empty()) {
+    out.problems.push_back(
+        {"curve_with_turns", "a base curve is not reliable near turning points", out.turning_points.size()});
+  }
+  return out;
+}
+
+}  // namespace asperity

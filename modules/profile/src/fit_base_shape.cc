@@ -1,0 +1,316 @@
+#include "fit_base_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include "asperity/geometry/fit_plane.h"
+#include "asperity/signal/statistics.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kDegree_rad = kPi / 180.0;
+
+// The plane through the coarse points that most of them agree on: first by the sum of distances, then
+// by Tukey's weights, so that an approach without a force sensor to mark it does not tilt it.
+PlaneFit fit_robust_plane(const std::vector<Eigen::Vector3d>& points_m, double error_m, std::vector<double>& weights) {
+  weights.assign(points_m.size(), 1.0);
+  PlaneFit fit = fit_plane(points_m);
+  std::vector<double> distance_m(points_m.size());
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    for (std::size_t i = 0; i < points_m.size(); ++i)
+      distance_m[i] = std::abs(fit.normal().dot(points_m[i] - fit.centroid_m));
+    const double scale_m = 4.685 * std::max(error_m, kSigmaPerMad * median(distance_m));
+    for (std::size_t i = 0; i < points_m.size(); ++i) {
+      const double x = distance_m[i] / scale_m;
+      const double tukey = x < 1.0 ? (1.0 - x * x) * (1.0 - x * x) : 0.0;
+      weights[i] = iteration < 12 ? error_m / std::max(distance_m[i], error_m) : tukey;
+    }
+    fit = fit_plane(points_m, weights);
+  }
+  return fit;
+}
+
+double angle_rad(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+Eigen::Matrix3d mean_fine(const PathEvidence& evidence) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Eigen::Matrix3d& m : evidence.coarse_fine_m2) sum += m;
+  return sum / static_cast<double>(evidence.coarse_fine_m2.size());
+}
+
+Eigen::Vector3d mean_axis(const PathEvidence& evidence) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& a : evidence.coarse_axis) sum += a;
+  return sum / static_cast<double>(evidence.coarse_axis.size());
+}
+
+// Smallest turn from b to a for directions without a sign, in (-π/2, π/2].
+double axial_difference(double a, double b) {
+  const double d = std::remainder(a - b, kPi);
+  return d;
+}
+
+}  // namespace
+
+PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathConfig& config) {
+  std::vector<double> weights;
+  const PlaneFit fit = fit_robust_plane(evidence.coarse_m, config.slow_error_m, weights);
+  // Normals perpendicular to the stroke e1, n(φ) = e3 cos φ + e2 sin φ.
+  const Eigen::Vector3d e2 = fit.axes.col(1), e3 = fit.axes.col(2);
+  const Eigen::Vector3d axis = mean_axis(evidence);
+  const double axis_2 = axis.dot(e2), axis_3 = axis.dot(e3);
+  const bool axis_known = std::hypot(axis_2, axis_3) > 0.1;
+  const double axis_phi = std::atan2(axis_2, axis_3);
+
+  const Eigen::Matrix3d fine = mean_fine(evidence);
+  Eigen::Matrix2d fine_across;
+  fine_across << e3.dot(fine * e3), e3.dot(fine * e2), e2.dot(fine * e3), e2.dot(fine * e2);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> fine_axes(fine_across);
+  const double minor = std::max(fine_axes.eigenvalues()(0), 0.0), major = fine_axes.eigenvalues()(1);
+  // Without a clear direction the fine motion says nothing.
+  const bool fine_known = config.texture_axis_sigma_deg > 0.0 && major > 4.0 * minor && major > 1e-14;
+  const double fine_phi = std::atan2(fine_axes.eigenvectors()(1, 1), fine_axes.eigenvectors()(0, 1));
+  const double fine_sigma = (config.texture_axis_sigma_deg + 30.0 * minor / std::max(major, 1e-300)) * kDegree_rad;
+  const double axis_sigma = config.probe_axis_sigma_deg * kDegree_rad;
+
+  const bool use_path = config.shape != PathShape::kLine;
+  // A path that leaves the plane by more than the slow error says less about it.
+  const double error_m2 = std::max(config.slow_error_m * config.slow_error_m, fit.scatter_m2.z());
+  // The posterior on a grid of a tenth of a degree over the half circle about its mode: it may have two humps.
+  constexpr int kSteps = 1800;
+  std::vector<double> log_density(kSteps);
+  int best = 0;
+  for (int k = 0; k < kSteps; ++k) {
+    const double phi = (static_cast<double>(k) / kSteps - 0.5) * kPi;
+    const double c = std::cos(phi), s = std::sin(phi);
+    double value = 0.0;
+    if (use_path)
+      value -= 0.5 * evidence.independent * (c * c * fit.scatter_m2.z() + s * s * fit.scatter_m2.y()) / error_m2;
+    if (axis_known) value -= 0.5 * std::pow(axial_difference(phi, axis_phi) / axis_sigma, 2);
+    if (fine_known) value -= 0.5 * std::pow(axial_difference(phi, fine_phi) / fine_sigma, 2);
+    log_density[static_cast<std::size_t>(k)] = value;
+    if (value > log_density[static_cast<std::size_t>(best)]) best = k;
+  }
+  double sum = 0.0, first = 0.0, second = 0.0;
+  for (int d = -kSteps / 2; d < kSteps / 2; ++d) {
+    const auto k = static_cast<std::size_t>((best + d + kSteps) % kSteps);
+    const double density = std::exp(log_density[k] - log_density[static_cast<std::size_t>(best)]);
+    const double x = d * kPi / kSteps;
+    sum += density;
+    first += density * x;
+    second += density * x * x;
+  }
+  const double shift = first / sum;
+  const double phi = (static_cast<double>(best) / kSteps - 0.5) * kPi + shift;
+
+  PlaneCandidate out;
+  out.normal = std::cos(phi) * e3 + std::sin(phi) * e2;
+  if (axis.dot(out.normal) < 0.0) out.normal *= -1.0;
+  out.sigma_rad = std::sqrt(std::max(second / sum - shift * shift, 0.0));
+  double square = 0.0, tilt = 0.0, weight = 0.0;
+  double offset = 0.0;
+  for (std::size_t c = 0; c < evidence.path.size(); ++c) {
+    const double d = out.normal.dot(evidence.path.p_m[c] - fit.centroid_m);
+    if (evidence.weight[c] == 0.0) continue;
+    weight += evidence.weight[c];
+    offset += evidence.weight[c] * d;
+  }
+  // The level is that of the agreed points if some disagree, otherwise of all that was travelled.
+  const bool agreed = *std::min_element(weights.begin(), weights.end()) > 0.0;
+  out.point_m = fit.centroid_m + (agreed ? offset / weight : 0.0) * out.normal;
+  // Without a force sensor a minority off the plane is the approach or the lift.
+  const auto off = static_cast<double>(std::count(weights.begin(), weights.end(), 0.0));
+  const bool drop = !evidence.force_measured && off < 0.4 * static_cast<double>(weights.size());
+  double kept = 0.0;
+  for (std::size_t i = 0; i < evidence.coarse_m.size(); ++i) {
+    if (!drop || weights[i] > 0.0) {
+      square += std::pow(out.normal.dot(evidence.coarse_m[i] - out.point_m), 2);
+      kept += 1.0;
+    }
+    tilt += std::pow(angle_rad(evidence.coarse_axis[i], out.normal), 2);
+  }
+  const double count = static_cast<double>(evidence.coarse_m.size());
+  out.rms_m = std::sqrt(square / kept);
+  out.tilt_rad = std::sqrt(tilt / count);
+  out.fine_m2 = out.normal.dot(fine * out.normal);
+  return out;
+}
+
+namespace {
+
+constexpr double kAxisTilt_rad = 30.0 * kDegree_rad;  // of the cylinder's axis from the path's normal, a weak prior
+
+// vᵀMv: how badly a unit axis v agrees with the probe's axis and the fine motion, which both lie along the
+// normals and so across it.
+Eigen::Matrix3d across_information(const PathEvidence& evidence, const BasePathConfig& config) {
+  const double axis_sigma = config.probe_axis_sigma_deg * kDegree_rad,
+               fine_sigma = config.texture_axis_sigma_deg * kDegree_rad;
+  const double count = static_cast<double>(evidence.coarse_m.size());
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < evidence.coarse_m.size(); ++i) {
+    const Eigen::Vector3d& axis = evidence.coarse_axis[i];
+    information += axis * axis.transpose() / (count * axis_sigma * axis_sigma);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> fine(evidence.coarse_fine_m2[i]);
+    if (fine_sigma > 0.0 && fine.eigenvalues()(2) > std::max(4.0 * fine.eigenvalues()(1), 1e-14)) {
+      const Eigen::Vector3d direction = fine.eigenvectors().col(2);
+      information += direction * direction.transpose() / (count * fine_sigma * fine_sigma);
+    }
+  }
+  return information;
+}
+
+// Turns the axis of a circle's cylinder, and fits centre and radius with it, so that a path that also moves
+// along the axis lies on the cylinder. Gauss-Newton with a step control on the cells of the path.
+void refine_cylinder(CircleCandidate& circle, const PathEvidence& evidence, const BasePathConfig& config) {
+  const double error_m = config.slow_error_m;
+  const Eigen::Matrix3d across = across_information(evidence, config);
+  using Vector5 = Eigen::Matrix<double, 5, 1>;
+  using Matrix5 = Eigen::Matrix<double, 5, 5>;
+  const Eigen::Vector3d e1 = circle.axis.unitOrthogonal(), e2 = circle.axis.cross(e1);
+  const double scale_m = circle.radius_m;
+  const double unit = evidence.independent / (evidence.travelled_m.back() * error_m * error_m);
+  // Parameters: slopes of the axis towards e1 and e2, the centre's moves along them and the radius's over the scale.
+  const auto linearise = [&](const Vector5& x, Matrix5* information, Vector5* gradient) {
+    const Eigen::Vector3d along = circle.axis + x(0) * e1 + x(1) * e2;
+    const Eigen::Vector3d axis = along.normalized();
+    const Eigen::Vector3d centre = circle.centre_m + scale_m * (x(2) * e1 + x(3) * e2);
+    const double radius = scale_m * (1.0 + x(4));
+    double cost = (x(0) * x(0) + x(1) * x(1)) / (kAxisTilt_rad * kAxisTilt_rad);
+    if (information != nullptr) {
+      information->setZero();
+      gradient->setZero();
+      (*information)(0, 0) = (*information)(1, 1) = 1.0 / (kAxisTilt_rad * kAxisTilt_rad);
+      (*gradient)(0) = x(0) / (kAxisTilt_rad * kAxisTilt_rad);
+      (*gradient)(1) = x(1) / (kAxisTilt_rad * kAxisTilt_rad);
+      Eigen::Matrix<double, 3, 2> turn;
+      turn << e1 - e1.dot(axis) * axis, e2 - e2.dot(axis) * axis;
+      turn /= along.norm();
+      information->topLeftCorner<2, 2>() += turn.transpose() * across * turn;
+      gradient->head<2>() += turn.transpose() * across * axis;
+    }
+    cost += axis.dot(across * axis);
+    for (std::size_t c = 0; c < evidence.path.size(); ++c) {
+      const double w = unit * evidence.weight[c];
+      if (w == 0.0) continue;
+      const Eigen::Vector3d d = evidence.path.p_m[c] - centre;
+      const double height = d.dot(axis);
+      const Eigen::Vector3d radial = (d - height * axis).normalized();
+      const double r = d.dot(radial) - radius;
+      cost += w * r * r;
+      if (information == nullptr) continue;
+      Vector5 j;
+      j << -height * radial.dot(e1) / along.norm(), -height * radial.dot(e2) / along.norm(), -scale_m * radial.dot(e1),
+          -scale_m * radial.dot(e2), -scale_m;
+      *information += w * j * j.transpose();
+      *gradient += w * r * j;
+    }
+    return cost;
+  };
+  Vector5 x = Vector5::Zero();
+  double damping = 1e-6;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    Matrix5 information;
+    Vector5 gradient;
+    const double cost = linearise(x, &information, &gradient);
+    bool improved = false;
+    for (int attempt = 0; attempt < 10 && !improved; ++attempt) {
+      Matrix5 damped = information;
+      damped.diagonal() *= 1.0 + damping;
+      const Vector5 step = -damped.ldlt().solve(gradient);
+      if (step.allFinite() && x(4) + step(4) > -0.9 && linearise(x + step, nullptr, nullptr) <= cost) {
+        x += step;
+        improved = true;
+        damping *= 0.1;
+        if (step.norm() < 1e-9) iteration = 60;
+      } else {
+        damping *= 10.0;
+      }
+    }
+    if (!improved) break;
+  }
+  circle.centre_m += scale_m * (x(2) * e1 + x(3) * e2);
+  circle.axis = (circle.axis + x(0) * e1 + x(1) * e2).normalized();
+  circle.radius_m = scale_m * (1.0 + x(4));
+}
+
+}  // namespace
+
+CircleCandidate fit_circle_candidate(const PathEvidence& evidence, const BasePathConfig& config) {
+  std::vector<double> weights;
+  const PlaneFit plane = fit_robust_plane(evidence.coarse_m, config.slow_error_m, weights);
+  const Eigen::Vector3d e1 = plane.axes.col(0), e2 = plane.axes.col(1);
+  std::vector<Eigen::Vector2d> points;
+  std::vector<double> point_weights;
+  for (std::size_t c = 0; c < evidence.path.size(); ++c) {
+    const Eigen::Vector3d d = evidence.path.p_m[c] - plane.centroid_m;
+    if (evidence.weight[c] == 0.0) continue;
+    points.emplace_back(e1.dot(d), e2.dot(d));
+    point_weights.push_back(evidence.weight[c]);
+  }
+  const CircleFit fit = fit_circle(points, point_weights);
+
+  CircleCandidate out;
+  out.axis = plane.normal();
+  out.radius_m = fit.radius_m;
+  out.centre_m = plane.centroid_m + fit.centre_m.x() * e1 + fit.centre_m.y() * e2;
+  if (!fit.converged || !(fit.radius_m > 0.0)) return out;
+  // A nearly straight path has no cylinder to turn.
+  const double extent_m = std::sqrt(plane.scatter_m2.x());
+  if (fit.radius_m < 50.0 * extent_m) refine_cylinder(out, evidence, config);
+
+  double square = 0.0, side = 0.0;
+  std::vector<Eigen::Vector3d> radial;
+  for (std::size_t i = 0; i < evidence.coarse_m.size(); ++i) {
+    Eigen::Vector3d d = evidence.coarse_m[i] - out.centre_m;
+    d -= d.dot(out.axis) * out.axis;
+    square += std::pow(d.norm() - out.radius_m, 2);
+    radial.push_back(d.normalized());
+    side += radial.back().dot(evidence.coarse_axis[i]);
+    out.fine_m2 += radial.back().dot(evidence.coarse_fine_m2[i] * radial.back());
+  }
+  const double count = static_cast<double>(evidence.coarse_m.size());
+  out.fine_m2 /= count;
+  out.rms_m = std::sqrt(square / count);
+  out.outside = side >= 0.0;
+  double tilt = 0.0;
+  for (std::size_t i = 0; i < radial.size(); ++i) {
+    tilt += std::pow(angle_rad(evidence.coarse_axis[i], out.outside ? radial[i] : Eigen::Vector3d(-radial[i])), 2);
+  }
+  out.tilt_rad = std::sqrt(tilt / count);
+  // The fit takes every cell's error as independent; few are. The texture's share averages out, what lasts
+  // is the coarse points' error or the slow error.
+  const double inflation = std::max(config.slow_error_m, out.rms_m) / std::max(fit.rms_m, 1e-12) *
+                           std::sqrt(static_cast<double>(points.size()) / evidence.independent);
+  out.radius_stderr_m = fit.radius_stderr_m() * inflation;
+  out.significance = 1.0 / (fit.radius_m * fit.curvature_stderr_per_m() * inflation);
+  return out;
+}
+
+double circle_log_odds(const PlaneCandidate& plane, const CircleCandidate& circle, const PathEvidence& evidence,
+                       const BasePathConfig& config) {
+  constexpr double kNever = -50.0;
+  if (!(circle.significance > 4.0)) return kNever;
+  const double axis_sigma = std::max(config.probe_axis_sigma_deg, 25.0) * kDegree_rad;
+  double odds = 0.0;
+  if (mean_axis(evidence).norm() > 0.1) {
+    odds += 0.5 * (plane.tilt_rad * plane.tilt_rad - circle.tilt_rad * circle.tilt_rad) / (axis_sigma * axis_sigma);
+  }
+  // Both are capped: a texture can be anisotropic, and a hand can follow a ruler or a compass.
+  if (plane.fine_m2 > 0.0 && circle.fine_m2 > 0.0)
+    odds += std::clamp(1.5 * std::log(circle.fine_m2 / plane.fine_m2), -4.0, 4.0);
+  const double error_m2 = config.slow_error_m * config.slow_error_m;
+  odds -= std::clamp(0.5 * std::min(evidence.independent, 8.0) *
+                         std::log((error_m2 + circle.rms_m * circle.rms_m) / (error_m2 + plane.rms_m * plane.rms_m)),
+                     -4.0, 40.0);
+  return std::clamp(odds, kNever, -kNever);
+}
+
+}  // namespace asperity

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "asperity/geometry/fit_circle.h"
+#include "path_evidence.h"
+
+namespace asperity {
+
+// A plane or circle candidate for the base shape.
+struct PlaneCandidate {
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // outward
+  double sigma_rad = 0.0;                             // of its rotation about the stroke
+  double rms_m = 0.0;                                 // of the coarse points
+  double tilt_rad = 0.0;                              // RMS angle between probe axis and normal
+  double fine_m2 = 0.0;                               // mean square fine motion along the normal
+};
+
+struct CircleCandidate {
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
+  double radius_m = 0.0;
+  double radius_stderr_m = 0.0;
+  double significance = 0.0;  // curvature over its standard error
+  bool outside = true;
+  double rms_m = 0.0;
+  double tilt_rad = 0.0;
+  double fine_m2 = 0.0;
+};
+
+PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathConfig& config);
+CircleCandidate fit_circle_candidate(const PathEvidence& evidence, const BasePathConfig& config);
+
+// The natural logarithm of the odds for the circle.
+double circle_log_odds(const PlaneCandidate& plane, const CircleCandidate& circle, const PathEvidence& evidence,
+                       const BasePathConfig& config);
+
+}  // namespace asperity

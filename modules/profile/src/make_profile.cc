@@ -1,0 +1,157 @@
+#include "asperity/profile/make_profile.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "asperity/base/error.h"
+#include "asperity/base/units.h"
+#include "asperity/profile/extract_texture.h"
+#include "asperity/profile/resample_over_path.h"
+#include "asperity/signal/resample.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kStopWander_m = 0.3e-3;   // s moves by its slow error even when the tip rests
+constexpr double kStopEdge_s = 0.25;       // of a long stop, what still belongs to the stroke beside it
+constexpr std::ptrdiff_t kSpeedReach = 4;  // cells to either side over which the speed is taken
+
+struct Samples {
+  std::vector<double> t_s, height_m, sigma_m, force_N;
+};
+
+Samples take_samples(const TipMotion& motion, const BasePath& base, const ProfileConfig& config) {
+  const std::size_t n = motion.size();
+  Samples out;
+  out.t_s.resize(n);
+  out.height_m.resize(n);
+  out.sigma_m.assign(n, kNan);
+  for (std::size_t i = 0; i < n; ++i) {
+    out.t_s[i] = static_cast<double>(motion.t_ns[i] - motion.t_ns[0]) * kNanosecond_s;
+    out.height_m[i] = base.n_world[i].dot(motion.p_world_tip_m[i] - base.p_world_m[i]);
+    if (!motion.cov_world_tip_m2.empty()) {
+      out.sigma_m[i] = std::sqrt(std::max(0.0, base.n_world[i].dot(motion.cov_world_tip_m2[i] * base.n_world[i])));
+    }
+  }
+  out.force_N.assign(n, kNan);
+  std::vector<double> read_s, read_N;
+  for (std::size_t i = 0; i < motion.force_N.size(); ++i) {
+    if (!std::isfinite(motion.force_N[i])) continue;
+    read_s.push_back(out.t_s[i]);
+    read_N.push_back(motion.force_N[i]);
+  }
+  if (!read_s.empty()) out.force_N = interpolate(read_s, read_N, out.t_s, config.max_force_hole_s);
+  return out;
+}
+
+// One number a sample: the part of the profile it belongs to, -1 for the middle of a long stop.
+std::vector<int> find_parts(const std::vector<double>& t_s, const std::vector<double>& s_m, double max_stop_s) {
+  const std::size_t n = t_s.size();
+  std::vector<int> part(n, 0);
+  int current = 0;
+  std::size_t marked = 0;
+  for (std::size_t i = 0; i < n;) {
+    std::size_t end = i + 1;
+    while (end < n && std::abs(s_m[end] - s_m[i]) < kStopWander_m) ++end;
+    if (t_s[end - 1] - t_s[i] <= max_stop_s) {
+      ++i;
+      continue;
+    }
+    const double edge_s = std::min(kStopEdge_s, 0.25 * max_stop_s);
+    for (; marked < end; ++marked) {
+      const bool before = t_s[marked] <= t_s[i] + edge_s, after = t_s[marked] >= t_s[end - 1] - edge_s;
+      part[marked] = before ? current : after ? current + 1 : -1;
+    }
+    ++current;
+    i = end;
+  }
+  for (; marked < n; ++marked) part[marked] = current;
+  return part;
+}
+
+void check_sizes(const TipMotion& motion, const BasePath& base, std::span<const char> usable) {
+  const std::size_t n = motion.size();
+  if (base.size() != n || base.n_world.size() != n || base.s_m.size() != n || motion.p_world_tip_m.size() != n ||
+      (!usable.empty() && usable.size() != n) ||
+      (!motion.cov_world_tip_m2.empty() && motion.cov_world_tip_m2.size() != n) ||
+      (!motion.force_N.empty() && motion.force_N.size() != n)) {
+    throw Error("profile: motion, base path and marks differ in size (" + std::to_string(n) + " samples)");
+  }
+}
+
+}  // namespace
+
+Profile make_profile(const TipMotion& motion, const BasePath& base, std::span<const char> usable,
+                     const ProfileConfig& config) {
+  check_sizes(motion, base, usable);
+  const std::size_t n = motion.size();
+  const Samples samples = take_samples(motion, base, config);
+  std::vector<char> use(n, 1);
+  if (!usable.empty()) std::copy(usable.begin(), usable.end(), use.begin());
+  const std::vector<int> part = find_parts(samples.t_s, base.s_m, config.max_stop_s);
+  double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (part[i] < 0) use[i] = 0;
+    if (use[i] == 0) continue;
+    low_m = std::min(low_m, base.s_m[i]);
+    high_m = std::max(high_m, base.s_m[i]);
+  }
+  if (!(high_m > low_m)) throw Error("profile: no stretch of the motion is in contact and moving");
+
+  Profile out;
+  out.spacing_m = config.spacing_m;
+  const auto first = static_cast<std::ptrdiff_t>(std::ceil(low_m / config.spacing_m - 1e-9));
+  const auto last = static_cast<std::ptrdiff_t>(std::floor(high_m / config.spacing_m + 1e-9));
+  if (last < first) throw Error("profile: the path in contact is shorter than the profile's spacing");
+  const auto count = static_cast<std::size_t>(last - first + 1);
+  out.s_m.resize(count);
+  for (std::size_t k = 0; k < count; ++k)
+    out.s_m[k] = config.spacing_m * static_cast<double>(first + static_cast<std::ptrdiff_t>(k));
+  out.height_m.assign(count, kNan);
+
+  const std::array<std::span<const double>, 4> channels{samples.height_m, samples.sigma_m, samples.force_N,
+                                                        samples.t_s};
+  std::vector<std::size_t> breaks;
+  std::vector<char> in_part(n);
+  const int parts = *std::max_element(part.begin(), part.end()) + 1;
+  for (int p = 0; p < parts; ++p) {
+    double end_m = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < n; ++i) {
+      in_part[i] = use[i] != 0 && part[i] == p ? 1 : 0;
+      if (in_part[i] != 0) end_m = std::max(end_m, base.s_m[i]);
+    }
+    const PathKnots knots = gather_knots(base.s_m, channels, in_part, 0.25 * config.spacing_m);
+    const std::vector<double> height = resample_smooth(knots, first, count, config.spacing_m, config.max_hole_m);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (!std::isfinite(out.height_m[k])) out.height_m[k] = height[k];
+    }
+    if (p + 1 < parts && std::isfinite(end_m)) {
+      const auto seam = static_cast<std::size_t>(
+          std::clamp(std::lround(end_m / config.spacing_m) - first, 0L, static_cast<long>(count) - 1));
+      breaks.push_back(seam);
+    }
+  }
+  // After all parts, so that the next one does not fill the seam.
+  for (const std::size_t seam : breaks) out.height_m[seam] = kNan;
+
+  const PathKnots knots = gather_knots(base.s_m, channels, use, 0.25 * config.spacing_m);
+  out.sigma_m = resample_linear(knots, 1, first, count, config.spacing_m, config.max_hole_m);
+  out.force_N = resample_linear(knots, 2, first, count, config.spacing_m, config.max_hole_m);
+  const std::vector<double> t_s = resample_linear(knots, 3, first, count, config.spacing_m, config.max_hole_m);
+  out.speed_mps.assign(count, kNan);
+  for (std::ptrdiff_t k = 0; k < static_cast<std::ptrdiff_t>(count); ++k) {
+    const auto a = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, k - kSpeedReach));
+    const auto b = std::min(static_cast<std::size_t>(k + kSpeedReach), count - 1);
+    const double took_s = t_s[b] - t_s[a];
+    if (took_s > 0.0) out.speed_mps[static_cast<std::size_t>(k)] = (out.s_m[b] - out.s_m[a]) / took_s;
+  }
+  out.texture_m = extract_texture(out.height_m, config.spacing_m, config.cutoff_cycles_per_mm, config.bridge_m, breaks);
+  return out;
+}
+
+}  // namespace asperity

@@ -1,0 +1,113 @@
+#include "asperity/profile/measure_arc_length.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "asperity/base/error.h"
+#include "asperity/signal/statistics.h"
+#include "asperity/signal/zero_phase.h"
+#include "even_path.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr double kPathRate_hz = 200.0;  // ample for directions that change below direction_cutoff_hz
+
+struct Directions {
+  std::vector<Eigen::Vector2d> tangent;  // unit, one a cell of the even path
+  std::vector<std::size_t> turns;        // cells from which a reversed direction holds
+};
+
+// Moving cells have the direction of their velocity. A rest between two of them keeps the first
+// direction up to the point that lies outermost between the two, and has the second from there.
+Directions find_directions(const EvenPath<2>& path, const EvenPath<2>& smooth, const std::vector<char>& moving) {
+  const std::size_t n = path.size();
+  Directions out;
+  out.tangent.assign(n, Eigen::Vector2d::UnitX());
+  std::size_t last = n;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (moving[i] == 0) continue;
+    out.tangent[i] = velocity_mps(smooth, i).normalized();
+    if (last == n) {
+      std::fill(out.tangent.begin(), out.tangent.begin() + static_cast<std::ptrdiff_t>(i), out.tangent[i]);
+    } else if (i > last + 1) {
+      const Eigen::Vector2d outwards = out.tangent[last] - out.tangent[i];
+      std::size_t cut = (last + i) / 2;
+      if (outwards.norm() > 0.1) {
+        double furthest = -std::numeric_limits<double>::infinity();
+        for (std::size_t j = last; j <= i; ++j) {
+          const double reach = outwards.dot(path.p_m[j]);
+          if (reach > furthest) {
+            furthest = reach;
+            cut = j;
+          }
+        }
+      }
+      for (std::size_t j = last + 1; j < i; ++j) out.tangent[j] = j < cut ? out.tangent[last] : out.tangent[i];
+      if (out.tangent[last].dot(out.tangent[i]) < 0.0) out.turns.push_back(cut);
+    } else if (out.tangent[last].dot(out.tangent[i]) < 0.0) {
+      out.turns.push_back(i);
+    }
+    last = i;
+  }
+  if (last != n)
+    std::fill(out.tangent.begin() + static_cast<std::ptrdiff_t>(last), out.tangent.end(), out.tangent[last]);
+  return out;
+}
+
+}  // namespace
+
+ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen::Vector2d> u_m,
+                             std::span<const char> usable, const ArcLengthConfig& config) {
+  const std::size_t n = t_s.size();
+  if (u_m.size() != n || (!usable.empty() && usable.size() != n)) {
+    throw Error("measure_arc_length: " + std::to_string(n) + " times, " + std::to_string(u_m.size()) + " points, " +
+                std::to_string(usable.size()) + " marks");
+  }
+  for (std::size_t i = 1; i < n; ++i) {
+    if (!(t_s[i] > t_s[i - 1])) throw Error("measure_arc_length: time does not rise at sample " + std::to_string(i));
+  }
+  ArcLength out;
+  out.s_m.assign(n, 0.0);
+  out.speed_mps.assign(n, 0.0);
+  std::size_t begin = 0, end = n;
+  if (!usable.empty()) {
+    while (begin < n && usable[begin] == 0) ++begin;
+    while (end > begin && usable[end - 1] == 0) --end;
+  }
+  if (end < begin + 3) return out;
+
+  const auto path = space_evenly<2>(t_s, u_m, kPathRate_hz);
+  const auto smooth = low_pass(path, config.direction_cutoff_hz);
+  std::vector<double> speed(path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) speed[i] = velocity_mps(smooth, i).norm();
+  const std::size_t first_cell = index_at(path, t_s[begin]), last_cell = index_at(path, t_s[end - 1]);
+  const std::span<const double> travelled(speed.data() + first_cell, last_cell - first_cell + 1);
+  const double rest_mps = std::max(config.rest_speed_mps, config.rest_fraction * percentile(travelled, 80.0));
+  std::vector<char> moving(path.size(), 0);
+  for (std::size_t i = first_cell; i <= last_cell; ++i) moving[i] = speed[i] > rest_mps ? 1 : 0;
+  const Directions directions = find_directions(path, smooth, moving);
+
+  for (std::size_t i = 0; i < n; ++i) out.speed_mps[i] = speed[index_at(path, t_s[i])];
+  for (std::size_t i = begin + 1; i < end; ++i) {
+    const Eigen::Vector2d& tangent = directions.tangent[index_at(path, 0.5 * (t_s[i - 1] + t_s[i]))];
+    out.s_m[i] = out.s_m[i - 1] + tangent.dot(u_m[i] - u_m[i - 1]);
+  }
+  const double rate_hz = static_cast<double>(end - 1 - begin) / (t_s[end - 1] - t_s[begin]);
+  if (config.along_cutoff_hz > 0.0 && config.along_cutoff_hz * 1.3 < 0.5 * rate_hz) {
+    const std::span<const double> inside(out.s_m.data() + begin, end - begin);
+    const std::vector<double> smoothed = zero_phase_lowpass(inside, config.along_cutoff_hz, rate_hz);
+    std::copy(smoothed.begin(), smoothed.end(), out.s_m.begin() + static_cast<std::ptrdiff_t>(begin));
+  }
+  std::fill(out.s_m.begin() + static_cast<std::ptrdiff_t>(end), out.s_m.end(), out.s_m[end - 1]);
+
+  for (const std::size_t cell : directions.turns) {
+    const auto at = std::lower_bound(t_s.begin(), t_s.end(), path.time_s(cell));
+    out.turning_points.push_back(std::min(static_cast<std::size_t>(at - t_s.begin()), n - 1));
+  }
+  return out;
+}
+
+}  // namespace asperity

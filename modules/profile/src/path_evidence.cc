@@ -1,0 +1,104 @@
+#include "path_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "asperity/base/error.h"
+#include "asperity/signal/statistics.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr double kPathRate_hz = 200.0;
+constexpr double kWindow_m = 10e-3;        // four periods of a 2.5 mm texture
+constexpr double kFineCutoff_hz = 15.0;    // above the hand's tremor
+constexpr double kSlowBandwidth_hz = 1.0;  // of the tracker's error after smoothing
+
+}  // namespace
+
+PathEvidence gather_evidence(const TipMotion& motion, std::span<const double> t_s, std::span<const char> contact,
+                             const Eigen::Vector3d& tip_in_marker_m, const BasePathConfig& config) {
+  PathEvidence out;
+  out.path = space_evenly<3>(t_s, std::span<const Eigen::Vector3d>(motion.p_world_tip_m), kPathRate_hz);
+  const std::size_t cells = out.path.size();
+  const EvenPath<3> smooth = low_pass(out.path, config.arc_length.direction_cutoff_hz);
+  const EvenPath<3> slow = low_pass(out.path, kFineCutoff_hz);
+
+  out.force_measured =
+      std::any_of(motion.force_N.begin(), motion.force_N.end(), [](double f) { return std::isfinite(f); });
+  std::vector<char> touching(cells, 0);
+  for (std::size_t i = 0; i < t_s.size(); ++i) {
+    if (contact[i] != 0) touching[index_at(out.path, t_s[i])] = 1;
+  }
+  // Cells between sparse samples take their neighbour's mark.
+  if (t_s.size() < 2 * cells) {
+    for (std::size_t c = 0; c < cells; ++c) {
+      const auto at = std::lower_bound(t_s.begin(), t_s.end(), out.path.time_s(c));
+      touching[c] = contact[std::min(static_cast<std::size_t>(at - t_s.begin()), t_s.size() - 1)];
+    }
+  }
+  std::vector<double> speed(cells);
+  std::vector<double> inside;
+  for (std::size_t c = 0; c < cells; ++c) {
+    speed[c] = velocity_mps(smooth, c).norm();
+    if (touching[c] != 0) inside.push_back(speed[c]);
+  }
+  if (inside.size() < 3) throw Error("base path: the tip is in contact for fewer than 3 cells of 5 ms");
+  const double rest_mps =
+      std::max(config.arc_length.rest_speed_mps, config.arc_length.rest_fraction * percentile(inside, 80.0));
+
+  out.weight.assign(cells, 0.0);
+  out.travelled_m.assign(cells + 1, 0.0);
+  out.probe_axis.assign(cells, Eigen::Vector3d::Zero());
+  for (std::size_t c = 0; c < cells; ++c) {
+    if (touching[c] != 0 && speed[c] > rest_mps) {
+      out.weight[c] = speed[c] * out.path.step_s;
+      out.moving_s += out.path.step_s;
+    }
+    out.travelled_m[c + 1] = out.travelled_m[c] + out.weight[c];
+  }
+  if (tip_in_marker_m.norm() > 0.0) {
+    const Eigen::Vector3d axis_in_marker = -tip_in_marker_m.normalized();
+    for (std::size_t c = 0; c < cells; ++c) {
+      const auto at = std::lower_bound(t_s.begin(), t_s.end(), out.path.time_s(c));
+      const std::size_t i = std::min(static_cast<std::size_t>(at - t_s.begin()), t_s.size() - 1);
+      out.probe_axis[c] = motion.q_world_marker[i] * axis_in_marker;
+    }
+  }
+
+  const double total_m = out.travelled_m.back();
+  if (!(total_m > 0.0)) throw Error("base path: the tip does not travel while in contact");
+  const double window_m = std::min(kWindow_m, total_m / 6.0);
+  const auto count = static_cast<std::size_t>(std::max(5.0, std::floor(2.0 * total_m / window_m) - 1.0));
+  for (std::size_t k = 0; k < count; ++k) {
+    const double centre_m =
+        0.5 * window_m + (total_m - window_m) * static_cast<double>(k) / static_cast<double>(count - 1);
+    const auto from = std::lower_bound(out.travelled_m.begin(), out.travelled_m.end(), centre_m - 0.5 * window_m);
+    double sum = 0.0;
+    Eigen::Vector3d point = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d fine = Eigen::Matrix3d::Zero();
+    for (auto c = static_cast<std::size_t>(from - out.travelled_m.begin()); c < cells; ++c) {
+      const double x = (out.travelled_m[c] + 0.5 * out.weight[c] - centre_m) / window_m;
+      if (x > 0.5) break;
+      if (x < -0.5 || out.weight[c] == 0.0) continue;
+      const double w = out.weight[c] * (1.0 + std::cos(2.0 * M_PI * x));
+      const Eigen::Vector3d tangent = velocity_mps(smooth, c).normalized();
+      Eigen::Vector3d across = out.path.p_m[c] - slow.p_m[c];
+      across -= across.dot(tangent) * tangent;
+      sum += w;
+      point += w * out.path.p_m[c];
+      axis += w * out.probe_axis[c];
+      fine += w * across * across.transpose();
+    }
+    if (!(sum > 0.0)) continue;
+    out.coarse_m.emplace_back(point / sum);
+    out.coarse_axis.emplace_back(axis / sum);
+    out.coarse_fine_m2.emplace_back(fine / sum);
+  }
+  if (out.coarse_m.size() < 4) throw Error("base path: the path in contact is too short to fit a shape to");
+  out.independent = std::clamp(2.0 * kSlowBandwidth_hz * out.moving_s, 2.0, static_cast<double>(out.coarse_m.size()));
+  return out;
+}
+
+}  // namespace asperity
