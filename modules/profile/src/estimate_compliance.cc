@@ -23,7 +23,7 @@ constexpr double kLeastSquarePart = 0.05;
 
 struct Series {
   std::vector<double> a_normal_mps2;
-  std::vector<double> speed_mps;
+  std::vector<Eigen::Vector3d> n_world;
   std::vector<double> force_N;
 };
 
@@ -34,14 +34,30 @@ Series project(const TipMotion& samples, std::span<const std::int64_t> normal_t_
   std::size_t k = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     while (k + 1 < n_world.size() && normal_t_ns[k + 1] <= samples.t_ns[i]) ++k;
-    const Eigen::Vector3d& n = n_world[k];
-    const Eigen::Vector3d& v_mps = samples.v_world_tip_mps[i];
-    out.a_normal_mps2.push_back(samples.a_world_tip_mps2[i].dot(n));
-    out.speed_mps.push_back((v_mps - v_mps.dot(n) * n).norm());
+    out.n_world.push_back(n_world[k]);
+    out.a_normal_mps2.push_back(samples.a_world_tip_mps2[i].dot(n_world[k]));
     t_s.push_back(static_cast<double>(samples.t_ns[i] - samples.t_ns.front()) * kNanosecond_s);
   }
   out.force_N = bridge_gaps(t_s, samples.force_N);
   return out;
+}
+
+Eigen::Vector3d median_point(std::span<const Eigen::Vector3d> p_m) {
+  Eigen::Vector3d out;
+  std::vector<double> values(p_m.size());
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    std::transform(p_m.begin(), p_m.end(), values.begin(), [=](const Eigen::Vector3d& p) { return p[axis]; });
+    out[axis] = median(values);
+  }
+  return out;
+}
+
+// Along the surface, from the median positions of the first and the last third of a window: the noise of a
+// tracker falls with the way between them, and flipped poses do not count.
+double window_speed_mps(std::span<const Eigen::Vector3d> p_m, const Eigen::Vector3d& n_world, double window_s) {
+  const std::size_t third = p_m.size() / 3;
+  const Eigen::Vector3d way_m = median_point(p_m.last(third)) - median_point(p_m.first(third));
+  return (way_m - way_m.dot(n_world) * n_world).norm() / (2.0 / 3.0 * window_s);
 }
 
 // All windows; their ratios not yet known.
@@ -60,7 +76,9 @@ std::vector<ComplianceWindow> cut(const TipMotion& samples, const Series& series
     ComplianceWindow window;
     window.force_N = mean(part(series.force_N));
     window.amplitude_mps2 = (percentile(a, 90.0) - percentile(a, 10.0)) / kSigmasBetweenDeciles;
-    window.speed_mps = median(part(series.speed_mps));
+    window.speed_mps =
+        window_speed_mps(std::span(samples.p_world_tip_m).subspan(begin, end - begin),
+                         series.n_world[(begin + end) / 2], static_cast<double>(window_ns) * kNanosecond_s);
     windows.push_back(window);
   }
   return windows;
@@ -83,7 +101,7 @@ double compliance_coefficient(double sigma_r2) { return std::exp(-sigma_r2); }
 Compliance estimate_compliance(const TipMotion& samples, std::span<const std::int64_t> normal_t_ns,
                                std::span<const Eigen::Vector3d> n_world, const ComplianceConfig& config) {
   const std::size_t n = samples.size();
-  if (samples.a_world_tip_mps2.size() != n || samples.v_world_tip_mps.size() != n || samples.force_N.size() != n ||
+  if (samples.a_world_tip_mps2.size() != n || samples.p_world_tip_m.size() != n || samples.force_N.size() != n ||
       normal_t_ns.size() != n_world.size() || n_world.empty()) {
     throw Error("compliance: " + std::to_string(n) + " samples, " + std::to_string(samples.a_world_tip_mps2.size()) +
                 " accelerations, " + std::to_string(samples.force_N.size()) + " forces, " +

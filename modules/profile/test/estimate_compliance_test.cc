@@ -16,6 +16,7 @@ const Eigen::Vector3d kNormal(0.0, -0.6, 0.8);
 TipMotion ramp(double power, double noise_mps2) {
   Random random(1);
   TipMotion m;
+  double way_m = 0.0;
   for (int i = 0; i < 8000; ++i) {
     const double t = 0.001 * i;
     const double u = (t - 1.0) / 6.0;
@@ -24,9 +25,11 @@ TipMotion ramp(double power, double noise_mps2) {
     const double speed_mps = moving ? 0.02 + 0.02 * u : 0.0;
     const double amplitude = 2000.0 * speed_mps * speed_mps * std::pow(force_N, power);
     m.t_ns.push_back(1'000'000LL * i);
-    m.p_world_tip_m.push_back(Eigen::Vector3d::Zero());
+    way_m += 0.001 * speed_mps;
+    m.p_world_tip_m.push_back(way_m * Eigen::Vector3d::UnitX() + 1e-3 * random.normal() * kNormal);
+    if (i % 500 == 7) m.p_world_tip_m.back().y() += 0.05;  // a flipped pose
     m.q_world_marker.push_back(Eigen::Quaterniond::Identity());
-    m.v_world_tip_mps.push_back(speed_mps * Eigen::Vector3d::UnitX() + 0.003 * random.normal() * kNormal);
+    m.v_world_tip_mps.push_back(speed_mps * Eigen::Vector3d::UnitX());
     const double a = amplitude * std::sin(2.0 * M_PI * 40.0 * t) + noise_mps2 * random.normal();
     m.a_world_tip_mps2.push_back(a * kNormal + 0.4 * random.normal() * Eigen::Vector3d::UnitX());
     m.force_N.push_back(i % 3 == 0 ? force_N : std::nan(""));
