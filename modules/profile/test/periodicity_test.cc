@@ -56,6 +56,14 @@ TEST(Periodicity, TheStandardErrorIsTheSpread) {
   EXPECT_NEAR(std::sqrt(square / predicted), 1.0, 0.35);  // 60 runs, and an autocorrelation from 25 windows each
 }
 
+TEST(Periodicity, ALongProfileIsFollowedToItsEnd) {
+  std::vector<double> h = holes(2.5117e-3, 0.9e-3, 1.2e-3, 1.2, 5e-6);
+  for (std::size_t k = 0; k < 9000; ++k) h[k] = k % 3 == 0 ? h[k] : NAN;
+  const Periodicity p = find_periodicity(h, kSpacing_m, {});
+  EXPECT_TRUE(p.periodic);
+  EXPECT_NEAR(p.pitch_m, 2.5117e-3, 5e-8);  // a hundredth of a period over all 478 would be 5e-8
+}
+
 TEST(Periodicity, GapsAreLeftOut) {
   std::vector<double> h = holes(2.5e-3, 0.9e-3, 1.2e-3, 0.06, 1e-6);
   for (std::size_t k = 500; k < 560; ++k) h[k] = NAN;
