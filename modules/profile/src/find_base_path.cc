@@ -87,18 +87,18 @@ std::vector<Eigen::Vector2d> develop_curve(const PathEvidence& evidence, const s
   return u;
 }
 
-BaseShape choose_shape(const PlaneCandidate& plane, const CircleCandidate& circle, const PathEvidence& evidence,
+PathShape choose_shape(const PlaneCandidate& plane, const CircleCandidate& circle, const PathEvidence& evidence,
                        const BasePathConfig& config, double& probability) {
-  if (config.shape != BaseShape::kAuto) return config.shape == BaseShape::kLine ? BaseShape::kLine : config.shape;
+  if (config.shape != PathShape::kAuto) return config.shape == PathShape::kLine ? PathShape::kLine : config.shape;
   const double odds = circle_log_odds(plane, circle, evidence, config);
   probability = 1.0 / (1.0 + std::exp(-std::abs(odds)));
   const bool round = odds > 0.0;
   const double rms_m = round ? circle.rms_m : plane.rms_m;
   if (rms_m > std::max(config.shape_tolerance_m, 5.0 * config.slow_error_m)) {
     probability = 1.0;
-    return BaseShape::kCurve;
+    return PathShape::kCurve;
   }
-  return round ? BaseShape::kCircle : BaseShape::kPlane;
+  return round ? PathShape::kCircle : PathShape::kPlane;
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
   out.path.p_world_m.reserve(motion.size());
   out.path.n_world.reserve(motion.size());
   std::vector<Eigen::Vector2d> developed;
-  if (out.shape == BaseShape::kCircle) {
+  if (out.shape == PathShape::kCircle) {
     if (!(circle.radius_m > 0.0) || !(circle.significance > 0.0))
       throw Error("base path: no circle fits a path without curvature");
     developed = develop_circle(circle, motion, out.path);
@@ -137,7 +137,7 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
     // A radius that is off by δ over a chord L turns the normals at its ends by about L/2 · δ/R².
     const double half_m = 0.5 * (evidence.coarse_m.back() - evidence.coarse_m.front()).norm();
     out.normal_sigma_deg = kRadian_deg * half_m * circle.radius_stderr_m / (circle.radius_m * circle.radius_m);
-  } else if (out.shape == BaseShape::kCurve) {
+  } else if (out.shape == PathShape::kCurve) {
     developed = develop_curve(evidence, t_s, motion, config.curve_cutoff_cycles_per_mm, out.path);
     out.normal_sigma_deg = config.probe_axis_sigma_deg;
     out.undetermined.push_back(
@@ -153,7 +153,7 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
     out.probe_tilt_deg = kRadian_deg * plane.tilt_rad;
     out.base_rms_m = plane.rms_m;
   }
-  if (out.shape != BaseShape::kCurve && out.normal_sigma_deg > config.undetermined_deg) {
+  if (out.shape != PathShape::kCurve && out.normal_sigma_deg > config.undetermined_deg) {
     out.undetermined.push_back({"normal about the direction of travel", out.normal_sigma_deg});
   }
   for (const Undetermined& u : out.undetermined) {
@@ -163,7 +163,7 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
   }
   if (out.shape_probability < 0.9) {
     out.problems.push_back({"uncertain_shape", "base shape " +
-                                                   std::string(kBaseShapeNames[static_cast<std::size_t>(out.shape)]) +
+                                                   std::string(kPathShapeNames[static_cast<std::size_t>(out.shape)]) +
                                                    " chosen with probability " +
                                                    number_text(std::round(out.shape_probability * 100.0) / 100.0)});
   }
@@ -179,7 +179,7 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
   out.speed_mps = std::move(arc.speed_mps);
   out.turning_points = std::move(arc.turning_points);
   out.length_m = *std::max_element(out.path.s_m.begin(), out.path.s_m.end());
-  if (out.shape == BaseShape::kCurve && !out.turning_points.empty()) {
+  if (out.shape == PathShape::kCurve && !out.turning_points.empty()) {
     out.problems.push_back(
         {"curve_with_turns", "a base curve is not reliable near turning points", out.turning_points.size()});
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -80,8 +81,9 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
   const double fine_sigma = (config.texture_axis_sigma_deg + 30.0 * minor / std::max(major, 1e-300)) * kDegree_rad;
   const double axis_sigma = config.probe_axis_sigma_deg * kDegree_rad;
 
-  const bool use_path = config.shape != BaseShape::kLine;
-  const double error_m2 = config.slow_error_m * config.slow_error_m;
+  const bool use_path = config.shape != PathShape::kLine;
+  // A path that leaves the plane by more than the slow error says less about it.
+  const double error_m2 = std::max(config.slow_error_m * config.slow_error_m, fit.scatter_m2.z());
   // The posterior on a grid of a tenth of a degree over the half circle about its mode: it may have two humps.
   constexpr int kSteps = 1800;
   std::vector<double> log_density(kSteps);
@@ -142,6 +144,105 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
   return out;
 }
 
+namespace {
+
+constexpr double kAxisTilt_rad = 30.0 * kDegree_rad;  // of the cylinder's axis from the path's normal, a weak prior
+
+// vᵀMv: how badly a unit axis v agrees with the probe's axis and the fine motion, which both lie along the
+// normals and so across it.
+Eigen::Matrix3d across_information(const PathEvidence& evidence, const BasePathConfig& config) {
+  const double axis_sigma = config.probe_axis_sigma_deg * kDegree_rad,
+               fine_sigma = config.texture_axis_sigma_deg * kDegree_rad;
+  const double count = static_cast<double>(evidence.coarse_m.size());
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < evidence.coarse_m.size(); ++i) {
+    const Eigen::Vector3d& axis = evidence.coarse_axis[i];
+    information += axis * axis.transpose() / (count * axis_sigma * axis_sigma);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> fine(evidence.coarse_fine_m2[i]);
+    if (fine_sigma > 0.0 && fine.eigenvalues()(2) > std::max(4.0 * fine.eigenvalues()(1), 1e-14)) {
+      const Eigen::Vector3d direction = fine.eigenvectors().col(2);
+      information += direction * direction.transpose() / (count * fine_sigma * fine_sigma);
+    }
+  }
+  return information;
+}
+
+// Turns the axis of a circle's cylinder, and fits centre and radius with it, so that a path that also moves
+// along the axis lies on the cylinder. Gauss-Newton with a step control on the cells of the path.
+void refine_cylinder(CircleCandidate& circle, const PathEvidence& evidence, const BasePathConfig& config) {
+  const double error_m = config.slow_error_m;
+  const Eigen::Matrix3d across = across_information(evidence, config);
+  using Vector5 = Eigen::Matrix<double, 5, 1>;
+  using Matrix5 = Eigen::Matrix<double, 5, 5>;
+  const Eigen::Vector3d e1 = circle.axis.unitOrthogonal(), e2 = circle.axis.cross(e1);
+  const double scale_m = circle.radius_m;
+  const double unit = evidence.independent / (evidence.travelled_m.back() * error_m * error_m);
+  // Parameters: slopes of the axis towards e1 and e2, the centre's moves along them and the radius's over the scale.
+  const auto linearise = [&](const Vector5& x, Matrix5* information, Vector5* gradient) {
+    const Eigen::Vector3d along = circle.axis + x(0) * e1 + x(1) * e2;
+    const Eigen::Vector3d axis = along.normalized();
+    const Eigen::Vector3d centre = circle.centre_m + scale_m * (x(2) * e1 + x(3) * e2);
+    const double radius = scale_m * (1.0 + x(4));
+    double cost = (x(0) * x(0) + x(1) * x(1)) / (kAxisTilt_rad * kAxisTilt_rad);
+    if (information != nullptr) {
+      information->setZero();
+      gradient->setZero();
+      (*information)(0, 0) = (*information)(1, 1) = 1.0 / (kAxisTilt_rad * kAxisTilt_rad);
+      (*gradient)(0) = x(0) / (kAxisTilt_rad * kAxisTilt_rad);
+      (*gradient)(1) = x(1) / (kAxisTilt_rad * kAxisTilt_rad);
+      Eigen::Matrix<double, 3, 2> turn;
+      turn << e1 - e1.dot(axis) * axis, e2 - e2.dot(axis) * axis;
+      turn /= along.norm();
+      information->topLeftCorner<2, 2>() += turn.transpose() * across * turn;
+      gradient->head<2>() += turn.transpose() * across * axis;
+    }
+    cost += axis.dot(across * axis);
+    for (std::size_t c = 0; c < evidence.path.size(); ++c) {
+      const double w = unit * evidence.weight[c];
+      if (w == 0.0) continue;
+      const Eigen::Vector3d d = evidence.path.p_m[c] - centre;
+      const double height = d.dot(axis);
+      const Eigen::Vector3d radial = (d - height * axis).normalized();
+      const double r = d.dot(radial) - radius;
+      cost += w * r * r;
+      if (information == nullptr) continue;
+      Vector5 j;
+      j << -height * radial.dot(e1) / along.norm(), -height * radial.dot(e2) / along.norm(), -scale_m * radial.dot(e1),
+          -scale_m * radial.dot(e2), -scale_m;
+      *information += w * j * j.transpose();
+      *gradient += w * r * j;
+    }
+    return cost;
+  };
+  Vector5 x = Vector5::Zero();
+  double damping = 1e-6;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    Matrix5 information;
+    Vector5 gradient;
+    const double cost = linearise(x, &information, &gradient);
+    bool improved = false;
+    for (int attempt = 0; attempt < 10 && !improved; ++attempt) {
+      Matrix5 damped = information;
+      damped.diagonal() *= 1.0 + damping;
+      const Vector5 step = -damped.ldlt().solve(gradient);
+      if (step.allFinite() && x(4) + step(4) > -0.9 && linearise(x + step, nullptr, nullptr) <= cost) {
+        x += step;
+        improved = true;
+        damping *= 0.1;
+        if (step.norm() < 1e-9) iteration = 60;
+      } else {
+        damping *= 10.0;
+      }
+    }
+    if (!improved) break;
+  }
+  circle.centre_m += scale_m * (x(2) * e1 + x(3) * e2);
+  circle.axis = (circle.axis + x(0) * e1 + x(1) * e2).normalized();
+  circle.radius_m = scale_m * (1.0 + x(4));
+}
+
+}  // namespace
+
 CircleCandidate fit_circle_candidate(const PathEvidence& evidence, const BasePathConfig& config) {
   std::vector<double> weights;
   const PlaneFit plane = fit_robust_plane(evidence.coarse_m, config.slow_error_m, weights);
@@ -161,6 +262,9 @@ CircleCandidate fit_circle_candidate(const PathEvidence& evidence, const BasePat
   out.radius_m = fit.radius_m;
   out.centre_m = plane.centroid_m + fit.centre_m.x() * e1 + fit.centre_m.y() * e2;
   if (!fit.converged || !(fit.radius_m > 0.0)) return out;
+  // A nearly straight path has no cylinder to turn.
+  const double extent_m = std::sqrt(plane.scatter_m2.x());
+  if (fit.radius_m < 50.0 * extent_m) refine_cylinder(out, evidence, config);
 
   double square = 0.0, side = 0.0;
   std::vector<Eigen::Vector3d> radial;
@@ -186,7 +290,7 @@ CircleCandidate fit_circle_candidate(const PathEvidence& evidence, const BasePat
   const double inflation = std::max(config.slow_error_m, out.rms_m) / std::max(fit.rms_m, 1e-12) *
                            std::sqrt(static_cast<double>(points.size()) / evidence.independent);
   out.radius_stderr_m = fit.radius_stderr_m() * inflation;
-  out.significance = 1.0 / (out.radius_m * fit.curvature_stderr_per_m() * inflation);
+  out.significance = 1.0 / (fit.radius_m * fit.curvature_stderr_per_m() * inflation);
   return out;
 }
 

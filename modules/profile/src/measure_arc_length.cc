@@ -13,7 +13,16 @@ namespace asperity {
 
 namespace {
 
-constexpr double kPathRate_hz = 200.0;  // ample for directions that change below direction_cutoff_hz
+constexpr double kPathRate_hz = 200.0;   // ample for directions that change at a few Hz
+constexpr double kSpeedCutoff_hz = 3.0;  // for the speed that sets the direction's own cut-off
+
+constexpr double kLowestCutoff_hz = 0.5;
+
+std::vector<double> speeds(const EvenPath<2>& path) {
+  std::vector<double> out(path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) out[i] = velocity_mps(path, i).norm();
+  return out;
+}
 
 struct Directions {
   std::vector<Eigen::Vector2d> tangent;  // unit, one a cell of the even path
@@ -80,12 +89,14 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
   if (end < begin + 3) return out;
 
   const auto path = space_evenly<2>(t_s, u_m, kPathRate_hz);
-  const auto smooth = low_pass(path, config.direction_cutoff_hz);
-  std::vector<double> speed(path.size());
-  for (std::size_t i = 0; i < path.size(); ++i) speed[i] = velocity_mps(smooth, i).norm();
   const std::size_t first_cell = index_at(path, t_s[begin]), last_cell = index_at(path, t_s[end - 1]);
-  const std::span<const double> travelled(speed.data() + first_cell, last_cell - first_cell + 1);
-  const double rest_mps = std::max(config.rest_speed_mps, config.rest_fraction * percentile(travelled, 80.0));
+  const std::vector<double> rough_mps = speeds(low_pass(path, kSpeedCutoff_hz));
+  const std::span<const double> travelled(rough_mps.data() + first_cell, last_cell - first_cell + 1);
+  const double usual_mps = percentile(travelled, 80.0);
+  const auto smooth =
+      low_pass(path, std::max(kLowestCutoff_hz, config.direction_cutoff_cycles_per_mm * 1e3 * usual_mps));
+  const std::vector<double> speed = speeds(smooth);
+  const double rest_mps = std::max(config.rest_speed_mps, config.rest_fraction * usual_mps);
   std::vector<char> moving(path.size(), 0);
   for (std::size_t i = first_cell; i <= last_cell; ++i) moving[i] = speed[i] > rest_mps ? 1 : 0;
   const Directions directions = find_directions(path, smooth, moving);

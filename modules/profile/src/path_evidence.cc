@@ -11,7 +11,8 @@ namespace asperity {
 namespace {
 
 constexpr double kPathRate_hz = 200.0;
-constexpr double kWindow_m = 10e-3;        // four periods of a 2.5 mm texture
+constexpr double kWindow_m = 10e-3;  // four periods of a 2.5 mm texture
+constexpr double kSpeedCutoff_hz = 3.0;
 constexpr double kFineCutoff_hz = 15.0;    // above the hand's tremor
 constexpr double kSlowBandwidth_hz = 1.0;  // of the tracker's error after smoothing
 
@@ -22,7 +23,7 @@ PathEvidence gather_evidence(const TipMotion& motion, std::span<const double> t_
   PathEvidence out;
   out.path = space_evenly<3>(t_s, std::span<const Eigen::Vector3d>(motion.p_world_tip_m), kPathRate_hz);
   const std::size_t cells = out.path.size();
-  const EvenPath<3> smooth = low_pass(out.path, config.arc_length.direction_cutoff_hz);
+  const EvenPath<3> smooth = low_pass(out.path, kSpeedCutoff_hz);
   const EvenPath<3> slow = low_pass(out.path, kFineCutoff_hz);
 
   out.force_measured =

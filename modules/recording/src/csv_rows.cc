@@ -38,13 +38,10 @@ void note_truncation(const CsvReader& csv, RowProblems& problems) {
   }
 }
 
-std::size_t estimate_rows(std::string_view text) {
-  constexpr std::size_t kSample = 1 << 16;
-  const std::string_view start = text.substr(0, kSample);
-  const auto lines = static_cast<std::size_t>(std::count(start.begin(), start.end(), '\n'));
-  if (lines == 0) return 1;
-  // The estimate may be low, never absurd: no row is shorter than two bytes.
-  return std::min(text.size() / 2, text.size() / (start.size() / lines + 1) * 11 / 10) + 16;
+std::size_t most_rows(std::string_view text, std::size_t columns) {
+  const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  constexpr std::size_t kFilledCells = 4;
+  return std::min(lines, text.size() / (columns + kFilledCells));
 }
 
 }  // namespace asperity

@@ -46,7 +46,8 @@ inline bool within(const Eigen::Vector3d& v, double limit) { return v.allFinite(
 // Says that the last line was cut off, if it was.
 void note_truncation(const CsvReader& csv, RowProblems& problems);
 
-// How many rows `text` can hold at most, from its size and that of its first rows.
-std::size_t estimate_rows(std::string_view text);
+// No fewer rows than `text` can hold, so that vectors grow once; each row has a cell a column, of which
+// time and three numbers are not empty.
+std::size_t most_rows(std::string_view text, std::size_t columns);
 
 }  // namespace asperity

@@ -21,7 +21,8 @@ void judge_timing(const char* stream, const StreamTiming& timing, double nominal
   }
   const double rate_Hz = 1.0 / timing.period_s;
   if (nominal_Hz > 0.0 && std::abs(rate_Hz / nominal_Hz - 1.0) > config.rate_tolerance) {
-    out.push_back(fmt::format("The {} runs at {:.4g} Hz where its nominal rate is {:.4g} Hz.", stream, rate_Hz, nominal_Hz));
+    out.push_back(
+        fmt::format("The {} runs at {:.4g} Hz where its nominal rate is {:.4g} Hz.", stream, rate_Hz, nominal_Hz));
   }
   if (timing.lost_share > config.lost_tolerance) {
     out.push_back(fmt::format("The {} lost about {} rows ({:.1f} %).", stream, timing.lost, 100.0 * timing.lost_share));
@@ -50,7 +51,8 @@ bool has_force_sensor(const Recording& recording) {
   return found == extra.end() || *found != false;
 }
 
-void judge_channels(const Recording& recording, const Inspection& inspection, const InspectConfig& config, Findings& out) {
+void judge_channels(const Recording& recording, const Inspection& inspection, const InspectConfig& config,
+                    Findings& out) {
   for (const auto& channel : inspection.channels) {
     if (channel.name == "force" && !has_force_sensor(recording)) continue;
     if (channel.samples == 0) {
@@ -67,14 +69,16 @@ void judge_channels(const Recording& recording, const Inspection& inspection, co
 void judge_gravity(const Recording& recording, const QuietStretch& quiet, const InspectConfig& config, Findings& out) {
   const double gravity_mps2 = recording.info.gravity_world_mps2.norm();
   if (std::abs(quiet.gravity_mps2 - gravity_mps2) > config.gravity_tolerance * gravity_mps2) {
-    out.push_back(fmt::format("At rest the accelerometer reads {:.3f} m/s² where gravity is {:.3f} m/s²: "
-                              "its calibration does not fit.",
-                              quiet.gravity_mps2, gravity_mps2));
+    out.push_back(
+        fmt::format("At rest the accelerometer reads {:.3f} m/s² where gravity is {:.3f} m/s²: "
+                    "its calibration does not fit.",
+                    quiet.gravity_mps2, gravity_mps2));
   }
   if (quiet.gravity_angle_rad > config.gravity_angle_tolerance_rad) {
-    out.push_back(fmt::format("At rest the accelerometer's up is {:.1f}° from the world's: gravity_world_mps2, the pose "
-                              "or the accelerometer's rotation is wrong.",
-                              quiet.gravity_angle_rad * 180.0 / std::numbers::pi));
+    out.push_back(
+        fmt::format("At rest the accelerometer's up is {:.1f}° from the world's: gravity_world_mps2, the pose "
+                    "or the accelerometer's rotation is wrong.",
+                    quiet.gravity_angle_rad * 180.0 / std::numbers::pi));
   }
 }
 
@@ -85,18 +89,19 @@ void judge_rest(const Recording& recording, const Inspection& inspection, const 
   }
   const QuietStretch& quiet = *inspection.quiet;
   if (!quiet.at_rest) {
-    out.push_back(fmt::format("The probe is never at rest for {:g} s; hold it still at the start to check its calibration.",
-                              config.quiet_s));
+    out.push_back(fmt::format(
+        "The probe is never at rest for {:g} s; hold it still at the start to check its calibration.", config.quiet_s));
     return;
   }
   judge_gravity(recording, quiet, config, out);
   constexpr double kWorse = 3.0;
   const Eigen::Vector3d& sigma_m = recording.calibration.tracker.sigma_position_m;
   if ((quiet.position_noise_m.array() > kWorse * sigma_m.array()).any()) {
-    out.push_back(fmt::format("At rest the tracker's noise is ({:.3f}, {:.3f}, {:.3f}) mm; its calibration says "
-                              "({:.3f}, {:.3f}, {:.3f}) mm.",
-                              1e3 * quiet.position_noise_m.x(), 1e3 * quiet.position_noise_m.y(),
-                              1e3 * quiet.position_noise_m.z(), 1e3 * sigma_m.x(), 1e3 * sigma_m.y(), 1e3 * sigma_m.z()));
+    out.push_back(
+        fmt::format("At rest the tracker's noise is ({:.3f}, {:.3f}, {:.3f}) mm; its calibration says "
+                    "({:.3f}, {:.3f}, {:.3f}) mm.",
+                    1e3 * quiet.position_noise_m.x(), 1e3 * quiet.position_noise_m.y(),
+                    1e3 * quiet.position_noise_m.z(), 1e3 * sigma_m.x(), 1e3 * sigma_m.y(), 1e3 * sigma_m.z()));
   }
 }
 

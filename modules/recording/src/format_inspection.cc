@@ -81,16 +81,16 @@ std::string inspection_json(const Inspection& inspection) {
 std::string inspection_text(const Inspection& inspection) {
   std::string out = timing_text("probe", inspection.probe) + timing_text("tracker", inspection.tracker);
   out += fmt::format("overlap  {:.3f} s\n", inspection.overlap_s);
-  out += fmt::format("force    {:.3f} to {:.3f} N at {:.1f} Hz\n", inspection.force_lowest_N, inspection.force_highest_N,
-                     inspection.force_rate_Hz);
+  out += fmt::format("force    {:.3f} to {:.3f} N at {:.1f} Hz\n", inspection.force_lowest_N,
+                     inspection.force_highest_N, inspection.force_rate_Hz);
   out += fmt::format("flips    {}\n\n", inspection.flips);
-  out += fmt::format("{:<9}{:>12}{:>12}{:>12}{:>12}{:>14}\n", "counts", "lowest", "highest", "quiet mean", "quiet noise",
-                     "saturated");
+  out += fmt::format("{:<9}{:>12}{:>12}{:>12}{:>12}{:>14}\n", "counts", "lowest", "highest", "quiet mean",
+                     "quiet noise", "saturated");
   for (const auto& channel : inspection.channels) {
     const std::string saturated =
         std::isnan(channel.saturated_share) ? "unknown" : fmt::format("{:.3f} %", 100.0 * channel.saturated_share);
-    out += fmt::format("{:<9}{:>12.6g}{:>12.6g}{:>12.6g}{:>12.4g}{:>14}\n", channel.name, channel.lowest, channel.highest,
-                       channel.quiet_mean, channel.quiet_noise, saturated);
+    out += fmt::format("{:<9}{:>12.6g}{:>12.6g}{:>12.6g}{:>12.4g}{:>14}\n", channel.name, channel.lowest,
+                       channel.highest, channel.quiet_mean, channel.quiet_noise, saturated);
   }
   if (inspection.quiet) {
     const QuietStretch& quiet = *inspection.quiet;
@@ -100,9 +100,9 @@ std::string inspection_text(const Inspection& inspection) {
                        quiet.gravity_mps2, quiet.acceleration_noise_mps2.x(), quiet.acceleration_noise_mps2.y(),
                        quiet.acceleration_noise_mps2.z(), quiet.force_N);
     out += fmt::format("  tracker noise ({:.3f}, {:.3f}, {:.3f}) mm, ({:.2f}, {:.2f}, {:.2f}) mrad over {} poses\n",
-                       1e3 * quiet.position_noise_m.x(), 1e3 * quiet.position_noise_m.y(), 1e3 * quiet.position_noise_m.z(),
-                       1e3 * quiet.rotation_noise_rad.x(), 1e3 * quiet.rotation_noise_rad.y(),
-                       1e3 * quiet.rotation_noise_rad.z(), quiet.poses);
+                       1e3 * quiet.position_noise_m.x(), 1e3 * quiet.position_noise_m.y(),
+                       1e3 * quiet.position_noise_m.z(), 1e3 * quiet.rotation_noise_rad.x(),
+                       1e3 * quiet.rotation_noise_rad.y(), 1e3 * quiet.rotation_noise_rad.z(), quiet.poses);
   }
   out += inspection.findings.empty() ? "\nNothing looks wrong.\n" : "\nWhat looks wrong:\n";
   for (const auto& finding : inspection.findings) out += "  - " + finding + "\n";

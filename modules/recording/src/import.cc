@@ -151,7 +151,8 @@ Recording import_imu_pose(const ImportInput& input, const ImportConfig& config) 
   out.info.adc_min = -kAdcSteps;
   out.info.adc_max = kAdcSteps - 1.0;
   out.info.tracker_rate_Hz = config.pose_rate_Hz > 0.0 ? config.pose_rate_Hz : rate_of(input.pose_t_ns);
-  for (const auto& problem : input.problems) out.info.problems[problem.kind] += static_cast<std::int64_t>(problem.count);
+  for (const auto& problem : input.problems)
+    out.info.problems[problem.kind] += static_cast<std::int64_t>(problem.count);
   const nlohmann::json extra = {{"force_sensor", false},
                                 {"pose_rate_hz", config.pose_rate_Hz},
                                 {"pose_noise_m", config.pose_noise_m},

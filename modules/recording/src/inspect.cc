@@ -111,7 +111,8 @@ void measure_force(const Recording& recording, Inspection& out) {
     out.force_highest_N = samples == 0 ? force_N : std::max(out.force_highest_N, force_N);
     ++samples;
   }
-  if (samples > 1 && out.probe.duration_s > 0.0) out.force_rate_Hz = static_cast<double>(samples - 1) / out.probe.duration_s;
+  if (samples > 1 && out.probe.duration_s > 0.0)
+    out.force_rate_Hz = static_cast<double>(samples - 1) / out.probe.duration_s;
 }
 
 }  // namespace

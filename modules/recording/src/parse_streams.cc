@@ -38,7 +38,7 @@ ProbeStream parse_probe_csv(std::string_view text, const std::string& name, Prob
 
   ProbeStream out;
   std::vector<std::uint32_t> line;
-  const std::size_t rows = estimate_rows(text);
+  const std::size_t rows = most_rows(text, csv.columns().size());
   out.t_ns.reserve(rows);
   out.accel_counts.reserve(rows);
   out.force_counts.reserve(rows);

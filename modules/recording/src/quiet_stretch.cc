@@ -37,7 +37,8 @@ Eigen::Vector3d noise_of_steps(const std::vector<Eigen::Vector3d>& steps) {
 }
 
 std::vector<Pose> poses_between(const Recording& recording, std::int64_t first_ns, std::int64_t last_ns) {
-  const auto latency_ns = static_cast<std::int64_t>(std::llround(recording.calibration.tracker.latency_s / kNanosecond_s));
+  const auto latency_ns =
+      static_cast<std::int64_t>(std::llround(recording.calibration.tracker.latency_s / kNanosecond_s));
   const auto& t_ns = recording.tracker.t_ns;
   const auto begin = std::lower_bound(t_ns.begin(), t_ns.end(), first_ns + latency_ns);
   const auto end = std::upper_bound(begin, t_ns.end(), last_ns + latency_ns);
@@ -46,7 +47,8 @@ std::vector<Pose> poses_between(const Recording& recording, std::int64_t first_n
 }
 
 // From up to the specific force, which points up at rest.
-double angle_to_up_rad(const Recording& recording, const Eigen::Vector3d& f_marker_mps2, const std::vector<Pose>& poses) {
+double angle_to_up_rad(const Recording& recording, const Eigen::Vector3d& f_marker_mps2,
+                       const std::vector<Pose>& poses) {
   if (poses.empty() || !recording.calibration.accelerometer.rotation_known) return kNan;
   Eigen::Vector3d f_world_mps2 = Eigen::Vector3d::Zero();
   for (const auto& pose : poses) f_world_mps2 += pose.rotation * f_marker_mps2;
@@ -56,7 +58,8 @@ double angle_to_up_rad(const Recording& recording, const Eigen::Vector3d& f_mark
 
 }  // namespace
 
-std::optional<RowRange> find_quiet_rows(const ProbeStream& probe, const StreamTiming& timing, const InspectConfig& config) {
+std::optional<RowRange> find_quiet_rows(const ProbeStream& probe, const StreamTiming& timing,
+                                        const InspectConfig& config) {
   constexpr std::size_t kFewest = 20;
   if (probe.size() < kFewest || !(config.quiet_s <= timing.duration_s)) return std::nullopt;
   const double rows_wanted = std::max(config.quiet_s / timing.period_s, static_cast<double>(kFewest));

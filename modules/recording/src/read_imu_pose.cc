@@ -19,7 +19,8 @@ std::optional<std::int64_t> row_seconds(const CsvReader& csv, std::size_t column
     return std::nullopt;
   }
   if (std::abs(t_ns) > static_cast<double>(kLatestTime_ns)) {
-    problems.add("time_far_off", csv.line(), "the time lies beyond a gap too long for one recording; such rows were left out");
+    problems.add("time_far_off", csv.line(),
+                 "the time lies beyond a gap too long for one recording; such rows were left out");
     return std::nullopt;
   }
   return std::llround(t_ns);
@@ -78,7 +79,8 @@ void parse_pose_csv(std::string_view text, const std::string& name, ImportInput&
   problems.append_to(input.problems);
 }
 
-ImportInput read_imu_pose(const std::filesystem::path& imu, const std::filesystem::path& poses, const ReadLimits& limits) {
+ImportInput read_imu_pose(const std::filesystem::path& imu, const std::filesystem::path& poses,
+                          const ReadLimits& limits) {
   ImportInput out;
   parse_imu_csv(read_file(imu, limits.csv_bytes), imu.string(), out, limits);
   parse_pose_csv(read_file(poses, limits.csv_bytes), poses.string(), out, limits);

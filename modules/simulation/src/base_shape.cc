@@ -10,10 +10,11 @@ namespace asperity {
 BaseShape::BaseShape(const SimulatedShapeConfig& config) : centre_m_(config.centre_m.data()) {
   const Eigen::Vector3d normal(config.normal.data());
   const Eigen::Vector3d stroke(config.stroke_direction.data());
-  if (!(normal.norm() > 0.0)) throw Error("shape.normal: must not be zero");
+  if (!(normal.norm() > 0.0)) throw Error("simulation.shape.normal: must not be zero");
   normal_ = normal.normalized();
   const Eigen::Vector3d along = stroke - normal_ * normal_.dot(stroke);
-  if (!(along.norm() > 1e-6 * stroke.norm())) throw Error("shape.stroke_direction: must not be along shape.normal");
+  if (!(along.norm() > 1e-6 * stroke.norm()))
+    throw Error("simulation.shape.stroke_direction: must not be along shape.normal");
   along_ = along.normalized();
   across_ = normal_.cross(along_);
   if (config.kind == BaseShapeKind::kCylinder) curvature_per_m_ = 1.0 / config.cylinder_radius_m;

@@ -207,7 +207,7 @@ std::unique_ptr<Surface> make_map(const Table& table, const SimulatedSurfaceConf
 }  // namespace
 
 std::unique_ptr<Surface> load_surface(const SimulatedSurfaceConfig& config) {
-  if (config.file.empty()) throw Error("surface.file: empty, but surface.kind is \"file\"");
+  if (config.file.empty()) throw Error("simulation.surface.file: empty, but surface.kind is \"file\"");
   const Table table = read_table(config.file);
   if (table.rows.size() < 2) throw Error(fmt::format("{}: fewer than two heights", config.file));
   if (table.columns == 3) return make_map(table, config);

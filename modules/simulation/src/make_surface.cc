@@ -35,8 +35,9 @@ class Protoboard final : public Surface {
         floor_radius_m_(0.5 * c.hole_diameter_m),
         face_radius_m_(0.5 * c.hole_opening_diameter_m) {
     if (face_radius_m_ < floor_radius_m_) {
-      throw Error(fmt::format("surface.hole_opening_diameter_m: {} is less than surface.hole_diameter_m {}",
-                              c.hole_opening_diameter_m, c.hole_diameter_m));
+      throw Error(fmt::format(
+          "simulation.surface.hole_opening_diameter_m: {} is less than simulation.surface.hole_diameter_m {}",
+          c.hole_opening_diameter_m, c.hole_diameter_m));
     }
   }
   double height_m(double along_m, double across_m) const override {
@@ -70,8 +71,9 @@ class RandomRelief final : public Surface {
  public:
   RandomRelief(const SimulatedSurfaceConfig& c, std::uint64_t seed) : amplitude_m_(c.rq_m * std::sqrt(2.0 / kWaves)) {
     if (!(c.low_cycles_per_mm < c.high_cycles_per_mm)) {
-      throw Error(fmt::format("surface.low_cycles_per_mm: {} is not below surface.high_cycles_per_mm {}",
-                              c.low_cycles_per_mm, c.high_cycles_per_mm));
+      throw Error(
+          fmt::format("simulation.surface.low_cycles_per_mm: {} is not below simulation.surface.high_cycles_per_mm {}",
+                      c.low_cycles_per_mm, c.high_cycles_per_mm));
     }
     Random random(seed, stream(Stream::kSurface));
     waves_.reserve(kWaves);
@@ -119,7 +121,7 @@ std::unique_ptr<Surface> make_surface(const SimulatedSurfaceConfig& config, std:
     case SurfaceKind::kFile:
       return load_surface(config);
   }
-  throw Error("surface.kind: unknown");
+  throw Error("simulation.surface.kind: unknown");
 }
 
 }  // namespace asperity

@@ -35,6 +35,17 @@ void validate(const SimulationConfig& config) {
     throw Error(fmt::format("simulation.hand.tremor_low_Hz: {} is above tremor_high_Hz {}", config.hand.tremor_low_Hz,
                             config.hand.tremor_high_Hz));
   }
+  // Bounds on memory and time: 20 m of path is 4 million points of relief, half an hour at 4 kHz is 7 million samples.
+  constexpr double kLongestPath_m = 20.0;
+  constexpr double kLongest_s = 1800.0;
+  const HandConfig& hand = config.hand;
+  const double strokes = hand.path == HandPath::kBackAndForth ? hand.strokes : 1.0;
+  const double path_m = strokes * (hand.length_m + hand.row_spacing_m);
+  const double duration_s = path_m / hand.speed_mps + 2.0 * hand.rest_s;
+  if (path_m > kLongestPath_m || duration_s > kLongest_s) {
+    throw Error(fmt::format("simulation.hand.length_m: a path of {:.3g} m in {:.3g} s is more than {} m or {} s",
+                            path_m, duration_s, kLongestPath_m, kLongest_s));
+  }
   if (!(config.probe.adc_min < config.probe.adc_max)) {
     throw Error(fmt::format("simulation.probe.adc_min: {} is not below adc_max {}", config.probe.adc_min,
                             config.probe.adc_max));

@@ -17,17 +17,17 @@
 
 namespace asperity {
 
-enum class BaseShape {
+enum class PathShape {
   kAuto,    // plane, circle or curve, by the evidence
   kPlane,   // a flat object; a path too straight to fix the plane takes the probe's axis to help
   kCircle,  // a body of revolution scanned across its axis: normals lie in the path's plane
   kLine,    // a straight stroke: the normal from the probe's axis and the texture's direction alone
   kCurve,   // none of these: the path's own long waves
 };
-inline constexpr std::array<std::string_view, 5> kBaseShapeNames{"auto", "plane", "circle", "line", "curve"};
+inline constexpr std::array<std::string_view, 5> kPathShapeNames{"auto", "plane", "circle", "line", "curve"};
 
 struct BasePathConfig {
-  BaseShape shape = BaseShape::kAuto;
+  PathShape shape = PathShape::kAuto;
   double slow_error_m = 0.1e-3;
   double probe_axis_sigma_deg = 20.0;
   double texture_axis_sigma_deg = 10.0;
@@ -40,7 +40,7 @@ struct BasePathConfig {
 
   template <class V>
   void visit(V& v) {
-    v.choice("shape", shape, kBaseShapeNames, "base shape under the texture");
+    v.choice("shape", shape, kPathShapeNames, "base shape under the texture");
     v.field("slow_error_m", slow_error_m, "standard deviation of the position's error below 2 Hz", {1e-9, 1.0});
     v.field("probe_axis_sigma_deg", probe_axis_sigma_deg, "how far the probe is held from the normal", {0.1, 90.0});
     v.field("texture_axis_sigma_deg", texture_axis_sigma_deg,
@@ -65,7 +65,7 @@ struct Undetermined {
 
 struct BasePathResult {
   BasePath path;
-  BaseShape shape = BaseShape::kPlane;
+  PathShape shape = PathShape::kPlane;
   double shape_probability = 1.0;  // of the shape chosen against its rival; 1 if it was given
   std::vector<char> contact;       // one a sample
   std::vector<double> speed_mps;   // along the path, one a sample

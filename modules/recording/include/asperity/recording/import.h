@@ -37,7 +37,8 @@ struct ImportConfig {
   void visit(V& v) {
     v.field("pose_rate_Hz", pose_rate_Hz, "thin the poses to this rate, Hz; 0 keeps all", {0.0, 1e6});
     v.field("pose_noise_m", pose_noise_m, "noise added along the world's axes, standard deviation, m", {0.0, 1.0});
-    v.field("rotation_noise_rad", rotation_noise_rad, "noise added about the world's axes, standard deviation, rad", {0.0, 1.0});
+    v.field("rotation_noise_rad", rotation_noise_rad, "noise added about the world's axes, standard deviation, rad",
+            {0.0, 1.0});
     v.field("seed", seed, "of the noise");
     v.field("gravity_mps2", gravity_mps2, "where it was recorded, m/s^2", {0.0, 30.0});
     v.field("accelerometer_position_sigma_m", accelerometer_position_sigma_m,

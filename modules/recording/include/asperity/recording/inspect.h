@@ -23,7 +23,8 @@ struct InspectConfig {
   template <class V>
   void visit(V& v) {
     v.field("quiet_s", quiet_s, "length of the stretch searched for rest, s", {0.01, 60.0});
-    v.field("rest_acceleration_mps2", rest_acceleration_mps2, "at rest the acceleration varies less, m/s^2", {0.0, 100.0});
+    v.field("rest_acceleration_mps2", rest_acceleration_mps2, "at rest the acceleration varies less, m/s^2",
+            {0.0, 100.0});
     v.field("rest_position_m", rest_position_m, "at rest the position varies less, m", {0.0, 1.0});
     v.field("flip_angle_rad", flip_angle_rad, "a turn from frame to frame that no hand makes, rad", {0.0, 3.15});
     v.field("flip_distance_m", flip_distance_m, "a step from frame to frame that no hand makes, m", {0.0, 10.0});
@@ -32,7 +33,8 @@ struct InspectConfig {
     v.field("gap_tolerance_s", gap_tolerance_s, "gap to report, s", {0.0, 3600.0});
     v.field("saturation_tolerance", saturation_tolerance, "saturated samples to report, share", {0.0, 1.0});
     v.field("gravity_tolerance", gravity_tolerance, "deviation from gravity at rest to report, share", {0.0, 1.0});
-    v.field("gravity_angle_tolerance_rad", gravity_angle_tolerance_rad, "angle to gravity at rest to report, rad", {0.0, 3.15});
+    v.field("gravity_angle_tolerance_rad", gravity_angle_tolerance_rad, "angle to gravity at rest to report, rad",
+            {0.0, 3.15});
   }
 };
 

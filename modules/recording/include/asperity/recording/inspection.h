@@ -44,10 +44,10 @@ struct ChannelFigures {
 struct QuietStretch {
   double start_s = 0.0;  // since the probe's first row
   double duration_s = 0.0;
-  bool at_rest = false;                    // still enough for the figures below to mean noise
-  Eigen::Vector3d specific_force_mps2 = Eigen::Vector3d::Zero();      // mean, in the marker frame
+  bool at_rest = false;                                           // still enough for the figures below to mean noise
+  Eigen::Vector3d specific_force_mps2 = Eigen::Vector3d::Zero();  // mean, in the marker frame
   Eigen::Vector3d acceleration_noise_mps2 = Eigen::Vector3d::Zero();  // standard deviation, in the marker frame
-  double gravity_mps2 = 0.0;               // length of the mean specific force
+  double gravity_mps2 = 0.0;                                          // length of the mean specific force
   // Between the mean specific force, turned into the world, and up; nan without a pose or a known rotation.
   double gravity_angle_rad = std::numeric_limits<double>::quiet_NaN();
   double force_N = std::numeric_limits<double>::quiet_NaN();
@@ -67,7 +67,7 @@ struct Inspection {
   double force_lowest_N = std::numeric_limits<double>::quiet_NaN();
   double force_highest_N = std::numeric_limits<double>::quiet_NaN();
   double force_rate_Hz = 0.0;
-  std::size_t flips = 0;  // poses that jump away from their neighbours
+  std::size_t flips = 0;              // poses that jump away from their neighbours
   std::vector<std::string> findings;  // sentences on what looks wrong; empty: nothing does
 };
 

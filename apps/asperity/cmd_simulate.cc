@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
+#include "asperity/base/version.h"
+#include "asperity/pipeline/config_json.h"
+#include "asperity/recording/read_recording.h"
+#include "asperity/recording/write_recording.h"
+#include "asperity/simulation/simulate_recording.h"
+#include "commands.h"
+#include "option_units.h"
+
+namespace asperity::app {
+
+namespace {
+
+class SimulateCommand : public Command {
+ public:
+  explicit SimulateCommand(CLI::App& root)
+      : Command(root, "simulate", "Simulate a recording: a hand scans a surface with a probe in front of a tracker") {
+    std::string names;
+    for (const auto name : kSurfaceNames) {
+      if (name != "file") names += std::string(names.empty() ? "" : ", ") + std::string(name);
+    }
+    require(parser().add_option("--surface", surface_, names + ", or a file of heights"))->type_name("NAME|FILE");
+    parser().add_option("--probe", probe_, "what (8 bit, 400 Hz) or open (16 bit, 4 kHz); open")->type_name("NAME");
+    parser().add_option("--speed", speed_, "Mean speed of the hand")->type_name("SPEED");
+    parser().add_option("--seed", seed_, "Of all randomness; the same seed gives the same bytes")->type_name("N");
+    require(parser().add_option("-o,--output", output_, "The recording's folder"))->type_name("REC");
+  }
+
+  std::vector<ConfigField> fields() override {
+    if (!config_) {
+      try {
+        config_ = make_simulation_config(surface_, probe_);
+      } catch (const Error& error) {
+        throw UsageError(error.what());
+      }
+    }
+    return list_fields("", *config_);
+  }
+
+  void apply_options() override {
+    if (!speed_.empty()) config_->hand.speed_mps = speed_option_mps("--speed", speed_);
+    if (seed_.empty()) return;
+    try {
+      set_field(fields(), "seed", seed_);
+    } catch (const Error& error) {
+      throw UsageError(std::string("--") + error.what());
+    }
+  }
+
+  int run(const Observer& observer) override {
+    OutputFolder folder(output_, is_recording_folder);
+    const Recording recording = simulate_recording(*config_, observer);
+    write_recording(folder.path(), recording);
+    observer.update("writing", 1.0);
+    folder.commit();
+    report(recording);
+    return kDone;
+  }
+
+ private:
+  void report(const Recording& recording) {
+    const ProbeStream& probe = recording.probe;
+    const double duration_s =
+        probe.size() < 2 ? 0.0 : static_cast<double>(probe.t_ns.back() - probe.t_ns.front()) * 1e-9;
+    nlohmann::ordered_json out;
+    out["format"] = "asperity-simulated";
+    out["version"] = 1;
+    out["recording"] = output_;
+    out["duration_s"] = duration_s;
+    out["probe_rows"] = probe.size();
+    out["tracker_rows"] = recording.tracker.size();
+    out["config"] = nlohmann::ordered_json::parse(config_json(fields()));
+    out["asperity"] = kVersion;
+    print_json(out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    say(fmt::format("{}: {:.1f} s, {} probe rows, {} poses, with truth\n", printable(output_, 200), duration_s,
+                    probe.size(), recording.tracker.size()));
+  }
+
+  std::string surface_ = "protoboard";
+  std::string probe_ = "open";
+  std::string speed_;
+  std::string seed_;
+  std::string output_;
+  std::optional<SimulationConfig> config_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_simulate(CLI::App& root) { return std::make_unique<SimulateCommand>(root); }
+
+}  // namespace asperity::app

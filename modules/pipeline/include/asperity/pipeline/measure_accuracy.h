@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+
+#include "asperity/geometry/motion.h"
+#include "asperity/profile/compare_profiles.h"
+#include "asperity/profile/profile.h"
+#include "asperity/recording/recording.h"
+
+namespace asperity {
+
+// How far a measurement is from the truth that the recording knows.
+struct Accuracy {
+  double position_rms_m = 0.0;  // of the tip, the three axes together
+  double tracker_rms_m = 0.0;   // the same for the raw poses, linearly interpolated, latency as calibrated
+  std::size_t compared = 0;     // true positions that both were compared at
+  double band_high_cycles_per_mm = 0.0;
+  std::optional<ProfileComparison> profile;  // nullopt: the truth has no heights
+};
+
+// Positions are compared at the truth's own times, within the spans of the motion and of the poses;
+// profiles in the band from config.low_cycles_per_mm to the smaller of config.high_cycles_per_mm and
+// 0.4·rate/speed (compare_profiles.h), with the probe's mean rate and the true mean speed of travel.
+// Throws Error if the recording has no truth or the spans do not overlap.
+Accuracy measure_accuracy(const Recording& recording, const TipMotion& motion, const Profile& profile,
+                          const ComparisonConfig& config);
+
+}  // namespace asperity

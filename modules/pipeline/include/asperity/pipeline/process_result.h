@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "asperity/base/problem.h"
+#include "asperity/pipeline/measure_accuracy.h"
+#include "asperity/profile/estimate_compliance.h"
+#include "asperity/profile/find_base_path.h"
+#include "asperity/profile/profile.h"
+#include "asperity/profile/roughness.h"
+#include "asperity/texture/fit_fourier1d.h"
+#include "asperity/texture/texture.h"
+#include "asperity/trajectory/trajectory_result.h"
+
+namespace asperity {
+
+// Speed along the base path over the profile's points.
+struct SpeedFigures {
+  double mean_mps = 0.0;
+  double lowest_mps = 0.0;
+  double highest_mps = 0.0;
+};
+
+// The part of a profile that has heights.
+struct Coverage {
+  double length_m = 0.0;  // from the first to the last height
+  double covered = 0.0;   // part of it that is not gap
+  std::size_t gaps = 0;
+};
+
+// Everything measured in one recording. What the data did not allow is absent, and a Problem says why.
+struct ProcessResult {
+  TrajectoryResult trajectory;
+  BasePathResult base;
+  Profile profile;
+  Coverage coverage;
+  SpeedFigures speed;
+  std::optional<RoughnessResult> roughness;  // of profile.texture_m
+  Compliance compliance;
+  std::optional<FourierFit> fit;
+  std::optional<Texture> texture;
+  std::optional<Accuracy> accuracy;  // where the recording knows the truth
+  Problems problems;                 // of all stages, the reading of the recording included
+  bool trustworthy = true;
+  std::string verdict;      // in words, if not
+  std::string config_json;  // the settings, resolved
+};
+
+}  // namespace asperity

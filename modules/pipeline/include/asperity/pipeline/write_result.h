@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "asperity/pipeline/process_result.h"
+#include "asperity/recording/recording.h"
+
+namespace asperity {
+
+// result.json: everything measured, what was dropped and why, the settings, the version. `name` is the
+// recording's. nan is null. The same result gives the same bytes.
+std::string format_result(const ProcessResult& result, const Recording& recording, const std::string& name);
+
+// trajectory.csv (sigma_m: the root of a third of the covariance's trace) and profile.csv.
+std::string format_trajectory_csv(const TipMotion& motion);
+std::string format_profile_csv(const Profile& profile);
+
+// Writes trajectory.csv, profile.csv, texture.json (if there is a texture) and result.json into `folder`,
+// which exists. Throws Error if a file cannot be written.
+void write_result(const std::filesystem::path& folder, const ProcessResult& result, const Recording& recording,
+                  const std::string& name);
+
+// True if `folder` holds a result.json of ours, or nothing but folders that do. Never throws.
+bool is_result_folder(const std::filesystem::path& folder) noexcept;
+
+}  // namespace asperity

@@ -1,0 +1,139 @@
+#include <cmath>
+
+#include "asperity/base/units.h"
+#include "asperity/base/version.h"
+#include "asperity/pipeline/write_result.h"
+#include "json.h"
+
+namespace asperity {
+
+namespace {
+
+double span_s(const std::vector<std::int64_t>& t_ns) {
+  return t_ns.size() < 2 ? 0.0 : static_cast<double>(t_ns.back() - t_ns.front()) * kNanosecond_s;
+}
+
+Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+Json problems_json(const Problems& problems) {
+  Json out = Json::array();
+  for (const Problem& problem : problems) {
+    out.push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
+  }
+  return out;
+}
+
+Json base_json(const BasePathResult& base) {
+  Json out;
+  out["shape"] = kPathShapeNames.at(static_cast<std::size_t>(base.shape));
+  out["shape_probability"] = base.shape_probability;
+  out["centre_world_m"] = vector_json(base.centre_world_m);
+  out["axis_world"] = vector_json(base.axis_world);
+  if (base.shape == PathShape::kCircle) {
+    out["radius_m"] = base.radius_m;
+    out["radius_stderr_m"] = base.radius_stderr_m;
+    out["outside"] = base.outside;
+  }
+  out["normal_sigma_deg"] = base.normal_sigma_deg;
+  out["probe_tilt_deg"] = base.probe_tilt_deg;
+  out["base_rms_m"] = base.base_rms_m;
+  out["turning_points"] = base.turning_points.size();
+  out["undetermined"] = Json::array();
+  for (const Undetermined& one : base.undetermined) {
+    out["undetermined"].push_back({{"freedom", one.freedom}, {"sigma_deg", one.sigma_deg}});
+  }
+  return out;
+}
+
+Json roughness_json(const RoughnessResult& r) {
+  Json out;
+  out["Ra_m"] = r.Ra_m;
+  out["Rq_m"] = r.Rq_m;
+  out["Rz_m"] = r.Rz_m;
+  out["Rt_m"] = r.Rt_m;
+  out["Rsk"] = r.Rsk;
+  out["Rku"] = r.Rku;
+  out["RSm_m"] = r.RSm_m;
+  out["R5p_m"] = r.R5p_m;
+  out["R5v_m"] = r.R5v_m;
+  out["R10z_m"] = r.R10z_m;
+  out["Rcm10_m"] = r.Rcm10_m;
+  out["Rcm50_m"] = r.Rcm50_m;
+  out["Rcm90_m"] = r.Rcm90_m;
+  out["samples"] = r.samples;
+  out["missing"] = r.missing;
+  return out;
+}
+
+Json accuracy_json(const Accuracy& accuracy) {
+  Json out;
+  out["position_rms_m"] = accuracy.position_rms_m;
+  out["tracker_rms_m"] = accuracy.tracker_rms_m;
+  out["positions_compared"] = accuracy.compared;
+  if (accuracy.profile) {
+    const ProfileComparison& p = *accuracy.profile;
+    out["band_high_cycles_per_mm"] = accuracy.band_high_cycles_per_mm;
+    out["correlation"] = p.correlation;
+    out["gain"] = p.gain;
+    out["rms_um"] = p.rms_um;
+    out["true_rms_um"] = p.true_rms_um;
+    out["shift_m"] = p.shift_m;
+    out["length_error_percent"] = p.length_error_percent;
+    out["compared_m"] = p.compared_m;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string format_result(const ProcessResult& result, const Recording& recording, const std::string& name) {
+  const Json config = Json::parse(result.config_json);
+  const Json& profile_config =
+      config.at("method") == "fused" ? config.at("profile") : config.at("thesis").at("profile");
+  Json out;
+  out["format"] = "asperity-result";
+  out["version"] = 1;
+  out["recording"] = name;
+  out["object"] = recording.info.object;
+  out["probe"] = recording.info.probe_model;
+  out["method"] = config.at("method");
+  out["trustworthy"] = result.trustworthy;
+  out["verdict"] = result.verdict;
+  out["duration_s"] = span_s(result.trajectory.motion.t_ns);
+  out["samples"] = {{"probe", recording.probe.size()},
+                    {"tracker", recording.tracker.size()},
+                    {"motion", result.trajectory.motion.size()},
+                    {"profile", result.profile.size()}};
+  out["length_m"] = result.base.length_m;
+  out["profile"] = {{"length_m", result.coverage.length_m},
+                    {"covered", result.coverage.covered},
+                    {"gaps", result.coverage.gaps},
+                    {"spacing_m", result.profile.spacing_m},
+                    {"high_pass_cycles_per_mm", profile_config.at("cutoff_cycles_per_mm")}};
+  out["speed_mps"] = {
+      {"mean", result.speed.mean_mps}, {"lowest", result.speed.lowest_mps}, {"highest", result.speed.highest_mps}};
+  out["base"] = base_json(result.base);
+  out["trajectory"] = Json(result.trajectory.figures);
+  out["roughness"] = result.roughness ? roughness_json(*result.roughness) : Json(nullptr);
+  out["compliance"] = {{"k_c", result.compliance.k_c},
+                       {"sigma_r2", result.compliance.sigma_r2},
+                       {"windows", result.compliance.windows.size()}};
+  if (result.fit) {
+    out["texture"] = {{"file", "texture.json"},
+                      {"length_mm", result.fit->texture.length_mm},
+                      {"harmonics", result.fit->texture.a_m.size()},
+                      {"rms_height_m", result.fit->rms_height_m},
+                      {"rms_error_m", result.fit->rms_error_m},
+                      {"lift_m", result.fit->lift_m}};
+  } else {
+    out["texture"] = nullptr;
+  }
+  if (result.accuracy) out["accuracy"] = accuracy_json(*result.accuracy);
+  out["problems"] = problems_json(result.problems);
+  out["config"] = config;
+  out["asperity"] = kVersion;
+  // Names come from files; what is not UTF-8 in them must not stop the writing.
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace asperity

@@ -1,0 +1,110 @@
+#include "asperity/pipeline/measure_accuracy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "asperity/base/error.h"
+#include "asperity/base/units.h"
+
+namespace asperity {
+
+namespace {
+
+// Positions at rising times, read in between by straight lines at rising query times.
+class Track {
+ public:
+  Track(const std::vector<std::int64_t>& t_ns, const std::vector<Eigen::Vector3d>& p_m) : t_ns_(t_ns), p_m_(p_m) {}
+
+  bool covers(std::int64_t t_ns) const { return t_ns >= t_ns_.front() && t_ns <= t_ns_.back(); }
+
+  Eigen::Vector3d at(std::int64_t t_ns) {
+    while (next_ + 1 < t_ns_.size() && t_ns_[next_] < t_ns) ++next_;
+    const std::size_t before = next_ == 0 ? 0 : next_ - 1;
+    const std::size_t after = next_;
+    if (before == after) return p_m_[after];
+    const double t = static_cast<double>(t_ns - t_ns_[before]) / static_cast<double>(t_ns_[after] - t_ns_[before]);
+    return p_m_[before] + t * (p_m_[after] - p_m_[before]);
+  }
+
+ private:
+  const std::vector<std::int64_t>& t_ns_;
+  const std::vector<Eigen::Vector3d>& p_m_;
+  std::size_t next_ = 0;
+};
+
+bool has_heights(const Truth& truth) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    count += std::isfinite(truth.height_m[i]) && std::isfinite(truth.s_m[i]) ? 1 : 0;
+  return count >= 8;
+}
+
+// Way over time where the truth travels: rests would lower the speed.
+double travel_speed_mps(const Truth& truth) {
+  constexpr double kRest_mps = 1e-3;
+  double way_m = 0.0;
+  double time_s = 0.0;
+  for (std::size_t i = 1; i < truth.size(); ++i) {
+    const double step_s = static_cast<double>(truth.t_ns[i] - truth.t_ns[i - 1]) * kNanosecond_s;
+    const double step_m = truth.s_m[i] - truth.s_m[i - 1];
+    if (!(step_m > kRest_mps * step_s)) continue;
+    way_m += step_m;
+    time_s += step_s;
+  }
+  return time_s > 0.0 ? way_m / time_s : 0.0;
+}
+
+}  // namespace
+
+Accuracy measure_accuracy(const Recording& recording, const TipMotion& motion, const Profile& profile,
+                          const ComparisonConfig& config) {
+  if (!recording.truth) throw Error("measure_accuracy: the recording has no truth");
+  const Truth& truth = *recording.truth;
+  const TrackerStream& tracker = recording.tracker;
+  if (motion.size() == 0 || tracker.size() == 0) throw Error("measure_accuracy: no motion or no poses");
+
+  const auto latency_ns =
+      static_cast<std::int64_t>(std::llround(recording.calibration.tracker.latency_s / kNanosecond_s));
+  std::vector<std::int64_t> pose_t_ns(tracker.t_ns);
+  std::vector<Eigen::Vector3d> pose_tip_m;
+  pose_tip_m.reserve(tracker.size());
+  for (std::int64_t& t_ns : pose_t_ns) t_ns -= latency_ns;
+  for (const Pose& T_world_marker : tracker.T_world_marker) {
+    pose_tip_m.push_back(T_world_marker * recording.calibration.tip_in_marker_m);
+  }
+
+  Track estimate(motion.t_ns, motion.p_world_tip_m);
+  Track raw(pose_t_ns, pose_tip_m);
+  Accuracy out;
+  double estimate_sum = 0.0;
+  double raw_sum = 0.0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const std::int64_t t_ns = truth.t_ns[i];
+    if (!estimate.covers(t_ns) || !raw.covers(t_ns)) continue;
+    estimate_sum += (estimate.at(t_ns) - truth.p_world_tip_m[i]).squaredNorm();
+    raw_sum += (raw.at(t_ns) - truth.p_world_tip_m[i]).squaredNorm();
+    ++out.compared;
+  }
+  if (out.compared == 0) throw Error("measure_accuracy: the truth and the motion do not overlap in time");
+  out.position_rms_m = std::sqrt(estimate_sum / static_cast<double>(out.compared));
+  out.tracker_rms_m = std::sqrt(raw_sum / static_cast<double>(out.compared));
+
+  if (has_heights(truth)) {
+    const ProbeStream& probe = recording.probe;
+    const double span_s = static_cast<double>(probe.t_ns.back() - probe.t_ns.front()) * kNanosecond_s;
+    const double speed_mps = travel_speed_mps(truth);
+    ComparisonConfig comparison = config;
+    if (span_s > 0.0 && speed_mps > 0.0) {
+      const double rate_Hz = static_cast<double>(probe.size() - 1) / span_s;
+      comparison.high_cycles_per_mm =
+          std::min(config.high_cycles_per_mm, comparison_limit_cycles_per_mm(rate_Hz, speed_mps));
+    }
+    out.band_high_cycles_per_mm = comparison.high_cycles_per_mm;
+    out.profile = compare_profiles(profile.s_m, profile.height_m, truth.s_m, truth.height_m, comparison);
+  }
+  return out;
+}
+
+}  // namespace asperity

@@ -1,0 +1,90 @@
+#include "asperity/pipeline/write_result.h"
+
+#include <cmath>
+#include <limits>
+
+#include "asperity/base/csv.h"
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
+#include "asperity/texture/texture_file.h"
+#include "json.h"
+
+namespace asperity {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kCell_bytes = 22;  // most shortest doubles with their comma; only reserves memory
+
+void append_cells(std::string& out, std::initializer_list<double> cells) {
+  for (const double cell : cells) {
+    out += ',';
+    append_number(out, cell);
+  }
+}
+
+bool is_result_file(const fs::path& file) {
+  constexpr std::uint64_t kLargest_bytes = 64 << 20;
+  const Json json = Json::parse(read_file(file, kLargest_bytes), nullptr, false);
+  return json.is_object() && json.value("format", "") == "asperity-result";
+}
+
+}  // namespace
+
+std::string format_trajectory_csv(const TipMotion& motion) {
+  std::string out = "t_ns,px_m,py_m,pz_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,sigma_m\n";
+  out.reserve(out.size() + motion.size() * 12 * kCell_bytes);
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const Eigen::Vector3d& p = motion.p_world_tip_m[i];
+    const Eigen::Quaterniond& q = motion.q_world_marker[i];
+    const Eigen::Vector3d& v = motion.v_world_tip_mps[i];
+    const double sigma_m = motion.cov_world_tip_m2.empty() ? kNan : std::sqrt(motion.cov_world_tip_m2[i].trace() / 3.0);
+    append_number(out, motion.t_ns[i]);
+    append_cells(out, {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(), v.z(), sigma_m});
+    out += '\n';
+  }
+  return out;
+}
+
+std::string format_profile_csv(const Profile& profile) {
+  std::string out = "s_m,height_m,sigma_m,texture_m,force_N,speed_mps\n";
+  out.reserve(out.size() + profile.size() * 6 * kCell_bytes);
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    append_number(out, profile.s_m[i]);
+    append_cells(
+        out, {profile.height_m[i], profile.sigma_m[i], profile.texture_m[i], profile.force_N[i], profile.speed_mps[i]});
+    out += '\n';
+  }
+  return out;
+}
+
+void write_result(const fs::path& folder, const ProcessResult& result, const Recording& recording,
+                  const std::string& name) {
+  write_file(folder / "trajectory.csv", format_trajectory_csv(result.trajectory.motion));
+  write_file(folder / "profile.csv", format_profile_csv(result.profile));
+  if (result.texture) {
+    Texture texture = *result.texture;
+    texture.source.recording = name;
+    write_texture(folder / "texture.json", texture);
+  }
+  write_file(folder / "result.json", format_result(result, recording, name));
+}
+
+bool is_result_folder(const fs::path& folder) noexcept {
+  try {
+    if (fs::is_regular_file(folder / "result.json")) return is_result_file(folder / "result.json");
+    bool any = false;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const fs::path file = entry.path() / "result.json";
+      if (!entry.is_directory() || !fs::is_regular_file(file) || !is_result_file(file)) return false;
+      any = true;
+    }
+    return any;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+}  // namespace asperity
