@@ -148,7 +148,7 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
 
   // How it yields (seed §5.3, erratum 15).
   observer.update("compliance", 0.9);
-  result.compliance = estimate_compliance(motion, result.base.path.n_world, config.compliance);
+  result.compliance = estimate_compliance(motion, motion.t_ns, result.base.path.n_world, config.compliance);
 
   // What a hand is to feel of it (seed §6.5, erratum 18).
   observer.update("texture", 0.95);
