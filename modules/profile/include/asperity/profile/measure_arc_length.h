@@ -11,7 +11,7 @@
 namespace asperity {
 
 struct ArcLengthConfig {
-  double direction_cutoff_cycles_per_mm = 0.14;
+  double direction_cutoff_cycles_per_mm = 0.03;
   double along_cutoff_hz = 0.0;
   double rest_speed_mps = 1e-3;
   double rest_fraction = 0.15;

@@ -1,0 +1,191 @@
+#include "asperity/profile/estimate_stiffness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/base/units.h"
+#include "asperity/signal/resample.h"
+#include "asperity/signal/spectrum.h"
+#include "asperity/signal/statistics.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr double kRate_hz = 50.0;
+constexpr std::size_t kFirstBin = 2;      // the taper spreads what the straight line leaves over the bins below
+constexpr std::ptrdiff_t kSmoothing = 3;  // bins to either side in the residual's spectrum
+// Neighbouring bins of a Hann-tapered series correlate by 2/3 and 1/6: the variance of a sum over many
+// grows by 1 + 2·(2/3)² + 2·(1/6)².
+constexpr double kTaperVariance = 1.0 + 2.0 * 4.0 / 9.0 + 2.0 / 36.0;
+
+struct Bins {
+  std::vector<std::complex<double>> height, force;
+};
+
+std::vector<double> without_line(std::vector<double> x) {
+  std::vector<double> place(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) place[i] = static_cast<double>(i);
+  const LinearFit line = linear_regression(place, x);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double a = 2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(x.size());
+    x[i] = (x[i] - line.slope * place[i] - line.intercept) * 0.5 * (1.0 - std::cos(a));
+  }
+  return x;
+}
+
+struct Slope {
+  double compliance = 0.0;  // m/N
+  double variance = std::numeric_limits<double>::infinity();
+};
+
+// Weighted least squares of -height on force, the weights from the residual's spectrum, iterated.
+Slope regress(const std::vector<Bins>& runs) {
+  Slope out;
+  std::size_t bins = 0;
+  double cross = 0.0, power = 0.0;
+  for (const Bins& run : runs) {
+    bins += run.force.size();
+    for (std::size_t k = 0; k < run.force.size(); ++k) {
+      cross -= std::real(std::conj(run.force[k]) * run.height[k]);
+      power += std::norm(run.force[k]);
+    }
+  }
+  if (bins < 4 || !(power > 0.0)) return out;
+  out.compliance = cross / power;
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    cross = 0.0;
+    power = 0.0;
+    for (const Bins& run : runs) {
+      const auto n = static_cast<std::ptrdiff_t>(run.force.size());
+      std::vector<double> residual(run.force.size());
+      for (std::size_t k = 0; k < run.force.size(); ++k)
+        residual[k] = std::norm(run.height[k] + out.compliance * run.force[k]);
+      for (std::ptrdiff_t k = 0; k < n; ++k) {
+        double sum = 0.0, count = 0.0;
+        for (auto j = std::max<std::ptrdiff_t>(0, k - kSmoothing); j <= std::min(n - 1, k + kSmoothing); ++j) {
+          sum += residual[static_cast<std::size_t>(j)];
+          count += 1.0;
+        }
+        if (!(sum > 0.0)) continue;
+        const double weight = count / sum;
+        const auto i = static_cast<std::size_t>(k);
+        cross -= weight * std::real(std::conj(run.force[i]) * run.height[i]);
+        power += weight * std::norm(run.force[i]);
+      }
+    }
+    if (!(power > 0.0)) return out;
+    out.compliance = cross / power;
+  }
+  // Half the noise power of a bin lies along the force's phase; one parameter was fitted to `bins` of them.
+  const double lost = 1.0 + 1.0 / (static_cast<double>(bins) / kTaperVariance);
+  out.variance = 0.5 * kTaperVariance * lost / power;
+  return out;
+}
+
+}  // namespace
+
+StiffnessEstimate estimate_stiffness(const TipMotion& motion, const BasePath& base, std::span<const char> contact,
+                                     const StiffnessConfig& config) {
+  const std::size_t n = motion.size();
+  if (base.size() != n || base.s_m.size() != n || base.n_world.size() != n || contact.size() != n ||
+      (!motion.force_N.empty() && motion.force_N.size() != n)) {
+    throw Error("stiffness: motion, base path and marks differ in size (" + std::to_string(n) + " samples)");
+  }
+  StiffnessEstimate out;
+  std::vector<double> t_s(n), height_m(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    t_s[i] = static_cast<double>(motion.t_ns[i] - motion.t_ns[0]) * kNanosecond_s;
+    height_m[i] = base.n_world[i].dot(motion.p_world_tip_m[i] - base.p_world_m[i]);
+  }
+  const bool measured =
+      std::any_of(motion.force_N.begin(), motion.force_N.end(), [](double f) { return std::isfinite(f); });
+  if (!measured || n < 2) {
+    out.verdict = "no force was measured";
+    return out;
+  }
+  const std::vector<double> force_N = bridge_gaps(t_s, motion.force_N);
+
+  std::vector<Bins> runs;
+  double square = 0.0, travelled_m = 0.0;
+  std::size_t cells_used = 0;
+  struct Run {
+    std::vector<double> height_m, force_N;
+  };
+  std::vector<Run> series;
+  for (std::size_t begin = 0; begin < n;) {
+    std::size_t end = begin;
+    while (end < n && contact[end] != 0) ++end;
+    if (end > begin + 1 && t_s[end - 1] - t_s[begin] >= config.min_run_s) {
+      Run run;
+      std::size_t i = begin;
+      const auto cells = static_cast<std::size_t>((t_s[end - 1] - t_s[begin]) * kRate_hz);
+      for (std::size_t c = 0; c < cells; ++c) {
+        const double limit_s = t_s[begin] + static_cast<double>(c + 1) / kRate_hz;
+        double h = 0.0, f = 0.0, count = 0.0;
+        for (; i < end && (t_s[i] < limit_s || count == 0.0); ++i) {
+          h += height_m[i];
+          f += force_N[i];
+          count += 1.0;
+        }
+        if (count == 0.0) break;
+        run.height_m.push_back(h / count);
+        run.force_N.push_back(f / count);
+      }
+      travelled_m += base.s_m[end - 1] - base.s_m[begin];
+      out.used_s += t_s[end - 1] - t_s[begin];
+      series.push_back(std::move(run));
+    }
+    begin = std::max(end, begin + 1);
+  }
+  if (series.empty()) {
+    out.verdict = "no time in contact is long enough";
+    return out;
+  }
+  out.band_high_hz = std::min(config.high_hz, config.high_cycles_per_mm * 1e3 * travelled_m / out.used_s);
+  for (const Run& run : series) {
+    const double duration_s = static_cast<double>(run.height_m.size()) / kRate_hz;
+    const auto height = real_dft(without_line(run.height_m)), force = real_dft(without_line(run.force_N));
+    const auto last = std::min(static_cast<std::size_t>(out.band_high_hz * duration_s), height.size() - 1);
+    Bins bins;
+    for (std::size_t k = kFirstBin; k <= last; ++k) {
+      bins.height.push_back(height[k]);
+      bins.force.push_back(force[k]);
+      // The taper's mean square is 3/8.
+      square += 2.0 * std::norm(force[k]) / (0.375 * static_cast<double>(run.force_N.size()));
+    }
+    cells_used += run.force_N.size();
+    runs.push_back(std::move(bins));
+  }
+  out.force_rms_N = std::sqrt(square / static_cast<double>(cells_used));
+  const Slope slope = regress(runs);
+  if (!std::isfinite(slope.variance)) {
+    out.verdict = "the recording is too short for the band below the texture";
+    return out;
+  }
+  const double sigma = std::sqrt(slope.variance);
+  out.compliance_mm_per_N = 1e3 * slope.compliance;
+  out.compliance_stderr_mm_per_N = 1e3 * sigma;
+  if (slope.compliance < -config.significance * sigma) {
+    out.verdict = "height and force rise together below the texture's band: the relief hides any sinking";
+    return out;
+  }
+  out.lower_bound_N_per_mm = 1e-3 / (std::max(slope.compliance, 0.0) + 1.96 * sigma);
+  out.measured = slope.compliance > config.significance * sigma;
+  if (out.measured) {
+    out.stiffness_N_per_mm = 1e-3 / slope.compliance;
+    out.stiffness_stderr_N_per_mm = out.stiffness_N_per_mm * sigma / slope.compliance;
+    out.verdict = "measured";
+  } else {
+    out.verdict = "the force varied too little to show any sinking: only the lower bound holds";
+  }
+  return out;
+}
+
+}  // namespace asperity

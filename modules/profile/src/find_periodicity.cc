@@ -1,0 +1,168 @@
+#include "asperity/profile/find_periodicity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/signal/statistics.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr int kHarmonics = 4;
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+
+// The mean product at a lag over the mean square of the same points, gaps left out.
+double autocorrelation(std::span<const double> x, std::size_t lag) {
+  double xy = 0.0, xx = 0.0, yy = 0.0;
+  for (std::size_t i = 0; i + lag < x.size(); ++i) {
+    const double a = x[i], b = x[i + lag];
+    if (!std::isfinite(a) || !std::isfinite(b)) continue;
+    xy += a * b;
+    xx += a * a;
+    yy += b * b;
+  }
+  return xx > 0.0 && yy > 0.0 ? xy / std::sqrt(xx * yy) : 0.0;
+}
+
+// Sum of x exp(-2πi f k) over the points [from, to), with f in cycles a point.
+std::complex<double> transform_at(std::span<const double> x, double f, std::size_t from, std::size_t to) {
+  const std::complex<double> turn = std::polar(1.0, -kTwoPi * f);
+  std::complex<double> sum = 0.0, phasor = 1.0;
+  for (std::size_t k = from; k < to; ++k) {
+    // Renewed now and then: the product's rounding errors add up.
+    if ((k - from) % 256 == 0) phasor = std::polar(1.0, -kTwoPi * std::fmod(f * static_cast<double>(k), 1.0));
+    if (std::isfinite(x[k])) sum += x[k] * phasor;
+    phasor *= turn;
+  }
+  return sum;
+}
+
+double harmonic_power(std::span<const double> x, double f) {
+  double power = 0.0;
+  for (int h = 1; h <= kHarmonics && h * f < 0.5; ++h) power += std::norm(transform_at(x, h * f, 0, x.size()));
+  return power;
+}
+
+// The lag of the shortest prominent peak, in points and refined by a parabola; 0 if there is none.
+double find_lag(std::span<const double> x, std::size_t shortest, std::size_t longest) {
+  std::vector<double> r(longest + 2);
+  for (std::size_t lag = 0; lag < r.size(); ++lag) r[lag] = autocorrelation(x, lag);
+  double highest = 0.0;
+  std::vector<std::size_t> peaks;
+  for (std::size_t lag = std::max<std::size_t>(1, shortest); lag <= longest; ++lag) {
+    if (r[lag] >= r[lag - 1] && r[lag] > r[lag + 1] && r[lag] > 0.0) {
+      peaks.push_back(lag);
+      highest = std::max(highest, r[lag]);
+    }
+  }
+  for (const std::size_t lag : peaks) {
+    if (r[lag] < 0.85 * highest) continue;
+    const double bend = r[lag - 1] - 2.0 * r[lag] + r[lag + 1];
+    return static_cast<double>(lag) + (bend < 0.0 ? 0.5 * (r[lag - 1] - r[lag + 1]) / bend : 0.0);
+  }
+  return 0.0;
+}
+
+double refine_frequency(std::span<const double> x, double f) {
+  // Steps of an eighth of the resolution, as far as the lag's parabola may be off.
+  const double step = 0.125 / static_cast<double>(x.size());
+  double best = f, most = harmonic_power(x, f);
+  const int reach = static_cast<int>(std::clamp(0.03 * f / step, 4.0, 64.0));
+  for (int k = -reach; k <= reach; ++k) {
+    const double power = harmonic_power(x, f + k * step);
+    if (power > most) {
+      most = power;
+      best = f + k * step;
+    }
+  }
+  const double before = harmonic_power(x, best - step), after = harmonic_power(x, best + step);
+  const double bend = before - 2.0 * most + after;
+  return bend < 0.0 ? best + 0.5 * step * (before - after) / bend : best;
+}
+
+// Corrects f by the drift of the fundamental's phase and gives its standard error, relative.
+double follow_phase(std::span<const double> x, double& f) {
+  const auto window = static_cast<std::size_t>(std::lround(2.0 / f));
+  std::vector<double> place, phase;
+  double last = 0.0;
+  for (std::size_t from = 0; from + window <= x.size(); from += window) {
+    std::size_t finite = 0;
+    for (std::size_t k = from; k < from + window; ++k) finite += std::isfinite(x[k]) ? 1 : 0;
+    if (static_cast<double>(finite) < 0.7 * static_cast<double>(window)) continue;
+    const double angle = std::arg(transform_at(x, f, from, from + window));
+    last = phase.empty() ? angle : last + std::remainder(angle - last, kTwoPi);
+    place.push_back(static_cast<double>(from) + 0.5 * static_cast<double>(window));
+    phase.push_back(last);
+  }
+  if (place.size() < 3) return std::numeric_limits<double>::quiet_NaN();
+  const LinearFit line = linear_regression(place, phase);
+  double square = 0.0, product = 0.0, before = 0.0;
+  for (std::size_t i = 0; i < place.size(); ++i) {
+    const double residual = phase[i] - line.slope * place[i] - line.intercept;
+    square += residual * residual;
+    if (i > 0) product += residual * before;
+    before = residual;
+  }
+  const double r = square > 0.0 ? std::clamp(product / square, 0.0, 0.9) : 0.0;
+  f += line.slope / kTwoPi;
+  return line.slope_error / kTwoPi * std::sqrt((1.0 + r) / (1.0 - r)) / f;
+}
+
+}  // namespace
+
+Periodicity find_periodicity(std::span<const double> height_m, double spacing_m, const PeriodicityConfig& config) {
+  if (!(spacing_m > 0.0) || !(config.min_pitch_m > 2.0 * spacing_m) || !(config.max_pitch_m > config.min_pitch_m)) {
+    throw Error("periodicity: spacing " + number_text(spacing_m) + " m, pitch " + number_text(config.min_pitch_m) +
+                " to " + number_text(config.max_pitch_m) + " m");
+  }
+  Periodicity out;
+  double sum = 0.0, count = 0.0;
+  for (const double h : height_m) {
+    if (!std::isfinite(h)) continue;
+    sum += h;
+    count += 1.0;
+  }
+  const auto shortest = static_cast<std::size_t>(config.min_pitch_m / spacing_m);
+  const auto longest = std::min(static_cast<std::size_t>(config.max_pitch_m / spacing_m), height_m.size() / 3);
+  if (count < 16.0 || longest <= shortest) return out;
+  std::vector<double> x(height_m.begin(), height_m.end());
+  for (double& h : x) h -= sum / count;
+
+  const double lag = find_lag(x, shortest, longest);
+  if (!(lag > 0.0)) return out;
+  double f = refine_frequency(x, 1.0 / lag);
+  const double relative = follow_phase(x, f);
+  const double period = 1.0 / f;
+  out.pitch_m = spacing_m * period;
+  out.pitch_stderr_m = out.pitch_m * relative;
+  out.strength = autocorrelation(x, static_cast<std::size_t>(std::lround(period)));
+
+  std::vector<double> depths;
+  for (double from = 0.0; from + period <= static_cast<double>(x.size()); from += period) {
+    double low = std::numeric_limits<double>::infinity(), high = -low, finite = 0.0;
+    for (auto k = static_cast<std::size_t>(from); k < static_cast<std::size_t>(from + period); ++k) {
+      if (!std::isfinite(x[k])) continue;
+      low = std::min(low, x[k]);
+      high = std::max(high, x[k]);
+      finite += 1.0;
+    }
+    if (finite > 0.7 * period) depths.push_back(high - low);
+  }
+  out.periods = depths.size();
+  if (!depths.empty()) {
+    out.depth_m = median(depths);
+    // The standard error of a median of normal values is √(π/2) that of their mean.
+    out.depth_stderr_m = std::sqrt(0.5 * std::numbers::pi / static_cast<double>(depths.size())) * kSigmaPerMad *
+                         median_absolute_deviation(depths);
+  }
+  out.periodic = out.strength >= config.min_strength && out.periods >= 3;
+  return out;
+}
+
+}  // namespace asperity
