@@ -66,6 +66,25 @@ std::size_t CsvReader::require(std::string_view column) const {
   return *found;
 }
 
+namespace {
+
+// Counts are whole numbers of a few digits, and most of what is read.
+bool parse_short_integer(std::string_view text, double& value) {
+  const bool negative = text.starts_with('-');
+  if (negative) text.remove_prefix(1);
+  constexpr std::size_t kExactDigits = 15;  // below 2^53
+  if (text.empty() || text.size() > kExactDigits) return false;
+  std::int64_t whole = 0;
+  for (const char digit : text) {
+    if (digit < '0' || digit > '9') return false;
+    whole = 10 * whole + (digit - '0');
+  }
+  value = negative ? -static_cast<double>(whole) : static_cast<double>(whole);
+  return true;
+}
+
+}  // namespace
+
 bool CsvReader::next_line(std::string_view& line) {
   while (!rest_.empty()) {
     const auto end = rest_.find('\n');
@@ -90,7 +109,11 @@ bool CsvReader::next() {
   std::size_t start = 0;
   while (true) {
     const auto comma = line.find(',', start);
-    if (count < cells_.size()) cells_[count] = trim(line.substr(start, comma - start));
+    if (count < cells_.size()) {
+      const std::string_view cell = line.substr(start, comma - start);
+      const bool blank_end = !cell.empty() && (cell.front() <= ' ' || cell.back() <= ' ');
+      cells_[count] = blank_end ? trim(cell) : cell;
+    }
     ++count;
     if (comma == std::string_view::npos) break;
     start = comma + 1;
@@ -103,6 +126,8 @@ bool CsvReader::next() {
 }
 
 double CsvReader::number(std::size_t column) const {
+  double whole = 0.0;
+  if (parse_short_integer(cells_[column], whole)) return whole;
   const auto value = parse_double(cells_[column]);
   if (!value) fail(column, "'" + printable(cells_[column]) + "' is not a number");
   return *value;

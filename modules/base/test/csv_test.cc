@@ -1,5 +1,6 @@
 #include "asperity/base/csv.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
 
 #include "asperity/base/error.h"
@@ -24,6 +25,25 @@ TEST(Csv, PassesOverAnUnfinishedLastLine) {
   EXPECT_TRUE(csv.next());
   EXPECT_FALSE(csv.next());
   EXPECT_TRUE(csv.truncated());
+}
+
+TEST(Csv, WholeNumbersAreExact) {
+  CsvReader csv("a\n-0\n999999999999999\n9007199254740993\n-17\n007\n", "f.csv");
+  const auto next_number = [&] {
+    csv.next();
+    return csv.number(0);
+  };
+  const double minus_zero = next_number();
+  EXPECT_EQ(minus_zero, 0.0);
+  EXPECT_TRUE(std::signbit(minus_zero));
+  EXPECT_EQ(next_number(), 999999999999999.0);
+  EXPECT_EQ(next_number(), 9007199254740992.0);  // 2^53 + 1 is no double: the nearest, ties to even
+  EXPECT_EQ(next_number(), -17.0);
+  EXPECT_EQ(next_number(), 7.0);
+  EXPECT_FALSE(csv.next());
+  CsvReader minus("a\n-\n", "f.csv");
+  minus.next();
+  EXPECT_THROW(minus.number(0), Error);
 }
 
 TEST(Csv, RefusesBadShapes) {

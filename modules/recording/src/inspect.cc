@@ -71,7 +71,7 @@ std::vector<ChannelFigures> all_channels(const Recording& recording, const std::
 }
 
 // Poses that jump from the last believed one; a jump that lasts is a new place, not a flip.
-std::size_t count_flips(const TrackerStream& tracker, const InspectConfig& config) {
+std::size_t count_flips(const TrackerStream& tracker, double period_s, const InspectConfig& config) {
   constexpr std::size_t kLasting = 5;
   std::size_t flips = 0;
   std::size_t in_a_row = 0;
@@ -81,7 +81,8 @@ std::size_t count_flips(const TrackerStream& tracker, const InspectConfig& confi
     const Pose& now = tracker.T_world_marker[i];
     const double turn_rad = log_rotation(now.rotation * before.rotation.conjugate()).norm();
     const double step_m = (now.translation_m - before.translation_m).norm();
-    const auto frames = static_cast<double>(i - believed);
+    const double passed_s = static_cast<double>(tracker.t_ns[i] - tracker.t_ns[believed]) * kNanosecond_s;
+    const double frames = std::max(passed_s / period_s, 1.0);
     const bool jumps = turn_rad > config.flip_angle_rad * frames || step_m > config.flip_distance_m * frames;
     if (jumps && in_a_row < kLasting) {
       ++flips;
@@ -130,7 +131,7 @@ Inspection inspect_recording(const Recording& recording, const InspectConfig& co
   if (quiet) out.quiet = describe_quiet(recording, *quiet, config);
   out.channels = all_channels(recording, quiet);
   measure_force(recording, out);
-  out.flips = count_flips(recording.tracker, config);
+  out.flips = count_flips(recording.tracker, out.tracker.period_s, config);
   out.findings = find_findings(recording, out, config);
   return out;
 }

@@ -123,6 +123,16 @@ TEST(Inspect, SaysWhatIsWrong) {
   }
 }
 
+TEST(Inspect, AMoveDuringAGapIsNoFlip) {
+  Recording recording = rest_then_shake();
+  // Half a metre in the second that the tracker missed.
+  for (std::size_t i = 100; i < 200; ++i) {
+    recording.tracker.t_ns[i] += 1'000'000'000;
+    recording.tracker.T_world_marker[i].translation_m.z() += 0.5;
+  }
+  EXPECT_EQ(inspect_recording(recording).flips, 0u);
+}
+
 TEST(Inspect, StreamsThatDoNotMeet) {
   Recording recording = rest_then_shake();
   for (auto& t_ns : recording.tracker.t_ns) t_ns += 3600'000'000'000;
