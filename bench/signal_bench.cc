@@ -41,9 +41,11 @@ std::vector<double> resampled_m(const std::vector<double>& height_m) {
 
 // Of the middle half, where no tool's way with the ends is felt.
 double rms_m(const std::vector<double>& x) {
+  const std::size_t first = x.size() / 4;
+  const std::size_t end = 3 * x.size() / 4;
   double sum = 0.0;
-  for (std::size_t i = x.size() / 4; i < 3 * x.size() / 4; ++i) sum += x[i] * x[i];
-  return std::sqrt(sum / static_cast<double>(x.size() / 2));
+  for (std::size_t i = first; i < end; ++i) sum += x[i] * x[i];
+  return std::sqrt(sum / static_cast<double>(end - first));
 }
 
 void verlet(benchmark::State& state) {
