@@ -15,6 +15,7 @@ namespace asperity {
 namespace {
 
 constexpr int kHarmonics = 4;
+constexpr std::size_t kSearchPoints = 10000;  // a longer profile adds nothing to the search, only to the phase's line
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // The mean product at a lag over the mean square of the same points, gaps left out.
@@ -116,6 +117,27 @@ double follow_phase(std::span<const double> x, double& f) {
 
 }  // namespace
 
+namespace {
+
+// The stretch of at most kSearchPoints with the fewest gaps.
+std::span<const double> search_part(std::span<const double> x) {
+  if (x.size() <= kSearchPoints) return x;
+  std::size_t finite = 0;
+  for (std::size_t k = 0; k < kSearchPoints; ++k) finite += std::isfinite(x[k]) ? 1 : 0;
+  std::size_t most = finite, best = 0;
+  for (std::size_t k = kSearchPoints; k < x.size(); ++k) {
+    finite += std::isfinite(x[k]) ? 1 : 0;
+    finite -= std::isfinite(x[k - kSearchPoints]) ? 1 : 0;
+    if (finite > most) {
+      most = finite;
+      best = k + 1 - kSearchPoints;
+    }
+  }
+  return x.subspan(best, kSearchPoints);
+}
+
+}  // namespace
+
 Periodicity find_periodicity(std::span<const double> height_m, double spacing_m, const PeriodicityConfig& config) {
   if (!(spacing_m > 0.0) || !(config.min_pitch_m > 2.0 * spacing_m) || !(config.max_pitch_m > config.min_pitch_m)) {
     throw Error("periodicity: spacing " + number_text(spacing_m) + " m, pitch " + number_text(config.min_pitch_m) +
@@ -134,9 +156,10 @@ Periodicity find_periodicity(std::span<const double> height_m, double spacing_m,
   std::vector<double> x(height_m.begin(), height_m.end());
   for (double& h : x) h -= sum / count;
 
-  const double lag = find_lag(x, shortest, longest);
+  const std::span<const double> part = search_part(x);
+  const double lag = find_lag(part, shortest, std::min(longest, part.size() / 3));
   if (!(lag > 0.0)) return out;
-  double f = refine_frequency(x, 1.0 / lag);
+  double f = refine_frequency(part, 1.0 / lag);
   const double relative = follow_phase(x, f);
   const double period = 1.0 / f;
   out.pitch_m = spacing_m * period;

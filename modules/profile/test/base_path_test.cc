@@ -101,7 +101,8 @@ TEST(BasePath, BodyOfRevolutionHasNormalsInThePlaneOfThePath) {
     EXPECT_EQ(result.outside, outside);
     EXPECT_GT(result.shape_probability, 0.95);
     EXPECT_NEAR(result.radius_m, 0.045, 4.0 * result.radius_stderr_m);
-    EXPECT_LT(worst_angle_deg(result, scan), 5.0);  // a radius off by a millimetre turns the ends by one degree, the axis the rest
+    EXPECT_LT(worst_angle_deg(result, scan),
+              5.0);  // a radius off by a millimetre turns the ends by one degree, the axis the rest
     expect_length(result, scan, 0.7);
   }
 }
