@@ -16,6 +16,12 @@ std::string result_summary(const ProcessResult& result) {
     out += fmt::format("  roughness   Ra {:.1f} µm, Rq {:.1f} µm, Rz {:.1f} µm, RSm {:.3f} mm\n", r.Ra_m * 1e6,
                        r.Rq_m * 1e6, r.Rz_m * 1e6, r.RSm_m * 1e3);
   }
+  if (result.periodicity.periodic) {
+    const Periodicity& p = result.periodicity;
+    out += fmt::format("  pattern     pitch {:.3f} ± {:.3f} mm, depth {:.0f} ± {:.0f} µm over {} periods\n", p.pitch_m * 1e3,
+                       p.pitch_stderr_m * 1e3, p.depth_m * 1e6, p.depth_stderr_m * 1e6, p.periods);
+  }
+  if (!result.stiffness.verdict.empty()) out += "  stiffness   " + result.stiffness.verdict + "\n";
   if (std::isfinite(result.compliance.k_c)) {
     out += fmt::format("  compliance  k_c {:.3f} over {} windows\n", result.compliance.k_c,
                        result.compliance.windows.size());

@@ -65,6 +65,24 @@ Json roughness_json(const RoughnessResult& r) {
   return out;
 }
 
+Json periodicity_json(const Periodicity& p) {
+  return {{"periodic", p.periodic}, {"pitch_m", p.pitch_m}, {"pitch_stderr_m", p.pitch_stderr_m},
+          {"depth_m", p.depth_m},   {"depth_stderr_m", p.depth_stderr_m}, {"strength", p.strength}, {"periods", p.periods}};
+}
+
+Json stiffness_json(const StiffnessEstimate& s) {
+  return {{"measured", s.measured},
+          {"stiffness_N_per_mm", s.stiffness_N_per_mm},
+          {"stiffness_stderr_N_per_mm", s.stiffness_stderr_N_per_mm},
+          {"lower_bound_N_per_mm", s.lower_bound_N_per_mm},
+          {"compliance_mm_per_N", s.compliance_mm_per_N},
+          {"compliance_stderr_mm_per_N", s.compliance_stderr_mm_per_N},
+          {"force_rms_N", s.force_rms_N},
+          {"band_high_hz", s.band_high_hz},
+          {"used_s", s.used_s},
+          {"verdict", s.verdict}};
+}
+
 Json accuracy_json(const Accuracy& accuracy) {
   Json out;
   out["position_rms_m"] = accuracy.position_rms_m;
@@ -115,9 +133,11 @@ std::string format_result(const ProcessResult& result, const Recording& recordin
   out["base"] = base_json(result.base);
   out["trajectory"] = Json(result.trajectory.figures);
   out["roughness"] = result.roughness ? roughness_json(*result.roughness) : Json(nullptr);
+  out["periodicity"] = periodicity_json(result.periodicity);
   out["compliance"] = {{"k_c", result.compliance.k_c},
                        {"sigma_r2", result.compliance.sigma_r2},
                        {"windows", result.compliance.windows.size()}};
+  out["stiffness"] = stiffness_json(result.stiffness);
   if (result.fit) {
     out["texture"] = {{"file", "texture.json"},
                       {"length_mm", result.fit->texture.length_mm},

@@ -86,6 +86,7 @@ Texture make_texture(const ProcessResult& result, const Recording& recording, co
   texture.fourier1d = result.fit->texture;
   texture.lift_m = result.fit->lift_m;
   if (std::isfinite(result.compliance.k_c)) texture.compliance_kc = result.compliance.k_c;
+  if (result.stiffness.measured) texture.stiffness_N_per_m = 1e3 * result.stiffness.stiffness_N_per_mm;
   if (result.roughness) {
     const RoughnessResult& r = *result.roughness;
     for (const auto& [key, value] : {std::pair{"Ra_m", r.Ra_m},
@@ -146,9 +147,12 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
     result.roughness = measure_roughness(result.profile.texture_m, result.profile.spacing_m, config.roughness);
   });
 
+  result.periodicity = find_periodicity(result.profile.texture_m, result.profile.spacing_m, config.periodicity);
+
   // How it yields (seed §5.3, erratum 15).
   observer.update("compliance", 0.9);
   result.compliance = estimate_compliance(motion, motion.t_ns, result.base.path.n_world, config.compliance);
+  result.stiffness = estimate_stiffness(motion, result.base.path, result.base.contact, config.stiffness);
 
   // What a hand is to feel of it (seed §6.5, erratum 18).
   observer.update("texture", 0.95);

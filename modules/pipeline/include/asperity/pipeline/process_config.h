@@ -5,7 +5,9 @@
 
 #include "asperity/profile/compare_profiles.h"
 #include "asperity/profile/estimate_compliance.h"
+#include "asperity/profile/estimate_stiffness.h"
 #include "asperity/profile/find_base_path.h"
+#include "asperity/profile/find_periodicity.h"
 #include "asperity/profile/make_profile.h"
 #include "asperity/profile/make_profile_thesis.h"
 #include "asperity/profile/measure_roughness.h"
@@ -39,7 +41,9 @@ struct ProcessConfig {
   BasePathConfig base;
   ProfileConfig profile;
   RoughnessConfig roughness;
+  PeriodicityConfig periodicity;
   ComplianceConfig compliance;
+  StiffnessConfig stiffness;
   FitFourier1dConfig texture;
   ComparisonConfig comparison;
 
@@ -53,7 +57,9 @@ struct ProcessConfig {
     v.group("base", base);
     v.group("profile", profile);
     v.group("roughness", roughness);
+    v.group("periodicity", periodicity);
     v.group("compliance", compliance);
+    v.group("stiffness", stiffness);
     v.group("texture", texture);
     v.group("comparison", comparison);
   }

@@ -6,7 +6,9 @@
 #include "asperity/base/problem.h"
 #include "asperity/pipeline/measure_accuracy.h"
 #include "asperity/profile/estimate_compliance.h"
+#include "asperity/profile/estimate_stiffness.h"
 #include "asperity/profile/find_base_path.h"
+#include "asperity/profile/find_periodicity.h"
 #include "asperity/profile/profile.h"
 #include "asperity/profile/roughness.h"
 #include "asperity/texture/fit_fourier1d.h"
@@ -37,7 +39,9 @@ struct ProcessResult {
   Coverage coverage;
   SpeedFigures speed;
   std::optional<RoughnessResult> roughness;  // of profile.texture_m
+  Periodicity periodicity;                   // of profile.height_m
   Compliance compliance;
+  StiffnessEstimate stiffness;
   std::optional<FourierFit> fit;
   std::optional<Texture> texture;
   std::optional<Accuracy> accuracy;  // where the recording knows the truth
