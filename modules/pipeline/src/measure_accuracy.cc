@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "asperity/base/error.h"
@@ -56,6 +57,23 @@ double travel_speed_mps(const Truth& truth) {
   return time_s > 0.0 ? way_m / time_s : 0.0;
 }
 
+// The true heights, nan where the tip was off the surface for longer than a bounce: there is no surface in
+// them to compare with.
+std::vector<double> heights_in_contact(const Truth& truth) {
+  constexpr std::int64_t kBounce_ns = 20'000'000;
+  std::vector<double> out = truth.height_m;
+  for (std::size_t i = 0; i < truth.size();) {
+    std::size_t end = i;
+    while (end < truth.size() && truth.force_N[end] <= 0.0) ++end;
+    if (end > i && truth.t_ns[end - 1] - truth.t_ns[i] > kBounce_ns) {
+      std::fill(out.begin() + static_cast<std::ptrdiff_t>(i), out.begin() + static_cast<std::ptrdiff_t>(end),
+                std::numeric_limits<double>::quiet_NaN());
+    }
+    i = end + 1;
+  }
+  return out;
+}
+
 }  // namespace
 
 Accuracy measure_accuracy(const Recording& recording, const TipMotion& motion, const Profile& profile,
@@ -102,7 +120,7 @@ Accuracy measure_accuracy(const Recording& recording, const TipMotion& motion, c
           std::min(config.high_cycles_per_mm, comparison_limit_cycles_per_mm(rate_Hz, speed_mps));
     }
     out.band_high_cycles_per_mm = comparison.high_cycles_per_mm;
-    out.profile = compare_profiles(profile.s_m, profile.height_m, truth.s_m, truth.height_m, comparison);
+    out.profile = compare_profiles(profile.s_m, profile.height_m, truth.s_m, heights_in_contact(truth), comparison);
   }
   return out;
 }

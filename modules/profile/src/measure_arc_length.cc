@@ -29,16 +29,31 @@ struct Directions {
   std::vector<std::size_t> turns;        // cells from which a reversed direction holds
 };
 
+// The direction of travel in a moving cell: that of the slow path, which noise hardly turns, and in a
+// bend too tight for it that of the quick one.
+Eigen::Vector2d direction(const EvenPath<2>& slow, const EvenPath<2>& quick, std::size_t cell) {
+  constexpr double kAgree_rad = 0.35;  // noise seldom turns the quick path further
+  constexpr double kBend_rad = 0.8;
+  const Eigen::Vector2d gentle = velocity_mps(slow, cell);
+  const Eigen::Vector2d tight = velocity_mps(quick, cell).normalized();
+  if (!(gentle.norm() > 0.0)) return tight;
+  const Eigen::Vector2d unit = gentle.normalized();
+  const double turn = std::acos(std::clamp(unit.dot(tight), -1.0, 1.0));
+  const double share = std::clamp((turn - kAgree_rad) / (kBend_rad - kAgree_rad), 0.0, 1.0);
+  return ((1.0 - share) * unit + share * tight).normalized();
+}
+
 // Moving cells have the direction of their velocity. A rest between two of them keeps the first
 // direction up to the point that lies outermost between the two, and has the second from there.
-Directions find_directions(const EvenPath<2>& path, const EvenPath<2>& smooth, const std::vector<char>& moving) {
+Directions find_directions(const EvenPath<2>& path, const EvenPath<2>& slow, const EvenPath<2>& quick,
+                           const std::vector<char>& moving) {
   const std::size_t n = path.size();
   Directions out;
   out.tangent.assign(n, Eigen::Vector2d::UnitX());
   std::size_t last = n;
   for (std::size_t i = 0; i < n; ++i) {
     if (moving[i] == 0) continue;
-    out.tangent[i] = velocity_mps(smooth, i).normalized();
+    out.tangent[i] = direction(slow, quick, i);
     if (last == n) {
       std::fill(out.tangent.begin(), out.tangent.begin() + static_cast<std::ptrdiff_t>(i), out.tangent[i]);
     } else if (i > last + 1) {
@@ -93,13 +108,16 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
   const std::vector<double> rough_mps = speeds(low_pass(path, kSpeedCutoff_hz));
   const std::span<const double> travelled(rough_mps.data() + first_cell, last_cell - first_cell + 1);
   const double usual_mps = percentile(travelled, 80.0);
-  const auto smooth =
-      low_pass(path, std::max(kLowestCutoff_hz, config.direction_cutoff_cycles_per_mm * 1e3 * usual_mps));
-  const std::vector<double> speed = speeds(smooth);
+  const auto smoothed_at = [&](double cutoff_cycles_per_mm) {
+    return low_pass(path, std::max(kLowestCutoff_hz, cutoff_cycles_per_mm * 1e3 * usual_mps));
+  };
+  const auto slow = smoothed_at(config.direction_cutoff_cycles_per_mm);
+  const auto quick = smoothed_at(std::max(config.bend_cutoff_cycles_per_mm, config.direction_cutoff_cycles_per_mm));
+  const std::vector<double> speed = speeds(quick);
   const double rest_mps = std::max(config.rest_speed_mps, config.rest_fraction * usual_mps);
   std::vector<char> moving(path.size(), 0);
   for (std::size_t i = first_cell; i <= last_cell; ++i) moving[i] = speed[i] > rest_mps ? 1 : 0;
-  const Directions directions = find_directions(path, smooth, moving);
+  const Directions directions = find_directions(path, slow, quick, moving);
 
   for (std::size_t i = 0; i < n; ++i) out.speed_mps[i] = speed[index_at(path, t_s[i])];
   for (std::size_t i = begin + 1; i < end; ++i) {

@@ -12,6 +12,7 @@ namespace asperity {
 
 struct ArcLengthConfig {
   double direction_cutoff_cycles_per_mm = 0.03;
+  double bend_cutoff_cycles_per_mm = 0.14;
   double along_cutoff_hz = 0.0;
   double rest_speed_mps = 1e-3;
   double rest_fraction = 0.15;
@@ -19,7 +20,9 @@ struct ArcLengthConfig {
   template <class V>
   void visit(V& v) {
     v.field("direction_cutoff_cycles_per_mm", direction_cutoff_cycles_per_mm,
-            "bends shorter than its inverse are tremor, not path", {1e-3, 10.0});
+            "low-pass of the path that gives the direction of travel", {1e-3, 10.0});
+    v.field("bend_cutoff_cycles_per_mm", bend_cutoff_cycles_per_mm,
+            "the same in bends; shorter ones are tremor, not path", {1e-3, 10.0});
     v.field("along_cutoff_hz", along_cutoff_hz, "low-pass of the progress along the path; 0 for none", {0.0, 1e5});
     v.field("rest_speed_mps", rest_speed_mps, "slower than this the tip has no direction of its own", {0.0, 10.0});
     v.field("rest_fraction", rest_fraction, "the same as a fraction of the 80th percentile of the speed", {0.0, 1.0});
@@ -40,10 +43,10 @@ struct ArcLength {
 // along the direction of travel, ds = t·Δu with t the unit velocity of the low-passed path. Errors along
 // t then cancel from step to step, whatever the rate, and only those of t remain, which shorten the path
 // by half the square of the angle. The low-pass works in time; its cut-off is that of the config times the
-// speed's 80th percentile. Real tangential motion at any frequency (stick–slip) is kept. At
-// rest t is held, so s does not creep; it may step back by what the tip steps back. Where a stroke
-// reverses, the path is cut at its outermost point and s keeps growing.
-// Throws Error if the sizes differ or the times do not rise.
+// speed's 80th percentile: the lower one, and where the path turns by more than noise would, the higher. Real
+// tangential motion at any frequency (stick–slip) is kept. At rest t is held, so s does not creep; it may step back by
+// what the tip steps back. Where a stroke reverses, the path is cut at its outermost point and s keeps growing. Throws
+// Error if the sizes differ or the times do not rise.
 ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen::Vector2d> u_m,
                              std::span<const char> usable, const ArcLengthConfig& config);
 
