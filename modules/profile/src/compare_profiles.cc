@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
@@ -32,7 +33,20 @@ PathKnots knots_of(std::span<const double> s_m, std::span<const double> height_m
   return knots;
 }
 
-BandPassed band_pass(PathKnots knots, double shift_m, const ComparisonConfig& config) {
+// The knots moved by shift_m, without those strictly inside `gaps` (pairs of s, rising).
+BandPassed band_pass(PathKnots knots, double shift_m, const std::vector<std::pair<double, double>>& gaps,
+                     const ComparisonConfig& config) {
+  std::vector<double> s_m, height_m_in;
+  std::size_t g = 0;
+  for (std::size_t i = 0; i < knots.s_m.size(); ++i) {
+    while (g < gaps.size() && gaps[g].second <= knots.s_m[i]) ++g;
+    if (g < gaps.size() && knots.s_m[i] > gaps[g].first) continue;
+    s_m.push_back(knots.s_m[i]);
+    height_m_in.push_back(knots.channels[0][i]);
+  }
+  knots.s_m = std::move(s_m);
+  knots.channels[0] = std::move(height_m_in);
+  if (knots.s_m.empty()) return {};
   for (double& s : knots.s_m) s += shift_m;
   BandPassed out;
   out.first = static_cast<std::ptrdiff_t>(std::ceil(knots.s_m.front() / config.spacing_m));
@@ -71,6 +85,17 @@ BandPassed band_pass(PathKnots knots, double shift_m, const ComparisonConfig& co
     if (keep[k] == 0) out.height_m[k] = std::numeric_limits<double>::quiet_NaN();
   }
   return out;
+}
+
+// Where the measured side has no heights, the true one must have none either: a lift of some millimetres there
+// would ring through the band-pass far beyond the gap.
+std::vector<std::pair<double, double>> gaps_of(const PathKnots& knots, double shift_m, const ComparisonConfig& config) {
+  std::vector<std::pair<double, double>> gaps;
+  for (std::size_t i = 1; i < knots.s_m.size(); ++i) {
+    if (knots.s_m[i] - knots.s_m[i - 1] > config.max_hole_m)
+      gaps.emplace_back(knots.s_m[i - 1] + shift_m, knots.s_m[i] + shift_m);
+  }
+  return gaps;
 }
 
 struct Moments {
@@ -126,8 +151,8 @@ ProfileComparison compare_profiles(std::span<const double> measured_s_m, std::sp
   }
   const PathKnots measured_knots = knots_of(measured_s_m, measured_height_m, config, "measured");
   const PathKnots true_knots = knots_of(true_s_m, true_height_m, config, "true");
-  const BandPassed truth = band_pass(true_knots, 0.0, config);
-  const BandPassed measured = band_pass(measured_knots, 0.0, config);
+  const BandPassed truth = band_pass(true_knots, 0.0, gaps_of(measured_knots, 0.0, config), config);
+  const BandPassed measured = band_pass(measured_knots, 0.0, {}, config);
 
   ProfileComparison out;
   out.length_error_percent = 100.0 * (span_m(measured_knots) / span_m(true_knots) - 1.0);
@@ -151,8 +176,8 @@ ProfileComparison compare_profiles(std::span<const double> measured_s_m, std::sp
   out.shift_m =
       std::clamp((static_cast<double>(best) + fraction) * config.spacing_m, -config.max_shift_m, config.max_shift_m);
 
-  const BandPassed moved = band_pass(measured_knots, out.shift_m, config);
-  const Moments m = overlap(truth, moved, 0);
+  const BandPassed moved = band_pass(measured_knots, out.shift_m, {}, config);
+  const Moments m = overlap(band_pass(true_knots, 0.0, gaps_of(measured_knots, out.shift_m, config), config), moved, 0);
   if (m.n < 10.0) return out;
   out.correlation = m.correlation();
   const double true_variance = m.xx / m.n - m.x / m.n * (m.x / m.n);

@@ -33,17 +33,23 @@ std::vector<char> find_contact(const TipMotion& motion, const ContactConfig& con
     touching = touching ? force_N[i] >= config.release_N : force_N[i] >= config.touch_N;
     contact[i] = touching ? 1 : 0;
   }
+  const std::vector<char> raw = contact;
   for (std::size_t i = 0; i < n;) {
-    if (contact[i] != 0) {
+    if (raw[i] != 0) {
       ++i;
       continue;
     }
     std::size_t end = i;
-    while (end < n && contact[end] == 0) ++end;
+    while (end < n && raw[end] == 0) ++end;
     // A flight has contact on both sides; before the first touch and after the last there is none.
-    if (i > 0 && end < n && t_s[end] - t_s[i - 1] <= config.max_flight_s)
+    const bool flight = i > 0 && end < n && t_s[end] - t_s[i - 1] <= config.max_flight_s;
+    if (flight) {
       std::fill(contact.begin() + static_cast<std::ptrdiff_t>(i), contact.begin() + static_cast<std::ptrdiff_t>(end),
                 1);
+    } else {
+      for (std::size_t k = i; k > 0 && t_s[i] - t_s[k - 1] <= config.margin_s; --k) contact[k - 1] = 0;
+      for (std::size_t k = end; k < n && t_s[k] - t_s[end - 1] <= config.margin_s; ++k) contact[k] = 0;
+    }
     i = end;
   }
   return contact;

@@ -107,6 +107,20 @@ TEST(BasePath, BodyOfRevolutionHasNormalsInThePlaneOfThePath) {
   }
 }
 
+TEST(BasePath, APathThatAlsoMovesAlongTheAxisIsOnACylinder) {
+  // Across the cylinder and 8 mm along it and back, as a person who sways does.
+  const auto base = [](double t) {
+    const double a = 0.025 * t / 0.05 - 1.0, z = 0.008 * std::cos(0.5 * std::numbers::pi * a);
+    const Eigen::Vector3d radial(std::cos(a), std::sin(a), 0.0);
+    return Point{0.05 * radial + Eigen::Vector3d(0.0, 0.0, z), radial, 0.025 * t};
+  };
+  const Scan scan = make_scan(base, sine(0.1e-3, 0.8e-3), {.duration_s = 4.0, .slow_sigma_m = 0.02e-3});
+  const BasePathResult result = find_base_path(scan.motion, scan.tip_in_marker_m, {});
+  EXPECT_EQ(result.shape, PathShape::kCircle);
+  EXPECT_NEAR(result.radius_m, 0.05, 2e-3);
+  EXPECT_LT(std::acos(std::abs(result.axis_world.z())) / kDegree_rad, 8.0);  // the plane of the path leans by 25
+}
+
 TEST(BasePath, BackAndForthKeepsGrowingAndMarksTheTurns) {
   // 40 mm strokes with a bow, sinusoidal in time: five turns in 6 s.
   const auto x = [](double t) { return 0.02 * (1.0 - std::cos(2.0 * std::numbers::pi * t / 2.4)); };

@@ -74,6 +74,17 @@ TEST(CompareProfiles, SlowDriftIsOutOfBandAndGapsDoNotCount) {
   EXPECT_NEAR(c.compared_m, 0.06 - 2 * 3e-3 - 6e-3 - 1.5e-3, 0.2e-3);
 }
 
+TEST(CompareProfiles, ALiftOfTheTruthInAMeasuredGapDoesNotCount) {
+  Sampled truth = sample(0.0, 0.06, 25e-6, 0.0, 1.0, 0.0);
+  Sampled measured = truth;
+  for (std::size_t i = 1000; i < 1100; ++i) {
+    truth.h_m[i] += 3e-3;
+    measured.h_m[i] = NAN;
+  }
+  const ProfileComparison c = compare_profiles(measured.s_m, measured.h_m, truth.s_m, truth.h_m, {});
+  EXPECT_GT(c.correlation, 0.999);
+}
+
 TEST(CompareProfiles, TruthMayDwellAndRepeat) {
   Sampled truth = sample(0.0, 0.05, 6e-6, 0.0, 1.0, 0.0);
   const Sampled measured = sample(0.0, 0.05, 25e-6, 0.0, 1.0, 0.0);

@@ -49,7 +49,8 @@ struct ProfileComparison {
 // or repeat, and heights may be nan. Both are resampled alike (resample_over_path.h), band-passed alike
 // (second-order Butterworth, zero phase, -3 dB of the whole filter at the band's edges), and compared over
 // their common span after the one rigid shift that gives the highest correlation: searched over the grid,
-// then refined below it by a parabola and applied by the resampling of the measured side. The length
+// then refined below it by a parabola and applied by the resampling of the measured side. Where the measured side
+// has a gap, the true one is given the same. The length
 // error compares the spans from first to last finite height, so both must cover the same motion.
 // Throws Error for a band or shift out of range, or if a side has fewer than 8 finite heights. Where the
 // overlap is shorter than ten points, the results stay nan.
