@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "asperity/base/error.h"
@@ -78,17 +79,30 @@ SpeedFigures measure_speed(const Profile& profile) {
   return out;
 }
 
+// A force sensor that never changes is none: whether the tip touched is then not known.
+bool has_force(const ProbeStream& probe) {
+  double first = std::numeric_limits<double>::quiet_NaN();
+  for (const double counts : probe.force_counts) {
+    if (!std::isfinite(counts)) continue;
+    if (std::isfinite(first) && counts != first) return true;
+    first = counts;
+  }
+  return false;
+}
+
 // Runs a step that a usable recording may not allow, such as roughness of too short a profile: it then
-// stays absent and the steps before it stand.
+// stays absent and the steps before it stand. Returns whether it succeeded.
 template <class Step>
-void attempt(ProcessResult& result, const char* kind, const char* what, Step step) {
+bool attempt(ProcessResult& result, const char* kind, const char* what, Step step) {
   try {
     step();
+    return true;
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {
     result.problems.push_back({kind, std::string("no ") + what + ": " + error.what(), 1});
     distrust(result, std::string("no ") + what);
+    return false;
   }
 }
 
@@ -121,28 +135,16 @@ Texture make_texture(const ProcessResult& result, const Recording& recording, co
   return texture;
 }
 
-void judge(ProcessResult& result, const ProcessConfig& config) {
-  if (!result.trajectory.trustworthy) distrust(result, result.trajectory.verdict);
+void judge_coverage(ProcessResult& result, const ProcessConfig& config) {
   if (result.coverage.covered < config.min_coverage) {
     const int percent = static_cast<int>(std::lround(100.0 * result.coverage.covered));
     distrust(result, "only " + std::to_string(percent) + " % of the profile has heights");
   }
 }
 
-}  // namespace
-
-ProcessResult process_recording(const Recording& recording, const ProcessConfig& config, const Observer& observer) {
-  ProcessResult result;
-  ProcessConfig resolved = config;
-  result.config_json = config_json(list_fields("", resolved));
-  append(result.problems, recording.problems);
-
-  // Where the tip was (seed §4.1 to §4.3).
-  observer.update("trajectory", 0.0);
-  result.trajectory = estimate_trajectory(recording, config, observer);
+void find_profile(const Recording& recording, const ProcessConfig& config, ProcessResult& result,
+                  const Observer& observer) {
   const TipMotion& motion = result.trajectory.motion;
-  append(result.problems, result.trajectory.problems);
-
   // The path without the fine motion, and its normals (seed §1.4, §6.2; errata 23 and 24).
   observer.update("base path", 0.7);
   result.base = find_base_path(motion, recording.calibration.tip_in_marker_m, config.base);
@@ -153,7 +155,11 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
   result.profile = make_profile_by(config.method, motion, result.base, config);
   result.coverage = measure_coverage(result.profile);
   result.speed = measure_speed(result.profile);
+}
 
+void measure_surface(const Recording& recording, const ProcessConfig& config, ProcessResult& result,
+                     const Observer& observer) {
+  const TipMotion& motion = result.trajectory.motion;
   observer.update("roughness", 0.85);
   attempt(result, "no_roughness", "roughness", [&] {
     result.roughness = measure_roughness(result.profile.texture_m, result.profile.spacing_m, config.roughness);
@@ -173,9 +179,40 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
     append(result.problems, result.fit->problems);
     result.texture = make_texture(result, recording, config);
   });
+}
+
+}  // namespace
+
+ProcessResult process_recording(const Recording& recording, const ProcessConfig& config, const Observer& observer) {
+  ProcessResult result;
+  ProcessConfig resolved = config;
+  result.config_json = config_json(list_fields("", resolved));
+  append(result.problems, recording.problems);
+
+  // Where the tip was (seed §4.1 to §4.3).
+  observer.update("trajectory", 0.0);
+  result.trajectory = estimate_trajectory(recording, config, observer);
+  TipMotion& motion = result.trajectory.motion;
+  append(result.problems, result.trajectory.problems);
+  if (!result.trajectory.trustworthy) distrust(result, result.trajectory.verdict);
+
+  // Without a force sensor a motion need not be a scan: what then fails is said, not held against it.
+  const bool felt = has_force(recording.probe);
+  if (!felt) {
+    std::fill(motion.force_N.begin(), motion.force_N.end(), std::numeric_limits<double>::quiet_NaN());
+    result.problems.push_back({"no_force", "the force never changes: all of the path counts as scanned", 1});
+  }
+  const bool trustworthy = result.trustworthy;
+  if (attempt(result, "no_profile", "profile", [&] { find_profile(recording, config, result, observer); })) {
+    measure_surface(recording, config, result, observer);
+    judge_coverage(result, config);
+  }
+  if (!felt && trustworthy) {
+    result.trustworthy = true;
+    result.verdict.clear();
+  }
 
   if (recording.truth) result.accuracy = measure_accuracy(recording, motion, result.profile, config.comparison);
-  judge(result, config);
   observer.update("texture", 1.0);
   return result;
 }

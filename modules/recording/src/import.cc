@@ -114,7 +114,7 @@ Calibration known_calibration(const ImportConfig& config) {
     out.tracker.sigma_position_m[i] = std::hypot(config.pose_noise_m[axis], kFloor_m);
     out.tracker.sigma_rotation_rad[i] = std::hypot(config.rotation_noise_rad[axis], kFloor_rad);
   }
-  out.tracker.latency_sigma_s = config.latency_sigma_s;
+  out.probe_latency_sigma_s = config.latency_sigma_s;  // the poses are the truth: their clock counts
   return out;
 }
 

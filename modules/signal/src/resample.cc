@@ -1,5 +1,6 @@
 #include "asperity/signal/resample.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -93,6 +94,38 @@ std::vector<double> interpolate(std::span<const double> t, std::span<const doubl
     if (!(at[i] >= at[i - 1])) throw Error("resampling: point " + std::to_string(i) + " is not after the one before");
   }
   return interpolate_rising(t, x, at.size(), max_step, [=](std::size_t i) { return at[i]; });
+}
+
+std::vector<double> interval_means(std::span<const double> t, std::span<const double> x, std::span<const double> at,
+                                   double width) {
+  check_samples(t, x);
+  if (!(width > 0.0)) throw Error("resampling: width must be positive, not " + number_text(width));
+  std::vector<double> integral(t.size(), 0.0);
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    integral[i] = integral[i - 1] + 0.5 * (x[i] + x[i - 1]) * (t[i] - t[i - 1]);
+  }
+  // The integral up to `point`; `k` follows rising points.
+  const auto integral_to = [&](double point, std::size_t& k) {
+    while (k + 1 < t.size() && t[k + 1] <= point) ++k;
+    const double part = point - t[k];
+    if (part <= 0.0 || k + 1 == t.size()) return integral[k];
+    const double slope = (x[k + 1] - x[k]) / (t[k + 1] - t[k]);
+    return integral[k] + part * (x[k] + 0.5 * slope * part);
+  };
+  std::vector<double> out;
+  out.reserve(at.size());
+  std::size_t k_begin = 0, k_end = 0;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    if (i > 0 && !(at[i] >= at[i - 1])) {
+      throw Error("resampling: point " + std::to_string(i) + " is not after the one before");
+    }
+    const double begin = t.empty() ? 0.0 : std::max(t.front(), at[i] - 0.5 * width);
+    const double end = t.empty() ? 0.0 : std::min(t.back(), at[i] + 0.5 * width);
+    if (!(end > begin)) throw Error("resampling: no samples around point " + number_text(at[i]));
+    const double low = integral_to(begin, k_begin);
+    out.push_back((integral_to(end, k_end) - low) / (end - begin));
+  }
+  return out;
 }
 
 std::vector<double> bridge_gaps(std::span<const double> t, std::span<const double> x) {

@@ -55,6 +55,31 @@ TEST(Resample, RejectsWhatIsNotASeries) {
   EXPECT_THROW(interpolate(std::vector<double>{0.0, 1.0}, x, std::vector<double>{1.0, 0.5}), Error);
 }
 
+TEST(IntervalMeans, AreTheMeansOfTheInterpolation) {
+  // 0 up to 2, then back to 0 at 3, then level: areas by hand.
+  const std::vector<double> t{0.0, 2.0, 3.0, 10.0};
+  const std::vector<double> x{0.0, 2.0, 0.0, 0.0};
+  const auto y = interval_means(t, x, std::vector<double>{0.0, 1.0, 2.0, 3.0, 8.0}, 2.0);
+  EXPECT_DOUBLE_EQ(y[0], 0.5);   // [0, 1] only
+  EXPECT_DOUBLE_EQ(y[1], 1.0);   // [0, 2]
+  EXPECT_DOUBLE_EQ(y[2], 1.25);  // 1.5 and 1 over 2
+  EXPECT_DOUBLE_EQ(y[3], 0.5);
+  EXPECT_DOUBLE_EQ(y[4], 0.0);
+  EXPECT_THROW(interval_means(t, x, std::vector<double>{20.0}, 2.0), Error);
+  EXPECT_THROW(interval_means(t, x, std::vector<double>{1.0}, 0.0), Error);
+  EXPECT_THROW(interval_means({}, {}, std::vector<double>{1.0}, 1.0), Error);
+}
+
+TEST(IntervalMeans, SuppressWhatWouldFold) {
+  std::vector<double> t, x, at;
+  for (int i = 0; i < 10000; ++i) {
+    t.push_back(0.00025 * i);
+    x.push_back(3.0 + std::sin(2.0 * 3.141592653589793 * 400.0 * t.back()));  // two periods in 5 ms
+  }
+  for (int i = 1; i < 400; ++i) at.push_back(0.005 * i + 0.0011);
+  for (const double mean : interval_means(t, x, at, 0.005)) EXPECT_NEAR(mean, 3.0, 1e-3);
+}
+
 TEST(BridgeGaps, DrawsTheLineOverTime) {
   const std::vector<double> t{0.0, 1.0, 3.0, 4.0, 5.0};
   EXPECT_EQ(bridge_gaps(t, std::vector<double>{kNan, 2.0, kNan, 8.0, kNan}),

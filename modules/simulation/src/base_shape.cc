@@ -7,7 +7,7 @@
 
 namespace asperity {
 
-BaseShape::BaseShape(const SimulatedShapeConfig& config) : centre_m_(config.centre_m.data()) {
+SimulatedShape::SimulatedShape(const SimulatedShapeConfig& config) : centre_m_(config.centre_m.data()) {
   const Eigen::Vector3d normal(config.normal.data());
   const Eigen::Vector3d stroke(config.stroke_direction.data());
   if (!(normal.norm() > 0.0)) throw Error("simulation.shape.normal: must not be zero");
@@ -20,17 +20,17 @@ BaseShape::BaseShape(const SimulatedShapeConfig& config) : centre_m_(config.cent
   if (config.kind == BaseShapeKind::kCylinder) curvature_per_m_ = 1.0 / config.cylinder_radius_m;
 }
 
-Eigen::Vector3d BaseShape::normal(double a_m) const {
+Eigen::Vector3d SimulatedShape::normal(double a_m) const {
   const double turn = turn_rad(a_m);
   return std::cos(turn) * normal_ + std::sin(turn) * along_;
 }
 
-Eigen::Vector3d BaseShape::along(double a_m) const {
+Eigen::Vector3d SimulatedShape::along(double a_m) const {
   const double turn = turn_rad(a_m);
   return std::cos(turn) * along_ - std::sin(turn) * normal_;
 }
 
-Eigen::Vector3d BaseShape::point_m(double a_m, double v_m, double height_m) const {
+Eigen::Vector3d SimulatedShape::point_m(double a_m, double v_m, double height_m) const {
   if (curvature_per_m_ == 0.0) return centre_m_ + a_m * along_ + v_m * across_ + height_m * normal_;
   const double radius_m = 1.0 / curvature_per_m_;
   const double turn = turn_rad(a_m);

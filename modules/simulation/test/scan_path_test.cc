@@ -66,10 +66,10 @@ TEST(ScanPath, StrokesRunToAndFroOnNeighbouringRows) {
   EXPECT_NEAR(third.a_m, first.a_m, 2e-6);
 }
 
-TEST(BaseShape, CylinderHasItsRadiusAndOutwardNormals) {
+TEST(SimulatedShape, CylinderHasItsRadiusAndOutwardNormals) {
   SimulatedShapeConfig config;
   config.kind = BaseShapeKind::kCylinder;
-  const BaseShape shape(config);
+  const SimulatedShape shape(config);
   const Eigen::Vector3d top = shape.point_m(0.0, 0.0, 0.0);
   const Eigen::Vector3d axis_point = top - 0.06 * shape.normal(0.0);
   for (double a = -0.05; a < 0.05; a += 0.01) {
@@ -82,12 +82,12 @@ TEST(BaseShape, CylinderHasItsRadiusAndOutwardNormals) {
   }
 }
 
-TEST(BaseShape, RefusesAnImpossibleFrame) {
+TEST(SimulatedShape, RefusesAnImpossibleFrame) {
   SimulatedShapeConfig config;
   config.normal = {0.0, 0.0, 0.0};
-  EXPECT_THROW(BaseShape{config}, Error);
+  EXPECT_THROW(SimulatedShape{config}, Error);
   config.normal = {1.0, 0.0, 0.0};
-  EXPECT_THROW(BaseShape{config}, Error);
+  EXPECT_THROW(SimulatedShape{config}, Error);
 }
 
 }  // namespace

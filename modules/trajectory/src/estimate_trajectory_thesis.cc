@@ -84,8 +84,8 @@ TrajectoryResult estimate_trajectory_thesis(const Recording& recording, const Th
   // §4.1: outlier rejection, then one time base for both streams.
   const Outliers outliers = reject_outliers(recording.probe, calibration, config.outliers);
   const auto period_ns = static_cast<std::int64_t>(std::llround(config.period_s / kNanosecond_s));
-  const SynchronisedStreams streams =
-      synchronise(recording.probe, outliers, recording.tracker, calibration.tracker.latency_s, period_ns);
+  const SynchronisedStreams streams = synchronise(recording.probe, outliers, recording.tracker,
+                                                  calibration.tracker.latency_s, period_ns, config.average_over_period);
 
   // §4.2: Kalman filters of the tip's position and of the orientation.
   std::vector<Eigen::Vector3d> p_world_tip_m;

@@ -46,7 +46,7 @@ std::vector<Pose> interpolate_poses(const std::vector<double>& t_s, const std::v
 }  // namespace
 
 SynchronisedStreams synchronise(const ProbeStream& probe, const Outliers& outliers, const TrackerStream& tracker,
-                                double latency_s, std::int64_t period_ns) {
+                                double latency_s, std::int64_t period_ns, bool average) {
   if (period_ns <= 0) throw Error("synchronisation period must be positive, not " + std::to_string(period_ns) + " ns");
   if (!std::isfinite(latency_s)) throw Error("tracker latency is " + number_text(latency_s) + " s");
   if (probe.size() < 2 || tracker.size() < 2) {
@@ -96,11 +96,13 @@ SynchronisedStreams synchronise(const ProbeStream& probe, const Outliers& outlie
     out.t_ns.push_back(origin_ns + t_ns);
     at_s.push_back(seconds(t_ns));
   }
-  const auto i_axis = interpolate(axis[0].t_s, axis[0].value, at_s);
-  const auto j_axis = interpolate(axis[1].t_s, axis[1].value, at_s);
-  const auto k_axis = interpolate(axis[2].t_s, axis[2].value, at_s);
+  std::vector<double> counts[3];
+  for (int k = 0; k < 3; ++k) {
+    counts[k] = average ? interval_means(axis[k].t_s, axis[k].value, at_s, period_s)
+                        : interpolate(axis[k].t_s, axis[k].value, at_s);
+  }
   out.force_counts = bridge_gaps(interpolate(force.t_s, force.value, at_s));
-  for (std::size_t i = 0; i < at_s.size(); ++i) out.accel_counts.emplace_back(i_axis[i], j_axis[i], k_axis[i]);
+  for (std::size_t i = 0; i < at_s.size(); ++i) out.accel_counts.emplace_back(counts[0][i], counts[1][i], counts[2][i]);
   out.T_world_marker = interpolate_poses(tracker_s, tracker.T_world_marker, at_s);
   return out;
 }

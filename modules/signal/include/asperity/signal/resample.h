@@ -19,6 +19,12 @@ std::vector<double> resample_uniform(std::span<const double> t, std::span<const 
 std::vector<double> interpolate(std::span<const double> t, std::span<const double> x, std::span<const double> at,
                                 double max_step = std::numeric_limits<double>::infinity());
 
+// The mean of the linear interpolation over [at - width/2, at + width/2], as far as the samples reach: what
+// lies above half of the new rate is averaged instead of folded into it, and the integral is kept. x must
+// be finite. Throws Error as above, or if the width is not positive or an interval lies outside the samples.
+std::vector<double> interval_means(std::span<const double> t, std::span<const double> x, std::span<const double> at,
+                                   double width);
+
 // x with each run of nan replaced by the straight line between its neighbours over t, and by the nearest
 // value at the ends; all nan if no sample is finite. Throws Error as above.
 std::vector<double> bridge_gaps(std::span<const double> t, std::span<const double> x);

@@ -8,10 +8,10 @@ namespace asperity {
 
 // The base shape under the relief: a plane, or a cylinder whose axis lies across the stroke. Points on it
 // are (a, v): lengths along the main direction of the stroke and across it, 0 in the middle.
-class BaseShape {
+class SimulatedShape {
  public:
   // Throws Error if the normal is zero or the stroke's direction is along it.
-  explicit BaseShape(const SimulatedShapeConfig& config);
+  explicit SimulatedShape(const SimulatedShapeConfig& config);
 
   // The point `height_m` above (a, v) along the outward normal there, world frame.
   Eigen::Vector3d point_m(double a_m, double v_m, double height_m) const;

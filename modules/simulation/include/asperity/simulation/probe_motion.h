@@ -47,7 +47,7 @@ class ProbeMotion {
   void advance(const HandState& hand);
 
   SimulationConfig config_;
-  BaseShape shape_;
+  SimulatedShape shape_;
   ScanPath path_;
   Hand hand_;
   ContactProfile profile_;

@@ -59,7 +59,7 @@ struct SimulatedSurfaceConfig {
 };
 
 enum class BaseShapeKind { kPlane, kCylinder };
-inline constexpr std::array<std::string_view, 2> kBaseShapeNames = {"plane", "cylinder"};
+inline constexpr std::array<std::string_view, 2> kSimulatedShapeNames = {"plane", "cylinder"};
 
 // The base shape in the world frame (camera: x right, y down, z forward) and where it is.
 struct SimulatedShapeConfig {
@@ -71,7 +71,7 @@ struct SimulatedShapeConfig {
 
   template <class V>
   void visit(V& v) {
-    v.choice("kind", kind, kBaseShapeNames, "base shape; a cylinder is scanned across its axis");
+    v.choice("kind", kind, kSimulatedShapeNames, "base shape; a cylinder is scanned across its axis");
     v.field("cylinder_radius_m", cylinder_radius_m, "radius of the cylinder, m", {1e-3, 10.0});
     v.field("centre_m", centre_m, "middle of the stroke in the world frame, m", {-10.0, 10.0});
     v.field("normal", normal, "outward normal at the middle, world frame; need not be a unit vector", {-1.0, 1.0});

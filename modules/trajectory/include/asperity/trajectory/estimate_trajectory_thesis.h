@@ -10,8 +10,9 @@ namespace asperity {
 struct ThesisTrajectoryConfig {
   OutlierConfig outliers;
   double period_s = 0.005;
+  bool average_over_period = true;
   double scan_speed_mps = 0.0;
-  double velocity_time_s = 3.0;
+  double velocity_time_s = 10.0;
   double position_fraction = 0.1;
   double rotation_rate_radps = 0.2;
 
@@ -19,6 +20,7 @@ struct ThesisTrajectoryConfig {
   void visit(V& v) {
     v.group("outliers", outliers);
     v.field("period_s", period_s, "both streams are resampled this often, s", {1e-5, 1.0});
+    v.field("average_over_period", average_over_period, "probe samples are averaged over a period, not picked");
     v.field("scan_speed_mps", scan_speed_mps, "average scanning velocity for Q, m/s; 0: measured in the recording",
             {0.0, 10.0});
     v.field("velocity_time_s", velocity_time_s, "time in which the velocity may change by the scanning velocity, s",
@@ -35,9 +37,9 @@ struct ThesisTrajectoryConfig {
 // filter. The accelerometer is taken to be at the tip, wherever it really sits.
 //
 // Q = diag((position_fraction·v·Δt)², v²·Δt/velocity_time_s) an axis with v the scanning velocity:
-// within velocity_time_s the velocity wanders by v; its default gives the seed's own excess of length, 12 %
-// at 25 mm/s with a tracker of 45 Hz (seed §6.2, erratum 10). R = the tracker's position variance plus what its
-// rotation variance makes of the lever arm, averaged over the recording.
+// within velocity_time_s the velocity wanders by v (docs/thesis-method.md compares values of it). R = the
+// tracker's position variance plus what its rotation variance makes of the lever arm, averaged over the
+// recording.
 //
 // figures: duration_s, scan_speed_mps, rejected_samples, longest_tracker_gap_s. The motion has no
 // covariance: the filter's own counts interpolated poses as independent. Throws Error for streams that

@@ -1,0 +1,145 @@
+// The virtual bench's accuracy: surface × probe × method × speed, medians over several seeds, in the band of
+// docs/profile.md (0.15 to min(4, 0.4·rate/speed) cycles/mm). Prints a table in Markdown.
+//
+//   accuracy [--seeds N] [--speeds 20,25,45] [--probes open,what] [--methods fused,thesis] [--surfaces …]
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/pipeline/process_recording.h"
+#include "asperity/signal/statistics.h"
+#include "asperity/simulation/simulate_recording.h"
+
+namespace {
+
+using asperity::Error;
+
+std::vector<std::string> split(std::string_view list) {
+  std::vector<std::string> out;
+  while (true) {
+    const auto comma = list.find(',');
+    out.emplace_back(list.substr(0, comma));
+    if (comma == std::string_view::npos) return out;
+    list.remove_prefix(comma + 1);
+  }
+}
+
+struct Options {
+  int seeds = 5;
+  std::vector<std::string> surfaces{"sine", "protoboard", "cable_tie", "sandpaper", "clay_pot"};
+  std::vector<std::string> probes{"open", "what"};
+  std::vector<std::string> methods{"fused", "thesis"};
+  std::vector<std::string> speeds{"20", "25", "45"};
+};
+
+Options parse(int argc, char** argv) {
+  Options out;
+  for (int i = 1; i < argc; i += 2) {
+    const std::string_view name = argv[i];
+    if (i + 1 >= argc) throw Error(std::string(name) + ": a value is missing");
+    const std::string_view value = argv[i + 1];
+    if (name == "--seeds") {
+      const auto seeds = asperity::parse_int64(value);
+      if (!seeds || *seeds < 1 || *seeds > 1000)
+        throw Error("--seeds: '" + std::string(value) + "' is not from 1 to 1000");
+      out.seeds = static_cast<int>(*seeds);
+    } else if (name == "--surfaces") {
+      out.surfaces = split(value);
+    } else if (name == "--probes") {
+      out.probes = split(value);
+    } else if (name == "--methods") {
+      out.methods = split(value);
+    } else if (name == "--speeds") {
+      out.speeds = split(value);
+    } else {
+      throw Error("unknown option " + std::string(name));
+    }
+  }
+  return out;
+}
+
+// The figures of one method over the seeds.
+struct Column {
+  std::vector<double> correlation, gain, rms_um, length_error_percent, position_rms_mm;
+  double true_rms_um = 0.0;
+  int failed = 0;  // no profile to compare
+
+  void add(const asperity::ProcessResult& result) {
+    if (!result.accuracy || !result.accuracy->profile || !std::isfinite(result.accuracy->profile->correlation)) {
+      ++failed;
+      return;
+    }
+    const auto& profile = *result.accuracy->profile;
+    correlation.push_back(profile.correlation);
+    gain.push_back(profile.gain);
+    rms_um.push_back(profile.rms_um);
+    length_error_percent.push_back(std::abs(profile.length_error_percent));
+    position_rms_mm.push_back(1e3 * result.accuracy->position_rms_m);
+    true_rms_um = profile.true_rms_um;
+  }
+
+  void print(std::string_view row) const {
+    if (correlation.empty()) {
+      std::printf("| %s | | | | | | | %d |\n", std::string(row).c_str(), failed);
+      return;
+    }
+    std::printf("| %s | %.3f | %.3f | %.3f | %.1f of %.0f | %.2f | %.3f | %d |\n", std::string(row).c_str(),
+                asperity::median(correlation), *std::min_element(correlation.begin(), correlation.end()),
+                asperity::median(gain), asperity::median(rms_um), true_rms_um, asperity::median(length_error_percent),
+                asperity::median(position_rms_mm), failed);
+  }
+};
+
+void run(const Options& options) {
+  std::printf(
+      "| surface | probe | mm/s | method | correlation | lowest | gain | RMS error, µm | length error, %% | position, "
+      "mm | failed |\n");
+  std::printf("|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const auto& probe : options.probes) {
+    for (const auto& speed : options.speeds) {
+      const auto speed_mm_s = asperity::parse_double(speed);
+      if (!speed_mm_s) throw Error("--speeds: '" + speed + "' is not a number");
+      for (const auto& surface : options.surfaces) {
+        std::vector<Column> columns(options.methods.size());
+        for (int seed = 1; seed <= options.seeds; ++seed) {
+          asperity::SimulationConfig config = asperity::make_simulation_config(surface, probe);
+          config.seed = seed;
+          config.hand.speed_mps = 1e-3 * *speed_mm_s;
+          const asperity::Recording recording = asperity::simulate_recording(config);
+          for (std::size_t m = 0; m < options.methods.size(); ++m) {
+            asperity::ProcessConfig process;
+            asperity::set_field(asperity::list_fields("", process), "method", options.methods[m]);
+            try {
+              columns[m].add(asperity::process_recording(recording, process));
+            } catch (const Error&) {
+              ++columns[m].failed;
+            }
+          }
+        }
+        for (std::size_t m = 0; m < options.methods.size(); ++m) {
+          columns[m].print(surface + " | " + probe + " | " + speed + " | " + options.methods[m]);
+        }
+        std::fflush(stdout);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    run(parse(argc, argv));
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "accuracy: %s\n", error.what());
+    return 1;
+  }
+}
