@@ -18,8 +18,8 @@ std::string result_summary(const ProcessResult& result) {
   }
   if (result.periodicity.periodic) {
     const Periodicity& p = result.periodicity;
-    out += fmt::format("  pattern     pitch {:.3f} ± {:.3f} mm, depth {:.0f} ± {:.0f} µm over {} periods\n", p.pitch_m * 1e3,
-                       p.pitch_stderr_m * 1e3, p.depth_m * 1e6, p.depth_stderr_m * 1e6, p.periods);
+    out += fmt::format("  pattern     pitch {:.3f} ± {:.3f} mm, depth {:.0f} ± {:.0f} µm over {} periods\n",
+                       p.pitch_m * 1e3, p.pitch_stderr_m * 1e3, p.depth_m * 1e6, p.depth_stderr_m * 1e6, p.periods);
   }
   if (!result.stiffness.verdict.empty()) out += "  stiffness   " + result.stiffness.verdict + "\n";
   if (std::isfinite(result.compliance.k_c)) {

@@ -66,8 +66,13 @@ Json roughness_json(const RoughnessResult& r) {
 }
 
 Json periodicity_json(const Periodicity& p) {
-  return {{"periodic", p.periodic}, {"pitch_m", p.pitch_m}, {"pitch_stderr_m", p.pitch_stderr_m},
-          {"depth_m", p.depth_m},   {"depth_stderr_m", p.depth_stderr_m}, {"strength", p.strength}, {"periods", p.periods}};
+  return {{"periodic", p.periodic},
+          {"pitch_m", p.pitch_m},
+          {"pitch_stderr_m", p.pitch_stderr_m},
+          {"depth_m", p.depth_m},
+          {"depth_stderr_m", p.depth_stderr_m},
+          {"strength", p.strength},
+          {"periods", p.periods}};
 }
 
 Json stiffness_json(const StiffnessEstimate& s) {

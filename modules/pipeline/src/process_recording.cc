@@ -8,6 +8,8 @@
 #include "asperity/base/error.h"
 #include "asperity/base/version.h"
 #include "asperity/pipeline/config_json.h"
+#include "asperity/trajectory/reject_outliers.h"
+#include "asperity/trajectory/sample_at_probe.h"
 
 namespace asperity {
 
@@ -24,6 +26,16 @@ TrajectoryResult estimate_trajectory(const Recording& recording, const ProcessCo
                                      const Observer& observer) {
   if (config.method == Method::kFused) return estimate_trajectory_fused(recording, config.fused, observer);
   return estimate_trajectory_thesis(recording, config.thesis.trajectory);
+}
+
+// The compliance wants accelerations at the probe's own rate, which the seed's motion has thinned.
+Compliance estimate_compliance_by(Method method, const Recording& recording, const TipMotion& motion,
+                                  const BasePath& base, const ProcessConfig& config) {
+  if (method == Method::kFused) return estimate_compliance(motion, motion.t_ns, base.n_world, config.compliance);
+  const Outliers outliers = reject_outliers(recording.probe, recording.calibration, config.thesis.trajectory.outliers);
+  const TipMotion samples =
+      sample_at_probe(recording.probe, outliers, recording.calibration, recording.info.gravity_world_mps2, motion);
+  return estimate_compliance(samples, motion.t_ns, base.n_world, config.compliance);
 }
 
 Profile make_profile_by(Method method, const TipMotion& motion, const BasePathResult& base,
@@ -157,7 +169,7 @@ void measure_surface(const Recording& recording, const ProcessConfig& config, Pr
 
   // How it yields (seed §5.3, erratum 15).
   observer.update("compliance", 0.9);
-  result.compliance = estimate_compliance(motion, motion.t_ns, result.base.path.n_world, config.compliance);
+  result.compliance = estimate_compliance_by(config.method, recording, motion, result.base.path, config);
   result.stiffness = estimate_stiffness(motion, result.base.path, result.base.contact, config.stiffness);
 
   // What a hand is to feel of it (seed §6.5, erratum 18).

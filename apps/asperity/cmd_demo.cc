@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "asperity/base/csv.h"
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
+#include "asperity/base/version.h"
+#include "asperity/pipeline/process_recording.h"
+#include "asperity/pipeline/true_profile.h"
+#include "asperity/pipeline/write_result.h"
+#include "asperity/recording/write_recording.h"
+#include "asperity/simulation/simulate_recording.h"
+#include "commands.h"
+
+namespace asperity::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* kMark = "demo.json";
+
+bool is_demo_folder(const fs::path& folder) {
+  try {
+    const Json json = Json::parse(read_file(folder / kMark, 1 << 20), nullptr, false);
+    return json.is_object() && json.value("format", "") == "asperity-demo";
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+struct Scan {
+  std::string name;
+  std::string title;
+  SimulationConfig simulation;
+};
+
+Scan make_scan(const std::string& surface, const std::string& title) {
+  Scan scan{surface, title, make_simulation_config(surface, "open")};
+  scan.simulation.hand.speed_mps = 0.025;
+  scan.simulation.hand.length_m = 0.12;
+  return scan;
+}
+
+// The sandpaper has a soft backing, so that there is a stiffness to measure.
+std::vector<Scan> make_scans(bool full) {
+  constexpr double kBacking_N_per_m = 2000.0;
+  std::vector<Scan> scans{make_scan("protoboard", "protoboard"), make_scan("sandpaper", "sandpaper on foam")};
+  scans.back().simulation.contact.stiffness_N_per_m = kBacking_N_per_m;
+  scans.back().simulation.contact.damping_ratio = 0.5;
+  if (full) {
+    for (const char* surface : {"sine", "cable_tie", "clay_pot"}) scans.push_back(make_scan(surface, surface));
+  }
+  return scans;
+}
+
+// A measured figure beside the true one, in SI units; nan where there is none.
+struct Figure {
+  const char* key;
+  const char* title;
+  const char* unit;
+  double scale;  // from SI to the unit that is printed
+  double measured = kNan;
+  double standard_error = kNan;
+  double lower_bound = kNan;  // instead of `measured`
+  double truth = kNan;
+};
+
+std::vector<Figure> compare(const Scan& scan, const Recording& recording, const ProcessResult& result,
+                            const ProcessConfig& config) {
+  const Profile truth = true_profile(*recording.truth, config.profile);
+  const Periodicity pattern = find_periodicity(truth.texture_m, truth.spacing_m, config.periodicity);
+  const RoughnessResult roughness = measure_roughness(truth.texture_m, truth.spacing_m, config.roughness);
+  std::vector<Figure> figures;
+  if (pattern.periodic) {
+    figures.push_back({"pitch_m", "pitch", "mm", 1e3, result.periodicity.pitch_m, result.periodicity.pitch_stderr_m,
+                       kNan, scan.simulation.surface.pitch_m});
+    figures.push_back({"depth_m", "depth", "µm", 1e6, result.periodicity.depth_m, result.periodicity.depth_stderr_m,
+                       kNan, pattern.depth_m});
+  }
+  figures.push_back(
+      {"Rq_m", "Rq", "µm", 1e6, result.roughness ? result.roughness->Rq_m : kNan, kNan, kNan, roughness.Rq_m});
+  const StiffnessEstimate& stiffness = result.stiffness;
+  const double k_N_per_m = scan.simulation.contact.stiffness_N_per_m;
+  if (stiffness.measured) {
+    figures.push_back({"stiffness_N_per_m", "contact stiffness", "N/mm", 1e-3, 1e3 * stiffness.stiffness_N_per_mm,
+                       1e3 * stiffness.stiffness_stderr_N_per_mm, kNan, k_N_per_m});
+  } else {
+    figures.push_back({"stiffness_N_per_m", "contact stiffness", "N/mm", 1e-3, kNan, kNan,
+                       1e3 * stiffness.lower_bound_N_per_mm, k_N_per_m});
+  }
+  if (result.accuracy && result.accuracy->profile) {
+    figures.push_back({"correlation", "correlation", "", 1.0, result.accuracy->profile->correlation, kNan, kNan, 1.0});
+    figures.push_back({"gain", "gain", "", 1.0, result.accuracy->profile->gain, kNan, kNan, 1.0});
+    figures.push_back({"length_error", "length error", "%", 1e2, 1e-2 * result.accuracy->profile->length_error_percent,
+                       kNan, kNan, 0.0});
+  }
+  return figures;
+}
+
+std::string figure_line(const Figure& figure) {
+  std::string measured = fmt::format("{:.4g}", figure.measured * figure.scale);
+  if (std::isfinite(figure.standard_error)) measured += fmt::format(" ± {:.2g}", figure.standard_error * figure.scale);
+  if (std::isfinite(figure.lower_bound)) measured = fmt::format("> {:.2g}", figure.lower_bound * figure.scale);
+  return fmt::format("  {:<20}{:>18} {:>12.4g}  {}\n", figure.title, measured, figure.truth * figure.scale,
+                     figure.unit);
+}
+
+Json figures_json(const std::vector<Figure>& figures) {
+  Json out;
+  for (const Figure& figure : figures) {
+    Json& one = out[figure.key];
+    one["measured"] = figure.measured;
+    if (std::isfinite(figure.standard_error)) one["stderr"] = figure.standard_error;
+    if (std::isfinite(figure.lower_bound)) one["lower_bound"] = figure.lower_bound;
+    one["true"] = figure.truth;
+  }
+  return out;
+}
+
+class DemoCommand : public Command {
+ public:
+  explicit DemoCommand(CLI::App& root)
+      : Command(root, "demo", "Simulate scans of two surfaces, process them, and print measured against true") {
+    parser().add_flag("--full", full_, "All five surfaces");
+    require(parser().add_option("-o,--output", output_, "Folder of the recordings and results"))->type_name("DIR");
+  }
+
+  std::vector<ConfigField> fields() override { return list_fields("", config_); }
+
+  int run(const Observer& observer) override {
+    OutputFolder folder(output_, is_demo_folder);
+    Json out;
+    out["format"] = "asperity-demo";
+    out["version"] = 1;
+    out["asperity"] = kVersion;
+    std::string text = fmt::format("{:<22}{:>18} {:>12}\n", "", "measured", "true");
+    bool trustworthy = true;
+    for (const Scan& scan : make_scans(full_)) {
+      const Recording recording = simulate_recording(scan.simulation, observer);
+      const fs::path recording_folder = folder.path() / "recordings" / scan.name;
+      const fs::path result_folder = folder.path() / "results" / scan.name;
+      fs::create_directories(recording_folder);
+      fs::create_directories(result_folder);
+      write_recording(recording_folder, recording);
+      const ProcessResult result = process_recording(recording, config_, observer);
+      write_result(result_folder, result, recording, scan.name);
+      const std::vector<Figure> figures = compare(scan, recording, result, config_);
+      out["surfaces"][scan.name] = figures_json(figures);
+      text += scan.title + "\n";
+      for (const Figure& figure : figures) text += figure_line(figure);
+      if (!result.trustworthy) complain(scan.name + ": not to be trusted: " + result.verdict);
+      trustworthy &= result.trustworthy;
+    }
+    const std::string json = out.dump(2, ' ', false, Json::error_handler_t::replace);
+    write_file(folder.path() / kMark, json + "\n");
+    observer.update("writing", 1.0);
+    folder.commit();
+    print_json(json);
+    const std::string where = printable(output_, 200);
+    say(text +
+        fmt::format("\n{0}/recordings/   the raw streams and the truth\n{0}/results/      profile.csv, texture.json, "
+                    "result.json, trajectory.csv of each\n",
+                    where));
+    return trustworthy ? kDone : kNotTrustworthy;
+  }
+
+ private:
+  bool full_ = false;
+  std::string output_;
+  ProcessConfig config_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_demo(CLI::App& root) { return std::make_unique<DemoCommand>(root); }
+
+}  // namespace asperity::app
