@@ -27,9 +27,10 @@ void check(std::span<const double> height_m, double spacing_m, const FitFourier1
   }
 }
 
-// The samples nearest to a length, at most those of a billion.
+// The number of samples nearest to a length, at most a billion; 0 for a length that is not positive.
 std::size_t samples_of(double length_mm, double spacing_m) {
-  return static_cast<std::size_t>(std::min(std::round(length_mm * 1e-3 / spacing_m), 1e9));
+  const double samples = std::round(length_mm * 1e-3 / spacing_m);
+  return samples > 0.0 ? static_cast<std::size_t>(std::min(samples, 1e9)) : 0;
 }
 
 Window choose_window(const BridgedProfile& profile, double spacing_m, const FitFourier1dConfig& config,
