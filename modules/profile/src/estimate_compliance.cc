@@ -52,18 +52,23 @@ Eigen::Vector3d median_point(std::span<const Eigen::Vector3d> p_m) {
   return out;
 }
 
-// Along the surface, from the median positions of the first and the last third of a window: the noise of a
-// tracker falls with the way between them, and flipped poses do not count.
-double window_speed_mps(std::span<const Eigen::Vector3d> p_m, const Eigen::Vector3d& n_world, double window_s) {
+// Along the surface, from the median positions of the first and the last third: the noise of a tracker falls
+// with the way between them, and flipped poses do not count.
+double speed_mps(std::span<const Eigen::Vector3d> p_m, const Eigen::Vector3d& n_world, double duration_s) {
   const std::size_t third = p_m.size() / 3;
   const Eigen::Vector3d way_m = median_point(p_m.last(third)) - median_point(p_m.first(third));
-  return (way_m - way_m.dot(n_world) * n_world).norm() / (2.0 / 3.0 * window_s);
+  return (way_m - way_m.dot(n_world) * n_world).norm() / (2.0 / 3.0 * duration_s);
 }
 
+struct Candidate {
+  ComplianceWindow window;
+  double slowest_end_mps = 0.0;  // speed in the first or last third: a stroke may begin or end inside
+};
+
 // All windows; their ratios not yet known.
-std::vector<ComplianceWindow> cut(const TipMotion& samples, const Series& series, std::int64_t window_ns) {
-  constexpr std::size_t kLeastSamples = 8;
-  std::vector<ComplianceWindow> windows;
+std::vector<Candidate> cut(const TipMotion& samples, const Series& series, std::int64_t window_ns) {
+  constexpr std::size_t kLeastSamples = 27;  // nine a third
+  std::vector<Candidate> windows;
   if (samples.size() == 0) return windows;
   const auto& t_ns = samples.t_ns;
   for (std::int64_t start = t_ns.front(); start + window_ns <= t_ns.back(); start += window_ns / 2) {
@@ -76,17 +81,20 @@ std::vector<ComplianceWindow> cut(const TipMotion& samples, const Series& series
     ComplianceWindow window;
     window.force_N = mean(part(series.force_N));
     window.amplitude_mps2 = (percentile(a, 90.0) - percentile(a, 10.0)) / kSigmasBetweenDeciles;
-    window.speed_mps =
-        window_speed_mps(std::span(samples.p_world_tip_m).subspan(begin, end - begin),
-                         series.n_world[(begin + end) / 2], static_cast<double>(window_ns) * kNanosecond_s);
-    windows.push_back(window);
+    const auto p_m = std::span(samples.p_world_tip_m).subspan(begin, end - begin);
+    const Eigen::Vector3d& n_world = series.n_world[(begin + end) / 2];
+    const double duration_s = static_cast<double>(window_ns) * kNanosecond_s;
+    window.speed_mps = speed_mps(p_m, n_world, duration_s);
+    const std::size_t third = p_m.size() / 3;
+    windows.push_back({window, std::min(speed_mps(p_m.first(third), n_world, duration_s / 3.0),
+                                        speed_mps(p_m.last(third), n_world, duration_s / 3.0))});
   }
   return windows;
 }
 
-double rest_amplitude_mps2(const std::vector<ComplianceWindow>& windows, double usual_mps) {
+double rest_amplitude_mps2(const std::vector<Candidate>& windows, double usual_mps) {
   std::optional<double> least;
-  for (const ComplianceWindow& window : windows) {
+  for (const auto& [window, end_mps] : windows) {
     if (window.speed_mps < kRestingPart * usual_mps) {
       least = std::min(least.value_or(window.amplitude_mps2), window.amplitude_mps2);
     }
@@ -109,20 +117,21 @@ Compliance estimate_compliance(const TipMotion& samples, std::span<const std::in
   }
   const Series series = project(samples, normal_t_ns, n_world);
   const auto window_ns = static_cast<std::int64_t>(std::llround(config.window_s / kNanosecond_s));
-  const std::vector<ComplianceWindow> all = cut(samples, series, window_ns);
+  const std::vector<Candidate> all = cut(samples, series, window_ns);
   Compliance out;
   if (all.empty()) return out;
 
   std::vector<double> speeds_mps;
-  for (const ComplianceWindow& window : all) speeds_mps.push_back(window.speed_mps);
+  for (const Candidate& candidate : all) speeds_mps.push_back(candidate.window.speed_mps);
   const double usual_mps = percentile(speeds_mps, kUsualSpeedPercentile);
   out.rest_amplitude_mps2 = rest_amplitude_mps2(all, usual_mps);
   const double least_speed_mps = std::max(config.min_speed_mps, kMovingPart * usual_mps);
-  for (ComplianceWindow window : all) {
+  for (auto [window, slowest_end_mps] : all) {
     const double square = window.amplitude_mps2 * window.amplitude_mps2;
     window.amplitude_mps2 =
         std::sqrt(std::max(square - out.rest_amplitude_mps2 * out.rest_amplitude_mps2, kLeastSquarePart * square));
-    const bool counts = window.force_N >= config.min_force_N && window.speed_mps >= least_speed_mps;
+    const bool counts = window.force_N >= config.min_force_N && window.speed_mps >= least_speed_mps &&
+                        slowest_end_mps >= least_speed_mps;
     if (counts && window.amplitude_mps2 > 0.0) out.windows.push_back(window);
   }
   if (out.windows.size() < static_cast<std::size_t>(config.min_windows)) return out;

@@ -11,7 +11,7 @@ namespace asperity {
 
 struct OutlierConfig {
   double accel_step_mps2 = 20.0;
-  double force_step_N = 0.7;
+  double force_step_N = 1.5;
   int longest_run = 3;
 
   template <class V>
