@@ -31,6 +31,15 @@ void mark_finished(const fs::path& path) {
   unfinished.erase(path);
 }
 
+// True if `path` lies in a folder that is still being written.
+bool is_in_unfinished_folder(const fs::path& path) {
+  const std::lock_guard lock(unfinished_mutex);
+  for (fs::path folder = path.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {
+    if (unfinished.contains(folder)) return true;
+  }
+  return false;
+}
+
 std::string template_beside(const fs::path& path) {
   fs::path name = path.filename();
   return (path.parent_path() / ("." + name.string() + ".tmp-XXXXXX")).string();
@@ -60,7 +69,9 @@ void write_file(const fs::path& path, std::string_view content) {
     if (count < 0) fail(reason());
     done += static_cast<std::size_t>(count);
   }
-  if (::fsync(file) != 0) fail(reason());
+  // Forcing a file of a whole folder to disk would protect nothing before the folder is renamed, and waits
+  // for whatever else the machine is writing.
+  if (!is_in_unfinished_folder(path) && ::fsync(file) != 0) fail(reason());
   if (::rename(temporary.c_str(), path.c_str()) != 0) fail(reason());
   ::close(file);
   mark_finished(temporary);

@@ -7,7 +7,8 @@
 namespace asperity {
 
 // Writes `content` under a temporary name beside `path` and renames it there. Throws Error; on any
-// failure `path` is as it was.
+// failure `path` is as it was. The content is on disk before the rename, unless the file is part of an
+// unfinished OutputFolder: what is in those can be made again.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 // A folder written as a whole: files go into path(), a temporary folder beside the target, and
