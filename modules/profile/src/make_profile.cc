@@ -105,6 +105,7 @@ Profile make_profile(const TipMotion& motion, const BasePath& base, std::span<co
 
   Profile out;
   out.spacing_m = config.spacing_m;
+  count_points(high_m - low_m, config.spacing_m);
   const auto first = static_cast<std::ptrdiff_t>(std::ceil(low_m / config.spacing_m - 1e-9));
   const auto last = static_cast<std::ptrdiff_t>(std::floor(high_m / config.spacing_m + 1e-9));
   if (last < first) throw Error("profile: the path in contact is shorter than the profile's spacing");
