@@ -212,7 +212,14 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
     result.verdict.clear();
   }
 
-  if (recording.truth) result.accuracy = measure_accuracy(recording, motion, result.profile, config.comparison);
+  if (recording.truth) {
+    try {
+      result.accuracy = measure_accuracy(recording, motion, result.profile, config.comparison);
+    } catch (const Error& error) {
+      // A truth that cannot be compared with is no fault of the measurement.
+      result.problems.push_back({"no_accuracy", std::string("no accuracy: ") + error.what(), 1});
+    }
+  }
   observer.update("texture", 1.0);
   return result;
 }
