@@ -1,6 +1,7 @@
 #include "asperity/base/csv.h"
 
 #include <cmath>
+
 #include <gmock/gmock.h>
 
 #include "asperity/base/error.h"

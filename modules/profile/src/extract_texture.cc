@@ -1,5 +1,7 @@
 #include "asperity/profile/extract_texture.h"
 
+#include <algorithm>
+
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/signal/statistics.h"
@@ -7,6 +9,32 @@
 #include "gap_runs.h"
 
 namespace asperity {
+
+namespace {
+
+// The high-pass of one run, less its straight line and mirrored at both ends. A mirror image keeps the
+// level of a texture; a point reflection would take an end that lies in a hole for the level, and a
+// line left in would be a kink at the mirror.
+std::vector<double> high_pass_mirrored(std::span<const double> run, double cutoff_cycles_per_mm, double rate_per_mm) {
+  const std::size_t n = run.size();
+  std::vector<double> at(n);
+  for (std::size_t i = 0; i < n; ++i) at[i] = static_cast<double>(i);
+  const LinearFit line = linear_regression(at, run);
+  std::vector<double> level(n);
+  for (std::size_t i = 0; i < n; ++i) level[i] = run[i] - (line.slope * at[i] + line.intercept);
+
+  const auto wave = static_cast<std::size_t>(1.5 * rate_per_mm / cutoff_cycles_per_mm) + 1;
+  const std::size_t pad = std::min(n - 1, wave);
+  std::vector<double> padded;
+  padded.reserve(n + 2 * pad);
+  for (std::size_t i = pad; i > 0; --i) padded.push_back(level[i]);
+  padded.insert(padded.end(), level.begin(), level.end());
+  for (std::size_t i = 0; i < pad; ++i) padded.push_back(level[n - 2 - i]);
+  const std::vector<double> filtered = zero_phase_highpass(padded, cutoff_cycles_per_mm, rate_per_mm);
+  return {filtered.begin() + static_cast<std::ptrdiff_t>(pad), filtered.begin() + static_cast<std::ptrdiff_t>(pad + n)};
+}
+
+}  // namespace
 
 std::vector<double> extract_texture(std::span<const double> height_m, double spacing_m, double cutoff_cycles_per_mm,
                                     double bridge_m, std::span<const std::size_t> breaks) {
@@ -17,7 +45,7 @@ std::vector<double> extract_texture(std::span<const double> height_m, double spa
   const double rate_per_mm = 1e-3 / spacing_m;
   const auto bridge = static_cast<std::size_t>(bridge_m / spacing_m + 0.5);
   return filter_runs(height_m, bridge, breaks, 8, [&](std::span<const double> run) {
-    if (cutoff_cycles_per_mm > 0.0) return zero_phase_highpass(run, cutoff_cycles_per_mm, rate_per_mm);
+    if (cutoff_cycles_per_mm > 0.0) return high_pass_mirrored(run, cutoff_cycles_per_mm, rate_per_mm);
     std::vector<double> level(run.begin(), run.end());
     const double middle = mean(run);
     for (double& h : level) h -= middle;

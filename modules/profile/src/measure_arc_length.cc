@@ -29,31 +29,29 @@ struct Directions {
   std::vector<std::size_t> turns;        // cells from which a reversed direction holds
 };
 
-// The direction of travel in a moving cell: that of the slow path, which noise hardly turns, and in a
-// bend too tight for it that of the quick one.
-Eigen::Vector2d direction(const EvenPath<2>& slow, const EvenPath<2>& quick, std::size_t cell) {
-  constexpr double kAgree_rad = 0.35;  // noise seldom turns the quick path further
-  constexpr double kBend_rad = 0.8;
-  const Eigen::Vector2d gentle = velocity_mps(slow, cell);
+// The direction of travel in a moving cell: that of the slow path, which noise hardly turns; where that
+// cuts a bend by more than noise could, that of the quick one.
+Eigen::Vector2d direction(const EvenPath<2>& slow, const EvenPath<2>& quick, std::size_t cell, double bend_m) {
   const Eigen::Vector2d tight = velocity_mps(quick, cell).normalized();
+  const Eigen::Vector2d gentle = velocity_mps(slow, cell);
   if (!(gentle.norm() > 0.0)) return tight;
-  const Eigen::Vector2d unit = gentle.normalized();
-  const double turn = std::acos(std::clamp(unit.dot(tight), -1.0, 1.0));
-  const double share = std::clamp((turn - kAgree_rad) / (kBend_rad - kAgree_rad), 0.0, 1.0);
-  return ((1.0 - share) * unit + share * tight).normalized();
+  const double cut_m = (slow.p_m[cell] - quick.p_m[cell]).norm();
+  const double share = std::clamp(cut_m / bend_m - 1.0, 0.0, 1.0);
+  const Eigen::Vector2d mixed = (1.0 - share) * gentle.normalized() + share * tight;
+  return mixed.norm() > 0.0 ? Eigen::Vector2d(mixed.normalized()) : tight;
 }
 
 // Moving cells have the direction of their velocity. A rest between two of them keeps the first
 // direction up to the point that lies outermost between the two, and has the second from there.
 Directions find_directions(const EvenPath<2>& path, const EvenPath<2>& slow, const EvenPath<2>& quick,
-                           const std::vector<char>& moving) {
+                           const std::vector<char>& moving, double bend_m) {
   const std::size_t n = path.size();
   Directions out;
   out.tangent.assign(n, Eigen::Vector2d::UnitX());
   std::size_t last = n;
   for (std::size_t i = 0; i < n; ++i) {
     if (moving[i] == 0) continue;
-    out.tangent[i] = direction(slow, quick, i);
+    out.tangent[i] = direction(slow, quick, i, bend_m);
     if (last == n) {
       std::fill(out.tangent.begin(), out.tangent.begin() + static_cast<std::ptrdiff_t>(i), out.tangent[i]);
     } else if (i > last + 1) {
@@ -117,7 +115,7 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
   const double rest_mps = std::max(config.rest_speed_mps, config.rest_fraction * usual_mps);
   std::vector<char> moving(path.size(), 0);
   for (std::size_t i = first_cell; i <= last_cell; ++i) moving[i] = speed[i] > rest_mps ? 1 : 0;
-  const Directions directions = find_directions(path, slow, quick, moving);
+  const Directions directions = find_directions(path, slow, quick, moving, config.bend_m);
 
   for (std::size_t i = 0; i < n; ++i) out.speed_mps[i] = speed[index_at(path, t_s[i])];
   for (std::size_t i = begin + 1; i < end; ++i) {

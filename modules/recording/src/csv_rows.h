@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -45,6 +46,19 @@ inline bool within(const Eigen::Vector3d& v, double limit) { return v.allFinite(
 
 // Says that the last line was cut off, if it was.
 void note_truncation(const CsvReader& csv, RowProblems& problems);
+
+// After the last row: notes a cut-off line, puts the rows in order of time (`t_ns` and every column in
+// `columns`; `line` holds each row's line) and hands what was noted to `problems`.
+template <class... Columns>
+void finish_rows(const CsvReader& csv, const std::vector<std::uint32_t>& line, const std::string& name,
+                 const ReadLimits& limits, RowProblems& row_problems, Problems& problems,
+                 std::vector<std::int64_t>& t_ns, Columns&... columns) {
+  note_truncation(csv, row_problems);
+  const RowOrder order = order_rows(t_ns, line, name, limits, row_problems);
+  order.apply(t_ns);
+  (order.apply(columns), ...);
+  row_problems.append_to(problems);
+}
 
 // No fewer rows than `text` can hold, so that vectors grow once; each row has a cell a column, of which
 // time and three numbers are not empty.

@@ -62,14 +62,8 @@ ProbeStream parse_probe_csv(std::string_view text, const std::string& name, Prob
     if (gyro) out.gyro_counts.push_back(slow_sample(csv, *gyro, limits.largest_counts, row_problems));
     if (force3) out.force3_counts.push_back(slow_sample(csv, *force3, limits.largest_counts, row_problems));
   }
-  note_truncation(csv, row_problems);
-  const RowOrder order = order_rows(out.t_ns, line, name, limits, row_problems);
-  order.apply(out.t_ns);
-  order.apply(out.accel_counts);
-  order.apply(out.force_counts);
-  order.apply(out.gyro_counts);
-  order.apply(out.force3_counts);
-  row_problems.append_to(problems);
+  finish_rows(csv, line, name, limits, row_problems, problems, out.t_ns, out.accel_counts, out.force_counts,
+              out.gyro_counts, out.force3_counts);
   return out;
 }
 
@@ -99,13 +93,8 @@ TrackerStream parse_tracker_csv(std::string_view text, const std::string& name, 
     line.push_back(static_cast<std::uint32_t>(csv.line()));
     out.T_world_marker.push_back(*pose);
   }
-  note_truncation(csv, row_problems);
-  const RowOrder order = order_rows(out.t_ns, line, name, limits, row_problems);
-  order.apply(out.t_ns);
-  order.apply(out.T_world_marker);
-  order.apply(out.markers);
-  order.apply(out.reprojection_px);
-  row_problems.append_to(problems);
+  finish_rows(csv, line, name, limits, row_problems, problems, out.t_ns, out.T_world_marker, out.markers,
+              out.reprojection_px);
   return out;
 }
 
@@ -133,15 +122,8 @@ Truth parse_truth_csv(std::string_view text, const std::string& name, Problems& 
     out.q_world_marker.push_back(pose->rotation);
     out.force_N.push_back(slow_sample(csv, force, limits.largest_counts, row_problems));
   }
-  note_truncation(csv, row_problems);
-  const RowOrder order = order_rows(out.t_ns, line, name, limits, row_problems);
-  order.apply(out.t_ns);
-  order.apply(out.s_m);
-  order.apply(out.height_m);
-  order.apply(out.p_world_tip_m);
-  order.apply(out.q_world_marker);
-  order.apply(out.force_N);
-  row_problems.append_to(problems);
+  finish_rows(csv, line, name, limits, row_problems, problems, out.t_ns, out.s_m, out.height_m, out.p_world_tip_m,
+              out.q_world_marker, out.force_N);
   return out;
 }
 

@@ -49,12 +49,8 @@ void parse_imu_csv(std::string_view text, const std::string& name, ImportInput& 
     input.specific_force_mps2.push_back(f);
     input.rate_radps.push_back(omega);
   }
-  note_truncation(csv, problems);
-  const RowOrder order = order_rows(input.imu_t_ns, line, name, limits, problems);
-  order.apply(input.imu_t_ns);
-  order.apply(input.specific_force_mps2);
-  order.apply(input.rate_radps);
-  problems.append_to(input.problems);
+  finish_rows(csv, line, name, limits, problems, input.problems, input.imu_t_ns, input.specific_force_mps2,
+              input.rate_radps);
 }
 
 void parse_pose_csv(std::string_view text, const std::string& name, ImportInput& input, const ReadLimits& limits) {
@@ -72,11 +68,7 @@ void parse_pose_csv(std::string_view text, const std::string& name, ImportInput&
     line.push_back(static_cast<std::uint32_t>(csv.line()));
     input.T_world_body.push_back(*pose);
   }
-  note_truncation(csv, problems);
-  const RowOrder order = order_rows(input.pose_t_ns, line, name, limits, problems);
-  order.apply(input.pose_t_ns);
-  order.apply(input.T_world_body);
-  problems.append_to(input.problems);
+  finish_rows(csv, line, name, limits, problems, input.problems, input.pose_t_ns, input.T_world_body);
 }
 
 ImportInput read_imu_pose(const std::filesystem::path& imu, const std::filesystem::path& poses,

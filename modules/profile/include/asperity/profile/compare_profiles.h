@@ -17,7 +17,7 @@ struct ComparisonConfig {
   double bridge_m = 0.5e-3;
   double margin_m = 3e-3;
   double bridge_margin_m = 0.5e-3;
-  double max_hole_m = 0.25e-3;
+  double max_hole_m = 0.6e-3;
 
   template <class V>
   void visit(V& v) {

@@ -11,8 +11,8 @@ namespace asperity {
 
 struct ProfileConfig {
   double spacing_m = 0.025e-3;
-  double cutoff_cycles_per_mm = 0.05;
-  double max_hole_m = 0.25e-3;
+  double cutoff_cycles_per_mm = 0.1;
+  double max_hole_m = 0.6e-3;
   double bridge_m = 2e-3;
   double max_stop_s = 1.0;
   double max_force_hole_s = 0.05;

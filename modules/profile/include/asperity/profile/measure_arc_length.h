@@ -13,6 +13,7 @@ namespace asperity {
 struct ArcLengthConfig {
   double direction_cutoff_cycles_per_mm = 0.03;
   double bend_cutoff_cycles_per_mm = 0.14;
+  double bend_m = 0.7e-3;
   double along_cutoff_hz = 0.0;
   double rest_speed_mps = 1e-3;
   double rest_fraction = 0.15;
@@ -23,6 +24,8 @@ struct ArcLengthConfig {
             "low-pass of the path that gives the direction of travel", {1e-3, 10.0});
     v.field("bend_cutoff_cycles_per_mm", bend_cutoff_cycles_per_mm,
             "the same in bends; shorter ones are tremor, not path", {1e-3, 10.0});
+    v.field("bend_m", bend_m, "a bend that the low-pass cuts by more than this is followed; twice this wholly",
+            {1e-9, 1.0});
     v.field("along_cutoff_hz", along_cutoff_hz, "low-pass of the progress along the path; 0 for none", {0.0, 1e5});
     v.field("rest_speed_mps", rest_speed_mps, "slower than this the tip has no direction of its own", {0.0, 10.0});
     v.field("rest_fraction", rest_fraction, "the same as a fraction of the 80th percentile of the speed", {0.0, 1.0});
@@ -43,7 +46,7 @@ struct ArcLength {
 // along the direction of travel, ds = t·Δu with t the unit velocity of the low-passed path. Errors along
 // t then cancel from step to step, whatever the rate, and only those of t remain, which shorten the path
 // by half the square of the angle. The low-pass works in time; its cut-off is that of the config times the
-// speed's 80th percentile: the lower one, and where the path turns by more than noise would, the higher. Real
+// speed's 80th percentile: the lower one, and where that cuts a bend by more than bend_m, the higher. Real
 // tangential motion at any frequency (stick–slip) is kept. At rest t is held, so s does not creep; it may step back by
 // what the tip steps back. Where a stroke reverses, the path is cut at its outermost point and s keeps growing. Throws
 // Error if the sizes differ or the times do not rise.
