@@ -2,6 +2,7 @@
 // docs/profile.md (0.15 to min(4, 0.4·rate/speed) cycles/mm). Prints a table in Markdown.
 //
 //   accuracy [--seeds N] [--speeds 20,25,45] [--probes open,what] [--methods fused,thesis] [--surfaces …]
+//            [--faults no]   without flipped and lost poses, spikes and lost samples
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,7 @@ std::vector<std::string> split(std::string_view list) {
 
 struct Options {
   int seeds = 5;
+  bool faults = true;
   std::vector<std::string> surfaces{"sine", "protoboard", "cable_tie", "sandpaper", "clay_pot"};
   std::vector<std::string> probes{"open", "what"};
   std::vector<std::string> methods{"fused", "thesis"};
@@ -50,6 +52,9 @@ Options parse(int argc, char** argv) {
       if (!seeds || *seeds < 1 || *seeds > 1000)
         throw Error("--seeds: '" + std::string(value) + "' is not from 1 to 1000");
       out.seeds = static_cast<int>(*seeds);
+    } else if (name == "--faults") {
+      if (value != "yes" && value != "no") throw Error("--faults: '" + std::string(value) + "' is not yes or no");
+      out.faults = value == "yes";
     } else if (name == "--surfaces") {
       out.surfaces = split(value);
     } else if (name == "--probes") {
@@ -112,6 +117,10 @@ void run(const Options& options) {
           asperity::SimulationConfig config = asperity::make_simulation_config(surface, probe);
           config.seed = seed;
           config.hand.speed_mps = 1e-3 * *speed_mm_s;
+          if (!options.faults) {
+            config.tracker.flip_chance = config.tracker.dropout_chance = 0.0;
+            config.probe.spike_chance = config.probe.dropout_chance = 0.0;
+          }
           const asperity::Recording recording = asperity::simulate_recording(config);
           for (std::size_t m = 0; m < options.methods.size(); ++m) {
             asperity::ProcessConfig process;

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "asperity/base/output.h"
+#include "command.h"
 
 namespace asperity::app {
 
@@ -37,6 +38,7 @@ void watch_interrupts() {
     const timespec patience{1, 0};
     sigtimedwait(&set, nullptr, &patience);
     remove_unfinished_output();
+    complain(kInterrupted);
     ::_exit(128 + number);
   }).detach();
 }

@@ -2,6 +2,8 @@
 
 namespace asperity::app {
 
+inline constexpr const char* kInterrupted = "interrupted; nothing was written";
+
 // From now on SIGINT, SIGTERM and SIGHUP ask the program to stop: interrupted() turns true, and if the
 // program has not ended within a second, unfinished output is removed and the process ends with
 // 128 + signal. Call once, before any other thread exists.

@@ -51,7 +51,7 @@ int run_command(Command& command) {
   } catch (const UsageError& error) {
     return usage(name + ": " + error.what(), name);
   } catch (const Cancelled&) {
-    complain("interrupted; nothing was written");
+    complain(kInterrupted);
     return interrupt_exit_code();
   } catch (const ClosedPipe&) {
     return kClosedPipe;

@@ -209,7 +209,7 @@ TEST(Spine, TheDemoPrintsMeasuredAgainstTrue) {
 
 class Interrupted : public ::testing::TestWithParam<int> {};
 
-// Twenty metres of sandpaper keep the program busy for far longer than the signal takes.
+// Twenty metres of sandpaper, the most the bench takes, keep the program busy for far longer than the signal takes.
 TEST_P(Interrupted, LeavesNothingHalfWritten) {
   const testkit::TempDir dir;
   ASSERT_EQ(simulate(dir / "rec", "sine", 1, kShort).code, 0);
@@ -217,17 +217,41 @@ TEST_P(Interrupted, LeavesNothingHalfWritten) {
   for (const char* target : {"rec", "new"}) {
     const Outcome outcome =
         run_and_signal({"simulate", "--surface", "sandpaper", "--set", "hand.length_m=9.9", "--set",
-                        "hand.path=back_and_forth", "--set", "hand.strokes=10", "-o", (dir / target).string()},
+                        "hand.path=back_and_forth", "--set", "hand.strokes=2", "-o", (dir / target).string()},
                        GetParam(), std::chrono::milliseconds(300));
     EXPECT_EQ(outcome.code, 128 + GetParam());
-    if (GetParam() != SIGKILL) EXPECT_THAT(outcome.err, HasSubstr("nothing was written"));
+    if (GetParam() != SIGKILL) {
+      EXPECT_THAT(outcome.err, HasSubstr("nothing was written"));
+    }
   }
   EXPECT_EQ(contents(dir / "rec"), before);
   EXPECT_FALSE(fs::exists(dir / "new"));
-  if (GetParam() != SIGKILL) EXPECT_EQ(entries(dir.path()), 1u) << "temporary folders are gone";
+  if (GetParam() != SIGKILL) {
+    EXPECT_EQ(entries(dir.path()), 1u) << "temporary folders are gone";
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, Interrupted, ::testing::Values(SIGINT, SIGTERM, SIGHUP, SIGKILL));
+
+// Killed wherever it happens to be, the old result or the new one is there, whole.
+TEST(Spine, KilledWhileWritingTheResultIsOldOrNew) {
+  const testkit::TempDir dir;
+  ASSERT_EQ(simulate(dir / "rec", "sine", 1).code, 0);
+  const Words words{"process", (dir / "rec").string(), "-o", (dir / "out").string()};
+  ASSERT_EQ(run(words).code, 0);
+  const auto renewed = contents(dir / "out");
+  Words thesis = words;
+  thesis.insert(thesis.end(), {"--method", "thesis"});
+  const int code = run(thesis).code;
+  ASSERT_TRUE(code == 0 || code == 3);
+  const auto old = contents(dir / "out");
+  ASSERT_NE(old, renewed);
+  for (int delay_ms = 5; delay_ms < 200; delay_ms += 15) {
+    run_and_signal(words, SIGKILL, std::chrono::milliseconds(delay_ms));
+    const auto now = contents(dir / "out");
+    ASSERT_TRUE(now == old || now == renewed) << "after " << delay_ms << " ms";
+  }
+}
 
 TEST(Spine, NoProgressWhereStandardErrorIsNoTerminal) {
   const testkit::TempDir dir;
