@@ -58,7 +58,7 @@ Square prior(const Recording& recording, const InertialStream& inertial, const F
   if (layout.latency >= 0) P(layout.latency, layout.latency) = std::pow(latency_sigma_s(calibration), 2);
   if (layout.lever >= 0) set3(layout.lever, calibration.accelerometer.position_sigma_m);
   if (layout.misalignment >= 0) {
-    constexpr double kGuess_rad = 0.35;  // of a rotation found from the recording itself
+    constexpr double kGuess_rad = 0.2;  // of a rotation found from the recording itself
     set3(layout.misalignment,
          calibration.accelerometer.rotation_known ? calibration.accelerometer.rotation_sigma_rad : kGuess_rad);
   }
