@@ -76,6 +76,10 @@ Problem make_problem(const Recording& recording, const InertialStream& inertial,
       std::lower_bound(inertial.t_ns.begin(), inertial.t_ns.end(), origin_ns + std::llround(pose_t[first_pose] * 1e9)) -
       inertial.t_ns.begin());
   next_sample = std::min(next_sample, inertial.size() - 1);
+  // The first epoch is the first knot: the pose's time is no whole nanosecond, the sample's is.
+  if (next_sample + 1 < inertial.size() && seconds(inertial.t_ns[next_sample], origin_ns) < pose_t[first_pose]) {
+    ++next_sample;
+  }
   problem.knots.reserve(inertial.size() + 2 * inside);
   double last_epoch_t = pose_t[first_pose];
   const auto add_epoch = [&](std::int64_t pose) {

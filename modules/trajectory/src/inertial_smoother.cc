@@ -30,7 +30,7 @@ struct Step {
   Matrix3d R0;      // at the first knot
   Vector3d A;       // mean of R f over the segment, gravity not in it
   Vector3d a0;      // acceleration at the first knot
-  Vector3d omega;   // mean angular rate, marker frame
+  Vector3d w;       // mean of M ω over the segment, biases not in it
   Vector3d omega0;  // at the first knot
 };
 
@@ -40,9 +40,9 @@ Step advance(Nominal& x, const Knot& k0, const Knot& k1, const Matrix3d& M, cons
   Step step;
   step.R0 = x.q.toRotationMatrix();
   step.omega0 = M * k0.w - x.bg;
-  step.omega = M * (0.5 * (k0.w + k1.w)) - x.bg;
+  step.w = M * (0.5 * (k0.w + k1.w));
   const Vector3d A0 = step.R0 * (M * k0.f - x.ba);
-  x.q = (x.q * exp_rotation(step.omega * dt)).normalized();
+  x.q = (x.q * exp_rotation((step.w - x.bg) * dt)).normalized();
   const Vector3d A1 = x.q * (M * k1.f - x.ba);
   step.A = 0.5 * (A0 + A1);
   step.a0 = A0 + gravity;
@@ -68,7 +68,7 @@ struct Transition {
       const Matrix3d force = -(s.R0 * skew(f_marker)) - skew(s.A) * phimu;
       pmu += dt * vmu + half * force;
       vmu += dt * force;
-      phimu -= dt * s.R0 * skew(s.omega);
+      phimu -= dt * s.R0 * skew(s.w);
     }
     const Matrix3d leak = skew(s.A) * (g1 + 0.5 * dt * s.R0);
     pbg += dt * vbg + half * leak;
