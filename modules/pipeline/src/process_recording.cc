@@ -181,6 +181,15 @@ void measure_surface(const Recording& recording, const ProcessConfig& config, Pr
   });
 }
 
+// A truth that does not fit says nothing against the measurement.
+void compare_with_truth(const Recording& recording, const ProcessConfig& config, ProcessResult& result) {
+  try {
+    result.accuracy = measure_accuracy(recording, result.trajectory.motion, result.profile, config.comparison);
+  } catch (const Error& error) {
+    result.problems.push_back({"no_accuracy", std::string("not compared with the truth: ") + error.what(), 1});
+  }
+}
+
 }  // namespace
 
 ProcessResult process_recording(const Recording& recording, const ProcessConfig& config, const Observer& observer) {
@@ -212,14 +221,7 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
     result.verdict.clear();
   }
 
-  if (recording.truth) {
-    try {
-      result.accuracy = measure_accuracy(recording, motion, result.profile, config.comparison);
-    } catch (const Error& error) {
-      // A truth that cannot be compared with is no fault of the measurement.
-      result.problems.push_back({"no_accuracy", std::string("no accuracy: ") + error.what(), 1});
-    }
-  }
+  if (recording.truth) compare_with_truth(recording, config, result);
   observer.update("texture", 1.0);
   return result;
 }

@@ -19,10 +19,11 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMostPoints = 10'000'000;
 constexpr int kFiner = 4;
 constexpr int kHalfTaps = 32;  // eight cells of the profile to either side
+constexpr std::size_t kTapCount = kHalfTaps + 1;
 
 // A Blackman-windowed sinc at the fine spacing, its half gain at 0.4 of the coarse rate, sum one.
-std::array<double, kHalfTaps + 1> low_pass_taps() {
-  std::array<double, kHalfTaps + 1> taps{};
+std::array<double, kTapCount> low_pass_taps() {
+  std::array<double, kTapCount> taps{};
   constexpr double kCorner = 0.4 / kFiner;  // cycles a fine sample
   double sum = 0.0;
   for (int k = 0; k <= kHalfTaps; ++k) {
@@ -147,7 +148,7 @@ PathKnots gather_knots(std::span<const double> s_m, std::span<const std::span<co
 std::vector<double> resample_smooth(const PathKnots& knots, std::ptrdiff_t first, std::size_t count, double spacing_m,
                                     double max_hole_m) {
   check_grid(count, spacing_m, max_hole_m);
-  static const std::array<double, kHalfTaps + 1> kTaps = low_pass_taps();
+  static const std::array<double, kTapCount> kTaps = low_pass_taps();
   std::vector<double> out(count, kNan);
   const std::span<const double> all_s(knots.s_m), all_x(knots.channels[0]);
   std::vector<double> fine;

@@ -67,16 +67,8 @@ Square prior(const Recording& recording, const InertialStream& inertial, const F
 
 // The factors on the process noise under which the poses are likeliest, on a stretch of the recording.
 void choose_process_noise(SmootherProblem& problem, bool has_gyro) {
-  SmootherProblem trial = problem;
-  constexpr double kStretch_s = 12.0;
-  const double begin = problem.knots.front().t;
-  const double end = problem.knots.back().t;
-  if (end - begin > 1.5 * kStretch_s) {  // its first seconds, after which biases are known as well as anywhere
-    const auto last = std::find_if(trial.epochs.begin(), trial.epochs.end(),
-                                   [&](const Epoch& e) { return trial.knots[e.knot].t > begin + kStretch_s; });
-    trial.epochs.erase(last, trial.epochs.end());
-    trial.knots.resize(trial.epochs.back().knot + 1);
-  }
+  constexpr double kStretch_s = 12.0;  // after which biases are known as well as anywhere
+  SmootherProblem trial = inertial_smoother::first_stretch(problem, kStretch_s);
   // The sensors' own noise is a floor: a smaller factor would only fit this stretch's luck.
   const auto search = [&](double SmootherProblem::*factor, double lowest, std::initializer_list<double> steps) {
     double best = trial.*factor;
@@ -212,6 +204,7 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
   double rate_scale = config.process_noise_scale > 0.0 ? config.process_noise_scale : 1.0;
   std::vector<double> position_weight;
   std::vector<double> rotation_weight;
+  bool gyro_turns_too = true;
   Nominal guess;
   SmootherProblem problem;
   Smoothed smoothed;
@@ -238,6 +231,14 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
     problem.start.latency = prior_latency_s - latency_s;
     problem.process_scale = process_scale > 0.0 ? process_scale : 1.0;
     problem.rate_scale = rate_scale;
+    if (!recording.calibration.accelerometer.rotation_known) {
+      if (pass == 0) {
+        inertial_smoother::choose_mounting(problem, inertial.has_gyro);
+        guess.misalignment = problem.start.misalignment;
+        gyro_turns_too = problem.gyro_turns_too;
+      }
+      problem.gyro_turns_too = gyro_turns_too;
+    }
     if (config.process_noise_scale == 0.0 && pass < 2) {
       observer.update("noise", 0.0);
       choose_process_noise(problem, inertial.has_gyro);

@@ -157,6 +157,24 @@ TEST(Fused, EstimatesTheSensorsRotation) {
   EXPECT_LT(errors.step_rms_m, 2.0 * known.step_rms_m);
 }
 
+// A gyroscope calibrated in the marker's frame beside an accelerometer that is not; and a hand that turns
+// by a few degrees only.
+TEST(Fused, EstimatesTheAccelerometersRotationAlone) {
+  HandMotion hand;
+  Sensors sensors;
+  sensors.duration_s = 8.0;
+  Recording recording = record(hand, sensors);
+  const Errors known = errors_of(estimate_trajectory_fused(recording, {}).motion, hand);
+  for (const double angle : {0.7, 2.9}) {
+    Recording turned = recording;
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, -1).normalized()));
+    for (auto& counts : turned.probe.accel_counts) counts = (turn * counts).eval();
+    turned.calibration.accelerometer.rotation_known = false;
+    const Errors errors = errors_of(estimate_trajectory_fused(turned, {}).motion, hand);
+    EXPECT_LT(errors.step_rms_m, 2.0 * known.step_rms_m) << angle;
+  }
+}
+
 // Without a gyroscope the rate is a state in the marker's frame, which the sensor's rotation does not turn.
 TEST(Fused, EstimatesTheSensorsRotationWithoutAGyroscope) {
   HandMotion hand;
