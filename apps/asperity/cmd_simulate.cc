@@ -31,6 +31,9 @@ class SimulateCommand : public Command {
     }
     require(parser().add_option("--surface", surface_, names + ", or a file of heights"))->type_name("NAME|FILE");
     parser().add_option("--probe", probe_, "what (8 bit, 400 Hz) or open (16 bit, 4 kHz); open")->type_name("NAME");
+    parser()
+        .add_option("--material", material_, "What the surface is made of: stiff, cork or soft_rubber; stiff")
+        ->type_name("NAME");
     parser().add_option("--speed", speed_, "Mean speed of the hand")->type_name("SPEED");
     parser().add_option("--seed", seed_, "Of all randomness; the same seed gives the same bytes")->type_name("N");
     require(parser().add_option("-o,--output", output_, "The recording's folder"))->type_name("REC");
@@ -39,7 +42,7 @@ class SimulateCommand : public Command {
   std::vector<ConfigField> fields() override {
     if (!config_) {
       try {
-        config_ = make_simulation_config(surface_, probe_);
+        config_ = make_simulation_config(surface_, probe_, material_);
       } catch (const Error& error) {
         throw UsageError(error.what());
       }
@@ -88,6 +91,7 @@ class SimulateCommand : public Command {
 
   std::string surface_ = "protoboard";
   std::string probe_ = "open";
+  std::string material_ = "stiff";
   std::string speed_;
   std::string seed_;
   std::string output_;
