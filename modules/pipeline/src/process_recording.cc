@@ -8,6 +8,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/version.h"
 #include "asperity/pipeline/config_json.h"
+#include "asperity/pipeline/find_doubts.h"
 #include "asperity/trajectory/reject_outliers.h"
 #include "asperity/trajectory/sample_at_probe.h"
 
@@ -204,6 +205,7 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
   TipMotion& motion = result.trajectory.motion;
   append(result.problems, result.trajectory.problems);
   if (!result.trajectory.trustworthy) distrust(result, result.trajectory.verdict);
+  for (const std::string& doubt : find_doubts(recording, result.trajectory)) distrust(result, doubt);
 
   // Without a force sensor a motion need not be a scan: what then fails is said, not held against it.
   const bool felt = has_force(recording.probe);

@@ -198,8 +198,13 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
 
   const double prior_latency_s = tracker.latency_s - recording.calibration.probe_latency_s;
   double latency_s = prior_latency_s;  // of the tracker against the probe
-  Vector3d sigma_position = tracker.sigma_position_m.cwiseMax(kPositionFloor_m);
-  Vector3d sigma_rotation = tracker.sigma_rotation_rad.cwiseMax(kRotationFloor_rad);
+  // A σ of zero says that nobody measured it: the seed's tracker stands in (Fig. 9).
+  const TrackerCalibration usual;
+  const Vector3d sigma_stated_m = tracker.sigma_position_m.isZero() ? usual.sigma_position_m : tracker.sigma_position_m;
+  Vector3d sigma_position = sigma_stated_m.cwiseMax(kPositionFloor_m);
+  Vector3d sigma_rotation =
+      (tracker.sigma_rotation_rad.isZero() ? usual.sigma_rotation_rad : tracker.sigma_rotation_rad)
+          .cwiseMax(kRotationFloor_rad);
   double process_scale = config.process_noise_scale;
   double rate_scale = config.process_noise_scale > 0.0 ? config.process_noise_scale : 1.0;
   std::vector<double> position_weight;
@@ -296,6 +301,12 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
   figures["accel_noise_mps2"] = inertial.accel_noise_mps2;
   figures["process_noise_scale"] = problem.process_scale;
   if (!inertial.has_gyro) figures["angular_accel_radps2_rtHz"] = std::sqrt(problem.gyro_bias_psd * problem.rate_scale);
+  figures["accel_bias_mps2"] = smoothed.last.ba.norm();
+  figures["latency_prior_sigmas"] =
+      layout.latency >= 0 ? std::abs(added_s) / latency_sigma_s(recording.calibration) : 0.0;
+  figures["tracker_noise_ratio"] =
+      problem.sigma_position.cwiseQuotient(sigma_stated_m.cwiseMax(kPositionFloor_m)).maxCoeff();
+  figures["probe_saturated_share"] = static_cast<double>(inertial.saturated) / static_cast<double>(inertial.size());
   figures["position_residual_median_m"] = median_norm(smoothed.position_residual, problem);
   figures["rotation_residual_median_rad"] = median_norm(smoothed.rotation_residual, problem);
   constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
@@ -307,11 +318,7 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
           smoothed.last.lever[axis];
     }
   }
-  if (static_cast<double>(outliers) > 0.4 * static_cast<double>(poses)) {
-    result.trustworthy = false;
-    result.verdict = std::to_string(outliers) + " of " + std::to_string(poses) +
-                     " tracker poses disagree with the probe: check the calibration's frames, units and latency";
-  }
+  figures["poses_outlying_share"] = static_cast<double>(outliers) / static_cast<double>(poses);
   return result;
 }
 

@@ -58,7 +58,9 @@ void count_spiking_channels(const std::vector<Eigen::Vector3d>& x, double sigmas
       const double deviation = deviation_at(i);
       const auto [low, high] = std::minmax({x[i - 2][axis], x[i - 1][axis], x[i + 1][axis], x[i + 2][axis]});
       const bool found = deviation > sigmas * 1.25 * usual && high - low < 0.35 * deviation;
-      if (found) ++channels[i];
+      // One channel alone must stand out far more: a converter's glitch, where two are a corrupted frame.
+      const bool glitch = deviation > 4.0 * sigmas * 1.25 * usual && high - low < 0.1 * deviation;
+      if (found) channels[i] += glitch ? 2 : 1;
       if (!found) usual += kForget * (std::min(deviation, 10.0 * usual) - usual);
     }
   }
@@ -143,11 +145,17 @@ std::vector<double> fill_between(const std::vector<std::int64_t>& t_ns, const st
   return out;
 }
 
-// The gyroscope's counts with rows that have none, because it is slower, filled by straight lines; empty if
-// it never gave any.
+// A gyroscope slower than a hand's turns says less than the tracker.
+constexpr double kSlowestGyro_Hz = 25.0;
+
+double readings_per_second(const std::vector<std::int64_t>& t_ns, const std::vector<Eigen::Vector3d>& counts) {
+  const auto readings = std::count_if(counts.begin(), counts.end(), [](const auto& c) { return c.allFinite(); });
+  return static_cast<double>(readings) / (static_cast<double>(t_ns.back() - t_ns.front()) * 1e-9);
+}
+
+// The gyroscope's counts with rows that have none, because it is slower, filled by straight lines.
 std::vector<Eigen::Vector3d> filled_gyro(const std::vector<std::int64_t>& t_ns,
                                          const std::vector<Eigen::Vector3d>& counts) {
-  if (std::none_of(counts.begin(), counts.end(), [](const auto& c) { return c.allFinite(); })) return {};
   std::vector<Eigen::Vector3d> out = counts;
   std::vector<double> axis_counts(counts.size());
   for (int axis = 0; axis < 3; ++axis) {
@@ -200,7 +208,11 @@ InertialStream calibrate_inertial(const Recording& recording, const InertialConf
   out.period_s = clock.period_s;
   out.clock_jitter_s = clock.applied ? clock.jitter_s : 0.0;
   std::vector<Eigen::Vector3d> gyro_counts;
-  if (calibration.gyroscope) gyro_counts = filled_gyro(out.t_ns, probe.gyro_counts);
+  if (calibration.gyroscope && readings_per_second(out.t_ns, probe.gyro_counts) >= kSlowestGyro_Hz) {
+    gyro_counts = filled_gyro(out.t_ns, probe.gyro_counts);
+  } else if (calibration.gyroscope && probe.has_gyro()) {
+    out.problems.push_back({"slow_gyroscope", "the gyroscope gave too few readings and was left out", 1});
+  }
   out.has_gyro = !gyro_counts.empty();
 
   const std::vector<char> spike = find_spikes(probe, gyro_counts, config.spike_sigmas);
