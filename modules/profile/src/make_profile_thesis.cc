@@ -50,7 +50,7 @@ std::vector<double> high_pass(const std::vector<double>& height_m, const ThesisP
 
 ThesisProfileResult make_profile_thesis(const TipMotion& motion, const BasePath& base,
                                         const ThesisProfileConfig& config) {
-  if (base.n_world.size() != motion.size()) {
+  if (base.n_world.size() != motion.size() || base.p_world_m.size() != motion.size()) {
     throw Error(fmt::format("{} motion samples but {} normals", motion.size(), base.n_world.size()));
   }
   const double period_s = uniform_period_s(motion);
@@ -65,9 +65,10 @@ ThesisProfileResult make_profile_thesis(const TipMotion& motion, const BasePath&
     for (std::size_t i = 0; i < scale.size(); ++i) a_normal_mps2[i] *= scale[i];
   }
 
-  // §5.1: height by Verlet integration over time, distance by summing the filtered path's segments.
+  // §5.1: height by Verlet integration over time, distance by summing the segments of the filtered
+  // path, its motion along the normal removed (erratum 23).
   std::vector<double> height_m = integrate_verlet(a_normal_mps2, period_s);
-  const std::vector<double> s_m = path_length_m(motion.p_world_tip_m);
+  const std::vector<double> s_m = path_length_m(base.p_world_m);
 
   // §4.4, B.1: stick and slip removed after the integration (erratum 25).
   const std::vector<char> moving = mark_stick_slip(motion.v_world_tip_mps, base.n_world, config.min_speed_mps);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
@@ -107,7 +108,7 @@ Recording simulate_recording(const SimulationConfig& config, const Surface& surf
   RecordingInfo& info = recording.info;
   info.created = "2000-01-01T00:00:00Z";
   info.object = config.surface.kind == SurfaceKind::kFile
-                    ? config.surface.file
+                    ? std::filesystem::path(config.surface.file).filename().string()
                     : std::string(kSurfaceNames[static_cast<std::size_t>(config.surface.kind)]);
   info.probe_model = std::string(kProbeModelNames[static_cast<std::size_t>(config.probe.model)]);
   info.probe_rate_Hz = config.probe.nominal_rate_Hz;

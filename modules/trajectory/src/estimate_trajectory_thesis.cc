@@ -44,6 +44,12 @@ PositionFilterNoise position_noise(const ThesisTrajectoryConfig& config, double 
   PositionFilterNoise noise;
   noise.process_position_m2.setConstant(step_m * step_m);
   noise.process_velocity_m2ps2.setConstant(speed_mps * speed_mps * config.period_s / config.velocity_time_s);
+  if (const double a = config.white_acceleration_mps2; a > 0.0) {
+    const double dt = config.period_s;
+    noise.process_position_m2.setConstant(a * a * dt * dt * dt * dt / 4.0);
+    noise.process_cross_m2ps.setConstant(a * a * dt * dt * dt / 2.0);
+    noise.process_velocity_m2ps2.setConstant(a * a * dt * dt);
+  }
   noise.measurement_m2 = R_m2;
   noise.initial_velocity_m2ps2.setConstant(kInitialVelocity_mps * kInitialVelocity_mps);
   return noise;

@@ -11,10 +11,10 @@ struct AxisFilter {
   double p, v;
   double pp, pv, vv;
 
-  void predict(double dt, double q_p, double q_v) {
+  void predict(double dt, double q_p, double q_pv, double q_v) {
     p += dt * v;
     pp += dt * (2.0 * pv + dt * vv) + q_p;
-    pv += dt * vv;
+    pv += dt * vv + q_pv;
     vv += q_v;
   }
 
@@ -45,7 +45,8 @@ FilteredPosition filter_position(std::span<const Eigen::Vector3d> measured_m, do
     out.p_m[0][axis] = filter.p;
     out.v_mps[0][axis] = filter.v;
     for (std::size_t i = 1; i < measured_m.size(); ++i) {
-      filter.predict(period_s, noise.process_position_m2[axis], noise.process_velocity_m2ps2[axis]);
+      filter.predict(period_s, noise.process_position_m2[axis], noise.process_cross_m2ps[axis],
+                     noise.process_velocity_m2ps2[axis]);
       filter.update(measured_m[i][axis], noise.measurement_m2[axis]);
       out.p_m[i][axis] = filter.p;
       out.v_mps[i][axis] = filter.v;

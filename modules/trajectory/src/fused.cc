@@ -278,6 +278,9 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
 
   TrajectoryResult result;
   write_motion(inertial, smoothed, recording.calibration.tip_in_marker_m, result.motion);
+  const bool finite = std::all_of(result.motion.p_world_tip_m.begin(), result.motion.p_world_tip_m.end(),
+                                  [](const Vector3d& p) { return p.allFinite(); });
+  if (!finite) throw Error("the trajectory's estimate is not finite: check the calibration's magnitudes");
   for (auto& t_ns : result.motion.t_ns) t_ns -= std::llround(probe_latency_s * 1e9);
   result.problems = inertial.problems;
   std::size_t poses = 0;

@@ -10,6 +10,9 @@ namespace {
 // Stamps more regular than this share of their period are kept: smoothing them gains nothing.
 constexpr double kRegular = 0.01;
 
+// Stamps without any clock behind them lie 1/√12 = 0.29 of a period (RMS) from the nearest of its ticks.
+constexpr double kUnexplained = 0.26;
+
 double median_step_ns(const std::vector<std::int64_t>& t_ns) {
   std::vector<std::int64_t> steps(t_ns.size() - 1);
   for (std::size_t i = 0; i + 1 < t_ns.size(); ++i) steps[i] = t_ns[i + 1] - t_ns[i];
@@ -103,7 +106,7 @@ SmoothClockResult smooth_clock(const std::vector<std::int64_t>& t_ns, const Smoo
   }
   result.jitter_s = std::sqrt(square / static_cast<double>(n)) * 1e-9;
   const bool rises = std::adjacent_find(smooth.begin(), smooth.end(), std::greater_equal<>()) == smooth.end();
-  if (!rises || result.jitter_s * 1e9 > period) return result;
+  if (!rises || result.jitter_s * 1e9 > kUnexplained * period) return result;
   result.t_ns = std::move(smooth);
   result.period_s = period * 1e-9;
   result.applied = true;

@@ -15,6 +15,7 @@ struct ThesisTrajectoryConfig {
   double velocity_time_s = 10.0;
   double position_fraction = 0.1;
   double rotation_rate_radps = 0.2;
+  double white_acceleration_mps2 = 0.0;
 
   template <class V>
   void visit(V& v) {
@@ -27,6 +28,9 @@ struct ThesisTrajectoryConfig {
             {1e-3, 1e3});
     v.field("position_fraction", position_fraction, "position noise of a step, as a part of the way done in it",
             {0.0, 10.0});
+    v.field("white_acceleration_mps2", white_acceleration_mps2,
+            "above 0: Q of a white acceleration, constant over a step, instead of the seed's diagonal, m/s²",
+            {0.0, 1e4});
     v.field("rotation_rate_radps", rotation_rate_radps, "rotation that a step may gain, rad/s", {0.0, 100.0});
   }
 };
@@ -36,6 +40,8 @@ struct ThesisTrajectoryConfig {
 // B.1's position data is the tip's, so the tip offset is applied to the tracker's poses before the
 // filter. The accelerometer is taken to be at the tip, wherever it really sits.
 //
+// With white_acceleration_mps2 = σ the filter is the tuned one of comparisons (erratum 8): Q = σ² [Δt⁴/4,
+// Δt³/2; Δt³/2, Δt²] an axis. Otherwise
 // Q = diag((position_fraction·v·Δt)², v²·Δt/velocity_time_s) an axis with v the scanning velocity:
 // within velocity_time_s the velocity wanders by v (docs/thesis-method.md compares values of it). R = the
 // tracker's position variance plus what its rotation variance makes of the lever arm, averaged over the

@@ -11,6 +11,7 @@ namespace asperity {
 struct PositionFilterNoise {
   Eigen::Vector3d process_position_m2 = Eigen::Vector3d::Zero();     // Q, upper half, added at each sample
   Eigen::Vector3d process_velocity_m2ps2 = Eigen::Vector3d::Zero();  // Q, lower half, added at each sample
+  Eigen::Vector3d process_cross_m2ps = Eigen::Vector3d::Zero();      // Q between them; zero in the seed's
   Eigen::Vector3d measurement_m2 = Eigen::Vector3d::Ones();          // R
   Eigen::Vector3d initial_velocity_m2ps2 = Eigen::Vector3d::Ones();  // of the first state, whose velocity is zero
 };
