@@ -16,33 +16,35 @@
 
 namespace {
 
-double position_rms_mm(const asperity::Recording& recording, asperity::Method method, double& tracker_mm) {
+asperity::Accuracy accuracy_of(const asperity::Recording& recording, asperity::Method method) {
   asperity::ProcessConfig config;
   config.method = method;
-  const asperity::ProcessResult result = asperity::process_recording(recording, config);
-  tracker_mm = 1e3 * result.accuracy->tracker_rms_m;
-  return 1e3 * result.accuracy->position_rms_m;
+  return *asperity::process_recording(recording, config).accuracy;
 }
 
 void run(const char* imu, const char* poses, int seeds) {
   const asperity::ImportInput input = asperity::read_imu_pose(imu, poses);
-  std::vector<double> raw, thesis, fused, ratio;
-  std::printf("| seed | raw poses, mm | thesis, mm | fused, mm | fused / raw |\n|---|---|---|---|---|\n");
+  std::vector<double> raw, thesis, fused, ratio, honesty;
+  std::printf(
+      "| seed | raw poses, mm | thesis, mm | fused, mm | fused / raw | error / σ |\n|---|---|---|---|---|---|\n");
   for (int seed = 1; seed <= seeds; ++seed) {
     asperity::ImportConfig config;
     config.pose_rate_Hz = 45.0;
     config.pose_noise_m = {0.15e-3, 0.13e-3, 0.54e-3};
     config.seed = seed;
     const asperity::Recording recording = asperity::import_imu_pose(input, config);
-    double tracker_mm = 0.0;
-    thesis.push_back(position_rms_mm(recording, asperity::Method::kThesis, tracker_mm));
-    fused.push_back(position_rms_mm(recording, asperity::Method::kFused, tracker_mm));
-    raw.push_back(tracker_mm);
-    ratio.push_back(fused.back() / tracker_mm);
-    std::printf("| %d | %.3f | %.3f | %.3f | %.3f |\n", seed, raw.back(), thesis.back(), fused.back(), ratio.back());
+    const asperity::Accuracy theirs = accuracy_of(recording, asperity::Method::kThesis);
+    const asperity::Accuracy ours = accuracy_of(recording, asperity::Method::kFused);
+    raw.push_back(1e3 * ours.tracker_rms_m);
+    thesis.push_back(1e3 * theirs.position_rms_m);
+    fused.push_back(1e3 * ours.position_rms_m);
+    ratio.push_back(ours.position_rms_m / ours.tracker_rms_m);
+    honesty.push_back(ours.position_error_over_sigma);
+    std::printf("| %d | %.3f | %.3f | %.3f | %.3f | %.2f |\n", seed, raw.back(), thesis.back(), fused.back(),
+                ratio.back(), honesty.back());
   }
-  std::printf("| median | %.3f | %.3f | %.3f | %.3f |\n", asperity::median(raw), asperity::median(thesis),
-              asperity::median(fused), asperity::median(ratio));
+  std::printf("| median | %.3f | %.3f | %.3f | %.3f | %.2f |\n", asperity::median(raw), asperity::median(thesis),
+              asperity::median(fused), asperity::median(ratio), asperity::median(honesty));
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ class ImportCommand : public Command {
   }
 
   int run(const Observer& observer) override {
-    OutputFolder folder(output_, is_recording_folder);
+    OutputFolder folder(output_, is_replaceable_recording);
     const ImportInput input = read_imu_pose(imu_, pose_);
     observer.update("importing", 0.5);
     const Recording recording = import_imu_pose(input, config_);

@@ -58,7 +58,7 @@ class SimulateCommand : public Command {
   }
 
   int run(const Observer& observer) override {
-    OutputFolder folder(output_, is_recording_folder);
+    OutputFolder folder(output_, is_replaceable_recording);
     const Recording recording = simulate_recording(*config_, observer);
     write_recording(folder.path(), recording);
     observer.update("writing", 1.0);

@@ -1,8 +1,11 @@
 #include "parser_pages.h"
 
+#include <string_view>
 #include <vector>
 
 #include "asperity/base/version.h"
+#include "asperity/pipeline/process_config.h"
+#include "asperity/simulation/simulation_config.h"
 
 namespace asperity::app {
 
@@ -51,6 +54,16 @@ std::string words(const CLI::App& app) {
   return out;
 }
 
+// One case of the completion: the words that may follow `option`. "file" is none: a file's name is.
+template <class Names>
+std::string value_case(const std::string& option, const Names& names) {
+  std::string out;
+  for (const std::string_view name : names) {
+    if (name != "file") out += (out.empty() ? "" : " ") + std::string(name);
+  }
+  return "    " + option + ") values=\"" + out + "\" ;;\n";
+}
+
 }  // namespace
 
 std::string manual_page(const CLI::App& root) {
@@ -66,8 +79,8 @@ std::string manual_page(const CLI::App& root) {
       ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\nthe input is bad; standard error says where\n.TP\n2\nthe command line is "
       "wrong\n";
   out +=
-      ".TP\n3\ndone, but the result is not to be trusted; standard error says why\n.TP\n130\ninterrupted; nothing was "
-      "written\n";
+      ".TP\n3\ndone, but the result is not to be trusted; standard error says why\n.TP\n128 + signal\nstopped by a "
+      "signal, 130 for Ctrl\\-C; nothing was written\n";
   return out;
 }
 
@@ -78,6 +91,9 @@ std::string bash_completion(const CLI::App& root) {
     names += (names.empty() ? "" : " ") + command->get_name();
     cases += "    " + command->get_name() + ") words=\"" + words(*command) + "\" ;;\n";
   }
+  const std::string values = value_case("--method", kMethodNames) + value_case("--probe", kProbeModelNames) +
+                             value_case("--surface", kSurfaceNames) +
+                             value_case("--completion", std::vector<std::string_view>{"bash"});
   return "# bash completion for asperity: source it, or put it in /etc/bash_completion.d/\n"
          "_asperity() {\n"
          "  local current=${COMP_WORDS[COMP_CWORD]} words=\"" +
@@ -86,8 +102,15 @@ std::string bash_completion(const CLI::App& root) {
          "  case ${COMP_WORDS[1]-} in\n" +
          cases +
          "  esac\n"
+         "  local values=\n"
+         "  case ${COMP_WORDS[COMP_CWORD-1]} in\n" +
+         values +
+         "  esac\n"
          "  COMPREPLY=()\n"
-         "  if [[ $COMP_CWORD -eq 1 || $current == -* ]]; then\n"
+         "  if [[ $values && $current != -* ]]; then\n"
+         "    mapfile -t COMPREPLY < <(compgen -W \"$values\" -- \"$current\")\n"
+         "    [[ ${#COMPREPLY[@]} -gt 0 ]] || mapfile -t COMPREPLY < <(compgen -f -- \"$current\")\n"
+         "  elif [[ $COMP_CWORD -eq 1 || $current == -* ]]; then\n"
          "    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")\n"
          "  else\n"
          "    mapfile -t COMPREPLY < <(compgen -f -- \"$current\")\n"

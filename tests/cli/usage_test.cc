@@ -110,6 +110,7 @@ TEST(Usage, ManualPageAndCompletionNameEveryCommandAndOption) {
     EXPECT_THAT(completion.out, HasSubstr("    " + command + ") words=\""));
   }
   EXPECT_THAT(completion.out, HasSubstr("--spacing"));
+  EXPECT_THAT(completion.out, HasSubstr("    --method) values=\"fused thesis\" ;;"));
   EXPECT_THAT(completion.out, HasSubstr("complete -o filenames -F _asperity asperity"));
 }
 

@@ -58,6 +58,14 @@ TEST(Config, RefusesWithPathAndValue) {
   EXPECT_EQ(config.cutoff_Hz, 0.5);
 }
 
+TEST(Config, TextsAreStringsOfTomlAndOfJson) {
+  struct {
+    std::string file = "a\tb\n\"c\"\\\x7F";
+    void visit(ConfigLister& v) { v.field("file", file, "any"); }
+  } config;
+  EXPECT_EQ(list_fields("", config).front().get(), R"("a\u0009b\u000a\"c\"\\\u007f")");
+}
+
 TEST(Config, WritesToml) {
   Outer config;
   EXPECT_EQ(to_toml(list_fields("stage", config), false),

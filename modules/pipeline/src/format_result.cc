@@ -92,6 +92,7 @@ Json accuracy_json(const Accuracy& accuracy) {
   Json out;
   out["position_rms_m"] = accuracy.position_rms_m;
   out["tracker_rms_m"] = accuracy.tracker_rms_m;
+  out["position_error_over_sigma"] = accuracy.position_error_over_sigma;
   out["positions_compared"] = accuracy.compared;
   if (accuracy.profile) {
     const ProfileComparison& p = *accuracy.profile;

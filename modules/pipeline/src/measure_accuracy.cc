@@ -20,8 +20,14 @@ class Track {
 
   bool covers(std::int64_t t_ns) const { return t_ns >= t_ns_.front() && t_ns <= t_ns_.back(); }
 
-  Eigen::Vector3d at(std::int64_t t_ns) {
+  // The first sample not before t_ns, for query times that do not fall.
+  std::size_t advance(std::int64_t t_ns) {
     while (next_ + 1 < t_ns_.size() && t_ns_[next_] < t_ns) ++next_;
+    return next_;
+  }
+
+  Eigen::Vector3d at(std::int64_t t_ns) {
+    advance(t_ns);
     const std::size_t before = next_ == 0 ? 0 : next_ - 1;
     const std::size_t after = next_;
     if (before == after) return p_m_[after];
@@ -98,15 +104,23 @@ Accuracy measure_accuracy(const Recording& recording, const TipMotion& motion, c
   Accuracy out;
   double estimate_sum = 0.0;
   double raw_sum = 0.0;
+  double normalised_sum = 0.0;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     const std::int64_t t_ns = truth.t_ns[i];
     if (!estimate.covers(t_ns) || !raw.covers(t_ns)) continue;
-    estimate_sum += (estimate.at(t_ns) - truth.p_world_tip_m[i]).squaredNorm();
+    const double square_m2 = (estimate.at(t_ns) - truth.p_world_tip_m[i]).squaredNorm();
+    estimate_sum += square_m2;
+    if (!motion.cov_world_tip_m2.empty()) {
+      normalised_sum += square_m2 / motion.cov_world_tip_m2[estimate.advance(t_ns)].trace();
+    }
     raw_sum += (raw.at(t_ns) - truth.p_world_tip_m[i]).squaredNorm();
     ++out.compared;
   }
   if (out.compared == 0) throw Error("measure_accuracy: the truth and the motion do not overlap in time");
   out.position_rms_m = std::sqrt(estimate_sum / static_cast<double>(out.compared));
+  if (!motion.cov_world_tip_m2.empty()) {
+    out.position_error_over_sigma = std::sqrt(normalised_sum / static_cast<double>(out.compared));
+  }
   out.tracker_rms_m = std::sqrt(raw_sum / static_cast<double>(out.compared));
 
   if (has_heights(truth)) {

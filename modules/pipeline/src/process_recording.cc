@@ -8,6 +8,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/version.h"
 #include "asperity/pipeline/config_json.h"
+#include "asperity/pipeline/find_doubts.h"
 #include "asperity/trajectory/reject_outliers.h"
 #include "asperity/trajectory/sample_at_probe.h"
 
@@ -181,6 +182,15 @@ void measure_surface(const Recording& recording, const ProcessConfig& config, Pr
   });
 }
 
+// A truth that does not fit says nothing against the measurement.
+void compare_with_truth(const Recording& recording, const ProcessConfig& config, ProcessResult& result) {
+  try {
+    result.accuracy = measure_accuracy(recording, result.trajectory.motion, result.profile, config.comparison);
+  } catch (const Error& error) {
+    result.problems.push_back({"no_accuracy", std::string("not compared with the truth: ") + error.what(), 1});
+  }
+}
+
 }  // namespace
 
 ProcessResult process_recording(const Recording& recording, const ProcessConfig& config, const Observer& observer) {
@@ -195,6 +205,7 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
   TipMotion& motion = result.trajectory.motion;
   append(result.problems, result.trajectory.problems);
   if (!result.trajectory.trustworthy) distrust(result, result.trajectory.verdict);
+  for (const std::string& doubt : find_doubts(recording, result.trajectory)) distrust(result, doubt);
 
   // Without a force sensor a motion need not be a scan: what then fails is said, not held against it.
   const bool felt = has_force(recording.probe);
@@ -212,7 +223,7 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
     result.verdict.clear();
   }
 
-  if (recording.truth) result.accuracy = measure_accuracy(recording, motion, result.profile, config.comparison);
+  if (recording.truth) compare_with_truth(recording, config, result);
   observer.update("texture", 1.0);
   return result;
 }

@@ -14,6 +14,7 @@ Profile true_profile(const Truth& truth, const ProfileConfig& config) {
   const std::array<std::span<const double>, 1> channels{truth.height_m};
   const PathKnots knots = gather_knots(truth.s_m, channels, {}, config.spacing_m / 4.0);
   if (knots.s_m.size() < 8) throw Error("true_profile: the truth has fewer than 8 heights");
+  count_points(knots.s_m.back() - knots.s_m.front(), config.spacing_m);
   const auto first = static_cast<std::ptrdiff_t>(std::ceil(knots.s_m.front() / config.spacing_m));
   const auto last = static_cast<std::ptrdiff_t>(std::floor(knots.s_m.back() / config.spacing_m));
   if (last <= first) throw Error("true_profile: the truth does not travel");

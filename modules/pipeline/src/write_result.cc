@@ -1,7 +1,10 @@
 #include "asperity/pipeline/write_result.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/output.h"
@@ -29,6 +32,17 @@ bool is_result_file(const fs::path& file) {
   constexpr std::uint64_t kLargest_bytes = 64 << 20;
   const Json json = Json::parse(read_file(file, kLargest_bytes), nullptr, false);
   return json.is_object() && json.value("format", "") == "asperity-result";
+}
+
+// Nothing but the files of one result.
+bool is_one_result(const fs::path& folder) {
+  constexpr std::array<std::string_view, 5> kOurs{"trajectory.csv", "profile.csv", "texture.json", "result.json",
+                                                  "report.html"};
+  if (!fs::is_regular_file(folder / "result.json") || !is_result_file(folder / "result.json")) return false;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (std::find(kOurs.begin(), kOurs.end(), entry.path().filename().string()) == kOurs.end()) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -74,11 +88,10 @@ void write_result(const fs::path& folder, const ProcessResult& result, const Rec
 
 bool is_result_folder(const fs::path& folder) noexcept {
   try {
-    if (fs::is_regular_file(folder / "result.json")) return is_result_file(folder / "result.json");
+    if (fs::is_regular_file(folder / "result.json")) return is_one_result(folder);
     bool any = false;
     for (const auto& entry : fs::directory_iterator(folder)) {
-      const fs::path file = entry.path() / "result.json";
-      if (!entry.is_directory() || !fs::is_regular_file(file) || !is_result_file(file)) return false;
+      if (!entry.is_directory() || !is_one_result(entry.path())) return false;
       any = true;
     }
     return any;

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "asperity/base/error.h"
+#include "asperity/profile/resample_over_path.h"
 #include "asperity/signal/zero_phase.h"
 
 namespace asperity {
@@ -36,7 +37,7 @@ CurvePoint at(const BaseCurve& curve, double x) {
 }  // namespace
 
 BaseCurve make_base_curve(const PathEvidence& evidence, double cutoff_cycles_per_mm) {
-  const auto count = static_cast<std::size_t>(evidence.travelled_m.back() / kSpacing_m) + 1;
+  const std::size_t count = count_points(evidence.travelled_m.back(), kSpacing_m);
   if (count < 8) throw Error("base path: the path in contact is too short for a base curve");
   BaseCurve out;
   out.spacing_m = kSpacing_m;

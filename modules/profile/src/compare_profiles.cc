@@ -49,6 +49,7 @@ BandPassed band_pass(PathKnots knots, double shift_m, const std::vector<std::pai
   if (knots.s_m.empty()) return {};
   for (double& s : knots.s_m) s += shift_m;
   BandPassed out;
+  count_points(knots.s_m.back() - knots.s_m.front(), config.spacing_m);
   out.first = static_cast<std::ptrdiff_t>(std::ceil(knots.s_m.front() / config.spacing_m));
   const auto last = static_cast<std::ptrdiff_t>(std::floor(knots.s_m.back() / config.spacing_m));
   const auto count = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, last - out.first + 1));

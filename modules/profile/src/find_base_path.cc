@@ -10,6 +10,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
+#include "asperity/signal/statistics.h"
 #include "base_curve.h"
 #include "fit_base_shape.h"
 #include "path_evidence.h"
@@ -85,6 +86,16 @@ std::vector<Eigen::Vector2d> develop_curve(const PathEvidence& evidence, const s
     u.emplace_back(point.s_m, 0.0);
   }
   return u;
+}
+
+// Five standard deviations of the position: noise does not bend the path by more. 0 without a covariance.
+double noise_bend_m(const TipMotion& motion) {
+  if (motion.cov_world_tip_m2.empty()) return 0.0;
+  std::vector<double> sigma_m;
+  sigma_m.reserve(motion.size());
+  for (const Eigen::Matrix3d& cov : motion.cov_world_tip_m2)
+    sigma_m.push_back(std::sqrt(std::max(0.0, cov.trace() / 3.0)));
+  return std::clamp(5.0 * median(sigma_m), 0.1e-3, 1e-3);
 }
 
 PathShape choose_shape(const PlaneCandidate& plane, const CircleCandidate& circle, const PathEvidence& evidence,
@@ -174,7 +185,9 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
       if (std::abs(height_m) > config.max_height_m) out.contact[i] = 0;
     }
   }
-  ArcLength arc = measure_arc_length(t_s, developed, out.contact, config.arc_length);
+  ArcLengthConfig arc_length = config.arc_length;
+  if (arc_length.bend_m == 0.0) arc_length.bend_m = noise_bend_m(motion);
+  ArcLength arc = measure_arc_length(t_s, developed, out.contact, arc_length);
   out.path.s_m = std::move(arc.s_m);
   out.speed_mps = std::move(arc.speed_mps);
   out.turning_points = std::move(arc.turning_points);

@@ -60,6 +60,17 @@ double axial_difference(double a, double b) {
 
 }  // namespace
 
+namespace {
+
+// The logarithm of the density of the fine motion's direction, x standard deviations from the normal. On
+// a smooth surface it is the hand's tremor and may point anywhere, so it can be outvoted.
+double log_plausible(double x) {
+  constexpr double kTremor = 0.1;  // how often it is that
+  return std::log(kTremor + (1.0 - kTremor) * std::exp(-0.5 * x * x));
+}
+
+}  // namespace
+
 PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathConfig& config) {
   std::vector<double> weights;
   const PlaneFit fit = fit_robust_plane(evidence.coarse_m, config.slow_error_m, weights);
@@ -95,20 +106,24 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
     if (use_path)
       value -= 0.5 * evidence.independent * (c * c * fit.scatter_m2.z() + s * s * fit.scatter_m2.y()) / error_m2;
     if (axis_known) value -= 0.5 * std::pow(axial_difference(phi, axis_phi) / axis_sigma, 2);
-    if (fine_known) value -= 0.5 * std::pow(axial_difference(phi, fine_phi) / fine_sigma, 2);
+    if (fine_known) value += log_plausible(axial_difference(phi, fine_phi) / fine_sigma);
     log_density[static_cast<std::size_t>(k)] = value;
     if (value > log_density[static_cast<std::size_t>(best)]) best = k;
   }
-  double sum = 0.0, first = 0.0, second = 0.0;
+  constexpr double kHump_rad = 30.0 * kDegree_rad;
+  double sum = 0.0, near = 0.0, first = 0.0, second = 0.0;
   for (int d = -kSteps / 2; d < kSteps / 2; ++d) {
     const auto k = static_cast<std::size_t>((best + d + kSteps) % kSteps);
     const double density = std::exp(log_density[k] - log_density[static_cast<std::size_t>(best)]);
     const double x = d * kPi / kSteps;
     sum += density;
-    first += density * x;
     second += density * x * x;
+    if (std::abs(x) > kHump_rad) continue;
+    near += density;
+    first += density * x;
   }
-  const double shift = first / sum;
+  // The mean of the hump about the mode: the mean over two humps would lie in neither.
+  const double shift = first / near;
   const double phi = (static_cast<double>(best) / kSteps - 0.5) * kPi + shift;
 
   PlaneCandidate out;

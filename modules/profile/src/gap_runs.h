@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -17,6 +16,10 @@ template <class Filter>
 std::vector<double> filter_runs(std::span<const double> x, std::size_t bridge, std::span<const std::size_t> breaks,
                                 std::size_t shortest, Filter filter) {
   std::vector<double> out(x.size(), std::numeric_limits<double>::quiet_NaN());
+  std::vector<char> breaks_here(x.size(), 0);
+  for (const std::size_t i : breaks) {
+    if (i < x.size()) breaks_here[i] = 1;
+  }
   std::size_t begin = 0;
   while (begin < x.size()) {
     if (!std::isfinite(x[begin])) {
@@ -25,7 +28,7 @@ std::vector<double> filter_runs(std::span<const double> x, std::size_t bridge, s
     }
     std::size_t end = begin + 1;
     for (std::size_t i = begin + 1; i < x.size() && i - end <= bridge; ++i) {
-      if (std::find(breaks.begin(), breaks.end(), i) != breaks.end()) break;
+      if (breaks_here[i] != 0) break;
       if (std::isfinite(x[i])) end = i + 1;
     }
     if (end - begin >= shortest) {

@@ -105,6 +105,7 @@ Profile make_profile(const TipMotion& motion, const BasePath& base, std::span<co
 
   Profile out;
   out.spacing_m = config.spacing_m;
+  count_points(high_m - low_m, config.spacing_m);
   const auto first = static_cast<std::ptrdiff_t>(std::ceil(low_m / config.spacing_m - 1e-9));
   const auto last = static_cast<std::ptrdiff_t>(std::floor(high_m / config.spacing_m + 1e-9));
   if (last < first) throw Error("profile: the path in contact is shorter than the profile's spacing");
@@ -117,24 +118,28 @@ Profile make_profile(const TipMotion& motion, const BasePath& base, std::span<co
   const std::array<std::span<const double>, 4> channels{samples.height_m, samples.sigma_m, samples.force_N,
                                                         samples.t_s};
   std::vector<std::size_t> breaks;
-  std::vector<char> in_part(n);
   const int parts = *std::max_element(part.begin(), part.end()) + 1;
+  std::size_t begin = 0;
   for (int p = 0; p < parts; ++p) {
-    double end_m = -std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < n; ++i) {
-      in_part[i] = use[i] != 0 && part[i] == p ? 1 : 0;
-      if (in_part[i] != 0) end_m = std::max(end_m, base.s_m[i]);
+    // Parts follow one another in time, so each is looked at once, and only where it has points.
+    std::size_t end = begin;
+    while (end < n && part[end] <= p) ++end;
+    const std::array<std::span<const double>, 1> height{std::span(samples.height_m).subspan(begin, end - begin)};
+    const PathKnots knots = gather_knots(std::span(base.s_m).subspan(begin, end - begin), height,
+                                         std::span(use).subspan(begin, end - begin), 0.25 * config.spacing_m);
+    begin = end;
+    if (knots.s_m.empty()) continue;
+    const auto cell = [&](double s_m) {
+      return std::clamp<std::ptrdiff_t>(std::lround(s_m / config.spacing_m) - first, 0, last - first);
+    };
+    const std::ptrdiff_t from = cell(knots.s_m.front()), to = cell(knots.s_m.back());
+    const std::vector<double> part_m = resample_smooth(knots, first + from, static_cast<std::size_t>(to - from + 1),
+                                                       config.spacing_m, config.max_hole_m);
+    for (std::ptrdiff_t k = from; k <= to; ++k) {
+      double& height_m = out.height_m[static_cast<std::size_t>(k)];
+      if (!std::isfinite(height_m)) height_m = part_m[static_cast<std::size_t>(k - from)];
     }
-    const PathKnots knots = gather_knots(base.s_m, channels, in_part, 0.25 * config.spacing_m);
-    const std::vector<double> height = resample_smooth(knots, first, count, config.spacing_m, config.max_hole_m);
-    for (std::size_t k = 0; k < count; ++k) {
-      if (!std::isfinite(out.height_m[k])) out.height_m[k] = height[k];
-    }
-    if (p + 1 < parts && std::isfinite(end_m)) {
-      const auto seam = static_cast<std::size_t>(
-          std::clamp(std::lround(end_m / config.spacing_m) - first, 0L, static_cast<long>(count) - 1));
-      breaks.push_back(seam);
-    }
+    if (p + 1 < parts) breaks.push_back(static_cast<std::size_t>(to));
   }
   // After all parts, so that the next one does not fill the seam.
   for (const std::size_t seam : breaks) out.height_m[seam] = kNan;

@@ -13,6 +13,7 @@
 #include "asperity/profile/integrate_verlet.h"
 #include "asperity/profile/mark_stick_slip.h"
 #include "asperity/profile/path_length.h"
+#include "asperity/profile/resample_over_path.h"
 #include "asperity/signal/resample.h"
 #include "asperity/signal/zero_phase.h"
 
@@ -91,7 +92,7 @@ ThesisProfileResult make_profile_thesis(const TipMotion& motion, const BasePath&
   // §5.2: heights spaced equidistantly, then the high-pass.
   Profile& profile = result.profile;
   profile.spacing_m = config.spacing_m;
-  const auto count = static_cast<std::size_t>(std::floor(result.length_m / config.spacing_m * (1.0 + 1e-12))) + 1;
+  const std::size_t count = count_points(result.length_m, config.spacing_m);
   profile.s_m.resize(count);
   for (std::size_t i = 0; i < count; ++i) profile.s_m[i] = begin_m + static_cast<double>(i) * config.spacing_m;
   profile.height_m = resample_uniform(s_m, height_m, begin_m, config.spacing_m, count);

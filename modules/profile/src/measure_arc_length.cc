@@ -17,6 +17,7 @@ constexpr double kPathRate_hz = 200.0;   // ample for directions that change at 
 constexpr double kSpeedCutoff_hz = 3.0;  // for the speed that sets the direction's own cut-off
 
 constexpr double kLowestCutoff_hz = 0.5;
+constexpr double kUsualBend_m = 0.7e-3;  // where nothing is known of the noise
 
 std::vector<double> speeds(const EvenPath<2>& path) {
   std::vector<double> out(path.size());
@@ -115,7 +116,8 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
   const double rest_mps = std::max(config.rest_speed_mps, config.rest_fraction * usual_mps);
   std::vector<char> moving(path.size(), 0);
   for (std::size_t i = first_cell; i <= last_cell; ++i) moving[i] = speed[i] > rest_mps ? 1 : 0;
-  const Directions directions = find_directions(path, slow, quick, moving, config.bend_m);
+  const Directions directions =
+      find_directions(path, slow, quick, moving, config.bend_m > 0.0 ? config.bend_m : kUsualBend_m);
 
   for (std::size_t i = 0; i < n; ++i) out.speed_mps[i] = speed[index_at(path, t_s[i])];
   for (std::size_t i = begin + 1; i < end; ++i) {

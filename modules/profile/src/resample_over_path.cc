@@ -16,6 +16,7 @@ namespace asperity {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kMostPoints = 10'000'000;
 constexpr int kFiner = 4;
 constexpr int kHalfTaps = 32;  // eight cells of the profile to either side
 constexpr std::size_t kTapCount = kHalfTaps + 1;
@@ -70,15 +71,23 @@ void for_each_run(std::span<const double> s, double max_hole_m, Run run) {
 }
 
 void check_grid(std::size_t count, double spacing_m, double max_hole_m) {
-  constexpr std::size_t kMost = 100'000'000;
   if (!(spacing_m > 0.0) || !(max_hole_m > 0.0)) {
     throw Error("resampling over the path: spacing " + number_text(spacing_m) + " m, largest hole " +
                 number_text(max_hole_m) + " m; both must be positive");
   }
-  if (count > kMost) throw Error("resampling over the path: " + std::to_string(count) + " points are too many");
+  if (count > kMostPoints) throw Error("resampling over the path: " + std::to_string(count) + " points are too many");
 }
 
 }  // namespace
+
+std::size_t count_points(double length_m, double spacing_m) {
+  const double count = std::floor(length_m / spacing_m * (1.0 + 1e-12)) + 1.0;
+  if (!(count >= 1.0 && count <= static_cast<double>(kMostPoints))) {
+    throw Error("a path of " + number_text(length_m) + " m has too many points at a spacing of " +
+                number_text(spacing_m) + " m: at most " + std::to_string(kMostPoints) + " are allowed");
+  }
+  return static_cast<std::size_t>(count);
+}
 
 PathKnots gather_knots(std::span<const double> s_m, std::span<const std::span<const double>> channels,
                        std::span<const char> usable, double cell_m) {

@@ -1,6 +1,6 @@
 #include "asperity/profile/make_profile.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "asperity/base/error.h"
 #include "asperity/profile/compare_profiles.h"
@@ -145,6 +145,21 @@ TEST(ExtractTexture, IsMinusThreeDecibelsAtTheCutoffAndPassesAGap) {
   EXPECT_TRUE(std::isnan(y[4005]));
   EXPECT_NEAR(amplitude(y), std::sqrt(0.5), 2e-3);
   EXPECT_THROW(extract_texture(x, 0.0, 0.1, 0.0), Error);
+}
+
+// 250 km in two samples: 10 billion points.
+TEST(MakeProfile, RefusesAPathThatJumpsBeforeItTakesMemory) {
+  TipMotion motion;
+  BasePath base;
+  for (int i = 0; i < 2; ++i) {
+    motion.t_ns.push_back(i * 1'000'000LL);
+    motion.p_world_tip_m.emplace_back(250e3 * i, 0.0, 0.0);
+    base.p_world_m.push_back(motion.p_world_tip_m.back());
+    base.n_world.push_back(Eigen::Vector3d::UnitZ());
+    base.s_m.push_back(250e3 * i);
+  }
+  EXPECT_THAT([&] { make_profile(motion, base, {}, {}); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("too many points")));
 }
 
 TEST(MakeProfile, WholeWayOverAFlatObjectAndAPot) {

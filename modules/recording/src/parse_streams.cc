@@ -25,6 +25,34 @@ double slow_sample(const CsvReader& csv, std::size_t column, double limit, RowPr
   return kNan;
 }
 
+// Rows between the samples of an accelerometer slower than the rows lie on straight lines, so that the other
+// sensors' samples in them keep their place; before the first and after the last they hold.
+void fill_slow_accelerometer(const std::string& name, ProbeStream& probe, Problems& problems) {
+  const std::size_t n = probe.size();
+  std::size_t previous = n;
+  std::size_t filled = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!probe.accel_counts[i].allFinite()) continue;
+    for (std::size_t j = previous == n ? 0 : previous + 1; j < i; ++j, ++filled) {
+      if (previous == n) {
+        probe.accel_counts[j] = probe.accel_counts[i];
+        continue;
+      }
+      const double share = static_cast<double>(probe.t_ns[j] - probe.t_ns[previous]) /
+                           static_cast<double>(probe.t_ns[i] - probe.t_ns[previous]);
+      probe.accel_counts[j] =
+          probe.accel_counts[previous] + share * (probe.accel_counts[i] - probe.accel_counts[previous]);
+    }
+    previous = i;
+  }
+  if (previous == n) throw Error(name + ": no row has an acceleration");
+  for (std::size_t j = previous + 1; j < n; ++j, ++filled) probe.accel_counts[j] = probe.accel_counts[previous];
+  if (filled > 0) {
+    problems.push_back(
+        {"slow_accelerometer", name + ": rows without an acceleration were filled between those with one", filled});
+  }
+}
+
 }  // namespace
 
 ProbeStream parse_probe_csv(std::string_view text, const std::string& name, Problems& problems,
@@ -51,7 +79,8 @@ ProbeStream parse_probe_csv(std::string_view text, const std::string& name, Prob
     const auto t_ns = row_time(csv, time, row_problems);
     if (!t_ns) continue;
     const Eigen::Vector3d sample = numbers3(csv, accel);
-    if (!within(sample, limits.largest_counts)) {
+    const bool none = csv.empty(accel[0]) && csv.empty(accel[1]) && csv.empty(accel[2]);
+    if (!none && !within(sample, limits.largest_counts)) {
       row_problems.add("bad_acceleration", csv.line(), "the acceleration is no reading; the row was left out");
       continue;
     }
@@ -64,6 +93,7 @@ ProbeStream parse_probe_csv(std::string_view text, const std::string& name, Prob
   }
   finish_rows(csv, line, name, limits, row_problems, problems, out.t_ns, out.accel_counts, out.force_counts,
               out.gyro_counts, out.force3_counts);
+  fill_slow_accelerometer(name, out, problems);
   return out;
 }
 

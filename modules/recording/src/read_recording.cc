@@ -1,6 +1,9 @@
 #include "asperity/recording/read_recording.h"
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
@@ -44,6 +47,24 @@ bool is_recording_folder(const fs::path& folder) noexcept {
     constexpr std::uint64_t kLargest_bytes = std::uint64_t{64} << 20;
     const auto root = nlohmann::json::parse(read_file(folder / "recording.json", kLargest_bytes), nullptr, false);
     return root.is_object() && root.value("format", "") == "asperity-recording";
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+bool is_replaceable_recording(const fs::path& folder) noexcept {
+  constexpr std::array<std::string_view, 6> kOurs{"recording.json",   "probe.csv", "tracker.csv",
+                                                  "calibration.json", "truth.csv", "frames"};
+  try {
+    constexpr std::uint64_t kLargest_bytes = std::uint64_t{64} << 20;
+    const auto root = nlohmann::json::parse(read_file(folder / "recording.json", kLargest_bytes), nullptr, false);
+    if (!root.is_object() || root.value("format", "") != "asperity-recording" || !root.contains("extra")) return false;
+    const auto& extra = root["extra"];
+    if (!extra.is_object() || !(extra.contains("simulation") || extra.contains("imported"))) return false;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (std::find(kOurs.begin(), kOurs.end(), entry.path().filename().string()) == kOurs.end()) return false;
+    }
+    return true;
   } catch (const std::exception&) {
     return false;
   }

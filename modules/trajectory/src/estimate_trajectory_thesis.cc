@@ -84,8 +84,9 @@ TrajectoryResult estimate_trajectory_thesis(const Recording& recording, const Th
   // §4.1: outlier rejection, then one time base for both streams.
   const Outliers outliers = reject_outliers(recording.probe, calibration, config.outliers);
   const auto period_ns = static_cast<std::int64_t>(std::llround(config.period_s / kNanosecond_s));
-  const SynchronisedStreams streams = synchronise(recording.probe, outliers, recording.tracker,
-                                                  calibration.tracker.latency_s, period_ns, config.average_over_period);
+  const double latency_s = calibration.tracker.latency_s - calibration.probe_latency_s;
+  const SynchronisedStreams streams =
+      synchronise(recording.probe, outliers, recording.tracker, latency_s, period_ns, config.average_over_period);
 
   // §4.2: Kalman filters of the tip's position and of the orientation.
   std::vector<Eigen::Vector3d> p_world_tip_m;
@@ -106,6 +107,7 @@ TrajectoryResult estimate_trajectory_thesis(const Recording& recording, const Th
   TrajectoryResult result;
   TipMotion& motion = result.motion;
   motion.t_ns = streams.t_ns;
+  for (std::int64_t& t_ns : motion.t_ns) t_ns -= std::llround(calibration.probe_latency_s / kNanosecond_s);
   motion.p_world_tip_m = std::move(filtered.p_m);
   motion.v_world_tip_mps = std::move(filtered.v_mps);
 

@@ -67,16 +67,8 @@ Square prior(const Recording& recording, const InertialStream& inertial, const F
 
 // The factors on the process noise under which the poses are likeliest, on a stretch of the recording.
 void choose_process_noise(SmootherProblem& problem, bool has_gyro) {
-  SmootherProblem trial = problem;
-  constexpr double kStretch_s = 12.0;
-  const double begin = problem.knots.front().t;
-  const double end = problem.knots.back().t;
-  if (end - begin > 1.5 * kStretch_s) {  // its first seconds, after which biases are known as well as anywhere
-    const auto last = std::find_if(trial.epochs.begin(), trial.epochs.end(),
-                                   [&](const Epoch& e) { return trial.knots[e.knot].t > begin + kStretch_s; });
-    trial.epochs.erase(last, trial.epochs.end());
-    trial.knots.resize(trial.epochs.back().knot + 1);
-  }
+  constexpr double kStretch_s = 12.0;  // after which biases are known as well as anywhere
+  SmootherProblem trial = inertial_smoother::first_stretch(problem, kStretch_s);
   // The sensors' own noise is a floor: a smaller factor would only fit this stretch's luck.
   const auto search = [&](double SmootherProblem::*factor, double lowest, std::initializer_list<double> steps) {
     double best = trial.*factor;
@@ -206,12 +198,18 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
 
   const double prior_latency_s = tracker.latency_s - recording.calibration.probe_latency_s;
   double latency_s = prior_latency_s;  // of the tracker against the probe
-  Vector3d sigma_position = tracker.sigma_position_m.cwiseMax(kPositionFloor_m);
-  Vector3d sigma_rotation = tracker.sigma_rotation_rad.cwiseMax(kRotationFloor_rad);
+  // A σ of zero says that nobody measured it: the seed's tracker stands in (Fig. 9).
+  const TrackerCalibration usual;
+  const Vector3d sigma_stated_m = tracker.sigma_position_m.isZero() ? usual.sigma_position_m : tracker.sigma_position_m;
+  Vector3d sigma_position = sigma_stated_m.cwiseMax(kPositionFloor_m);
+  Vector3d sigma_rotation =
+      (tracker.sigma_rotation_rad.isZero() ? usual.sigma_rotation_rad : tracker.sigma_rotation_rad)
+          .cwiseMax(kRotationFloor_rad);
   double process_scale = config.process_noise_scale;
   double rate_scale = config.process_noise_scale > 0.0 ? config.process_noise_scale : 1.0;
   std::vector<double> position_weight;
   std::vector<double> rotation_weight;
+  bool gyro_turns_too = true;
   Nominal guess;
   SmootherProblem problem;
   Smoothed smoothed;
@@ -238,6 +236,14 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
     problem.start.latency = prior_latency_s - latency_s;
     problem.process_scale = process_scale > 0.0 ? process_scale : 1.0;
     problem.rate_scale = rate_scale;
+    if (!recording.calibration.accelerometer.rotation_known) {
+      if (pass == 0) {
+        inertial_smoother::choose_mounting(problem, inertial.has_gyro);
+        guess.misalignment = problem.start.misalignment;
+        gyro_turns_too = problem.gyro_turns_too;
+      }
+      problem.gyro_turns_too = gyro_turns_too;
+    }
     if (config.process_noise_scale == 0.0 && pass < 2) {
       observer.update("noise", 0.0);
       choose_process_noise(problem, inertial.has_gyro);
@@ -295,6 +301,12 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
   figures["accel_noise_mps2"] = inertial.accel_noise_mps2;
   figures["process_noise_scale"] = problem.process_scale;
   if (!inertial.has_gyro) figures["angular_accel_radps2_rtHz"] = std::sqrt(problem.gyro_bias_psd * problem.rate_scale);
+  figures["accel_bias_mps2"] = smoothed.last.ba.norm();
+  figures["latency_prior_sigmas"] =
+      layout.latency >= 0 ? std::abs(added_s) / latency_sigma_s(recording.calibration) : 0.0;
+  figures["tracker_noise_ratio"] =
+      problem.sigma_position.cwiseQuotient(sigma_stated_m.cwiseMax(kPositionFloor_m)).maxCoeff();
+  figures["probe_saturated_share"] = static_cast<double>(inertial.saturated) / static_cast<double>(inertial.size());
   figures["position_residual_median_m"] = median_norm(smoothed.position_residual, problem);
   figures["rotation_residual_median_rad"] = median_norm(smoothed.rotation_residual, problem);
   constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
@@ -306,11 +318,7 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
           smoothed.last.lever[axis];
     }
   }
-  if (static_cast<double>(outliers) > 0.4 * static_cast<double>(poses)) {
-    result.trustworthy = false;
-    result.verdict = std::to_string(outliers) + " of " + std::to_string(poses) +
-                     " tracker poses disagree with the probe: check the calibration's frames, units and latency";
-  }
+  figures["poses_outlying_share"] = static_cast<double>(outliers) / static_cast<double>(poses);
   return result;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include <Eigen/SVD>
 
@@ -76,6 +78,10 @@ Problem make_problem(const Recording& recording, const InertialStream& inertial,
       std::lower_bound(inertial.t_ns.begin(), inertial.t_ns.end(), origin_ns + std::llround(pose_t[first_pose] * 1e9)) -
       inertial.t_ns.begin());
   next_sample = std::min(next_sample, inertial.size() - 1);
+  // The first epoch is the first knot: the pose's time is no whole nanosecond, the sample's is.
+  if (next_sample + 1 < inertial.size() && seconds(inertial.t_ns[next_sample], origin_ns) < pose_t[first_pose]) {
+    ++next_sample;
+  }
   problem.knots.reserve(inertial.size() + 2 * inside);
   double last_epoch_t = pose_t[first_pose];
   const auto add_epoch = [&](std::int64_t pose) {
@@ -191,6 +197,41 @@ Nominal first_guess(const Recording& recording, const Problem& problem) {
     guess.misalignment = sensor_rotation(problem, recording.info.gravity_world_mps2);
   }
   return guess;
+}
+
+Problem first_stretch(const Problem& problem, double length_s) {
+  Problem out = problem;
+  const double begin = problem.knots.front().t;
+  if (problem.knots.back().t - begin <= 1.5 * length_s) return out;
+  const auto last = std::find_if(out.epochs.begin(), out.epochs.end(),
+                                 [&](const Epoch& e) { return out.knots[e.knot].t > begin + length_s; });
+  out.epochs.erase(last, out.epochs.end());
+  out.knots.resize(out.epochs.back().knot + 1);
+  return out;
+}
+
+void choose_mounting(Problem& problem, bool has_gyro) {
+  constexpr double kStretch_s = 5.0;
+  constexpr int kTurns = 12;
+  Problem trial = first_stretch(problem, kStretch_s);
+  Vector3d mean_force = Vector3d::Zero();
+  for (const Knot& knot : trial.knots) mean_force += knot.f;
+  const Eigen::Quaterniond guess = problem.start.misalignment;
+  const Vector3d axis_marker = (guess * mean_force).normalized();
+  double best = -std::numeric_limits<double>::infinity();
+  for (int turn = 0; turn < kTurns; ++turn) {
+    const double angle = 2.0 * std::numbers::pi * turn / kTurns;
+    trial.start.misalignment = (exp_rotation(angle * axis_marker) * guess).normalized();
+    for (const bool gyro_turns_too : {true, false}) {
+      if (!has_gyro && !gyro_turns_too) continue;
+      trial.gyro_turns_too = gyro_turns_too;
+      const double likelihood = log_likelihood(trial);
+      if (!(likelihood > best)) continue;
+      best = likelihood;
+      problem.gyro_turns_too = gyro_turns_too;
+      problem.start.misalignment = trial.start.misalignment;
+    }
+  }
 }
 
 }  // namespace asperity::inertial_smoother

@@ -17,4 +17,12 @@ Problem make_problem(const Recording& recording, const InertialStream& inertial,
 // sensor from the directions of the specific force where the calibration leaves it open.
 Nominal first_guess(const Recording& recording, const Problem& problem);
 
+// The problem's first seconds, if it is at least half as long again; otherwise the whole.
+Problem first_stretch(const Problem& problem, double length_s);
+
+// Where the rotation marker ← sensor is unknown: turns the first guess about the direction of gravity, which
+// static poses show best, and takes the turn under which the poses of the first seconds are likeliest; the
+// same decides whether the gyroscope's axes are the accelerometer's (one chip) or the marker's.
+void choose_mounting(Problem& problem, bool has_gyro);
+
 }  // namespace asperity::inertial_smoother

@@ -58,17 +58,20 @@ void count_spiking_channels(const std::vector<Eigen::Vector3d>& x, double sigmas
       const double deviation = deviation_at(i);
       const auto [low, high] = std::minmax({x[i - 2][axis], x[i - 1][axis], x[i + 1][axis], x[i + 2][axis]});
       const bool found = deviation > sigmas * 1.25 * usual && high - low < 0.35 * deviation;
-      if (found) ++channels[i];
+      // One channel alone must stand out far more: a converter's glitch, where two are a corrupted frame.
+      const bool glitch = deviation > 4.0 * sigmas * 1.25 * usual && high - low < 0.1 * deviation;
+      if (found) channels[i] += glitch ? 2 : 1;
       if (!found) usual += kForget * (std::min(deviation, 10.0 * usual) - usual);
     }
   }
 }
 
 // Samples that are a corrupted frame and not a motion: it strikes several channels at once (seed §4.1).
-std::vector<char> find_spikes(const ProbeStream& probe, bool use_gyro, double sigmas) {
+std::vector<char> find_spikes(const ProbeStream& probe, const std::vector<Eigen::Vector3d>& gyro_counts,
+                              double sigmas) {
   std::vector<int> channels(probe.size(), 0);
   count_spiking_channels(probe.accel_counts, sigmas, channels);
-  if (use_gyro) count_spiking_channels(probe.gyro_counts, sigmas, channels);
+  count_spiking_channels(gyro_counts, sigmas, channels);
   std::vector<char> spike(probe.size(), 0);
   for (std::size_t i = 0; i < probe.size(); ++i) spike[i] = channels[i] >= 2;
   return spike;
@@ -88,7 +91,7 @@ std::vector<ClippedRun> find_clipped(const std::vector<Eigen::Vector3d>& x, cons
   if (!(info.adc_max > info.adc_min)) return runs;
   for (int axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < x.size(); ++i) {
-      if (x[i][axis] > info.adc_min && x[i][axis] < info.adc_max) continue;
+      if (!(x[i][axis] <= info.adc_min) && !(x[i][axis] >= info.adc_max)) continue;
       const bool upper = x[i][axis] >= info.adc_max;
       ClippedRun run{axis, i, i, upper, upper ? info.adc_max : info.adc_min};
       while (run.last < x.size() && (upper ? x[run.last][axis] >= run.limit : x[run.last][axis] <= run.limit))
@@ -142,6 +145,36 @@ std::vector<double> fill_between(const std::vector<std::int64_t>& t_ns, const st
   return out;
 }
 
+// A gyroscope slower than a hand's turns says less than the tracker.
+constexpr double kSlowestGyro_Hz = 25.0;
+
+double readings_per_second(const std::vector<std::int64_t>& t_ns, const std::vector<Eigen::Vector3d>& counts) {
+  const auto readings = std::count_if(counts.begin(), counts.end(), [](const auto& c) { return c.allFinite(); });
+  return static_cast<double>(readings) / (static_cast<double>(t_ns.back() - t_ns.front()) * 1e-9);
+}
+
+// The gyroscope's counts with rows that have none, because it is slower, filled by straight lines.
+std::vector<Eigen::Vector3d> filled_gyro(const std::vector<std::int64_t>& t_ns,
+                                         const std::vector<Eigen::Vector3d>& counts) {
+  std::vector<Eigen::Vector3d> out = counts;
+  std::vector<double> axis_counts(counts.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < counts.size(); ++i) axis_counts[i] = counts[i][axis];
+    axis_counts = fill_between(t_ns, axis_counts);
+    for (std::size_t i = 0; i < counts.size(); ++i) out[i][axis] = axis_counts[i];
+  }
+  return out;
+}
+
+// The noise of one reading as that of one row of the same density, where only some rows have a reading.
+double row_noise_counts(const std::vector<Eigen::Vector3d>& counts) {
+  std::vector<Eigen::Vector3d> readings;
+  readings.reserve(counts.size());
+  std::copy_if(counts.begin(), counts.end(), std::back_inserter(readings), [](const auto& c) { return c.allFinite(); });
+  const double rows_per_reading = static_cast<double>(counts.size()) / static_cast<double>(readings.size());
+  return std::sqrt(rows_per_reading) * std::max(kQuantisation_counts, quiet_noise(readings).mean());
+}
+
 bool at_limit(const Eigen::Vector3d& counts, const RecordingInfo& info) {
   return info.adc_max > info.adc_min &&
          ((counts.array() <= info.adc_min).any() || (counts.array() >= info.adc_max).any());
@@ -174,9 +207,15 @@ InertialStream calibrate_inertial(const Recording& recording, const InertialConf
   out.t_ns = std::move(clock.t_ns);
   out.period_s = clock.period_s;
   out.clock_jitter_s = clock.applied ? clock.jitter_s : 0.0;
-  out.has_gyro = probe.has_gyro() && calibration.gyroscope.has_value();
+  std::vector<Eigen::Vector3d> gyro_counts;
+  if (calibration.gyroscope && readings_per_second(out.t_ns, probe.gyro_counts) >= kSlowestGyro_Hz) {
+    gyro_counts = filled_gyro(out.t_ns, probe.gyro_counts);
+  } else if (calibration.gyroscope && probe.has_gyro()) {
+    out.problems.push_back({"slow_gyroscope", "the gyroscope gave too few readings and was left out", 1});
+  }
+  out.has_gyro = !gyro_counts.empty();
 
-  const std::vector<char> spike = find_spikes(probe, out.has_gyro, config.spike_sigmas);
+  const std::vector<char> spike = find_spikes(probe, gyro_counts, config.spike_sigmas);
 
   const Eigen::Matrix3d B = calibration.accelerometer.B.leftCols<3>();
   const double accel_scale = std::pow(std::abs(B.determinant()), 1.0 / 3.0);  // counts per m/s²
@@ -213,23 +252,20 @@ InertialStream calibrate_inertial(const Recording& recording, const InertialConf
     if (!(gyro_scale > 0.0) || !std::isfinite(gyro_scale)) throw Error("calibration.json: gyroscope.B is singular");
     gyro_inverse = G.inverse();
     gyro_offset = calibration.gyroscope->C;
-    out.gyro_noise_radps = config.gyro_noise_floor_radps > 0.0
-                               ? config.gyro_noise_floor_radps
-                               : std::max(kQuantisation_counts, quiet_noise(probe.gyro_counts).mean()) / gyro_scale;
+    out.gyro_noise_radps = config.gyro_noise_floor_radps > 0.0 ? config.gyro_noise_floor_radps
+                                                               : row_noise_counts(probe.gyro_counts) / gyro_scale;
   }
   out.angular_rate_radps.assign(n, Eigen::Vector3d::Zero());
   out.gyro_sigma_radps.assign(n, out.gyro_noise_radps);
-  Eigen::Vector3d gyro_held = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Vector3d& counts = accel_counts[i];
     out.specific_force_mps2[i] = linear ? Eigen::Vector3d(inverse * (counts - calibration.accelerometer.C))
                                         : calibration.accelerometer.specific_force_mps2(counts);
     if (out.has_gyro) {
-      Eigen::Vector3d gyro = probe.gyro_counts[i];
-      if (spike[i]) gyro = 0.5 * (probe.gyro_counts[i - 1] + probe.gyro_counts[i + 1]);
-      if (gyro.allFinite()) gyro_held = gyro_inverse * (gyro - gyro_offset);
-      out.angular_rate_radps[i] = gyro_held;
-      if (at_limit(probe.gyro_counts[i], info)) out.gyro_sigma_radps[i] = gyro_held.norm();
+      const Eigen::Vector3d gyro =
+          spike[i] ? Eigen::Vector3d(0.5 * (gyro_counts[i - 1] + gyro_counts[i + 1])) : gyro_counts[i];
+      out.angular_rate_radps[i] = gyro_inverse * (gyro - gyro_offset);
+      if (at_limit(probe.gyro_counts[i], info)) out.gyro_sigma_radps[i] = out.angular_rate_radps[i].norm();
     }
   }
   add_scale_error(out.specific_force_mps2, config.scale_error,

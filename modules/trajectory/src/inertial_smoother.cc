@@ -5,118 +5,14 @@
 
 #include <Eigen/Cholesky>
 
+#include "inertial_model.h"
+
 namespace asperity::inertial_smoother {
 
 namespace {
 
-using Eigen::Matrix3d;
-using Eigen::Quaterniond;
-using Eigen::Vector3d;
 using Gain = Eigen::Matrix<double, Eigen::Dynamic, 6, 0, kMax, 6>;
-using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMax>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using TopRows = Eigen::Matrix<double, 9, Eigen::Dynamic, 0, 9, kMax>;
-
-// What a segment's noise adds to the nominal motion (zero in the filter, the smoothed value after it).
-struct Noise {
-  Vector3d dv = Vector3d::Zero();
-  Vector3d dphi = Vector3d::Zero();
-  Vector3d dbg = Vector3d::Zero();
-};
-
-// The state between two knots, with what its linearisation needs.
-struct Step {
-  Matrix3d R0;      // at the first knot
-  Vector3d A;       // mean of R f over the segment, gravity not in it
-  Vector3d a0;      // acceleration at the first knot
-  Vector3d omega;   // mean angular rate, marker frame
-  Vector3d omega0;  // at the first knot
-};
-
-Step advance(Nominal& x, const Knot& k0, const Knot& k1, const Matrix3d& M, const Vector3d& gravity,
-             const Noise& noise) {
-  const double dt = k1.t - k0.t;
-  Step step;
-  step.R0 = x.q.toRotationMatrix();
-  step.omega0 = M * k0.w - x.bg;
-  step.omega = M * (0.5 * (k0.w + k1.w)) - x.bg;
-  const Vector3d A0 = step.R0 * (M * k0.f - x.ba);
-  x.q = (x.q * exp_rotation(step.omega * dt)).normalized();
-  const Vector3d A1 = x.q * (M * k1.f - x.ba);
-  step.A = 0.5 * (A0 + A1);
-  step.a0 = A0 + gravity;
-  x.p += dt * x.v + dt * dt * ((2.0 * A0 + A1) / 6.0 + 0.5 * gravity) + 0.5 * dt * noise.dv;
-  x.v += dt * (step.A + gravity) + noise.dv;
-  x.q = exp_rotation(noise.dphi) * x.q;
-  x.bg += noise.dbg;
-  return step;
-}
-
-// Φ − I of an interval: only the rows of p, v and φ differ from zero (docs/trajectory.md).
-struct Transition {
-  Vector3d sv = Vector3d::Zero(), sp = Vector3d::Zero();  // ∫A, ∬A: the effect of φ is −[s]×
-  Matrix3d g1 = Matrix3d::Zero(), g2 = Matrix3d::Zero();  // ∫R, ∬R: of the accelerometer's bias
-  Matrix3d vbg = Matrix3d::Zero(), pbg = Matrix3d::Zero();
-  Matrix3d vmu = Matrix3d::Zero(), pmu = Matrix3d::Zero(), phimu = Matrix3d::Zero();
-  double T = 0.0;
-  double qpp = 0.0, qpv = 0.0, qvv = 0.0, qphi = 0.0;
-
-  void extend(const Step& s, const Knot& k0, double dt, const Vector3d& f_marker, bool misalignment, double scale) {
-    const double half = 0.5 * dt * dt;
-    if (misalignment) {
-      const Matrix3d force = -(s.R0 * skew(f_marker)) - skew(s.A) * phimu;
-      pmu += dt * vmu + half * force;
-      vmu += dt * force;
-      phimu -= dt * s.R0 * skew(s.omega);
-    }
-    const Matrix3d leak = skew(s.A) * (g1 + 0.5 * dt * s.R0);
-    pbg += dt * vbg + half * leak;
-    vbg += dt * leak;
-    g2 += dt * g1 + half * s.R0;
-    g1 += dt * s.R0;
-    sp += dt * sv + half * s.A;
-    sv += dt * s.A;
-    const double white = scale * k0.accel_psd * dt;
-    qpp += dt * (2.0 * qpv + dt * qvv) + 0.25 * dt * dt * white;
-    qpv += dt * qvv + 0.5 * dt * white;
-    qvv += white;
-    qphi += k0.gyro_psd * dt;
-    T += dt;
-  }
-
-  TopRows rows(const Layout& layout) const {
-    TopRows U = TopRows::Zero(9, layout.size);
-    U.block<3, 3>(kP, kV).diagonal().setConstant(T);
-    U.block<3, 3>(kP, kPhi) = -skew(sp);
-    U.block<3, 3>(kP, kBa) = -g2;
-    U.block<3, 3>(kP, kBg) = pbg;
-    U.block<3, 3>(kV, kPhi) = -skew(sv);
-    U.block<3, 3>(kV, kBa) = -g1;
-    U.block<3, 3>(kV, kBg) = vbg;
-    U.block<3, 3>(kPhi, kBg) = -g1;
-    if (layout.misalignment >= 0) {
-      U.block<3, 3>(kP, layout.misalignment) = pmu;
-      U.block<3, 3>(kV, layout.misalignment) = vmu;
-      U.block<3, 3>(kPhi, layout.misalignment) = phimu;
-    }
-    return U;
-  }
-
-  void add_noise(const Problem& problem, Square& P) const {
-    const double rate = problem.rate_scale * problem.gyro_bias_psd;
-    const Matrix3d mean_R = T > 0.0 ? Matrix3d(g1 / T) : Matrix3d::Identity();
-    P.block<3, 3>(kP, kP).diagonal().array() += qpp;
-    P.block<3, 3>(kP, kV).diagonal().array() += qpv;
-    P.block<3, 3>(kV, kP).diagonal().array() += qpv;
-    P.block<3, 3>(kV, kV).diagonal().array() += qvv;
-    P.block<3, 3>(kPhi, kPhi).diagonal().array() += qphi + rate * T * T * T / 3.0;
-    P.block<3, 3>(kPhi, kBg) -= 0.5 * rate * T * T * mean_R;
-    P.block<3, 3>(kBg, kPhi) -= 0.5 * rate * T * T * mean_R.transpose();
-    P.block<3, 3>(kBg, kBg).diagonal().array() += rate * T;
-    P.block<3, 3>(kBa, kBa).diagonal().array() += problem.accel_bias_psd * T;
-  }
-};
 
 // P ← Φ P Φᵀ with Φ = I + U.
 void propagate(Square& P, const TopRows& U) {
@@ -132,45 +28,6 @@ void propagate_back(Square& L, const TopRows& U) {
   L += UL;
   const Square LU = L.leftCols(9) * U;
   L += LU;
-}
-
-void apply(const State& d, const Layout& layout, Nominal& x) {
-  x.p += d.segment<3>(kP);
-  x.v += d.segment<3>(kV);
-  x.q = (exp_rotation(d.segment<3>(kPhi)) * x.q).normalized();
-  x.ba += d.segment<3>(kBa);
-  x.bg += d.segment<3>(kBg);
-  if (layout.latency >= 0) x.latency += d[layout.latency];
-  if (layout.lever >= 0) x.lever += d.segment<3>(layout.lever);
-  if (layout.misalignment >= 0) {
-    x.misalignment = (exp_rotation(d.segment<3>(layout.misalignment)) * x.misalignment).normalized();
-  }
-}
-
-struct Predicted {
-  Vector6d residual;  // measured minus predicted: position, rotation (world)
-  Jacobian H;
-  Vector3d v_marker;
-};
-
-Predicted predict_pose(const Nominal& x, const Vector3d& omega, const Pose& pose, const Layout& layout) {
-  Predicted out;
-  const Matrix3d R = x.q.toRotationMatrix();
-  const Vector3d arm = R * x.lever;
-  const Vector3d omega_world = R * omega;
-  out.v_marker = x.v - omega_world.cross(arm);
-  out.residual.head<3>() = pose.translation_m - (x.p - arm - out.v_marker * x.latency);
-  out.residual.tail<3>() = log_rotation(pose.rotation * x.q.conjugate()) + omega_world * x.latency;
-  out.H = Jacobian::Zero(6, layout.size);
-  out.H.block<3, 3>(0, kP).setIdentity();
-  out.H.block<3, 3>(0, kPhi) = skew(arm);
-  out.H.block<3, 3>(3, kPhi).setIdentity();
-  if (layout.latency >= 0) {
-    out.H.block<3, 1>(0, layout.latency) = -out.v_marker;
-    out.H.block<3, 1>(3, layout.latency) = -omega_world;
-  }
-  if (layout.lever >= 0) out.H.block<3, 3>(0, layout.lever) = -R;
-  return out;
 }
 
 // The weight of a measurement whose normalised square is d2: 1 inside the gate, falling as 1/d⁴.
@@ -191,8 +48,6 @@ struct Forward {
   double log_likelihood = 0.0;
 };
 
-Matrix3d misalignment_of(const Nominal& x) { return x.misalignment.toRotationMatrix(); }
-
 Forward run_forward(const Problem& problem, bool keep, const Observer& observer) {
   const Layout& layout = problem.layout;
   Forward out;
@@ -202,14 +57,13 @@ Forward run_forward(const Problem& problem, bool keep, const Observer& observer)
   int rejected_in_a_row = 0;
   for (std::size_t e = 0; e < problem.epochs.size(); ++e) {
     if (e > 0) {
-      const Matrix3d M = misalignment_of(x);
+      const Mounting mounting = mounting_of(x, problem);
       Transition transition;
       for (std::size_t k = problem.epochs[e - 1].knot; k < problem.epochs[e].knot; ++k) {
         const Knot& k0 = problem.knots[k];
         const Knot& k1 = problem.knots[k + 1];
-        const Step step = advance(x, k0, k1, M, problem.gravity, {});
-        transition.extend(step, k0, k1.t - k0.t, M * (0.5 * (k0.f + k1.f)), layout.misalignment >= 0,
-                          problem.process_scale);
+        const Step step = advance(x, k0, k1, mounting, problem.gravity, {});
+        transition.extend(step, k0, k1, mounting, problem);
       }
       propagate(P, transition.rows(layout));
       transition.add_noise(problem, P);
@@ -219,7 +73,7 @@ Forward run_forward(const Problem& problem, bool keep, const Observer& observer)
     const std::int64_t pose = problem.epochs[e].pose;
     if (pose >= 0) {
       const auto i = static_cast<std::size_t>(pose);
-      const Vector3d omega = misalignment_of(x) * problem.knots[problem.epochs[e].knot].w - x.bg;
+      const Vector3d omega = mounting_of(x, problem).gyro * problem.knots[problem.epochs[e].knot].w - x.bg;
       const Predicted predicted = predict_pose(x, omega, problem.poses[i], layout);
       const Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMax> HP = predicted.H * P;
       Matrix6d S = HP * predicted.H.transpose();
@@ -326,7 +180,7 @@ Smoothed smooth(const Problem& problem, const Vector3d& tip_in_marker, const Obs
     TopRows U;
     const std::size_t first = problem.epochs[e].knot;
     const std::size_t last = e + 1 < epochs ? problem.epochs[e + 1].knot : first;
-    const Matrix3d M = misalignment_of(filtered);
+    const Mounting mounting = mounting_of(filtered, problem);
     if (e + 1 < epochs) {
       Nominal x = filtered;
       Transition transition;
@@ -334,9 +188,8 @@ Smoothed smooth(const Problem& problem, const Vector3d& tip_in_marker, const Obs
       for (std::size_t k = first; k < last; ++k) {
         const Knot& k0 = problem.knots[k];
         const Knot& k1 = problem.knots[k + 1];
-        steps.push_back(advance(x, k0, k1, M, problem.gravity, {}));
-        transition.extend(steps.back(), k0, k1.t - k0.t, M * (0.5 * (k0.f + k1.f)), layout.misalignment >= 0,
-                          problem.process_scale);
+        steps.push_back(advance(x, k0, k1, mounting, problem.gravity, {}));
+        transition.extend(steps.back(), k0, k1, mounting, problem);
       }
       U = transition.rows(layout);
       lambda += (U.transpose() * lambda_end.head(9)).eval();
@@ -357,7 +210,7 @@ Smoothed smooth(const Problem& problem, const Vector3d& tip_in_marker, const Obs
 
     const std::int64_t pose = problem.epochs[e].pose;
     if (pose >= 0) {
-      const Vector3d omega = M * problem.knots[first].w - smoothed.bg;
+      const Vector3d omega = mounting.gyro * problem.knots[first].w - smoothed.bg;
       const Vector6d residual =
           predict_pose(smoothed, omega, problem.poses[static_cast<std::size_t>(pose)], layout).residual;
       out.position_residual[static_cast<std::size_t>(pose)] = residual.head<3>();
@@ -386,10 +239,11 @@ Smoothed smooth(const Problem& problem, const Vector3d& tip_in_marker, const Obs
       }
       Nominal x = smoothed;
       path.resize(steps.size());
-      const Matrix3d Ms = misalignment_of(smoothed);
+      const Mounting smoothed_mounting = mounting_of(smoothed, problem);
       for (std::size_t k = 0; k < steps.size(); ++k) {
         path[k] = x;
-        steps[k] = advance(x, problem.knots[first + k], problem.knots[first + k + 1], Ms, problem.gravity, noises[k]);
+        steps[k] = advance(x, problem.knots[first + k], problem.knots[first + k + 1], smoothed_mounting,
+                           problem.gravity, noises[k]);
       }
       Seam seam;
       seam.p = next.p - x.p;
@@ -417,8 +271,8 @@ Smoothed smooth(const Problem& problem, const Vector3d& tip_in_marker, const Obs
         out.p[place] = smoothed.p;
         out.v[place] = smoothed.v;
         out.q[place] = smoothed.q;
-        out.a[place] = smoothed.q * (M * problem.knots[first].f - smoothed.ba) + problem.gravity;
-        out.omega_world[place] = smoothed.q * (M * problem.knots[first].w - smoothed.bg);
+        out.a[place] = smoothed.q * (mounting.accel * problem.knots[first].f - smoothed.ba) + problem.gravity;
+        out.omega_world[place] = smoothed.q * (mounting.gyro * problem.knots[first].w - smoothed.bg);
       }
     }
     next = smoothed;

@@ -67,6 +67,7 @@ struct Problem {
   double gate_chi2 = 16.8;
   bool gate_innovations = true;  // the first pass knows no residuals yet
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+  bool gyro_turns_too = true;  // the misalignment is the gyroscope's as well: both on one chip
   double accel_bias_psd = 0.0;
   double gyro_bias_psd = 0.0;
   double process_scale = 1.0;  // on accel_psd; with a gyroscope only there, without also on gyro_bias_psd

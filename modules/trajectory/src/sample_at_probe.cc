@@ -1,8 +1,10 @@
 #include "asperity/trajectory/sample_at_probe.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "asperity/base/error.h"
+#include "asperity/base/units.h"
 #include "asperity/geometry/pose.h"
 
 namespace asperity {
@@ -12,10 +14,11 @@ TipMotion sample_at_probe(const ProbeStream& probe, const Outliers& outliers, co
   if (motion.size() == 0) throw Error("sampling a motion at the probe's times: the motion is empty");
   if (outliers.rejected.size() != probe.size())
     throw Error("sampling at the probe's times: outliers of another stream");
+  const std::int64_t latency_ns = std::llround(calibration.probe_latency_s / kNanosecond_s);
   TipMotion out;
   std::size_t k = 0;  // motion sample at or before the probe's
   for (std::size_t i = 0; i < probe.size(); ++i) {
-    const std::int64_t t_ns = probe.t_ns[i];
+    const std::int64_t t_ns = probe.t_ns[i] - latency_ns;
     if (outliers.rejected[i] || t_ns < motion.t_ns.front() || t_ns > motion.t_ns.back()) continue;
     if (!probe.accel_counts[i].allFinite()) continue;
     while (k + 1 < motion.size() && motion.t_ns[k + 1] <= t_ns) ++k;

@@ -86,6 +86,14 @@ SynchronisedStreams synchronise(const ProbeStream& probe, const Outliers& outlie
     throw Error("the probe's and the tracker's streams share less than " + number_text(period_s) + " s");
   }
   const auto count = static_cast<std::size_t>(std::floor((end_s - begin_s) / period_s)) + 1;
+  // A handful of samples hours apart must not take the memory of a day.
+  constexpr double kMostPeriodsPerSample = 1000.0;
+  constexpr double kFewPeriods = 1e6;
+  const auto samples = static_cast<double>(std::min(probe.size(), tracker.size()));
+  if (static_cast<double>(count) > std::max(kFewPeriods, kMostPeriodsPerSample * samples)) {
+    throw Error("synchronisation: " + std::to_string(count) + " periods of " + number_text(period_s) +
+                " s are too many for " + number_text(samples) + " samples of a stream");
+  }
   const auto begin_ns = static_cast<std::int64_t>(std::ceil(begin_s / kNanosecond_s));
 
   SynchronisedStreams out;

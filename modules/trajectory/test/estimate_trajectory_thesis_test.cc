@@ -73,6 +73,21 @@ TEST(EstimateTrajectoryThesis, FollowsAKnownMotion) {
   EXPECT_TRUE(motion.cov_world_tip_m2.empty());
 }
 
+// Only the difference of the two latencies moves the streams; the output's times lose the probe's.
+TEST(EstimateTrajectoryThesis, TakesOffTheProbesLatency) {
+  Recording r = make_recording(0.0);
+  const TrajectoryResult prompt = estimate_trajectory_thesis(r, {});
+  constexpr std::int64_t kLate_ns = 8'000'000;
+  r.calibration.probe_latency_s = 8e-3;
+  for (auto& t_ns : r.probe.t_ns) t_ns += kLate_ns;
+  const TrajectoryResult late = estimate_trajectory_thesis(r, {});
+  ASSERT_EQ(late.motion.size(), prompt.motion.size());
+  for (std::size_t i = 0; i < late.motion.size(); ++i) {
+    EXPECT_EQ(late.motion.t_ns[i], prompt.motion.t_ns[i]);
+    EXPECT_NEAR((late.motion.p_world_tip_m[i] - prompt.motion.p_world_tip_m[i]).norm(), 0.0, 1e-9);
+  }
+}
+
 // The filter must be worth having: less noise than the tracker's interpolated poses.
 TEST(EstimateTrajectoryThesis, LowersTheTrackersNoise) {
   const TrajectoryResult result = estimate_trajectory_thesis(make_recording(1.0), {});

@@ -157,6 +157,62 @@ TEST(Fused, EstimatesTheSensorsRotation) {
   EXPECT_LT(errors.step_rms_m, 2.0 * known.step_rms_m);
 }
 
+// A gyroscope calibrated in the marker's frame beside an accelerometer that is not; and a hand that turns
+// by a few degrees only.
+TEST(Fused, EstimatesTheAccelerometersRotationAlone) {
+  HandMotion hand;
+  Sensors sensors;
+  sensors.duration_s = 8.0;
+  Recording recording = record(hand, sensors);
+  const Errors known = errors_of(estimate_trajectory_fused(recording, {}).motion, hand);
+  for (const double angle : {0.7, 2.9}) {
+    Recording turned = recording;
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, -1).normalized()));
+    for (auto& counts : turned.probe.accel_counts) counts = (turn * counts).eval();
+    turned.calibration.accelerometer.rotation_known = false;
+    const Errors errors = errors_of(estimate_trajectory_fused(turned, {}).motion, hand);
+    EXPECT_LT(errors.step_rms_m, 2.0 * known.step_rms_m) << angle;
+  }
+}
+
+// Without a gyroscope the rate is a state in the marker's frame, which the sensor's rotation does not turn.
+TEST(Fused, EstimatesTheSensorsRotationWithoutAGyroscope) {
+  HandMotion hand;
+  hand.wander_rad = 0.3;
+  Sensors sensors;
+  sensors.gyro = false;
+  sensors.rate_Hz = 400.0;
+  Recording recording = record(hand, sensors);
+  const Errors known = errors_of(estimate_trajectory_fused(recording, {}).motion, hand);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, -1).normalized()));
+  for (auto& counts : recording.probe.accel_counts) counts = (turn * counts).eval();
+  recording.calibration.accelerometer.rotation_known = false;
+  const Errors errors = errors_of(estimate_trajectory_fused(recording, {}).motion, hand);
+  EXPECT_LT(errors.step_rms_m, 2.0 * known.step_rms_m);
+}
+
+TEST(Fused, TakesAGyroscopeSlowerThanTheRows) {
+  HandMotion hand;
+  Recording recording = record(hand, Sensors{});
+  const Errors whole = errors_of(estimate_trajectory_fused(recording, {}).motion, hand);
+  for (std::size_t i = 0; i < recording.probe.size(); ++i) {
+    if (i % 8 != 3) recording.probe.gyro_counts[i].setConstant(std::nan(""));  // 500 Hz
+  }
+  const Errors errors = errors_of(estimate_trajectory_fused(recording, {}).motion, hand);
+  EXPECT_LT(errors.rotation_rms_rad, 1.5 * whole.rotation_rms_rad);
+  EXPECT_LT(errors.step_rms_m, 1.5 * whole.step_rms_m);
+}
+
+TEST(Fused, AGyroscopeThatNeverSpeaksIsNone) {
+  HandMotion hand;
+  Recording recording = record(hand, Sensors{});
+  Recording without = recording;
+  for (auto& counts : recording.probe.gyro_counts) counts.setConstant(std::nan(""));
+  without.probe.gyro_counts.clear();
+  EXPECT_EQ(estimate_trajectory_fused(recording, {}).motion.p_world_tip_m,
+            estimate_trajectory_fused(without, {}).motion.p_world_tip_m);
+}
+
 TEST(Fused, SameInputSameOutput) {
   const Recording recording = record(HandMotion{}, Sensors{});
   const TipMotion a = estimate_trajectory_fused(recording, {}).motion;

@@ -1,6 +1,6 @@
 #include "asperity/trajectory/synchronise.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <cmath>
 
 #include "asperity/base/error.h"
@@ -95,6 +95,21 @@ TEST(Synchronise, SaysWhatIsMissing) {
   EXPECT_THROW(synchronise(probe, none, tracker, -10.0, 5'000'000, false), Error);  // no time in common
   std::swap(tracker.t_ns[3], tracker.t_ns[4]);
   EXPECT_THROW(synchronise(probe, none, tracker, kLatency_s, 5'000'000, false), Error);
+}
+
+TEST(Synchronise, AFewSamplesHoursApartAreRefused) {
+  ProbeStream probe;
+  TrackerStream tracker;
+  for (int i = 0; i < 24; ++i) {
+    probe.t_ns.push_back(i * 3'500'000'000'000LL);
+    probe.accel_counts.emplace_back(0.0, 0.0, 0.0);
+    probe.force_counts.push_back(0.0);
+  }
+  tracker.t_ns = probe.t_ns;
+  tracker.T_world_marker.resize(24);
+  const Outliers none{std::vector<bool>(24, false), 0};
+  EXPECT_THAT([&] { synchronise(probe, none, tracker, 0.0, 5'000'000, false); },
+              testing::ThrowsMessage<Error>(testing::HasSubstr("too many for 24 samples")));
 }
 
 TEST(Synchronise, WithoutForceItIsNan) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "asperity/geometry/motion.h"
@@ -13,7 +14,8 @@ namespace asperity {
 struct Accuracy {
   double position_rms_m = 0.0;  // of the tip, the three axes together
   double tracker_rms_m = 0.0;   // the same for the raw poses, linearly interpolated, latency as calibrated
-  std::size_t compared = 0;     // true positions that both were compared at
+  double position_error_over_sigma = std::numeric_limits<double>::quiet_NaN();  // RMS by axis; 1: honest error bars
+  std::size_t compared = 0;  // true positions that both were compared at
   double band_high_cycles_per_mm = 0.0;
   std::optional<ProfileComparison> profile;  // nullopt: the truth has no heights
 };

@@ -6,6 +6,10 @@
 
 namespace asperity {
 
+// How many points `spacing_m` apart go into `length_m`, both ends included. Throws Error, before anybody takes
+// memory for them, for more than ten million (250 m at 0.025 mm): positions that jump about are no scan.
+std::size_t count_points(double length_m, double spacing_m);
+
 // Samples of several channels over arc length, in order of s and with near ones averaged.
 struct PathKnots {
   std::vector<double> s_m;                    // rises strictly

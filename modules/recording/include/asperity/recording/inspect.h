@@ -8,7 +8,7 @@
 namespace asperity {
 
 struct InspectConfig {
-  double quiet_s = 1.0;
+  double quiet_s = 0.4;
   double rest_acceleration_mps2 = 0.5;
   double rest_position_m = 0.001;
   double flip_angle_rad = 0.5;

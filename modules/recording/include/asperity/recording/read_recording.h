@@ -22,4 +22,8 @@ Truth read_truth(const std::filesystem::path& path, Problems& problems, const Re
 // True if the folder holds a recording.json of ours, whatever the state of the rest. Never throws.
 bool is_recording_folder(const std::filesystem::path& folder) noexcept;
 
+// True if the folder holds nothing but a recording that can be made again: a simulated or an imported one,
+// and no file that is not part of it. A measured one is never overwritten. Never throws.
+bool is_replaceable_recording(const std::filesystem::path& folder) noexcept;
+
 }  // namespace asperity

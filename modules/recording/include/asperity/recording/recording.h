@@ -16,7 +16,8 @@
 namespace asperity {
 
 // Raw counts as the probe sent them, one entry a row. A sensor slower than the rows has nan where it
-// has no new sample. gyro and force3 are empty, or as long as t_ns.
+// has no new sample, but for the accelerometer: reading fills its rows by straight lines. gyro and force3 are empty, or
+// as long as t_ns.
 struct ProbeStream {
   std::vector<std::int64_t> t_ns;
   std::vector<Eigen::Vector3d> accel_counts;

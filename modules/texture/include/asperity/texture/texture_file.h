@@ -8,7 +8,7 @@
 
 namespace asperity {
 
-// The content of a *.texture.json (recording-format.md), keys always in the same order, numbers so that
+// The content of a *.texture.json (docs/texture.md), keys always in the same order, numbers so that
 // they read back exactly. Throws Error for a number that is not finite, a name that is not UTF-8, or
 // coefficients of unequal count.
 std::string format_texture(const Texture& texture);
