@@ -12,7 +12,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // A sensor slower than the rows may have no sample here, but not half of one.
 Eigen::Vector3d slow_sample(const CsvReader& csv, const Columns3& columns, double limit, RowProblems& problems) {
-  const Eigen::Vector3d sample = numbers3(csv, columns);
+  Eigen::Vector3d sample = numbers3(csv, columns);
   if (sample.array().isNaN().all() || within(sample, limit)) return sample;
   problems.add("bad_sample", csv.line(), "a sample that is no reading; it was taken as missing");
   return Eigen::Vector3d::Constant(kNan);
