@@ -94,8 +94,6 @@ void choose_process_noise(SmootherProblem& problem, bool has_gyro) {
   problem.rate_scale = trial.rate_scale;
 }
 
-double redescending(double d2, double gate) { return d2 <= gate ? 1.0 : (gate / d2) * (gate / d2); }
-
 // Weights of the next pass from the residuals of this one.
 void weigh_poses(const Smoothed& smoothed, SmootherProblem& problem) {
   for (const Epoch& epoch : problem.epochs) {
@@ -103,8 +101,8 @@ void weigh_poses(const Smoothed& smoothed, SmootherProblem& problem) {
     const auto i = static_cast<std::size_t>(epoch.pose);
     const double dp = smoothed.position_residual[i].cwiseQuotient(problem.sigma_position).squaredNorm();
     const double dr = smoothed.rotation_residual[i].cwiseQuotient(problem.sigma_rotation).squaredNorm();
-    problem.position_weight[i] = redescending(dp, problem.gate_chi2);
-    problem.rotation_weight[i] = redescending(dr, problem.gate_chi2);
+    problem.position_weight[i] = inertial_smoother::redescending(dp, problem.gate_chi2);
+    problem.rotation_weight[i] = inertial_smoother::redescending(dr, problem.gate_chi2);
   }
 }
 

@@ -30,9 +30,6 @@ void propagate_back(Square& L, const TopRows& U) {
   L += LU;
 }
 
-// The weight of a measurement whose normalised square is d2: 1 inside the gate, falling as 1/d⁴.
-double redescending(double d2, double gate) { return d2 <= gate ? 1.0 : (gate / d2) * (gate / d2); }
-
 struct Record {
   Nominal x;  // after the update
   Square P;   // after the update

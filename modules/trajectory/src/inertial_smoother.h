@@ -91,6 +91,9 @@ struct Smoothed {
   State last_sigma;
 };
 
+// The weight of a measurement whose normalised square is d2: 1 inside the gate, falling as 1/d⁴.
+inline double redescending(double d2, double gate) { return d2 <= gate ? 1.0 : (gate / d2) * (gate / d2); }
+
 // The log-likelihood of the poses under the model (forward pass only; each pose's share bounded, so
 // that a flipped one cannot decide).
 double log_likelihood(const Problem& problem);

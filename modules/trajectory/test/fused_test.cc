@@ -117,6 +117,16 @@ TEST(Fused, FlippedPosesAndSpikesLoseTheirWeight) {
   EXPECT_TRUE(result.trustworthy);
 }
 
+// A converter's glitch strikes one channel; an isolated count cannot come from a sensor behind a low-pass.
+TEST(Fused, AGlitchInOneChannelIsReplaced) {
+  HandMotion hand;
+  Recording recording = record(hand, Sensors{});
+  const Errors clean = errors_of(estimate_trajectory_fused(recording, {}).motion, hand);
+  recording.probe.accel_counts[9000].y() += 20000.0;  // 96 m/s²
+  const TrajectoryResult result = estimate_trajectory_fused(recording, {});
+  EXPECT_LT(errors_of(result.motion, hand).step_rms_m, 1.1 * clean.step_rms_m);
+}
+
 TEST(Fused, SaturationAndLostSamplesStayLocal) {
   HandMotion hand;
   Sensors sensors;
