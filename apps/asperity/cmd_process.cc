@@ -53,6 +53,7 @@ class ProcessCommand : public Command {
   int run(const Observer& observer) override {
     std::set<std::string> names;
     for (const std::string& recording : recordings_) {
+      if (recording.empty()) throw UsageError("REC: a recording's folder has no name");
       if (!names.insert(folder_name(recording)).second) {
         throw UsageError("two recordings are called '" + printable(folder_name(recording)) + "'");
       }

@@ -29,7 +29,7 @@ CLI::Option* Command::require(CLI::Option* option) {
 bool Command::resolve() {
   if (!print_config_) {
     for (const CLI::Option* option : required_) {
-      if (option->count() == 0) throw UsageError(option->get_name(true) + " is missing");
+      if (option->count() == 0) throw UsageError(option->get_name(option->get_positional()) + " is missing");
     }
   }
   const std::vector<ConfigField> all = fields();

@@ -26,7 +26,12 @@ double length_option_m(const std::string& option, const std::string& text) {
 }
 
 double speed_option_mps(const std::string& option, const std::string& text) {
-  return parsed(parse_speed_mps, option, text);
+  const double speed_mps = parsed(parse_speed_mps, option, text);
+  constexpr double kFastest_mps = 10.0;  // no hand strokes faster
+  if (!(speed_mps > 0.0 && speed_mps <= kFastest_mps)) {
+    throw UsageError(option + ": '" + printable(text) + "' is not between 0 and 10 m/s");
+  }
+  return speed_mps;
 }
 
 std::array<double, 3> lengths_option_m(const std::string& option, const std::string& text) {
