@@ -7,6 +7,7 @@
 #include "asperity/base/error.h"
 #include "fused_problem.h"
 #include "inertial_smoother.h"
+#include "tip_motion.h"
 
 namespace asperity {
 
@@ -124,53 +125,6 @@ void adapt_sigma(const std::vector<Vector3d>& residuals, const SmootherProblem& 
   }
 }
 
-void write_motion(const InertialStream& inertial, const Smoothed& smoothed, const Vector3d& tip_in_marker,
-                  TipMotion& out) {
-  const std::size_t n = smoothed.sample.size();
-  const Vector3d arm_marker = tip_in_marker - smoothed.last.lever;
-  out.t_ns.resize(n);
-  out.p_world_tip_m.resize(n);
-  out.q_world_marker.resize(n);
-  out.v_world_tip_mps.resize(n);
-  out.a_world_tip_mps2.resize(n);
-  out.cov_world_tip_m2.resize(n);
-  out.force_N.resize(n);
-  const auto angular_acceleration = [&](std::size_t i) -> Vector3d {
-    // Over ±2 ms: a shorter difference is only the gyroscope's noise.
-    const auto reach = static_cast<std::size_t>(std::max(1.0, std::round(2e-3 / std::max(inertial.period_s, 1e-6))));
-    const std::size_t i0 = i >= reach ? i - reach : 0;
-    const std::size_t i1 = std::min(i + reach, n - 1);
-    const double dt = static_cast<double>(inertial.t_ns[static_cast<std::size_t>(smoothed.sample[i1])] -
-                                          inertial.t_ns[static_cast<std::size_t>(smoothed.sample[i0])]) *
-                      1e-9;
-    if (dt <= 0.0) return Vector3d::Zero();
-    return (smoothed.omega_world[i1] - smoothed.omega_world[i0]) / dt;
-  };
-  std::size_t epoch = 0;
-  const std::int64_t origin_ns = inertial.t_ns.front();
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto sample = static_cast<std::size_t>(smoothed.sample[i]);
-    const Vector3d arm = smoothed.q[i] * arm_marker;
-    const Vector3d& omega = smoothed.omega_world[i];
-    out.t_ns[i] = inertial.t_ns[sample];
-    out.q_world_marker[i] = smoothed.q[i];
-    out.p_world_tip_m[i] = smoothed.p[i] + arm;
-    out.v_world_tip_mps[i] = smoothed.v[i] + omega.cross(arm);
-    out.a_world_tip_mps2[i] = smoothed.a[i] + omega.cross(omega.cross(arm)) + angular_acceleration(i).cross(arm);
-    out.force_N[i] = inertial.force_N[sample];
-    const double t = static_cast<double>(out.t_ns[i] - origin_ns) * 1e-9;
-    while (epoch + 2 < smoothed.epoch_t.size() && smoothed.epoch_t[epoch + 1] <= t) ++epoch;
-    if (epoch + 1 < smoothed.epoch_t.size()) {
-      const double share =
-          std::clamp((t - smoothed.epoch_t[epoch]) / (smoothed.epoch_t[epoch + 1] - smoothed.epoch_t[epoch]), 0.0, 1.0);
-      out.cov_world_tip_m2[i] =
-          (1.0 - share) * smoothed.tip_covariance[epoch] + share * smoothed.tip_covariance[epoch + 1];
-    } else {
-      out.cov_world_tip_m2[i] = smoothed.tip_covariance.back();
-    }
-  }
-}
-
 double median_norm(const std::vector<Vector3d>& residuals, const SmootherProblem& problem) {
   std::vector<double> sizes;
   for (const Epoch& epoch : problem.epochs) {
@@ -181,116 +135,101 @@ double median_norm(const std::vector<Vector3d>& residuals, const SmootherProblem
   return *middle;
 }
 
-}  // namespace
-
-TrajectoryResult estimate_trajectory_fused(const Recording& recording, const FusedConfig& config,
-                                           const Observer& observer) {
-  const TrackerCalibration& tracker = recording.calibration.tracker;
-  if (recording.tracker.size() < 4) {
-    throw Error("tracker.csv: " + std::to_string(recording.tracker.size()) + " poses; at least 4 are needed");
-  }
-  observer.update("calibrate", 0.0);
-  const InertialStream inertial = calibrate_inertial(recording, config.inertial);
-  const std::int64_t origin_ns = inertial.t_ns.front();
-  const Layout layout = choose_layout(recording, config);
-
-  const double prior_latency_s = tracker.latency_s - recording.calibration.probe_latency_s;
-  double latency_s = prior_latency_s;  // of the tracker against the probe
-  // A σ of zero says that nobody measured it: the seed's tracker stands in (Fig. 9).
-  const TrackerCalibration usual;
-  const Vector3d sigma_stated_m = tracker.sigma_position_m.isZero() ? usual.sigma_position_m : tracker.sigma_position_m;
-  Vector3d sigma_position = sigma_stated_m.cwiseMax(kPositionFloor_m);
-  Vector3d sigma_rotation =
-      (tracker.sigma_rotation_rad.isZero() ? usual.sigma_rotation_rad : tracker.sigma_rotation_rad)
-          .cwiseMax(kRotationFloor_rad);
-  double process_scale = config.process_noise_scale;
-  double rate_scale = config.process_noise_scale > 0.0 ? config.process_noise_scale : 1.0;
-  std::vector<double> position_weight;
-  std::vector<double> rotation_weight;
+// What one pass of filter and smoother hands to the next.
+struct Estimates {
+  double latency_s = 0.0;  // of the tracker against the probe
+  Vector3d sigma_position_m;
+  Vector3d sigma_rotation_rad;
+  double process_scale = 1.0;
+  double rate_scale = 1.0;
   bool gyro_turns_too = true;
   Nominal guess;
-  SmootherProblem problem;
-  Smoothed smoothed;
-  for (int pass = 0; pass < config.passes; ++pass) {
-    problem = inertial_smoother::make_problem(recording, inertial, config, latency_s, origin_ns);
-    problem.layout = layout;
-    problem.gravity = recording.info.gravity_world_mps2;
-    problem.sigma_position = sigma_position;
-    problem.sigma_rotation = sigma_rotation;
-    problem.time_sigma = config.tracker_time_sigma_s;
-    problem.gate_chi2 = config.gate_chi2;
-    problem.accel_bias_psd = std::pow(config.accel_bias_walk_mps2_rts, 2);
-    problem.gyro_bias_psd =
-        std::pow(inertial.has_gyro ? config.gyro_bias_walk_radps_rts : config.angular_accel_radps2_rtHz, 2);
-    problem.start_covariance = prior(recording, inertial, config, layout);
-    problem.gate_innovations = pass == 0;
-    if (pass > 0) {
-      problem.position_weight = position_weight;
-      problem.rotation_weight = rotation_weight;
-    } else {
-      guess = inertial_smoother::first_guess(recording, problem);
-    }
-    problem.start = guess;
-    problem.start.latency = prior_latency_s - latency_s;
-    problem.process_scale = process_scale > 0.0 ? process_scale : 1.0;
-    problem.rate_scale = rate_scale;
-    if (!recording.calibration.accelerometer.rotation_known) {
-      if (pass == 0) {
-        inertial_smoother::choose_mounting(problem, inertial.has_gyro);
-        guess.misalignment = problem.start.misalignment;
-        gyro_turns_too = problem.gyro_turns_too;
-      }
-      problem.gyro_turns_too = gyro_turns_too;
-    }
-    if (config.process_noise_scale == 0.0 && pass < 2) {
-      observer.update("noise", 0.0);
-      choose_process_noise(problem, inertial.has_gyro);
-      process_scale = problem.process_scale;
-      rate_scale = problem.rate_scale;
-    }
-    smoothed = inertial_smoother::smooth(problem, recording.calibration.tip_in_marker_m, observer);
+  std::vector<double> position_weight;
+  std::vector<double> rotation_weight;
+};
 
-    if (config.adapt_tracker_noise && pass + 1 < config.passes) {
-      adapt_sigma(smoothed.position_residual, problem, kPositionFloor_m, sigma_position);
-      adapt_sigma(smoothed.rotation_residual, problem, kRotationFloor_rad, sigma_rotation);
-    }
-    problem.sigma_position = sigma_position;
-    problem.sigma_rotation = sigma_rotation;
-    weigh_poses(smoothed, problem);
-    position_weight = problem.position_weight;
-    rotation_weight = problem.rotation_weight;
-    if (pass + 1 < config.passes) {
-      if (layout.latency >= 0) latency_s += smoothed.last.latency;
-      if (!recording.calibration.accelerometer.rotation_known) guess.misalignment = smoothed.last.misalignment;
-    }
+double prior_latency_s(const Calibration& calibration) {
+  return calibration.tracker.latency_s - calibration.probe_latency_s;
+}
+
+// A σ of zero says that nobody measured it: the seed's tracker stands in (Fig. 9).
+Vector3d stated_sigma_m(const TrackerCalibration& tracker) {
+  const Vector3d sigma_m =
+      tracker.sigma_position_m.isZero() ? TrackerCalibration{}.sigma_position_m : tracker.sigma_position_m;
+  return sigma_m.cwiseMax(kPositionFloor_m);
+}
+
+Estimates first_estimates(const Calibration& calibration, const FusedConfig& config) {
+  const TrackerCalibration& tracker = calibration.tracker;
+  Estimates out;
+  out.latency_s = prior_latency_s(calibration);
+  out.sigma_position_m = stated_sigma_m(tracker);
+  out.sigma_rotation_rad =
+      (tracker.sigma_rotation_rad.isZero() ? TrackerCalibration{}.sigma_rotation_rad : tracker.sigma_rotation_rad)
+          .cwiseMax(kRotationFloor_rad);
+  if (config.process_noise_scale > 0.0) out.process_scale = out.rate_scale = config.process_noise_scale;
+  return out;
+}
+
+// The problem of one pass, laid out anew with the latency in hand.
+SmootherProblem prepare(const Recording& recording, const InertialStream& inertial, const FusedConfig& config,
+                        const Layout& layout, const Estimates& estimates) {
+  SmootherProblem problem =
+      inertial_smoother::make_problem(recording, inertial, config, estimates.latency_s, inertial.t_ns.front());
+  problem.layout = layout;
+  problem.gravity = recording.info.gravity_world_mps2;
+  problem.sigma_position = estimates.sigma_position_m;
+  problem.sigma_rotation = estimates.sigma_rotation_rad;
+  problem.time_sigma = config.tracker_time_sigma_s;
+  problem.gate_chi2 = config.gate_chi2;
+  problem.accel_bias_psd = std::pow(config.accel_bias_walk_mps2_rts, 2);
+  problem.gyro_bias_psd =
+      std::pow(inertial.has_gyro ? config.gyro_bias_walk_radps_rts : config.angular_accel_radps2_rtHz, 2);
+  problem.process_scale = estimates.process_scale;
+  problem.rate_scale = estimates.rate_scale;
+  problem.gyro_turns_too = estimates.gyro_turns_too;
+  problem.start_covariance = prior(recording, inertial, config, layout);
+  problem.gate_innovations = estimates.position_weight.empty();
+  if (problem.gate_innovations) {
+    problem.start = inertial_smoother::first_guess(recording, problem);
+  } else {
+    problem.start = estimates.guess;
+    problem.position_weight = estimates.position_weight;
+    problem.rotation_weight = estimates.rotation_weight;
   }
+  problem.start.latency = prior_latency_s(recording.calibration) - estimates.latency_s;
+  return problem;
+}
 
-  if (layout.latency >= 0) latency_s += smoothed.last.latency;
-  // What the estimate adds to the prior moves each stream's latency by its share of the prior variance.
-  const double added_s = latency_s - prior_latency_s;
-  const double probe_share =
-      layout.latency < 0
-          ? 0.0
-          : std::pow(recording.calibration.probe_latency_sigma_s / latency_sigma_s(recording.calibration), 2);
-  const double probe_latency_s = recording.calibration.probe_latency_s - probe_share * added_s;
+// Takes from a smoothed pass what the next one starts from.
+void refine(const Recording& recording, const FusedConfig& config, const Smoothed& smoothed, SmootherProblem& problem,
+            Estimates& estimates) {
+  if (config.adapt_tracker_noise) {
+    adapt_sigma(smoothed.position_residual, problem, kPositionFloor_m, problem.sigma_position);
+    adapt_sigma(smoothed.rotation_residual, problem, kRotationFloor_rad, problem.sigma_rotation);
+  }
+  estimates.sigma_position_m = problem.sigma_position;
+  estimates.sigma_rotation_rad = problem.sigma_rotation;
+  if (problem.layout.latency >= 0) estimates.latency_s += smoothed.last.latency;
+  if (!recording.calibration.accelerometer.rotation_known) estimates.guess.misalignment = smoothed.last.misalignment;
+}
 
-  TrajectoryResult result;
-  write_motion(inertial, smoothed, recording.calibration.tip_in_marker_m, result.motion);
-  const bool finite = std::all_of(result.motion.p_world_tip_m.begin(), result.motion.p_world_tip_m.end(),
-                                  [](const Vector3d& p) { return p.allFinite(); });
-  if (!finite) throw Error("the trajectory's estimate is not finite: check the calibration's magnitudes");
-  for (auto& t_ns : result.motion.t_ns) t_ns -= std::llround(probe_latency_s * 1e9);
-  result.problems = inertial.problems;
+// The measurements of the run and what it distrusted.
+void report(const InertialStream& inertial, const SmootherProblem& problem, const Smoothed& smoothed,
+            const Calibration& calibration, double latency_s, double probe_latency_s, TrajectoryResult& result) {
+  const Layout& layout = problem.layout;
   std::size_t poses = 0;
   std::size_t outliers = 0;
   for (const Epoch& epoch : problem.epochs) {
     if (epoch.pose < 0) continue;
     ++poses;
     const auto i = static_cast<std::size_t>(epoch.pose);
-    outliers += position_weight[i] < 0.5 || rotation_weight[i] < 0.5;
+    outliers += problem.position_weight[i] < 0.5 || problem.rotation_weight[i] < 0.5;
   }
-  if (outliers > 0)
+  result.problems = inertial.problems;
+  if (outliers > 0) {
     result.problems.push_back({"pose_outlier", "tracker poses far from the rest lost their weight", outliers});
+  }
   auto& figures = result.figures;
   figures["poses_used"] = static_cast<double>(poses - outliers);
   figures["poses_outlying"] = static_cast<double>(outliers);
@@ -304,9 +243,8 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
   if (!inertial.has_gyro) figures["angular_accel_radps2_rtHz"] = std::sqrt(problem.gyro_bias_psd * problem.rate_scale);
   figures["accel_bias_mps2"] = smoothed.last.ba.norm();
   figures["latency_prior_sigmas"] =
-      layout.latency >= 0 ? std::abs(added_s) / latency_sigma_s(recording.calibration) : 0.0;
-  figures["tracker_noise_ratio"] =
-      problem.sigma_position.cwiseQuotient(sigma_stated_m.cwiseMax(kPositionFloor_m)).maxCoeff();
+      layout.latency >= 0 ? std::abs(latency_s - prior_latency_s(calibration)) / latency_sigma_s(calibration) : 0.0;
+  figures["tracker_noise_ratio"] = problem.sigma_position.cwiseQuotient(stated_sigma_m(calibration.tracker)).maxCoeff();
   figures["probe_saturated_share"] = static_cast<double>(inertial.saturated) / static_cast<double>(inertial.size());
   figures["position_residual_median_m"] = median_norm(smoothed.position_residual, problem);
   figures["rotation_residual_median_rad"] = median_norm(smoothed.rotation_residual, problem);
@@ -320,6 +258,56 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
     }
   }
   figures["poses_outlying_share"] = static_cast<double>(outliers) / static_cast<double>(poses);
+}
+
+}  // namespace
+
+TrajectoryResult estimate_trajectory_fused(const Recording& recording, const FusedConfig& config,
+                                           const Observer& observer) {
+  if (recording.tracker.size() < 4) {
+    throw Error("tracker.csv: " + std::to_string(recording.tracker.size()) + " poses; at least 4 are needed");
+  }
+  const Calibration& calibration = recording.calibration;
+  observer.update("calibrate", 0.0);
+  const InertialStream inertial = calibrate_inertial(recording, config.inertial);
+  const Layout layout = choose_layout(recording, config);
+
+  Estimates estimates = first_estimates(calibration, config);
+  SmootherProblem problem;
+  Smoothed smoothed;
+  for (int pass = 0; pass < config.passes; ++pass) {
+    problem = prepare(recording, inertial, config, layout, estimates);
+    if (pass == 0) {
+      if (!calibration.accelerometer.rotation_known) inertial_smoother::choose_mounting(problem, inertial.has_gyro);
+      estimates.guess = problem.start;
+      estimates.gyro_turns_too = problem.gyro_turns_too;
+    }
+    if (config.process_noise_scale == 0.0 && pass < 2) {
+      observer.update("noise", 0.0);
+      choose_process_noise(problem, inertial.has_gyro);
+      estimates.process_scale = problem.process_scale;
+      estimates.rate_scale = problem.rate_scale;
+    }
+    smoothed = inertial_smoother::smooth(problem, calibration.tip_in_marker_m, observer);
+    if (pass + 1 < config.passes) refine(recording, config, smoothed, problem, estimates);
+    weigh_poses(smoothed, problem);
+    estimates.position_weight = problem.position_weight;
+    estimates.rotation_weight = problem.rotation_weight;
+  }
+
+  // What the estimate adds to the prior moves each stream's latency by its share of the prior variance.
+  const double latency_s = estimates.latency_s + (layout.latency >= 0 ? smoothed.last.latency : 0.0);
+  const double probe_share =
+      layout.latency >= 0 ? std::pow(calibration.probe_latency_sigma_s / latency_sigma_s(calibration), 2) : 0.0;
+  const double probe_latency_s = calibration.probe_latency_s - probe_share * (latency_s - prior_latency_s(calibration));
+
+  TrajectoryResult result;
+  result.motion = inertial_smoother::make_tip_motion(inertial, smoothed, calibration.tip_in_marker_m);
+  const bool finite = std::all_of(result.motion.p_world_tip_m.begin(), result.motion.p_world_tip_m.end(),
+                                  [](const Vector3d& p) { return p.allFinite(); });
+  if (!finite) throw Error("the trajectory's estimate is not finite: check the calibration's magnitudes");
+  for (auto& t_ns : result.motion.t_ns) t_ns -= std::llround(probe_latency_s * 1e9);
+  report(inertial, problem, smoothed, calibration, latency_s, probe_latency_s, result);
   return result;
 }
 
