@@ -31,7 +31,7 @@ Circle fit_algebraic(const std::vector<Eigen::Vector2d>& p, const std::vector<do
     const Eigen::Vector2d& q = p[static_cast<std::size_t>(i)];
     rows.row(i) = std::sqrt(w[static_cast<std::size_t>(i)]) * Eigen::RowVector4d(q.squaredNorm(), q.x(), q.y(), 1.0);
   }
-  const Eigen::JacobiSVD<Eigen::MatrixX4d> svd(rows, Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixX4d> svd(rows, Eigen::ComputeFullV);
   Eigen::Vector4d a;
   if (svd.singularValues()(3) < 1e-12 * svd.singularValues()(0)) {
     a = svd.matrixV().col(3);

@@ -35,7 +35,7 @@ PlaneFit fit_plane(std::span<const Eigen::Vector3d> points_m, std::span<const do
     const double w = weights.empty() ? 1.0 : weights[i];
     rows.row(static_cast<Eigen::Index>(i)) = std::sqrt(w / sum) * (points_m[i] - centroid).transpose();
   }
-  const Eigen::JacobiSVD<Eigen::MatrixX3d> svd(rows, Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixX3d> svd(rows, Eigen::ComputeFullV);
 
   PlaneFit fit;
   fit.centroid_m = centroid;
