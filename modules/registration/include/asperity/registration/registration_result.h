@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "asperity/base/problem.h"
+#include "asperity/geometry/pose.h"
+
+namespace asperity {
+
+// A scan path as registration wants it, world frame. `outward_world` is empty or holds, for each point, the
+// direction from the surface towards the probe; `sigma_m` is the standard deviation of a point along the
+// surface's normal, 0 if unknown.
+struct MeasuredPath {
+  std::vector<Eigen::Vector3d> p_world_m;
+  std::vector<Eigen::Vector3d> outward_world;
+  double sigma_m = 0.0;
+};
+
+enum class StopRule { kErrorChange, kPoseChange, kStalled, kIterationLimit };
+inline constexpr std::array<std::string_view, 4> kStopRuleNames{"error_change", "pose_change", "stalled",
+                                                                "iteration_limit"};
+
+// A motion of the path over the mesh that changes the distances too little to be determined.
+struct UndeterminedMotion {
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();   // rad, about `centre_mesh_m`
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  // m; turn and shift scaled so that points move 1 m RMS
+  Eigen::Vector3d centre_mesh_m = Eigen::Vector3d::Zero();
+  double sigma_m = 0.0;     // standard deviation of the points' RMS motion along it
+  std::string description;  // in words: "slides along (0.00, 1.00, 0.00)"
+};
+
+// Another pose at which the path fits the mesh.
+struct RunnerUp {
+  Pose T_mesh_world;
+  double rms_m = 0.0;       // residual there
+  double distance_m = 0.0;  // RMS distance of the path's points between the two poses
+  double turn_rad = 0.0;    // angle between the two
+};
+
+// Where a scan path lies on a mesh.
+struct RegistrationResult {
+  Pose T_mesh_world;
+  double rms_m = 0.0;   // root mean square distance of the inliers to the surface
+  double mean_m = 0.0;  // mean distance of all points (the seed's measure, §5.4)
+  std::size_t points = 0;
+  std::size_t outliers = 0;
+  int iterations = 0;
+  bool converged = false;
+  StopRule stopped_by = StopRule::kIterationLimit;
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  // of (turn rad, shift m) about
+  Eigen::Vector3d centre_mesh_m = Eigen::Vector3d::Zero();                       // the points' mean, mesh frame
+  std::vector<UndeterminedMotion> undetermined;
+  std::optional<RunnerUp> runner_up;
+  bool trustworthy = true;
+  std::string verdict;  // in words
+  Problems problems;
+};
+
+}  // namespace asperity

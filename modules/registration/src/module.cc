@@ -1,0 +1,1 @@
+#include "asperity/registration/registration_result.h"
