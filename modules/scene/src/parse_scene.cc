@@ -41,12 +41,14 @@ class Place {
   void only(std::initializer_list<std::string_view> known) const {
     if (!value_.is_object()) fail("is not an object");
     for (const auto& [key, value] : value_.items()) {
-      if (std::find(known.begin(), known.end(), key) == known.end()) fail("has an unknown key '" + printable(key) + "'");
+      if (std::find(known.begin(), known.end(), key) == known.end())
+        fail("has an unknown key '" + printable(key) + "'");
     }
   }
   std::size_t list(std::size_t most) const {
     if (!value_.is_array()) fail("is not a list");
-    if (value_.size() > most) fail("has " + std::to_string(value_.size()) + " entries, more than " + std::to_string(most));
+    if (value_.size() > most)
+      fail("has " + std::to_string(value_.size()) + " entries, more than " + std::to_string(most));
     return value_.size();
   }
   double number(double low, double high) const {
@@ -100,7 +102,8 @@ SceneObject parse_object(const Place& place) {
     SceneTexture entry;
     entry.index = static_cast<int>(texture.at("index").integer(0, std::numeric_limits<std::int32_t>::max()));
     entry.file = texture.at("file").file_name();
-    if (!seen.insert(entry.index).second) texture.fail("has the index " + std::to_string(entry.index) + " a second time");
+    if (!seen.insert(entry.index).second)
+      texture.fail("has the index " + std::to_string(entry.index) + " a second time");
     object.textures.push_back(std::move(entry));
   }
   std::sort(object.textures.begin(), object.textures.end(),
@@ -115,8 +118,10 @@ void check_depth(std::string_view text, const std::string& name) {
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (quoted) {
-      if (text[i] == '\\') ++i;
-      else if (text[i] == '"') quoted = false;
+      if (text[i] == '\\')
+        ++i;
+      else if (text[i] == '"')
+        quoted = false;
       continue;
     }
     if (text[i] == '"') quoted = true;
@@ -143,11 +148,13 @@ Scene parse_scene(std::string_view text, const std::string& name) {
   root.only({"format", "version", "mesh", "unit_m", "textures", "stiffness_N_per_m", "friction", "T_mesh_world",
              "T_world_mesh", "material", "objects", "extra"});
   if (root.at("format").value() != "asperity-scene") root.at("format").fail("is not \"asperity-scene\"");
-  if (root.at("version").integer(0, 1000000) != 1) root.at("version").fail("is not 1, the only one that this program knows");
+  if (root.at("version").integer(0, 1000000) != 1)
+    root.at("version").fail("is not 1, the only one that this program knows");
 
   Scene scene;
   scene.objects.push_back(parse_object(root));
-  if (root.has("stiffness_N_per_m")) scene.stiffness_N_per_m = root.at("stiffness_N_per_m").number(0.0, kStiffest_N_per_m);
+  if (root.has("stiffness_N_per_m"))
+    scene.stiffness_N_per_m = root.at("stiffness_N_per_m").number(0.0, kStiffest_N_per_m);
   if (root.has("friction")) scene.friction = root.at("friction").number(0.0, kRoughest);
   if (root.has("T_mesh_world")) scene.T_mesh_world = root.at("T_mesh_world").pose();
   if (root.has("objects")) {
