@@ -151,7 +151,7 @@ TEST(CornerNormals, OfASphereAreRadialAndOfABoxSquare) {
   for (std::size_t t = 0; t < ball.mesh.triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Vector3d radial = ball.mesh.vertices_m[ball.mesh.triangles[t][k]].normalized();
-      EXPECT_GT(ball.normals[t][k].dot(radial), std::cos(0.01));  // facets of 0.1 rad, nearly even
+      EXPECT_GT(ball.normals[t][k].dot(radial), std::cos(0.015));  // facets of 0.1 rad, uneven near the poles
     }
   }
   const MeshSurface cube(box({1, 1, 1}));

@@ -111,7 +111,7 @@ bool attempt(ProcessResult& result, const char* kind, const char* what, Step ste
 Texture make_texture(const ProcessResult& result, const Recording& recording, const ProcessConfig& config) {
   Texture texture;
   texture.name = recording.info.object;
-  texture.fourier1d = result.fit->texture;
+  texture.model = result.fit->texture;
   texture.lift_m = result.fit->lift_m;
   if (std::isfinite(result.compliance.k_c)) texture.compliance_kc = result.compliance.k_c;
   if (result.stiffness.measured) texture.stiffness_N_per_m = 1e3 * result.stiffness.stiffness_N_per_mm;
@@ -129,7 +129,7 @@ Texture make_texture(const ProcessResult& result, const Recording& recording, co
   }
   const bool fused = config.method == Method::kFused;
   const double low = fused ? config.profile.cutoff_cycles_per_mm : config.thesis.profile.cutoff_cycles_per_mm;
-  const double fit_high = static_cast<double>(texture.fourier1d.a_m.size()) / texture.fourier1d.length_mm;
+  const double fit_high = static_cast<double>(result.fit->texture.a_m.size()) / result.fit->texture.length_mm;
   const double nyquist = 0.5 / (result.profile.spacing_m * 1e3);
   texture.band_cycles_per_mm = {low, std::min(fit_high, nyquist)};
   texture.source.config_json = result.config_json;
