@@ -49,8 +49,7 @@ std::vector<Eigen::Vector3d> normals_along(const MeshSurface& surface, const std
   for (const Eigen::Vector3d& p_m : points) {
     at = at.found() ? surface.bvh.closest_point(p_m, at) : surface.bvh.closest_point(p_m);
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    for (int k = 0; k < 3; ++k)
-      normal += at.barycentric[k] * surface.normals[at.triangle][static_cast<std::size_t>(k)];
+    for (int k = 0; k < 3; ++k) normal += at.barycentric[k] * surface.normals[at.triangle][static_cast<std::size_t>(k)];
     const double length = normal.norm();
     if (length > 0.0) {
       out.push_back(normal / length);
@@ -110,7 +109,8 @@ MeshBase::MeshBase(std::shared_ptr<const MeshSurface> surface, const SimulatedSh
       const Eigen::Vector3d small = log_rotation(Eigen::Quaterniond::FromTwoVectors(at(i - step), at(i)));
       turn = (exp_rotation(follow_normal * small) * turn).normalized();
       const Eigen::Vector4d& before = turns[static_cast<std::size_t>(i - step)];
-      turns[static_cast<std::size_t>(i)] = before.dot(turn.coeffs()) < 0.0 ? Eigen::Vector4d(-turn.coeffs()) : turn.coeffs();
+      turns[static_cast<std::size_t>(i)] =
+          before.dot(turn.coeffs()) < 0.0 ? Eigen::Vector4d(-turn.coeffs()) : turn.coeffs();
     }
   }
   turns_ = {std::move(turns), first_m, stroke.spacing_m};
@@ -134,9 +134,7 @@ Eigen::Vector3d MeshBase::normal(double a_m) const { return T_world_mesh_.rotati
 Eigen::Vector3d MeshBase::along(double a_m) const { return T_world_mesh_.rotation * frame(a_m).along; }
 Eigen::Vector3d MeshBase::across(double a_m) const { return T_world_mesh_.rotation * frame(a_m).across; }
 
-Eigen::Quaterniond MeshBase::turn(double a_m) const {
-  return Eigen::Quaterniond(turns_.value(a_m)).normalized();
-}
+Eigen::Quaterniond MeshBase::turn(double a_m) const { return Eigen::Quaterniond(turns_.value(a_m)).normalized(); }
 
 Ground MeshBase::ground(double a_m, double v_m) const {
   const Frame f = frame(a_m);

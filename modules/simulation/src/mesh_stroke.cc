@@ -98,13 +98,15 @@ std::vector<Eigen::Vector3d> go_on(const MeshSurface& surface, const Eigen::Vect
 std::vector<Eigen::Vector3d> join(const MeshSurface& surface, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                   std::size_t number) {
   const auto fail = [&] {
-    return Error(fmt::format("simulation.shape.through: no way over the surface from point {} to point {}: pick more "
-                             "points between them",
-                             number, number + 1));
+    return Error(
+        fmt::format("simulation.shape.through: no way over the surface from point {} to point {}: pick more "
+                    "points between them",
+                    number, number + 1));
   };
   std::vector<Eigen::Vector3d> line{from, to};
   const double chord_m = (to - from).norm();
-  if (!(chord_m > 0.0)) throw Error(fmt::format("simulation.shape.through: points {} and {} are the same", number, number + 1));
+  if (!(chord_m > 0.0))
+    throw Error(fmt::format("simulation.shape.through: points {} and {} are the same", number, number + 1));
   const int levels = 4 + static_cast<int>(std::ceil(std::log2(std::max(1.0, chord_m / kSpacing_m))));
   double longest_m = chord_m;
   for (int level = 0; level < levels && longest_m > kSpacing_m; ++level) {
@@ -156,21 +158,25 @@ std::vector<Eigen::Vector3d> parse_points_m(std::string_view text, std::string_v
   return out;
 }
 
-MeshStroke trace_mesh_stroke(const MeshSurface& surface, const std::vector<Eigen::Vector3d>& picked_m, double length_m) {
+MeshStroke trace_mesh_stroke(const MeshSurface& surface, const std::vector<Eigen::Vector3d>& picked_m,
+                             double length_m) {
   const Axes axes = axes_of(surface.mesh);
   std::vector<Eigen::Vector3d> points;
   for (std::size_t i = 0; i < picked_m.size(); ++i) {
     const ClosestPoint at = surface.bvh.closest_point(picked_m[i]);
     if (!(at.distance_m <= 0.1 * axes.size_m)) {
-      throw Error(fmt::format("simulation.shape.through: point {} is {:.3g} m from a mesh of {:.3g} m: are the points in metres?",
-                              i + 1, at.distance_m, axes.size_m));
+      throw Error(fmt::format(
+          "simulation.shape.through: point {} is {:.3g} m from a mesh of {:.3g} m: are the points in metres?", i + 1,
+          at.distance_m, axes.size_m));
     }
     points.push_back(at.p_m);
   }
   if (points.empty()) {
     const RayHit hit = surface.bvh.cast_ray(axes.centre_m + axes.size_m * axes.shortest, -axes.shortest);
-    points.push_back(surface.bvh.closest_point(hit.found() ? Eigen::Vector3d(axes.centre_m + (axes.size_m - hit.t) * axes.shortest)
-                                                           : axes.centre_m)
+    points.push_back(surface.bvh
+                         .closest_point(hit.found()
+                                            ? Eigen::Vector3d(axes.centre_m + (axes.size_m - hit.t) * axes.shortest)
+                                            : axes.centre_m)
                          .p_m);
   }
 
@@ -198,14 +204,15 @@ MeshStroke trace_mesh_stroke(const MeshSurface& surface, const std::vector<Eigen
   for (std::size_t i = 0; i + 1 < line.size(); ++i) stroke.length_m += (line[i + 1] - line[i]).norm();
   if (points.size() == 1) stroke.length_m = length_m;
   if (stroke.length_m > kLongest_m)
-    throw Error(fmt::format("simulation.shape.through: a path of {:.3g} m is more than {} m", stroke.length_m, kLongest_m));
+    throw Error(
+        fmt::format("simulation.shape.through: a path of {:.3g} m is more than {} m", stroke.length_m, kLongest_m));
 
   // The directions at the ends over a millimetre, where the last step alone is at the facets' mercy.
   const std::size_t reach = std::min<std::size_t>(10, line.size() - 1);
   const std::vector<Eigen::Vector3d> before =
       go_on(surface, line.front(), (line.front() - line[reach]).normalized(), kMargin_m + kSpacing_m);
-  const std::vector<Eigen::Vector3d> after =
-      go_on(surface, line.back(), (line.back() - line[line.size() - 1 - reach]).normalized(), kMargin_m + 3.0 * kSpacing_m);
+  const std::vector<Eigen::Vector3d> after = go_on(
+      surface, line.back(), (line.back() - line[line.size() - 1 - reach]).normalized(), kMargin_m + 3.0 * kSpacing_m);
   std::vector<Eigen::Vector3d> whole(before.rbegin(), before.rend());
   whole.insert(whole.end(), line.begin(), line.end());
   whole.insert(whole.end(), after.begin(), after.end());

@@ -73,7 +73,7 @@ struct SimulatedShapeConfig {
   std::array<double, 3> normal{0.0, -0.9397, -0.3420};    // outward: up and 20 degrees towards the camera
   std::array<double, 3> stroke_direction{1.0, 0.0, 0.0};  // made perpendicular to the normal
 
-  std::string mesh_file;                             // mesh: read by read_simulated_mesh.h
+  std::string mesh_file;                             // mesh: see read_mesh.h
   double mesh_unit_m = 1.0;                          // mesh: the length of the file's unit
   std::string through;                               // mesh: the path's points "x,y,z;…" in the mesh frame, m
   MeshPose mesh_pose = MeshPose::kInPlace;           // mesh
@@ -82,7 +82,8 @@ struct SimulatedShapeConfig {
 
   template <class V>
   void visit(V& v) {
-    v.choice("kind", kind, kSimulatedShapeNames, "base shape; a cylinder is scanned across its axis, a mesh along through");
+    v.choice("kind", kind, kSimulatedShapeNames,
+             "base shape; a cylinder is scanned across its axis, a mesh along through");
     v.field("cylinder_radius_m", cylinder_radius_m, "radius of the cylinder, m", {1e-3, 10.0});
     v.field("centre_m", centre_m, "middle of the stroke in the world frame, m", {-10.0, 10.0});
     v.field("normal", normal, "outward normal at the middle, world frame; need not be a unit vector", {-1.0, 1.0});

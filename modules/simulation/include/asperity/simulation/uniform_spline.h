@@ -48,7 +48,8 @@ class UniformSpline {
   Value node(std::ptrdiff_t i) const {
     const auto last = static_cast<std::ptrdiff_t>(nodes_.size()) - 1;
     if (i < 0) return 2.0 * nodes_.front() - nodes_[static_cast<std::size_t>(std::min(-i, last))];
-    if (i > last) return 2.0 * nodes_.back() - nodes_[static_cast<std::size_t>(std::max<std::ptrdiff_t>(2 * last - i, 0))];
+    if (i > last)
+      return 2.0 * nodes_.back() - nodes_[static_cast<std::size_t>(std::max<std::ptrdiff_t>(2 * last - i, 0))];
     return nodes_[static_cast<std::size_t>(i)];
   }
 
