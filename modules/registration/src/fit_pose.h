@@ -18,11 +18,11 @@ struct FitOptions {
   double isotropic = 1.0;
   double isotropic_decay = 0.6;
   int max_iterations = 60;
-  double step_sigmas = 1e-2;     // ends when the step is smaller, in standard deviations of the pose
-  double guess_sigma_m = 0.0;    // 0: no prior on the motion from `reference`
-  CentredPose reference;         // the guess
-  std::vector<Hold> holds;       // at a motion from `reference`
-  double fixed_scale_m = 0.0;    // 0: from the distances
+  double step_sigmas = 1e-2;   // ends when the step is smaller, in standard deviations of the pose
+  double guess_sigma_m = 0.0;  // 0: no prior on the motion from `reference`
+  CentredPose reference;       // the guess
+  std::vector<Hold> holds;     // at a motion from `reference`
+  double fixed_scale_m = 0.0;  // 0: from the distances
 };
 
 struct Fit {

@@ -40,7 +40,8 @@ class Matcher {
   // Finds the closest points at `pose`.
   void match(const CentredPose& pose);
 
-  std::size_t size() const { return x_m_.size(); }
+  std::size_t size() const { return matches_.size(); }
+  std::uint32_t chosen(std::size_t i) const { return chosen_[i]; }  // index in the set of the i-th
   const std::vector<Match>& matches() const { return matches_; }
   const std::vector<ClosestPoint>& closest() const { return closest_; }
 
@@ -48,8 +49,11 @@ class Matcher {
   double scale_m() const;
 
  private:
+  void pair(std::size_t i, const Eigen::Vector3d& outward_mesh);
+
   const RegistrationSurface* surface_;
   MatchRules rules_;
+  std::vector<std::uint32_t> chosen_;
   std::vector<Eigen::Vector3d> x_m_;
   std::vector<Eigen::Vector3d> outward_;
   std::vector<ClosestPoint> closest_;

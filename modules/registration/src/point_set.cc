@@ -4,30 +4,15 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 
 #include "asperity/base/error.h"
 
 namespace asperity::registration {
 namespace {
 
-// The median of |p[i-1] - 2 p[i] + p[i+1]| per axis over its value for normal deviates of standard deviation 1:
-// 0.6745 times the square root of 6. Blind to all that a path does slowly.
-double noise_of(std::span<const MeasuredPath> paths) {
-  std::vector<double> differences;
-  for (const MeasuredPath& path : paths) {
-    for (std::size_t i = 2; i < path.p_world_m.size(); ++i) {
-      const Eigen::Vector3d second = path.p_world_m[i - 2] - 2.0 * path.p_world_m[i - 1] + path.p_world_m[i];
-      if (!second.allFinite()) continue;
-      for (int k = 0; k < 3; ++k) differences.push_back(std::abs(second(k)));
-    }
-  }
-  if (differences.empty()) return 0.0;
-  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-  std::nth_element(differences.begin(), middle, differences.end());
-  return *middle / (0.6745 * std::sqrt(6.0));
-}
+constexpr double kThickness = 0.1;
 
 }  // namespace
 
@@ -74,10 +59,10 @@ PointSet gather_points(std::span<const MeasuredPath> paths, Problems& problems) 
     }
   }
   if (out.size() < 3) {
-    throw Error(fmt::format("registration: {} finite points; three are needed{}", out.size(),
-                            bad == 0 ? std::string()
-                                     : fmt::format(" (the first that is not finite: path {}, point {})", first_bad[0],
-                                                   first_bad[1])));
+    throw Error(fmt::format(
+        "registration: {} finite points; three are needed{}", out.size(),
+        bad == 0 ? std::string()
+                 : fmt::format(" (the first that is not finite: path {}, point {})", first_bad[0], first_bad[1])));
   }
   if (bad > 0) {
     problems.push_back({"not_finite_points",
@@ -98,8 +83,7 @@ PointSet gather_points(std::span<const MeasuredPath> paths, Problems& problems) 
     throw Error("registration: all points of the path coincide, or lie too far apart for their squares");
   }
   out.scatter_m2 /= static_cast<double>(out.size());
-  out.sigma_given = sigma_sum > 0.0;
-  out.sigma_m = out.sigma_given ? sigma_sum / static_cast<double>(out.size()) : noise_of(paths);
+  out.sigma_m = sigma_sum / static_cast<double>(out.size());
   return out;
 }
 
@@ -123,7 +107,6 @@ Eigen::Matrix<double, 6, 1> motion_between(const CentredPose& from, const Centre
 }
 
 Eigen::Matrix<double, 6, 6> motion_metric(const PointSet& points, const CentredPose& pose) {
-  constexpr double kThickness = 0.1;
   const Eigen::Matrix3d r = pose.rotation.toRotationMatrix();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(r * points.scatter_m2 * r.transpose());
   const double least_m2 = std::pow(kThickness * points.radius_m, 2);
@@ -132,6 +115,11 @@ Eigen::Matrix<double, 6, 6> motion_metric(const PointSet& points, const CentredP
   out.topLeftCorner<3, 3>() = axes.eigenvectors() * turning.asDiagonal() * axes.eigenvectors().transpose();
   out.bottomRightCorner<3, 3>().setIdentity();
   return out;
+}
+
+bool is_thin(const PointSet& points) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(points.scatter_m2, Eigen::EigenvaluesOnly);
+  return points.scatter_m2.trace() - axes.eigenvalues()(2) < std::pow(kThickness * points.radius_m, 2);
 }
 
 double rms_between(const PointSet& points, const CentredPose& a, const CentredPose& b) {

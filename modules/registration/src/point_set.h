@@ -21,8 +21,7 @@ struct PointSet {
   std::vector<std::uint32_t> path;
   Eigen::Matrix3d scatter_m2 = Eigen::Matrix3d::Zero();  // mean of x x'
   double radius_m = 0.0;                                 // root mean square of |x|
-  double sigma_m = 0.0;   // of a point along the normal: as given, or from the points' second differences
-  bool sigma_given = false;
+  double sigma_m = 0.0;  // of a point along the normal as given, the paths' mean; 0: not
 
   std::size_t size() const { return x_m.size(); }
 };
@@ -49,6 +48,9 @@ Eigen::Matrix<double, 6, 1> motion_between(const CentredPose& from, const Centre
 // The mean over the points of P'P, P = (-[y - centre]x, 1): a motion m moves them by sqrt(m' M m) RMS. A path that is
 // nearly straight counts as a tenth of its radius thick, lest turning about its own line be no motion at all.
 Eigen::Matrix<double, 6, 6> motion_metric(const PointSet& points, const CentredPose& pose);
+
+// Whether that tenth came into it.
+bool is_thin(const PointSet& points);
 
 // Root mean square distance of the points at two poses.
 double rms_between(const PointSet& points, const CentredPose& a, const CentredPose& b);

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "asperity/base/error.h"
 #include "asperity/geometry/mesh_adjacency.h"

@@ -56,9 +56,9 @@ struct RegistrationConfig {
   double isotropic = 1.0;
   double isotropic_decay = 0.6;
   double guess_sigma_m = 20e-3;
-  double undetermined_m = 0.2e-3;
+  double undetermined_m = 0.5e-3;
   double slide_m = 1e-3;
-  double surface_error_m = 10e-6;
+  double surface_error_m = 2e-6;
   StartsConfig starts;
 
   template <class V>
