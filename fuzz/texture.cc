@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const asperity::Error&) {
     return 0;
   }
-  if (!std::isfinite(asperity::evaluate(texture.fourier1d, 0.0123).height_m)) std::abort();
+  if (!std::isfinite(asperity::evaluate(std::get<asperity::Fourier1d>(texture.model), 0.0123).height_m)) std::abort();
   const std::string text = asperity::format_texture(texture);
   if (asperity::format_texture(asperity::parse_texture(text, "again")) != text) std::abort();
   return 0;

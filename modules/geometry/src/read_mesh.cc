@@ -1,0 +1,20 @@
+#include "asperity/geometry/read_mesh.h"
+
+#include <string>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/geometry/read_obj.h"
+
+namespace asperity {
+
+MeshFile read_mesh(const std::filesystem::path& path, const MeshLimits& limits) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  if (extension == ".obj") return read_obj(path, limits);
+  throw Error(path.string() + ": '" + printable(extension) + "' is not a mesh that can be read; .obj is");
+}
+
+}  // namespace asperity

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+#include "asperity/base/config.h"
+#include "asperity/geometry/motion.h"
+#include "asperity/registration/registration_result.h"
+
+namespace asperity {
+
+struct MeasuredPathConfig {
+  double spacing_m = 0.25e-3;
+
+  template <class V>
+  void visit(V& v) {
+    v.field("spacing_m", spacing_m, "of the points of a scan that are registered", {1e-6, 0.1});
+  }
+};
+
+// The points of a scan for registration (seed §5.4: "uniform, equidistant sampling"): the means of the samples in
+// contact over steps of `spacing_m`, so that a rest counts once. `usable` is empty or one a sample. `outward_world`
+// is the probe's axis, from the tip to the marker; empty if `tip_in_marker_m` is zero. `sigma_m` is the
+// median of the positions' standard deviation per axis, 0 if the motion has none.
+MeasuredPath measured_path(const TipMotion& motion, std::span<const char> usable,
+                           const Eigen::Vector3d& tip_in_marker_m, const MeasuredPathConfig& config);
+
+}  // namespace asperity

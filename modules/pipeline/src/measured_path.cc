@@ -1,0 +1,55 @@
+#include "asperity/pipeline/measured_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace asperity {
+
+namespace {
+
+double middle(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), half, values.end());
+  return *half;
+}
+
+}  // namespace
+
+MeasuredPath measured_path(const TipMotion& motion, std::span<const char> usable,
+                           const Eigen::Vector3d& tip_in_marker_m, const MeasuredPathConfig& config) {
+  MeasuredPath out;
+  const bool axis_known = tip_in_marker_m.norm() > 0.0;
+  Eigen::Vector3d first_m, sum_m = Eigen::Vector3d::Zero(), axis = Eigen::Vector3d::Zero();
+  std::size_t count = 0;
+  std::vector<double> sigma_m;
+  const auto close = [&] {
+    if (count == 0) return;
+    out.p_world_m.push_back(sum_m / static_cast<double>(count));
+    if (axis_known) out.outward_world.push_back(axis.normalized());
+    sum_m.setZero();
+    axis.setZero();
+    count = 0;
+  };
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    if (!usable.empty() && usable[i] == 0) {
+      close();
+      continue;
+    }
+    const Eigen::Vector3d& p_m = motion.p_world_tip_m[i];
+    if (count > 0 && (p_m - first_m).norm() >= config.spacing_m) close();
+    if (count == 0) first_m = p_m;
+    sum_m += p_m;
+    axis += motion.q_world_marker[i] * -tip_in_marker_m;
+    ++count;
+    if (!motion.cov_world_tip_m2.empty()) {
+      sigma_m.push_back(std::sqrt(std::max(0.0, motion.cov_world_tip_m2[i].trace() / 3.0)));
+    }
+  }
+  close();
+  out.sigma_m = middle(std::move(sigma_m));
+  return out;
+}
+
+}  // namespace asperity
