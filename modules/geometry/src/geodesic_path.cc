@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "asperity/base/error.h"
-#include "triangle_strip.h"
+#include "strip_funnel.h"
 
 namespace asperity {
 namespace {
@@ -216,7 +216,7 @@ GeodesicPath geodesic_path(const TriangleMesh& mesh, const MeshAdjacency& adjace
   check(mesh, adjacency, to);
   const Vector3d start = position_m(mesh, from);
   const Vector3d goal = position_m(mesh, to);
-  TriangleStrip strip = first_strip(mesh, adjacency, from, to);
+  TriangleStrip strip = find_strip(mesh, adjacency, from, to);
   GeodesicPath out;
   const auto limit = static_cast<int>(std::min<std::size_t>(1000 + 10 * strip.faces.size(), 1'000'000));
   for (;;) {

@@ -3,24 +3,15 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "asperity/geometry/mesh_adjacency.h"
-#include "asperity/geometry/mesh_path.h"
-#include "asperity/geometry/mesh_point.h"
+#include "asperity/geometry/triangle_strip.h"
 
 namespace asperity {
 
-// Triangles one after another, each joined to the next by an edge: edges[i] joins faces[i] to faces[i + 1].
-struct TriangleStrip {
-  std::vector<std::uint32_t> faces;
-  std::vector<std::uint32_t> edges;
-};
-
-// The first strip between two triangles: that of the shortest path over points on the edges. Throws Error
-// if there is none.
-TriangleStrip first_strip(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const MeshPoint& from,
-                          const MeshPoint& to);
-
-// The edge joining faces[i] to faces[i + 1], unfolded: its left end as seen along the strip, and its right.
+// The edge joining faces[i] to faces[i + 1] of a strip, unfolded: its left end as seen along the strip, and
+// its right.
 struct Portal {
   Eigen::Vector2d left;
   Eigen::Vector2d right;
