@@ -25,6 +25,16 @@ double length_option_m(const std::string& option, const std::string& text) {
   return parsed(parse_length_m, option, text);
 }
 
+double unit_option_m(const std::string& option, const std::string& text) {
+  const bool a_name = !text.empty() && text.find_first_of("0123456789+-.") == std::string::npos;
+  const double unit_m = length_option_m(option, a_name ? "1" + text : text);
+  constexpr double kLeast_m = 1e-9, kMost_m = 1e3;
+  if (!(unit_m >= kLeast_m && unit_m <= kMost_m)) {
+    throw UsageError(option + ": '" + printable(text) + "' is not between 1 nm and 1000 m");
+  }
+  return unit_m;
+}
+
 double speed_option_mps(const std::string& option, const std::string& text) {
   const double speed_mps = parsed(parse_speed_mps, option, text);
   constexpr double kFastest_mps = 10.0;  // no hand strokes faster
