@@ -177,8 +177,11 @@ SurfacePath make_surface_path(const TriangleMesh& mesh, const MeshAdjacency& adj
   }
   for (std::size_t i = 0; i + 1 < points.size(); ++i)
     join(mesh, adjacency, points[i], points[i + 1], s_m[i], s_m[i + 1], out);
-  // Pieces without length have no direction.
-  std::erase_if(out.pieces, [](const PathPiece& piece) { return piece.from == piece.to; });
+  // Pieces as short as rounding have no direction.
+  std::erase_if(out.pieces, [&](const PathPiece& piece) {
+    return (position_m(mesh, {piece.triangle, piece.to}) - position_m(mesh, {piece.triangle, piece.from})).norm() <=
+           1e-6 * edge_m;
+  });
   return out;
 }
 

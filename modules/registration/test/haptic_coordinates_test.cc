@@ -220,18 +220,18 @@ TEST(HapticCoordinates, GiveBackTheLengthAlongACurvedNoisyPath) {
     const auto result = assign_haptic_coordinates(mesh, make_adjacency(mesh), {noisy});
     const MeshBvh bvh(mesh);
     double worst_m = 0.0;
+    double square = 0.0;
     for (std::size_t i = 0; i < truth.size(); ++i) {
       const ClosestPoint c = bvh.closest_point(truth.p_mesh_m[i]);
       ASSERT_EQ(result.triangles[c.triangle].texture, 1);
       const Vector2d xy_mm = interpolated_mm(result.triangles[c.triangle], c.barycentric);
-      worst_m = std::max(worst_m, std::abs(1e-3 * xy_mm.x() - truth.s_m[i]));
+      const double error_m = 1e-3 * xy_mm.x() - truth.s_m[i];
+      worst_m = std::max(worst_m, std::abs(error_m));
+      square += error_m * error_m;
     }
-    RecordProperty("worst_mm_at_edge_" + std::to_string(edge_m), std::to_string(1e3 * worst_m));
-    std::printf("edge %.4f worst %.4f mm along_rms %.4f max %.4f across %.4f ratio %.5f stretch %.3f %.3f\n", edge_m,
-                1e3 * worst_m, 1e3 * result.warps[0].along_rms_m, 1e3 * result.warps[0].along_max_m,
-                1e3 * result.warps[0].across_rms_m, result.warps[0].length_ratio, result.warps[0].stretch_min,
-                result.warps[0].stretch_max);
-    EXPECT_LT(worst_m, 5e-5);
+    // A triangle's x is linear: with a path that clips its corners what remains grows with its edges squared.
+    EXPECT_LT(worst_m, edge_m < 0.002 ? 5e-5 : 1e-4);
+    EXPECT_LT(std::sqrt(square / static_cast<double>(truth.size())), 4e-5);
     EXPECT_NEAR(result.warps[0].across_rms_m, 2e-4, 3e-5);
     EXPECT_NEAR(result.warps[0].length_ratio, 1.0, 2e-3);
   }

@@ -16,8 +16,8 @@ struct HapticCoordinatesConfig {
   double half_width_mm = 0.0;
   double extension_mm = 1.0;
   double smoothing_mm = 3.0;
-  double smoothing_edges = 2.0;
-  double fit_smoothness = 0.1;
+  double smoothing_edges = 1.0;
+  double fit_smoothness = 0.003;
   double stretch_limit = 1.25;
 
   template <class V>
