@@ -5,6 +5,8 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/read_obj.h"
+#include "asperity/geometry/read_ply.h"
+#include "asperity/geometry/read_stl.h"
 
 namespace asperity {
 
@@ -14,7 +16,10 @@ MeshFile read_mesh(const std::filesystem::path& path, const MeshLimits& limits) 
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   if (extension == ".obj") return read_obj(path, limits);
-  throw Error(path.string() + ": '" + printable(extension) + "' is not a mesh that can be read; .obj is");
+  if (extension == ".ply") return read_ply(path, limits);
+  if (extension == ".stl") return read_stl(path, limits);
+  throw Error(path.string() + ": '" + printable(extension) +
+              "' is not a mesh that can be read; .obj, .ply and .stl are");
 }
 
 }  // namespace asperity

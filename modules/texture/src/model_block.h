@@ -33,5 +33,11 @@ struct BlockOutput {
 // and key for whatever the model does not allow; write_block for what could not be read again.
 void read_block(const BlockInput& input, Fourier1d& model);
 std::string write_block(const Fourier1d& model, BlockOutput& output);
+void read_block(const BlockInput& input, Fourier2d& model);
+std::string write_block(const Fourier2d& model, BlockOutput& output);
+void read_block(const BlockInput& input, HeightMap& model);
+std::string write_block(const HeightMap& model, BlockOutput& output);
+void read_block(const BlockInput& input, ArealTexture& model);
+std::string write_block(const ArealTexture& model, BlockOutput& output);
 
 }  // namespace asperity

@@ -7,7 +7,10 @@
 #include <string_view>
 #include <variant>
 
+#include "asperity/texture/areal_texture.h"
 #include "asperity/texture/fourier1d.h"
+#include "asperity/texture/fourier2d.h"
+#include "asperity/texture/height_map.h"
 
 namespace asperity {
 
@@ -19,8 +22,8 @@ struct TextureSource {
 };
 
 // The models, and in the same order their names in the file.
-using TextureModel = std::variant<Fourier1d>;
-inline constexpr std::array<std::string_view, 1> kTextureModelNames{"fourier1d"};
+using TextureModel = std::variant<Fourier1d, Fourier2d, HeightMap, ArealTexture>;
+inline constexpr std::array<std::string_view, 4> kTextureModelNames{"fourier1d", "fourier2d", "heightmap", "areal"};
 static_assert(kTextureModelNames.size() == std::variant_size_v<TextureModel>);
 
 // A haptic texture, the content of a *.texture.json and of the image or table that it names.

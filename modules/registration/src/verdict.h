@@ -1,0 +1,18 @@
+#pragma once
+
+#include "settle.h"
+
+namespace asperity::registration {
+
+struct Findings {
+  const Settled& best;
+  double noise_m = 0.0;         // of the path and the mesh's facets
+  bool tried_starts = false;    // other than the guess
+  bool runner_up_fits = false;  // as well as the best
+};
+
+// Everything of `out` but iterations, runner-up and the problems met so far. `used` points entered the fit.
+void write_verdict(const Findings& findings, const PointSet& points, std::size_t used, const RegistrationConfig& config,
+                   RegistrationResult& out);
+
+}  // namespace asperity::registration
