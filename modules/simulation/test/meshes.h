@@ -54,7 +54,7 @@ inline TriangleMesh bumpy_mesh(std::uint32_t n) {
   });
 }
 
-// Half a cylinder's worth of nothing but flatness: a rectangle in z = 0, outward +z, n × n squares.
+// A rectangle in z = 0, outward +z, n × n squares.
 inline TriangleMesh plate_mesh(double length_m, double width_m, std::uint32_t n) {
   TriangleMesh mesh;
   for (std::uint32_t i = 0; i <= n; ++i) {
