@@ -12,6 +12,7 @@ std::unique_ptr<Command> make_simulate(CLI::App& root);
 std::unique_ptr<Command> make_import(CLI::App& root);
 std::unique_ptr<Command> make_inspect(CLI::App& root);
 std::unique_ptr<Command> make_process(CLI::App& root);
+std::unique_ptr<Command> make_register(CLI::App& root);
 std::unique_ptr<Command> make_roughness(CLI::App& root);
 
 // The commands below `asperity texture`.

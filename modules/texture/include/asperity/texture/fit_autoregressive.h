@@ -20,8 +20,8 @@ struct FitAutoregressiveConfig {
   double window_s = 0.05;
   double min_speed_mps = 2e-3;
   double min_force_N = 0.02;
-  int max_models = 16;
-  double seconds_per_model = 0.5;
+  int max_models = 24;
+  double seconds_per_model = 1.0;
   int min_order = 2;
   int max_order = 20;
   OrderCriterion criterion = OrderCriterion::kBic;
