@@ -3,6 +3,8 @@
 #include <array>
 #include <string>
 
+#include "asperity/geometry/pose.h"
+
 namespace asperity::app {
 
 // Option values with units; throw UsageError naming the option and the text.
@@ -12,5 +14,8 @@ double speed_option_mps(const std::string& option, const std::string& text);
 double unit_option_m(const std::string& option, const std::string& text);
 // Three lengths with commas between.
 std::array<double, 3> lengths_option_m(const std::string& option, const std::string& text);
+
+// x,y,z,qw,qx,qy,qz: metres, and a quaternion, which is normalised.
+Pose pose_option(const std::string& option, const std::string& text);
 
 }  // namespace asperity::app

@@ -20,7 +20,11 @@ struct NearestOnTriangle {
 // the longest edge and of the distance, however thin the triangle: an error of the direction of u, which
 // grows as length / width, moves the point by no more than the width. Every candidate is a point of the
 // triangle, so the distance is never too small by more than rounding.
-inline NearestOnTriangle nearest_on_triangle(const double* a, const double* b, const double* c, const double* p) {
+//
+// Isa: a type that names the instruction set of the file that is compiled, so that the linker keeps apart what
+// is compiled for each. Without fused operations all of them give the same bits.
+template <class Isa>
+NearestOnTriangle nearest_on_triangle(const double* a, const double* b, const double* c, const double* p) {
   const double* const from[3] = {a, b, a};
   const double* const to[3] = {b, c, c};
   const double* const opposite[3] = {c, a, b};

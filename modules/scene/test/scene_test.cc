@@ -1,4 +1,5 @@
 #include <cmath>
+#include <ostream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -94,6 +95,7 @@ struct Fault {
   const char* text;
   const char* message;
 };
+void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.message; }
 class SceneFault : public testing::TestWithParam<Fault> {};
 
 TEST_P(SceneFault, IsNamed) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -19,11 +20,17 @@ struct MeasuredPathConfig {
   }
 };
 
+struct PathPoints {
+  MeasuredPath path;
+  std::vector<double> sample;  // for each point the mean index of its samples in the motion, rising
+};
+
 // The points of a scan for registration (seed §5.4: "uniform, equidistant sampling"): the means of the samples in
 // contact over steps of `spacing_m`, so that a rest counts once. `usable` is empty or one a sample. `outward_world`
 // is the probe's axis, from the tip to the marker; empty if `tip_in_marker_m` is zero. `sigma_m` is the
-// median of the positions' standard deviation per axis, 0 if the motion has none.
-MeasuredPath measured_path(const TipMotion& motion, std::span<const char> usable,
-                           const Eigen::Vector3d& tip_in_marker_m, const MeasuredPathConfig& config);
+// median of the positions' standard deviation per axis, and the slow covariance their mean covariance, both 0 if
+// the motion has none.
+PathPoints measured_path(const TipMotion& motion, std::span<const char> usable, const Eigen::Vector3d& tip_in_marker_m,
+                         const MeasuredPathConfig& config);
 
 }  // namespace asperity

@@ -5,6 +5,7 @@
 #include "asperity/pipeline/process_config.h"
 #include "asperity/pipeline/scan_on_mesh.h"
 #include "asperity/registration/haptic_coordinates.h"
+#include "asperity/registration/refine_registration.h"
 #include "asperity/registration/registration_config.h"
 
 namespace asperity {
@@ -14,6 +15,7 @@ struct RegisterConfig {
   ProcessConfig process;
   MeasuredPathConfig points;
   RegistrationConfig registration;
+  RefineConfig refinement;
   ScanOnMeshConfig path;
   HapticCoordinatesConfig coordinates;
   PathTextureConfig texture;
@@ -23,6 +25,7 @@ struct RegisterConfig {
     v.group("process", process);
     v.group("points", points);
     v.group("registration", registration);
+    v.group("refinement", refinement);
     v.group("path", path);
     v.group("coordinates", coordinates);
     v.group("texture", texture);
