@@ -37,8 +37,7 @@ void multiply_root(Polynomial& p, std::size_t& length, double s, std::size_t d) 
 // Minus the phase of z⁻¹ z⁻ᵖA(z⁻¹)/A(z) at ω, unwrapped: S_m = (k_m + u) / (1 + k_m u) with u = z⁻¹ S_{m−1}.
 double allpass_lag_rad(std::span<const double> k, double omega_rad) {
   double lag = omega_rad;
-  for (const double km : k)
-    lag += omega_rad + 2.0 * std::atan2(-km * std::sin(lag), 1.0 + km * std::cos(lag));
+  for (const double km : k) lag += omega_rad + 2.0 * std::atan2(-km * std::sin(lag), 1.0 + km * std::cos(lag));
   return lag;
 }
 

@@ -17,7 +17,8 @@ constexpr int kFrequencies = 4096;
 constexpr double kFloor = 1e-4;
 
 // r_m at the new rate: the integral of the one-sided density times cos(2π f m / rate), by the midpoint rule.
-std::vector<double> resampled_autocovariance(const AutoregressiveModel& model, double old_Hz, double new_Hz, int order) {
+std::vector<double> resampled_autocovariance(const AutoregressiveModel& model, double old_Hz, double new_Hz,
+                                             int order) {
   std::vector<double> a(model.ar_lsf_rad.size());
   std::vector<double> b(model.ma_lsf_rad.size());
   lsf_to_ar(model.ar_lsf_rad, a);
