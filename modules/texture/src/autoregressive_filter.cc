@@ -154,10 +154,11 @@ LevinsonResult levinson(std::span<const double> r) {
 
 double power_density(std::span<const double> a, std::span<const double> b, double gain, double variance,
                      double omega_rad) noexcept {
+  const auto z = std::polar(1.0, -omega_rad);
   const auto value = [&](std::span<const double> c) {
-    std::complex<double> sum = 1.0;
-    for (std::size_t i = 0; i < c.size(); ++i) sum += c[i] * std::polar(1.0, -omega_rad * static_cast<double>(i + 1));
-    return std::norm(sum);
+    std::complex<double> sum = 0.0;
+    for (std::size_t i = c.size(); i-- > 0;) sum = (sum + c[i]) * z;
+    return std::norm(sum + 1.0);
   };
   return variance * gain * gain * value(b) / value(a);
 }

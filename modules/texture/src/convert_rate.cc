@@ -25,8 +25,16 @@ std::vector<double> resampled_autocovariance(const AutoregressiveModel& model, d
   lsf_to_ar(model.ma_lsf_rad, b);
   std::vector<double> r(static_cast<std::size_t>(order) + 1, 0.0);
   const auto add = [&](double f_Hz, double power) {
-    for (std::size_t m = 0; m < r.size(); ++m)
-      r[m] += power * std::cos(2.0 * std::numbers::pi * f_Hz * static_cast<double>(m) / new_Hz);
+    // cos mθ by Chebyshev's recursion.
+    const double c = std::cos(2.0 * std::numbers::pi * f_Hz / new_Hz);
+    double last = c;
+    double now = 1.0;
+    for (double& sum : r) {
+      sum += power * now;
+      const double next = 2.0 * c * now - last;
+      last = now;
+      now = next;
+    }
   };
   const double kept_Hz = 0.5 * std::min(old_Hz, new_Hz);
   const double step_Hz = kept_Hz / kFrequencies;
