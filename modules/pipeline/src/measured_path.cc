@@ -59,4 +59,27 @@ PathPoints measured_path(const TipMotion& motion, std::span<const char> usable, 
   return points;
 }
 
+MeasuredPath smooth_path(const MeasuredPath& path, double length_m) {
+  const std::size_t n = path.p_world_m.size();
+  std::vector<double> steps_m;
+  for (std::size_t i = 1; i < n; ++i) steps_m.push_back((path.p_world_m[i] - path.p_world_m[i - 1]).norm());
+  const double spacing_m = middle(steps_m);
+  MeasuredPath out = path;
+  const double reach = spacing_m > 0.0 ? std::floor(0.5 * length_m / spacing_m) : 0.0;
+  const auto most = static_cast<std::size_t>(std::min(reach, static_cast<double>(n)));
+  std::size_t begin = 0;  // of the unbroken stretch
+  while (begin < n) {
+    std::size_t end = begin + 1;
+    while (end < n && steps_m[end - 1] <= 3.0 * spacing_m) ++end;
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t half = std::min({most, i - begin, end - 1 - i});
+      Eigen::Vector3d sum_m = Eigen::Vector3d::Zero();
+      for (std::size_t k = i - half; k <= i + half; ++k) sum_m += path.p_world_m[k];
+      out.p_world_m[i] = sum_m / static_cast<double>(2 * half + 1);
+    }
+    begin = end;
+  }
+  return out;
+}
+
 }  // namespace asperity

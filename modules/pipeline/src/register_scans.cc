@@ -13,6 +13,7 @@
 #include "asperity/profile/base_path_on_mesh.h"
 #include "asperity/profile/find_contact.h"
 #include "asperity/profile/make_profile.h"
+#include "asperity/registration/find_registration.h"
 #include "asperity/registration/refine_registration.h"
 #include "asperity/registration/register_path.h"
 
@@ -185,8 +186,10 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
   const MeshSurface surface(mesh);
   const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
   observer.update("registration", 0.0);
-  out.registration = guess ? register_path(paths, ready, *guess, config.registration)
-                           : register_path(paths, ready, Pose{}, config.registration);
+  std::vector<MeasuredPath> smooth;
+  for (const MeasuredPath& path : paths) smooth.push_back(smooth_path(path, config.points.smoothing_m));
+  out.registration = guess ? register_path(smooth, ready, *guess, config.search.registration)
+                           : find_registration(smooth, ready, config.search);
   // Scans have errors that last along the path; points without a sequence have none that is known.
   std::vector<std::vector<Eigen::Vector3d>> slow_error_world_m(scans.size());
   if (in_sequence(scans)) {

@@ -11,6 +11,9 @@
 
 namespace asperity::registration {
 
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
 // Where a point's slow error stands between two knots.
 struct KnotShare {
   std::size_t knot = 0;  // and the next

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 #include <Eigen/Cholesky>
@@ -11,6 +14,8 @@
 #include <Eigen/LU>
 
 #include "path_chain.h"
+#include "slow_covariance.h"
+#include "weak_turns.h"
 #include "whitening.h"
 
 namespace asperity {
@@ -18,12 +23,14 @@ namespace asperity {
 namespace {
 
 using registration::FacetHeights;
+using registration::Matrix6;
 using registration::PathChain;
+using registration::Vector6;
 using registration::Whitening;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr std::size_t kLeastPoints = 30;
 constexpr int kRounds = 5;
+constexpr double kFarthest = 4.1;  // of six numbers, 1 % by chance: the refinement then is in another valley
 
 // The inverse of the knots' prior covariance; paths without a slow error get none, which holds them at zero.
 Eigen::MatrixXd prior_precision(const PathChain& chain, const RefineConfig& config) {
@@ -71,13 +78,6 @@ struct Equations {
   double cost = 0.0;  // the mean of w² over its variance, times the points, and the prior's
   std::size_t rows = 0;
 };
-
-// The gradient of a height by the pose (turn about `centre_m`, shift).
-Vector6 pose_gradient(const FacetHeights& heights, std::size_t i, const Eigen::Vector3d& centre_m) {
-  Vector6 row;
-  row << (heights.p_mesh_m[i] - centre_m).cross(heights.normal[i]), heights.normal[i];
-  return row;
-}
 
 class Refinement {
  public:
@@ -139,7 +139,7 @@ Equations Refinement::equations(const State& state, const FacetHeights& heights,
   for_whitened(heights, order, [&](std::size_t i) {
     Eigen::Index first = size, last = 6;
     const auto add = [&](std::size_t at, double factor) {
-      row.head<6>() += factor * pose_gradient(heights, at, centre_m_);
+      row.head<6>() += factor * registration::pose_gradient(heights, at, centre_m_);
       if (!slow_) return;
       const auto [knot, share] = chain_.knots[at];
       const Eigen::Index column = 6 + 3 * static_cast<Eigen::Index>(knot);
@@ -201,37 +201,67 @@ void hold(Eigen::MatrixXd& information, std::span<const UndeterminedMotion> moti
   }
 }
 
-// Turns whose standard deviation is above the limit, as undetermined motions.
-void list_weak_turns(const PathChain& chain, double limit_rad, RegistrationResult& result) {
-  const Eigen::Matrix3d turn = result.covariance.topLeftCorner<3, 3>();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(turn);
-  for (int k = 0; k < 3; ++k) {
-    const double sigma_rad = std::sqrt(std::max(0.0, solver.eigenvalues()[k]));
-    if (!(sigma_rad > limit_rad)) continue;
-    const Eigen::Vector3d axis = solver.eigenvectors().col(k);
-    const bool listed = std::any_of(result.undetermined.begin(), result.undetermined.end(), [&](const auto& other) {
-      return other.turn.norm() > 0.0 && std::abs(other.turn.normalized().dot(axis)) > 0.9;
-    });
-    if (listed) continue;
-    // The shift that goes with the turn, as the data have it.
-    const Eigen::Vector3d shift = result.covariance.bottomLeftCorner<3, 3>() * axis / (sigma_rad * sigma_rad);
-    double moved_m2 = 0.0;
-    for (const Eigen::Vector3d& p_m : chain.p_world_m) {
-      if (!p_m.allFinite()) continue;
-      const Eigen::Vector3d arm = result.T_mesh_world * p_m - result.centre_mesh_m;
-      moved_m2 += (axis.cross(arm) + shift).squaredNorm() / static_cast<double>(chain.p_world_m.size());
+struct Refined {
+  State state;
+  FacetHeights heights;
+  Eigen::MatrixXd information;
+  int iterations = 0;
+  std::string fault;  // in words, if it failed
+};
+
+Refined refine(const Refinement& problem, const PathChain& chain, State start, std::size_t order,
+               std::span<const UndeterminedMotion> held, int max_iterations) {
+  Refined out;
+  out.state = std::move(start);
+  out.heights = problem.heights(out.state);
+  for (int round = 0; round < kRounds; ++round) {
+    const Whitening whitening = registration::make_whitening(chain, out.heights, order);
+    if (!(whitening.variance_m2 > 0.0)) {
+      out.fault = "the path lies on the mesh exactly";
+      return out;
     }
-    const double scale = 1.0 / std::sqrt(moved_m2);
-    if (!std::isfinite(scale)) continue;
-    UndeterminedMotion motion;
-    motion.turn = scale * axis;
-    motion.shift = scale * shift;
-    motion.centre_mesh_m = result.centre_mesh_m;
-    motion.sigma_m = sigma_rad / scale;
-    motion.description = fmt::format("turns about ({:.2f}, {:.2f}, {:.2f}) are known to {:.1f} degrees only", axis.x(),
-                                     axis.y(), axis.z(), sigma_rad * 180.0 / std::numbers::pi);
-    result.undetermined.push_back(motion);
+    bool settled = false;
+    while (!settled && out.iterations < max_iterations) {
+      ++out.iterations;
+      Equations equations = problem.equations(out.state, out.heights, whitening);
+      if (equations.rows < kLeastPoints) {
+        out.fault = "the path has no unbroken stretch over the mesh";
+        return out;
+      }
+      hold(equations.information, held);
+      out.information = equations.information;
+      const Eigen::VectorXd step = out.information.ldlt().solve(equations.right);
+      if (!step.allFinite()) {
+        out.fault = "its equations have no solution";
+        return out;
+      }
+      settled = true;
+      double share = 1.0;
+      for (int halving = 0; halving < 6; ++halving, share *= 0.5) {
+        const State next = problem.moved(out.state, share * step);
+        FacetHeights there = problem.heights(next);
+        if (!(problem.cost(next, there, whitening) < equations.cost)) continue;
+        settled = share * share * step.dot(out.information * step) < 1e-3;
+        out.state = next;
+        out.heights = std::move(there);
+        break;
+      }
+    }
   }
+  return out;
+}
+
+Matrix6 pose_covariance(const Eigen::MatrixXd& information) {
+  const Eigen::MatrixXd pose_columns = Eigen::MatrixXd::Identity(information.rows(), 6);
+  return information.ldlt().solve(pose_columns).topRows<6>();
+}
+
+// Turn and shift about `centre_m` that lead from one pose to another.
+Vector6 pose_change(const Pose& from, const Pose& to, const Eigen::Vector3d& centre_m) {
+  const Eigen::Quaterniond turn = to.rotation * from.rotation.conjugate();
+  Vector6 out;
+  out << log_rotation(turn), to.translation_m - centre_m - turn * (from.translation_m - centre_m);
+  return out;
 }
 
 }  // namespace
@@ -250,50 +280,36 @@ RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, con
   const PathChain chain = registration::make_chain(paths, config.knot_m);
   const Refinement problem(chain, surface, start.centre_mesh_m, config);
   State state{start.T_mesh_world, Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(chain.knot_count))};
-  FacetHeights heights = problem.heights(state);
+  const FacetHeights heights = problem.heights(state);
   if (heights.count < kLeastPoints || !(chain.spacing_m > 0.0)) return give_up("too few points lie over the mesh");
   const auto order = static_cast<std::size_t>(
       std::clamp(std::round(config.memory_m / chain.spacing_m), 1.0, static_cast<double>(heights.count) / 10.0));
 
-  Eigen::MatrixXd information;
-  int iterations = 0;
-  for (int round = 0; round < kRounds; ++round) {
-    const Whitening whitening = registration::make_whitening(chain, heights, order);
-    if (!(whitening.variance_m2 > 0.0)) return give_up("the path lies on the mesh exactly");
-    bool settled = false;
-    while (!settled && iterations < config.max_iterations) {
-      ++iterations;
-      Equations equations = problem.equations(state, heights, whitening);
-      if (equations.rows < kLeastPoints) return give_up("the path has no unbroken stretch");
-      hold(equations.information, start.undetermined);
-      information = equations.information;
-      const Eigen::VectorXd step = information.ldlt().solve(equations.right);
-      if (!step.allFinite()) return give_up("its equations have no solution");
-      settled = true;
-      double share = 1.0;
-      for (int halving = 0; halving < 6; ++halving, share *= 0.5) {
-        const State next = problem.moved(state, share * step);
-        FacetHeights there = problem.heights(next);
-        if (!(problem.cost(next, there, whitening) < equations.cost)) continue;
-        settled = share * share * step.dot(equations.information * step) < 1e-3;
-        state = next;
-        heights = std::move(there);
-        break;
-      }
-    }
-  }
+  const Refined best = refine(problem, chain, state, order, start.undetermined, config.max_iterations);
+  if (!best.fault.empty()) return give_up(best.fault);
   RegistrationResult& result = out.registration;
-  result.T_mesh_world = state.T_mesh_world;
-  result.rms_m = heights.rms_m;
-  result.iterations += iterations;
-  const Eigen::MatrixXd pose_columns = Eigen::MatrixXd::Identity(information.rows(), 6);
-  result.covariance = information.ldlt().solve(pose_columns).topRows<6>();
-  list_weak_turns(chain, config.undetermined_deg * std::numbers::pi / 180.0, result);
+  result.covariance = pose_covariance(best.information);
+  const Vector6 change = pose_change(start.T_mesh_world, best.state.T_mesh_world, start.centre_mesh_m);
+  const Matrix6 both = result.covariance +
+                       registration::start_covariance(chain, heights, start.T_mesh_world, start.centre_mesh_m, config);
+  if (!(change.dot(both.ldlt().solve(change)) <= kFarthest * kFarthest)) {
+    return give_up("it would leave the first estimate by more than both can be wrong");
+  }
+  result.T_mesh_world = best.state.T_mesh_world;
+  result.rms_m = best.heights.rms_m;
+  result.iterations += best.iterations;
+  registration::list_weak_turns(chain, config.undetermined_deg * std::numbers::pi / 180.0, result);
+  result.verdict +=
+      fmt::format(" With the slow error of the tracker allowed for: residual {:.4f} mm RMS", 1e3 * result.rms_m);
+  for (std::size_t i = start.undetermined.size(); i < result.undetermined.size(); ++i) {
+    result.verdict += (i == start.undetermined.size() ? "; but " : ", ") + result.undetermined[i].description;
+  }
+  result.verdict += ".";
   if (!problem.slow()) return out;
   for (std::size_t p = 0; p < paths.size(); ++p) {
     const PathChain::Part& part = chain.parts[p];
     for (std::size_t i = 0; i < part.points; ++i) {
-      out.slow_error_world_m[p].push_back(registration::slow_error_m(chain, state.knots_m, part.first_point + i));
+      out.slow_error_world_m[p].push_back(registration::slow_error_m(chain, best.state.knots_m, part.first_point + i));
     }
   }
   return out;

@@ -13,10 +13,13 @@ namespace asperity {
 
 struct MeasuredPathConfig {
   double spacing_m = 0.25e-3;
+  double smoothing_m = 5e-3;
 
   template <class V>
   void visit(V& v) {
     v.field("spacing_m", spacing_m, "of the points of a scan that are registered", {1e-6, 0.1});
+    v.field("smoothing_m", smoothing_m, "length of the path's moving mean that is laid on the mesh at first; 0: none",
+            {0.0, 1.0});
   }
 };
 
@@ -32,5 +35,10 @@ struct PathPoints {
 // the motion has none.
 PathPoints measured_path(const TipMotion& motion, std::span<const char> usable, const Eigen::Vector3d& tip_in_marker_m,
                          const MeasuredPathConfig& config);
+
+// The moving mean of a path over `length_m`, shorter towards its ends and where a step of more than three times the
+// median parts it: the relief goes, the mesh's shape stays (a curve of radius R is cut by length²/24R). Without
+// effect where a path is too irregular to have a spacing, as points in no order.
+MeasuredPath smooth_path(const MeasuredPath& path, double length_m);
 
 }  // namespace asperity
