@@ -58,8 +58,8 @@ TEST(NoAllocation, OfSeriesTextures) {
     std::vector<double> k(20), b(8);
     for (double& v : k) v = random.uniform(-0.7, 0.7);
     for (double& v : b) v = random.uniform(-0.5, 0.5);
-    t.models.push_back({random.uniform(0.0, 0.3), random.uniform(0.0, 3.0), reflection_to_lsf(k), reflection_to_lsf(b),
-                        1.0, 1.0, 0.0});
+    t.models.push_back(
+        {random.uniform(0.0, 0.3), random.uniform(0.0, 3.0), reflection_to_lsf(k), reflection_to_lsf(b), 1.0, 1.0});
   }
   prepare_autoregressive(t, "test");
   EXPECT_EQ(allocations_of(t), 0u);
