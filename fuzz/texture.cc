@@ -1,22 +1,46 @@
 // A texture file is refused with an Error, or reads, evaluates to numbers and writes itself back.
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
-#include <string_view>
+#include <type_traits>
+#include <variant>
 
 #include "asperity/base/error.h"
-#include "asperity/texture/evaluate_fourier1d.h"
+#include "asperity/texture/evaluate_autoregressive.h"
+#include "asperity/texture/evaluate_decaying_sinusoids.h"
+#include "asperity/texture/evaluate_height.h"
+#include "asperity/texture/evaluate_stochastic.h"
 #include "asperity/texture/texture_file.h"
+#include "fuzz_input.h"
+
+namespace {
+
+bool evaluates(const asperity::TextureModel& model) {
+  if (asperity::is_height_field(model)) return std::isfinite(asperity::evaluate_height(model, 0.0123, 0.004).height_m);
+  return std::visit(
+      [](const auto& series) {
+        if constexpr (requires(asperity::SeriesState & s) { next_force(series, s, 0.0, 0.0, 0.0); }) {
+          asperity::SeriesState state = asperity::start_series(1);
+          for (int i = 0; i < 20; ++i) {
+            const auto force = next_force(series, state, 0.01 * i, 0.1 * i, 1e-3);
+            if (!std::isfinite(force.normal_N) || !std::isfinite(force.tangential_N)) return false;
+          }
+        }
+        return true;
+      },
+      model);
+}
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   asperity::Texture texture;
   try {
-    texture = asperity::parse_texture({reinterpret_cast<const char*>(data), size}, "fuzz");
+    texture = asperity::parse_texture(asperity::fuzz_text(data, size), "fuzz");
   } catch (const asperity::Error&) {
     return 0;
   }
-  if (!std::isfinite(asperity::evaluate(std::get<asperity::Fourier1d>(texture.model), 0.0123).height_m)) std::abort();
+  asperity::must(evaluates(texture.model));
   const std::string text = asperity::format_texture(texture);
-  if (asperity::format_texture(asperity::parse_texture(text, "again")) != text) std::abort();
+  asperity::must(asperity::format_texture(asperity::parse_texture(text, "again")) == text);
   return 0;
 }

@@ -34,6 +34,12 @@ struct Program {
                             make_register, make_roughness}) {
       commands.push_back(make(parser));
     }
+    CLI::App* texture = parser.add_subcommand("texture", "Fit, describe, synthesize, swap and compare textures");
+    texture->require_subcommand(1);
+    for (const auto make :
+         {make_texture_fit, make_texture_info, make_texture_synthesize, make_texture_swap, make_texture_compare}) {
+      commands.push_back(make(*texture));
+    }
   }
 };
 
@@ -43,8 +49,14 @@ int usage(const std::string& message, const std::string& command) {
   return kUsage;
 }
 
+// "process", "texture fit": as it is typed.
+std::string full_name(const CLI::App& parser) {
+  const CLI::App* parent = parser.get_parent();
+  return parent && parent->get_parent() ? full_name(*parent) + " " + parser.get_name() : parser.get_name();
+}
+
 int run_command(Command& command) {
-  const std::string name = command.parser().get_name();
+  const std::string name = full_name(command.parser());
   try {
     if (!command.resolve()) return kDone;
     ProgressLine line(command.quiet());
@@ -79,8 +91,9 @@ int parse_and_run(Program& program, int argc, char** argv) {
   } catch (const CLI::CallForVersion& version) {
     return print(std::string(version.what()) + "\n"), kDone;
   } catch (const CLI::ParseError& error) {
-    const auto chosen = program.parser.get_subcommands();
-    return usage(printable(error.what(), 300), chosen.empty() ? "" : chosen.front()->get_name());
+    const CLI::App* chosen = &program.parser;
+    while (!chosen->get_subcommands().empty()) chosen = chosen->get_subcommands().front();
+    return usage(printable(error.what(), 300), chosen == &program.parser ? "" : full_name(*chosen));
   }
 }
 

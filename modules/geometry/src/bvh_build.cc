@@ -69,11 +69,11 @@ class Builder {
     Range all = make_boxes();
     const std::size_t n = mesh_.triangles.size();
     out_.faces.reserve(n);
-    out_.slot_of.resize(n);
+    out_.leaf_of.resize(n);
     out_.vertices.reserve(3 * used_);
     out_.pool.reserve(n * sizeof(LeafBlock) / kWidth / kPoolUnit * 3 / 2 + 64);
     new_vertex_.assign(mesh_.vertices_m.size(), kNone);
-    out_.root = add(all, 0);
+    out_.root = add(all, 0, kNone);
     if (out_.pool.capacity() > out_.pool.size() + out_.pool.size() / 16) out_.pool.shrink_to_fit();
     out_.nodes.shrink_to_fit();
     return std::move(out_);
@@ -82,9 +82,9 @@ class Builder {
  private:
   void normalise();
   Range make_boxes();
-  std::uint32_t add(const Range& range, int depth);
-  std::uint32_t add_node(const Range& range, int depth);
-  std::uint32_t add_leaf(const Range& range);
+  std::uint32_t add(const Range& range, int depth, std::uint32_t parent);
+  std::uint32_t add_node(const Range& range, int depth, std::uint32_t parent);
+  std::uint32_t add_leaf(const Range& range, std::uint32_t parent);
   void add_face(std::uint32_t triangle);
   std::array<Range, 2> split(const Range& range, int depth);
   Split best_split(const Range& range) const;
@@ -156,11 +156,11 @@ Range Builder::make_boxes() {
   return all;
 }
 
-std::uint32_t Builder::add(const Range& range, int depth) {
-  return range.count() <= kMaxLeaf ? add_leaf(range) : add_node(range, depth);
+std::uint32_t Builder::add(const Range& range, int depth, std::uint32_t parent) {
+  return range.count() <= kMaxLeaf ? add_leaf(range, parent) : add_node(range, depth, parent);
 }
 
-std::uint32_t Builder::add_node(const Range& range, int depth) {
+std::uint32_t Builder::add_node(const Range& range, int depth, std::uint32_t parent) {
   std::array<Range, kWidth> parts;
   std::array<int, kWidth> depths;
   parts[0] = range;
@@ -182,7 +182,8 @@ std::uint32_t Builder::add_node(const Range& range, int depth) {
   }
 
   const std::size_t index = out_.nodes.size();
-  Node node;
+  Node node{};
+  node.parent = parent;
   for (std::size_t i = 0; i < kWidth; ++i) {
     alignas(16) float low[4], high[4];
     _mm_store_ps(low, parts[i].box.low);
@@ -196,7 +197,7 @@ std::uint32_t Builder::add_node(const Range& range, int depth) {
   }
   out_.nodes.push_back(node);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t child = add(parts[i], depths[i]);
+    const std::uint32_t child = add(parts[i], depths[i], static_cast<std::uint32_t>(index * kWidth + i));
     out_.nodes[index].child[i] = child;
   }
   return static_cast<std::uint32_t>(index);
@@ -287,7 +288,10 @@ std::array<Range, 2> Builder::split(const Range& range, int depth) {
   return {left, right};
 }
 
-std::uint32_t Builder::add_leaf(const Range& range) {
+std::uint32_t Builder::add_leaf(const Range& range, std::uint32_t parent) {
+  const std::size_t at = out_.pool.size();
+  if (at >= kNone - kLeafFlag || out_.nodes.size() > kNone / kWidth) throw Error("the mesh is too large for the tree");
+  const std::uint32_t leaf = kLeafFlag | static_cast<std::uint32_t>(at);
   LeafHead head{};
   alignas(16) float low[4], high[4];
   _mm_store_ps(low, range.box.low);
@@ -301,7 +305,8 @@ std::uint32_t Builder::add_leaf(const Range& range) {
   std::frexp(size / 65000.0f, &exponent);
   exponent = std::max(exponent, -40);
   head.unit = std::ldexp(1.0f, exponent);
-  head.per_unit = std::ldexp(1.0f, -exponent);
+  const double per_unit = std::ldexp(1.0, -exponent);
+  head.parent = parent;
   head.first = static_cast<std::uint32_t>(out_.faces.size());
   head.count = range.count();
 
@@ -311,15 +316,17 @@ std::uint32_t Builder::add_leaf(const Range& range) {
   const std::uint32_t places = kWidth * blocks(head.count);
   for (std::uint32_t i = 0; i < places; ++i) {
     const std::uint32_t triangle = order_[range.first + std::min(i, head.count - 1)];
-    if (i < head.count) add_face(triangle);
+    if (i < head.count) {
+      add_face(triangle);
+      out_.leaf_of[triangle] = leaf;
+    }
     const Face& face = out_.faces.back();
     const std::uint32_t vertex[3] = {face.vertex0, face.vertex1, face.vertex2};
     Eigen::Vector3d corner[3];
     for (int v = 0; v < 3; ++v)
       for (int k = 0; k < 3; ++k) {
         const double r = out_.vertices[3 * vertex[v] + static_cast<std::size_t>(k)] - out_.centre[k];
-        const double place =
-            std::nearbyint((r - static_cast<double>(head.origin[k])) * static_cast<double>(head.per_unit));
+        const double place = std::nearbyint((r - static_cast<double>(head.origin[k])) * per_unit);
         corner[v][k] = std::clamp(place, 0.0, 65535.0);
         block[i / kWidth].corner[v][k][i % kWidth] = static_cast<std::uint16_t>(corner[v][k]);
       }
@@ -333,13 +340,11 @@ std::uint32_t Builder::add_leaf(const Range& range) {
   }
   head.slack = static_cast<float>(slack * (1.0 + 1e-6)) + 0x1p-17f;
 
-  const std::size_t at = out_.pool.size();
-  if (at >= kLeafFlag) throw Error("the mesh is too large for the tree");
   const std::size_t head_units = sizeof(LeafHead) / kPoolUnit, block_units = sizeof(LeafBlock) / kPoolUnit;
   out_.pool.resize(at + head_units + block_units * blocks(head.count));
   std::memcpy(&out_.pool[at], &head, sizeof head);
   std::memcpy(&out_.pool[at + head_units], block.data(), sizeof(LeafBlock) * blocks(head.count));
-  return kLeafFlag | static_cast<std::uint32_t>(at);
+  return leaf;
 }
 
 void Builder::add_face(std::uint32_t triangle) {
@@ -364,7 +369,6 @@ void Builder::add_face(std::uint32_t triangle) {
     }
     vertex[k] = index;
   }
-  out_.slot_of[triangle] = static_cast<std::uint32_t>(out_.faces.size());
   Face face{};
   face.vertex0 = vertex[0] & (kMaxVertices - 1), face.corner0 = corner[0] & 3u;
   face.vertex1 = vertex[1] & (kMaxVertices - 1), face.corner1 = corner[1] & 3u;

@@ -13,6 +13,8 @@
 #include "asperity/profile/base_path_on_mesh.h"
 #include "asperity/profile/find_contact.h"
 #include "asperity/profile/make_profile.h"
+#include "asperity/registration/find_registration.h"
+#include "asperity/registration/refine_registration.h"
 #include "asperity/registration/register_path.h"
 
 namespace asperity {
@@ -70,10 +72,15 @@ RegisteredScan begin_scan(const Scan& scan, const RegisterConfig& config, const 
   return out;
 }
 
-MeasuredPath points_of(const Scan& scan, const RegisteredScan& registered, const RegisterConfig& config) {
+PathPoints points_of(const Scan& scan, const RegisteredScan& registered, const RegisterConfig& config) {
   const TipMotion& motion = registered.process.trajectory.motion;
   // Points without times stand for themselves: nothing rests in them.
-  if (!scan.recording && !scan.path.timed) return {motion.p_world_tip_m, {}, 0.0};
+  if (!scan.recording && !scan.path.timed) {
+    PathPoints out;
+    out.path.p_world_m = motion.p_world_tip_m;
+    for (std::size_t i = 0; i < motion.size(); ++i) out.sample.push_back(static_cast<double>(i));
+    return out;
+  }
   return measured_path(motion, find_contact(motion, config.process.base.contact), tip_of(scan), config.points);
 }
 
@@ -112,12 +119,35 @@ void make_own_texture(const RegisterConfig& config, RegisteredScan& scan) {
   scan.texture = std::move(texture);
 }
 
+bool in_sequence(const std::vector<Scan>& scans) {
+  return std::all_of(scans.begin(), scans.end(),
+                     [](const Scan& scan) { return scan.recording.has_value() || scan.path.timed; });
+}
+
+// The motion without its slow error, which is known at some of its samples.
+TipMotion corrected(TipMotion motion, const std::vector<double>& sample,
+                    const std::vector<Eigen::Vector3d>& error_world_m) {
+  if (error_world_m.empty()) return motion;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const auto at = static_cast<double>(i);
+    while (next < sample.size() && sample[next] < at) ++next;
+    const std::size_t before = next == 0 ? 0 : next - 1, after = std::min(next, sample.size() - 1);
+    const double width = sample[after] - sample[before];
+    const double share = width > 0.0 ? (at - sample[before]) / width : 0.0;
+    motion.p_world_tip_m[i] -= lerp(error_world_m[before], error_world_m[after], share);
+  }
+  return motion;
+}
+
 void measure_scan(const Scan& scan, const MeshSurface& surface, const Pose& T_mesh_world, const RegisterConfig& config,
+                  const PathPoints& points, const std::vector<Eigen::Vector3d>& slow_error_world_m,
                   RegisteredScan& registered, const Observer& observer) {
   const Eigen::Vector3d tip_in_marker_m = tip_of(scan);
   // Base points and normals of the registered mesh (seed §4.3).
   const FindBase find_base = [&](const TipMotion& motion) {
-    return base_path_on_mesh(motion, tip_in_marker_m, surface, T_mesh_world, config.process.base);
+    return base_path_on_mesh(corrected(motion, points.sample, slow_error_world_m), tip_in_marker_m, surface,
+                             T_mesh_world, config.process.base);
   };
   if (scan.recording) {
     measure_along(*scan.recording, config.process, find_base, registered.process, observer);
@@ -143,10 +173,12 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
   out.config_json = config_json(list_fields("", resolved));
 
   // Where the tips were.
+  std::vector<PathPoints> points;
   std::vector<MeasuredPath> paths;
   for (const Scan& scan : scans) {
     out.scans.push_back(named(scan.name, [&] { return begin_scan(scan, config, observer); }));
-    paths.push_back(points_of(scan, out.scans.back(), config));
+    points.push_back(points_of(scan, out.scans.back(), config));
+    paths.push_back(points.back().path);
   }
 
   // Where they lie on the mesh (seed §5.4).
@@ -154,8 +186,17 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
   const MeshSurface surface(mesh);
   const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
   observer.update("registration", 0.0);
-  out.registration = guess ? register_path(paths, ready, *guess, config.registration)
-                           : register_path(paths, ready, Pose{}, config.registration);
+  std::vector<MeasuredPath> smooth;
+  for (const MeasuredPath& path : paths) smooth.push_back(smooth_path(path, config.points.smoothing_m));
+  out.registration = guess ? register_path(smooth, ready, *guess, config.search.registration)
+                           : find_registration(smooth, ready, config.search);
+  // Scans have errors that last along the path; points without a sequence have none that is known.
+  std::vector<std::vector<Eigen::Vector3d>> slow_error_world_m(scans.size());
+  if (in_sequence(scans)) {
+    RefinedRegistration refined = refine_registration(paths, surface, out.registration, config.refinement);
+    out.registration = std::move(refined.registration);
+    slow_error_world_m = std::move(refined.slow_error_world_m);
+  }
   append(out.problems, out.registration.problems);
   if (!out.registration.trustworthy) distrust(out, out.registration.verdict);
 
@@ -164,7 +205,8 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
   for (std::size_t i = 0; i < scans.size(); ++i) {
     RegisteredScan& scan = out.scans[i];
     named(scan.name, [&] {
-      measure_scan(scans[i], surface, out.registration.T_mesh_world, config, scan, observer);
+      measure_scan(scans[i], surface, out.registration.T_mesh_world, config, points[i], slow_error_world_m[i], scan,
+                   observer);
       return 0;
     });
     if (!scan.process.trustworthy) distrust(out, printable(scan.name, 200) + ": " + scan.process.verdict);

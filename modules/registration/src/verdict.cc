@@ -76,11 +76,11 @@ void write_verdict(const Findings& findings, const PointSet& points, std::size_t
         fmt::format(" The next best pose is {:.2f} mm and {:.2f} degrees away and fits worse ({:.4f} mm RMS).",
                     1e3 * out.runner_up->distance_m, 180.0 / std::numbers::pi * out.runner_up->turn_rad,
                     1e3 * out.runner_up->rms_m);
+  } else if (findings.tried == TriedStarts::kAboutGuess) {
+    out.verdict += fmt::format(" No other pose within {:.0f} mm and {:.0f} degrees of the guess.",
+                               1e3 * config.starts.radius_m, config.starts.turn_deg);
   } else {
-    out.verdict += findings.tried_starts
-                       ? fmt::format(" No other pose within {:.0f} mm and {:.0f} degrees of the guess.",
-                                     1e3 * config.starts.radius_m, config.starts.turn_deg)
-                       : std::string(" Other starts were not tried.");
+    out.verdict += findings.tried == TriedStarts::kNone ? " Other starts were not tried." : " No other pose was found.";
   }
 }
 

@@ -4,10 +4,12 @@
 
 namespace asperity::registration {
 
+enum class TriedStarts { kNone, kAboutGuess, kEverywhere };
+
 struct Findings {
   const Settled& best;
-  double noise_m = 0.0;         // of the path and the mesh's facets
-  bool tried_starts = false;    // other than the guess
+  double noise_m = 0.0;  // of the path and the mesh's facets
+  TriedStarts tried = TriedStarts::kNone;
   bool runner_up_fits = false;  // as well as the best
 };
 

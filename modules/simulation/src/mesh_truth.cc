@@ -52,15 +52,18 @@ void measure_on_mesh(const MeshBase& base, const MeshBasePath& path, Truth& trut
   const Pose T_mesh_world = base.T_world_mesh().inverse();
   const double first_m = path.path_s_m.front(), step_m = path.path_s_m[1] - first_m;
   const auto last = static_cast<std::ptrdiff_t>(path.s_m.size()) - 1;
-  ClosestPoint closest;
+  ClosestPoint start;
   for (std::size_t row = 0; row < truth.size(); ++row) {
     const Eigen::Vector3d p_mesh_m = T_mesh_world * truth.p_world_tip_m[row];
-    closest = closest.found() ? base.surface().bvh.closest_point(p_mesh_m, closest)
-                              : base.surface().bvh.closest_point(p_mesh_m);
-    const NormalFoot foot = foot_along_normal(base.surface(), p_mesh_m, closest);
+    const auto near = static_cast<std::ptrdiff_t>(std::clamp((truth.s_m[row] - first_m) / step_m, 0.0, 1e9));
+    // Over a tight bend a deep hole has more than one foot: that of the path's own point counts.
+    const Eigen::Vector3d& on_path_m = path.p_mesh_m[static_cast<std::size_t>(std::min(near, last))];
+    start = start.found() ? base.surface().bvh.closest_point(on_path_m, start)
+                          : base.surface().bvh.closest_point(on_path_m);
+    NormalFoot foot = foot_along_normal(base.surface(), p_mesh_m, start);
+    if (!foot.on_normal) foot = foot_along_normal(base.surface(), p_mesh_m, base.surface().bvh.closest_point(p_mesh_m));
     truth.height_m[row] = foot.height_m;
 
-    const auto near = static_cast<std::ptrdiff_t>(std::clamp((truth.s_m[row] - first_m) / step_m, 0.0, 1e9));
     const auto reach = static_cast<std::ptrdiff_t>(kWindow_m / step_m);
     const std::ptrdiff_t from = std::clamp<std::ptrdiff_t>(near - reach, 0, last - 1);
     const std::ptrdiff_t to = std::clamp<std::ptrdiff_t>(near + reach, from, last - 1);

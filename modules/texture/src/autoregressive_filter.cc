@@ -37,8 +37,7 @@ void multiply_root(Polynomial& p, std::size_t& length, double s, std::size_t d) 
 // Minus the phase of z⁻¹ z⁻ᵖA(z⁻¹)/A(z) at ω, unwrapped: S_m = (k_m + u) / (1 + k_m u) with u = z⁻¹ S_{m−1}.
 double allpass_lag_rad(std::span<const double> k, double omega_rad) {
   double lag = omega_rad;
-  for (const double km : k)
-    lag += omega_rad + 2.0 * std::atan2(-km * std::sin(lag), 1.0 + km * std::cos(lag));
+  for (const double km : k) lag += omega_rad + 2.0 * std::atan2(-km * std::sin(lag), 1.0 + km * std::cos(lag));
   return lag;
 }
 
@@ -155,10 +154,11 @@ LevinsonResult levinson(std::span<const double> r) {
 
 double power_density(std::span<const double> a, std::span<const double> b, double gain, double variance,
                      double omega_rad) noexcept {
+  const auto z = std::polar(1.0, -omega_rad);
   const auto value = [&](std::span<const double> c) {
-    std::complex<double> sum = 1.0;
-    for (std::size_t i = 0; i < c.size(); ++i) sum += c[i] * std::polar(1.0, -omega_rad * static_cast<double>(i + 1));
-    return std::norm(sum);
+    std::complex<double> sum = 0.0;
+    for (std::size_t i = c.size(); i-- > 0;) sum = (sum + c[i]) * z;
+    return std::norm(sum + 1.0);
   };
   return variance * gain * gain * value(b) / value(a);
 }

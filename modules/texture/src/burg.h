@@ -11,7 +11,8 @@ struct BurgResult {
 };
 
 // Burg's method over several segments of one process: each reflection coefficient minimises the sum of forward
-// and backward errors of all segments (Burg 1975; de Waele and Broersen 2000). Segments shorter than order + 2 do not count.
+// and backward errors of all segments (Burg 1975; de Waele and Broersen 2000). Segments shorter than order + 2 do not
+// count.
 BurgResult burg(const std::vector<std::span<const double>>& segments, int order);
 
 }  // namespace asperity

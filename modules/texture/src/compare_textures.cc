@@ -141,7 +141,6 @@ TextureComparison compare_textures(const ComparedSurface& a, const ComparedSurfa
   }
   const double mean_a = spectrum_a.mean_frequency(low, high);
   result.frequency_per_mm = difference(mean_a, spectrum_b.mean_frequency(low, high), jnd_at(mean_a));
-  result.noticeable = result.noticeable || result.frequency_per_mm.noticeable;
   for (const auto& [name, value] : a.roughness) {
     const auto found = b.roughness.find(name);
     if (found == b.roughness.end()) continue;

@@ -17,15 +17,24 @@ constexpr int kFrequencies = 4096;
 constexpr double kFloor = 1e-4;
 
 // r_m at the new rate: the integral of the one-sided density times cos(2π f m / rate), by the midpoint rule.
-std::vector<double> resampled_autocovariance(const AutoregressiveModel& model, double old_Hz, double new_Hz, int order) {
+std::vector<double> resampled_autocovariance(const AutoregressiveModel& model, double old_Hz, double new_Hz,
+                                             int order) {
   std::vector<double> a(model.ar_lsf_rad.size());
   std::vector<double> b(model.ma_lsf_rad.size());
   lsf_to_ar(model.ar_lsf_rad, a);
   lsf_to_ar(model.ma_lsf_rad, b);
   std::vector<double> r(static_cast<std::size_t>(order) + 1, 0.0);
   const auto add = [&](double f_Hz, double power) {
-    for (std::size_t m = 0; m < r.size(); ++m)
-      r[m] += power * std::cos(2.0 * std::numbers::pi * f_Hz * static_cast<double>(m) / new_Hz);
+    // cos mθ by Chebyshev's recursion.
+    const double c = std::cos(2.0 * std::numbers::pi * f_Hz / new_Hz);
+    double last = c;
+    double now = 1.0;
+    for (double& sum : r) {
+      sum += power * now;
+      const double next = 2.0 * c * now - last;
+      last = now;
+      now = next;
+    }
   };
   const double kept_Hz = 0.5 * std::min(old_Hz, new_Hz);
   const double step_Hz = kept_Hz / kFrequencies;

@@ -175,8 +175,8 @@ BlendedFilter blended_filter(const AutoregressiveTexture& texture, const SeriesB
   return filter;
 }
 
-double next_acceleration_mps2(const AutoregressiveTexture& texture, SeriesState& state, double speed_mps, double force_N,
-                              double dt_s) noexcept {
+double next_acceleration_mps2(const AutoregressiveTexture& texture, SeriesState& state, double speed_mps,
+                              double force_N, double dt_s) noexcept {
   return next_step(texture, state, speed_mps, force_N, dt_s).acceleration_mps2;
 }
 

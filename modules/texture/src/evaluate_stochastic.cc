@@ -50,8 +50,8 @@ SeriesForce next_force(const StochasticTexture& texture, SeriesState& state, dou
   const double sigma_m = scaled_sigma_m(texture, speed_mps, servo_input(force_N));
   const double z_m = sigma_m * next_deviate(texture, state, speed_mps, servo_input(dt_s));
   const double height_m = lifted(z_m, sigma_m, texture.lift_sigma);
-  return {texture.stiffness_N_per_m * height_m,
-          texture.tangential_ratio * texture.stiffness_N_per_m * (height_m - std::max(texture.lift_sigma, 0.0) * sigma_m)};
+  return {texture.stiffness_N_per_m * height_m, texture.tangential_ratio * texture.stiffness_N_per_m *
+                                                    (height_m - std::max(texture.lift_sigma, 0.0) * sigma_m)};
 }
 
 }  // namespace asperity

@@ -78,8 +78,8 @@ AutoregressiveFit fit_once(const SeriesRecording& recording, const FitAutoregres
   const double stroked_s = static_cast<double>(windows.size() * windows.front().count) / recording.rate_Hz;
   const int groups_wanted =
       static_cast<int>(std::clamp(std::floor(stroked_s / config.seconds_per_model), 1.0, double(config.max_models)));
-  const auto least = std::max<std::size_t>(2, static_cast<std::size_t>(0.5 * config.seconds_per_model *
-                                                                       recording.rate_Hz / windows.front().count));
+  const auto least = std::max<std::size_t>(
+      2, static_cast<std::size_t>(0.5 * config.seconds_per_model * recording.rate_Hz / windows.front().count));
   const auto groups = gather(windows, group_windows(windows, groups_wanted, least), x);
   std::vector<BurgResult> filters;
   for (const auto& g : groups) {

@@ -30,7 +30,8 @@ void check(const std::vector<TapRecording>& taps, const FitDecayingSinusoidsConf
     if (tap.acceleration_mps2.size() < 16)
       throw Error(what + " has " + std::to_string(tap.acceleration_mps2.size()) + " samples; 16 are needed");
     if (!std::isfinite(tap.speed_mps) || !std::isfinite(tap.force_N) || tap.speed_mps < 0.0 || tap.force_N < 0.0)
-      throw Error(what + " has speed " + number_text(tap.speed_mps) + " m/s and force " + number_text(tap.force_N) + " N");
+      throw Error(what + " has speed " + number_text(tap.speed_mps) + " m/s and force " + number_text(tap.force_N) +
+                  " N");
     for (const double x : tap.acceleration_mps2) {
       if (!std::isfinite(x)) throw Error(what + " has a sample that is not finite");
       square += x * x;
@@ -39,7 +40,8 @@ void check(const std::vector<TapRecording>& taps, const FitDecayingSinusoidsConf
   if (!(square > 0.0)) throw Error("texture: the taps are silent");
 }
 
-// The pole z = e^((−B + iω)/rate) that all taps share: the two strongest directions of the lags' covariance, shifted by one.
+// The pole z = e^((−B + iω)/rate) that all taps share: the two strongest directions of the lags' covariance, shifted by
+// one.
 std::complex<double> common_pole(const std::vector<TapRecording>& taps) {
   std::size_t shortest = taps.front().acceleration_mps2.size();
   for (const auto& tap : taps) shortest = std::min(shortest, tap.acceleration_mps2.size());
@@ -53,8 +55,7 @@ std::complex<double> common_pole(const std::vector<TapRecording>& taps) {
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
   const Eigen::MatrixXd signal = solver.eigenvectors().rightCols<2>();
-  const Eigen::Matrix2d shift =
-      signal.topRows(lags - 1).colPivHouseholderQr().solve(signal.bottomRows(lags - 1));
+  const Eigen::Matrix2d shift = signal.topRows(lags - 1).colPivHouseholderQr().solve(signal.bottomRows(lags - 1));
   return Eigen::EigenSolver<Eigen::Matrix2d>(shift).eigenvalues()[0];
 }
 

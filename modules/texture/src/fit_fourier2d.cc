@@ -54,11 +54,13 @@ Fourier2d pattern(const Fourier1d& x, const Fourier1d& y) {
 }
 
 // The harmonics 1…N parted into bands: [first, end) each, a relative `resolution` wide.
+// One harmonic's power scatters by 100 % from profile to profile, so that narrow bands would be noise.
 std::vector<std::size_t> band_edges(std::size_t count, double resolution) {
+  constexpr std::size_t kNarrowest = 3;
   std::vector<std::size_t> edges{1};
   while (edges.back() <= count) {
     const auto width = static_cast<std::size_t>(resolution * static_cast<double>(edges.back()));
-    edges.push_back(std::min(count + 1, edges.back() + std::max<std::size_t>(1, width)));
+    edges.push_back(std::min(count + 1, edges.back() + std::max(kNarrowest, width)));
   }
   return edges;
 }

@@ -20,8 +20,10 @@ constexpr std::size_t kSynthesised = 1 << 16;
 
 double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
-// Moments about the mean, and the distribution function's distance; `z` is sorted.
+// Moments about the mean, and the distribution function's distance.
 void measure_distribution(std::vector<double> z, StochasticFit& fit) {
+  std::sort(z.begin(), z.end());
+  if (z.front() == z.back()) throw Error("texture: all heights are equal: there is no texture");
   const double n = static_cast<double>(z.size());
   double mean = 0.0;
   for (const double v : z) mean += v / n;
@@ -35,10 +37,8 @@ void measure_distribution(std::vector<double> z, StochasticFit& fit) {
     m4 += d * d * d * d / n;
   }
   fit.texture.sigma_m = std::sqrt(m2);
-  if (!(m2 > 0.0)) throw Error("texture: all heights are equal: there is no texture");
   fit.skewness = m3 / (m2 * std::sqrt(m2));
   fit.excess_kurtosis = m4 / (m2 * m2) - 3.0;
-  std::sort(z.begin(), z.end());
   for (std::size_t i = 0; i < z.size(); ++i) {
     const double f = normal_cdf((z[i] - mean) / fit.texture.sigma_m);
     const double below = static_cast<double>(i) / n;

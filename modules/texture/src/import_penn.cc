@@ -18,7 +18,8 @@ constexpr std::uint64_t kLargestFile_bytes = 8ULL << 20;
 constexpr int kDeepest = 16;
 
 std::size_t line_at(std::string_view text, std::size_t offset) {
-  return 1 + static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text.size())), '\n'));
+  return 1 + static_cast<std::size_t>(std::count(
+                 text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text.size())), '\n'));
 }
 
 // Before anything is built from it: no declared entities, no deep nesting.
@@ -73,7 +74,8 @@ class Reader {
     const auto value = parse_double(trim(text));
     if (!value || !std::isfinite(*value)) fail(node, "holds '" + printable(text) + "', which is not a number");
     if (*value < low || *value > high)
-      fail(node, "holds " + number_text(*value) + ", which is not within " + number_text(low) + " and " + number_text(high));
+      fail(node,
+           "holds " + number_text(*value) + ", which is not within " + number_text(low) + " and " + number_text(high));
     return *value;
   }
   // The number that an element holds, itself or in its one <value>.
@@ -162,7 +164,8 @@ void read_triangles(const Reader& reader, const pugi::xml_node& set, PennTexture
     if (triangles.size() == static_cast<std::size_t>(kMaxSeriesTriangles))
       reader.fail(node, "comes more than " + std::to_string(kMaxSeriesTriangles) + " times");
     const auto indices = reader.values(node, 3, 0.0, 1e6);
-    if (indices.size() != 3) reader.fail(node, "has " + std::to_string(indices.size()) + " values where 3 are expected");
+    if (indices.size() != 3)
+      reader.fail(node, "has " + std::to_string(indices.size()) + " values where 3 are expected");
     std::array<int, 3> triangle;
     for (std::size_t j = 0; j < 3; ++j) {
       triangle[j] = static_cast<int>(indices[j]) - 1;
@@ -174,8 +177,8 @@ void read_triangles(const Reader& reader, const pugi::xml_node& set, PennTexture
   if (const auto node = reader.only(set, "numTri")) {
     const int count = reader.count(node, 1'000'000);
     if (count != static_cast<int>(triangles.size()))
-      reader.fail(node, "is " + std::to_string(count) + " where there are " + std::to_string(triangles.size()) +
-                            " triangles");
+      reader.fail(
+          node, "is " + std::to_string(count) + " where there are " + std::to_string(triangles.size()) + " triangles");
   }
   if (!fit) {
     penn.problems.push_back(
@@ -193,7 +196,8 @@ PennTexture parse_penn(std::string_view text, const std::string& name, const Imp
   pugi::xml_document document;
   const auto result = document.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!result) {
-    throw Error(name + ":" + std::to_string(line_at(text, static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)))) +
+    throw Error(name + ":" +
+                std::to_string(line_at(text, static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0)))) +
                 ": not XML: " + result.description());
   }
   const Reader reader(text, name);
@@ -219,8 +223,8 @@ PennTexture parse_penn(std::string_view text, const std::string& name, const Imp
   if (const auto node = reader.only(set, "numMod")) {
     const int count = reader.count(node, 1'000'000);
     if (count != static_cast<int>(penn.texture.models.size()))
-      reader.fail(node, "is " + std::to_string(count) + " where there are " + std::to_string(penn.texture.models.size()) +
-                            " models");
+      reader.fail(node, "is " + std::to_string(count) + " where there are " +
+                            std::to_string(penn.texture.models.size()) + " models");
   }
   check_list(reader, set, "speedList", 1e-3, &AutoregressiveModel::speed_mps, penn.texture.models);
   check_list(reader, set, "forceList", 1.0, &AutoregressiveModel::force_N, penn.texture.models);

@@ -77,11 +77,14 @@ HeightMapFit make_height_map(const TextureModel& model, const MakeHeightMapConfi
   const double width_m = config.width_mm > 0.0 ? config.width_mm * 1e-3 : pixel_x_m * static_cast<double>(rows);
   const double pixel_y_m = width_m / static_cast<double>(rows);
   const double seam_m = config.seam_mm * 1e-3;
-  if (2.0 * seam_m > std::min(length_m, width_m))
-    throw Error("texture: a seam of " + number_text(config.seam_mm) + " mm is longer than half the tile");
   const bool tiling = config.border == Border::kPeriodic;
-  const Tile tile{model, length_m, width_m, tiling && !repeats(model, length_m, 0.0, length_m, width_m) ? seam_m : 0.0,
-                  tiling && !repeats(model, 0.0, width_m, length_m, width_m) ? seam_m : 0.0};
+  const auto seam_of = [&](double dx_m, double dy_m) {
+    if (!tiling || repeats(model, dx_m, dy_m, length_m, width_m)) return 0.0;
+    if (2.0 * seam_m > dx_m + dy_m)
+      throw Error("texture: a seam of " + number_text(config.seam_mm) + " mm is longer than half the tile");
+    return seam_m;
+  };
+  const Tile tile{model, length_m, width_m, seam_of(length_m, 0.0), seam_of(0.0, width_m)};
 
   std::vector<double> height_m(columns * rows);
   for (std::size_t r = 0; r < rows; ++r) {

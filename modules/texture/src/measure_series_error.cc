@@ -27,7 +27,8 @@ std::vector<Stretch> stretches(const std::vector<SeriesWindow>& windows) {
   return runs;
 }
 
-// Power a band, weighted by the stretches' lengths. The bands part the range from the high-pass to half the rate evenly.
+// Power a band, weighted by the stretches' lengths. The bands part the range from the high-pass to half the rate
+// evenly.
 std::vector<double> band_powers(std::span<const double> x, const std::vector<Stretch>& runs, std::size_t segment,
                                 double rate_Hz, const std::vector<double>& band_Hz, double low_Hz) {
   std::vector<double> power(band_Hz.size(), 0.0);

@@ -39,5 +39,11 @@ void read_block(const BlockInput& input, HeightMap& model);
 std::string write_block(const HeightMap& model, BlockOutput& output);
 void read_block(const BlockInput& input, ArealTexture& model);
 std::string write_block(const ArealTexture& model, BlockOutput& output);
+void read_block(const BlockInput& input, StochasticTexture& model);
+std::string write_block(const StochasticTexture& model, BlockOutput& output);
+void read_block(const BlockInput& input, AutoregressiveTexture& model);
+std::string write_block(const AutoregressiveTexture& model, BlockOutput& output);
+void read_block(const BlockInput& input, DecayingSinusoids& model);
+std::string write_block(const DecayingSinusoids& model, BlockOutput& output);
 
 }  // namespace asperity

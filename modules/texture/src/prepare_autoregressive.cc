@@ -64,9 +64,9 @@ void check_model(const std::string& name, const AutoregressiveModel& model, cons
   check_number(name, what + ": the gain", model.gain, -1e6, 1e6);
   const auto check_order = [&](const char* part, std::size_t order, std::size_t wanted, std::size_t least) {
     if (order < least || order > static_cast<std::size_t>(kMaxSeriesOrder) || order != wanted) {
-      throw Error(name + ": " + what + " has " + std::to_string(order) + " " + part + " frequencies where the first has " +
-                  std::to_string(wanted) + "; " + std::to_string(least) + " to " + std::to_string(kMaxSeriesOrder) +
-                  " are possible");
+      throw Error(name + ": " + what + " has " + std::to_string(order) + " " + part +
+                  " frequencies where the first has " + std::to_string(wanted) + "; " + std::to_string(least) + " to " +
+                  std::to_string(kMaxSeriesOrder) + " are possible");
     }
   };
   check_order("AR", model.ar_lsf_rad.size(), first.ar_lsf_rad.size(), 1);
@@ -81,7 +81,8 @@ void wind(AutoregressiveTexture& t) {
     const auto& a = t.models[static_cast<std::size_t>(tri[0])];
     const auto& b = t.models[static_cast<std::size_t>(tri[1])];
     const auto& c = t.models[static_cast<std::size_t>(tri[2])];
-    return (b.speed_mps - a.speed_mps) * (c.force_N - a.force_N) - (b.force_N - a.force_N) * (c.speed_mps - a.speed_mps);
+    return (b.speed_mps - a.speed_mps) * (c.force_N - a.force_N) -
+           (b.force_N - a.force_N) * (c.speed_mps - a.speed_mps);
   };
   std::erase_if(t.triangles, [&](const auto& tri) { return area(tri) == 0.0; });
   for (auto& tri : t.triangles) {

@@ -66,8 +66,8 @@ TEST(Autoregressive, BlendsWithinTheTriangleAndAtTheBorder) {
       // The nearest point: no model is nearer, and moving a little towards the query leaves the hull.
       const double du = (blended_speed - speed) / t.max_speed_mps, dv = (blended_force - force) / t.max_force_N;
       for (const auto& m : t.models)
-        EXPECT_LE(std::hypot(du, dv), std::hypot((m.speed_mps - speed) / t.max_speed_mps,
-                                                 (m.force_N - force) / t.max_force_N) + 1e-12);
+        EXPECT_LE(std::hypot(du, dv),
+                  std::hypot((m.speed_mps - speed) / t.max_speed_mps, (m.force_N - force) / t.max_force_N) + 1e-12);
       EXPECT_LT(blend_models(t, speed, force, -1).triangle, 0);
     }
   }

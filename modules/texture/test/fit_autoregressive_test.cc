@@ -42,8 +42,8 @@ Series synthetic(double duration_s, std::uint64_t seed) {
     const double speed = 0.06 + 0.04 * std::sin(2.0 * std::numbers::pi * t / 5.0);
     const double force = 1.0 + 0.7 * std::sin(2.0 * std::numbers::pi * t / 7.3 + 1.0);
     const Truth truth(speed, force);
-    const double x = 2.0 * truth.pole_radius * std::cos(truth.pole_rad) * x1 - truth.pole_radius * truth.pole_radius * x2 +
-                     truth.sigma * random.normal();
+    const double x = 2.0 * truth.pole_radius * std::cos(truth.pole_rad) * x1 -
+                     truth.pole_radius * truth.pole_radius * x2 + truth.sigma * random.normal();
     x2 = x1;
     x1 = x;
     s.acceleration_mps2.push_back(x);
@@ -102,8 +102,7 @@ TEST(FitAutoregressive, FollowsSpeedAndForce) {
     const Truth truth(speed, force);
     const double r = truth.pole_radius;
     const double a1 = -2.0 * r * std::cos(truth.pole_rad), a2 = r * r;
-    const double expected =
-        truth.sigma * truth.sigma * (1.0 + a2) / ((1.0 - a2) * ((1.0 + a2) * (1.0 + a2) - a1 * a1));
+    const double expected = truth.sigma * truth.sigma * (1.0 + a2) / ((1.0 - a2) * ((1.0 + a2) * (1.0 + a2) - a1 * a1));
     const auto filter = blended_filter(fit.texture, blend_models(fit.texture, speed, force, 0));
     // A model is the mean of its neighbourhood, and rests on some five seconds.
     EXPECT_NEAR(filter.sigma_mps2, std::sqrt(expected), 0.1 * std::sqrt(expected)) << speed << " " << force;

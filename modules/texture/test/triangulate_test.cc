@@ -87,8 +87,11 @@ TEST(Triangulate, PointsOnALineAndTwinsAreNoTriangles) {
 }
 
 TEST(Triangulate, RefusesWhatIsNotFinite) {
-  EXPECT_THAT([] { triangulate(std::vector<PlanePoint>{{0.0, 0.0}, {INFINITY, 0.0}}); },
-              ThrowsMessage<Error>(HasSubstr("point 2 is not finite")));
+  EXPECT_THAT(
+      [] {
+        triangulate(std::vector<PlanePoint>{{0.0, 0.0}, {INFINITY, 0.0}});
+      },
+      ThrowsMessage<Error>(HasSubstr("point 2 is not finite")));
 }
 
 }  // namespace

@@ -4,8 +4,9 @@
 #include "asperity/pipeline/path_texture.h"
 #include "asperity/pipeline/process_config.h"
 #include "asperity/pipeline/scan_on_mesh.h"
+#include "asperity/registration/find_registration.h"
 #include "asperity/registration/haptic_coordinates.h"
-#include "asperity/registration/registration_config.h"
+#include "asperity/registration/refine_registration.h"
 
 namespace asperity {
 
@@ -13,7 +14,8 @@ namespace asperity {
 struct RegisterConfig {
   ProcessConfig process;
   MeasuredPathConfig points;
-  RegistrationConfig registration;
+  SearchConfig search;  // its `registration` serves also where there is a guess
+  RefineConfig refinement;
   ScanOnMeshConfig path;
   HapticCoordinatesConfig coordinates;
   PathTextureConfig texture;
@@ -22,7 +24,8 @@ struct RegisterConfig {
   void visit(V& v) {
     v.group("process", process);
     v.group("points", points);
-    v.group("registration", registration);
+    v.group("search", search);
+    v.group("refinement", refinement);
     v.group("path", path);
     v.group("coordinates", coordinates);
     v.group("texture", texture);

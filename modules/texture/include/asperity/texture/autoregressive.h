@@ -20,21 +20,21 @@ struct AutoregressiveModel {
   double sigma_mps2 = 0.0;  // of x; follows from the rest, see prepare_autoregressive()
 };
 
-// Vibrations as a function of speed and force (Romano and Kuchenbecker 2012; Culbertson, Unwin and Kuchenbecker 2014): models at
-// points of the speed-force plane, between which line spectral frequencies, gain and variance are mixed by
+// Vibrations as a function of speed and force (Romano and Kuchenbecker 2012; Culbertson, Unwin and Kuchenbecker 2014):
+// models at points of the speed-force plane, between which line spectral frequencies, gain and variance are mixed by
 // the barycentric weights of a triangulation.
 struct AutoregressiveTexture {
-  double rate_Hz = 1000.0;         // of the models
-  double mass_kg = 0.05;           // effective mass of tool and hand: acceleration to force (HaTT: 0.05)
-  double tangential_ratio = 0.0;   // tangential part of the force over its normal part, before the lift
-  double lift_sigma = 3.0;         // erratum 20; 0: forces of both signs
-  double fade_speed_mps = 5e-3;    // below it the texture fades to nothing
-  double fade_force_N = 0.05;      // likewise
-  double max_speed_mps = 0.0;      // distances in the plane are measured in units of these; 0: the models' largest
+  double rate_Hz = 1000.0;        // of the models
+  double mass_kg = 0.05;          // effective mass of tool and hand: acceleration to force (HaTT: 0.05)
+  double tangential_ratio = 0.0;  // tangential part of the force over its normal part, before the lift
+  double lift_sigma = 3.0;        // erratum 20; 0: forces of both signs
+  double fade_speed_mps = 5e-3;   // below it the texture fades to nothing
+  double fade_force_N = 0.05;     // likewise
+  double max_speed_mps = 0.0;     // distances in the plane are measured in units of these; 0: the models' largest
   double max_force_N = 0.0;
-  std::vector<AutoregressiveModel> models;        // all of one order
-  std::vector<std::array<int, 3>> triangles;      // of indices of models; empty: Delaunay's
-  std::vector<std::array<int, 2>> edges;          // the border, and what belongs to no triangle; follows from the rest
+  std::vector<AutoregressiveModel> models;    // all of one order
+  std::vector<std::array<int, 3>> triangles;  // of indices of models; empty: Delaunay's
+  std::vector<std::array<int, 2>> edges;      // the border, and what belongs to no triangle; follows from the rest
 };
 
 inline constexpr int kMaxSeriesModels = 1024;

@@ -52,8 +52,8 @@ struct TextureComparison {
   double high_cycles_per_mm = 0.0;
   std::vector<BandDifference> bands;            // octaves
   std::map<std::string, Difference> roughness;  // of the names that both have
-  Difference frequency_per_mm;                  // mean spatial frequency, weighted by power
-  bool noticeable = false;                      // any of bands felt, Rq_m, RSm_m, frequency
+  Difference frequency_per_mm;                  // mean spatial frequency, weighted by power; for information
+  bool noticeable = false;                      // any of the bands felt, Rq_m or RSm_m
 };
 
 // The just-noticeable difference of a vibration in percent (seed §2.1): 3 up to 250 Hz [19], 18 from 300 Hz

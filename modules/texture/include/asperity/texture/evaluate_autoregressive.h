@@ -33,15 +33,15 @@ struct BlendedFilter {
 };
 BlendedFilter blended_filter(const AutoregressiveTexture& texture, const SeriesBlend& blend) noexcept;
 
-// The next acceleration of the tool, m/s², `dt_s` after the last, stroking at `speed_mps` under `force_N`; inputs that are not
-// finite or negative count as 0, and at rest or without force there is none. The texture must have been prepared
-// (prepare_autoregressive). The noise runs through 1/A as a normalised lattice (Gray and Markel 1975): each
-// section is a rotation, so that the filter stays bounded however fast speed and force change, and the output has the mixed
-// variance at every step. Between the model's samples the output is interpolated, one model sample late;
-// convert_rate() first if the rates differ. Fixed time but for the search in the triangulation and the number of model samples
-// in dt_s, at most 16. Realtime-safe: yes. Thread-safe: yes, with a state each.
-double next_acceleration_mps2(const AutoregressiveTexture& texture, SeriesState& state, double speed_mps, double force_N,
-                              double dt_s) noexcept;
+// The next acceleration of the tool, m/s², `dt_s` after the last, stroking at `speed_mps` under `force_N`; inputs that
+// are not finite or negative count as 0, and at rest or without force there is none. The texture must have been
+// prepared (prepare_autoregressive). The noise runs through 1/A as a normalised lattice (Gray and Markel 1975): each
+// section is a rotation, so that the filter stays bounded however fast speed and force change, and the output has the
+// mixed variance at every step. Between the model's samples the output is interpolated, one model sample late;
+// convert_rate() first if the rates differ. Fixed time but for the search in the triangulation and the number of model
+// samples in dt_s, at most 16. Realtime-safe: yes. Thread-safe: yes, with a state each.
+double next_acceleration_mps2(const AutoregressiveTexture& texture, SeriesState& state, double speed_mps,
+                              double force_N, double dt_s) noexcept;
 
 // The same times mass_kg; the normal part lifted by lift_sigma standard deviations and clamped (erratum 20).
 SeriesForce next_force(const AutoregressiveTexture& texture, SeriesState& state, double speed_mps, double force_N,

@@ -51,8 +51,8 @@ struct FitAutoregressiveConfig {
   }
 };
 
-// A recording of one texture: acceleration of the tool (high-frequency part, one axis or reduced to one), speed along the
-// surface and normal force, sampled together.
+// A recording of one texture: acceleration of the tool (high-frequency part, one axis or reduced to one), speed along
+// the surface and normal force, sampled together.
 struct SeriesRecording {
   std::span<const double> acceleration_mps2;
   std::span<const double> speed_mps;
@@ -62,30 +62,30 @@ struct SeriesRecording {
 
 // A synthesis against a recording, over the windows of the recording that stroke.
 struct SeriesError {
-  double recorded_variance = 0.0;          // (m/s²)²
-  double variance_error = 0.0;             // relative, signed
-  std::vector<double> band_Hz;             // upper ends; the first begins at high_pass_Hz
-  std::vector<double> recorded_power;      // per band, (m/s²)²
+  double recorded_variance = 0.0;      // (m/s²)²
+  double variance_error = 0.0;         // relative, signed
+  std::vector<double> band_Hz;         // upper ends; the first begins at high_pass_Hz
+  std::vector<double> recorded_power;  // per band, (m/s²)²
   std::vector<double> synthesised_power;
-  double spectrum_error = 0.0;             // Σ |ΔP| / Σ P over the bands
-  double worst_band_error = 0.0;           // largest |ΔP| / P of the bands with at least 2 % of the power
+  double spectrum_error = 0.0;    // Σ |ΔP| / Σ P over the bands
+  double worst_band_error = 0.0;  // largest |ΔP| / P of the bands with at least 2 % of the power
   std::size_t samples = 0;
 };
 
 struct AutoregressiveFit {
-  AutoregressiveTexture texture;          // of the whole recording
+  AutoregressiveTexture texture;  // of the whole recording
   int order = 0;
-  std::size_t samples = 0;                // that stroke
-  std::vector<std::size_t> model_samples; // per model
-  std::vector<double> order_cost;         // the criterion, from min_order on
-  SeriesError held_out;                   // fit to the first half, measured on the second
-  Problems problems;                      // "few_samples", "no_held_out"
+  std::size_t samples = 0;                 // that stroke
+  std::vector<std::size_t> model_samples;  // per model
+  std::vector<double> order_cost;          // the criterion, from min_order on
+  SeriesError held_out;                    // fit to the first half, measured on the second
+  Problems problems;                       // "few_samples", "no_held_out"
 };
 
 // Autoregressive models of a recording: windows of constant speed and force are gathered into groups of like speed and
 // force (k-means from the farthest points, without randomness), and each group is one model at its mean: reflection
-// coefficients by Burg's method for segments (de Waele and Broersen 2000), one order for all by the criterion over all groups.
-// Culbertson et al. 2014 part the recording where it changes and make a model of each part; grouping gives one
+// coefficients by Burg's method for segments (de Waele and Broersen 2000), one order for all by the criterion over all
+// groups. Culbertson et al. 2014 part the recording where it changes and make a model of each part; grouping gives one
 // model all the visits to its speed and force. Throws Error for spans of unequal length, samples that are not finite,
 // or less than two windows that stroke.
 AutoregressiveFit fit_autoregressive(const SeriesRecording& recording, const FitAutoregressiveConfig& config = {});

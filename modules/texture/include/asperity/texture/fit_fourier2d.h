@@ -12,7 +12,7 @@ struct FitFourier2dConfig {
   Fourier2dKind kind = Fourier2dKind::kIsotropic;
   std::int64_t seed = 0;
   int coefficients = 128;
-  double resolution = 0.15;
+  double resolution = 0.25;
   int iterations = 500;
 
   template <class V>
@@ -21,7 +21,8 @@ struct FitFourier2dConfig {
              "outer: product of the profiles (seed §6.5); pattern: product of depths; isotropic: random phases");
     v.field("seed", seed, "isotropic: of the phases", {0.0, 9e15});
     v.field("coefficients", coefficients, "isotropic: harmonics kept of the profile's", {1, 256});
-    v.field("resolution", resolution, "isotropic: relative width of the bands in which the spectrum is smoothed",
+    v.field("resolution", resolution,
+            "isotropic: relative width of the bands in which the spectrum is smoothed, 3 harmonics at least",
             {0.0, 1.0});
     v.field("iterations", iterations, "isotropic: steps from the profile's spectrum to the surface's", {1, 100000});
   }

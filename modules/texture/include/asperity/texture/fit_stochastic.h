@@ -39,6 +39,7 @@ struct StochasticFit {
 // little of the profile that keeps is in the errors: distribution and spectrum, the latter of the longest gap-free
 // stretch, as ½ Σ |P_k/ΣP − Q_k/ΣQ| over Welch's estimates. Above half, a Problem says that the profile is no noise.
 // Throws Error for an infinite height, a spacing that is not positive, or no gap-free stretch of 64 samples.
-StochasticFit fit_stochastic(std::span<const double> height_m, double spacing_m, const FitStochasticConfig& config = {});
+StochasticFit fit_stochastic(std::span<const double> height_m, double spacing_m,
+                             const FitStochasticConfig& config = {});
 
 }  // namespace asperity

@@ -8,9 +8,12 @@
 #include <variant>
 
 #include "asperity/texture/areal_texture.h"
+#include "asperity/texture/autoregressive.h"
+#include "asperity/texture/decaying_sinusoids.h"
 #include "asperity/texture/fourier1d.h"
 #include "asperity/texture/fourier2d.h"
 #include "asperity/texture/height_map.h"
+#include "asperity/texture/stochastic.h"
 
 namespace asperity {
 
@@ -22,8 +25,10 @@ struct TextureSource {
 };
 
 // The models, and in the same order their names in the file.
-using TextureModel = std::variant<Fourier1d, Fourier2d, HeightMap, ArealTexture>;
-inline constexpr std::array<std::string_view, 4> kTextureModelNames{"fourier1d", "fourier2d", "heightmap", "areal"};
+using TextureModel = std::variant<Fourier1d, Fourier2d, HeightMap, ArealTexture, StochasticTexture,
+                                  AutoregressiveTexture, DecayingSinusoids>;
+inline constexpr std::array<std::string_view, 7> kTextureModelNames{
+    "fourier1d", "fourier2d", "heightmap", "areal", "stochastic", "autoregressive", "decaying_sinusoids"};
 static_assert(kTextureModelNames.size() == std::variant_size_v<TextureModel>);
 
 // A haptic texture, the content of a *.texture.json and of the image or table that it names.
