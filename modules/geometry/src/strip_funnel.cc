@@ -74,7 +74,7 @@ std::vector<Bend> shortest_bends(const UnfoldedStrip& strip) {
     const auto crosses = [](double over, const Vector2d& p, const Vector2d& other) {
       constexpr double kInLine_rad = 1e-12;
       const double slack = kInLine_rad * p.norm() * other.norm();
-      return over > slack || (over >= -slack && p.squaredNorm() >= other.squaredNorm());
+      return over > slack || (over >= -slack && p.dot(other) > 0.0 && p.squaredNorm() >= other.squaredNorm());
     };
     if (cross(right - apex, r) >= 0.0) {
       if (left != apex && right != apex && crosses(cross(left - apex, r), r, left - apex)) {
