@@ -299,6 +299,12 @@ RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, con
   result.rms_m = best.heights.rms_m;
   result.iterations += best.iterations;
   registration::list_weak_turns(chain, config.undetermined_deg * std::numbers::pi / 180.0, result);
+  result.verdict +=
+      fmt::format(" With the slow error of the tracker allowed for: residual {:.4f} mm RMS", 1e3 * result.rms_m);
+  for (std::size_t i = start.undetermined.size(); i < result.undetermined.size(); ++i) {
+    result.verdict += (i == start.undetermined.size() ? "; but " : ", ") + result.undetermined[i].description;
+  }
+  result.verdict += ".";
   if (!problem.slow()) return out;
   for (std::size_t p = 0; p < paths.size(); ++p) {
     const PathChain::Part& part = chain.parts[p];
