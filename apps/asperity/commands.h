@@ -10,7 +10,9 @@ namespace asperity::app {
 std::unique_ptr<Command> make_demo(CLI::App& root);
 std::unique_ptr<Command> make_simulate(CLI::App& root);
 std::unique_ptr<Command> make_import(CLI::App& root);
+std::unique_ptr<Command> make_export(CLI::App& root);
 std::unique_ptr<Command> make_inspect(CLI::App& root);
+std::unique_ptr<Command> make_paint(CLI::App& root);
 std::unique_ptr<Command> make_process(CLI::App& root);
 std::unique_ptr<Command> make_register(CLI::App& root);
 std::unique_ptr<Command> make_roughness(CLI::App& root);

@@ -181,15 +181,27 @@ MeshPath trace(const TriangleMesh& mesh, const TriangleStrip& strip, const Unfol
   add(from, strip.faces.front());
   std::size_t next_bend = 0;
   Vector2d begin = flat.from;
+  double reached = 0.0;  // of the way from `begin` to the next bend
   for (std::size_t i = 0; i < flat.portals.size(); ++i) {
     const Portal& portal = flat.portals[i];
-    while (next_bend < bends.size() && bends[next_bend].portal < i) begin = place_of(flat, bends[next_bend++]);
+    while (next_bend < bends.size() && bends[next_bend].portal < i) {
+      begin = place_of(flat, bends[next_bend++]);
+      reached = 0.0;
+    }
     const Vector2d end = next_bend < bends.size() ? place_of(flat, bends[next_bend]) : flat.to;
     const Vector2d edge = portal.left - portal.right;
     const Vector2d along = end - begin;
     const double over = along.x() * edge.y() - along.y() * edge.x();
     const Vector2d out = begin - portal.right;
-    double u = over != 0.0 ? std::clamp((along.x() * out.y() - along.y() * out.x()) / over, 0.0, 1.0) : 0.5;
+    double u = over != 0.0 ? std::clamp((along.x() * out.y() - along.y() * out.x()) / over, 0.0, 1.0) : 0.0;
+    // Where the path runs along an edge, rounding decides where they meet: never behind the last crossing.
+    const double square = along.squaredNorm();
+    const double t = square > 0.0 ? (portal.right + u * edge - begin).dot(along) / square : 0.0;
+    const double kept = std::clamp(t, reached, 1.0);
+    if (kept != t && edge.squaredNorm() > 0.0) {
+      u = std::clamp((begin + kept * along - portal.right).dot(edge) / edge.squaredNorm(), 0.0, 1.0);
+    }
+    reached = kept;
     // A bend lies on the vertex itself, and so does the path at every edge it turns over there.
     for (const Vector2d& at : {begin, end}) {
       if (at == portal.left) u = 1.0;

@@ -70,9 +70,11 @@ std::vector<Bend> shortest_bends(const UnfoldedStrip& strip) {
     };
     const Vector2d l = left_of(i) - apex;
     const Vector2d r = right_of(i) - apex;
-    // Of two points in line with the last bend the path can only bend round the nearer.
+    // Of two points in line with the last bend, within rounding, the path can only bend round the nearer.
     const auto crosses = [](double over, const Vector2d& p, const Vector2d& other) {
-      return over > 0.0 || (over == 0.0 && p.squaredNorm() >= other.squaredNorm());
+      constexpr double kInLine_rad = 1e-12;
+      const double slack = kInLine_rad * p.norm() * other.norm();
+      return over > slack || (over >= -slack && p.dot(other) > 0.0 && p.squaredNorm() >= other.squaredNorm());
     };
     if (cross(right - apex, r) >= 0.0) {
       if (left != apex && right != apex && crosses(cross(left - apex, r), r, left - apex)) {

@@ -104,6 +104,19 @@ TEST(GeodesicPath, RunsAlongTheLinesOfAGridThroughItsVertices) {
   }
 }
 
+TEST(GeodesicPath, DoesNotTurnBackWhereItRunsAlongAnEdge) {
+  const TriangleMesh mesh = testkit::box_mesh({0.03, 0.02, 0.005}, 10);
+  const MeshAdjacency adjacency = make_adjacency(mesh);
+  Random random(6);
+  for (int i = 0; i < 200; ++i) {  // within rounding of a line of edges, from any triangle that touches it
+    const double y = 0.01 + 1e-17 * std::floor(random.uniform(-2.0, 3.0));
+    const Vector3d from(random.uniform(0.001, 0.029), y, 0.005);
+    const Vector3d to(random.uniform(0.001, 0.029), 0.01, 0.005);
+    const GeodesicPath g = geodesic_path(mesh, adjacency, nearest(mesh, from), nearest(mesh, to));
+    EXPECT_NEAR(g.path.s_m.back(), (from - to).norm(), 1e-12);
+  }
+}
+
 TEST(GeodesicPath, CrossesABoxAsItsUnfoldingSays) {
   const TriangleMesh mesh = testkit::box_mesh({0.06, 0.05, 0.04}, 6);
   const MeshAdjacency adjacency = make_adjacency(mesh);
