@@ -187,12 +187,15 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
   const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
   observer.update("registration", 0.0);
   std::vector<MeasuredPath> smooth;
-  for (const MeasuredPath& path : paths) smooth.push_back(smooth_path(path, config.points.smoothing_m));
+  const bool sequence = in_sequence(scans);
+  for (const MeasuredPath& path : paths) {
+    smooth.push_back(sequence ? smooth_path(path, config.points.smoothing_m) : path);
+  }
   out.registration = guess ? register_path(smooth, ready, *guess, config.search.registration)
                            : find_registration(smooth, ready, config.search);
   // Scans have errors that last along the path; points without a sequence have none that is known.
   std::vector<std::vector<Eigen::Vector3d>> slow_error_world_m(scans.size());
-  if (in_sequence(scans)) {
+  if (sequence) {
     RefinedRegistration refined = refine_registration(paths, surface, out.registration, config.refinement);
     out.registration = std::move(refined.registration);
     slow_error_world_m = std::move(refined.slow_error_world_m);

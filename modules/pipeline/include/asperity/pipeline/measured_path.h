@@ -37,8 +37,7 @@ PathPoints measured_path(const TipMotion& motion, std::span<const char> usable, 
                          const MeasuredPathConfig& config);
 
 // The moving mean of a path over `length_m`, shorter towards its ends and where a step of more than three times the
-// median parts it: the relief goes, the mesh's shape stays (a curve of radius R is cut by length²/24R). Without
-// effect where a path is too irregular to have a spacing, as points in no order.
+// median parts it: the relief goes, the mesh's shape stays (a curve of radius R is cut by length²/24R).
 MeasuredPath smooth_path(const MeasuredPath& path, double length_m);
 
 }  // namespace asperity
