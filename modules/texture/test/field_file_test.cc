@@ -126,7 +126,7 @@ TEST(FieldFile, NamesLineAndKeyOfWhatIsWrong) {
   expect_refused(map(16), "\"columns\": 20", "\"columns\": 1000000000000", "'heightmap.columns'", "is not within");
   expect_refused(map(16), "\"bits\": 16", "\"bits\": 12", "'heightmap.bits'", "neither 8 nor 16");
   expect_refused(map(16), "\"border\": \"periodic\"", "\"border\": \"torn\"", "'heightmap.border'", "'torn'");
-  expect_refused(area(), "\"spacing_m\": [0.0003", "\"spacing_m\": [0", "'areal.spacing_m'", "at least 1e-12 m");
+  expect_refused(area(), "\"spacing_m\": [", "\"spacing_m\": [0, ", "'areal.spacing_m'", "3 numbers, more than 2");
 }
 
 TEST(FieldFile, KeepsToItsFolder) {
