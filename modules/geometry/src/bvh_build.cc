@@ -1,7 +1,5 @@
 #include "bvh_build.h"
 
-#include <emmintrin.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,53 +10,11 @@
 #include <Eigen/Geometry>
 
 #include "asperity/base/error.h"
+#include "bvh_split.h"
 
 namespace asperity::bvh {
 
 namespace {
-
-struct Box {
-  __m128 low = _mm_set1_ps(std::numeric_limits<float>::infinity());
-  __m128 high = _mm_set1_ps(-std::numeric_limits<float>::infinity());
-
-  void add(const Box& other) {
-    low = _mm_min_ps(low, other.low);
-    high = _mm_max_ps(high, other.high);
-  }
-  void add(__m128 point) {
-    low = _mm_min_ps(low, point);
-    high = _mm_max_ps(high, point);
-  }
-  float half_area() const {
-    alignas(16) float d[4];
-    _mm_store_ps(d, _mm_sub_ps(high, low));
-    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
-  }
-};
-
-__m128 twice_middle(const Box& box) { return _mm_add_ps(box.low, box.high); }
-
-// Triangles first .. last of the order, their box and that of twice their middles.
-struct Range {
-  std::uint32_t first = 0, last = 0;
-  Box box, middles;
-
-  std::uint32_t count() const { return last - first; }
-};
-
-struct Split {
-  int axis = -1;  // -1: none, the middles coincide
-  int bin = 0;    // the last of the left
-  float scale = 0.0f, low = 0.0f;
-};
-
-constexpr int kBins = 32;
-
-int bin_of(float twice_middle, float low, float scale) {
-  return std::clamp(static_cast<int>((twice_middle - low) * scale), 0, kBins - 1);
-}
-
-std::uint32_t blocks(std::uint32_t count) { return (count + kWidth - 1) / kWidth; }
 
 class Builder {
  public:
@@ -87,7 +43,6 @@ class Builder {
   std::uint32_t add_leaf(const Range& range, std::uint32_t parent);
   void add_face(std::uint32_t triangle);
   std::array<Range, 2> split(const Range& range, int depth);
-  Split best_split(const Range& range) const;
 
   const TriangleMesh& mesh_;
   TreeData out_;
@@ -203,60 +158,11 @@ std::uint32_t Builder::add_node(const Range& range, int depth, std::uint32_t par
   return static_cast<std::uint32_t>(index);
 }
 
-Split Builder::best_split(const Range& range) const {
-  alignas(16) float low[4], size[4];
-  _mm_store_ps(low, range.middles.low);
-  _mm_store_ps(size, _mm_sub_ps(range.middles.high, range.middles.low));
-  alignas(16) float scale[4] = {};
-  for (int k = 0; k < 3; ++k) scale[k] = size[k] > 1e-30f ? kBins * (1.0f - 0x1p-20f) / size[k] : 0.0f;
-
-  std::array<std::array<Box, kBins>, 3> box;
-  std::array<std::array<std::uint32_t, kBins>, 3> count{};
-  const __m128 low4 = range.middles.low, scale4 = _mm_load_ps(scale);
-  for (std::uint32_t i = range.first; i < range.last; ++i) {
-    alignas(16) std::int32_t bin[4];
-    const __m128 place = _mm_mul_ps(_mm_sub_ps(twice_middle(boxes_[i]), low4), scale4);
-    _mm_store_si128(reinterpret_cast<__m128i*>(bin), _mm_cvttps_epi32(place));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto b = static_cast<std::size_t>(std::min(bin[k], kBins - 1));
-      box[k][b].add(boxes_[i]);
-      ++count[k][b];
-    }
-  }
-
-  Split best;
-  float best_cost = std::numeric_limits<float>::infinity();
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (scale[k] == 0.0f) continue;
-    std::array<float, kBins> right_cost{};
-    Box right;
-    std::uint32_t n = 0;
-    for (std::size_t b = kBins - 1; b > 0; --b) {
-      right.add(box[k][b]);
-      n += count[k][b];
-      right_cost[b] = n > 0 ? right.half_area() * static_cast<float>(blocks(n)) : -1.0f;
-    }
-    Box left;
-    n = 0;
-    for (std::size_t b = 0; b + 1 < kBins; ++b) {
-      left.add(box[k][b]);
-      n += count[k][b];
-      if (n == 0 || right_cost[b + 1] < 0.0f) continue;
-      const float cost = left.half_area() * static_cast<float>(blocks(n)) + right_cost[b + 1];
-      if (cost < best_cost) {
-        best_cost = cost;
-        best = {static_cast<int>(k), static_cast<int>(b), scale[k], low[k]};
-      }
-    }
-  }
-  return best;
-}
-
 std::array<Range, 2> Builder::split(const Range& range, int depth) {
   Range left, right;
   left.first = range.first;
   right.last = range.last;
-  const Split best = depth < kSahDepth ? best_split(range) : Split{};
+  const Split best = depth < kSahDepth ? best_split(range, boxes_) : Split{};
   const auto take = [](Range& half, const Box& box) {
     half.box.add(box);
     half.middles.add(twice_middle(box));
