@@ -15,7 +15,7 @@ namespace {
 
 // Motions that change the distances by more than this share of the points' motion are determined beyond doubt:
 // interpolated normals, or facets, imitate less.
-constexpr double kClear = 0.01;
+constexpr double kClear = 0.03;
 constexpr double kClearOfFacets = 0.05;
 // A motion less well known than this share of the guess's error keeps the guess: what little the distances say of
 // it comes from single facets.

@@ -8,6 +8,8 @@
 namespace asperity::registration {
 namespace {
 
+// Relative to the points' radius: the direction of a shorter offset is rounding.
+constexpr double kRounding = 1e-10;
 // An offset from the closest point that leans farther than this (as a cosine) from the normal means that the closest
 // point lies on an edge: the distance then grows along the offset.
 constexpr double kEdgeCos = 0.95;
@@ -31,6 +33,7 @@ Matcher::Matcher(const RegistrationSurface& surface, const PointSet& points, std
       chosen_(chosen.begin(), chosen.end()),
       closest_(chosen.size()),
       matches_(chosen.size()) {
+  rounding_m_ = kRounding * (points.radius_m + points.mean_world_m.norm());
   x_m_.reserve(chosen.size());
   outward_.reserve(chosen.size());
   scratch_.reserve(chosen.size());
@@ -72,7 +75,9 @@ void Matcher::pair(std::size_t i, const Eigen::Vector3d& outward_mesh) {
   const Eigen::Vector3d offset = m.y_m - q.p_m;
   const double along = offset.dot(facet_normal);
   m.distance_m = other_side ? along : std::copysign(q.distance_m, along);
-  if (!other_side && std::abs(along) < kEdgeCos * q.distance_m) {
+  const bool leaning =
+      q.barycentric.minCoeff() <= 0.0 && q.distance_m > rounding_m_ && std::abs(along) < kEdgeCos * q.distance_m;
+  if (!other_side && leaning) {
     m.usable = !on_border(facet, q.barycentric);
     m.n = offset / m.distance_m;
   } else if (rules_.normals == RegistrationNormals::kInterpolated) {

@@ -56,6 +56,7 @@ class Matcher {
 
   const RegistrationSurface* surface_;
   MatchRules rules_;
+  double rounding_m_ = 0.0;
   std::vector<std::uint32_t> chosen_;
   std::vector<Eigen::Vector3d> x_m_;
   std::vector<Eigen::Vector3d> outward_;

@@ -11,7 +11,7 @@ namespace asperity {
 
 struct ThesisRegistrationConfig {
   double spacing_m = 0.5e-3;
-  double relative_change = 1e-4;
+  double relative_change = 1e-3;
   int max_iterations = 100;
 
   template <class V>
