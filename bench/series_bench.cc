@@ -23,7 +23,7 @@ AutoregressiveTexture models(int order, int count) {
   for (int i = 0; i < count; ++i) {
     std::vector<double> k(static_cast<std::size_t>(order));
     for (double& v : k) v = random.uniform(-0.6, 0.6);
-    t.models.push_back({random.uniform(0.0, 0.2), random.uniform(0.1, 3.0), reflection_to_lsf(k), {}, 1.0, 1.0, 0.0});
+    t.models.push_back({random.uniform(0.0, 0.2), random.uniform(0.1, 3.0), reflection_to_lsf(k), {}, 1.0, 1.0});
   }
   prepare_autoregressive(t, "bench");
   return t;

@@ -1,6 +1,9 @@
-// A texture file is refused with an Error, or reads, evaluates to numbers and writes itself back.
+// A texture file is refused with an Error, or reads, evaluates to numbers and writes itself back. What follows
+// the first byte 0 of the input is the image or table that the file names.
 #include <cmath>
 #include <cstdint>
+#include <string>
+#include <string_view>
 #include <type_traits>
 #include <variant>
 
@@ -33,14 +36,23 @@ bool evaluates(const asperity::TextureModel& model) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view input = asperity::fuzz_text(data, size);
+  const auto end = input.find('\0');
+  const std::string payload(end == std::string_view::npos ? std::string_view() : input.substr(end + 1));
   asperity::Texture texture;
   try {
-    texture = asperity::parse_texture(asperity::fuzz_text(data, size), "fuzz");
+    texture = asperity::parse_texture(input.substr(0, end), "fuzz", [&](const std::string&) { return payload; });
   } catch (const asperity::Error&) {
     return 0;
   }
   asperity::must(evaluates(texture.model));
-  const std::string text = asperity::format_texture(texture);
-  asperity::must(asperity::format_texture(asperity::parse_texture(text, "again")) == text);
+  const auto written = asperity::format_texture_files(texture, "again");
+  const auto again = asperity::parse_texture(written.json, "again",
+                                             [&](const std::string&) { return written.payloads.at(0).content; });
+  const auto twice = asperity::format_texture_files(again, "again");
+  asperity::must(twice.json == written.json);
+  asperity::must(twice.payloads.size() == written.payloads.size());
+  for (std::size_t i = 0; i < twice.payloads.size(); ++i)
+    asperity::must(twice.payloads[i].content == written.payloads[i].content);
   return 0;
 }

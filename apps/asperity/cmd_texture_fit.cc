@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -15,14 +14,11 @@
 #include "asperity/base/version.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/texture/evaluate_height.h"
-#include "asperity/texture/fit_areal.h"
-#include "asperity/texture/fit_fourier1d.h"
-#include "asperity/texture/fit_fourier1d_samples.h"
-#include "asperity/texture/fit_fourier2d.h"
-#include "asperity/texture/make_height_map.h"
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
 #include "option_units.h"
+#include "read_series.h"
+#include "texture_fit_settings.h"
 #include "texture_input.h"
 
 namespace asperity::app {
@@ -30,44 +26,6 @@ namespace asperity::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-enum class FitModel { kFourier1d, kFourier2d, kHeightMap, kAreal };
-constexpr std::array<std::string_view, 4> kFitModelNames{"fourier1d", "fourier2d", "heightmap", "areal"};
-
-struct FitSettings {
-  FitModel model = FitModel::kFourier1d;
-  bool whole_path = false;
-  double stroke_spacing_mm = 0.0;
-
-  template <class V>
-  void visit(V& v) {
-    v.choice("model", model, kFitModelNames, "what the texture is");
-    v.field("whole_path", whole_path, "fourier1d: the whole path as one series instead of its best window");
-    v.field("stroke_spacing_mm", stroke_spacing_mm, "areal: how far profiles lie apart, in their order; 0: not given",
-            {0.0, 1e6});
-  }
-};
-
-struct TextureFitSettings {
-  ReadHeightsConfig input;
-  FitSettings fit;
-  FitFourier1dConfig fourier1d;
-  FitFourier1dPathConfig path;
-  FitFourier2dConfig fourier2d;
-  MakeHeightMapConfig heightmap;
-  FitArealConfig areal;
-
-  template <class V>
-  void visit(V& v) {
-    v.group("input", input);
-    v.group("fit", fit);
-    v.group("fourier1d", fourier1d);
-    v.group("path", path);
-    v.group("fourier2d", fourier2d);
-    v.group("heightmap", heightmap);
-    v.group("areal", areal);
-  }
-};
 
 // A texture and what its fit says of it.
 struct Fitted {
@@ -82,9 +40,15 @@ class TextureFitCommand : public Command {
  public:
   explicit TextureFitCommand(CLI::App& root)
       : Command(root, "fit", "A haptic texture from profiles, strokes, an areal map or another texture") {
-    require(parser().add_option("PROFILE", files_, "profile.csv, heights, x,y,z tables, or a *.texture.json"));
+    require(parser().add_option("PROFILE", files_,
+                                "profile.csv, heights, x,y,z or t_s,acceleration_mps2,speed_mps,force_N tables, a "
+                                "*.texture.json or a Penn *.xml"));
     require(parser().add_option("-o,--output", output_, "The texture's file"))->type_name("X.texture.json");
-    parser().add_option("--model", model_, "fourier1d (the default), fourier2d, heightmap or areal")->type_name("NAME");
+    parser()
+        .add_option(
+            "--model", model_,
+            "fourier1d (the default), fourier2d, heightmap, areal, stochastic, autoregressive or decaying_sinusoids")
+        ->type_name("NAME");
     parser()
         .add_option("--spacing", spacing_, "Distance of the heights, for a file without positions")
         ->type_name("LENGTH");
@@ -120,6 +84,15 @@ class TextureFitCommand : public Command {
         break;
       case FitModel::kAreal:
         fit_area(fitted);
+        break;
+      case FitModel::kStochastic:
+        fit_noise(fitted);
+        break;
+      case FitModel::kAutoregressive:
+        fit_vibrations(fitted);
+        break;
+      case FitModel::kDecayingSinusoids:
+        fit_taps(fitted);
         break;
     }
     finish(fitted);
@@ -207,9 +180,73 @@ class TextureFitCommand : public Command {
     fitted.texture.band_cycles_per_mm = {0.0, 0.5e-3 / spacing_m};
   }
 
+  void fit_noise(Fitted& fitted) {
+    const HeightProfile profile = read_strokes(files_, settings_.input);
+    fitted.texture.roughness = roughness_of({profile.height_m}, profile.spacing_m);
+    const StochasticFit fit = fit_stochastic(profile.height_m, profile.spacing_m, settings_.stochastic);
+    fitted.report["samples"] = fit.samples;
+    fitted.report["sigma_m"] = fit.texture.sigma_m;
+    fitted.report["skewness"] = fit.skewness;
+    fitted.report["excess_kurtosis"] = fit.excess_kurtosis;
+    fitted.report["kolmogorov_distance"] = fit.kolmogorov_distance;
+    fitted.report["correlation_length_m"] = fit.correlation_length_m;
+    fitted.report["not_white"] = fit.not_white;
+    fitted.report["misplaced_power"] = fit.misplaced_power;
+    fitted.take(fit.problems);
+    fitted.texture.model = fit.texture;
+  }
+
+  void fit_vibrations(Fitted& fitted) {
+    if (files_.size() > 1) throw UsageError("autoregressive takes one recording, or one Penn Haptic Texture XML");
+    if (files_.front().ends_with(".xml")) {
+      PennTexture penn = import_penn(files_.front(), settings_.penn);
+      fitted.report["models"] = penn.texture.models.size();
+      fitted.texture.friction = penn.friction;
+      fitted.take(penn.problems);
+      fitted.texture.model = std::move(penn.texture);
+      return;
+    }
+    const SeriesTable table = read_series(files_.front());
+    AutoregressiveFit fit = fit_autoregressive({table.acceleration_mps2, table.speed_mps, table.force_N, table.rate_Hz},
+                                               settings_.autoregressive);
+    fitted.report["samples"] = fit.samples;
+    fitted.report["models"] = fit.texture.models.size();
+    fitted.report["order"] = fit.order;
+    if (fit.held_out.samples > 0) {
+      fitted.report["held_out"] = {{"variance_error", fit.held_out.variance_error},
+                                   {"spectrum_error", fit.held_out.spectrum_error},
+                                   {"worst_band_error", fit.held_out.worst_band_error},
+                                   {"samples", fit.held_out.samples}};
+    }
+    fitted.take(fit.problems);
+    fitted.texture.model = std::move(fit.texture);
+  }
+
+  void fit_taps(Fitted& fitted) {
+    std::vector<SeriesTable> tables;
+    for (const auto& file : files_) tables.push_back(read_series(file));
+    std::vector<TapRecording> taps;
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      const SeriesTable& table = tables[i];
+      if (std::abs(table.rate_Hz - tables.front().rate_Hz) > 1e-3 * tables.front().rate_Hz)
+        throw Error(files_[i] + ": another rate than " + files_.front());
+      taps.push_back({table.acceleration_mps2, table.speed_mps.front(), table.force_N.front()});
+    }
+    FitDecayingSinusoidsConfig config = settings_.decaying_sinusoids;
+    config.rate_Hz = tables.front().rate_Hz;
+    const DecayingSinusoidsFit fit = fit_decaying_sinusoids(taps, config);
+    fitted.report["taps"] = taps.size();
+    fitted.report["rms_mps2"] = fit.rms_mps2;
+    fitted.report["rms_error_mps2"] = fit.rms_error_mps2;
+    fitted.report["converged"] = fit.converged;
+    fitted.report["speed_and_force_determined"] = fit.speed_and_force_determined;
+    fitted.take(fit.problems);
+    fitted.texture.model = fit.texture;
+  }
+
   void finish(Fitted& fitted) {
     Texture& texture = fitted.texture;
-    texture.lift_m = lift_m(texture.model);
+    if (is_height_field(texture.model)) texture.lift_m = lift_m(texture.model);
     texture.name = name_;
     if (name_.empty()) {
       texture.name = std::filesystem::path(output_).filename().string();
@@ -236,7 +273,7 @@ class TextureFitCommand : public Command {
     out["version"] = 1;
     out["file"] = output_;
     out["model"] = texture.model_name();
-    out["lift_m"] = *texture.lift_m;
+    if (texture.lift_m) out["lift_m"] = *texture.lift_m;
     out["fit"] = fitted.report;
     out["roughness"] = texture.roughness;
     out["config"] = Json::parse(config_json(fields()));
@@ -252,7 +289,8 @@ class TextureFitCommand : public Command {
     }
     if (fitted.report.contains("spectrum_error"))
       text += fmt::format(", spectrum error {:.1f} %", 100.0 * fitted.report["spectrum_error"].get<double>());
-    text += fmt::format(", lift {:.4g} µm\n", *texture.lift_m * 1e6);
+    if (texture.lift_m) text += fmt::format(", lift {:.4g} µm", *texture.lift_m * 1e6);
+    text += "\n";
     for (const auto& problem : fitted.problems) text += "note: " + problem.message + "\n";
     say(text);
   }

@@ -61,10 +61,24 @@ Json describe(const ArealTexture& t) {
           {"border", kBorderNames.at(static_cast<std::size_t>(t.surface.border))}};
 }
 
-// A model that this command knows by its name alone.
-template <class Model>
-Json describe(const Model&) {
-  return Json::object();
+Json describe(const StochasticTexture& t) {
+  return {{"sigma_m", t.sigma_m}, {"grain_m", t.grain_m}, {"stiffness_N_per_m", t.stiffness_N_per_m}};
+}
+
+Json describe(const AutoregressiveTexture& t) {
+  return {{"rate_Hz", t.rate_Hz},
+          {"models", t.models.size()},
+          {"order", t.models.empty() ? 0 : t.models.front().ar_lsf_rad.size()},
+          {"triangles", t.triangles.size()},
+          {"mass_kg", t.mass_kg}};
+}
+
+Json describe(const DecayingSinusoids& t) {
+  return {{"a_per_s", t.a_per_s},
+          {"b_per_kg", t.b_per_kg},
+          {"decay_per_s", t.decay_per_s},
+          {"omega_rad_per_s", t.omega_rad_per_s},
+          {"pitch_m", t.pitch_m}};
 }
 
 std::string value_text(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }

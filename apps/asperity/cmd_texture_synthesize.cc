@@ -15,6 +15,7 @@
 #include "asperity/texture/png_image.h"
 #include "asperity/texture/sample_heights.h"
 #include "asperity/texture/synthesize_isotropic.h"
+#include "asperity/texture/synthesize_stroke.h"
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
 #include "option_units.h"
@@ -28,18 +29,21 @@ using Json = nlohmann::ordered_json;
 struct SynthesizeSettings {
   SampleHeightsConfig line;
   MakeHeightMapConfig tile;
+  StrokeConfig stroke;
 
   template <class V>
   void visit(V& v) {
     v.group("line", line);
     v.group("tile", tile);
+    v.group("stroke", stroke);
   }
 };
 
 class TextureSynthesizeCommand : public Command {
  public:
   explicit TextureSynthesizeCommand(CLI::App& root)
-      : Command(root, "synthesize", "Heights of a texture along a line (*.csv), or a tile of it (*.png)") {
+      : Command(root, "synthesize",
+                "Heights of a texture along a line, or a force model's accelerations (*.csv); a tile (*.png)") {
     require(parser().add_option("TEXTURE", file_, "A *.texture.json"));
     require(parser().add_option("-o,--output", output_, "What is written, by its ending"))
         ->type_name("OUT.csv|OUT.png");
@@ -64,7 +68,9 @@ class TextureSynthesizeCommand : public Command {
     out["version"] = 1;
     out["texture"] = file_;
     out["file"] = output_;
-    if (output_.ends_with(".csv")) {
+    if (output_.ends_with(".csv") && !is_height_field(texture.model)) {
+      write_stroke(texture, out);
+    } else if (output_.ends_with(".csv")) {
       write_line(texture, out);
     } else if (output_.ends_with(".png")) {
       write_tile(texture, out);
@@ -79,9 +85,11 @@ class TextureSynthesizeCommand : public Command {
 
  private:
   void reseed(Texture& texture) {
+    if (seed_ < 0) throw UsageError("--seed: is not negative");
+    settings_.stroke.seed = seed_;
+    if (!is_height_field(texture.model)) return;
     auto* surface = std::get_if<Fourier2d>(&texture.model);
     if (!surface || surface->kind != Fourier2dKind::kIsotropic) throw UsageError("--seed: the texture is not random");
-    if (seed_ < 0) throw UsageError("--seed: is not negative");
     surface->isotropic.seed = seed_;
     surface->grid = synthesize_isotropic(surface->isotropic);
   }
@@ -98,6 +106,21 @@ class TextureSynthesizeCommand : public Command {
     write_file(output_, text);
     out["heights"] = height_m.size();
     say(fmt::format("{}: {} heights {:.6g} µm apart\n", output_, height_m.size(), 1e3 * settings_.line.spacing_mm));
+  }
+
+  void write_stroke(const Texture& texture, Json& out) {
+    const std::vector<double> acceleration_mps2 = synthesize_stroke(texture, settings_.stroke);
+    std::string text = "t_s,acceleration_mps2\n";
+    for (std::size_t i = 0; i < acceleration_mps2.size(); ++i) {
+      append_number(text, static_cast<double>(i) / settings_.stroke.rate_Hz);
+      text += ',';
+      append_number(text, acceleration_mps2[i]);
+      text += '\n';
+    }
+    write_file(output_, text);
+    out["samples"] = acceleration_mps2.size();
+    say(fmt::format("{}: {} accelerations at {:.6g} Hz\n", output_, acceleration_mps2.size(),
+                    settings_.stroke.rate_Hz));
   }
 
   void write_tile(const Texture& texture, Json& out) {

@@ -52,7 +52,7 @@ struct Split {
   float scale = 0.0f, low = 0.0f;
 };
 
-constexpr int kBins = 16;
+constexpr int kBins = 32;
 
 int bin_of(float twice_middle, float low, float scale) {
   return std::clamp(static_cast<int>((twice_middle - low) * scale), 0, kBins - 1);

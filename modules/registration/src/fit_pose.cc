@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
 
@@ -82,17 +83,18 @@ Fit fit_pose(Matcher& matcher, const PointSet& points, const CentredPose& start,
   const Matrix6 metric = motion_metric(points, start);
   CentredPose pose = start;
   double isotropic = options.isotropic;
-  double scale_m = options.fixed_scale_m;
+  double scale_m = std::max(options.fixed_scale_m, options.known_scale_m);
   bool settled = options.fixed_scale_m > 0.0;
   bool have_best = false;
   int stalled = 0;
+  double last_sigmas = 0.0;
 
   for (int k = 0; k < options.max_iterations; ++k) {
     matcher.match(pose);
     if (!settled) {
       const double now_m = std::max(matcher.scale_m(), rounding_m);
       // The scale is frozen once it no longer falls: from then on costs can be compared.
-      settled = k > 0 && now_m > 0.9 * scale_m && isotropic < 0.05;
+      settled = now_m > 0.9 * scale_m && scale_m > 0.0 && isotropic < 0.05;
       if (!settled || now_m < scale_m || scale_m == 0.0) scale_m = now_m;
     }
     const double width_m = options.robust_sigmas * scale_m;
@@ -131,15 +133,23 @@ Fit fit_pose(Matcher& matcher, const PointSet& points, const CentredPose& start,
     }
     const Vector6 step = -hessian.ldlt().solve(gradient);
     if (!step.allFinite()) return best;
+    const CentredPose before = pose;
     pose = moved(pose, step);
 
     const double step_m2 = step.dot(metric * step);
-    const double sigmas2 = step.dot(sums.hessian * step) / (scale_m * scale_m);
+    const double sigmas = std::sqrt(step.dot(sums.hessian * step)) / scale_m;
     const bool annealed = isotropic < 0.05;
+    // Steps that shrink by the ratio r have r / (1 - r) of the last one still to go.
+    const double ratio = last_sigmas > 0.0 ? sigmas / last_sigmas : 1.0;
+    const double to_go = ratio < 1.0 ? sigmas * ratio / (1.0 - ratio) : std::numeric_limits<double>::infinity();
+    const bool small =
+        sigmas < 0.1 * options.step_sigmas || (sigmas < options.step_sigmas && to_go < 0.3 * options.step_sigmas);
+    last_sigmas = settled ? sigmas : 0.0;
     isotropic *= options.isotropic_decay;
-    if (step_m2 <= rounding_m * rounding_m ||
-        (annealed && settled && sigmas2 < options.step_sigmas * options.step_sigmas)) {
+    if (step_m2 <= rounding_m * rounding_m || (annealed && settled && small)) {
       best.pose = pose;
+      best.matched = true;
+      matcher.advance(step, before.centre_m);
       best.stopped_by = StopRule::kPoseChange;
       return best;
     }

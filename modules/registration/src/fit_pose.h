@@ -18,11 +18,12 @@ struct FitOptions {
   double isotropic = 1.0;
   double isotropic_decay = 0.6;
   int max_iterations = 60;
-  double step_sigmas = 1e-2;   // ends when the step is smaller, in standard deviations of the pose
+  double step_sigmas = 0.1;    // ends when the step and what is to go are smaller, in standard deviations of the pose
   double guess_sigma_m = 0.0;  // 0: no prior on the motion from `reference`
   CentredPose reference;       // the guess
   std::vector<Hold> holds;     // at a motion from `reference`
-  double fixed_scale_m = 0.0;  // 0: from the distances
+  double fixed_scale_m = 0.0;  // of the distances; 0: measured
+  double known_scale_m = 0.0;  // where the pose has been fitted to some of the points already; 0: it has not
 };
 
 struct Fit {
@@ -31,7 +32,8 @@ struct Fit {
   double cost_m2 = 0.0;  // mean robust cost of a point at that scale; a point without a pair costs as an outlier
   int iterations = 0;
   StopRule stopped_by = StopRule::kIterationLimit;
-  bool enough = true;  // at least three usable pairs at each step
+  bool matched = false;  // the matcher's pairs are those of `pose`, to first order in the last step
+  bool enough = true;    // at least three usable pairs at each step
 };
 
 // Gauss–Newton on SE(3) from `start`, closest points anew each step (docs/registration.md).

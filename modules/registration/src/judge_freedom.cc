@@ -14,12 +14,13 @@ namespace asperity::registration {
 namespace {
 
 // Motions that change the distances by more than this share of the points' motion are determined beyond doubt:
-// facets and noise imitate less.
-constexpr double kClear = 0.03;
+// interpolated normals, or facets, imitate less.
+constexpr double kClear = 0.01;
+constexpr double kClearOfFacets = 0.05;
 // A motion less well known than this share of the guess's error keeps the guess: what little the distances say of
 // it comes from single facets.
 constexpr double kWorthless = 0.1;
-constexpr std::size_t kSlidePoints = 1000;
+constexpr std::size_t kSlidePoints = 500;
 constexpr int kSlideIterations = 4;
 
 // Standard deviation along `v` by making the motion forth and back while the others follow.
@@ -118,7 +119,8 @@ Freedom judge_freedom(const RegistrationSurface& surface, const PointSet& points
   const double surface_m = std::hypot(config.surface_error_m, facet_sag_m(surface, matcher));
   const double noise_m = std::hypot(sigma_m, std::sqrt(n) * surface_m);
   // The noise across a path that is nearly straight imitates a lever of its own.
-  const double clear = kClear + (is_thin(points) ? 20.0 * sigma_m / points.radius_m : 0.0);
+  const double clear = (rules.normals == RegistrationNormals::kFacet ? kClearOfFacets : kClear) +
+                       (is_thin(points) ? 20.0 * sigma_m / points.radius_m : 0.0);
 
   SlideTest test(surface, points, rules, pose, sigma_m, config);
   const double prior = config.guess_sigma_m;

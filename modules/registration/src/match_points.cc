@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 namespace asperity::registration {
 namespace {
 
@@ -82,6 +84,14 @@ void Matcher::pair(std::size_t i, const Eigen::Vector3d& outward_mesh) {
     m.n = facet_normal;
   }
   if (rules_.max_distance_m > 0.0 && std::abs(m.distance_m) > rules_.max_distance_m) m.usable = false;
+}
+
+void Matcher::advance(const Vector6& motion, const Eigen::Vector3d& centre_m) {
+  for (Match& m : matches_) {
+    const Eigen::Vector3d step_m = motion.head<3>().cross(m.y_m - centre_m) + motion.tail<3>();
+    m.y_m += step_m;
+    m.distance_m += m.n.dot(step_m);
+  }
 }
 
 double Matcher::scale_m() const {

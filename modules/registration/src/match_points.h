@@ -40,6 +40,9 @@ class Matcher {
   // Finds the closest points at `pose`.
   void match(const CentredPose& pose);
 
+  // Moves the pairs by a small motion about `centre_m` to first order: no closest point is looked up.
+  void advance(const Eigen::Matrix<double, 6, 1>& motion, const Eigen::Vector3d& centre_m);
+
   std::size_t size() const { return matches_.size(); }
   std::uint32_t chosen(std::size_t i) const { return chosen_[i]; }  // index in the set of the i-th
   const std::vector<Match>& matches() const { return matches_; }

@@ -20,7 +20,7 @@ using namespace registration;
 namespace {
 
 // Relative to the pose's standard deviation: a step after which the fit of all points has ended, and a coarse one.
-constexpr double kFineStep = 0.5;
+constexpr double kFineStep = 1.0;
 constexpr double kCoarseStep = 0.5;
 constexpr int kStartIterations = 15;
 
@@ -58,6 +58,7 @@ RegistrationResult register_path(std::span<const MeasuredPath> paths, const Regi
   FitOptions fine_options = coarse_options;
   fine_options.isotropic = 0.0;
   fine_options.step_sigmas = kFineStep;
+  fine_options.known_scale_m = first.scale_m;
   const std::size_t limit = config.max_points == 0 ? points.size() : static_cast<std::size_t>(config.max_points);
   Matcher fine(surface, points, choose_uniform(points, limit), rules);
   Settled best = settle(surface, points, rules, fine, first.pose, fine_options, config);
@@ -81,6 +82,7 @@ RegistrationResult register_path(std::span<const MeasuredPath> paths, const Regi
                                                      static_cast<std::size_t>(config.starts.refined) + 1);
     std::vector<CentredPose> poses;
     for (const CoarseRun& run : runs) poses.push_back(run.pose);
+    fine_options.known_scale_m = 0.0;
     runner_up_z = compare_solutions({surface, points, rules, fine_options, config, noise_m}, fine, poses, best, out);
   }
   write_verdict({best, noise_m, tried ? TriedStarts::kAboutGuess : TriedStarts::kNone, runner_up_z < kAmbiguousZ},

@@ -13,7 +13,7 @@ double robust_cost(double d_m, double width_m) {
 }
 
 void evaluate(Settled& out, Matcher& matcher, const RegistrationConfig& config) {
-  matcher.match(out.pose);
+  if (!out.fit.matched) matcher.match(out.pose);
   const double limit_m = config.outlier_sigmas * matcher.scale_m();
   double square = 0.0;
   double sum = 0.0;
@@ -23,7 +23,7 @@ void evaluate(Settled& out, Matcher& matcher, const RegistrationConfig& config) 
   for (std::size_t i = 0; i < matcher.size(); ++i) {
     const Match& m = matcher.matches()[i];
     if (matcher.closest()[i].found()) {
-      sum += matcher.closest()[i].distance_m;
+      sum += std::abs(m.distance_m);
       ++found;
     }
     if (!m.usable) continue;

@@ -74,7 +74,7 @@ void read_block(const BlockInput& in, AutoregressiveTexture& t) {
     return std::vector<double>(first, first + order);
   };
   for (std::size_t i = 0; i < models; ++i)
-    t.models.push_back({speed[i], force[i], row(ar, i), row(ma, i), gain[i], variance[i], 0.0});
+    t.models.push_back({speed[i], force[i], row(ar, i), row(ma, i), gain[i], variance[i]});
   if (in.json.find(in.path, "triangles")) read_triangles(in, t);
   try {
     prepare_autoregressive(t, "the models");

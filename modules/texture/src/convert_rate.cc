@@ -67,7 +67,7 @@ AutoregressiveTexture convert_rate(const AutoregressiveTexture& texture, const C
   AutoregressiveTexture converted = texture;
   converted.rate_Hz = config.rate_Hz;
   for (auto& model : converted.models) {
-    AutoregressiveModel next{model.speed_mps, model.force_N, {}, {}, 1.0, 0.0, 0.0};
+    AutoregressiveModel next{model.speed_mps, model.force_N, {}, {}, 1.0, 0.0};
     if (model.variance > 0.0 && model.gain != 0.0) {
       const auto filter = levinson(resampled_autocovariance(model, texture.rate_Hz, config.rate_Hz, order));
       next.ar_lsf_rad = reflection_to_lsf(filter.k);

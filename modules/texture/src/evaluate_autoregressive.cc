@@ -147,31 +147,27 @@ BlendedFilter blended_filter(const AutoregressiveTexture& texture, const SeriesB
   std::array<double, kMaxSeriesOrder> lsf{};
   std::array<double, kMaxSeriesOrder> ma_lsf{};
   filter.gain = 0.0;
-  double sigma = 0.0;
+  double pole_variance = 0.0;
+  double output_variance = 0.0;
   for (std::size_t j = 0; j < 3; ++j) {
     const auto& model = texture.models[static_cast<std::size_t>(blend.model[j])];
     const double w = blend.weight[j];
     for (std::size_t i = 0; i < order; ++i) lsf[i] += w * model.ar_lsf_rad[i];
     for (std::size_t i = 0; i < ma_order; ++i) ma_lsf[i] += w * model.ma_lsf_rad[i];
     filter.gain += w * model.gain;
-    filter.variance += w * model.variance;
-    sigma += w * model.sigma_mps2;
+    pole_variance += w * model.pole_variance_m2_per_s4;
+    output_variance += w * model.sigma_mps2 * model.sigma_mps2;
   }
   std::array<double, kMaxSeriesOrder> a{};
   lsf_to_ar(std::span(lsf).first(order), std::span(a).first(order));
   ar_to_reflection(std::span(a).first(order), std::span(filter.k).first(order));
-  double remaining = 1.0;
-  for (std::size_t i = 0; i < order; ++i) {
-    filter.k[i] = std::clamp(filter.k[i], -kMaxReflection, kMaxReflection);
-    remaining *= 1.0 - filter.k[i] * filter.k[i];
-  }
-  filter.pole_sigma = std::sqrt(filter.variance / remaining);
-  filter.sigma_mps2 = ma_order == 0 ? std::abs(filter.gain) * filter.pole_sigma : sigma;
-  if (ma_order == 0) {
+  for (std::size_t i = 0; i < order; ++i) filter.k[i] = std::clamp(filter.k[i], -kMaxReflection, kMaxReflection);
+  filter.pole_sigma = std::sqrt(pole_variance);
+  filter.sigma_mps2 = std::sqrt(output_variance);
+  if (ma_order == 0)
     filter.pole_sigma *= filter.gain;
-  } else {
+  else
     lsf_to_ar(std::span(ma_lsf).first(ma_order), std::span(filter.b).first(ma_order));
-  }
   return filter;
 }
 

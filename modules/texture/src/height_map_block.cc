@@ -32,9 +32,10 @@ void read_block(const BlockInput& input, HeightMap& map) {
   map.low_m = required_number(json, path, "low_m", -kLargestHeight_m, kLargestHeight_m);
   map.high_m = required_number(json, path, "high_m", map.low_m, kLargestHeight_m);
   map.border = static_cast<Border>(required_choice(json, path, "border", {kBorderNames.begin(), kBorderNames.end()}));
+  const std::string content = input.read_payload(".png");
   GreyImage image;
   try {
-    image = parse_png(input.read_payload(".png"), json.find(path, "file")->get<std::string>());
+    image = parse_png(content, json.find(path, "file")->get<std::string>());
   } catch (const Error& error) {
     json.fail(path + ".file", error.what());
   }

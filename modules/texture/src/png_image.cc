@@ -123,6 +123,10 @@ GreyImage parse_png(std::string_view data, const std::string& name) {
   }
   GreyImage image{columns, rows, bits, {}};
   const std::size_t row_bytes = image.columns * static_cast<std::size_t>(bits / 8);
+  // Deflate makes at most 1032 bytes of one: what cannot be there takes no memory.
+  constexpr std::size_t kMostBytesOfOne = 1032;
+  if (row_bytes * image.rows / kMostBytesOfOne > data.size())
+    fail("is cut off: " + size_text(columns, rows) + " do not fit");
   std::vector<png_byte> bytes(row_bytes * image.rows);
   auto pointers = row_pointers(bytes, image.rows, row_bytes);
   if (!read_rows(reader.png, reader.info, pointers.data())) broken();

@@ -39,11 +39,12 @@ void check_lsf(const std::string& name, const std::string& what, const std::vect
   }
 }
 
-double output_sigma_mps2(const AutoregressiveModel& model) {
+void derive_powers(AutoregressiveModel& model) {
+  model.pole_variance_m2_per_s4 = model.sigma_mps2 = -1.0;
   std::vector<double> a(model.ar_lsf_rad.size());
   std::vector<double> k(a.size());
   lsf_to_ar(model.ar_lsf_rad, a);
-  if (!ar_to_reflection(a, k)) return -1.0;
+  if (!ar_to_reflection(a, k)) return;
   std::vector<double> b(model.ma_lsf_rad.size());
   lsf_to_ar(model.ma_lsf_rad, b);
   b.insert(b.begin(), 1.0);
@@ -52,7 +53,8 @@ double output_sigma_mps2(const AutoregressiveModel& model) {
   for (std::size_t i = 0; i < b.size(); ++i) {
     for (std::size_t j = 0; j < b.size(); ++j) variance += b[i] * b[j] * r[i > j ? i - j : j - i];
   }
-  return std::abs(model.gain) * std::sqrt(std::max(variance, 0.0));
+  model.pole_variance_m2_per_s4 = r[0];
+  model.sigma_mps2 = std::abs(model.gain) * std::sqrt(std::max(variance, 0.0));
 }
 
 void check_model(const std::string& name, const AutoregressiveModel& model, const AutoregressiveModel& first,
@@ -110,8 +112,8 @@ void prepare_autoregressive(AutoregressiveTexture& texture, const std::string& n
   number = 0;
   for (auto& model : texture.models) {
     ++number;
-    model.sigma_mps2 = output_sigma_mps2(model);
-    if (!(model.sigma_mps2 >= 0.0 && model.sigma_mps2 <= 1e9))
+    derive_powers(model);
+    if (!(model.sigma_mps2 >= 0.0 && model.sigma_mps2 <= 1e9 && model.pole_variance_m2_per_s4 <= 1e18))
       refuse(name, "the output's standard deviation of model " + std::to_string(number), model.sigma_mps2);
     if (texture.max_speed_mps < model.speed_mps) texture.max_speed_mps = model.speed_mps;
     if (texture.max_force_N < model.force_N) texture.max_force_N = model.force_N;

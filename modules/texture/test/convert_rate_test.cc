@@ -25,7 +25,7 @@ AutoregressiveTexture resonant(double rate_Hz) {
   EXPECT_TRUE(ar_to_reflection(a, k));
   AutoregressiveTexture t;
   t.rate_Hz = rate_Hz;
-  t.models.push_back({0.1, 1.0, reflection_to_lsf(k), {}, 1.0, 0.7, 0.0});
+  t.models.push_back({0.1, 1.0, reflection_to_lsf(k), {}, 1.0, 0.7});
   prepare_autoregressive(t, "test");
   return t;
 }

@@ -77,7 +77,9 @@ TEST(ImportPenn, ReadsTheToolkitsStructure) {
   EXPECT_EQ(t.models[0].variance, 0.02);
   EXPECT_THAT(t.triangles, ElementsAre(std::array{0, 1, 2}, std::array{1, 3, 2}));
   const auto filter = blended_filter(t, blend_models(t, 0.11, 0.5, 0));
-  EXPECT_NEAR(filter.variance, 0.11, 1e-12);  // half way from model 1 to model 2
+  // Half way from model 1 to model 2 the output has half the sum of their variances.
+  const double expected = 0.5 * (t.models[0].pole_variance_m2_per_s4 + t.models[1].pole_variance_m2_per_s4);
+  EXPECT_NEAR(filter.sigma_mps2 * filter.sigma_mps2, expected, 1e-12 * expected);
 }
 
 TEST(ImportPenn, ReadsNumerators) {

@@ -39,7 +39,7 @@ TEST(SynthesizeStroke, OfASineIsItsSecondDerivative) {
 
 TEST(SynthesizeStroke, OfAModelIsTheModels) {
   AutoregressiveTexture model;
-  model.models.push_back({0.05, 1.0, reflection_to_lsf(std::vector<double>{-0.5, 0.4}), {}, 1.0, 0.3, 0.0});
+  model.models.push_back({0.05, 1.0, reflection_to_lsf(std::vector<double>{-0.5, 0.4}), {}, 1.0, 0.3});
   prepare_autoregressive(model, "test");
   Texture t;
   t.model = model;

@@ -17,7 +17,9 @@ struct AutoregressiveModel {
   double gain = 1.0;
   double variance = 0.0;  // of e, (m/s²)²
 
-  double sigma_mps2 = 0.0;  // of x; follows from the rest, see prepare_autoregressive()
+  // Follow from the rest, see prepare_autoregressive(): the variance of e through 1/A, and the standard deviation of x.
+  double pole_variance_m2_per_s4 = 0.0;
+  double sigma_mps2 = 0.0;
 };
 
 // Vibrations as a function of speed and force (Romano and Kuchenbecker 2012; Culbertson, Unwin and Kuchenbecker 2014):

@@ -19,16 +19,16 @@ struct SeriesBlend {
 // units of max_speed and max_force. Time bounded by the number of triangles.
 SeriesBlend blend_models(const AutoregressiveTexture& texture, double speed_mps, double force_N, int hint) noexcept;
 
-// The filter at a point: reflection coefficients, numerator, standard deviation of the excitation and of
-// the output (of the latter the models' are mixed where there is a numerator). `k` always within ±1.
+// The filter at a point: reflection coefficients, always within ±1, and numerator from the mixed frequencies;
+// the variances of 1/A's output and of the whole are mixed themselves, not computed from a mixed excitation: between
+// filters of very different gain that would be too loud or too soft by far (docs/texture-series.md).
 struct BlendedFilter {
   int order = 0;
   int ma_order = 0;
   std::array<double, kMaxSeriesOrder> k{};
   std::array<double, kMaxSeriesOrder> b{};
   double gain = 1.0;
-  double variance = 0.0;    // of the excitation
-  double pole_sigma = 0.0;  // of the excitation through 1/A, m/s²
+  double pole_sigma = 0.0;  // of 1/A's output, m/s²; times the gain where there is no numerator
   double sigma_mps2 = 0.0;  // of the output
 };
 BlendedFilter blended_filter(const AutoregressiveTexture& texture, const SeriesBlend& blend) noexcept;
