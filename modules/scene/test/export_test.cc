@@ -12,6 +12,7 @@
 #include "asperity/base/error.h"
 #include "asperity/geometry/mesh_adjacency.h"
 #include "asperity/scene/displace_mesh.h"
+#include "asperity/scene/export_scene.h"
 #include "asperity/scene/format_wav.h"
 #include "asperity/scene/format_x3p.h"
 #include "asperity/scene/paint.h"
@@ -168,6 +169,66 @@ TEST(FormatX3p, RefusesWhatIsNoGrid) {
   EXPECT_THROW(format_x3p({2, 2, 1e-5, 1e-5, {0.0}}), Error);
   EXPECT_THROW(format_x3p({1, 1, 0.0, 1e-5, {0.0}}), Error);
   EXPECT_THROW(format_x3p({1, 1, 1e-5, 1e-5, {std::nan("")}}), Error);
+}
+
+Scene painted_scene() {
+  Scene scene;
+  SceneObject object;
+  object.mesh_file = "plate.obj";
+  const TriangleMesh plate = testkit::plane_mesh({0.03, 0.02}, 15, 10);
+  object.mesh.vertices = plate.vertices_m;
+  object.mesh.triangles = plate.triangles;
+  const std::vector<Vector3d> picks{{0.006, 0.011, 0.0}, {0.024, 0.011, 0.0}};
+  paint(object, picks, {1, "cosine.texture.json", cosine()});
+  scene.objects.push_back(object);
+  return scene;
+}
+
+std::vector<std::string> names_of(const ExportResult& result) {
+  std::vector<std::string> out;
+  for (const ExportedFile& file : result.files) out.push_back(file.name);
+  return out;
+}
+
+TEST(ExportScene, NamesFilesAfterMeshesAndTextures) {
+  const Scene scene = painted_scene();
+  using testing::ElementsAre;
+  EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kObj)), ElementsAre("plate.obj"));
+  EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kStl)), ElementsAre("plate.stl"));
+  EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kPng)),
+              ElementsAre("cosine.height.png", "cosine.normal.png", "cosine.images.json"));
+  EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kWav)), ElementsAre("cosine.wav", "cosine.sound.json"));
+  EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kX3p)), ElementsAre("cosine.x3p"));
+}
+
+TEST(ExportScene, TwoTexturesOfOneNameDoNotShareAFile) {
+  Scene scene = painted_scene();
+  scene.objects[0].textures.push_back({2, "below/cosine.texture.json", cosine()});
+  EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kX3p)), testing::ElementsAre("cosine.x3p", "cosine-2.x3p"));
+}
+
+TEST(ExportScene, SoundsAtTheSpeedOverThePitch) {
+  ExportConfig config;
+  config.stroke.speed_mps = 0.05;  // 2.5 mm at 50 mm/s: 20 Hz
+  config.stroke.duration_s = 1.0;
+  const std::string wav = export_scene(painted_scene(), ExportFormat::kWav, config).files[0].content;
+  int crossings = 0;
+  int highest = 0;
+  int last = 0;
+  for (std::size_t at = 44; at + 1 < wav.size(); at += 2) {
+    const int sample = static_cast<std::int16_t>(number_at(wav, at, 2));
+    if (last < 0 && sample > 0) ++crossings;
+    if (sample != 0) last = sample;
+    highest = std::max(highest, std::abs(sample));
+  }
+  EXPECT_NEAR(crossings, 20, 1);
+  EXPECT_NEAR(highest, 0.9 * 32767, 1.0);
+}
+
+TEST(ExportScene, WithNothingToWriteIsAnError) {
+  Scene scene = painted_scene();
+  scene.objects[0].textures.clear();
+  EXPECT_THROW(export_scene(scene, ExportFormat::kPng), Error);
 }
 
 }  // namespace
