@@ -22,6 +22,7 @@ constexpr double kClearOfFacets = 0.05;
 constexpr double kWorthless = 0.1;
 constexpr std::size_t kSlidePoints = 500;
 constexpr int kSlideIterations = 4;
+constexpr double kChance = 10.0;
 
 // Standard deviation along `v` by making the motion forth and back while the others follow.
 class SlideTest {
@@ -32,7 +33,8 @@ class SlideTest {
         pose_(pose),
         matcher_(surface, points, choose_uniform(points, kSlidePoints), rules),
         total_(static_cast<double>(points.size())),
-        slide_m_(config.slide_m) {
+        slide_m_(config.slide_m),
+        sigma_m_(sigma_m) {
     options_.robust_sigmas = config.robust_sigmas;
     options_.isotropic = 0.0;
     options_.max_iterations = kSlideIterations;
@@ -51,6 +53,8 @@ class SlideTest {
       options_.holds.back().target = way_m;
       growth_m2 = std::min(growth_m2, total_ * (cost_m2(moved(pose_, way_m * v)) - still_m2));
     }
+    // Chance alone makes the two fits of so few points differ by this much.
+    growth_m2 -= kChance * sigma_m_ * sigma_m_ * total_ / static_cast<double>(matcher_.size());
     return growth_m2 > 0.0 ? slide_m_ * noise_m / std::sqrt(growth_m2) : std::numeric_limits<double>::infinity();
   }
 
@@ -66,6 +70,7 @@ class SlideTest {
   FitOptions options_;
   double total_;
   double slide_m_;
+  double sigma_m_;
 };
 
 // The same span with its slides first and its turns after them, without the slides in them.

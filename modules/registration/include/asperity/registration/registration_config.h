@@ -57,7 +57,7 @@ struct RegistrationConfig {
   double isotropic_decay = 0.6;
   double guess_sigma_m = 20e-3;
   double undetermined_m = 0.5e-3;
-  double slide_m = 1e-3;
+  double slide_m = 2e-3;
   double surface_error_m = 2e-6;
   StartsConfig starts;
 
