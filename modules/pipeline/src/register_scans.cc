@@ -191,8 +191,12 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
   for (const MeasuredPath& path : paths) {
     smooth.push_back(sequence ? smooth_path(path, config.points.smoothing_m) : path);
   }
-  out.registration = guess ? register_path(smooth, ready, *guess, config.search.registration)
-                           : find_registration(smooth, ready, config.search);
+  SearchConfig search = config.search;
+  if (sequence && search.registration.error_length_m == 0.0) {
+    search.registration.error_length_m = config.refinement.slow_length_m;
+  }
+  out.registration =
+      guess ? register_path(smooth, ready, *guess, search.registration) : find_registration(smooth, ready, search);
   // Scans have errors that last along the path; points without a sequence have none that is known.
   std::vector<std::vector<Eigen::Vector3d>> slow_error_world_m(scans.size());
   if (sequence) {
