@@ -51,7 +51,7 @@ class ExportCommand : public Command {
     require(parser().add_option("OUT", source_,
                                 "What register, paint or process wrote, a scene.json, a mesh or a *.texture.json"));
     require(parser().add_option("--to", format_,
-                                "obj, png (16-bit height and normal maps), wav (the texture stroked), x3p "
+                                "obj, gltf (.glb), png (16-bit height and normal maps), wav (the texture stroked), x3p "
                                 "(heights), stl (relief to print)"))
         ->type_name("FORMAT");
     parser().add_option("-o,--output", output_, "Folder of the files; default: OUT-FORMAT")->type_name("DIR");
@@ -68,7 +68,7 @@ class ExportCommand : public Command {
   int run(const Observer& observer) override {
     const auto name = std::find(kExportFormatNames.begin(), kExportFormatNames.end(), format_);
     if (name == kExportFormatNames.end())
-      throw UsageError("--to: '" + printable(format_) + "' is none of obj, png, wav, x3p, stl");
+      throw UsageError("--to: '" + printable(format_) + "' is none of obj, gltf, png, wav, x3p, stl");
     const auto format = static_cast<ExportFormat>(name - kExportFormatNames.begin());
     fs::path target = output_;
     if (target.empty()) {

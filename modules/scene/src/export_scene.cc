@@ -16,6 +16,7 @@
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/fourier1d.h"
 #include "asperity/texture/sample_heights.h"
+#include "export_gltf.h"
 
 namespace asperity {
 namespace {
@@ -105,10 +106,12 @@ void add_texture(const std::string& stem, const Texture& texture, ExportFormat f
   }
 }
 
-void add_mesh(const std::string& stem, const SceneObject& object, ExportFormat format, const ExportConfig& config,
-              ExportResult& out) {
+void add_mesh(const std::string& stem, const Scene& scene, const SceneObject& object, ExportFormat format,
+              const ExportConfig& config, ExportResult& out) {
   if (format == ExportFormat::kObj) {
     out.files.push_back({stem + ".obj", format_obj(object.mesh)});
+  } else if (format == ExportFormat::kGltf) {
+    out.files.push_back({stem + ".glb", object_as_glb(scene, object, config.images, out.problems)});
   } else {
     MeshFile relief = displace_mesh(object, config.relief);
     for (Eigen::Vector3d& vertex : relief.vertices) vertex *= 1e3 * object.unit_m;
@@ -122,8 +125,8 @@ ExportResult export_scene(const Scene& scene, ExportFormat format, const ExportC
   ExportResult out;
   std::set<std::string> used;
   for (const SceneObject& object : scene.objects) {
-    if (format == ExportFormat::kObj || format == ExportFormat::kStl) {
-      if (!object.mesh.triangles.empty()) add_mesh(stem_of(object.mesh_file, used), object, format, config, out);
+    if (format == ExportFormat::kObj || format == ExportFormat::kGltf || format == ExportFormat::kStl) {
+      if (!object.mesh.triangles.empty()) add_mesh(stem_of(object.mesh_file, used), scene, object, format, config, out);
     } else {
       for (const SceneTexture& texture : object.textures)
         add_texture(stem_of(texture.file, used), texture.texture, format, config, out);

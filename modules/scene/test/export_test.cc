@@ -194,6 +194,9 @@ TEST(ExportScene, NamesFilesAfterMeshesAndTextures) {
   const Scene scene = painted_scene();
   using testing::ElementsAre;
   EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kObj)), ElementsAre("plate.obj"));
+  const ExportResult gltf = export_scene(scene, ExportFormat::kGltf);
+  EXPECT_THAT(names_of(gltf), ElementsAre("plate.glb"));
+  EXPECT_EQ(gltf.files[0].content.substr(0, 4), "glTF");
   EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kStl)), ElementsAre("plate.stl"));
   EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kPng)),
               ElementsAre("cosine.height.png", "cosine.normal.png", "cosine.images.json"));

@@ -13,8 +13,8 @@
 
 namespace asperity {
 
-enum class ExportFormat { kObj, kPng, kWav, kX3p, kStl };
-inline constexpr std::array<std::string_view, 5> kExportFormatNames{"obj", "png", "wav", "x3p", "stl"};
+enum class ExportFormat { kObj, kGltf, kPng, kWav, kX3p, kStl };
+inline constexpr std::array<std::string_view, 6> kExportFormatNames{"obj", "gltf", "png", "wav", "x3p", "stl"};
 
 struct ExportConfig {
   TextureMapsConfig images;
@@ -41,6 +41,7 @@ struct ExportResult {
 
 // A scene in the files of other programs:
 //   obj   each mesh as Wavefront OBJ with its haptic coordinates
+//   gltf  each mesh with its textures as normal and height maps, one .glb
 //   png   each texture's heights and normals, 16 bits, and a JSON file of their size and range
 //   wav   the acceleration of a tool that strokes each texture, 90 % of full scale at its highest; a JSON file says
 //   what
