@@ -30,6 +30,7 @@ using registration::Whitening;
 
 constexpr std::size_t kLeastPoints = 30;
 constexpr int kRounds = 5;
+constexpr double kKnown_m = 5e-3;  // a motion known to this is left free: guesses are no better
 constexpr double kFarthest = 4.1;  // of six numbers, 1 % by chance: the refinement then is in another valley
 
 // The inverse of the knots' prior covariance; paths without a slow error get none, which holds them at zero.
@@ -190,10 +191,11 @@ double Refinement::cost(const State& state, const FacetHeights& heights, const W
   return scale * sum / whitening.variance_m2 + prior;
 }
 
-// Keeps the pose along motions that the path does not determine: they are made stiff.
+// Keeps the pose along motions of which the path says nothing: they are made stiff.
 void hold(Eigen::MatrixXd& information, std::span<const UndeterminedMotion> motions) {
   const double stiff = 1e6 * information.topLeftCorner<6, 6>().trace();
   for (const UndeterminedMotion& motion : motions) {
+    if (motion.sigma_m < kKnown_m) continue;
     Vector6 direction;
     direction << motion.turn, motion.shift;
     if (direction.norm() > 0.0) direction.normalize();
