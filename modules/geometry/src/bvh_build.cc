@@ -1,7 +1,5 @@
 #include "bvh_build.h"
 
-#include <emmintrin.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,53 +10,11 @@
 #include <Eigen/Geometry>
 
 #include "asperity/base/error.h"
+#include "bvh_split.h"
 
 namespace asperity::bvh {
 
 namespace {
-
-struct Box {
-  __m128 low = _mm_set1_ps(std::numeric_limits<float>::infinity());
-  __m128 high = _mm_set1_ps(-std::numeric_limits<float>::infinity());
-
-  void add(const Box& other) {
-    low = _mm_min_ps(low, other.low);
-    high = _mm_max_ps(high, other.high);
-  }
-  void add(__m128 point) {
-    low = _mm_min_ps(low, point);
-    high = _mm_max_ps(high, point);
-  }
-  float half_area() const {
-    alignas(16) float d[4];
-    _mm_store_ps(d, _mm_sub_ps(high, low));
-    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
-  }
-};
-
-__m128 twice_middle(const Box& box) { return _mm_add_ps(box.low, box.high); }
-
-// Triangles first .. last of the order, their box and that of twice their middles.
-struct Range {
-  std::uint32_t first = 0, last = 0;
-  Box box, middles;
-
-  std::uint32_t count() const { return last - first; }
-};
-
-struct Split {
-  int axis = -1;  // -1: none, the middles coincide
-  int bin = 0;    // the last of the left
-  float scale = 0.0f, low = 0.0f;
-};
-
-constexpr int kBins = 16;
-
-int bin_of(float twice_middle, float low, float scale) {
-  return std::clamp(static_cast<int>((twice_middle - low) * scale), 0, kBins - 1);
-}
-
-std::uint32_t blocks(std::uint32_t count) { return (count + kWidth - 1) / kWidth; }
 
 class Builder {
  public:
@@ -69,11 +25,11 @@ class Builder {
     Range all = make_boxes();
     const std::size_t n = mesh_.triangles.size();
     out_.faces.reserve(n);
-    out_.slot_of.resize(n);
+    out_.leaf_of.resize(n);
     out_.vertices.reserve(3 * used_);
     out_.pool.reserve(n * sizeof(LeafBlock) / kWidth / kPoolUnit * 3 / 2 + 64);
     new_vertex_.assign(mesh_.vertices_m.size(), kNone);
-    out_.root = add(all, 0);
+    out_.root = add(all, 0, kNone);
     if (out_.pool.capacity() > out_.pool.size() + out_.pool.size() / 16) out_.pool.shrink_to_fit();
     out_.nodes.shrink_to_fit();
     return std::move(out_);
@@ -82,12 +38,11 @@ class Builder {
  private:
   void normalise();
   Range make_boxes();
-  std::uint32_t add(const Range& range, int depth);
-  std::uint32_t add_node(const Range& range, int depth);
-  std::uint32_t add_leaf(const Range& range);
+  std::uint32_t add(const Range& range, int depth, std::uint32_t parent);
+  std::uint32_t add_node(const Range& range, int depth, std::uint32_t parent);
+  std::uint32_t add_leaf(const Range& range, std::uint32_t parent);
   void add_face(std::uint32_t triangle);
   std::array<Range, 2> split(const Range& range, int depth);
-  Split best_split(const Range& range) const;
 
   const TriangleMesh& mesh_;
   TreeData out_;
@@ -156,11 +111,11 @@ Range Builder::make_boxes() {
   return all;
 }
 
-std::uint32_t Builder::add(const Range& range, int depth) {
-  return range.count() <= kMaxLeaf ? add_leaf(range) : add_node(range, depth);
+std::uint32_t Builder::add(const Range& range, int depth, std::uint32_t parent) {
+  return range.count() <= kMaxLeaf ? add_leaf(range, parent) : add_node(range, depth, parent);
 }
 
-std::uint32_t Builder::add_node(const Range& range, int depth) {
+std::uint32_t Builder::add_node(const Range& range, int depth, std::uint32_t parent) {
   std::array<Range, kWidth> parts;
   std::array<int, kWidth> depths;
   parts[0] = range;
@@ -182,7 +137,8 @@ std::uint32_t Builder::add_node(const Range& range, int depth) {
   }
 
   const std::size_t index = out_.nodes.size();
-  Node node;
+  Node node{};
+  node.parent = parent;
   for (std::size_t i = 0; i < kWidth; ++i) {
     alignas(16) float low[4], high[4];
     _mm_store_ps(low, parts[i].box.low);
@@ -196,66 +152,17 @@ std::uint32_t Builder::add_node(const Range& range, int depth) {
   }
   out_.nodes.push_back(node);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t child = add(parts[i], depths[i]);
+    const std::uint32_t child = add(parts[i], depths[i], static_cast<std::uint32_t>(index * kWidth + i));
     out_.nodes[index].child[i] = child;
   }
   return static_cast<std::uint32_t>(index);
-}
-
-Split Builder::best_split(const Range& range) const {
-  alignas(16) float low[4], size[4];
-  _mm_store_ps(low, range.middles.low);
-  _mm_store_ps(size, _mm_sub_ps(range.middles.high, range.middles.low));
-  alignas(16) float scale[4] = {};
-  for (int k = 0; k < 3; ++k) scale[k] = size[k] > 1e-30f ? kBins * (1.0f - 0x1p-20f) / size[k] : 0.0f;
-
-  std::array<std::array<Box, kBins>, 3> box;
-  std::array<std::array<std::uint32_t, kBins>, 3> count{};
-  const __m128 low4 = range.middles.low, scale4 = _mm_load_ps(scale);
-  for (std::uint32_t i = range.first; i < range.last; ++i) {
-    alignas(16) std::int32_t bin[4];
-    const __m128 place = _mm_mul_ps(_mm_sub_ps(twice_middle(boxes_[i]), low4), scale4);
-    _mm_store_si128(reinterpret_cast<__m128i*>(bin), _mm_cvttps_epi32(place));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto b = static_cast<std::size_t>(std::min(bin[k], kBins - 1));
-      box[k][b].add(boxes_[i]);
-      ++count[k][b];
-    }
-  }
-
-  Split best;
-  float best_cost = std::numeric_limits<float>::infinity();
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (scale[k] == 0.0f) continue;
-    std::array<float, kBins> right_cost{};
-    Box right;
-    std::uint32_t n = 0;
-    for (std::size_t b = kBins - 1; b > 0; --b) {
-      right.add(box[k][b]);
-      n += count[k][b];
-      right_cost[b] = n > 0 ? right.half_area() * static_cast<float>(blocks(n)) : -1.0f;
-    }
-    Box left;
-    n = 0;
-    for (std::size_t b = 0; b + 1 < kBins; ++b) {
-      left.add(box[k][b]);
-      n += count[k][b];
-      if (n == 0 || right_cost[b + 1] < 0.0f) continue;
-      const float cost = left.half_area() * static_cast<float>(blocks(n)) + right_cost[b + 1];
-      if (cost < best_cost) {
-        best_cost = cost;
-        best = {static_cast<int>(k), static_cast<int>(b), scale[k], low[k]};
-      }
-    }
-  }
-  return best;
 }
 
 std::array<Range, 2> Builder::split(const Range& range, int depth) {
   Range left, right;
   left.first = range.first;
   right.last = range.last;
-  const Split best = depth < kSahDepth ? best_split(range) : Split{};
+  const Split best = depth < kSahDepth ? best_split(range, boxes_) : Split{};
   const auto take = [](Range& half, const Box& box) {
     half.box.add(box);
     half.middles.add(twice_middle(box));
@@ -287,7 +194,10 @@ std::array<Range, 2> Builder::split(const Range& range, int depth) {
   return {left, right};
 }
 
-std::uint32_t Builder::add_leaf(const Range& range) {
+std::uint32_t Builder::add_leaf(const Range& range, std::uint32_t parent) {
+  const std::size_t at = out_.pool.size();
+  if (at >= kNone - kLeafFlag || out_.nodes.size() > kNone / kWidth) throw Error("the mesh is too large for the tree");
+  const std::uint32_t leaf = kLeafFlag | static_cast<std::uint32_t>(at);
   LeafHead head{};
   alignas(16) float low[4], high[4];
   _mm_store_ps(low, range.box.low);
@@ -301,7 +211,8 @@ std::uint32_t Builder::add_leaf(const Range& range) {
   std::frexp(size / 65000.0f, &exponent);
   exponent = std::max(exponent, -40);
   head.unit = std::ldexp(1.0f, exponent);
-  head.per_unit = std::ldexp(1.0f, -exponent);
+  const double per_unit = std::ldexp(1.0, -exponent);
+  head.parent = parent;
   head.first = static_cast<std::uint32_t>(out_.faces.size());
   head.count = range.count();
 
@@ -311,15 +222,17 @@ std::uint32_t Builder::add_leaf(const Range& range) {
   const std::uint32_t places = kWidth * blocks(head.count);
   for (std::uint32_t i = 0; i < places; ++i) {
     const std::uint32_t triangle = order_[range.first + std::min(i, head.count - 1)];
-    if (i < head.count) add_face(triangle);
+    if (i < head.count) {
+      add_face(triangle);
+      out_.leaf_of[triangle] = leaf;
+    }
     const Face& face = out_.faces.back();
     const std::uint32_t vertex[3] = {face.vertex0, face.vertex1, face.vertex2};
     Eigen::Vector3d corner[3];
     for (int v = 0; v < 3; ++v)
       for (int k = 0; k < 3; ++k) {
         const double r = out_.vertices[3 * vertex[v] + static_cast<std::size_t>(k)] - out_.centre[k];
-        const double place =
-            std::nearbyint((r - static_cast<double>(head.origin[k])) * static_cast<double>(head.per_unit));
+        const double place = std::nearbyint((r - static_cast<double>(head.origin[k])) * per_unit);
         corner[v][k] = std::clamp(place, 0.0, 65535.0);
         block[i / kWidth].corner[v][k][i % kWidth] = static_cast<std::uint16_t>(corner[v][k]);
       }
@@ -333,13 +246,11 @@ std::uint32_t Builder::add_leaf(const Range& range) {
   }
   head.slack = static_cast<float>(slack * (1.0 + 1e-6)) + 0x1p-17f;
 
-  const std::size_t at = out_.pool.size();
-  if (at >= kLeafFlag) throw Error("the mesh is too large for the tree");
   const std::size_t head_units = sizeof(LeafHead) / kPoolUnit, block_units = sizeof(LeafBlock) / kPoolUnit;
   out_.pool.resize(at + head_units + block_units * blocks(head.count));
   std::memcpy(&out_.pool[at], &head, sizeof head);
   std::memcpy(&out_.pool[at + head_units], block.data(), sizeof(LeafBlock) * blocks(head.count));
-  return kLeafFlag | static_cast<std::uint32_t>(at);
+  return leaf;
 }
 
 void Builder::add_face(std::uint32_t triangle) {
@@ -364,7 +275,6 @@ void Builder::add_face(std::uint32_t triangle) {
     }
     vertex[k] = index;
   }
-  out_.slot_of[triangle] = static_cast<std::uint32_t>(out_.faces.size());
   Face face{};
   face.vertex0 = vertex[0] & (kMaxVertices - 1), face.corner0 = corner[0] & 3u;
   face.vertex1 = vertex[1] & (kMaxVertices - 1), face.corner1 = corner[1] & 3u;

@@ -14,9 +14,9 @@ struct alignas(kPoolUnit) PoolUnit {
 struct TreeData {
   std::vector<Node> nodes;
   std::vector<PoolUnit> pool;
-  std::vector<Face> faces;       // in the order of the leaves
-  std::vector<double> vertices;  // those in use, in the order of their first use by a leaf
-  std::vector<std::uint32_t> slot_of;
+  std::vector<Face> faces;             // in the order of the leaves
+  std::vector<double> vertices;        // those in use, in the order of their first use by a leaf
+  std::vector<std::uint32_t> leaf_of;  // of each triangle, as Node::child
   double centre[3] = {};
   double to_mesh_units = 1.0, to_metres = 1.0;
   std::uint32_t root = kLeafFlag;

@@ -25,6 +25,7 @@ struct alignas(64) Node {
   float low[3][kWidth];
   float high[3][kWidth];
   std::uint32_t child[kWidth];  // a node's index, or kLeafFlag | where the leaf begins in the pool
+  std::uint32_t parent;         // as LeafHead's
 };
 
 // Up to 16 triangles in the pool: this head and then one or two blocks. The corners are rounded to
@@ -32,10 +33,10 @@ struct alignas(64) Node {
 struct alignas(16) LeafHead {
   float origin[3];
   float unit;
-  float per_unit;       // 1 / unit
-  float slack;          // see bvh_search.h
+  float slack;          // see bvh_leaf.h
   std::uint32_t first;  // index in faces of the first triangle
   std::uint32_t count;
+  std::uint32_t parent;  // the node's index times 8 plus the place of this child; kNone: the root
 };
 struct alignas(16) LeafBlock {
   std::uint16_t corner[3][3][kWidth];  // corner, axis, triangle
@@ -57,7 +58,7 @@ struct TreeView {
   const unsigned char* pool;
   const Face* faces;
   const double* vertices;        // x y z, mesh units
-  const std::uint32_t* slot_of;  // index in faces of each triangle
+  const std::uint32_t* leaf_of;  // of each triangle, as Node::child
   double centre[3];
   std::uint32_t root;  // as Node::child
   std::uint32_t face_count;
@@ -83,7 +84,7 @@ struct Hit {
 // The searches, compiled once for each instruction set. All lengths in mesh units.
 struct Kernels {
   // The nearest triangle, ties by the smallest triangle. `radius`: those farther need not be found.
-  // `guess`: a slot that is tried first, or kNone.
+  // `guess`: the leaf to begin at, or kNone.
   void (*closest)(const TreeView&, const double* p, double radius, std::uint32_t guess, Nearest& out);
   // Writes the triangles within the radius to out, as many as there is room for; returns how many there are.
   std::size_t (*within)(const TreeView&, const double* p, double radius, std::uint32_t* out, std::size_t room);

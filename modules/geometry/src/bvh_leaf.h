@@ -16,7 +16,7 @@ namespace asperity::bvh {
 // Lower bounds of the squared distances to eight triangles abc, up to the slack. With x = p - a, u = b - a,
 // w = c - a all of them follow from the six products of these vectors.
 template <class V>
-V distances2(const LeafBlock& block, V px, V py, V pz) {
+[[gnu::always_inline]] inline V distances2(const LeafBlock& block, V px, V py, V pz) {
   const auto corner = [&](int v, int k) { return V::load(block.corner[v][k]); };
   const V ax = corner(0, 0), ay = corner(0, 1), az = corner(0, 2);
   const V ux = corner(1, 0) - ax, uy = corner(1, 1) - ay, uz = corner(1, 2) - az;
@@ -51,51 +51,65 @@ V distances2(const LeafBlock& block, V px, V py, V pz) {
 
 inline constexpr float kCornerSlack = 1.0f;  // units of the leaf
 
+// A point from the mesh's centre as the sum of two floats, 48 bits: its difference from an origin near it is exact
+// to a rounding of the difference.
+struct alignas(16) SplitPoint {
+  float high[4], low[4];
+};
+
+[[gnu::always_inline]] inline SplitPoint split_point(const double* r) {
+  SplitPoint out{};
+  for (int k = 0; k < 3; ++k) {
+    out.high[k] = static_cast<float>(r[k]);
+    out.low[k] = static_cast<float>(r[k] - static_cast<double>(out.high[k]));
+  }
+  return out;
+}
+
+// Of all triangles of a leaf.
 template <class V>
-struct LeafDistances {
-  alignas(32) float distance2[kWidth * kMaxBlocks];  // squared, units of the leaf, to within slack2
-  float nearest2, slack2;
-
-  // r: the point from the mesh's centre, mesh units.
-  void measure(const LeafHead& head, const double* r) {
+class LeafDistances {
+ public:
+  [[gnu::always_inline]] LeafDistances(const LeafHead& head, const SplitPoint& r)
+      : head_(head), per_unit_(__builtin_bit_cast(float, 0x7f000000u - __builtin_bit_cast(std::uint32_t, head.unit))) {
     const auto* const blocks = reinterpret_cast<const LeafBlock*>(&head + 1);
-    const double per_unit = static_cast<double>(head.per_unit);
-    float q[3];
-    for (int k = 0; k < 3; ++k) q[k] = static_cast<float>((r[k] - static_cast<double>(head.origin[k])) * per_unit);
-    const float size = __builtin_fabsf(q[0]) + __builtin_fabsf(q[1]) + __builtin_fabsf(q[2]) + 65536.0f;
-    slack2 = head.slack * size * size;
-    const V px = V::all(q[0]), py = V::all(q[1]), pz = V::all(q[2]);
-    V least = distances2(blocks[0], px, py, pz);
-    least.store(distance2);
-    if (head.count > kWidth) {
-      const V more = distances2(blocks[1], px, py, pz);
-      more.store(distance2 + kWidth);
-      least = V::min(least, more);
-    }
-    nearest2 = V::smallest(least);
+    const bool second = head.count > kWidth;
+    V x, y, z;
+    V::spread(r.high, head.origin, r.low, per_unit_, x, y, z);
+    const V size = V::absolute(x) + V::absolute(y) + (V::absolute(z) + V::all(65536.0f));
+    slack2_ = V::all(head.slack) * size * size;
+    distance2_[0] = distances2(blocks[0], x, y, z);
+    distance2_[1] = second ? distances2(blocks[1], x, y, z) : V::all(__builtin_inff());
   }
 
-  // The bound to compare with for everything within `bound`, mesh units.
-  float reach2(const LeafHead& head, float bound) const {
-    const float reach = bound * head.per_unit + kCornerSlack;
-    return (reach * reach + slack2) * (1.0f + 0x1p-20f);
+  // Bit i: triangle i of the leaf may be within `bound`, mesh units.
+  unsigned within(float bound) const {
+    const V reach = V::all(bound * per_unit_ + kCornerSlack);
+    const V reach2 = V::multiply_add(reach, reach, slack2_) * V::all(1.0f + 0x1p-20f);
+    const unsigned bits = V::not_above(distance2_[0], reach2) | V::not_above(distance2_[1], reach2) << kWidth;
+    return bits & ((1u << head_.count) - 1u);
   }
 
-  // Bit i: triangle i of the leaf may be within the bound that gave reach2.
-  unsigned not_above(const LeafHead& head, float reach2) const {
-    unsigned bits = V::not_above(V::load(distance2), V::all(reach2));
-    if (head.count > kWidth) bits |= V::not_above(V::load(distance2 + kWidth), V::all(reach2)) << kWidth;
-    return bits & ((1u << head.count) - 1u);
+  // No less than the distance of the nearest, mesh units.
+  float nearest_no_less() const {
+    const float nearest2 = V::smallest(V::min(distance2_[0], distance2_[1]));
+    return (__builtin_sqrtf(nearest2 + slack2_.first()) + kCornerSlack) * head_.unit * (1.0f + 0x1p-20f);
   }
 
-  // Bounds of a distance, mesh units.
-  float no_less(const LeafHead& head, float d2) const {
-    return (__builtin_sqrtf(d2 + slack2) + kCornerSlack) * head.unit * (1.0f + 0x1p-20f);
+  void store(float* distance2) const {
+    for (int i = 0; i < kMaxBlocks; ++i) distance2_[i].store(distance2 + i * kWidth);
   }
-  float no_more(const LeafHead& head, float d2) const {
-    const float low2 = d2 - slack2;
-    return low2 > 0.0f ? (__builtin_sqrtf(low2) - kCornerSlack) * head.unit * (1.0f - 0x1p-20f) : 0.0f;
+
+  // No more than the distance whose square is stored, mesh units.
+  float no_more(float distance2) const {
+    const float low2 = distance2 - slack2_.first();
+    return low2 > 0.0f ? (__builtin_sqrtf(low2) - kCornerSlack) * head_.unit * (1.0f - 0x1p-20f) : 0.0f;
   }
+
+ private:
+  const LeafHead& head_;
+  float per_unit_;  // 1 / unit, a power of two
+  V slack2_, distance2_[kMaxBlocks];
 };
 
 }  // namespace asperity::bvh

@@ -55,14 +55,13 @@ class ClosestSearch {
   void run(std::uint32_t guess, Nearest& out) {
     best_ = {__builtin_inf(), kNone, {0.0, 0.0, 0.0}};
     best_triangle_ = kNone;
-    if (guess != kNone) {
-      skip_ = guess;
-      measure(guess);
-    }
-    if (size_ < kFar)
-      descend();
-    else
+    if (!(size_ < kFar)) {
       descend_far();
+    } else {
+      split_ = split_point(r_);
+      px_ = V::all(split_.high[0]), py_ = V::all(split_.high[1]), pz_ = V::all(split_.high[2]);
+      search_from(guess != kNone ? guess : first_leaf());
+    }
     for (int i = 0; i < waiting_; ++i)
       if (candidates_[i].bound <= bound_) measure(candidates_[i].slot);
     out = best_;
@@ -94,76 +93,96 @@ class ClosestSearch {
     if (bound < bound_) tighten(bound);
   }
 
-  void descend() {
-    alignas(32) float gap2[kWidth];
-    std::uint64_t stack[kStackSize];
-    int depth = 0;
-    const V px = V::all(static_cast<float>(r_[0])), py = V::all(static_cast<float>(r_[1])),
-            pz = V::all(static_cast<float>(r_[2]));
+  // Straight down to a leaf by the nearest child.
+  std::uint32_t first_leaf() const {
     std::uint32_t at = tree_.root;
-    for (;;) {
-      if (!(at & kLeafFlag)) {
-        const Node& node = tree_.nodes[at];
-        const V d2 = box_gap2<V>(node, px, py, pz);
-        unsigned left = V::not_above(d2, V::all(reach2_));
-        if (left != 0) {
-          d2.store(gap2);
-          int i = __builtin_ctz(left);
-          left &= left - 1;
-          if (left == 0) {
-            at = node.child[i];
-            continue;
-          }
-          // The nearest child next; the others wait, the nearer nearer the top.
-          std::uint64_t nearest = key(gap2[i], node.child[i]);
-          const int floor = depth;
-          do {
-            i = __builtin_ctz(left);
-            left &= left - 1;
-            std::uint64_t other = key(gap2[i], node.child[i]);
-            if (other < nearest) {
-              const std::uint64_t swap = other;
-              other = nearest;
-              nearest = swap;
-            }
-            int place = depth++;
-            for (; place > floor && stack[place - 1] < other; --place) stack[place] = stack[place - 1];
-            stack[place] = other;
-          } while (left != 0);
-          at = static_cast<std::uint32_t>(nearest);
-          continue;
-        }
-      } else {
-        visit_leaf(at);
-      }
-      for (;;) {
-        if (depth == 0) return;
-        const std::uint64_t top = stack[--depth];
-        if (__builtin_bit_cast(float, static_cast<std::uint32_t>(top >> 32)) <= reach2_) {
-          at = static_cast<std::uint32_t>(top);
-          break;
-        }
-      }
+    while (!(at & kLeafFlag)) {
+      const Node& node = tree_.nodes[at];
+      const float nearest = V::smallest(V::tagged(box_gap2<V>(node, px_, py_, pz_)));
+      at = node.child[__builtin_bit_cast(std::uint32_t, nearest) % kWidth];
     }
+    return at;
   }
 
-  // Floats that are not negative are ordered as their bits.
-  static std::uint64_t key(float gap2, std::uint32_t child) {
-    return std::uint64_t{__builtin_bit_cast(std::uint32_t, gap2)} << 32 | child;
+  // What the leaf `at` holds, then the other children of the nodes on the way from it up to the root. All these
+  // nodes are known beforehand, so the processor tests them side by side instead of one after the other.
+  void search_from(std::uint32_t at) {
+    visit_leaf(at);
+    struct Pending {
+      float gap2;
+      std::uint32_t at;
+    };
+    Pending pending[kStackSize];
+    int count = 0;
+    for (std::uint32_t parent = leaf_head(tree_, at).parent; parent != kNone;) {
+      const Node& node = tree_.nodes[parent / kWidth];
+      const V gap2 = box_gap2<V>(node, px_, py_, pz_);
+      unsigned left = V::not_above(gap2, V::all(reach2_)) & ~(1u << parent % kWidth);
+      parent = node.parent;
+      if (left == 0) continue;
+      alignas(32) float gaps2[kWidth];
+      gap2.store(gaps2);
+      for (; left != 0; left &= left - 1) {
+        const int i = __builtin_ctz(left);
+        pending[count++] = {gaps2[i], node.child[i]};
+      }
+    }
+    for (int i = 0; i < count; ++i)
+      if (pending[i].gap2 <= reach2_) descend(pending[i].at);
+  }
+
+  // The nearest child first. A node with more children to see waits as a level with the squared distances of
+  // those; nothing is sorted, for most are out of reach by the time that the search comes back.
+  void descend(std::uint32_t at) {
+    struct alignas(32) Level {
+      float keys[kWidth];
+      const Node* node;
+    };
+    Level levels[kMaxDepth];
+    int depth = 0;
+    if (at & kLeafFlag) return visit_leaf(at);
+    const Node* node = tree_.nodes + at;
+    V keys = V::tagged(box_gap2<V>(*node, px_, py_, pz_));
+    for (;;) {
+      unsigned left = V::not_above(keys, V::all(reach2_));
+      if (left != 0) {
+        int i = __builtin_ctz(left);
+        if ((left & (left - 1)) != 0) {
+          const float nearest = V::smallest(keys);
+          i = static_cast<int>(__builtin_bit_cast(std::uint32_t, nearest) % kWidth);
+          V::without(keys, nearest).store(levels[depth].keys);
+          levels[depth++].node = node;
+        }
+        const std::uint32_t child = node->child[i];
+        if (!(child & kLeafFlag)) {
+          node = tree_.nodes + child;
+          keys = V::tagged(box_gap2<V>(*node, px_, py_, pz_));
+          continue;
+        }
+        visit_leaf(child);
+      }
+      if (depth == 0) return;
+      --depth;
+      node = levels[depth].node;
+      keys = V::load(levels[depth].keys);
+    }
   }
 
   void visit_leaf(std::uint32_t at) {
     const LeafHead& head = leaf_head(tree_, at);
-    LeafDistances<V> leaf;
-    leaf.measure(head, r_);
-    const float bound = leaf.no_less(head, leaf.nearest2);
-    if (bound < bound_) tighten(bound);
-    const float reach2 = leaf.reach2(head, bound_);
-    if (leaf.nearest2 > reach2) return;
-    for (unsigned left = leaf.not_above(head, reach2); left != 0; left &= left - 1) {
+    const LeafDistances<V> leaf(head, split_);
+    unsigned left = leaf.within(bound_);
+    if (left == 0) return;
+    const float bound = leaf.nearest_no_less();
+    if (bound < bound_) {
+      tighten(bound);
+      left = leaf.within(bound_);
+    }
+    alignas(32) float distance2[kWidth * kMaxBlocks];
+    leaf.store(distance2);
+    for (; left != 0; left &= left - 1) {
       const int i = __builtin_ctz(left);
-      const std::uint32_t slot = head.first + static_cast<std::uint32_t>(i);
-      if (slot != skip_) add({leaf.no_more(head, leaf.distance2[i]), slot});
+      add({leaf.no_more(distance2[i]), head.first + static_cast<std::uint32_t>(i)});
     }
   }
 
@@ -175,7 +194,10 @@ class ClosestSearch {
         if (candidates_[i].bound <= bound_) measure(candidates_[i].slot);
     }
     candidates_[waiting_++] = candidate;
-    __builtin_prefetch(tree_.faces + candidate.slot);
+    const Face face = tree_.faces[candidate.slot];
+    __builtin_prefetch(tree_.vertices + 3 * std::size_t{face.vertex0});
+    __builtin_prefetch(tree_.vertices + 3 * std::size_t{face.vertex1});
+    __builtin_prefetch(tree_.vertices + 3 * std::size_t{face.vertex2});
   }
 
   // As descend(), with boxes in double and every triangle of a leaf measured.
@@ -192,8 +214,7 @@ class ClosestSearch {
       if (!(top.gap2 <= limit2())) continue;
       if (top.at & kLeafFlag) {
         const LeafHead& head = leaf_head(tree_, top.at);
-        for (std::uint32_t i = 0; i < head.count; ++i)
-          if (head.first + i != skip_) measure(head.first + i);
+        for (std::uint32_t i = 0; i < head.count; ++i) measure(head.first + i);
         continue;
       }
       const Node& node = tree_.nodes[top.at];
@@ -225,7 +246,9 @@ class ClosestSearch {
   double size_;
   float margin_, bound_, reach2_;
   int waiting_ = 0;
-  std::uint32_t skip_ = kNone, best_triangle_ = kNone;
+  SplitPoint split_;
+  V px_, py_, pz_;
+  std::uint32_t best_triangle_ = kNone;
   Nearest best_;
   Candidate candidates_[kCandidates];
 };

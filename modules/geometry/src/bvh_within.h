@@ -32,8 +32,8 @@ std::size_t within(const TreeView& tree, const double* p, double radius, std::ui
 
   const float bound = float_above(radius);
   const V reach2 = V::all(box_reach2(bound, box_margin(size)));
-  const V px = V::all(static_cast<float>(r[0])), py = V::all(static_cast<float>(r[1])),
-          pz = V::all(static_cast<float>(r[2]));
+  const SplitPoint split = split_point(r);
+  const V px = V::all(split.high[0]), py = V::all(split.high[1]), pz = V::all(split.high[2]);
   std::uint32_t stack[kStackSize];
   int depth = 0;
   stack[depth++] = tree.root;
@@ -41,9 +41,8 @@ std::size_t within(const TreeView& tree, const double* p, double radius, std::ui
     const std::uint32_t at = stack[--depth];
     if (at & kLeafFlag) {
       const LeafHead& head = leaf_head(tree, at);
-      LeafDistances<V> leaf;
-      leaf.measure(head, r);
-      for (unsigned left = leaf.not_above(head, leaf.reach2(head, bound)); left != 0; left &= left - 1)
+      const LeafDistances<V> leaf(head, split);
+      for (unsigned left = leaf.within(bound); left != 0; left &= left - 1)
         measure(head.first + static_cast<std::uint32_t>(__builtin_ctz(left)));
       continue;
     }

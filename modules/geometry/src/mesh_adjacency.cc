@@ -24,14 +24,14 @@ void check_indices(const TriangleMesh& mesh) {
   }
 }
 
+bool has_three_corners(const Triangle& tri) { return tri[0] != tri[1] && tri[1] != tri[2] && tri[2] != tri[0]; }
+
 void list_triangles_of_vertices(const TriangleMesh& mesh, MeshAdjacency& out) {
   out.vertex_first.assign(mesh.vertices_m.size() + 1, 0);
   const auto each_corner = [&mesh](auto&& visit) {
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      const Triangle& tri = mesh.triangles[t];
-      visit(tri[0], t);
-      if (tri[1] != tri[0]) visit(tri[1], t);
-      if (tri[2] != tri[0] && tri[2] != tri[1]) visit(tri[2], t);
+      if (!has_three_corners(mesh.triangles[t])) continue;
+      for (const std::uint32_t v : mesh.triangles[t]) visit(v, t);
     }
   };
   each_corner([&out](std::uint32_t v, std::uint32_t) { ++out.vertex_first[v + 1]; });
@@ -55,6 +55,7 @@ MeshAdjacency make_adjacency(const TriangleMesh& mesh) {
   std::vector<HalfEdge> halves;
   halves.reserve(3 * mesh.triangles.size());
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!has_three_corners(mesh.triangles[t])) continue;
     for (std::uint32_t e = 0; e < 3; ++e) {
       const auto [low, high] = std::minmax(mesh.triangles[t][e], mesh.triangles[t][(e + 1) % 3]);
       halves.push_back({std::uint64_t{low} << 32 | high, 3 * t + e});
@@ -64,17 +65,17 @@ MeshAdjacency make_adjacency(const TriangleMesh& mesh) {
     return a.ends != b.ends ? a.ends < b.ends : a.place < b.place;
   });
 
-  out.edge_of_triangle.resize(mesh.triangles.size());
+  constexpr std::uint32_t kNone = MeshAdjacency::kNone;
+  out.edge_of_triangle.assign(mesh.triangles.size(), {kNone, kNone, kNone});
   out.edge_triangles.reserve(halves.size());
   for (std::size_t i = 0; i < halves.size(); ++i) {
     const auto [ends, place] = halves[i];
     const std::uint32_t triangle = place / 3;
-    const bool opens = i == 0 || ends != halves[i - 1].ends;
-    if (opens) {
+    if (i == 0 || ends != halves[i - 1].ends) {
       out.edge_first.push_back(static_cast<std::uint32_t>(out.edge_triangles.size()));
       out.edge_vertices.push_back({static_cast<std::uint32_t>(ends >> 32), static_cast<std::uint32_t>(ends)});
     }
-    if (opens || out.edge_triangles.back() != triangle) out.edge_triangles.push_back(triangle);
+    out.edge_triangles.push_back(triangle);
     out.edge_of_triangle[triangle][place % 3] = static_cast<std::uint32_t>(out.edge_vertices.size() - 1);
   }
   out.edge_first.push_back(static_cast<std::uint32_t>(out.edge_triangles.size()));

@@ -12,10 +12,7 @@ namespace {
 // overflow.
 constexpr double kBeyond = 0x1p100;
 
-const bvh::Kernels& fastest_kernels() {
-  static const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return avx2 ? bvh::avx2_kernels() : bvh::sse2_kernels();
-}
+bool has_avx2() { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }
 
 struct Corners {
   const double* at[3];
@@ -35,8 +32,14 @@ bool is_beyond(const bvh::TreeData& data, const Eigen::Vector3d& p) {
   return false;
 }
 
+std::uint32_t slot_of_first(const bvh::TreeData& data) {
+  std::uint32_t slot = 0;
+  while (data.faces[slot].triangle != 0) ++slot;
+  return slot;
+}
+
 ClosestPoint from_beyond(const bvh::TreeData& data, const Eigen::Vector3d& p_m, double radius_m) {
-  const Corners corners = corners_of(data, data.slot_of[0]);
+  const Corners corners = corners_of(data, slot_of_first(data));
   ClosestPoint out;
   out.p_m = data.to_metres * Eigen::Map<const Eigen::Vector3d>(corners.at[0]);
   out.distance_m = (p_m - out.p_m).stableNorm();
@@ -76,14 +79,20 @@ ClosestPoint closest(const bvh::TreeData& data, const bvh::TreeView& view, const
 
 }  // namespace
 
+std::vector<const bvh::Kernels*> supported_kernels() {
+  std::vector<const bvh::Kernels*> out{&bvh::sse2_kernels()};
+  if (has_avx2()) out.push_back(&bvh::avx2_kernels());
+  return out;
+}
+
 MeshBvh::MeshBvh(const TriangleMesh& mesh) : tree_(std::make_unique<Tree>()) {
   tree_->data = bvh::build_tree(mesh);
   const bvh::TreeData& data = tree_->data;
   tree_->view = {data.nodes.data(),   reinterpret_cast<const unsigned char*>(data.pool.data()),
                  data.faces.data(),   data.vertices.data(),
-                 data.slot_of.data(), {data.centre[0], data.centre[1], data.centre[2]},
+                 data.leaf_of.data(), {data.centre[0], data.centre[1], data.centre[2]},
                  data.root,           static_cast<std::uint32_t>(data.faces.size())};
-  tree_->kernels = &fastest_kernels();
+  tree_->kernels = supported_kernels().back();
 }
 
 MeshBvh::~MeshBvh() = default;
@@ -96,8 +105,8 @@ ClosestPoint MeshBvh::closest_point(const Eigen::Vector3d& p_m, double radius_m)
 
 ClosestPoint MeshBvh::closest_point(const Eigen::Vector3d& p_m, const ClosestPoint& previous) const noexcept {
   // Only the triangle is taken from `previous`: it lies on this mesh, whatever else the answer says.
-  const auto& slot_of = tree_->data.slot_of;
-  const std::uint32_t guess = previous.triangle < slot_of.size() ? slot_of[previous.triangle] : bvh::kNone;
+  const auto& leaf_of = tree_->data.leaf_of;
+  const std::uint32_t guess = previous.triangle < leaf_of.size() ? leaf_of[previous.triangle] : bvh::kNone;
   return closest(tree_->data, tree_->view, *tree_->kernels, p_m, std::numeric_limits<double>::infinity(), guess);
 }
 
@@ -109,8 +118,8 @@ std::size_t MeshBvh::triangles_within(const Eigen::Vector3d& p_m, double radius_
   if (!is_beyond(data, p))
     return tree_->kernels->within(tree_->view, p.data(), data.to_mesh_units * radius_m, out.data(), out.size());
   if (!from_beyond(data, p_m, radius_m).found()) return 0;
-  for (std::size_t i = 0; i < out.size() && i < data.slot_of.size(); ++i) out[i] = static_cast<std::uint32_t>(i);
-  return data.slot_of.size();
+  for (std::size_t i = 0; i < out.size() && i < data.leaf_of.size(); ++i) out[i] = static_cast<std::uint32_t>(i);
+  return data.leaf_of.size();
 }
 
 RayHit MeshBvh::cast_ray(const Eigen::Vector3d& origin_m, const Eigen::Vector3d& direction,
@@ -141,7 +150,7 @@ std::size_t MeshBvh::memory_bytes() const noexcept {
   const bvh::TreeData& data = tree_->data;
   return sizeof(Tree) + data.nodes.capacity() * sizeof(bvh::Node) + data.pool.capacity() * sizeof(bvh::PoolUnit) +
          data.faces.capacity() * sizeof(bvh::Face) + data.vertices.capacity() * sizeof(double) +
-         data.slot_of.capacity() * sizeof(std::uint32_t);
+         data.leaf_of.capacity() * sizeof(std::uint32_t);
 }
 
 }  // namespace asperity

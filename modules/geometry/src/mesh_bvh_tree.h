@@ -11,6 +11,9 @@ struct MeshBvh::Tree {
   const bvh::Kernels* kernels;
 };
 
+// The searches that this processor can run, the fastest last.
+std::vector<const bvh::Kernels*> supported_kernels();
+
 // Tests set the searches of a chosen instruction set.
 struct MeshBvhAccess {
   static void use(MeshBvh& bvh, const bvh::Kernels& kernels) { bvh.tree_->kernels = &kernels; }

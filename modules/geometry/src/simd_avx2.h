@@ -10,11 +10,23 @@ namespace asperity::bvh {
 struct Floats8Avx2 {
   __m256 value;
 
+  static constexpr float kNothing = 3.3e38f;
+
   static Floats8Avx2 all(float x) { return {_mm256_set1_ps(x)}; }
   static Floats8Avx2 load(const float* x) { return {_mm256_load_ps(x)}; }
   static Floats8Avx2 load(const std::uint16_t* x) {
     const __m128i whole = _mm_load_si128(reinterpret_cast<const __m128i*>(x));
     return {_mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(whole))};
+  }
+  // (a - b) + c of three components, scaled and each in all places.
+  static void spread(const float* a, const float* b, const float* c, float scale, Floats8Avx2& x, Floats8Avx2& y,
+                     Floats8Avx2& z) {
+    const __m128 q =
+        _mm_mul_ps(_mm_add_ps(_mm_sub_ps(_mm_load_ps(a), _mm_load_ps(b)), _mm_load_ps(c)), _mm_set1_ps(scale));
+    const __m256 twice = _mm256_set_m128(q, q);
+    x.value = _mm256_permute_ps(twice, 0x00);
+    y.value = _mm256_permute_ps(twice, 0x55);
+    z.value = _mm256_permute_ps(twice, 0xaa);
   }
   void store(float* x) const { _mm256_store_ps(x, value); }
 
@@ -34,6 +46,8 @@ struct Floats8Avx2 {
   static Floats8Avx2 subtract_from(Floats8Avx2 c, Floats8Avx2 a, Floats8Avx2 b) {
     return {_mm256_fnmadd_ps(a.value, b.value, c.value)};
   }
+  static Floats8Avx2 absolute(Floats8Avx2 a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.value)}; }
+  float first() const { return _mm256_cvtss_f32(value); }
   // 1 / a to a relative 1.5 / 4096
   static Floats8Avx2 reciprocal(Floats8Avx2 a) { return {_mm256_rcp_ps(a.value)}; }
 
@@ -46,6 +60,17 @@ struct Floats8Avx2 {
   // Bit i: a[i] <= b[i]
   static unsigned not_above(Floats8Avx2 a, Floats8Avx2 b) {
     return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a.value, b.value, _CMP_LE_OQ)));
+  }
+  // a, at most kNothing, with the three lowest bits of each replaced by its place. Not to be negative.
+  static Floats8Avx2 tagged(Floats8Avx2 a) {
+    const __m256 finite = _mm256_min_ps(a.value, _mm256_set1_ps(kNothing));
+    const __m256i bits = _mm256_and_si256(_mm256_castps_si256(finite), _mm256_set1_epi32(~7));
+    return {_mm256_castsi256_ps(_mm256_or_si256(bits, _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)))};
+  }
+  // a with kNothing in place of x
+  static Floats8Avx2 without(Floats8Avx2 a, float x) {
+    const __m256 gone = _mm256_cmp_ps(a.value, _mm256_set1_ps(x), _CMP_EQ_OQ);
+    return {_mm256_blendv_ps(a.value, _mm256_set1_ps(kNothing), gone)};
   }
   static float smallest(Floats8Avx2 a) {
     __m128 x = _mm_min_ps(_mm256_castps256_ps128(a.value), _mm256_extractf128_ps(a.value, 1));

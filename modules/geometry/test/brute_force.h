@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,15 +20,37 @@ inline long double segment_distance(const Vector3l& a, const Vector3l& b, const 
   return (p - a - t * e).norm();
 }
 
-// The distance of p from a triangle in 80 bits: the plane's where p projects inside, or that of the edges.
+__extension__ using Quad = __float128;
+
+// The distance from the plane where p projects inside the triangle, else infinity.
+template <class T>
+long double inside_distance(const Vector3l& a, const Vector3l& b, const Vector3l& c, const Vector3l& p) {
+  using Vector = std::array<T, 3>;
+  const auto minus = [](const Vector3l& x, const Vector3l& y) {
+    return Vector{T(x[0]) - T(y[0]), T(x[1]) - T(y[1]), T(x[2]) - T(y[2])};
+  };
+  const auto cross = [](const Vector& x, const Vector& y) {
+    return Vector{x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+  };
+  const auto dot = [](const Vector& x, const Vector& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; };
+  const Vector n = cross(minus(b, a), minus(c, a));
+  if (dot(n, n) == 0 || dot(n, cross(minus(b, a), minus(p, a))) < 0 || dot(n, cross(minus(c, b), minus(p, b))) < 0 ||
+      dot(n, cross(minus(a, c), minus(p, c))) < 0)
+    return std::numeric_limits<long double>::infinity();
+  const T height = dot(n, minus(p, a));
+  return std::sqrt(static_cast<long double>(height * height / dot(n, n)));
+}
+
+// The distance of p from a triangle: that of the plane where p projects inside, or that of the edges. In 80 bits, and
+// in 113 where the triangle is so thin that its normal in 80 bits would not do.
 inline long double triangle_distance(const Vector3l& a, const Vector3l& b, const Vector3l& c, const Vector3l& p) {
-  long double best = std::min({segment_distance(a, b, p), segment_distance(b, c, p), segment_distance(c, a, p)});
-  const Vector3l n = (b - a).cross(c - a);
-  const long double size = std::max((b - a).norm() * (c - a).norm(), (b - a).norm() * (c - b).norm());
-  if (n.norm() > 1e-15L * size && n.dot((b - a).cross(p - a)) >= 0 && n.dot((c - b).cross(p - b)) >= 0 &&
-      n.dot((a - c).cross(p - c)) >= 0)
-    best = std::min(best, std::abs(n.dot(p - a)) / n.norm());
-  return best;
+  const long double edges = std::min({segment_distance(a, b, p), segment_distance(b, c, p), segment_distance(c, a, p)});
+  const long double length2 = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+  const long double area2 = (b - a).cross(c - a).norm();
+  if (area2 > 1e-5L * length2) return std::min(edges, inside_distance<long double>(a, b, c, p));
+  // Thinner than anything that a double of the distance could show.
+  if (area2 < 1e-17L * length2) return edges;
+  return std::min(edges, inside_distance<Quad>(a, b, c, p));
 }
 
 inline long double triangle_distance(const TriangleMesh& mesh, std::size_t triangle, const Eigen::Vector3d& p) {

@@ -54,6 +54,16 @@ Sums accumulate(const Matcher& matcher, const CentredPose& pose, double width_m)
   return out;
 }
 
+// Of the motion from the guess; `metric` gives its mean square over the points.
+Matrix6 guess_precision(const FitOptions& options, const Matrix6& metric) {
+  Matrix6 out = Matrix6::Zero();
+  if (options.guess_sigma_m > 0.0) out += options.alike / (options.guess_sigma_m * options.guess_sigma_m) * metric;
+  if (options.guess_sigma_rad > 0.0) {
+    out.topLeftCorner<3, 3>().diagonal().array() += options.alike / (options.guess_sigma_rad * options.guess_sigma_rad);
+  }
+  return out;
+}
+
 }  // namespace
 
 double robust_cost_m2(const Matcher& matcher, double width_m) {
@@ -121,11 +131,9 @@ Fit fit_pose(Matcher& matcher, const PointSet& points, const CentredPose& start,
     Matrix6 hessian = (1.0 - isotropic) * sums.hessian + (isotropic + kDamping) * sums.weight * metric;
     Vector6 gradient = sums.gradient;
     const Vector6 from_guess = motion_between(options.reference, pose);
-    if (options.guess_sigma_m > 0.0) {
-      const double prior = scale_m * scale_m / (options.guess_sigma_m * options.guess_sigma_m);
-      hessian += prior * metric;
-      gradient += prior * (metric * from_guess);
-    }
+    const Matrix6 prior = guess_precision(options, metric) * scale_m * scale_m;
+    hessian += prior;
+    gradient += prior * from_guess;
     for (const Hold& hold : options.holds) {
       constexpr double kStiff = 1e6;
       hessian += kStiff * n * hold.row * hold.row.transpose();

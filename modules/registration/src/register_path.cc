@@ -29,6 +29,17 @@ bool is_doubtful(const Settled& best, double noise_m, std::size_t points, const 
          static_cast<double>(best.outliers) > config.doubtful_outliers * static_cast<double>(points);
 }
 
+// How many of `used` points, evenly spread over the paths, share one error.
+double points_alike(const PointSet& points, std::size_t used, double error_length_m) {
+  double length_m = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points.path[i] == points.path[i - 1]) length_m += (points.x_m[i] - points.x_m[i - 1]).norm();
+  }
+  if (!(error_length_m > 0.0) || !(length_m > 0.0)) return 1.0;
+  const auto count = static_cast<double>(used);
+  return std::clamp(error_length_m / length_m * count, 1.0, count);
+}
+
 }  // namespace
 
 RegistrationResult register_path(std::span<const MeasuredPath> paths, const RegistrationSurface& surface,
@@ -50,16 +61,20 @@ RegistrationResult register_path(std::span<const MeasuredPath> paths, const Regi
   coarse_options.isotropic_decay = config.isotropic_decay;
   coarse_options.max_iterations = config.max_iterations;
   coarse_options.guess_sigma_m = config.guess_sigma_m;
+  coarse_options.guess_sigma_rad = config.guess_sigma_deg * std::numbers::pi / 180.0;
+  coarse_options.alike = points_alike(points, few.size(), config.error_length_m);
   coarse_options.reference = start;
   coarse_options.step_sigmas = kCoarseStep;
   Matcher coarse(surface, points, few, rules);
   const Fit first = fit_pose(coarse, points, start, coarse_options);
 
+  const std::size_t limit =
+      config.max_points == 0 ? points.size() : std::min(points.size(), static_cast<std::size_t>(config.max_points));
   FitOptions fine_options = coarse_options;
   fine_options.isotropic = 0.0;
   fine_options.step_sigmas = kFineStep;
   fine_options.known_scale_m = first.scale_m;
-  const std::size_t limit = config.max_points == 0 ? points.size() : static_cast<std::size_t>(config.max_points);
+  fine_options.alike = points_alike(points, limit, config.error_length_m);
   Matcher fine(surface, points, choose_uniform(points, limit), rules);
   Settled best = settle(surface, points, rules, fine, first.pose, fine_options, config);
   out.iterations = first.iterations + best.fit.iterations;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -11,8 +12,10 @@ namespace asperity {
 
 // Which triangles of a mesh meet at its edges and vertices. Edge e of a triangle runs from its corner e to
 // its corner (e + 1) % 3. An edge has one triangle at a border, two inside a surface, more where the mesh
-// is non-manifold.
+// is non-manifold. A triangle that names a vertex twice takes no part: its edges are kNone.
 struct MeshAdjacency {
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
   std::vector<std::array<std::uint32_t, 3>> edge_of_triangle;  // [triangle][e]: index of its edge e
   std::vector<std::array<std::uint32_t, 2>> edge_vertices;     // [edge]: its ends, the lower index first
   std::vector<std::uint32_t> edge_first;                       // [edge]: where its triangles begin; one more at the end
@@ -28,8 +31,8 @@ struct MeshAdjacency {
   }
 };
 
-// Vertices are joined by index only: see weld_vertices. A triangle that names a vertex twice is listed
-// once there. Throws Error for an index out of range or more than 2^32 / 3 triangles.
+// Vertices are joined by index only: see weld_vertices. Throws Error for an index out of range or more than
+// 2^32 / 3 triangles.
 MeshAdjacency make_adjacency(const TriangleMesh& mesh);
 
 // The same triangles in the same order, with vertices at exactly the same position made one (the one of

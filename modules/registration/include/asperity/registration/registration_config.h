@@ -56,6 +56,8 @@ struct RegistrationConfig {
   double isotropic = 1.0;
   double isotropic_decay = 0.6;
   double guess_sigma_m = 20e-3;
+  double guess_sigma_deg = 20.0;
+  double error_length_m = 0.0;
   double undetermined_m = 0.5e-3;
   double slide_m = 2e-3;
   double surface_error_m = 2e-6;
@@ -76,6 +78,9 @@ struct RegistrationConfig {
     v.field("isotropic", isotropic, "weight of the offset along the surface in the first step, 0 to 1", {0.0, 1.0});
     v.field("isotropic_decay", isotropic_decay, "its factor from step to step", {0.0, 0.99});
     v.field("guess_sigma_m", guess_sigma_m, "how well the guess is known, RMS over the points, m", {1e-9, 1e6});
+    v.field("guess_sigma_deg", guess_sigma_deg, "how well its turn is known, degrees", {1e-6, 1e6});
+    v.field("error_length_m", error_length_m, "length of path over which errors last, m; 0: each point has its own",
+            {0.0, 1e3});
     v.field("undetermined_m", undetermined_m, "standard deviation from which a motion is undetermined, m", {1e-9, 1e3});
     v.field("slide_m", slide_m, "motion that is tried to find that out, RMS over the points, m", {1e-9, 1e3});
     v.field("surface_error_m", surface_error_m, "of the mesh against the object, beside its facets' sag, m",

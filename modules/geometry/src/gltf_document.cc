@@ -1,0 +1,198 @@
+#include "gltf_document.h"
+
+#include <algorithm>
+#include <array>
+
+#include <nlohmann/json.hpp>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "inner_path.h"
+#include "little_endian.h"
+
+namespace asperity {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr int kMaxDepth = 32;
+constexpr std::size_t kMaxBuffers = 256;
+constexpr std::size_t kMaxJsonBytes = std::size_t{512} << 20;
+constexpr std::array<std::string_view, 3> kKnownExtensions{"KHR_mesh_quantization", "KHR_materials_unlit",
+                                                           "KHR_texture_transform"};
+
+class Checker {
+ public:
+  Checker(std::string_view bytes, const std::string& name, const MeshLimits& limits)
+      : bytes_(bytes), name_(name), limits_(limits) {}
+
+  GltfDocument check() {
+    parse(split());
+    version();
+    extensions();
+    buffers();
+    images();
+    for (const char* left_out : {"animations", "cameras", "skins"}) {
+      const json& array = member(left_out);
+      if (array.is_array() && !array.empty()) {
+        out_.problems.push_back({left_out, name_ + ": " + left_out + " are left out", array.size()});
+      }
+    }
+    for (const char* unused : {"animations", "cameras", "skins", "images", "samplers", "extensions", "extensionsUsed",
+                               "extensionsRequired", "extras"}) {
+      document_.erase(unused);
+    }
+    // tinygltf counts a JSON text in 32 bits.
+    out_.json = document_.dump();
+    if (out_.json.size() > kMaxJsonBytes) fail("its JSON is too large");
+    return std::move(out_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const { throw Error(name_ + ": " + message); }
+
+  const json& member(const char* key) const {
+    static const json kNone;
+    const auto found = document_.find(key);
+    return found == document_.end() ? kNone : *found;
+  }
+
+  std::uint32_t word(std::size_t at) const { return load<std::uint32_t>(bytes_.data() + at, std::endian::little); }
+
+  // The JSON text; the binary chunk of a .glb is kept aside.
+  std::string_view split() {
+    if (!bytes_.starts_with("glTF")) return bytes_;
+    if (bytes_.size() < 20) fail("is cut: a binary glTF of " + std::to_string(bytes_.size()) + " bytes");
+    if (word(4) != 2) fail("is glTF version " + std::to_string(word(4)) + "; 2 is read");
+    if (word(8) > bytes_.size())
+      fail("is cut: its header says " + std::to_string(word(8)) + " bytes, it has " + std::to_string(bytes_.size()));
+    constexpr std::uint32_t kJson = 0x4E4F534A;
+    constexpr std::uint32_t kBinary = 0x004E4942;
+    std::string_view text;
+    std::size_t at = 12;
+    while (bytes_.size() - at >= 8) {
+      const std::size_t length = word(at);
+      const std::uint32_t kind = word(at + 4);
+      at += 8;
+      if (length > bytes_.size() - at) fail("is cut inside a chunk of " + std::to_string(length) + " bytes");
+      if (kind == kJson && text.empty()) text = bytes_.substr(at, length);
+      if (kind == kBinary && out_.binary.empty()) out_.binary = bytes_.substr(at, length);
+      at += length;
+    }
+    if (text.empty()) fail("has no JSON chunk");
+    return text;
+  }
+
+  void parse(std::string_view text) {
+    if (text.size() > kMaxJsonBytes) fail("its JSON is larger than " + std::to_string(kMaxJsonBytes) + " bytes");
+    const auto watch = [&](int depth, json::parse_event_t, json&) {
+      if (depth > kMaxDepth) fail("nested more than " + std::to_string(kMaxDepth) + " deep");
+      return true;
+    };
+    try {
+      document_ = json::parse(text, watch);
+    } catch (const json::exception& error) {
+      fail("is not glTF: " + printable(error.what(), 200));
+    }
+    if (!document_.is_object()) fail("is not glTF: its JSON is no object");
+  }
+
+  void version() const {
+    const json& asset = member("asset");
+    const auto found = asset.is_object() ? asset.find("version") : asset.end();
+    const std::string version =
+        asset.is_object() && found != asset.end() && found->is_string() ? found->get<std::string>() : "";
+    if (!version.starts_with("2.")) fail("is glTF of version '" + printable(version) + "'; 2.0 is read");
+  }
+
+  void extensions() {
+    const json& required = member("extensionsRequired");
+    if (required.is_array()) {
+      for (const json& extension : required) {
+        if (!is_known(extension)) fail("needs the extension '" + shown(extension) + "', which is not read");
+      }
+    }
+    const json& used = member("extensionsUsed");
+    std::size_t count = 0;
+    std::string first;
+    if (used.is_array()) {
+      for (const json& extension : used) {
+        if (extension.is_string() && extension.get<std::string>() == "KHR_mesh_quantization") continue;
+        if (count++ == 0) first = shown(extension);
+      }
+    }
+    if (count > 0) out_.problems.push_back({"extension", name_ + ": the extension '" + first + "' is not read", count});
+  }
+
+  static bool is_known(const json& extension) {
+    return extension.is_string() && std::find(kKnownExtensions.begin(), kKnownExtensions.end(),
+                                              extension.get<std::string>()) != kKnownExtensions.end();
+  }
+
+  static std::string shown(const json& text) { return text.is_string() ? printable(text.get<std::string>()) : "?"; }
+
+  void buffers() {
+    const auto buffers = document_.find("buffers");
+    if (buffers == document_.end()) return;
+    if (!buffers->is_array() || buffers->size() > kMaxBuffers)
+      fail("'buffers' is no list of at most " + std::to_string(kMaxBuffers));
+    std::uint64_t total = 0;
+    for (std::size_t i = 0; i < buffers->size(); ++i) {
+      json& buffer = (*buffers)[i];
+      const auto length = buffer.is_object() ? buffer.find("byteLength") : buffer.end();
+      if (!buffer.is_object() || length == buffer.end() || !length->is_number_unsigned() ||
+          length->get<std::uint64_t>() == 0) {
+        fail("buffer " + std::to_string(i) + " has no length");
+      }
+      const auto size = length->get<std::uint64_t>();
+      if (size > limits_.file_bytes - total)
+        fail("its buffers are larger than " + std::to_string(limits_.file_bytes) + " bytes");
+      total += size;
+      if (buffer.contains("uri")) continue;
+      if (i != 0 || size > out_.binary.size()) {
+        fail("buffer " + std::to_string(i) + " of " + std::to_string(size) + " bytes is not in the file");
+      }
+      out_.binary = out_.binary.substr(0, size);
+      buffer["uri"] = kBinaryChunk;
+    }
+  }
+
+  void images() {
+    const json& images = member("images");
+    if (!images.is_array()) return;
+    std::size_t embedded = 0;
+    std::size_t outside = 0;
+    for (const json& image : images) {
+      std::string& file = out_.image_files.emplace_back();
+      const auto uri = image.is_object() ? image.find("uri") : image.end();
+      const bool is_file = image.is_object() && uri != image.end() && uri->is_string() &&
+                           !uri->get_ref<const std::string&>().starts_with("data:");
+      if (!is_file) {
+        ++embedded;
+      } else if (const auto inner = inner_path(uri->get_ref<const std::string&>())) {
+        file = *inner;
+      } else {
+        ++outside;
+      }
+    }
+    if (embedded > 0)
+      out_.problems.push_back({"embedded_image", name_ + ": images inside the file are left out", embedded});
+    if (outside > 0)
+      out_.problems.push_back({"outside_path", name_ + ": an image's file lies outside the folder", outside});
+  }
+
+  std::string_view bytes_;
+  const std::string& name_;
+  const MeshLimits& limits_;
+  json document_;
+  GltfDocument out_;
+};
+
+}  // namespace
+
+GltfDocument check_gltf(std::string_view bytes, const std::string& name, const MeshLimits& limits) {
+  return Checker(bytes, name, limits).check();
+}
+
+}  // namespace asperity

@@ -1,0 +1,27 @@
+#include "asperity/geometry/read_mesh.h"
+
+#include <string>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/geometry/read_gltf.h"
+#include "asperity/geometry/read_obj.h"
+#include "asperity/geometry/read_ply.h"
+#include "asperity/geometry/read_stl.h"
+
+namespace asperity {
+
+MeshFile read_mesh(const std::filesystem::path& path, const MeshLimits& limits) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  if (extension == ".obj") return read_obj(path, limits);
+  if (extension == ".ply") return read_ply(path, limits);
+  if (extension == ".stl") return read_stl(path, limits);
+  if (extension == ".gltf" || extension == ".glb") return read_gltf(path, limits);
+  throw Error(path.string() + ": '" + printable(extension) +
+              "' is not a mesh that can be read; .obj, .ply, .stl, .gltf and .glb are");
+}
+
+}  // namespace asperity

@@ -1,0 +1,380 @@
+#include "asperity/geometry/write_gltf.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <tuple>
+#include <unordered_map>
+
+#include "asperity/base/error.h"
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
+#include "inner_path.h"
+#include "little_endian.h"
+#include "tinygltf_config.h"
+
+namespace asperity {
+
+namespace {
+
+using tinygltf::Value;
+
+constexpr std::uint64_t kMaxBytes = 0xFFFFFFFFu;
+
+[[noreturn]] void fail(const std::string& message) { throw Error("glTF: " + message); }
+
+Value text(const std::string& value) { return Value(printable(value, 200)); }
+
+// What distinguishes a vertex of glTF: one of every attribute.
+struct Corner {
+  std::uint32_t vertex;
+  std::uint32_t texture;
+  std::uint32_t normal;
+  Eigen::Vector2d haptic;
+
+  bool operator==(const Corner&) const = default;
+};
+
+struct CornerHash {
+  std::size_t operator()(const Corner& c) const {
+    std::uint64_t h = 0;
+    const auto mix = [&](std::uint64_t value) {
+      h = (h ^ value) * 0x9E3779B97F4A7C15u;
+      h ^= h >> 32;
+    };
+    mix(c.vertex);
+    mix(std::uint64_t{c.texture} << 32 | c.normal);
+    mix(std::bit_cast<std::uint64_t>(c.haptic.x() + 0.0));
+    mix(std::bit_cast<std::uint64_t>(c.haptic.y() + 0.0));
+    return h;
+  }
+};
+
+// The triangles of one primitive: those of one haptic texture and one material.
+struct Group {
+  bool normals = true;
+  bool texture = true;
+  std::vector<std::uint32_t> triangles;
+};
+
+class GltfWriter {
+ public:
+  explicit GltfWriter(const GltfExport& scene) : scene_(scene), mesh_(scene.mesh) {}
+
+  std::string write(GltfForm form) {
+    check();
+    model_.asset.version = "2.0";
+    model_.asset.generator = "Asperity";
+    model_.buffers.emplace_back();
+    model_.scenes.emplace_back();
+    model_.defaultScene = 0;
+    textures();
+    primitives();
+    std::vector<unsigned char>& data = model_.buffers[0].data;
+    if (bytes_.size() >= kMaxBytes / 2) fail("the file would have 4 GiB or more");
+    data.assign(bytes_.begin(), bytes_.end());
+    std::ostringstream out;
+    tinygltf::TinyGLTF writer;
+    if (!writer.WriteGltfSceneToStream(&model_, out, true, form == GltfForm::binary)) fail("it cannot be written");
+    return std::move(out).str();
+  }
+
+ private:
+  void check() const {
+    const auto length = [](std::size_t have, std::size_t need, const char* what) {
+      if (have != 0 && have != need)
+        fail(std::to_string(have) + " " + what + " where " + std::to_string(need) + " are needed");
+    };
+    if (mesh_.triangles.empty()) fail("the mesh has no triangles");
+    length(mesh_.texture_corners.size(), mesh_.triangles.size(), "texture corners");
+    length(mesh_.normal_corners.size(), mesh_.triangles.size(), "normal corners");
+    length(mesh_.haptic.size(), mesh_.triangles.size(), "haptic triangles");
+    if (!(scene_.unit_m > 0.0) || !std::isfinite(scene_.unit_m)) fail("unit_m is " + number_text(scene_.unit_m));
+    for (const GltfTexture& texture : scene_.textures) {
+      if (!(texture.size_mm.minCoeff() > 0.0) || !texture.size_mm.allFinite())
+        fail("haptic texture " + std::to_string(texture.index) + " has no size");
+    }
+  }
+
+  int add_view(std::size_t begin, int target) {
+    tinygltf::BufferView& view = model_.bufferViews.emplace_back();
+    view.buffer = 0;
+    view.byteOffset = begin;
+    view.byteLength = bytes_.size() - begin;
+    view.target = target;
+    bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
+    return static_cast<int>(model_.bufferViews.size()) - 1;
+  }
+
+  int add_accessor(int view, int component, int type, std::size_t count) {
+    tinygltf::Accessor& accessor = model_.accessors.emplace_back();
+    accessor.bufferView = view;
+    accessor.componentType = component;
+    accessor.type = type;
+    accessor.count = count;
+    return static_cast<int>(model_.accessors.size()) - 1;
+  }
+
+  // The glTF texture that shows the image.
+  int add_image(const GltfImage& image) {
+    tinygltf::Image& out = model_.images.emplace_back();
+    out.name = printable(image.name, 200);
+    if (image.png.empty()) {
+      const auto inner = inner_path(image.file);
+      if (!inner || !is_utf8(*inner)) fail("the image '" + printable(image.file) + "' is no file beside the export");
+      out.uri = *inner;
+    } else {
+      const std::size_t begin = bytes_.size();
+      bytes_ += image.png;
+      out.bufferView = add_view(begin, 0);
+      out.mimeType = "image/png";
+    }
+    model_.textures.emplace_back().source = static_cast<int>(model_.images.size()) - 1;
+    return static_cast<int>(model_.textures.size()) - 1;
+  }
+
+  void textures() {
+    Value::Array mpeg;
+    for (const GltfTexture& texture : scene_.textures) {
+      if (!haptic_.emplace(texture.index, haptic_.size()).second)
+        fail("haptic texture " + std::to_string(texture.index) + " twice");
+      Value::Object extra{{"name", text(texture.name)}};
+      Value::Object mpeg_material{{"name", text(texture.name)}};
+      normal_map_.push_back(texture.normal_map ? add_image(*texture.normal_map) : -1);
+      if (texture.height_map) {
+        const int height = add_image(*texture.height_map);
+        extra.emplace("height_map", Value(height));
+        const Value info(Value::Object{{"index", Value(height)}, {"texCoord", Value(1)}});
+        mpeg_material.emplace("vibrotactileTexture",
+                              Value(Value::Array{Value(
+                                  Value::Object{{"texture", info}, {"type", Value(std::string("High_Resolution"))}})}));
+      }
+      const auto number = [&](const char* key, const std::optional<double>& value) {
+        if (!value) return;
+        if (!std::isfinite(*value))
+          fail(std::string(key) + " of haptic texture " + std::to_string(texture.index) + " is not finite");
+        extra.emplace(key, Value(*value));
+      };
+      number("height_range_m", texture.height_range_m);
+      number("stiffness_N_per_m", texture.stiffness_N_per_m);
+      number("friction", texture.friction);
+      mpeg_material.emplace("extras", Value(extra));
+      mpeg.emplace_back(std::move(mpeg_material));
+      extra_.emplace_back(std::move(extra));
+    }
+    if (mpeg.empty()) return;
+    model_.extras =
+        Value(Value::Object{{"MPEG_material_haptic", Value(Value::Object{{"materials", Value(std::move(mpeg))}})}});
+  }
+
+  // A material of glTF for the mesh's material and the haptic texture's place in scene_.textures; -1: none.
+  int add_material(std::int32_t material, int haptic) {
+    if (material < 0 && haptic < 0) return -1;
+    tinygltf::Material& out = model_.materials.emplace_back();
+    out.pbrMetallicRoughness.metallicFactor = 0.0;
+    out.doubleSided = true;  // scanned surfaces are often open
+    if (material >= 0) {
+      if (static_cast<std::size_t>(material) >= mesh_.materials.size())
+        fail("material " + std::to_string(material) + " does not exist");
+      const MeshMaterial& m = mesh_.materials[static_cast<std::size_t>(material)];
+      out.name = printable(m.name, 200);
+      if (m.base_colour) {
+        const Eigen::Vector3d c = m.base_colour->cwiseMax(0.0).cwiseMin(1.0);
+        out.pbrMetallicRoughness.baseColorFactor = {c[0], c[1], c[2], 1.0};
+      }
+      if (!m.base_colour_map.empty()) out.pbrMetallicRoughness.baseColorTexture.index = file_texture(m.base_colour_map);
+      if (!m.normal_map.empty() && haptic < 0) out.normalTexture.index = file_texture(m.normal_map);
+    }
+    if (haptic >= 0) {
+      const auto place = static_cast<std::size_t>(haptic);
+      if (out.name.empty()) out.name = printable(scene_.textures[place].name, 200);
+      out.extras = Value(Value::Object{{"asperity", Value(extra_[place])}});
+      if (normal_map_[place] >= 0) {
+        out.normalTexture.index = normal_map_[place];
+        out.normalTexture.texCoord = 1;
+      }
+    }
+    return static_cast<int>(model_.materials.size()) - 1;
+  }
+
+  int file_texture(const std::string& file) {
+    const auto [entry, is_new] = file_textures_.try_emplace(file, -1);
+    if (is_new) entry->second = add_image({"", "", file});
+    return entry->second;
+  }
+
+  static bool has(const std::vector<Triangle>& corners, std::size_t triangle) {
+    return !corners.empty() && corners[triangle][0] != kNoIndex;
+  }
+
+  // Groups the triangles, then writes one mesh a haptic texture, in rising order of its index.
+  void primitives() {
+    std::map<std::pair<std::int32_t, std::int32_t>, Group> groups;
+    auto part = mesh_.parts.begin();
+    std::int32_t material = -1;
+    for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
+      for (; part != mesh_.parts.end() && part->first_triangle <= i; ++part) material = part->material;
+      const std::int32_t haptic = mesh_.haptic.empty() ? -1 : mesh_.haptic[i].texture;
+      Group& group = groups[{haptic, material}];
+      group.triangles.push_back(i);
+      group.normals = group.normals && has(mesh_.normal_corners, i);
+      group.texture = group.texture && has(mesh_.texture_corners, i);
+    }
+    std::optional<std::int32_t> open;
+    for (const auto& [key, group] : groups) {
+      if (open != key.first) add_mesh(key.first);
+      open = key.first;
+      model_.meshes.back().primitives.push_back(primitive(key.first, key.second, group));
+    }
+  }
+
+  int place_of(std::int32_t haptic) const {
+    const auto found = haptic_.find(haptic);
+    return found == haptic_.end() ? -1 : static_cast<int>(found->second);
+  }
+
+  void add_mesh(std::int32_t haptic) {
+    tinygltf::Mesh& mesh = model_.meshes.emplace_back();
+    const int place = place_of(haptic);
+    if (place >= 0) {
+      mesh.extras =
+          Value(Value::Object{{"MPEG_material_haptic", Value(Value::Object{{"hapticMaterialIndex", Value(place)}})}});
+    }
+    tinygltf::Node& node = model_.nodes.emplace_back();
+    node.mesh = static_cast<int>(model_.meshes.size()) - 1;
+    model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()) - 1);
+  }
+
+  Corner corner_of(const Group& group, std::uint32_t triangle, std::size_t k, bool haptic) const {
+    const auto index = [](std::uint32_t value, std::size_t count, const char* what) {
+      if (value >= count) fail(std::string(what) + " " + std::to_string(value) + " of " + std::to_string(count));
+      return value;
+    };
+    Corner c{};
+    c.vertex = index(mesh_.triangles[triangle][k], mesh_.vertices.size(), "vertex");
+    if (group.texture)
+      c.texture = index(mesh_.texture_corners[triangle][k], mesh_.texture_coordinates.size(), "texture coordinate");
+    if (group.normals) c.normal = index(mesh_.normal_corners[triangle][k], mesh_.normals.size(), "normal");
+    c.haptic = haptic ? mesh_.haptic[triangle].xy_mm[k] : Eigen::Vector2d::Zero().eval();
+    return c;
+  }
+
+  tinygltf::Primitive primitive(std::int32_t haptic, std::int32_t material, const Group& group) {
+    const bool is_haptic = haptic >= 0;
+    const int place = place_of(haptic);
+    std::vector<Corner> corners;
+    std::unordered_map<Corner, std::uint32_t, CornerHash> places;
+    const std::size_t begin = bytes_.size();
+    for (const std::uint32_t triangle : group.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Corner c = corner_of(group, triangle, k, is_haptic);
+        const auto [entry, is_new] = places.try_emplace(c, static_cast<std::uint32_t>(corners.size()));
+        if (is_new) corners.push_back(c);
+        append_little(bytes_, entry->second);
+      }
+    }
+    tinygltf::Primitive out;
+    out.mode = TINYGLTF_MODE_TRIANGLES;
+    out.material = add_material(material, place);
+    out.indices = add_accessor(add_view(begin, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER),
+                               TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, 3 * group.triangles.size());
+    out.attributes["POSITION"] = positions(corners);
+    if (group.normals) out.attributes["NORMAL"] = normals(corners);
+    const Eigen::Vector2d size_mm =
+        place >= 0 ? scene_.textures[static_cast<std::size_t>(place)].size_mm : Eigen::Vector2d::Ones();
+    if (group.texture) out.attributes["TEXCOORD_0"] = texture_coordinates(corners);
+    if (is_haptic) {
+      const int accessor = haptic_coordinates(corners, size_mm);
+      // glTF numbers its texture coordinates without gaps.
+      if (!group.texture) out.attributes["TEXCOORD_0"] = accessor;
+      out.attributes["TEXCOORD_1"] = accessor;
+      out.extras = Value(
+          Value::Object{{"asperity", Value(Value::Object{{"haptic_texture", Value(haptic)},
+                                                         {"width_mm", Value(size_mm.x())},
+                                                         {"height_mm", Value(size_mm.y())},
+                                                         {"own_texture_coordinates", Value(group.texture ? 1 : 0)}})}});
+    }
+    return out;
+  }
+
+  void append_float(double value, const char* what) {
+    const auto narrow = static_cast<float>(value);
+    if (!std::isfinite(narrow)) fail(std::string(what) + " cannot be written as float32: " + number_text(value));
+    append_little(bytes_, narrow);
+  }
+
+  int finish(std::size_t begin, int type, std::size_t count) {
+    return add_accessor(add_view(begin, TINYGLTF_TARGET_ARRAY_BUFFER), TINYGLTF_COMPONENT_TYPE_FLOAT, type, count);
+  }
+
+  int positions(const std::vector<Corner>& corners) {
+    const std::size_t begin = bytes_.size();
+    std::array<float, 3> low, high;
+    low.fill(std::numeric_limits<float>::infinity());
+    high.fill(-std::numeric_limits<float>::infinity());
+    for (const Corner& c : corners) {
+      const Eigen::Vector3d p_m = mesh_.vertices[c.vertex] * scene_.unit_m;
+      for (std::size_t k = 0; k < 3; ++k) {
+        append_float(p_m[static_cast<Eigen::Index>(k)], "a position");
+        low[k] = std::min(low[k], static_cast<float>(p_m[static_cast<Eigen::Index>(k)]));
+        high[k] = std::max(high[k], static_cast<float>(p_m[static_cast<Eigen::Index>(k)]));
+      }
+    }
+    const int accessor = finish(begin, TINYGLTF_TYPE_VEC3, corners.size());
+    model_.accessors.back().minValues.assign(low.begin(), low.end());
+    model_.accessors.back().maxValues.assign(high.begin(), high.end());
+    return accessor;
+  }
+
+  int normals(const std::vector<Corner>& corners) {
+    const std::size_t begin = bytes_.size();
+    for (const Corner& c : corners) {
+      Eigen::Vector3d n = mesh_.normals[c.normal].stableNormalized();
+      if (!n.allFinite() || n.isZero(0.0))
+        n = Eigen::Vector3d::UnitZ();  // glTF wants unit normals; one of length zero points nowhere
+      for (int k = 0; k < 3; ++k) append_float(n[k], "a normal");
+    }
+    return finish(begin, TINYGLTF_TYPE_VEC3, corners.size());
+  }
+
+  int texture_coordinates(const std::vector<Corner>& corners) {
+    const std::size_t begin = bytes_.size();
+    for (const Corner& c : corners) {
+      append_float(mesh_.texture_coordinates[c.texture].x(), "a texture coordinate");
+      append_float(1.0 - mesh_.texture_coordinates[c.texture].y(), "a texture coordinate");
+    }
+    return finish(begin, TINYGLTF_TYPE_VEC2, corners.size());
+  }
+
+  int haptic_coordinates(const std::vector<Corner>& corners, const Eigen::Vector2d& size_mm) {
+    const std::size_t begin = bytes_.size();
+    for (const Corner& c : corners) {
+      append_float(c.haptic.x() / size_mm.x(), "a haptic coordinate");
+      append_float(c.haptic.y() / size_mm.y(), "a haptic coordinate");
+    }
+    return finish(begin, TINYGLTF_TYPE_VEC2, corners.size());
+  }
+
+  const GltfExport& scene_;
+  const MeshFile& mesh_;
+  tinygltf::Model model_;
+  std::string bytes_;
+  std::map<std::int32_t, std::size_t> haptic_;  // place in scene_.textures
+  std::vector<int> normal_map_;                 // glTF texture, one a haptic texture; -1: none
+  std::vector<Value::Object> extra_;
+  std::map<std::string, int> file_textures_;
+};
+
+}  // namespace
+
+std::string format_gltf(const GltfExport& scene, GltfForm form) { return GltfWriter(scene).write(form); }
+
+void write_gltf(const std::filesystem::path& path, const GltfExport& scene) {
+  const std::string extension = path.extension().string();
+  if (extension != ".glb" && extension != ".gltf") throw Error(path.string() + ": a glTF file ends in .glb or .gltf");
+  write_file(path, format_gltf(scene, extension == ".glb" ? GltfForm::binary : GltfForm::json));
+}
+
+}  // namespace asperity
