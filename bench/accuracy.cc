@@ -133,7 +133,9 @@ void run(const Options& options) {
           }
         }
         for (std::size_t m = 0; m < options.methods.size(); ++m) {
-          columns[m].print(surface + " | " + probe + " | " + speed + " | " + options.methods[m]);
+          std::string row = surface;
+          for (const std::string& cell : {probe, speed, options.methods[m]}) row.append(" | ").append(cell);
+          columns[m].print(row);
         }
         std::fflush(stdout);
       }

@@ -9,9 +9,9 @@
 #include "asperity/trajectory/estimate_trajectory_thesis.h"
 #include "asperity/trajectory/fused.h"
 
-namespace {
+namespace asperity {
 
-using namespace asperity;
+namespace {
 
 SimulationConfig one_minute() {
   SimulationConfig config = make_simulation_config("sandpaper", "open");
@@ -82,3 +82,5 @@ BENCHMARK(profile_fused)->Unit(benchmark::kMillisecond);
 BENCHMARK(profile_thesis)->Unit(benchmark::kMillisecond);
 
 }  // namespace
+
+}  // namespace asperity

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <variant>
 
 #include "asperity/base/output.h"
 #include "asperity/pipeline/process_recording.h"
@@ -36,7 +37,7 @@ int main(int argc, char** argv) try {
                 1e3 * result.periodicity.pitch_stderr_m);
   }
   if (result.texture) {
-    const asperity::Fourier1d& texture = result.texture->fourier1d;
+    const asperity::Fourier1d& texture = std::get<asperity::Fourier1d>(result.texture->model);
     std::printf("texture      %zu harmonics over %.1f mm\n", texture.a_m.size(), texture.length_mm);
   }
   if (!result.accuracy || !result.accuracy->profile) return 1;

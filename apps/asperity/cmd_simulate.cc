@@ -13,6 +13,7 @@
 #include "asperity/pipeline/config_json.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
+#include "asperity/simulation/mesh_stroke.h"
 #include "asperity/simulation/simulate_recording.h"
 #include "commands.h"
 #include "option_units.h"
@@ -34,6 +35,15 @@ class SimulateCommand : public Command {
     parser()
         .add_option("--material", material_, "What the surface is made of: stiff, cork or soft_rubber; stiff")
         ->type_name("NAME");
+    parser()
+        .add_option("--mesh", mesh_, "A mesh to scan over; the surface is laid on it along the path")
+        ->type_name("FILE");
+    parser()
+        .add_option("--mesh-unit", mesh_unit_, "The mesh file's unit: m, mm or a length such as 0.06m; m")
+        ->type_name("UNIT");
+    parser()
+        .add_option("--through", through_, "Points of the path over the mesh, in its own frame, m; else one is chosen")
+        ->type_name("\"X,Y,Z;X,Y,Z\"");
     parser().add_option("--speed", speed_, "Mean speed of the hand")->type_name("SPEED");
     parser().add_option("--seed", seed_, "Of all randomness; the same seed gives the same bytes")->type_name("N");
     require(parser().add_option("-o,--output", output_, "The recording's folder"))->type_name("REC");
@@ -51,6 +61,19 @@ class SimulateCommand : public Command {
   }
 
   void apply_options() override {
+    if (mesh_.empty() && !(mesh_unit_.empty() && through_.empty()))
+      throw UsageError(std::string(through_.empty() ? "--mesh-unit" : "--through") + " needs --mesh");
+    if (!mesh_.empty()) {
+      config_->shape.kind = BaseShapeKind::kMesh;
+      config_->shape.mesh_file = mesh_;
+      if (!mesh_unit_.empty()) config_->shape.mesh_unit_m = unit_option_m("--mesh-unit", mesh_unit_);
+      try {
+        parse_points_m(through_, "--through");
+      } catch (const Error& error) {
+        throw UsageError(error.what());
+      }
+      config_->shape.through = through_;
+    }
     if (!speed_.empty()) config_->hand.speed_mps = speed_option_mps("--speed", speed_);
     if (seed_.empty()) return;
     try {
@@ -92,6 +115,9 @@ class SimulateCommand : public Command {
   std::string surface_ = "protoboard";
   std::string probe_ = "open";
   std::string material_ = "stiff";
+  std::string mesh_;
+  std::string mesh_unit_;
+  std::string through_;
   std::string speed_;
   std::string seed_;
   std::string output_;

@@ -10,8 +10,18 @@ namespace asperity::app {
 std::unique_ptr<Command> make_demo(CLI::App& root);
 std::unique_ptr<Command> make_simulate(CLI::App& root);
 std::unique_ptr<Command> make_import(CLI::App& root);
+std::unique_ptr<Command> make_export(CLI::App& root);
 std::unique_ptr<Command> make_inspect(CLI::App& root);
+std::unique_ptr<Command> make_paint(CLI::App& root);
 std::unique_ptr<Command> make_process(CLI::App& root);
+std::unique_ptr<Command> make_register(CLI::App& root);
 std::unique_ptr<Command> make_roughness(CLI::App& root);
+
+// The commands below `asperity texture`.
+std::unique_ptr<Command> make_texture_fit(CLI::App& texture);
+std::unique_ptr<Command> make_texture_info(CLI::App& texture);
+std::unique_ptr<Command> make_texture_synthesize(CLI::App& texture);
+std::unique_ptr<Command> make_texture_swap(CLI::App& texture);
+std::unique_ptr<Command> make_texture_compare(CLI::App& texture);
 
 }  // namespace asperity::app

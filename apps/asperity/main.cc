@@ -30,8 +30,15 @@ struct Program {
     parser.add_flag("--man", manual, "Print the manual page");
     parser.add_option("--completion", completion, "Print completions for a shell")->check(CLI::IsMember({"bash"}));
     parser.require_subcommand(0, 1);
-    for (const auto make : {make_demo, make_simulate, make_import, make_inspect, make_process, make_roughness}) {
+    for (const auto make : {make_demo, make_simulate, make_export, make_import, make_inspect, make_paint, make_process,
+                            make_register, make_roughness}) {
       commands.push_back(make(parser));
+    }
+    CLI::App* texture = parser.add_subcommand("texture", "Fit, describe, synthesize, swap and compare textures");
+    texture->require_subcommand(1);
+    for (const auto make :
+         {make_texture_fit, make_texture_info, make_texture_synthesize, make_texture_swap, make_texture_compare}) {
+      commands.push_back(make(*texture));
     }
   }
 };
@@ -42,8 +49,14 @@ int usage(const std::string& message, const std::string& command) {
   return kUsage;
 }
 
+// "process", "texture fit": as it is typed.
+std::string full_name(const CLI::App& parser) {
+  const CLI::App* parent = parser.get_parent();
+  return parent && parent->get_parent() ? full_name(*parent) + " " + parser.get_name() : parser.get_name();
+}
+
 int run_command(Command& command) {
-  const std::string name = command.parser().get_name();
+  const std::string name = full_name(command.parser());
   try {
     if (!command.resolve()) return kDone;
     ProgressLine line(command.quiet());
@@ -78,8 +91,9 @@ int parse_and_run(Program& program, int argc, char** argv) {
   } catch (const CLI::CallForVersion& version) {
     return print(std::string(version.what()) + "\n"), kDone;
   } catch (const CLI::ParseError& error) {
-    const auto chosen = program.parser.get_subcommands();
-    return usage(printable(error.what(), 300), chosen.empty() ? "" : chosen.front()->get_name());
+    const CLI::App* chosen = &program.parser;
+    while (!chosen->get_subcommands().empty()) chosen = chosen->get_subcommands().front();
+    return usage(printable(error.what(), 300), chosen == &program.parser ? "" : full_name(*chosen));
   }
 }
 

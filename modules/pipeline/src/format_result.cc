@@ -13,16 +13,6 @@ double span_s(const std::vector<std::int64_t>& t_ns) {
   return t_ns.size() < 2 ? 0.0 : static_cast<double>(t_ns.back() - t_ns.front()) * kNanosecond_s;
 }
 
-Json vector_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-Json problems_json(const Problems& problems) {
-  Json out = Json::array();
-  for (const Problem& problem : problems) {
-    out.push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
-  }
-  return out;
-}
-
 Json base_json(const BasePathResult& base) {
   Json out;
   out["shape"] = kPathShapeNames.at(static_cast<std::size_t>(base.shape));

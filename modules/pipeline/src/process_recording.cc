@@ -9,6 +9,7 @@
 #include "asperity/base/version.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/pipeline/find_doubts.h"
+#include "asperity/pipeline/process_motion.h"
 #include "asperity/trajectory/reject_outliers.h"
 #include "asperity/trajectory/sample_at_probe.h"
 
@@ -110,7 +111,7 @@ bool attempt(ProcessResult& result, const char* kind, const char* what, Step ste
 Texture make_texture(const ProcessResult& result, const Recording& recording, const ProcessConfig& config) {
   Texture texture;
   texture.name = recording.info.object;
-  texture.fourier1d = result.fit->texture;
+  texture.model = result.fit->texture;
   texture.lift_m = result.fit->lift_m;
   if (std::isfinite(result.compliance.k_c)) texture.compliance_kc = result.compliance.k_c;
   if (result.stiffness.measured) texture.stiffness_N_per_m = 1e3 * result.stiffness.stiffness_N_per_mm;
@@ -128,7 +129,7 @@ Texture make_texture(const ProcessResult& result, const Recording& recording, co
   }
   const bool fused = config.method == Method::kFused;
   const double low = fused ? config.profile.cutoff_cycles_per_mm : config.thesis.profile.cutoff_cycles_per_mm;
-  const double fit_high = static_cast<double>(texture.fourier1d.a_m.size()) / texture.fourier1d.length_mm;
+  const double fit_high = static_cast<double>(result.fit->texture.a_m.size()) / result.fit->texture.length_mm;
   const double nyquist = 0.5 / (result.profile.spacing_m * 1e3);
   texture.band_cycles_per_mm = {low, std::min(fit_high, nyquist)};
   texture.source.config_json = result.config_json;
@@ -143,12 +144,12 @@ void judge_coverage(ProcessResult& result, const ProcessConfig& config) {
   }
 }
 
-void find_profile(const Recording& recording, const ProcessConfig& config, ProcessResult& result,
+void find_profile(const ProcessConfig& config, const FindBase& find_base, ProcessResult& result,
                   const Observer& observer) {
   const TipMotion& motion = result.trajectory.motion;
   // The path without the fine motion, and its normals (seed §1.4, §6.2; errata 23 and 24).
   observer.update("base path", 0.7);
-  result.base = find_base_path(motion, recording.calibration.tip_in_marker_m, config.base);
+  result.base = find_base(motion);
   append(result.problems, result.base.problems);
 
   // The height along it and its texture (seed §5.1, §5.2).
@@ -193,7 +194,7 @@ void compare_with_truth(const Recording& recording, const ProcessConfig& config,
 
 }  // namespace
 
-ProcessResult process_recording(const Recording& recording, const ProcessConfig& config, const Observer& observer) {
+ProcessResult estimate_motion(const Recording& recording, const ProcessConfig& config, const Observer& observer) {
   ProcessResult result;
   ProcessConfig resolved = config;
   result.config_json = config_json(list_fields("", resolved));
@@ -207,24 +208,36 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
   if (!result.trajectory.trustworthy) distrust(result, result.trajectory.verdict);
   for (const std::string& doubt : find_doubts(recording, result.trajectory)) distrust(result, doubt);
 
-  // Without a force sensor a motion need not be a scan: what then fails is said, not held against it.
-  const bool felt = has_force(recording.probe);
-  if (!felt) {
+  // Without a force sensor a motion need not be a scan.
+  if (!has_force(recording.probe)) {
     std::fill(motion.force_N.begin(), motion.force_N.end(), std::numeric_limits<double>::quiet_NaN());
     result.problems.push_back({"no_force", "the force never changes: all of the path counts as scanned", 1});
   }
+  return result;
+}
+
+void measure_along(const Recording& recording, const ProcessConfig& config, const FindBase& find_base,
+                   ProcessResult& result, const Observer& observer) {
   const bool trustworthy = result.trustworthy;
-  if (attempt(result, "no_profile", "profile", [&] { find_profile(recording, config, result, observer); })) {
+  if (attempt(result, "no_profile", "profile", [&] { find_profile(config, find_base, result, observer); })) {
     measure_surface(recording, config, result, observer);
     judge_coverage(result, config);
   }
-  if (!felt && trustworthy) {
+  // What fails where nothing was felt is said, not held against the motion.
+  if (!has_force(recording.probe) && trustworthy) {
     result.trustworthy = true;
     result.verdict.clear();
   }
-
   if (recording.truth) compare_with_truth(recording, config, result);
   observer.update("texture", 1.0);
+}
+
+ProcessResult process_recording(const Recording& recording, const ProcessConfig& config, const Observer& observer) {
+  ProcessResult result = estimate_motion(recording, config, observer);
+  const FindBase find_base = [&](const TipMotion& motion) {
+    return find_base_path(motion, recording.calibration.tip_in_marker_m, config.base);
+  };
+  measure_along(recording, config, find_base, result, observer);
   return result;
 }
 

@@ -122,6 +122,7 @@ Compliance estimate_compliance(const TipMotion& samples, std::span<const std::in
   if (all.empty()) return out;
 
   std::vector<double> speeds_mps;
+  speeds_mps.reserve(all.size());
   for (const Candidate& candidate : all) speeds_mps.push_back(candidate.window.speed_mps);
   const double usual_mps = percentile(speeds_mps, kUsualSpeedPercentile);
   out.rest_amplitude_mps2 = rest_amplitude_mps2(all, usual_mps);
@@ -154,6 +155,7 @@ Compliance estimate_compliance(const TipMotion& samples, std::span<const std::in
   out.exponent = fit.slope;
   out.exponent_error = fit.slope_error;
   std::vector<double> fitted;
+  fitted.reserve(log_force.size());
   for (const double f : log_force) fitted.push_back(std::exp(fit.slope * (f - log_force.front())));
   const double fitted_mean = mean(fitted);
   out.sigma_r2 = variance(fitted) / (fitted_mean * fitted_mean);

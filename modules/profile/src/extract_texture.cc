@@ -1,6 +1,7 @@
 #include "asperity/profile/extract_texture.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
@@ -43,7 +44,7 @@ std::vector<double> extract_texture(std::span<const double> height_m, double spa
                 " cycles/mm, bridge " + number_text(bridge_m) + " m");
   }
   const double rate_per_mm = 1e-3 / spacing_m;
-  const auto bridge = static_cast<std::size_t>(bridge_m / spacing_m + 0.5);
+  const auto bridge = static_cast<std::size_t>(std::lround(bridge_m / spacing_m));
   return filter_runs(height_m, bridge, breaks, 8, [&](std::span<const double> run) {
     if (cutoff_cycles_per_mm > 0.0) return high_pass_mirrored(run, cutoff_cycles_per_mm, rate_per_mm);
     std::vector<double> level(run.begin(), run.end());

@@ -9,10 +9,9 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "asperity/base/units.h"
-#include "asperity/signal/statistics.h"
 #include "base_curve.h"
 #include "fit_base_shape.h"
+#include "motion_times.h"
 #include "path_evidence.h"
 
 namespace asperity {
@@ -20,25 +19,6 @@ namespace asperity {
 namespace {
 
 constexpr double kRadian_deg = 180.0 / std::numbers::pi;
-
-std::vector<double> check_times(const TipMotion& motion) {
-  const std::size_t n = motion.size();
-  if (n < 20) throw Error("base path: " + std::to_string(n) + " samples, at least 20 are needed");
-  if (motion.p_world_tip_m.size() != n || motion.q_world_marker.size() != n ||
-      (!motion.force_N.empty() && motion.force_N.size() != n)) {
-    throw Error("base path: the motion's vectors differ in size");
-  }
-  std::vector<double> t_s(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    t_s[i] = static_cast<double>(motion.t_ns[i] - motion.t_ns[0]) * kNanosecond_s;
-    if (i > 0 && motion.t_ns[i] <= motion.t_ns[i - 1])
-      throw Error("base path: time does not rise at sample " + std::to_string(i));
-    if (!motion.p_world_tip_m[i].allFinite() || !motion.q_world_marker[i].coeffs().allFinite()) {
-      throw Error("base path: sample " + std::to_string(i) + " is not finite");
-    }
-  }
-  return t_s;
-}
 
 // Base points and normals on the plane; returns the developed coordinates.
 std::vector<Eigen::Vector2d> develop_plane(const PlaneCandidate& plane, const TipMotion& motion, BasePath& path) {
@@ -88,16 +68,6 @@ std::vector<Eigen::Vector2d> develop_curve(const PathEvidence& evidence, const s
   return u;
 }
 
-// Five standard deviations of the position: noise does not bend the path by more. 0 without a covariance.
-double noise_bend_m(const TipMotion& motion) {
-  if (motion.cov_world_tip_m2.empty()) return 0.0;
-  std::vector<double> sigma_m;
-  sigma_m.reserve(motion.size());
-  for (const Eigen::Matrix3d& cov : motion.cov_world_tip_m2)
-    sigma_m.push_back(std::sqrt(std::max(0.0, cov.trace() / 3.0)));
-  return std::clamp(5.0 * median(sigma_m), 0.1e-3, 1e-3);
-}
-
 PathShape choose_shape(const PlaneCandidate& plane, const CircleCandidate& circle, const PathEvidence& evidence,
                        const BasePathConfig& config, double& probability) {
   if (config.shape != PathShape::kAuto) return config.shape == PathShape::kLine ? PathShape::kLine : config.shape;
@@ -116,8 +86,9 @@ PathShape choose_shape(const PlaneCandidate& plane, const CircleCandidate& circl
 
 BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& tip_in_marker_m,
                               const BasePathConfig& config) {
-  const std::vector<double> t_s = check_times(motion);
+  const std::vector<double> t_s = motion_times_s(motion);
   if (!tip_in_marker_m.allFinite()) throw Error("base path: tip_in_marker_m is not finite");
+  if (config.shape == PathShape::kMesh) throw Error("base path: the shape 'mesh' needs a registered mesh");
   BasePathResult out;
   out.contact = find_contact(motion, config.contact);
   const PathEvidence evidence = gather_evidence(motion, t_s, out.contact, tip_in_marker_m, config);
@@ -185,13 +156,7 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
       if (std::abs(height_m) > config.max_height_m) out.contact[i] = 0;
     }
   }
-  ArcLengthConfig arc_length = config.arc_length;
-  if (arc_length.bend_m == 0.0) arc_length.bend_m = noise_bend_m(motion);
-  ArcLength arc = measure_arc_length(t_s, developed, out.contact, arc_length);
-  out.path.s_m = std::move(arc.s_m);
-  out.speed_mps = std::move(arc.speed_mps);
-  out.turning_points = std::move(arc.turning_points);
-  out.length_m = *std::max_element(out.path.s_m.begin(), out.path.s_m.end());
+  follow_path(motion, t_s, developed, config, out);
   if (out.shape == PathShape::kCurve && !out.turning_points.empty()) {
     out.problems.push_back(
         {"curve_with_turns", "a base curve is not reliable near turning points", out.turning_points.size()});

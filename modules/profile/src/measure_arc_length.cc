@@ -33,7 +33,7 @@ struct Directions {
 // The direction of travel in a moving cell: that of the slow path, which noise hardly turns; where that
 // cuts a bend by more than noise could, that of the quick one.
 Eigen::Vector2d direction(const EvenPath<2>& slow, const EvenPath<2>& quick, std::size_t cell, double bend_m) {
-  const Eigen::Vector2d tight = velocity_mps(quick, cell).normalized();
+  Eigen::Vector2d tight = velocity_mps(quick, cell).normalized();
   const Eigen::Vector2d gentle = velocity_mps(slow, cell);
   if (!(gentle.norm() > 0.0)) return tight;
   const double cut_m = (slow.p_m[cell] - quick.p_m[cell]).norm();

@@ -148,7 +148,7 @@ PathKnots gather_knots(std::span<const double> s_m, std::span<const std::span<co
 std::vector<double> resample_smooth(const PathKnots& knots, std::ptrdiff_t first, std::size_t count, double spacing_m,
                                     double max_hole_m) {
   check_grid(count, spacing_m, max_hole_m);
-  static const std::array<double, kTapCount> kTaps = low_pass_taps();
+  static const std::array<double, kTapCount> taps = low_pass_taps();
   std::vector<double> out(count, kNan);
   const std::span<const double> all_s(knots.s_m), all_x(knots.channels[0]);
   std::vector<double> fine;
@@ -181,9 +181,9 @@ std::vector<double> resample_smooth(const PathKnots& knots, std::ptrdiff_t first
     };
     for (std::ptrdiff_t k = from; k <= to; ++k) {
       const std::ptrdiff_t centre = kFiner * k - fine_from;
-      double sum = kTaps[0] * value(centre);
+      double sum = taps[0] * value(centre);
       for (int j = 1; j <= kHalfTaps; ++j)
-        sum += kTaps[static_cast<std::size_t>(j)] * (value(centre - j) + value(centre + j));
+        sum += taps[static_cast<std::size_t>(j)] * (value(centre - j) + value(centre + j));
       out[static_cast<std::size_t>(k - first)] = sum;
     }
   });

@@ -4,10 +4,13 @@
 #include <cmath>
 
 #include "asperity/base/error.h"
+#include "asperity/geometry/pose.h"
 
 namespace asperity {
 
-SimulatedShape::SimulatedShape(const SimulatedShapeConfig& config) : centre_m_(config.centre_m.data()) {
+SimulatedShape::SimulatedShape(const SimulatedShapeConfig& config, double follow_normal)
+    : centre_m_(config.centre_m.data()), follow_normal_(follow_normal) {
+  if (config.kind == BaseShapeKind::kMesh) throw Error("simulation.shape.kind: a mesh is not a plane or cylinder");
   const Eigen::Vector3d normal(config.normal.data());
   const Eigen::Vector3d stroke(config.stroke_direction.data());
   if (!(normal.norm() > 0.0)) throw Error("simulation.shape.normal: must not be zero");
@@ -28,6 +31,10 @@ Eigen::Vector3d SimulatedShape::normal(double a_m) const {
 Eigen::Vector3d SimulatedShape::along(double a_m) const {
   const double turn = turn_rad(a_m);
   return std::cos(turn) * along_ - std::sin(turn) * normal_;
+}
+
+Eigen::Quaterniond SimulatedShape::turn(double a_m) const {
+  return exp_rotation(follow_normal_ * turn_rad(a_m) * across_);
 }
 
 Eigen::Vector3d SimulatedShape::point_m(double a_m, double v_m, double height_m) const {

@@ -12,15 +12,18 @@ constexpr int kLevels = 7;
 
 }  // namespace
 
-ContactProfile::ContactProfile(const Surface& surface, const ScanPath& path, const SimulatedContactConfig& contact,
-                               double greatest_force_N)
+ContactProfile::ContactProfile(const Surface& surface, const ScanBase& base, const ScanPath& path,
+                               const SimulatedContactConfig& contact, double greatest_force_N)
     : tip_radius_m_(contact.tip_radius_m) {
   const auto count = static_cast<std::size_t>(std::ceil((path.length_m() + 2.0 * kMargin_m) / kSpacing_m)) + 1;
   std::vector<double> relief_m;
   relief_m.reserve(count);
+  Ground ground;
   for (std::size_t i = 0; i < count; ++i) {
     const ScanPoint point = path.at(kSpacing_m * static_cast<double>(i) - kMargin_m);
-    relief_m.push_back(surface.height_m(point.a_m, point.v_m));
+    const Ground here = base.ground(point.a_m, point.v_m);
+    if (here.found) ground = here;
+    relief_m.push_back(surface.height_m(point.a_m, point.v_m) + ground.height_m);
   }
   levels_.push_back(dilate_by_tip(relief_m, kSpacing_m, contact.tip_radius_m));
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "asperity/geometry/pose.h"
+#include "asperity/simulation/base_shape.h"
 #include "streams.h"
 
 namespace asperity {
@@ -17,11 +19,14 @@ ScanPath make_path(const SimulationConfig& config) {
 }  // namespace
 
 ProbeMotion::ProbeMotion(const SimulationConfig& config, const Surface& surface)
+    : ProbeMotion(config, surface, std::make_shared<SimulatedShape>(config.shape, config.hand.follow_normal)) {}
+
+ProbeMotion::ProbeMotion(const SimulationConfig& config, const Surface& surface, std::shared_ptr<const ScanBase> base)
     : config_(config),
-      shape_(config.shape),
+      base_(std::move(base)),
       path_(make_path(config)),
       hand_(config.hand, path_.length_m(), config.step_s, static_cast<std::uint64_t>(config.seed)),
-      profile_(surface, path_, config.contact, hand_.greatest_force_N()),
+      profile_(surface, *base_, path_, config.contact, hand_.greatest_force_N()),
       mean_tilt_(exp_rotation(Eigen::Vector3d(config.hand.tilt_rad.data()))),
       damping_Ns_per_m_(2.0 * config.contact.damping_ratio *
                         std::sqrt(config.contact.stiffness_N_per_m * config.hand.normal_mass_kg)) {
@@ -30,17 +35,38 @@ ProbeMotion::ProbeMotion(const SimulationConfig& config, const Surface& surface)
   const HandState start = first.next();
   const double indentation_m = start.force_N / config.contact.stiffness_N_per_m;
   s_m_ = start.s_m + start.along_m;
-  height_m_ = profile_.at(s_m_, indentation_m).height_m - indentation_m;
+  const ScanPoint point = path_.at(s_m_);
+  aside_m_ = ground_aside_m(point, point.a_m - start.lateral_m * std::sin(point.angle_rad),
+                            point.v_m + start.lateral_m * std::cos(point.angle_rad));
+  height_m_ = profile_.at(s_m_, indentation_m).height_m + aside_m_ - indentation_m;
   rest_height_m_ = height_m_ - start.tremor_m;
+}
+
+double ProbeMotion::ground_aside_m(const ScanPoint& on_path, double a_m, double v_m) {
+  const Ground path = base_->ground(on_path.a_m, on_path.v_m);
+  const Ground aside = base_->ground(a_m, v_m);
+  // Beyond a mesh's border both stay as they were.
+  if (path.found && aside.found) {
+    ground_on_path_ = path;
+    ground_aside_ = aside;
+  }
+  return ground_aside_.height_m - ground_on_path_.height_m;
 }
 
 MotionState ProbeMotion::next() {
   const HandState hand = hand_.next();
   const SimulatedContactConfig& contact = config_.contact;
+  const ScanPoint point = path_.at(s_m_);
+  const double cosine = std::cos(point.angle_rad);
+  const double sine = std::sin(point.angle_rad);
+  const double a_m = point.a_m - hand.lateral_m * sine;
+  const double v_m = point.v_m + hand.lateral_m * cosine;
 
   const ContactProfile::Value relief = profile_.at(s_m_, hand.force_N / contact.stiffness_N_per_m);
-  const double indentation_m = relief.height_m - height_m_;
-  const double rate_mps = relief.slope * v_s_mps_ - v_h_mps_;
+  const double aside_m = ground_aside_m(point, a_m, v_m);
+  const double indentation_m = relief.height_m + aside_m - height_m_;
+  const double rate_mps = relief.slope * v_s_mps_ + (aside_m - aside_m_) / config_.step_s - v_h_mps_;
+  aside_m_ = aside_m;
   force_N_ = indentation_m > 0.0
                  ? std::max(0.0, contact.stiffness_N_per_m * indentation_m + damping_Ns_per_m_ * rate_mps)
                  : 0.0;
@@ -67,16 +93,11 @@ MotionState ProbeMotion::next() {
   state.height_m = height_m_;
   state.normal_force_N = force_N_;
   state.friction_N = friction_N_;
-  const ScanPoint point = path_.at(s_m_);
-  const double cosine = std::cos(point.angle_rad);
-  const double sine = std::sin(point.angle_rad);
-  const double a_m = point.a_m - hand.lateral_m * sine;
-  state.p_world_tip_m = shape_.point_m(a_m, point.v_m + hand.lateral_m * cosine, height_m_);
-  const Eigen::Vector3d direction = cosine * shape_.along(a_m) + sine * shape_.across();
-  state.contact_force_world_N = force_N_ * shape_.normal(a_m) - (friction_N_ + force_N_ * slope_) * direction;
+  state.p_world_tip_m = base_->point_m(a_m, v_m, height_m_);
+  const Eigen::Vector3d direction = cosine * base_->along(a_m) + sine * base_->across(a_m);
+  state.contact_force_world_N = force_N_ * base_->normal(a_m) - (friction_N_ + force_N_ * slope_) * direction;
   // The orientation follows the hand, not the tip: stick and slip does not turn the probe.
-  const double turn = config_.hand.follow_normal * shape_.turn_rad(path_.at(hand.s_m).a_m);
-  state.q_world_marker = exp_rotation(turn * shape_.across()) * mean_tilt_ * exp_rotation(hand.rotation_rad);
+  state.q_world_marker = base_->turn(path_.at(hand.s_m).a_m) * mean_tilt_ * exp_rotation(hand.rotation_rad);
   state.q_world_marker.normalize();
 
   advance(hand);

@@ -10,7 +10,10 @@
 
 #include "asperity/base/config.h"
 #include "asperity/base/error.h"
+#include "asperity/geometry/read_mesh.h"
 #include "asperity/simulation/make_surface.h"
+#include "asperity/simulation/mesh_base.h"
+#include "asperity/simulation/mesh_truth.h"
 #include "asperity/simulation/probe_motion.h"
 #include "asperity/simulation/probe_sampler.h"
 #include "asperity/simulation/probe_truth.h"
@@ -66,7 +69,16 @@ std::string config_json(const SimulationConfig& config) {
     json += fmt::format("{}\"{}\":{}", separator, field.path, field.get());
     separator = ",";
   }
-  return json + "}}";
+  return json + "}";
+}
+
+std::string extra_json(const SimulationConfig& config, const MeshBase* base, double length_m) {
+  if (base == nullptr) return config_json(config) + "}";
+  const Pose T_mesh_world = base->T_world_mesh().inverse();
+  const Eigen::Vector3d& p = T_mesh_world.translation_m;
+  const Eigen::Quaterniond& q = T_mesh_world.rotation;
+  return fmt::format("{},\"T_mesh_world\":[{},{},{},{},{},{},{}],\"path_length_m\":{}}}", config_json(config), p.x(),
+                     p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), length_m);
 }
 
 std::vector<Segment> segments(const Hand& hand) {
@@ -78,15 +90,17 @@ std::vector<Segment> segments(const Hand& hand) {
   return out;
 }
 
-}  // namespace
-
-Recording simulate_recording(const SimulationConfig& config, const Surface& surface, const Observer& observer) {
+// The stroke on `base`, or on the plane or cylinder of the config where there is none.
+Recording simulate_on(const SimulationConfig& config, const Surface& surface, std::shared_ptr<const MeshBase> base,
+                      const Observer& observer) {
   validate(config);
   const auto seed = static_cast<std::uint64_t>(config.seed);
   observer.update("simulate", 0.0);
 
   const Calibration truth = make_probe_truth(config.probe, config.tracker, seed);
-  ProbeMotion motion(config, surface);
+  ProbeMotion motion = base ? ProbeMotion(config, surface, base) : ProbeMotion(config, surface);
+  MeshBasePath mesh_path;
+  if (base) mesh_path = lay_on_mesh(*base, motion.path());
   ProbeSampler probe(config, truth, kStart_ns);
   TrackerSampler tracker(config, kStart_ns);
   const auto steps = static_cast<std::int64_t>(std::llround(motion.duration_s() / config.step_s));
@@ -103,6 +117,7 @@ Recording simulate_recording(const SimulationConfig& config, const Surface& surf
   recording.calibration.tip_radius_m = config.contact.tip_radius_m;
   recording.probe = std::move(probe.samples);
   recording.tracker = std::move(tracker.poses);
+  if (base) measure_on_mesh(*base, mesh_path, probe.truth);
   recording.truth = std::move(probe.truth);
 
   RecordingInfo& info = recording.info;
@@ -122,14 +137,34 @@ Recording simulate_recording(const SimulationConfig& config, const Surface& surf
   }
   info.gravity_world_mps2 = exp_rotation(turn_rad) * Eigen::Vector3d(config.gravity_world_mps2.data());
   info.segments = segments(motion.hand());
-  info.extra_json = config_json(config);
+  info.extra_json = extra_json(config, base.get(), mesh_path.length_m);
   observer.update("simulate", 1.0);
   return recording;
 }
 
+}  // namespace
+
+Recording simulate_recording(const SimulationConfig& config, const Surface& surface, const Observer& observer) {
+  if (config.shape.kind == BaseShapeKind::kMesh)
+    throw Error("simulation.shape.kind: a mesh is to be given with its surface");
+  return simulate_on(config, surface, nullptr, observer);
+}
+
+Recording simulate_recording(const SimulationConfig& config, const Surface& surface, const TriangleMesh& mesh,
+                             const Observer& observer) {
+  const auto base = std::make_shared<MeshBase>(std::make_shared<MeshSurface>(mesh), config.shape, config.hand.length_m,
+                                               config.hand.follow_normal);
+  SimulationConfig on_mesh = config;
+  on_mesh.hand.length_m = base->length_m();
+  return simulate_on(on_mesh, surface, base, observer);
+}
+
 Recording simulate_recording(const SimulationConfig& config, const Observer& observer) {
   const std::unique_ptr<Surface> surface = make_surface(config.surface, static_cast<std::uint64_t>(config.seed));
-  return simulate_recording(config, *surface, observer);
+  if (config.shape.kind != BaseShapeKind::kMesh) return simulate_recording(config, *surface, observer);
+  if (config.shape.mesh_file.empty()) throw Error("simulation.shape.mesh_file: which mesh?");
+  return simulate_recording(config, *surface, to_metres(read_mesh(config.shape.mesh_file), config.shape.mesh_unit_m),
+                            observer);
 }
 
 }  // namespace asperity

@@ -74,7 +74,7 @@ TEST(SimulatedShape, CylinderHasItsRadiusAndOutwardNormals) {
   const Eigen::Vector3d axis_point = top - 0.06 * shape.normal(0.0);
   for (double a = -0.05; a < 0.05; a += 0.01) {
     const Eigen::Vector3d p = shape.point_m(a, 0.004, 0.001);
-    const Eigen::Vector3d from_axis = p - axis_point - 0.004 * shape.across();
+    const Eigen::Vector3d from_axis = p - axis_point - 0.004 * shape.across(a);
     EXPECT_NEAR(from_axis.norm(), 0.061, 1e-14);
     EXPECT_NEAR((from_axis / 0.061 - shape.normal(a)).norm(), 0.0, 1e-13);
     const Eigen::Vector3d step = shape.point_m(a + 1e-6, 0.0, 0.0) - shape.point_m(a - 1e-6, 0.0, 0.0);

@@ -81,7 +81,7 @@ LocatedJson::LocatedJson(std::string_view text, std::string name) : name_(std::m
       level.member = joined(level.path, key);
       if (!level.keys.insert(key).second)
         throw Error(here() + "the key '" + printable(level.member) + "' appears twice");
-      if (levels.size() <= 2) line_.emplace(level.member, line);
+      if (levels.size() <= 3) line_.emplace(level.member, line);
     }
     return true;
   };
@@ -95,7 +95,13 @@ LocatedJson::LocatedJson(std::string_view text, std::string name) : name_(std::m
 }
 
 const LocatedJson::Json& LocatedJson::at(const std::string& path) const {
-  return path.empty() ? root_ : root_.at(path);
+  const Json* value = &root_;
+  for (std::string_view rest = path; !rest.empty();) {
+    const auto dot = rest.find('.');
+    value = &value->at(std::string(rest.substr(0, dot)));
+    rest.remove_prefix(dot == std::string_view::npos ? rest.size() : dot + 1);
+  }
+  return *value;
 }
 
 const LocatedJson::Json* LocatedJson::find(const std::string& path, const char* key) const {

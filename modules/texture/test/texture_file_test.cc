@@ -19,7 +19,7 @@ using testing::ThrowsMessage;
 Texture whole_texture() {
   Texture t;
   t.name = "sand \"paper\" µ";
-  t.fourier1d = {10.0, {1.0 / 3.0, -2e-6, 0.0}, {5e-324, 4e-6, 1e-6}, 1e-7};
+  t.model = Fourier1d{10.0, {1.0 / 3.0, -2e-6, 0.0}, {5e-324, 4e-6, 1e-6}, 1e-7};
   t.compliance_kc = 0.9556;
   t.stiffness_N_per_m = 1200.0;
   t.friction = 0.3;
@@ -50,10 +50,12 @@ TEST(TextureFile, ComesBackAsItWas) {
   write_texture(path, t);
   const Texture back = read_texture(path);
   EXPECT_EQ(back.name, t.name);
-  EXPECT_EQ(back.fourier1d.length_mm, 10.0);
-  EXPECT_EQ(back.fourier1d.a_m, t.fourier1d.a_m);
-  EXPECT_EQ(back.fourier1d.b_m, t.fourier1d.b_m);
-  EXPECT_EQ(back.fourier1d.mean_m, t.fourier1d.mean_m);
+  const auto& series = std::get<Fourier1d>(t.model);
+  const auto& series_back = std::get<Fourier1d>(back.model);
+  EXPECT_EQ(series_back.length_mm, 10.0);
+  EXPECT_EQ(series_back.a_m, series.a_m);
+  EXPECT_EQ(series_back.b_m, series.b_m);
+  EXPECT_EQ(series_back.mean_m, series.mean_m);
   EXPECT_EQ(back.compliance_kc, t.compliance_kc);
   EXPECT_EQ(back.stiffness_N_per_m, t.stiffness_N_per_m);
   EXPECT_EQ(back.friction, t.friction);
@@ -72,7 +74,7 @@ TEST(TextureFile, ReadsTheContractsExample) {
  "fourier1d":{"length_mm":10,"omega_rad_per_mm":0.6283,"a_m":[1e-6],"b_m":[0],"mean_m":0},
  "roughness":{"Ra_m":1e-6},"band_cycles_per_mm":[0.15,4],"source":{"recording":"r","config":{},"version":"1"},"extra":{}})",
                                   "x.json");
-  EXPECT_EQ(t.fourier1d.a_m.at(0), 1e-6);
+  EXPECT_EQ(std::get<Fourier1d>(t.model).a_m.at(0), 1e-6);
   EXPECT_FALSE(t.friction.has_value());
 }
 
@@ -115,7 +117,7 @@ TEST(TextureFile, WritesOnlyWhatCanBeRead) {
   t.lift_m = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT([&] { format_texture(t); }, ThrowsMessage<Error>(HasSubstr("'lift_m' is nan")));
   t = whole_texture();
-  t.fourier1d.b_m.pop_back();
+  std::get<Fourier1d>(t.model).b_m.pop_back();
   EXPECT_THAT([&] { format_texture(t); }, ThrowsMessage<Error>(HasSubstr("3 cosine and 2 sine coefficients")));
   t = whole_texture();
   t.name = "\xFF";

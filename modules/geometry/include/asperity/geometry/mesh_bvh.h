@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 
 #include <Eigen/Core>
 
@@ -36,7 +38,7 @@ struct RayHit {
 // Closest-point and ray queries on a triangle mesh.
 class MeshBvh {
  public:
-  // Keeps what it needs of `mesh`. Throws Error for a mesh without triangles, an index out of range or a
+  // Keeps what it needs of `mesh`, about 65 bytes a triangle. Throws Error for a mesh without triangles, an index out of range or a
   // vertex that is not finite.
   explicit MeshBvh(const TriangleMesh& mesh);
   ~MeshBvh();
@@ -58,9 +60,17 @@ class MeshBvh {
   RayHit cast_ray(const Eigen::Vector3d& origin_m, const Eigen::Vector3d& direction,
                   double t_max = std::numeric_limits<double>::infinity()) const noexcept;
 
+  // The triangles that have a point within `radius_m` of p: their indices to `out`, as many as it holds, in
+  // the order of the tree (the same for the same mesh). Returns how many there are, which may be more.
+  // Thread-safe: yes. Realtime-safe: yes.
+  std::size_t triangles_within(const Eigen::Vector3d& p_m, double radius_m,
+                               std::span<std::uint32_t> out) const noexcept;
+
+  // All that is kept, the vertices included.
   std::size_t memory_bytes() const noexcept;
 
  private:
+  friend struct MeshBvhAccess;
   struct Tree;
   std::unique_ptr<Tree> tree_;
 };

@@ -23,8 +23,9 @@ enum class PathShape {
   kCircle,  // a body of revolution scanned across its axis: normals lie in the path's plane
   kLine,    // a straight stroke: the normal from the probe's axis and the texture's direction alone
   kCurve,   // none of these: the path's own long waves
+  kMesh,    // a registered mesh (base_path_on_mesh.h)
 };
-inline constexpr std::array<std::string_view, 5> kPathShapeNames{"auto", "plane", "circle", "line", "curve"};
+inline constexpr std::array<std::string_view, 6> kPathShapeNames{"auto", "plane", "circle", "line", "curve", "mesh"};
 
 struct BasePathConfig {
   PathShape shape = PathShape::kAuto;

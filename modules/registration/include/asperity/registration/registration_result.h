@@ -16,11 +16,13 @@ namespace asperity {
 
 // A scan path as registration wants it, world frame. `outward_world` is empty or holds, for each point, the
 // direction from the surface towards the probe; `sigma_m` is the standard deviation of a point along the
-// surface's normal, 0 if unknown.
+// surface's normal, 0 if unknown; `slow_covariance_world_m2` that of the part of the positions' error that lasts over
+// many points, zero if unknown.
 struct MeasuredPath {
   std::vector<Eigen::Vector3d> p_world_m;
   std::vector<Eigen::Vector3d> outward_world;
   double sigma_m = 0.0;
+  Eigen::Matrix3d slow_covariance_world_m2 = Eigen::Matrix3d::Zero();
 };
 
 enum class StopRule { kErrorChange, kPoseChange, kStalled, kIterationLimit };

@@ -3,18 +3,19 @@
 #include <vector>
 
 #include "asperity/simulation/contact_config.h"
+#include "asperity/simulation/scan_base.h"
 #include "asperity/simulation/scan_path.h"
 #include "asperity/simulation/surface.h"
 
 namespace asperity {
 
-// The relief along a path as the tip meets it, for every indentation that occurs: dilated by the tip, then
-// smoothed by the contact disc, whose radius grows with the indentation as a = sqrt(r d) (Hertz).
+// The relief on the ground of a base, along a path, as the tip meets it, for every indentation that occurs: dilated by
+// the tip, then smoothed by the contact disc, whose radius grows with the indentation as a = sqrt(r d) (Hertz).
 class ContactProfile {
  public:
   // `greatest_force_N` bounds the indentations that are prepared.
-  ContactProfile(const Surface& surface, const ScanPath& path, const SimulatedContactConfig& contact,
-                 double greatest_force_N);
+  ContactProfile(const Surface& surface, const ScanBase& base, const ScanPath& path,
+                 const SimulatedContactConfig& contact, double greatest_force_N);
 
   struct Value {
     double height_m = 0.0;

@@ -6,9 +6,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "asperity/simulation/base_shape.h"
 #include "asperity/simulation/contact_profile.h"
 #include "asperity/simulation/hand.h"
+#include "asperity/simulation/scan_base.h"
 #include "asperity/simulation/scan_path.h"
 #include "asperity/simulation/simulation_config.h"
 #include "asperity/simulation/surface.h"
@@ -19,7 +19,7 @@ namespace asperity {
 struct MotionState {
   double t_s = 0.0;
   double s_m = 0.0;       // arc length along the path (erratum 23)
-  double height_m = 0.0;  // of the tip above the base shape
+  double height_m = 0.0;  // of the tip above the base
   double normal_force_N = 0.0;
   double friction_N = 0.0;  // on the tip, against the direction of the path
   Eigen::Vector3d p_world_tip_m = Eigen::Vector3d::Zero();
@@ -34,7 +34,10 @@ struct MotionState {
 // deviation follow the hand exactly (docs/virtual-bench.md).
 class ProbeMotion {
  public:
+  // On the plane or cylinder of `config.shape`.
   ProbeMotion(const SimulationConfig& config, const Surface& surface);
+  // On `base`; `config.hand.length_m` is the length of one stroke over it.
+  ProbeMotion(const SimulationConfig& config, const Surface& surface, std::shared_ptr<const ScanBase> base);
 
   // The state now; the next call gives it one step later.
   MotionState next();
@@ -45,9 +48,11 @@ class ProbeMotion {
 
  private:
   void advance(const HandState& hand);
+  // The object under a tip that stands off the path, less that on the path, which is in the profile.
+  double ground_aside_m(const ScanPoint& on_path, double a_m, double v_m);
 
   SimulationConfig config_;
-  SimulatedShape shape_;
+  std::shared_ptr<const ScanBase> base_;
   ScanPath path_;
   Hand hand_;
   ContactProfile profile_;
@@ -58,6 +63,8 @@ class ProbeMotion {
   double rest_height_m_ = 0.0;  // to which the hand has adapted
   double damping_Ns_per_m_ = 0.0;
   double slope_ = 0.0;
+  Ground ground_on_path_, ground_aside_;
+  double aside_m_ = 0.0;
 };
 
 }  // namespace asperity

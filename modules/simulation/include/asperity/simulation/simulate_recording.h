@@ -1,6 +1,7 @@
 #pragma once
 
 #include "asperity/base/progress.h"
+#include "asperity/geometry/triangle_mesh.h"
 #include "asperity/recording/recording.h"
 #include "asperity/simulation/simulation_config.h"
 #include "asperity/simulation/surface.h"
@@ -14,7 +15,14 @@ namespace asperity {
 // Cancelled.
 Recording simulate_recording(const SimulationConfig& config, const Surface& surface, const Observer& observer = {});
 
-// The same on the surface of `config.surface` (make_surface.h), which may read a file.
+// The same over `mesh` (mesh_base.h), along `config.shape.through`; the relief lies along the path. The recording's
+// `extra` has the true T_mesh_world as [x,y,z,qw,qx,qy,qz] and the path's length over the mesh.
+// Throws Error also for a path that leaves the mesh.
+Recording simulate_recording(const SimulationConfig& config, const Surface& surface, const TriangleMesh& mesh,
+                             const Observer& observer = {});
+
+// The same on the surface of `config.surface` (make_surface.h) and, if its kind is that, over the mesh of
+// `config.shape`; both may read a file.
 Recording simulate_recording(const SimulationConfig& config, const Observer& observer = {});
 
 }  // namespace asperity

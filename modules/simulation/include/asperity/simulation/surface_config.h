@@ -58,8 +58,12 @@ struct SimulatedSurfaceConfig {
   }
 };
 
-enum class BaseShapeKind { kPlane, kCylinder };
-inline constexpr std::array<std::string_view, 2> kSimulatedShapeNames = {"plane", "cylinder"};
+enum class BaseShapeKind { kPlane, kCylinder, kMesh };
+inline constexpr std::array<std::string_view, 3> kSimulatedShapeNames = {"plane", "cylinder", "mesh"};
+
+// Where a mesh stands: its path's middle in the place of a plane's, or by a given pose.
+enum class MeshPose { kInPlace, kGiven };
+inline constexpr std::array<std::string_view, 2> kMeshPoseNames = {"in_place", "given"};
 
 // The base shape in the world frame (camera: x right, y down, z forward) and where it is.
 struct SimulatedShapeConfig {
@@ -69,13 +73,29 @@ struct SimulatedShapeConfig {
   std::array<double, 3> normal{0.0, -0.9397, -0.3420};    // outward: up and 20 degrees towards the camera
   std::array<double, 3> stroke_direction{1.0, 0.0, 0.0};  // made perpendicular to the normal
 
+  std::string mesh_file;                             // mesh: see read_mesh.h
+  double mesh_unit_m = 1.0;                          // mesh: the length of the file's unit
+  std::string through;                               // mesh: the path's points "x,y,z;…" in the mesh frame, m
+  MeshPose mesh_pose = MeshPose::kInPlace;           // mesh
+  std::array<double, 3> mesh_position_m{0, 0, 0};    // mesh, given: T_world_mesh
+  std::array<double, 3> mesh_rotation_rad{0, 0, 0};  // mesh, given: T_world_mesh, a rotation vector
+
   template <class V>
   void visit(V& v) {
-    v.choice("kind", kind, kSimulatedShapeNames, "base shape; a cylinder is scanned across its axis");
+    v.choice("kind", kind, kSimulatedShapeNames,
+             "base shape; a cylinder is scanned across its axis, a mesh along through");
     v.field("cylinder_radius_m", cylinder_radius_m, "radius of the cylinder, m", {1e-3, 10.0});
     v.field("centre_m", centre_m, "middle of the stroke in the world frame, m", {-10.0, 10.0});
     v.field("normal", normal, "outward normal at the middle, world frame; need not be a unit vector", {-1.0, 1.0});
     v.field("stroke_direction", stroke_direction, "direction of the stroke at the middle, world frame", {-1.0, 1.0});
+    v.field("mesh_file", mesh_file, "mesh: its file, OBJ, PLY, STL or glTF");
+    v.field("mesh_unit_m", mesh_unit_m, "mesh: the length of the file's unit, m", {1e-9, 1e3});
+    v.field("through", through, "mesh: points of the path, x,y,z;x,y,z;... in the mesh frame, m; empty: chosen");
+    v.choice("mesh_pose", mesh_pose, kMeshPoseNames,
+             "mesh: in_place puts the path's middle at centre_m with that normal and direction; given: as below");
+    v.field("mesh_position_m", mesh_position_m, "mesh, given: its origin in the world frame, m", {-1000.0, 1000.0});
+    v.field("mesh_rotation_rad", mesh_rotation_rad, "mesh, given: rotation vector from mesh to world, rad",
+            {-6.3, 6.3});
   }
 };
 

@@ -4,8 +4,16 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <variant>
 
+#include "asperity/texture/areal_texture.h"
+#include "asperity/texture/autoregressive.h"
+#include "asperity/texture/decaying_sinusoids.h"
 #include "asperity/texture/fourier1d.h"
+#include "asperity/texture/fourier2d.h"
+#include "asperity/texture/height_map.h"
+#include "asperity/texture/stochastic.h"
 
 namespace asperity {
 
@@ -16,10 +24,17 @@ struct TextureSource {
   std::string version;
 };
 
-// A haptic texture, the content of a *.texture.json. Of the models this version has fourier1d.
+// The models, and in the same order their names in the file.
+using TextureModel = std::variant<Fourier1d, Fourier2d, HeightMap, ArealTexture, StochasticTexture,
+                                  AutoregressiveTexture, DecayingSinusoids>;
+inline constexpr std::array<std::string_view, 7> kTextureModelNames{
+    "fourier1d", "fourier2d", "heightmap", "areal", "stochastic", "autoregressive", "decaying_sinusoids"};
+static_assert(kTextureModelNames.size() == std::variant_size_v<TextureModel>);
+
+// A haptic texture, the content of a *.texture.json and of the image or table that it names.
 struct Texture {
   std::string name;
-  Fourier1d fourier1d;
+  TextureModel model;
 
   std::optional<double> compliance_kc;                      // k_c, within 0 and 1 (seed §5.3)
   std::optional<double> stiffness_N_per_m;                  // overrides the scene's
@@ -29,6 +44,8 @@ struct Texture {
   std::optional<std::array<double, 2>> band_cycles_per_mm;  // low, high
   TextureSource source;
   std::string extra_json = "{}";
+
+  std::string_view model_name() const { return kTextureModelNames[model.index()]; }
 };
 
 }  // namespace asperity

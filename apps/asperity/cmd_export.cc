@@ -1,0 +1,129 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
+#include "asperity/base/version.h"
+#include "asperity/pipeline/config_json.h"
+#include "asperity/scene/export_scene.h"
+#include "asperity/scene/read_scene.h"
+#include "asperity/texture/texture_file.h"
+#include "commands.h"
+#include "option_units.h"
+#include "our_folder.h"
+
+namespace asperity::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// What is to be exported: a scene, a mesh, or a texture alone.
+Scene read_source(const fs::path& path) {
+  const auto texture_alone = [](const fs::path& file) {
+    Scene scene;
+    SceneObject object;
+    object.textures.push_back({1, file.filename().string(), read_texture(file)});
+    scene.objects.push_back(std::move(object));
+    return scene;
+  };
+  if (fs::is_directory(path)) {
+    if (fs::exists(path / "scene.json")) return read_scene(path / "scene.json");
+    if (fs::exists(path / "texture.json")) return texture_alone(path / "texture.json");
+    throw Error(printable(path.string(), 200) + ": holds neither scene.json nor texture.json");
+  }
+  const std::string name = path.filename().string();
+  if (name == "texture.json" || name.ends_with(".texture.json")) return texture_alone(path);
+  return read_scene(path);
+}
+
+class ExportCommand : public Command {
+ public:
+  explicit ExportCommand(CLI::App& root)
+      : Command(root, "export", "Write a textured scene in the files of other programs") {
+    require(parser().add_option("OUT", source_,
+                                "What register, paint or process wrote, a scene.json, a mesh or a *.texture.json"));
+    require(parser().add_option("--to", format_,
+                                "obj, gltf (.glb), png (16-bit height and normal maps), wav (the texture stroked), x3p "
+                                "(heights), stl (relief to print)"))
+        ->type_name("FORMAT");
+    parser().add_option("-o,--output", output_, "Folder of the files; default: OUT-FORMAT")->type_name("DIR");
+    parser().add_option("--speed", speed_, "Of the stroke, for wav")->type_name("SPEED");
+    parser().add_option("--mesh-unit", mesh_unit_, "Length of the unit of a mesh given alone")->type_name("LENGTH");
+  }
+
+  std::vector<ConfigField> fields() override { return list_fields("", config_); }
+
+  void apply_options() override {
+    if (!speed_.empty()) config_.stroke.speed_mps = speed_option_mps("--speed", speed_);
+  }
+
+  int run(const Observer& observer) override {
+    const auto name = std::find(kExportFormatNames.begin(), kExportFormatNames.end(), format_);
+    if (name == kExportFormatNames.end())
+      throw UsageError("--to: '" + printable(format_) + "' is none of obj, gltf, png, wav, x3p, stl");
+    const auto format = static_cast<ExportFormat>(name - kExportFormatNames.begin());
+    fs::path target = output_;
+    if (target.empty()) {
+      fs::path source = fs::absolute(source_).lexically_normal();
+      if (!source.has_filename()) source = source.parent_path();
+      target = source.parent_path() / (source.filename().string() + "-" + format_);
+    }
+    OutputFolder folder(target, is_our_folder);
+    observer.update("reading", 0.0);
+    Scene scene = read_source(source_);
+    if (!mesh_unit_.empty()) {
+      if (fs::path(source_).extension() == ".json" || fs::is_directory(source_))
+        throw UsageError("--mesh-unit: the scene says what its unit is");
+      scene.objects.front().unit_m = unit_option_m("--mesh-unit", mesh_unit_);
+    }
+    observer.update("exporting", 0.0);
+    const ExportResult result = export_scene(scene, format, config_);
+    observer.update("writing", 1.0);
+    Json out;
+    out["format"] = "asperity-export";
+    out["version"] = 1;
+    out["to"] = format_;
+    out["folder"] = is_utf8(target.string()) ? target.string() : printable(target.string(), 200);
+    out["files"] = Json::array();
+    std::string text;
+    for (const ExportedFile& file : result.files) {
+      write_file(folder.path() / file.name, file.content);
+      out["files"].push_back({{"name", file.name}, {"bytes", file.content.size()}});
+      text += fmt::format("{:>12} bytes  {}\n", file.content.size(), printable(file.name, 200));
+    }
+    out["problems"] = Json::array();
+    for (const Problem& problem : result.problems) {
+      out["problems"].push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
+      text += "problem: " + printable(problem.message, 300) + "\n";
+    }
+    out["config"] = Json::parse(config_json(fields()));
+    out["asperity"] = kVersion;
+    write_listing(folder.path());
+    folder.commit();
+    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    say(text + "in " + printable(target.string(), 200) + "\n");
+    return kDone;
+  }
+
+ private:
+  std::string source_;
+  std::string format_;
+  std::string output_;
+  std::string speed_;
+  std::string mesh_unit_;
+  ExportConfig config_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_export(CLI::App& root) { return std::make_unique<ExportCommand>(root); }
+
+}  // namespace asperity::app

@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
+#include "asperity/base/version.h"
+#include "asperity/pipeline/config_json.h"
+#include "asperity/scene/paint.h"
+#include "asperity/scene/read_scene.h"
+#include "asperity/scene/write_scene.h"
+#include "asperity/texture/texture_file.h"
+#include "commands.h"
+#include "option_units.h"
+#include "our_folder.h"
+
+namespace asperity::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct PaintSettings {
+  HapticCoordinatesConfig coordinates;
+
+  template <class V>
+  void visit(V& v) {
+    v.group("coordinates", coordinates);
+  }
+};
+
+// "x,y,z;x,y,z;…" in units of `unit_m`.
+std::vector<Eigen::Vector3d> points_option_m(const std::string& text, double unit_m) {
+  std::vector<Eigen::Vector3d> points;
+  std::size_t at = 0;
+  while (at <= text.size()) {
+    const std::size_t end = std::min(text.find(';', at), text.size());
+    const std::string_view one = trim(std::string_view(text).substr(at, end - at));
+    at = end + 1;
+    if (one.empty() && at > text.size()) break;
+    Eigen::Vector3d p;
+    std::size_t from = 0;
+    for (int i = 0; i < 3; ++i) {
+      const std::size_t comma = i < 2 ? one.find(',', from) : one.size();
+      const auto value =
+          comma == std::string_view::npos ? std::nullopt : parse_double(trim(one.substr(from, comma - from)));
+      if (!value || !std::isfinite(*value))
+        throw UsageError("--through: '" + printable(one) + "' is not a point x,y,z");
+      p[i] = *value * unit_m;
+      from = comma + 1;
+    }
+    points.push_back(p);
+  }
+  if (points.size() < 2) throw UsageError("--through: at least two points x,y,z are needed, with ; between");
+  return points;
+}
+
+class PaintCommand : public Command {
+ public:
+  explicit PaintCommand(CLI::App& root)
+      : Command(root, "paint", "Lay a texture on a mesh along a path through picked points") {
+    require(parser().add_option("MESH", mesh_, "A mesh (.obj .ply .stl .gltf .glb) or a scene.json to paint on"));
+    require(parser().add_option(
+                "--through", through_,
+                "Points x,y,z;x,y,z;… near the surface, in the mesh's frame: in the mesh's unit if --mesh-unit is "
+                "given, else in metres"))
+        ->type_name("POINTS");
+    require(parser().add_option("--texture", texture_, "What to paint with, a *.texture.json"))->type_name("FILE");
+    require(parser().add_option("-o,--output", output_, "Folder of the scene"))->type_name("OUT");
+    parser()
+        .add_option("--mesh-unit", mesh_unit_, "Length of the mesh's unit: m (the default), mm, cm, or such as 0.06m")
+        ->type_name("LENGTH");
+    parser().add_option("--rings", rings_, "Rings of triangles about those under the path")->type_name("N");
+    parser()
+        .add_option("--width", width_, "Of the stroke: triangles this near to its middle line, instead of rings")
+        ->type_name("LENGTH");
+    parser().add_option("--index", index_, "Of the texture; default: the next free one")->type_name("N");
+  }
+
+  std::vector<ConfigField> fields() override { return list_fields("", settings_); }
+
+  void apply_options() override {
+    if (rings_ >= 0) settings_.coordinates.rings = std::min(rings_, 1000);
+    if (!width_.empty()) settings_.coordinates.half_width_mm = 500.0 * length_option_m("--width", width_);
+  }
+
+  int run(const Observer& observer) override {
+    const double unit_m = mesh_unit_.empty() ? 1.0 : unit_option_m("--mesh-unit", mesh_unit_);
+    const std::vector<Eigen::Vector3d> picks = points_option_m(through_, unit_m);
+    OutputFolder folder(output_, is_our_folder);
+    observer.update("reading", 0.0);
+    Scene scene = read_scene(mesh_);
+    SceneObject& object = scene.objects.front();
+    const bool is_scene = fs::path(mesh_).extension() == ".json";
+    if (!mesh_unit_.empty()) {
+      if (is_scene && object.unit_m != unit_m)
+        throw UsageError(fmt::format("--mesh-unit: the scene says {} m", object.unit_m));
+      object.unit_m = unit_m;
+    }
+    if (fs::path(object.mesh_file).extension() != ".obj")
+      object.mesh_file = fs::path(object.mesh_file).replace_extension(".obj").string();
+    if (!is_scene) object.mesh_file = "textured.obj";
+
+    SceneTexture texture;
+    texture.index = index_ >= 0 ? index_ : next_index(object);
+    texture.texture = read_texture(texture_);
+    texture.file = free_name(object, texture.index, fs::path(texture_).filename().string());
+
+    observer.update("painting", 0.0);
+    const PaintResult result = paint(object, picks, texture, settings_.coordinates);
+    observer.update("writing", 1.0);
+    write_scene(folder.path() / "scene.json", scene);
+    const std::string json = to_json(result, object, texture).dump(2, ' ', false, Json::error_handler_t::replace);
+    write_file(folder.path() / "paint.json", json + "\n");
+    write_listing(folder.path());
+    folder.commit();
+    print_json(json);
+    say(summary(result, texture) + "scene in " + printable(output_, 200) + "\n");
+    return kDone;
+  }
+
+ private:
+  static int next_index(const SceneObject& object) {
+    int index = 0;
+    for (const SceneTexture& texture : object.textures) index = std::max(index, texture.index);
+    for (const HapticTriangle& triangle : object.mesh.haptic) index = std::max(index, triangle.texture);
+    return index + 1;
+  }
+
+  // Two textures of one scene do not share a file.
+  static std::string free_name(const SceneObject& object, int index, const std::string& wanted) {
+    for (const SceneTexture& other : object.textures) {
+      if (other.index != index && other.file == wanted) return fmt::format("{}-{}", index, wanted);
+    }
+    return wanted;
+  }
+
+  Json to_json(const PaintResult& result, const SceneObject& object, const SceneTexture& texture) {
+    Json out;
+    out["format"] = "asperity-paint";
+    out["version"] = 1;
+    out["mesh"] = object.mesh_file;
+    out["texture"] = {{"index", texture.index}, {"file", texture.file}};
+    out["path_length_m"] = result.path.path.s_m.back();
+    out["pick_distance_m"] = result.path.pick_distance_m;
+    const HapticWarp& warp = result.warp;
+    out["triangles"] = warp.triangles;
+    out["painted_over"] = result.painted_over;
+    out["warp"] = {{"stretch_min", warp.stretch_min},    {"stretch_max", warp.stretch_max},
+                   {"stretch_rms", warp.stretch_rms},    {"folded", warp.folded.size()},
+                   {"stretched", warp.stretched.size()}, {"overlapping", warp.overlapping.size()},
+                   {"along_rms_m", warp.along_rms_m},    {"along_max_m", warp.along_max_m},
+                   {"length_ratio", warp.length_ratio}};
+    out["problems"] = Json::array();
+    for (const Problem& problem : result.problems)
+      out["problems"].push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
+    out["config"] = Json::parse(config_json(fields()));
+    out["asperity"] = kVersion;
+    return out;
+  }
+
+  static std::string summary(const PaintResult& result, const SceneTexture& texture) {
+    const HapticWarp& warp = result.warp;
+    const double furthest_m = *std::max_element(result.path.pick_distance_m.begin(), result.path.pick_distance_m.end());
+    std::string out = fmt::format(
+        "path       {:.2f} mm over the surface, picks up to {:.3f} mm from it\n"
+        "texture    {} on {} triangles\n"
+        "warp       lengths from {:.3f} to {:.3f}, {:.3f} RMS from 1; {} triangles fold, {} overlap\n",
+        result.path.path.s_m.back() * 1e3, furthest_m * 1e3, texture.index, warp.triangles, warp.stretch_min,
+        warp.stretch_max, warp.stretch_rms, warp.folded.size(), warp.overlapping.size());
+    for (const Problem& problem : result.problems) out += "problem    " + printable(problem.message, 300) + "\n";
+    return out;
+  }
+
+  std::string mesh_;
+  std::string through_;
+  std::string texture_;
+  std::string output_;
+  std::string mesh_unit_;
+  std::string width_;
+  int rings_ = -1;
+  int index_ = -1;
+  PaintSettings settings_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_paint(CLI::App& root) { return std::make_unique<PaintCommand>(root); }
+
+}  // namespace asperity::app

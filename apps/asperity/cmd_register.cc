@@ -1,0 +1,171 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "asperity/base/csv.h"
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
+#include "asperity/geometry/read_mesh.h"
+#include "asperity/pipeline/register_scans.h"
+#include "asperity/pipeline/write_registration.h"
+#include "asperity/recording/read_recording.h"
+#include "asperity/texture/texture_file.h"
+#include "commands.h"
+#include "option_units.h"
+
+namespace asperity::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The last part of a path without the ending of a file.
+std::string scan_name(const std::string& path) {
+  fs::path whole = fs::absolute(path).lexically_normal();
+  if (!whole.has_filename()) whole = whole.parent_path();
+  return fs::is_directory(path) ? whole.filename().string() : whole.stem().string();
+}
+
+Scan read_scan(const std::string& path) {
+  Scan scan;
+  scan.name = scan_name(path);
+  if (fs::is_directory(path)) {
+    scan.recording = read_recording(path);
+  } else {
+    scan.path = read_path(path);
+  }
+  return scan;
+}
+
+class RegisterCommand : public Command {
+ public:
+  explicit RegisterCommand(CLI::App& root)
+      : Command(root, "register", "Lay scans on a 3D mesh and give it their textures") {
+    require(parser().add_option("PATH... MESH", files_,
+                                "Recordings, trajectory.csv files or any CSV with px_m,py_m,pz_m; then the mesh "
+                                "(.obj .ply .stl .gltf .glb)"));
+    parser()
+        .add_option("--mesh-unit", mesh_unit_, "Length of the mesh's unit: m (the default), mm, cm, or such as 0.06m")
+        ->type_name("LENGTH");
+    parser()
+        .add_option("--guess", guess_,
+                    "x,y,z,qw,qx,qy,qz of T_mesh_world in metres, near which to begin; without it the whole mesh is "
+                    "searched")
+        ->type_name("POSE");
+    parser()
+        .add_option("--texture", textures_,
+                    "Texture to lay along a path instead of its own; one for all, or one a path")
+        ->type_name("FILE");
+    require(parser().add_option("-o,--output", output_, "Folder of the results"))->type_name("OUT");
+  }
+
+  std::vector<ConfigField> fields() override { return list_fields("", config_); }
+
+  int run(const Observer& observer) override {
+    if (files_.size() < 2) throw UsageError("PATH... MESH: at least one path and the mesh are needed");
+    const std::string mesh_path = files_.back();
+    files_.pop_back();
+    if (!textures_.empty() && textures_.size() != 1 && textures_.size() != files_.size()) {
+      throw UsageError(fmt::format("--texture: {} textures for {} paths", textures_.size(), files_.size()));
+    }
+    const double unit_m = mesh_unit_.empty() ? 1.0 : unit_option_m("--mesh-unit", mesh_unit_);
+    std::optional<Pose> guess;
+    if (!guess_.empty()) guess = pose_option("--guess", guess_);
+
+    OutputFolder folder(output_, is_registration_folder);
+    observer.update("reading", 0.0);
+    const MeshFile mesh = read_mesh(mesh_path);
+    std::vector<Scan> scans;
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+      scans.push_back(read_scan(files_[i]));
+      if (!names.insert(scans.back().name).second) {
+        throw UsageError("two paths are called '" + printable(scans.back().name) + "'");
+      }
+      if (!textures_.empty()) scans.back().texture = read_texture(textures_[textures_.size() == 1 ? 0 : i]);
+    }
+    ScansOnMesh result = register_scans(scans, to_metres(mesh, unit_m), guess, config_, observer);
+    result.problems.insert(result.problems.begin(), mesh.problems.begin(), mesh.problems.end());
+    warn_of_size(mesh, unit_m, result);
+    observer.update("writing", 1.0);
+    write_registration(folder.path(), result, scans, mesh, unit_m);
+    const std::string json = read_file(folder.path() / "registration.json", std::uint64_t{1} << 30);
+    folder.commit();
+    print_json(trim(json));
+    say(summary(result) + "results in " + printable(output_, 200) + "\n");
+    if (!result.trustworthy) complain("not to be trusted: " + result.verdict);
+    return result.trustworthy ? kDone : kNotTrustworthy;
+  }
+
+ private:
+  // Nothing that a hand scans is as large as a house: the unit was forgotten.
+  static void warn_of_size(const MeshFile& mesh, double unit_m, ScansOnMesh& result) {
+    constexpr double kLarge_m = 5.0;
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& vertex : mesh.vertices) box.extend(vertex);
+    const double size_m = box.isEmpty() ? 0.0 : box.diagonal().norm() * unit_m;
+    if (size_m > kLarge_m) {
+      result.problems.push_back(
+          {"large_mesh", fmt::format("the mesh is {:.0f} m large; is --mesh-unit right?", size_m), 1});
+    }
+  }
+
+  static std::string summary(const ScansOnMesh& result) {
+    const RegistrationResult& registration = result.registration;
+    const Eigen::Vector3d& p = registration.T_mesh_world.translation_m;
+    const Eigen::Quaterniond& q = registration.T_mesh_world.rotation;
+    std::string out = fmt::format(
+        "registration  {} points, {} outliers, residual {:.3f} mm RMS, {} after {} iterations ({})\n"
+        "T_mesh_world  {:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n",
+        registration.points, registration.outliers, registration.rms_m * 1e3,
+        registration.converged ? "converged" : "not converged", registration.iterations,
+        kStopRuleNames.at(static_cast<std::size_t>(registration.stopped_by)), p.x(), p.y(), p.z(), q.w(), q.x(), q.y(),
+        q.z());
+    for (const UndeterminedMotion& motion : registration.undetermined) {
+      out += "undetermined  " + motion.description + "\n";
+    }
+    if (registration.runner_up) {
+      const RunnerUp& other = *registration.runner_up;
+      out += fmt::format("runner-up     residual {:.3f} mm RMS, {:.1f} mm and {:.1f} degrees away\n", other.rms_m * 1e3,
+                         other.distance_m * 1e3, other.turn_rad * 180.0 / 3.14159265358979);
+    }
+    if (!registration.verdict.empty()) out += "verdict       " + registration.verdict + "\n";
+    for (std::size_t i = 0; i < result.scans.size(); ++i) {
+      const RegisteredScan& scan = result.scans[i];
+      const double length_mm = scan.path.s_m.empty() ? 0.0 : (scan.path.s_m.back() - scan.path.s_m.front()) * 1e3;
+      out += fmt::format("{}\n  path        {:.2f} mm on the mesh, {} triangles", printable(scan.name, 200), length_mm,
+                         i < result.coordinates.warps.size() ? result.coordinates.warps[i].triangles : 0);
+      if (scan.path_texture) {
+        out += fmt::format(", texture {} harmonics, {:.1f} µm RMS, model error {:.1f} µm",
+                           scan.path_texture->fit.texture.a_m.size(), scan.path_texture->fit.rms_height_m * 1e6,
+                           scan.path_texture->fit.rms_error_m * 1e6);
+      }
+      out += "\n";
+      if (scan.process.accuracy && scan.process.accuracy->profile) {
+        const ProfileComparison& truth = *scan.process.accuracy->profile;
+        out += fmt::format("  truth       correlation {:.3f}, gain {:.3f}, {:.1f} µm RMS, length {:+.2f} %\n",
+                           truth.correlation, truth.gain, truth.rms_um, truth.length_error_percent);
+      }
+      for (const Problem& problem : scan.process.problems) out += "  note        " + problem.message + "\n";
+    }
+    for (const Problem& problem : result.problems) out += "note          " + problem.message + "\n";
+    return out;
+  }
+
+  std::vector<std::string> files_, textures_;
+  std::string mesh_unit_, guess_, output_;
+  RegisterConfig config_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_register(CLI::App& root) { return std::make_unique<RegisterCommand>(root); }
+
+}  // namespace asperity::app

@@ -1,0 +1,165 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "asperity/base/version.h"
+#include "asperity/pipeline/config_json.h"
+#include "asperity/profile/read_heights.h"
+#include "asperity/texture/compare_textures.h"
+#include "asperity/texture/evaluate_height.h"
+#include "asperity/texture/texture_file.h"
+#include "commands.h"
+#include "option_units.h"
+#include "texture_input.h"
+
+namespace asperity::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct CompareSettings {
+  ReadHeightsConfig input;
+  CompareTexturesConfig compare;
+  double length_mm = 40.0;
+  double spacing_mm = 0.025;
+
+  template <class V>
+  void visit(V& v) {
+    v.group("input", input);
+    v.group("compare", compare);
+    v.field("length_mm", length_mm, "of the lines that are taken through a texture", {1e-3, 1e6});
+    v.field("spacing_mm", spacing_mm, "of their heights", {1e-6, 1e3});
+  }
+};
+
+constexpr const char* kSame = "same to the hand";
+constexpr const char* kNoticeable = "noticeable";
+
+const char* verdict(bool noticeable) { return noticeable ? kNoticeable : kSame; }
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json to_json(const Difference& d) {
+  return {{"a", number(d.a)},
+          {"b", number(d.b)},
+          {"percent", number(d.percent)},
+          {"jnd_percent", d.jnd_percent},
+          {"verdict", verdict(d.noticeable)}};
+}
+
+std::string row(const std::string& name, const Difference& d, double unit, const std::string& note) {
+  return fmt::format("{:<22} {:>11.5g} {:>11.5g} {:>+9.2f} % {:>7.3g} %  {}\n", name, d.a * unit, d.b * unit, d.percent,
+                     d.jnd_percent, note);
+}
+
+class TextureCompareCommand : public Command {
+ public:
+  explicit TextureCompareCommand(CLI::App& root)
+      : Command(root, "compare", "What a hand would notice between two textures or profiles (seed §2.1)") {
+    require(parser().add_option("A", a_, "A *.texture.json, a profile.csv or heights"));
+    require(parser().add_option("B", b_, "The other"));
+    parser().add_option("--speed", speed_, "Of the hand")->type_name("SPEED");
+    parser()
+        .add_option("--spacing", spacing_, "Distance of the heights, for files without positions")
+        ->type_name("LENGTH");
+  }
+
+  std::vector<ConfigField> fields() override { return list_fields("", settings_); }
+
+  void apply_options() override {
+    if (!speed_.empty()) settings_.compare.speed_mps = speed_option_mps("--speed", speed_);
+    if (!spacing_.empty()) settings_.input.spacing_m = length_option_m("--spacing", spacing_);
+  }
+
+  int run(const Observer&) override {
+    const TextureComparison c = compare_textures(surface_of(a_), surface_of(b_), settings_.compare);
+    Json out;
+    out["format"] = "asperity-texture-comparison";
+    out["version"] = 1;
+    out["a"] = a_;
+    out["b"] = b_;
+    out["verdict"] = verdict(c.noticeable);
+    out["noticeable"] = c.noticeable;
+    out["band_cycles_per_mm"] = {c.low_cycles_per_mm, c.high_cycles_per_mm};
+    out["roughness"] = Json::object();
+    for (const auto& [name, difference] : c.roughness) out["roughness"][name] = to_json(difference);
+    out["mean_frequency_per_mm"] = to_json(c.frequency_per_mm);
+    out["bands"] = Json::array();
+    for (const auto& band : c.bands) {
+      Json one = to_json(band.rms_m);
+      one["low_cycles_per_mm"] = band.low_cycles_per_mm;
+      one["high_cycles_per_mm"] = band.high_cycles_per_mm;
+      one["uncertainty_percent"] = number(band.uncertainty_percent);
+      one["felt"] = band.felt;
+      out["bands"].push_back(one);
+    }
+    out["config"] = Json::parse(config_json(fields()));
+    out["asperity"] = kVersion;
+    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    say_table(c);
+    return kDone;
+  }
+
+ private:
+  ComparedSurface surface_of(const std::string& file) const {
+    ComparedSurface surface;
+    std::vector<std::vector<double>> lines;
+    if (is_texture_file(file)) {
+      const Texture texture = read_texture(file);
+      surface.spacing_m = 1e-3 * settings_.spacing_mm;
+      if (!is_height_field(texture.model)) throw Error(file + ": a force in time, which has no spectrum over lengths");
+      lines = lines_through(texture.model, 1e-3 * settings_.length_mm, surface.spacing_m);
+    } else {
+      const Heights heights = read_heights(file, settings_.input);
+      if (const auto* profile = std::get_if<HeightProfile>(&heights)) {
+        surface.spacing_m = profile->spacing_m;
+        lines.push_back(profile->height_m);
+      } else {
+        const auto& map = std::get<ArealMap>(heights);
+        surface.spacing_m = map.x_spacing_m;
+        for (std::size_t r = 0; r < map.rows; ++r) {
+          const auto first = map.height_m.begin() + static_cast<std::ptrdiff_t>(r * map.columns);
+          lines.emplace_back(first, first + static_cast<std::ptrdiff_t>(map.columns));
+        }
+      }
+    }
+    for (const auto& line : lines)
+      surface.lines_m.push_back(band_limited_heights(line, surface.spacing_m, settings_.compare));
+    surface.roughness = roughness_of(surface.lines_m, surface.spacing_m);
+    return surface;
+  }
+
+  void say_table(const TextureComparison& c) const {
+    std::string text = fmt::format("{:<22} {:>11} {:>11} {:>11} {:>9}\n", "", "A", "B", "difference", "noticed");
+    for (const auto& [name, d] : c.roughness) {
+      const bool length = name.ends_with("_m");
+      text += row(length ? name.substr(0, name.size() - 2) + " µm" : name, d, length ? 1e6 : 1.0,
+                  name == "Rq_m" || name == "RSm_m" ? verdict(d.noticeable) : "");
+    }
+    text += row("mean cycles/mm", c.frequency_per_mm, 1.0, "");
+    for (const auto& band : c.bands) {
+      text += row(fmt::format("{:.3g}-{:.3g} /mm, RMS µm", band.low_cycles_per_mm, band.high_cycles_per_mm), band.rms_m,
+                  1e6, band.felt ? verdict(band.rms_m.noticeable) : "too weak to be felt");
+    }
+    say(text + fmt::format("at {:.3g} mm/s: {}\n", settings_.compare.speed_mps * 1e3, verdict(c.noticeable)));
+  }
+
+  std::string a_;
+  std::string b_;
+  std::string speed_;
+  std::string spacing_;
+  CompareSettings settings_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_texture_compare(CLI::App& root) { return std::make_unique<TextureCompareCommand>(root); }
+
+}  // namespace asperity::app

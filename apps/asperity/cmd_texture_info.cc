@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "asperity/base/text.h"
+#include "asperity/base/version.h"
+#include "asperity/texture/evaluate_height.h"
+#include "asperity/texture/texture_file.h"
+#include "commands.h"
+#include "texture_input.h"
+
+namespace asperity::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kLine_m = 0.04;
+constexpr double kSpacing_m = 25e-6;
+
+Json describe(const Fourier1d& f) {
+  return {{"length_mm", f.length_mm}, {"harmonics", f.a_m.size()}, {"mean_m", f.mean_m}};
+}
+
+Json describe(const Fourier2d& f) {
+  Json out{{"kind", kFourier2dKindNames.at(static_cast<std::size_t>(f.kind))}};
+  if (f.kind == Fourier2dKind::kIsotropic) {
+    out["length_mm"] = f.isotropic.length_mm;
+    out["harmonics"] = f.isotropic.power_m2.size();
+    out["seed"] = f.isotropic.seed;
+  } else {
+    out["x"] = describe(f.x);
+    out["y"] = describe(f.y);
+  }
+  return out;
+}
+
+Json describe(const HeightMap& map) {
+  return {{"columns", map.columns},
+          {"rows", map.rows},
+          {"bits", map.bits},
+          {"mm_per_px", {map.mm_per_px_x, map.mm_per_px_y}},
+          {"low_m", map.low_m},
+          {"high_m", map.high_m},
+          {"quantisation_m", map.metres_per_level()},
+          {"border", kBorderNames.at(static_cast<std::size_t>(map.border))}};
+}
+
+Json describe(const ArealTexture& t) {
+  std::size_t supported = 0;
+  for (const auto flag : t.supported) supported += flag;
+  return {{"columns", t.surface.columns},
+          {"rows", t.surface.rows},
+          {"spacing_m", {t.surface.spacing_x_m, t.surface.spacing_y_m}},
+          {"supported_part", static_cast<double>(supported) / static_cast<double>(t.supported.size())},
+          {"border", kBorderNames.at(static_cast<std::size_t>(t.surface.border))}};
+}
+
+Json describe(const StochasticTexture& t) {
+  return {{"sigma_m", t.sigma_m}, {"grain_m", t.grain_m}, {"stiffness_N_per_m", t.stiffness_N_per_m}};
+}
+
+Json describe(const AutoregressiveTexture& t) {
+  return {{"rate_Hz", t.rate_Hz},
+          {"models", t.models.size()},
+          {"order", t.models.empty() ? 0 : t.models.front().ar_lsf_rad.size()},
+          {"triangles", t.triangles.size()},
+          {"mass_kg", t.mass_kg}};
+}
+
+Json describe(const DecayingSinusoids& t) {
+  return {{"a_per_s", t.a_per_s},
+          {"b_per_kg", t.b_per_kg},
+          {"decay_per_s", t.decay_per_s},
+          {"omega_rad_per_s", t.omega_rad_per_s},
+          {"pitch_m", t.pitch_m}};
+}
+
+std::string value_text(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+class TextureInfoCommand : public Command {
+ public:
+  explicit TextureInfoCommand(CLI::App& root) : Command(root, "info", "What a texture is and how rough") {
+    require(parser().add_option("TEXTURE", file_, "A *.texture.json"));
+  }
+
+  int run(const Observer&) override {
+    const Texture texture = read_texture(file_);
+    Json out;
+    out["format"] = "asperity-texture-info";
+    out["version"] = 1;
+    out["file"] = file_;
+    out["name"] = texture.name;
+    out["model"] = texture.model_name();
+    out["describe"] = std::visit([](const auto& model) { return describe(model); }, texture.model);
+    if (is_height_field(texture.model)) {
+      const auto period = period_m(texture.model);
+      out["period_m"] = period ? Json(*period) : Json(nullptr);
+      out["lowest_m"] = lowest_height_m(texture.model);
+      out["measured"] = roughness_of(lines_through(texture.model, kLine_m, kSpacing_m), kSpacing_m);
+    }
+    if (texture.lift_m) out["lift_m"] = *texture.lift_m;
+    if (texture.band_cycles_per_mm) out["band_cycles_per_mm"] = *texture.band_cycles_per_mm;
+    if (texture.compliance_kc) out["compliance_kc"] = *texture.compliance_kc;
+    if (texture.stiffness_N_per_m) out["stiffness_N_per_m"] = *texture.stiffness_N_per_m;
+    if (texture.friction) out["friction"] = *texture.friction;
+    out["source_roughness"] = texture.roughness;
+    const Json extra = Json::parse(texture.extra_json);
+    if (extra.contains("fit")) out["fit"] = extra["fit"];
+    out["asperity"] = kVersion;
+    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    say_summary(out);
+    return kDone;
+  }
+
+ private:
+  void say_summary(const Json& out) const {
+    std::string text = fmt::format("{}: {}\n", printable(value_text(out["name"])), value_text(out["model"]));
+    for (const auto& [key, value] : out["describe"].items())
+      text += fmt::format("  {:<16} {}\n", key, value_text(value));
+    if (out.contains("measured")) {
+      for (const char* key : {"Ra_m", "Rq_m", "Rt_m", "RSm_m"}) {
+        if (out["measured"].contains(key))
+          text += fmt::format("  {:<16} {:.4g} µm\n", std::string_view(key).substr(0, std::string_view(key).size() - 2),
+                              out["measured"][key].get<double>() * 1e6);
+      }
+    }
+    for (const char* key : {"lift_m", "band_cycles_per_mm", "compliance_kc", "stiffness_N_per_m", "friction"}) {
+      if (out.contains(key)) text += fmt::format("  {:<16} {}\n", key, out[key].dump());
+    }
+    if (out.contains("fit") && out["fit"].is_object() && out["fit"].contains("rms_error_m"))
+      text += fmt::format("  {:<16} {}\n", "rms_error_m", out["fit"]["rms_error_m"].dump());
+    say(text);
+  }
+
+  std::string file_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_texture_info(CLI::App& root) { return std::make_unique<TextureInfoCommand>(root); }
+
+}  // namespace asperity::app

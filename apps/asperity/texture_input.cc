@@ -1,0 +1,172 @@
+#include "texture_input.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "asperity/base/csv.h"
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/profile/measure_roughness.h"
+#include "asperity/texture/evaluate_height.h"
+#include "asperity/texture/sample_heights.h"
+
+namespace asperity::app {
+
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint64_t kLargestFile_bytes = 512ULL << 20;
+
+std::optional<double> unit_m(const std::string& name, const std::vector<std::string>& quantities) {
+  for (const auto& quantity : quantities) {
+    for (const auto& [ending, metres] : std::vector<std::pair<std::string, double>>{
+             {"_m", 1.0}, {"_mm", 1e-3}, {"_um", 1e-6}, {"_µm", 1e-6}, {"_nm", 1e-9}}) {
+      if (name == quantity + ending) return metres;
+    }
+  }
+  return std::nullopt;
+}
+
+struct Column {
+  std::size_t index = 0;
+  double unit_m = 1.0;
+};
+
+std::optional<Column> find_column(const CsvReader& csv, const std::vector<std::string>& quantities) {
+  for (std::size_t i = 0; i < csv.columns().size(); ++i) {
+    if (const auto unit = unit_m(csv.columns()[i], quantities)) return Column{i, *unit};
+  }
+  return std::nullopt;
+}
+
+// A table of scattered heights; nullopt if its columns are not one's.
+std::optional<std::vector<ArealSample>> read_scattered(const std::string& file) {
+  const std::string text = read_file(file, kLargestFile_bytes);
+  const std::string_view start = std::string_view(text).substr(0, text.find('\n'));
+  if (start.find('y') == std::string_view::npos) return std::nullopt;
+  CsvReader csv(text, file);
+  const auto x = find_column(csv, {"x"});
+  const auto y = find_column(csv, {"y"});
+  auto z = find_column(csv, {"texture"});
+  if (!z) z = find_column(csv, {"height", "z"});
+  if (!x || !y || !z) return std::nullopt;
+  std::vector<ArealSample> samples;
+  while (csv.next()) {
+    samples.push_back({csv.number(x->index) * x->unit_m, csv.number(y->index) * y->unit_m,
+                       csv.empty(z->index) ? kNan : csv.number(z->index) * z->unit_m});
+  }
+  return samples;
+}
+
+void add_map(const ArealMap& map, std::vector<ArealSample>& samples) {
+  for (std::size_t r = 0; r < map.rows; ++r) {
+    for (std::size_t c = 0; c < map.columns; ++c) {
+      samples.push_back(
+          {static_cast<double>(c) * map.x_spacing_m, static_cast<double>(r) * map.y_spacing_m, map.at(r, c)});
+    }
+  }
+}
+
+}  // namespace
+
+bool is_texture_file(const std::string& file) { return file.ends_with(".json"); }
+
+HeightProfile read_strokes(const std::vector<std::string>& files, const ReadHeightsConfig& config) {
+  HeightProfile all;
+  for (const std::string& file : files) {
+    const Heights heights = read_heights(file, config);
+    const auto* profile = std::get_if<HeightProfile>(&heights);
+    if (!profile) throw Error(file + ": an areal map, where heights along a line are needed");
+    if (all.height_m.empty()) {
+      all = *profile;
+      continue;
+    }
+    if (std::abs(profile->spacing_m - all.spacing_m) > 1e-6 * all.spacing_m) {
+      throw Error(file + ": heights " + number_text(profile->spacing_m) + " m apart, those of " + files.front() + " " +
+                  number_text(all.spacing_m));
+    }
+    // One missing height a millimetre: no stage bridges from stroke to stroke.
+    const auto gap = static_cast<std::size_t>(std::ceil(1e-3 / all.spacing_m)) + 1;
+    all.height_m.insert(all.height_m.end(), gap, kNan);
+    all.height_m.insert(all.height_m.end(), profile->height_m.begin(), profile->height_m.end());
+  }
+  return all;
+}
+
+std::vector<ArealSample> read_areal_samples(const std::vector<std::string>& files, const ReadHeightsConfig& config,
+                                            double stroke_spacing_m) {
+  std::vector<ArealSample> samples;
+  std::size_t strokes = 0;
+  for (const std::string& file : files) {
+    if (const auto scattered = read_scattered(file)) {
+      samples.insert(samples.end(), scattered->begin(), scattered->end());
+      continue;
+    }
+    const Heights heights = read_heights(file, config);
+    if (const auto* map = std::get_if<ArealMap>(&heights)) {
+      add_map(*map, samples);
+      continue;
+    }
+    if (!(stroke_spacing_m > 0.0))
+      throw Error(file + ": heights along a line; how far the strokes lie apart must be given (fit.stroke_spacing_mm)");
+    const auto& profile = std::get<HeightProfile>(heights);
+    for (std::size_t i = 0; i < profile.height_m.size(); ++i) {
+      samples.push_back({static_cast<double>(i) * profile.spacing_m, static_cast<double>(strokes) * stroke_spacing_m,
+                         profile.height_m[i]});
+    }
+    ++strokes;
+  }
+  return samples;
+}
+
+std::map<std::string, double> roughness_of(const std::vector<std::vector<double>>& lines_m, double spacing_m) {
+  std::map<std::string, double> sum;
+  std::map<std::string, double> count;
+  for (const auto& line : lines_m) {
+    const RoughnessResult r = measure_roughness(line, spacing_m);
+    for (const auto& [name, value] : {std::pair{"Ra_m", r.Ra_m},
+                                      {"Rq_m", r.Rq_m * r.Rq_m},
+                                      {"Rz_m", r.Rz_m},
+                                      {"Rt_m", r.Rt_m},
+                                      {"Rsk", r.Rsk},
+                                      {"Rku", r.Rku},
+                                      {"RSm_m", r.RSm_m}}) {
+      if (!std::isfinite(value)) continue;
+      sum[name] += value;
+      count[name] += 1.0;
+    }
+  }
+  for (auto& [name, value] : sum) value /= count[name];
+  if (sum.contains("Rq_m")) sum["Rq_m"] = std::sqrt(sum["Rq_m"]);
+  return sum;
+}
+
+std::vector<std::vector<double>> lines_through(const TextureModel& model, double length_m, double spacing_m) {
+  SampleHeightsConfig line;
+  line.length_mm = length_m * 1e3;
+  line.spacing_mm = spacing_m * 1e3;
+  double width_m = 0.0;
+  if (const auto* t = std::get_if<ArealTexture>(&model)) {
+    const SplineGrid& g = t->surface;
+    line.x_mm = 1e3 * (g.origin_x_m + 2.0 * g.spacing_x_m);
+    line.y_mm = 1e3 * (g.origin_y_m + 2.0 * g.spacing_y_m);
+    width_m = std::max(0.0, static_cast<double>(g.rows) - 4.0) * g.spacing_y_m;
+  } else if (!std::holds_alternative<Fourier1d>(model)) {
+    width_m = period_m(model).value_or(0.01);
+  }
+  const std::size_t count = width_m > 0.0 ? 16 : 1;
+  const double first_mm = line.y_mm;
+  std::vector<std::vector<double>> lines;
+  for (std::size_t i = 0; i < count; ++i) {
+    line.y_mm = first_mm + 1e3 * width_m * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    lines.push_back(sample_heights(model, line));
+  }
+  return lines;
+}
+
+}  // namespace asperity::app

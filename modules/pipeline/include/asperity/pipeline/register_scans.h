@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "asperity/base/problem.h"
+#include "asperity/base/progress.h"
+#include "asperity/geometry/mesh_path.h"
+#include "asperity/geometry/pose.h"
+#include "asperity/geometry/triangle_mesh.h"
+#include "asperity/pipeline/path_texture.h"
+#include "asperity/pipeline/process_result.h"
+#include "asperity/pipeline/read_path.h"
+#include "asperity/pipeline/register_config.h"
+#include "asperity/recording/recording.h"
+#include "asperity/registration/haptic_coordinates.h"
+#include "asperity/registration/registration_result.h"
+#include "asperity/texture/texture.h"
+
+namespace asperity {
+
+// What is to be registered: a recording, or a path alone. All scans of a call share one world frame.
+struct Scan {
+  std::string name;
+  std::optional<Recording> recording;
+  PathFile path;                   // used if there is no recording
+  std::optional<Texture> texture;  // laid along the path instead of the scan's own
+};
+
+// A scan in its place on the mesh.
+struct RegisteredScan {
+  std::string name;
+  bool is_recording = false;
+  ProcessResult process;                    // of a path alone: motion, base path and profile
+  MeshPath path;                            // its s_m begins where the texture does
+  std::optional<PathTexture> path_texture;  // the whole profile; nullopt if a texture was given or none could be made
+  std::optional<Texture> texture;           // what is laid along the path
+};
+
+// Scans registered to a mesh, measured over it, and its haptic coordinates: texture i + 1 is that of scan i.
+struct ScansOnMesh {
+  RegistrationResult registration;
+  std::vector<RegisteredScan> scans;
+  HapticCoordinates coordinates;
+  Problems problems;
+  bool trustworthy = true;
+  std::string verdict;      // in words, if not
+  std::string config_json;  // the settings, resolved
+};
+
+// From scans and a mesh to a textured mesh (seed §5.4, §6.3, B.2): the tips' trajectories; the pose of the mesh to
+// which all of them fit, from `guess` or from anywhere; the profiles over the mesh (seed §4.3); textures and
+// haptic coordinates. `mesh` is in metres. Throws Error if a scan or a setting does not allow it at all, naming
+// the scan, and Cancelled.
+ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& mesh, const std::optional<Pose>& guess,
+                           const RegisterConfig& config, const Observer& observer = {});
+
+}  // namespace asperity

@@ -1,0 +1,86 @@
+#include "asperity/pipeline/read_path.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include "asperity/base/csv.h"
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::uint64_t kLargestFile_bytes = 1 << 30;
+constexpr double kFarthest_m = 1e6;
+
+// The places of all of `names`, or nothing: a file that has only some of them is at fault.
+template <std::size_t N>
+std::optional<std::array<std::size_t, N>> find_all(const CsvReader& csv, const std::array<std::string_view, N>& names) {
+  std::array<std::size_t, N> places{};
+  std::size_t found = 0;
+  for (const std::string_view name : names) found += csv.find(name) ? 1 : 0;
+  if (found == 0) return std::nullopt;
+  for (std::size_t i = 0; i < N; ++i) places[i] = csv.require(names[i]);
+  return places;
+}
+
+Eigen::Vector3d vector_at(const CsvReader& csv, const std::array<std::size_t, 3>& places) {
+  return {csv.number(places[0]), csv.number(places[1]), csv.number(places[2])};
+}
+
+Eigen::Quaterniond rotation_at(const CsvReader& csv, const std::array<std::size_t, 4>& places) {
+  const Eigen::Quaterniond q(csv.number(places[0]), csv.number(places[1]), csv.number(places[2]),
+                             csv.number(places[3]));
+  constexpr double kNormTolerance = 1e-3;
+  if (!(std::abs(q.norm() - 1.0) < kNormTolerance)) csv.fail(places[0], "the quaternion is not of unit length");
+  return q.normalized();
+}
+
+}  // namespace
+
+PathFile read_path(const std::filesystem::path& file) {
+  const std::string text = read_file(file, kLargestFile_bytes);
+  CsvReader csv(text, printable(file.string()));
+  csv.accept_unterminated();
+  const std::array<std::size_t, 3> position{csv.require("px_m"), csv.require("py_m"), csv.require("pz_m")};
+  const auto time = csv.find("t_ns");
+  const auto rotation = find_all<4>(csv, {"qw", "qx", "qy", "qz"});
+  const auto velocity = find_all<3>(csv, {"vx_mps", "vy_mps", "vz_mps"});
+  const auto force = csv.find("force_N");
+
+  PathFile out;
+  out.timed = time.has_value();
+  out.oriented = rotation.has_value();
+  TipMotion& motion = out.motion;
+  std::size_t passed_over = 0;
+  while (csv.next()) {
+    const Eigen::Vector3d p_m = vector_at(csv, position);
+    if (p_m.array().isNaN().any()) {
+      ++passed_over;
+      continue;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(std::abs(p_m[static_cast<Eigen::Index>(k)]) <= kFarthest_m)) {
+        csv.fail(position[k], "'" + printable(csv.cell(position[k])) + "' is not a position in metres");
+      }
+    }
+    const std::int64_t t_ns = time ? csv.integer(*time) : static_cast<std::int64_t>(motion.size());
+    if (!motion.t_ns.empty() && t_ns <= motion.t_ns.back()) csv.fail(*time, "time does not rise");
+    motion.t_ns.push_back(t_ns);
+    motion.p_world_tip_m.push_back(p_m);
+    motion.q_world_marker.push_back(rotation ? rotation_at(csv, *rotation) : Eigen::Quaterniond::Identity());
+    motion.v_world_tip_mps.push_back(velocity ? vector_at(csv, *velocity) : Eigen::Vector3d::Zero());
+    if (force) {
+      motion.force_N.push_back(csv.empty(*force) ? std::numeric_limits<double>::quiet_NaN() : csv.number(*force));
+    }
+  }
+  if (motion.size() == 0) throw Error(printable(file.string()) + ": no row with a position");
+  if (passed_over > 0) out.problems.push_back({"no_position", "rows without a position were passed over", passed_over});
+  return out;
+}
+
+}  // namespace asperity

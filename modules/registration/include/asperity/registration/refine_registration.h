@@ -1,0 +1,62 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "asperity/base/config.h"
+#include "asperity/geometry/mesh_surface.h"
+#include "asperity/registration/registration_result.h"
+
+namespace asperity {
+
+struct RefineConfig {
+  bool enabled = true;
+  double memory_m = 6e-3;
+  double slow_length_m = 20e-3;
+  double slow_factor = 1.0;
+  double knot_m = 5e-3;
+  double outlier_sigmas = 5.0;
+  double undetermined_deg = 0.5;
+  int max_iterations = 40;
+
+  template <class V>
+  void visit(V& v) {
+    v.field("enabled", enabled, "the pose is refined by what is known of the errors along the path");
+    v.field("memory_m", memory_m, "length of path over which the relief is correlated with itself", {1e-6, 1.0});
+    v.field("slow_length_m", slow_length_m, "length of path over which the tracker's slow error lasts", {1e-6, 10.0});
+    v.field("slow_factor", slow_factor, "of the slow error's standard deviation over the trajectory's own",
+            {0.0, 100.0});
+    v.field("knot_m", knot_m, "distance of the points between which the slow error is interpolated", {1e-6, 1.0});
+    v.field("outlier_sigmas", outlier_sigmas, "heights beyond this many standard deviations do not count", {2.0, 1e6});
+    v.field("undetermined_deg", undetermined_deg, "standard deviation from which a turn is listed as undetermined",
+            {1e-3, 360.0});
+    v.field("max_iterations", max_iterations, "limit", {1, 10000});
+  }
+};
+
+struct RefinedRegistration {
+  RegistrationResult registration;
+  std::vector<std::vector<Eigen::Vector3d>> slow_error_world_m;  // [path][point]; empty paths if none was estimated
+};
+
+// A registered pose, refined with the paths' slow errors (generalised least squares; docs/registration.md). What
+// keeps a scan from its mesh is not white noise: the tracker's error e lasts for centimetres, the relief has its
+// own spectrum. Plain least squares follow the slow error, and their covariance is far too small. Here the height
+// over the facet is
+//   d_i = n·(T (p_i − e_i)) − facet = relief,
+// e is linear between knots with the prior covariance C exp(−|Δs|/slow_length_m), and the relief is whitened
+// along the path by an autoregressive filter w_i = d_i + Σ a_k d_{i−k} (Cochrane and Orcutt 1949) from its own
+// autocovariance (Yule–Walker). Gauss–Newton over pose and knots with ∇d = the facet's normal; the filter is made
+// anew from round to round. So the fine signature of the mesh, its curvature over centimetres and less, counts
+// as much as it is worth, and tells where along and across the mesh the tip was.
+//
+// `paths` are those that gave `start`, evenly spaced (to a factor of two); steps of more than three times the
+// median part them. Motions that `start` lists as undetermined stay as they are. The result has the refined pose,
+// residual and covariance, and lists turns that are less certain than undetermined_deg as undetermined. Where
+// fewer than 30 points are usable, `start` is given back with a Problem.
+RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, const MeshSurface& surface,
+                                        const RegistrationResult& start, const RefineConfig& config);
+
+}  // namespace asperity

@@ -1,1 +1,0 @@
-#include "asperity/registration/registration_result.h"

@@ -1,0 +1,47 @@
+#include "whitening.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace asperity::registration {
+
+namespace {
+
+std::vector<double> autocovariance(const PathChain& chain, const FacetHeights& heights, std::size_t order) {
+  std::vector<double> r(order + 1, 0.0);
+  for (std::size_t lag = 0; lag <= order; ++lag) {
+    double sum = 0.0;
+    std::size_t reach = 0;  // neighbours before this point without a break
+    for (std::size_t i = 0; i < heights.d_m.size(); ++i) {
+      reach = chain.begins[i] != 0 ? 0 : reach + 1;
+      if (reach >= lag && heights.usable[i] != 0 && heights.usable[i - lag] != 0) {
+        sum += heights.d_m[i] * heights.d_m[i - lag];
+      }
+    }
+    const double x = static_cast<double>(lag) / static_cast<double>(order + 1);
+    const double parzen = x < 0.5 ? 1.0 - 6.0 * x * x * (1.0 - x) : 2.0 * std::pow(1.0 - x, 3);
+    r[lag] = parzen * sum / static_cast<double>(std::max<std::size_t>(1, heights.count));
+  }
+  return r;
+}
+
+}  // namespace
+
+Whitening make_whitening(const PathChain& chain, const FacetHeights& heights, std::size_t order) {
+  const std::vector<double> r = autocovariance(chain, heights, order);
+  Whitening out;
+  out.variance_m2 = r[0];
+  for (std::size_t m = 1; m <= order && out.variance_m2 > 0.0; ++m) {
+    double sum = r[m];
+    for (std::size_t k = 1; k < m; ++k) sum += out.a[k - 1] * r[m - k];
+    const double reflection = -sum / out.variance_m2;
+    if (!(std::abs(reflection) < 1.0)) break;
+    const std::vector<double> before = out.a;
+    for (std::size_t k = 1; k < m; ++k) out.a[k - 1] += reflection * before[m - k - 1];
+    out.a.push_back(reflection);
+    out.variance_m2 *= 1.0 - reflection * reflection;
+  }
+  return out;
+}
+
+}  // namespace asperity::registration

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "path_chain.h"
+
+namespace asperity::registration {
+
+// w_i = d_i + Σ a_k d_{i−k} has the variance `variance_m2` and no correlation along the path.
+struct Whitening {
+  std::vector<double> a;  // a[k - 1] is a_k
+  double variance_m2 = 0.0;
+};
+
+// Yule–Walker from the heights' autocovariance over unbroken stretches, with Parzen's window, which keeps it
+// positive definite (Levinson's and Durbin's recursion).
+Whitening make_whitening(const PathChain& chain, const FacetHeights& heights, std::size_t order);
+
+}  // namespace asperity::registration

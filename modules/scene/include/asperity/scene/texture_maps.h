@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "asperity/texture/height_map.h"
+#include "asperity/texture/texture.h"
+
+namespace asperity {
+
+struct TextureMapsConfig {
+  double pixels_per_mm = 20.0;
+  int fewest_pixels = 256;
+  double seam_mm = 0.5;
+
+  template <class V>
+  void visit(V& v) {
+    v.field("pixels_per_mm", pixels_per_mm, "of images made from other models", {0.01, 1e4});
+    v.field("fewest_pixels", fewest_pixels, "a side, whatever the length", {4, 8192});
+    v.field("seam_mm", seam_mm, "over which a tile's end passes over into its start", {0.0, 1e6});
+  }
+};
+
+// A texture as images of 16 bits that tile: heights, and the normals of the same pixels.
+struct TextureMaps {
+  HeightMap heights;
+  std::string height_png;  // grey: black is heights.low_m, white heights.high_m
+  std::string normal_png;  // RGB: see format_normal_png
+  Eigen::Vector2d size_mm = Eigen::Vector2d::Zero();
+};
+
+// Images of a texture that is a height field; the image of one that is an image already. Throws Error for other
+// models.
+TextureMaps make_texture_maps(const Texture& texture, const TextureMapsConfig& config = {});
+
+// The unit normals of a height map at its pixels, each component c as (c + 1)/2 · 65535: red along x, green against y
+// (up the image), blue outwards, as glTF 2.0 takes a normal map. The slopes are those of the texture as it is rendered.
+std::string format_normal_png(const HeightMap& heights);
+
+}  // namespace asperity

@@ -1,0 +1,142 @@
+#include "asperity/scene/export_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/geometry/write_obj.h"
+#include "asperity/geometry/write_stl.h"
+#include "asperity/scene/format_wav.h"
+#include "asperity/scene/format_x3p.h"
+#include "asperity/texture/evaluate_height.h"
+#include "asperity/texture/fourier1d.h"
+#include "asperity/texture/sample_heights.h"
+#include "export_gltf.h"
+
+namespace asperity {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The file's name without folder and endings; the same again gets a number.
+std::string stem_of(const std::string& file, std::set<std::string>& used) {
+  std::string stem = std::filesystem::path(file).filename().string();
+  const std::string ending = ".texture.json";
+  if (stem.size() > ending.size() && stem.ends_with(ending)) {
+    stem.resize(stem.size() - ending.size());
+  } else {
+    stem = std::filesystem::path(stem).stem().string();
+  }
+  if (stem.empty()) stem = "unnamed";
+  std::string name = stem;
+  for (int i = 2; !used.insert(name).second; ++i) name = stem + "-" + std::to_string(i);
+  return name;
+}
+
+std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+double height_of(const HeightMap& map, std::size_t i) { return map.low_m + map.level[i] * map.metres_per_level(); }
+
+void add_images(const std::string& stem, const Texture& texture, const ExportConfig& config, ExportResult& out) {
+  TextureMaps maps = make_texture_maps(texture, config.images);
+  const Json about{{"format", "asperity-images"},
+                   {"version", 1},
+                   {"height_map", stem + ".height.png"},
+                   {"normal_map", stem + ".normal.png"},
+                   {"mm_per_px_x", maps.heights.mm_per_px_x},
+                   {"mm_per_px_y", maps.heights.mm_per_px_y},
+                   {"black_m", maps.heights.low_m},
+                   {"white_m", maps.heights.high_m}};
+  out.files.push_back({stem + ".height.png", std::move(maps.height_png)});
+  out.files.push_back({stem + ".normal.png", std::move(maps.normal_png)});
+  out.files.push_back({stem + ".images.json", json_text(about)});
+}
+
+void add_sound(const std::string& stem, const Texture& texture, const ExportConfig& config, ExportResult& out) {
+  const std::vector<double> a_mps2 = synthesize_stroke(texture, config.stroke);
+  double highest = 0.0;
+  for (const double a : a_mps2) highest = std::max(highest, std::abs(a));
+  const double full_scale_mps2 = highest > 0.0 ? highest / 0.9 : 1.0;
+  const Json about{{"format", "asperity-sound"},
+                   {"version", 1},
+                   {"sound", stem + ".wav"},
+                   {"full_scale_mps2", full_scale_mps2},
+                   {"speed_mps", config.stroke.speed_mps},
+                   {"force_N", config.stroke.force_N},
+                   {"rate_Hz", config.stroke.rate_Hz}};
+  out.files.push_back({stem + ".wav", format_wav(a_mps2, config.stroke.rate_Hz, full_scale_mps2)});
+  out.files.push_back({stem + ".sound.json", json_text(about)});
+}
+
+void add_x3p(const std::string& stem, const Texture& texture, const ExportConfig& config, ExportResult& out) {
+  X3pGrid grid;
+  if (const auto* series = std::get_if<Fourier1d>(&texture.model)) {
+    SampleHeightsConfig line;
+    line.length_mm = series->length_mm;
+    line.spacing_mm = std::min(line.spacing_mm, series->length_mm / 256.0);
+    grid.height_m = sample_heights(texture.model, line);
+    grid.columns = grid.height_m.size();
+    grid.x_spacing_m = 1e-3 * line.spacing_mm;
+  } else {
+    const TextureMaps maps = make_texture_maps(texture, config.images);
+    grid.columns = maps.heights.columns;
+    grid.rows = maps.heights.rows;
+    grid.x_spacing_m = 1e-3 * maps.heights.mm_per_px_x;
+    grid.y_spacing_m = 1e-3 * maps.heights.mm_per_px_y;
+    for (std::size_t i = 0; i < maps.heights.level.size(); ++i) grid.height_m.push_back(height_of(maps.heights, i));
+  }
+  out.files.push_back({stem + ".x3p", format_x3p(grid)});
+}
+
+void add_texture(const std::string& stem, const Texture& texture, ExportFormat format, const ExportConfig& config,
+                 ExportResult& out) {
+  if (format == ExportFormat::kWav) {
+    add_sound(stem, texture, config, out);
+  } else if (!is_height_field(texture.model)) {
+    out.problems.push_back({"not_exported", printable(stem) + ": a force in time has no heights", 1});
+  } else if (format == ExportFormat::kPng) {
+    add_images(stem, texture, config, out);
+  } else {
+    add_x3p(stem, texture, config, out);
+  }
+}
+
+void add_mesh(const std::string& stem, const Scene& scene, const SceneObject& object, ExportFormat format,
+              const ExportConfig& config, ExportResult& out) {
+  if (format == ExportFormat::kObj) {
+    out.files.push_back({stem + ".obj", format_obj(object.mesh)});
+  } else if (format == ExportFormat::kGltf) {
+    out.files.push_back({stem + ".glb", object_as_glb(scene, object, config.images, out.problems)});
+  } else {
+    MeshFile relief = displace_mesh(object, config.relief);
+    for (Eigen::Vector3d& vertex : relief.vertices) vertex *= 1e3 * object.unit_m;
+    out.files.push_back({stem + ".stl", format_stl(relief)});
+  }
+}
+
+}  // namespace
+
+ExportResult export_scene(const Scene& scene, ExportFormat format, const ExportConfig& config) {
+  ExportResult out;
+  std::set<std::string> used;
+  for (const SceneObject& object : scene.objects) {
+    if (format == ExportFormat::kObj || format == ExportFormat::kGltf || format == ExportFormat::kStl) {
+      if (!object.mesh.triangles.empty()) add_mesh(stem_of(object.mesh_file, used), scene, object, format, config, out);
+    } else {
+      for (const SceneTexture& texture : object.textures)
+        add_texture(stem_of(texture.file, used), texture.texture, format, config, out);
+    }
+  }
+  if (out.files.empty()) {
+    throw Error("export: there is nothing that could be written as " +
+                std::string(kExportFormatNames[static_cast<std::size_t>(format)]));
+  }
+  return out;
+}
+
+}  // namespace asperity

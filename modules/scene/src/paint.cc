@@ -1,0 +1,89 @@
+#include "asperity/scene/paint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "asperity/base/error.h"
+#include "asperity/geometry/geodesic_path.h"
+#include "asperity/geometry/mesh_surface.h"
+
+namespace asperity {
+namespace {
+
+using Eigen::Vector3d;
+
+// Points of a path at even steps, none longer than a quarter of its mean piece between two edges.
+MeshPath evenly_spaced(const MeshPath& path) {
+  const double length_m = path.s_m.back();
+  const auto pieces = static_cast<double>(path.size() - 1);
+  const auto steps = static_cast<std::size_t>(std::clamp(4.0 * pieces, 40.0, 1e5));
+  MeshPath out;
+  std::size_t piece = 0;
+  for (std::size_t k = 0; k <= steps; ++k) {
+    const double s_m = k == steps ? length_m : length_m * static_cast<double>(k) / static_cast<double>(steps);
+    while (piece + 2 < path.size() && path.s_m[piece + 1] <= s_m) ++piece;
+    const double piece_m = path.s_m[piece + 1] - path.s_m[piece];
+    const double u = piece_m > 0.0 ? std::clamp((s_m - path.s_m[piece]) / piece_m, 0.0, 1.0) : 0.0;
+    out.p_mesh_m.push_back((1.0 - u) * path.p_mesh_m[piece] + u * path.p_mesh_m[piece + 1]);
+    out.triangle.push_back(path.triangle[piece]);
+    out.s_m.push_back(s_m);
+  }
+  return out;
+}
+
+VirtualPath path_through(const MeshSurface& surface, std::span<const Vector3d> picks_mesh_m) {
+  if (picks_mesh_m.size() < 2)
+    throw Error("paint: " + std::to_string(picks_mesh_m.size()) + " points; at least two are needed");
+  VirtualPath out;
+  std::vector<MeshPoint> through;
+  for (const Vector3d& pick : picks_mesh_m) {
+    const ClosestPoint nearest = surface.bvh.closest_point(pick);
+    if (!nearest.found()) throw Error("paint: point " + std::to_string(through.size() + 1) + " is not finite");
+    through.push_back({nearest.triangle, nearest.barycentric});
+    out.pick_distance_m.push_back(nearest.distance_m);
+  }
+  const GeodesicPath shortest = geodesic_path(surface.mesh, surface.adjacency, through);
+  if (!(shortest.path.s_m.back() > 0.0)) throw Error("paint: the points fall together on the mesh");
+  out.locally_shortest = shortest.locally_shortest;
+  out.path = evenly_spaced(shortest.path);
+  return out;
+}
+
+}  // namespace
+
+VirtualPath virtual_path(const TriangleMesh& mesh, std::span<const Vector3d> picks_mesh_m) {
+  return path_through(MeshSurface(mesh), picks_mesh_m);
+}
+
+PaintResult paint(SceneObject& object, std::span<const Vector3d> picks_mesh_m, const SceneTexture& texture,
+                  const HapticCoordinatesConfig& config) {
+  if (texture.index < 0) throw Error("paint: texture index " + std::to_string(texture.index) + " is negative");
+  const MeshSurface surface(to_metres(object.mesh, object.unit_m));
+  PaintResult out;
+  out.path = path_through(surface, picks_mesh_m);
+  HapticCoordinates coordinates = assign_haptic_coordinates(surface.mesh, surface.adjacency, {out.path.path}, config);
+  out.warp = std::move(coordinates.warps[0]);
+  out.problems = std::move(coordinates.problems);
+  if (!out.path.locally_shortest)
+    out.problems.push_back({"path_not_shortest", "the path between two points could still be shortened", 1});
+
+  auto& haptic = object.mesh.haptic;
+  if (haptic.empty()) haptic.resize(object.mesh.triangles.size());
+  for (std::size_t t = 0; t < haptic.size(); ++t) {
+    if (coordinates.triangles[t].texture < 0) continue;
+    if (haptic[t].texture >= 0 && haptic[t].texture != texture.index) ++out.painted_over;
+    haptic[t] = coordinates.triangles[t];
+    haptic[t].texture = texture.index;
+  }
+  const auto place = std::find_if(object.textures.begin(), object.textures.end(),
+                                  [&](const SceneTexture& other) { return other.index >= texture.index; });
+  if (place != object.textures.end() && place->index == texture.index) {
+    *place = texture;
+  } else {
+    object.textures.insert(place, texture);
+  }
+  return out;
+}
+
+}  // namespace asperity

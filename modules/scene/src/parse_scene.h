@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "asperity/scene/scene.h"
+
+namespace asperity {
+
+// The text of a scene.json: names, numbers and poses. Meshes, textures and maps are still empty.
+Scene parse_scene(std::string_view text, const std::string& name);
+
+}  // namespace asperity

@@ -1,0 +1,26 @@
+#include "asperity/scene/swap_texture.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "asperity/base/error.h"
+
+namespace asperity {
+
+void swap_texture(Scene& scene, int index, Texture texture, const std::string& file) {
+  if (scene.objects.empty()) throw Error("swap: the scene has no object");
+  SceneObject& object = scene.objects.front();
+  const auto after = std::find_if(object.textures.begin(), object.textures.end(),
+                                  [&](const SceneTexture& other) { return other.index >= index; });
+  if (after != object.textures.end() && after->index == index) {
+    after->texture = std::move(texture);
+    after->file = file;
+    return;
+  }
+  const bool known = index >= 0 && std::any_of(object.mesh.haptic.begin(), object.mesh.haptic.end(),
+                                               [&](const HapticTriangle& t) { return t.texture == index; });
+  if (!known) throw Error("swap: neither scene nor mesh has a texture " + std::to_string(index));
+  object.textures.insert(after, {index, file, std::move(texture)});
+}
+
+}  // namespace asperity

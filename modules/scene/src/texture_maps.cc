@@ -1,0 +1,83 @@
+#include "asperity/scene/texture_maps.h"
+
+#include <png.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/texture/evaluate_height.h"
+#include "asperity/texture/evaluate_height_map.h"
+#include "asperity/texture/make_height_map.h"
+#include "asperity/texture/png_image.h"
+
+namespace asperity {
+namespace {
+
+HeightMap heights_of(const Texture& texture, const TextureMapsConfig& config) {
+  if (const auto* map = std::get_if<HeightMap>(&texture.model)) return *map;
+  if (!is_height_field(texture.model)) {
+    throw Error("images: the texture '" + printable(texture.name) + "' of model " + std::string(texture.model_name()) +
+                " has no heights");
+  }
+  const std::optional<double> period = period_m(texture.model);
+  const double length_mm = period ? 1e3 * *period : 10.0;
+  MakeHeightMapConfig image;
+  image.length_mm = length_mm;
+  image.columns = static_cast<int>(
+      std::clamp(std::ceil(length_mm * config.pixels_per_mm), static_cast<double>(config.fewest_pixels), 8192.0));
+  image.rows = config.fewest_pixels;
+  image.seam_mm = std::min(config.seam_mm, 0.5 * length_mm);
+  return make_height_map(texture.model, image).texture;
+}
+
+}  // namespace
+
+std::string format_normal_png(const HeightMap& heights) {
+  std::vector<png_uint_16> samples;
+  samples.reserve(3 * heights.columns * heights.rows);
+  const auto encode = [&samples](double component) {
+    samples.push_back(static_cast<png_uint_16>(std::lround((component * 0.5 + 0.5) * 65535.0)));
+  };
+  for (std::size_t row = 0; row < heights.rows; ++row) {
+    for (std::size_t column = 0; column < heights.columns; ++column) {
+      const HeightAndGradient g = evaluate(heights, 1e-3 * heights.mm_per_px_x * static_cast<double>(column),
+                                           1e-3 * heights.mm_per_px_y * static_cast<double>(row));
+      const double scale = 1.0 / std::sqrt(1.0 + g.slope_x * g.slope_x + g.slope_y * g.slope_y);
+      encode(-g.slope_x * scale);
+      encode(g.slope_y * scale);
+      encode(scale);
+    }
+  }
+  png_image image;
+  std::memset(&image, 0, sizeof image);
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(heights.columns);
+  image.height = static_cast<png_uint_32>(heights.rows);
+  image.format = PNG_FORMAT_LINEAR_RGB;
+  png_alloc_size_t size = 0;
+  std::string out;
+  if (png_image_write_to_memory(&image, nullptr, &size, 0, samples.data(), 0, nullptr) != 0) {
+    out.resize(size);
+    if (png_image_write_to_memory(&image, out.data(), &size, 0, samples.data(), 0, nullptr) != 0) {
+      out.resize(size);
+      return out;
+    }
+  }
+  throw Error(std::string("images: libpng: ") + image.message);
+}
+
+TextureMaps make_texture_maps(const Texture& texture, const TextureMapsConfig& config) {
+  TextureMaps out;
+  out.heights = heights_of(texture, config);
+  out.height_png = format_png({out.heights.columns, out.heights.rows, out.heights.bits, out.heights.level});
+  out.normal_png = format_normal_png(out.heights);
+  out.size_mm = {out.heights.mm_per_px_x * static_cast<double>(out.heights.columns),
+                 out.heights.mm_per_px_y * static_cast<double>(out.heights.rows)};
+  return out;
+}
+
+}  // namespace asperity

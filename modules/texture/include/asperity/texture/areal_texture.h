@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "asperity/texture/spline_grid.h"
+
+namespace asperity {
+
+// A height over a plane fitted to many strokes or to an areal map.
+struct ArealTexture {
+  SplineGrid surface;
+  std::vector<std::uint8_t> supported;  // a coefficient: 1 where heights determine it, 0 where smoothness alone does
+};
+
+}  // namespace asperity

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "asperity/texture/height_map.h"
+#include "asperity/texture/texture.h"
+
+namespace asperity {
+
+struct MakeHeightMapConfig {
+  int columns = 256;
+  int rows = 256;
+  int bits = 16;
+  double length_mm = 0.0;
+  double width_mm = 0.0;
+  double seam_mm = 0.5;
+  double range_mm = 0.0;
+  Border border = Border::kPeriodic;
+
+  template <class V>
+  void visit(V& v) {
+    v.field("columns", columns, "pixels along the scan path", {4, 8192});
+    v.field("rows", rows, "pixels across it", {4, 8192});
+    v.field("bits", bits, "8 or 16", {8, 16});
+    v.field("length_mm", length_mm, "along x; 0: the model's period, else 10 mm", {0.0, 1e6});
+    v.field("width_mm", width_mm, "along y; 0: pixels as wide as long", {0.0, 1e6});
+    v.field("seam_mm", seam_mm, "length over which a tile's continuation is blended into its start", {0.0, 1e6});
+    v.field("range_mm", range_mm, "height from black to white; 0: just what the heights need", {0.0, 1e6});
+    v.choice("border", border, kBorderNames, "beyond the image");
+  }
+};
+
+struct HeightMapFit {
+  HeightMap texture;
+  double rms_height_m = 0.0;
+  double quantisation_m = 0.0;  // height of one level: range / (2^bits − 1); a pixel errs by half of it at most
+  double rms_error_m = 0.0;     // against the model between the pixels, the seams' blends left out
+  std::size_t clipped = 0;      // pixels beyond range_mm
+  double lift_m = 0.0;
+};
+
+// A height field sampled into an image (seed §6.5, Fig. 38: 256 points over [0, 10 mm], 2.5 mm in 256 levels).
+// A tile whose length is no multiple of the model's period is closed along x and along y: over the first
+// `seam_mm` its heights h(x) pass, by a smooth step w, over from the continuation of its end,
+// (1 − w) h(x + L) + w h(x), so that it repeats without a step in height or slope. With range_mm given, the
+// range is laid about the middle of the heights and what lies outside is clipped. Throws Error for a model
+// that is no height field, 9 to 15 bits, or a seam longer than half the tile.
+HeightMapFit make_height_map(const TextureModel& model, const MakeHeightMapConfig& config = {});
+
+}  // namespace asperity

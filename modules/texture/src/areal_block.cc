@@ -1,0 +1,108 @@
+#include <cmath>
+#include <string>
+
+#include "asperity/base/csv.h"
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "block_json.h"
+#include "model_block.h"
+
+namespace asperity {
+namespace {
+
+constexpr std::int64_t kMostASide = 4096;
+constexpr std::size_t kMostNodes = 1 << 22;
+constexpr const char* kHeader = "x_m,y_m,coefficient_m,supported\n";
+
+double node_x_m(const SplineGrid& g, std::size_t column) {
+  return g.origin_x_m + static_cast<double>(column) * g.spacing_x_m;
+}
+
+double node_y_m(const SplineGrid& g, std::size_t row) {
+  return g.origin_y_m + static_cast<double>(row) * g.spacing_y_m;
+}
+
+std::string surface_csv(const ArealTexture& t) {
+  const SplineGrid& g = t.surface;
+  std::string out = kHeader;
+  for (std::size_t i = 0; i < g.coefficient_m.size(); ++i) {
+    append_number(out, node_x_m(g, i % g.columns));
+    out += ',';
+    append_number(out, node_y_m(g, i / g.columns));
+    out += ',' + number_json(g.coefficient_m[i], "coefficient_m") + (t.supported[i] ? ",1\n" : ",0\n");
+  }
+  return out;
+}
+
+void parse_surface(const std::string& text, const std::string& name, ArealTexture& t) {
+  SplineGrid& g = t.surface;
+  const std::size_t count = g.columns * g.rows;
+  CsvReader csv(text, name);
+  const std::size_t x = csv.require("x_m");
+  const std::size_t y = csv.require("y_m");
+  const std::size_t coefficient = csv.require("coefficient_m");
+  const std::size_t supported = csv.require("supported");
+  if (csv.columns().size() != 4) throw Error(name + ":1: more columns than x_m,y_m,coefficient_m,supported");
+  g.coefficient_m.reserve(count);
+  t.supported.reserve(count);
+  while (csv.next()) {
+    const std::size_t i = g.coefficient_m.size();
+    if (i == count) csv.fail(coefficient, "more rows than the block's " + std::to_string(count));
+    if (!(std::abs(csv.number(x) - node_x_m(g, i % g.columns)) <= 1e-3 * g.spacing_x_m))
+      csv.fail(x, "is not this grid point's " + number_text(node_x_m(g, i % g.columns)));
+    if (!(std::abs(csv.number(y) - node_y_m(g, i / g.columns)) <= 1e-3 * g.spacing_y_m))
+      csv.fail(y, "is not this grid point's " + number_text(node_y_m(g, i / g.columns)));
+    const double value = csv.number(coefficient);
+    if (!(std::abs(value) <= kLargestHeight_m)) csv.fail(coefficient, number_text(value) + " is not a height");
+    const std::int64_t flag = csv.integer(supported);
+    if (flag != 0 && flag != 1) csv.fail(supported, "is neither 0 nor 1");
+    g.coefficient_m.push_back(value);
+    t.supported.push_back(static_cast<std::uint8_t>(flag));
+  }
+  if (g.coefficient_m.size() != count || csv.truncated()) {
+    throw Error(name + ":" + std::to_string(csv.line()) + ": " + std::to_string(g.coefficient_m.size()) +
+                " whole rows where the block says " + std::to_string(count));
+  }
+}
+
+}  // namespace
+
+void read_block(const BlockInput& input, ArealTexture& t) {
+  const LocatedJson& json = input.json;
+  const std::string& path = input.path;
+  json.only(path, {"file", "columns", "rows", "spacing_m", "origin_m", "border"});
+  SplineGrid& g = t.surface;
+  g.columns = static_cast<std::size_t>(required_integer(json, path, "columns", 4, kMostASide));
+  g.rows = static_cast<std::size_t>(required_integer(json, path, "rows", 4, kMostASide));
+  if (g.columns * g.rows > kMostNodes)
+    json.fail(path + ".rows", "more than " + std::to_string(kMostNodes) + " grid points");
+  const auto spacing_m = required_numbers(json, path, "spacing_m", 1e3, 2);
+  if (spacing_m.size() != 2 || !(spacing_m[0] >= 1e-12) || !(spacing_m[1] >= 1e-12))
+    json.fail(path + ".spacing_m", "is not [x, y] of at least 1e-12 m");
+  const auto origin_m = required_numbers(json, path, "origin_m", 1e6, 2);
+  if (origin_m.size() != 2) json.fail(path + ".origin_m", "is not [x, y]");
+  g.spacing_x_m = spacing_m[0];
+  g.spacing_y_m = spacing_m[1];
+  g.origin_x_m = origin_m[0];
+  g.origin_y_m = origin_m[1];
+  g.border = static_cast<Border>(required_choice(json, path, "border", {kBorderNames.begin(), kBorderNames.end()}));
+  parse_surface(input.read_payload(".csv"), json.find(path, "file")->get<std::string>(), t);
+}
+
+std::string write_block(const ArealTexture& t, BlockOutput& output) {
+  const SplineGrid& g = t.surface;
+  if (g.coefficient_m.size() != g.columns * g.rows || t.supported.size() != g.coefficient_m.size())
+    throw Error("texture: an areal grid of " + std::to_string(g.columns) + " x " + std::to_string(g.rows) + " with " +
+                std::to_string(g.coefficient_m.size()) + " coefficients");
+  const std::string file = output.add_payload(".surface.csv", surface_csv(t));
+  return BlockText()
+      .add("file", text_json(file, "file"))
+      .add("columns", std::to_string(g.columns))
+      .add("rows", std::to_string(g.rows))
+      .add("spacing_m", std::vector<double>{g.spacing_x_m, g.spacing_y_m})
+      .add("origin_m", std::vector<double>{g.origin_x_m, g.origin_y_m})
+      .add("border", "\"" + std::string(kBorderNames.at(static_cast<std::size_t>(g.border))) + "\"")
+      .str();
+}
+
+}  // namespace asperity

@@ -1,0 +1,82 @@
+#include "asperity/texture/evaluate_height_map.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "border.h"
+#include "lowest_point.h"
+
+namespace asperity {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+void cubic_weights(double t, std::array<double, 4>& weight, std::array<double, 4>& slope) noexcept {
+  const double s = 1.0 - t;
+  weight = {-0.5 * t * s * s, 1.0 + t * t * (1.5 * t - 2.5), 1.0 + s * s * (1.5 * s - 2.5), -0.5 * s * t * t};
+  slope = {-0.5 * s * (s - 2.0 * t), t * (4.5 * t - 5.0), -s * (4.5 * s - 5.0), 0.5 * t * (t - 2.0 * s)};
+}
+
+struct Axis {
+  Inside at;
+  Neighbours neighbours;
+  std::array<double, 4> weight;
+  std::array<double, 4> slope;
+};
+
+Axis along(double u, std::size_t count, Border border) noexcept {
+  const double high = static_cast<double>(count) - (border == Border::kPeriodic ? 0.0 : 1.0);
+  Axis axis{};
+  axis.at = to_inside(u, 0.0, high, border);
+  const double cell = std::min(std::floor(axis.at.u), high - 1.0);
+  axis.neighbours = neighbours(static_cast<std::ptrdiff_t>(cell) - 1, count, border);
+  cubic_weights(axis.at.u - cell, axis.weight, axis.slope);
+  return axis;
+}
+
+// At pixel coordinates, in levels; slopes a pixel.
+HeightAndGradient evaluate_at(const HeightMap& map, double u, double v) noexcept {
+  const Axis x = along(u, map.columns, map.border);
+  const Axis y = along(v, map.rows, map.border);
+  HeightAndGradient result;
+  for (std::size_t r = 0; r < 4; ++r) {
+    const std::uint16_t* row = map.level.data() + y.neighbours.index[r] * map.columns;
+    double height = 0.0;
+    double slope = 0.0;
+    for (std::size_t c = 0; c < 4; ++c) {
+      const double level = row[x.neighbours.index[c]];
+      height += x.weight[c] * level;
+      slope += x.slope[c] * level;
+    }
+    result.height_m += y.weight[r] * height;
+    result.slope_x += y.weight[r] * slope;
+    result.slope_y += y.slope[r] * height;
+  }
+  result.slope_x *= x.at.du;
+  result.slope_y *= y.at.du;
+  return result;
+}
+
+}  // namespace
+
+HeightAndGradient evaluate(const HeightMap& map, double x_m, double y_m) noexcept {
+  const double pixel_x_m = map.mm_per_px_x * 1e-3;
+  const double pixel_y_m = map.mm_per_px_y * 1e-3;
+  const double u = x_m / pixel_x_m;
+  const double v = y_m / pixel_y_m;
+  if (!std::isfinite(u) || !std::isfinite(v) || map.columns < 4 || map.rows < 4) return {kNan, kNan, kNan};
+  const HeightAndGradient levels = evaluate_at(map, u, v);
+  const double unit_m = map.metres_per_level();
+  return {map.low_m + unit_m * levels.height_m, unit_m * levels.slope_x / pixel_x_m,
+          unit_m * levels.slope_y / pixel_y_m};
+}
+
+double lowest_height_m(const HeightMap& map) {
+  if (map.columns < 4 || map.rows < 4) return kNan;
+  const double level = lowest_from_nodes(map.columns, map.rows, map.border == Border::kPeriodic,
+                                         [&](double u, double v) { return evaluate_at(map, u, v).height_m; });
+  return map.low_m + map.metres_per_level() * level;
+}
+
+}  // namespace asperity

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "asperity/base/random.h"
+
+namespace asperity {
+
+// A standard normal deviate in fixed time (Box and Muller 1958, one of the pair): no rejection as in
+// Random::normal, whose time varies. |z| <= 8.6.
+inline double fixed_time_normal(Random& random) noexcept {
+  const double u = 1.0 - random.uniform();  // (0, 1]
+  return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * random.uniform());
+}
+
+// 0 at 0, 1 from `full` on, C¹ between; 1 everywhere for full = 0; 0 for what is not a number.
+inline double fade(double x, double full) noexcept {
+  if (!(x > 0.0)) return full > 0.0 ? 0.0 : (x == 0.0 ? 1.0 : 0.0);
+  if (!(x < full)) return 1.0;
+  const double s = x / full;
+  return s * s * (3.0 - 2.0 * s);
+}
+
+// A servo's input made harmless: not finite or negative is 0.
+inline double servo_input(double x) noexcept { return x > 0.0 && std::isfinite(x) ? x : 0.0; }
+
+// Lifted by `lift`·σ and kept between the geometric surface and as far above (erratum 20); lift = 0: as it is.
+inline double lifted(double value, double sigma, double lift) noexcept {
+  if (!(lift > 0.0)) return value;
+  return std::clamp(value + lift * sigma, 0.0, 2.0 * lift * sigma);
+}
+
+}  // namespace asperity

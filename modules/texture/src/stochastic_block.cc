@@ -1,0 +1,37 @@
+#include "flat_block.h"
+
+namespace asperity {
+namespace {
+
+template <class Model, class Field>
+void list(Model& t, const Field& field) {
+  field("sigma_m", t.sigma_m, 0.0, kLargestHeight_m);
+  field("grain_m", t.grain_m, 0.0, kLargestHeight_m);
+  field("tangential_ratio", t.tangential_ratio, -100.0, 100.0);
+  field("lift_sigma", t.lift_sigma, 0.0, 10.0);
+  field("stiffness_N_per_m", t.stiffness_N_per_m, 0.0, 1e6);
+  field("mass_kg", t.mass_kg, 1e-6, 1e3);
+  field("reference_speed_mps", t.reference_speed_mps, 1e-6, 1e3);
+  field("speed_exponent", t.speed_exponent, -10.0, 10.0);
+  field("reference_force_N", t.reference_force_N, 1e-6, 1e6);
+  field("force_exponent", t.force_exponent, -10.0, 10.0);
+  field("fade_speed_mps", t.fade_speed_mps, 0.0, 1e3);
+}
+
+}  // namespace
+
+void read_block(const BlockInput& input, StochasticTexture& t) {
+  input.json.only(input.path,
+                  {"sigma_m", "grain_m", "tangential_ratio", "lift_sigma", "stiffness_N_per_m", "mass_kg",
+                   "reference_speed_mps", "speed_exponent", "reference_force_N", "force_exponent", "fade_speed_mps"});
+  input.json.require(input.path, "sigma_m");
+  list(t, FlatReader{input});
+}
+
+std::string write_block(const StochasticTexture& t, BlockOutput&) {
+  BlockText block;
+  list(t, FlatWriter{block});
+  return block.str();
+}
+
+}  // namespace asperity

@@ -1,0 +1,235 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <random>
+#include <sstream>
+
+#include "asperity/geometry/pose.h"
+#include "asperity/testkit/temp_dir.h"
+#include "run_asperity.h"
+
+namespace asperity::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+using nlohmann::json;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+// A pebble, bumpy and longer than high, at (longitude, latitude), m.
+Vector3d pebble_point(double longitude, double latitude) {
+  const Vector3d out(std::cos(latitude) * std::cos(longitude), std::cos(latitude) * std::sin(longitude),
+                     std::sin(latitude));
+  const double bump = std::sin(7.0 * out.x() + 1.0) * std::sin(6.0 * out.y()) * std::cos(5.0 * out.z() - 0.5);
+  return (1.0 + 0.06 * bump) * Vector3d(0.045, 0.036, 0.028).cwiseProduct(out);
+}
+
+// It as an OBJ in millimetres, facets of about 1.5 mm.
+std::string pebble_obj() {
+  constexpr int kRows = 80, kColumns = 160;
+  std::ostringstream out;
+  for (int row = 1; row < kRows; ++row) {
+    for (int column = 0; column < kColumns; ++column) {
+      const Vector3d p =
+          1e3 * pebble_point(2.0 * std::numbers::pi * column / kColumns, std::numbers::pi * (row - 40) / kRows);
+      out << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+    }
+  }
+  for (int row = 0; row + 2 < kRows; ++row) {
+    for (int column = 0; column < kColumns; ++column) {
+      const int a = row * kColumns + column + 1, b = row * kColumns + (column + 1) % kColumns + 1;
+      out << "f " << a << ' ' << b << ' ' << b + kColumns << ' ' << a + kColumns << '\n';
+    }
+  }
+  return out.str();
+}
+
+std::string through(const std::vector<std::array<double, 2>>& places) {
+  std::ostringstream out;
+  for (const auto& [longitude, latitude] : places) {
+    const Vector3d p = pebble_point(longitude, latitude);
+    out << (out.tellp() > 0 ? ";" : "") << p.x() << ',' << p.y() << ',' << p.z();
+  }
+  return out.str();
+}
+
+json read_json(const fs::path& file) {
+  std::ifstream in(file);
+  return json::parse(in);
+}
+
+Pose pose_of(const json& v) {
+  return {Eigen::Quaterniond(v.at(3), v.at(4), v.at(5), v.at(6)), Vector3d(v.at(0), v.at(1), v.at(2))};
+}
+
+std::string text_of(const Pose& pose) {
+  std::ostringstream out;
+  out.precision(12);
+  const Eigen::Quaterniond& q = pose.rotation;
+  for (const double v : {pose.translation_m.x(), pose.translation_m.y(), pose.translation_m.z(), q.w(), q.x(), q.y()}) {
+    out << v << ',';
+  }
+  out << q.z();
+  return out.str();
+}
+
+class Register : public testing::Test {
+ protected:
+  void SetUp() override { write_text(dir_ / "pebble.obj", pebble_obj()); }
+  std::string path(const std::string& name) const { return (dir_ / name).string(); }
+  std::string mesh() const { return path("pebble.obj"); }
+
+  void simulate(const std::string& name, const std::string& surface, const std::string& points, int seed) {
+    const Outcome outcome =
+        run({"simulate", "--surface", surface, "--probe", "open", "--speed", "25mm/s", "--seed", std::to_string(seed),
+             "--mesh", mesh(), "--mesh-unit", "mm", "--through=" + points, "-o", path(name)});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+  // Points in a row round the pebble, displaced by `T_world_mesh`, with white noise.
+  void write_path(const std::string& name, const Pose& T_world_mesh, double noise_m) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal(0.0, 1.0);
+    std::ostringstream out;
+    out.precision(10);
+    out << "px_m,py_m,pz_m\n";
+    for (int i = 0; i < 2000; ++i) {
+      const double angle = 2e-3 * i;
+      const Vector3d noise = noise_m * Vector3d(normal(random), normal(random), normal(random));
+      const Vector3d p = T_world_mesh * pebble_point(angle, 0.5 * std::sin(2.0 * angle)) + noise;
+      out << p.x() << ',' << p.y() << ',' << p.z() << '\n';
+    }
+    write_text(dir_ / name, out.str());
+  }
+
+  const testkit::TempDir dir_;
+};
+
+const Pose kTruth{Eigen::Quaterniond(Eigen::AngleAxisd(1.1, Vector3d(1, 2, -2).normalized())),
+                  Vector3d(0.1, -0.05, 0.3)};
+
+Pose off_by(const Pose& T_mesh_world, double shift_m, double turn_rad) {
+  const Pose step{Eigen::Quaterniond(Eigen::AngleAxisd(turn_rad, Vector3d(2, -1, 2).normalized())),
+                  shift_m * Vector3d(-1, 2, 2).normalized()};
+  return step * T_mesh_world;
+}
+
+double turn_between_deg(const Pose& a, const Pose& b) {
+  return a.rotation.angularDistance(b.rotation) * 180.0 / std::numbers::pi;
+}
+
+TEST_F(Register, APathOfPointsIsFoundAgain) {
+  write_path("path.csv", kTruth, 0.15e-3);
+  const Pose T_mesh_world = kTruth.inverse();
+  const Outcome outcome = run({"register", path("path.csv"), mesh(), "--mesh-unit", "mm", "--guess",
+                               text_of(off_by(T_mesh_world, 5e-3, 0.087)), "-o", path("out"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json result = json::parse(outcome.out);
+  const Pose found = pose_of(result.at("T_mesh_world"));
+  // 0.15 mm over 2000 points: by the information matrix some 15 µm and 0.08 degrees; four times that, and the facets'
+  // sag.
+  const Vector3d middle = kTruth * Vector3d::Zero();
+  EXPECT_LT((found * middle).norm(), 0.1e-3);
+  EXPECT_LT(turn_between_deg(found, T_mesh_world), 0.35);
+  EXPECT_NEAR(result.at("rms_m").get<double>(), 0.15e-3, 0.03e-3);
+  EXPECT_TRUE(result.at("converged").get<bool>());
+  EXPECT_TRUE(result.at("undetermined").empty());
+  EXPECT_TRUE(fs::exists(dir_ / "out" / "textured.obj"));
+  EXPECT_TRUE(fs::exists(dir_ / "out" / "scene.json"));
+}
+
+TEST_F(Register, WithoutAGuessTheWholeMeshIsSearched) {
+  write_path("path.csv", kTruth, 0.15e-3);
+  const Outcome outcome = run({"register", path("path.csv"), mesh(), "--mesh-unit", "mm", "-o", path("out"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Pose found = pose_of(json::parse(outcome.out).at("T_mesh_world"));
+  EXPECT_LT(turn_between_deg(found, kTruth.inverse()), 0.35);
+}
+
+TEST_F(Register, ARecordingBecomesATexturedMesh) {
+  simulate("rec", "sandpaper", through({{0.0, -0.4}, {1.5, 0.5}}), 2);
+  const Pose truth = pose_of(read_json(dir_ / "rec" / "recording.json").at("extra").at("T_mesh_world"));
+  const Outcome outcome = run({"register", path("rec"), mesh(), "--mesh-unit", "mm", "--guess",
+                               text_of(off_by(truth, 3e-3, 0.05)), "-o", path("out"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json result = json::parse(outcome.out);
+
+  // The pose, within four of its own standard deviations (and the tip's calibration, 0.1 mm an axis).
+  const Pose found = pose_of(result.at("T_mesh_world"));
+  const json& matrix = result.at("covariance").at("matrix");
+  const json& centre = result.at("covariance").at("centre_mesh_m");
+  const Vector3d at(centre.at(0), centre.at(1), centre.at(2));
+  const Vector3d shift_m = found * (truth.inverse() * at) - at;
+  const double sigma_m =
+      std::sqrt(matrix[3][3].get<double>() + matrix[4][4].get<double>() + matrix[5][5].get<double>());
+  EXPECT_LT(shift_m.norm(), 4.0 * sigma_m + 0.3e-3);
+
+  const json process = read_json(dir_ / "out" / "result.json");
+  EXPECT_EQ(process.at("base").at("shape"), "mesh");
+  EXPECT_GT(process.at("accuracy").at("correlation").get<double>(), 0.9);
+  EXPECT_LT(std::abs(process.at("accuracy").at("length_error_percent").get<double>()), 0.5);
+  const json scene = read_json(dir_ / "out" / "scene.json");
+  EXPECT_EQ(scene.at("mesh"), "textured.obj");
+  EXPECT_EQ(scene.at("textures").at(0).at("index"), 1);
+  EXPECT_TRUE(fs::exists(dir_ / "out" / scene.at("textures").at(0).at("file").get<std::string>()));
+}
+
+TEST_F(Register, TwoScansGiveOneMeshTwoTexturesAndTheSameBytesAgain) {
+  simulate("a", "sandpaper", through({{0.0, -0.4}, {0.9, 0.2}}), 3);
+  simulate("b", "sine", through({{0.9, -0.3}, {0.2, 0.4}}), 4);
+  // Both lie in one world: the second is brought into the first one's.
+  const Pose a = pose_of(read_json(dir_ / "a" / "recording.json").at("extra").at("T_mesh_world"));
+  const Words words{"register", path("a"), path("b"), mesh(), "--mesh-unit", "mm", "--guess", text_of(a), "--quiet"};
+  const auto into = [&](const std::string& name) {
+    Words all = words;
+    all.insert(all.end(), {"-o", path(name)});
+    return run(all);
+  };
+  const Outcome first = into("one");
+  ASSERT_THAT(first.code, ::testing::AnyOf(0, 3)) << first.err;
+  into("two");
+  EXPECT_EQ(contents(dir_ / "one"), contents(dir_ / "two"));
+  std::vector<std::string> names;
+  for (const auto& [name, text] : contents(dir_ / "one")) names.push_back(name);
+  EXPECT_THAT(names, Contains("a/profile.csv"));
+  EXPECT_THAT(names, Contains("b/profile.csv"));
+  EXPECT_EQ(read_json(dir_ / "one" / "scene.json").at("textures").size(), 2u);
+
+  // Again into the same folder: it is ours. With a stranger's file in it, it is not.
+  EXPECT_EQ(into("one").code, first.code);
+  write_text(dir_ / "one" / "notes.txt", "mine");
+  const Outcome refused = into("one");
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_TRUE(fs::exists(dir_ / "one" / "notes.txt"));
+}
+
+TEST_F(Register, BadInputIsNamed) {
+  write_path("path.csv", kTruth, 0.0);
+  write_text(dir_ / "bad.csv", "px_m,py_m,pz_m\n0,0,zero\n");
+  write_text(dir_ / "bad.obj", "v 0 0 0\nv 1 abc 0\n");
+  const auto outcome = [&](const Words& words) {
+    Words all{"register"};
+    all.insert(all.end(), words.begin(), words.end());
+    all.insert(all.end(), {"-o", path("out")});
+    return run(all);
+  };
+  const Outcome cell = outcome({path("bad.csv"), mesh()});
+  EXPECT_EQ(cell.code, 1);
+  EXPECT_THAT(cell.err, HasSubstr("bad.csv:2: column 'pz_m'"));
+  const Outcome vertex = outcome({path("path.csv"), path("bad.obj")});
+  EXPECT_EQ(vertex.code, 1);
+  EXPECT_THAT(vertex.err, HasSubstr("bad.obj:2"));
+  EXPECT_EQ(outcome({path("path.csv")}).code, 2);
+  EXPECT_EQ(outcome({path("path.csv"), mesh(), "--guess", "1,2,3"}).code, 2);
+  EXPECT_EQ(outcome({path("path.csv"), mesh(), "--mesh-unit", "kg"}).code, 2);
+  EXPECT_FALSE(fs::exists(dir_ / "out"));
+}
+
+}  // namespace
+}  // namespace asperity::cli
