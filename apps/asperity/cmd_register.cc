@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <string>
@@ -134,7 +135,7 @@ class RegisterCommand : public Command {
     if (registration.runner_up) {
       const RunnerUp& other = *registration.runner_up;
       out += fmt::format("runner-up     residual {:.3f} mm RMS, {:.1f} mm and {:.1f} degrees away\n", other.rms_m * 1e3,
-                         other.distance_m * 1e3, other.turn_rad * 180.0 / 3.14159265358979);
+                         other.distance_m * 1e3, other.turn_rad * 180.0 / std::numbers::pi);
     }
     if (!registration.verdict.empty()) out += "verdict       " + registration.verdict + "\n";
     for (std::size_t i = 0; i < result.scans.size(); ++i) {
@@ -144,8 +145,9 @@ class RegisterCommand : public Command {
                          i < result.coordinates.warps.size() ? result.coordinates.warps[i].triangles : 0);
       if (scan.path_texture) {
         out += fmt::format(", texture {} harmonics, {:.1f} µm RMS, model error {:.1f} µm",
-                           scan.path_texture->fit.texture.a_m.size(), scan.path_texture->fit.rms_height_m * 1e6,
-                           scan.path_texture->fit.rms_error_m * 1e6);
+                           scan.path_texture->series.fit.texture.a_m.size(),
+                           scan.path_texture->series.fit.rms_height_m * 1e6,
+                           scan.path_texture->series.fit.rms_error_m * 1e6);
       }
       out += "\n";
       if (scan.process.accuracy && scan.process.accuracy->profile) {

@@ -133,11 +133,12 @@ void make_own_texture(const RegisterConfig& config, RegisteredScan& scan) {
   }
   Texture texture = result.texture.value_or(Texture{});
   if (texture.name.empty()) texture.name = scan.name;
-  texture.model = scan.path_texture->fit.texture;
-  texture.lift_m = scan.path_texture->fit.lift_m;
+  texture.model = scan.path_texture->series.fit.texture;
+  texture.lift_m = scan.path_texture->series.lift_m;
+  append(result.problems, scan.path_texture->series.problems);
   const double nyquist = 0.5 / (result.profile.spacing_m * 1e3);
   texture.band_cycles_per_mm = {config.process.profile.cutoff_cycles_per_mm,
-                                std::min(config.texture.harmonics_per_mm, nyquist)};
+                                std::min(config.texture.coefficients_per_mm, nyquist)};
   texture.source.version = kVersion;
   scan.texture = std::move(texture);
 }

@@ -58,12 +58,12 @@ Json scan_json(const RegisteredScan& scan, std::size_t index) {
   out["length_m"] = scan.path.s_m.empty() ? 0.0 : scan.path.s_m.back() - scan.path.s_m.front();
   out["points"] = scan.path.size();
   if (scan.path_texture) {
+    const FourierSamplesFit& fit = scan.path_texture->series.fit;
     out["own_texture"] = {{"start_m", scan.path_texture->start_m},
-                          {"length_mm", scan.path_texture->fit.texture.length_mm},
-                          {"harmonics", scan.path_texture->fit.texture.a_m.size()},
-                          {"bridged", scan.path_texture->bridged},
-                          {"rms_height_m", scan.path_texture->fit.rms_height_m},
-                          {"rms_error_m", scan.path_texture->fit.rms_error_m}};
+                          {"length_mm", fit.texture.length_mm},
+                          {"harmonics", fit.texture.a_m.size()},
+                          {"rms_height_m", fit.rms_height_m},
+                          {"rms_error_m", fit.rms_error_m}};
   }
   out["base_rms_m"] = scan.process.base.base_rms_m;
   out["problems"] = problems_json(scan.process.problems);
