@@ -30,7 +30,8 @@ using registration::Whitening;
 
 constexpr std::size_t kLeastPoints = 30;
 constexpr int kRounds = 5;
-constexpr double kFarthest = 4.1;  // of six numbers, 1 % by chance: the refinement then is in another valley
+constexpr double kMostKnots = 500;  // the equations are dense: memory goes with the square, time with the cube
+constexpr double kFarthest = 4.1;   // of six numbers, 1 % by chance: the refinement then is in another valley
 
 // The inverse of the knots' prior covariance; paths without a slow error get none, which holds them at zero.
 Eigen::MatrixXd prior_precision(const PathChain& chain, const RefineConfig& config) {
@@ -256,6 +257,24 @@ Matrix6 pose_covariance(const Eigen::MatrixXd& information) {
   return information.ldlt().solve(pose_columns).topRows<6>();
 }
 
+// The settings with knots far enough apart that there are not too many.
+RefineConfig with_few_knots(std::span<const MeasuredPath> paths, RefineConfig config, Problems& problems) {
+  double length_m = 0.0;
+  for (const MeasuredPath& path : paths) {
+    for (std::size_t i = 1; i < path.p_world_m.size(); ++i) {
+      const double step_m = (path.p_world_m[i] - path.p_world_m[i - 1]).norm();
+      if (std::isfinite(step_m)) length_m += step_m;
+    }
+  }
+  if (length_m <= kMostKnots * config.knot_m) return config;
+  config.knot_m = length_m / kMostKnots;
+  problems.push_back({"wide_knots",
+                      fmt::format("the paths are {:.3g} m long: their slow error is interpolated over {:.3g} mm",
+                                  length_m, 1e3 * config.knot_m),
+                      1});
+  return config;
+}
+
 // Turn and shift about `centre_m` that lead from one pose to another.
 Vector6 pose_change(const Pose& from, const Pose& to, const Eigen::Vector3d& centre_m) {
   const Eigen::Quaterniond turn = to.rotation * from.rotation.conjugate();
@@ -267,11 +286,12 @@ Vector6 pose_change(const Pose& from, const Pose& to, const Eigen::Vector3d& cen
 }  // namespace
 
 RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, const MeshSurface& surface,
-                                        const RegistrationResult& start, const RefineConfig& config) {
+                                        const RegistrationResult& start, const RefineConfig& given) {
   RefinedRegistration out;
   out.registration = start;
   out.slow_error_world_m.resize(paths.size());
-  if (!config.enabled) return out;
+  if (!given.enabled) return out;
+  const RefineConfig config = with_few_knots(paths, given, out.registration.problems);
   const auto give_up = [&](const std::string& why) {
     out.registration.problems.push_back({"not_refined", "the pose was not refined: " + why, 1});
     return out;
