@@ -8,9 +8,12 @@
 #include <utility>
 
 #include "asperity/base/csv.h"
+#include "asperity/base/error.h"
 #include "asperity/base/output.h"
+#include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/pipeline/write_result.h"
+#include "asperity/scene/read_scene.h"
 #include "asperity/scene/write_scene.h"
 #include "json.h"
 
@@ -191,6 +194,11 @@ bool is_registration_folder(const fs::path& folder) noexcept {
 
 void write_registration(const fs::path& folder, const ScansOnMesh& result, const std::vector<Scan>& scans,
                         const MeshFile& mesh, double unit_m) {
+  for (const RegisteredScan& scan : result.scans) {
+    const bool one_name = stays_inside(scan.name) && !fs::path(scan.name).has_parent_path();
+    if (result.scans.size() > 1 && !one_name)
+      throw Error("registration: '" + printable(scan.name) + "' cannot be the name of a scan's folder");
+  }
   write_scene(folder / "scene.json", make_scene(result, mesh, unit_m));
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     const RegisteredScan& scan = result.scans[i];

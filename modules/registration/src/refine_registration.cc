@@ -29,6 +29,7 @@ using registration::Vector6;
 using registration::Whitening;
 
 constexpr std::size_t kLeastPoints = 30;
+constexpr double kMostKnots = 500;  // the equations are dense: memory goes with the square, time with the cube
 constexpr int kRounds = 3;
 constexpr double kSmallStep = 1e-3;  // squared, in standard deviations
 constexpr double kKnown_m = 5e-3;    // a motion known to this is left free: guesses are no better
@@ -275,6 +276,24 @@ Matrix6 pose_covariance(const Eigen::MatrixXd& information) {
   return information.ldlt().solve(pose_columns).topRows<6>();
 }
 
+// The settings with knots far enough apart that there are not too many.
+RefineConfig with_few_knots(std::span<const MeasuredPath> paths, RefineConfig config, Problems& problems) {
+  double length_m = 0.0;
+  for (const MeasuredPath& path : paths) {
+    for (std::size_t i = 1; i < path.p_world_m.size(); ++i) {
+      const double step_m = (path.p_world_m[i] - path.p_world_m[i - 1]).norm();
+      if (std::isfinite(step_m)) length_m += step_m;
+    }
+  }
+  if (length_m <= kMostKnots * config.knot_m) return config;
+  config.knot_m = length_m / kMostKnots;
+  problems.push_back({"wide_knots",
+                      fmt::format("the paths are {:.3g} m long: their slow error is interpolated over {:.3g} mm",
+                                  length_m, 1e3 * config.knot_m),
+                      1});
+  return config;
+}
+
 // Of motions that were held at the start: known as well as a guess is.
 Matrix6 held_covariance(std::span<const UndeterminedMotion> motions, double guess_sigma_m) {
   Matrix6 out = Matrix6::Zero();
@@ -292,11 +311,12 @@ Matrix6 held_covariance(std::span<const UndeterminedMotion> motions, double gues
 
 RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, const MeshSurface& surface,
                                         const RegistrationResult& start, std::span<const Pose> others,
-                                        const RefineConfig& config) {
+                                        const RefineConfig& given) {
   RefinedRegistration out;
   out.registration = start;
   out.slow_error_world_m.resize(paths.size());
-  if (!config.enabled) return out;
+  if (!given.enabled) return out;
+  const RefineConfig config = with_few_knots(paths, given, out.registration.problems);
   const auto give_up = [&](const std::string& why) {
     out.registration.problems.push_back({"not_refined", "the pose was not refined: " + why, 1});
     return out;

@@ -346,5 +346,19 @@ TEST(HapticCoordinates, RefuseBadPaths) {
   refused([](MeshPath& p) { std::fill(p.s_m.begin(), p.s_m.end(), 0.0); });
 }
 
+TEST(HapticCoordinates, APathWithoutPointsKeepsItsNumber) {
+  const TriangleMesh mesh = testkit::plane_mesh({0.02, 0.01}, 20, 10, 0.0, 1);
+  const MeshPath path = path_on(mesh, 0.01, 0.5e-3, [](double s_m) { return Vector3d(0.005 + s_m, 0.005, 0.0); });
+  const HapticCoordinates both = assign_haptic_coordinates(mesh, make_adjacency(mesh), {MeshPath{}, path});
+  ASSERT_EQ(both.warps.size(), 2u);
+  EXPECT_EQ(both.warps[0].triangles, 0u);
+  std::size_t second = 0;
+  for (const HapticTriangle& triangle : both.triangles) {
+    EXPECT_NE(triangle.texture, 1);
+    second += triangle.texture == 2 ? 1 : 0;
+  }
+  EXPECT_EQ(second, both.warps[1].triangles);
+}
+
 }  // namespace
 }  // namespace asperity
