@@ -329,6 +329,14 @@ TEST(HapticCoordinates, KeepTheSideOfNonManifoldEdgesAndBorders) {
   }
 }
 
+TEST(HapticCoordinates, APathWithoutPointsGetsNoTriangles) {
+  const TriangleMesh mesh = testkit::plane_mesh({0.02, 0.02}, 4, 4);
+  const MeshPath good = path_on(mesh, 0.01, 0.001, [](double s) { return Vector3d(0.005 + s, 0.01, 0.0); });
+  const auto result = assign_haptic_coordinates(mesh, make_adjacency(mesh), {MeshPath{}, good});
+  for (const HapticTriangle& triangle : result.triangles) EXPECT_NE(triangle.texture, 1);
+  EXPECT_GT(result.warps[1].triangles, 0u);
+}
+
 TEST(HapticCoordinates, RefuseBadPaths) {
   const TriangleMesh mesh = testkit::plane_mesh({0.02, 0.02}, 4, 4);
   const MeshAdjacency adjacency = make_adjacency(mesh);
@@ -342,7 +350,6 @@ TEST(HapticCoordinates, RefuseBadPaths) {
   refused([](MeshPath& p) { p.s_m.pop_back(); });
   refused([](MeshPath& p) { p.triangle[2] = 32; });
   refused([](MeshPath& p) { p.p_mesh_m[2].y() = std::nan(""); });
-  refused([](MeshPath& p) { p = MeshPath{}; });
   refused([](MeshPath& p) { std::fill(p.s_m.begin(), p.s_m.end(), 0.0); });
 }
 
