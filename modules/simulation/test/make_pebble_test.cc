@@ -36,7 +36,7 @@ TEST(Pebble, IsClosedAndOutward) {
     ASSERT_TRUE(directed.contains({edge.second, edge.first}));
   }
   EXPECT_EQ(mesh.vertices_m.size() + mesh.triangles.size(), directed.size() / 2 + 2);
-  // The ellipsoid's volume; bumps of 0.7 mm, of which the mean over few waves need not vanish.
+  // The ellipsoid's volume; bumps of 1.2 mm, of which the mean over few waves need not vanish.
   EXPECT_NEAR(volume_m3, 4.0 / 3.0 * std::numbers::pi * 0.045 * 0.036 * 0.028, 0.06 * volume_m3);
   EXPECT_NEAR(edges_m / static_cast<double>(directed.size()), 1.5e-3, 0.1e-3);
 }
@@ -59,7 +59,7 @@ TEST(Pebble, BumpsHaveTheirHeight) {
     const Vector3d on_sphere = even.vertices_m[7].cwiseQuotient(Vector3d(0.045, 0.036, 0.028));
     EXPECT_NEAR(on_sphere.norm(), 1.0, 1e-12);
   }
-  EXPECT_NEAR(std::sqrt(sum_m2 / static_cast<double>(count)), 0.7e-3, 0.07e-3);  // 20 draws of 24 waves
+  EXPECT_NEAR(std::sqrt(sum_m2 / static_cast<double>(count)), 1.2e-3, 0.12e-3);  // 20 draws of 24 waves
 }
 
 TEST(Pebble, TheSeedDecides) {
