@@ -154,7 +154,7 @@ asperity::TriangleMesh obj_mesh(const std::string& file) {
   return mesh;
 }
 
-// A wave round the body: directions from its middle, laid on the surface.
+// A wave round the body: what is seen of it from all around.
 std::vector<Vector3d> path_on(const asperity::MeshBvh& bvh) {
   constexpr int kPoints = 2000;
   std::vector<Vector3d> out;
@@ -164,7 +164,9 @@ std::vector<Vector3d> path_on(const asperity::MeshBvh& bvh) {
     const double longitude = 4.0 * t;
     const Vector3d u(std::cos(latitude) * std::cos(longitude), std::cos(latitude) * std::sin(longitude),
                      std::sin(latitude));
-    out.push_back(bvh.closest_point(0.05 * u).p_m);
+    // From outside, as a probe comes; where it misses the body, the nearest point.
+    const asperity::RayHit hit = bvh.cast_ray(0.2 * u, -u, 0.2);
+    out.push_back(hit.found() ? Vector3d((0.2 - hit.t) * u) : bvh.closest_point(0.05 * u).p_m);
   }
   return out;
 }

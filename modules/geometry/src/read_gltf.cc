@@ -325,7 +325,8 @@ class GltfReader {
         add_haptic(haptic, GltfAccessor(model_, accessor, 2, what + ", TEXCOORD_1"), positions, triangles, before,
                    what);
       } else if (attribute != "TEXCOORD_0") {
-        problems_.count("attribute", [&] { return what + ": " + printable(attribute) + " is not read"; });
+        problems_.count("attribute",
+                        [&, &unread = attribute] { return what + ": " + printable(unread) + " is not read"; });
       }
     }
   }

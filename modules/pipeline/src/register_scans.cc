@@ -1,7 +1,9 @@
 #include "asperity/pipeline/register_scans.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "asperity/base/error.h"
@@ -38,6 +40,27 @@ auto named(const std::string& scan, Step step) {
   } catch (const Error& error) {
     throw Error(printable(scan, 200) + ": " + error.what());
   }
+}
+
+struct PoseStep {
+  Eigen::Vector3d turn, shift_m;
+};
+
+// Turns and shifts within balls of the given radii, on an additive sequence (Roberts 2018) of six numbers.
+std::vector<PoseStep> spread_steps(int count, double shift_m, double turn_rad) {
+  constexpr double kRoot = 1.1347241384015194;  // x⁷ = x + 1
+  std::vector<PoseStep> out;
+  for (int i = 1; out.size() < static_cast<std::size_t>(count) && i < 100 * count; ++i) {
+    std::array<double, 6> u{};
+    double power = 1.0;
+    for (double& value : u) {
+      power /= kRoot;
+      value = 2.0 * std::fmod(0.5 + power * i, 1.0) - 1.0;
+    }
+    const Eigen::Vector3d a(u[0], u[1], u[2]), b(u[3], u[4], u[5]);
+    if (a.norm() <= 1.0 && b.norm() <= 1.0) out.push_back({turn_rad * a, shift_m * b});
+  }
+  return out;
 }
 
 // The tip's offset; zero for a path alone, whose probe is unknown.
@@ -117,6 +140,29 @@ void make_own_texture(const RegisterConfig& config, RegisteredScan& scan) {
                                 std::min(config.texture.harmonics_per_mm, nyquist)};
   texture.source.version = kVersion;
   scan.texture = std::move(texture);
+}
+
+// Where fits end that begin at other guesses, evenly spread about the given one.
+std::vector<Pose> other_fits(const std::vector<MeasuredPath>& paths, const RegistrationSurface& surface,
+                             const std::optional<Pose>& guess, RegistrationConfig config, const RefineConfig& refine) {
+  std::vector<Pose> out;
+  if (!guess || !refine.enabled) return out;
+  config.starts.when = OtherStarts::kNever;
+  config.max_points = config.coarse_points;
+  Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();
+  std::size_t count = 0;
+  for (const MeasuredPath& path : paths) {
+    for (const Eigen::Vector3d& p_m : path.p_world_m) middle_m += p_m;
+    count += path.p_world_m.size();
+  }
+  middle_m = *guess * Eigen::Vector3d(middle_m / static_cast<double>(std::max<std::size_t>(1, count)));
+  for (const PoseStep& step :
+       spread_steps(refine.other_starts, refine.other_shift_m, refine.other_turn_deg * std::numbers::pi / 180.0)) {
+    const Eigen::Quaterniond turn = exp_rotation(step.turn);
+    const Pose about{turn * guess->rotation, turn * (guess->translation_m - middle_m) + middle_m + step.shift_m};
+    out.push_back(register_path(paths, surface, about, config).T_mesh_world);
+  }
+  return out;
 }
 
 bool in_sequence(const std::vector<Scan>& scans) {
@@ -200,7 +246,8 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
   // Scans have errors that last along the path; points without a sequence have none that is known.
   std::vector<std::vector<Eigen::Vector3d>> slow_error_world_m(scans.size());
   if (sequence) {
-    RefinedRegistration refined = refine_registration(paths, surface, out.registration, config.refinement);
+    const std::vector<Pose> others = other_fits(smooth, ready, guess, search.registration, config.refinement);
+    RefinedRegistration refined = refine_registration(paths, surface, out.registration, others, config.refinement);
     out.registration = std::move(refined.registration);
     slow_error_world_m = std::move(refined.slow_error_world_m);
   }

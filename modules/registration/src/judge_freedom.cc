@@ -19,7 +19,7 @@ constexpr double kClear = 0.03;
 constexpr double kClearOfFacets = 0.05;
 // A motion less well known than this share of the guess's error keeps the guess: what little the distances say of
 // it comes from single facets.
-constexpr double kWorthless = 0.1;
+constexpr double kWorthless = 0.5;
 constexpr std::size_t kSlidePoints = 500;
 constexpr int kSlideIterations = 4;
 constexpr double kChance = 10.0;

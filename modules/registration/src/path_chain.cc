@@ -35,6 +35,7 @@ PathChain make_chain(std::span<const MeasuredPath> paths, double knot_m) {
       const double knot = std::floor(at);
       chain.p_world_m.push_back(path.p_world_m[i]);
       chain.begins.push_back(i == 0 ? 1 : 0);
+      chain.part_of.push_back(chain.parts.size());
       chain.knots.push_back({part.first_knot + static_cast<std::size_t>(knot), at - knot});
     }
     part.knots = static_cast<std::size_t>(std::floor(s_m / knot_m)) + 2;
@@ -56,8 +57,8 @@ Eigen::Vector3d slow_error_m(const PathChain& chain, const Eigen::VectorXd& knot
   return (1.0 - share) * knots_m.segment<3>(at) + share * knots_m.segment<3>(at + 3);
 }
 
-FacetHeights measure_heights(const PathChain& chain, const Eigen::VectorXd& knots_m, const MeshSurface& surface,
-                             const Pose& T_mesh_world, double outlier_sigmas) {
+FacetHeights measure_heights(const PathChain& chain, const Eigen::VectorXd& knots_m, const Eigen::VectorXd& level_m,
+                             const MeshSurface& surface, const Pose& T_mesh_world, double outlier_sigmas) {
   const std::size_t n = chain.p_world_m.size();
   FacetHeights out;
   out.d_m.resize(n);
@@ -79,7 +80,7 @@ FacetHeights measure_heights(const PathChain& chain, const Eigen::VectorXd& knot
     if (!(normal.dot(foot.normal) > 0.0)) continue;
     out.p_mesh_m[i] = p_m;
     out.normal[i] = normal;
-    out.d_m[i] = normal.dot(p_m - a);
+    out.d_m[i] = normal.dot(p_m - a) - level_m[static_cast<Eigen::Index>(chain.part_of[i])];
     out.usable[i] = 1;
     magnitude_m.push_back(std::abs(out.d_m[i]));
   }

@@ -25,6 +25,7 @@ struct PathChain {
   std::vector<Eigen::Vector3d> p_world_m;
   std::vector<char> begins;  // 1: the chain of neighbours is broken before this point
   std::vector<KnotShare> knots;
+  std::vector<std::size_t> part_of;
   double spacing_m = 0.0;  // median
 
   // One part a path: its knots and the covariance of its slow error.
@@ -51,7 +52,8 @@ struct FacetHeights {
   std::size_t count = 0;  // of usable ones
 };
 
-FacetHeights measure_heights(const PathChain& chain, const Eigen::VectorXd& knots_m, const MeshSurface& surface,
-                             const Pose& T_mesh_world, double outlier_sigmas);
+// Each path's mean relief `level_m` is taken off its heights.
+FacetHeights measure_heights(const PathChain& chain, const Eigen::VectorXd& knots_m, const Eigen::VectorXd& level_m,
+                             const MeshSurface& surface, const Pose& T_mesh_world, double outlier_sigmas);
 
 }  // namespace asperity::registration

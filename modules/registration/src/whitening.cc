@@ -7,7 +7,33 @@ namespace asperity::registration {
 
 namespace {
 
-std::vector<double> autocovariance(const PathChain& chain, const FacetHeights& heights, std::size_t order) {
+// The heights less their moving mean over usable neighbours of the same stretch.
+std::vector<double> without_long_waves(const PathChain& chain, const FacetHeights& heights, std::size_t smooth) {
+  const std::size_t n = heights.d_m.size();
+  std::vector<double> out(n, 0.0);
+  std::size_t begin = 0;
+  while (begin < n) {
+    std::size_t end = begin + 1;
+    while (end < n && chain.begins[end] == 0) ++end;
+    std::vector<double> sum(end - begin + 1, 0.0), count(end - begin + 1, 0.0);
+    for (std::size_t i = begin; i < end; ++i) {
+      const double use = heights.usable[i] != 0 ? 1.0 : 0.0;
+      sum[i - begin + 1] = sum[i - begin] + use * heights.d_m[i];
+      count[i - begin + 1] = count[i - begin] + use;
+    }
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t a = i - begin > smooth ? i - begin - smooth : 0,
+                        b = std::min(i - begin + smooth + 1, end - begin);
+      const double neighbours = count[b] - count[a];
+      out[i] = neighbours > 0.0 ? heights.d_m[i] - (sum[b] - sum[a]) / neighbours : 0.0;
+    }
+    begin = end;
+  }
+  return out;
+}
+
+std::vector<double> autocovariance(const PathChain& chain, const FacetHeights& heights, const std::vector<double>& d_m,
+                                   std::size_t order) {
   std::vector<double> r(order + 1, 0.0);
   for (std::size_t lag = 0; lag <= order; ++lag) {
     double sum = 0.0;
@@ -15,7 +41,7 @@ std::vector<double> autocovariance(const PathChain& chain, const FacetHeights& h
     for (std::size_t i = 0; i < heights.d_m.size(); ++i) {
       reach = chain.begins[i] != 0 ? 0 : reach + 1;
       if (reach >= lag && heights.usable[i] != 0 && heights.usable[i - lag] != 0) {
-        sum += heights.d_m[i] * heights.d_m[i - lag];
+        sum += d_m[i] * d_m[i - lag];
       }
     }
     const double x = static_cast<double>(lag) / static_cast<double>(order + 1);
@@ -27,10 +53,11 @@ std::vector<double> autocovariance(const PathChain& chain, const FacetHeights& h
 
 }  // namespace
 
-Whitening make_whitening(const PathChain& chain, const FacetHeights& heights, std::size_t order) {
-  const std::vector<double> r = autocovariance(chain, heights, order);
+Whitening make_whitening(const PathChain& chain, const FacetHeights& heights, std::size_t order, std::size_t smooth) {
+  const std::vector<double> r = autocovariance(chain, heights, without_long_waves(chain, heights, smooth), order);
   Whitening out;
   out.variance_m2 = r[0];
+  out.relief_m = std::sqrt(r[0]);
   for (std::size_t m = 1; m <= order && out.variance_m2 > 0.0; ++m) {
     double sum = r[m];
     for (std::size_t k = 1; k < m; ++k) sum += out.a[k - 1] * r[m - k];

@@ -10,10 +10,12 @@ namespace asperity::registration {
 struct Whitening {
   std::vector<double> a;  // a[k - 1] is a_k
   double variance_m2 = 0.0;
+  double relief_m = 0.0;  // RMS of the heights without their long waves
 };
 
 // Yule–Walker from the heights' autocovariance over unbroken stretches, with Parzen's window, which keeps it
-// positive definite (Levinson's and Durbin's recursion).
-Whitening make_whitening(const PathChain& chain, const FacetHeights& heights, std::size_t order);
+// positive definite (Levinson's and Durbin's recursion). What is longer than `smooth` points on either side is
+// taken off first: it is the misfit that is looked for, not relief.
+Whitening make_whitening(const PathChain& chain, const FacetHeights& heights, std::size_t order, std::size_t smooth);
 
 }  // namespace asperity::registration

@@ -90,7 +90,7 @@ Fits fit(const MeshSurface& surface, const MeasuredPath& path) {
   const std::vector<MeasuredPath> paths{path};
   Fits out;
   out.start = register_path(paths, ready, kMeshFromWorld, {});
-  out.refined = refine_registration(paths, surface, out.start, {}).registration;
+  out.refined = refine_registration(paths, surface, out.start, {}, {}).registration;
   return out;
 }
 

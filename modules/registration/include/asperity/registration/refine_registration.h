@@ -13,11 +13,16 @@ namespace asperity {
 
 struct RefineConfig {
   bool enabled = true;
-  double memory_m = 6e-3;
+  double memory_m = 1.5e-3;
   double slow_length_m = 20e-3;
   double slow_factor = 1.0;
   double knot_m = 5e-3;
   double outlier_sigmas = 5.0;
+  double guess_sigma_m = 10e-3;
+  double guess_sigma_deg = 10.0;
+  int other_starts = 30;
+  double other_shift_m = 6e-3;
+  double other_turn_deg = 10.0;
   double undetermined_deg = 0.5;
   int max_iterations = 40;
 
@@ -30,6 +35,11 @@ struct RefineConfig {
             {0.0, 100.0});
     v.field("knot_m", knot_m, "distance of the points between which the slow error is interpolated", {1e-6, 1.0});
     v.field("outlier_sigmas", outlier_sigmas, "heights beyond this many standard deviations do not count", {2.0, 1e6});
+    v.field("guess_sigma_m", guess_sigma_m, "how well the start is known before, m", {1e-9, 1e6});
+    v.field("guess_sigma_deg", guess_sigma_deg, "how well its turn is, degrees", {1e-6, 1e6});
+    v.field("other_starts", other_starts, "guesses about the given one from which fits are tried", {0, 10000});
+    v.field("other_shift_m", other_shift_m, "largest shift of these, m", {0.0, 10.0});
+    v.field("other_turn_deg", other_turn_deg, "largest turn of these, degrees", {0.0, 180.0});
     v.field("undetermined_deg", undetermined_deg, "standard deviation from which a turn is listed as undetermined",
             {1e-3, 360.0});
     v.field("max_iterations", max_iterations, "limit", {1, 10000});
@@ -45,18 +55,21 @@ struct RefinedRegistration {
 // keeps a scan from its mesh is not white noise: the tracker's error e lasts for centimetres, the relief has its
 // own spectrum. Plain least squares follow the slow error, and their covariance is far too small. Here the height
 // over the facet is
-//   d_i = n·(T (p_i − e_i)) − facet = relief,
+//   d_i = n·(T (p_i − e_i)) − facet = m + relief,
 // e is linear between knots with the prior covariance C exp(−|Δs|/slow_length_m), and the relief is whitened
+// about its mean m (known to the relief's own RMS height: a board's holes lie under its face)
 // along the path by an autoregressive filter w_i = d_i + Σ a_k d_{i−k} (Cochrane and Orcutt 1949) from its own
 // autocovariance (Yule–Walker). Gauss–Newton over pose and knots with ∇d = the facet's normal; the filter is made
 // anew from round to round. So the fine signature of the mesh, its curvature over centimetres and less, counts
 // as much as it is worth, and tells where along and across the mesh the tip was.
 //
 // `paths` are those that gave `start`, evenly spaced (to a factor of two); steps of more than three times the
-// median part them. Motions that `start` lists as undetermined stay as they are. The result has the refined pose,
-// residual and covariance, and lists turns that are less certain than undetermined_deg as undetermined. Where
-// fewer than 30 points are usable, `start` is given back with a Problem.
+// median part them. `others` are further poses to begin from: a path has several valleys near a guess (Fig. 25), and
+// with the same whitening for all, the cost says which is the deepest. Motions that `start` lists as undetermined stay
+// as they are. The result has the refined pose, residual and covariance, and lists turns that are less certain than
+// undetermined_deg as undetermined. Where fewer than 30 points are usable, `start` is given back with a Problem.
 RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, const MeshSurface& surface,
-                                        const RegistrationResult& start, const RefineConfig& config);
+                                        const RegistrationResult& start, std::span<const Pose> others,
+                                        const RefineConfig& config);
 
 }  // namespace asperity

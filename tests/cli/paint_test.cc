@@ -1,0 +1,88 @@
+#include <filesystem>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "asperity/testkit/temp_dir.h"
+#include "run_asperity.h"
+
+namespace asperity::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+// A plane of 20 × 10 cells of 2 mm, in millimetres.
+std::string plane_obj() {
+  std::string out;
+  for (int j = 0; j <= 10; ++j) {
+    for (int i = 0; i <= 20; ++i) out += "v " + std::to_string(2 * i) + " " + std::to_string(2 * j) + " 0\n";
+  }
+  for (int j = 0; j < 10; ++j) {
+    for (int i = 0; i < 20; ++i) {
+      const int a = 21 * j + i + 1;
+      out += "f " + std::to_string(a) + " " + std::to_string(a + 1) + " " + std::to_string(a + 22) + " " +
+             std::to_string(a + 21) + "\n";
+    }
+  }
+  return out;
+}
+
+constexpr const char* kTexture =
+    R"({"format":"asperity-texture","version":1,"name":"wave","model":"fourier1d",)"
+    R"("fourier1d":{"length_mm":10,"omega_rad_per_mm":0.6283185307179586,"a_m":[0,0,0,0.0001],"b_m":[0,0,0,0],"mean_m":0},)"
+    R"("extra":{}})";
+
+class PaintCommands : public testing::Test {
+ protected:
+  PaintCommands() {
+    write_text(path("plane.obj"), plane_obj());
+    write_text(path("wave.texture.json"), kTexture);
+  }
+  std::string path(const std::string& name) const { return (dir_ / name).string(); }
+  Outcome paint(const std::string& mesh, const std::string& through) const {
+    return run({"paint", mesh, "--through", through, "--texture", path("wave.texture.json"), "--mesh-unit", "mm", "-o",
+                path("out"), "--json"});
+  }
+
+  testkit::TempDir dir_;
+};
+
+TEST_F(PaintCommands, PointsAreInTheMeshsUnit) {
+  const Outcome outcome = paint(path("plane.obj"), "5,7,0; 35,7,1");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json result = Json::parse(outcome.out);
+  EXPECT_NEAR(result.at("path_length_m").get<double>(), 0.03, 1e-12);
+  EXPECT_NEAR(result.at("pick_distance_m").at(1).get<double>(), 1e-3, 1e-12);
+  EXPECT_NEAR(result.at("warp").at("stretch_max").get<double>(), 1.0, 1e-6);
+}
+
+TEST_F(PaintCommands, APaintedSceneIsPaintedOnAndExported) {
+  ASSERT_EQ(paint(path("plane.obj"), "5,7,0;35,7,0").code, 0);
+  const Outcome again = paint(path("out/scene.json"), "20,2,0;20,18,0");
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(Json::parse(again.out).at("texture").at("index"), 2);
+  EXPECT_GT(Json::parse(again.out).at("painted_over").get<int>(), 0);
+  for (const std::string format : {"obj", "gltf", "png", "wav", "x3p", "stl"}) {
+    const Outcome outcome = run({"export", path("out"), "--to", format, "--speed", "50mm/s"});
+    EXPECT_EQ(outcome.code, 0) << format << ": " << outcome.err;
+    EXPECT_TRUE(std::filesystem::exists(path("out-" + format))) << format;
+  }
+  EXPECT_EQ(run({"export", path("out"), "--to", "obj"}).code, 0);  // replaces its own folder
+}
+
+TEST_F(PaintCommands, RefuseWhatCannotBeMeant) {
+  EXPECT_EQ(paint(path("plane.obj"), "5,7;35,7").code, 2);
+  EXPECT_EQ(paint(path("plane.obj"), "5,7,0").code, 2);
+  EXPECT_EQ(paint(path("none.obj"), "5,7,0;35,7,0").code, 1);
+  EXPECT_EQ(run({"export", path("plane.obj"), "--to", "doc"}).code, 2);
+  EXPECT_EQ(run({"export", path("plane.obj"), "--to", "png"}).code, 1);  // it has no textures
+  std::filesystem::create_directory(path("strange"));
+  write_text(path("strange/mine.txt"), "kept\n");
+  EXPECT_EQ(run({"export", path("wave.texture.json"), "--to", "wav", "-o", path("strange")}).code, 1);
+}
+
+}  // namespace
+}  // namespace asperity::cli
