@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +18,8 @@
 #include "asperity/recording/write_recording.h"
 #include "asperity/simulation/simulate_recording.h"
 #include "commands.h"
+#include "demo_figure.h"
+#include "demo_mesh.h"
 
 namespace asperity::app {
 
@@ -27,7 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kMark = "demo.json";
 
 bool is_demo_folder(const fs::path& folder) {
@@ -64,74 +64,46 @@ std::vector<Scan> make_scans(bool full) {
   return scans;
 }
 
-// A measured figure beside the true one, in SI units; nan where there is none.
-struct Figure {
-  const char* key;
-  const char* title;
-  const char* unit;
-  double scale;  // from SI to the unit that is printed
-  double measured = kNan;
-  double standard_error = kNan;
-  double lower_bound = kNan;  // instead of `measured`
-  double truth = kNan;
-};
-
-std::vector<Figure> compare(const Scan& scan, const Recording& recording, const ProcessResult& result,
-                            const ProcessConfig& config) {
+std::vector<DemoFigure> compare(const Scan& scan, const Recording& recording, const ProcessResult& result,
+                                const ProcessConfig& config) {
   const Profile truth = true_profile(*recording.truth, config.profile);
   const Periodicity pattern = find_periodicity(truth.texture_m, truth.spacing_m, config.periodicity);
   const RoughnessResult roughness = measure_roughness(truth.texture_m, truth.spacing_m, config.roughness);
-  std::vector<Figure> figures;
+  std::vector<DemoFigure> figures;
   if (pattern.periodic) {
     figures.push_back({"pitch_m", "pitch", "mm", 1e3, result.periodicity.pitch_m, result.periodicity.pitch_stderr_m,
-                       kNan, scan.simulation.surface.pitch_m});
+                       DemoFigure::kNone, scan.simulation.surface.pitch_m});
     figures.push_back({"depth_m", "depth", "µm", 1e6, result.periodicity.depth_m, result.periodicity.depth_stderr_m,
-                       kNan, pattern.depth_m});
+                       DemoFigure::kNone, pattern.depth_m});
   }
-  figures.push_back(
-      {"Rq_m", "Rq", "µm", 1e6, result.roughness ? result.roughness->Rq_m : kNan, kNan, kNan, roughness.Rq_m});
+  figures.push_back({"Rq_m", "Rq", "µm", 1e6, result.roughness ? result.roughness->Rq_m : DemoFigure::kNone,
+                     DemoFigure::kNone, DemoFigure::kNone, roughness.Rq_m});
   const StiffnessEstimate& stiffness = result.stiffness;
   const double k_N_per_m = scan.simulation.contact.stiffness_N_per_m;
   if (stiffness.measured) {
     figures.push_back({"stiffness_N_per_m", "contact stiffness", "N/mm", 1e-3, 1e3 * stiffness.stiffness_N_per_mm,
-                       1e3 * stiffness.stiffness_stderr_N_per_mm, kNan, k_N_per_m});
+                       1e3 * stiffness.stiffness_stderr_N_per_mm, DemoFigure::kNone, k_N_per_m});
   } else {
-    figures.push_back({"stiffness_N_per_m", "contact stiffness", "N/mm", 1e-3, kNan, kNan,
+    figures.push_back({"stiffness_N_per_m", "contact stiffness", "N/mm", 1e-3, DemoFigure::kNone, DemoFigure::kNone,
                        1e3 * stiffness.lower_bound_N_per_mm, k_N_per_m});
   }
   if (result.accuracy && result.accuracy->profile) {
-    figures.push_back({"correlation", "correlation", "", 1.0, result.accuracy->profile->correlation, kNan, kNan, 1.0});
-    figures.push_back({"gain", "gain", "", 1.0, result.accuracy->profile->gain, kNan, kNan, 1.0});
+    figures.push_back({"correlation", "correlation", "", 1.0, result.accuracy->profile->correlation, DemoFigure::kNone,
+                       DemoFigure::kNone, 1.0});
+    figures.push_back(
+        {"gain", "gain", "", 1.0, result.accuracy->profile->gain, DemoFigure::kNone, DemoFigure::kNone, 1.0});
     figures.push_back({"length_error", "length error", "%", 1e2, 1e-2 * result.accuracy->profile->length_error_percent,
-                       kNan, kNan, 0.0});
+                       DemoFigure::kNone, DemoFigure::kNone, 0.0});
   }
   return figures;
-}
-
-std::string figure_line(const Figure& figure) {
-  std::string measured = fmt::format("{:.4g}", figure.measured * figure.scale);
-  if (std::isfinite(figure.standard_error)) measured += fmt::format(" ± {:.2g}", figure.standard_error * figure.scale);
-  if (std::isfinite(figure.lower_bound)) measured = fmt::format("> {:.2g}", figure.lower_bound * figure.scale);
-  return fmt::format("  {:<20}{:>18} {:>12.4g}  {}\n", figure.title, measured, figure.truth * figure.scale,
-                     figure.unit);
-}
-
-Json figures_json(const std::vector<Figure>& figures) {
-  Json out;
-  for (const Figure& figure : figures) {
-    Json& one = out[figure.key];
-    one["measured"] = figure.measured;
-    if (std::isfinite(figure.standard_error)) one["stderr"] = figure.standard_error;
-    if (std::isfinite(figure.lower_bound)) one["lower_bound"] = figure.lower_bound;
-    one["true"] = figure.truth;
-  }
-  return out;
 }
 
 class DemoCommand : public Command {
  public:
   explicit DemoCommand(CLI::App& root)
-      : Command(root, "demo", "Simulate scans of two surfaces, process them, and print measured against true") {
+      : Command(
+            root, "demo",
+            "Simulate scans of two surfaces and of a mesh, process and register them, print measured against true") {
     parser().add_flag("--full", full_, "All five surfaces");
     require(parser().add_option("-o,--output", output_, "Folder of the recordings and results"))->type_name("DIR");
   }
@@ -146,6 +118,7 @@ class DemoCommand : public Command {
     out["asperity"] = kVersion;
     std::string text = fmt::format("{:<22}{:>18} {:>12}\n", "", "measured", "true");
     bool trustworthy = true;
+    std::optional<Texture> protoboard;
     for (const Scan& scan : make_scans(full_)) {
       const Recording recording = simulate_recording(scan.simulation, observer);
       const fs::path recording_folder = folder.path() / "recordings" / scan.name;
@@ -155,13 +128,20 @@ class DemoCommand : public Command {
       write_recording(recording_folder, recording);
       const ProcessResult result = process_recording(recording, config_, observer);
       write_result(result_folder, result, recording, scan.name);
-      const std::vector<Figure> figures = compare(scan, recording, result, config_);
+      const std::vector<DemoFigure> figures = compare(scan, recording, result, config_);
       out["surfaces"][scan.name] = figures_json(figures);
       text += scan.title + "\n";
-      for (const Figure& figure : figures) text += figure_line(figure);
+      for (const DemoFigure& figure : figures) text += figure_line(figure);
       if (!result.trustworthy) complain(scan.name + ": not to be trusted: " + result.verdict);
       trustworthy &= result.trustworthy;
+      if (scan.name == "protoboard") protoboard = result.texture;
     }
+    if (!protoboard) throw Error("demo: these settings leave the protoboard without a texture to paint with");
+    const MeshDemo mesh = demonstrate_mesh(folder.path(), config_, *protoboard, observer);
+    out["mesh"] = mesh.json;
+    text += mesh.text;
+    if (!mesh.trustworthy) complain("pebble: not to be trusted: " + mesh.verdict);
+    trustworthy &= mesh.trustworthy;
     const std::string json = out.dump(2, ' ', false, Json::error_handler_t::replace);
     write_file(folder.path() / kMark, json + "\n");
     observer.update("writing", 1.0);
@@ -170,7 +150,8 @@ class DemoCommand : public Command {
     const std::string where = printable(output_, 200);
     say(text +
         fmt::format("\n{0}/recordings/   the raw streams and the truth\n{0}/results/      profile.csv, texture.json, "
-                    "result.json, trajectory.csv of each\n",
+                    "result.json, trajectory.csv of each; of the pebble also the textured mesh\n{0}/painted/      the "
+                    "pebble with both textures\n",
                     where));
     return trustworthy ? kDone : kNotTrustworthy;
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <csignal>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "asperity/testkit/temp_dir.h"
@@ -194,7 +195,8 @@ TEST(Spine, TheDemoPrintsMeasuredAgainstTrue) {
   const Outcome outcome = run({"demo", "-o", out});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   for (const char* word :
-       {"measured", "true", "pitch", "depth", "Rq", "contact stiffness", "correlation", "protoboard", "sandpaper"}) {
+       {"measured", "true", "pitch", "depth", "Rq", "contact stiffness", "correlation", "protoboard", "sandpaper",
+        "pebble", "pose, its points", "undetermined", "painted"}) {
     EXPECT_THAT(outcome.out, HasSubstr(word));
   }
   EXPECT_TRUE(fs::exists(dir / "demo" / "results" / "protoboard" / "texture.json"));
@@ -205,6 +207,24 @@ TEST(Spine, TheDemoPrintsMeasuredAgainstTrue) {
   const auto json = nlohmann::json::parse(again.out);
   EXPECT_GT(json["surfaces"]["protoboard"]["correlation"]["measured"].get<double>(), 0.93);
   EXPECT_EQ(contents(out), before);
+
+  // From 5 mm and 5 degrees off, to within four of its own standard deviations and the tip's calibration (0.17 mm).
+  const auto& pose = json["mesh"]["registration"];
+  EXPECT_LT(pose["pose_m"]["measured"].get<double>(), 4.0 * pose["pose_m"]["stderr"].get<double>() + 0.2e-3);
+  EXPECT_LT(pose["turn_rad"]["measured"].get<double>(), 0.03);
+  EXPECT_GT(pose["correlation"]["measured"].get<double>(), 0.9);
+  EXPECT_GT(json["mesh"]["painted"]["triangles"].get<int>(), 100);
+  for (const char* file : {"textured.obj", "scene.json", "registration.json", "profile.csv"}) {
+    EXPECT_TRUE(fs::exists(dir / "demo" / "results" / "pebble" / file)) << file;
+  }
+  std::ifstream scene(dir / "demo" / "painted" / "scene.json");
+  EXPECT_EQ(nlohmann::json::parse(scene)["textures"].size(), 2u);
+  // What it left serves the other commands.
+  const std::string mesh = (dir / "demo" / "pebble.obj").string();
+  const Outcome registered = run({"register", (dir / "demo" / "recordings" / "pebble").string(), mesh, "--mesh-unit",
+                                  "mm", "-o", (dir / "found").string(), "--json"});
+  EXPECT_EQ(registered.code, 0) << registered.err;
+  EXPECT_EQ(run({"export", (dir / "demo" / "painted").string(), "--to", "stl", "-o", (dir / "stl").string()}).code, 0);
 }
 
 class Interrupted : public ::testing::TestWithParam<int> {};

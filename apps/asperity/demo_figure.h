@@ -1,0 +1,30 @@
+#pragma once
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace asperity::app {
+
+// A measured figure of the demonstration beside the true one, in SI units; nan where there is none.
+struct DemoFigure {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+  const char* key;
+  const char* title;
+  const char* unit;
+  double scale;  // from SI to the unit that is printed
+  double measured = kNone;
+  double standard_error = kNone;
+  double lower_bound = kNone;  // instead of `measured`
+  double truth = kNone;
+};
+
+// One line of the table.
+std::string figure_line(const DemoFigure& figure);
+
+// An object by key of {measured, stderr, lower_bound, true}.
+nlohmann::ordered_json figures_json(const std::vector<DemoFigure>& figures);
+
+}  // namespace asperity::app
