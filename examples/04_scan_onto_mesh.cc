@@ -28,7 +28,7 @@
 
 namespace {
 
-// What a probe and a tracker would have recorded: a stroke of 110 mm over a pebble of sandpaper.
+// What a probe and a tracker would have recorded: a stroke of 100 mm over a pebble of sandpaper.
 asperity::Recording record(const asperity::TriangleMesh& mesh) {
   asperity::SimulationConfig config = asperity::make_simulation_config("sandpaper", "open");
   config.shape.kind = asperity::BaseShapeKind::kMesh;
@@ -85,7 +85,7 @@ int main(int argc, char** argv) try {
   if (argc == 4) {
     asperity::write_file(argv[2], asperity::examples::mesh_svg(scene.objects.front(), on_mesh.path));
     asperity::examples::ProfilePlot plot;
-    plot.title = "the scan's profile";
+    plot.title = "its profile, 25 mm/s";
     plot.shift_m = accuracy.shift_m;
     plot.from_m = 0.04;
     plot.to_m = 0.06;

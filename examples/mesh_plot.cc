@@ -18,6 +18,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kWidth_px = 900.0, kHeight_px = 460.0, kMargin_px = 14.0, kLegend_px = 44.0;
+constexpr double kCloseSize_px = 340.0, kMagnification = 5.0;
+const Eigen::Vector2d kClose_px(546.0, 82.0);  // the close-up's upper left corner
 constexpr int kGreys = 24, kColours = 15, kCuts = 4;
 
 // Right, up and towards the eye, mesh frame.
@@ -28,7 +30,7 @@ struct View {
 
   Eigen::Vector2d px(const Vector3d& p_m) const {
     const Vector3d q = axes * p_m;
-    const double left = 0.5 * (kWidth_px - px_per_m * (high_m.x() - low_m.x()));
+    const double left = kMargin_px;
     const double top = kLegend_px + 0.5 * (kHeight_px - kLegend_px - px_per_m * (high_m.y() - low_m.y()));
     return {left + px_per_m * (q.x() - low_m.x()), top + px_per_m * (high_m.y() - q.y())};
   }
@@ -50,7 +52,7 @@ View make_view(const TriangleMesh& mesh, const MeshPath& path) {
   for (const Vector3d& p : mesh.vertices_m) box.extend(view.axes * p);
   view.low_m = box.min();
   view.high_m = box.max();
-  view.px_per_m = std::min((kWidth_px - 2.0 * kMargin_px) / box.sizes().x(),
+  view.px_per_m = std::min((kClose_px.x() - 2.0 * kMargin_px) / box.sizes().x(),
                            (kHeight_px - kLegend_px - 2.0 * kMargin_px) / box.sizes().y());
   return view;
 }
@@ -79,6 +81,7 @@ std::string grey(int step) {
 
 struct Layers {
   std::map<int, std::string> stone, texture;  // paths by shade
+  std::string edges;                          // of the textured triangles
 };
 
 // The textured triangle cut into kCuts² pieces, each in the colour of its middle.
@@ -115,6 +118,22 @@ std::string path_line(const MeshPath& path, const View& view) {
   return out;
 }
 
+// The drawing again, larger, about a place that a frame marks.
+std::string close_up(const Eigen::Vector2d& at_px) {
+  const double part_px = kCloseSize_px / kMagnification;
+  const Eigen::Vector2d shift_px = kClose_px + Eigen::Vector2d::Constant(0.5 * kCloseSize_px) - kMagnification * at_px;
+  return fmt::format(
+             "<clipPath id=\"frame\"><rect x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\"/></clipPath>\n"
+             "<g clip-path=\"url(#frame)\"><use href=\"#mesh\" transform=\"translate({3:.1f} {4:.1f}) "
+             "scale({5})\"/></g>\n",
+             kClose_px.x(), kClose_px.y(), kCloseSize_px, shift_px.x(), shift_px.y(), kMagnification) +
+         fmt::format(
+             "<g fill=\"none\" stroke=\"#111\"><rect x=\"{0}\" y=\"{1}\" width=\"{2}\" height=\"{2}\"/><rect "
+             "x=\"{3:.1f}\" y=\"{4:.1f}\" width=\"{5}\" height=\"{5}\"/></g>\n",
+             kClose_px.x(), kClose_px.y(), kCloseSize_px, at_px.x() - 0.5 * part_px, at_px.y() - 0.5 * part_px,
+             part_px);
+}
+
 std::string legend(double range_m) {
   std::string out = fmt::format(
       "<g fill=\"#333\"><text x=\"{:.0f}\" y=\"28\" font-weight=\"bold\" fill=\"#111\">a scan on its mesh</text>"
@@ -145,6 +164,7 @@ std::string mesh_svg(const SceneObject& object, const MeshPath& path) {
     const SceneTexture* texture =
         object.mesh.haptic.empty() ? nullptr : object.find_texture(object.mesh.haptic[t].texture);
     if (texture != nullptr && is_height_field(texture->texture.model)) {
+      add_triangle({view.px(p_m[0]), view.px(p_m[1]), view.px(p_m[2])}, layers.edges);
       add_textured(p_m, object.mesh.haptic[t], texture->texture.model, kRange_m, view, layers);
       continue;
     }
@@ -155,7 +175,7 @@ std::string mesh_svg(const SceneObject& object, const MeshPath& path) {
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
       "font-family=\"sans-serif\" font-size=\"14\">\n<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n"
-      "<g transform=\"scale(0.1)\" stroke-width=\"5\" stroke-linejoin=\"round\">\n",
+      "<g id=\"mesh\"><g transform=\"scale(0.1)\" stroke-width=\"5\" stroke-linejoin=\"round\">\n",
       kWidth_px, kHeight_px);
   for (const auto& [step, paths] : layers.stone) {
     out += fmt::format("<path fill=\"{0}\" stroke=\"{0}\" d=\"{1}\"/>\n", grey(step), paths);
@@ -163,9 +183,10 @@ std::string mesh_svg(const SceneObject& object, const MeshPath& path) {
   for (const auto& [step, paths] : layers.texture) {
     out += fmt::format("<path fill=\"{0}\" stroke=\"{0}\" d=\"{1}\"/>\n", height_colour(step), paths);
   }
-  out +=
-      fmt::format("<path fill=\"none\" stroke=\"#111\" stroke-width=\"14\" d=\"{}\"/>\n</g>\n", path_line(path, view));
-  return out + legend(kRange_m) + "</svg>\n";
+  out += fmt::format("<path fill=\"none\" stroke=\"#333\" stroke-width=\"2\" d=\"{}\"/>\n", layers.edges);
+  out += fmt::format("<path fill=\"none\" stroke=\"#111\" stroke-width=\"11\" d=\"{}\"/>\n</g></g>\n",
+                     path_line(path, view));
+  return out + close_up(view.px(path.p_mesh_m[path.size() / 3])) + legend(kRange_m) + "</svg>\n";
 }
 
 }  // namespace asperity::examples
