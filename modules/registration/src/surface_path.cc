@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "asperity/geometry/connected_point.h"
 #include "asperity/geometry/flat_triangle.h"
 #include "asperity/geometry/geodesic_path.h"
 #include "asperity/geometry/straight_path.h"
@@ -92,20 +93,6 @@ Vector2d smoothed(const std::vector<double>& s_m, const std::vector<Vector2d>& p
   return origin + Vector2d(normal.completeOrthogonalDecomposition().solve(right).row(0).transpose());
 }
 
-// A triangle that names a vertex twice has no neighbours: the point goes to one that shares its edge.
-MeshPoint on_neighbour(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const Vector3d& p,
-                       std::uint32_t triangle) {
-  if (adjacency.edge_of_triangle[triangle][0] == MeshAdjacency::kNone) {
-    const Triangle& tri = mesh.triangles[triangle];
-    const std::uint32_t other = tri[1] != tri[0] ? tri[1] : tri[2];
-    for (const std::uint32_t t : adjacency.triangles_of_vertex(tri[0])) {
-      const Triangle& candidate = mesh.triangles[t];
-      if (std::find(candidate.begin(), candidate.end(), other) != candidate.end()) return {t, weights_of(mesh, t, p)};
-    }
-  }
-  return {triangle, weights_of(mesh, triangle, p)};
-}
-
 void join(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const MeshPoint& from, const MeshPoint& to,
           double from_s_m, double to_s_m, SurfacePath& out) {
   if (from.triangle == to.triangle) {
@@ -126,29 +113,12 @@ void join(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const MeshPo
 
 }  // namespace
 
-Vector3d weights_of(const TriangleMesh& mesh, std::uint32_t triangle, const Vector3d& p) {
-  const auto& [ia, ib, ic] = mesh.triangles[triangle];
-  const Vector3d& a = mesh.vertices_m[ia];
-  const Vector3d ab = mesh.vertices_m[ib] - a;
-  const Vector3d ac = mesh.vertices_m[ic] - a;
-  const Vector3d normal = ab.cross(ac);
-  const double area = normal.squaredNorm();
-  Vector3d weight = Vector3d::UnitX();
-  if (area > 0.0) {
-    weight[1] = (p - a).cross(ac).dot(normal) / area;
-    weight[2] = ab.cross(p - a).dot(normal) / area;
-    weight[0] = 1.0 - weight[1] - weight[2];
-  }
-  weight = weight.cwiseMax(0.0);
-  return weight / weight.sum();
-}
-
 SurfacePath make_surface_path(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const MeshPath& path,
                               double half_window_m, double edge_m) {
   SurfacePath out;
   out.points.reserve(path.size());
   for (std::size_t i = 0; i < path.size(); ++i)
-    out.points.push_back(on_neighbour(mesh, adjacency, path.p_mesh_m[i], path.triangle[i]));
+    out.points.push_back(connected_point(mesh, adjacency, path.triangle[i], path.p_mesh_m[i]));
   for (std::size_t i = 1; i < path.size(); ++i) {
     const double apart_m = (path.p_mesh_m[i] - path.p_mesh_m[i - 1]).norm();
     if (apart_m > 2.0 * edge_m + 2.0 * (path.s_m[i] - path.s_m[i - 1])) ++out.jumps;

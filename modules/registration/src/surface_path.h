@@ -29,9 +29,6 @@ struct SurfacePath {
   std::size_t jumps = 0;          // points further from the last than their s_m and the mesh's edges allow
 };
 
-// The weights of the foot of `p` on the triangle's plane, kept within the triangle.
-Eigen::Vector3d weights_of(const TriangleMesh& mesh, std::uint32_t triangle, const Eigen::Vector3d& p);
-
 // Joins the points of a path over the surface, smoothed by a quadratic in s_m through the points within
 // `half_window_m` of each place (nearer ones count more); 0: as they are. The smoothing is done in the plane
 // into which the triangles along the path unfold, so that it follows the surface round its edges.

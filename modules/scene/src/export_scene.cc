@@ -9,10 +9,10 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "asperity/geometry/write_obj.h"
 #include "asperity/geometry/write_stl.h"
 #include "asperity/scene/format_wav.h"
 #include "asperity/scene/format_x3p.h"
+#include "asperity/scene/write_scene.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/fourier1d.h"
 #include "asperity/texture/sample_heights.h"
@@ -109,7 +109,8 @@ void add_texture(const std::string& stem, const Texture& texture, ExportFormat f
 void add_mesh(const std::string& stem, const Scene& scene, const SceneObject& object, ExportFormat format,
               const ExportConfig& config, ExportResult& out) {
   if (format == ExportFormat::kObj) {
-    out.files.push_back({stem + ".obj", format_obj(object.mesh)});
+    for (SceneFile& file : format_mesh_in_scene(stem + ".obj", object.mesh))
+      out.files.push_back({file.name, std::move(file.content)});
   } else if (format == ExportFormat::kGltf) {
     out.files.push_back({stem + ".glb", object_as_glb(scene, object, config.images, out.problems)});
   } else {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "asperity/base/error.h"
+#include "asperity/geometry/connected_point.h"
 #include "asperity/geometry/geodesic_path.h"
 #include "asperity/geometry/mesh_surface.h"
 
@@ -40,7 +41,7 @@ VirtualPath path_through(const MeshSurface& surface, std::span<const Vector3d> p
   for (const Vector3d& pick : picks_mesh_m) {
     const ClosestPoint nearest = surface.bvh.closest_point(pick);
     if (!nearest.found()) throw Error("paint: point " + std::to_string(through.size() + 1) + " is not finite");
-    through.push_back({nearest.triangle, nearest.barycentric});
+    through.push_back(connected_point(surface.mesh, surface.adjacency, nearest.triangle, nearest.p_m));
     out.pick_distance_m.push_back(nearest.distance_m);
   }
   const GeodesicPath shortest = geodesic_path(surface.mesh, surface.adjacency, through);

@@ -45,6 +45,9 @@ void add_object(Json& out, const SceneObject& object) {
 // The files of a scene, each name once and inside the scene's folder.
 class Files {
  public:
+  void add(std::vector<SceneFile> files) {
+    for (SceneFile& file : files) add(file.name, std::move(file.content));
+  }
   void add(const std::string& name, std::string content) {
     if (!stays_inside(name)) throw Error("scene: '" + printable(name) + "' is not a file in the scene's folder");
     if (!names_.insert(name).second) throw Error("scene: two files would be called '" + printable(name) + "'");
@@ -56,23 +59,6 @@ class Files {
   std::set<std::string> names_;
   std::vector<SceneFile> files_;
 };
-
-// The mesh, its materials in one library beside it.
-void add_mesh(const SceneObject& object, Files& out) {
-  if (fs::path(object.mesh_file).extension() != ".obj") {
-    throw Error("scene: the mesh '" + printable(object.mesh_file) + "' is not called *.obj");
-  }
-  if (object.mesh.materials.empty()) return out.add(object.mesh_file, format_obj(object.mesh));
-  MeshFile mesh = object.mesh;
-  const fs::path library = fs::path(object.mesh_file).replace_extension(".mtl");
-  mesh.material_libraries = {library.filename().string()};
-  out.add(object.mesh_file, format_obj(mesh));
-  out.add(library.string(), format_mtl(mesh.materials));
-}
-
-void add_texture(const SceneTexture& texture, Files& out) {
-  for (SceneFile& file : format_texture_in_scene(texture)) out.add(file.name, std::move(file.content));
-}
 
 }  // namespace
 
@@ -106,13 +92,23 @@ std::vector<SceneFile> format_texture_in_scene(const SceneTexture& texture) {
   return out;
 }
 
+std::vector<SceneFile> format_mesh_in_scene(const std::string& name, const MeshFile& mesh) {
+  if (mesh.materials.empty()) return {{name, format_obj(mesh)}};
+  MeshFile named = mesh;
+  const fs::path library = fs::path(name).replace_extension(".mtl");
+  named.material_libraries = {library.filename().string()};
+  return {{library.string(), format_mtl(mesh.materials)}, {name, format_obj(named)}};
+}
+
 std::vector<SceneFile> format_scene_files(const std::string& name, const Scene& scene) {
   Files out;
   std::string text = format_scene(scene);
   for (const SceneObject& object : scene.objects) {
-    for (const SceneTexture& texture : object.textures) add_texture(texture, out);
+    for (const SceneTexture& texture : object.textures) out.add(format_texture_in_scene(texture));
     if (!object.material_file.empty()) out.add(object.material_file, format_material_map(object.material));
-    add_mesh(object, out);
+    if (fs::path(object.mesh_file).extension() != ".obj")
+      throw Error("scene: the mesh '" + printable(object.mesh_file) + "' is not called *.obj");
+    out.add(format_mesh_in_scene(object.mesh_file, object.mesh));
   }
   out.add(name, std::move(text));
   return out.take();

@@ -234,5 +234,21 @@ TEST(ExportScene, WithNothingToWriteIsAnError) {
   EXPECT_THROW(export_scene(scene, ExportFormat::kPng), Error);
 }
 
+TEST(ExportScene, AnObjBringsItsMaterials) {
+  Scene scene;
+  SceneObject object;
+  object.mesh_file = "m.obj";
+  object.mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  object.mesh.triangles = {{0, 1, 2}};
+  object.mesh.materials.emplace_back().name = "wood";
+  object.mesh.material_libraries = {"elsewhere.mtl"};
+  scene.objects.push_back(object);
+  const ExportResult result = export_scene(scene, ExportFormat::kObj);
+  ASSERT_EQ(result.files.size(), 2u);
+  EXPECT_EQ(result.files[0].name, "m.mtl");
+  EXPECT_EQ(result.files[0].content, "newmtl wood\n");
+  EXPECT_TRUE(result.files[1].content.starts_with("mtllib m.mtl\n"));
+}
+
 }  // namespace
 }  // namespace asperity

@@ -56,6 +56,17 @@ TEST(Paint, LaysATextureAlongAStraightLineOfAPlaneAtItsOwnScale) {
   ASSERT_EQ(object.textures.size(), 1u);
 }
 
+TEST(Paint, PicksAtVerticesOfTrianglesThatNameAVertexTwice) {
+  SceneObject object = plane_object();
+  auto& triangles = object.mesh.triangles;
+  const std::uint32_t first = triangles[200][0], last = triangles[1700][1];
+  triangles.insert(triangles.begin(), {{first, first, triangles[200][1]}, {last, last, last}});
+  const std::vector<Vector3d> picks{1e-3 * object.mesh.vertices[first], 1e-3 * object.mesh.vertices[last]};
+  const PaintResult result = paint(object, picks, grating(1));
+  EXPECT_NEAR(result.path.path.s_m.back(), (picks[1] - picks[0]).norm(), 1e-12);
+  EXPECT_GT(result.warp.triangles, 40u);
+}
+
 TEST(Paint, ASecondStrokeCoversWhatItCrossesOnly) {
   SceneObject object = plane_object();
   const std::vector<Vector3d> across{{0.01, 0.02, 0.0}, {0.05, 0.02, 0.0}};

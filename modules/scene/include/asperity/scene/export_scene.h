@@ -40,7 +40,7 @@ struct ExportResult {
 };
 
 // A scene in the files of other programs:
-//   obj   each mesh as Wavefront OBJ with its haptic coordinates
+//   obj   each mesh as Wavefront OBJ with its haptic coordinates, and its materials
 //   gltf  each mesh with its textures as normal and height maps, one .glb
 //   png   each texture's heights and normals, 16 bits, and a JSON file of their size and range
 //   wav   the acceleration of a tool that strokes each texture, 90 % of full scale at its highest; a JSON file says

@@ -21,7 +21,10 @@ struct SceneFile {
 // A texture's file and those that it names (texture_file.h), these first.
 std::vector<SceneFile> format_texture_in_scene(const SceneTexture& texture);
 
-// All files of a scene: textures, material maps and meshes (augmented OBJ, seed §6.3; materials beside them),
+// A mesh as augmented OBJ (seed §6.3), its materials in one library beside it, this first.
+std::vector<SceneFile> format_mesh_in_scene(const std::string& name, const MeshFile& mesh);
+
+// All files of a scene: textures, material maps and meshes,
 // last the scene itself, called `name`. Throws Error for a name that leads out of the folder or that two files
 // share, or a mesh file that is not called *.obj.
 std::vector<SceneFile> format_scene_files(const std::string& name, const Scene& scene);
