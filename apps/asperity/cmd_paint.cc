@@ -37,32 +37,6 @@ struct PaintSettings {
   }
 };
 
-// "x,y,z;x,y,z;…" in units of `unit_m`.
-std::vector<Eigen::Vector3d> points_option_m(const std::string& text, double unit_m) {
-  std::vector<Eigen::Vector3d> points;
-  std::size_t at = 0;
-  while (at <= text.size()) {
-    const std::size_t end = std::min(text.find(';', at), text.size());
-    const std::string_view one = trim(std::string_view(text).substr(at, end - at));
-    at = end + 1;
-    if (one.empty() && at > text.size()) break;
-    Eigen::Vector3d p;
-    std::size_t from = 0;
-    for (int i = 0; i < 3; ++i) {
-      const std::size_t comma = i < 2 ? one.find(',', from) : one.size();
-      const auto value =
-          comma == std::string_view::npos ? std::nullopt : parse_double(trim(one.substr(from, comma - from)));
-      if (!value || !std::isfinite(*value))
-        throw UsageError("--through: '" + printable(one) + "' is not a point x,y,z");
-      p[i] = *value * unit_m;
-      from = comma + 1;
-    }
-    points.push_back(p);
-  }
-  if (points.size() < 2) throw UsageError("--through: at least two points x,y,z are needed, with ; between");
-  return points;
-}
-
 class PaintCommand : public Command {
  public:
   explicit PaintCommand(CLI::App& root)
@@ -94,7 +68,8 @@ class PaintCommand : public Command {
 
   int run(const Observer& observer) override {
     const double unit_m = mesh_unit_.empty() ? 1.0 : unit_option_m("--mesh-unit", mesh_unit_);
-    const std::vector<Eigen::Vector3d> picks = points_option_m(through_, unit_m);
+    const std::vector<Eigen::Vector3d> picks = points_option_m("--through", through_, unit_m);
+    if (picks.size() < 2) throw UsageError("--through: at least two points x,y,z are needed, with ; between");
     OutputFolder folder(output_, is_our_folder);
     observer.update("reading", 0.0);
     Scene scene = read_scene(mesh_);
@@ -105,14 +80,16 @@ class PaintCommand : public Command {
         throw UsageError(fmt::format("--mesh-unit: the scene says {} m", object.unit_m));
       object.unit_m = unit_m;
     }
-    if (fs::path(object.mesh_file).extension() != ".obj")
-      object.mesh_file = fs::path(object.mesh_file).replace_extension(".obj").string();
+    for (SceneObject& each : scene.objects) {
+      if (fs::path(each.mesh_file).extension() != ".obj")
+        each.mesh_file = fs::path(each.mesh_file).replace_extension(".obj").string();
+    }
     if (!is_scene) object.mesh_file = "textured.obj";
 
     SceneTexture texture;
     texture.index = index_ >= 0 ? index_ : next_index(object);
     texture.texture = read_texture(texture_);
-    texture.file = free_name(object, texture.index, fs::path(texture_).filename().string());
+    texture.file = free_name(scene, texture.index, fs::path(texture_).filename().string());
 
     observer.update("painting", 0.0);
     const PaintResult result = paint(object, picks, texture, settings_.coordinates);
@@ -135,12 +112,23 @@ class PaintCommand : public Command {
     return index + 1;
   }
 
-  // Two textures of one scene do not share a file.
-  static std::string free_name(const SceneObject& object, int index, const std::string& wanted) {
-    for (const SceneTexture& other : object.textures) {
-      if (other.index != index && other.file == wanted) return fmt::format("{}-{}", index, wanted);
+  // Two textures of one scene share no file, nor the images named after them; none is called as another file is.
+  static bool is_taken(const Scene& scene, int index, const std::string& name) {
+    if (name == "scene.json" || name == "paint.json" || name == "files.json") return true;
+    for (const SceneObject& object : scene.objects) {
+      if (name == object.mesh_file || name == object.material_file) return true;
+      for (const SceneTexture& other : object.textures) {
+        const bool replaced = &object == &scene.objects.front() && other.index == index;
+        if (!replaced && texture_stem(other.file) == texture_stem(name)) return true;
+      }
     }
-    return wanted;
+    return false;
+  }
+
+  static std::string free_name(const Scene& scene, int index, const std::string& wanted) {
+    std::string name = wanted;
+    for (int n = index; is_taken(scene, index, name); ++n) name = fmt::format("{}-{}", n, wanted);
+    return name;
   }
 
   Json to_json(const PaintResult& result, const SceneObject& object, const SceneTexture& texture) {

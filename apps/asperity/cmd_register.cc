@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <string>
@@ -10,12 +11,15 @@
 #include <vector>
 
 #include "asperity/base/csv.h"
+#include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/read_mesh.h"
 #include "asperity/pipeline/register_scans.h"
 #include "asperity/pipeline/write_registration.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/registration/manual_alignment.h"
+#include "asperity/scene/read_scene.h"
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
 #include "option_units.h"
@@ -54,11 +58,25 @@ class RegisterCommand : public Command {
     parser()
         .add_option("--mesh-unit", mesh_unit_, "Length of the mesh's unit: m (the default), mm, cm, or such as 0.06m")
         ->type_name("LENGTH");
+    CLI::Option* guess =
+        parser()
+            .add_option("--guess", guess_,
+                        "x,y,z,qw,qx,qy,qz of T_mesh_world in metres, near which to begin; without any guess the whole "
+                        "mesh is searched")
+            ->type_name("POSE");
+    CLI::Option* align = parser()
+                             .add_option("--align", align_,
+                                         "The guess as x,y,z,rx,ry,rz: metres, and degrees about x, the turned y and "
+                                         "the twice turned z")
+                             ->type_name("SIX")
+                             ->excludes(guess);
     parser()
-        .add_option("--guess", guess_,
-                    "x,y,z,qw,qx,qy,qz of T_mesh_world in metres, near which to begin; without it the whole mesh is "
-                    "searched")
-        ->type_name("POSE");
+        .add_option("--picks", picks_,
+                    "The guess as three or more pairs x,y,z=x,y,z;… of the path's points (m) and the mesh's (in its "
+                    "unit)")
+        ->type_name("PAIRS")
+        ->excludes(guess)
+        ->excludes(align);
     parser()
         .add_option("--texture", textures_,
                     "Texture to lay along a path instead of its own; one for all, or one a path")
@@ -76,8 +94,7 @@ class RegisterCommand : public Command {
       throw UsageError(fmt::format("--texture: {} textures for {} paths", textures_.size(), files_.size()));
     }
     const double unit_m = mesh_unit_.empty() ? 1.0 : unit_option_m("--mesh-unit", mesh_unit_);
-    std::optional<Pose> guess;
-    if (!guess_.empty()) guess = pose_option("--guess", guess_);
+    const std::optional<Pose> guess = first_pose(unit_m);
 
     OutputFolder folder(output_, is_registration_folder);
     observer.update("reading", 0.0);
@@ -88,6 +105,9 @@ class RegisterCommand : public Command {
       scans.push_back(read_scan(files_[i]));
       if (!names.insert(scans.back().name).second) {
         throw UsageError("two paths are called '" + printable(scans.back().name) + "'");
+      }
+      if (files_.size() > 1 && !stays_inside(scans.back().name)) {
+        throw UsageError("'" + printable(scans.back().name) + "' cannot be the name of a scan's folder");
       }
       if (!textures_.empty()) scans.back().texture = read_texture(textures_[textures_.size() == 1 ? 0 : i]);
     }
@@ -105,6 +125,19 @@ class RegisterCommand : public Command {
   }
 
  private:
+  // Where to begin, however it was said.
+  std::optional<Pose> first_pose(double unit_m) const {
+    if (!guess_.empty()) return pose_option("--guess", guess_);
+    if (!align_.empty()) return align_manually(alignment_option("--align", align_));
+    if (picks_.empty()) return std::nullopt;
+    const PickedPairs pairs = pairs_option("--picks", picks_, unit_m);
+    try {
+      return align_picked(pairs.p_world_m, pairs.p_mesh_m).T_b_a;
+    } catch (const Error& error) {
+      throw UsageError(std::string("--picks: ") + error.what());
+    }
+  }
+
   // Nothing that a hand scans is as large as a house: the unit was forgotten.
   static void warn_of_size(const MeshFile& mesh, double unit_m, ScansOnMesh& result) {
     constexpr double kLarge_m = 5.0;
@@ -134,7 +167,7 @@ class RegisterCommand : public Command {
     if (registration.runner_up) {
       const RunnerUp& other = *registration.runner_up;
       out += fmt::format("runner-up     residual {:.3f} mm RMS, {:.1f} mm and {:.1f} degrees away\n", other.rms_m * 1e3,
-                         other.distance_m * 1e3, other.turn_rad * 180.0 / 3.14159265358979);
+                         other.distance_m * 1e3, other.turn_rad * 180.0 / std::numbers::pi);
     }
     if (!registration.verdict.empty()) out += "verdict       " + registration.verdict + "\n";
     for (std::size_t i = 0; i < result.scans.size(); ++i) {
@@ -144,8 +177,9 @@ class RegisterCommand : public Command {
                          i < result.coordinates.warps.size() ? result.coordinates.warps[i].triangles : 0);
       if (scan.path_texture) {
         out += fmt::format(", texture {} harmonics, {:.1f} µm RMS, model error {:.1f} µm",
-                           scan.path_texture->fit.texture.a_m.size(), scan.path_texture->fit.rms_height_m * 1e6,
-                           scan.path_texture->fit.rms_error_m * 1e6);
+                           scan.path_texture->series.fit.texture.a_m.size(),
+                           scan.path_texture->series.fit.rms_height_m * 1e6,
+                           scan.path_texture->series.fit.rms_error_m * 1e6);
       }
       out += "\n";
       if (scan.process.accuracy && scan.process.accuracy->profile) {
@@ -160,7 +194,7 @@ class RegisterCommand : public Command {
   }
 
   std::vector<std::string> files_, textures_;
-  std::string mesh_unit_, guess_, output_;
+  std::string mesh_unit_, guess_, align_, picks_, output_;
   RegisterConfig config_;
 };
 

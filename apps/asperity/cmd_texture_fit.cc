@@ -13,6 +13,9 @@
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/pipeline/config_json.h"
+#include "asperity/pipeline/process_recording.h"
+#include "asperity/pipeline/recorded_series.h"
+#include "asperity/recording/read_recording.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
@@ -42,7 +45,7 @@ class TextureFitCommand : public Command {
       : Command(root, "fit", "A haptic texture from profiles, strokes, an areal map or another texture") {
     require(parser().add_option("PROFILE", files_,
                                 "profile.csv, heights, x,y,z or t_s,acceleration_mps2,speed_mps,force_N tables, a "
-                                "*.texture.json or a Penn *.xml"));
+                                "*.texture.json, a Penn *.xml, or (autoregressive) a recording"));
     require(parser().add_option("-o,--output", output_, "The texture's file"))->type_name("X.texture.json");
     parser()
         .add_option(
@@ -206,7 +209,8 @@ class TextureFitCommand : public Command {
       fitted.texture.model = std::move(penn.texture);
       return;
     }
-    const SeriesTable table = read_series(files_.front());
+    const SeriesTable table = std::filesystem::is_directory(files_.front()) ? series_of_recording(files_.front())
+                                                                            : read_series(files_.front());
     AutoregressiveFit fit = fit_autoregressive({table.acceleration_mps2, table.speed_mps, table.force_N, table.rate_Hz},
                                                settings_.autoregressive);
     fitted.report["samples"] = fit.samples;
@@ -220,6 +224,18 @@ class TextureFitCommand : public Command {
     }
     fitted.take(fit.problems);
     fitted.texture.model = std::move(fit.texture);
+  }
+
+  // Acceleration along the normal, speed and force as the fused estimate has them.
+  static SeriesTable series_of_recording(const std::string& folder) {
+    const ProcessResult result = process_recording(read_recording(folder), {});
+    try {
+      RecordedSeries series = recorded_series(result);
+      return {std::move(series.acceleration_mps2), std::move(series.speed_mps), std::move(series.force_N),
+              series.rate_Hz};
+    } catch (const Error& error) {
+      throw Error(printable(folder, 200) + ": " + error.what());
+    }
   }
 
   void fit_taps(Fitted& fitted) {
@@ -289,6 +305,13 @@ class TextureFitCommand : public Command {
     }
     if (fitted.report.contains("spectrum_error"))
       text += fmt::format(", spectrum error {:.1f} %", 100.0 * fitted.report["spectrum_error"].get<double>());
+    if (fitted.report.contains("models"))
+      text += fmt::format(", {} models", fitted.report["models"].get<std::size_t>());
+    if (fitted.report.contains("held_out")) {
+      const Json& error = fitted.report["held_out"];
+      text += fmt::format(", on a held-out half: variance {:+.1f} %, spectrum {:.1f} %",
+                          100.0 * error["variance_error"].get<double>(), 100.0 * error["spectrum_error"].get<double>());
+    }
     if (texture.lift_m) text += fmt::format(", lift {:.4g} µm", *texture.lift_m * 1e6);
     text += "\n";
     for (const auto& problem : fitted.problems) text += "note: " + problem.message + "\n";

@@ -1,11 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "asperity/base/error.h"
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/scene/read_scene.h"
 #include "asperity/scene/swap_texture.h"
@@ -28,32 +33,69 @@ class TextureSwapCommand : public Command {
     require(parser().add_option("INDEX", index_, "The texture's number in the mesh's h lines"));
     require(parser().add_option("TEXTURE", texture_, "The *.texture.json to lay there"));
     parser()
-        .add_option("-o,--output", output_, "The new scene; SCENE itself unless given")
+        .add_option("-o,--output", output_, "The new scene, in SCENE's folder or elsewhere; SCENE itself unless given")
         ->type_name("OUT.scene.json");
   }
 
   int run(const Observer&) override {
+    const fs::path target = output_.empty() ? scene_ : output_;
+    if (fs::path(scene_).extension() != ".json" || target.extension() != ".json")
+      throw UsageError("a scene's file is called *.scene.json");
     Scene scene = read_scene(scene_);
-    const std::string file = fs::path(texture_).filename().string();
-    const SceneTexture* before = scene.objects.empty() ? nullptr : scene.objects.front().find_texture(index_);
+    const SceneTexture* before = scene.objects.front().find_texture(index_);
     const std::string old = before ? before->file : std::string();
-    swap_texture(scene, index_, read_texture(texture_), file);
-    const std::string target = output_.empty() ? scene_ : output_;
-    write_scene(target, scene);
+    swap_texture(scene, index_, read_texture(texture_), fs::path(texture_).filename().string());
+    if (!output_.empty() && fs::exists(target) && !fs::equivalent(target, scene_))
+      throw Error(printable(output_, 200) + ": exists; nothing was changed");
+    const std::string file = folder_of(target) == folder_of(scene_) ? put_beside(scene) : put_elsewhere(scene, target);
+    write_file(target, format_scene(scene));
     Json out;
     out["format"] = "asperity-texture-swap";
     out["version"] = 1;
-    out["scene"] = target;
+    out["scene"] = target.string();
     out["index"] = index_;
     out["before"] = old.empty() ? Json(nullptr) : Json(old);
     out["after"] = file;
     out["asperity"] = kVersion;
     print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
-    say(fmt::format("{}: texture {} is now {}{}\n", target, index_, file, old.empty() ? "" : ", before " + old));
+    say(fmt::format("{}: texture {} is now {}{}\n", printable(target.string(), 200), index_, printable(file, 200),
+                    old.empty() ? "" : ", before " + printable(old, 200)));
     return kDone;
   }
 
  private:
+  static fs::path folder_of(const fs::path& file) { return fs::weakly_canonical(fs::absolute(file).parent_path()); }
+
+  // Only the new texture is written: the scene's other files stay as they are. No file of another content is
+  // replaced; the texture gets a number instead.
+  std::string put_beside(Scene& scene) const {
+    auto& textures = scene.objects.front().textures;
+    const auto place = std::find_if(textures.begin(), textures.end(), [&](const auto& t) { return t.index == index_; });
+    const fs::path folder = folder_of(scene_);
+    std::vector<SceneFile> files = format_texture_in_scene(*place);
+    for (int n = 2; find_other_content(folder, files); ++n) {
+      place->file = fmt::format("{}-{}.texture.json", texture_stem(texture_), n);
+      files = format_texture_in_scene(*place);
+    }
+    for (const SceneFile& one : files) write_file(folder / one.name, one.content);
+    return place->file;
+  }
+
+  // All files of the scene go where no other is lost by it.
+  std::string put_elsewhere(const Scene& scene, const fs::path& target) const {
+    const std::string after = scene.objects.front().find_texture(index_)->file;
+    const std::vector<SceneFile> files = format_scene_files(target.filename().string(), scene);
+    if (const auto taken = find_other_content(folder_of(target), files)) {
+      throw Error(printable((target.parent_path() / *taken).string(), 200) +
+                  ": exists with other content; nothing was changed");
+    }
+    for (const SceneFile& one : files) {
+      fs::create_directories((folder_of(target) / one.name).parent_path());
+      if (&one != &files.back()) write_file(folder_of(target) / one.name, one.content);
+    }
+    return after;
+  }
+
   std::string scene_;
   int index_ = 0;
   std::string texture_;

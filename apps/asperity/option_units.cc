@@ -1,6 +1,7 @@
 #include "option_units.h"
 
 #include <cmath>
+#include <optional>
 #include <string_view>
 
 #include "asperity/base/text.h"
@@ -59,20 +60,71 @@ std::array<double, 3> lengths_option_m(const std::string& option, const std::str
   return out;
 }
 
-Pose pose_option(const std::string& option, const std::string& text) {
-  std::array<double, 7> v{};
-  std::string_view rest = text;
-  const auto fail = [&] {
-    throw UsageError(option + ": '" + printable(text, 200) + "' is not a pose, such as 0.1,0,0.3,1,0,0,0");
-  };
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    const auto comma = rest.find(',');
-    if ((comma == std::string_view::npos) != (i + 1 == v.size())) fail();
-    const auto number = parse_double(rest.substr(0, comma));
-    if (!number || !std::isfinite(*number)) fail();
-    v[i] = *number;
-    rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
+namespace {
+
+// Exactly N finite numbers with commas between; nothing if the text is not that.
+template <std::size_t N>
+std::optional<std::array<double, N>> numbers(std::string_view text) {
+  std::array<double, N> out{};
+  for (std::size_t i = 0; i < N; ++i) {
+    const auto comma = text.find(',');
+    const auto number = parse_double(text.substr(0, comma));
+    const bool last = i + 1 == N;
+    if (!number || !std::isfinite(*number) || (comma == std::string_view::npos) != last) return std::nullopt;
+    out[i] = *number;
+    if (!last) text.remove_prefix(comma + 1);
   }
+  return out;
+}
+
+Eigen::Vector3d point_m(const std::string& option, std::string_view text, double unit_m) {
+  const auto p = numbers<3>(text);
+  if (!p) throw UsageError(option + ": '" + printable(trim(text)) + "' is not a point x,y,z");
+  return unit_m * Eigen::Vector3d((*p)[0], (*p)[1], (*p)[2]);
+}
+
+// Calls visit for what stands between the semicolons; one at the end is allowed.
+template <class Visit>
+void for_each_entry(std::string_view text, Visit visit) {
+  while (!trim(text).empty()) {
+    const auto end = text.find(';');
+    visit(trim(text.substr(0, end)));
+    text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+  }
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> points_option_m(const std::string& option, const std::string& text, double unit_m) {
+  std::vector<Eigen::Vector3d> out;
+  for_each_entry(text, [&](std::string_view entry) { out.push_back(point_m(option, entry, unit_m)); });
+  return out;
+}
+
+PickedPairs pairs_option(const std::string& option, const std::string& text, double unit_m) {
+  PickedPairs out;
+  for_each_entry(text, [&](std::string_view entry) {
+    const auto equals = entry.find('=');
+    if (equals == std::string_view::npos)
+      throw UsageError(option + ": '" + printable(entry) + "' is not a pair x,y,z=x,y,z");
+    out.p_world_m.push_back(point_m(option, entry.substr(0, equals), 1.0));
+    out.p_mesh_m.push_back(point_m(option, entry.substr(equals + 1), unit_m));
+  });
+  return out;
+}
+
+ManualAlignment alignment_option(const std::string& option, const std::string& text) {
+  const auto v = numbers<6>(text);
+  if (!v) {
+    throw UsageError(option + ": '" + printable(text, 200) + "' is not x,y,z,rx,ry,rz, such as 0.1,0,0.3,90,0,0");
+  }
+  return {{(*v)[0], (*v)[1], (*v)[2]}, {(*v)[3], (*v)[4], (*v)[5]}};
+}
+
+Pose pose_option(const std::string& option, const std::string& text) {
+  const auto seven = numbers<7>(text);
+  if (!seven) throw UsageError(option + ": '" + printable(text, 200) + "' is not a pose, such as 0.1,0,0.3,1,0,0,0");
+  const auto& v = *seven;
   const Eigen::Quaterniond q(v[3], v[4], v[5], v[6]);
   constexpr double kNormTolerance = 0.01;  // of a quaternion typed with a few digits
   if (!(std::abs(q.norm() - 1.0) < kNormTolerance)) {

@@ -2,8 +2,12 @@
 
 #include <array>
 #include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "asperity/geometry/pose.h"
+#include "asperity/registration/manual_alignment.h"
 
 namespace asperity::app {
 
@@ -17,5 +21,17 @@ std::array<double, 3> lengths_option_m(const std::string& option, const std::str
 
 // x,y,z,qw,qx,qy,qz: metres, and a quaternion, which is normalised.
 Pose pose_option(const std::string& option, const std::string& text);
+
+// Points "x,y,z;x,y,z;…" in units of `unit_m`.
+std::vector<Eigen::Vector3d> points_option_m(const std::string& option, const std::string& text, double unit_m);
+
+struct PickedPairs {
+  std::vector<Eigen::Vector3d> p_world_m, p_mesh_m;
+};
+// Pairs of points "x,y,z=x,y,z;…": the first of each in metres, the second in units of `unit_m`.
+PickedPairs pairs_option(const std::string& option, const std::string& text, double unit_m);
+
+// x,y,z,rx,ry,rz: metres and degrees.
+ManualAlignment alignment_option(const std::string& option, const std::string& text);
 
 }  // namespace asperity::app

@@ -144,6 +144,44 @@ TEST_F(Register, APathOfPointsIsFoundAgain) {
   EXPECT_TRUE(fs::exists(dir_ / "out" / "scene.json"));
 }
 
+TEST_F(Register, AlignmentByHandIsAGuess) {
+  write_path("path.csv", kTruth, 0.15e-3);
+  // Three points of the pebble, picked to a millimetre on the path (m) and on the mesh (mm).
+  std::ostringstream picks;
+  for (const double longitude : {0.2, 1.4, 2.9}) {
+    const Vector3d mesh_mm = 1e3 * pebble_point(longitude, 0.3) + Vector3d(0.6, -0.5, 0.4);
+    const Vector3d world_m = kTruth * pebble_point(longitude, 0.3);
+    picks << world_m.x() << ',' << world_m.y() << ',' << world_m.z() << '=' << mesh_mm.x() << ',' << mesh_mm.y() << ','
+          << mesh_mm.z() << ';';
+  }
+  const Pose T_mesh_world = kTruth.inverse();
+  // Rx(a) Ry(b) Rz(c) has (0, 2) = sin b, (1, 2) = -sin a cos b, (2, 2) = cos a cos b, (0, 1) = -cos b sin c.
+  const Eigen::Matrix3d r = T_mesh_world.rotation.toRotationMatrix();
+  const double degree = std::numbers::pi / 180.0;
+  std::ostringstream six;
+  six << T_mesh_world.translation_m.x() + 2e-3 << ',' << T_mesh_world.translation_m.y() << ','
+      << T_mesh_world.translation_m.z() << ',' << std::atan2(-r(1, 2), r(2, 2)) / degree + 2.0 << ','
+      << std::asin(r(0, 2)) / degree << ',' << std::atan2(-r(0, 1), r(0, 0)) / degree;
+  const auto found = [&](const Words& guess) {
+    Words words{"register", path("path.csv"), mesh(), "--mesh-unit", "mm", "-o", path("out"), "--json"};
+    words.insert(words.end(), guess.begin(), guess.end());
+    const Outcome outcome = run(words);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return pose_of(json::parse(outcome.out).at("T_mesh_world"));
+  };
+  EXPECT_LT(turn_between_deg(found({"--picks=" + picks.str()}), T_mesh_world), 0.35);
+  EXPECT_LT(turn_between_deg(found({"--align=" + six.str()}), T_mesh_world), 0.35);
+  const auto code = [&](const Words& guess) {
+    Words words{"register", path("path.csv"), mesh(), "--mesh-unit", "mm", "-o", path("no")};
+    words.insert(words.end(), guess.begin(), guess.end());
+    return run(words).code;
+  };
+  EXPECT_EQ(code({"--picks=0,0,0=0,0,0;1,0,0=1,0,0;2,0,0=2,0,0"}), 2);  // on a line
+  EXPECT_EQ(code({"--picks=0,0,0=0,0,0;1,0,0=1,0,0"}), 2);
+  EXPECT_EQ(code({"--align=0,0,0,0,0"}), 2);
+  EXPECT_EQ(code({"--align=0,0,0,0,0,0", "--guess=0,0,0,1,0,0,0"}), 2);
+}
+
 TEST_F(Register, WithoutAGuessTheWholeMeshIsSearched) {
   write_path("path.csv", kTruth, 0.15e-3);
   const Outcome outcome = run({"register", path("path.csv"), mesh(), "--mesh-unit", "mm", "-o", path("out"), "--json"});
@@ -229,6 +267,46 @@ TEST_F(Register, BadInputIsNamed) {
   EXPECT_EQ(outcome({path("path.csv"), mesh(), "--guess", "1,2,3"}).code, 2);
   EXPECT_EQ(outcome({path("path.csv"), mesh(), "--mesh-unit", "kg"}).code, 2);
   EXPECT_FALSE(fs::exists(dir_ / "out"));
+}
+
+TEST_F(Register, AMeshInUnconnectedPartsIsRegisteredWithoutCoordinates) {
+  // The pebble cut along a parallel that the path crosses, its rows no longer joined there.
+  std::istringstream in(pebble_obj());
+  std::ostringstream cut;
+  int face = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("f ") && face++ / 160 == 39) continue;
+    cut << line << '\n';
+  }
+  cut << "f 1 1 2\n";  // and a triangle that names a vertex twice
+  write_text(dir_ / "cut.obj", cut.str());
+  std::ostringstream path_csv;
+  path_csv.precision(10);
+  path_csv << "t_ns,px_m,py_m,pz_m\n";
+  for (int i = 0; i < 1500; ++i) {
+    const Vector3d p = kTruth * pebble_point(1e-3 * i, 0.7 * std::sin(4e-3 * i));
+    path_csv << i * 1'000'000 << ',' << p.x() << ',' << p.y() << ',' << p.z() << '\n';
+  }
+  write_text(dir_ / "path.csv", path_csv.str());
+  const Outcome outcome = run({"register", path("path.csv"), path("cut.obj"), "--mesh-unit", "mm", "--guess",
+                               text_of(kTruth.inverse()), "-o", path("out"), "--json"});
+  ASSERT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("no haptic coordinates"));
+  const json result = json::parse(outcome.out);
+  EXPECT_LT((pose_of(result.at("T_mesh_world")) * (kTruth * Vector3d::Zero())).norm(), 0.2e-3);
+  EXPECT_TRUE(fs::exists(dir_ / "out" / "textured.obj"));
+}
+
+TEST_F(Register, NamesAndNumbersThatLeadAstrayAreRefused) {
+  write_text(dir_ / "...csv", "px_m,py_m,pz_m\n0,0,0\n1,0,0\n0,1,0\n");
+  write_text(dir_ / "a.csv", "px_m,py_m,pz_m\n0,0,0\n1,0,0\n0,1,0\n");
+  const Outcome name = run({"register", path("...csv"), path("a.csv"), mesh(), "-o", path("out")});
+  EXPECT_EQ(name.code, 2);
+  EXPECT_THAT(name.err, HasSubstr("'..' cannot be the name"));
+  write_text(dir_ / "t.csv", "t_ns,px_m,py_m,pz_m\n-9000000000000000000,0,0,0\n9000000000000000000,1,0,0\n");
+  const Outcome time = run({"register", path("t.csv"), mesh(), "-o", path("out")});
+  EXPECT_EQ(time.code, 1);
+  EXPECT_THAT(time.err, HasSubstr("t.csv:2: column 't_ns'"));
 }
 
 }  // namespace

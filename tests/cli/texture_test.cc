@@ -1,5 +1,6 @@
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <numbers>
 #include <string>
 
@@ -36,6 +37,11 @@ class TextureCommands : public testing::Test {
     const Outcome outcome = run(words);
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return outcome.code == 0 ? Json::parse(outcome.out) : Json();
+  }
+
+  std::map<std::string, std::string> files_in(const std::string& folder) const {
+    const auto files = contents(path(folder));
+    return {files.begin(), files.end()};
   }
 
   testkit::TempDir dir_;
@@ -140,6 +146,60 @@ TEST_F(TextureCommands, SwappedTexturesKeepTheirSpectrum) {
   const Json c = done({"texture", "compare", path("b.texture.json"), path("scene/b.texture.json")});
   for (const auto& band : c["bands"]) EXPECT_EQ(band["percent"], 0.0);
   EXPECT_EQ(run({"texture", "swap", path("scene/x.scene.json"), "9", path("b.texture.json")}).code, 1);
+}
+
+TEST_F(TextureCommands, ASwapReplacesNoOtherFile) {
+  write_text(path("a.csv"), wave_profile(20));
+  write_text(path("b.csv"), wave_profile(50, 1.25));
+  for (const char* folder : {"scene", "new", "other"}) std::filesystem::create_directory(path(folder));
+  done({"texture", "fit", path("a.csv"), "-o", path("scene/t.texture.json")});
+  done({"texture", "fit", path("b.csv"), "-o", path("new/t.texture.json")});
+  // Comments and polygons, which a mesh that we write has not.
+  const std::string mesh =
+      "# mine\nv -40 0 40\nv -40 0 -40\nv 40 0 40\nv 40 0 -40\nf 1 3 2\nf 2 3 4\n"
+      "h 1 0 0 0 50 50 0\nh 1 50 0 0 50 50 50\n";
+  write_text(path("scene/plane.obj"), mesh);
+  write_text(path("scene/x.scene.json"), R"({"format":"asperity-scene","version":1,"mesh":"plane.obj","unit_m":0.001,)"
+                                         R"("textures":[{"index":1,"file":"t.texture.json"}]})");
+  const auto before = files_in("scene");
+  const Json swap = done({"texture", "swap", path("scene/x.scene.json"), "1", path("new/t.texture.json")});
+  EXPECT_EQ(swap["after"], "t-2.texture.json");
+  const auto after = files_in("scene");
+  EXPECT_EQ(after.at("plane.obj"), mesh);
+  EXPECT_EQ(after.at("t.texture.json"), before.at("t.texture.json"));
+  // Again: the same texture lies there already.
+  EXPECT_EQ(done({"texture", "swap", path("scene/x.scene.json"), "1", path("new/t.texture.json")})["after"],
+            "t-2.texture.json");
+
+  write_text(path("other/plane.obj"), "another");
+  const Outcome refused = run({"texture", "swap", path("scene/x.scene.json"), "1", path("new/t.texture.json"), "-o",
+                               path("other/y.scene.json")});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("plane.obj: exists with other content"));
+  EXPECT_EQ(files_in("other"), (std::map<std::string, std::string>{{"plane.obj", "another"}}));
+  EXPECT_EQ(run({"texture", "swap", path("scene/x.scene.json"), "1", path("new/t.texture.json"), "-o",
+                 path("fresh/y.scene.json")})
+                .code,
+            0);
+  EXPECT_EQ(files_in("fresh").size(), 3u);
+}
+
+TEST_F(TextureCommands, APaintedTextureIsCalledAsNoOtherFile) {
+  write_text(path("a.csv"), wave_profile(20));
+  write_text(path("plane.obj"), "v -40 0 40\nv -40 0 -40\nv 40 0 40\nv 40 0 -40\nf 1 3 2\nf 2 3 4\n");
+  done({"texture", "fit", path("a.csv"), "-o", path("paint.json")});
+  const std::vector<std::string> words{"paint",     "--mesh-unit",     "mm", "--through=-20,0,0;20,0,0",
+                                       "--texture", path("paint.json")};
+  const auto onto = [&](const std::string& mesh, const std::string& out) {
+    auto all = words;
+    all.insert(all.begin() + 1, path(mesh));
+    all.insert(all.end(), {"-o", path(out)});
+    return done(all);
+  };
+  EXPECT_EQ(onto("plane.obj", "one")["texture"]["file"], "1-paint.json");
+  EXPECT_EQ(onto("one/scene.json", "two")["texture"]["file"], "2-paint.json");
+  const Json files = Json::parse(files_in("two").at("files.json"))["files"];
+  EXPECT_EQ(files, Json({"1-paint.json", "2-paint.json", "paint.json", "scene.json", "textured.obj"}));
 }
 
 TEST_F(TextureCommands, WrongCommandLinesSayWhy) {

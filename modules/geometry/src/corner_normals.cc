@@ -58,11 +58,9 @@ std::vector<std::array<Eigen::Vector3d, 3>> corner_normals(const TriangleMesh& m
         if (sharing.size() != 2) continue;
         const std::uint32_t other = sharing[0] == around[i] ? sharing[1] : sharing[0];
         if (other < around[i] || !is_smooth(facets, around[i], other, cosine)) continue;
-        for (std::size_t j = 0; j < count; ++j) {
-          if (around[j] != other) continue;
-          const std::uint32_t a = root(static_cast<std::uint32_t>(i)), b = root(static_cast<std::uint32_t>(j));
-          group[std::max(a, b)] = std::min(a, b);
-        }
+        const auto j = std::lower_bound(around.begin(), around.end(), other) - around.begin();
+        const std::uint32_t a = root(static_cast<std::uint32_t>(i)), b = root(static_cast<std::uint32_t>(j));
+        group[std::max(a, b)] = std::min(a, b);
       }
     }
     sum.assign(count, Eigen::Vector3d::Zero());

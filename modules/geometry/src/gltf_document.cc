@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "asperity/base/error.h"
+#include "asperity/base/inner_path.h"
 #include "asperity/base/text.h"
-#include "inner_path.h"
 #include "little_endian.h"
 
 namespace asperity {

@@ -90,7 +90,9 @@ MeshSurface::MeshSurface(const TriangleMesh& triangles)
       bvh(mesh) {}
 
 std::uint32_t triangle_across(const MeshAdjacency& adjacency, std::uint32_t triangle, std::size_t edge) noexcept {
-  const auto sharing = adjacency.triangles_of_edge(adjacency.edge_of_triangle[triangle][edge]);
+  const std::uint32_t index = adjacency.edge_of_triangle[triangle][edge];
+  if (index == MeshAdjacency::kNone) return ClosestPoint::kNone;
+  const auto sharing = adjacency.triangles_of_edge(index);
   if (sharing.size() != 2) return ClosestPoint::kNone;
   return sharing[0] == triangle ? sharing[1] : sharing[0];
 }

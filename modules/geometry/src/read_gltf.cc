@@ -6,10 +6,10 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/base/inner_path.h"
 #include "asperity/base/text.h"
 #include "gltf_accessor.h"
 #include "gltf_document.h"
-#include "inner_path.h"
 #include "problem_counter.h"
 #include "tinygltf_config.h"
 #include "vertex_merger.h"

@@ -5,8 +5,8 @@
 #include <unordered_map>
 
 #include "asperity/base/error.h"
+#include "asperity/base/inner_path.h"
 #include "asperity/base/text.h"
-#include "inner_path.h"
 #include "problem_counter.h"
 #include "statement_lines.h"
 

@@ -4,9 +4,9 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/base/inner_path.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/read_mtl.h"
-#include "inner_path.h"
 #include "problem_counter.h"
 #include "statement_lines.h"
 

@@ -9,9 +9,9 @@
 #include <unordered_map>
 
 #include "asperity/base/error.h"
+#include "asperity/base/inner_path.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
-#include "inner_path.h"
 #include "little_endian.h"
 #include "tinygltf_config.h"
 

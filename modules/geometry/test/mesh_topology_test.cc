@@ -9,8 +9,10 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
+#include "asperity/geometry/corner_normals.h"
 #include "asperity/geometry/mesh_adjacency.h"
 #include "asperity/geometry/mesh_normals.h"
+#include "asperity/geometry/mesh_surface.h"
 
 namespace asperity {
 namespace {
@@ -132,6 +134,28 @@ TEST(MeshNormals, InterpolatedFallsBackToTheFacet) {
   EXPECT_LT((middle - Vector3d(0, 0, -1)).norm(), 1e-14);
   const std::vector<Vector3d> none(8, Vector3d::Zero());
   EXPECT_EQ(interpolated_normal(mesh, none, 0, {0.2, 0.3, 0.5}), Vector3d(0, 0, -1));
+}
+
+// A hub of many triangles: what is done about a vertex must not grow with their square.
+TEST(CornerNormals, AFanOfManyTrianglesIsOneSurface) {
+  constexpr std::uint32_t kRim = 300'000;
+  TriangleMesh mesh;
+  mesh.vertices_m.emplace_back(0.0, 0.0, 0.0);
+  for (std::uint32_t i = 0; i < kRim; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kRim;
+    mesh.vertices_m.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+    mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % kRim});
+  }
+  const auto normals = corner_normals(mesh, make_adjacency(mesh));
+  for (const auto& corners : normals) {
+    for (const Vector3d& normal : corners) ASSERT_LT((normal - Vector3d::UnitZ()).norm(), 1e-12);
+  }
+}
+
+TEST(MeshSurface, NothingLiesAcrossATriangleThatNamesAVertexTwice) {
+  const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 1}}};
+  const MeshAdjacency adjacency = make_adjacency(mesh);
+  for (std::size_t e = 0; e < 3; ++e) EXPECT_EQ(triangle_across(adjacency, 1, e), ClosestPoint::kNone);
 }
 
 }  // namespace

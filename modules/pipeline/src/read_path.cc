@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::uint64_t kLargestFile_bytes = 1 << 30;
 constexpr double kFarthest_m = 1e6;
+constexpr std::int64_t kFarthest_ns = std::int64_t{1} << 61;  // differences fit
 
 // The places of all of `names`, or nothing: a file that has only some of them is at fault.
 template <std::size_t N>
@@ -69,13 +70,16 @@ PathFile read_path(const std::filesystem::path& file) {
       }
     }
     const std::int64_t t_ns = time ? csv.integer(*time) : static_cast<std::int64_t>(motion.size());
+    if (t_ns < -kFarthest_ns || t_ns > kFarthest_ns) csv.fail(*time, std::to_string(t_ns) + " ns is no time");
     if (!motion.t_ns.empty() && t_ns <= motion.t_ns.back()) csv.fail(*time, "time does not rise");
     motion.t_ns.push_back(t_ns);
     motion.p_world_tip_m.push_back(p_m);
     motion.q_world_marker.push_back(rotation ? rotation_at(csv, *rotation) : Eigen::Quaterniond::Identity());
     motion.v_world_tip_mps.push_back(velocity ? vector_at(csv, *velocity) : Eigen::Vector3d::Zero());
+    if (motion.v_world_tip_mps.back().array().isInf().any()) csv.fail((*velocity)[0], "the velocity is not finite");
     if (force) {
       motion.force_N.push_back(csv.empty(*force) ? std::numeric_limits<double>::quiet_NaN() : csv.number(*force));
+      if (std::isinf(motion.force_N.back())) csv.fail(*force, "the force is not finite");
     }
   }
   if (motion.size() == 0) throw Error(printable(file.string()) + ": no row with a position");

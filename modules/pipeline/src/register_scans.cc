@@ -77,7 +77,8 @@ void spread_times(TipMotion& motion) {
   for (std::size_t i = step; i < n; i += step) {
     length_m += (motion.p_world_tip_m[i] - motion.p_world_tip_m[i - step]).norm();
   }
-  const double step_ns = std::max(1.0, length_m / kUsual_mps / static_cast<double>(n) * 1e9);
+  constexpr double kLongest_ns = 1e18;  // 30 years: what a length in other units than metres makes of it
+  const double step_ns = std::max(1.0, std::min(length_m / kUsual_mps * 1e9, kLongest_ns) / static_cast<double>(n));
   for (std::size_t i = 0; i < n; ++i) motion.t_ns[i] = static_cast<std::int64_t>(static_cast<double>(i) * step_ns);
 }
 
@@ -133,11 +134,12 @@ void make_own_texture(const RegisterConfig& config, RegisteredScan& scan) {
   }
   Texture texture = result.texture.value_or(Texture{});
   if (texture.name.empty()) texture.name = scan.name;
-  texture.model = scan.path_texture->fit.texture;
-  texture.lift_m = scan.path_texture->fit.lift_m;
+  texture.model = scan.path_texture->series.fit.texture;
+  texture.lift_m = scan.path_texture->series.lift_m;
+  append(result.problems, scan.path_texture->series.problems);
   const double nyquist = 0.5 / (result.profile.spacing_m * 1e3);
   texture.band_cycles_per_mm = {config.process.profile.cutoff_cycles_per_mm,
-                                std::min(config.texture.harmonics_per_mm, nyquist)};
+                                std::min(config.texture.coefficients_per_mm, nyquist)};
   texture.source.version = kVersion;
   scan.texture = std::move(texture);
 }
@@ -264,13 +266,26 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
       return 0;
     });
     if (!scan.process.trustworthy) distrust(out, printable(scan.name, 200) + ": " + scan.process.verdict);
-    if (scan.path.size() < 2) distrust(out, printable(scan.name, 200) + ": no path on the mesh");
+    if (scan.path.size() < 2) {
+      distrust(out, printable(scan.name, 200) + ": no path on the mesh");
+      scan.path = {};
+    }
     mesh_paths.push_back(scan.path);
   }
 
   // Where a hand will find it (seed §5.4, B.2).
   observer.update("coordinates", 0.0);
-  out.coordinates = assign_haptic_coordinates(surface.mesh, surface.adjacency, mesh_paths, config.coordinates);
+  try {
+    out.coordinates = assign_haptic_coordinates(surface.mesh, surface.adjacency, mesh_paths, config.coordinates);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    // A path from one part of the mesh to another, which nothing connects: the pose and the profiles still stand.
+    out.coordinates = {};
+    out.coordinates.triangles.resize(surface.mesh.triangles.size());
+    out.coordinates.warps.resize(mesh_paths.size());
+    distrust(out, std::string("no haptic coordinates: ") + error.what());
+  }
   append(out.problems, out.coordinates.problems);
   observer.update("coordinates", 1.0);
   return out;

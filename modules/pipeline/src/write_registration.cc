@@ -8,9 +8,12 @@
 #include <utility>
 
 #include "asperity/base/csv.h"
+#include "asperity/base/error.h"
 #include "asperity/base/output.h"
+#include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/pipeline/write_result.h"
+#include "asperity/scene/read_scene.h"
 #include "asperity/scene/write_scene.h"
 #include "json.h"
 
@@ -58,12 +61,12 @@ Json scan_json(const RegisteredScan& scan, std::size_t index) {
   out["length_m"] = scan.path.s_m.empty() ? 0.0 : scan.path.s_m.back() - scan.path.s_m.front();
   out["points"] = scan.path.size();
   if (scan.path_texture) {
+    const FourierSamplesFit& fit = scan.path_texture->series.fit;
     out["own_texture"] = {{"start_m", scan.path_texture->start_m},
-                          {"length_mm", scan.path_texture->fit.texture.length_mm},
-                          {"harmonics", scan.path_texture->fit.texture.a_m.size()},
-                          {"bridged", scan.path_texture->bridged},
-                          {"rms_height_m", scan.path_texture->fit.rms_height_m},
-                          {"rms_error_m", scan.path_texture->fit.rms_error_m}};
+                          {"length_mm", fit.texture.length_mm},
+                          {"harmonics", fit.texture.a_m.size()},
+                          {"rms_height_m", fit.rms_height_m},
+                          {"rms_error_m", fit.rms_error_m}};
   }
   out["base_rms_m"] = scan.process.base.base_rms_m;
   out["problems"] = problems_json(scan.process.problems);
@@ -191,6 +194,11 @@ bool is_registration_folder(const fs::path& folder) noexcept {
 
 void write_registration(const fs::path& folder, const ScansOnMesh& result, const std::vector<Scan>& scans,
                         const MeshFile& mesh, double unit_m) {
+  for (const RegisteredScan& scan : result.scans) {
+    const bool one_name = stays_inside(scan.name) && !fs::path(scan.name).has_parent_path();
+    if (result.scans.size() > 1 && !one_name)
+      throw Error("registration: '" + printable(scan.name) + "' cannot be the name of a scan's folder");
+  }
   write_scene(folder / "scene.json", make_scene(result, mesh, unit_m));
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     const RegisteredScan& scan = result.scans[i];

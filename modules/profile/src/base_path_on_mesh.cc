@@ -81,10 +81,8 @@ BasePathResult base_path_on_mesh(const TipMotion& motion, const Eigen::Vector3d&
     developed.push_back(development.add(out.path.p_world_m.back(), normal));
     height_m[i] = normal.dot(motion.p_world_tip_m[i] - out.path.p_world_m[i]);
     if (out.contact[i] == 0) continue;
-    ++touching;
     beyond += foot.on_normal ? 0 : 1;
     axis_sum += normal.dot(motion.q_world_marker[i] * -tip_in_marker_m);
-    square_m2 += height_m[i] * height_m[i];
   }
 
   if (axis_sum < 0.0) {
@@ -108,7 +106,9 @@ BasePathResult base_path_on_mesh(const TipMotion& motion, const Eigen::Vector3d&
   const double length = tip_in_marker_m.norm();
   for (std::size_t i = 0; i < n; ++i) {
     if (out.contact[i] == 0) continue;
-    out.centre_world_m += out.path.p_world_m[i] / static_cast<double>(std::max<std::size_t>(1, touching));
+    ++touching;
+    square_m2 += height_m[i] * height_m[i];
+    out.centre_world_m += out.path.p_world_m[i];
     out.axis_world += out.path.n_world[i];
     if (!(length > 0.0)) continue;
     const double cosine = out.path.n_world[i].dot(motion.q_world_marker[i] * (-tip_in_marker_m / length));
@@ -116,6 +116,7 @@ BasePathResult base_path_on_mesh(const TipMotion& motion, const Eigen::Vector3d&
   }
   out.axis_world.normalize();
   if (touching > 0) {
+    out.centre_world_m /= static_cast<double>(touching);
     out.base_rms_m = std::sqrt(square_m2 / static_cast<double>(touching));
     out.probe_tilt_deg = tilt_sum / static_cast<double>(touching) * 180.0 / std::numbers::pi;
   }

@@ -25,6 +25,7 @@ void check(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const std::
     throw Error("haptic coordinates: the adjacency is of another mesh");
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const MeshPath& path = paths[i];
+    if (path.size() == 0 && path.triangle.empty() && path.s_m.empty()) continue;
     const std::string name = "haptic coordinates: path " + std::to_string(i + 1);
     if (path.triangle.size() != path.size() || path.s_m.size() != path.size())
       throw Error(name + ": unequal counts of points, triangles and lengths");
@@ -275,6 +276,10 @@ HapticCoordinates assign_haptic_coordinates(const TriangleMesh& mesh, const Mesh
   std::vector<double> nearest_mm(mesh.triangles.size(), std::numeric_limits<double>::infinity());
   std::vector<bool> contested(mesh.triangles.size(), false);
   for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (paths[i].size() == 0) {
+      out.warps.emplace_back();
+      continue;
+    }
     const OnePath one = coordinates_along(mesh, adjacency, paths[i], config, static_cast<std::int32_t>(i + 1));
     for (const std::uint32_t t : one.chosen) {
       if (out.triangles[t].texture >= 0 && !contested[t]) {

@@ -46,6 +46,7 @@ void write_verdict(const Findings& findings, const PointSet& points, std::size_t
   const double inliers = 1.0 - static_cast<double>(out.outliers) / static_cast<double>(used);
   const bool on_mesh = best.fit.enough && inliers >= kLeastInliers;
   const bool ambiguous = out.runner_up && findings.runner_up_fits;
+  out.ambiguous = ambiguous;
   out.trustworthy = out.converged && on_mesh && !ambiguous;
 
   out.verdict = fmt::format("{}: {} ({} iterations). Residual {:.4f} mm RMS over {} of {} points",

@@ -329,6 +329,14 @@ TEST(HapticCoordinates, KeepTheSideOfNonManifoldEdgesAndBorders) {
   }
 }
 
+TEST(HapticCoordinates, APathWithoutPointsGetsNoTriangles) {
+  const TriangleMesh mesh = testkit::plane_mesh({0.02, 0.02}, 4, 4);
+  const MeshPath good = path_on(mesh, 0.01, 0.001, [](double s) { return Vector3d(0.005 + s, 0.01, 0.0); });
+  const auto result = assign_haptic_coordinates(mesh, make_adjacency(mesh), {MeshPath{}, good});
+  for (const HapticTriangle& triangle : result.triangles) EXPECT_NE(triangle.texture, 1);
+  EXPECT_GT(result.warps[1].triangles, 0u);
+}
+
 TEST(HapticCoordinates, RefuseBadPaths) {
   const TriangleMesh mesh = testkit::plane_mesh({0.02, 0.02}, 4, 4);
   const MeshAdjacency adjacency = make_adjacency(mesh);
@@ -342,8 +350,21 @@ TEST(HapticCoordinates, RefuseBadPaths) {
   refused([](MeshPath& p) { p.s_m.pop_back(); });
   refused([](MeshPath& p) { p.triangle[2] = 32; });
   refused([](MeshPath& p) { p.p_mesh_m[2].y() = std::nan(""); });
-  refused([](MeshPath& p) { p = MeshPath{}; });
   refused([](MeshPath& p) { std::fill(p.s_m.begin(), p.s_m.end(), 0.0); });
+}
+
+TEST(HapticCoordinates, APathWithoutPointsKeepsItsNumber) {
+  const TriangleMesh mesh = testkit::plane_mesh({0.02, 0.01}, 20, 10, 0.0, 1);
+  const MeshPath path = path_on(mesh, 0.01, 0.5e-3, [](double s_m) { return Vector3d(0.005 + s_m, 0.005, 0.0); });
+  const HapticCoordinates both = assign_haptic_coordinates(mesh, make_adjacency(mesh), {MeshPath{}, path});
+  ASSERT_EQ(both.warps.size(), 2u);
+  EXPECT_EQ(both.warps[0].triangles, 0u);
+  std::size_t second = 0;
+  for (const HapticTriangle& triangle : both.triangles) {
+    EXPECT_NE(triangle.texture, 1);
+    second += triangle.texture == 2 ? 1 : 0;
+  }
+  EXPECT_EQ(second, both.warps[1].triangles);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "asperity/registration/refine_registration.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -133,6 +134,17 @@ TEST(RefineRegistration, FewPointsGiveTheStartBack) {
   EXPECT_EQ(fits.refined.T_mesh_world.translation_m, fits.start.T_mesh_world.translation_m);
   ASSERT_FALSE(fits.refined.problems.empty());
   EXPECT_EQ(fits.refined.problems.back().kind, "not_refined");
+}
+
+// A path of kilometres, as a file in other units than metres has it: its knots are held to a number that fits memory.
+TEST(RefineRegistration, AVeryLongPathHasFewKnots) {
+  const MeshSurface surface(ball());
+  MeasuredPath path = scan(surface, {50e-6, 30e-6}, 7);
+  const Fits near = fit(surface, path);
+  for (int i = 0; i < 4; ++i) path.p_world_m.emplace_back(1e6 * i, 0.0, 0.0);
+  const RefinedRegistration far = refine_registration({&path, 1}, surface, near.start, {}, {});
+  EXPECT_TRUE(std::any_of(far.registration.problems.begin(), far.registration.problems.end(),
+                          [](const Problem& problem) { return problem.kind == "wide_knots"; }));
 }
 
 }  // namespace

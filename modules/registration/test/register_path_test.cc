@@ -7,7 +7,6 @@
 
 #include "asperity/base/error.h"
 #include "asperity/registration/find_registration.h"
-#include "asperity/registration/project_path.h"
 #include "asperity/registration/register_thesis.h"
 #include "test_surfaces.h"
 
@@ -367,16 +366,18 @@ TEST(RegisterThesis, StopsWhenTheErrorNoLongerChanges) {
   EXPECT_EQ(stopped.iterations, 2);
 }
 
-TEST(ProjectPath, GivesPointsSignsAndLength) {
-  const Body body(test::grid(10, 10, [](double u, double v) { return Eigen::Vector3d(0.1 * u, 0.1 * v, 0); }));
-  const std::vector<Eigen::Vector3d> path{{0.02, 0.05, 1e-3}, {0.05, 0.05, -2e-3}, {0.05, 0.09, 0.0}};
-  const PathProjection got = project_path(path, body.mesh, body.bvh, {});
-  EXPECT_LT((got.path.p_mesh_m[1] - Eigen::Vector3d(0.05, 0.05, 0)).norm(), 1e-15);
-  EXPECT_NEAR(got.distance_m[0], 1e-3, 1e-15);
-  EXPECT_NEAR(got.distance_m[1], -2e-3, 1e-15);
-  EXPECT_NEAR(got.path.s_m[2], 0.07, 1e-15);
-  const std::vector<Eigen::Vector3d> bad{{0, 0, std::numeric_limits<double>::quiet_NaN()}};
-  EXPECT_THROW(project_path(bad, body.mesh, body.bvh, {}), Error);
+// Files have triangles that name a vertex twice; they have no edges, and no normal of their own.
+TEST(PrepareSurface, TrianglesWithARepeatedVertexAreHarmless) {
+  TriangleMesh mesh = test::bumpy_mesh();
+  const Body plain(mesh);
+  const std::size_t whole = mesh.triangles.size();
+  for (std::uint32_t v = 0; v < 50; ++v) mesh.triangles.push_back({v, v, v + 1});
+  const Body body(std::move(mesh));
+  for (std::size_t f = 0; f < whole; ++f) {
+    EXPECT_EQ(body.surface.facets[f].border, plain.surface.facets[f].border);
+    EXPECT_EQ(body.surface.facets[f].corner_normal, plain.surface.facets[f].corner_normal);
+  }
+  for (std::size_t f = whole; f < body.surface.facets.size(); ++f) EXPECT_EQ(body.surface.facets[f].border, 0u);
 }
 
 }  // namespace

@@ -97,10 +97,13 @@ class Displacer {
       }
     }
     const double cuts = std::max(1.0, std::ceil(longest_m / (1e-3 * config_.spacing_mm)));
-    if (!(cuts * cuts * static_cast<double>(textured) <= static_cast<double>(kMostTriangles)))
-      throw Error("displaced mesh: " + number_text(config_.spacing_mm) + " mm would make more than " +
-                  std::to_string(kMostTriangles) + " triangles; a larger spacing_mm is needed");
+    if (!(cuts * cuts * static_cast<double>(textured) <= static_cast<double>(kMostTriangles))) too_fine();
     cuts_ = static_cast<std::uint32_t>(cuts);
+  }
+
+  [[noreturn]] void too_fine() const {
+    throw Error("displaced mesh: " + number_text(config_.spacing_mm) + " mm would make more than " +
+                std::to_string(kMostTriangles) + " triangles; a larger spacing_mm is needed");
   }
 
   // The point `k` of `cuts_` along a triangle's edge e, counted from its corner e.
@@ -188,6 +191,7 @@ class Displacer {
       triangles_.push_back(tri);
       return;
     }
+    if (triangles_.size() + rim.size() > kMostTriangles) too_fine();
     const auto middle = static_cast<std::uint32_t>(points_.size());
     points_.push_back(
         {(mesh_.vertices_m[tri[0]] + mesh_.vertices_m[tri[1]] + mesh_.vertices_m[tri[2]]) / 3.0, Vector3d::Zero()});

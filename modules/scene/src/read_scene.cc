@@ -2,9 +2,12 @@
 
 #include <map>
 #include <string>
+#include <utility>
+#include <variant>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/base/inner_path.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/read_mesh.h"
 #include "asperity/texture/texture_file.h"
@@ -19,15 +22,48 @@ namespace {
 constexpr std::uint64_t kLargestScene_bytes = 16 << 20;
 constexpr std::uint64_t kLargestMap_bytes = 1 << 30;
 
-void read_object(const fs::path& folder, SceneObject& object, Problems& problems) {
-  object.mesh = read_mesh(folder / object.mesh_file);
-  problems.insert(problems.end(), object.mesh.problems.begin(), object.mesh.problems.end());
-  for (SceneTexture& texture : object.textures) texture.texture = read_texture(folder / texture.file);
-  if (!object.material_file.empty()) {
-    const fs::path file = folder / object.material_file;
-    object.material =
-        parse_material_map(read_file(file, kLargestMap_bytes), printable(file.string()), object.mesh.vertices.size());
+// What is in memory of a texture, about; an image is far larger than its file.
+std::uint64_t size_of(const Texture& texture) {
+  std::uint64_t size = sizeof(Texture);
+  if (const auto* map = std::get_if<HeightMap>(&texture.model)) size += map->level.size() * sizeof(map->level[0]);
+  if (const auto* areal = std::get_if<ArealTexture>(&texture.model)) {
+    size += areal->surface.coefficient_m.size() * (sizeof(double) + 1);
   }
+  return size;
+}
+
+// The files that a scene names: each inside its folder, all together of a bounded size.
+class NamedFiles {
+ public:
+  NamedFiles(fs::path scene, std::uint64_t limit_bytes)
+      : scene_(std::move(scene)), folder_(scene_.parent_path()), limit_bytes_(limit_bytes) {}
+
+  fs::path find(const std::string& name) {
+    if (!inner_file(folder_, name)) {
+      throw Error(printable(scene_.string()) + ": names '" + printable(name) +
+                  "', a link that leads out of the scene's folder");
+    }
+    std::error_code error;
+    const fs::path file = folder_ / name;
+    if (const std::uintmax_t size = fs::file_size(file, error); !error) count(size);
+    return file;
+  }
+  void count(std::uint64_t bytes) {
+    bytes_ += bytes;
+    if (bytes_ > limit_bytes_) {
+      throw Error(printable(scene_.string()) + ": its files take more than " + std::to_string(limit_bytes_) + " bytes");
+    }
+  }
+
+ private:
+  fs::path scene_, folder_;
+  std::uint64_t limit_bytes_;
+  std::uint64_t bytes_ = 0;
+};
+
+// What the mesh file says of itself, and the textures that only it knows.
+void report(const SceneObject& object, Problems& problems) {
+  problems.insert(problems.end(), object.mesh.problems.begin(), object.mesh.problems.end());
   std::map<int, std::size_t> unlisted;
   for (const HapticTriangle& triangle : object.mesh.haptic) {
     if (triangle.texture >= 0 && object.find_texture(triangle.texture) == nullptr) ++unlisted[triangle.texture];
@@ -40,6 +76,20 @@ void read_object(const fs::path& folder, SceneObject& object, Problems& problems
   }
 }
 
+void read_object(NamedFiles& files, SceneObject& object, Problems& problems) {
+  object.mesh = read_mesh(files.find(object.mesh_file));
+  for (SceneTexture& texture : object.textures) {
+    texture.texture = read_texture(files.find(texture.file));
+    files.count(size_of(texture.texture));
+  }
+  if (!object.material_file.empty()) {
+    const fs::path file = files.find(object.material_file);
+    object.material =
+        parse_material_map(read_file(file, kLargestMap_bytes), printable(file.string()), object.mesh.vertices.size());
+  }
+  report(object, problems);
+}
+
 }  // namespace
 
 bool stays_inside(const fs::path& name) {
@@ -47,19 +97,22 @@ bool stays_inside(const fs::path& name) {
   for (const fs::path& part : name) {
     if (part == ".." || part == ".") return false;
   }
-  return name.native().find('\0') == fs::path::string_type::npos;
+  return name.native().find_first_of(std::string_view("\0\\", 2)) == fs::path::string_type::npos;
 }
 
-Scene read_scene(const fs::path& path) {
+Scene read_scene(const fs::path& path, std::uint64_t limit_bytes) {
   Scene scene;
-  if (path.extension() == ".json") {
-    scene = parse_scene(read_file(path, kLargestScene_bytes), printable(path.string()));
-  } else {
+  if (path.extension() != ".json") {
     SceneObject object;
     object.mesh_file = path.filename().string();
+    object.mesh = read_mesh(path);
+    report(object, scene.problems);
     scene.objects.push_back(std::move(object));
+    return scene;
   }
-  for (SceneObject& object : scene.objects) read_object(path.parent_path(), object, scene.problems);
+  scene = parse_scene(read_file(path, kLargestScene_bytes), printable(path.string()));
+  NamedFiles files(path, limit_bytes);
+  for (SceneObject& object : scene.objects) read_object(files, object, scene.problems);
   return scene;
 }
 

@@ -2,7 +2,9 @@
 
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
+#include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
@@ -40,32 +42,36 @@ void add_object(Json& out, const SceneObject& object) {
   if (!is_identity(object.T_world_mesh)) out["T_world_mesh"] = pose_json(object.T_world_mesh);
 }
 
-// Checks the names before anything is written.
-void check_names(const fs::path& path, const Scene& scene) {
-  std::set<std::string> names{path.filename().string()};
-  const auto claim = [&](const std::string& name) {
+// The files of a scene, each name once and inside the scene's folder.
+class Files {
+ public:
+  void add(const std::string& name, std::string content) {
     if (!stays_inside(name)) throw Error("scene: '" + printable(name) + "' is not a file in the scene's folder");
-    if (!names.insert(name).second) throw Error("scene: two files would be called '" + printable(name) + "'");
-  };
-  for (const SceneObject& object : scene.objects) {
-    claim(object.mesh_file);
-    if (fs::path(object.mesh_file).extension() != ".obj") {
-      throw Error("scene: the mesh '" + printable(object.mesh_file) + "' is not called *.obj");
-    }
-    for (const SceneTexture& texture : object.textures) claim(texture.file);
-    if (!object.material_file.empty()) claim(object.material_file);
+    if (!names_.insert(name).second) throw Error("scene: two files would be called '" + printable(name) + "'");
+    files_.push_back({name, std::move(content)});
   }
-}
+  std::vector<SceneFile> take() { return std::move(files_); }
+
+ private:
+  std::set<std::string> names_;
+  std::vector<SceneFile> files_;
+};
 
 // The mesh, its materials in one library beside it.
-void write_mesh(const fs::path& folder, const SceneObject& object) {
-  MeshFile mesh = object.mesh;
-  if (!mesh.materials.empty()) {
-    const fs::path library = fs::path(object.mesh_file).replace_extension(".mtl");
-    write_mtl(folder / library, mesh.materials);
-    mesh.material_libraries = {library.filename().string()};
+void add_mesh(const SceneObject& object, Files& out) {
+  if (fs::path(object.mesh_file).extension() != ".obj") {
+    throw Error("scene: the mesh '" + printable(object.mesh_file) + "' is not called *.obj");
   }
-  write_obj(folder / object.mesh_file, mesh);
+  if (object.mesh.materials.empty()) return out.add(object.mesh_file, format_obj(object.mesh));
+  MeshFile mesh = object.mesh;
+  const fs::path library = fs::path(object.mesh_file).replace_extension(".mtl");
+  mesh.material_libraries = {library.filename().string()};
+  out.add(object.mesh_file, format_obj(mesh));
+  out.add(library.string(), format_mtl(mesh.materials));
+}
+
+void add_texture(const SceneTexture& texture, Files& out) {
+  for (SceneFile& file : format_texture_in_scene(texture)) out.add(file.name, std::move(file.content));
 }
 
 }  // namespace
@@ -90,23 +96,46 @@ std::string format_scene(const Scene& scene) {
   return out.dump(2) + "\n";
 }
 
-void write_scene(const fs::path& path, const Scene& scene) {
-  check_names(path, scene);
-  const std::string text = format_scene(scene);
-  const fs::path folder = path.parent_path();
+std::vector<SceneFile> format_texture_in_scene(const SceneTexture& texture) {
+  const fs::path folder = fs::path(texture.file).parent_path();
+  TextureFiles files = format_texture_files(texture.texture, texture_stem(texture.file));
+  std::vector<SceneFile> out;
+  for (TexturePayload& payload : files.payloads)
+    out.push_back({(folder / payload.file).string(), std::move(payload.content)});
+  out.push_back({texture.file, std::move(files.json)});
+  return out;
+}
+
+std::vector<SceneFile> format_scene_files(const std::string& name, const Scene& scene) {
+  Files out;
+  std::string text = format_scene(scene);
   for (const SceneObject& object : scene.objects) {
-    fs::create_directories((folder / object.mesh_file).parent_path());
-    for (const SceneTexture& texture : object.textures) {
-      fs::create_directories((folder / texture.file).parent_path());
-      write_texture(folder / texture.file, texture.texture);
-    }
-    if (!object.material_file.empty()) {
-      fs::create_directories((folder / object.material_file).parent_path());
-      write_file(folder / object.material_file, format_material_map(object.material));
-    }
-    write_mesh(folder, object);
+    for (const SceneTexture& texture : object.textures) add_texture(texture, out);
+    if (!object.material_file.empty()) out.add(object.material_file, format_material_map(object.material));
+    add_mesh(object, out);
   }
-  write_file(path, text);
+  out.add(name, std::move(text));
+  return out.take();
+}
+
+void write_scene(const fs::path& path, const Scene& scene) {
+  const fs::path folder = path.parent_path();
+  for (const SceneFile& file : format_scene_files(path.filename().string(), scene)) {
+    fs::create_directories((folder / file.name).parent_path());
+    write_file(folder / file.name, file.content);
+  }
+}
+
+std::optional<std::string> find_other_content(const fs::path& folder, const std::vector<SceneFile>& files) {
+  for (const SceneFile& file : files) {
+    const fs::path there = folder / file.name;
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(there, error))) continue;
+    const bool same = fs::is_regular_file(there, error) && fs::file_size(there, error) == file.content.size() &&
+                      read_file(there, file.content.size()) == file.content;
+    if (!same) return file.name;
+  }
+  return std::nullopt;
 }
 
 }  // namespace asperity

@@ -12,6 +12,7 @@
 #include "asperity/scene/swap_texture.h"
 #include "asperity/scene/write_scene.h"
 #include "asperity/testkit/temp_dir.h"
+#include "asperity/texture/texture_file.h"
 
 namespace asperity {
 namespace {
@@ -200,6 +201,60 @@ TEST(Material, SpreadsOverTheVerticesOfItsTexture) {
               ThrowsMessage<Error>(HasSubstr("m.csv:2: column 'vertex'")));
   EXPECT_THAT([] { parse_material_map("vertex,compliance_kc,stiffness_N_per_m,friction\n1,1.5,,\n", "m.csv", 5); },
               ThrowsMessage<Error>(HasSubstr("'1.5' is not within 0 and 1")));
+}
+
+TEST(Scene, ALinkDoesNotLeadOut) {
+  const testkit::TempDir folder;
+  write_file(folder.path() / "secret.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  std::filesystem::create_directory(folder.path() / "in");
+  std::filesystem::create_symlink(folder.path() / "secret.obj", folder.path() / "in" / "m.obj");
+  std::filesystem::create_directory_symlink(folder.path(), folder.path() / "in" / "deep");
+  for (const char* mesh : {"m.obj", "deep/secret.obj"}) {
+    write_file(folder.path() / "in" / "scene.json",
+               std::string(R"({"format":"asperity-scene","version":1,"mesh":")") + mesh + "\"}");
+    EXPECT_THAT([&] { read_scene(folder.path() / "in" / "scene.json"); }, ThrowsMessage<Error>(HasSubstr("leads out")));
+  }
+}
+
+TEST(Scene, OneImageTakenHundredsOfTimesIsRefused) {
+  const testkit::TempDir folder;
+  Texture texture;
+  HeightMap map{2048, 2048, 0.1, 0.1, 0.0, 1e-3, 16, Border::kPeriodic, {}};
+  map.level.assign(2048 * 2048, 7);
+  texture.model = map;
+  write_texture(folder.path() / "t.texture.json", texture);
+  write_file(folder.path() / "m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  std::string scene = R"({"format":"asperity-scene","version":1,"mesh":"m.obj","textures":[)";
+  for (int i = 0; i < 10; ++i) {
+    scene += (i > 0 ? "," : "") + std::string(R"({"index":)") + std::to_string(i) + R"(,"file":"t.texture.json"})";
+  }
+  write_file(folder.path() / "scene.json", scene + "]}");
+  constexpr std::uint64_t kFive_bytes = 5 * 2 * 2048 * 2048;
+  EXPECT_THAT([&] { read_scene(folder.path() / "scene.json", kFive_bytes); },
+              ThrowsMessage<Error>(HasSubstr("take more than")));
+  EXPECT_EQ(read_scene(folder.path() / "scene.json").objects[0].textures.size(), 10u);
+}
+
+TEST(Scene, TexturesDoNotShareTheirImages) {
+  const testkit::TempDir folder;
+  Scene scene = plane_scene();
+  HeightMap map{4, 4, 1.0, 1.0, 0.0, 1e-3, 8, Border::kPeriodic, std::vector<std::uint16_t>(16, 7)};
+  for (SceneTexture& texture : scene.objects[0].textures) texture.texture.model = map;
+  scene.objects[0].textures[0].file = "t.texture.json";
+  scene.objects[0].textures[1].file = "t.json";
+  EXPECT_THAT([&] { write_scene(folder.path() / "scene.json", scene); },
+              ThrowsMessage<Error>(HasSubstr("two files would be called 't.heights.png'")));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Scene, FindsWhatItWouldReplace) {
+  const testkit::TempDir folder;
+  const std::vector<SceneFile> files{{"a.txt", "one"}, {"b.txt", "two"}};
+  EXPECT_FALSE(find_other_content(folder.path(), files));
+  write_file(folder.path() / "a.txt", "one");
+  EXPECT_FALSE(find_other_content(folder.path(), files));
+  write_file(folder.path() / "b.txt", "owt");
+  EXPECT_EQ(find_other_content(folder.path(), files), "b.txt");
 }
 
 }  // namespace

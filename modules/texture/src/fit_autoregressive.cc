@@ -61,11 +61,6 @@ std::vector<double> order_costs(const std::vector<Group>& groups, const std::vec
   return costs;
 }
 
-SeriesRecording part(const SeriesRecording& r, std::size_t first, std::size_t count) {
-  return {r.acceleration_mps2.subspan(first, count), r.speed_mps.subspan(first, count), r.force_N.subspan(first, count),
-          r.rate_Hz};
-}
-
 AutoregressiveFit fit_once(const SeriesRecording& recording, const FitAutoregressiveConfig& config) {
   const auto x = vibration_mps2(recording, config);
   const auto windows = stroking_windows(recording, config);
@@ -124,6 +119,33 @@ void check_config(const FitAutoregressiveConfig& c) {
                 number_text(c.seconds_per_model) + " or window_s " + number_text(c.window_s) + " is out of range");
 }
 
+// Half of a recording.
+struct Half {
+  std::vector<double> acceleration_mps2, speed_mps, force_N;
+  double rate_Hz = 0.0;
+
+  SeriesRecording recording() const { return {acceleration_mps2, speed_mps, force_N, rate_Hz}; }
+};
+
+// Blocks `block_s` long, every other one from the first or the second on: both halves then have met all speeds and
+// forces, also where the recording goes from light to firm.
+Half every_other_block(const SeriesRecording& recording, double block_s, std::size_t from) {
+  const auto block = static_cast<std::size_t>(std::max(1.0, std::round(block_s * recording.rate_Hz)));
+  Half out;
+  out.rate_Hz = recording.rate_Hz;
+  for (std::size_t begin = from * block; begin < recording.acceleration_mps2.size(); begin += 2 * block) {
+    const std::size_t count = std::min(block, recording.acceleration_mps2.size() - begin);
+    const auto copy = [&](std::span<const double> source, std::vector<double>& to) {
+      const auto piece = source.subspan(begin, count);
+      to.insert(to.end(), piece.begin(), piece.end());
+    };
+    copy(recording.acceleration_mps2, out.acceleration_mps2);
+    copy(recording.speed_mps, out.speed_mps);
+    copy(recording.force_N, out.force_N);
+  }
+  return out;
+}
+
 }  // namespace
 
 AutoregressiveFit fit_autoregressive(const SeriesRecording& recording, const FitAutoregressiveConfig& config) {
@@ -131,9 +153,9 @@ AutoregressiveFit fit_autoregressive(const SeriesRecording& recording, const Fit
   check_config(config);
   AutoregressiveFit fit = fit_once(recording, config);
   if (!config.hold_out_half) return fit;
-  const std::size_t half = recording.acceleration_mps2.size() / 2;
-  const SeriesRecording first = part(recording, 0, half);
-  const SeriesRecording second = part(recording, half, half);
+  const Half fitted = every_other_block(recording, config.block_s, 0),
+             kept = every_other_block(recording, config.block_s, 1);
+  const SeriesRecording first = fitted.recording(), second = kept.recording();
   if (stroking_windows(first, config).size() < 2 || stroking_windows(second, config).size() < 2) {
     fit.problems.push_back({"no_held_out", "one half of the recording does not stroke: no error was measured", 1});
   } else {

@@ -64,13 +64,16 @@ TextureFiles format_texture_files(const Texture& t, const std::string& stem) {
 
 std::string format_texture(const Texture& texture) { return format_texture_files(texture, "texture").json; }
 
-void write_texture(const std::filesystem::path& path, const Texture& texture) {
+std::string texture_stem(const std::filesystem::path& path) {
   std::string stem = path.filename().string();
   for (const char* ending : {".json", ".texture"}) {
     if (stem.ends_with(ending)) stem.resize(stem.size() - std::string_view(ending).size());
   }
-  if (stem.empty() || stem.front() == '.') stem = "texture";
-  const TextureFiles files = format_texture_files(texture, stem);
+  return stem.empty() || stem.front() == '.' ? "texture" : stem;
+}
+
+void write_texture(const std::filesystem::path& path, const Texture& texture) {
+  const TextureFiles files = format_texture_files(texture, texture_stem(path));
   for (const auto& payload : files.payloads) write_file(path.parent_path() / payload.file, payload.content);
   write_file(path, files.json);
 }

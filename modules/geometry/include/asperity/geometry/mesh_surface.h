@@ -25,8 +25,8 @@ struct MeshSurface {
   MeshBvh bvh;
 };
 
-// The triangle across edge `edge` (from corner `edge` to the next), or ClosestPoint::kNone at a border and where
-// more than two meet.
+// The triangle across edge `edge` (from corner `edge` to the next), or ClosestPoint::kNone at a border, where
+// more than two meet, and of a triangle that names a vertex twice.
 std::uint32_t triangle_across(const MeshAdjacency& adjacency, std::uint32_t triangle, std::size_t edge) noexcept;
 
 // The point of a mesh from which the interpolated normal leads to another point.

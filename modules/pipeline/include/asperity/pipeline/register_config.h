@@ -18,7 +18,7 @@ struct RegisterConfig {
   RefineConfig refinement;
   ScanOnMeshConfig path;
   HapticCoordinatesConfig coordinates;
-  PathTextureConfig texture;
+  FitFourier1dPathConfig texture;
 
   template <class V>
   void visit(V& v) {

@@ -53,16 +53,16 @@ struct HapticWarp {
 
 struct HapticCoordinates {
   std::vector<HapticTriangle> triangles;  // one a triangle of the mesh
-  std::vector<HapticWarp> warps;          // one a path
+  std::vector<HapticWarp> warps;          // one a path, over all triangles near it
   std::size_t contested = 0;              // triangles near several paths; the nearest has them
   Problems problems;  // "coordinates_fold", "…_stretch", "…_overlap", "…_contested", "path_jumps"
 };
 
 // Haptic texture coordinates of a mesh along registered paths (seed §5.4, B.2; docs/haptic-coordinates.md):
-// path i gets texture index i + 1. Triangles that the path touches, and `rings` rings of triangles that share
-// a vertex with them, get for each corner x, the distance along the path (its s_m, negative before its start),
-// and y, the distance across, positive along path direction × outward normal (erratum 17). Distances are
-// those of shortest paths over the surface. A vertex has one coordinate for all its triangles, unless two
+// path i gets texture index i + 1; one without points gets no triangles. Triangles that the path touches, and `rings`
+// rings of triangles that share a vertex with them, get for each corner x, the distance along the path (its s_m,
+// negative before its start), and y, the distance across, positive along path direction × outward normal (erratum 17).
+// Distances are those of shortest paths over the surface. A vertex has one coordinate for all its triangles, unless two
 // parts of the path are near it. The path is smoothed, for the foot of a vertex on a noisy path is noisier
 // than the path; and x, y are corrected by least squares so that, interpolated, they give s and 0 along it.
 // Lengths of the mesh are metres. Throws Error for a path without length, with unequal counts, a triangle

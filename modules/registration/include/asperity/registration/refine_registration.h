@@ -64,10 +64,11 @@ struct RefinedRegistration {
 // as much as it is worth, and tells where along and across the mesh the tip was.
 //
 // `paths` are those that gave `start`, evenly spaced (to a factor of two); steps of more than three times the
-// median part them. `others` are further poses to begin from: a path has several valleys near a guess (Fig. 25), and
-// with the same whitening for all, the cost says which is the deepest. Motions that `start` lists as undetermined stay
-// as they are. The result has the refined pose, residual and covariance, and lists turns that are less certain than
-// undetermined_deg as undetermined. Where fewer than 30 points are usable, `start` is given back with a Problem.
+// median part them. Of paths longer than 500 knots the knots lie farther apart, with a Problem. `others` are further
+// poses to begin from: a path has several valleys near a guess (Fig. 25), and with the same whitening for all, the cost
+// says which is the deepest. Motions that `start` lists as undetermined stay as they are. The result has the refined
+// pose, residual and covariance, and lists turns that are less certain than undetermined_deg as undetermined. Where
+// fewer than 30 points are usable, `start` is given back with a Problem.
 RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, const MeshSurface& surface,
                                         const RegistrationResult& start, std::span<const Pose> others,
                                         const RefineConfig& config);

@@ -60,6 +60,7 @@ struct RegistrationResult {
   Eigen::Vector3d centre_mesh_m = Eigen::Vector3d::Zero();                       // the points' mean, mesh frame
   std::vector<UndeterminedMotion> undetermined;
   std::optional<RunnerUp> runner_up;
+  bool ambiguous = false;  // the runner-up fits as well
   bool trustworthy = true;
   std::string verdict;  // in words
   Problems problems;

@@ -28,9 +28,8 @@ struct RegistrationSurface {
   std::vector<RegistrationFacet> facets;  // one a triangle
 };
 
-// Normals at the corners are the means of the facets' at the vertex within `crease_deg` of the corner's own,
-// weighted by their angles there: a sharper edge stays one. Vertices at the same position count as one
-// (geometry/mesh_adjacency.h). Throws Error for an empty mesh or an index out of range.
+// Normals at the corners are those of geometry/corner_normals.h with edges sharper than `crease_deg` kept. Vertices at
+// the same position count as one (geometry/mesh_adjacency.h). Throws Error for an empty mesh or an index out of range.
 RegistrationSurface prepare_surface(const TriangleMesh& mesh, const MeshBvh& bvh, double crease_deg = 40.0);
 
 }  // namespace asperity

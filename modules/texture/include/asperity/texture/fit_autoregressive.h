@@ -27,6 +27,7 @@ struct FitAutoregressiveConfig {
   OrderCriterion criterion = OrderCriterion::kBic;
   double mass_kg = 0.05;
   bool hold_out_half = true;
+  double block_s = 1.0;
   int bands = 8;
   int realisations = 8;
   std::int64_t seed = 1;
@@ -44,7 +45,8 @@ struct FitAutoregressiveConfig {
     v.field("max_order", max_order, "highest order tried", {1, 32});
     v.choice("criterion", criterion, kOrderCriterionNames, "what chooses the order");
     v.field("mass_kg", mass_kg, "effective mass of tool and hand", {0.0, 1e3});
-    v.field("hold_out_half", hold_out_half, "measure the error of a fit to the first half on the second");
+    v.field("hold_out_half", hold_out_half, "measure the error of a fit to one half on the other");
+    v.field("block_s", block_s, "the halves are every other block of this length", {1e-2, 1e5});
     v.field("bands", bands, "of the spectrum that are compared", {1, 64});
     v.field("realisations", realisations, "of the synthesis that are averaged", {1, 1000});
     v.field("seed", seed, "of the synthesis", {0, 9e15});
@@ -78,7 +80,7 @@ struct AutoregressiveFit {
   std::size_t samples = 0;                 // that stroke
   std::vector<std::size_t> model_samples;  // per model
   std::vector<double> order_cost;          // the criterion, from min_order on
-  SeriesError held_out;                    // fit to the first half, measured on the second
+  SeriesError held_out;                    // fit to one half, measured on the other
   Problems problems;                       // "few_samples", "no_held_out"
 };
 

@@ -28,6 +28,8 @@ struct TextureFiles {
 TextureFiles format_texture_files(const Texture& texture, const std::string& stem);
 // The JSON alone, payloads called "texture.…".
 std::string format_texture(const Texture& texture);
+// What the payloads of a texture file are called after: x for x.texture.json and x.json.
+std::string texture_stem(const std::filesystem::path& path);
 // Writes both, payloads first, each under a temporary name and renamed; payloads are called after `path`:
 // those of x.texture.json are x.heights.png, x.surface.csv, ….
 void write_texture(const std::filesystem::path& path, const Texture& texture);
