@@ -194,9 +194,8 @@ TEST(Spine, TheDemoPrintsMeasuredAgainstTrue) {
   const std::string out = (dir / "demo").string();
   const Outcome outcome = run({"demo", "-o", out});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* word :
-       {"measured", "true", "pitch", "depth", "Rq", "contact stiffness", "correlation", "protoboard", "sandpaper",
-        "pebble", "pose, its points", "undetermined", "painted"}) {
+  for (const char* word : {"measured", "true", "pitch", "depth", "Rq", "contact stiffness", "correlation", "protoboard",
+                           "sandpaper", "pebble", "pose, its points", "undetermined", "painted"}) {
     EXPECT_THAT(outcome.out, HasSubstr(word));
   }
   EXPECT_TRUE(fs::exists(dir / "demo" / "results" / "protoboard" / "texture.json"));
