@@ -1,8 +1,5 @@
 // The servo's evaluators do not touch the heap: every operator new of this program is counted.
-#include <atomic>
 #include <cstddef>
-#include <cstdlib>
-#include <new>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -10,24 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "asperity/base/random.h"
+#include "asperity/testkit/count_allocations.h"
 #include "asperity/texture/autoregressive_filter.h"
 #include "asperity/texture/evaluate_autoregressive.h"
 #include "asperity/texture/evaluate_decaying_sinusoids.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/evaluate_stochastic.h"
 #include "asperity/texture/synthesize_isotropic.h"
-
-namespace {
-std::atomic<std::size_t> allocations = 0;
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size > 0 ? size : 1)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
 namespace asperity {
 namespace {
@@ -37,18 +23,18 @@ std::size_t allocations_of(const Texture& texture) {
   static_assert(noexcept(next_force(texture, std::declval<SeriesState&>(), 0.0, 0.0, 0.0)));
   SeriesState state = start_series(1);
   Random random(2);
-  const std::size_t before = allocations;
+  const std::size_t before = testkit::count_allocations();
   double sum = 0.0;
   for (int i = 0; i < 2000; ++i)
     sum += next_force(texture, state, random.uniform(-0.1, 0.5), random.uniform(-1.0, 5.0), 1e-3).normal_N;
   EXPECT_TRUE(sum == sum);
-  return allocations - before;
+  return testkit::count_allocations() - before;
 }
 
 TEST(NoAllocation, OfSeriesTextures) {
-  const std::size_t before = allocations;
+  const std::size_t before = testkit::count_allocations();
   ::operator delete(::operator new(1));
-  ASSERT_GT(allocations, before) << "the counter counts";
+  ASSERT_GT(testkit::count_allocations(), before) << "the counter counts";
 
   EXPECT_EQ(allocations_of(StochasticTexture{.sigma_m = 1e-5, .grain_m = 1e-4, .speed_exponent = 0.5}), 0u);
   EXPECT_EQ(allocations_of(DecayingSinusoids{.a_per_s = 10.0, .pitch_m = 1e-3}), 0u);
@@ -78,11 +64,11 @@ TEST(NoAllocation, HeightFieldsDoNotEither) {
   for (const TextureModel& model : {TextureModel(series), TextureModel(product), TextureModel(isotropic),
                                     TextureModel(map), TextureModel(ArealTexture{isotropic.grid, {}})}) {
     Random random(2);
-    const std::size_t before = allocations;
+    const std::size_t before = testkit::count_allocations();
     double sum = 0.0;
     for (int i = 0; i < 500; ++i)
       sum += evaluate_height(model, random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)).height_m;
-    EXPECT_EQ(allocations, before) << model.index();
+    EXPECT_EQ(testkit::count_allocations(), before) << model.index();
     EXPECT_TRUE(sum == sum);
   }
 }

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <cstddef>
+
+namespace asperity::testkit {
+
+// How often operator new was called in this program so far, by any thread. A program that calls this has its
+// operators new and delete replaced by counting ones.
+std::size_t count_allocations();
+
+}  // namespace asperity::testkit
