@@ -194,9 +194,8 @@ TEST(Spine, TheDemoPrintsMeasuredAgainstTrue) {
   const std::string out = (dir / "demo").string();
   const Outcome outcome = run({"demo", "-o", out});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  for (const char* word :
-       {"measured", "true", "pitch", "depth", "Rq", "contact stiffness", "correlation", "protoboard", "sandpaper",
-        "pebble", "pose, its points", "undetermined", "painted"}) {
+  for (const char* word : {"measured", "true", "pitch", "depth", "Rq", "contact stiffness", "correlation", "protoboard",
+                           "sandpaper", "pebble", "pose, its points", "undetermined", "painted"}) {
     EXPECT_THAT(outcome.out, HasSubstr(word));
   }
   EXPECT_TRUE(fs::exists(dir / "demo" / "results" / "protoboard" / "texture.json"));
@@ -221,8 +220,12 @@ TEST(Spine, TheDemoPrintsMeasuredAgainstTrue) {
   EXPECT_EQ(nlohmann::json::parse(scene)["textures"].size(), 2u);
   // What it left serves the other commands.
   const std::string mesh = (dir / "demo" / "pebble.obj").string();
+  std::ifstream found(dir / "demo" / "results" / "pebble" / "registration.json");
+  const auto pose_found = nlohmann::json::parse(found)["T_mesh_world"];
+  std::string guess;
+  for (const auto& number : pose_found) guess += (guess.empty() ? "" : ",") + number.dump();
   const Outcome registered = run({"register", (dir / "demo" / "recordings" / "pebble").string(), mesh, "--mesh-unit",
-                                  "mm", "-o", (dir / "found").string(), "--json"});
+                                  "mm", "--guess", guess, "-o", (dir / "found").string(), "--json"});
   EXPECT_EQ(registered.code, 0) << registered.err;
   EXPECT_EQ(run({"export", (dir / "demo" / "painted").string(), "--to", "stl", "-o", (dir / "stl").string()}).code, 0);
 }
