@@ -167,6 +167,13 @@ std::vector<Pose> other_fits(const std::vector<MeasuredPath>& paths, const Regis
   return out;
 }
 
+// A motion known less well than a guess by hand.
+bool is_arbitrary(const RegistrationResult& registration) {
+  constexpr double kGuess_m = 5e-3;
+  return std::any_of(registration.undetermined.begin(), registration.undetermined.end(),
+                     [](const UndeterminedMotion& motion) { return !(motion.sigma_m < kGuess_m); });
+}
+
 bool in_sequence(const std::vector<Scan>& scans) {
   return std::all_of(scans.begin(), scans.end(),
                      [](const Scan& scan) { return scan.recording.has_value() || scan.path.timed; });
@@ -255,6 +262,10 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
   }
   append(out.problems, out.registration.problems);
   if (!out.registration.trustworthy) distrust(out, out.registration.verdict);
+  // Where the scans say nothing the guess counts; without one the place is arbitrary.
+  if (!guess && is_arbitrary(out.registration)) {
+    distrust(out, "without a guess, where the scans lie along undetermined motions is arbitrary");
+  }
 
   // What they met there.
   std::vector<MeshPath> mesh_paths;
