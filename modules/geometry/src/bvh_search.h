@@ -170,7 +170,9 @@ class ClosestSearch {
 
   void visit_leaf(std::uint32_t at) {
     const LeafHead& head = leaf_head(tree_, at);
-    const LeafDistances<V> leaf(head, split_);
+    LeafDistances<V> leaf(head, split_);
+    if (!leaf.may_be_within(bound_)) return;
+    leaf.measure();
     unsigned left = leaf.within(bound_);
     if (left == 0) return;
     const float bound = leaf.nearest_no_less();

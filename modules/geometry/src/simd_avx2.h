@@ -47,6 +47,7 @@ struct Floats8Avx2 {
     return {_mm256_fnmadd_ps(a.value, b.value, c.value)};
   }
   static Floats8Avx2 absolute(Floats8Avx2 a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.value)}; }
+  __m128 first_four() const { return _mm256_castps256_ps128(value); }
   float first() const { return _mm256_cvtss_f32(value); }
   // 1 / a to a relative 1.5 / 4096
   static Floats8Avx2 reciprocal(Floats8Avx2 a) { return {_mm256_rcp_ps(a.value)}; }
