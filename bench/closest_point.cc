@@ -1,5 +1,5 @@
 // Closest points on one mesh, ours beside those of Embree and CGAL where they are installed, in one run:
-// closest_point [mesh.obj [subdivisions]]. Without a mesh a bumpy torus of 93,636 triangles.
+// closest_point [mesh file [subdivisions]]. Without a mesh a bumpy torus of 93,636 triangles.
 #include <sys/resource.h>
 #include <time.h>
 
@@ -10,6 +10,7 @@
 #include <exception>
 
 #include "asperity/geometry/mesh_bvh.h"
+#include "asperity/geometry/read_mesh.h"
 #include "peers/closest_peer.h"
 #include "query_patterns.h"
 
@@ -126,7 +127,8 @@ void time_queries(const TriangleMesh& mesh) {
 int main(int argc, char** argv) {
   try {
     constexpr double kSize_m = 0.12;
-    TriangleMesh mesh = argc > 1 ? bench::read_obj(argv[1], kSize_m) : bench::bumpy_torus(306, 153);
+    TriangleMesh mesh = argc > 1 ? bench::scaled_to(asperity::to_metres(asperity::read_mesh(argv[1]), 1.0), kSize_m)
+                                 : bench::bumpy_torus(306, 153);
     for (int i = argc > 2 ? std::atoi(argv[2]) : 0; i > 0; --i) mesh = bench::subdivide(mesh);
     time_build();
     time_queries(mesh);

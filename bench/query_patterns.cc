@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <numbers>
-#include <sstream>
 
 #include <Eigen/Geometry>
 
-#include "asperity/base/error.h"
 #include "asperity/base/random.h"
 #include "asperity/geometry/mesh_bvh.h"
 
@@ -124,26 +121,7 @@ TriangleMesh subdivide(const TriangleMesh& mesh) {
   return out;
 }
 
-TriangleMesh read_obj(const char* path, double size_m) {
-  std::ifstream file(path);
-  if (!file) throw asperity::Error(std::string(path) + ": cannot be opened");
-  TriangleMesh mesh;
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream words(line);
-    std::string word;
-    words >> word;
-    if (word == "v") {
-      Vector3d v;
-      words >> v.x() >> v.y() >> v.z();
-      mesh.vertices_m.push_back(v);
-    } else if (word == "f") {
-      std::vector<std::uint32_t> polygon;
-      while (words >> word) polygon.push_back(static_cast<std::uint32_t>(std::stoul(word) - 1));
-      for (std::size_t k = 2; k < polygon.size(); ++k)
-        mesh.triangles.push_back({polygon[0], polygon[k - 1], polygon[k]});
-    }
-  }
-  if (mesh.vertices_m.empty()) throw asperity::Error(std::string(path) + ": no vertices");
+TriangleMesh scaled_to(TriangleMesh mesh, double size_m) {
   const Box box = box_of(mesh);
   const double scale = size_m / (box.high - box.low).maxCoeff();
   for (auto& v : mesh.vertices_m) v *= scale;

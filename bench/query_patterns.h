@@ -23,7 +23,7 @@ asperity::TriangleMesh bumpy_torus(std::uint32_t rows, std::uint32_t columns);
 // Every triangle split in four at the middles of its edges.
 asperity::TriangleMesh subdivide(const asperity::TriangleMesh& mesh);
 
-// Vertices and polygons of a Wavefront file, scaled so that the longest side of its box is `size_m`.
-asperity::TriangleMesh read_obj(const char* path, double size_m);
+// Scaled so that the longest side of its box, which must not be 0, is `size_m`.
+asperity::TriangleMesh scaled_to(asperity::TriangleMesh mesh, double size_m);
 
 }  // namespace bench

@@ -11,6 +11,7 @@
 
 #include "asperity/base/error.h"
 #include "bvh_split.h"
+#include "bvh_turned_box.h"
 
 namespace asperity::bvh {
 
@@ -218,6 +219,7 @@ std::uint32_t Builder::add_leaf(const Range& range, std::uint32_t parent) {
 
   std::array<LeafBlock, kMaxBlocks> block;
   double slack = 0.0;
+  std::array<std::array<Eigen::Vector3d, 3>, kMaxLeaf> exact;
   // The places beyond the last triangle repeat it.
   const std::uint32_t places = kWidth * blocks(head.count);
   for (std::uint32_t i = 0; i < places; ++i) {
@@ -232,8 +234,9 @@ std::uint32_t Builder::add_leaf(const Range& range, std::uint32_t parent) {
     for (int v = 0; v < 3; ++v)
       for (int k = 0; k < 3; ++k) {
         const double r = out_.vertices[3 * vertex[v] + static_cast<std::size_t>(k)] - out_.centre[k];
-        const double place = std::nearbyint((r - static_cast<double>(head.origin[k])) * per_unit);
-        corner[v][k] = std::clamp(place, 0.0, 65535.0);
+        const double place = (r - static_cast<double>(head.origin[k])) * per_unit;
+        if (i < head.count) exact[i][static_cast<std::size_t>(v)][k] = place;
+        corner[v][k] = std::clamp(std::nearbyint(place), 0.0, 65535.0);
         block[i / kWidth].corner[v][k][i % kWidth] = static_cast<std::uint16_t>(corner[v][k]);
       }
     const Eigen::Vector3d u = corner[1] - corner[0], w = corner[2] - corner[0];
@@ -244,6 +247,7 @@ std::uint32_t Builder::add_leaf(const Range& range, std::uint32_t parent) {
       slack = std::max(slack, std::min(aspect2 * aspect2 * 0x1p-44, length2 / aspect2 / (65535.0 * 65535.0)));
     }
   }
+  set_turned_box({exact.data(), head.count}, head);
   head.slack = static_cast<float>(slack * (1.0 + 1e-6)) + 0x1p-17f;
 
   const std::size_t head_units = sizeof(LeafHead) / kPoolUnit, block_units = sizeof(LeafBlock) / kPoolUnit;

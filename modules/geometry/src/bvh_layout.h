@@ -33,6 +33,9 @@ struct alignas(64) Node {
 struct alignas(16) LeafHead {
   float origin[3];
   float unit;
+  // A box turned with the triangles, in units: they lie within low <= axes (q - origin) <= high. Last places are 0.
+  float axes[3][4];  // by columns; the matrix lengthens nothing
+  float low[4], high[4];
   float slack;          // see bvh_leaf.h
   std::uint32_t first;  // index in faces of the first triangle
   std::uint32_t count;

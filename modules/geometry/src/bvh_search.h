@@ -60,7 +60,10 @@ class ClosestSearch {
     } else {
       split_ = split_point(r_);
       px_ = V::all(split_.high[0]), py_ = V::all(split_.high[1]), pz_ = V::all(split_.high[2]);
-      search_from(guess != kNone ? guess : first_leaf());
+      if (guess != kNone)
+        search_from(guess);
+      else
+        search_from_root();
     }
     for (int i = 0; i < waiting_; ++i)
       if (candidates_[i].bound <= bound_) measure(candidates_[i].slot);
@@ -73,6 +76,15 @@ class ClosestSearch {
     std::uint32_t slot;
   };
   static constexpr int kCandidates = 64;
+  struct Pending {
+    float gap2;
+    std::uint32_t at;
+  };
+  // A node and the squared distances of its children that are not yet seen.
+  struct alignas(32) Level {
+    float keys[kWidth];
+    const Node* node;
+  };
 
   // Nothing farther than `bound` is of interest from here on.
   void tighten(float bound) {
@@ -93,40 +105,61 @@ class ClosestSearch {
     if (bound < bound_) tighten(bound);
   }
 
-  // Straight down to a leaf by the nearest child.
-  std::uint32_t first_leaf() const {
+  // Straight down to a leaf by the nearest child, then the other children on the way up.
+  void search_from_root() {
+    Level levels[kMaxDepth];
+    int depth = 0;
     std::uint32_t at = tree_.root;
     while (!(at & kLeafFlag)) {
       const Node& node = tree_.nodes[at];
-      const float nearest = V::smallest(V::tagged(box_gap2<V>(node, px_, py_, pz_)));
+      const V keys = V::tagged(box_gap2<V>(node, px_, py_, pz_));
+      const float nearest = V::smallest(keys);
+      V::without(keys, nearest).store(levels[depth].keys);
+      levels[depth++].node = &node;
       at = node.child[__builtin_bit_cast(std::uint32_t, nearest) % kWidth];
     }
-    return at;
+    visit_leaf<false>(at);
+    Pending pending[kStackSize];
+    int count = 0;
+    while (depth-- > 0) add_pending(V::load(levels[depth].keys), *levels[depth].node, 0, pending, count);
+    descend_all(pending, count);
   }
 
   // What the leaf `at` holds, then the other children of the nodes on the way from it up to the root. All these
   // nodes are known beforehand, so the processor tests them side by side instead of one after the other.
   void search_from(std::uint32_t at) {
-    visit_leaf(at);
-    struct Pending {
-      float gap2;
-      std::uint32_t at;
-    };
+    visit_leaf<false>(at);
     Pending pending[kStackSize];
     int count = 0;
     for (std::uint32_t parent = leaf_head(tree_, at).parent; parent != kNone;) {
       const Node& node = tree_.nodes[parent / kWidth];
-      const V gap2 = box_gap2<V>(node, px_, py_, pz_);
-      unsigned left = V::not_above(gap2, V::all(reach2_)) & ~(1u << parent % kWidth);
+      add_pending(box_gap2<V>(node, px_, py_, pz_), node, 1u << parent % kWidth, pending, count);
       parent = node.parent;
-      if (left == 0) continue;
-      alignas(32) float gaps2[kWidth];
-      gap2.store(gaps2);
-      for (; left != 0; left &= left - 1) {
-        const int i = __builtin_ctz(left);
-        pending[count++] = {gaps2[i], node.child[i]};
-      }
     }
+    descend_all(pending, count);
+  }
+
+  // The children within reach, but for those in `seen`.
+  [[gnu::always_inline]] void add_pending(V gap2, const Node& node, unsigned seen, Pending* pending, int& count) const {
+    unsigned left = V::not_above(gap2, V::all(reach2_)) & ~seen;
+    if (left == 0) return;
+    alignas(32) float gaps2[kWidth];
+    gap2.store(gaps2);
+    for (; left != 0; left &= left - 1) {
+      const int i = __builtin_ctz(left);
+      pending[count++] = {gaps2[i], node.child[i]};
+      prefetch(node.child[i]);
+    }
+  }
+
+  // What a visit reads first.
+  void prefetch(std::uint32_t at) const {
+    const char* const place = at & kLeafFlag ? reinterpret_cast<const char*>(&leaf_head(tree_, at))
+                                             : reinterpret_cast<const char*>(tree_.nodes + at);
+    for (int i = 0; i < 4; ++i) __builtin_prefetch(place + 64 * i);
+  }
+
+  void descend_all(const Pending* pending, int count) {
     for (int i = 0; i < count; ++i)
       if (pending[i].gap2 <= reach2_) descend(pending[i].at);
   }
@@ -134,13 +167,9 @@ class ClosestSearch {
   // The nearest child first. A node with more children to see waits as a level with the squared distances of
   // those; nothing is sorted, for most are out of reach by the time that the search comes back.
   void descend(std::uint32_t at) {
-    struct alignas(32) Level {
-      float keys[kWidth];
-      const Node* node;
-    };
     Level levels[kMaxDepth];
     int depth = 0;
-    if (at & kLeafFlag) return visit_leaf(at);
+    if (at & kLeafFlag) return visit_leaf<true>(at);
     const Node* node = tree_.nodes + at;
     V keys = V::tagged(box_gap2<V>(*node, px_, py_, pz_));
     for (;;) {
@@ -159,7 +188,7 @@ class ClosestSearch {
           keys = V::tagged(box_gap2<V>(*node, px_, py_, pz_));
           continue;
         }
-        visit_leaf(child);
+        visit_leaf<true>(child);
       }
       if (depth == 0) return;
       --depth;
@@ -168,9 +197,15 @@ class ClosestSearch {
     }
   }
 
+  template <bool kTestBox>
   void visit_leaf(std::uint32_t at) {
     const LeafHead& head = leaf_head(tree_, at);
-    const LeafDistances<V> leaf(head, split_);
+    LeafDistances<V> leaf(head, split_);
+    if (kTestBox && !leaf.may_be_within(bound_)) return;
+    __builtin_prefetch(tree_.faces + head.first);
+    __builtin_prefetch(tree_.faces + head.first + 4);
+    __builtin_prefetch(tree_.faces + head.first + 8);
+    leaf.measure();
     unsigned left = leaf.within(bound_);
     if (left == 0) return;
     const float bound = leaf.nearest_no_less();

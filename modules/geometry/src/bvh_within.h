@@ -41,7 +41,9 @@ std::size_t within(const TreeView& tree, const double* p, double radius, std::ui
     const std::uint32_t at = stack[--depth];
     if (at & kLeafFlag) {
       const LeafHead& head = leaf_head(tree, at);
-      const LeafDistances<V> leaf(head, split);
+      LeafDistances<V> leaf(head, split);
+      if (!leaf.may_be_within(bound)) continue;
+      leaf.measure();
       for (unsigned left = leaf.within(bound); left != 0; left &= left - 1)
         measure(head.first + static_cast<std::uint32_t>(__builtin_ctz(left)));
       continue;

@@ -47,6 +47,7 @@ struct Floats8Avx2 {
     return {_mm256_fnmadd_ps(a.value, b.value, c.value)};
   }
   static Floats8Avx2 absolute(Floats8Avx2 a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.value)}; }
+  __m128 first_four() const { return _mm256_castps256_ps128(value); }
   float first() const { return _mm256_cvtss_f32(value); }
   // 1 / a to a relative 1.5 / 4096
   static Floats8Avx2 reciprocal(Floats8Avx2 a) { return {_mm256_rcp_ps(a.value)}; }
@@ -61,10 +62,9 @@ struct Floats8Avx2 {
   static unsigned not_above(Floats8Avx2 a, Floats8Avx2 b) {
     return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(a.value, b.value, _CMP_LE_OQ)));
   }
-  // a, at most kNothing, with the three lowest bits of each replaced by its place. Not to be negative.
+  // a with the three lowest bits of each replaced by its place; infinity becomes a NaN. Not to be negative.
   static Floats8Avx2 tagged(Floats8Avx2 a) {
-    const __m256 finite = _mm256_min_ps(a.value, _mm256_set1_ps(kNothing));
-    const __m256i bits = _mm256_and_si256(_mm256_castps_si256(finite), _mm256_set1_epi32(~7));
+    const __m256i bits = _mm256_and_si256(_mm256_castps_si256(a.value), _mm256_set1_epi32(~7));
     return {_mm256_castsi256_ps(_mm256_or_si256(bits, _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)))};
   }
   // a with kNothing in place of x
@@ -72,10 +72,14 @@ struct Floats8Avx2 {
     const __m256 gone = _mm256_cmp_ps(a.value, _mm256_set1_ps(x), _CMP_EQ_OQ);
     return {_mm256_blendv_ps(a.value, _mm256_set1_ps(kNothing), gone)};
   }
+  // Compared as integers, which takes a fourth of the time and is the same for what is not negative. Among negative
+  // numbers any may be returned, and of a NaN and a number the number.
   static float smallest(Floats8Avx2 a) {
-    __m128 x = _mm_min_ps(_mm256_castps256_ps128(a.value), _mm256_extractf128_ps(a.value, 1));
-    x = _mm_min_ps(x, _mm_movehl_ps(x, x));
-    return _mm_cvtss_f32(_mm_min_ss(x, _mm_shuffle_ps(x, x, 1)));
+    const __m256i bits = _mm256_castps_si256(a.value);
+    __m128i x = _mm_min_epi32(_mm256_castsi256_si128(bits), _mm256_extracti128_si256(bits, 1));
+    x = _mm_min_epi32(x, _mm_shuffle_epi32(x, 0x4e));
+    x = _mm_min_epi32(x, _mm_shuffle_epi32(x, 0xb1));
+    return _mm_cvtss_f32(_mm_castsi128_ps(x));
   }
 };
 

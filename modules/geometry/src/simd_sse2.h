@@ -57,6 +57,7 @@ struct Floats8Sse2 {
     const __m128 sign = _mm_set1_ps(-0.0f);
     return {_mm_andnot_ps(sign, a.lower), _mm_andnot_ps(sign, a.upper)};
   }
+  __m128 first_four() const { return lower; }
   float first() const { return _mm_cvtss_f32(lower); }
   // 1 / a to a relative 1.5 / 4096
   static Floats8Sse2 reciprocal(Floats8Sse2 a) { return {_mm_rcp_ps(a.lower), _mm_rcp_ps(a.upper)}; }
