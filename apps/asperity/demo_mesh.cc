@@ -33,7 +33,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kUnit_m = 1e-3;
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr std::uint64_t kSeed = 3;
+constexpr std::uint64_t kSeed = 1;
 constexpr const char* kScanned =
     "-0.034,-0.012,0.0158;-0.02,0.008,0.0243;0,0.016,0.0251;0.02,0.008,0.0243;0.034,-0.012,0.0158";
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <complex>
 #include <numbers>
 #include <string>
@@ -98,6 +99,37 @@ std::vector<Sample> checked(std::span<const double> x_m, std::span<const double>
   return samples;
 }
 
+// Fills each run of nan of a closed profile (its end is followed by its start) so that height and slope go on over
+// both edges: from either side a line that bends to level within 0.15 mm, blended. What a series may do in a gap
+// where no height counts is ring at its highest frequencies.
+void bridge_gaps_round(std::vector<double>& z_m, double spacing_m) {
+  constexpr double kBend_m = 0.15e-3;
+  const std::size_t n = z_m.size();
+  std::size_t first = 0;
+  while (first < n && !std::isfinite(z_m[first])) ++first;
+  if (first == n) return;
+  const std::vector<double> source = z_m;
+  const auto at = [&](std::size_t i) { return source[i % n]; };
+  // One-sided, over the neighbour if it is there.
+  const auto slope = [&](std::size_t edge, std::size_t inner) {
+    return std::isfinite(at(inner)) ? (at(edge) - at(inner)) / spacing_m : 0.0;
+  };
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t left = first + k;
+    if (!std::isfinite(at(left)) || std::isfinite(at(left + 1))) continue;
+    std::size_t right = left + 1;
+    while (!std::isfinite(at(right))) ++right;
+    const double length_m = static_cast<double>(right - left) * spacing_m;
+    const double from_left = slope(left, left + n - 1), from_right = slope(right, right + 1);
+    for (std::size_t i = left + 1; i < right; ++i) {
+      const double a_m = static_cast<double>(i - left) * spacing_m, b_m = length_m - a_m;
+      const double u = a_m / length_m, weight = u * u * (3.0 - 2.0 * u);
+      z_m[i % n] = (1.0 - weight) * (at(left) + from_left * a_m * std::exp(-a_m / kBend_m)) +
+                   weight * (at(right) + from_right * b_m * std::exp(-b_m / kBend_m));
+    }
+  }
+}
+
 }  // namespace
 
 FourierSamplesFit fit_fourier1d_samples(std::span<const double> x_m, std::span<const double> height_m, double length_m,
@@ -167,9 +199,13 @@ FourierPathFit fit_fourier1d_path(std::span<const double> height_m, double spaci
                                   const FitFourier1dPathConfig& config) {
   if (!(spacing_m > 0.0) || !std::isfinite(spacing_m))
     throw Error("texture: the spacing " + number_text(spacing_m) + " m is not a positive length");
-  std::vector<double> x_m(height_m.size());
+  const auto seam = static_cast<std::size_t>(std::lround(config.seam_mm * 1e-3 / spacing_m));
+  std::vector<double> closed_m(height_m.begin(), height_m.end());
+  closed_m.resize(height_m.size() + seam, std::numeric_limits<double>::quiet_NaN());
+  bridge_gaps_round(closed_m, spacing_m);
+  std::vector<double> x_m(closed_m.size());
   for (std::size_t i = 0; i < x_m.size(); ++i) x_m[i] = static_cast<double>(i) * spacing_m;
-  const double length_m = static_cast<double>(x_m.size()) * spacing_m + config.seam_mm * 1e-3;
+  const double length_m = static_cast<double>(x_m.size()) * spacing_m;
   const auto missing = std::count_if(height_m.begin(), height_m.end(), [](double z) { return std::isnan(z); });
   const auto present = static_cast<double>(height_m.size()) - static_cast<double>(missing);
   const double wanted = std::round(config.coefficients_per_mm * length_m * 1e3);
@@ -187,7 +223,7 @@ FourierPathFit fit_fourier1d_path(std::span<const double> height_m, double spaci
                                    " cycles/mm instead of " + number_text(config.coefficients_per_mm),
                                1});
   }
-  result.fit = fit_fourier1d_samples(x_m, height_m, length_m, samples);
+  result.fit = fit_fourier1d_samples(x_m, closed_m, length_m, samples);
   result.lift_m = lift_m(result.fit.texture);
   return result;
 }

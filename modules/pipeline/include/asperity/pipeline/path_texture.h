@@ -11,9 +11,10 @@ struct PathTexture {
   double start_m = 0.0;  // arc length at which the texture has x = 0
 };
 
-// The Fourier series of `texture_m` from its first to its last height: where a texture of 10 mm repeats what was
-// measured in one place (seed §6.5), this one has at each place of the path what was measured there. Throws Error
-// as fit_fourier1d_path does.
+// The Fourier series of `texture_m` from where the stroke begins to where it ends (a quarter of its median speed; a
+// rest before it wanders over its place with the tracker's error): where a texture of 10 mm repeats what was measured
+// in one place (seed §6.5), this one has at each place of the path what was measured there. Throws Error as
+// fit_fourier1d_path does.
 PathTexture fit_path_texture(const Profile& profile, const FitFourier1dPathConfig& config);
 
 }  // namespace asperity

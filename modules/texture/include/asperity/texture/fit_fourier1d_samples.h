@@ -51,17 +51,16 @@ struct FitFourier1dPathConfig {
     v.field("coefficients_per_mm", coefficients_per_mm, "harmonics a millimetre of path: the finest wave's frequency",
             {1e-3, 1e3});
     v.field("most_coefficients", most_coefficients, "more are not used, whatever the length", {1, 8192});
-    v.field("seam_mm", seam_mm, "free length after the path's end, in which the series returns to its start",
-            {0.0, 1e6});
+    v.field("seam_mm", seam_mm, "length after the path's end, in which the series returns to its start", {0.0, 1e6});
     v.field("ridge", ridge, "weight of the coefficients' squares against the heights', which keeps gaps flat",
             {0.0, 1.0});
   }
 };
 
 // A whole path as one series: heights `spacing_m` apart, nan in gaps, x = 0 at the first. The period is the
-// path and `seam_mm`, in which no height counts, so that the seam closes without bending the path. Problems:
-// "coarse_texture" if the path has too few heights, or is too long, for coefficients_per_mm. Throws Error as
-// above.
+// path and `seam_mm`; over it and over gaps the heights are bridged with their slopes, so that the series closes
+// without bending the path and does not ring where nothing was measured. Problems: "coarse_texture" if the path has too
+// few heights, or is too long, for coefficients_per_mm. Throws Error as above.
 struct FourierPathFit {
   FourierSamplesFit fit;
   double lift_m = 0.0;
