@@ -214,8 +214,6 @@ void measure_scan(const Scan& scan, const MeshSurface& surface, const Pose& T_me
   if (!scan.texture && (scan.recording || scan.path.timed)) make_own_texture(config, registered);
 
   registered.path = scan_on_mesh(registered.process.base, surface, T_mesh_world, config.path);
-  const double start_m = registered.path_texture ? registered.path_texture->start_m : 0.0;
-  for (double& s_m : registered.path.s_m) s_m -= start_m;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <Eigen/Cholesky>
@@ -142,6 +143,48 @@ void decide(double excess, RegistrationResult& result) {
       1e3 * result.runner_up->distance_m, result.runner_up->turn_rad * 180.0 / std::numbers::pi, 0.5 * excess);
 }
 
+// Where a descent ended.
+struct Valley {
+  double cost = 0.0;
+  Pose T_mesh_world;
+  double rms_m = 0.0;
+};
+
+// Another valley that is nearly as deep makes the result ambiguous (seed Fig. 25). The same valley ends within what
+// the covariance allows, or a millimetre.
+void name_rival(const PathChain& chain, const std::vector<Valley>& valleys, RegistrationResult& result) {
+  constexpr double kNearly = 9.0;      // −2 log likelihood: 90 : 1
+  constexpr double kSame = 5.0 * 5.0;  // squared standard deviations
+  constexpr double kSame_m = 1e-3;
+  double deepest = std::numeric_limits<double>::infinity();
+  for (const Valley& valley : valleys) deepest = std::min(deepest, valley.cost);
+  const Valley* rival = nullptr;
+  double rival_m = 0.0;
+  const Eigen::LDLT<Matrix6> covariance(result.covariance);
+  for (const Valley& valley : valleys) {
+    if (!(valley.cost < deepest + kNearly) || (rival != nullptr && valley.cost >= rival->cost)) continue;
+    double square_m2 = 0.0;
+    std::size_t count = 0;
+    for (const Eigen::Vector3d& p_m : chain.p_world_m) {
+      if (!p_m.allFinite()) continue;
+      square_m2 += (valley.T_mesh_world * p_m - result.T_mesh_world * p_m).squaredNorm();
+      ++count;
+    }
+    const double distance_m = std::sqrt(square_m2 / static_cast<double>(std::max<std::size_t>(1, count)));
+    const Vector6 change = registration::pose_change(result.T_mesh_world, valley.T_mesh_world, result.centre_mesh_m);
+    if (distance_m < kSame_m || change.dot(covariance.solve(change)) < kSame) continue;
+    rival = &valley;
+    rival_m = distance_m;
+  }
+  if (rival == nullptr) return;
+  const double turn_rad = rival->T_mesh_world.rotation.angularDistance(result.T_mesh_world.rotation);
+  result.runner_up = RunnerUp{rival->T_mesh_world, rival->rms_m, rival_m, turn_rad};
+  result.ambiguous = true;
+  result.trustworthy = false;
+  result.verdict += fmt::format(" Ambiguous: {:.2f} mm and {:.2f} degrees away it fits nearly as well ({:.4f} mm RMS).",
+                                1e3 * rival_m, turn_rad * 180.0 / std::numbers::pi, 1e3 * rival->rms_m);
+}
+
 }  // namespace
 
 RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, const MeshSurface& surface,
@@ -174,17 +217,20 @@ RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, con
   if (!(whitening.variance_m2 > 0.0)) return give_up("the path lies on the mesh exactly");
   Refined best = descend(problem, first, whitening, start.undetermined, config.max_iterations);
   int iterations = best.iterations;
+  std::vector<Valley> valleys;  // with the first round's whitening
   for (int round = 0; round < kRounds; ++round) {
     whitening = registration::make_whitening(chain, best.heights, order, smooth);
     if (!(whitening.variance_m2 > 0.0)) return give_up("the path lies on the mesh exactly");
     best = descend(problem, best.state, whitening, start.undetermined, config.max_iterations);
     iterations += best.iterations;
     if (round > 0) continue;
+    valleys.push_back({best.cost, best.state.T_mesh_world, best.heights.rms_m});
     for (const Pose& pose : others) {
       State other = first;
       other.T_mesh_world = pose;
       Refined there = descend(problem, other, whitening, start.undetermined, config.max_iterations);
       iterations += there.iterations;
+      valleys.push_back({there.cost, there.state.T_mesh_world, there.heights.rms_m});
       if (there.cost < best.cost) best = std::move(there);
     }
   }
@@ -201,6 +247,7 @@ RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, con
     other.T_mesh_world = start.runner_up->T_mesh_world;
     decide(descend(problem, other, whitening, {}, config.max_iterations).cost - best.cost, result);
   }
+  name_rival(chain, valleys, result);
   result.verdict +=
       fmt::format(" With the slow error of the tracker allowed for: residual {:.4f} mm RMS", 1e3 * result.rms_m);
   for (std::size_t i = start.undetermined.size(); i < result.undetermined.size(); ++i) {

@@ -34,7 +34,7 @@ struct RegisteredScan {
   std::string name;
   bool is_recording = false;
   ProcessResult process;                    // of a path alone: motion, base path and profile
-  MeshPath path;                            // its s_m begins where the texture does
+  MeshPath path;                            // its s_m is the profile's
   std::optional<PathTexture> path_texture;  // the whole profile; nullopt if a texture was given or none could be made
   std::optional<Texture> texture;           // what is laid along the path
 };
