@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "border.h"
+#include "grid_patch.h"
 #include "lowest_point.h"
 
 namespace asperity {
@@ -18,16 +18,9 @@ void cubic_weights(double t, std::array<double, 4>& weight, std::array<double, 4
   slope = {-0.5 * s * (s - 2.0 * t), t * (4.5 * t - 5.0), -s * (4.5 * s - 5.0), 0.5 * t * (t - 2.0 * s)};
 }
 
-struct Axis {
-  Inside at;
-  Neighbours neighbours;
-  std::array<double, 4> weight;
-  std::array<double, 4> slope;
-};
-
-Axis along(double u, std::size_t count, Border border) noexcept {
+PatchAxis along(double u, std::size_t count, Border border) noexcept {
   const double high = static_cast<double>(count) - (border == Border::kPeriodic ? 0.0 : 1.0);
-  Axis axis{};
+  PatchAxis axis{};
   axis.at = to_inside(u, 0.0, high, border);
   const double cell = std::min(std::floor(axis.at.u), high - 1.0);
   axis.neighbours = neighbours(static_cast<std::ptrdiff_t>(cell) - 1, count, border);
@@ -37,25 +30,7 @@ Axis along(double u, std::size_t count, Border border) noexcept {
 
 // At pixel coordinates, in levels; slopes a pixel.
 HeightAndGradient evaluate_at(const HeightMap& map, double u, double v) noexcept {
-  const Axis x = along(u, map.columns, map.border);
-  const Axis y = along(v, map.rows, map.border);
-  HeightAndGradient result;
-  for (std::size_t r = 0; r < 4; ++r) {
-    const std::uint16_t* row = map.level.data() + y.neighbours.index[r] * map.columns;
-    double height = 0.0;
-    double slope = 0.0;
-    for (std::size_t c = 0; c < 4; ++c) {
-      const double level = row[x.neighbours.index[c]];
-      height += x.weight[c] * level;
-      slope += x.slope[c] * level;
-    }
-    result.height_m += y.weight[r] * height;
-    result.slope_x += y.weight[r] * slope;
-    result.slope_y += y.slope[r] * height;
-  }
-  result.slope_x *= x.at.du;
-  result.slope_y *= y.at.du;
-  return result;
+  return sum_patch(along(u, map.columns, map.border), along(v, map.rows, map.border), map.level.data(), map.columns);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "border.h"
+#include "grid_patch.h"
 #include "lowest_point.h"
 
 namespace asperity {
@@ -20,18 +20,11 @@ void spline_weights(double t, std::array<double, 4>& weight, std::array<double, 
   slope = {-0.5 * s * s, -2.0 * t + 1.5 * t * t, 2.0 * s - 1.5 * s * s, 0.5 * t * t};
 }
 
-struct Axis {
-  Inside at;
-  Neighbours neighbours;
-  std::array<double, 4> weight;
-  std::array<double, 4> slope;
-};
-
-Axis along(double u, std::size_t count, Border border) noexcept {
+PatchAxis along(double u, std::size_t count, Border border) noexcept {
   const bool periodic = border == Border::kPeriodic;
   const double low = periodic ? 0.0 : 1.0;
   const double high = static_cast<double>(count) - (periodic ? 0.0 : 2.0);
-  Axis axis{};
+  PatchAxis axis{};
   axis.at = to_inside(u, low, high, border);
   double cell = std::floor(axis.at.u);
   if (!periodic && cell > high - 1.0) cell = high - 1.0;
@@ -42,25 +35,8 @@ Axis along(double u, std::size_t count, Border border) noexcept {
 
 // At grid coordinates; slopes a cell.
 HeightAndGradient evaluate_at(const SplineGrid& grid, double u, double v) noexcept {
-  const Axis x = along(u, grid.columns, grid.border);
-  const Axis y = along(v, grid.rows, grid.border);
-  HeightAndGradient result;
-  for (std::size_t r = 0; r < 4; ++r) {
-    const double* row = grid.coefficient_m.data() + y.neighbours.index[r] * grid.columns;
-    double height = 0.0;
-    double slope = 0.0;
-    for (std::size_t c = 0; c < 4; ++c) {
-      const double value = row[x.neighbours.index[c]];
-      height += x.weight[c] * value;
-      slope += x.slope[c] * value;
-    }
-    result.height_m += y.weight[r] * height;
-    result.slope_x += y.weight[r] * slope;
-    result.slope_y += y.slope[r] * height;
-  }
-  result.slope_x *= x.at.du;
-  result.slope_y *= y.at.du;
-  return result;
+  return sum_patch(along(u, grid.columns, grid.border), along(v, grid.rows, grid.border), grid.coefficient_m.data(),
+                   grid.columns);
 }
 
 }  // namespace
