@@ -64,8 +64,7 @@ std::optional<OtherSide> other_side(const TriangleMesh& mesh, const MeshAdjacenc
   const auto opposite = [&](std::size_t i) { return bend.left ? flat.portals[i].right : flat.portals[i].left; };
   const std::uint32_t vertex = vertex_of(bend.portal);
   const Vector2d place = bend.left ? flat.portals[bend.portal].left : flat.portals[bend.portal].right;
-  std::size_t first = bend.portal;
-  std::size_t last = bend.portal;
+  std::size_t first = bend.portal, last = first;
   // Where the path comes or goes along an edge of the strip, it touches the vertex from there on only.
   while (first > 0 && vertex_of(first - 1) == vertex && opposite(first) != before) --first;
   while (last + 1 < flat.portals.size() && vertex_of(last + 1) == vertex && opposite(last) != after) ++last;

@@ -108,7 +108,7 @@ class MtlParser {
       }
       problems_.count("texture_option",
                       [&] { return lines_.place() + ": the option " + printable(word) + " is not kept"; });
-      if (!name.empty() && name.end() > before.begin())
+      if (!name.empty() && name.data() + name.size() > before.data())
         name = trim(name.substr(0, static_cast<std::size_t>(before.data() - name.data())));
       if (!name.empty()) break;
       for (std::size_t i = 0; i < words; ++i) next_word(after);

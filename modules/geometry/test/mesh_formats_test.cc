@@ -3,9 +3,9 @@
 #include <fstream>
 #include <functional>
 
-#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <unistd.h>
+#include <Eigen/Geometry>
 
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"

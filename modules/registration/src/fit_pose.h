@@ -18,14 +18,14 @@ struct FitOptions {
   double isotropic = 1.0;
   double isotropic_decay = 0.6;
   int max_iterations = 60;
-  double step_sigmas = 0.1;    // ends when the step and what is to go are smaller, in standard deviations of the pose
+  double step_sigmas = 0.1;      // ends when the step and what is to go are smaller, in standard deviations of the pose
   double guess_sigma_m = 0.0;    // 0: no prior on the motion from `reference`, RMS over the points
   double guess_sigma_rad = 0.0;  // 0: none on its turn
   double alike = 1.0;            // how many points share one error: the prior counts for as much more against them
-  CentredPose reference;       // the guess
-  std::vector<Hold> holds;     // at a motion from `reference`
-  double fixed_scale_m = 0.0;  // of the distances; 0: measured
-  double known_scale_m = 0.0;  // where the pose has been fitted to some of the points already; 0: it has not
+  CentredPose reference;         // the guess
+  std::vector<Hold> holds;       // at a motion from `reference`
+  double fixed_scale_m = 0.0;    // of the distances; 0: measured
+  double known_scale_m = 0.0;    // where the pose has been fitted to some of the points already; 0: it has not
 };
 
 struct Fit {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <unsupported/Eigen/FFT>

@@ -38,8 +38,8 @@ struct RayHit {
 // Closest-point and ray queries on a triangle mesh.
 class MeshBvh {
  public:
-  // Keeps what it needs of `mesh`, about 70 bytes a triangle. Throws Error for a mesh without triangles, an index out of range or a
-  // vertex that is not finite.
+  // Keeps what it needs of `mesh`, about 70 bytes a triangle. Throws Error for a mesh without triangles, an index out
+  // of range or a vertex that is not finite.
   explicit MeshBvh(const TriangleMesh& mesh);
   ~MeshBvh();
   MeshBvh(MeshBvh&&) noexcept;
