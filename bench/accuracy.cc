@@ -17,20 +17,11 @@
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/signal/statistics.h"
 #include "asperity/simulation/simulate_recording.h"
+#include "split_list.h"
 
 namespace {
 
 using asperity::Error;
-
-std::vector<std::string> split(std::string_view list) {
-  std::vector<std::string> out;
-  while (true) {
-    const auto comma = list.find(',');
-    out.emplace_back(list.substr(0, comma));
-    if (comma == std::string_view::npos) return out;
-    list.remove_prefix(comma + 1);
-  }
-}
 
 struct Options {
   int seeds = 5;
@@ -56,13 +47,13 @@ Options parse(int argc, char** argv) {
       if (value != "yes" && value != "no") throw Error("--faults: '" + std::string(value) + "' is not yes or no");
       out.faults = value == "yes";
     } else if (name == "--surfaces") {
-      out.surfaces = split(value);
+      out.surfaces = split_list(value);
     } else if (name == "--probes") {
-      out.probes = split(value);
+      out.probes = split_list(value);
     } else if (name == "--methods") {
-      out.methods = split(value);
+      out.methods = split_list(value);
     } else if (name == "--speeds") {
-      out.speeds = split(value);
+      out.speeds = split_list(value);
     } else {
       throw Error("unknown option " + std::string(name));
     }

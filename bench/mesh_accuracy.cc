@@ -30,6 +30,7 @@
 #include "asperity/simulation/place_at_random.h"
 #include "asperity/simulation/random_motion.h"
 #include "asperity/simulation/simulate_recording.h"
+#include "split_list.h"
 
 namespace {
 
@@ -38,16 +39,6 @@ using asperity::Error;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr const char* kArc =
     "-0.034,-0.012,0.0158;-0.02,0.008,0.0243;0,0.016,0.0251;0.02,0.008,0.0243;0.034,-0.012,0.0158";
-
-std::vector<std::string> split(std::string_view list) {
-  std::vector<std::string> out;
-  while (true) {
-    const auto comma = list.find(',');
-    out.emplace_back(list.substr(0, comma));
-    if (comma == std::string_view::npos) return out;
-    list.remove_prefix(comma + 1);
-  }
-}
 
 struct Options {
   int seeds = 10;
@@ -79,7 +70,7 @@ Options parse(int argc, char** argv) {
     if (name == "--seeds") {
       out.seeds = static_cast<int>(number(name, value, 1.0, 1000.0));
     } else if (name == "--surfaces") {
-      out.surfaces = split(value);
+      out.surfaces = split_list(value);
     } else if (name == "--mesh") {
       out.mesh = value;
     } else if (name == "--unit") {
