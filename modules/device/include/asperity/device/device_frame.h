@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "asperity/device/haptic_device.h"
+
+namespace asperity {
+
+// How a device stands in the scene: p_world = scale · R p_device + t. Forces turn with R and are not scaled.
+struct DeviceFrame {
+  Eigen::Quaterniond R_world_device = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
+  double scale = 1.0;  // metres of the scene for a metre of the hand
+
+  Eigen::Vector3d position_m(const Eigen::Vector3d& p_device_m) const {
+    return scale * (R_world_device * p_device_m) + translation_m;
+  }
+  Eigen::Vector3d velocity_mps(const Eigen::Vector3d& v_device_mps) const {
+    return scale * (R_world_device * v_device_mps);
+  }
+  Eigen::Vector3d device_force_N(const Eigen::Vector3d& force_world_N) const {
+    return R_world_device.conjugate() * force_world_N;
+  }
+};
+
+}  // namespace asperity

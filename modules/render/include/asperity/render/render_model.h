@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "asperity/geometry/haptic_triangle.h"
+#include "asperity/geometry/mesh_bvh.h"
+#include "asperity/geometry/pose.h"
+#include "asperity/geometry/triangle_mesh.h"
+#include "asperity/render/render_texture.h"
+#include "asperity/scene/scene.h"
+
+namespace asperity {
+
+// How a scene is rendered.
+struct RenderConfig {
+  double tip_radius_m = 0.0;           // 0: a point
+  double stiffness_N_per_m = 1000;     // where the scene knows none
+  double friction = 0.0;               // coefficient of sliding, where the scene knows none
+  double static_friction_ratio = 1.2;  // coefficient of sticking over that of sliding
+  bool force_shading = false;          // forces along interpolated normals
+  double border_fade_m = 1e-3;         // width over which a texture fades at the border of its area (erratum 20)
+  RenderTextureConfig texture;
+};
+
+// How a corner of a triangle yields and rubs, all known.
+struct RenderMaterial {
+  double stiffness_N_per_m = 0.0;
+  double compliance_kc = 1.0;
+  double friction = 0.0;
+};
+
+// A mesh made ready for the servo thread, in metres, in the frame of the mesh.
+struct RenderObject {
+  TriangleMesh mesh;
+  MeshBvh bvh;
+  std::vector<Eigen::Vector3d> normals;  // unit, one a triangle; zero for one without area
+  std::vector<std::int32_t> texture;     // one a triangle: index in RenderModel::textures; -1: none
+  bool closed = false;                   // every edge has two triangles: it has an inside
+  Pose T_world_mesh;
+};
+
+// What is felt, immutable while it is.
+struct RenderModel {
+  std::vector<RenderObject> objects;
+  std::vector<RenderTexture> textures;
+  RenderConfig config;
+};
+
+// Throws Error for a scene that cannot be rendered, naming object and place.
+RenderModel make_render_model(const Scene& scene, const RenderConfig& config);
+
+}  // namespace asperity
