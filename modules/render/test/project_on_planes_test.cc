@@ -1,4 +1,4 @@
-#include "../src/project_on_planes.h"
+#include "project_on_planes.h"
 
 #include <optional>
 #include <vector>
