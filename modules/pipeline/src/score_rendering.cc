@@ -161,10 +161,10 @@ void judge(RenderingScore& out, const ScoreConfig& config) {
 }  // namespace
 
 RenderingScore score_rendering(const ProcessResult& measured, const PressedScan& pressed, const RenderModel& model,
-                               const ScoreConfig& config, const Observer& observer) {
+                               double servo_Hz, const ScoreConfig& config, const Observer& observer) {
   const Profile& profile = measured.profile;
   if (profile.size() == 0 || pressed.path.size() == 0) throw Error("score: the scan has no profile");
-  const Ticks ticks = render_scan(pressed, model, config.rate_Hz, observer);
+  const Ticks ticks = render_scan(pressed, model, servo_Hz, observer);
   if (ticks.touching == 0) throw Error("score: the scan never touches the scene; is it registered to this mesh?");
 
   RenderingScore out;
@@ -173,7 +173,7 @@ RenderingScore score_rendering(const ProcessResult& measured, const PressedScan&
   out.speed_mps = measured.speed.mean_mps;
   const TipMotion& motion = measured.trajectory.motion;
   const double span_s = static_cast<double>(motion.t_ns.back() - motion.t_ns.front()) * kNanosecond_s;
-  const double rate_Hz = std::min(config.rate_Hz, static_cast<double>(motion.size() - 1) / span_s);
+  const double rate_Hz = std::min(servo_Hz, static_cast<double>(motion.size() - 1) / span_s);
   ComparisonConfig comparison = config.comparison;
   comparison.high_cycles_per_mm =
       std::min(comparison.high_cycles_per_mm, comparison_limit_cycles_per_mm(rate_Hz, out.speed_mps));

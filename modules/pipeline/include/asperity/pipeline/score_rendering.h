@@ -11,7 +11,6 @@
 namespace asperity {
 
 struct ScoreConfig {
-  double rate_Hz = 1000.0;
   double segment_mm = 20.0;
   double least_part = 0.03;
   double half_dB = 6.0;
@@ -21,7 +20,6 @@ struct ScoreConfig {
 
   template <class V>
   void visit(V& v) {
-    v.field("rate_Hz", rate_Hz, "of the servo that repeats the scan, Hz", {100.0, 4000.0});
     v.field("segment_mm", segment_mm, "of the spectra's averaging, mm", {1e-3, 1e6});
     v.field("least_part", least_part, "of the whole RMS: an octave below it in both is not felt", {0.0, 1.0});
     v.field("half_dB", half_dB, "distance of spectra that halves their agreement, dB", {0.1, 100.0});
@@ -32,7 +30,7 @@ struct ScoreConfig {
 };
 
 // Compares a recorded scan with what the renderer makes of its path: `pressed` (press_in_scan.h) is run through
-// render_step at `rate_Hz`, without a device and its safety layer, and in contact
+// render_step at `servo_Hz`, without a device and its safety layer, and in contact
 //
 //   the rendered height, that of the texture under the proxy, is held against the profile's height_m,
 //   the rendered normal force f·n against the measured one,
@@ -48,6 +46,6 @@ struct ScoreConfig {
 // force is in both sides (docs/feel.md). Throws Error for a scan that is never in contact or too short for a
 // spectrum.
 RenderingScore score_rendering(const ProcessResult& measured, const PressedScan& pressed, const RenderModel& model,
-                               const ScoreConfig& config, const Observer& observer = {});
+                               double servo_Hz, const ScoreConfig& config, const Observer& observer = {});
 
 }  // namespace asperity
