@@ -59,8 +59,10 @@ std::vector<LevelPiece> level_pieces(const SceneObject& object, int texture) {
       highest = std::max(highest, corner.y());
     }
   }
-  // Coordinates that all lie on one side have their line in their middle.
-  const double y_mm = lowest < 0.0 && highest > 0.0 ? 0.0 : 0.5 * (lowest + highest);
+  // Coordinates that all lie on one side have their line in their middle. A hair's breadth beside it, for a path
+  // along edges of the mesh has their corners on either side of 0 by rounding.
+  constexpr double kBeside = 1e-3;
+  const double y_mm = (lowest < 0.0 && highest > 0.0 ? 0.0 : 0.5 * (lowest + highest)) + kBeside * (highest - lowest);
   std::vector<LevelPiece> out;
   for (std::uint32_t t = 0; t < object.mesh.haptic.size(); ++t) {
     if (object.mesh.haptic[t].texture != texture) continue;
