@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "../src/sdl_headers.h"
+
 namespace asperity {
 
 // SDL's disk driver while this lives: what would be heard is in a file, as floats, at about the clock's pace. The
@@ -15,6 +17,7 @@ class DiskAudio {
   static constexpr int kBlock = 240;
 
   explicit DiskAudio(std::filesystem::path path) : path_(std::move(path)) {
+    SDL_LogSetPriority(SDL_LOG_CATEGORY_AUDIO, SDL_NUM_LOG_PRIORITIES);  // it calls itself critical
     ::setenv("SDL_DISKAUDIOFILE", path_.c_str(), 1);
   }
   ~DiskAudio() { ::unsetenv("SDL_DISKAUDIOFILE"); }

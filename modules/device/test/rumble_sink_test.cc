@@ -1,5 +1,6 @@
 #include "asperity/device/open_rumble_sink.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -30,6 +31,18 @@ std::function<double(double)> tone(double amplitude_N, double frequency_Hz) {
   return [=](double t) { return 1.0 + amplitude_N * std::sin(2.0 * std::numbers::pi * frequency_Hz * t); };
 }
 
+// The mean of the last updates: their windows do not end with a period.
+VirtualGamepad::Command mean_of_last(const VirtualGamepad& pad, std::size_t count) {
+  const auto commands = pad.commands();
+  VirtualGamepad::Command mean;
+  count = std::min(count, commands.size());
+  for (std::size_t i = commands.size() - count; i < commands.size(); ++i) {
+    mean.low += commands[i].low / static_cast<double>(count);
+    mean.high += commands[i].high / static_cast<double>(count);
+  }
+  return mean;
+}
+
 std::string message_of(const RumbleSinkConfig& config) {
   try {
     open_rumble_sink(config);
@@ -47,14 +60,14 @@ TEST(RumbleSink, TheBandsDriveTheirMotors) {
   EXPECT_EQ(sink->info().name, "gamepad");
   EXPECT_EQ(sink->info().model, "Test Pad");
   play(*sink, 300, tone(0.4, 50.0));
-  VirtualGamepad::Command now = pad.now();
+  VirtualGamepad::Command now = mean_of_last(pad, 5);
   // Second-order Butterworth bands: at half the split -0.3 dB below and -12.3 dB above, at 2.5 times the high-pass
   // -0.1.
-  constexpr double kTol = 0.05;  // updates do not end with a period
+  constexpr double kTol = 0.03;
   EXPECT_NEAR(now.low, 0.5 * 0.4 * 0.99 * 0.97, kTol);
   EXPECT_NEAR(now.high, 0.5 * 0.4 * 0.24, kTol);
   play(*sink, 300, tone(0.4, 250.0));
-  now = pad.now();
+  now = mean_of_last(pad, 5);
   EXPECT_NEAR(now.low, 0.5 * 0.4 * 0.1, kTol);
   EXPECT_NEAR(now.high, 0.5 * 0.4 * 0.99, kTol);
 }
@@ -65,10 +78,12 @@ TEST(RumbleSink, UpdatesAtMostAtItsRateAndNeverAboveTheCeiling) {
   config.volume = 1.0;
   config.ceiling = 0.6;
   const auto sink = open_rumble_sink(config);
+  const auto begin = Clock::now();
   int tick = 0;
   play(*sink, 500, [&](double) { return ++tick % 13 == 0 ? std::nan("") : (tick % 4 < 2 ? 1e200 : -1e200); });
   const auto commands = pad.commands();
-  EXPECT_LE(commands.size(), 52U);  // 100 Hz for 0.5 s
+  const double lasted_s = std::chrono::duration<double>(Clock::now() - begin).count();
+  EXPECT_LE(static_cast<double>(commands.size()), 100.0 * lasted_s + 2.0);
   double most = 0.0;
   for (const auto& command : commands) {
     EXPECT_LE(command.low, 0.6);

@@ -26,13 +26,16 @@ class AudioRig final : public DeviceRig {
     config.block_samples = DiskAudio::kBlock;
     return open_vibrating(open_hand(), open_audio_sink(config));
   }
-  // The loudest sample of the last block.
+  // The loudest sample since the last call, of at least one block: the driver's file is written in pieces.
   Eigen::Vector3d motor_output() override {
     const std::vector<double> sound = disk_.samples();
+    if (sound.size() < heard_) heard_ = 0;
+    const std::size_t block = std::min<std::size_t>(sound.size(), DiskAudio::kBlock);
     double most = 0.0;
-    for (std::size_t i = sound.size() - std::min<std::size_t>(sound.size(), DiskAudio::kBlock); i < sound.size(); ++i) {
+    for (std::size_t i = std::min(heard_, sound.size() - block); i < sound.size(); ++i) {
       most = std::max(most, std::abs(sound[i]));
     }
+    heard_ = sound.size();
     return {most, 0.0, 0.0};
   }
   bool has_position() const override { return false; }
@@ -43,6 +46,7 @@ class AudioRig final : public DeviceRig {
  private:
   testkit::TempDir folder_;
   DiskAudio disk_{folder_ / "sound.raw"};
+  std::size_t heard_ = 0;
 };
 
 class GamepadRig final : public DeviceRig {
