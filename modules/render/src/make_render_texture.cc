@@ -9,6 +9,7 @@
 #include "asperity/texture/convert_rate.h"
 #include "asperity/texture/evaluate_height.h"
 #include "highest_height.h"
+#include "make_tables.h"
 #include "texture_id.h"
 
 namespace asperity {
@@ -55,15 +56,9 @@ RenderTexture make_render_texture(const Texture& texture, const RenderTextureCon
     check_finite(texture, "the highest height", highest_m);
     result.highest_m = std::max(highest_m, 0.0);
   }
+  make_tables(result);
   result.id = texture_id(result);
   return result;
-}
-
-HeightAndGradient render_height(const RenderTexture& texture, double x_m, double y_m) noexcept {
-  HeightAndGradient h = evaluate_height(texture.texture.model, x_m, y_m);
-  h.height_m += texture.lift_m;
-  if (!(h.height_m > 0.0)) return {};
-  return h;
 }
 
 }  // namespace asperity
