@@ -12,10 +12,10 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/device/latest_value.h"
 #include "check_config.h"
 #include "haply_protocol.h"
 #include "inverse_service_client.h"
-#include "latest_value.h"
 
 namespace asperity {
 
@@ -63,7 +63,7 @@ class HaplyDevice final : public HapticDevice {
 
   DeviceReading read(std::int64_t t_ns) noexcept override {
     News news;
-    if (news_.read(news)) {
+    if (news_.take_if_new(news)) {
       reading_.p_m = news.p_m;
       reading_.v_mps = news.v_mps;
       reading_.sequence = news.sequence;
@@ -77,7 +77,7 @@ class HaplyDevice final : public HapticDevice {
   }
 
   void write(const Eigen::Vector3d& force_N) noexcept override {
-    forces_.write(force_N.allFinite() ? force_N : Eigen::Vector3d::Zero());
+    forces_.publish(force_N.allFinite() ? force_N : Eigen::Vector3d::Zero());
   }
 
   void close() noexcept override {
@@ -113,11 +113,11 @@ class HaplyDevice final : public HapticDevice {
     ++outstanding_;
   }
 
-  void pass_on() { news_.write({R_device_service_ * state_.p_m, R_device_service_ * state_.v_mps, ++sequence_}); }
+  void pass_on() { news_.publish({R_device_service_ * state_.p_m, R_device_service_ * state_.v_mps, ++sequence_}); }
 
   // The newest force, or zero if the servo has not renewed it for too long.
   Eigen::Vector3d force_now(Clock::time_point now) {
-    if (forces_.read(force_N_)) force_at_ = now;
+    if (forces_.take_if_new(force_N_)) force_at_ = now;
     return now - force_at_ <= seconds(config_.force_timeout_s) ? force_N_ : Eigen::Vector3d::Zero();
   }
 
