@@ -12,9 +12,10 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/device/latest_value.h"
+#include "check_config.h"
 #include "haply_protocol.h"
 #include "inverse_service_client.h"
-#include "latest_value.h"
 
 namespace asperity {
 
@@ -24,22 +25,6 @@ using Clock = InverseServiceClient::Clock;
 
 Clock::duration seconds(double s) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
-}
-
-void check_range(const char* name, double value, double low, double high) {
-  if (!(value >= low && value <= high)) {
-    throw Error(fmt::format("haply: {} {} is not within {} and {}", name, number_text(value), number_text(low),
-                            number_text(high)));
-  }
-}
-
-void check(const HaplyConfig& config) {
-  check_range("port", config.port, 1, 65535);
-  check_range("max_rate_Hz", config.max_rate_Hz, 10.0, 20000.0);
-  check_range("open_timeout_s", config.open_timeout_s, 0.01, 60.0);
-  check_range("force_timeout_s", config.force_timeout_s, 0.001, 1.0);
-  check_range("stall_after_s", config.stall_after_s, 0.001, 1.0);
-  check_range("lost_after_s", config.lost_after_s, 0.01, 60.0);
 }
 
 // What the I/O thread tells the servo thread, in the device's axes.
@@ -66,7 +51,6 @@ class HaplyDevice final : public HapticDevice {
     // The session's first message, with zero force; its answer is the first state of this session.
     send(Eigen::Vector3d::Zero(), true, until);
     await_state(until);
-    outstanding_ = 0;
     pass_on();
     thread_ = std::thread([this] { run(); });
   }
@@ -79,20 +63,21 @@ class HaplyDevice final : public HapticDevice {
 
   DeviceReading read(std::int64_t t_ns) noexcept override {
     News news;
-    if (news_.read(news)) {
+    if (news_.take_if_new(news)) {
       reading_.p_m = news.p_m;
       reading_.v_mps = news.v_mps;
       reading_.sequence = news.sequence;
       news_at_ns_ = t_ns;
     }
-    reading_.status = faulty_.load(std::memory_order_acquire) ? DeviceStatus::kFault
-                      : t_ns - news_at_ns_ > stall_ns_        ? DeviceStatus::kStalled
-                                                              : DeviceStatus::kReady;
+    reading_.status = DeviceStatus::kReady;
+    if (t_ns - news_at_ns_ > stall_ns_) reading_.status = DeviceStatus::kStalled;
+    if (stop_.load(std::memory_order_relaxed)) reading_.status = DeviceStatus::kEnded;
+    if (faulty_.load(std::memory_order_acquire)) reading_.status = DeviceStatus::kFault;
     return reading_;
   }
 
   void write(const Eigen::Vector3d& force_N) noexcept override {
-    forces_.write(force_N.allFinite() ? force_N : Eigen::Vector3d::Zero());
+    forces_.publish(force_N.allFinite() ? force_N : Eigen::Vector3d::Zero());
   }
 
   void close() noexcept override {
@@ -111,6 +96,7 @@ class HaplyDevice final : public HapticDevice {
 
   bool receive_state(Clock::time_point until) {
     if (!client_.receive(text_, until, stop_)) return false;
+    outstanding_ = std::max(outstanding_ - 1, 0);
     state_ = parse_haply_frame(text_, device_id_.empty() ? config_.device_id : device_id_);
     return true;
   }
@@ -127,14 +113,11 @@ class HaplyDevice final : public HapticDevice {
     ++outstanding_;
   }
 
-  void pass_on() {
-    news_.write({R_device_service_ * state_.p_m, R_device_service_ * state_.v_mps, ++sequence_});
-    outstanding_ = std::max(outstanding_ - 1, 0);
-  }
+  void pass_on() { news_.publish({R_device_service_ * state_.p_m, R_device_service_ * state_.v_mps, ++sequence_}); }
 
   // The newest force, or zero if the servo has not renewed it for too long.
   Eigen::Vector3d force_now(Clock::time_point now) {
-    if (forces_.read(force_N_)) force_at_ = now;
+    if (forces_.take_if_new(force_N_)) force_at_ = now;
     return now - force_at_ <= seconds(config_.force_timeout_s) ? force_N_ : Eigen::Vector3d::Zero();
   }
 
@@ -222,7 +205,7 @@ class HaplyDevice final : public HapticDevice {
 }  // namespace
 
 std::unique_ptr<HapticDevice> open_haply(const HaplyConfig& config) {
-  check(config);
+  check_config("haply", config);
   return std::make_unique<HaplyDevice>(config);
 }
 

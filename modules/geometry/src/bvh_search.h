@@ -1,7 +1,7 @@
 #pragma once
 
-#include "bvh_leaf.h"
 #include "asperity/geometry/nearest_on_triangle.h"
+#include "bvh_leaf.h"
 
 // The closest-point search over the tree, on eight floats at a time (V: Floats8Sse2 or Floats8Avx2).
 //

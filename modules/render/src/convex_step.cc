@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kMostPlanes = 64;   // told to one projection
+constexpr int kMostPlanes = 64;     // told to one projection
 constexpr int kMostRetellings = 4;  // of projections without planes that proved false
 
 // All lengths and planes are relative to the ball's centre, so that their rounding is small.
@@ -35,7 +35,8 @@ class Stepper {
       const bool complete = project(first);
       ConvexStep step = finish(complete);
       const double left2 = (goal_m_ - (step.centre_m - ball_.centre_m)).squaredNorm();
-      if (telling == 0 || left2 < best2) best = step, best2 = left2;
+      // Of the same place, take the planes of triangles that are really there.
+      if (telling == 0 || left2 < best2 || (step.exact && left2 <= best2 * (1.0 + 0x1p-40))) best = step, best2 = left2;
       if (step.exact || !complete || !forbid_false_faces(step)) break;
     }
     return best;
@@ -172,12 +173,29 @@ class Stepper {
       touch.index = static_cast<std::uint32_t>(active.tag);
       touch.normal = active.plane.normal;
       touch.pull_m = active.multiplier_m;
-      const TriangleFoot foot = foot_on(triangles_[touch.index], step.centre_m);
+      TriangleFoot foot = foot_on(triangles_[touch.index], step.centre_m);
+      const double touching_m = ball_.radius_m + ball_.slack_m;
+      if (foot.distance_m > touching_m) find_in_plane(step.centre_m, touch, foot);
       touch.barycentric = foot.barycentric;
-      false_[static_cast<std::size_t>(step.touch_count - 1)] = foot.distance_m > ball_.radius_m + ball_.slack_m;
+      false_[static_cast<std::size_t>(step.touch_count - 1)] = foot.distance_m > touching_m;
       if (false_[static_cast<std::size_t>(step.touch_count - 1)]) step.exact = false;
     }
     return step;
+  }
+
+  // Where a flat part of the surface has several triangles, any of them may have given the plane; the one under the
+  // ball is meant.
+  void find_in_plane(const Vector3d& centre_m, ConvexStep::Touch& touch, TriangleFoot& foot) const {
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      const NearTriangle& t = triangles_[i];
+      if (!(std::abs(touch.normal.dot(t.normal)) >= 1.0 - 0x1p-44)) continue;
+      if (!(std::abs(touch.normal.dot(centre_m - t.a_m) - ball_.radius_m) <= ball_.slack_m)) continue;
+      const TriangleFoot other = foot_on(t, centre_m);
+      if (other.distance_m > ball_.radius_m + ball_.slack_m) continue;
+      touch.index = static_cast<std::uint32_t>(i);
+      foot = other;
+      return;
+    }
   }
 
   // Whether one of the planes that held the ball was that of a face beside which the ball now is, and was not yet

@@ -174,9 +174,16 @@ RenderObject make_object(const Scene& scene, const SceneObject& object, const Re
     throw Error("its pose is not finite");
   TriangleMesh mesh = to_metres(object.mesh, object.unit_m);
   MeshBvh bvh(mesh);
-  RenderObject out{.mesh = std::move(mesh), .bvh = std::move(bvh), .normals = {}, .closed = false,
+  RenderObject out{.mesh = std::move(mesh),
+                   .bvh = std::move(bvh),
+                   .normals = {},
+                   .closed = false,
                    .T_world_mesh = {object.T_world_mesh.rotation.normalized(), object.T_world_mesh.translation_m},
-                   .id = 0, .texture = {}, .texture_xy_m = {}, .materials = {}, .corner_material = {}};
+                   .id = 0,
+                   .texture = {},
+                   .texture_xy_m = {},
+                   .materials = {},
+                   .corner_material = {}};
   out.normals = facet_normals(out.mesh);
   out.closed = is_closed(out.mesh);
   out.id = hash_of(out.mesh);

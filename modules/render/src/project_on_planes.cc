@@ -36,8 +36,7 @@ void PlaneProjection::split(const Vector3d& normal, Vector3d& across, std::array
 }
 
 void PlaneProjection::drop(int i) noexcept {
-  for (int k = i + 1; k < size_; ++k)
-    active_[static_cast<std::size_t>(k - 1)] = active_[static_cast<std::size_t>(k)];
+  for (int k = i + 1; k < size_; ++k) active_[static_cast<std::size_t>(k - 1)] = active_[static_cast<std::size_t>(k)];
   --size_;
 }
 

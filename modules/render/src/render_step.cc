@@ -18,11 +18,11 @@ using Eigen::Vector3d;
 
 // What the hand feels of the surfaces that the proxy touches.
 struct Feel {
-  Vector3d proxy_m = Vector3d::Zero();   // without the skin
+  Vector3d proxy_m = Vector3d::Zero();  // without the skin
   std::array<Vector3d, 3> normals;
   int count = 0;
-  ConeSplit split;                       // of proxy - device
-  double stiffness_N_per_m = 0.0;        // mean by the shares
+  ConeSplit split;                 // of proxy - device
+  double stiffness_N_per_m = 0.0;  // mean by the shares
   double friction = 0.0;
   double static_friction = 0.0;
   Vector3d contact_N = Vector3d::Zero();
@@ -109,9 +109,9 @@ ServoOutput render_step(const RenderModel& model, ServoState& state, const Devic
   out.proxy_m = load_N > 0.0 ? feel.proxy_m : p_m;
   if (proxy.touch_count > 0) {
     const ProxyTouch& touch = proxy.touches[0];
-    out.contact = {touch.object, touch.triangle, touch.barycentric,
-                   place_world_m(model.objects[touch.object], touch.triangle, touch.barycentric), touch.normal_world,
-                   feel.weights[0]};
+    out.contact = {touch.object,       touch.triangle,
+                   touch.barycentric,  place_world_m(model.objects[touch.object], touch.triangle, touch.barycentric),
+                   touch.normal_world, feel.weights[0]};
   }
   out.force_N = out.contact_N + out.texture_N + out.friction_N;
   proxy.device_world_m = p_m;

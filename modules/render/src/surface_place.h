@@ -29,9 +29,9 @@ TexturePlace texture_place(const RenderModel& model, const RenderObject& object,
 inline Eigen::Vector3d place_world_m(const RenderObject& object, std::uint32_t triangle,
                                      const Eigen::Vector3d& barycentric) {
   const Triangle& t = object.mesh.triangles[triangle];
-  return object.T_world_mesh * (barycentric[0] * object.mesh.vertices_m[t[0]] +
-                                barycentric[1] * object.mesh.vertices_m[t[1]] +
-                                barycentric[2] * object.mesh.vertices_m[t[2]]);
+  return object.T_world_mesh *
+         (barycentric[0] * object.mesh.vertices_m[t[0]] + barycentric[1] * object.mesh.vertices_m[t[1]] +
+          barycentric[2] * object.mesh.vertices_m[t[2]]);
 }
 
 }  // namespace asperity

@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
+#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <gtest/gtest.h>
 
 #include "asperity/base/random.h"
 

@@ -43,8 +43,8 @@ struct RenderObject {
   std::uint64_t id = 0;  // of the geometry: a hash of vertices and triangles
 
   std::vector<std::int32_t> texture;  // one a triangle: index in RenderModel::textures, -1: none; empty: none at all
-  std::vector<std::array<Eigen::Vector2d, 3>> texture_xy_m;  // of the corners; empty without textures
-  std::vector<RenderMaterial> materials;                     // those that differ; at least one
+  std::vector<std::array<Eigen::Vector2d, 3>> texture_xy_m;   // of the corners; empty without textures
+  std::vector<RenderMaterial> materials;                      // those that differ; at least one
   std::vector<std::array<std::uint32_t, 3>> corner_material;  // indices; empty: materials[0] everywhere
 };
 
