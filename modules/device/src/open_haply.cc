@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -12,10 +11,11 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/device/latest_value.h"
 #include "check_config.h"
 #include "haply_protocol.h"
 #include "inverse_service_client.h"
-#include "latest_value.h"
+#include "stall_watch.h"
 
 namespace asperity {
 
@@ -34,12 +34,18 @@ struct News {
   std::uint64_t sequence = 0;
 };
 
+// What the servo thread asks for, in the device's axes.
+struct Order {
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
+  std::uint64_t number = 0;
+};
+
 class HaplyDevice final : public HapticDevice {
  public:
   explicit HaplyDevice(const HaplyConfig& config)
       : config_(config),
         R_device_service_(parse_haply_axes(config.axes)),
-        stall_ns_(std::llround(config.stall_after_s * 1e9)),
+        watch_(config.stall_after_s),
         client_(config.host, config.port) {
     const auto until = Clock::now() + seconds(config.open_timeout_s);
     force_key_ = parse_service_version(client_.get("/version", until));
@@ -62,22 +68,19 @@ class HaplyDevice final : public HapticDevice {
   const DeviceInfo& info() const noexcept override { return info_; }
 
   DeviceReading read(std::int64_t t_ns) noexcept override {
-    News news;
-    if (news_.read(news)) {
-      reading_.p_m = news.p_m;
-      reading_.v_mps = news.v_mps;
-      reading_.sequence = news.sequence;
-      news_at_ns_ = t_ns;
-    }
-    reading_.status = DeviceStatus::kReady;
-    if (t_ns - news_at_ns_ > stall_ns_) reading_.status = DeviceStatus::kStalled;
-    if (stop_.load(std::memory_order_relaxed)) reading_.status = DeviceStatus::kEnded;
-    if (faulty_.load(std::memory_order_acquire)) reading_.status = DeviceStatus::kFault;
-    return reading_;
+    const News& news = news_.take();
+    DeviceReading reading;
+    reading.p_m = news.p_m;
+    reading.v_mps = news.v_mps;
+    reading.sequence = news.sequence;
+    if (watch_.stalled(t_ns, news.sequence)) reading.status = DeviceStatus::kStalled;
+    if (stop_.load(std::memory_order_relaxed)) reading.status = DeviceStatus::kEnded;
+    if (faulty_.load(std::memory_order_acquire)) reading.status = DeviceStatus::kFault;
+    return reading;
   }
 
   void write(const Eigen::Vector3d& force_N) noexcept override {
-    forces_.write(force_N.allFinite() ? force_N : Eigen::Vector3d::Zero());
+    forces_.publish({force_N.allFinite() ? force_N : Eigen::Vector3d::Zero(), ++writes_});
   }
 
   void close() noexcept override {
@@ -113,12 +116,14 @@ class HaplyDevice final : public HapticDevice {
     ++outstanding_;
   }
 
-  void pass_on() { news_.write({R_device_service_ * state_.p_m, R_device_service_ * state_.v_mps, ++sequence_}); }
+  void pass_on() { news_.publish({R_device_service_ * state_.p_m, R_device_service_ * state_.v_mps, ++sequence_}); }
 
   // The newest force, or zero if the servo has not renewed it for too long.
   Eigen::Vector3d force_now(Clock::time_point now) {
-    if (forces_.read(force_N_)) force_at_ = now;
-    return now - force_at_ <= seconds(config_.force_timeout_s) ? force_N_ : Eigen::Vector3d::Zero();
+    const Order& order = forces_.take();
+    if (order.number != last_order_) force_at_ = now;
+    last_order_ = order.number;
+    return now - force_at_ <= seconds(config_.force_timeout_s) ? order.force_N : Eigen::Vector3d::Zero();
   }
 
   void run() {
@@ -176,16 +181,15 @@ class HaplyDevice final : public HapticDevice {
 
   HaplyConfig config_;
   Eigen::Matrix3d R_device_service_;
-  std::int64_t stall_ns_;
   DeviceInfo info_;
 
   // The servo thread's.
-  DeviceReading reading_;
-  std::int64_t news_at_ns_ = 0;
+  StallWatch watch_;
+  std::uint64_t writes_ = 0;
 
   // Between the threads.
   LatestValue<News> news_;
-  LatestValue<Eigen::Vector3d> forces_;
+  LatestValue<Order> forces_;
   std::atomic<bool> stop_{false}, faulty_{false};
   mutable std::mutex fault_mutex_;
   std::string fault_;
@@ -195,7 +199,7 @@ class HaplyDevice final : public HapticDevice {
   HaplyForceKey force_key_ = HaplyForceKey::kVector;
   std::string device_id_, text_;
   HaplyState state_;
-  Eigen::Vector3d force_N_ = Eigen::Vector3d::Zero();
+  std::uint64_t last_order_ = 0;
   Clock::time_point force_at_{};
   int outstanding_ = 0;  // messages sent and not yet answered
   std::uint64_t sequence_ = 0;
