@@ -13,6 +13,7 @@
 #include "asperity/base/text.h"
 #include "asperity/device/latest_value.h"
 #include "check_config.h"
+#include "force_mailbox.h"
 #include "haply_protocol.h"
 #include "inverse_service_client.h"
 #include "stall_watch.h"
@@ -32,12 +33,6 @@ struct News {
   Eigen::Vector3d p_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d v_mps = Eigen::Vector3d::Zero();
   std::uint64_t sequence = 0;
-};
-
-// What the servo thread asks for, in the device's axes.
-struct Order {
-  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
-  std::uint64_t number = 0;
 };
 
 class HaplyDevice final : public HapticDevice {
@@ -79,9 +74,7 @@ class HaplyDevice final : public HapticDevice {
     return reading;
   }
 
-  void write(const Eigen::Vector3d& force_N) noexcept override {
-    forces_.publish({force_N.allFinite() ? force_N : Eigen::Vector3d::Zero(), ++writes_});
-  }
+  void write(const Eigen::Vector3d& force_N) noexcept override { forces_.publish(force_N); }
 
   void close() noexcept override {
     stop_.store(true);
@@ -118,14 +111,6 @@ class HaplyDevice final : public HapticDevice {
 
   void pass_on() { news_.publish({R_device_service_ * state_.p_m, R_device_service_ * state_.v_mps, ++sequence_}); }
 
-  // The newest force, or zero if the servo has not renewed it for too long.
-  Eigen::Vector3d force_now(Clock::time_point now) {
-    const Order& order = forces_.take();
-    if (order.number != last_order_) force_at_ = now;
-    last_order_ = order.number;
-    return now - force_at_ <= seconds(config_.force_timeout_s) ? order.force_N : Eigen::Vector3d::Zero();
-  }
-
   void run() {
     try {
       serve();
@@ -144,12 +129,13 @@ class HaplyDevice final : public HapticDevice {
 
   void serve() {
     const auto lost_after = seconds(config_.lost_after_s), period = seconds(1.0 / config_.max_rate_Hz);
+    const auto force_timeout = seconds(config_.force_timeout_s);
     auto last_state = Clock::now(), next_send = last_state;
     bool zero_sent = false;
     while (!stop_.load()) {
       auto now = Clock::now();
       if (outstanding_ == 0 && now >= next_send) {
-        send(force_now(now), false, now + lost_after);
+        send(forces_.take(now, force_timeout), false, now + lost_after);
         next_send = std::max(next_send + period, now);
       }
       const auto silent_at = last_state + (zero_sent ? lost_after : seconds(config_.stall_after_s));
@@ -185,11 +171,10 @@ class HaplyDevice final : public HapticDevice {
 
   // The servo thread's.
   StallWatch watch_;
-  std::uint64_t writes_ = 0;
 
   // Between the threads.
   LatestValue<News> news_;
-  LatestValue<Order> forces_;
+  ForceMailbox forces_;
   std::atomic<bool> stop_{false}, faulty_{false};
   mutable std::mutex fault_mutex_;
   std::string fault_;
@@ -199,8 +184,6 @@ class HaplyDevice final : public HapticDevice {
   HaplyForceKey force_key_ = HaplyForceKey::kVector;
   std::string device_id_, text_;
   HaplyState state_;
-  std::uint64_t last_order_ = 0;
-  Clock::time_point force_at_{};
   int outstanding_ = 0;  // messages sent and not yet answered
   std::uint64_t sequence_ = 0;
   std::thread thread_;
