@@ -1,7 +1,6 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 
 #include <Eigen/Core>
 
@@ -16,25 +15,18 @@ class ForceMailbox {
 
   // The servo thread alone. A force that is no number is none. Realtime-safe: yes.
   void publish(const Eigen::Vector3d& force_N) noexcept {
-    orders_.publish({force_N.allFinite() ? force_N : Eigen::Vector3d::Zero(), ++published_});
+    forces_.publish(force_N.allFinite() ? force_N : Eigen::Vector3d::Zero());
   }
 
   // The sending thread alone: the newest force; zero if the servo has not renewed it for `timeout`.
   Eigen::Vector3d take(Clock::time_point now, Clock::duration timeout) noexcept {
-    const Order& order = orders_.take();
-    if (order.number != taken_) taken_at_ = now;
-    taken_ = order.number;
-    return taken_ > 0 && now - taken_at_ <= timeout ? order.force_N : Eigen::Vector3d::Zero();
+    if (forces_.take_if_new(force_N_)) taken_at_ = now;
+    return now - taken_at_ <= timeout ? force_N_ : Eigen::Vector3d::Zero();
   }
 
  private:
-  struct Order {
-    Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
-    std::uint64_t number = 0;
-  };
-  LatestValue<Order> orders_;
-  std::uint64_t published_ = 0;  // the servo's
-  std::uint64_t taken_ = 0;      // the sender's
+  LatestValue<Eigen::Vector3d> forces_{Eigen::Vector3d::Zero()};
+  Eigen::Vector3d force_N_ = Eigen::Vector3d::Zero();
   Clock::time_point taken_at_{};
 };
 

@@ -7,12 +7,15 @@
 #include <cstring>
 #include <mutex>
 #include <numbers>
+#include <optional>
+#include <span>
 #include <thread>
 #include <vector>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/device/latest_value.h"
+#include "asperity/device/supervisor.h"
 #include "asperity/device/velocity_estimator.h"
 #include "check_config.h"
 #include "force_mailbox.h"
@@ -72,6 +75,7 @@ class TwoDiy final : public HapticDevice {
         throw Error("2diy: " + printable(config.port, 200) + ": no answer within a second");
       }
     }
+    supervisor_.emplace(port_.descriptor(), std::as_bytes(std::span(bytes_)));  // the last question had no torque
     thread_ = std::thread([this] { run(); });
   }
 
@@ -98,6 +102,7 @@ class TwoDiy final : public HapticDevice {
   void close() noexcept override {
     stop_.store(true);
     if (thread_.joinable()) thread_.join();
+    supervisor_.reset();
   }
 
   std::string fault() const override {
@@ -223,6 +228,7 @@ class TwoDiy final : public HapticDevice {
 
   // The thread's that opens, then the I/O thread's.
   SerialPort port_;
+  std::optional<Supervisor> supervisor_;
   Bytes bytes_;
   std::array<unsigned char, kAnswer_bytes> answer_{};
   std::size_t answered_ = 0;

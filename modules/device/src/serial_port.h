@@ -24,6 +24,8 @@ class SerialPort {
   // What there is, at most `bytes`; 0 at `until`.
   std::size_t read(std::span<unsigned char> bytes, Clock::time_point until);
 
+  int descriptor() const noexcept { return file_; }
+
   // What has come and was not read is forgotten.
   void flush_input() noexcept;
 

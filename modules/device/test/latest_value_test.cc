@@ -19,6 +19,18 @@ TEST(LatestValue, GivesTheNewestAndKeepsIt) {
   EXPECT_EQ(value.take(), 3);
 }
 
+TEST(LatestValue, TellsWhetherThereIsNews) {
+  LatestValue<int> value;
+  int got = 7;
+  EXPECT_FALSE(value.take_if_new(got));
+  EXPECT_EQ(got, 7);
+  value.publish(1);
+  value.publish(2);
+  EXPECT_TRUE(value.take_if_new(got));
+  EXPECT_EQ(got, 2);
+  EXPECT_FALSE(value.take_if_new(got));
+}
+
 TEST(LatestValue, NeverTearsAndNeverGoesBack) {
   using Wide = std::array<std::uint64_t, 16>;
   LatestValue<Wide> value(Wide{});

@@ -1,5 +1,8 @@
 #include "asperity/device/open_two_diy.h"
 
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -145,6 +148,26 @@ TEST(TwoDiy, TheBoardHoldsNoTorqueAfterCloseOrSilence) {
   const int resets = board.resets();
   device->close();
   for (int i = 0; i < 1000 && board.resets() == resets; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(board.torque_N_m(), Eigen::Vector2d::Zero());
+}
+
+TEST(TwoDiy, AKilledProcessLeavesNoTorque) {
+  FakeTwoDiyBoard board;
+  const pid_t host = ::fork();
+  if (host == 0) {
+    const auto device = open_two_diy(config_for(board));
+    serve(*device, 30000, [](const DeviceReading&) { return Eigen::Vector3d(0.0, 0.0, -1.0); });
+    ::_exit(0);
+  }
+  for (int i = 0; i < 5000 && board.torque_N_m().norm() == 0.0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_GT(board.torque_N_m().norm(), 0.0);
+  ::kill(host, SIGKILL);
+  ::waitpid(host, nullptr, 0);
+  for (int i = 0; i < 1000 && board.torque_N_m().norm() > 0.0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
   EXPECT_EQ(board.torque_N_m(), Eigen::Vector2d::Zero());
 }
 

@@ -29,6 +29,13 @@ class LatestValue {
     return slots_[read_];
   }
 
+  // The reader's thread alone: the same into `value`, and true; false, and `value` as it was, if there is no news.
+  bool take_if_new(T& value) noexcept {
+    if ((middle_.load(std::memory_order_relaxed) & kNews) == 0) return false;
+    value = take();
+    return true;
+  }
+
  private:
   static constexpr unsigned kNews = 4;
   std::array<T, 3> slots_;
