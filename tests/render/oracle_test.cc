@@ -68,8 +68,8 @@ TEST(TrackedMinimum, NoPlaceNearbyIsNearer) {
         (i == path.first_pressed ? minimum.start(bvh.closest_point(p).triangle, p) : minimum.follow(p)).p_m;
     ASSERT_LE(bvh.closest_point(x).distance_m, 1e-15);
     for (int k = 0; k < 10; ++k) {
-      const Vector3d other = bvh.closest_point(x + 1e-6 * random_vector(random)).p_m;
-      ASSERT_GE((other - p).norm(), (x - p).norm() * (1.0 - 1e-12));
+      const Vector3d other = bvh.closest_point(x + 1e-10 * random_vector(random)).p_m;
+      ASSERT_GE((other - p).norm(), (x - p).norm() * (1.0 - 1e-14));
     }
   }
 }
@@ -121,7 +121,7 @@ TEST(BallRest, RestsOnTheOffsetOfASphere) {
     BallRest ball(mesh, bvh, kTip_m);
     const Vector3d p = (kRadius_m + kTip_m - 1e-3) * u;
     const Vector3d c = ball.descend((kRadius_m + 2.0 * kTip_m) * (u + 0.05 * random_vector(random)).normalized(), p);
-    const double sagitta_m = 5e-6;  // of edges of 0.7 mm on 20 mm, with a margin
+    const double sagitta_m = 6e-6;  // of edges of up to 0.75 mm on 20 mm
     EXPECT_NEAR(c.norm(), kRadius_m + kTip_m, sagitta_m);
     const BallConditions at = ball_conditions(mesh, bvh, kTip_m, c, p);
     EXPECT_NEAR(at.distance_m, kTip_m, 1e-12);
