@@ -172,8 +172,8 @@ TEST(Pipe, PressesInwardsOnATipInside) {
 }
 
 TEST_P(Tips, CornerOfThreeWallsHoldsInAllDirections) {
-  // The inside of a box's corner, seen from outside of three sheets: each at x, y, z = 0, facing inwards.
-  TriangleMesh floor = testkit::plane_mesh({20e-3, 20e-3}, 7, 7);
+  // Three sheets that cross: at x, y and z = 0, each facing inwards.
+  const TriangleMesh floor = moved(testkit::plane_mesh({20e-3, 20e-3}, 7, 7), {-5e-3, -5e-3, 0.0});
   TriangleMesh wall_x = floor, wall_y = floor;
   for (Vector3d& p : wall_x.vertices_m) p = Vector3d(p.z(), p.x(), p.y());
   for (Vector3d& p : wall_y.vertices_m) p = Vector3d(p.y(), p.z(), p.x());
