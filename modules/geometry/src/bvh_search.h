@@ -1,7 +1,7 @@
 #pragma once
 
+#include "asperity/geometry/nearest_on_triangle.h"
 #include "bvh_leaf.h"
-#include "nearest_on_triangle.h"
 
 // The closest-point search over the tree, on eight floats at a time (V: Floats8Sse2 or Floats8Avx2).
 //

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -37,9 +38,14 @@ struct RenderObject {
   TriangleMesh mesh;
   MeshBvh bvh;
   std::vector<Eigen::Vector3d> normals;  // unit, one a triangle; zero for one without area
-  std::vector<std::int32_t> texture;     // one a triangle: index in RenderModel::textures; -1: none
   bool closed = false;                   // every edge has two triangles: it has an inside
   Pose T_world_mesh;
+  std::uint64_t id = 0;  // of the geometry: a hash of vertices and triangles
+
+  std::vector<std::int32_t> texture;  // one a triangle: index in RenderModel::textures, -1: none; empty: none at all
+  std::vector<std::array<Eigen::Vector2d, 3>> texture_xy_m;   // of the corners; empty without textures
+  std::vector<RenderMaterial> materials;                      // those that differ; at least one
+  std::vector<std::array<std::uint32_t, 3>> corner_material;  // indices; empty: materials[0] everywhere
 };
 
 // What is felt, immutable while it is.
@@ -47,6 +53,7 @@ struct RenderModel {
   std::vector<RenderObject> objects;
   std::vector<RenderTexture> textures;
   RenderConfig config;
+  double extent_m = 0.0;  // of the largest object, for the proxy's skin (docs/render.md)
 };
 
 // Throws Error for a scene that cannot be rendered, naming object and place.

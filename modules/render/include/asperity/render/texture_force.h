@@ -33,8 +33,14 @@ struct TextureForce {
 };
 
 // One step of a texture's force by the texture's model of it. A change of texture or of model since the last step
-// does not step the force: what is missing fades in over RenderTexture::cross_fade_s.
+// does not step the force: what is missing fades in over RenderTexture::cross_fade_s. The first touch after a step in
+// the air does not fade: there a texture begins with no force of itself. Zero if an input is not finite.
 // Realtime-safe: yes.
 TextureForce texture_force(const RenderTexture& texture, TextureState& state, const TextureTouch& touch) noexcept;
+
+// One step without a texture under the tip: in the air, or on a surface without one. What a change left over goes on
+// fading, so that a texture that is taken away under the tip does not click either; otherwise zero. To be called on
+// every step on which texture_force() is not. Realtime-safe: yes.
+TextureForce no_texture_force(TextureState& state, bool on_surface, double dt_s) noexcept;
 
 }  // namespace asperity

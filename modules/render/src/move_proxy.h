@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "asperity/render/proxy_state.h"
+#include "asperity/render/render_model.h"
+
+namespace asperity {
+
+// The proxy as a ball, and how finely it is placed.
+struct ProxyBall {
+  double radius_m = 0.0;  // of the tip and its skin
+  double slack_m = 0.0;   // rounding: distances that differ by less are equal
+  double coarse_m = 0.0;  // a length to begin with when it is unknown how far to look for triangles
+};
+
+// Moves the proxy to the local minimum of its distance to the goal that it reaches without passing through any
+// triangle (`only`: of that object alone, if it is one), and notes where it touches. Each iteration is safe; where the
+// way is long the bounded number of iterations may end before the minimum, and the next call goes on from there.
+// False if it ended so.
+bool move_proxy(const RenderModel& model, const ProxyBall& ball, const Eigen::Vector3d& goal_m, std::uint32_t only,
+                ProxyState& proxy) noexcept;
+
+}  // namespace asperity
