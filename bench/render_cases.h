@@ -15,7 +15,7 @@ inline constexpr double kSphere_m = 50e-3;
 inline constexpr double kDepth_m = 1e-3;
 inline constexpr double kStiffness_N_per_m = 1000.0;
 inline constexpr double kTick_s = 1e-3;
-inline constexpr double kFriction = 0.5;
+inline constexpr double kFriction = 0.3;
 inline constexpr double kStaticRatio = 1.2;
 
 inline constexpr int kFrequency70k = 59;  // 69,620 triangles

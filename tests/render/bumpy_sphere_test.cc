@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <ostream>
 
 #include "asperity/testkit/bumpy_sphere.h"
 #include "asperity/testkit/proxy_judge.h"
@@ -23,6 +24,10 @@ struct Stroke {
   std::size_t ticks;
   double friction;
 };
+
+void PrintTo(const Stroke& stroke, std::ostream* out) {
+  *out << 1e3 * stroke.tip_m << " mm tip, " << 1e3 * stroke.speed_mps << " mm/s, friction " << stroke.friction;
+}
 
 class BumpySphere : public testing::TestWithParam<Stroke> {
  protected:

@@ -30,6 +30,7 @@ class Tips : public testing::TestWithParam<double> {
 INSTANTIATE_TEST_SUITE_P(Radii, Tips, testing::Values(0.0, 0.5e-3, 2e-3));
 
 void expect_force(const ServoOutput& out, const Vector3d& force_N, double tolerance_N) {
+  if (testing::Test::HasFailure()) return;  // one is enough: a path of thousands of steps fails as one
   EXPECT_LE((out.force_N - force_N).norm(), tolerance_N)
       << "force " << out.force_N.transpose() << " N, expected " << force_N.transpose();
   const Vector3d sum_N = out.contact_N + out.texture_N + out.friction_N;
@@ -133,10 +134,11 @@ TEST(Ridge, BallRollsOverTheCrestOnAFillet) {
   rig.go({-4e-3, 0.0, 4e-3});
   rig.go({-1.2e-3, 0.0, kHeight_m});
   for (double x_m = -1.19e-3; x_m < 1.2e-3; x_m += 10e-6) {
-    // Within |x| <= z the crest touches: the offset surface is a cylinder about it.
+    // Within |x| <= z the crest touches: the offset surface is a cylinder about it. To 0.1 mN: the descent on a
+    // curved surface is iterative.
     const Vector3d p(x_m, 0.4e-3, kHeight_m), radial(x_m, 0.0, kHeight_m);
     const double depth_m = kTip_m - radial.norm();
-    expect_force(rig.go(p), kStiffness_N_per_m * depth_m * radial.normalized(), 10 * kForceTol_N);
+    expect_force(rig.go(p), kStiffness_N_per_m * depth_m * radial.normalized(), 1e-4);
   }
   const Vector3d right = Vector3d(1.0, 0.0, 1.0).normalized();
   const Vector3d p = 4e-3 * Vector3d(1.0, 0.0, -1.0).normalized() + (kTip_m - 1e-3) * right;

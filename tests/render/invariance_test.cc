@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <ostream>
 #include <vector>
 
 #include "asperity/testkit/bumpy_sphere.h"
@@ -22,6 +23,8 @@ struct Case {
   double tip_m;
   double friction;
 };
+
+void PrintTo(const Case& c, std::ostream* out) { *out << 1e3 * c.tip_m << " mm tip, friction " << c.friction; }
 
 class Invariance : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Tips, Invariance,
