@@ -15,8 +15,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// A table of heights is within 1e-6 of their RMS, about 0.1 mm: 0.1 µN at 1 N/mm; the margin is the proxy's.
-constexpr double kForceTol_N = 2e-6;
+// A table of heights is within 1e-6 of their RMS, about 0.1 mm: 0.1 µN at 1 N/mm. The lowest is known to 1 µN here.
+constexpr double kForceTol_N = 3e-6;
 
 Fourier1d some_texture() {
   Fourier1d texture;
@@ -39,10 +39,10 @@ double series_m(const Fourier1d& texture, double x_mm) {
   return sum_m;
 }
 
-// Erratum 20: the lowest point lies on the surface. On a grid of 0.1 µm the lowest is found to 1e-11 m.
+// Erratum 20: the lowest point lies on the surface. On a grid of 0.5 µm the lowest is found to 1 nm.
 double lowest_m(const Fourier1d& texture) {
   double lowest = texture.mean_m;
-  for (int i = 0; i < 100000; ++i) lowest = std::min(lowest, series_m(texture, 1e-4 * i));
+  for (int i = 0; i < 20000; ++i) lowest = std::min(lowest, series_m(texture, 5e-4 * i));
   return lowest;
 }
 
@@ -143,9 +143,9 @@ TEST_P(TextureForces, AreContinuousAtTheBorderOfTheirArea) {
   fading.border_fade_m = 1e-3;
   Rig rig(textured_sheet(texture, 0.5e-3), fading);  // textured where x <= 0
   double steepest = 0.0, highest_m = 0.0;
-  for (int i = 0; i < 100000; ++i) {
-    steepest = std::max(steepest, std::abs(series_m(series, 1e-4 * (i + 1)) - series_m(series, 1e-4 * i)) / 1e-7);
-    highest_m = std::max(highest_m, series_m(series, 1e-4 * i) - lowest);
+  for (int i = 0; i < 20000; ++i) {
+    steepest = std::max(steepest, std::abs(series_m(series, 5e-4 * (i + 1)) - series_m(series, 5e-4 * i)) / 5e-7);
+    highest_m = std::max(highest_m, series_m(series, 5e-4 * i) - lowest);
   }
   constexpr double kStep_m = 2e-6;
   rig.go({-5e-3, 0.3e-3, 3e-3});
