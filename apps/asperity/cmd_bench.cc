@@ -198,6 +198,7 @@ class BenchCommand : public Command {
     const Recording recording = simulate_recording(config, observer);
     constexpr int kRounds = 3;
     std::vector<double> took_s;
+    took_s.reserve(kRounds);
     for (int round = 0; round < kRounds; ++round) {
       took_s.push_back(seconds([&] { process_recording(recording, {}, observer); }));
     }

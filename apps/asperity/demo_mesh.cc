@@ -94,7 +94,7 @@ PaintResult paint_beside(Scene scene, const Texture& other, const fs::path& fold
   const std::vector<Eigen::Vector3d> picks_m{{-0.030, -0.026, -0.005}, {0.030, -0.026, -0.005}};
   HapticCoordinatesConfig config;
   config.half_width_mm = 4.0;
-  const PaintResult result = paint(scene.objects.front(), picks_m, {2, "protoboard.texture.json", other}, config);
+  PaintResult result = paint(scene.objects.front(), picks_m, {2, "protoboard.texture.json", other}, config);
   fs::create_directories(folder);
   write_scene(folder / "scene.json", scene);
   write_listing(folder);

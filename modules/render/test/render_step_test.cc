@@ -35,7 +35,8 @@ TEST(RenderStep, PlaneGivesStiffnessTimesDepth) {
       ASSERT_NEAR(out.force_N.head<2>().norm(), 0.0, kRounding_N);
       ASSERT_NEAR((out.proxy_m - Vector3d(p.x(), p.y(), radius_m)).norm(), 0.0, 1e-12);
       ASSERT_TRUE(out.contact.found());
-      ASSERT_NEAR((out.contact.p_world_m - Vector3d(p.x(), p.y(), 0.0)).norm(), 0.0, 1e-12);
+      // A triangle beside the foot is as near to rounding as long as it is within sqrt(2 R slack).
+      ASSERT_NEAR((out.contact.p_world_m - Vector3d(p.x(), p.y(), 0.0)).norm(), 0.0, 1e-6);
     }
   }
 }
