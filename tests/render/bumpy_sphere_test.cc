@@ -40,8 +40,8 @@ std::unique_ptr<TriangleMesh> BumpySphere::mesh_;
 INSTANTIATE_TEST_SUITE_P(Strokes, BumpySphere,
                          testing::Values(Stroke{0.0, 0.02, 10000, 0.0}, Stroke{0.0, 0.1, 10000, 0.0},
                                          Stroke{0.5e-3, 0.02, 5000, 0.0}, Stroke{0.5e-3, 0.1, 5000, 0.0},
-                                         Stroke{2e-3, 0.1, 3000, 0.0}, Stroke{0.0, 0.1, 10000, 0.5},
-                                         Stroke{0.5e-3, 0.02, 5000, 0.5}, Stroke{2e-3, 0.1, 3000, 0.5}));
+                                         Stroke{2e-3, 0.1, 3000, 0.0}, Stroke{0.0, 0.1, 10000, 0.3},
+                                         Stroke{0.5e-3, 0.02, 5000, 0.3}, Stroke{2e-3, 0.1, 3000, 0.3}));
 
 TEST_P(BumpySphere, NeitherSticksNorPopsThroughNorJumps) {
   const Stroke& stroke = GetParam();
@@ -68,7 +68,7 @@ TEST_P(BumpySphere, NeitherSticksNorPopsThroughNorJumps) {
   if (stroke.friction > 0.0) return;
   EXPECT_EQ(f.frozen_ticks, 0u);
   EXPECT_LE(kStiffness_N_per_m * f.rms_error_m, 10e-3);
-  EXPECT_LE(kStiffness_N_per_m * f.rms_local_m, 1e-3);
+  EXPECT_LE(kStiffness_N_per_m * f.rms_local_m, 5e-3);
 }
 
 }  // namespace

@@ -134,11 +134,11 @@ TEST(Ridge, BallRollsOverTheCrestOnAFillet) {
   rig.go({-4e-3, 0.0, 4e-3});
   rig.go({-1.2e-3, 0.0, kHeight_m});
   for (double x_m = -1.19e-3; x_m < 1.2e-3; x_m += 10e-6) {
-    // Within |x| <= z the crest touches: the offset surface is a cylinder about it. To 0.1 mN: the descent on a
+    // Within |x| <= z the crest touches: the offset surface is a cylinder about it. To 0.3 mN: the descent on a
     // curved surface is iterative.
     const Vector3d p(x_m, 0.4e-3, kHeight_m), radial(x_m, 0.0, kHeight_m);
     const double depth_m = kTip_m - radial.norm();
-    expect_force(rig.go(p), kStiffness_N_per_m * depth_m * radial.normalized(), 1e-4);
+    expect_force(rig.go(p), kStiffness_N_per_m * depth_m * radial.normalized(), 3e-4);
   }
   const Vector3d right = Vector3d(1.0, 0.0, 1.0).normalized();
   const Vector3d p = 4e-3 * Vector3d(1.0, 0.0, -1.0).normalized() + (kTip_m - 1e-3) * right;
