@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -14,8 +13,10 @@
 #include "asperity/base/text.h"
 #include "asperity/device/latest_value.h"
 #include "check_config.h"
+#include "force_mailbox.h"
 #include "haply_protocol.h"
 #include "inverse_service_client.h"
+#include "stall_watch.h"
 
 namespace asperity {
 
@@ -39,7 +40,7 @@ class HaplyDevice final : public HapticDevice {
   explicit HaplyDevice(const HaplyConfig& config)
       : config_(config),
         R_device_service_(parse_haply_axes(config.axes)),
-        stall_ns_(std::llround(config.stall_after_s * 1e9)),
+        watch_(config.stall_after_s),
         client_(config.host, config.port) {
     const auto until = Clock::now() + seconds(config.open_timeout_s);
     force_key_ = parse_service_version(client_.get("/version", until));
@@ -62,23 +63,18 @@ class HaplyDevice final : public HapticDevice {
   const DeviceInfo& info() const noexcept override { return info_; }
 
   DeviceReading read(std::int64_t t_ns) noexcept override {
-    News news;
-    if (news_.take_if_new(news)) {
-      reading_.p_m = news.p_m;
-      reading_.v_mps = news.v_mps;
-      reading_.sequence = news.sequence;
-      news_at_ns_ = t_ns;
-    }
-    reading_.status = DeviceStatus::kReady;
-    if (t_ns - news_at_ns_ > stall_ns_) reading_.status = DeviceStatus::kStalled;
-    if (stop_.load(std::memory_order_relaxed)) reading_.status = DeviceStatus::kEnded;
-    if (faulty_.load(std::memory_order_acquire)) reading_.status = DeviceStatus::kFault;
-    return reading_;
+    const News& news = news_.take();
+    DeviceReading reading;
+    reading.p_m = news.p_m;
+    reading.v_mps = news.v_mps;
+    reading.sequence = news.sequence;
+    if (watch_.stalled(t_ns, news.sequence)) reading.status = DeviceStatus::kStalled;
+    if (stop_.load(std::memory_order_relaxed)) reading.status = DeviceStatus::kEnded;
+    if (faulty_.load(std::memory_order_acquire)) reading.status = DeviceStatus::kFault;
+    return reading;
   }
 
-  void write(const Eigen::Vector3d& force_N) noexcept override {
-    forces_.publish(force_N.allFinite() ? force_N : Eigen::Vector3d::Zero());
-  }
+  void write(const Eigen::Vector3d& force_N) noexcept override { forces_.publish(force_N); }
 
   void close() noexcept override {
     stop_.store(true);
@@ -115,12 +111,6 @@ class HaplyDevice final : public HapticDevice {
 
   void pass_on() { news_.publish({R_device_service_ * state_.p_m, R_device_service_ * state_.v_mps, ++sequence_}); }
 
-  // The newest force, or zero if the servo has not renewed it for too long.
-  Eigen::Vector3d force_now(Clock::time_point now) {
-    if (forces_.take_if_new(force_N_)) force_at_ = now;
-    return now - force_at_ <= seconds(config_.force_timeout_s) ? force_N_ : Eigen::Vector3d::Zero();
-  }
-
   void run() {
     try {
       serve();
@@ -139,12 +129,13 @@ class HaplyDevice final : public HapticDevice {
 
   void serve() {
     const auto lost_after = seconds(config_.lost_after_s), period = seconds(1.0 / config_.max_rate_Hz);
+    const auto force_timeout = seconds(config_.force_timeout_s);
     auto last_state = Clock::now(), next_send = last_state;
     bool zero_sent = false;
     while (!stop_.load()) {
       auto now = Clock::now();
       if (outstanding_ == 0 && now >= next_send) {
-        send(force_now(now), false, now + lost_after);
+        send(forces_.take(now, force_timeout), false, now + lost_after);
         next_send = std::max(next_send + period, now);
       }
       const auto silent_at = last_state + (zero_sent ? lost_after : seconds(config_.stall_after_s));
@@ -176,16 +167,14 @@ class HaplyDevice final : public HapticDevice {
 
   HaplyConfig config_;
   Eigen::Matrix3d R_device_service_;
-  std::int64_t stall_ns_;
   DeviceInfo info_;
 
   // The servo thread's.
-  DeviceReading reading_;
-  std::int64_t news_at_ns_ = 0;
+  StallWatch watch_;
 
   // Between the threads.
   LatestValue<News> news_;
-  LatestValue<Eigen::Vector3d> forces_;
+  ForceMailbox forces_;
   std::atomic<bool> stop_{false}, faulty_{false};
   mutable std::mutex fault_mutex_;
   std::string fault_;
@@ -195,8 +184,6 @@ class HaplyDevice final : public HapticDevice {
   HaplyForceKey force_key_ = HaplyForceKey::kVector;
   std::string device_id_, text_;
   HaplyState state_;
-  Eigen::Vector3d force_N_ = Eigen::Vector3d::Zero();
-  Clock::time_point force_at_{};
   int outstanding_ = 0;  // messages sent and not yet answered
   std::uint64_t sequence_ = 0;
   std::thread thread_;

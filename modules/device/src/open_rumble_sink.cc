@@ -9,8 +9,8 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/device/spsc_ring.h"
 #include "check_config.h"
-#include "force_ring.h"
 #include "sdl_subsystem.h"
 #include "second_order_filter.h"
 #include "soft_limit.h"
@@ -150,7 +150,7 @@ class RumbleSink final : public VibrationSink {
   SdlSubsystem sdl_;
   SDL_Joystick* pad_ = nullptr;
   VibrationInfo info_;
-  ForceRing ring_;
+  SpscRing<double> ring_{4096};
   std::atomic<bool> gone_{false};
   std::mutex mutex_;
   std::condition_variable wake_;

@@ -24,8 +24,8 @@ VibrationVoice::VibrationVoice(const VibrationConfig& config, std::size_t block_
       clock_(clock),
       wanted_(clock == Clock::kCommon
                   ? 1.0
-                  : std::min(0.5 * ForceRing::kCapacity, config.buffer_s * config.servo_rate_Hz +
-                                                             static_cast<double>(block_samples) * step_ + 1.0)),
+                  : std::min(0.5 * kMostWaiting, config.buffer_s * config.servo_rate_Hz +
+                                                     static_cast<double>(block_samples) * step_ + 1.0)),
       ring_rate_(1.0 / (kSmoothingTime_s * config.audio_rate_Hz)),
       high_pass_(SecondOrderFilter::high_pass(config.high_pass_Hz, config.audio_rate_Hz)) {}
 

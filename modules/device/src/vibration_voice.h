@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <span>
 
+#include "asperity/device/spsc_ring.h"
 #include "asperity/device/vibration_config.h"
 #include "band_limited_reader.h"
-#include "force_ring.h"
 #include "second_order_filter.h"
 
 namespace asperity {
@@ -42,7 +42,9 @@ class VibrationVoice {
   void begin() noexcept;
   double next_sample() noexcept;
 
-  ForceRing ring_;
+  static constexpr std::size_t kMostWaiting = 4096;
+
+  SpscRing<double> ring_{kMostWaiting};
   std::atomic<bool> finishing_{false}, finished_{false};
 
   // The rendering thread's.
