@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <limits>
 #include <memory>
 #include <span>
 #include <utility>
@@ -84,13 +85,15 @@ Felt stroke(const Scene& scene, const fs::path& log_file, const Observer& observ
   FeelLog log(log_file, false);
   Felt out;
   bool forth = true;
+  double farthest_m = -std::numeric_limits<double>::infinity();
   const std::atomic<bool> never{false};
   run_servo(*device, model, settings.servo, never, [&](const ServoTick& tick) {
     log.add(tick);
     if (tick.t_ns % 1'000'000'000 == 0) observer.update("feeling", 0.0);
     const double x_m = tick.p_world_m.x();
     constexpr double kTurn_m = 1e-3;
-    forth = forth && (out.x_m.empty() || x_m > *std::max_element(out.x_m.end() - 1, out.x_m.end()) - kTurn_m);
+    farthest_m = std::max(farthest_m, x_m);
+    forth = forth && x_m > farthest_m - kTurn_m;
     if (!forth || tick.t_ns < drive.stroke->starts_ns || !tick.output.contact.found()) return;
     out.x_m.push_back(x_m);
     out.force_N.push_back(tick.output.force_N.dot(tick.output.contact.normal_world));
