@@ -13,6 +13,7 @@ struct ProxyBall {
   double radius_m = 0.0;  // of the tip and its skin
   double slack_m = 0.0;   // rounding: distances that differ by less are equal
   double coarse_m = 0.0;  // a length to begin with when it is unknown how far to look for triangles
+  double stride_m = 0.0;  // how far the hand went in this step
 };
 
 // Moves the proxy to the local minimum of its distance to the goal that it reaches without passing through any
