@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "convex_step.h"
+#include "hop_over_nook.h"
 
 namespace asperity {
 namespace {
@@ -14,6 +15,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMostIterations = 32;
+constexpr int kMostHops = 8;
+constexpr double kPointLike = 16.0;  // of a radius in skins: below, the skin is what the ball is made of
 
 // Looking far costs triangles at each step, looking near costs a search more often: the list is to last for some steps
 // of the hand unless it gets long, and need not be kept short where it is.
@@ -91,6 +94,8 @@ void look_around(const RenderModel& model, const ProxyBall& ball, double distanc
 bool move_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d& goal_m, ObjectSet objects,
                 ProxyState& proxy) noexcept {
   double wanted_m = ball.stride_m;
+  const bool may_hop = ball.radius_m <= kPointLike * ball.skin_m;
+  int hops = 0;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     const double left_m = (goal_m - proxy.p_world_m).norm();
     double reach_m = room_m(proxy, ball.radius_m);
@@ -120,7 +125,10 @@ bool move_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d&
       continue;
     }
     proxy.p_world_m = step.centre_m;
-    if (step.exact || length_m <= 0x1p-40 * left_m) return true;
+    if (!step.exact && length_m > 0x1p-40 * left_m) continue;
+    if (!may_hop || hops == kMostHops || proxy.touch_count < 2) return true;
+    ++hops;
+    if (!hop_over_nook(proxy, ball, goal_m)) return true;
   }
   return false;
 }
