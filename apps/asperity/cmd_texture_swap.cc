@@ -83,7 +83,7 @@ class TextureSwapCommand : public Command {
 
   // All files of the scene go where no other is lost by it.
   std::string put_elsewhere(const Scene& scene, const fs::path& target) const {
-    const std::string after = scene.objects.front().find_texture(index_)->file;
+    std::string after = scene.objects.front().find_texture(index_)->file;
     const std::vector<SceneFile> files = format_scene_files(target.filename().string(), scene);
     if (const auto taken = find_other_content(folder_of(target), files)) {
       throw Error(printable((target.parent_path() / *taken).string(), 200) +

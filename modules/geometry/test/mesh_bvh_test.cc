@@ -8,10 +8,10 @@
 #include <cmath>
 
 #include "asperity/base/error.h"
+#include "asperity/geometry/nearest_on_triangle.h"
 #include "brute_force.h"
 #include "bvh_meshes.h"
 #include "mesh_bvh_tree.h"
-#include "nearest_on_triangle.h"
 
 namespace asperity {
 namespace {

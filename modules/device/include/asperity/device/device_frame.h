@@ -22,6 +22,13 @@ struct DeviceFrame {
   Eigen::Vector3d device_force_N(const Eigen::Vector3d& force_world_N) const {
     return R_world_device.conjugate() * force_world_N;
   }
+
+  template <class V>
+  void visit(V& v) {
+    v.numbers("R_world_device_xyzw", R_world_device.coeffs().data(), 4, "unit quaternion", {-1.0, 1.0});
+    v.numbers("translation_m", translation_m.data(), 3, "where the device's origin stands in the scene", {-1e3, 1e3});
+    v.field("scale", scale, "metres of the scene for a metre of the hand", {1e-6, 1e6});
+  }
 };
 
 }  // namespace asperity

@@ -6,16 +6,40 @@
 #include <Eigen/Core>
 
 #include "asperity/geometry/pose.h"
+#include "asperity/render/near_triangles.h"
 
 namespace asperity {
 
+// A place where the proxy touches.
+struct ProxyTouch {
+  std::uint32_t object = 0;
+  std::uint32_t triangle = 0;
+  Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal_world = Eigen::Vector3d::Zero();  // unit, from the surface towards the tip
+  double pull_m = 0.0;  // multiplier: how far the surface holds the proxy off its goal along the normal
+};
+
 // The proxy between two steps: where the tip's centre would be if objects were rigid.
 struct ProxyState {
+  static constexpr std::uint32_t kMostObjects = 64;
+
   bool started = false;
   bool starts_inside = false;  // the device was inside an object and has not left it yet: no force
   bool sticking = false;
-  Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();
+  bool over_texture = false;                                 // the touch is with a texture above the surface alone
+  Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();       // centre of the proxy with its skin (docs/render.md)
   Eigen::Vector3d device_world_m = Eigen::Vector3d::Zero();  // of the step before
+  double texture_load_N = 0.0;                               // of the texture along the normal, in the step before
+  std::uint32_t touch_count = 0;
+  std::array<ProxyTouch, 3> touches;  // the strongest first
+
+  // The objects as they were in the step before.
+  std::uint32_t object_count = 0;
+  std::array<std::uint64_t, kMostObjects> object_id{};
+  std::array<Pose, kMostObjects> T_world_mesh;
+
+  double reach_m = 0.0;  // how far round the proxy triangles were gathered last
+  NearTriangles near;
 };
 
 }  // namespace asperity

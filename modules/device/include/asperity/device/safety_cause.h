@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace asperity {
+
+// Why the safety layer changed a force: flags of ServoTick::limited_by. The first five are states of the run and are
+// set as long as they last; the others are set on ticks whose force they changed.
+enum class SafetyCause : std::uint32_t {
+  kFault = 1U << 0U,       // the device reports a fault: zero at once
+  kNonFinite = 1U << 1U,   // a position or a force is not a finite number: ramp to zero
+  kStale = 1U << 2U,       // no news from the device: ramp to zero
+  kEnding = 1U << 3U,      // the run ends: ramp to zero
+  kSoftStart = 1U << 4U,   // the force grows from zero
+  kPassivity = 1U << 5U,   // damping against created energy
+  kForceLimit = 1U << 6U,  // too large: shortened
+  kRateLimit = 1U << 7U,   // changed too fast: follows
+};
+
+inline constexpr std::array<std::string_view, 8> kSafetyCauseNames{
+    "fault", "non-finite", "stale", "ending", "soft-start", "passivity", "force-limit", "rate-limit"};
+
+constexpr std::uint32_t flag(SafetyCause cause) noexcept { return static_cast<std::uint32_t>(cause); }
+
+// The names of the flags in `causes` joined by '+', such as "stale+rate-limit"; empty for none.
+std::string cause_names(std::uint32_t causes);
+
+}  // namespace asperity

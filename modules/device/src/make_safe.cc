@@ -1,0 +1,82 @@
+#include "asperity/device/make_safe.h"
+
+#include <algorithm>
+
+#include "asperity/device/force_gain.h"
+#include "asperity/device/limit_force.h"
+#include "asperity/device/safety_cause.h"
+#include "asperity/device/stale_watch.h"
+
+namespace asperity {
+namespace {
+
+SafeForce nothing_on_fault(SafetyState& state) noexcept {
+  state.gain = 0.0;
+  state.held_N.setZero();
+  state.out_N.setZero();
+  state.passivity = {};
+  SafeForce safe;
+  safe.limited_by = flag(SafetyCause::kFault);
+  return safe;
+}
+
+Eigen::Vector3d damping(const SafetyConfig& config, SafetyState& state, const SafetyInput& input) noexcept {
+  PassivityInput observed;
+  observed.hand_m = input.hand_m;
+  observed.hand_mps = input.hand_mps;
+  observed.stored_J = spring_energy_J(input.spring_N, input.stretch_m, config.max_force_N);
+  observed.touching = !input.force_N.isZero(0.0);
+  // A growing or falling gain is a spring whose stiffness changes: it creates energy by intent.
+  observed.forgive = input.scene_changed || state.gain < 1.0;
+  observed.dt_s = input.dt_s;
+  return damp_created_energy(config, state.passivity, observed);
+}
+
+}  // namespace
+
+SafetyConfig lower_to_device(SafetyConfig config, const DeviceInfo& info) {
+  if (info.max_force_N < config.max_force_N) config.max_force_N = std::max(info.max_force_N, 0.0);
+  if (!info.yields) config.passivity = false;
+  return config;
+}
+
+SafeForce make_safe(const SafetyConfig& config, SafetyState& state, const SafetyInput& input) noexcept {
+  if (input.status == DeviceStatus::kFault) return nothing_on_fault(state);
+
+  SafeForce safe;
+  const bool finite = input.force_N.allFinite() && input.hand_m.allFinite() && input.hand_mps.allFinite();
+  const bool stale = is_stale(state.watch, input.sequence, input.status, config.stale_after_s, input.dt_s);
+  if (!finite) safe.limited_by |= flag(SafetyCause::kNonFinite);
+  if (stale) safe.limited_by |= flag(SafetyCause::kStale);
+  if (input.ending) safe.limited_by |= flag(SafetyCause::kEnding);
+  const bool well = safe.limited_by == 0;
+  state.gain = next_gain(state.gain, well, config, input.dt_s);
+  if (well && state.gain < 1.0) safe.limited_by |= flag(SafetyCause::kSoftStart);
+
+  if (finite) state.held_N = input.force_N;
+  Eigen::Vector3d force_N = limit_force(state.held_N, config.max_force_N);
+  if (force_N != state.held_N) safe.limited_by |= flag(SafetyCause::kForceLimit);
+  force_N *= state.gain;
+
+  if (!finite || !config.passivity) {
+    state.passivity = {};
+  } else {
+    const Eigen::Vector3d damping_N = damping(config, state, input);
+    // Without news the velocity is not known; the energy goes on being observed.
+    if (!stale && !damping_N.isZero(0.0)) {
+      force_N += damping_N;
+      safe.dissipated_J = -damping_N.dot(input.hand_mps) * input.dt_s;
+      safe.limited_by |= flag(SafetyCause::kPassivity);
+    }
+  }
+
+  const Eigen::Vector3d limited_N = limit_force(force_N, config.max_force_N);
+  if (limited_N != force_N) safe.limited_by |= flag(SafetyCause::kForceLimit);
+  safe.force_N = limit_force_rate(state.out_N, limited_N, config.max_force_rate_N_per_s, input.dt_s);
+  if (safe.force_N != limited_N) safe.limited_by |= flag(SafetyCause::kRateLimit);
+  state.out_N = safe.force_N;
+  state.passivity.force_N = safe.force_N;
+  return safe;
+}
+
+}  // namespace asperity

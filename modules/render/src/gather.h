@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "asperity/render/near_triangles.h"
+#include "asperity/render/render_model.h"
+
+namespace asperity {
+
+// A set of a model's objects: bit k is object k.
+using ObjectSet = std::uint64_t;
+inline constexpr ObjectSet kAllObjects = ~ObjectSet{0};
+
+// Fills `near` with the triangles of these objects that have a point within `radius_m` of a point of the world, in the
+// order of objects and trees. False if there are more than it holds: then it holds some of them.
+bool gather(const RenderModel& model, const Eigen::Vector3d& centre_m, double radius_m, ObjectSet objects,
+            NearTriangles& near) noexcept;
+
+}  // namespace asperity

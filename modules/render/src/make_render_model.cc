@@ -1,0 +1,228 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/geometry/corner_normals.h"
+#include "asperity/geometry/mesh_adjacency.h"
+#include "asperity/geometry/mesh_normals.h"
+#include "asperity/render/proxy_state.h"
+#include "asperity/render/render_model.h"
+#include "texture_border.h"
+
+namespace asperity {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+void require(bool good, const char* what, double value) {
+  if (!good) throw Error(std::string("rendering: ") + what + ": " + number_text(value));
+}
+
+void check(const RenderConfig& config) {
+  const auto finite = [](double x) { return std::isfinite(x); };
+  require(finite(config.tip_radius_m) && config.tip_radius_m >= 0.0, "tip radius", config.tip_radius_m);
+  require(finite(config.stiffness_N_per_m) && config.stiffness_N_per_m > 0.0, "stiffness", config.stiffness_N_per_m);
+  require(finite(config.friction) && config.friction >= 0.0, "friction", config.friction);
+  require(finite(config.static_friction_ratio) && config.static_friction_ratio >= 1.0,
+          "static over sliding friction below 1", config.static_friction_ratio);
+  require(finite(config.border_fade_m) && config.border_fade_m >= 0.0, "fade at the border", config.border_fade_m);
+}
+
+bool is_closed(const TriangleMesh& mesh) {
+  const MeshAdjacency adjacency = make_adjacency(weld_vertices(mesh));
+  for (std::size_t e = 0; e < adjacency.edge_vertices.size(); ++e)
+    if (adjacency.triangles_of_edge(static_cast<std::uint32_t>(e)).size() != 2) return false;
+  return !adjacency.edge_vertices.empty();
+}
+
+std::uint64_t hash_of(const TriangleMesh& mesh) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  const auto add = [&](std::uint64_t word) {
+    hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
+    hash ^= hash >> 29;
+  };
+  for (const Vector3d& v : mesh.vertices_m)
+    for (int k = 0; k < 3; ++k) add(std::bit_cast<std::uint64_t>(v[k]));
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) add(v);
+  return hash;
+}
+
+// A length of the object for tolerances; a distance from the origin counts where it would make rounding coarser.
+double extent_of(const TriangleMesh& mesh) {
+  Vector3d low = mesh.vertices_m[mesh.triangles[0][0]], high = low;
+  for (const Triangle& t : mesh.triangles) {
+    for (const std::uint32_t v : t) {
+      low = low.cwiseMin(mesh.vertices_m[v]);
+      high = high.cwiseMax(mesh.vertices_m[v]);
+    }
+  }
+  const double farthest = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
+  return std::max((high - low).maxCoeff(), 0x1p-12 * farthest);
+}
+
+double first_known(const std::optional<double>& a, const std::optional<double>& b, double otherwise) {
+  return a ? *a : b.value_or(otherwise);
+}
+
+// What material_at.h says of the three corners, and the config's where nobody knows. A corner without a value
+// of the map has the mean of those of the triangle that have one.
+class Materials {
+ public:
+  Materials(const Scene& scene, const SceneObject& object, const RenderConfig& config, RenderObject& out)
+      : object_(object), out_(out) {
+    const Texture bare;
+    without_ = defaults(scene, bare, config);
+    for (const SceneTexture& texture : object.textures)
+      with_.emplace(texture.index, defaults(scene, texture.texture, config));
+  }
+
+  void run() {
+    const auto& triangles = object_.mesh.triangles;
+    std::vector<std::array<std::uint32_t, 3>> corners(triangles.size());
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const RenderMaterial& base = base_of(t);
+      for (std::size_t k = 0; k < 3; ++k)
+        corners[t][k] = index_of({value(t, k, &Material::stiffness_N_per_m, base.stiffness_N_per_m),
+                                  value(t, k, &Material::compliance_kc, base.compliance_kc),
+                                  value(t, k, &Material::friction, base.friction)});
+    }
+    if (out_.materials.size() > 1) out_.corner_material = std::move(corners);
+  }
+
+ private:
+  static RenderMaterial defaults(const Scene& scene, const Texture& texture, const RenderConfig& config) {
+    return {first_known(texture.stiffness_N_per_m, scene.stiffness_N_per_m, config.stiffness_N_per_m),
+            texture.compliance_kc.value_or(1.0), first_known(texture.friction, scene.friction, config.friction)};
+  }
+
+  const RenderMaterial& base_of(std::size_t t) const {
+    if (object_.mesh.haptic.empty()) return without_;
+    const auto found = with_.find(object_.mesh.haptic[t].texture);
+    return found == with_.end() ? without_ : found->second;
+  }
+
+  double value(std::size_t t, std::size_t corner, double Material::*property, double otherwise) const {
+    const auto& map = object_.material.vertices;
+    if (map.empty()) return otherwise;
+    const Triangle& vertices = object_.mesh.triangles[t];
+    const double own = map[vertices[corner]].*property;
+    if (std::isfinite(own)) return own;
+    double sum = 0.0, known = 0.0;
+    for (const std::uint32_t v : vertices) {
+      const double x = map[v].*property;
+      if (std::isfinite(x)) sum += x, known += 1.0;
+    }
+    return known > 0.0 ? sum / known : otherwise;
+  }
+
+  std::uint32_t index_of(const RenderMaterial& material) {
+    const auto key = std::tuple(material.stiffness_N_per_m, material.compliance_kc, material.friction);
+    const auto [place, is_new] = indices_.try_emplace(key, static_cast<std::uint32_t>(out_.materials.size()));
+    if (is_new) out_.materials.push_back(material);
+    return place->second;
+  }
+
+  const SceneObject& object_;
+  RenderObject& out_;
+  RenderMaterial without_;
+  std::map<int, RenderMaterial> with_;
+  std::map<std::tuple<double, double, double>, std::uint32_t> indices_;
+};
+
+// Numbers each triangle's texture among the model's, and takes its coordinates.
+void lay_textures(const SceneObject& object, RenderModel& model, const RenderConfig& config, RenderObject& out) {
+  if (object.mesh.haptic.empty()) return;
+  std::map<int, std::int32_t> place;
+  for (const SceneTexture& texture : object.textures) {
+    place[texture.index] = static_cast<std::int32_t>(model.textures.size());
+    model.textures.push_back(make_render_texture(texture.texture, config.texture));
+  }
+  const std::size_t count = object.mesh.triangles.size();
+  out.texture.assign(count, -1);
+  out.texture_xy_m.resize(count);
+  bool any = false;
+  for (std::size_t t = 0; t < count; ++t) {
+    const HapticTriangle& haptic = object.mesh.haptic[t];
+    const auto found = place.find(haptic.texture);
+    if (found == place.end()) continue;
+    out.texture[t] = found->second;
+    any = true;
+    for (std::size_t k = 0; k < 3; ++k) out.texture_xy_m[t][k] = 1e-3 * haptic.xy_mm[k];
+  }
+  if (any) return;
+  out.texture.clear();
+  out.texture_xy_m.clear();
+}
+
+RenderObject make_object(const Scene& scene, const SceneObject& object, const RenderConfig& config,
+                         RenderModel& model) {
+  if (!object.mesh.haptic.empty() && object.mesh.haptic.size() != object.mesh.triangles.size())
+    throw Error(std::to_string(object.mesh.haptic.size()) + " haptic triangles for " +
+                std::to_string(object.mesh.triangles.size()));
+  if (!object.material.vertices.empty() && object.material.vertices.size() != object.mesh.vertices.size())
+    throw Error(std::to_string(object.material.vertices.size()) + " materials for " +
+                std::to_string(object.mesh.vertices.size()) + " vertices");
+  require(std::isfinite(object.unit_m) && object.unit_m > 0.0, "unit in metres", object.unit_m);
+  if (!object.T_world_mesh.rotation.coeffs().allFinite() || !object.T_world_mesh.translation_m.allFinite())
+    throw Error("its pose is not finite");
+  TriangleMesh mesh = to_metres(object.mesh, object.unit_m);
+  MeshBvh bvh(mesh);
+  RenderObject out{.mesh = std::move(mesh),
+                   .bvh = std::move(bvh),
+                   .normals = {},
+                   .closed = false,
+                   .T_world_mesh = {object.T_world_mesh.rotation.normalized(), object.T_world_mesh.translation_m},
+                   .id = 0,
+                   .texture = {},
+                   .texture_xy_m = {},
+                   .border = {},
+                   .corner_normals = {},
+                   .materials = {},
+                   .corner_material = {}};
+  out.normals = facet_normals(out.mesh);
+  out.closed = is_closed(out.mesh);
+  out.id = hash_of(out.mesh);
+  lay_textures(object, model, config, out);
+  out.border = make_texture_border(out, config.border_fade_m);
+  if (config.force_shading) {
+    const TriangleMesh welded = weld_vertices(out.mesh);
+    out.corner_normals = corner_normals(welded, make_adjacency(welded));
+  }
+  Materials(scene, object, config, out).run();
+  return out;
+}
+
+}  // namespace
+
+RenderModel make_render_model(const Scene& scene, const RenderConfig& config) {
+  check(config);
+  if (scene.objects.empty()) throw Error("rendering: a scene without objects");
+  if (scene.objects.size() > ProxyState::kMostObjects)
+    throw Error("rendering: " + std::to_string(scene.objects.size()) + " objects, at most " +
+                std::to_string(ProxyState::kMostObjects));
+  RenderModel model;
+  model.config = config;
+  for (std::size_t k = 0; k < scene.objects.size(); ++k) {
+    try {
+      model.objects.push_back(make_object(scene, scene.objects[k], config, model));
+    } catch (const Error& error) {
+      throw Error("rendering: object " + std::to_string(k) + " (" + printable(scene.objects[k].mesh_file) +
+                  "): " + error.what());
+    }
+    model.extent_m = std::max(model.extent_m, extent_of(model.objects.back().mesh));
+  }
+  for (const RenderTexture& texture : model.textures) model.highest_m = std::max(model.highest_m, texture.highest_m);
+  if (!(model.extent_m > 0.0)) throw Error("rendering: the objects have no extent");
+  return model;
+}
+
+}  // namespace asperity
