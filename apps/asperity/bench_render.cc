@@ -81,7 +81,7 @@ Scene make_render_bench() {
   PebbleConfig config;
   config.semi_axes_m = {0.05, 0.05, 0.05};
   config.bump_m = 1e-3;
-  config.facet_m = 1.0e-3;
+  config.facet_m = 1.02e-3;
   SceneObject object;
   const TriangleMesh mesh = make_pebble(config);
   object.mesh_file = "bumpy sphere";

@@ -14,7 +14,9 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/device/cap_scene.h"
 #include "asperity/device/servo_loop.h"
+#include "asperity/device/write_flight_record.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/pipeline/score_rendering.h"
 #include "asperity/scene/read_scene.h"
@@ -45,7 +47,7 @@ class FeelCommand : public Command {
     parser()
         .add_option("--device", device_,
                     "sim (the default: a modelled hand), replay (the default with --replay), haply, openhaptics, dhd, "
-                    "2diy, audio or gamepad")
+                    "audio or gamepad")
         ->type_name("NAME");
     parser()
         .add_option("--replay", replay_,
@@ -106,20 +108,18 @@ class FeelCommand : public Command {
     std::optional<OutputFolder> folder;
     if (!output_.empty()) folder.emplace(output_, is_our_folder);
     observer.update("reading", 0.0);
-    const Scene scene = read_felt_scene();
+    Scene scene = read_felt_scene();
     FeelDrive drive;
     if (!replay_.empty()) {
       drive = read_drive(replay_, mapped_, scene, settings_, observer);
-    } else if (device_ == "sim") {
+    } else if (kind_.driven) {
       drive = make_drive(scene, point("--from", from_), point("--to", to_), settings_);
     }
     warn_of(scene.problems);
     warn_of(drive.problems);
-    observer.update("scene", 0.0);
-    SnapshotExchange<const RenderModel> model(
-        std::make_unique<const RenderModel>(make_render_model(scene, settings_.render_config())));
     const std::unique_ptr<HapticDevice> device = open_device(device_, drive, settings_);
-
+    observer.update("scene", 0.0);
+    SnapshotExchange<const RenderModel> model(make_model(scene, *device));
     const fs::path log = !log_.empty() ? fs::path(log_) : folder ? folder->path() / "log.csv" : fs::path();
     const ServoResult servo = feel(*device, model, log, observer);
     warn_of_run(servo, *device, drive, *model.acquire());
@@ -137,26 +137,26 @@ class FeelCommand : public Command {
     }
     print_json(json);
     report(servo, score);
+    if (servo.end == ServoEnd::kStopped) return interrupt_exit_code();
     return verdict_.empty() ? kDone : kNotTrustworthy;
   }
 
  private:
   void choose_device() {
     if (device_.empty()) device_ = replay_.empty() ? "sim" : "replay";
-    constexpr std::array<std::string_view, 8> kDevices{"sim", "replay", "haply", "openhaptics",
-                                                       "dhd", "2diy",   "audio", "gamepad"};
     if (device_ == "mouse") throw UsageError("--device mouse: the mouse feels in the studio's page alone");
-    if (std::find(kDevices.begin(), kDevices.end(), device_) == kDevices.end()) {
+    const std::optional<DeviceKind> kind = device_kind(device_);
+    if (!kind) {
       throw UsageError("--device: '" + printable(device_) +
-                       "' is none of sim, replay, haply, openhaptics, dhd, 2diy, "
-                       "audio and gamepad");
+                       "' is none of sim, replay, haply, openhaptics, dhd, audio and gamepad");
     }
+    kind_ = *kind;
     if (device_ == "replay" && replay_.empty()) throw UsageError("--device replay needs --replay");
-    if (!is_computed(device_) && !replay_.empty()) throw UsageError("--replay: " + device_ + " is moved by a hand");
+    if (!kind_.driven && !replay_.empty()) throw UsageError("--replay: " + device_ + " is moved by a hand");
     if (mapped_ && replay_.empty()) throw UsageError("--mapped needs --replay");
     if (from_.empty() != to_.empty()) throw UsageError("--from and --to belong together");
-    if (!from_.empty() && (device_ != "sim" || !replay_.empty())) throw UsageError("--from: only sim makes a stroke");
-    if (!is_computed(device_)) settings_.servo.paced = true;
+    if (!from_.empty() && (!kind_.driven || !replay_.empty())) throw UsageError("--from: no hand is modelled");
+    if (kind_.felt) settings_.servo.paced = true;
   }
 
   static std::optional<Eigen::Vector3d> point(const std::string& option, const std::string& text) {
@@ -178,6 +178,31 @@ class FeelCommand : public Command {
     return scene;
   }
 
+  // A scene within what the device can render, standing where the hand is.
+  std::unique_ptr<const RenderModel> make_model(const Scene& scene, const HapticDevice& device) {
+    RenderConfig config = settings_.render_config();
+    if (kind_.driven) return std::make_unique<const RenderModel>(make_render_model(scene, config));
+    const DeviceCaps caps =
+        find_device_caps(device.info(), settings_.servo.safety, settings_.servo.rate_Hz, settings_.caps);
+    CappedScene capped = cap_scene(scene, config, caps);
+    warnings_.insert(warnings_.end(), capped.warnings.begin(), capped.warnings.end());
+    auto model = std::make_unique<RenderModel>(make_render_model(capped.scene, capped.config));
+    if (settings_.servo.frame.translation_m.isZero(0.0)) place_device(*model, device.info());
+    return model;
+  }
+
+  // Puts the middle of the workspace (the device's origin where that is not known) into the middle of the scene.
+  void place_device(const RenderModel& model, const DeviceInfo& info) {
+    Eigen::AlignedBox3d box;
+    for (const RenderObject& object : model.objects) {
+      for (const Eigen::Vector3d& vertex_m : object.mesh.vertices_m) box.extend(object.T_world_mesh * vertex_m);
+    }
+    DeviceFrame& frame = settings_.servo.frame;
+    const Eigen::Vector3d middle_m = 0.5 * (info.workspace_min_m + info.workspace_max_m);
+    frame.translation_m =
+        box.center() - (middle_m.allFinite() ? frame.position_m(middle_m) : Eigen::Vector3d(Eigen::Vector3d::Zero()));
+  }
+
   // Runs the loop; throws Cancelled if it was interrupted, with zero force and no log.
   ServoResult feel(HapticDevice& device, SnapshotExchange<const RenderModel>& model, const fs::path& log,
                    const Observer& observer) {
@@ -185,7 +210,7 @@ class FeelCommand : public Command {
     if (!log.empty()) rows.emplace(log, settings_.servo.timed);
     ServoConfig config = settings_.servo;
     // The hand's path has the duration: no ramp follows it.
-    if (device_ == "sim" && replay_.empty()) config.duration_s = 0.0;
+    if (kind_.driven && replay_.empty()) config.duration_s = 0.0;
     const double whole_s = settings_.servo.duration_s;
     const ServoResult servo = run_servo(device, model, config, interrupt_flag(), [&](const ServoTick& tick) {
       figures_.add(tick);
@@ -194,23 +219,15 @@ class FeelCommand : public Command {
         observer.update("feeling", whole_s > 0.0 ? 1e-9 * static_cast<double>(tick.t_ns) / whole_s : 0.0);
       }
     });
-    if (servo.end == ServoEnd::kStopped && is_computed(device_)) throw Cancelled();
+    if (servo.end == ServoEnd::kStopped && kind_.driven) throw Cancelled();
     if (rows) rows->commit();
-    if (servo.end == ServoEnd::kFault && !log.empty()) write_flight_record(log, servo);
-    return servo;
-  }
-
-  // What the loop remembers of the time before a fault, beside the log.
-  void write_flight_record(const fs::path& log, const ServoResult& servo) {
-    std::string text = std::string(kFeelLogColumns) + ",limited_by\n";
-    for (const ServoTick& tick : servo.last_ticks) {
-      append_feel_row(text, tick);
-      text += "," + cause_names(tick.limited_by) + "\n";
+    if (servo.end == ServoEnd::kFault && !log.empty()) {
+      fs::path file = log;
+      file.replace_extension(".flight.csv");
+      write_flight_record(file, servo.last_ticks);
+      warnings_.push_back("what happened before the fault is in " + printable(file.filename().string(), 200));
     }
-    fs::path file = log;
-    file.replace_extension(".flight.csv");
-    write_file(file, text);
-    warnings_.push_back("what happened before the fault is in " + printable(file.string(), 200));
+    return servo;
   }
 
   void distrust(const std::string& why) { verdict_ += (verdict_.empty() ? "" : "; ") + why; }
@@ -312,6 +329,7 @@ class FeelCommand : public Command {
   std::string scene_, device_, replay_, rate_, log_, duration_, mesh_unit_, tip_, model_, stiffness_, friction_;
   std::string from_, to_, press_, speed_, output_;
   bool mapped_ = false, timing_ = false, realtime_ = false;
+  DeviceKind kind_;
   FeelSettings settings_;
   FeelFigures figures_;
   std::vector<std::string> warnings_, notes_;

@@ -1,9 +1,11 @@
 #include "feel_device.h"
 
+#include <array>
 #include <utility>
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/device/open_vibrating.h"
 #include "asperity/device/replay_device.h"
 #include "asperity/device/sim_device.h"
 
@@ -41,12 +43,39 @@ std::unique_ptr<HapticDevice> open_hand(const FeelDrive& drive, const FeelSettin
 
 }  // namespace
 
-bool is_computed(const std::string& device) { return device == "sim" || device == "replay"; }
+std::optional<DeviceKind> device_kind(std::string_view name) {
+  constexpr std::array<DeviceKind, 7> kKinds{{{"sim", true, false},
+                                              {"replay", true, false},
+                                              {"haply", false, true},
+                                              {"openhaptics", false, true},
+                                              {"dhd", false, true},
+                                              {"audio", true, true},
+                                              {"gamepad", true, true}}};
+  for (const DeviceKind& kind : kKinds) {
+    if (kind.name == name) return kind;
+  }
+  return std::nullopt;
+}
 
 std::unique_ptr<HapticDevice> open_device(const std::string& device, const FeelDrive& drive,
                                           const FeelSettings& settings) {
   if (device == "sim") return open_hand(drive, settings);
   if (device == "replay") return open_replay_of(*drive.path);
+  if (device == "haply") return open_haply(settings.haply);
+  if (device == "openhaptics") return open_openhaptics(settings.openhaptics);
+  if (device == "dhd") return open_dhd(settings.dhd);
+  // What vibrates has no position of its own: a path or the modelled hand moves the point.
+  std::unique_ptr<HapticDevice> hand = drive.stroke ? open_hand(drive, settings) : open_replay_of(*drive.path);
+  if (device == "audio") {
+    AudioSinkConfig config = settings.audio;
+    config.vibration.servo_rate_Hz = settings.servo.rate_Hz;
+    return open_vibrating(std::move(hand), open_audio_sink(config));
+  }
+  if (device == "gamepad") {
+    RumbleSinkConfig config = settings.gamepad;
+    config.servo_rate_Hz = settings.servo.rate_Hz;
+    return open_vibrating(std::move(hand), open_rumble_sink(config));
+  }
   throw Error("--device " + device + ": no such device");
 }
 

@@ -59,8 +59,14 @@ FeelDrive read_drive(const std::string& replay, bool mapped, const Scene& scene,
 FeelDrive make_drive(const Scene& scene, const std::optional<Eigen::Vector3d>& from_m,
                      const std::optional<Eigen::Vector3d>& to_m, const FeelSettings& settings) {
   constexpr double kAcross_m = 0.08;
-  SurfaceLine line = from_m && to_m ? line_between(scene, *from_m, *to_m) : textured_line(scene);
-  if (line.size() < 2) line = line_across(scene, kAcross_m);
+  SurfaceLine line;
+  if (from_m && to_m) {
+    line = line_between(scene, *from_m, *to_m);
+  } else {
+    line = textured_line(scene);
+    if (line.size() < 2) line = line_across(scene, kAcross_m);
+    line = shortened(line, settings.stroke.margin_m);
+  }
   FeelDrive out;
   out.stroke = stroke_along(line, settings.servo.duration_s, settings.stroke);
   return out;

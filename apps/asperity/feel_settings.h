@@ -7,7 +7,13 @@
 #include <vector>
 
 #include "asperity/base/config.h"
+#include "asperity/device/device_caps.h"
+#include "asperity/device/dhd_device.h"
 #include "asperity/device/hand_model_config.h"
+#include "asperity/device/open_audio_sink.h"
+#include "asperity/device/open_haply.h"
+#include "asperity/device/open_rumble_sink.h"
+#include "asperity/device/openhaptics_device.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/pipeline/process_config.h"
 #include "asperity/pipeline/score_rendering.h"
@@ -37,6 +43,12 @@ struct FeelSettings {
   ServoConfig servo;
   SurfaceStrokeConfig stroke;
   HandModelConfig hand;
+  HaplyConfig haply;
+  OpenHapticsConfig openhaptics;
+  DhdConfig dhd;
+  AudioSinkConfig audio;
+  RumbleSinkConfig gamepad;
+  DeviceCapsConfig caps;
   ScoreConfig score;
   ProcessConfig process;
 
@@ -70,6 +82,12 @@ struct FeelSettings {
     v.group("servo", servo);
     v.group("stroke", stroke);
     v.group("hand", hand);
+    v.group("haply", haply);
+    v.group("openhaptics", openhaptics);
+    v.group("dhd", dhd);
+    v.group("audio", audio);
+    v.group("gamepad", gamepad);
+    v.group("caps", caps);
     v.group("score", score);
     v.group("process", process);
   }

@@ -186,9 +186,9 @@ TEST_F(FeelCommands, TheModelledHandStrokesTheTexture) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Table log = read_table(path("log.csv"));
   const std::vector<double> x = log.column("px_m"), f = log.column("fz_N");
-  // To the texture's end and back: from 4 mm (the path is prolonged by 1 mm) to 56 mm.
-  EXPECT_NEAR(*std::min_element(x.begin(), x.end()), 4e-3, 0.5e-3);
-  EXPECT_NEAR(*std::max_element(x.begin(), x.end()), 56e-3, 0.5e-3);
+  // The texture, 12 mm wide, reaches the plate's ends; the stroke keeps 2 mm away from them.
+  EXPECT_NEAR(*std::min_element(x.begin(), x.end()), 2e-3, 0.5e-3);
+  EXPECT_NEAR(*std::max_element(x.begin(), x.end()), 58e-3, 0.5e-3);
   // The surface bears what the hand presses with, once the soft start is over.
   double sum = 0.0;
   for (std::size_t i = 800; i < f.size(); ++i) sum += f[i];

@@ -63,6 +63,7 @@ bool ServoCore::tick(std::uint64_t k, std::uint64_t ticks_since, std::int64_t la
   tick.reading = device_.read(tick.t_ns);
   if (tick.reading.status == DeviceStatus::kEnded) {
     if (!ending_) end_ = ServoEnd::kDeviceEnded;
+    device_.write(Eigen::Vector3d::Zero());
     return false;
   }
   const double dt_s = static_cast<double>(ticks_since) / config_.rate_Hz;

@@ -20,7 +20,7 @@ Eigen::Vector3d half_newton_up(const DeviceReading&) { return {0.0, 0.5, 0.0}; }
 
 DeviceReading DeviceConformance::tick(HapticDevice& device,
                                       const std::function<Eigen::Vector3d(const DeviceReading&)>& law) {
-  const DeviceReading reading = device.read(t_ns_);
+  DeviceReading reading = device.read(t_ns_);
   device.write(law(reading));
   t_ns_ += kTick_ns;
   if (rig_->real_time()) std::this_thread::sleep_for(std::chrono::nanoseconds(kTick_ns));

@@ -209,6 +209,24 @@ SurfaceLine line_across(const Scene& scene, double wanted_m) {
   return maker.take();
 }
 
+SurfaceLine shortened(const SurfaceLine& line, double margin_m) {
+  const double length = length_m(line), margin = std::min(margin_m, 0.25 * length);
+  if (!(margin > 0.0)) return line;
+  SurfaceLine out;
+  const auto add = [&](double s_m) {
+    const LinePlace place = place_at(line, s_m);
+    out.p_world_m.push_back(place.p_world_m);
+    out.n_world.push_back(place.n_world);
+    out.s_m.push_back(s_m - margin);
+  };
+  add(margin);
+  for (const double s_m : line.s_m) {
+    if (s_m > margin && s_m < length - margin) add(s_m);
+  }
+  add(length - margin);
+  return out;
+}
+
 HandStroke stroke_along(const SurfaceLine& line, double duration_s, const SurfaceStrokeConfig& config) {
   const double length = length_m(line);
   if (!(length > 0.0)) throw Error("stroke: the line over the surface has no length");

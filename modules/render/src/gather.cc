@@ -7,14 +7,15 @@ namespace asperity {
 
 using Eigen::Vector3d;
 
-bool gather(const RenderModel& model, const Vector3d& centre_m, double radius_m, std::uint32_t only,
+bool gather(const RenderModel& model, const Vector3d& centre_m, double radius_m, ObjectSet objects,
             NearTriangles& near) noexcept {
   near.centre_m = centre_m;
   near.radius_m = radius_m;
   near.count = 0;
+  near.complete = true;
   std::array<std::uint32_t, NearTriangles::kMost> found;
   for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
-    if (only < model.objects.size() && o != only) continue;
+    if (!(objects >> o & 1u)) continue;
     const RenderObject& object = model.objects[o];
     const Pose& T = object.T_world_mesh;
     const bool turned = T.rotation.w() != 1.0 || T.translation_m != Vector3d::Zero();
@@ -35,9 +36,9 @@ bool gather(const RenderModel& model, const Vector3d& centre_m, double radius_m,
       t.object = o;
       t.triangle = found[k];
     }
-    if (count > room) return false;
+    if (count > room) near.complete = false;
   }
-  return true;
+  return near.complete;
 }
 
 }  // namespace asperity

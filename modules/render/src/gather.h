@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include <Eigen/Core>
 
 #include "asperity/render/near_triangles.h"
@@ -7,10 +9,13 @@
 
 namespace asperity {
 
-// Fills `near` with the model's triangles that have a point within `radius_m` of a point of the world, in the order of
-// objects and trees. False if there are more than it holds: then it holds some of them. `only`: of that object
-// alone, if it is one.
-bool gather(const RenderModel& model, const Eigen::Vector3d& centre_m, double radius_m, std::uint32_t only,
+// A set of a model's objects: bit k is object k.
+using ObjectSet = std::uint64_t;
+inline constexpr ObjectSet kAllObjects = ~ObjectSet{0};
+
+// Fills `near` with the triangles of these objects that have a point within `radius_m` of a point of the world, in the
+// order of objects and trees. False if there are more than it holds: then it holds some of them.
+bool gather(const RenderModel& model, const Eigen::Vector3d& centre_m, double radius_m, ObjectSet objects,
             NearTriangles& near) noexcept;
 
 }  // namespace asperity

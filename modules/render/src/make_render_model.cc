@@ -8,10 +8,12 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/geometry/corner_normals.h"
 #include "asperity/geometry/mesh_adjacency.h"
 #include "asperity/geometry/mesh_normals.h"
 #include "asperity/render/proxy_state.h"
 #include "asperity/render/render_model.h"
+#include "texture_border.h"
 
 namespace asperity {
 namespace {
@@ -182,12 +184,19 @@ RenderObject make_object(const Scene& scene, const SceneObject& object, const Re
                    .id = 0,
                    .texture = {},
                    .texture_xy_m = {},
+                   .border = {},
+                   .corner_normals = {},
                    .materials = {},
                    .corner_material = {}};
   out.normals = facet_normals(out.mesh);
   out.closed = is_closed(out.mesh);
   out.id = hash_of(out.mesh);
   lay_textures(object, model, config, out);
+  out.border = make_texture_border(out, config.border_fade_m);
+  if (config.force_shading) {
+    const TriangleMesh welded = weld_vertices(out.mesh);
+    out.corner_normals = corner_normals(welded, make_adjacency(welded));
+  }
   Materials(scene, object, config, out).run();
   return out;
 }
@@ -211,6 +220,7 @@ RenderModel make_render_model(const Scene& scene, const RenderConfig& config) {
     }
     model.extent_m = std::max(model.extent_m, extent_of(model.objects.back().mesh));
   }
+  for (const RenderTexture& texture : model.textures) model.highest_m = std::max(model.highest_m, texture.highest_m);
   if (!(model.extent_m > 0.0)) throw Error("rendering: the objects have no extent");
   return model;
 }

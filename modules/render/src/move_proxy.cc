@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "convex_step.h"
-#include "gather.h"
 
 namespace asperity {
 namespace {
@@ -14,20 +14,41 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMostIterations = 32;
-constexpr std::uint32_t kManyTriangles = 48;  // more are looked at only where the step needs them
-constexpr std::uint32_t kFewTriangles = 6;
 
-// Gathers round the proxy, as far as `wanted_m` beyond its ball if that is not too many triangles.
-void look_around(const RenderModel& model, const ProxyBall& ball, double wanted_m, std::uint32_t only,
-                 ProxyState& proxy) {
-  double reach_m = proxy.reach_m > 0.0 ? std::max(proxy.reach_m, wanted_m) : ball.coarse_m;
-  for (int halving = 0; halving < 40; ++halving) {
-    if (gather(model, proxy.p_world_m, ball.radius_m + reach_m, only, proxy.near)) break;
+// Looking far costs triangles at each step, looking near costs a search more often: the list is to last for some steps
+// of the hand unless it gets long, and need not be kept short where it is.
+constexpr double kStrides = 3.0;
+constexpr std::uint32_t kManyTriangles = 12;
+constexpr std::uint32_t kFewTriangles = 4;
+
+// Gathers round the proxy, at least `wanted_m` beyond its ball if that is not too many triangles.
+void gather_around(const RenderModel& model, const ProxyBall& ball, double wanted_m, ObjectSet objects,
+                   ProxyState& proxy) {
+  const double least_m = 0x1p-10 * ball.coarse_m;
+  if (!(proxy.reach_m > 0.0)) proxy.reach_m = ball.coarse_m;
+  double reach_m = std::max(proxy.reach_m, wanted_m);
+  while (!gather(model, proxy.p_world_m, ball.radius_m + reach_m, objects, proxy.near) && reach_m > least_m)
     reach_m *= 0.5;
-  }
-  proxy.reach_m = reach_m;
-  if (proxy.near.count > kManyTriangles && reach_m > wanted_m) proxy.reach_m = std::max(0.5 * reach_m, wanted_m);
+  const double enough_m = std::max(kStrides * ball.stride_m, least_m);
+  proxy.reach_m = std::min(proxy.reach_m, reach_m);
+  if (proxy.near.count > kManyTriangles) proxy.reach_m = std::min(proxy.reach_m, std::max(0.5 * reach_m, enough_m));
   if (proxy.near.count < kFewTriangles) proxy.reach_m = std::min(2.0 * reach_m, 64.0 * ball.coarse_m);
+}
+
+// How far the proxy may go from where it is before the list may lack a triangle.
+double room_m(const ProxyState& proxy, double radius_m) {
+  return proxy.near.radius_m - radius_m - (proxy.p_world_m - proxy.near.centre_m).norm();
+}
+
+bool is_free(const RenderModel& model, const ProxyBall& ball, ObjectSet objects, const Vector3d& p_m) {
+  for (std::size_t o = 0; o < model.objects.size(); ++o) {
+    if (!(objects >> o & 1u)) continue;
+    const RenderObject& object = model.objects[o];
+    const ClosestPoint closest =
+        object.bvh.closest_point(object.T_world_mesh.inverse() * p_m, ball.radius_m - 2.0 * ball.slack_m);
+    if (closest.found()) return false;
+  }
+  return true;
 }
 
 // The places in the list of the triangles that the proxy touches.
@@ -54,36 +75,47 @@ void note_touches(const ConvexStep& step, ProxyState& proxy) {
     const NearTriangle& t = proxy.near.triangles[from.index];
     proxy.touches[k] = {t.object, t.triangle, from.barycentric, from.normal, from.pull_m};
   }
-  std::stable_sort(proxy.touches.begin(), proxy.touches.begin() + proxy.touch_count,
-                   [](const ProxyTouch& a, const ProxyTouch& b) { return a.pull_m > b.pull_m; });
+  for (std::uint32_t k = 1; k < proxy.touch_count; ++k)
+    for (std::uint32_t i = k; i > 0 && proxy.touches[i - 1].pull_m < proxy.touches[i].pull_m; --i)
+      std::swap(proxy.touches[i - 1], proxy.touches[i]);
 }
 
 }  // namespace
 
-bool move_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d& goal_m, std::uint32_t only,
+void look_around(const RenderModel& model, const ProxyBall& ball, double distance_m, ObjectSet objects,
+                 ProxyState& proxy) noexcept {
+  if (room_m(proxy, distance_m) >= 0.0) return;
+  gather_around(model, ball, 2.0 * std::max(distance_m - ball.radius_m, 0.0), objects, proxy);
+}
+
+bool move_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d& goal_m, ObjectSet objects,
                 ProxyState& proxy) noexcept {
+  double wanted_m = ball.stride_m;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     const double left_m = (goal_m - proxy.p_world_m).norm();
-    // The list says nothing of what is farther from its centre than its radius.
-    const auto room = [&] {
-      return proxy.near.radius_m - ball.radius_m - (proxy.p_world_m - proxy.near.centre_m).norm();
-    };
-    double room_m = room();
-    if (!(room_m > 0.0)) {
-      look_around(model, ball, std::min(0.25 * left_m, ball.coarse_m), only, proxy);
-      room_m = room();
+    double reach_m = room_m(proxy, ball.radius_m);
+    if (!(reach_m > 0.0)) {
+      gather_around(model, ball, std::min(wanted_m, left_m), objects, proxy);
+      wanted_m *= 4.0;  // it goes farther than the hand did
+      reach_m = room_m(proxy, ball.radius_m);
     }
-
     std::array<std::uint32_t, 3> touched{};
     const std::size_t touched_count = find_touched(proxy, touched);
     const ConvexStep step =
         convex_step(std::span(proxy.near.triangles.data(), proxy.near.count),
                     {proxy.p_world_m, ball.radius_m, ball.slack_m}, goal_m, std::span(touched.data(), touched_count));
+    note_touches(step, proxy);
     const Vector3d way_m = step.centre_m - proxy.p_world_m;
     const double length_m = way_m.norm();
-    note_touches(step, proxy);
-    if (length_m > room_m) {
-      proxy.p_world_m += (room_m / length_m) * way_m;
+    const bool beyond = length_m > reach_m;
+    double part = beyond ? reach_m / length_m : 1.0;
+    if (!proxy.near.complete) {
+      // Too many triangles for the list: the end of the way is checked against all of them, the way itself is not.
+      while (part > 0x1p-10 && !is_free(model, ball, objects, proxy.p_world_m + part * way_m)) part *= 0.5;
+      if (!(part > 0x1p-10)) return false;
+    }
+    if (part < 1.0) {
+      proxy.p_world_m += part * way_m;
       proxy.near.radius_m = -1.0;
       continue;
     }

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "texture_border.h"
+
 namespace asperity {
 
 using Eigen::Vector2d;
@@ -28,8 +30,13 @@ TexturePlace texture_place(const RenderModel& model, const RenderObject& object,
   const auto& xy = object.texture_xy_m[triangle];
   out.xy_m = barycentric[0] * xy[0] + barycentric[1] * xy[1] + barycentric[2] * xy[2];
   const Triangle& t = object.mesh.triangles[triangle];
-  const Vector3d e1 = object.mesh.vertices_m[t[1]] - object.mesh.vertices_m[t[0]];
-  const Vector3d e2 = object.mesh.vertices_m[t[2]] - object.mesh.vertices_m[t[0]];
+  const auto corner = [&](std::size_t k) -> const Vector3d& { return object.mesh.vertices_m[t[k]]; };
+  if (!object.border.first.empty())
+    out.fade = border_fade(object, triangle,
+                           barycentric[0] * corner(0) + barycentric[1] * corner(1) + barycentric[2] * corner(2),
+                           model.config.border_fade_m);
+  const Vector3d e1 = corner(1) - corner(0);
+  const Vector3d e2 = corner(2) - corner(0);
   const Vector3d area = e1.cross(e2);
   const double square = area.squaredNorm();
   if (!(square > 0.0)) return out;

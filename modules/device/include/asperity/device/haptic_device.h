@@ -21,13 +21,14 @@ struct DeviceInfo {
   Eigen::Vector3d workspace_min_m = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Vector3d workspace_max_m = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   bool simulated = false;  // its hand is computed: it may be served faster than real time
+  bool yields = true;      // its position answers to the force; false: a recorded path
 };
 
 enum class DeviceStatus : std::uint8_t {
   kReady,
-  kStalled,  // no news since the last reading
+  kStalled,  // no news for longer than the device may take; the sequence tells at which reading it stopped
   kFault,    // gone, or it reports an error; it takes no force any more
-  kEnded,    // nothing more will come: a replayed path is at its end
+  kEnded,    // nothing more will come: a replayed path is at its end, or the device was closed
 };
 
 // What a device says at one tick, in the device's own axes (right x, up y, toward the user z).
@@ -58,7 +59,8 @@ class HapticDevice {
   // Zero force, and no other from now on. Does not throw; may wait.
   virtual void close() noexcept = 0;
 
-  // What went wrong, in words, after kFault; empty if nothing did. Not for the servo thread.
+  // What went wrong, in words; empty if nothing did. After kFault its cause; a device that goes on may have warnings
+  // here (warm motors). Not for the servo thread.
   virtual std::string fault() const = 0;
 
  protected:

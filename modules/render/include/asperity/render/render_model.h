@@ -33,6 +33,14 @@ struct RenderMaterial {
   double friction = 0.0;
 };
 
+// The edges at which a textured area ends or another begins, and for each triangle those that are within the fade of
+// it. Empty: none.
+struct TextureBorder {
+  std::vector<std::array<Eigen::Vector3d, 2>> edges_m;
+  std::vector<std::uint32_t> first;  // [triangle]: where its edges begin in `near`; one more at the end
+  std::vector<std::uint32_t> near;   // indices of edges
+};
+
 // A mesh made ready for the servo thread, in metres, in the frame of the mesh.
 struct RenderObject {
   TriangleMesh mesh;
@@ -43,9 +51,11 @@ struct RenderObject {
   std::uint64_t id = 0;  // of the geometry: a hash of vertices and triangles
 
   std::vector<std::int32_t> texture;  // one a triangle: index in RenderModel::textures, -1: none; empty: none at all
-  std::vector<std::array<Eigen::Vector2d, 3>> texture_xy_m;   // of the corners; empty without textures
-  std::vector<RenderMaterial> materials;                      // those that differ; at least one
-  std::vector<std::array<std::uint32_t, 3>> corner_material;  // indices; empty: materials[0] everywhere
+  std::vector<std::array<Eigen::Vector2d, 3>> texture_xy_m;    // of the corners; empty without textures
+  TextureBorder border;                                        // where textures fade
+  std::vector<std::array<Eigen::Vector3d, 3>> corner_normals;  // for force shading; empty without
+  std::vector<RenderMaterial> materials;                       // those that differ; at least one
+  std::vector<std::array<std::uint32_t, 3>> corner_material;   // indices; empty: materials[0] everywhere
 };
 
 // What is felt, immutable while it is.
@@ -53,7 +63,8 @@ struct RenderModel {
   std::vector<RenderObject> objects;
   std::vector<RenderTexture> textures;
   RenderConfig config;
-  double extent_m = 0.0;  // of the largest object, for the proxy's skin (docs/render.md)
+  double extent_m = 0.0;   // of the largest object, for the proxy's skin (docs/render.md)
+  double highest_m = 0.0;  // of all textures, lifted
 };
 
 // Throws Error for a scene that cannot be rendered, naming object and place.
