@@ -17,8 +17,10 @@
 #include "asperity/geometry/read_mesh.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/registration/register_path.h"
+#include "asperity/scene/read_scene.h"
 #include "asperity/simulation/make_pebble.h"
 #include "asperity/simulation/simulate_recording.h"
+#include "bench_render.h"
 #include "commands.h"
 #include "option_units.h"
 
@@ -56,19 +58,22 @@ SurfacePoint random_point(const TriangleMesh& mesh, Random& random) {
 class BenchCommand : public Command {
  public:
   explicit BenchCommand(CLI::App& root)
-      : Command(root, "bench", "Time this machine: closest points, registration, processing") {
-    require(parser().add_option("WHAT", what_, "closest-point, register or process"))
+      : Command(root, "bench", "Time this machine: closest points, registration, processing, rendering") {
+    require(parser().add_option("WHAT", what_, "closest-point, register, process or render"))
         ->type_name("NAME")
-        ->check(CLI::IsMember({"closest-point", "register", "process"}));
+        ->check(CLI::IsMember({"closest-point", "register", "process", "render"}));
     parser()
-        .add_option("--mesh", mesh_, "The mesh; else a generated pebble of some 70,000 triangles")
+        .add_option("MESH,--mesh", mesh_,
+                    "The mesh, or for render a scene; else a generated one of some 70,000 triangles")
         ->type_name("FILE");
     parser()
         .add_option("--mesh-unit", mesh_unit_, "The mesh file's unit: m, mm or a length such as 0.06m; m")
         ->type_name("UNIT");
+    parser().add_option("--tip", tip_, "render: radius of the tip; a point")->type_name("LENGTH");
   }
 
   int run(const Observer& observer) override {
+    if (!tip_.empty() && what_ != "render") throw UsageError("--tip: only render has a tip");
     if (what_ == "process" && !mesh_.empty()) throw UsageError("--mesh: process needs no mesh");
     Json out;
     out["format"] = "asperity-bench";
@@ -78,6 +83,7 @@ class BenchCommand : public Command {
     if (what_ == "closest-point") time_closest_points(out);
     if (what_ == "register") time_registration(out, observer);
     if (what_ == "process") time_processing(out, observer);
+    if (what_ == "render") time_rendering(scene(), tip_.empty() ? 0.0 : length_option_m("--tip", tip_), out);
     observer.update(what_, 1.0);
     out["asperity"] = kVersion;
     print_json(out.dump(2));
@@ -96,6 +102,13 @@ class BenchCommand : public Command {
     PebbleConfig config;
     config.facet_m = 0.62e-3;
     return make_pebble(config);
+  }
+
+  Scene scene() const {
+    if (mesh_.empty()) return make_render_bench();
+    Scene out = read_scene(mesh_);
+    if (!mesh_unit_.empty()) out.objects.front().unit_m = unit_option_m("--mesh-unit", mesh_unit_);
+    return out;
   }
 
   // Nanoseconds a query, the median of five rounds.
@@ -207,7 +220,7 @@ class BenchCommand : public Command {
     out["figures"] = {{"recording_s", length_s}, {"median_s", median_of(took_s)}};
   }
 
-  std::string what_, mesh_, mesh_unit_;
+  std::string what_, mesh_, mesh_unit_, tip_;
 };
 
 }  // namespace

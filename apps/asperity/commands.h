@@ -10,6 +10,7 @@ namespace asperity::app {
 std::unique_ptr<Command> make_bench(CLI::App& root);
 std::unique_ptr<Command> make_demo(CLI::App& root);
 std::unique_ptr<Command> make_simulate(CLI::App& root);
+std::unique_ptr<Command> make_feel(CLI::App& root);
 std::unique_ptr<Command> make_import(CLI::App& root);
 std::unique_ptr<Command> make_export(CLI::App& root);
 std::unique_ptr<Command> make_inspect(CLI::App& root);

@@ -16,6 +16,7 @@ namespace asperity::app {
 namespace {
 
 std::atomic<int> signal_seen{0};
+std::atomic<bool> stop_asked{false};
 
 }  // namespace
 
@@ -35,6 +36,7 @@ void watch_interrupts() {
     int number = 0;
     if (sigwait(&set, &number) != 0) return;
     signal_seen = number;
+    stop_asked = true;
     const timespec patience{1, 0};
     sigtimedwait(&set, nullptr, &patience);
     remove_unfinished_output();
@@ -44,6 +46,8 @@ void watch_interrupts() {
 }
 
 bool interrupted() { return signal_seen != 0; }
+
+const std::atomic<bool>& interrupt_flag() { return stop_asked; }
 
 int interrupt_exit_code() { return 128 + signal_seen; }
 

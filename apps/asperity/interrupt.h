@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+
 namespace asperity::app {
 
 inline constexpr const char* kInterrupted = "interrupted; nothing was written";
@@ -10,6 +12,8 @@ inline constexpr const char* kInterrupted = "interrupted; nothing was written";
 void watch_interrupts();
 
 bool interrupted();
+// The same for those that watch a flag: turns true with interrupted(), and stays true.
+const std::atomic<bool>& interrupt_flag();
 // 128 + the signal that came, 130 for Ctrl-C.
 int interrupt_exit_code();
 

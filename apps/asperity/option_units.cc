@@ -95,6 +95,32 @@ void for_each_entry(std::string_view text, Visit visit) {
 
 }  // namespace
 
+double duration_option_s(const std::string& option, const std::string& text, double longest_s) {
+  const double duration_s = parsed(parse_duration_s, option, text);
+  if (!(duration_s > 0.0 && duration_s <= longest_s)) {
+    throw UsageError(option + ": '" + printable(text) + "' is not between 0 and " + number_text(longest_s) + " s");
+  }
+  return duration_s;
+}
+
+double number_option(const std::string& option, const std::string& text, const std::string& unit, double low,
+                     double high) {
+  std::string_view digits = trim(text);
+  if (digits.ends_with(unit)) digits.remove_suffix(unit.size());
+  const auto number = parse_double(digits);
+  if (!number || !(*number >= low && *number <= high)) {
+    throw UsageError(option + ": '" + printable(text) + "' is not between " + number_text(low) + " and " +
+                     number_text(high) + " " + unit);
+  }
+  return *number;
+}
+
+Eigen::Vector3d point_option_m(const std::string& option, const std::string& text) {
+  if (const auto p = numbers<3>(text)) return {(*p)[0], (*p)[1], (*p)[2]};
+  const std::array<double, 3> p = lengths_option_m(option, text);
+  return {p[0], p[1], p[2]};
+}
+
 std::vector<Eigen::Vector3d> points_option_m(const std::string& option, const std::string& text, double unit_m) {
   std::vector<Eigen::Vector3d> out;
   for_each_entry(text, [&](std::string_view entry) { out.push_back(point_m(option, entry, unit_m)); });

@@ -19,6 +19,14 @@ double unit_option_m(const std::string& option, const std::string& text);
 // Three lengths with commas between.
 std::array<double, 3> lengths_option_m(const std::string& option, const std::string& text);
 
+// A time such as 10s or 250ms, above 0 and at most `longest_s`.
+double duration_option_s(const std::string& option, const std::string& text, double longest_s);
+// A number within [low, high], with or without its unit behind it: "1.5" or "1.5N".
+double number_option(const std::string& option, const std::string& text, const std::string& unit, double low,
+                     double high);
+// x,y,z in metres, or each with a unit of length.
+Eigen::Vector3d point_option_m(const std::string& option, const std::string& text);
+
 // x,y,z,qw,qx,qy,qz: metres, and a quaternion, which is normalised.
 Pose pose_option(const std::string& option, const std::string& text);
 

@@ -50,31 +50,49 @@ std::string reason() { return std::strerror(errno); }
 }  // namespace
 
 void write_file(const fs::path& path, std::string_view content) {
-  std::string temporary = template_beside(path);
-  const int file = ::mkstemp(temporary.data());
-  if (file < 0) throw Error(path.string() + ": cannot be written: " + reason());
-  mark_unfinished(temporary);
-  const auto fail = [&](const std::string& why) {
-    ::close(file);
-    ::unlink(temporary.c_str());
-    mark_finished(temporary);
-    throw Error(path.string() + ": cannot be written: " + why);
-  };
+  OutputFile file(path);
+  file.append(content);
+  file.commit();
+}
+
+OutputFile::OutputFile(fs::path target) : target_(std::move(target)), temporary_(template_beside(target_)) {
+  file_ = ::mkstemp(temporary_.data());
+  if (file_ < 0) throw Error(target_.string() + ": cannot be written: " + reason());
+  mark_unfinished(temporary_);
   const mode_t mask = ::umask(0);
   ::umask(mask);
-  ::fchmod(file, 0666 & ~mask);
+  ::fchmod(file_, 0666 & ~mask);
+}
+
+OutputFile::~OutputFile() {
+  if (file_ < 0) return;
+  ::unlink(temporary_.c_str());
+  close();
+}
+
+void OutputFile::close() noexcept {
+  ::close(file_);
+  file_ = -1;
+  mark_finished(temporary_);
+}
+
+void OutputFile::append(std::string_view content) {
   for (std::size_t done = 0; done < content.size();) {
-    const ssize_t count = ::write(file, content.data() + done, content.size() - done);
+    const ssize_t count = ::write(file_, content.data() + done, content.size() - done);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail(reason());
+    if (count < 0) throw Error(target_.string() + ": cannot be written: " + reason());
     done += static_cast<std::size_t>(count);
   }
+}
+
+void OutputFile::commit() {
   // Forcing a file of a whole folder to disk would protect nothing before the folder is renamed, and waits
   // for whatever else the machine is writing.
-  if (!is_in_unfinished_folder(path) && ::fsync(file) != 0) fail(reason());
-  if (::rename(temporary.c_str(), path.c_str()) != 0) fail(reason());
-  ::close(file);
-  mark_finished(temporary);
+  if ((!is_in_unfinished_folder(target_) && ::fsync(file_) != 0) ||
+      ::rename(temporary_.c_str(), target_.c_str()) != 0) {
+    throw Error(target_.string() + ": cannot be written: " + reason());
+  }
+  close();
 }
 
 OutputFolder::OutputFolder(fs::path target, const std::function<bool(const fs::path&)>& is_ours)

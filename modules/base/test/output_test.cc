@@ -33,6 +33,24 @@ TEST(Output, FolderAppearsWholeOrNotAtAll) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dir.path()), {}), 1);
 }
 
+TEST(Output, AFileInPiecesAppearsWholeOrNotAtAll) {
+  testkit::TempDir dir;
+  write_file(dir / "log.csv", "before");
+  {
+    OutputFile file(dir / "log.csv");
+    file.append("half");
+  }
+  EXPECT_EQ(read_file(dir / "log.csv", 10), "before");
+  OutputFile file(dir / "log.csv");
+  file.append("one ");
+  file.append("two");
+  EXPECT_EQ(read_file(dir / "log.csv", 10), "before");
+  file.commit();
+  EXPECT_EQ(read_file(dir / "log.csv", 10), "one two");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dir.path()), {}), 1);
+  EXPECT_THROW(OutputFile(dir / "none" / "log.csv"), Error);
+}
+
 TEST(Output, LeavesStrangersAlone) {
   testkit::TempDir dir;
   std::filesystem::create_directory(dir / "theirs");

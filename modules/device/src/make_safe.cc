@@ -24,6 +24,7 @@ Eigen::Vector3d damping(const SafetyConfig& config, SafetyState& state, const Sa
   PassivityInput observed;
   observed.hand_m = input.hand_m;
   observed.hand_mps = input.hand_mps;
+  observed.stored_J = spring_energy_J(input.spring_N, input.stretch_m, config.max_force_N);
   observed.touching = !input.force_N.isZero(0.0);
   // A growing or falling gain is a spring whose stiffness changes: it creates energy by intent.
   observed.forgive = input.scene_changed || state.gain < 1.0;

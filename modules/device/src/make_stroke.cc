@@ -7,7 +7,7 @@
 
 namespace asperity {
 
-HandPath make_stroke(const StrokeConfig& config) {
+HandPath make_stroke(const HandStrokeConfig& config) {
   check_config("stroke", config);
   const Eigen::Vector3d along = unit_vector(config.direction, "stroke.direction");
   const Eigen::Vector3d start_m(config.start_m[0], config.start_m[1], config.start_m[2]);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -12,9 +11,12 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/device/latest_value.h"
+#include "check_config.h"
+#include "force_mailbox.h"
 #include "haply_protocol.h"
 #include "inverse_service_client.h"
-#include "latest_value.h"
+#include "stall_watch.h"
 
 namespace asperity {
 
@@ -24,22 +26,6 @@ using Clock = InverseServiceClient::Clock;
 
 Clock::duration seconds(double s) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
-}
-
-void check_range(const char* name, double value, double low, double high) {
-  if (!(value >= low && value <= high)) {
-    throw Error(fmt::format("haply: {} {} is not within {} and {}", name, number_text(value), number_text(low),
-                            number_text(high)));
-  }
-}
-
-void check(const HaplyConfig& config) {
-  check_range("port", config.port, 1, 65535);
-  check_range("max_rate_Hz", config.max_rate_Hz, 10.0, 20000.0);
-  check_range("open_timeout_s", config.open_timeout_s, 0.01, 60.0);
-  check_range("force_timeout_s", config.force_timeout_s, 0.001, 1.0);
-  check_range("stall_after_s", config.stall_after_s, 0.001, 1.0);
-  check_range("lost_after_s", config.lost_after_s, 0.01, 60.0);
 }
 
 // What the I/O thread tells the servo thread, in the device's axes.
@@ -54,7 +40,7 @@ class HaplyDevice final : public HapticDevice {
   explicit HaplyDevice(const HaplyConfig& config)
       : config_(config),
         R_device_service_(parse_haply_axes(config.axes)),
-        stall_ns_(std::llround(config.stall_after_s * 1e9)),
+        watch_(config.stall_after_s),
         client_(config.host, config.port) {
     const auto until = Clock::now() + seconds(config.open_timeout_s);
     force_key_ = parse_service_version(client_.get("/version", until));
@@ -66,7 +52,6 @@ class HaplyDevice final : public HapticDevice {
     // The session's first message, with zero force; its answer is the first state of this session.
     send(Eigen::Vector3d::Zero(), true, until);
     await_state(until);
-    outstanding_ = 0;
     pass_on();
     thread_ = std::thread([this] { run(); });
   }
@@ -78,22 +63,18 @@ class HaplyDevice final : public HapticDevice {
   const DeviceInfo& info() const noexcept override { return info_; }
 
   DeviceReading read(std::int64_t t_ns) noexcept override {
-    News news;
-    if (news_.read(news)) {
-      reading_.p_m = news.p_m;
-      reading_.v_mps = news.v_mps;
-      reading_.sequence = news.sequence;
-      news_at_ns_ = t_ns;
-    }
-    reading_.status = faulty_.load(std::memory_order_acquire) ? DeviceStatus::kFault
-                      : t_ns - news_at_ns_ > stall_ns_        ? DeviceStatus::kStalled
-                                                              : DeviceStatus::kReady;
-    return reading_;
+    const News& news = news_.take();
+    DeviceReading reading;
+    reading.p_m = news.p_m;
+    reading.v_mps = news.v_mps;
+    reading.sequence = news.sequence;
+    if (watch_.stalled(t_ns, news.sequence)) reading.status = DeviceStatus::kStalled;
+    if (stop_.load(std::memory_order_relaxed)) reading.status = DeviceStatus::kEnded;
+    if (faulty_.load(std::memory_order_acquire)) reading.status = DeviceStatus::kFault;
+    return reading;
   }
 
-  void write(const Eigen::Vector3d& force_N) noexcept override {
-    forces_.write(force_N.allFinite() ? force_N : Eigen::Vector3d::Zero());
-  }
+  void write(const Eigen::Vector3d& force_N) noexcept override { forces_.publish(force_N); }
 
   void close() noexcept override {
     stop_.store(true);
@@ -111,6 +92,7 @@ class HaplyDevice final : public HapticDevice {
 
   bool receive_state(Clock::time_point until) {
     if (!client_.receive(text_, until, stop_)) return false;
+    outstanding_ = std::max(outstanding_ - 1, 0);
     state_ = parse_haply_frame(text_, device_id_.empty() ? config_.device_id : device_id_);
     return true;
   }
@@ -127,16 +109,7 @@ class HaplyDevice final : public HapticDevice {
     ++outstanding_;
   }
 
-  void pass_on() {
-    news_.write({R_device_service_ * state_.p_m, R_device_service_ * state_.v_mps, ++sequence_});
-    outstanding_ = std::max(outstanding_ - 1, 0);
-  }
-
-  // The newest force, or zero if the servo has not renewed it for too long.
-  Eigen::Vector3d force_now(Clock::time_point now) {
-    if (forces_.read(force_N_)) force_at_ = now;
-    return now - force_at_ <= seconds(config_.force_timeout_s) ? force_N_ : Eigen::Vector3d::Zero();
-  }
+  void pass_on() { news_.publish({R_device_service_ * state_.p_m, R_device_service_ * state_.v_mps, ++sequence_}); }
 
   void run() {
     try {
@@ -156,12 +129,13 @@ class HaplyDevice final : public HapticDevice {
 
   void serve() {
     const auto lost_after = seconds(config_.lost_after_s), period = seconds(1.0 / config_.max_rate_Hz);
+    const auto force_timeout = seconds(config_.force_timeout_s);
     auto last_state = Clock::now(), next_send = last_state;
     bool zero_sent = false;
     while (!stop_.load()) {
       auto now = Clock::now();
       if (outstanding_ == 0 && now >= next_send) {
-        send(force_now(now), false, now + lost_after);
+        send(forces_.take(now, force_timeout), false, now + lost_after);
         next_send = std::max(next_send + period, now);
       }
       const auto silent_at = last_state + (zero_sent ? lost_after : seconds(config_.stall_after_s));
@@ -193,16 +167,14 @@ class HaplyDevice final : public HapticDevice {
 
   HaplyConfig config_;
   Eigen::Matrix3d R_device_service_;
-  std::int64_t stall_ns_;
   DeviceInfo info_;
 
   // The servo thread's.
-  DeviceReading reading_;
-  std::int64_t news_at_ns_ = 0;
+  StallWatch watch_;
 
   // Between the threads.
   LatestValue<News> news_;
-  LatestValue<Eigen::Vector3d> forces_;
+  ForceMailbox forces_;
   std::atomic<bool> stop_{false}, faulty_{false};
   mutable std::mutex fault_mutex_;
   std::string fault_;
@@ -212,8 +184,6 @@ class HaplyDevice final : public HapticDevice {
   HaplyForceKey force_key_ = HaplyForceKey::kVector;
   std::string device_id_, text_;
   HaplyState state_;
-  Eigen::Vector3d force_N_ = Eigen::Vector3d::Zero();
-  Clock::time_point force_at_{};
   int outstanding_ = 0;  // messages sent and not yet answered
   std::uint64_t sequence_ = 0;
   std::thread thread_;
@@ -222,7 +192,7 @@ class HaplyDevice final : public HapticDevice {
 }  // namespace
 
 std::unique_ptr<HapticDevice> open_haply(const HaplyConfig& config) {
-  check(config);
+  check_config("haply", config);
   return std::make_unique<HaplyDevice>(config);
 }
 

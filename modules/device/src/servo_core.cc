@@ -63,6 +63,7 @@ bool ServoCore::tick(std::uint64_t k, std::uint64_t ticks_since, std::int64_t la
   tick.reading = device_.read(tick.t_ns);
   if (tick.reading.status == DeviceStatus::kEnded) {
     if (!ending_) end_ = ServoEnd::kDeviceEnded;
+    device_.write(Eigen::Vector3d::Zero());
     return false;
   }
   const double dt_s = static_cast<double>(ticks_since) / config_.rate_Hz;
@@ -76,6 +77,8 @@ bool ServoCore::tick(std::uint64_t k, std::uint64_t ticks_since, std::int64_t la
 
   SafetyInput input;
   input.force_N = tick.output.force_N;
+  input.spring_N = tick.output.contact_N + tick.output.friction_N;
+  input.stretch_m = (tick.output.proxy_m - tick.p_world_m) / config_.frame.scale;
   input.hand_m = config_.frame.R_world_device * tick.reading.p_m;
   input.hand_mps = config_.frame.R_world_device * v_device_mps;
   input.sequence = tick.reading.sequence;

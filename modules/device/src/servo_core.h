@@ -27,7 +27,7 @@ class ServoCore {
             ServoStep step);
 
   // Tick `k`, by its schedule `ticks_since` after the tick before, started `late_ns` after it was due. True if the
-  // run goes on. Whoever runs it drives the force to zero afterwards.
+  // run goes on; if not, the device has zero force.
   bool tick(std::uint64_t k, std::uint64_t ticks_since, std::int64_t late_ns, bool stop_asked, TickSink& sink);
 
   void count_overrun() noexcept { ++statistics_.overruns; }

@@ -13,7 +13,7 @@ namespace asperity {
 // The direction of `v`. Throws Error naming `what` if it has none.
 inline Eigen::Vector3d unit_vector(const std::array<double, 3>& v, const std::string& what) {
   const Eigen::Vector3d direction(v[0], v[1], v[2]);
-  const Eigen::Vector3d unit = direction.stableNormalized();
+  Eigen::Vector3d unit = direction.stableNormalized();
   if (!(direction.cwiseAbs().maxCoeff() > 0.0) || !unit.allFinite()) {
     throw Error(what + ": [" + number_text(v[0]) + ", " + number_text(v[1]) + ", " + number_text(v[2]) +
                 "] is no direction");

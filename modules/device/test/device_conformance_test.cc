@@ -20,7 +20,7 @@ Eigen::Vector3d half_newton_up(const DeviceReading&) { return {0.0, 0.5, 0.0}; }
 
 DeviceReading DeviceConformance::tick(HapticDevice& device,
                                       const std::function<Eigen::Vector3d(const DeviceReading&)>& law) {
-  const DeviceReading reading = device.read(t_ns_);
+  DeviceReading reading = device.read(t_ns_);
   device.write(law(reading));
   t_ns_ += kTick_ns;
   if (rig_->real_time()) std::this_thread::sleep_for(std::chrono::nanoseconds(kTick_ns));
@@ -94,13 +94,13 @@ TEST_P(DeviceConformance, RestsAtTheExpectedDepthOnAWall) {
   EXPECT_NEAR(rig_->motor_output().y(), DeviceRig::kPull_N, 0.02);
 }
 
+// A driver may ramp the first forces after its start.
 TEST_P(DeviceConformance, DrivesItsMotorsAsWritten) {
   const auto device = rig_->open();
-  EXPECT_TRUE(tick_until(*device, kPatience_s, half_newton_up,
-                         [&](const DeviceReading&) { return rig_->motor_output().norm() > 0.0; }));
-  if (rig_->has_position()) {
-    EXPECT_TRUE((rig_->motor_output() - Eigen::Vector3d(0.0, 0.5, 0.0)).norm() < 0.02) << rig_->motor_output();
-  }
+  EXPECT_TRUE(tick_until(*device, kPatience_s, half_newton_up, [&](const DeviceReading&) {
+    const Eigen::Vector3d output = rig_->motor_output();
+    return rig_->has_position() ? (output - Eigen::Vector3d(0.0, 0.5, 0.0)).norm() < 0.02 : output.norm() > 0.0;
+  })) << rig_->motor_output();
 }
 
 TEST_P(DeviceConformance, ForceThatIsNoNumberIsNone) {

@@ -119,9 +119,11 @@ struct FakeInverseService::Impl {
       while (stalled && !stopping) std::this_thread::sleep_for(std::chrono::milliseconds(1));
       std::this_thread::sleep_for(std::chrono::microseconds(delay_us));
       const std::string answer = frame(false);
+      {
+        const std::lock_guard lock(mutex);
+        ++counted.answers;
+      }
       stream.write(asio::buffer(answer));
-      const std::lock_guard lock(mutex);
-      ++counted.answers;
     }
   }
 
@@ -139,7 +141,7 @@ struct FakeInverseService::Impl {
       }
       const bool vector = config.version >= "3.5";
       for (const json& device : message.at("inverse3")) {
-        if (device.at("device_id") != config.device_id) continue;
+        if (!plugged || device.at("device_id") != config.device_id) continue;
         const json& force = device.at("commands").at("set_cursor_force").at(vector ? "vector" : "values");
         force_N = {force.at("x").get<double>(), force.at("y").get<double>(), force.at("z").get<double>()};
         force_until = Clock::now() +
@@ -221,7 +223,9 @@ Eigen::Vector3d FakeInverseService::applied_N() const {
 
 void FakeInverseService::unplug() {
   const std::lock_guard lock(impl_->mutex);
+  impl_->move_to(Clock::now());
   impl_->plugged = false;
+  impl_->force_N.setZero();
 }
 
 void FakeInverseService::drop() { impl_->cut_all(); }

@@ -38,7 +38,7 @@ std::string error_of(const std::function<void()>& action) {
 class ReadReplayCsv : public testing::Test {
  protected:
   std::filesystem::path file(const std::string& text) {
-    const auto path = folder_ / "t.csv";
+    auto path = folder_ / "t.csv";
     std::ofstream(path, std::ios::binary) << text;
     return path;
   }
@@ -67,8 +67,9 @@ TEST(ReplayDevice, IsExactlyAtItsSamplesAndLinearBetween) {
     EXPECT_NEAR((at.v_mps * static_cast<double>(span_ns) * 1e-9 - way_m).norm(), 0.0, 1e-14);
     if (span_ns < 4) continue;
     device->write({1.0, 2.0, 3.0});
-    const DeviceReading between = device->read(t_ns + span_ns / 4);
-    const double x = static_cast<double>(span_ns / 4) / static_cast<double>(span_ns);
+    const std::int64_t quarter_ns = span_ns / 4;
+    const DeviceReading between = device->read(t_ns + quarter_ns);
+    const double x = static_cast<double>(quarter_ns) / static_cast<double>(span_ns);
     EXPECT_NEAR((between.p_m - ((1.0 - x) * samples[i].p_m + x * samples[i + 1].p_m)).norm(), 0.0, 1e-14);
     before = between.sequence;
   }

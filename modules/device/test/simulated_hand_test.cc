@@ -192,7 +192,7 @@ TEST(SimulatedHand, RefusesWhatCannotBe) {
 }
 
 TEST(MakeStroke, RunsAsAsked) {
-  StrokeConfig config;
+  HandStrokeConfig config;
   config.start_m = {0.01, 0.02, 0.03};
   config.direction = {0.0, 3.0, 4.0};
   config.length_m = 0.05;

@@ -166,6 +166,7 @@ class Stepper {
     const Vector3d y = complete ? projection_.x_m() : Vector3d(free_part(projection_.x_m()) * projection_.x_m());
     step.centre_m = ball_.centre_m + y;
     step.exact = complete;
+    const double beside_m = ball_.slack_m + 0x1p-20 * (goal_m_ - y).norm();
     for (int k = 0; k < projection_.size(); ++k) {
       const PlaneProjection::Active& active = projection_.active(k);
       if (!(active.multiplier_m > 0.0)) continue;
@@ -178,7 +179,8 @@ class Stepper {
       if (foot.distance_m > touching_m) find_in_plane(step.centre_m, touch, foot);
       touch.barycentric = foot.barycentric;
       false_[static_cast<std::size_t>(step.touch_count - 1)] = foot.distance_m > touching_m;
-      if (false_[static_cast<std::size_t>(step.touch_count - 1)]) step.exact = false;
+      // On a round the plane of before is no longer quite that of the place now: beside it by more than this.
+      if (!((foot.from_m - ball_.radius_m * touch.normal).norm() <= beside_m)) step.exact = false;
     }
     return step;
   }

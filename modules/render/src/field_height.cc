@@ -1,6 +1,7 @@
 #include "field_height.h"
 
-#include <array>
+#include <cmath>
+#include <cstring>
 
 #include "asperity/texture/evaluate_height_map.h"
 #include "asperity/texture/evaluate_spline_grid.h"
@@ -8,27 +9,23 @@
 namespace asperity {
 namespace {
 
-struct Weights {
-  std::array<double, 4> weight;
-  std::array<double, 4> slope;  // a cell
+// Four columns side by side; the compiler makes one or two registers of them.
+using Lanes [[gnu::vector_size(32)]] = double;
+using IntLanes [[gnu::vector_size(16)]] = std::int32_t;
+using LevelLanes [[gnu::vector_size(8)]] = std::uint16_t;
+
+// A cubic in t for each of four neighbours, and its derivative.
+struct Cubics {
+  Lanes c0, c1, c2, c3;
 };
 
 // Keys 1981, a = −1/2: through the values.
-Weights keys_weights(double t) noexcept {
-  const double s = 1.0 - t;
-  return {{-0.5 * t * s * s, 1.0 + t * t * (1.5 * t - 2.5), 1.0 + s * s * (1.5 * s - 2.5), -0.5 * s * t * t},
-          {-0.5 * s * (s - 2.0 * t), t * (4.5 * t - 5.0), -s * (4.5 * s - 5.0), 0.5 * t * (t - 2.0 * s)}};
-}
-
-Weights spline_weights(double t) noexcept {
-  constexpr double kSixth = 1.0 / 6.0;
-  const double s = 1.0 - t;
-  const double tt = t * t;
-  const double ss = s * s;
-  return {{kSixth * (s * ss), kSixth * (4.0 - 3.0 * tt * (1.0 + s)), kSixth * (4.0 - 3.0 * ss * (1.0 + t)),
-           kSixth * (t * tt)},
-          {-0.5 * ss, 1.5 * tt - 2.0 * t, 2.0 * s - 1.5 * ss, 0.5 * tt}};
-}
+constexpr Cubics kKeys{{0.0, 1.0, 0.0, 0.0}, {-0.5, 0.0, 0.5, 0.0}, {1.0, -2.5, 2.0, -0.5}, {-0.5, 1.5, -1.5, 0.5}};
+// The uniform cubic B-splines over a cell.
+constexpr Cubics kSpline{{1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0, 0.0},
+                         {-0.5, 0.0, 0.5, 0.0},
+                         {0.5, -1.0, 0.5, 0.0},
+                         {-1.0 / 6.0, 0.5, -0.5, 1.0 / 6.0}};
 
 // Where four neighbours lie side by side: the first of them, and how far the point is past the second.
 struct Place {
@@ -36,12 +33,12 @@ struct Place {
   double t = 0.0;
 };
 
-bool inside(double u, std::size_t count, Border border, Place& place) noexcept {
+[[gnu::always_inline]] inline bool inside(double u, std::size_t count, Border border, Place& place) noexcept {
   const double v = u - 0.5;
-  if (!(std::abs(v) < 0x1p31)) return false;
+  if (!(std::abs(v) < 0x1p30)) return false;
   const Cell nearest = nearest_cell(v);
-  auto cell = static_cast<std::int64_t>(static_cast<std::int32_t>(nearest.number));
-  const auto size = static_cast<std::int64_t>(count);
+  auto cell = static_cast<std::int32_t>(nearest.number);
+  const auto size = static_cast<std::int32_t>(count);
   if (border == Border::kPeriodic && (cell < 0 || cell >= size)) {
     cell %= size;
     if (cell < 0) cell += size;
@@ -52,54 +49,75 @@ bool inside(double u, std::size_t count, Border border, Place& place) noexcept {
   return true;
 }
 
-template <class Value>
-HeightAndGradient patch(const Value* first, std::size_t columns, const Weights& x, const Weights& y) noexcept {
-  // Rows first: each of these is four columns wide and waits for nothing but the weights along y.
-  std::array<double, 4> height{};
-  std::array<double, 4> slope{};
-  for (std::size_t r = 0; r < 4; ++r) {
-    const Value* row = first + r * columns;
-    for (std::size_t c = 0; c < 4; ++c) {
-      const auto value = static_cast<double>(row[c]);
-      height[c] += y.weight[r] * value;
-      slope[c] += y.slope[r] * value;
-    }
-  }
-  const auto along_x = [](const std::array<double, 4>& w, const std::array<double, 4>& v) {
-    return (w[0] * v[0] + w[1] * v[1]) + (w[2] * v[2] + w[3] * v[3]);
-  };
-  return {along_x(x.weight, height), along_x(x.slope, height), along_x(x.weight, slope)};
+[[gnu::always_inline]] inline void load(const double* from, Lanes& to) noexcept { std::memcpy(&to, from, sizeof to); }
+
+[[gnu::always_inline]] inline void load(const std::uint16_t* from, Lanes& to) noexcept {
+  LevelLanes levels;
+  std::memcpy(&levels, from, sizeof levels);
+  to = __builtin_convertvector(__builtin_convertvector(levels, IntLanes), Lanes);
 }
+
+// Sixteen values and their cubics; slopes a cell.
+template <class Value>
+[[gnu::always_inline]] inline HeightAndGradient patch(const Value* first, std::size_t columns, const Cubics& cubics,
+                                                      double tx, double ty) noexcept {
+  const double tx2 = tx * tx;
+  const double ty2 = ty * ty;
+  const Lanes x = (cubics.c0 + cubics.c1 * tx) + (cubics.c2 + cubics.c3 * tx) * tx2;
+  const Lanes dx = (cubics.c1 + 2.0 * cubics.c2 * tx) + 3.0 * cubics.c3 * tx2;
+  const Lanes y = (cubics.c0 + cubics.c1 * ty) + (cubics.c2 + cubics.c3 * ty) * ty2;
+  const Lanes dy = (cubics.c1 + 2.0 * cubics.c2 * ty) + 3.0 * cubics.c3 * ty2;
+  Lanes row[4];
+  for (std::size_t r = 0; r < 4; ++r) load(first + r * columns, row[r]);
+  const Lanes height = (row[0] * y[0] + row[1] * y[1]) + (row[2] * y[2] + row[3] * y[3]);
+  const Lanes slope = (row[0] * dy[0] + row[1] * dy[1]) + (row[2] * dy[2] + row[3] * dy[3]);
+  const Lanes h = x * height;
+  const Lanes hx = dx * height;
+  const Lanes hy = x * slope;
+  return {(h[0] + h[1]) + (h[2] + h[3]), (hx[0] + hx[1]) + (hx[2] + hx[3]), (hy[0] + hy[1]) + (hy[2] + hy[3])};
+}
+
+template <class Grid, class Value>
+[[gnu::always_inline]] inline HeightAndGradient grid_height(const Grid& grid, const Value* values, const Cubics& cubics,
+                                                            const GridScale& scale, double x_m, double y_m) noexcept {
+  Place x, y;
+  if (!inside((x_m - scale.origin_x_m) * scale.cells_x_per_m, grid.columns, grid.border, x) ||
+      !inside((y_m - scale.origin_y_m) * scale.cells_y_per_m, grid.rows, grid.border, y)) {
+    return evaluate(grid, x_m, y_m);
+  }
+  const HeightAndGradient h = patch(values + y.first * grid.columns + x.first, grid.columns, cubics, x.t, y.t);
+  return {scale.low_m + scale.unit_m * h.height_m, scale.unit_m * scale.cells_x_per_m * h.slope_x,
+          scale.unit_m * scale.cells_y_per_m * h.slope_y};
+}
+
+#if defined(__x86_64__)
+const bool kHasAvx2 = __builtin_cpu_supports("avx2") != 0;
+
+[[gnu::target("avx2")]] HeightAndGradient map_height_avx2(const HeightMap& map, const GridScale& scale, double x_m,
+                                                          double y_m) noexcept {
+  return grid_height(map, map.level.data(), kKeys, scale, x_m, y_m);
+}
+
+[[gnu::target("avx2")]] HeightAndGradient spline_height_avx2(const SplineGrid& grid, const GridScale& scale, double x_m,
+                                                             double y_m) noexcept {
+  return grid_height(grid, grid.coefficient_m.data(), kSpline, scale, x_m, y_m);
+}
+#endif
 
 }  // namespace
 
-HeightAndGradient map_height(const HeightMap& map, double x_m, double y_m) noexcept {
-  const double pixels_x_per_m = 1e3 / map.mm_per_px_x;
-  const double pixels_y_per_m = 1e3 / map.mm_per_px_y;
-  Place x, y;
-  if (!inside(x_m * pixels_x_per_m, map.columns, map.border, x) ||
-      !inside(y_m * pixels_y_per_m, map.rows, map.border, y))
-    return evaluate(map, x_m, y_m);
-  const HeightAndGradient levels =
-      patch(map.level.data() + y.first * map.columns + x.first, map.columns, keys_weights(x.t), keys_weights(y.t));
-  const double unit_m = map.metres_per_level();
-  return {map.low_m + unit_m * levels.height_m, unit_m * pixels_x_per_m * levels.slope_x,
-          unit_m * pixels_y_per_m * levels.slope_y};
+HeightAndGradient map_height(const HeightMap& map, const GridScale& scale, double x_m, double y_m) noexcept {
+#if defined(__x86_64__)
+  if (kHasAvx2) return map_height_avx2(map, scale, x_m, y_m);
+#endif
+  return grid_height(map, map.level.data(), kKeys, scale, x_m, y_m);
 }
 
-HeightAndGradient spline_height(const SplineGrid& grid, double x_m, double y_m) noexcept {
-  const double cells_x_per_m = 1.0 / grid.spacing_x_m;
-  const double cells_y_per_m = 1.0 / grid.spacing_y_m;
-  Place x, y;
-  if (!inside((x_m - grid.origin_x_m) * cells_x_per_m, grid.columns, grid.border, x) ||
-      !inside((y_m - grid.origin_y_m) * cells_y_per_m, grid.rows, grid.border, y)) {
-    return evaluate(grid, x_m, y_m);
-  }
-  HeightAndGradient h = patch(grid.coefficient_m.data() + y.first * grid.columns + x.first, grid.columns,
-                              spline_weights(x.t), spline_weights(y.t));
-  h.slope_x *= cells_x_per_m;
-  h.slope_y *= cells_y_per_m;
-  return h;
+HeightAndGradient spline_height(const SplineGrid& grid, const GridScale& scale, double x_m, double y_m) noexcept {
+#if defined(__x86_64__)
+  if (kHasAvx2) return spline_height_avx2(grid, scale, x_m, y_m);
+#endif
+  return grid_height(grid, grid.coefficient_m.data(), kSpline, scale, x_m, y_m);
 }
 
 }  // namespace asperity

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "asperity/render/grid_scale.h"
 #include "asperity/render/periodic_table.h"
 #include "asperity/texture/evaluate_fourier1d.h"
 #include "asperity/texture/height_and_gradient.h"
@@ -48,7 +49,7 @@ inline HeightAndSlope table_height(const PeriodicTable& table, double x_m) noexc
 
 // The same surfaces as evaluate() of the texture module, to rounding; faster where all sixteen values lie side by side
 // in the image or grid, the same call at its border. nan for a position that is not finite.
-HeightAndGradient map_height(const HeightMap& map, double x_m, double y_m) noexcept;
-HeightAndGradient spline_height(const SplineGrid& grid, double x_m, double y_m) noexcept;
+HeightAndGradient map_height(const HeightMap& map, const GridScale& scale, double x_m, double y_m) noexcept;
+HeightAndGradient spline_height(const SplineGrid& grid, const GridScale& scale, double x_m, double y_m) noexcept;
 
 }  // namespace asperity

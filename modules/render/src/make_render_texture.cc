@@ -9,6 +9,7 @@
 #include "asperity/texture/convert_rate.h"
 #include "asperity/texture/evaluate_height.h"
 #include "highest_height.h"
+#include "make_grains.h"
 #include "make_tables.h"
 #include "texture_id.h"
 
@@ -35,6 +36,12 @@ void check_finite(const Texture& texture, const char* what, double value) {
   if (!std::isfinite(value)) throw Error(called(texture) + ": " + what + " is " + number_text(value));
 }
 
+AutoregressiveTexture at_rate(const AutoregressiveTexture& series, double rate_Hz) {
+  if (!(rate_Hz >= 1.0 && rate_Hz <= 1e6))
+    throw Error("render: a rate of " + number_text(rate_Hz) + " Hz is not within 1 and 1e6 Hz");
+  return series.rate_Hz == rate_Hz ? series : convert_rate(series, {.rate_Hz = rate_Hz});
+}
+
 }  // namespace
 
 RenderTexture make_render_texture(const Texture& texture, const RenderTextureConfig& config) {
@@ -49,7 +56,10 @@ RenderTexture make_render_texture(const Texture& texture, const RenderTextureCon
   }
   if (!(config.cross_fade_s >= 0.0 && config.cross_fade_s <= 10.0))
     throw Error("render: a cross-fade of " + number_text(config.cross_fade_s) + " s is not within 0 and 10 s");
-  if (is_height_field(texture.model)) {
+  if (const auto* series = std::get_if<AutoregressiveTexture>(&texture.model))
+    result.texture.model = at_rate(*series, config.rate_Hz);
+  if (result.model == TextureForceModel::kStochastic) make_grains(result);
+  if (is_height_field(texture.model) && result.model != TextureForceModel::kStochastic) {
     result.lift_m = texture.lift_m.value_or(lift_m(texture.model));
     check_finite(texture, "the lift", result.lift_m);
     const double highest_m = highest_height_m(texture.model) + result.lift_m;

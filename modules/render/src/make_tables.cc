@@ -44,6 +44,17 @@ Size size_of(const Fourier1d& f) {
   return size;
 }
 
+GridScale scale_of(const SplineGrid& grid) {
+  return {1.0 / grid.spacing_x_m, 1.0 / grid.spacing_y_m, grid.origin_x_m, grid.origin_y_m, 1.0, 0.0};
+}
+
+GridScale scale_of(const HeightMap& map) {
+  return {1e3 / map.mm_per_px_x, 1e3 / map.mm_per_px_y, 0.0, 0.0, map.metres_per_level(), map.low_m};
+}
+
+void make_tables(const HeightMap& map, RenderTexture& texture) { texture.grid = scale_of(map); }
+void make_tables(const ArealTexture& areal, RenderTexture& texture) { texture.grid = scale_of(areal.surface); }
+
 void make_tables(const Fourier1d& f, RenderTexture& texture) {
   const Size size = size_of(f);
   texture.x_table = make_periodic_table(f, kHeightError * size.rms_m, kSlopeError * size.rms_slope);
@@ -52,7 +63,10 @@ void make_tables(const Fourier1d& f, RenderTexture& texture) {
 // With x = X + ex and y = Y + ey, the product errs by |X| ey + |Y| ex, its slope along x by |X'| ey + |Y| ex'.
 // Each of the two terms gets half.
 void make_tables(const Fourier2d& f, RenderTexture& texture) {
-  if (f.kind == Fourier2dKind::kIsotropic) return;
+  if (f.kind == Fourier2dKind::kIsotropic) {
+    texture.grid = scale_of(f.grid);
+    return;
+  }
   const Size x = size_of(f.x);
   const Size y = size_of(f.y);
   const double mean_square_x = x.mean * x.mean + x.rms_m * x.rms_m;

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "convex_step.h"
+#include "hop_over_nook.h"
 
 namespace asperity {
 namespace {
@@ -13,18 +15,26 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMostIterations = 32;
-constexpr std::uint32_t kManyTriangles = 48;  // more are looked at only where the step needs them
-constexpr std::uint32_t kFewTriangles = 6;
+constexpr int kMostHops = 8;
+constexpr double kPointLike = 16.0;  // of a radius in skins: below, the skin is what the ball is made of
 
-// Gathers round the proxy, as far as `wanted_m` beyond its ball if that is not too many triangles.
+// Looking far costs triangles at each step, looking near costs a search more often: the list is to last for some steps
+// of the hand unless it gets long, and need not be kept short where it is.
+constexpr double kStrides = 3.0;
+constexpr std::uint32_t kManyTriangles = 12;
+constexpr std::uint32_t kFewTriangles = 4;
+
+// Gathers round the proxy, at least `wanted_m` beyond its ball if that is not too many triangles.
 void gather_around(const RenderModel& model, const ProxyBall& ball, double wanted_m, ObjectSet objects,
                    ProxyState& proxy) {
   const double least_m = 0x1p-10 * ball.coarse_m;
-  double reach_m = proxy.reach_m > 0.0 ? std::max(proxy.reach_m, wanted_m) : ball.coarse_m;
+  if (!(proxy.reach_m > 0.0)) proxy.reach_m = ball.coarse_m;
+  double reach_m = std::max(proxy.reach_m, wanted_m);
   while (!gather(model, proxy.p_world_m, ball.radius_m + reach_m, objects, proxy.near) && reach_m > least_m)
     reach_m *= 0.5;
-  proxy.reach_m = reach_m;
-  if (proxy.near.count > kManyTriangles && reach_m > wanted_m) proxy.reach_m = std::max(0.5 * reach_m, wanted_m);
+  const double enough_m = std::max(kStrides * ball.stride_m, least_m);
+  proxy.reach_m = std::min(proxy.reach_m, reach_m);
+  if (proxy.near.count > kManyTriangles) proxy.reach_m = std::min(proxy.reach_m, std::max(0.5 * reach_m, enough_m));
   if (proxy.near.count < kFewTriangles) proxy.reach_m = std::min(2.0 * reach_m, 64.0 * ball.coarse_m);
 }
 
@@ -68,8 +78,9 @@ void note_touches(const ConvexStep& step, ProxyState& proxy) {
     const NearTriangle& t = proxy.near.triangles[from.index];
     proxy.touches[k] = {t.object, t.triangle, from.barycentric, from.normal, from.pull_m};
   }
-  std::stable_sort(proxy.touches.begin(), proxy.touches.begin() + proxy.touch_count,
-                   [](const ProxyTouch& a, const ProxyTouch& b) { return a.pull_m > b.pull_m; });
+  for (std::uint32_t k = 1; k < proxy.touch_count; ++k)
+    for (std::uint32_t i = k; i > 0 && proxy.touches[i - 1].pull_m < proxy.touches[i].pull_m; --i)
+      std::swap(proxy.touches[i - 1], proxy.touches[i]);
 }
 
 }  // namespace
@@ -82,11 +93,15 @@ void look_around(const RenderModel& model, const ProxyBall& ball, double distanc
 
 bool move_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d& goal_m, ObjectSet objects,
                 ProxyState& proxy) noexcept {
+  double wanted_m = ball.stride_m;
+  const bool may_hop = ball.radius_m <= kPointLike * ball.skin_m;
+  int hops = 0;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     const double left_m = (goal_m - proxy.p_world_m).norm();
     double reach_m = room_m(proxy, ball.radius_m);
     if (!(reach_m > 0.0)) {
-      gather_around(model, ball, std::min(0.25 * left_m, ball.coarse_m), objects, proxy);
+      gather_around(model, ball, std::min(wanted_m, left_m), objects, proxy);
+      wanted_m *= 4.0;  // it goes farther than the hand did
       reach_m = room_m(proxy, ball.radius_m);
     }
     std::array<std::uint32_t, 3> touched{};
@@ -110,7 +125,10 @@ bool move_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d&
       continue;
     }
     proxy.p_world_m = step.centre_m;
-    if (step.exact || length_m <= 0x1p-40 * left_m) return true;
+    if (!step.exact && length_m > 0x1p-40 * left_m) continue;
+    if (!may_hop || hops == kMostHops || proxy.touch_count < 2) return true;
+    ++hops;
+    if (!hop_over_nook(proxy, ball, goal_m)) return true;
   }
   return false;
 }

@@ -21,10 +21,11 @@ HeightAndGradient field_height(const RenderTexture& texture, double x_m, double 
     const HeightAndSlope h = table_height(texture.x_table, x_m);
     return {h.height_m, h.slope, 0.0};
   }
-  if (const auto* map = std::get_if<HeightMap>(&model)) return map_height(*map, x_m, y_m);
-  if (const auto* areal = std::get_if<ArealTexture>(&model)) return spline_height(areal->surface, x_m, y_m);
+  if (const auto* map = std::get_if<HeightMap>(&model)) return map_height(*map, texture.grid, x_m, y_m);
+  if (const auto* areal = std::get_if<ArealTexture>(&model))
+    return spline_height(areal->surface, texture.grid, x_m, y_m);
   if (const auto* f = std::get_if<Fourier2d>(&model); f != nullptr && f->kind == Fourier2dKind::kIsotropic)
-    return spline_height(f->grid, x_m, y_m);
+    return spline_height(f->grid, texture.grid, x_m, y_m);
   return evaluate_height(model, x_m, y_m);
 }
 

@@ -5,6 +5,7 @@
 
 #include "asperity/texture/series_state.h"
 #include "height_forces.h"
+#include "series_forces.h"
 
 namespace asperity {
 namespace {
@@ -23,10 +24,13 @@ TextureForce force_of(const RenderTexture& texture, TextureState& state, const T
       return normal_perturbation_force(texture, touch);
     case TextureForceModel::kLateralGradient:
       return lateral_gradient_force(texture, touch);
-    default:
-      break;
+    case TextureForceModel::kStochastic:
+      return stochastic_force(texture, state.series, touch);
+    case TextureForceModel::kAutoregressive:
+      return autoregressive_force(texture, state.series, touch);
+    case TextureForceModel::kDecayingSinusoids:
+      return ringing_force(texture, state.series, touch, touch.contact_N > 0.0 && !state.loaded);
   }
-  (void)state;
   return {};
 }
 

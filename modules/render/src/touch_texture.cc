@@ -18,11 +18,14 @@ void find_texture_below(const RenderModel& model, const ProxyBall& ball, ProxySt
   double nearest_m = ball.radius_m + model.highest_m;
   for (std::uint32_t i = 0; i < proxy.near.count; ++i) {
     const NearTriangle& t = proxy.near.triangles[i];
-    if (!(std::abs(t.normal.dot(proxy.p_world_m - t.a_m)) < nearest_m)) continue;
+    const double height_m = t.normal.dot(proxy.p_world_m - t.a_m);
+    if (!(std::abs(height_m) < nearest_m)) continue;
     const TriangleFoot foot = foot_on(t, proxy.p_world_m);
     if (!(foot.distance_m < nearest_m)) continue;
     nearest_m = foot.distance_m;
-    proxy.touches[0] = {t.object, t.triangle, foot.barycentric, foot.from_m / foot.distance_m, 0.0};
+    const Vector3d normal =
+        foot.inside() ? Vector3d((height_m < 0.0 ? -1.0 : 1.0) * t.normal) : Vector3d(foot.from_m / foot.distance_m);
+    proxy.touches[0] = {t.object, t.triangle, foot.barycentric, normal, 0.0};
     proxy.touch_count = 1;
   }
   if (proxy.touch_count == 0) return;

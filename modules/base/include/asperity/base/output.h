@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <string_view>
 
 namespace asperity {
@@ -10,6 +11,28 @@ namespace asperity {
 // failure `path` is as it was. The content is on disk before the rename, unless the file is part of an
 // unfinished OutputFolder: what is in those can be made again.
 void write_file(const std::filesystem::path& path, std::string_view content);
+
+// A file written piece by piece, like write_file as a whole or not at all: pieces go to a temporary name beside the
+// target, and commit() puts them in its place. Without commit() nothing remains.
+class OutputFile {
+ public:
+  // Throws Error if its folder cannot be written.
+  explicit OutputFile(std::filesystem::path target);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  // Throws Error if the disk takes no more.
+  void append(std::string_view content);
+  void commit();
+
+ private:
+  void close() noexcept;
+
+  std::filesystem::path target_;
+  std::string temporary_;
+  int file_ = -1;
+};
 
 // A folder written as a whole: files go into path(), a temporary folder beside the target, and
 // commit() puts it in the target's place by rename. Without commit() nothing remains.

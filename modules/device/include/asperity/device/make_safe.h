@@ -22,7 +22,9 @@ struct SafetyState {
 
 // One tick as the safety layer sees it. Vectors in one set of axes; positions in metres of the hand, not of the scene.
 struct SafetyInput {
-  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  // rendered
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();    // rendered
+  Eigen::Vector3d spring_N = Eigen::Vector3d::Zero();   // the part of it that springs to the proxy give
+  Eigen::Vector3d stretch_m = Eigen::Vector3d::Zero();  // from the hand to the proxy
   Eigen::Vector3d hand_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d hand_mps = Eigen::Vector3d::Zero();
   std::uint64_t sequence = 0;  // DeviceReading::sequence

@@ -7,7 +7,7 @@
 namespace asperity {
 
 // A straight stroke: settle, press, stroke, lift.
-struct StrokeConfig {
+struct HandStrokeConfig {
   std::array<double, 3> start_m{0.0, 0.0, 0.0};    // in the device's axes
   std::array<double, 3> direction{1.0, 0.0, 0.0};  // of any length but zero
   double length_m = 0.04;
@@ -31,6 +31,6 @@ struct StrokeConfig {
 // The path of that stroke, from time 0: the force grows over ramp_s at the start, rest_s there, the stroke at constant
 // speed, rest_s at its end, and the force falls over ramp_s. Throws Error for a field out of its range or a
 // direction that is zero or not finite.
-HandPath make_stroke(const StrokeConfig& config);
+HandPath make_stroke(const HandStrokeConfig& config);
 
 }  // namespace asperity

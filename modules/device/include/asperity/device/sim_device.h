@@ -12,7 +12,7 @@ namespace asperity {
 // The device whose hand is computed. Its limits are generous: they stand for no product.
 struct SimDeviceConfig {
   HandModelConfig hand;
-  StrokeConfig stroke;
+  HandStrokeConfig stroke;
   double max_force_N = 20.0;  // its motors give no more
   double max_stiffness_N_per_m = 5000.0;
   double bandwidth_Hz = 1000.0;

@@ -35,6 +35,11 @@ class SpscRing {
     return true;
   }
 
+  // The consumer's thread alone: how many it can pop at least. Realtime-safe: yes.
+  std::size_t size() const noexcept {
+    return tail_.load(std::memory_order_acquire) - head_.load(std::memory_order_relaxed);
+  }
+
   std::size_t capacity() const noexcept { return items_.size(); }
 
  private:

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "asperity/render/grid_scale.h"
 #include "asperity/render/periodic_table.h"
 #include "asperity/render/texture_force_model.h"
 #include "asperity/texture/height_and_gradient.h"
@@ -30,8 +31,9 @@ struct RenderTexture {
   std::uint64_t id = 0;   // tells textures and models apart, over snapshots too; never 0
   PeriodicTable x_table;  // of a Fourier1d, or of the factors of a Fourier2d; empty: evaluated exactly
   PeriodicTable y_table;
-  StochasticTexture grains;              // of kStochastic: the texture's own or those of its heights, in metres
-  double grain_stiffness_N_per_m = 0.0;  // of kStochastic; 0: that of the place
+  GridScale grid;            // of an image or a spline
+  StochasticTexture grains;  // of kStochastic: the texture's own or those of its heights, for a stiffness of 1 N/m
+  double grain_stiffness_N_per_m = -1.0;  // of kStochastic; negative: that of the place
 };
 
 // Throws Error for a model that the texture's kind cannot serve (a lateral gradient of a series), and for a texture or

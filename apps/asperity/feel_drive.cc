@@ -1,0 +1,69 @@
+#include "feel_drive.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "asperity/base/text.h"
+#include "asperity/device/read_replay_csv.h"
+#include "asperity/recording/read_recording.h"
+#include "command.h"
+
+namespace asperity::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+FeelDrive repeat_recording(const std::string& folder, const Scene& scene, const FeelSettings& settings,
+                           const Observer& observer) {
+  observer.update("reading", 0.0);
+  const Recording recording = read_recording(folder);
+  FeelDrive out;
+  try {
+    ScanDrive scan;
+    scan.measured = measure_on_scene(recording, scene, settings.process, observer);
+    scan.pressed = press_in_scan(scan.measured, scene, settings.render.stiffness_N_per_m);
+    out.path = scan.pressed.path;
+    out.problems = scan.measured.problems;
+    out.scan = std::move(scan);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    throw Error(printable(folder, 200) + ": " + error.what());
+  }
+  return out;
+}
+
+}  // namespace
+
+FeelDrive read_drive(const std::string& replay, bool mapped, const Scene& scene, const FeelSettings& settings,
+                     const Observer& observer) {
+  if (fs::is_directory(replay)) return repeat_recording(replay, scene, settings, observer);
+  if (mapped && !scene.T_mesh_world) {
+    throw Error("--mapped: the scene has no registration (T_mesh_world), which says where the tracker's world lies");
+  }
+  const Pose T_scene_path = mapped ? scene.objects.at(0).T_world_mesh * *scene.T_mesh_world : Pose{};
+  const ReplayFile file = read_replay_csv(replay);
+  FeelDrive out;
+  out.path.emplace();
+  out.path->t_ns.reserve(file.samples.size());
+  out.path->p_world_m.reserve(file.samples.size());
+  for (const ReplaySample& sample : file.samples) {
+    out.path->t_ns.push_back(sample.t_ns - file.samples.front().t_ns);
+    out.path->p_world_m.push_back(mapped ? T_scene_path * sample.p_m : sample.p_m);
+  }
+  out.problems = file.problems;
+  return out;
+}
+
+FeelDrive make_drive(const Scene& scene, const std::optional<Eigen::Vector3d>& from_m,
+                     const std::optional<Eigen::Vector3d>& to_m, const FeelSettings& settings) {
+  constexpr double kAcross_m = 0.08;
+  SurfaceLine line = from_m && to_m ? line_between(scene, *from_m, *to_m) : textured_line(scene);
+  if (line.size() < 2) line = line_across(scene, kAcross_m);
+  FeelDrive out;
+  out.stroke = stroke_along(line, settings.servo.duration_s, settings.stroke);
+  return out;
+}
+
+}  // namespace asperity::app

@@ -1,0 +1,252 @@
+#include "asperity/device/open_two_diy.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <mutex>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/device/latest_value.h"
+#include "asperity/device/supervisor.h"
+#include "asperity/device/velocity_estimator.h"
+#include "check_config.h"
+#include "force_mailbox.h"
+#include "pantograph.h"
+#include "serial_port.h"
+#include "stall_watch.h"
+
+namespace asperity {
+
+namespace {
+
+using Clock = SerialPort::Clock;
+using Bytes = std::vector<unsigned char>;
+
+constexpr unsigned char kReset = 0, kSetUp = 1, kTorques = 2;
+constexpr unsigned char kBothPorts = 3;  // ports 1 and 2, a bit each
+constexpr std::size_t kAnswer_bytes = 1 + 2 * sizeof(float);
+constexpr int kWrongAnswersUntilFault = 5;  // one after another
+constexpr double kMostDegrees = 3600.0;
+
+static_assert(std::endian::native == std::endian::little, "the board's floats are little-endian");
+
+Clock::duration seconds(double s) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
+}
+
+void append_float(Bytes& bytes, double value) {
+  const auto number = static_cast<float>(value);
+  unsigned char raw[sizeof number];
+  std::memcpy(raw, &number, sizeof number);
+  bytes.insert(bytes.end(), raw, raw + sizeof number);
+}
+
+struct News {
+  Eigen::Vector3d p_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d v_mps = Eigen::Vector3d::Zero();
+  std::uint64_t sequence = 0;
+};
+
+class TwoDiy final : public HapticDevice {
+ public:
+  explicit TwoDiy(const TwoDiyConfig& config) : config_(config), watch_(config.stall_after_s), port_(config.port) {
+    linkage_ = {config.proximal_m, config.distal_m, config.base_m};
+    noise_m_ = 2.0 * std::numbers::pi / config.encoder_counts * (config.proximal_m + config.distal_m);
+    const double side = config.mirror_x ? -1.0 : 1.0;
+    axes_.col(0) << side, 0.0, 0.0;
+    if (config.plane == TwoDiyPlane::kTable) axes_.col(1) << 0.0, 0.0, 1.0;
+    if (config.plane == TwoDiyPlane::kUpright) axes_.col(1) << 0.0, -1.0, 0.0;
+    info_.name = "2diy";
+    info_.model = "2diy at " + printable(config.port, 200);
+    info_.rate_Hz = config.rate_Hz;
+    const auto until = Clock::now() + std::chrono::seconds(1);
+    set_up(until);
+    while (news_sequence_ == 0) {
+      ask(Eigen::Vector2d::Zero(), until);
+      if (!take_answer(std::min(until, Clock::now() + std::chrono::milliseconds(100))) && Clock::now() >= until) {
+        throw Error("2diy: " + printable(config.port, 200) + ": no answer within a second");
+      }
+    }
+    supervisor_.emplace(port_.descriptor(), std::as_bytes(std::span(bytes_)));  // the last question had no torque
+    thread_ = std::thread([this] { run(); });
+  }
+
+  TwoDiy(const TwoDiy&) = delete;
+  TwoDiy& operator=(const TwoDiy&) = delete;
+  ~TwoDiy() override { close(); }
+
+  const DeviceInfo& info() const noexcept override { return info_; }
+
+  DeviceReading read(std::int64_t t_ns) noexcept override {
+    const News& news = news_.take();
+    DeviceReading reading;
+    reading.p_m = news.p_m;
+    reading.v_mps = news.v_mps;
+    reading.sequence = news.sequence;
+    if (watch_.stalled(t_ns, news.sequence)) reading.status = DeviceStatus::kStalled;
+    if (stop_.load(std::memory_order_relaxed)) reading.status = DeviceStatus::kEnded;
+    if (faulty_.load(std::memory_order_acquire)) reading.status = DeviceStatus::kFault;
+    return reading;
+  }
+
+  void write(const Eigen::Vector3d& force_N) noexcept override { forces_.publish(force_N); }
+
+  void close() noexcept override {
+    stop_.store(true);
+    if (thread_.joinable()) thread_.join();
+    supervisor_.reset();
+  }
+
+  std::string fault() const override {
+    const std::lock_guard lock(fault_mutex_);
+    return fault_;
+  }
+
+ private:
+  unsigned char id() const { return static_cast<unsigned char>(config_.device_id); }
+
+  void set_up(Clock::time_point until) {
+    const unsigned char reset[] = {kReset, id()};
+    port_.write(reset, until);
+    bytes_ = {kSetUp, id()};
+    for (int motors_then_encoders = 0; motors_then_encoders < 2; ++motors_then_encoders) {
+      bytes_.push_back(kBothPorts);
+      if (config_.directions) bytes_.insert(bytes_.end(), 2, 1);  // counter-clockwise, as the angles are
+    }
+    bytes_.insert(bytes_.end(), 2, 0);  // neither sensors nor PWM pins
+    for (const double offset_deg : config_.offset_deg) {
+      append_float(bytes_, offset_deg);
+      append_float(bytes_, config_.encoder_counts);
+    }
+    port_.write(bytes_, until);
+  }
+
+  void ask(const Eigen::Vector2d& torque_N_m, Clock::time_point until) {
+    bytes_ = {kTorques, id()};
+    append_float(bytes_, torque_N_m.x());
+    append_float(bytes_, torque_N_m.y());
+    answered_ = 0;
+    port_.flush_input();  // a late answer to an earlier question is not this one's
+    port_.write(bytes_, until);
+  }
+
+  // The answer to ask(), if it is complete by `until`.
+  bool take_answer(Clock::time_point until) {
+    while (answered_ < kAnswer_bytes) {
+      const std::size_t count = port_.read(std::span(answer_).subspan(answered_), until);
+      if (count == 0) return false;
+      answered_ += count;
+    }
+    float degrees[2];
+    std::memcpy(degrees, answer_.data() + 1, sizeof degrees);
+    const Eigen::Vector2d theta_deg(static_cast<double>(degrees[0]), static_cast<double>(degrees[1]));
+    if (answer_[0] != id() || !(theta_deg.cwiseAbs().maxCoeff() <= kMostDegrees)) {
+      if (++wrong_answers_ >= kWrongAnswersUntilFault) {
+        throw Error("2diy: " + printable(config_.port, 200) + ": its answers make no sense");
+      }
+      return true;
+    }
+    wrong_answers_ = 0;
+    state_ = pantograph_state(linkage_, theta_deg * (std::numbers::pi / 180.0));
+    if (state_) p_m_ = axes_ * state_->p_m;
+    ++news_sequence_;
+    const double t_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+    news_.publish({p_m_, estimate_velocity(velocity_, p_m_, news_sequence_, t_s, noise_m_), news_sequence_});
+    return true;
+  }
+
+  Eigen::Vector2d torque_N_m(const Eigen::Vector3d& force_N) const {
+    if (!state_) return Eigen::Vector2d::Zero();
+    Eigen::Vector2d torque = state_->jacobian_m.transpose() * (axes_.transpose() * force_N);
+    const double most = torque.cwiseAbs().maxCoeff();
+    if (most > config_.max_torque_N_m) torque *= config_.max_torque_N_m / most;
+    return torque;
+  }
+
+  void run() {
+    try {
+      serve();
+    } catch (const std::exception& error) {
+      const std::lock_guard lock(fault_mutex_);
+      fault_ = error.what();
+      faulty_.store(true, std::memory_order_release);
+    }
+    try {
+      const auto until = Clock::now() + std::chrono::milliseconds(100);
+      ask(Eigen::Vector2d::Zero(), until);
+      take_answer(until);
+      const unsigned char reset[] = {kReset, id()};
+      port_.write(reset, until);
+    } catch (const std::exception&) {
+      // The port is gone: nobody can be told any more.
+    }
+  }
+
+  void serve() {
+    const auto period = seconds(1.0 / config_.rate_Hz), force_timeout = seconds(config_.force_timeout_s);
+    const auto stall_after = seconds(config_.stall_after_s), lost_after = seconds(config_.lost_after_s);
+    auto due = Clock::now(), last_answer = due;
+    bool stalled = false;
+    while (!stop_.load()) {
+      auto now = Clock::now();
+      // After a stall the first question only asks: its torques would be of a place long left.
+      ask(stalled ? Eigen::Vector2d::Zero() : torque_N_m(forces_.take(now, force_timeout)), now + lost_after);
+      stalled = !take_answer(now + stall_after);
+      now = Clock::now();
+      if (!stalled) last_answer = now;
+      if (now - last_answer > lost_after) {
+        throw Error("2diy: " + printable(config_.port, 200) + ": no answer for " + number_text(config_.lost_after_s) +
+                    " s");
+      }
+      due = std::max(due + period, now);
+      std::this_thread::sleep_until(due);
+    }
+  }
+
+  TwoDiyConfig config_;
+  DeviceInfo info_;
+  PantographConfig linkage_;
+  Eigen::Matrix<double, 3, 2> axes_ = Eigen::Matrix<double, 3, 2>::Zero();  // its x and y in the device's axes
+  double noise_m_ = 0.0;
+
+  StallWatch watch_;  // the servo thread's
+
+  // Between the threads.
+  LatestValue<News> news_;
+  ForceMailbox forces_;
+  std::atomic<bool> stop_{false}, faulty_{false};
+  mutable std::mutex fault_mutex_;
+  std::string fault_;
+
+  // The thread's that opens, then the I/O thread's.
+  SerialPort port_;
+  std::optional<Supervisor> supervisor_;
+  Bytes bytes_;
+  std::array<unsigned char, kAnswer_bytes> answer_{};
+  std::size_t answered_ = 0;
+  int wrong_answers_ = 0;
+  std::optional<PantographState> state_;
+  Eigen::Vector3d p_m_ = Eigen::Vector3d::Zero();
+  VelocityEstimator velocity_;
+  std::uint64_t news_sequence_ = 0;
+  Clock::time_point begin_ = Clock::now();
+  std::thread thread_;
+};
+
+}  // namespace
+
+std::unique_ptr<HapticDevice> open_two_diy(const TwoDiyConfig& config) {
+  check_config("2diy", config);
+  if (config.port.empty()) throw Error("2diy.port: the serial port is missing, as in /dev/ttyACM0");
+  return std::make_unique<TwoDiy>(config);
+}
+
+}  // namespace asperity

@@ -1,0 +1,136 @@
+#include "asperity/device/cap_scene.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "asperity/device/device_caps.h"
+
+namespace asperity {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+DeviceInfo touch() {
+  DeviceInfo info;
+  info.name = "openhaptics";
+  info.model = "Touch";
+  info.max_force_N = 3.3;
+  info.max_stiffness_N_per_m = 2300.0;
+  info.bandwidth_Hz = 100.0;
+  return info;
+}
+
+// A sine of 2.5 mm pitch and 0.5 mm height from its lowest to its highest point, on one triangle.
+Scene sine_scene() {
+  Scene scene;
+  SceneObject object;
+  object.mesh.vertices = {Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY()};
+  SceneTexture laid;
+  laid.texture.name = "sine";
+  Fourier1d sine;
+  sine.length_mm = 2.5;
+  sine.a_m = {0.25e-3};
+  sine.b_m = {0.0};
+  laid.texture.model = sine;
+  object.textures.push_back(laid);
+  scene.objects.push_back(object);
+  return scene;
+}
+
+TEST(DeviceCaps, FollowTheirFormulas) {
+  const DeviceCaps caps = find_device_caps(touch(), SafetyConfig{}, 1000.0, DeviceCapsConfig{});
+  EXPECT_EQ(caps.force_N, 3.3);
+  EXPECT_EQ(caps.stiffness_N_per_m, 2300.0);
+  EXPECT_THAT(caps.stiffness_reason, HasSubstr("Touch renders at most 2300 N/m"));
+  EXPECT_DOUBLE_EQ(caps.texture_stiffness_N_per_m, 450.0);
+  EXPECT_DOUBLE_EQ(caps.texture_cycles_per_mm, 1.0);  // 100 Hz at 100 mm/s
+}
+
+TEST(DeviceCaps, OfADeviceThatStatesNothing) {
+  const DeviceInfo unknown;
+  SafetyConfig safety;
+  DeviceCapsConfig config;
+  DeviceCaps caps = find_device_caps(unknown, safety, 1000.0, config);
+  EXPECT_EQ(caps.force_N, safety.max_force_N);
+  EXPECT_DOUBLE_EQ(caps.stiffness_N_per_m, 10'000.0);  // 2 · 5 N s/m / 1 ms
+  EXPECT_THAT(caps.stiffness_reason, HasSubstr("Colgate"));
+  EXPECT_EQ(caps.texture_cycles_per_mm, DeviceCaps::kNone);
+  safety.passivity = false;
+  EXPECT_EQ(find_device_caps(unknown, safety, 1000.0, config).stiffness_N_per_m, DeviceCaps::kNone);
+  config.damping_N_s_per_m = 0.1;
+  caps = find_device_caps(unknown, safety, 1000.0, config);
+  EXPECT_DOUBLE_EQ(caps.stiffness_N_per_m, 200.0);
+  EXPECT_DOUBLE_EQ(caps.texture_stiffness_N_per_m, 200.0);
+  EXPECT_DOUBLE_EQ(find_device_caps(unknown, SafetyConfig{}, 4000.0, config).texture_stiffness_N_per_m, 1800.0);
+}
+
+TEST(CapScene, LeavesAloneWhatADeviceCan) {
+  Scene scene = sine_scene();
+  scene.objects[0].textures[0].texture.compliance_kc = 0.4;
+  const CappedScene capped =
+      cap_scene(scene, RenderConfig{}, find_device_caps(touch(), SafetyConfig{}, 1000.0, DeviceCapsConfig{}));
+  EXPECT_THAT(capped.warnings, IsEmpty());
+  EXPECT_EQ(capped.config.stiffness_N_per_m, RenderConfig{}.stiffness_N_per_m);
+  EXPECT_EQ(capped.scene.objects[0].textures[0].texture.compliance_kc, 0.4);
+  EXPECT_EQ(capped.config.texture.cutoff_cycles_per_mm, 0.0);
+}
+
+TEST(CapScene, LowersStiffnessEverywhere) {
+  Scene scene = sine_scene();
+  scene.stiffness_N_per_m = 5000.0;
+  scene.objects[0].textures.clear();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  scene.objects[0].material.vertices = {{nan, 8000.0, nan}, {nan, 100.0, nan}, {nan, nan, nan}};
+  const CappedScene capped =
+      cap_scene(scene, RenderConfig{}, find_device_caps(touch(), SafetyConfig{}, 1000.0, DeviceCapsConfig{}));
+  EXPECT_THAT(capped.warnings, ElementsAre(HasSubstr("stiffness lowered from 8000 to 2300 N/m: Touch")));
+  EXPECT_EQ(capped.scene.stiffness_N_per_m, 2300.0);
+  const auto& vertices = capped.scene.objects[0].material.vertices;
+  EXPECT_EQ(vertices[0].stiffness_N_per_m, 2300.0);
+  EXPECT_EQ(vertices[1].stiffness_N_per_m, 100.0);
+  EXPECT_TRUE(std::isnan(vertices[2].stiffness_N_per_m));
+}
+
+TEST(CapScene, LowersTheTexturesSpring) {
+  const CappedScene capped =
+      cap_scene(sine_scene(), RenderConfig{}, find_device_caps(touch(), SafetyConfig{}, 1000.0, DeviceCapsConfig{}));
+  EXPECT_THAT(capped.warnings, ElementsAre(HasSubstr("texture 'sine': its spring lowered to 450 N/m")));
+  EXPECT_DOUBLE_EQ(*capped.scene.objects[0].textures[0].texture.compliance_kc, 0.45);
+}
+
+TEST(CapScene, LowersATexturesAmplitudeToTheForce) {
+  DeviceInfo weak = touch();
+  weak.max_force_N = 0.1;
+  const CappedScene capped =
+      cap_scene(sine_scene(), RenderConfig{}, find_device_caps(weak, SafetyConfig{}, 1000.0, DeviceCapsConfig{}));
+  EXPECT_THAT(capped.warnings, ElementsAre(HasSubstr("450 N/m"), HasSubstr("0.5 mm would exceed 0.1 N")));
+  // k_c k_s H = 0.1 N with k_s = 1 N/mm and H = 0.5 mm; the highest point is known to a bound of 1 %.
+  EXPECT_NEAR(*capped.scene.objects[0].textures[0].texture.compliance_kc, 0.2, 0.002);
+}
+
+TEST(CapScene, LowersTheCutOff) {
+  Scene scene = sine_scene();
+  std::get<Fourier1d>(scene.objects[0].textures[0].texture.model).length_mm = 0.5;
+  RenderConfig config;
+  const DeviceCaps caps = find_device_caps(touch(), SafetyConfig{}, 1000.0, DeviceCapsConfig{});
+  scene.objects[0].textures[0].texture.compliance_kc = 0.4;
+  EXPECT_DOUBLE_EQ(highest_cycles_per_mm(scene.objects[0].textures[0].texture), 2.0);
+  CappedScene capped = cap_scene(scene, config, caps);
+  EXPECT_THAT(capped.warnings, ElementsAre(HasSubstr("may hold 2 cycles/mm, rendered up to 1")));
+  EXPECT_DOUBLE_EQ(capped.config.texture.cutoff_cycles_per_mm, 1.0);
+  config.texture.cutoff_cycles_per_mm = 0.5;
+  capped = cap_scene(scene, config, caps);
+  EXPECT_THAT(capped.warnings, IsEmpty());
+  EXPECT_DOUBLE_EQ(capped.config.texture.cutoff_cycles_per_mm, 0.5);
+  scene.objects[0].textures[0].texture.band_cycles_per_mm = {0.1, 0.9};
+  config.texture.cutoff_cycles_per_mm = 0.0;
+  EXPECT_DOUBLE_EQ(cap_scene(scene, config, caps).config.texture.cutoff_cycles_per_mm, 0.0);
+}
+
+}  // namespace
+}  // namespace asperity

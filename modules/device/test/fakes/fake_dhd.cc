@@ -1,0 +1,131 @@
+// A stand-in for Force Dimension's libdhd.so: the symbols and the behaviour that we rely on, over a simulated device
+// that lives by a millisecond at each dhdSetForce.
+#include <cmath>
+#include <cstring>
+
+#include "damped_mass.h"
+
+namespace {
+
+struct State {
+  fake::DampedMass hand;  // x right, y up, z toward the user
+  bool absent = false;
+  bool unplugged = false;
+  bool stalled = false;
+  int failures_to_come = 0;
+  bool open = false;
+  bool force_enabled = false;
+  bool wrong_device = false;
+  double motor_N[3] = {0.0, 0.0, 0.0};  // as commanded, x right, y up, z toward the user
+  const char* error = "no error";
+};
+
+State& state() {
+  static State the_state;
+  return the_state;
+}
+
+constexpr double kMaxForce_N = 12.0;
+
+int fail(const char* why) {
+  state().error = why;
+  return -1;
+}
+
+// 0, or the error of a call to the device `id`.
+int refusal(char id) {
+  if (id != -1) {
+    state().wrong_device = true;
+    return fail("invalid device index");
+  }
+  if (!state().open) return fail("device not ready");
+  if (state().failures_to_come > 0) {
+    --state().failures_to_come;
+    return fail("timeout");
+  }
+  return state().unplugged ? fail("communication error") : 0;
+}
+
+}  // namespace
+
+// The vendor's names.
+// NOLINTBEGIN(readability-identifier-naming)
+extern "C" {
+
+int dhdOpen() {
+  if (state().absent) return fail("no device found");
+  if (state().open) return fail("device busy");
+  state().open = true;
+  return 0;
+}
+
+int dhdClose(char id) {
+  const int answer = refusal(id);
+  state().open = false;
+  return answer;
+}
+
+int dhdEnableForce(unsigned char on, char id) {
+  if (refusal(id) < 0) return -1;
+  state().force_enabled = on != 0;
+  return 0;
+}
+
+int dhdGetPosition(double* x, double* y, double* z, char id) {
+  if (refusal(id) < 0) return -1;
+  *x = state().hand.p_m[2];
+  *y = state().hand.p_m[0];
+  *z = state().hand.p_m[1];
+  return state().stalled ? 1 : 0;
+}
+
+int dhdGetLinearVelocity(double* x, double* y, double* z, char id) {
+  if (refusal(id) < 0) return -1;
+  *x = state().hand.v_mps[2];
+  *y = state().hand.v_mps[0];
+  *z = state().hand.v_mps[1];
+  return 0;
+}
+
+int dhdSetForce(double x, double y, double z, char id) {
+  // What is commanded is kept even if nobody is there to take it: tests look at it.
+  state().motor_N[0] = y;
+  state().motor_N[1] = z;
+  state().motor_N[2] = x;
+  if (refusal(id) < 0) return -1;
+  if (!state().force_enabled) return fail("force is off");
+  const double norm_N = std::hypot(x, y, z);
+  if (norm_N > kMaxForce_N) {
+    for (double& f_N : state().motor_N) f_N *= kMaxForce_N / norm_N;
+  }
+  if (!state().stalled) state().hand.step(state().motor_N);
+  return norm_N > kMaxForce_N ? 2 : 0;
+}
+
+int dhdGetButtonMask(char id) { return refusal(id) < 0 ? -1 : 5; }
+
+#ifndef FAKE_DHD_INCOMPLETE
+const char* dhdErrorGetLastStr() { return state().error; }
+#endif
+
+const char* dhdGetSystemName(char id) { return refusal(id) < 0 ? nullptr : "Fake omega.3"; }
+
+// For tests.
+void fake_dhd_reset() { state() = State(); }
+void fake_dhd_set(const char* what, int value) {
+  if (std::strcmp(what, "absent") == 0) state().absent = value != 0;
+  if (std::strcmp(what, "unplugged") == 0) state().unplugged = value != 0;
+  if (std::strcmp(what, "stalled") == 0) state().stalled = value != 0;
+  if (std::strcmp(what, "failures") == 0) state().failures_to_come = value;
+}
+void fake_dhd_move(double x, double y, double z) {
+  state().hand.p_m[0] = x;
+  state().hand.p_m[1] = y;
+  state().hand.p_m[2] = z;
+}
+void fake_dhd_motor(double* out_N) { std::memcpy(out_N, state().motor_N, sizeof state().motor_N); }
+int fake_dhd_wrong_device() { return state().wrong_device ? 1 : 0; }
+int fake_dhd_force_enabled() { return state().force_enabled ? 1 : 0; }
+int fake_dhd_open() { return state().open ? 1 : 0; }
+}
+// NOLINTEND(readability-identifier-naming)

@@ -1,0 +1,241 @@
+#include "asperity/device/open_two_diy.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "../src/pantograph.h"
+#include "asperity/base/error.h"
+#include "asperity/testkit/count_allocations.h"
+#include "asperity/testkit/temp_dir.h"
+#include "conformance.h"
+#include "fake_two_diy_board.h"
+
+namespace asperity {
+namespace {
+
+using testing::HasSubstr;
+using Clock = std::chrono::steady_clock;
+
+TwoDiyConfig config_for(const FakeTwoDiyBoard& board) {
+  TwoDiyConfig config;
+  config.port = board.port();
+  return config;
+}
+
+void serve(HapticDevice& device, int ticks, const std::function<Eigen::Vector3d(const DeviceReading&)>& force) {
+  static std::int64_t tick = 0;
+  auto due = Clock::now();
+  for (int i = 0; i < ticks; ++i) {
+    device.write(force(device.read(++tick * 1000000)));
+    due += std::chrono::milliseconds(1);
+    std::this_thread::sleep_until(due);
+  }
+}
+
+std::string message_of(const TwoDiyConfig& config) {
+  try {
+    open_two_diy(config);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Pantograph, AgreesWithTheLawOfCosines) {
+  for (double x = -0.03; x <= 0.05; x += 0.01) {
+    for (double y = 0.04; y <= 0.09; y += 0.01) {
+      const Eigen::Vector2d p_m(x, y);
+      const auto state = pantograph_state({}, pantograph_angles_rad(p_m));
+      ASSERT_TRUE(state);
+      EXPECT_LT((state->p_m - p_m).norm(), 1e-15) << p_m.transpose();
+      // The Jacobian against differences of the inverse kinematics.
+      constexpr double kStep_m = 1e-6;
+      Eigen::Matrix2d inverse;
+      for (int i = 0; i < 2; ++i) {
+        const Eigen::Vector2d step = kStep_m * Eigen::Vector2d::Unit(i);
+        inverse.col(i) = (pantograph_angles_rad(p_m + step) - pantograph_angles_rad(p_m - step)) / (2.0 * kStep_m);
+      }
+      EXPECT_LT((state->jacobian_m * inverse - Eigen::Matrix2d::Identity()).norm(), 1e-7) << p_m.transpose();
+    }
+  }
+}
+
+TEST(Pantograph, HasNoStateWhereTheTipIsNotHeld) {
+  EXPECT_FALSE(pantograph_state({}, {std::nan(""), 0.0}));
+  EXPECT_FALSE(pantograph_state({0.1, 0.05, 0.02}, {std::numbers::pi, 0.0}));   // elbows 0.22 m apart, arms 0.1
+  EXPECT_FALSE(pantograph_state({0.05, 0.06, 0.02}, {std::numbers::pi, 0.0}));  // distal arms in line
+  EXPECT_FALSE(pantograph_state({0.05, 0.07, 0.0}, {1.0, 1.0}));                // elbows on each other
+}
+
+TEST(TwoDiy, ReadsThePlaceItIsAtAndPushesWhereItIsTold) {
+  for (const bool directions : {false, true}) {
+    FakeBoardConfig still;
+    still.directions = directions;
+    still.pull_N.setZero();
+    FakeTwoDiyBoard board(still);
+    TwoDiyConfig config = config_for(board);
+    config.directions = directions;
+    const auto device = open_two_diy(config);
+    const Eigen::Vector3d p_m = device->read(0).p_m;
+    EXPECT_NEAR(p_m.x(), 0.01, 1e-9);
+    EXPECT_EQ(p_m.y(), 0.0);
+    EXPECT_NEAR(p_m.z(), std::sqrt(0.07 * 0.07 - 0.06 * 0.06), 1e-9);
+    board.stall(true);  // it holds what it has: no further motion while it is looked at
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    board.stall(false);
+    Eigen::Vector2d force_N = Eigen::Vector2d::Zero();
+    for (int i = 0; i < 1000 && force_N.norm() < 0.4; ++i) {
+      serve(*device, 1, [](const DeviceReading&) { return Eigen::Vector3d(0.3, 7.0, -0.4); });
+      force_N = board.force_N();
+    }
+    EXPECT_NEAR(force_N.x(), 0.3, 0.02);
+    EXPECT_NEAR(force_N.y(), -0.4, 0.02);
+  }
+}
+
+TEST(TwoDiy, RestsOnAWallWithinACountOfItsEncoders) {
+  FakeTwoDiyBoard board;
+  TwoDiyConfig config = config_for(board);
+  config.plane = TwoDiyPlane::kUpright;
+  const auto device = open_two_diy(config);
+  const double wall_y_m = device->read(0).p_m.y() - 2e-3;
+  const auto wall = [&](const DeviceReading& reading) {
+    return Eigen::Vector3d(0.0, 2000.0 * std::max(0.0, wall_y_m - reading.p_m.y()), 0.0);
+  };
+  // A count is 2π/13824 of a turn at an arm of 0.05 m; the linkage doubles it at most here.
+  constexpr double kTol_m = 50e-6;
+  double depth_m = 0.0;
+  for (int i = 0; i < 20 && std::abs(depth_m - 0.5e-3) > kTol_m; ++i) {
+    serve(*device, 200, wall);
+    depth_m = wall_y_m + board.p_m().y();
+  }
+  EXPECT_NEAR(depth_m, 0.5e-3, kTol_m) << device->fault();
+}
+
+TEST(TwoDiy, TorquesAreLimitedTogether) {
+  FakeBoardConfig still;
+  still.pull_N.setZero();
+  still.damping_N_s_per_m = 1e5;
+  still.mass_kg = 100.0;
+  FakeTwoDiyBoard board(still);
+  TwoDiyConfig config = config_for(board);
+  config.max_torque_N_m = 0.02;
+  const auto device = open_two_diy(config);
+  serve(*device, 100, [](const DeviceReading&) { return Eigen::Vector3d(100.0, 0.0, 50.0); });
+  EXPECT_NEAR(board.torque_N_m().cwiseAbs().maxCoeff(), 0.02, 1e-6);
+  const Eigen::Vector2d direction = board.force_N().normalized();
+  EXPECT_NEAR(direction.x(), 2.0 / std::sqrt(5.0), 1e-3);
+}
+
+TEST(TwoDiy, TheBoardHoldsNoTorqueAfterCloseOrSilence) {
+  FakeTwoDiyBoard board;
+  const auto device = open_two_diy(config_for(board));
+  const auto push = [](const DeviceReading&) { return Eigen::Vector3d(0.0, 0.0, -1.0); };
+  for (int i = 0; i < 1000 && board.torque_N_m().norm() == 0.0; ++i) serve(*device, 1, push);
+  EXPECT_GT(board.torque_N_m().norm(), 0.0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));  // the servo is away
+  EXPECT_EQ(board.torque_N_m(), Eigen::Vector2d::Zero());
+  for (int i = 0; i < 1000 && board.torque_N_m().norm() == 0.0; ++i) serve(*device, 1, push);
+  const int resets = board.resets();
+  device->close();
+  for (int i = 0; i < 1000 && board.resets() == resets; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(board.torque_N_m(), Eigen::Vector2d::Zero());
+}
+
+TEST(TwoDiy, AKilledProcessLeavesNoTorque) {
+  FakeTwoDiyBoard board;
+  const pid_t host = ::fork();
+  if (host == 0) {
+    const auto device = open_two_diy(config_for(board));
+    serve(*device, 30000, [](const DeviceReading&) { return Eigen::Vector3d(0.0, 0.0, -1.0); });
+    ::_exit(0);
+  }
+  for (int i = 0; i < 5000 && board.torque_N_m().norm() == 0.0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_GT(board.torque_N_m().norm(), 0.0);
+  ::kill(host, SIGKILL);
+  ::waitpid(host, nullptr, 0);
+  for (int i = 0; i < 1000 && board.torque_N_m().norm() > 0.0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(board.torque_N_m(), Eigen::Vector2d::Zero());
+}
+
+TEST(TwoDiy, NonsenseAndLongStallsAreFaultsInWords) {
+  for (const bool nonsense : {true, false}) {
+    FakeTwoDiyBoard board;
+    TwoDiyConfig config = config_for(board);
+    config.lost_after_s = 0.1;
+    const auto device = open_two_diy(config);
+    if (nonsense) board.answer_nonsense();
+    board.stall(!nonsense);
+    DeviceStatus status = DeviceStatus::kReady;
+    for (int i = 0; i < 2000 && status != DeviceStatus::kFault; ++i) {
+      serve(*device, 1, [&](const DeviceReading& reading) {
+        status = reading.status;
+        return Eigen::Vector3d::Zero();
+      });
+    }
+    EXPECT_EQ(status, DeviceStatus::kFault);
+    EXPECT_THAT(device->fault(), HasSubstr(nonsense ? "make no sense" : "no answer for 0.1 s"));
+  }
+}
+
+TEST(TwoDiy, RefusalsAreInWords) {
+  EXPECT_THAT(message_of({}), HasSubstr("2diy.port"));
+  TwoDiyConfig config;
+  config.port = "/nowhere/ttyACM0";
+  EXPECT_THAT(message_of(config), HasSubstr("/nowhere/ttyACM0: cannot be opened: No such file"));
+  config.port = "/dev/null";
+  EXPECT_THAT(message_of(config), HasSubstr("is not a serial port"));
+  FakeTwoDiyBoard board;
+  board.stall(true);
+  EXPECT_THAT(message_of(config_for(board)), HasSubstr("no answer within a second"));
+  config = config_for(board);
+  config.distal_m = 0.0;
+  EXPECT_THAT(message_of(config), HasSubstr("2diy.distal_m"));
+}
+
+}  // namespace
+
+namespace testing_devices {
+namespace {
+
+class TwoDiyRig final : public DeviceRig {
+ public:
+  std::unique_ptr<HapticDevice> open() override {
+    TwoDiyConfig config;
+    config.port = board_.port();
+    config.plane = TwoDiyPlane::kUpright;
+    config.encoder_counts = 13824.0 * 1000.0;  // a count of the real ones is 23 µm, more than the suite allows
+    return open_two_diy(config);
+  }
+  Eigen::Vector3d motor_output() override {
+    const Eigen::Vector2d force_N = board_.force_N();
+    return {force_N.x(), -force_N.y(), 0.0};
+  }
+  void unplug() override { board_.unplug(); }
+  void stall() override { board_.stall(true); }
+
+ private:
+  FakeTwoDiyBoard board_;
+};
+
+}  // namespace
+
+INSTANTIATE_TEST_SUITE_P(TwoDiy, DeviceConformance,
+                         testing::Values(ConformanceCase{"two_diy", [] { return std::make_unique<TwoDiyRig>(); }}),
+                         case_name);
+
+}  // namespace testing_devices
+}  // namespace asperity

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace asperity {
+
+// Real against rendered in one octave.
+struct BandAgreement {
+  double low_cycles_per_mm = 0.0;
+  double high_cycles_per_mm = 0.0;
+  double real_rms = 0.0;  // unit of the quantity
+  double rendered_rms = 0.0;
+  double difference_dB = 0.0;  // 20 log10(rendered / real), within ±40
+  bool felt = true;            // false: too weak in both to matter
+};
+
+// Real against rendered over the whole band.
+struct SpectrumAgreement {
+  double real_rms = std::numeric_limits<double>::quiet_NaN();
+  double rendered_rms = std::numeric_limits<double>::quiet_NaN();
+  double rms_ratio = std::numeric_limits<double>::quiet_NaN();    // rendered over real
+  double distance_dB = std::numeric_limits<double>::quiet_NaN();  // RMS of the felt octaves' differences
+  std::vector<BandAgreement> bands;
+};
+
+// How a recorded scan and its rendering agree (score_rendering.h). nan where the scan does not allow a figure.
+struct RenderingScore {
+  double low_cycles_per_mm = 0.0;  // the band of all comparisons
+  double high_cycles_per_mm = 0.0;
+  double speed_mps = 0.0;   // mean, of the scan
+  double compared_m = 0.0;  // length of path that entered
+  std::size_t ticks = 0;
+  double touched = 0.0;  // part of the scan's contact in which the renderer was in contact
+
+  bool repeats = false;  // the texture is shorter than the path: it cannot have the scan's phase
+  double correlation = std::numeric_limits<double>::quiet_NaN();  // of the heights, after one rigid shift
+  double gain = std::numeric_limits<double>::quiet_NaN();         // slope of rendered on real heights
+  double shift_m = 0.0;
+  SpectrumAgreement height;  // m
+  SpectrumAgreement force;   // N, along the normal
+
+  double score = 0.0;  // from 0 to 1
+  std::string verdict;
+  bool trustworthy = true;
+};
+
+}  // namespace asperity

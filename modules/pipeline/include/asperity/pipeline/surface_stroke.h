@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "asperity/base/config.h"
+#include "asperity/pipeline/device_path.h"
+#include "asperity/scene/scene.h"
+
+namespace asperity {
+
+// A line over the surface of a scene for a tip to follow, in the scene's world.
+struct SurfaceLine {
+  std::vector<Eigen::Vector3d> p_world_m;
+  std::vector<Eigen::Vector3d> n_world;  // unit, outward, interpolated between the mesh's corner normals
+  std::vector<double> s_m;               // along it, from 0, rising
+
+  std::size_t size() const { return s_m.size(); }
+};
+
+// The longest line without a jump on which the first texture of the scene has y = 0: what was scanned or painted,
+// along its x. Empty if no triangle has a texture, or none a point with y = 0.
+SurfaceLine textured_line(const Scene& scene);
+
+// The shortest way over the first object between the points of it nearest to two others. Throws Error as
+// virtual_path (paint.h) does.
+SurfaceLine line_between(const Scene& scene, const Eigen::Vector3d& from_world_m, const Eigen::Vector3d& to_world_m);
+
+// Straight on over the first object, along its longest axis, through the place where its shortest axis leaves it:
+// for `length_m`, half to either side, or as far as the surface goes. Axes are those of the box in its own frame.
+SurfaceLine line_across(const Scene& scene, double length_m);
+
+struct SurfaceStrokeConfig {
+  double speed_mps = 0.05;
+  double press_N = 1.0;
+  double approach_m = 2e-3;
+  double approach_s = 0.2;
+  double turn_s = 0.1;
+
+  template <class V>
+  void visit(V& v) {
+    v.field("speed_mps", speed_mps, "of the stroke over the surface, m/s", {1e-4, 10.0});
+    v.field("press_N", press_N, "force that presses it in, N", {0.0, 50.0});
+    v.field("approach_m", approach_m, "above the surface, where the stroke begins, m", {0.0, 1.0});
+    v.field("approach_s", approach_s, "time of coming down, and of pressing after that, s", {1e-2, 100.0});
+    v.field("turn_s", turn_s, "time in which the speed is reached, and lost, s", {1e-3, 100.0});
+  }
+};
+
+// What a hand intends that strokes a line: where to be, and how hard to press there.
+struct HandStroke {
+  DevicePath path;
+  std::vector<double> press_N;                                       // one a point
+  Eigen::Vector3d press_direction_world = Eigen::Vector3d::UnitZ();  // unit, mean of the line's inward normals
+  std::int64_t starts_ns = 0;                                        // down and pressing: the stroke begins
+};
+
+// A hand that comes down at the line's start, presses, and goes to and fro along it at even speed for `duration_s` in
+// all; to the end and back once if that is 0. Points are a millisecond apart. Throws Error for a line without
+// length and for more than ten hours.
+HandStroke stroke_along(const SurfaceLine& line, double duration_s, const SurfaceStrokeConfig& config);
+
+}  // namespace asperity

@@ -1,0 +1,271 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "asperity/testkit/temp_dir.h"
+#include "run_asperity.h"
+
+namespace asperity::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using Json = nlohmann::json;
+using Words = std::vector<std::string>;
+
+// A plate of 60 × 20 mm with its face at z = 0, cells of 2 mm, in millimetres; no underside.
+std::string plate_obj() {
+  std::ostringstream out;
+  for (int j = 0; j <= 10; ++j) {
+    for (int i = 0; i <= 30; ++i) out << "v " << 2 * i << ' ' << 2 * j << " 0\n";
+  }
+  for (int j = 0; j < 10; ++j) {
+    for (int i = 0; i < 30; ++i) {
+      const int a = 31 * j + i + 1;
+      out << "f " << a << ' ' << a + 1 << ' ' << a + 32 << ' ' << a + 31 << '\n';
+    }
+  }
+  return out.str();
+}
+
+// Cosines of 2.5 mm and 0.1 mm height: after the lift the texture lies between 0 and 0.2 mm.
+constexpr const char* kTexture =
+    R"({"format":"asperity-texture","version":1,"name":"wave","model":"fourier1d",)"
+    R"("fourier1d":{"length_mm":10,"omega_rad_per_mm":0.6283185307179586,"a_m":[0,0,0,0.0001],"b_m":[0,0,0,0],"mean_m":0},)"
+    R"("compliance_kc":1,"extra":{}})";
+
+struct Table {
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+
+  std::vector<double> column(const std::string& name) const {
+    const auto at = std::find(columns.begin(), columns.end(), name) - columns.begin();
+    std::vector<double> out;
+    for (const auto& row : rows) out.push_back(row.at(static_cast<std::size_t>(at)));
+    return out;
+  }
+};
+
+Table read_table(const fs::path& file) {
+  std::ifstream in(file);
+  Table out;
+  std::string line, cell;
+  std::getline(in, line);
+  for (std::stringstream cells(line); std::getline(cells, cell, ',');) out.columns.push_back(cell);
+  while (std::getline(in, line)) {
+    out.rows.emplace_back();
+    for (std::stringstream cells(line); std::getline(cells, cell, ',');) {
+      double value = 0.0;
+      const auto end = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+      EXPECT_EQ(end.ptr, cell.data() + cell.size()) << cell;
+      out.rows.back().push_back(value);
+    }
+  }
+  return out;
+}
+
+std::string text_of(double value) {
+  std::array<char, 32> buffer;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), end.ptr};
+}
+
+class FeelCommands : public testing::Test {
+ protected:
+  FeelCommands() {
+    write_text(path("plate.obj"), plate_obj());
+    write_text(path("wave.texture.json"), kTexture);
+    const Outcome painted = run({"paint", path("plate.obj"), "--mesh-unit", "mm", "--through", "5,10,0;55,10,0",
+                                 "--width", "12mm", "--texture", path("wave.texture.json"), "-o", path("scene")});
+    EXPECT_EQ(painted.code, 0) << painted.err;
+  }
+  std::string path(const std::string& name) const { return (dir_ / name).string(); }
+
+  Outcome feel(const std::string& scene, const Words& more) const {
+    Words words{"feel", scene};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  }
+
+  // Down from 2 mm above to `depth_m` in 0.1 s, then along x at 50 mm/s; a row every `step_ns`, beginning at
+  // `start_ns`.
+  void write_stroke(const std::string& name, double depth_m, std::int64_t start_ns, std::int64_t step_ns) const {
+    std::string out = "t_ns,px_m,py_m,pz_m\n";
+    for (std::int64_t t_ns = 0; t_ns <= 400'000'000; t_ns += step_ns) {
+      const double t_s = 1e-9 * static_cast<double>(t_ns);
+      const double down = std::min(t_s / 0.1, 1.0);
+      out += std::to_string(start_ns + t_ns) + "," + text_of(0.02 + 0.05 * std::max(t_s - 0.1, 0.0)) + ",0.01," +
+             text_of(2e-3 - down * (2e-3 + depth_m)) + "\n";
+    }
+    write_text(path(name), out);
+  }
+
+  testkit::TempDir dir_;
+};
+
+TEST_F(FeelCommands, AReplayedPathIsFollowedExactly) {
+  write_stroke("path.csv", 0.5e-3, 123'456'789'000, 1'000'000);
+  const Outcome outcome =
+      feel(path("plate.obj"), {"--mesh-unit", "mm", "--replay", path("path.csv"), "--log", path("log.csv"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Table given = read_table(path("path.csv")), log = read_table(path("log.csv"));
+  EXPECT_THAT(log.columns, ::testing::ElementsAre("t_ns", "px_m", "py_m", "pz_m", "proxy_x_m", "proxy_y_m", "proxy_z_m",
+                                                  "fx_N", "fy_N", "fz_N", "contact_N", "texture_N", "friction_N",
+                                                  "texture_height_m", "out_x_N", "out_y_N", "out_z_N"));
+  ASSERT_EQ(log.rows.size(), given.rows.size());
+  for (std::size_t i = 0; i < log.rows.size(); ++i) {
+    EXPECT_EQ(log.rows[i][0], given.rows[i][0] - given.rows[0][0]);
+    for (std::size_t k = 1; k < 4; ++k) EXPECT_EQ(log.rows[i][k], given.rows[i][k]) << i;
+    // A plane: the proxy stays on it, f = k d along z.
+    const double z_m = given.rows[i][3];
+    constexpr double kSkin_m = 1e-9, kSkin_N = 1e-6;  // the proxy's own, relative to a plate of 60 mm
+    EXPECT_NEAR(log.rows[i][6], std::max(z_m, 0.0), kSkin_m) << i;
+    EXPECT_NEAR(log.rows[i][9], 1000.0 * std::max(-z_m, 0.0), kSkin_N) << i;
+    EXPECT_NEAR(log.rows[i][10], 1000.0 * std::max(-z_m, 0.0), kSkin_N) << i;
+    EXPECT_NEAR(log.rows[i][7], 0.0, kSkin_N);
+  }
+  const Json json = Json::parse(outcome.out);
+  EXPECT_EQ(json.at("ticks"), log.rows.size());
+  EXPECT_EQ(json.at("device"), "replay");
+  EXPECT_NEAR(json.at("force").at("peak_N").get<double>(), 0.5, 1e-6);
+  EXPECT_FALSE(json.contains("timing"));
+}
+
+TEST_F(FeelCommands, SamplesBetweenTicksAreMetAtTheirTimes) {
+  write_stroke("path.csv", 0.5e-3, 0, 2'500'000);  // 400 Hz beside 1 kHz: every second sample is on a tick
+  ASSERT_EQ(feel(path("scene"), {"--replay", path("path.csv"), "--log", path("log.csv")}).code, 0);
+  const Table given = read_table(path("path.csv")), log = read_table(path("log.csv"));
+  ASSERT_EQ(log.rows.size(), 401u);
+  for (std::size_t i = 0; i < given.rows.size(); i += 2) {
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(log.rows[5 * i / 2][k], given.rows[i][k]);
+  }
+}
+
+TEST_F(FeelCommands, ATextureIsRenderedByItsFormula) {
+  write_stroke("path.csv", 0.5e-3, 0, 1'000'000);
+  ASSERT_EQ(feel(path("scene"), {"--replay", path("path.csv"), "--log", path("log.csv")}).code, 0);
+  const Table log = read_table(path("log.csv"));
+  // Seed §6.5 (5) with erratum 19: pressed in by more than the texture is high, f_t = k_c k_s H, and x begins where
+  // the path does, at 5 mm.
+  for (std::size_t i = 200; i < log.rows.size(); i += 7) {
+    const double height_m = 1e-4 + 1e-4 * std::cos(2.0 * M_PI * (log.rows[i][1] - 5e-3) / 2.5e-3);
+    constexpr double kCoordinates_m = 0.3e-6;  // texture coordinates are fitted to the path to a micrometre
+    EXPECT_NEAR(log.column("texture_height_m")[i], height_m, kCoordinates_m) << i;
+    EXPECT_NEAR(log.column("texture_N")[i], 1000.0 * height_m, 1000.0 * kCoordinates_m) << i;
+    EXPECT_NEAR(log.column("fz_N")[i], 0.5 + 1000.0 * height_m, 1000.0 * kCoordinates_m) << i;
+  }
+}
+
+TEST_F(FeelCommands, TheSameInputGivesTheSameBytes) {
+  for (const char* name : {"a.csv", "b.csv"}) {
+    const Outcome outcome = feel(path("scene"), {"--friction", "0.4", "--log", path(name), "--duration", "1s"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+  }
+  std::ifstream a(path("a.csv")), b(path("b.csv"));
+  const std::string first{std::istreambuf_iterator<char>(a), {}}, second{std::istreambuf_iterator<char>(b), {}};
+  EXPECT_EQ(first, second);
+  EXPECT_GT(first.size(), 100'000u);
+}
+
+TEST_F(FeelCommands, TheModelledHandStrokesTheTexture) {
+  const Outcome outcome =
+      feel(path("scene"), {"--press", "1N", "--speed", "50mm/s", "--log", path("log.csv"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Table log = read_table(path("log.csv"));
+  const std::vector<double> x = log.column("px_m"), f = log.column("fz_N");
+  // To the texture's end and back: from 4 mm (the path is prolonged by 1 mm) to 56 mm.
+  EXPECT_NEAR(*std::min_element(x.begin(), x.end()), 4e-3, 0.5e-3);
+  EXPECT_NEAR(*std::max_element(x.begin(), x.end()), 56e-3, 0.5e-3);
+  // The surface bears what the hand presses with, once the soft start is over.
+  double sum = 0.0;
+  for (std::size_t i = 800; i < f.size(); ++i) sum += f[i];
+  EXPECT_NEAR(sum / static_cast<double>(f.size() - 800), 1.0, 0.1);
+  EXPECT_GT(Json::parse(outcome.out).at("force").at("peak_texture_N").get<double>(), 0.1);
+}
+
+TEST_F(FeelCommands, AStrokeGoesBetweenGivenPoints) {
+  const Outcome outcome = feel(path("plate.obj"), {"--mesh-unit", "mm", "--from", "0.01,0.004,0", "--to",
+                                                   "10mm,16mm,0mm", "--log", path("log.csv")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const std::vector<double> y = read_table(path("log.csv")).column("py_m");
+  EXPECT_NEAR(*std::min_element(y.begin(), y.end()), 4e-3, 0.3e-3);
+  EXPECT_NEAR(*std::max_element(y.begin(), y.end()), 16e-3, 0.3e-3);
+}
+
+TEST_F(FeelCommands, APathInTheAirSaysSo) {
+  write_stroke("path.csv", -1e-3, 0, 1'000'000);
+  const Outcome outcome = feel(path("scene"), {"--replay", path("path.csv"), "--json"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("nothing was touched: the path comes no nearer to a surface than 1 mm"));
+  EXPECT_EQ(Json::parse(outcome.out).at("contact").at("ticks"), 0);
+}
+
+TEST_F(FeelCommands, TimingIsOptIn) {
+  write_stroke("path.csv", 0.5e-3, 0, 1'000'000);
+  const Outcome outcome =
+      feel(path("scene"), {"--replay", path("path.csv"), "--timing", "--log", path("log.csv"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(read_table(path("log.csv")).columns.back(), "step_ns");
+  EXPECT_TRUE(Json::parse(outcome.out).at("timing").contains("step_us"));
+}
+
+TEST_F(FeelCommands, AnInterruptedRunLeavesNothing) {
+  const Outcome outcome =
+      run_and_signal({"feel", path("scene"), "--realtime", "--duration", "60s", "--log", path("log.csv")}, SIGINT,
+                     std::chrono::milliseconds(700));
+  EXPECT_EQ(outcome.code, 130);
+  EXPECT_FALSE(fs::exists(path("log.csv")));
+  for (const auto& entry : fs::directory_iterator(dir_.path())) {
+    EXPECT_THAT(entry.path().filename().string(), Not(HasSubstr("tmp")));
+  }
+}
+
+TEST_F(FeelCommands, SettingsAreThoseOfTheOptions) {
+  const Outcome outcome =
+      run({"feel", "--tip", "0.5mm", "--stiffness", "2000N/m", "--friction", "0.3", "--texture-model",
+           "lateral-gradient", "--rate", "2000", "--set", "safety.max_force_N=3", "--print-config", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json json = Json::parse(outcome.out);
+  EXPECT_EQ(json.at("render").at("tip_radius_m"), 0.5e-3);
+  EXPECT_EQ(json.at("render").at("stiffness_N_per_m"), 2000.0);
+  EXPECT_EQ(json.at("render").at("friction"), 0.3);
+  EXPECT_EQ(json.at("render").at("texture").at("model"), "lateral-gradient");
+  EXPECT_EQ(json.at("servo").at("rate_Hz"), 2000.0);
+  EXPECT_EQ(json.at("safety").at("max_force_N"), 3.0);
+}
+
+TEST_F(FeelCommands, WhatCannotBeMeantIsRefused) {
+  const std::string scene = path("scene");
+  const std::vector<Words> usage{{"--device", "mouse"}, {"--device", "spoon"},         {"--device", "replay"},
+                                 {"--mapped"},          {"--from", "0,0,0"},           {"--rate", "5"},
+                                 {"--duration", "0s"},  {"--texture-model", "velvet"}, {"--tip", "0.5"},
+                                 {"--press", "1kg"}};
+  for (const Words& words : usage) EXPECT_EQ(feel(scene, words).code, 2) << ::testing::PrintToString(words);
+  EXPECT_THAT(feel(scene, {"--device", "mouse"}).err, HasSubstr("studio"));
+  EXPECT_EQ(run({"feel"}).code, 2);
+  write_stroke("path.csv", 0.5e-3, 0, 1'000'000);
+  EXPECT_EQ(feel(scene, {"--replay", path("path.csv"), "--mapped"}).code, 1);
+  EXPECT_EQ(feel(scene, {"--replay", path("none.csv")}).code, 1);
+  write_text(path("bad.csv"), "t_ns,px_m,py_m,pz_m\n0,0,0,0\n1000000,0,zero,0\n");
+  const Outcome bad = feel(scene, {"--replay", path("bad.csv"), "--log", path("log.csv")});
+  EXPECT_EQ(bad.code, 1);
+  EXPECT_THAT(bad.err, HasSubstr("bad.csv:3: column 'py_m'"));
+  EXPECT_FALSE(fs::exists(path("log.csv")));
+  EXPECT_EQ(feel(path("none.scene.json"), {}).code, 1);
+}
+
+}  // namespace
+}  // namespace asperity::cli
