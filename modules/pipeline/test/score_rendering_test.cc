@@ -88,7 +88,7 @@ TEST(ScoreRendering, AFaithfulTextureHasTheScansHeights) {
   EXPECT_GT(result.height_score, 0.98);
   // Where the measured force is constant, the rendered one has the texture's spring alone: k_c k_s of the cosine.
   constexpr double kRms_N = 1000.0 * feel_test::kAmplitude_m / 1.4142135623730951;
-  EXPECT_NEAR(result.force.rendered_rms, kRms_N, 0.01 * kRms_N);
+  EXPECT_NEAR(result.force.rendered_rms, kRms_N, 0.02 * kRms_N) << "70 mm are 28 periods, the filter's ends among them";
   EXPECT_NEAR(result.high_cycles_per_mm, 4.0, 1e-12);
 }
 
