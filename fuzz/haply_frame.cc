@@ -10,19 +10,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     asperity::parse_service_version(input);
   } catch (const asperity::Error&) {  // most inputs are frames
   }
+  asperity::HaplyState state;
   try {
-    const asperity::HaplyState state = asperity::parse_haply_frame(input, "");
-    asperity::must(state.p_m.cwiseAbs().maxCoeff() <= 10.0 && state.v_mps.cwiseAbs().maxCoeff() <= 100.0);
-    // A command is a frame's skeleton: what names the device there names it here.
-    std::string command;
-    asperity::write_haply_command(command, state.device_id, state.p_m, asperity::HaplyForceKey::kVector, true);
-    const std::string answer =
-        R"({"inverse3":[{"device_id":")" + state.device_id +
-        R"(","state":{"cursor_position":{"x":1,"y":2,"z":3},"cursor_velocity":{"x":0,"y":0,"z":0}}}]})";
-    asperity::must(asperity::parse_haply_frame(answer, state.device_id).p_m.x() == 1.0);
-    asperity::must(command.find(state.device_id) != std::string::npos);
+    state = asperity::parse_haply_frame(input, "");
   } catch (const asperity::Error&) {
     return 0;
   }
+  asperity::must(state.p_m.cwiseAbs().maxCoeff() <= 10.0 && state.v_mps.cwiseAbs().maxCoeff() <= 100.0);
+  // What names the device there names it here, unchanged by JSON's quoting.
+  std::string command;
+  asperity::write_haply_command(command, state.device_id, state.p_m, asperity::HaplyForceKey::kVector, true);
+  asperity::must(command.find("\"" + state.device_id + "\"") != std::string::npos);
+  const std::string answer = R"({"inverse3":[{"device_id":")" + state.device_id +
+                             R"(","state":{"cursor_position":{"x":1,"y":2,"z":3},)" +
+                             R"("cursor_velocity":{"x":0,"y":0,"z":0}}}]})";
+  asperity::must(asperity::parse_haply_frame(answer, state.device_id).p_m.x() == 1.0);
   return 0;
 }

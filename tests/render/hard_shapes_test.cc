@@ -6,8 +6,10 @@
 #include <ostream>
 
 #include "asperity/base/random.h"
+#include "asperity/geometry/pose.h"
 #include "asperity/testkit/bumpy_sphere.h"
 #include "asperity/testkit/proxy_judge.h"
+#include "asperity/testkit/tracked_minimum.h"
 #include "asperity/testkit/wandering_path.h"
 #include "render_rig.h"
 
@@ -99,6 +101,128 @@ TEST(HardShapes, SliversAndGiantsInAPlaneAreAPlane) {
       const ServoOutput out = rig.step({-5e-3 + 5e-6 * k, -3e-3 + 4e-6 * k, tip_m - 1e-3});
       ASSERT_LE((out.force_N - Vector3d::UnitZ()).norm(), 1e-6) << tip_m << " " << k;
     }
+  }
+}
+
+class Tip : public testing::TestWithParam<double> {
+ protected:
+  RenderConfig config() const {
+    RenderConfig config;
+    config.tip_radius_m = GetParam();
+    return config;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Radii, Tip, testing::Values(0.0, 0.5e-3, 2e-3));
+
+// A hand cannot do that, a replayed path or a device that lost its place can.
+TEST_P(Tip, JumpsOfCentimetresDoNotLeadInside) {
+  const TriangleMesh mesh = testkit::bumpy_sphere_mesh(30);
+  const MeshBvh bvh(mesh);
+  for (const double friction : {0.0, 0.5}) {
+    RenderConfig rubbing = config();
+    rubbing.friction = friction;
+    Rig rig(scene_of({mesh}), rubbing);
+    testkit::ProxyJudge judge(mesh, bvh, {GetParam(), 1e-3, false});
+    Random random(44);
+    rig.step({0.0, 0.0, 70e-3});
+    Vector3d p(0.0, 0.0, 60e-3);
+    int first = -1;
+    for (int k = 0; k < 1500; ++k) {
+      p += 15e-3 * Vector3d(random.normal(), random.normal(), random.normal());
+      p *= random.uniform(30e-3, 65e-3) / p.norm();
+      const ServoOutput out = rig.step(p);
+      judge.tick(p, out.proxy_m);
+      if (first < 0 && judge.figures().pop_throughs > 0) first = k;
+      ASSERT_TRUE(out.force_N.allFinite() && out.proxy_m.allFinite());
+    }
+    EXPECT_EQ(judge.figures().pop_throughs, 0u)
+        << 1e6 * judge.figures().deepest_proxy_m << " µm inside, first at " << first << ", friction " << friction;
+  }
+}
+
+TEST_P(Tip, MayBePushedThroughTheMiddleAndOutBehind) {
+  testkit::BumpySphere round;
+  round.waves = 0;
+  const TriangleMesh mesh = testkit::bumpy_sphere_mesh(30, round);
+  const MeshBvh bvh(mesh);
+  Rig rig(scene_of({mesh}), config());
+  testkit::ProxyJudge judge(mesh, bvh, {GetParam(), 1e-3, false});
+  ServoOutput out;
+  for (int k = 0; k <= 1200; ++k) {
+    const Vector3d p(20e-3, 10e-3, 60e-3 - 0.1e-3 * k);
+    out = rig.step(p);
+    judge.tick(p, out.proxy_m);
+  }
+  EXPECT_EQ(judge.figures().pop_throughs, 0u);
+  // A sphere has no place that holds the proxy in front while the device is behind.
+  for (int k = 0; k < 200; ++k) out = rig.step({20e-3, 10e-3, -60e-3});
+  EXPECT_LE(out.force_N.norm(), 1e-6);
+}
+
+TEST_P(Tip, FarFromTheOriginAndTurnedItFeelsTheSame) {
+  const TriangleMesh mesh = testkit::bumpy_sphere_mesh(30);
+  const testkit::PressedPath path =
+      testkit::press_into(MeshBvh(mesh), testkit::wandering_directions(2000, 4e-4, 45), GetParam(), 1e-3);
+  const Pose T_world_mesh{Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {12.0, -7.0, 3.0}};  // a third of a turn
+  Scene scene = scene_of({mesh});
+  Rig here(scene, config());
+  scene.objects[0].T_world_mesh = T_world_mesh;
+  Rig there(scene, config());
+  int apart = 0;
+  for (const Vector3d& p : path.p_m) {
+    const Vector3d force_N = T_world_mesh.rotation * here.step(p).force_N;
+    // Rounding, 1e-15 m at 12 m, may choose another way down where a minimum vanishes.
+    apart += (there.step(T_world_mesh * p).force_N - force_N).norm() > 1e-4;
+  }
+  EXPECT_LE(apart, 20);
+}
+
+TEST_P(Tip, FollowsTheLinesOfARegularGridExactly) {
+  Rig rig(scene_of({sheet(40e-3, 40, 0.0)}), config());
+  rig.step({-10e-3, 0.0, 5e-3});
+  rig.go({-10e-3, 0.0, GetParam() - 1e-3});
+  // Along a line of edges from corner to corner, then along the cells' diagonals.
+  for (int k = 0; k <= 400; ++k) {
+    const ServoOutput out = rig.step({-10e-3 + 0.05e-3 * k, 0.0, GetParam() - 1e-3});
+    ASSERT_LE((out.force_N - Vector3d::UnitZ()).norm(), 1e-6) << k;
+  }
+  for (int k = 0; k <= 200; ++k) {
+    const ServoOutput out = rig.step({10e-3 - 0.05e-3 * k, 0.05e-3 * k, GetParam() - 1e-3});
+    ASSERT_LE((out.force_N - Vector3d::UnitZ()).norm(), 1e-6) << k;
+  }
+}
+
+TEST(HardShapes, ApexDoesNotHoldAPoint) {
+  const TriangleMesh pyramid{
+      {{0, 0, 0}, {20e-3, 0, -20e-3}, {0, 20e-3, -20e-3}, {-20e-3, 0, -20e-3}, {0, -20e-3, -20e-3}},
+      {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}};
+  for (const double aside_m : {0.0, 1e-9, 1e-5}) {
+    Rig rig(scene_of({pyramid}));
+    rig.step({aside_m, 0.4 * aside_m, 3e-3});
+    const ServoOutput out = rig.go({aside_m, 0.4 * aside_m, -1e-3});
+    // The faces, with normals (±1, ±1, 1)/√3, are 1/√3 mm away.
+    EXPECT_NEAR(out.force_N.norm(), 1.0 / std::sqrt(3.0), 2e-2) << aside_m;
+  }
+}
+
+// Convex and concave edges meet in one corner: the free space about it is not convex.
+TEST(HardShapes, SaddleLetsThePointGo) {
+  // Four triangles about the origin: heights of the rim go up and down twice.
+  const double h = 8e-3;
+  const TriangleMesh saddle{{{0, 0, 0}, {10e-3, 0, h}, {0, 10e-3, -h}, {-10e-3, 0, h}, {0, -10e-3, -h}},
+                            {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}};
+  Rig rig(scene_of({saddle}));
+  testkit::TrackedMinimum minimum(saddle);
+  rig.step({0.2e-3, -4e-3, 5e-3});
+  rig.go({0.2e-3, -4e-3, -4e-3});
+  minimum.start(3, {0.2e-3, -4e-3, -4e-3});
+  for (int k = 0; k <= 400; ++k) {
+    // Along the ridge over the saddle, 1 mm below it.
+    const double y_m = -4e-3 + 20e-6 * k;
+    const Vector3d p(0.2e-3, y_m, -0.8 * std::abs(y_m) - 1e-3);
+    const ServoOutput out = rig.step(p);
+    const Vector3d force_N = kStiffness_N_per_m * (minimum.follow(p).p_m - p);
+    ASSERT_LE((out.force_N - force_N).norm(), 1e-3) << k;
   }
 }
 

@@ -5,16 +5,9 @@
 #include "asperity/render/proxy_state.h"
 #include "asperity/render/render_model.h"
 #include "gather.h"
+#include "proxy_ball.h"
 
 namespace asperity {
-
-// The proxy as a ball, and how finely it is placed.
-struct ProxyBall {
-  double radius_m = 0.0;  // of the tip and its skin
-  double slack_m = 0.0;   // rounding: distances that differ by less are equal
-  double coarse_m = 0.0;  // a length to begin with when it is unknown how far to look for triangles
-  double stride_m = 0.0;  // how far the hand went in this step
-};
 
 // Moves the proxy to the local minimum of its distance to the goal that it reaches without passing through any
 // triangle of the given objects, and notes where it touches. Each iteration is safe; where the way is long the bounded

@@ -27,7 +27,7 @@ std::size_t continued(std::ptrdiff_t i, std::ptrdiff_t size, Border border) {
 class LineFilter {
  public:
   LineFilter(std::size_t size, Border border, double cutoff) : size_(size) {
-    constexpr double kReach = 12.0;  // waves of the cut-off, where its response is below 1e-5 of its peak
+    constexpr double kReach = 12.0;  // waves of the cut-off; a step that far away is felt by 1e-3 of its height
     const auto most = static_cast<double>(4 * size);
     margin_ = static_cast<std::size_t>(std::ceil(std::min(kReach / cutoff, most)));
     const std::size_t length = std::bit_ceil(size + 2 * margin_);

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "asperity/render/proxy_state.h"
+#include "proxy_ball.h"
+
+namespace asperity {
+
+// A point tip is a ball as small as its skin. Where convex and concave edges meet in a vertex such a ball can rest in
+// a nook of its own size, behind a hump that a point would not notice. Where a triangle about the ball goes on to a
+// place nearer to the goal, the proxy hops there: some radii along that triangle and a little above it, if that is
+// nearer to the goal and the straight way there passes no triangle of the list. False if there is no such place: the
+// proxy rests rightly.
+bool hop_over_nook(ProxyState& proxy, const ProxyBall& ball, const Eigen::Vector3d& goal_m) noexcept;
+
+}  // namespace asperity

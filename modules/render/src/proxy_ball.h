@@ -1,0 +1,14 @@
+#pragma once
+
+namespace asperity {
+
+// The proxy as a ball, and how finely it is placed.
+struct ProxyBall {
+  double radius_m = 0.0;  // of the tip and its skin
+  double slack_m = 0.0;   // rounding: distances that differ by less are equal
+  double coarse_m = 0.0;  // a length to begin with when it is unknown how far to look for triangles
+  double stride_m = 0.0;  // how far the hand went in this step
+  double skin_m = 0.0;
+};
+
+}  // namespace asperity
