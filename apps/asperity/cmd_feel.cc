@@ -126,6 +126,7 @@ class FeelCommand : public Command {
     } else if (kind_.driven) {
       drive = make_drive(scene, point("--from", from_), point("--to", to_), settings_);
     }
+    if (settings_.servo.duration_s > 0.0) cut_drive(drive, settings_.servo.duration_s, settings_.servo.rate_Hz);
     warn_of(scene.problems);
     warn_of(drive.problems);
     const std::unique_ptr<HapticDevice> device = open_device(device_, drive, settings_);
@@ -247,8 +248,7 @@ class FeelCommand : public Command {
     std::optional<FeelLog> rows;
     if (!log.empty()) rows.emplace(log, settings_.servo.timed);
     ServoConfig config = settings_.servo;
-    // The hand's path has the duration: no ramp follows it.
-    if (kind_.driven && replay_.empty()) config.duration_s = 0.0;
+    if (kind_.driven) config.duration_s = 0.0;  // the path has it: no ramp follows
     const double whole_s = settings_.servo.duration_s;
     const ServoResult servo = run_servo(device, model, config, interrupt_flag(), [&](const ServoTick& tick) {
       figures_.add(tick);

@@ -53,7 +53,7 @@ std::string range_svg(const Strip& strip, double scale, const char* unit) {
     out += fmt::format("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{:.3g}</text>\n", kLeft_px - 8.0,
                        strip.y_px(value) + 4.5, value * scale);
   }
-  return out + fmt::format("<text transform=\"translate(18 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+  return out + fmt::format("<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
                            0.5 * (strip.top_px + strip.bottom_px), unit);
 }
 
