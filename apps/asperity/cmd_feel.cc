@@ -95,22 +95,20 @@ class FeelCommand : public Command {
   std::vector<ConfigField> fields() override { return feel_fields(settings_); }
 
   void apply_options() override {
-    if (!rate_.empty()) settings_.servo.rate_Hz = number_option("--rate", rate_, "Hz", 100.0, 4000.0);
+    if (!rate_.empty()) set("--rate", "servo.rate_Hz", number_option("--rate", rate_, "Hz", 100.0, 4000.0));
     if (!duration_.empty()) settings_.servo.duration_s = duration_option_s("--duration", duration_, 36'000.0);
     if (timing_) settings_.servo.timed = true;
     if (realtime_) settings_.servo.paced = true;
-    if (!tip_.empty()) settings_.render.tip_radius_m = length_option_m("--tip", tip_);
-    if (!stiffness_.empty())
-      settings_.render.stiffness_N_per_m = number_option("--stiffness", stiffness_, "N/m", 1.0, 1e6);
-    if (!friction_.empty()) settings_.render.friction = number_option("--friction", friction_, "", 0.0, 10.0);
-    if (!press_.empty()) settings_.stroke.press_N = number_option("--press", press_, "N", 0.0, 50.0);
-    if (!speed_.empty()) settings_.stroke.speed_mps = speed_option_mps("--speed", speed_);
-    if (model_.empty()) return;
-    try {
-      set_field(fields(), "render.texture.model", model_);
-    } catch (const Error& error) {
-      throw UsageError(std::string("--texture-model: ") + error.what());
+    if (!tip_.empty()) set("--tip", "render.tip_radius_m", length_option_m("--tip", tip_));
+    if (!stiffness_.empty()) {
+      set("--stiffness", "render.stiffness_N_per_m", number_option("--stiffness", stiffness_, "N/m", 1.0, 1e6));
     }
+    if (!friction_.empty()) {
+      set("--friction", "render.friction", number_option("--friction", friction_, "", 0.0, 10.0));
+    }
+    if (!press_.empty()) set("--press", "stroke.press_N", number_option("--press", press_, "N", 0.0, 50.0));
+    if (!speed_.empty()) set("--speed", "stroke.speed_mps", speed_option_mps("--speed", speed_));
+    if (!model_.empty()) set_text("--texture-model", "render.texture.model", model_);
   }
 
   int run(const Observer& observer) override {
@@ -154,13 +152,27 @@ class FeelCommand : public Command {
   }
 
  private:
-  void choose_scene() const {
+  // An option's value into the setting that it stands for, within that one's range.
+  void set_text(const std::string& option, const std::string& setting, const std::string& value) {
+    try {
+      set_field(fields(), setting, value);
+    } catch (const Error& error) {
+      throw UsageError(option + ": " + error.what());
+    }
+  }
+  void set(const std::string& option, const std::string& setting, double value) {
+    set_text(option, setting, number_text(value));
+  }
+
+  void choose_scene() {
     if (scene_.empty() == height_maps_.empty())
       throw UsageError(scene_.empty() ? "SCENE is missing" : "--height-maps stands instead of SCENE");
     for (const auto& [option, text] : {std::pair{"--tile", &tile_}, std::pair{"--height-range", &height_range_}}) {
       if (!text->empty() && height_maps_.empty()) throw UsageError(std::string(option) + " needs --height-maps");
     }
     if (!mesh_unit_.empty() && scene_.empty()) throw UsageError("--mesh-unit needs a mesh");
+    if (parser().count("--log") > 0 && (log_.empty() || log_ == "-"))
+      throw UsageError("--log: a file's name is needed");
   }
 
   void choose_device() {
@@ -262,6 +274,7 @@ class FeelCommand : public Command {
     if (servo.end == ServoEnd::kFault && !log.empty()) {
       fs::path file = log;
       file.replace_extension(".flight.csv");
+      refuse_stranger(file, format_flight_record({}));
       write_flight_record(file, servo.last_ticks);
       warnings_.push_back("what happened before the fault is in " + printable(file.filename().string(), 200));
     }

@@ -211,6 +211,24 @@ TEST_F(FeelCommands, TheModelledHandStrokesTheTexture) {
   EXPECT_GT(Json::parse(outcome.out).at("force").at("peak_texture_N").get<double>(), 0.1);
 }
 
+TEST_F(FeelCommands, OnlyALogIsReplacedByALog) {
+  write_stroke("path.csv", 0.5e-3, 0, 1'000'000);
+  write_text(path("mine.csv"), "my,data\n");
+  fs::create_symlink(path("log.csv"), path("link.csv"));
+  for (const char* name : {"path.csv", "mine.csv", "scene/scene.json"}) {
+    const auto before = contents(dir_.path());
+    const Outcome outcome = feel(path("scene"), {"--replay", path("path.csv"), "--log", path(name)});
+    EXPECT_EQ(outcome.code, 1) << name;
+    EXPECT_THAT(outcome.err, HasSubstr("nothing was changed"));
+    EXPECT_EQ(contents(dir_.path()), before);
+  }
+  for (const char* name : {"log.csv", "link.csv", "log.csv"}) {
+    EXPECT_EQ(feel(path("scene"), {"--replay", path("path.csv"), "--log", path(name)}).code, 0) << name;
+  }
+  EXPECT_TRUE(fs::is_symlink(path("link.csv")));
+  EXPECT_EQ(read_table(path("log.csv")).rows.size(), 401u);
+}
+
 TEST_F(FeelCommands, AStrokeGoesBetweenGivenPoints) {
   const Outcome outcome = feel(path("plate.obj"), {"--mesh-unit", "mm", "--from", "0.01,0.004,0", "--to",
                                                    "10mm,16mm,0mm", "--log", path("log.csv")});
