@@ -28,6 +28,7 @@
 #include "feel_log.h"
 #include "feel_report.h"
 #include "feel_settings.h"
+#include "feel_verdict.h"
 #include "interrupt.h"
 #include "option_units.h"
 #include "our_folder.h"
@@ -132,7 +133,10 @@ class FeelCommand : public Command {
     SnapshotExchange<const RenderModel> model(make_model(scene, *device));
     const fs::path log = !log_.empty() ? fs::path(log_) : folder ? folder->path() / "log.csv" : fs::path();
     const ServoResult servo = feel(*device, model, log, observer);
-    warn_of_run(servo, *device, drive, *model.acquire());
+    const RunVerdict run = judge_run(figures_, servo, *device, drive, *model.acquire(), settings_.servo.safety);
+    warnings_.insert(warnings_.end(), run.warnings.begin(), run.warnings.end());
+    warnings_.insert(warnings_.end(), notes_.begin(), notes_.end());
+    for (const std::string& doubt : run.doubts) distrust(doubt);
     std::optional<RenderingScore> score;
     if (drive.scan && servo.end != ServoEnd::kFault) {
       score = score_rendering(drive.scan->measured, drive.scan->pressed, *model.acquire(), settings_.servo.rate_Hz,
@@ -285,54 +289,6 @@ class FeelCommand : public Command {
 
   void warn_of(const Problems& problems) {
     for (const Problem& problem : problems) notes_.push_back(problem.message);
-  }
-
-  void warn_of_run(const ServoResult& servo, const HapticDevice& device, const FeelDrive& drive,
-                   const RenderModel& model) {
-    const auto ticks = [&](SafetyCause cause) { return figures_.caused(cause); };
-    if (servo.end == ServoEnd::kFault) distrust("the device has a fault: " + printable(device.fault(), 300));
-    if (ticks(SafetyCause::kNonFinite) > 0) {
-      distrust(fmt::format("the force was ramped to zero: {} ticks had numbers that are not finite",
-                           ticks(SafetyCause::kNonFinite)));
-    }
-    if (ticks(SafetyCause::kStale) > 0) {
-      distrust(fmt::format("the force was ramped to zero: for {} ticks there was no news from the device",
-                           ticks(SafetyCause::kStale)));
-    }
-    if (ticks(SafetyCause::kForceLimit) > 0) {
-      warnings_.push_back(fmt::format("{} ticks were limited to {} N", ticks(SafetyCause::kForceLimit),
-                                      number_text(settings_.servo.safety.max_force_N)));
-    }
-    if (ticks(SafetyCause::kRateLimit) > 0) {
-      warnings_.push_back(fmt::format("on {} ticks the force changed faster than {} N/s and was slowed",
-                                      ticks(SafetyCause::kRateLimit),
-                                      number_text(settings_.servo.safety.max_force_rate_N_per_s)));
-    }
-    if (servo.statistics.lost_ticks > 0) {
-      warnings_.push_back(fmt::format("{} ticks are missing in the log", servo.statistics.lost_ticks));
-    }
-    if (figures_.starting_inside() > 0) {
-      warnings_.push_back(fmt::format("the point started inside an object: no force for {} ticks, until it had left it",
-                                      figures_.starting_inside()));
-    }
-    if (figures_.touching() == 0 && figures_.ticks() > 0)
-      warnings_.push_back("nothing was touched" + nearest(drive, model));
-    for (const std::string& note : notes_) warnings_.push_back(note);
-  }
-
-  // How far a path stays from the scene, in words.
-  static std::string nearest(const FeelDrive& drive, const RenderModel& model) {
-    const DevicePath* path = drive.path ? &*drive.path : drive.stroke ? &drive.stroke->path : nullptr;
-    if (path == nullptr || path->size() == 0) return "";
-    double least_m = std::numeric_limits<double>::infinity();
-    const std::size_t step = 1 + path->size() / 5000;
-    for (const RenderObject& object : model.objects) {
-      const Pose T_mesh_world = object.T_world_mesh.inverse();
-      for (std::size_t i = 0; i < path->size(); i += step) {
-        least_m = std::min(least_m, object.bvh.closest_point(T_mesh_world * path->p_world_m[i]).distance_m);
-      }
-    }
-    return fmt::format(": the path comes no nearer to a surface than {:.4g} mm", least_m * 1e3);
   }
 
   Json to_json(const ServoResult& servo, const HapticDevice& device, const std::optional<RenderingScore>& score) {
