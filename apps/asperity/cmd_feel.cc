@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -266,7 +265,7 @@ class FeelCommand : public Command {
     ServoConfig config = settings_.servo;
     if (kind_.driven) config.duration_s = 0.0;  // the path has it: no ramp follows
     const double whole_s = settings_.servo.duration_s;
-    const ServoResult servo = run_servo(device, model, config, interrupt_flag(), [&](const ServoTick& tick) {
+    ServoResult servo = run_servo(device, model, config, interrupt_flag(), [&](const ServoTick& tick) {
       figures_.add(tick);
       if (rows) rows->add(tick);
       if (!config.paced && figures_.ticks() % 4096 == 0) {
@@ -299,6 +298,7 @@ class FeelCommand : public Command {
     out["device"] = device_;
     out["model"] = device.info().model;
     if (!replay_.empty()) out["replay"] = replay_;
+    if (!log_.empty()) out["log"] = log_;
     out["end"] = kEndNames.at(static_cast<std::size_t>(servo.end));
     out["rate_Hz"] = settings_.servo.rate_Hz;
     out["duration_s"] = static_cast<double>(figures_.ticks()) / settings_.servo.rate_Hz;

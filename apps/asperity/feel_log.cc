@@ -58,7 +58,7 @@ namespace {
 std::filesystem::path checked(const std::filesystem::path& file) {
   std::error_code ignored;
   const std::filesystem::path whole = std::filesystem::weakly_canonical(file, ignored);
-  const std::filesystem::path target = whole.empty() ? file : whole;
+  std::filesystem::path target = whole.empty() ? file : whole;
   if (!std::filesystem::exists(target, ignored) || std::filesystem::is_regular_file(target, ignored)) {
     refuse_stranger(target, kFeelLogColumns);
   }
