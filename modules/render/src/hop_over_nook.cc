@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kAbout = 4.0;                              // radii: triangles that meet where the ball rests
+constexpr double kAbout = 16.0;                             // radii: triangles that meet where the ball rests
 constexpr double kHeights[] = {1.0, 1.25, 2.0, 8.0, 64.0};  // radii over the triangle
 
 double nearest_m(const NearTriangles& near, const Vector3d& p_m) {
@@ -48,7 +48,7 @@ bool hop_over_nook(ProxyState& proxy, const ProxyBall& ball, const Vector3d& goa
   const double left_m = (goal_m - from_m).norm();
   const double room_m = near.radius_m - ball.radius_m - (from_m - near.centre_m).norm();
   // A place that counts is nearer by more than the ball may lose by its own size.
-  const double nearer_m = left_m - 2.0 * kAbout * ball.radius_m;
+  const double nearer_m = left_m - 0.5 * kAbout * ball.radius_m;
   for (std::uint32_t i = 0; i < near.count; ++i) {
     const NearTriangle& t = near.triangles[i];
     if (!(std::abs(t.normal.dot(from_m - t.a_m)) <= kAbout * ball.radius_m)) continue;
