@@ -50,7 +50,7 @@ std::string line_svg(const std::vector<double>& y, const Strip& strip, const cha
 std::string range_svg(const Strip& strip, double scale, const char* unit) {
   std::string out;
   for (const double value : {strip.low, strip.high}) {
-    out += fmt::format("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{:.3g}</text>\n", kLeft_px - 8.0,
+    out += fmt::format("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{:.2f}</text>\n", kLeft_px - 8.0,
                        strip.y_px(value) + 4.5, value * scale);
   }
   return out + fmt::format("<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
