@@ -48,7 +48,7 @@ class Stepper {
     Vector3d normal;
     double offset_m;
   };
-  static constexpr std::uint8_t kClosestKnown = 1, kNoFace = 2;
+  static constexpr std::uint8_t kClosestKnown = 1, kNoFace = 2, kFootInside = 4;
 
   bool has_face(std::size_t i) const {
     return !(known_[i] & kNoFace) && std::abs(height_m_[i]) >= ball_.radius_m - 2.0 * ball_.slack_m;
@@ -71,6 +71,7 @@ class Stepper {
     known_[i] |= kClosestKnown;
     const double side = height_m_[i] < 0.0 ? -1.0 : 1.0;
     HalfSpace plane;
+    if (foot.inside()) known_[i] |= kFootInside;
     if ((foot.inside() || !(foot.distance_m > 0.0)) && height_m_[i] != 0.0)
       plane = {side * triangles_[i].normal, offset(side * height_m_[i])};
     else
@@ -83,11 +84,11 @@ class Stepper {
   // All of a triangle lies behind a plane that the projection keeps.
   bool is_covered(std::size_t i, const PlaneProjection& projection) const {
     const NearTriangle& t = triangles_[i];
+    const Vector3d a_m = t.a_m - ball_.centre_m, b_m = t.b_m - ball_.centre_m, c_m = t.c_m - ball_.centre_m;
     for (int k = 0; k < projection.size(); ++k) {
       const HalfSpace& plane = projection.active(k).plane;
-      const double limit_m = plane.offset_m - ball_.radius_m + ball_.slack_m + plane.normal.dot(ball_.centre_m);
-      if (plane.normal.dot(t.a_m) <= limit_m && plane.normal.dot(t.b_m) <= limit_m &&
-          plane.normal.dot(t.c_m) <= limit_m)
+      const double limit_m = plane.offset_m - ball_.radius_m + ball_.slack_m;
+      if (plane.normal.dot(a_m) <= limit_m && plane.normal.dot(b_m) <= limit_m && plane.normal.dot(c_m) <= limit_m)
         return true;
     }
     return false;
@@ -127,7 +128,7 @@ class Stepper {
     int told = 0;
     for (const std::uint32_t i : first) {
       const HalfSpace plane = closest_plane(i);
-      if (plane.offset_m < -2.0 * ball_.slack_m) continue;  // it does not touch
+      if (plane.offset_m < -2.0 * ball_.slack_m || !(known_[i] & kFootInside)) continue;  // it does not touch a face
       if (plane.depth_m(projection_.x_m()) <= ball_.slack_m) continue;
       if (!projection_.add(plane, static_cast<int>(i))) return infeasible_ = true, false;
       ++told;
@@ -175,38 +176,46 @@ class Stepper {
       touch.normal = active.plane.normal;
       touch.pull_m = active.multiplier_m;
       TriangleFoot foot = foot_on(triangles_[touch.index], step.centre_m);
-      const double touching_m = ball_.radius_m + ball_.slack_m;
-      if (foot.distance_m > touching_m) find_in_plane(step.centre_m, touch, foot);
+      // On a round the plane of before is no longer quite that of the place now.
+      const auto beside = [&](const TriangleFoot& f) { return (f.from_m - ball_.radius_m * touch.normal).norm(); };
+      if (!(beside(foot) <= beside_m)) find_in_plane(step.centre_m, touch, foot, beside(foot), beside);
       touch.barycentric = foot.barycentric;
-      false_[static_cast<std::size_t>(step.touch_count - 1)] = foot.distance_m > touching_m;
-      // On a round the plane of before is no longer quite that of the place now: beside it by more than this.
-      if (!((foot.from_m - ball_.radius_m * touch.normal).norm() <= beside_m)) step.exact = false;
+      false_[static_cast<std::size_t>(step.touch_count - 1)] = !(beside(foot) <= beside_m);
+      if (false_[static_cast<std::size_t>(step.touch_count - 1)]) step.exact = false;
     }
     return step;
   }
 
   // Where a flat part of the surface has several triangles, any of them may have given the plane; the one under the
   // ball is meant.
-  void find_in_plane(const Vector3d& centre_m, ConvexStep::Touch& touch, TriangleFoot& foot) const {
+  template <class Beside>
+  void find_in_plane(const Vector3d& centre_m, ConvexStep::Touch& touch, TriangleFoot& foot, double best_m,
+                     const Beside& beside) const {
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       const NearTriangle& t = triangles_[i];
       if (!(std::abs(touch.normal.dot(t.normal)) >= 1.0 - 0x1p-44)) continue;
       if (!(std::abs(touch.normal.dot(centre_m - t.a_m) - ball_.radius_m) <= ball_.slack_m)) continue;
       const TriangleFoot other = foot_on(t, centre_m);
-      if (other.distance_m > ball_.radius_m + ball_.slack_m) continue;
+      const double beside_m = beside(other);
+      if (!(beside_m < best_m)) continue;
       touch.index = static_cast<std::uint32_t>(i);
       foot = other;
-      return;
+      best_m = beside_m;
     }
   }
 
   // Whether one of the planes that held the ball was that of a face beside which the ball now is, and was not yet
-  // forbidden.
+  // forbidden. All faces of the same plane are: find_in_plane() has found none under the ball.
   bool forbid_false_faces(const ConvexStep& step) {
     bool any = false;
     for (int k = 0; k < step.touch_count; ++k) {
       const std::uint32_t i = step.touches[static_cast<std::size_t>(k)].index;
       if (!false_[static_cast<std::size_t>(k)] || !has_face(i)) continue;
+      for (std::size_t other = 0; other < triangles_.size(); ++other) {
+        if (std::abs(triangles_[i].normal.dot(triangles_[other].normal)) >= 1.0 - 0x1p-44 &&
+            std::abs(std::abs(height_m_[i]) - std::abs(height_m_[other])) <= 2.0 * ball_.slack_m)
+          known_[other] |= kNoFace;
+      }
       known_[i] |= kNoFace;
       any = true;
     }

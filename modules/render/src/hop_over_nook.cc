@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kAbout = 4.0;  // radii: triangles that meet where the ball rests
-constexpr int kMostMarks = 64;  // along a way
+constexpr double kAbout = 16.0;                             // radii: triangles that meet where the ball rests
+constexpr double kHeights[] = {1.0, 1.25, 2.0, 8.0, 64.0};  // radii over the triangle
 
 double nearest_m(const NearTriangles& near, const Vector3d& p_m) {
   double best_m = std::numeric_limits<double>::infinity();
@@ -24,18 +24,20 @@ double nearest_m(const NearTriangles& near, const Vector3d& p_m) {
   return best_m;
 }
 
-// Whether a straight way stays off all triangles of the list: from mark to mark by what is free round each.
-bool is_clear(const NearTriangles& near, const Vector3d& from_m, const Vector3d& to_m, double least_m) {
-  const Vector3d way_m = to_m - from_m;
-  const double length_m = way_m.norm();
-  double done_m = 0.0;
-  for (int mark = 0; mark < kMostMarks; ++mark) {
-    const double free_m = nearest_m(near, from_m + (done_m / length_m) * way_m);
-    if (!(free_m > least_m)) return false;
-    if (done_m >= length_m) return true;
-    done_m = std::min(done_m + 0.9 * free_m, length_m);
+// Whether a straight way meets no triangle of the list, each taken a little larger than it is.
+bool is_clear(const NearTriangles& near, const Vector3d& from_m, const Vector3d& to_m) {
+  constexpr double kWider = 0x1p-20;
+  for (std::uint32_t i = 0; i < near.count; ++i) {
+    const NearTriangle& t = near.triangles[i];
+    const double from_height_m = t.normal.dot(from_m - t.a_m), to_height_m = t.normal.dot(to_m - t.a_m);
+    if ((from_height_m > 0.0) == (to_height_m > 0.0)) continue;
+    const Vector3d q_m = from_m + (from_height_m / (from_height_m - to_height_m)) * (to_m - from_m);
+    const Vector3d e1 = t.b_m - t.a_m, e2 = t.c_m - t.a_m, area = e1.cross(e2);
+    const double square = area.squaredNorm();
+    const double b = (q_m - t.a_m).cross(e2).dot(area) / square, c = e1.cross(q_m - t.a_m).dot(area) / square;
+    if (b >= -kWider && c >= -kWider && b + c <= 1.0 + kWider) return false;
   }
-  return false;
+  return true;
 }
 
 }  // namespace
@@ -46,7 +48,7 @@ bool hop_over_nook(ProxyState& proxy, const ProxyBall& ball, const Vector3d& goa
   const double left_m = (goal_m - from_m).norm();
   const double room_m = near.radius_m - ball.radius_m - (from_m - near.centre_m).norm();
   // A place that counts is nearer by more than the ball may lose by its own size.
-  const double nearer_m = left_m - 2.0 * kAbout * ball.radius_m;
+  const double nearer_m = left_m - 0.5 * kAbout * ball.radius_m;
   for (std::uint32_t i = 0; i < near.count; ++i) {
     const NearTriangle& t = near.triangles[i];
     if (!(std::abs(t.normal.dot(from_m - t.a_m)) <= kAbout * ball.radius_m)) continue;
@@ -61,12 +63,13 @@ bool hop_over_nook(ProxyState& proxy, const ProxyBall& ball, const Vector3d& goa
     for (double hop_m = 8.0 * ball.radius_m; hop_m < 4.0 * reach_m; hop_m *= 4.0) {
       const double way_m = std::min(hop_m, reach_m);
       const Vector3d place_m = foot_m + (way_m / length_m) * along_m;
-      for (double height_m = 0.5 * way_m; height_m >= ball.radius_m; height_m *= 0.25) {
+      for (const double height : kHeights) {
+        if (height * ball.radius_m > way_m) break;
         for (const double side : {1.0, -1.0}) {
-          const Vector3d to_m = place_m + (side * height_m) * t.normal;
+          const Vector3d to_m = place_m + (side * height * ball.radius_m) * t.normal;
           if (!((goal_m - to_m).norm() < left_m - ball.slack_m)) continue;
           if (!(nearest_m(near, to_m) >= ball.radius_m - ball.slack_m)) continue;
-          if (!is_clear(near, from_m, to_m, 0.125 * ball.radius_m)) continue;
+          if (!is_clear(near, from_m, to_m)) continue;
           proxy.p_world_m = to_m;
           proxy.touch_count = 0;
           return true;

@@ -14,9 +14,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kMostIterations = 32;
+constexpr int kMostIterations = 48;
 constexpr int kMostHops = 8;
-constexpr double kPointLike = 16.0;  // of a radius in skins: below, the skin is what the ball is made of
+// A ball that falls off a ridge would fly over the next valleys if it were let go all the way to its goal at once; of
+// so many strides of the hand it cannot miss much.
+constexpr double kLeap = 1.5;
+constexpr double kLeapGrowth = 1.125;  // so that it gets there
+constexpr double kPointLike = 16.0;    // of a radius in skins: below, the skin is what the ball is made of
 
 // Looking far costs triangles at each step, looking near costs a search more often: the list is to last for some steps
 // of the hand unless it gets long, and need not be kept short where it is.
@@ -95,6 +99,7 @@ bool move_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d&
                 ProxyState& proxy) noexcept {
   double wanted_m = ball.stride_m;
   const bool may_hop = ball.radius_m <= kPointLike * ball.skin_m;
+  double leap_m = std::max(kLeap * ball.stride_m, 0x1p-4 * ball.coarse_m);
   int hops = 0;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     const double left_m = (goal_m - proxy.p_world_m).norm();
@@ -112,8 +117,10 @@ bool move_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d&
     note_touches(step, proxy);
     const Vector3d way_m = step.centre_m - proxy.p_world_m;
     const double length_m = way_m.norm();
-    const bool beyond = length_m > reach_m;
-    double part = beyond ? reach_m / length_m : 1.0;
+    // Not farther than the triangles are known, nor than it can be said to follow the surface.
+    const double most_m = std::min(reach_m, leap_m);
+    leap_m *= kLeapGrowth;
+    double part = length_m > most_m ? most_m / length_m : 1.0;
     if (!proxy.near.complete) {
       // Too many triangles for the list: the end of the way is checked against all of them, the way itself is not.
       while (part > 0x1p-10 && !is_free(model, ball, objects, proxy.p_world_m + part * way_m)) part *= 0.5;
@@ -121,7 +128,7 @@ bool move_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d&
     }
     if (part < 1.0) {
       proxy.p_world_m += part * way_m;
-      proxy.near.radius_m = -1.0;
+      if (most_m >= reach_m) proxy.near.radius_m = -1.0;
       continue;
     }
     proxy.p_world_m = step.centre_m;

@@ -84,12 +84,18 @@ ServoOutput render_step(const RenderModel& model, ServoState& state, const Devic
   const Friction holding = friction_of(model, held, proxy.texture_load_N);
   proxy.sticking = sticks(holding, proxy.sticking, held.rest_m);
   const bool rests = proxy.sticking && held.depth_m() > 0.0;
+  bool arrived = true;
   if (!rests) {
     const Vector3d lag_m = proxy.sticking ? held.rest_m : sliding_lag_m(holding, held.rest_m);
-    move_proxy(model, ball, p_m + lag_m, kAllObjects, proxy);
+    arrived = move_proxy(model, ball, p_m + lag_m, kAllObjects, proxy);
   }
-
   Feel feel = feel_touches(model, proxy, skin_m, p_m);
+  if (!rests && !proxy.sticking && proxy.touch_count > 0 && !(feel.depth_m() > 0.0)) {
+    // It has slid to where nothing presses it: nothing holds it back either.
+    arrived = move_proxy(model, ball, p_m, kAllObjects, proxy);
+    feel = feel_touches(model, proxy, skin_m, p_m);
+  }
+  const bool is_free = proxy.touch_count == 0 && arrived;
   if (proxy.touch_count == 0) {
     find_texture_below(model, ball, proxy);
     if (proxy.over_texture) feel = feel_touches(model, proxy, skin_m, p_m);
@@ -105,7 +111,7 @@ ServoOutput render_step(const RenderModel& model, ServoState& state, const Devic
   out.friction_N =
       friction_force_N(friction_of(model, feel, proxy.texture_load_N), proxy.sticking, feel.rest_m, holding.load_N);
   out.force_N = out.contact_N + out.texture_N + out.friction_N;
-  out.proxy_m = feel.depth_m() > 0.0 ? feel.proxy_m : p_m;
+  out.proxy_m = is_free ? p_m : feel.proxy_m;
   out.contact = strongest_contact(model, proxy, feel);
   out.sticking = proxy.sticking;
   proxy.device_world_m = p_m;
