@@ -12,7 +12,8 @@ constexpr double kStuck = 1.5;       // of the depth
 constexpr double kThrough = 2e-5;    // of the distance from the middle: 1 um at 50 mm, 1 mN at 1 N/mm
 constexpr double kSamePlace = 2e-5;  // of the distance from the middle
 constexpr double kFrozen = 1e-3;     // of the true minimum's step
-constexpr double kMoving = 0.1;      // of the device's step: below it the true minimum rests, as in a groove
+constexpr double kMoving =
+    0.5;  // of the device's step: below it the true minimum is near rest, as it is in a corner's hollow
 
 }  // namespace
 

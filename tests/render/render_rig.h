@@ -14,6 +14,10 @@ namespace asperity::render_test {
 
 inline constexpr double kStiffness_N_per_m = 1000.0;
 
+// How exactly a proxy has to settle on a flat surface: a point to 1 nm, a ball, which gets there in steps, to 1e-5 of
+// its radius besides.
+inline double settled_N(double tip_radius_m) { return kStiffness_N_per_m * (1e-9 + 1e-5 * tip_radius_m); }
+
 // An object of a scene with nothing but its shape, in metres.
 SceneObject object_of(const TriangleMesh& mesh);
 Scene scene_of(const std::vector<TriangleMesh>& meshes);

@@ -84,11 +84,11 @@ class Stepper {
   // All of a triangle lies behind a plane that the projection keeps.
   bool is_covered(std::size_t i, const PlaneProjection& projection) const {
     const NearTriangle& t = triangles_[i];
+    const Vector3d a_m = t.a_m - ball_.centre_m, b_m = t.b_m - ball_.centre_m, c_m = t.c_m - ball_.centre_m;
     for (int k = 0; k < projection.size(); ++k) {
       const HalfSpace& plane = projection.active(k).plane;
-      const double limit_m = plane.offset_m - ball_.radius_m + ball_.slack_m + plane.normal.dot(ball_.centre_m);
-      if (plane.normal.dot(t.a_m) <= limit_m && plane.normal.dot(t.b_m) <= limit_m &&
-          plane.normal.dot(t.c_m) <= limit_m)
+      const double limit_m = plane.offset_m - ball_.radius_m + ball_.slack_m;
+      if (plane.normal.dot(a_m) <= limit_m && plane.normal.dot(b_m) <= limit_m && plane.normal.dot(c_m) <= limit_m)
         return true;
     }
     return false;

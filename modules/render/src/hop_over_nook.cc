@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kAbout = 4.0;                              // radii: triangles that meet where the ball rests
+constexpr double kAbout = 16.0;                             // radii: triangles that meet where the ball rests
 constexpr double kHeights[] = {1.0, 1.25, 2.0, 8.0, 64.0};  // radii over the triangle
 
 double nearest_m(const NearTriangles& near, const Vector3d& p_m) {
@@ -40,6 +40,17 @@ bool is_clear(const NearTriangles& near, const Vector3d& from_m, const Vector3d&
   return true;
 }
 
+// Straight, or over a place above the nook.
+bool can_hop(const NearTriangles& near, const Vector3d& from_m, const Vector3d& away, double radius_m,
+             const Vector3d& to_m) {
+  if (is_clear(near, from_m, to_m)) return true;
+  for (const double lift : {4.0, 32.0}) {
+    const Vector3d above_m = from_m + (lift * radius_m) * away;
+    if (is_clear(near, from_m, above_m) && is_clear(near, above_m, to_m)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool hop_over_nook(ProxyState& proxy, const ProxyBall& ball, const Vector3d& goal_m) noexcept {
@@ -47,8 +58,9 @@ bool hop_over_nook(ProxyState& proxy, const ProxyBall& ball, const Vector3d& goa
   const Vector3d from_m = proxy.p_world_m;
   const double left_m = (goal_m - from_m).norm();
   const double room_m = near.radius_m - ball.radius_m - (from_m - near.centre_m).norm();
+  const Vector3d away = (from_m - goal_m) / left_m;  // in the cone of the planes that hold the ball
   // A place that counts is nearer by more than the ball may lose by its own size.
-  const double nearer_m = left_m - 2.0 * kAbout * ball.radius_m;
+  const double nearer_m = left_m - 0.5 * kAbout * ball.radius_m;
   for (std::uint32_t i = 0; i < near.count; ++i) {
     const NearTriangle& t = near.triangles[i];
     if (!(std::abs(t.normal.dot(from_m - t.a_m)) <= kAbout * ball.radius_m)) continue;
@@ -69,7 +81,7 @@ bool hop_over_nook(ProxyState& proxy, const ProxyBall& ball, const Vector3d& goa
           const Vector3d to_m = place_m + (side * height * ball.radius_m) * t.normal;
           if (!((goal_m - to_m).norm() < left_m - ball.slack_m)) continue;
           if (!(nearest_m(near, to_m) >= ball.radius_m - ball.slack_m)) continue;
-          if (!is_clear(near, from_m, to_m)) continue;
+          if (!can_hop(near, from_m, away, ball.radius_m, to_m)) continue;
           proxy.p_world_m = to_m;
           proxy.touch_count = 0;
           return true;

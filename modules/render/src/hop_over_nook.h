@@ -10,7 +10,8 @@ namespace asperity {
 // A point tip is a ball as small as its skin. Where convex and concave edges meet in a vertex such a ball can rest in
 // a nook of its own size, behind a hump that a point would not notice. Where a triangle about the ball goes on to a
 // place nearer to the goal, the proxy hops there: some radii along that triangle and a little above it, if that is
-// nearer to the goal and the straight way there passes no triangle of the list. False if there is no such place: the
+// nearer to the goal and the way there, straight or over a place above the nook, passes no triangle of
+// the list. False if there is no such place: the
 // proxy rests rightly.
 bool hop_over_nook(ProxyState& proxy, const ProxyBall& ball, const Eigen::Vector3d& goal_m) noexcept;
 
