@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -95,18 +96,42 @@ void print_series(const Texture& texture, const Fourier1d& f) {
   const RenderTexture t = make_render_texture(texture, {});
   double height = 0.0, slope = 0.0, rms = 0.0, slope_rms = 0.0;
   Random random(7);
-  constexpr int kPlaces = 20000;
-  for (int i = 0; i < kPlaces; ++i) {
+  const int places = f.a_m.size() > 1000 ? 500 : 10000;  // the exact sum is slow
+  for (int i = 0; i < places; ++i) {
     const double x_m = random.uniform(-0.02, 0.02);
     const Exact e = exact(f, x_m);
     const HeightAndGradient h = render_height(t, x_m, 0.0);
     height = std::max(height, std::abs(static_cast<double>(h.height_m - t.lift_m - e.height)));
     slope = std::max(slope, std::abs(static_cast<double>(h.slope_x - e.slope)));
-    rms += std::pow(static_cast<double>(e.height), 2) / kPlaces;
-    slope_rms += std::pow(static_cast<double>(e.slope), 2) / kPlaces;
+    rms += std::pow(static_cast<double>(e.height), 2) / places;
+    slope_rms += std::pow(static_cast<double>(e.slope), 2) / places;
   }
   std::printf("%-28s %7zu kB  height %.1e  slope %.1e of RMS\n", texture.name.c_str(),
               t.x_table.cells.size() * sizeof(TableCell) / 1024, height / std::sqrt(rms), slope / std::sqrt(slope_rms));
+}
+
+void print_step(const Texture& source, std::optional<TextureForceModel> model) {
+  RenderTextureConfig config;
+  config.model = model;
+  const RenderTexture texture = make_render_texture(source, config);
+  const double ns = ns_a_step([&] {
+    TextureState state;
+    TextureTouch touch;
+    touch.x_gradient = Eigen::Vector3d::UnitX();
+    touch.y_gradient = Eigen::Vector3d::UnitY();
+    touch.z_m = -1e-3;
+    touch.contact_N = 1.0;
+    touch.stiffness_N_per_m = 1000.0;
+    for (int i = 0; i < kSteps; ++i) {
+      touch.v_tangential_mps = Eigen::Vector3d(0.1 + 0.08 * (i & 63) / 64.0, 0.0, 0.0);
+      touch.x_m += 1.0137e-4;
+      const TextureForce force = texture_force(texture, state, touch);
+      touch.x_m += 1e-30 * force.force_N.sum();
+      if (touch.x_m > 0.05) touch.x_m -= 0.05;
+    }
+    sink = touch.x_m;
+  });
+  std::printf("%-28s %7.1f\n", source.name.c_str(), ns);
 }
 
 }  // namespace
@@ -152,5 +177,22 @@ int main() {
     const double theirs = latency_ns([&](double x, double y) { return evaluate_height(texture.model, x, y); });
     std::printf("%-28s %7.1f %9.1f\n", texture.name.c_str(), ours, theirs);
   }
+
+  std::printf("\na step of each model on a stroke, ns\n");
+  AutoregressiveTexture vibration;
+  for (int i = 0; i < 60; ++i) {
+    std::vector<double> k(16);
+    for (double& v : k) v = random.uniform(-0.6, 0.6);
+    vibration.models.push_back(
+        {random.uniform(0.0, 0.2), random.uniform(0.1, 3.0), reflection_to_lsf(k), {}, 1.0, 1.0});
+  }
+  prepare_autoregressive(vibration, "bench");
+  print_step(of(white, "height"), {});
+  print_step(of(white, "normal perturbation"), TextureForceModel::kNormalPerturbation);
+  print_step(of(white, "lateral gradient"), TextureForceModel::kLateralGradient);
+  print_step(of(map, "normal perturbation, image"), TextureForceModel::kNormalPerturbation);
+  print_step(of(white, "stochastic"), TextureForceModel::kStochastic);
+  print_step(of(vibration, "autoregressive, order 16"), {});
+  print_step(of(DecayingSinusoids{.a_per_s = 100.0, .pitch_m = 1e-3}, "decaying sinusoids"), {});
   return 0;
 }

@@ -18,6 +18,7 @@
 #include "asperity/recording/write_recording.h"
 #include "asperity/simulation/simulate_recording.h"
 #include "commands.h"
+#include "demo_feel.h"
 #include "demo_figure.h"
 #include "demo_mesh.h"
 
@@ -101,9 +102,10 @@ std::vector<DemoFigure> compare(const Scan& scan, const Recording& recording, co
 class DemoCommand : public Command {
  public:
   explicit DemoCommand(CLI::App& root)
-      : Command(
-            root, "demo",
-            "Simulate scans of two surfaces and of a mesh, process and register them, print measured against true") {
+      : Command(root, "demo",
+                "Simulate scans of two surfaces and of a mesh, process and register them, feel them, print measured "
+                "against "
+                "true") {
     parser().add_flag("--full", full_, "All five surfaces");
     require(parser().add_option("-o,--output", output_, "Folder of the recordings and results"))->type_name("DIR");
   }
@@ -118,7 +120,8 @@ class DemoCommand : public Command {
     out["asperity"] = kVersion;
     std::string text = fmt::format("{:<22}{:>18} {:>12}\n", "", "measured", "true");
     bool trustworthy = true;
-    std::optional<Texture> protoboard;
+    std::optional<ProcessResult> protoboard;
+    double true_pitch_m = 0.0;
     for (const Scan& scan : make_scans(full_)) {
       const Recording recording = simulate_recording(scan.simulation, observer);
       const fs::path recording_folder = folder.path() / "recordings" / scan.name;
@@ -134,25 +137,35 @@ class DemoCommand : public Command {
       for (const DemoFigure& figure : figures) text += figure_line(figure);
       if (!result.trustworthy) complain(scan.name + ": not to be trusted: " + result.verdict);
       trustworthy &= result.trustworthy;
-      if (scan.name == "protoboard") protoboard = result.texture;
+      if (scan.name == "protoboard") {
+        protoboard = result;
+        true_pitch_m = scan.simulation.surface.pitch_m;
+      }
     }
-    if (!protoboard) throw Error("demo: these settings leave the protoboard without a texture to paint with");
-    const MeshDemo mesh = demonstrate_mesh(folder.path(), config_, *protoboard, observer);
+    if (!protoboard || !protoboard->texture)
+      throw Error("demo: these settings leave the protoboard without a texture to paint with");
+    const MeshDemo mesh = demonstrate_mesh(folder.path(), config_, *protoboard->texture, observer);
     out["mesh"] = mesh.json;
     text += mesh.text;
     if (!mesh.trustworthy) complain("pebble: not to be trusted: " + mesh.verdict);
     trustworthy &= mesh.trustworthy;
+    const FeelDemo felt = demonstrate_feel(folder.path(), *protoboard, true_pitch_m, observer);
+    out["feel"] = felt.json;
+    text += felt.text;
+    if (!felt.trustworthy) complain("feel: not to be trusted: " + felt.verdict);
+    trustworthy &= felt.trustworthy;
     const std::string json = out.dump(2, ' ', false, Json::error_handler_t::replace);
     write_file(folder.path() / kMark, json + "\n");
     observer.update("writing", 1.0);
     folder.commit();
     print_json(json);
     const std::string where = printable(output_, 200);
-    say(text +
-        fmt::format("\n{0}/recordings/   the raw streams and the truth\n{0}/results/      profile.csv, texture.json, "
-                    "result.json, trajectory.csv of each; of the pebble also the textured mesh\n{0}/painted/      the "
-                    "pebble with both textures\n",
-                    where));
+    say(text + fmt::format(
+                   "\n{0}/recordings/   the raw streams and the truth\n{0}/results/      profile.csv, texture.json, "
+                   "result.json, trajectory.csv of each; of the pebble also the textured mesh\n{0}/painted/      the "
+                   "pebble with both textures\n{0}/felt/         the plate, the log of the stroke and a picture of its "
+                   "force\n",
+                   where));
     return trustworthy ? kDone : kNotTrustworthy;
   }
 

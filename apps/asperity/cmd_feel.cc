@@ -19,7 +19,9 @@
 #include "asperity/device/write_flight_record.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/pipeline/score_rendering.h"
+#include "asperity/scene/height_map_viewer.h"
 #include "asperity/scene/read_scene.h"
+#include "asperity/texture/read_height_image.h"
 #include "commands.h"
 #include "feel_device.h"
 #include "feel_drive.h"
@@ -37,17 +39,25 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr double kTile_mm = 10.0, kHeightRange_mm = 2.5;
 constexpr std::array<const char*, 4> kEndNames{"duration", "device_ended", "stopped", "fault"};
 
 class FeelCommand : public Command {
  public:
   explicit FeelCommand(CLI::App& root)
       : Command(root, "feel", "Feel a scene with a haptic device, or log what it would") {
-    require(parser().add_option("SCENE", scene_, "A scene.json, a folder that has one, or a mesh without textures"));
+    parser().add_option("SCENE", scene_, "A scene.json, a folder that has one, or a mesh without textures");
+    parser()
+        .add_option("--height-maps", height_maps_, "Instead of SCENE: images side by side on a plane, a.png,b.png,…")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("FILES");
+    parser().add_option("--tile", tile_, "Side of a height map's tile; 10mm")->type_name("LENGTH");
+    parser().add_option("--height-range", height_range_, "From black to white; 2.5mm")->type_name("LENGTH");
     parser()
         .add_option("--device", device_,
                     "sim (the default: a modelled hand), replay (the default with --replay), haply, openhaptics, dhd, "
-                    "audio or gamepad")
+                    "2diy, audio or gamepad")
         ->type_name("NAME");
     parser()
         .add_option("--replay", replay_,
@@ -104,6 +114,7 @@ class FeelCommand : public Command {
   }
 
   int run(const Observer& observer) override {
+    choose_scene();
     choose_device();
     std::optional<OutputFolder> folder;
     if (!output_.empty()) folder.emplace(output_, is_our_folder);
@@ -115,6 +126,7 @@ class FeelCommand : public Command {
     } else if (kind_.driven) {
       drive = make_drive(scene, point("--from", from_), point("--to", to_), settings_);
     }
+    if (settings_.servo.duration_s > 0.0) cut_drive(drive, settings_.servo.duration_s, settings_.servo.rate_Hz);
     warn_of(scene.problems);
     warn_of(drive.problems);
     const std::unique_ptr<HapticDevice> device = open_device(device_, drive, settings_);
@@ -142,13 +154,22 @@ class FeelCommand : public Command {
   }
 
  private:
+  void choose_scene() const {
+    if (scene_.empty() == height_maps_.empty())
+      throw UsageError(scene_.empty() ? "SCENE is missing" : "--height-maps stands instead of SCENE");
+    for (const auto& [option, text] : {std::pair{"--tile", &tile_}, std::pair{"--height-range", &height_range_}}) {
+      if (!text->empty() && height_maps_.empty()) throw UsageError(std::string(option) + " needs --height-maps");
+    }
+    if (!mesh_unit_.empty() && scene_.empty()) throw UsageError("--mesh-unit needs a mesh");
+  }
+
   void choose_device() {
     if (device_.empty()) device_ = replay_.empty() ? "sim" : "replay";
     if (device_ == "mouse") throw UsageError("--device mouse: the mouse feels in the studio's page alone");
     const std::optional<DeviceKind> kind = device_kind(device_);
     if (!kind) {
       throw UsageError("--device: '" + printable(device_) +
-                       "' is none of sim, replay, haply, openhaptics, dhd, audio and gamepad");
+                       "' is none of sim, replay, haply, openhaptics, dhd, 2diy, audio and gamepad");
     }
     kind_ = *kind;
     if (device_ == "replay" && replay_.empty()) throw UsageError("--device replay needs --replay");
@@ -164,7 +185,25 @@ class FeelCommand : public Command {
     return point_option_m(option, text);
   }
 
+  // Images as tiles of a plane (seed Fig. 38), by Basdogan's model unless another is asked for.
+  Scene read_height_maps() {
+    ReadHeightImageConfig image;
+    HeightMapViewerConfig viewer;
+    viewer.tile_mm = tile_.empty() ? kTile_mm : 1e3 * length_option_m("--tile", tile_);
+    image.width_mm = viewer.tile_mm;
+    image.range_mm = height_range_.empty() ? kHeightRange_mm : 1e3 * length_option_m("--height-range", height_range_);
+    viewer.stiffness_N_per_m = settings_.render.stiffness_N_per_m;
+    viewer.friction = settings_.render.friction;
+    if (settings_.texture_model == TextureModelChoice::kAuto) {
+      settings_.texture_model = TextureModelChoice::kNormalPerturbation;
+    }
+    std::vector<Texture> tiles;
+    for (const std::string& file : height_maps_) tiles.push_back(read_height_image(file, image));
+    return make_height_map_viewer(tiles, viewer);
+  }
+
   Scene read_felt_scene() {
+    if (!height_maps_.empty()) return read_height_maps();
     fs::path path(scene_);
     if (fs::is_directory(path)) path /= "scene.json";
     Scene scene = read_scene(path);
@@ -209,8 +248,7 @@ class FeelCommand : public Command {
     std::optional<FeelLog> rows;
     if (!log.empty()) rows.emplace(log, settings_.servo.timed);
     ServoConfig config = settings_.servo;
-    // The hand's path has the duration: no ramp follows it.
-    if (kind_.driven && replay_.empty()) config.duration_s = 0.0;
+    if (kind_.driven) config.duration_s = 0.0;  // the path has it: no ramp follows
     const double whole_s = settings_.servo.duration_s;
     const ServoResult servo = run_servo(device, model, config, interrupt_flag(), [&](const ServoTick& tick) {
       figures_.add(tick);
@@ -288,7 +326,7 @@ class FeelCommand : public Command {
     Json out;
     out["format"] = "asperity-feel";
     out["version"] = 1;
-    out["scene"] = scene_;
+    out["scene"] = scene_.empty() ? Json(height_maps_) : Json(scene_);
     out["device"] = device_;
     out["model"] = device.info().model;
     if (!replay_.empty()) out["replay"] = replay_;
@@ -327,7 +365,8 @@ class FeelCommand : public Command {
   }
 
   std::string scene_, device_, replay_, rate_, log_, duration_, mesh_unit_, tip_, model_, stiffness_, friction_;
-  std::string from_, to_, press_, speed_, output_;
+  std::string from_, to_, press_, speed_, output_, tile_, height_range_;
+  std::vector<std::string> height_maps_;
   bool mapped_ = false, timing_ = false, realtime_ = false;
   DeviceKind kind_;
   FeelSettings settings_;

@@ -8,7 +8,9 @@
 
 #include "asperity/base/text.h"
 #include "asperity/geometry/write_obj.h"
+#include "asperity/pipeline/press_in_scan.h"
 #include "asperity/pipeline/register_scans.h"
+#include "asperity/pipeline/score_rendering.h"
 #include "asperity/pipeline/true_pose.h"
 #include "asperity/pipeline/true_profile.h"
 #include "asperity/pipeline/write_registration.h"
@@ -101,6 +103,15 @@ PaintResult paint_beside(Scene scene, const Texture& other, const fs::path& fold
   return result;
 }
 
+// The scan repeated by the renderer.
+RenderingScore repeat(const ScansOnMesh& result, const Scene& scene, const Observer& observer) {
+  const RenderConfig config;
+  const ProcessResult& measured = result.scans.front().process;
+  const PressedScan pressed = press_in_scan(measured, scene, config.stiffness_N_per_m);
+  constexpr double kServo_Hz = 1000.0;
+  return score_rendering(measured, pressed, make_render_model(scene, config), kServo_Hz, ScoreConfig{}, observer);
+}
+
 }  // namespace
 
 MeshDemo demonstrate_mesh(const fs::path& folder, const ProcessConfig& process, const Texture& other,
@@ -138,7 +149,20 @@ MeshDemo demonstrate_mesh(const fs::path& folder, const ProcessConfig& process, 
   out.trustworthy = result.trustworthy;
   out.verdict = result.verdict;
 
-  const PaintResult painted = paint_beside(make_scene(result, file, kUnit_m), other, folder / "painted");
+  const Scene scene = make_scene(result, file, kUnit_m);
+  const RenderingScore score = repeat(result, scene, observer);
+  const std::vector<DemoFigure> repeated{
+      {"correlation", "rendered, correlation", "", 1.0, score.correlation, DemoFigure::kNone, DemoFigure::kNone, 1.0},
+      {"score", "rendered, score", "", 1.0, score.score, DemoFigure::kNone, DemoFigure::kNone, 1.0}};
+  out.json["real_against_rendered"] = figures_json(repeated);
+  out.json["real_against_rendered"]["verdict"] = score.verdict;
+  for (const DemoFigure& figure : repeated) out.text += figure_line(figure);
+  if (!score.trustworthy) {
+    out.trustworthy = false;
+    out.verdict += (out.verdict.empty() ? "" : "; ") + ("rendered: " + score.verdict);
+  }
+
+  const PaintResult painted = paint_beside(scene, other, folder / "painted");
   const double length_m = painted.path.path.s_m.back();
   out.json["painted"] = {{"path_length_m", length_m},
                          {"triangles", painted.warp.triangles},

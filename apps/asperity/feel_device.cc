@@ -44,11 +44,12 @@ std::unique_ptr<HapticDevice> open_hand(const FeelDrive& drive, const FeelSettin
 }  // namespace
 
 std::optional<DeviceKind> device_kind(std::string_view name) {
-  constexpr std::array<DeviceKind, 7> kKinds{{{"sim", true, false},
+  constexpr std::array<DeviceKind, 8> kKinds{{{"sim", true, false},
                                               {"replay", true, false},
                                               {"haply", false, true},
                                               {"openhaptics", false, true},
                                               {"dhd", false, true},
+                                              {"2diy", false, true},
                                               {"audio", true, true},
                                               {"gamepad", true, true}}};
   for (const DeviceKind& kind : kKinds) {
@@ -64,6 +65,7 @@ std::unique_ptr<HapticDevice> open_device(const std::string& device, const FeelD
   if (device == "haply") return open_haply(settings.haply);
   if (device == "openhaptics") return open_openhaptics(settings.openhaptics);
   if (device == "dhd") return open_dhd(settings.dhd);
+  if (device == "2diy") return open_two_diy(settings.two_diy);
   // What vibrates has no position of its own: a path or the modelled hand moves the point.
   std::unique_ptr<HapticDevice> hand = drive.stroke ? open_hand(drive, settings) : open_replay_of(*drive.path);
   if (device == "audio") {

@@ -1,5 +1,6 @@
 #include "feel_drive.h"
 
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -34,7 +35,28 @@ FeelDrive repeat_recording(const std::string& folder, const Scene& scene, const 
   return out;
 }
 
+void cut_path(DevicePath& path, std::int64_t end_ns) {
+  if (path.size() == 0 || path.t_ns.back() <= end_ns) return;
+  std::size_t hint = 0;
+  const Eigen::Vector3d end_m = position_at(path, end_ns, hint);
+  const std::size_t keep = hint + (path.t_ns[hint] < end_ns ? 1 : 0);
+  path.t_ns.resize(keep);
+  path.p_world_m.resize(keep);
+  path.t_ns.push_back(end_ns);
+  path.p_world_m.push_back(end_m);
+}
+
 }  // namespace
+
+void cut_drive(FeelDrive& drive, double duration_s, double rate_Hz) {
+  const double ticks = std::ceil(duration_s * rate_Hz * (1.0 - 1e-12));
+  const auto end_ns = static_cast<std::int64_t>(std::llround((ticks - 1.0) / rate_Hz * 1e9));
+  if (drive.path) cut_path(*drive.path, end_ns);
+  if (!drive.stroke) return;
+  // Its points are dense: the force of the one before serves the last.
+  cut_path(drive.stroke->path, end_ns);
+  drive.stroke->press_N.resize(drive.stroke->path.size(), drive.stroke->press_N.back());
+}
 
 FeelDrive read_drive(const std::string& replay, bool mapped, const Scene& scene, const FeelSettings& settings,
                      const Observer& observer) {
@@ -59,8 +81,14 @@ FeelDrive read_drive(const std::string& replay, bool mapped, const Scene& scene,
 FeelDrive make_drive(const Scene& scene, const std::optional<Eigen::Vector3d>& from_m,
                      const std::optional<Eigen::Vector3d>& to_m, const FeelSettings& settings) {
   constexpr double kAcross_m = 0.08;
-  SurfaceLine line = from_m && to_m ? line_between(scene, *from_m, *to_m) : textured_line(scene);
-  if (line.size() < 2) line = line_across(scene, kAcross_m);
+  SurfaceLine line;
+  if (from_m && to_m) {
+    line = line_between(scene, *from_m, *to_m);
+  } else {
+    line = textured_line(scene);
+    if (line.size() < 2) line = line_across(scene, kAcross_m);
+    line = shortened(line, settings.stroke.margin_m);
+  }
   FeelDrive out;
   out.stroke = stroke_along(line, settings.servo.duration_s, settings.stroke);
   return out;

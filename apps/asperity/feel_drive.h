@@ -38,4 +38,7 @@ FeelDrive read_drive(const std::string& replay, bool mapped, const Scene& scene,
 FeelDrive make_drive(const Scene& scene, const std::optional<Eigen::Vector3d>& from_m,
                      const std::optional<Eigen::Vector3d>& to_m, const FeelSettings& settings);
 
+// Ends a drive so that a run has the ticks before `duration_s` and no others, if it is longer.
+void cut_drive(FeelDrive& drive, double duration_s, double rate_Hz);
+
 }  // namespace asperity::app

@@ -95,6 +95,8 @@ std::string FeelFigures::text() const {
 Json score_json(const RenderingScore& score) {
   Json out;
   out["score"] = score.score;
+  out["height_score"] = score.height_score;
+  out["force_score"] = score.force_score;
   out["verdict"] = score.verdict;
   out["trustworthy"] = score.trustworthy;
   out["band_cycles_per_mm"] = {score.low_cycles_per_mm, score.high_cycles_per_mm};

@@ -13,6 +13,7 @@
 #include "asperity/device/open_audio_sink.h"
 #include "asperity/device/open_haply.h"
 #include "asperity/device/open_rumble_sink.h"
+#include "asperity/device/open_two_diy.h"
 #include "asperity/device/openhaptics_device.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/pipeline/process_config.h"
@@ -46,6 +47,7 @@ struct FeelSettings {
   HaplyConfig haply;
   OpenHapticsConfig openhaptics;
   DhdConfig dhd;
+  TwoDiyConfig two_diy;
   AudioSinkConfig audio;
   RumbleSinkConfig gamepad;
   DeviceCapsConfig caps;
@@ -85,6 +87,7 @@ struct FeelSettings {
     v.group("haply", haply);
     v.group("openhaptics", openhaptics);
     v.group("dhd", dhd);
+    v.group("2diy", two_diy);
     v.group("audio", audio);
     v.group("gamepad", gamepad);
     v.group("caps", caps);

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -58,6 +59,15 @@ struct Table {
     return out;
   }
 };
+
+Table read_header(const fs::path& file) {
+  std::ifstream in(file);
+  Table out;
+  std::string line, cell;
+  std::getline(in, line);
+  for (std::stringstream cells(line); std::getline(cells, cell, ',');) out.columns.push_back(cell);
+  return out;
+}
 
 Table read_table(const fs::path& file) {
   std::ifstream in(file);
@@ -170,14 +180,19 @@ TEST_F(FeelCommands, ATextureIsRenderedByItsFormula) {
 }
 
 TEST_F(FeelCommands, TheSameInputGivesTheSameBytes) {
-  for (const char* name : {"a.csv", "b.csv"}) {
+  for (const char* name : {"a.csv", "b.csv"}) {  // 1000 ticks
     const Outcome outcome = feel(path("scene"), {"--friction", "0.4", "--log", path(name), "--duration", "1s"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
   }
   std::ifstream a(path("a.csv")), b(path("b.csv"));
   const std::string first{std::istreambuf_iterator<char>(a), {}}, second{std::istreambuf_iterator<char>(b), {}};
   EXPECT_EQ(first, second);
-  EXPECT_GT(first.size(), 100'000u);
+  EXPECT_EQ(std::count(first.begin(), first.end(), '\n'), 1001);
+  write_stroke("path.csv", 0.5e-3, 0, 3'000'000);
+  ASSERT_EQ(feel(path("scene"), {"--replay", path("path.csv"), "--duration", "100ms", "--log", path("c.csv")}).code, 0);
+  const Table cut = read_table(path("c.csv"));
+  ASSERT_EQ(cut.rows.size(), 100u);
+  EXPECT_EQ(cut.rows[96][3], read_table(path("path.csv")).rows[32][3]);
 }
 
 TEST_F(FeelCommands, TheModelledHandStrokesTheTexture) {
@@ -186,9 +201,9 @@ TEST_F(FeelCommands, TheModelledHandStrokesTheTexture) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const Table log = read_table(path("log.csv"));
   const std::vector<double> x = log.column("px_m"), f = log.column("fz_N");
-  // To the texture's end and back: from 4 mm (the path is prolonged by 1 mm) to 56 mm.
-  EXPECT_NEAR(*std::min_element(x.begin(), x.end()), 4e-3, 0.5e-3);
-  EXPECT_NEAR(*std::max_element(x.begin(), x.end()), 56e-3, 0.5e-3);
+  // The texture, 12 mm wide, reaches the plate's ends; the stroke keeps 2 mm away from them.
+  EXPECT_NEAR(*std::min_element(x.begin(), x.end()), 2e-3, 0.5e-3);
+  EXPECT_NEAR(*std::max_element(x.begin(), x.end()), 58e-3, 0.5e-3);
   // The surface bears what the hand presses with, once the soft start is over.
   double sum = 0.0;
   for (std::size_t i = 800; i < f.size(); ++i) sum += f[i];
@@ -231,6 +246,63 @@ TEST_F(FeelCommands, AnInterruptedRunLeavesNothing) {
   for (const auto& entry : fs::directory_iterator(dir_.path())) {
     EXPECT_THAT(entry.path().filename().string(), Not(HasSubstr("tmp")));
   }
+}
+
+// A driver of the vendor's kind, loaded as the vendor's is; unplugged after so many forces, if that is not negative.
+struct FakeDriver {
+  explicit FakeDriver(int unplug_after) { ::setenv("FAKE_DHD_UNPLUG_AFTER", std::to_string(unplug_after).c_str(), 1); }
+  ~FakeDriver() { ::unsetenv("FAKE_DHD_UNPLUG_AFTER"); }
+  const std::string setting = std::string("dhd.library=") + FAKE_DHD;
+};
+
+TEST_F(FeelCommands, AHandAtADeviceIsServedByTheClock) {
+  const FakeDriver driver(-1);
+  const Outcome outcome = feel(path("scene"), {"--device", "dhd", "--set", driver.setting, "--duration", "300ms",
+                                               "--log", path("log.csv"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json json = Json::parse(outcome.out);
+  EXPECT_TRUE(json.at("timing").contains("overruns"));
+  // The device's origin stands in the middle of the plate.
+  EXPECT_NEAR(json.at("config").at("servo").at("frame").at("translation_m").at(0).get<double>(), 0.03, 1e-12);
+  // A texture spring of 1 N/mm is beyond what 1 kHz can render (Choi and Tan).
+  EXPECT_THAT(json.at("warnings").dump(), HasSubstr("texture"));
+  EXPECT_GT(read_table(path("log.csv")).rows.size(), 50u);
+}
+
+TEST_F(FeelCommands, AFaultEndsWith3AndAFlightRecord) {
+  const FakeDriver driver(100);
+  const Outcome outcome = feel(path("scene"), {"--device", "dhd", "--set", driver.setting, "--duration", "20s", "--log",
+                                               path("log.csv"), "--json"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("the device has a fault"));
+  EXPECT_EQ(Json::parse(outcome.out).at("end"), "fault");
+  EXPECT_FALSE(Json::parse(outcome.out).at("trustworthy").get<bool>());
+  EXPECT_TRUE(fs::exists(path("log.csv")));
+  const Table flight = read_header(path("log.flight.csv"));
+  EXPECT_THAT(flight.columns, ::testing::Contains("t_ns"));
+}
+
+TEST_F(FeelCommands, AMissingDriverIsNamed) {
+  const Outcome outcome = feel(path("scene"), {"--device", "dhd", "--set", "dhd.library=" + path("none.so")});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("none.so"));
+}
+
+TEST_F(FeelCommands, HeightMapsAreFeltOnAPlane) {
+  std::string pgm = "P5 16 16 255\n";
+  for (int row = 0; row < 16; ++row) {
+    for (int column = 0; column < 16; ++column) pgm += static_cast<char>(column % 8 < 4 ? 0 : 200);
+  }
+  for (const char* name : {"a.pgm", "b.pgm", "c.pgm", "d.pgm"}) write_text(path(name), pgm);
+  const std::string files = path("a.pgm") + "," + path("b.pgm") + "," + path("c.pgm") + "," + path("d.pgm");
+  const Outcome outcome = run({"feel", "--height-maps", files, "--tile", "10mm", "--height-range", "0.5mm", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json json = Json::parse(outcome.out);
+  EXPECT_EQ(json.at("scene").size(), 4u);
+  EXPECT_EQ(json.at("config").at("render").at("texture").at("model"), "normal-perturbation");
+  EXPECT_NEAR(json.at("texture_height").at("highest_m").get<double>(), 0.5e-3 * 200.0 / 255.0, 0.1e-3);
+  EXPECT_EQ(run({"feel", path("scene"), "--height-maps", files}).code, 2);
+  EXPECT_EQ(run({"feel", path("scene"), "--tile", "10mm"}).code, 2);
 }
 
 TEST_F(FeelCommands, SettingsAreThoseOfTheOptions) {

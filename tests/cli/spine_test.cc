@@ -228,6 +228,31 @@ TEST(Spine, TheDemoPrintsMeasuredAgainstTrue) {
                                   "mm", "--guess", guess, "-o", (dir / "found").string(), "--json"});
   EXPECT_EQ(registered.code, 0) << registered.err;
   EXPECT_EQ(run({"export", (dir / "demo" / "painted").string(), "--to", "stl", "-o", (dir / "stl").string()}).code, 0);
+
+  // The holes' pitch, read back from the force that a modelled hand was given.
+  const auto& pitch = json["feel"]["pitch_m"];
+  EXPECT_EQ(pitch["true"], 2.5e-3);
+  EXPECT_NEAR(pitch["measured"].get<double>(), 2.5e-3, 0.01 * 2.5e-3);
+  EXPECT_THAT(outcome.out, HasSubstr("pitch, from the force"));
+  EXPECT_TRUE(fs::exists(dir / "demo" / "felt" / "force.svg"));
+  EXPECT_GT(json["mesh"]["real_against_rendered"]["correlation"]["measured"].get<double>(), 0.98);
+
+  // What was registered can be repeated by the renderer: the scan's own heights, and a force that is a rigid hand's.
+  const Words repeat{
+      "feel", (dir / "found").string(),   "--replay", (dir / "demo" / "recordings" / "pebble").string(), "--json",
+      "-o",   (dir / "repeated").string()};
+  const Outcome repeated = run(repeat);
+  EXPECT_EQ(repeated.code, 0) << repeated.err;
+  const auto score = nlohmann::json::parse(repeated.out)["real_against_rendered"];
+  EXPECT_GT(score["correlation"].get<double>(), 0.97);
+  EXPECT_NEAR(score["gain"].get<double>(), 1.0, 0.05);
+  EXPECT_GT(score["height_score"].get<double>(), 0.9);
+  EXPECT_GT(score["score"].get<double>(), 0.6);
+  EXPECT_FALSE(score["repeats"].get<bool>());
+  const auto first = contents(dir / "repeated");
+  EXPECT_EQ(first.size(), 3u);  // files.json, log.csv, result.json
+  EXPECT_EQ(run(repeat).code, 0);
+  EXPECT_EQ(contents(dir / "repeated"), first);
 }
 
 class Interrupted : public ::testing::TestWithParam<int> {};

@@ -56,6 +56,12 @@ void write_file(const fs::path& path, std::string_view content) {
 }
 
 OutputFile::OutputFile(fs::path target) : target_(std::move(target)), temporary_(template_beside(target_)) {
+  // A rename would put a file in the place of a device, for those who may.
+  std::error_code ignored;
+  const fs::file_status status = fs::status(target_, ignored);
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw Error(target_.string() + ": cannot be written: it exists and is no file that could be replaced");
+  }
   file_ = ::mkstemp(temporary_.data());
   if (file_ < 0) throw Error(target_.string() + ": cannot be written: " + reason());
   mark_unfinished(temporary_);

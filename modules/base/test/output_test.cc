@@ -1,6 +1,7 @@
 #include "asperity/base/output.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <fstream>
 
 #include "asperity/base/csv.h"
@@ -49,6 +50,9 @@ TEST(Output, AFileInPiecesAppearsWholeOrNotAtAll) {
   EXPECT_EQ(read_file(dir / "log.csv", 10), "one two");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dir.path()), {}), 1);
   EXPECT_THROW(OutputFile(dir / "none" / "log.csv"), Error);
+  ASSERT_EQ(::mkfifo((dir / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(write_file(dir / "pipe", "x"), Error);
+  EXPECT_TRUE(std::filesystem::is_fifo(dir / "pipe"));
 }
 
 TEST(Output, LeavesStrangersAlone) {

@@ -15,7 +15,7 @@ double sinc(double x) { return x == 0.0 ? 1.0 : std::sin(std::numbers::pi * x) /
 }  // namespace
 
 BandLimitedReader::BandLimitedReader() : kernel_(kPhases + 1) {
-  constexpr double kHalf = kTaps / 2;
+  constexpr double kHalf = 0.5 * kTaps;
   for (std::size_t phase = 0; phase <= kPhases; ++phase) {
     double sum = 0.0;
     for (std::size_t i = 0; i < kTaps; ++i) {

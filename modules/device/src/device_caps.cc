@@ -11,13 +11,12 @@ namespace {
 
 std::string name_of(const DeviceInfo& info) { return info.model.empty() ? info.name : info.model; }
 
-void cap_stiffness(DeviceCaps& caps, const DeviceInfo& info, const SafetyConfig& safety, double rate_Hz,
-                   const DeviceCapsConfig& config) {
+void cap_stiffness(DeviceCaps& caps, const DeviceInfo& info, const SafetyConfig& safety, double rate_Hz) {
   if (info.max_stiffness_N_per_m > 0.0) {
     caps.stiffness_N_per_m = info.max_stiffness_N_per_m;
     caps.stiffness_reason = fmt::format("{} renders at most {:.4g} N/m", name_of(info), info.max_stiffness_N_per_m);
   }
-  const double damping = config.damping_N_s_per_m + (safety.passivity ? safety.max_damping_N_s_per_m : 0.0);
+  const double damping = safety.assumed_damping_N_s_per_m + (safety.passivity ? safety.max_damping_N_s_per_m : 0.0);
   const double passive = 2.0 * damping * rate_Hz;
   if (damping > 0.0 && passive < caps.stiffness_N_per_m) {
     caps.stiffness_N_per_m = passive;
@@ -54,7 +53,7 @@ DeviceCaps find_device_caps(const DeviceInfo& info, const SafetyConfig& safety, 
                             const DeviceCapsConfig& config) {
   DeviceCaps caps;
   caps.force_N = lower_to_device(safety, info).max_force_N;
-  cap_stiffness(caps, info, safety, rate_Hz, config);
+  cap_stiffness(caps, info, safety, rate_Hz);
   cap_textures(caps, info, rate_Hz, config);
   return caps;
 }

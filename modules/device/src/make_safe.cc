@@ -36,6 +36,7 @@ Eigen::Vector3d damping(const SafetyConfig& config, SafetyState& state, const Sa
 
 SafetyConfig lower_to_device(SafetyConfig config, const DeviceInfo& info) {
   if (info.max_force_N < config.max_force_N) config.max_force_N = std::max(info.max_force_N, 0.0);
+  if (!info.yields) config.passivity = false;
   return config;
 }
 

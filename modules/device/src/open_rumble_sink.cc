@@ -11,8 +11,8 @@
 #include "asperity/base/text.h"
 #include "asperity/device/spsc_ring.h"
 #include "check_config.h"
+#include "rumble_bands.h"
 #include "sdl_subsystem.h"
-#include "second_order_filter.h"
 #include "soft_limit.h"
 
 namespace asperity {
@@ -21,30 +21,10 @@ namespace {
 
 constexpr Uint32 kRumble_ms = 200;
 
-// The energy of one band since it was last asked for.
-struct Band {
-  double sum = 0.0;
-  int count = 0;
-
-  void add(double x) noexcept {
-    sum += x * x;
-    ++count;
-  }
-  double take_amplitude() noexcept {
-    const double amplitude = count == 0 ? 0.0 : std::sqrt(2.0 * sum / count);
-    *this = {};
-    return amplitude;
-  }
-};
-
 class RumbleSink final : public VibrationSink {
  public:
   explicit RumbleSink(const RumbleSinkConfig& config)
-      : config_(config),
-        sdl_(SDL_INIT_JOYSTICK),
-        high_pass_(SecondOrderFilter::high_pass(config.high_pass_Hz, config.servo_rate_Hz)),
-        slow_(SecondOrderFilter::low_pass(config.split_Hz, config.servo_rate_Hz)),
-        fast_(SecondOrderFilter::high_pass(config.split_Hz, config.servo_rate_Hz)) {
+      : config_(config), sdl_(SDL_INIT_JOYSTICK), bands_(config.high_pass_Hz, config.split_Hz, config.servo_rate_Hz) {
     std::string seen;
     for (int i = 0; i < SDL_NumJoysticks() && pad_ == nullptr; ++i) {
       const char* name = SDL_JoystickNameForIndex(i);
@@ -111,25 +91,23 @@ class RumbleSink final : public VibrationSink {
       if (SDL_JoystickGetAttached(pad_) != SDL_TRUE) gone_.store(true, std::memory_order_relaxed);
       // Updates that brought no force leave the motors as they are until that is stale.
       if (stale) {
-        drive(0.0, 0.0);
+        drive({});
       } else if (last_force == now) {
-        drive(slow_band_.take_amplitude(), fast_band_.take_amplitude());
+        drive(bands_.take());
       }
       due = std::max(due + period, now);
       lock.lock();
       wake_.wait_until(lock, due, [this] { return stop_; });
     }
-    drive(0.0, 0.0);
+    drive({});
   }
 
   // Takes what was pushed; true if something was. After a gap nobody felt the step to the first force.
   bool listen(bool after_gap) noexcept {
     bool any = false;
     for (double force_N = 0.0; ring_.pop(force_N); any = ever_ = true) {
-      if (after_gap && !any) high_pass_.settle_high_pass(force_N);
-      const double vibration_N = high_pass_(force_N);
-      slow_band_.add(slow_(vibration_N));
-      fast_band_.add(fast_(vibration_N));
+      if (after_gap && !any) bands_.settle(force_N);
+      bands_.add(force_N);
     }
     return any;
   }
@@ -139,8 +117,8 @@ class RumbleSink final : public VibrationSink {
     return static_cast<Uint16>(std::floor(65535.0 * std::min(level, config_.ceiling)));
   }
 
-  void drive(double slow_N, double fast_N) noexcept {
-    const Uint16 low = strength(slow_N), high = strength(fast_N);
+  void drive(const RumbleBands::Amplitudes& amplitudes) noexcept {
+    const Uint16 low = strength(amplitudes.slow_N), high = strength(amplitudes.fast_N);
     if (low == 0 && high == 0 && resting_) return;
     resting_ = low == 0 && high == 0;
     SDL_JoystickRumble(pad_, low, high, resting_ ? 0 : kRumble_ms);
@@ -157,8 +135,7 @@ class RumbleSink final : public VibrationSink {
   bool stop_ = false;
 
   // Its thread's.
-  SecondOrderFilter high_pass_, slow_, fast_;
-  Band slow_band_, fast_band_;
+  RumbleBands bands_;
   bool ever_ = false, resting_ = true;
   std::thread thread_;
 };

@@ -1,9 +1,11 @@
 #include "asperity/device/openhaptics_device.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <thread>
 
 #include "asperity/base/error.h"
@@ -19,7 +21,10 @@ namespace asperity {
 namespace {
 
 constexpr double kMillimetre_m = 1e-3;
+constexpr double kReturn_s = 0.02;  // in which the force comes back after it was not renewed
 constexpr int kMostErrorsAFrame = 32;
+constexpr int kLowestRate_Hz = 100;
+constexpr int kHighestRate_Hz = 10000;
 constexpr std::chrono::milliseconds kFirstFrameWithin{1000};
 constexpr std::chrono::milliseconds kLastFramesWithin{200};
 
@@ -33,10 +38,7 @@ std::atomic<bool> owned{false};
 class OpenHapticsDevice final : public HapticDevice {
  public:
   explicit OpenHapticsDevice(const OpenHapticsConfig& config)
-      : owner_(owned, "openhaptics"),
-        api_(hd::load_api(config.library)),
-        watch_(config.stall_after_s),
-        force_lasts_frames_(std::lround(std::ceil(config.force_timeout_s * config.rate_Hz))) {
+      : owner_(owned, "openhaptics"), api_(hd::load_api(config.library)), watch_(config.stall_after_s) {
     handle_ = api_.init_device(config.device.empty() ? nullptr : config.device.c_str());
     const unsigned error = drain_first_error();
     if (handle_ == hd::kInvalidHandle) {
@@ -148,8 +150,13 @@ class OpenHapticsDevice final : public HapticDevice {
   }
 
   void start(const OpenHapticsConfig& config) {
-    api_.set_scheduler_rate(std::lround(config.rate_Hz));
+    api_.set_scheduler_rate(static_cast<unsigned long>(std::lround(config.rate_Hz)));
     drain_first_error();  // a device that has one rate only keeps it
+    int rate_Hz = 0;
+    api_.get_integers(hd::kUpdateRate_Hz, &rate_Hz);
+    if (drain_first_error() == 0 && rate_Hz >= kLowestRate_Hz && rate_Hz <= kHighestRate_Hz) info_.rate_Hz = rate_Hz;
+    force_lasts_frames_ = std::lround(std::ceil(config.force_timeout_s * info_.rate_Hz));
+    gain_step_ = 1.0 / (kReturn_s * info_.rate_Hz);
     api_.enable(hd::kForceOutput);
     api_.enable(hd::kMaxForceClamping);
     api_.enable(hd::kForceRamping);
@@ -178,7 +185,8 @@ class OpenHapticsDevice final : public HapticDevice {
     taken_ = command.sequence;
     const bool driven = !ending && fault_code_.load(std::memory_order_relaxed) == 0 &&
                         unrenewed_frames_ <= force_lasts_frames_ && command.force_N.allFinite();
-    const Eigen::Vector3d force_N = driven ? command.force_N : Eigen::Vector3d::Zero();
+    gain_ = driven ? std::min(1.0, gain_ + gain_step_) : 0.0;
+    const Eigen::Vector3d force_N = driven ? Eigen::Vector3d(gain_ * command.force_N) : Eigen::Vector3d::Zero();
 
     Eigen::Vector3d p_mm = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
     Eigen::Vector3d v_mmps = p_mm;
@@ -247,7 +255,9 @@ class OpenHapticsDevice final : public HapticDevice {
   DeviceReading reading_;
   std::uint64_t taken_ = 0;
   long unrenewed_frames_ = 0;
-  long force_lasts_frames_;
+  long force_lasts_frames_ = 0;
+  double gain_ = 0.0;
+  double gain_step_ = 1.0;
 };
 
 }  // namespace

@@ -8,8 +8,10 @@ namespace asperity {
 Eigen::Vector3d damp_created_energy(const SafetyConfig& config, PassivityState& state,
                                     const PassivityInput& input) noexcept {
   if (state.started) {
-    const double given_J = -state.force_N.dot(input.hand_m - state.hand_m);
-    state.excess_J += given_J - (input.stored_J - state.stored_J);
+    const Eigen::Vector3d way_m = input.hand_m - state.hand_m;
+    const double given_J = -state.force_N.dot(way_m);
+    const double damped_J = config.assumed_damping_N_s_per_m * way_m.squaredNorm() / input.dt_s;
+    state.excess_J += given_J + damped_J - (input.stored_J - state.stored_J);
   }
   state.started = true;
   state.hand_m = input.hand_m;

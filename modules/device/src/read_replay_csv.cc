@@ -32,9 +32,8 @@ std::int64_t time_ns(const CsvReader& csv, std::size_t column, bool seconds) {
 
 }  // namespace
 
-ReplayFile read_replay_csv(const std::filesystem::path& file) {
-  const std::string text = read_file(file, kLargestFile_bytes);
-  CsvReader csv(text, printable(file.string(), 300));
+ReplayFile parse_replay_csv(std::string_view text, const std::string& name) {
+  CsvReader csv(text, name);
   csv.accept_unterminated();
   const std::array<std::size_t, 3> position{csv.require("px_m"), csv.require("py_m"), csv.require("pz_m")};
   const auto nanoseconds = csv.find("t_ns");
@@ -63,9 +62,13 @@ ReplayFile read_replay_csv(const std::filesystem::path& file) {
     }
     out.samples.push_back(sample);
   }
-  if (out.samples.empty()) throw Error(printable(file.string(), 300) + ": no row with a position");
+  if (out.samples.empty()) throw Error(name + ": no row with a position");
   if (passed_over > 0) out.problems.push_back({"no_position", "rows without a position were passed over", passed_over});
   return out;
+}
+
+ReplayFile read_replay_csv(const std::filesystem::path& file) {
+  return parse_replay_csv(read_file(file, kLargestFile_bytes), printable(file.string(), 300));
 }
 
 }  // namespace asperity

@@ -24,6 +24,7 @@ class ReplayDevice final : public HapticDevice {
       info_.workspace_max_m = info_.workspace_max_m.cwiseMax(sample.p_m);
     }
     info_.simulated = true;
+    info_.yields = false;
   }
 
   const DeviceInfo& info() const noexcept override { return info_; }

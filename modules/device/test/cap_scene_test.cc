@@ -54,15 +54,16 @@ TEST(DeviceCaps, FollowTheirFormulas) {
 TEST(DeviceCaps, OfADeviceThatStatesNothing) {
   const DeviceInfo unknown;
   SafetyConfig safety;
-  DeviceCapsConfig config;
+  const DeviceCapsConfig config;
   DeviceCaps caps = find_device_caps(unknown, safety, 1000.0, config);
   EXPECT_EQ(caps.force_N, safety.max_force_N);
-  EXPECT_DOUBLE_EQ(caps.stiffness_N_per_m, 10'000.0);  // 2 · 5 N s/m / 1 ms
+  EXPECT_DOUBLE_EQ(caps.stiffness_N_per_m, 12'000.0);  // 2 · (1 + 5) N s/m / 1 ms
   EXPECT_THAT(caps.stiffness_reason, HasSubstr("Colgate"));
   EXPECT_EQ(caps.texture_cycles_per_mm, DeviceCaps::kNone);
   safety.passivity = false;
+  safety.assumed_damping_N_s_per_m = 0.0;
   EXPECT_EQ(find_device_caps(unknown, safety, 1000.0, config).stiffness_N_per_m, DeviceCaps::kNone);
-  config.damping_N_s_per_m = 0.1;
+  safety.assumed_damping_N_s_per_m = 0.1;
   caps = find_device_caps(unknown, safety, 1000.0, config);
   EXPECT_DOUBLE_EQ(caps.stiffness_N_per_m, 200.0);
   EXPECT_DOUBLE_EQ(caps.texture_stiffness_N_per_m, 200.0);

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 
 #include "asperity/base/error.h"
+#include "asperity/testkit/count_allocations.h"
 #include "conformance.h"
 #include "fake_drivers.h"
 
@@ -73,6 +74,7 @@ TEST_F(OpenHaptics, SaysWhatTheDriverSaysInMetres) {
   EXPECT_DOUBLE_EQ(info.max_stiffness_N_per_m, 500.0);
   EXPECT_TRUE(info.workspace_min_m.isApprox(Eigen::Vector3d(-0.21, -0.11, -0.085)));
   EXPECT_TRUE(info.workspace_max_m.isApprox(Eigen::Vector3d(0.21, 0.205, 0.13)));
+  EXPECT_DOUBLE_EQ(info.rate_Hz, 1000.0);
   EXPECT_FALSE(info.simulated);
   const DeviceReading reading = device->read(0);
   EXPECT_NEAR(reading.p_m.y(), 0.02, 2e-3);
@@ -98,6 +100,20 @@ TEST_F(OpenHaptics, AForceThatIsNotRenewedEnds) {
   }));
   EXPECT_TRUE(comes_true([&] { return fake_.motor_N() == Eigen::Vector3d::Zero(); }));
   EXPECT_EQ(device->fault(), "");
+  EXPECT_TRUE(comes_true([&] {
+    device->write({0.0, 1.0, 0.0});
+    return fake_.motor_N() == Eigen::Vector3d(0.0, 1.0, 0.0);
+  })) << "it did not come back";
+}
+
+TEST_F(OpenHaptics, NeitherTheServoNorTheCallbackAllocates) {
+  const auto device = open_openhaptics(fake_config());
+  const std::size_t before = testkit::count_allocations();
+  for (std::int64_t i = 0; i < 100; ++i) {
+    device->write(device->read(i * 1'000'000).v_mps);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  EXPECT_EQ(testkit::count_allocations(), before);
 }
 
 TEST_F(OpenHaptics, TheDriverClampsItsForce) {

@@ -18,7 +18,7 @@ constexpr double kTick_s = 1e-3;
 struct Wall {
   double stiffness_N_per_m = 5000.0;
   double mass_kg = 0.15;
-  double damping_N_s_per_m = 0.5;
+  double damping_N_s_per_m = 1.5;
   double push_N = -1.0;
   double start_mps = -0.1;
 };
@@ -64,7 +64,8 @@ Bounce bounce(const Wall& wall, SafetyConfig config, double duration_s) {
   return result;
 }
 
-// b = 0.5 N s/m is below k T/2 = 2.5 N s/m (Colgate and Brown 1994): the wall feeds the hand, which never rests.
+// b = 1.5 N s/m is above what is assumed and below k T/2 = 2.5 N s/m (Colgate and Brown 1994): the wall feeds the hand,
+// which never rests.
 TEST(Passivity, SettlesAWallThatWouldLimitCycle) {
   SafetyConfig off;
   off.passivity = false;
@@ -89,8 +90,7 @@ TEST(Passivity, LeavesAStableWallWhereItRests) {
 }
 
 // A passive spring with friction: presses, holds, strokes, releases; the hand's path is given. Friction takes
-// more than sampling creates, so the controller must not act, however long the spring is held. It may only at the first
-// touch, before there was any friction: the 8 nJ of that tick take less than a millinewton.
+// more than sampling creates, so the controller must not act, however long the spring is held.
 TEST(Passivity, DoesNotTouchAPassiveSpringWithFriction) {
   const SafetyConfig config;
   PassivityState state;
@@ -104,7 +104,7 @@ TEST(Passivity, DoesNotTouchAPassiveSpringWithFriction) {
     const double pressed_N = 1000.0 * std::max(-z, 0.0);
     input.touching = pressed_N > 0.0;
     input.stored_J = 0.5 * pressed_N * std::max(-z, 0.0);
-    ASSERT_LT(damp_created_energy(config, state, input).norm(), 1e-3) << k;
+    ASSERT_EQ(damp_created_energy(config, state, input), Eigen::Vector3d::Zero()) << k;
     const double along = input.hand_mps.x() > 0.0 ? 1.0 : -1.0;
     state.force_N = Eigen::Vector3d(-0.3 * pressed_N * along, 0.0, pressed_N);
   }
@@ -116,6 +116,7 @@ TEST(Passivity, ObservesTheSampledEnergyExactly) {
   SafetyConfig config;
   config.max_damping_N_s_per_m = 0.0;
   config.debt_leak_s = 1e9;
+  config.assumed_damping_N_s_per_m = 0.0;
   config.max_debt_J = 10.0;
   PassivityState state;
   const double k_N_per_m = 2000.0, dx = 1e-4;

@@ -199,11 +199,11 @@ class ClosestSearch {
     }
   }
 
-  template <bool kTestBox>
+  template <bool TestBox>
   void visit_leaf(std::uint32_t at) {
     const LeafHead& head = leaf_head(tree_, at);
     LeafDistances<V> leaf(head, split_);
-    if (kTestBox && !leaf.may_be_within(bound_)) return;
+    if (TestBox && !leaf.may_be_within(bound_)) return;
     __builtin_prefetch(tree_.faces + head.first);
     __builtin_prefetch(tree_.faces + head.first + 4);
     __builtin_prefetch(tree_.faces + head.first + 8);

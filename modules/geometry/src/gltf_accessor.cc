@@ -66,8 +66,8 @@ GltfAccessor::GltfAccessor(const tinygltf::Model& model, int accessor, std::size
   const std::size_t size = buffer.data.size();
   const bool view_fits = view.byteOffset <= size && view.byteLength <= size - view.byteOffset;
   // (count - 1)·stride + element, without overflow.
-  const bool elements_fit = view_fits && stride_ >= element && a.count > 0 && a.byteOffset <= view.byteLength &&
-                            element <= view.byteLength - a.byteOffset &&
+  const bool elements_fit = view_fits && stride_ > 0 && stride_ >= element && a.count > 0 &&
+                            a.byteOffset <= view.byteLength && element <= view.byteLength - a.byteOffset &&
                             a.count - 1 <= (view.byteLength - a.byteOffset - element) / stride_;
   if (!elements_fit)
     throw Error(what + ": accessor " + std::to_string(accessor) + " of " + std::to_string(a.count) +

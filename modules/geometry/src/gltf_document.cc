@@ -53,9 +53,9 @@ class Checker {
   [[noreturn]] void fail(const std::string& message) const { throw Error(name_ + ": " + message); }
 
   const json& member(const char* key) const {
-    static const json kNone;
+    static const json nothing;
     const auto found = document_.find(key);
-    return found == document_.end() ? kNone : *found;
+    return found == document_.end() ? nothing : *found;
   }
 
   std::uint32_t word(std::size_t at) const { return load<std::uint32_t>(bytes_.data() + at, std::endian::little); }

@@ -200,10 +200,10 @@ class ObjParser {
     pieces_.clear();
     const PolygonShape shape = triangulate_polygon(points_, pieces_);
     for (const Triangle& piece : pieces_) add_triangle(piece);
-    if (shape == PolygonShape::crossing) {
+    if (shape == PolygonShape::kCrossing) {
       problems_.count("crossing_polygon",
                       [&] { return lines_.place() + ": the outline of the polygon crosses itself"; });
-    } else if (shape == PolygonShape::degenerate) {
+    } else if (shape == PolygonShape::kDegenerate) {
       problems_.count("polygon_without_area", [&] { return lines_.place() + ": the polygon has no area"; });
     }
   }

@@ -82,14 +82,14 @@ class HeaderParser {
   }
 
   PlyType type(std::string_view word) const {
-    if (word == "char" || word == "int8") return PlyType::int8;
-    if (word == "uchar" || word == "uint8") return PlyType::uint8;
-    if (word == "short" || word == "int16") return PlyType::int16;
-    if (word == "ushort" || word == "uint16") return PlyType::uint16;
-    if (word == "int" || word == "int32") return PlyType::int32;
-    if (word == "uint" || word == "uint32") return PlyType::uint32;
-    if (word == "float" || word == "float32") return PlyType::float32;
-    if (word == "double" || word == "float64") return PlyType::float64;
+    if (word == "char" || word == "int8") return PlyType::kInt8;
+    if (word == "uchar" || word == "uint8") return PlyType::kUint8;
+    if (word == "short" || word == "int16") return PlyType::kInt16;
+    if (word == "ushort" || word == "uint16") return PlyType::kUint16;
+    if (word == "int" || word == "int32") return PlyType::kInt32;
+    if (word == "uint" || word == "uint32") return PlyType::kUint32;
+    if (word == "float" || word == "float32") return PlyType::kFloat32;
+    if (word == "double" || word == "float64") return PlyType::kFloat64;
     fail("type '" + printable(word) + "' is not known");
   }
 
@@ -101,7 +101,7 @@ class HeaderParser {
     std::string_view word = next_word(rest);
     if (word == "list") {
       p.count_type = type(next_word(rest));
-      if (*p.count_type == PlyType::float32 || *p.count_type == PlyType::float64) fail("a list counted by a float");
+      if (*p.count_type == PlyType::kFloat32 || *p.count_type == PlyType::kFloat64) fail("a list counted by a float");
       word = next_word(rest);
     }
     p.type = type(word);
@@ -134,17 +134,17 @@ class HeaderParser {
 
 std::size_t size_of(PlyType type) {
   switch (type) {
-    case PlyType::int8:
-    case PlyType::uint8:
+    case PlyType::kInt8:
+    case PlyType::kUint8:
       return 1;
-    case PlyType::int16:
-    case PlyType::uint16:
+    case PlyType::kInt16:
+    case PlyType::kUint16:
       return 2;
-    case PlyType::int32:
-    case PlyType::uint32:
-    case PlyType::float32:
+    case PlyType::kInt32:
+    case PlyType::kUint32:
+    case PlyType::kFloat32:
       return 4;
-    case PlyType::float64:
+    case PlyType::kFloat64:
       return 8;
   }
   return 8;

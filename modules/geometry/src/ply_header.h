@@ -9,13 +9,13 @@
 
 namespace asperity {
 
-enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, kFloat64 };
 
 std::size_t size_of(PlyType type);
 
 struct PlyProperty {
   std::string name;
-  PlyType type = PlyType::float32;
+  PlyType type = PlyType::kFloat32;
   std::optional<PlyType> count_type;  // of a list
 };
 

@@ -67,21 +67,21 @@ class PlyNumbers {
   double binary(PlyType type) {
     const char* start = take(1, size_of(type));
     switch (type) {
-      case PlyType::int8:
+      case PlyType::kInt8:
         return load<std::int8_t>(start, *order_);
-      case PlyType::uint8:
+      case PlyType::kUint8:
         return load<std::uint8_t>(start, *order_);
-      case PlyType::int16:
+      case PlyType::kInt16:
         return load<std::int16_t>(start, *order_);
-      case PlyType::uint16:
+      case PlyType::kUint16:
         return load<std::uint16_t>(start, *order_);
-      case PlyType::int32:
+      case PlyType::kInt32:
         return load<std::int32_t>(start, *order_);
-      case PlyType::uint32:
+      case PlyType::kUint32:
         return load<std::uint32_t>(start, *order_);
-      case PlyType::float32:
+      case PlyType::kFloat32:
         return load<float>(start, *order_);
-      case PlyType::float64:
+      case PlyType::kFloat64:
         return load<double>(start, *order_);
     }
     return 0.0;
@@ -99,7 +99,7 @@ class PlyNumbers {
     const std::string_view text = word();
     const std::optional<double> value = parse_double(text);
     if (!value) fail("'" + printable(text) + "' is not a number");
-    const bool whole = type != PlyType::float32 && type != PlyType::float64;
+    const bool whole = type != PlyType::kFloat32 && type != PlyType::kFloat64;
     if (whole && (std::abs(*value) > 4294967295.0 || *value != std::trunc(*value))) {
       fail("'" + printable(text) + "' is not a whole number");
     }

@@ -19,20 +19,20 @@ namespace {
 // What colours of this type are divided by.
 double full_scale(PlyType type) {
   switch (type) {
-    case PlyType::int8:
+    case PlyType::kInt8:
       return 127.0;
-    case PlyType::uint8:
+    case PlyType::kUint8:
       return 255.0;
-    case PlyType::int16:
+    case PlyType::kInt16:
       return 32767.0;
-    case PlyType::uint16:
+    case PlyType::kUint16:
       return 65535.0;
-    case PlyType::int32:
+    case PlyType::kInt32:
       return 2147483647.0;
-    case PlyType::uint32:
+    case PlyType::kUint32:
       return 4294967295.0;
-    case PlyType::float32:
-    case PlyType::float64:
+    case PlyType::kFloat32:
+    case PlyType::kFloat64:
       return 1.0;
   }
   return 1.0;
@@ -165,7 +165,7 @@ class PlyParser {
       const PlyProperty& property = element.properties[i];
       const bool indices =
           property.count_type && (property.name == "vertex_indices" || property.name == "vertex_index");
-      const bool whole = property.type != PlyType::float32 && property.type != PlyType::float64;
+      const bool whole = property.type != PlyType::kFloat32 && property.type != PlyType::kFloat64;
       if (indices && whole && list == element.properties.size()) {
         list = i;
       } else {
@@ -218,9 +218,9 @@ class PlyParser {
       points_.clear();
       for (const std::uint32_t corner : corners_) points_.push_back(mesh_.vertices[corner]);
       const PolygonShape shape = triangulate_polygon(points_, pieces_);
-      if (shape == PolygonShape::crossing) {
+      if (shape == PolygonShape::kCrossing) {
         problems_.count("crossing_polygon", [&] { return face_name(row) + ": its outline crosses itself"; });
-      } else if (shape == PolygonShape::degenerate) {
+      } else if (shape == PolygonShape::kDegenerate) {
         problems_.count("polygon_without_area", [&] { return face_name(row) + " has no area"; });
       }
     }

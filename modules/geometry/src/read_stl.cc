@@ -115,7 +115,7 @@ class StlParser {
         in_solid = false;
       } else if (keyword == "facet" && in_solid) {
         require_room(lines.place(), mesh_.triangles.size() + 1);
-        const std::string place = lines.place();
+        std::string place = lines.place();
         std::string_view rest = lines.rest();
         if (lower(next_word(rest)) != "normal") lines.fail("'facet' without 'normal'");
         // Exporters write nan for the normal of a triangle without area; it is not used.

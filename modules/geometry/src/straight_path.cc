@@ -112,7 +112,6 @@ StraightPath straight_path(const TriangleMesh& mesh, const MeshAdjacency& adjace
       weight += left_m * change;
       weight = weight.cwiseMax(0.0);
       weight /= weight.sum();
-      left_m = 0.0;
       break;
     }
     weight += reach_m * change;

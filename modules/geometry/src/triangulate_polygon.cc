@@ -48,14 +48,14 @@ class Ring {
   }
 
   PolygonShape cut(std::vector<Triangle>& triangles) {
-    PolygonShape shape = PolygonShape::simple;
+    PolygonShape shape = PolygonShape::kSimple;
     std::uint32_t tip = next_[0];
     for (std::uint32_t left = size(); left > 3; --left) {
       std::uint32_t step = 0;
       for (; step < left && !ear_[tip]; ++step) tip = next_[tip];
       if (step == left && !find_flat(tip, left)) {
         // A simple polygon always has an ear. From here the corners are cut as they turn.
-        shape = PolygonShape::crossing;
+        shape = PolygonShape::kCrossing;
         crossing_ = true;
         for (std::uint32_t i = 0; i < left; ++i, tip = next_[tip]) ear_[tip] = is_ear(tip);
         for (step = 0; step < left && !ear_[tip]; ++step) tip = next_[tip];
@@ -113,7 +113,7 @@ PolygonShape triangulate_polygon(std::span<const Eigen::Vector3d> points, std::v
   std::vector<Point> plane = project(points);
   if (plane.empty()) {
     for (std::uint32_t i = 2; i < points.size(); ++i) triangles.push_back({0, i - 1, i});
-    return PolygonShape::degenerate;
+    return PolygonShape::kDegenerate;
   }
   return Ring(std::move(plane)).cut(triangles);
 }

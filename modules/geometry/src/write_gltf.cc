@@ -77,7 +77,7 @@ class GltfWriter {
     data.assign(bytes_.begin(), bytes_.end());
     std::ostringstream out;
     tinygltf::TinyGLTF writer;
-    if (!writer.WriteGltfSceneToStream(&model_, out, true, form == GltfForm::binary)) fail("it cannot be written");
+    if (!writer.WriteGltfSceneToStream(&model_, out, true, form == GltfForm::kBinary)) fail("it cannot be written");
     return std::move(out).str();
   }
 
@@ -374,7 +374,7 @@ std::string format_gltf(const GltfExport& scene, GltfForm form) { return GltfWri
 void write_gltf(const std::filesystem::path& path, const GltfExport& scene) {
   const std::string extension = path.extension().string();
   if (extension != ".glb" && extension != ".gltf") throw Error(path.string() + ": a glTF file ends in .glb or .gltf");
-  write_file(path, format_gltf(scene, extension == ".glb" ? GltfForm::binary : GltfForm::json));
+  write_file(path, format_gltf(scene, extension == ".glb" ? GltfForm::kBinary : GltfForm::kJson));
 }
 
 }  // namespace asperity

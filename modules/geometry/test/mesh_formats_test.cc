@@ -228,7 +228,7 @@ GltfExport example() {
 // Geometry and haptic coordinates come back but for float32: 2^-24 of each number.
 TEST(Gltf, ReadsBackWhatItWrote) {
   const GltfExport scene = example();
-  for (const GltfForm form : {GltfForm::json, GltfForm::binary}) {
+  for (const GltfForm form : {GltfForm::kJson, GltfForm::kBinary}) {
     const std::string bytes = format_gltf(scene, form);
     const MeshFile mesh = parse_gltf(bytes, "t.glb");
     ASSERT_EQ(mesh.triangles.size(), 6u);
@@ -248,7 +248,7 @@ TEST(Gltf, ReadsBackWhatItWrote) {
     EXPECT_EQ(mesh.materials.at(0).base_colour, Eigen::Vector3d(0.5, 0.25, 0.125));
     EXPECT_EQ(format_gltf(scene, form), bytes);
   }
-  const std::string json = format_gltf(scene, GltfForm::json);
+  const std::string json = format_gltf(scene, GltfForm::kJson);
   EXPECT_THAT(json, HasSubstr("\"vibrotactileTexture\""));
   EXPECT_THAT(json, HasSubstr("\"hapticMaterialIndex\": 0"));
   EXPECT_THAT(json, HasSubstr("\"height_range_m\": 0.0025"));
@@ -261,7 +261,7 @@ TEST(Gltf, TextureCoordinatesAndNormalsAreOfCorners) {
       "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0.25\nvt 1 1\nvt 0.5 0.75\nvn 0 0 2\nf 1/1/1 2/2/1 3/3/1\nf "
       "1/4/1 3/3/1 4/2/1\n",
       "square");
-  const MeshFile mesh = parse_gltf(format_gltf(scene, GltfForm::binary), "t.glb");
+  const MeshFile mesh = parse_gltf(format_gltf(scene, GltfForm::kBinary), "t.glb");
   ASSERT_EQ(mesh.vertices.size(), 4u);  // the corner at the origin has two texture coordinates, one place
   ASSERT_EQ(mesh.texture_corners.size(), 2u);
   EXPECT_EQ(mesh.texture_coordinates.at(mesh.texture_corners[0][0]), Eigen::Vector3d(0, 0, 0));
@@ -343,7 +343,7 @@ TEST_F(GltfFolder, HostileFilesAreRefused) {
   write_file(folder_ / "in" / "d.bin", data_);
   EXPECT_THAT(read(document("d.bin", "5", node)), HasSubstr("index 9 of 4 vertices"));
   EXPECT_THAT(read(std::string(10000, '[')), HasSubstr("deep"));
-  const std::string glb = format_gltf(example(), GltfForm::binary);
+  const std::string glb = format_gltf(example(), GltfForm::kBinary);
   EXPECT_THAT(message_of([&] { parse_gltf(glb.substr(0, glb.size() - 1), "t.glb"); }), HasSubstr("is cut"));
 }
 

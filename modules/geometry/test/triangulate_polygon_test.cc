@@ -36,7 +36,7 @@ TEST(TriangulatePolygon, ConcavePolygonsAreTiled) {
   for (int trial = 0; trial < 200; ++trial) {
     const std::vector<Eigen::Vector3d> points = star(random, 4 + trial % 60, 1.0);
     std::vector<Triangle> triangles;
-    ASSERT_EQ(triangulate_polygon(points, triangles), PolygonShape::simple);
+    ASSERT_EQ(triangulate_polygon(points, triangles), PolygonShape::kSimple);
     ASSERT_EQ(triangles.size(), points.size() - 2);
     Eigen::Vector3d shoelace = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < points.size(); ++i) shoelace += 0.5 * points[i].cross(points[(i + 1) % points.size()]);
@@ -74,14 +74,14 @@ TEST(TriangulatePolygon, ConvexIsAFanAndConcaveQuadsAreCutInside) {
 TEST(TriangulatePolygon, CornersOnAnEdgeMakeNoFlatTriangle) {
   const std::vector<Eigen::Vector3d> points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2, 0}, {0, 2, 0}};
   std::vector<Triangle> triangles;
-  EXPECT_EQ(triangulate_polygon(points, triangles), PolygonShape::simple);
+  EXPECT_EQ(triangulate_polygon(points, triangles), PolygonShape::kSimple);
   for (const Triangle& t : triangles) EXPECT_GT(area_of(points, t).z(), 0.0);
 }
 
 TEST(TriangulatePolygon, CrossingAndFlatPolygonsAreSaidToBe) {
   std::vector<Triangle> triangles;
   EXPECT_EQ(triangulate_polygon(std::vector<Eigen::Vector3d>{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}}, triangles),
-            PolygonShape::degenerate);
+            PolygonShape::kDegenerate);
   EXPECT_EQ(triangles.size(), 2u);
   triangles.clear();
   // A pentagram: every tip holds another corner's edges.

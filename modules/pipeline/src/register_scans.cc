@@ -240,6 +240,7 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
   const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
   observer.update("registration", 0.0);
   std::vector<MeasuredPath> smooth;
+  smooth.reserve(paths.size());
   const bool sequence = in_sequence(scans);
   for (const MeasuredPath& path : paths) {
     smooth.push_back(sequence ? smooth_path(path, config.points.smoothing_m) : path);

@@ -140,11 +140,15 @@ SpectrumAgreement compare_spectra(const Pair& pair, double spacing_m, const Comp
 }
 
 void judge(RenderingScore& out, const ScoreConfig& config) {
-  const double agreement = std::exp2(-out.height.distance_dB / config.half_dB);
-  const double correlation = std::max(out.correlation, 0.0);
-  out.score = out.repeats ? agreement : std::sqrt(correlation * agreement);
-  if (!std::isfinite(out.score)) out.score = 0.0;
-  const std::string what = out.repeats ? "the texture repeats over the path, so its spectrum alone is compared: "
+  const auto agreement = [&](double distance_dB) { return std::exp2(-distance_dB / config.half_dB); };
+  out.height_score = agreement(out.height.distance_dB);
+  if (!out.repeats) out.height_score = std::sqrt(std::max(out.correlation, 0.0) * out.height_score);
+  out.force_score = agreement(out.force.distance_dB);
+  for (double* score : {&out.height_score, &out.force_score}) {
+    if (!std::isfinite(*score)) *score = 0.0;
+  }
+  out.score = std::sqrt(out.height_score * out.force_score);
+  const std::string what = out.repeats ? "the texture repeats over the path, so the spectra alone are compared: "
                                        : fmt::format("heights correlate by {:.3f}, ", out.correlation);
   out.verdict = fmt::format("{}spectra of height are {:.1f} dB apart, of force {:.1f} dB", what, out.height.distance_dB,
                             out.force.distance_dB);

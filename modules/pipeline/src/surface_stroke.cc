@@ -74,6 +74,12 @@ std::vector<LevelPiece> level_pieces(const SceneObject& object, int texture) {
   return out;
 }
 
+double mean_length_m(const std::vector<LevelPiece>& pieces) {
+  double sum_mm = 0.0;
+  for (const LevelPiece& piece : pieces) sum_mm += piece.x_mm[1] - piece.x_mm[0];
+  return 1e-3 * sum_mm / static_cast<double>(pieces.size());
+}
+
 Vector3d weighted(const std::array<Vector3d, 3>& corners, const Vector3d& weights) {
   return weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
 }
@@ -149,6 +155,7 @@ SurfaceLine textured_line(const Scene& scene) {
       SurfaceLine longest;
       LineMaker maker(object, surface);
       double reached_mm = pieces.front().x_mm[0];
+      const double joined_m = 0.1 * mean_length_m(pieces);
       const auto finish = [&] {
         SurfaceLine line = maker.take();
         if (length_m(line) > length_m(longest)) longest = std::move(line);
@@ -158,10 +165,7 @@ SurfaceLine textured_line(const Scene& scene) {
         if (piece.x_mm[1] <= reached_mm && !maker.empty()) continue;
         const Vector3d start_m = object.T_world_mesh * position_m(surface.mesh, {piece.triangle, piece.barycentric[0]});
         // Pieces that follow one another meet at an edge; what lies further off is another part of the texture.
-        const double gap_m = maker.empty() ? 0.0 : (start_m - maker.end_world_m()).norm();
-        const double step_m = 1e-3 * std::abs(piece.x_mm[0] - reached_mm);
-        const double piece_m = 1e-3 * (piece.x_mm[1] - piece.x_mm[0]);
-        if (gap_m > 2.0 * step_m + 0.1 * piece_m) finish();
+        if (!maker.empty() && (start_m - maker.end_world_m()).norm() > joined_m) finish();
         maker.add(piece.triangle, piece.barycentric[0]);
         maker.add(piece.triangle, piece.barycentric[1]);
         reached_mm = piece.x_mm[1];
@@ -207,6 +211,24 @@ SurfaceLine line_across(const Scene& scene, double wanted_m) {
   maker.add(path);
   maker.add(straight_path(surface.mesh, surface.adjacency, middle, along, half_m).path);
   return maker.take();
+}
+
+SurfaceLine shortened(const SurfaceLine& line, double margin_m) {
+  const double length = length_m(line), margin = std::min(margin_m, 0.25 * length);
+  if (!(margin > 0.0)) return line;
+  SurfaceLine out;
+  const auto add = [&](double s_m) {
+    const LinePlace place = place_at(line, s_m);
+    out.p_world_m.push_back(place.p_world_m);
+    out.n_world.push_back(place.n_world);
+    out.s_m.push_back(s_m - margin);
+  };
+  add(margin);
+  for (const double s_m : line.s_m) {
+    if (s_m > margin && s_m < length - margin) add(s_m);
+  }
+  add(length - margin);
+  return out;
 }
 
 HandStroke stroke_along(const SurfaceLine& line, double duration_s, const SurfaceStrokeConfig& config) {

@@ -57,7 +57,7 @@ AbsoluteOrientation absolute_orientation(std::span<const Eigen::Vector3d> a_m, s
     covariance += w * (b_m[i] - mean_b) * (a_m[i] - mean_a).transpose();
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d s = svd.singularValues();
+  const Eigen::Vector3d& s = svd.singularValues();
   if (!(s(0) > 0.0)) throw Error("absolute orientation: the points of one set all coincide");
 
   AbsoluteOrientation out;

@@ -51,7 +51,8 @@ std::vector<std::uint32_t> by_normal(const std::vector<Match>& matches, std::siz
       flat = Eigen::Vector2d(std::copysign(1.0 - std::abs(n.y()), n.x()), std::copysign(1.0 - std::abs(n.x()), n.y()));
     }
     const auto cell = [](double u) { return std::clamp(static_cast<int>((0.5 + 0.5 * u) * kSide), 0, kSide - 1); };
-    cells[static_cast<std::size_t>(cell(flat.x()) * kSide + cell(flat.y()))].push_back(i);
+    const int which = cell(flat.x()) * kSide + cell(flat.y());
+    cells[static_cast<std::size_t>(which)].push_back(i);
   }
   // What a cell may give is raised until enough are given; each gives points evenly spread over its own.
   std::size_t quota = 0;

@@ -17,7 +17,7 @@
 
 namespace asperity {
 
-using namespace registration;
+using namespace registration;  // NOLINT(google-build-using-namespace): the module's own
 
 namespace {
 
@@ -126,6 +126,7 @@ RegistrationResult find_registration(std::span<const MeasuredPath> paths, const 
   options.step_sigmas = 1.0;
   options.reference = scored.front().pose;
   std::vector<CentredPose> starts;
+  starts.reserve(scored.size());
   for (const Scored& s : scored) starts.push_back(s.pose);
   Matcher sparse(surface, points, choose_uniform(points, static_cast<std::size_t>(config.coarse_points)), rules);
   const std::vector<CoarseRun> runs =

@@ -15,7 +15,7 @@
 
 namespace asperity {
 
-using namespace registration;
+using namespace registration;  // NOLINT(google-build-using-namespace): the module's own
 
 namespace {
 
@@ -96,6 +96,7 @@ RegistrationResult register_path(std::span<const MeasuredPath> paths, const Regi
     const std::vector<CoarseRun> runs = run_coarsely(sparse, points, starts, quick, config.robust_sigmas * noise_m,
                                                      static_cast<std::size_t>(config.starts.refined) + 1);
     std::vector<CentredPose> poses;
+    poses.reserve(runs.size());
     for (const CoarseRun& run : runs) poses.push_back(run.pose);
     fine_options.known_scale_m = 0.0;
     runner_up_z = compare_solutions({surface, points, rules, fine_options, config, noise_m}, fine, poses, best, out);

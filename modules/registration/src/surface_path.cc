@@ -80,7 +80,7 @@ Vector2d smoothed(const std::vector<double>& s_m, const std::vector<Vector2d>& p
   const bool quadratic = last - first >= kFewest;
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Matrix<double, 3, 2> right = Eigen::Matrix<double, 3, 2>::Zero();
-  const Vector2d origin = place[first];
+  const Vector2d& origin = place[first];
   for (std::size_t i = first; i < last; ++i) {
     const double u = (s_m[i] - s) / reach;
     const double from_middle = (s_m[i] - middle) / (1.001 * reach);

@@ -13,6 +13,7 @@
 #include "asperity/geometry/mesh_normals.h"
 #include "asperity/render/proxy_state.h"
 #include "asperity/render/render_model.h"
+#include "proxy_ball.h"
 #include "texture_border.h"
 
 namespace asperity {
@@ -67,6 +68,34 @@ double extent_of(const TriangleMesh& mesh) {
   }
   const double farthest = std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff());
   return std::max((high - low).maxCoeff(), 0x1p-12 * farthest);
+}
+
+// A vertex so far away that the skin, which follows the extent, would hide the triangles of the rest: throws Error.
+void check_extent(const TriangleMesh& mesh) {
+  std::vector<double> edges_m, places_m[3];
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges_m.push_back((mesh.vertices_m[t[(k + 1) % 3]] - mesh.vertices_m[t[k]]).stableNorm());
+      for (int axis = 0; axis < 3; ++axis) places_m[axis].push_back(mesh.vertices_m[t[k]][axis]);
+    }
+  }
+  const auto median = [](std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  const double edge_m = median(edges_m);
+  if (extent_of(mesh) * kSkin <= 0x1p-8 * edge_m) return;
+  const Vector3d centre_m(median(places_m[0]), median(places_m[1]), median(places_m[2]));
+  std::uint32_t farthest = mesh.triangles[0][0];
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t)
+      if ((mesh.vertices_m[v] - centre_m).stableNorm() > (mesh.vertices_m[farthest] - centre_m).stableNorm())
+        farthest = v;
+  const Vector3d& p_m = mesh.vertices_m[farthest];
+  throw Error("vertex " + std::to_string(farthest) + " at " + number_text(p_m.x()) + ", " + number_text(p_m.y()) +
+              ", " + number_text(p_m.z()) + " m is too far away for a mesh whose edges are " + number_text(edge_m) +
+              " m long");
 }
 
 double first_known(const std::optional<double>& a, const std::optional<double>& b, double otherwise) {
@@ -175,7 +204,8 @@ RenderObject make_object(const Scene& scene, const SceneObject& object, const Re
   if (!object.T_world_mesh.rotation.coeffs().allFinite() || !object.T_world_mesh.translation_m.allFinite())
     throw Error("its pose is not finite");
   TriangleMesh mesh = to_metres(object.mesh, object.unit_m);
-  MeshBvh bvh(mesh);
+  MeshBvh bvh(mesh);  // throws for indices and numbers that are no use
+  check_extent(mesh);
   RenderObject out{.mesh = std::move(mesh),
                    .bvh = std::move(bvh),
                    .normals = {},

@@ -8,6 +8,7 @@
 #include "asperity/render/render_texture.h"
 #include "asperity/texture/convert_rate.h"
 #include "asperity/texture/evaluate_height.h"
+#include "asperity/texture/low_pass_texture.h"
 #include "highest_height.h"
 #include "make_grains.h"
 #include "make_tables.h"
@@ -44,9 +45,10 @@ AutoregressiveTexture at_rate(const AutoregressiveTexture& series, double rate_H
 
 }  // namespace
 
-RenderTexture make_render_texture(const Texture& texture, const RenderTextureConfig& config) {
+RenderTexture make_render_texture(const Texture& source, const RenderTextureConfig& config) {
   RenderTexture result;
-  result.texture = texture;
+  result.texture = config.cutoff_cycles_per_mm == 0.0 ? source : low_pass_texture(source, config.cutoff_cycles_per_mm);
+  const Texture& texture = result.texture;
   result.model = config.model.value_or(own_model(texture.model));
   result.cross_fade_s = config.cross_fade_s;
   result.seed = config.seed;
@@ -56,8 +58,8 @@ RenderTexture make_render_texture(const Texture& texture, const RenderTextureCon
   }
   if (!(config.cross_fade_s >= 0.0 && config.cross_fade_s <= 10.0))
     throw Error("render: a cross-fade of " + number_text(config.cross_fade_s) + " s is not within 0 and 10 s");
-  if (const auto* series = std::get_if<AutoregressiveTexture>(&texture.model))
-    result.texture.model = at_rate(*series, config.rate_Hz);
+  if (auto* series = std::get_if<AutoregressiveTexture>(&result.texture.model))
+    *series = at_rate(*series, config.rate_Hz);
   if (result.model == TextureForceModel::kStochastic) make_grains(result);
   if (is_height_field(texture.model) && result.model != TextureForceModel::kStochastic) {
     result.lift_m = texture.lift_m.value_or(lift_m(texture.model));

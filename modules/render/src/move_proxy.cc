@@ -24,8 +24,8 @@ constexpr double kPointLike = 16.0;    // of a radius in skins: below, the skin 
 
 // Looking far costs triangles at each step, looking near costs a search more often: the list is to last for some steps
 // of the hand unless it gets long, and need not be kept short where it is.
-constexpr double kStrides = 3.0;
-constexpr std::uint32_t kManyTriangles = 12;
+constexpr double kStrides = 1.5;
+constexpr std::uint32_t kManyTriangles = 8;
 constexpr std::uint32_t kFewTriangles = 4;
 
 // Gathers round the proxy, at least `wanted_m` beyond its ball if that is not too many triangles.

@@ -2,6 +2,8 @@
 
 namespace asperity {
 
+inline constexpr double kSkin = 0x1p-24;  // thickness of the proxy's skin in extents of the model
+
 // The proxy as a ball, and how finely it is placed.
 struct ProxyBall {
   double radius_m = 0.0;  // of the tip and its skin

@@ -67,7 +67,7 @@ ServoOutput render_step(const RenderModel& model, ServoState& state, const Devic
     out.proxy_m = proxy.p_world_m;
     return out;
   }
-  const double skin_m = 0x1p-24 * model.extent_m;
+  const double skin_m = kSkin * model.extent_m;
   const ProxyBall ball{model.config.tip_radius_m + skin_m, 0x1p-12 * skin_m, 0x1p-8 * model.extent_m,
                        proxy.started ? (p_m - proxy.device_world_m).norm() : 0.0, skin_m};
   if (!start_proxy(model, ball, p_m, proxy)) {

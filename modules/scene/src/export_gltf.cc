@@ -31,7 +31,7 @@ std::string object_as_glb(const Scene& scene, const SceneObject& object, const T
     }
     out.textures.push_back(std::move(gltf));
   }
-  return format_gltf(out, GltfForm::binary);
+  return format_gltf(out, GltfForm::kBinary);
 }
 
 }  // namespace asperity

@@ -66,7 +66,7 @@ class Place {
   // The name of a file in the scene's folder or below.
   std::string file_name() const {
     if (!value_.is_string()) fail("is not a text");
-    const auto name = value_.get<std::string>();
+    auto name = value_.get<std::string>();
     if (!stays_inside(name)) fail("names '" + printable(name) + "', which is not a file in the scene's folder");
     return name;
   }

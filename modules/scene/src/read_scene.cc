@@ -44,7 +44,7 @@ class NamedFiles {
                   "', a link that leads out of the scene's folder");
     }
     std::error_code error;
-    const fs::path file = folder_ / name;
+    fs::path file = folder_ / name;
     if (const std::uintmax_t size = fs::file_size(file, error); !error) count(size);
     return file;
   }

@@ -193,7 +193,8 @@ std::unique_ptr<Surface> make_map(const Table& table, const SimulatedSurfaceConf
   height_m.reserve(table.rows.size());
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const double x = table.rows[0][0] + dx * static_cast<double>(i % nx);
-    const double y = table.rows[0][1] + dy * static_cast<double>(i / nx);
+    const std::size_t row = i / nx;
+    const double y = table.rows[0][1] + dy * static_cast<double>(row);
     // Coordinates are printed with few digits, so a tenth of the spacing is allowed.
     if (std::abs(table.rows[i][0] - x) > 0.1 * dx || std::abs(table.rows[i][1] - y) > 0.1 * dy) {
       throw Error(fmt::format("{}:{}: ({}, {}) where the grid has ({}, {})", file, table.lines[i], table.rows[i][0],

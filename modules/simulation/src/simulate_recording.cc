@@ -91,8 +91,8 @@ std::vector<Segment> segments(const Hand& hand) {
 }
 
 // The stroke on `base`, or on the plane or cylinder of the config where there is none.
-Recording simulate_on(const SimulationConfig& config, const Surface& surface, std::shared_ptr<const MeshBase> base,
-                      const Observer& observer) {
+Recording simulate_on(const SimulationConfig& config, const Surface& surface,
+                      const std::shared_ptr<const MeshBase>& base, const Observer& observer) {
   validate(config);
   const auto seed = static_cast<std::uint64_t>(config.seed);
   observer.update("simulate", 0.0);

@@ -21,7 +21,7 @@ void list(Model& t, const Field& field) {
 
 // One list for all models: those of a list come one after another.
 std::vector<double> lsf_list(const BlockInput& in, const char* key, std::size_t models) {
-  const auto all = required_numbers(in.json, in.path, key, 4.0);
+  auto all = required_numbers(in.json, in.path, key, 4.0);
   if (all.size() % models != 0 || all.size() / models > static_cast<std::size_t>(kMaxSeriesOrder)) {
     in.json.fail(in.path + "." + key, std::to_string(all.size()) + " numbers for " + std::to_string(models) +
                                           " models of an order of at most " + std::to_string(kMaxSeriesOrder));
@@ -30,7 +30,7 @@ std::vector<double> lsf_list(const BlockInput& in, const char* key, std::size_t 
 }
 
 void read_triangles(const BlockInput& in, AutoregressiveTexture& t) {
-  const auto all = required_numbers(in.json, in.path, "triangles", 1e6);
+  auto all = required_numbers(in.json, in.path, "triangles", 1e6);
   const std::string path = in.path + ".triangles";
   if (all.size() % 3 != 0) in.json.fail(path, std::to_string(all.size()) + " numbers are no triangles");
   for (std::size_t i = 0; i < all.size(); i += 3) {

@@ -41,11 +41,11 @@ Turns turns_of(double x_m, double length_mm) noexcept {
   return {turns - std::floor(turns), rest};
 }
 
-template <std::size_t count>
-double total(const std::array<double, count>& lanes) noexcept {
+template <std::size_t Count>
+double total(const std::array<double, Count>& lanes) noexcept {
   double even = 0.0;
   double odd = 0.0;
-  for (std::size_t k = 0; k < count; k += 2) even += lanes[k], odd += lanes[k + 1];
+  for (std::size_t k = 0; k < Count; k += 2) even += lanes[k], odd += lanes[k + 1];
   return even + odd;
 }
 
@@ -111,14 +111,14 @@ double total(const std::array<double, count>& lanes) noexcept {
   return sum_series(texture, x_m);
 }
 
-const bool kHasAvx2 = __builtin_cpu_supports("avx2") != 0;
+const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
 #endif
 
 }  // namespace
 
 HeightAndSlope evaluate(const Fourier1d& texture, double x_m) noexcept {
 #if defined(__x86_64__)
-  if (kHasAvx2) return sum_series_avx2(texture, x_m);
+  if (has_avx2) return sum_series_avx2(texture, x_m);
 #endif
   return sum_series(texture, x_m);
 }

@@ -1,6 +1,7 @@
 // A stand-in for Force Dimension's libdhd.so: the symbols and the behaviour that we rely on, over a simulated device
 // that lives by a millisecond at each dhdSetForce.
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 
 #include "damped_mass.h"
@@ -16,6 +17,7 @@ struct State {
   bool open = false;
   bool force_enabled = false;
   bool wrong_device = false;
+  long forces_left = -1;                // until it is unplugged, told by FAKE_DHD_UNPLUG_AFTER; negative: it never is
   double motor_N[3] = {0.0, 0.0, 0.0};  // as commanded, x right, y up, z toward the user
   const char* error = "no error";
 };
@@ -56,6 +58,7 @@ int dhdOpen() {
   if (state().absent) return fail("no device found");
   if (state().open) return fail("device busy");
   state().open = true;
+  if (const char* const forces = std::getenv("FAKE_DHD_UNPLUG_AFTER")) state().forces_left = std::atol(forces);
   return 0;
 }
 
@@ -92,6 +95,8 @@ int dhdSetForce(double x, double y, double z, char id) {
   state().motor_N[0] = y;
   state().motor_N[1] = z;
   state().motor_N[2] = x;
+  if (state().forces_left == 0) state().unplugged = true;
+  if (state().forces_left > 0) --state().forces_left;
   if (refusal(id) < 0) return -1;
   if (!state().force_enabled) return fail("force is off");
   const double norm_N = std::hypot(x, y, z);

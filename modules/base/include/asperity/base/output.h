@@ -16,7 +16,7 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 // target, and commit() puts them in its place. Without commit() nothing remains.
 class OutputFile {
  public:
-  // Throws Error if its folder cannot be written.
+  // Throws Error if its folder cannot be written, or if the target is a folder, a device or a pipe.
   explicit OutputFile(std::filesystem::path target);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;

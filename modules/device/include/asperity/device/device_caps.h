@@ -8,15 +8,13 @@
 
 namespace asperity {
 
-// What is supposed of the hand and the device where nobody states it.
+// What is supposed where nobody states it.
 struct DeviceCapsConfig {
-  double damping_N_s_per_m = 0.0;              // of device and grip, that can be relied on
   double texture_stiffness_N_per_m_kHz = 450;  // stable texture stiffness for each kHz of the rate
   double stroke_mps = 0.1;                     // at which textures are to be rendered faithfully
 
   template <class V>
   void visit(V& v) {
-    v.field("damping_N_s_per_m", damping_N_s_per_m, "of device and grip, that can be relied on", {0.0, 1e3});
     v.field("texture_stiffness_N_per_m_kHz", texture_stiffness_N_per_m_kHz,
             "stable texture stiffness for each kHz of the rate", {1.0, 1e6});
     v.field("stroke_mps", stroke_mps, "speed at which textures are to be faithful", {1e-4, 10.0});
@@ -40,7 +38,8 @@ struct DeviceCaps {
 //   force               the smaller of max_force_N of the safety layer and of the device
 //   stiffness           the device's largest, and 2 b rate_Hz: a sampled spring needs the damping b > k T/2 (Colgate
 //   and
-//                       Brown 1994). b is damping_N_s_per_m and what the passivity controller adds; no cap if that is 0
+//                       Brown 1994). b is assumed_damping_N_s_per_m and what the passivity controller adds; no cap if
+//                       it is 0
 //   texture stiffness   0.45 N/mm at 1 kHz (Choi and Tan 2004, seed §2.3), in proportion to the rate as k T/2 is, and
 //                       the cap on stiffness
 //   texture cycles      f = v · cycles: the device's bandwidth, or half the rate, at the speed stroke_mps (Campion and

@@ -21,6 +21,7 @@ struct DeviceInfo {
   Eigen::Vector3d workspace_min_m = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Vector3d workspace_max_m = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   bool simulated = false;  // its hand is computed: it may be served faster than real time
+  bool yields = true;      // its position answers to the force; false: a recorded path
 };
 
 enum class DeviceStatus : std::uint8_t {

@@ -40,7 +40,8 @@ struct SafeForce {
   double dissipated_J = 0.0;     // by the passivity controller at this velocity
 };
 
-// `config` with its limits lowered to those of the device, where it states any.
+// `config` with its limits lowered to those of the device, where it states any; without the passivity controller for a
+// device whose position does not answer to the force, which damping cannot settle.
 SafetyConfig lower_to_device(SafetyConfig config, const DeviceInfo& info);
 
 // The force that may reach the hand at this tick, in this order (docs/safety.md): fault, the force limit, the gain

@@ -9,7 +9,7 @@ namespace asperity {
 // What the passivity observer remembers from one tick to the next. Begin with PassivityState{}.
 struct PassivityState {
   bool started = false;
-  double excess_J = 0.0;  // the hand gave so much more than it got back and than is stored; negative: was created
+  double excess_J = 0.0;  // given by the hand or damped by it, beyond what it got back and what is stored
   double stored_J = 0.0;  // at the tick before
   Eigen::Vector3d hand_m = Eigen::Vector3d::Zero();   // at the tick before
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  // on the hand since the tick before
@@ -30,9 +30,10 @@ struct PassivityInput {
 //
 // Between two ticks the force is constant, so the energy that the hand gave is exactly E −= f(k−1)·(x(k) − x(k−1))
 // with the force that was applied and the displacement that was measured (Ryu, Kim and Hannaford 2004). Observed is
-// the excess D = E − S over what the springs store (reference energy, Ryu, Preusche, Hannaford and Hirzinger 2005). If
-// D < 0, the damping α = −D/(dt |v|²) ≤ max_damping_N_s_per_m takes that energy back within a tick (Hannaford and
-// Ryu 2002). D is kept within −max_debt_J and max_credit_J; what else is forgotten is told in docs/safety.md.
+// the excess D = E + B − S over what the springs store (reference energy, Ryu, Preusche, Hannaford and Hirzinger
+// 2005); B = Σ b |x(k) − x(k−1)|²/dt is what hand and device damp for certain. If D < 0, the damping α = −D/(dt |v|²) ≤
+// max_damping_N_s_per_m takes that energy back within a tick (Hannaford and Ryu 2002). D is kept within −max_debt_J and
+// max_credit_J; what else is forgotten is told in docs/safety.md.
 //
 // The caller sets `state.force_N` to the force that it commands at last.
 // Realtime-safe: yes.

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "asperity/base/problem.h"
@@ -18,5 +20,8 @@ struct ReplayFile {
 // and column for a missing column, a cell that is not a number, a position beyond 10^6 m, times that do not rise,
 // no row at all, or a file over 1 GiB.
 ReplayFile read_replay_csv(const std::filesystem::path& file);
+
+// The same from text in memory, which messages call `name`.
+ReplayFile parse_replay_csv(std::string_view text, const std::string& name);
 
 }  // namespace asperity

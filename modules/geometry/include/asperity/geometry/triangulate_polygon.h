@@ -10,9 +10,9 @@
 namespace asperity {
 
 enum class PolygonShape {
-  simple,      // the triangles tile the polygon
-  degenerate,  // no area: the triangles are a fan
-  crossing     // the outline crosses or touches itself: the triangles may overlap
+  kSimple,      // the triangles tile the polygon
+  kDegenerate,  // no area: the triangles are a fan
+  kCrossing     // the outline crosses or touches itself: the triangles may overlap
 };
 
 // Cuts the polygon through `points` (three or more, in order) into points.size() - 2 triangles of the same

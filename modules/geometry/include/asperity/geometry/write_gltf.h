@@ -7,7 +7,7 @@
 
 namespace asperity {
 
-enum class GltfForm { json, binary };
+enum class GltfForm { kJson, kBinary };
 
 // The mesh as glTF 2.0 with everything inside the file (but images given by name). One mesh a haptic
 // texture, one primitive a material in it; a vertex for every different corner.

@@ -42,7 +42,9 @@ struct RenderingScore {
   SpectrumAgreement height;  // m
   SpectrumAgreement force;   // N, along the normal
 
-  double score = 0.0;  // from 0 to 1
+  double height_score = 0.0;  // each from 0 to 1 (score_rendering.h)
+  double force_score = 0.0;
+  double score = 0.0;
   std::string verdict;
   bool trustworthy = true;
 };

@@ -40,11 +40,12 @@ struct ScoreConfig {
 // (compare_profiles.h). Both: octave spectra by Welch (compare_textures.h) with their distance D, the RMS over the felt
 // octaves of 20 log10(rendered/real). An agreement is A(D) = 2^(−D/half_dB). With the correlation c ≥ 0,
 //
-//   score = √(c · A(D_height))   or, for a texture that repeats over the path, A(D_height).
+//   heights  √(c · A(D_height)), or A(D_height) alone for a texture that repeats over the path
+//   force    A(D_force)
+//   score    √(heights · force)
 //
-// The force is told beside it and does not enter: the device point moves as if the hand were rigid, and the measured
-// force is in both sides (docs/feel.md). Throws Error for a scan that is never in contact or too short for a
-// spectrum.
+// The device point moves as if the hand were rigid, which a real one is not: the force's part stays below 1 for a
+// faithful texture too (docs/feel.md). Throws Error for a scan that is never in contact or too short for a spectrum.
 RenderingScore score_rendering(const ProcessResult& measured, const PressedScan& pressed, const RenderModel& model,
                                double servo_Hz, const ScoreConfig& config, const Observer& observer = {});
 

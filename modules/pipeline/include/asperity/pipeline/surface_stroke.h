@@ -32,12 +32,16 @@ SurfaceLine line_between(const Scene& scene, const Eigen::Vector3d& from_world_m
 // for `length_m`, half to either side, or as far as the surface goes. Axes are those of the box in its own frame.
 SurfaceLine line_across(const Scene& scene, double length_m);
 
+// The line without `margin_m` at either end, but never less than its middle half: a hand keeps away from borders.
+SurfaceLine shortened(const SurfaceLine& line, double margin_m);
+
 struct SurfaceStrokeConfig {
   double speed_mps = 0.05;
   double press_N = 1.0;
   double approach_m = 2e-3;
   double approach_s = 0.2;
   double turn_s = 0.1;
+  double margin_m = 2e-3;
 
   template <class V>
   void visit(V& v) {
@@ -46,6 +50,7 @@ struct SurfaceStrokeConfig {
     v.field("approach_m", approach_m, "above the surface, where the stroke begins, m", {0.0, 1.0});
     v.field("approach_s", approach_s, "time of coming down, and of pressing after that, s", {1e-2, 100.0});
     v.field("turn_s", turn_s, "time in which the speed is reached, and lost, s", {1e-3, 100.0});
+    v.field("margin_m", margin_m, "left out at the ends of a line that nobody chose, m", {0.0, 1.0});
   }
 };
 

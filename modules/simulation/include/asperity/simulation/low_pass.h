@@ -36,7 +36,7 @@ class SensorLowPass {
       z1_ = x * (1.0 - b0_);
       z2_ = x * (b2_ - a2_);
     }
-    const T y = b0_ * x + z1_;
+    T y = b0_ * x + z1_;
     z1_ = b1_ * x - a1_ * y + z2_;
     z2_ = b2_ * x - a2_ * y;
     return y;

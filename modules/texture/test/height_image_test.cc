@@ -1,0 +1,76 @@
+// Grey-scale images as height maps: both kinds of file, and damaged ones.
+#include <cstdint>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "asperity/base/error.h"
+#include "asperity/texture/evaluate_height.h"
+#include "asperity/texture/pgm_image.h"
+#include "asperity/texture/png_image.h"
+#include "asperity/texture/read_height_image.h"
+
+namespace asperity {
+namespace {
+
+GreyImage ramp(int bits) {
+  GreyImage image{8, 4, bits, {}};
+  for (std::uint16_t i = 0; i < 32; ++i) image.level.push_back(static_cast<std::uint16_t>(bits == 8 ? i : 100 * i));
+  return image;
+}
+
+std::string pgm(const GreyImage& image) {
+  std::string out = "P5\n# a comment\n" + std::to_string(image.columns) + " " + std::to_string(image.rows) + "\n" +
+                    (image.bits == 8 ? "255" : "65535") + "\n";
+  for (const std::uint16_t level : image.level) {
+    if (image.bits == 16) out += static_cast<char>(level >> 8);
+    out += static_cast<char>(level & 255);
+  }
+  return out;
+}
+
+TEST(HeightImage, PgmAndPngOfOneImageAreTheSame) {
+  for (const int bits : {8, 16}) {
+    const GreyImage image = ramp(bits);
+    const GreyImage read = parse_pgm(pgm(image), "test");
+    EXPECT_EQ(read.level, image.level);
+    EXPECT_EQ(read.bits, bits);
+    EXPECT_EQ(read.columns, 8u);
+    const auto a = std::get<HeightMap>(parse_height_image(pgm(image), "a").model);
+    const auto b = std::get<HeightMap>(parse_height_image(format_png(image), "b").model);
+    EXPECT_EQ(a.level, b.level);
+  }
+}
+
+TEST(HeightImage, TextIsReadAndOtherMaximaAreScaled) {
+  const GreyImage image = parse_pgm("P2 2 2 15\n0 15 # white\n1 8\n", "test");
+  EXPECT_EQ(image.level, (std::vector<std::uint16_t>{0, 255, 17, 136}));
+}
+
+// Fig. 38: 256 levels over 2.5 mm, 10 mm wide.
+TEST(HeightImage, HasTheSizeAndRangeAskedFor) {
+  GreyImage image{256, 256, 8, std::vector<std::uint16_t>(256 * 256, 51)};
+  const Texture texture = parse_height_image(format_png(image), "test");
+  EXPECT_NEAR(evaluate_height(texture.model, 3e-3, 4e-3).height_m, 0.5e-3, 1e-12);
+  EXPECT_DOUBLE_EQ(std::get<HeightMap>(texture.model).mm_per_px_x, 10.0 / 256);
+  EXPECT_NEAR(std::get<HeightMap>(texture.model).metres_per_level(), 2.5e-3 / 255, 1e-15);
+}
+
+TEST(HeightImage, RefusesDamage) {
+  const std::string good = pgm(ramp(8));
+  for (std::size_t cut = 0; cut < good.size(); ++cut)
+    EXPECT_THROW(parse_pgm(good.substr(0, cut), "test"), Error) << cut;
+  EXPECT_THROW(parse_pgm(good + "x", "test"), Error);
+  EXPECT_THROW(parse_pgm("P2 2 2 15 0 16 1 8", "test"), Error);
+  EXPECT_THROW(parse_pgm("P2 2 2 15 0 1 1", "test"), Error);
+  EXPECT_THROW(parse_pgm("P5 99999999999999999999 2 255 ", "test"), Error);
+  EXPECT_THROW(parse_pgm("P5 8192 8192 65535 ", "test"), Error);
+  EXPECT_THROW(parse_pgm("P6 1 1 255 abc", "test"), Error);
+  EXPECT_THROW(parse_height_image("P2 2 2 255 0 0 0 0", "small"), Error);
+  ReadHeightImageConfig config;
+  config.width_mm = 0.0;
+  EXPECT_THROW(parse_height_image(good, "test", config), Error);
+}
+
+}  // namespace
+}  // namespace asperity
