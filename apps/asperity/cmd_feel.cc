@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -28,6 +27,7 @@
 #include "feel_log.h"
 #include "feel_report.h"
 #include "feel_settings.h"
+#include "feel_verdict.h"
 #include "interrupt.h"
 #include "option_units.h"
 #include "our_folder.h"
@@ -95,22 +95,20 @@ class FeelCommand : public Command {
   std::vector<ConfigField> fields() override { return feel_fields(settings_); }
 
   void apply_options() override {
-    if (!rate_.empty()) settings_.servo.rate_Hz = number_option("--rate", rate_, "Hz", 100.0, 4000.0);
+    if (!rate_.empty()) set("--rate", "servo.rate_Hz", number_option("--rate", rate_, "Hz", 100.0, 4000.0));
     if (!duration_.empty()) settings_.servo.duration_s = duration_option_s("--duration", duration_, 36'000.0);
     if (timing_) settings_.servo.timed = true;
     if (realtime_) settings_.servo.paced = true;
-    if (!tip_.empty()) settings_.render.tip_radius_m = length_option_m("--tip", tip_);
-    if (!stiffness_.empty())
-      settings_.render.stiffness_N_per_m = number_option("--stiffness", stiffness_, "N/m", 1.0, 1e6);
-    if (!friction_.empty()) settings_.render.friction = number_option("--friction", friction_, "", 0.0, 10.0);
-    if (!press_.empty()) settings_.stroke.press_N = number_option("--press", press_, "N", 0.0, 50.0);
-    if (!speed_.empty()) settings_.stroke.speed_mps = speed_option_mps("--speed", speed_);
-    if (model_.empty()) return;
-    try {
-      set_field(fields(), "render.texture.model", model_);
-    } catch (const Error& error) {
-      throw UsageError(std::string("--texture-model: ") + error.what());
+    if (!tip_.empty()) set("--tip", "render.tip_radius_m", length_option_m("--tip", tip_));
+    if (!stiffness_.empty()) {
+      set("--stiffness", "render.stiffness_N_per_m", number_option("--stiffness", stiffness_, "N/m", 1.0, 1e6));
     }
+    if (!friction_.empty()) {
+      set("--friction", "render.friction", number_option("--friction", friction_, "", 0.0, 10.0));
+    }
+    if (!press_.empty()) set("--press", "stroke.press_N", number_option("--press", press_, "N", 0.0, 50.0));
+    if (!speed_.empty()) set("--speed", "stroke.speed_mps", speed_option_mps("--speed", speed_));
+    if (!model_.empty()) set_text("--texture-model", "render.texture.model", model_);
   }
 
   int run(const Observer& observer) override {
@@ -134,7 +132,10 @@ class FeelCommand : public Command {
     SnapshotExchange<const RenderModel> model(make_model(scene, *device));
     const fs::path log = !log_.empty() ? fs::path(log_) : folder ? folder->path() / "log.csv" : fs::path();
     const ServoResult servo = feel(*device, model, log, observer);
-    warn_of_run(servo, *device, drive, *model.acquire());
+    const RunVerdict run = judge_run(figures_, servo, *device, drive, *model.acquire(), settings_.servo.safety);
+    warnings_.insert(warnings_.end(), run.warnings.begin(), run.warnings.end());
+    warnings_.insert(warnings_.end(), notes_.begin(), notes_.end());
+    for (const std::string& doubt : run.doubts) distrust(doubt);
     std::optional<RenderingScore> score;
     if (drive.scan && servo.end != ServoEnd::kFault) {
       score = score_rendering(drive.scan->measured, drive.scan->pressed, *model.acquire(), settings_.servo.rate_Hz,
@@ -154,13 +155,27 @@ class FeelCommand : public Command {
   }
 
  private:
-  void choose_scene() const {
+  // An option's value into the setting that it stands for, within that one's range.
+  void set_text(const std::string& option, const std::string& setting, const std::string& value) {
+    try {
+      set_field(fields(), setting, value);
+    } catch (const Error& error) {
+      throw UsageError(option + ": " + error.what());
+    }
+  }
+  void set(const std::string& option, const std::string& setting, double value) {
+    set_text(option, setting, number_text(value));
+  }
+
+  void choose_scene() {
     if (scene_.empty() == height_maps_.empty())
       throw UsageError(scene_.empty() ? "SCENE is missing" : "--height-maps stands instead of SCENE");
     for (const auto& [option, text] : {std::pair{"--tile", &tile_}, std::pair{"--height-range", &height_range_}}) {
       if (!text->empty() && height_maps_.empty()) throw UsageError(std::string(option) + " needs --height-maps");
     }
     if (!mesh_unit_.empty() && scene_.empty()) throw UsageError("--mesh-unit needs a mesh");
+    if (parser().count("--log") > 0 && (log_.empty() || log_ == "-"))
+      throw UsageError("--log: a file's name is needed");
   }
 
   void choose_device() {
@@ -250,7 +265,7 @@ class FeelCommand : public Command {
     ServoConfig config = settings_.servo;
     if (kind_.driven) config.duration_s = 0.0;  // the path has it: no ramp follows
     const double whole_s = settings_.servo.duration_s;
-    const ServoResult servo = run_servo(device, model, config, interrupt_flag(), [&](const ServoTick& tick) {
+    ServoResult servo = run_servo(device, model, config, interrupt_flag(), [&](const ServoTick& tick) {
       figures_.add(tick);
       if (rows) rows->add(tick);
       if (!config.paced && figures_.ticks() % 4096 == 0) {
@@ -262,6 +277,7 @@ class FeelCommand : public Command {
     if (servo.end == ServoEnd::kFault && !log.empty()) {
       fs::path file = log;
       file.replace_extension(".flight.csv");
+      refuse_stranger(file, format_flight_record({}));
       write_flight_record(file, servo.last_ticks);
       warnings_.push_back("what happened before the fault is in " + printable(file.filename().string(), 200));
     }
@@ -274,54 +290,6 @@ class FeelCommand : public Command {
     for (const Problem& problem : problems) notes_.push_back(problem.message);
   }
 
-  void warn_of_run(const ServoResult& servo, const HapticDevice& device, const FeelDrive& drive,
-                   const RenderModel& model) {
-    const auto ticks = [&](SafetyCause cause) { return figures_.caused(cause); };
-    if (servo.end == ServoEnd::kFault) distrust("the device has a fault: " + printable(device.fault(), 300));
-    if (ticks(SafetyCause::kNonFinite) > 0) {
-      distrust(fmt::format("the force was ramped to zero: {} ticks had numbers that are not finite",
-                           ticks(SafetyCause::kNonFinite)));
-    }
-    if (ticks(SafetyCause::kStale) > 0) {
-      distrust(fmt::format("the force was ramped to zero: for {} ticks there was no news from the device",
-                           ticks(SafetyCause::kStale)));
-    }
-    if (ticks(SafetyCause::kForceLimit) > 0) {
-      warnings_.push_back(fmt::format("{} ticks were limited to {} N", ticks(SafetyCause::kForceLimit),
-                                      number_text(settings_.servo.safety.max_force_N)));
-    }
-    if (ticks(SafetyCause::kRateLimit) > 0) {
-      warnings_.push_back(fmt::format("on {} ticks the force changed faster than {} N/s and was slowed",
-                                      ticks(SafetyCause::kRateLimit),
-                                      number_text(settings_.servo.safety.max_force_rate_N_per_s)));
-    }
-    if (servo.statistics.lost_ticks > 0) {
-      warnings_.push_back(fmt::format("{} ticks are missing in the log", servo.statistics.lost_ticks));
-    }
-    if (figures_.starting_inside() > 0) {
-      warnings_.push_back(fmt::format("the point started inside an object: no force for {} ticks, until it had left it",
-                                      figures_.starting_inside()));
-    }
-    if (figures_.touching() == 0 && figures_.ticks() > 0)
-      warnings_.push_back("nothing was touched" + nearest(drive, model));
-    for (const std::string& note : notes_) warnings_.push_back(note);
-  }
-
-  // How far a path stays from the scene, in words.
-  static std::string nearest(const FeelDrive& drive, const RenderModel& model) {
-    const DevicePath* path = drive.path ? &*drive.path : drive.stroke ? &drive.stroke->path : nullptr;
-    if (path == nullptr || path->size() == 0) return "";
-    double least_m = std::numeric_limits<double>::infinity();
-    const std::size_t step = 1 + path->size() / 5000;
-    for (const RenderObject& object : model.objects) {
-      const Pose T_mesh_world = object.T_world_mesh.inverse();
-      for (std::size_t i = 0; i < path->size(); i += step) {
-        least_m = std::min(least_m, object.bvh.closest_point(T_mesh_world * path->p_world_m[i]).distance_m);
-      }
-    }
-    return fmt::format(": the path comes no nearer to a surface than {:.4g} mm", least_m * 1e3);
-  }
-
   Json to_json(const ServoResult& servo, const HapticDevice& device, const std::optional<RenderingScore>& score) {
     Json out;
     out["format"] = "asperity-feel";
@@ -330,6 +298,7 @@ class FeelCommand : public Command {
     out["device"] = device_;
     out["model"] = device.info().model;
     if (!replay_.empty()) out["replay"] = replay_;
+    if (!log_.empty()) out["log"] = log_;
     out["end"] = kEndNames.at(static_cast<std::size_t>(servo.end));
     out["rate_Hz"] = settings_.servo.rate_Hz;
     out["duration_s"] = static_cast<double>(figures_.ticks()) / settings_.servo.rate_Hz;

@@ -18,6 +18,9 @@ namespace fs = std::filesystem;
 FeelDrive repeat_recording(const std::string& folder, const Scene& scene, const FeelSettings& settings,
                            const Observer& observer) {
   observer.update("reading", 0.0);
+  if (!fs::exists(fs::path(folder) / "recording.json") && fs::exists(fs::path(folder) / "trajectory.csv")) {
+    throw Error(printable(folder, 200) + ": a result, not a recording; its trajectory.csv can be felt with --mapped");
+  }
   const Recording recording = read_recording(folder);
   FeelDrive out;
   try {

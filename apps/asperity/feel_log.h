@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "asperity/base/output.h"
 #include "asperity/device/servo_tick.h"
@@ -17,10 +18,13 @@ inline constexpr const char* kFeelLogColumns =
 // texture's part is negative where it pulls into the object.
 void append_feel_row(std::string& out, const ServoTick& tick);
 
+// Throws Error if `file` exists, is not empty and does not begin with `header`: somebody else's, not to be replaced.
+void refuse_stranger(const std::filesystem::path& file, std::string_view header);
+
 // The log of a run, written as a whole by rename: without commit() nothing remains.
 class FeelLog {
  public:
-  // With `timing` a last column step_ns. Throws Error if the file cannot be written.
+  // With `timing` a last column step_ns. Throws Error if the file cannot be written, or exists and is no such log.
   FeelLog(const std::filesystem::path& file, bool timing);
   void add(const ServoTick& tick);
   void commit();

@@ -115,12 +115,12 @@ Json score_json(const RenderingScore& score) {
 
 std::string score_text(const RenderingScore& score) {
   return fmt::format(
-      "score      {:.3f} of 1, over {:.1f} mm from {:.2f} to {:.2f} cycles/mm: {}\n"
+      "score      {:.3f} of 1 (heights {:.3f}, force {:.3f}), over {:.1f} mm from {:.2f} to {:.2f} cycles/mm: {}\n"
       "  heights  real {:.1f} µm RMS, rendered {:.1f} µm, correlation {:.3f}, gain {:.3f}\n"
       "  force    real {:.3f} N RMS, rendered {:.3f} N\n",
-      score.score, score.compared_m * 1e3, score.low_cycles_per_mm, score.high_cycles_per_mm, score.verdict,
-      score.height.real_rms * 1e6, score.height.rendered_rms * 1e6, score.correlation, score.gain, score.force.real_rms,
-      score.force.rendered_rms);
+      score.score, score.height_score, score.force_score, score.compared_m * 1e3, score.low_cycles_per_mm,
+      score.high_cycles_per_mm, score.verdict, score.height.real_rms * 1e6, score.height.rendered_rms * 1e6,
+      score.correlation, score.gain, score.force.real_rms, score.force.rendered_rms);
 }
 
 Json timing_json(const ServoStatistics& statistics, const ServoConfig& config) {

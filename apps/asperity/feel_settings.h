@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "asperity/base/config.h"
@@ -98,12 +99,18 @@ struct FeelSettings {
 
 // All settings; those of the safety layer stand in a group of their own.
 inline std::vector<ConfigField> feel_fields(FeelSettings& settings) {
-  std::vector<ConfigField> fields = list_fields("", settings);
-  constexpr std::string_view kInside = "servo.safety.";
-  for (ConfigField& field : fields) {
-    if (field.path.starts_with(kInside)) field.path.erase(0, std::string_view("servo.").size());
+  std::vector<ConfigField> out;
+  bool placed = false;
+  for (ConfigField& field : list_fields("", settings)) {
+    if (!field.path.starts_with("servo.safety.")) {
+      out.push_back(std::move(field));
+      continue;
+    }
+    if (placed) continue;
+    for (ConfigField& own : list_fields("safety", settings.servo.safety)) out.push_back(std::move(own));
+    placed = true;
   }
-  return fields;
+  return out;
 }
 
 }  // namespace asperity::app

@@ -2,21 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "asperity/testkit/temp_dir.h"
-#include "run_asperity.h"
+#include "feel_fixture.h"
 
 namespace asperity::cli {
 namespace {
@@ -26,105 +20,6 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using Json = nlohmann::json;
 using Words = std::vector<std::string>;
-
-// A plate of 60 × 20 mm with its face at z = 0, cells of 2 mm, in millimetres; no underside.
-std::string plate_obj() {
-  std::ostringstream out;
-  for (int j = 0; j <= 10; ++j) {
-    for (int i = 0; i <= 30; ++i) out << "v " << 2 * i << ' ' << 2 * j << " 0\n";
-  }
-  for (int j = 0; j < 10; ++j) {
-    for (int i = 0; i < 30; ++i) {
-      const int a = 31 * j + i + 1;
-      out << "f " << a << ' ' << a + 1 << ' ' << a + 32 << ' ' << a + 31 << '\n';
-    }
-  }
-  return out.str();
-}
-
-// Cosines of 2.5 mm and 0.1 mm height: after the lift the texture lies between 0 and 0.2 mm.
-constexpr const char* kTexture =
-    R"({"format":"asperity-texture","version":1,"name":"wave","model":"fourier1d",)"
-    R"("fourier1d":{"length_mm":10,"omega_rad_per_mm":0.6283185307179586,"a_m":[0,0,0,0.0001],"b_m":[0,0,0,0],"mean_m":0},)"
-    R"("compliance_kc":1,"extra":{}})";
-
-struct Table {
-  std::vector<std::string> columns;
-  std::vector<std::vector<double>> rows;
-
-  std::vector<double> column(const std::string& name) const {
-    const auto at = std::find(columns.begin(), columns.end(), name) - columns.begin();
-    std::vector<double> out;
-    for (const auto& row : rows) out.push_back(row.at(static_cast<std::size_t>(at)));
-    return out;
-  }
-};
-
-Table read_header(const fs::path& file) {
-  std::ifstream in(file);
-  Table out;
-  std::string line, cell;
-  std::getline(in, line);
-  for (std::stringstream cells(line); std::getline(cells, cell, ',');) out.columns.push_back(cell);
-  return out;
-}
-
-Table read_table(const fs::path& file) {
-  std::ifstream in(file);
-  Table out;
-  std::string line, cell;
-  std::getline(in, line);
-  for (std::stringstream cells(line); std::getline(cells, cell, ',');) out.columns.push_back(cell);
-  while (std::getline(in, line)) {
-    out.rows.emplace_back();
-    for (std::stringstream cells(line); std::getline(cells, cell, ',');) {
-      double value = 0.0;
-      const auto end = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-      EXPECT_EQ(end.ptr, cell.data() + cell.size()) << cell;
-      out.rows.back().push_back(value);
-    }
-  }
-  return out;
-}
-
-std::string text_of(double value) {
-  std::array<char, 32> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), end.ptr};
-}
-
-class FeelCommands : public testing::Test {
- protected:
-  FeelCommands() {
-    write_text(path("plate.obj"), plate_obj());
-    write_text(path("wave.texture.json"), kTexture);
-    const Outcome painted = run({"paint", path("plate.obj"), "--mesh-unit", "mm", "--through", "5,10,0;55,10,0",
-                                 "--width", "12mm", "--texture", path("wave.texture.json"), "-o", path("scene")});
-    EXPECT_EQ(painted.code, 0) << painted.err;
-  }
-  std::string path(const std::string& name) const { return (dir_ / name).string(); }
-
-  Outcome feel(const std::string& scene, const Words& more) const {
-    Words words{"feel", scene};
-    words.insert(words.end(), more.begin(), more.end());
-    return run(words);
-  }
-
-  // Down from 2 mm above to `depth_m` in 0.1 s, then along x at 50 mm/s; a row every `step_ns`, beginning at
-  // `start_ns`.
-  void write_stroke(const std::string& name, double depth_m, std::int64_t start_ns, std::int64_t step_ns) const {
-    std::string out = "t_ns,px_m,py_m,pz_m\n";
-    for (std::int64_t t_ns = 0; t_ns <= 400'000'000; t_ns += step_ns) {
-      const double t_s = 1e-9 * static_cast<double>(t_ns);
-      const double down = std::min(t_s / 0.1, 1.0);
-      out += std::to_string(start_ns + t_ns) + "," + text_of(0.02 + 0.05 * std::max(t_s - 0.1, 0.0)) + ",0.01," +
-             text_of(2e-3 - down * (2e-3 + depth_m)) + "\n";
-    }
-    write_text(path(name), out);
-  }
-
-  testkit::TempDir dir_;
-};
 
 TEST_F(FeelCommands, AReplayedPathIsFollowedExactly) {
   write_stroke("path.csv", 0.5e-3, 123'456'789'000, 1'000'000);
@@ -211,6 +106,24 @@ TEST_F(FeelCommands, TheModelledHandStrokesTheTexture) {
   EXPECT_GT(Json::parse(outcome.out).at("force").at("peak_texture_N").get<double>(), 0.1);
 }
 
+TEST_F(FeelCommands, OnlyALogIsReplacedByALog) {
+  write_stroke("path.csv", 0.5e-3, 0, 1'000'000);
+  write_text(path("mine.csv"), "my,data\n");
+  fs::create_symlink(path("log.csv"), path("link.csv"));
+  for (const char* name : {"path.csv", "mine.csv", "scene/scene.json"}) {
+    const auto before = contents(dir_.path());
+    const Outcome outcome = feel(path("scene"), {"--replay", path("path.csv"), "--log", path(name)});
+    EXPECT_EQ(outcome.code, 1) << name;
+    EXPECT_THAT(outcome.err, HasSubstr("nothing was changed"));
+    EXPECT_EQ(contents(dir_.path()), before);
+  }
+  for (const char* name : {"log.csv", "link.csv", "log.csv"}) {
+    EXPECT_EQ(feel(path("scene"), {"--replay", path("path.csv"), "--log", path(name)}).code, 0) << name;
+  }
+  EXPECT_TRUE(fs::is_symlink(path("link.csv")));
+  EXPECT_EQ(read_table(path("log.csv")).rows.size(), 401u);
+}
+
 TEST_F(FeelCommands, AStrokeGoesBetweenGivenPoints) {
   const Outcome outcome = feel(path("plate.obj"), {"--mesh-unit", "mm", "--from", "0.01,0.004,0", "--to",
                                                    "10mm,16mm,0mm", "--log", path("log.csv")});
@@ -246,46 +159,6 @@ TEST_F(FeelCommands, AnInterruptedRunLeavesNothing) {
   for (const auto& entry : fs::directory_iterator(dir_.path())) {
     EXPECT_THAT(entry.path().filename().string(), Not(HasSubstr("tmp")));
   }
-}
-
-// A driver of the vendor's kind, loaded as the vendor's is; unplugged after so many forces, if that is not negative.
-struct FakeDriver {
-  explicit FakeDriver(int unplug_after) { ::setenv("FAKE_DHD_UNPLUG_AFTER", std::to_string(unplug_after).c_str(), 1); }
-  ~FakeDriver() { ::unsetenv("FAKE_DHD_UNPLUG_AFTER"); }
-  const std::string setting = std::string("dhd.library=") + FAKE_DHD;
-};
-
-TEST_F(FeelCommands, AHandAtADeviceIsServedByTheClock) {
-  const FakeDriver driver(-1);
-  const Outcome outcome = feel(path("scene"), {"--device", "dhd", "--set", driver.setting, "--duration", "300ms",
-                                               "--log", path("log.csv"), "--json"});
-  ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const Json json = Json::parse(outcome.out);
-  EXPECT_TRUE(json.at("timing").contains("overruns"));
-  // The device's origin stands in the middle of the plate.
-  EXPECT_NEAR(json.at("config").at("servo").at("frame").at("translation_m").at(0).get<double>(), 0.03, 1e-12);
-  // A texture spring of 1 N/mm is beyond what 1 kHz can render (Choi and Tan).
-  EXPECT_THAT(json.at("warnings").dump(), HasSubstr("texture"));
-  EXPECT_GT(read_table(path("log.csv")).rows.size(), 50u);
-}
-
-TEST_F(FeelCommands, AFaultEndsWith3AndAFlightRecord) {
-  const FakeDriver driver(100);
-  const Outcome outcome = feel(path("scene"), {"--device", "dhd", "--set", driver.setting, "--duration", "20s", "--log",
-                                               path("log.csv"), "--json"});
-  EXPECT_EQ(outcome.code, 3);
-  EXPECT_THAT(outcome.err, HasSubstr("the device has a fault"));
-  EXPECT_EQ(Json::parse(outcome.out).at("end"), "fault");
-  EXPECT_FALSE(Json::parse(outcome.out).at("trustworthy").get<bool>());
-  EXPECT_TRUE(fs::exists(path("log.csv")));
-  const Table flight = read_header(path("log.flight.csv"));
-  EXPECT_THAT(flight.columns, ::testing::Contains("t_ns"));
-}
-
-TEST_F(FeelCommands, AMissingDriverIsNamed) {
-  const Outcome outcome = feel(path("scene"), {"--device", "dhd", "--set", "dhd.library=" + path("none.so")});
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("none.so"));
 }
 
 TEST_F(FeelCommands, HeightMapsAreFeltOnAPlane) {
