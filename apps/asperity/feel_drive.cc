@@ -1,7 +1,11 @@
 #include "feel_drive.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <filesystem>
+#include <numbers>
+#include <string>
 #include <utility>
 
 #include "asperity/base/text.h"
@@ -83,16 +87,30 @@ FeelDrive read_drive(const std::string& replay, bool mapped, const Scene& scene,
 
 FeelDrive make_drive(const Scene& scene, const std::optional<Eigen::Vector3d>& from_m,
                      const std::optional<Eigen::Vector3d>& to_m, const FeelSettings& settings) {
-  constexpr double kAcross_m = 0.08;
+  constexpr double kAcross_m = 0.08, kSteepest_rad = std::numbers::pi / 3.0;
+  FeelDrive out;
+  const auto note = [&out](const char* kind, std::string message) { out.problems.push_back({kind, message, 1}); };
   SurfaceLine line;
   if (from_m && to_m) {
     line = line_between(scene, *from_m, *to_m);
+    const double steepest = steepest_rad(line);
+    if (steepest > kSteepest_rad) {
+      note("steep_stroke", fmt::format("the way from --from to --to leads round an edge: the surface is up to {:.0f}° "
+                                       "from the direction in which the hand presses",
+                                       steepest * 180.0 / std::numbers::pi));
+    }
   } else {
     line = textured_line(scene);
-    if (line.size() < 2) line = line_across(scene, kAcross_m);
+    const bool textured = line.size() > 1;
+    if (!textured) line = line_across(scene, kAcross_m);
+    const bool shorter =
+        line.turns_away || (!textured && line.size() > 1 && line.s_m.back() < (1.0 - 1e-9) * kAcross_m);
     line = shortened(line, settings.stroke.margin_m);
+    if (shorter && line.size() > 1) {
+      note("short_stroke", fmt::format("the stroke is {:.1f} mm long: there the surface {}", line.s_m.back() * 1e3,
+                                       line.turns_away ? "turns away from the hand" : "ends"));
+    }
   }
-  FeelDrive out;
   out.stroke = stroke_along(line, settings.servo.duration_s, settings.stroke);
   return out;
 }
