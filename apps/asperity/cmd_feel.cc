@@ -237,7 +237,7 @@ class FeelCommand : public Command {
     RenderConfig config = settings_.render_config();
     if (kind_.driven) return std::make_unique<const RenderModel>(make_render_model(scene, config));
     const DeviceCaps caps =
-        find_device_caps(device.info(), settings_.servo.safety, settings_.servo.rate_Hz, settings_.caps);
+        find_device_caps(device.info(), settings_.servo, settings_.caps);
     CappedScene capped = cap_scene(scene, config, caps);
     warnings_.insert(warnings_.end(), capped.warnings.begin(), capped.warnings.end());
     auto model = std::make_unique<RenderModel>(make_render_model(capped.scene, capped.config));

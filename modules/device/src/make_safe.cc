@@ -47,7 +47,8 @@ SafeForce make_safe(const SafetyConfig& config, SafetyState& state, const Safety
   if (input.status == DeviceStatus::kFault) return nothing_on_fault(state);
 
   SafeForce safe;
-  const bool finite = input.force_N.allFinite() && input.hand_m.allFinite() && input.hand_mps.allFinite();
+  const bool finite = input.force_N.allFinite() && input.hand_m.allFinite() && input.hand_mps.allFinite() &&
+                      input.spring_N.allFinite() && input.stretch_m.allFinite();
   const double dt_s = std::min(input.dt_s, kMostTicks * input.tick_s);
   const bool stood_still = input.dt_s > config.stale_after_s && state.watch.heard;
   const bool silent = is_stale(state.watch, input.sequence, input.status, config.stale_after_s, input.dt_s);

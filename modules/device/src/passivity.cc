@@ -16,6 +16,9 @@ Eigen::Vector3d damp_created_energy(const SafetyConfig& config, PassivityState& 
   state.started = true;
   state.hand_m = input.hand_m;
   state.stored_J = input.stored_J;
+  // Finite numbers may still overflow, and one that is none would stay for ever.
+  if (std::isnan(state.excess_J)) state.excess_J = 0.0;
+  if (!std::isfinite(state.stored_J)) state.stored_J = 0.0;
   state.excess_J = std::clamp(state.excess_J, -config.max_debt_J, config.max_credit_J);
   if (input.forgive) state.excess_J = std::max(state.excess_J, 0.0);
   if (state.excess_J >= 0.0) return Eigen::Vector3d::Zero();

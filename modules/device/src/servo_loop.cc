@@ -107,6 +107,8 @@ void run_paced(ServoCore& core, const ServoConfig& config, const std::atomic<boo
   std::atomic<bool> done{false};
   std::string refused;
   std::thread servo([&] {
+    // Here, so that the queue and this thread's stack are locked too where later memory cannot be.
+    const MemoryLock memory(config.priority != RealTimePriority::kIgnore);
     take_precise_timers();
     const bool granted = config.priority != RealTimePriority::kIgnore && take_real_time_priority(refused);
     core.set_real_time(granted);
@@ -147,7 +149,6 @@ ServoResult run_servo(HapticDevice& device, SnapshotExchange<const RenderModel>&
                       ServoStep step) {
   const ForceGuard guard(device);
   check(config);
-  const MemoryLock memory(config.paced && config.priority != RealTimePriority::kIgnore);
   ServoCore core(device, scene, config, step);
   if (config.paced) {
     run_paced(core, config, stop, on_tick);

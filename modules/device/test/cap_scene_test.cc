@@ -43,38 +43,66 @@ Scene sine_scene() {
 }
 
 TEST(DeviceCaps, FollowTheirFormulas) {
-  const DeviceCaps caps = find_device_caps(touch(), SafetyConfig{}, 1000.0, DeviceCapsConfig{});
+  const DeviceCaps caps = find_device_caps(touch(), ServoConfig{}, DeviceCapsConfig{});
   EXPECT_EQ(caps.force_N, 3.3);
   EXPECT_EQ(caps.stiffness_N_per_m, 2300.0);
-  EXPECT_THAT(caps.stiffness_reason, HasSubstr("Touch renders at most 2300 N/m"));
+  EXPECT_THAT(caps.stiffness_reason, HasSubstr("Touch at 1000 Hz renders at most 2300 N/m"));
   EXPECT_DOUBLE_EQ(caps.texture_stiffness_N_per_m, 450.0);
   EXPECT_DOUBLE_EQ(caps.texture_cycles_per_mm, 1.0);  // 100 Hz at 100 mm/s
 }
 
 TEST(DeviceCaps, OfADeviceThatStatesNothing) {
-  const DeviceInfo unknown;
-  SafetyConfig safety;
+  DeviceInfo unknown;
+  unknown.rate_Hz = 4000.0;
+  ServoConfig servo;
   const DeviceCapsConfig config;
-  DeviceCaps caps = find_device_caps(unknown, safety, 1000.0, config);
-  EXPECT_EQ(caps.force_N, safety.max_force_N);
-  EXPECT_DOUBLE_EQ(caps.stiffness_N_per_m, 12'000.0);  // 2 · (1 + 5) N s/m / 1 ms
+  DeviceCaps caps = find_device_caps(unknown, servo, config);
+  EXPECT_EQ(caps.force_N, servo.safety.max_force_N);
+  EXPECT_DOUBLE_EQ(caps.stiffness_N_per_m, 2000.0);  // 2 · 1 N s/m / 1 ms: the controller's damping is not counted
   EXPECT_THAT(caps.stiffness_reason, HasSubstr("Colgate"));
   EXPECT_EQ(caps.texture_cycles_per_mm, DeviceCaps::kNone);
-  safety.passivity = false;
-  safety.assumed_damping_N_s_per_m = 0.0;
-  EXPECT_EQ(find_device_caps(unknown, safety, 1000.0, config).stiffness_N_per_m, DeviceCaps::kNone);
-  safety.assumed_damping_N_s_per_m = 0.1;
-  caps = find_device_caps(unknown, safety, 1000.0, config);
-  EXPECT_DOUBLE_EQ(caps.stiffness_N_per_m, 200.0);
-  EXPECT_DOUBLE_EQ(caps.texture_stiffness_N_per_m, 200.0);
-  EXPECT_DOUBLE_EQ(find_device_caps(unknown, SafetyConfig{}, 4000.0, config).texture_stiffness_N_per_m, 1800.0);
+  servo.rate_Hz = 4000.0;
+  caps = find_device_caps(unknown, servo, config);
+  EXPECT_DOUBLE_EQ(caps.stiffness_N_per_m, 8000.0);
+  EXPECT_DOUBLE_EQ(caps.texture_stiffness_N_per_m, 1800.0);
+  servo.safety.assumed_damping_N_s_per_m = 0.0;
+  EXPECT_EQ(find_device_caps(unknown, servo, config).stiffness_N_per_m, DeviceCaps::kNone);
+  servo.safety.assumed_damping_N_s_per_m = 0.02;
+  caps = find_device_caps(unknown, servo, config);
+  EXPECT_DOUBLE_EQ(caps.stiffness_N_per_m, 160.0);
+  EXPECT_DOUBLE_EQ(caps.texture_stiffness_N_per_m, 160.0);
+}
+
+// A loop that is faster than the device does not make the device faster; a slower one makes it slower.
+TEST(DeviceCaps, CountTheSlowerRate) {
+  ServoConfig servo;
+  servo.rate_Hz = 4000.0;
+  DeviceCaps caps = find_device_caps(touch(), servo, DeviceCapsConfig{});
+  EXPECT_EQ(caps.stiffness_N_per_m, 2300.0);
+  EXPECT_DOUBLE_EQ(caps.texture_stiffness_N_per_m, 450.0);
+  servo.rate_Hz = 500.0;
+  caps = find_device_caps(touch(), servo, DeviceCapsConfig{});
+  EXPECT_DOUBLE_EQ(caps.stiffness_N_per_m, 1150.0);
+  EXPECT_DOUBLE_EQ(caps.texture_stiffness_N_per_m, 225.0);
+}
+
+// A scene ten times as large as the hand's motion feels ten times as stiff and as fine.
+TEST(DeviceCaps, AreThoseOfTheHand) {
+  ServoConfig servo;
+  servo.frame.scale = 10.0;
+  const DeviceCaps caps = find_device_caps(touch(), servo, DeviceCapsConfig{});
+  EXPECT_DOUBLE_EQ(caps.stiffness_N_per_m, 230.0);
+  EXPECT_THAT(caps.stiffness_reason, HasSubstr("a metre of the hand is 10 m of the scene"));
+  EXPECT_DOUBLE_EQ(caps.texture_stiffness_N_per_m, 45.0);
+  EXPECT_DOUBLE_EQ(caps.texture_cycles_per_mm, 0.1);
+  EXPECT_EQ(caps.force_N, 3.3);
 }
 
 TEST(CapScene, LeavesAloneWhatADeviceCan) {
   Scene scene = sine_scene();
   scene.objects[0].textures[0].texture.compliance_kc = 0.4;
   const CappedScene capped =
-      cap_scene(scene, RenderConfig{}, find_device_caps(touch(), SafetyConfig{}, 1000.0, DeviceCapsConfig{}));
+      cap_scene(scene, RenderConfig{}, find_device_caps(touch(), ServoConfig{}, DeviceCapsConfig{}));
   EXPECT_THAT(capped.warnings, IsEmpty());
   EXPECT_EQ(capped.config.stiffness_N_per_m, RenderConfig{}.stiffness_N_per_m);
   EXPECT_EQ(capped.scene.objects[0].textures[0].texture.compliance_kc, 0.4);
@@ -88,7 +116,7 @@ TEST(CapScene, LowersStiffnessEverywhere) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   scene.objects[0].material.vertices = {{nan, 8000.0, nan}, {nan, 100.0, nan}, {nan, nan, nan}};
   const CappedScene capped =
-      cap_scene(scene, RenderConfig{}, find_device_caps(touch(), SafetyConfig{}, 1000.0, DeviceCapsConfig{}));
+      cap_scene(scene, RenderConfig{}, find_device_caps(touch(), ServoConfig{}, DeviceCapsConfig{}));
   EXPECT_THAT(capped.warnings, ElementsAre(HasSubstr("stiffness lowered from 8000 to 2300 N/m: Touch")));
   EXPECT_EQ(capped.scene.stiffness_N_per_m, 2300.0);
   const auto& vertices = capped.scene.objects[0].material.vertices;
@@ -99,7 +127,7 @@ TEST(CapScene, LowersStiffnessEverywhere) {
 
 TEST(CapScene, LowersTheTexturesSpring) {
   const CappedScene capped =
-      cap_scene(sine_scene(), RenderConfig{}, find_device_caps(touch(), SafetyConfig{}, 1000.0, DeviceCapsConfig{}));
+      cap_scene(sine_scene(), RenderConfig{}, find_device_caps(touch(), ServoConfig{}, DeviceCapsConfig{}));
   EXPECT_THAT(capped.warnings, ElementsAre(HasSubstr("texture 'sine': its spring lowered to 450 N/m")));
   EXPECT_DOUBLE_EQ(*capped.scene.objects[0].textures[0].texture.compliance_kc, 0.45);
 }
@@ -108,7 +136,7 @@ TEST(CapScene, LowersATexturesAmplitudeToTheForce) {
   DeviceInfo weak = touch();
   weak.max_force_N = 0.1;
   const CappedScene capped =
-      cap_scene(sine_scene(), RenderConfig{}, find_device_caps(weak, SafetyConfig{}, 1000.0, DeviceCapsConfig{}));
+      cap_scene(sine_scene(), RenderConfig{}, find_device_caps(weak, ServoConfig{}, DeviceCapsConfig{}));
   EXPECT_THAT(capped.warnings, ElementsAre(HasSubstr("450 N/m"), HasSubstr("0.5 mm would exceed 0.1 N")));
   // k_c k_s H = 0.1 N with k_s = 1 N/mm and H = 0.5 mm; the highest point is known to a bound of 1 %.
   EXPECT_NEAR(*capped.scene.objects[0].textures[0].texture.compliance_kc, 0.2, 0.002);
@@ -118,7 +146,7 @@ TEST(CapScene, LowersTheCutOff) {
   Scene scene = sine_scene();
   std::get<Fourier1d>(scene.objects[0].textures[0].texture.model).length_mm = 0.5;
   RenderConfig config;
-  const DeviceCaps caps = find_device_caps(touch(), SafetyConfig{}, 1000.0, DeviceCapsConfig{});
+  const DeviceCaps caps = find_device_caps(touch(), ServoConfig{}, DeviceCapsConfig{});
   scene.objects[0].textures[0].texture.compliance_kc = 0.4;
   EXPECT_DOUBLE_EQ(highest_cycles_per_mm(scene.objects[0].textures[0].texture), 2.0);
   CappedScene capped = cap_scene(scene, config, caps);

@@ -222,6 +222,8 @@ TEST(MakeSafe, HoldsItsLimitsAgainstAnything) {
     input.hand_mps = Eigen::Vector3d(any(), any(), any());
     input.sequence = random.uniform(0.0, 1.0) < 0.5 ? k : 0;
     input.status = random.uniform(0.0, 1.0) < 0.01 ? DeviceStatus::kFault : DeviceStatus::kReady;
+    input.spring_N = 10.0 * Eigen::Vector3d(any(), any(), any());
+    input.stretch_m = Eigen::Vector3d(any(), any(), any());
     input.scene_changed = random.uniform(0.0, 1.0) < 0.1;
     const SafeForce safe = make_safe(config, state, input);
     ASSERT_TRUE(safe.force_N.allFinite());
@@ -232,6 +234,30 @@ TEST(MakeSafe, HoldsItsLimitsAgainstAnything) {
       ASSERT_EQ(safe.force_N, Eigen::Vector3d::Zero());
     }
     last = safe.force_N;
+  }
+  // And nothing of it stays.
+  SafeForce safe;
+  for (std::uint64_t k = 0; k < 1000; ++k) safe = make_safe(config, state, touching(30'000 + k, {0.0, 0.0, 2.0}));
+  EXPECT_EQ(safe.force_N, Eigen::Vector3d(0.0, 0.0, 2.0));
+  EXPECT_EQ(safe.limited_by, 0U);
+}
+
+TEST(MakeSafe, RecoversFromNumbersThatOverflow) {
+  for (const double huge : {1e308, -1e308}) {
+    SafetyConfig config;
+    config.soft_start_s = 0.0;
+    SafetyState state;
+    for (std::uint64_t k = 0; k < 10; ++k) {
+      SafetyInput input = touching(k, {0.0, 0.0, 2.0});
+      input.spring_N = input.force_N;
+      input.hand_m.setConstant(k % 2 == 0 ? huge : 0.0);
+      input.stretch_m.setConstant(std::abs(huge));
+      ASSERT_TRUE(make_safe(config, state, input).force_N.allFinite());
+    }
+    SafeForce safe;
+    for (std::uint64_t k = 10; k < 100; ++k) safe = make_safe(config, state, touching(k, {0.0, 0.0, 2.0}));
+    EXPECT_EQ(safe.force_N, Eigen::Vector3d(0.0, 0.0, 2.0));
+    EXPECT_EQ(safe.limited_by, 0U);
   }
 }
 

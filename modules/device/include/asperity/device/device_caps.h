@@ -4,7 +4,7 @@
 #include <string>
 
 #include "asperity/device/haptic_device.h"
-#include "asperity/device/safety_config.h"
+#include "asperity/device/servo_loop.h"
 
 namespace asperity {
 
@@ -21,7 +21,7 @@ struct DeviceCapsConfig {
   }
 };
 
-// What a device can render. Infinite where nothing is known.
+// What of a scene a device can render, in the scene's units. Infinite where nothing is known.
 struct DeviceCaps {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
 
@@ -34,17 +34,18 @@ struct DeviceCaps {
   std::string texture_bandwidth_reason;
 };
 
-// The caps of a device that is served `rate_Hz` times a second:
+// The caps of a device under the loop of `servo`, with r the smaller of the loop's rate and the device's, and s the
+// frame's scale: a metre of the hand is s metres of the scene, so the hand feels s times the scene's stiffness and s
+// times its spatial frequencies.
 //   force               the smaller of max_force_N of the safety layer and of the device
-//   stiffness           the device's largest, and 2 b rate_Hz: a sampled spring needs the damping b > k T/2 (Colgate
-//   and
-//                       Brown 1994). b is assumed_damping_N_s_per_m and what the passivity controller adds; no cap if
-//                       it is 0
-//   texture stiffness   0.45 N/mm at 1 kHz (Choi and Tan 2004, seed §2.3), in proportion to the rate as k T/2 is, and
+//   stiffness           the largest that the device states, in proportion if it is served more slowly than it wants; if
+//                       it states none, 2 b r with b = assumed_damping_N_s_per_m: a sampled spring needs the physical
+//                       damping b > k T/2 (Colgate and Brown 1994). Over s
+//   texture stiffness   0.45 N/mm at 1 kHz (Choi and Tan 2004, seed §2.3), in proportion to r as k T/2 is, over s; and
 //                       the cap on stiffness
-//   texture cycles      f = v · cycles: the device's bandwidth, or half the rate, at the speed stroke_mps (Campion and
-//                       Hayward 2005); no cap for a device that states no bandwidth
-DeviceCaps find_device_caps(const DeviceInfo& info, const SafetyConfig& safety, double rate_Hz,
-                            const DeviceCapsConfig& config);
+//   texture cycles      f = v · cycles: the device's bandwidth, r/2 at most, at the hand's speed stroke_mps (Campion
+//   and
+//                       Hayward 2005), over s; no cap for a device that states no bandwidth
+DeviceCaps find_device_caps(const DeviceInfo& info, const ServoConfig& servo, const DeviceCapsConfig& config);
 
 }  // namespace asperity

@@ -19,11 +19,11 @@ struct SafetyConfig {
   template <class V>
   void visit(V& v) {
     v.field("max_force_N", max_force_N, "largest force on the hand", {0.0, 50.0});
-    v.field("max_force_rate_N_per_s", max_force_rate_N_per_s, "fastest change of force", {10.0, 1e6});
+    v.field("max_force_rate_N_per_s", max_force_rate_N_per_s, "fastest change of force", {100.0, 1e6});
     v.field("soft_start_s", soft_start_s, "force grows from zero over this time", {0.0, 60.0});
     v.field("stale_after_s", stale_after_s, "without news from the device for so long, the force ramps to zero",
             {0.001, 1.0});
-    v.field("ramp_down_s", ramp_down_s, "duration of every ramp to zero", {0.0, 1.0});
+    v.field("ramp_down_s", ramp_down_s, "duration of every ramp to zero", {0.0, 0.2});
     v.field("passivity", passivity, "damp the energy that the loop creates");
     v.field("max_damping_N_s_per_m", max_damping_N_s_per_m, "largest damping of the passivity controller", {0.0, 50.0});
     v.field("assumed_damping_N_s_per_m", assumed_damping_N_s_per_m, "what hand and device damp at least", {0.0, 1e3});
