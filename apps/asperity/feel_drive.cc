@@ -1,5 +1,7 @@
 #include "feel_drive.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -85,14 +87,24 @@ FeelDrive make_drive(const Scene& scene, const std::optional<Eigen::Vector3d>& f
                      const std::optional<Eigen::Vector3d>& to_m, const FeelSettings& settings) {
   constexpr double kAcross_m = 0.08;
   SurfaceLine line;
-  if (from_m && to_m) {
+  const bool chosen = from_m && to_m;
+  if (chosen) {
     line = line_between(scene, *from_m, *to_m);
   } else {
     line = textured_line(scene);
     if (line.size() < 2) line = line_across(scene, kAcross_m);
-    line = shortened(line, settings.stroke.margin_m);
   }
   FeelDrive out;
+  const SurfaceLine facing = facing_part(line);
+  if (facing.size() < 2)
+    throw Error("stroke: the way over the surface leads round an edge; --from and --to choose another");
+  if (chosen && facing.s_m.back() < line.s_m.back()) {
+    out.problems.push_back({"stroke_bends",
+                            fmt::format("the way bends away from the hand: {:.1f} of its {:.1f} mm are stroked",
+                                        1e3 * facing.s_m.back(), 1e3 * line.s_m.back()),
+                            1});
+  }
+  line = chosen ? facing : shortened(facing, settings.stroke.margin_m);
   out.stroke = stroke_along(line, settings.servo.duration_s, settings.stroke);
   return out;
 }

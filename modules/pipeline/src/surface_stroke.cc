@@ -19,6 +19,11 @@ using Eigen::Vector3d;
 
 namespace {
 
+const SceneObject& first_object(const Scene& scene) {
+  if (scene.objects.empty()) throw Error("stroke: the scene has no object");
+  return scene.objects.front();
+}
+
 // Where a triangle's texture has the wanted y: from the lower x to the higher.
 struct LevelPiece {
   std::array<double, 2> x_mm;
@@ -122,6 +127,55 @@ class LineMaker {
 
 double length_m(const SurfaceLine& line) { return line.size() < 2 ? 0.0 : line.s_m.back(); }
 
+// The longest of the lines that the pieces, by rising x, join to. Pieces that follow one another meet at an edge of the
+// mesh; a texture laid in several strokes has several pieces at the same x.
+SurfaceLine longest_line(const SceneObject& object, const std::vector<LevelPiece>& pieces) {
+  const MeshSurface surface(to_metres(object.mesh, object.unit_m));
+  const double joined_m = 0.1 * mean_length_m(pieces);
+  struct OpenLine {
+    LineMaker maker;
+    double reached_mm;
+  };
+  std::vector<OpenLine> open;
+  SurfaceLine longest;
+  const auto finish = [&](OpenLine& line) {
+    SurfaceLine whole = line.maker.take();
+    if (length_m(whole) > length_m(longest)) longest = std::move(whole);
+  };
+  for (const LevelPiece& piece : pieces) {
+    const Vector3d start_m = object.T_world_mesh * position_m(surface.mesh, {piece.triangle, piece.barycentric[0]});
+    OpenLine* nearest = nullptr;
+    double nearest_m = joined_m;
+    for (std::size_t i = 0; i < open.size();) {
+      if (open[i].reached_mm < piece.x_mm[0] - 1e3 * joined_m) {
+        finish(open[i]);
+        std::swap(open[i], open.back());
+        open.pop_back();
+        nearest = nullptr;
+        nearest_m = joined_m;
+        i = 0;
+        continue;
+      }
+      const double gap_m = (start_m - open[i].maker.end_world_m()).norm();
+      if (gap_m <= nearest_m) {
+        nearest_m = gap_m;
+        nearest = &open[i];
+      }
+      ++i;
+    }
+    if (nearest == nullptr) {
+      open.push_back({LineMaker(object, surface), piece.x_mm[0]});
+      open.back().maker.add(piece.triangle, piece.barycentric[0]);
+      nearest = &open.back();
+    }
+    nearest->maker.add(piece.triangle, piece.barycentric[1]);
+    nearest->reached_mm = piece.x_mm[1];
+    if (nearest->maker.empty()) open.erase(open.begin() + (nearest - open.data()));
+  }
+  for (OpenLine& line : open) finish(line);
+  return longest;
+}
+
 // The line's point and normal at an arc length.
 struct LinePlace {
   Vector3d p_world_m, n_world;
@@ -151,26 +205,7 @@ SurfaceLine textured_line(const Scene& scene) {
     for (const SceneTexture& texture : object.textures) {
       const std::vector<LevelPiece> pieces = level_pieces(object, texture.index);
       if (pieces.empty()) continue;
-      const MeshSurface surface(to_metres(object.mesh, object.unit_m));
-      SurfaceLine longest;
-      LineMaker maker(object, surface);
-      double reached_mm = pieces.front().x_mm[0];
-      const double joined_m = 0.1 * mean_length_m(pieces);
-      const auto finish = [&] {
-        SurfaceLine line = maker.take();
-        if (length_m(line) > length_m(longest)) longest = std::move(line);
-        maker = LineMaker(object, surface);
-      };
-      for (const LevelPiece& piece : pieces) {
-        if (piece.x_mm[1] <= reached_mm && !maker.empty()) continue;
-        const Vector3d start_m = object.T_world_mesh * position_m(surface.mesh, {piece.triangle, piece.barycentric[0]});
-        // Pieces that follow one another meet at an edge; what lies further off is another part of the texture.
-        if (!maker.empty() && (start_m - maker.end_world_m()).norm() > joined_m) finish();
-        maker.add(piece.triangle, piece.barycentric[0]);
-        maker.add(piece.triangle, piece.barycentric[1]);
-        reached_mm = piece.x_mm[1];
-      }
-      finish();
+      const SurfaceLine longest = longest_line(object, pieces);
       if (longest.size() > 1) return longest;
     }
   }
@@ -178,7 +213,7 @@ SurfaceLine textured_line(const Scene& scene) {
 }
 
 SurfaceLine line_between(const Scene& scene, const Vector3d& from_world_m, const Vector3d& to_world_m) {
-  const SceneObject& object = scene.objects.at(0);
+  const SceneObject& object = first_object(scene);
   const Pose T_mesh_world = object.T_world_mesh.inverse();
   const MeshSurface surface(to_metres(object.mesh, object.unit_m));
   const std::array<Vector3d, 2> ends{T_mesh_world * from_world_m, T_mesh_world * to_world_m};
@@ -188,7 +223,7 @@ SurfaceLine line_between(const Scene& scene, const Vector3d& from_world_m, const
 }
 
 SurfaceLine line_across(const Scene& scene, double wanted_m) {
-  const SceneObject& object = scene.objects.at(0);
+  const SceneObject& object = first_object(scene);
   const MeshSurface surface(to_metres(object.mesh, object.unit_m));
   Eigen::AlignedBox3d box;
   for (const Vector3d& vertex_m : surface.mesh.vertices_m) box.extend(vertex_m);
@@ -211,6 +246,26 @@ SurfaceLine line_across(const Scene& scene, double wanted_m) {
   maker.add(path);
   maker.add(straight_path(surface.mesh, surface.adjacency, middle, along, half_m).path);
   return maker.take();
+}
+
+SurfaceLine facing_part(const SurfaceLine& line) {
+  if (line.size() < 2) return line;
+  constexpr double kLeastCosine = 0.5;  // 60 degrees
+  const LinePlace middle = place_at(line, 0.5 * length_m(line));
+  const auto faces = [&](std::size_t i) { return line.n_world[i].dot(middle.n_world) >= kLeastCosine; };
+  std::size_t first = 0;
+  while (first + 1 < line.size() && line.s_m[first + 1] < 0.5 * length_m(line)) ++first;
+  std::size_t last = first + 1;
+  if (!faces(first) || !faces(last)) return {};
+  while (first > 0 && faces(first - 1)) --first;
+  while (last + 1 < line.size() && faces(last + 1)) ++last;
+  SurfaceLine out;
+  for (std::size_t i = first; i <= last; ++i) {
+    out.p_world_m.push_back(line.p_world_m[i]);
+    out.n_world.push_back(line.n_world[i]);
+    out.s_m.push_back(line.s_m[i] - line.s_m[first]);
+  }
+  return out;
 }
 
 SurfaceLine shortened(const SurfaceLine& line, double margin_m) {

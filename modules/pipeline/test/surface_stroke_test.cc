@@ -41,6 +41,33 @@ TEST(SurfaceStroke, TheLongestPieceOfATornTextureIsTaken) {
   EXPECT_NEAR(line.p_world_m.back().x(), 80e-3, kRounding_m);
 }
 
+TEST(SurfaceStroke, ATextureInTwoStripsHasTwoLines) {
+  Scene scene = feel_test::plate(80.0);
+  // Rows below 8 mm and above 12 mm, each with its own y = 0, their x apart by less than a cell.
+  for (std::size_t t = 0; t < scene.objects[0].mesh.haptic.size(); ++t) {
+    HapticTriangle& haptic = scene.objects[0].mesh.haptic[t];
+    const double lowest_m = scene.objects[0].mesh.vertices[scene.objects[0].mesh.triangles[t][0]].y();
+    if (lowest_m > 7e-3 && lowest_m < 11e-3) haptic.texture = -1;
+    for (Eigen::Vector2d& xy_mm : haptic.xy_mm)
+      xy_mm += lowest_m < 9e-3 ? Eigen::Vector2d(0, 6) : Eigen::Vector2d(0.7, -6);
+  }
+  EXPECT_NEAR(textured_line(scene).s_m.back(), 80e-3, 1e-9);
+}
+
+TEST(SurfaceStroke, OnePressServesTheFaceThatTheMiddleLiesOn) {
+  // A roof: the plate, from x = 50 mm on, folded down by 70 degrees.
+  Scene scene = feel_test::plate(80.0);
+  for (Eigen::Vector3d& v : scene.objects[0].mesh.vertices) {
+    const double beyond_m = v.x() - 50e-3;
+    if (beyond_m > 1e-9) v = {50e-3 + 0.342 * beyond_m, v.y(), -0.940 * beyond_m};
+  }
+  const SurfaceLine line = textured_line(scene);
+  EXPECT_NEAR(line.s_m.back(), 80e-3, 0.1e-3);
+  EXPECT_NEAR(facing_part(line).s_m.back(), 50e-3, 0.1e-3);
+  EXPECT_THROW(line_across(Scene{}, 0.1), Error);
+  EXPECT_EQ(textured_line(Scene{}).size(), 0u);
+}
+
 TEST(SurfaceStroke, WithoutTexturesTheLongestAxisIsCrossed) {
   Scene scene = feel_test::plate(80.0);
   scene.objects[0].mesh.haptic.clear();

@@ -20,17 +20,23 @@ struct SurfaceLine {
   std::size_t size() const { return s_m.size(); }
 };
 
-// The longest line without a jump on which the first texture of the scene has y = 0: what was scanned or painted,
-// along its x. Empty if no triangle has a texture, or none a point with y = 0.
+// The longest line without a jump along the x of the first texture of the scene: what was scanned or painted. It runs
+// at y = 0, or in the middle of coordinates that lie on one side of it, and beside that by a thousandth of their width:
+// where a path followed edges of the mesh, y = 0 is on either side of them by rounding. Empty if no triangle has a
+// texture.
 SurfaceLine textured_line(const Scene& scene);
 
 // The shortest way over the first object between the points of it nearest to two others. Throws Error as
-// virtual_path (paint.h) does.
+// virtual_path (paint.h) does, and for a scene without objects.
 SurfaceLine line_between(const Scene& scene, const Eigen::Vector3d& from_world_m, const Eigen::Vector3d& to_world_m);
 
 // Straight on over the first object, along its longest axis, through the place where its shortest axis leaves it:
 // for `length_m`, half to either side, or as far as the surface goes. Axes are those of the box in its own frame.
 SurfaceLine line_across(const Scene& scene, double length_m);
+
+// The part about the line's middle whose normals are within 60 degrees of the middle's: what one direction of pressing
+// serves. Empty if the middle itself is at an edge.
+SurfaceLine facing_part(const SurfaceLine& line);
 
 // The line without `margin_m` at either end, but never less than its middle half: a hand keeps away from borders.
 SurfaceLine shortened(const SurfaceLine& line, double margin_m);
