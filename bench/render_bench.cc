@@ -1,12 +1,11 @@
 // Servo steps a second on one core, friction and a Fourier texture of 128 harmonics on: render_bench [repetitions].
 // Beside them, on the same path, what others would pay: Embree's closest-point query alone, where it is installed, and
 // the textbooks' god object, without friction and texture.
-#include <time.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <exception>
 #include <memory>
 #include <vector>

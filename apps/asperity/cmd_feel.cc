@@ -124,6 +124,7 @@ class FeelCommand : public Command {
       drive = make_drive(scene, point("--from", from_), point("--to", to_), settings_);
     }
     if (settings_.servo.duration_s > 0.0) cut_drive(drive, settings_.servo.duration_s, settings_.servo.rate_Hz);
+    check_length(drive);
     warn_of(scene.problems);
     warn_of(drive.problems);
     const std::unique_ptr<HapticDevice> device = open_device(device_, drive, settings_);
@@ -179,6 +180,9 @@ class FeelCommand : public Command {
                        "' is none of sim, replay, haply, openhaptics, dhd, 2diy, audio and gamepad");
     }
     kind_ = *kind;
+    if (device_ == "2diy" && settings_.two_diy.port.empty()) {
+      throw UsageError("--device 2diy: its serial port is missing, --set 2diy.port=/dev/ttyACM0 or such");
+    }
     if (device_ == "replay" && replay_.empty()) throw UsageError("--device replay needs --replay");
     if (!kind_.driven && !replay_.empty()) throw UsageError("--replay: " + device_ + " is moved by a hand");
     if (mapped_ && replay_.empty()) throw UsageError("--mapped needs --replay");
@@ -209,6 +213,7 @@ class FeelCommand : public Command {
         observer.update("feeling", whole_s > 0.0 ? 1e-9 * static_cast<double>(tick.t_ns) / whole_s : 0.0);
       }
     });
+    device.close();  // before anything that takes time
     hold.reset();
     if (servo.end == ServoEnd::kStopped && kind_.driven) throw Cancelled();
     if (rows) rows->commit();

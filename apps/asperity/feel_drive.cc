@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <numbers>
+#include <string>
 #include <utility>
 
 #include "asperity/base/text.h"
@@ -63,6 +65,15 @@ void cut_drive(FeelDrive& drive, double duration_s, double rate_Hz) {
   drive.stroke->press_N.resize(drive.stroke->path.size(), drive.stroke->press_N.back());
 }
 
+void check_length(const FeelDrive& drive) {
+  constexpr double kLongest_s = 36'000.0;
+  if (!drive.path || drive.path->size() == 0) return;
+  const double whole_s = 1e-9 * static_cast<double>(drive.path->t_ns.back());
+  if (whole_s > kLongest_s) {
+    throw Error(fmt::format("--replay: the path takes {:.4g} s, more than ten hours; --duration cuts it", whole_s));
+  }
+}
+
 FeelDrive read_drive(const std::string& replay, bool mapped, const Scene& scene, const FeelSettings& settings,
                      const Observer& observer) {
   if (fs::is_directory(replay)) return repeat_recording(replay, scene, settings, observer);
@@ -85,26 +96,30 @@ FeelDrive read_drive(const std::string& replay, bool mapped, const Scene& scene,
 
 FeelDrive make_drive(const Scene& scene, const std::optional<Eigen::Vector3d>& from_m,
                      const std::optional<Eigen::Vector3d>& to_m, const FeelSettings& settings) {
-  constexpr double kAcross_m = 0.08;
+  constexpr double kAcross_m = 0.08, kSteepest_rad = std::numbers::pi / 3.0;
+  FeelDrive out;
+  const auto note = [&out](const char* kind, std::string message) { out.problems.push_back({kind, message, 1}); };
   SurfaceLine line;
-  const bool chosen = from_m && to_m;
-  if (chosen) {
+  if (from_m && to_m) {
     line = line_between(scene, *from_m, *to_m);
+    const double steepest = steepest_rad(line);
+    if (steepest > kSteepest_rad) {
+      note("steep_stroke", fmt::format("the way from --from to --to leads round an edge: the surface is up to {:.0f}° "
+                                       "from the direction in which the hand presses",
+                                       steepest * 180.0 / std::numbers::pi));
+    }
   } else {
     line = textured_line(scene);
-    if (line.size() < 2) line = line_across(scene, kAcross_m);
+    const bool textured = line.size() > 1;
+    if (!textured) line = line_across(scene, kAcross_m);
+    const bool shorter =
+        line.turns_away || (!textured && line.size() > 1 && line.s_m.back() < (1.0 - 1e-9) * kAcross_m);
+    line = shortened(line, settings.stroke.margin_m);
+    if (shorter && line.size() > 1) {
+      note("short_stroke", fmt::format("the stroke is {:.1f} mm long: there the surface {}", line.s_m.back() * 1e3,
+                                       line.turns_away ? "turns away from the hand" : "ends"));
+    }
   }
-  FeelDrive out;
-  const SurfaceLine facing = facing_part(line);
-  if (facing.size() < 2)
-    throw Error("stroke: the way over the surface leads round an edge; --from and --to choose another");
-  if (chosen && facing.s_m.back() < line.s_m.back()) {
-    out.problems.push_back({"stroke_bends",
-                            fmt::format("the way bends away from the hand: {:.1f} of its {:.1f} mm are stroked",
-                                        1e3 * facing.s_m.back(), 1e3 * line.s_m.back()),
-                            1});
-  }
-  line = chosen ? facing : shortened(facing, settings.stroke.margin_m);
   out.stroke = stroke_along(line, settings.servo.duration_s, settings.stroke);
   return out;
 }

@@ -133,6 +133,18 @@ TEST_F(FeelCommands, AStrokeGoesBetweenGivenPoints) {
   EXPECT_NEAR(*std::max_element(y.begin(), y.end()), 16e-3, 0.3e-3);
 }
 
+TEST_F(FeelCommands, TheHandStaysOnTheFaceOfAShortObject) {
+  write_text(
+      path("box.obj"),
+      "v -30 -20 -10\nv -30 -20 10\nv -30 20 -10\nv -30 20 10\nv 30 -20 -10\nv 30 -20 10\nv 30 20 -10\nv 30 20 10\n"
+      "f 1 2 4\nf 1 4 3\nf 5 7 8\nf 5 8 6\nf 1 5 6\nf 1 6 2\nf 3 4 8\nf 3 8 7\nf 1 3 7\nf 1 7 5\nf 2 6 8\nf 2 8 4\n");
+  const Outcome outcome = feel(path("box.obj"), {"--mesh-unit", "mm", "--log", path("log.csv"), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("the stroke is 56.0 mm long"));
+  EXPECT_LT(Json::parse(outcome.out).at("force").at("peak_N").get<double>(), 1.1);
+  for (const double z_m : read_table(path("log.csv")).column("pz_m")) EXPECT_GT(z_m, 8.5e-3);
+}
+
 TEST_F(FeelCommands, APathInTheAirSaysSo) {
   write_stroke("path.csv", -1e-3, 0, 1'000'000);
   const Outcome outcome = feel(path("scene"), {"--replay", path("path.csv"), "--json"});
@@ -209,6 +221,12 @@ TEST_F(FeelCommands, WhatCannotBeMeantIsRefused) {
   EXPECT_EQ(bad.code, 1);
   EXPECT_THAT(bad.err, HasSubstr("bad.csv:3: column 'py_m'"));
   EXPECT_FALSE(fs::exists(path("log.csv")));
+  write_text(path("long.csv"), "t_s,px_m,py_m,pz_m\n0,0,0,1\n1e9,0,0,1\n");
+  const Outcome endless = feel(scene, {"--replay", path("long.csv"), "--log", path("log.csv")});
+  EXPECT_EQ(endless.code, 1);
+  EXPECT_THAT(endless.err, HasSubstr("--duration cuts it"));
+  EXPECT_EQ(feel(scene, {"--replay", path("long.csv"), "--duration", "10ms"}).code, 0);
+  EXPECT_EQ(feel(scene, {"--device", "2diy"}).code, 2);
   EXPECT_EQ(feel(path("none.scene.json"), {}).code, 1);
 }
 

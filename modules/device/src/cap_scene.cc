@@ -105,7 +105,7 @@ void cap_bandwidth(CappedScene& capped, const DeviceCaps& caps) {
 }  // namespace
 
 CappedScene cap_scene(Scene scene, RenderConfig config, const DeviceCaps& caps) {
-  CappedScene capped{std::move(scene), std::move(config), {}};
+  CappedScene capped{std::move(scene), config, {}};
   cap_bandwidth(capped, caps);
   cap_stiffness(capped, caps);
   cap_texture_springs(capped, caps);

@@ -58,7 +58,7 @@ class DhdDevice final : public HapticDevice {
   void write(const Eigen::Vector3d& force_N) noexcept override {
     if (closed_ || faulty_) return;
     const Eigen::Vector3d f_N = force_N.allFinite() ? to_theirs(force_N) : Eigen::Vector3d::Zero();
-    note(api_.set_force(f_N.x(), f_N.y(), f_N.z(), dhd::kDefaultDevice));
+    note(force_failures_, api_.set_force(f_N.x(), f_N.y(), f_N.z(), dhd::kDefaultDevice));
   }
 
   void close() noexcept override {
@@ -84,7 +84,7 @@ class DhdDevice final : public HapticDevice {
     Eigen::Vector3d p_m = Eigen::Vector3d::Zero();
     Eigen::Vector3d v_mps = Eigen::Vector3d::Zero();
     const int got = api_.get_position(&p_m.x(), &p_m.y(), &p_m.z(), dhd::kDefaultDevice);
-    note(got);
+    note(position_failures_, got);
     if (got < 0 || got == dhd::kTimeGuard || !p_m.allFinite()) return;
     // Its estimator of velocity has nothing to say at first: that is no failure of the device.
     const bool moving = api_.get_linear_velocity(&v_mps.x(), &v_mps.y(), &v_mps.z(), dhd::kDefaultDevice) >= 0;
@@ -95,16 +95,19 @@ class DhdDevice final : public HapticDevice {
     ++reading_.sequence;
   }
 
-  void note(int answer) noexcept {
+  // Each call has a count of its own: one that works must not hide that the other does not.
+  void note(int& failures, int answer) noexcept {
     if (answer >= 0) {
-      failures_ = 0;
+      failures = 0;
       return;
     }
-    if (++failures_ < kFailuresUntilFault || faulty_) return;
+    if (++failures < kFailuresUntilFault || faulty_) return;
     // The driver keeps its last error for each thread: it is asked for here.
     const char* const text = api_.last_error();
     if (text != nullptr) std::strncpy(what_.data(), text, what_.size() - 1);
+    // If one of both is refused, the other may still be taken.
     api_.set_force(0.0, 0.0, 0.0, dhd::kDefaultDevice);
+    api_.enable_force(0, dhd::kDefaultDevice);
     faulty_.store(true, std::memory_order_release);
   }
 
@@ -113,7 +116,8 @@ class DhdDevice final : public HapticDevice {
   DeviceInfo info_;
   StallWatch watch_;
   DeviceReading reading_;
-  int failures_ = 0;
+  int position_failures_ = 0;
+  int force_failures_ = 0;
   bool closed_ = false;
   std::atomic<bool> faulty_{false};
   std::array<char, 200> what_{};

@@ -10,6 +10,9 @@
 namespace asperity {
 namespace {
 
+// A loop that was not run may not make up for it: the gain and the rate limit see three ticks at most.
+constexpr double kMostTicks = 3.0;
+
 SafeForce nothing_on_fault(SafetyState& state) noexcept {
   state.gain = 0.0;
   state.held_N.setZero();
@@ -45,12 +48,15 @@ SafeForce make_safe(const SafetyConfig& config, SafetyState& state, const Safety
 
   SafeForce safe;
   const bool finite = input.force_N.allFinite() && input.hand_m.allFinite() && input.hand_mps.allFinite();
-  const bool stale = is_stale(state.watch, input.sequence, input.status, config.stale_after_s, input.dt_s);
+  const double dt_s = std::min(input.dt_s, kMostTicks * input.tick_s);
+  const bool stood_still = input.dt_s > config.stale_after_s && state.watch.heard;
+  const bool silent = is_stale(state.watch, input.sequence, input.status, config.stale_after_s, input.dt_s);
+  const bool stale = silent || stood_still;
   if (!finite) safe.limited_by |= flag(SafetyCause::kNonFinite);
   if (stale) safe.limited_by |= flag(SafetyCause::kStale);
   if (input.ending) safe.limited_by |= flag(SafetyCause::kEnding);
   const bool well = safe.limited_by == 0;
-  state.gain = next_gain(state.gain, well, config, input.dt_s);
+  state.gain = stood_still ? 0.0 : next_gain(state.gain, well, config, dt_s);
   if (well && state.gain < 1.0) safe.limited_by |= flag(SafetyCause::kSoftStart);
 
   if (finite) state.held_N = input.force_N;
@@ -72,7 +78,7 @@ SafeForce make_safe(const SafetyConfig& config, SafetyState& state, const Safety
 
   const Eigen::Vector3d limited_N = limit_force(force_N, config.max_force_N);
   if (limited_N != force_N) safe.limited_by |= flag(SafetyCause::kForceLimit);
-  safe.force_N = limit_force_rate(state.out_N, limited_N, config.max_force_rate_N_per_s, input.dt_s);
+  safe.force_N = limit_force_rate(state.out_N, limited_N, config.max_force_rate_N_per_s, dt_s);
   if (safe.force_N != limited_N) safe.limited_by |= flag(SafetyCause::kRateLimit);
   state.out_N = safe.force_N;
   state.passivity.force_N = safe.force_N;

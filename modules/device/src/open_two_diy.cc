@@ -35,6 +35,8 @@ constexpr unsigned char kBothPorts = 3;  // ports 1 and 2, a bit each
 constexpr std::size_t kAnswer_bytes = 1 + 2 * sizeof(float);
 constexpr int kWrongAnswersUntilFault = 5;  // one after another
 constexpr double kMostDegrees = 3600.0;
+// A hand does not turn an arm faster, and a jump within noise is none.
+constexpr double kFastest_deg_per_s = 3600.0, kLeastJump_deg = 5.0;
 
 static_assert(std::endian::native == std::endian::little, "the board's floats are little-endian");
 
@@ -71,8 +73,11 @@ class TwoDiy final : public HapticDevice {
     set_up(until);
     while (news_sequence_ == 0) {
       ask(Eigen::Vector2d::Zero(), until);
-      if (!take_answer(std::min(until, Clock::now() + std::chrono::milliseconds(100))) && Clock::now() >= until) {
-        throw Error("2diy: " + printable(config.port, 200) + ": no answer within a second");
+      take_answer(std::min(until, Clock::now() + std::chrono::milliseconds(100)));
+      if (news_sequence_ == 0 && Clock::now() >= until) {
+        throw Error("2diy: " + printable(config.port, 200) +
+                    (theta_deg_ ? ": its arms are in line, where its place is not known: move the handle"
+                                : ": no answer within a second"));
       }
     }
     supervisor_.emplace(port_.descriptor(), std::as_bytes(std::span(bytes_)));  // the last question had no torque
@@ -148,19 +153,32 @@ class TwoDiy final : public HapticDevice {
     float degrees[2];
     std::memcpy(degrees, answer_.data() + 1, sizeof degrees);
     const Eigen::Vector2d theta_deg(static_cast<double>(degrees[0]), static_cast<double>(degrees[1]));
-    if (answer_[0] != id() || !(theta_deg.cwiseAbs().maxCoeff() <= kMostDegrees)) {
+    const auto now = Clock::now();
+    if (answer_[0] != id() || !(theta_deg.cwiseAbs().maxCoeff() <= kMostDegrees) || is_a_jump(theta_deg, now)) {
       if (++wrong_answers_ >= kWrongAnswersUntilFault) {
         throw Error("2diy: " + printable(config_.port, 200) + ": its answers make no sense");
       }
       return true;
     }
     wrong_answers_ = 0;
+    theta_deg_ = theta_deg;
+    theta_at_ = now;
     state_ = pantograph_state(linkage_, theta_deg * (std::numbers::pi / 180.0));
-    if (state_) p_m_ = axes_ * state_->p_m;
+    // With its arms in line the place is not known: no news, so that the servo ramps down and starts softly again.
+    if (!state_) return true;
+    p_m_ = axes_ * state_->p_m;
     ++news_sequence_;
-    const double t_s = std::chrono::duration<double>(Clock::now() - begin_).count();
+    const double t_s = std::chrono::duration<double>(now - begin_).count();
     news_.publish({p_m_, estimate_velocity(velocity_, p_m_, news_sequence_, t_s, noise_m_), news_sequence_});
     return true;
+  }
+
+  // Answers are framed by the id alone: the tail of a late one before the next may look like one, with other angles.
+  bool is_a_jump(const Eigen::Vector2d& theta_deg, Clock::time_point now) const {
+    if (!theta_deg_) return false;
+    const double since_s = std::chrono::duration<double>(now - theta_at_).count();
+    const double most_deg = kFastest_deg_per_s * since_s + kLeastJump_deg;
+    return !((theta_deg - *theta_deg_).cwiseAbs().maxCoeff() <= most_deg);
   }
 
   Eigen::Vector2d torque_N_m(const Eigen::Vector3d& force_N) const {
@@ -233,6 +251,8 @@ class TwoDiy final : public HapticDevice {
   std::array<unsigned char, kAnswer_bytes> answer_{};
   std::size_t answered_ = 0;
   int wrong_answers_ = 0;
+  std::optional<Eigen::Vector2d> theta_deg_;  // of the last answer
+  Clock::time_point theta_at_;
   std::optional<PantographState> state_;
   Eigen::Vector3d p_m_ = Eigen::Vector3d::Zero();
   VelocityEstimator velocity_;

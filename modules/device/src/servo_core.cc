@@ -43,7 +43,7 @@ ServoOutput ServoCore::render(const DeviceReading& reading, const Eigen::Vector3
   state.v_world_mps = config_.frame.velocity_mps(v_device_mps);
   state.dt_s = dt_s;
   const std::int64_t begin_ns = config_.timed ? monotonic_ns() : 0;
-  const ServoOutput output = step_(*model, servo_, state);
+  ServoOutput output = step_(*model, servo_, state);
   if (config_.timed) {
     tick.step_ns = monotonic_ns() - begin_ns;
     step_time_.add(tick.step_ns);
@@ -86,6 +86,7 @@ bool ServoCore::tick(std::uint64_t k, std::uint64_t ticks_since, std::int64_t la
   input.scene_changed = scene_changed_;
   input.ending = ending_;
   input.dt_s = dt_s;
+  input.tick_s = 1.0 / config_.rate_Hz;
   const SafeForce safe = make_safe(safety_config_, safety_, input);
   device_.write(config_.frame.device_force_N(safe.force_N));
 

@@ -84,6 +84,22 @@ TEST_F(Dhd, ALostPacketIsNoFaultAndManyAreOne) {
   EXPECT_THAT(device->fault(), testing::HasSubstr("timeout"));
 }
 
+TEST_F(Dhd, OneCallThatWorksDoesNotHideThatAnotherFails) {
+  for (const char* const call : {"refuses_force", "refuses_position"}) {
+    fake_.function<void()>("reset")();
+    const auto device = open_dhd(fake_config());
+    device->read(0);
+    device->write({0.0, 1.0, 0.0});
+    fake_.set(call, 1);
+    for (std::int64_t t_ns = 1'000'000; t_ns < 7'000'000; t_ns += 1'000'000) {
+      device->read(t_ns);
+      device->write({0.0, 1.0, 0.0});
+    }
+    EXPECT_EQ(device->read(7'000'000).status, DeviceStatus::kFault) << call;
+    EXPECT_EQ(fake_.function<int()>("force_enabled")(), 0) << call;
+  }
+}
+
 TEST_F(Dhd, AlwaysNamesTheDefaultDeviceAndLeavesNothingOn) {
   {
     const auto device = open_dhd(fake_config());

@@ -150,6 +150,39 @@ TEST(MakeSafe, StalePositionRampsDownAndResumesSoftly) {
   }
 }
 
+// The loop was not run for 8 ms: three ticks of the rate limit and of the gain, not eight.
+TEST(MakeSafe, AShortStallOfTheLoopIsNotMadeUpFor) {
+  SafetyConfig config = plain();
+  config.max_force_rate_N_per_s = 500.0;
+  SafetyState state;
+  make_safe(config, state, touching(0, Eigen::Vector3d::Zero()));
+  SafetyInput input = touching(1, Eigen::Vector3d(0.0, 0.0, 4.0));
+  input.dt_s = 8e-3;
+  EXPECT_NEAR(make_safe(config, state, input).force_N.z(), 3 * 0.5, 1e-12);
+  config.soft_start_s = 0.5;
+  state = {};
+  make_safe(config, state, touching(0, Eigen::Vector3d::Zero()));
+  make_safe(config, state, input);
+  EXPECT_NEAR(state.gain, 4.0 / 500.0, 1e-12);
+}
+
+// Not run for longer than stale_after_s: whatever is rendered where the hand is now begins from zero.
+TEST(MakeSafe, ALongStallOfTheLoopBeginsSoftlyAgain) {
+  SafetyConfig config = plain();
+  SafetyState state;
+  make_safe(config, state, touching(0, Eigen::Vector3d::Zero()));
+  config.soft_start_s = 0.5;
+  SafetyInput input = touching(1, Eigen::Vector3d(0.0, 0.0, 5.0));
+  input.dt_s = 3.0;
+  const SafeForce first = make_safe(config, state, input);
+  EXPECT_EQ(first.force_N, Eigen::Vector3d::Zero());
+  EXPECT_TRUE(first.limited_by & flag(SafetyCause::kStale));
+  for (std::uint64_t k = 1; k < 500; ++k) {
+    EXPECT_NEAR(make_safe(config, state, touching(k + 1, Eigen::Vector3d(0.0, 0.0, 5.0))).force_N.z(),
+                5.0 * static_cast<double>(k) / 500.0, 1e-9);
+  }
+}
+
 TEST(MakeSafe, FaultIsZeroAtOnce) {
   SafetyState state;
   for (std::uint64_t k = 0; k < 10; ++k) make_safe(plain(), state, touching(k, Eigen::Vector3d(0.0, 0.0, 4.0)));

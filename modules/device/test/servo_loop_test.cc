@@ -56,11 +56,12 @@ ServoConfig unpaced(double duration_s) {
   return config;
 }
 
-const auto kPressed = [](std::uint64_t) { return Eigen::Vector3d(0.0, 0.0, -1e-3); };  // 1 N
+// Presses with 1 N.
+Eigen::Vector3d pressed(std::uint64_t /*read*/) { return {0.0, 0.0, -1e-3}; }
 
 TEST(ServoLoop, RunsItsDurationAndRampsDown) {
   FakeDevice device;
-  device.path = kPressed;
+  device.path = pressed;
   const Recorded r = run(device, unpaced(1.0));
   EXPECT_EQ(r.result.end, ServoEnd::kDuration);
   // 1000 ticks, then 20 of the ramp over 20 ms.
@@ -90,7 +91,7 @@ TEST(ServoLoop, TicksAreDueAtRoundedTimes) {
 
 TEST(ServoLoop, StopRampsDown) {
   FakeDevice device;
-  device.path = kPressed;
+  device.path = pressed;
   SnapshotExchange<const RenderModel> scene(wall(1000.0));
   std::atomic<bool> stop{false};
   std::uint64_t ticks = 0;
@@ -103,7 +104,7 @@ TEST(ServoLoop, StopRampsDown) {
 
 TEST(ServoLoop, EndsWithItsDevice) {
   FakeDevice device;
-  device.path = kPressed;
+  device.path = pressed;
   device.meddle = [](std::uint64_t k, DeviceReading& r) {
     if (k == 800) r.status = DeviceStatus::kEnded;
   };
@@ -116,7 +117,7 @@ TEST(ServoLoop, EndsWithItsDevice) {
 TEST(ServoLoop, AFaultEndsItWithZeroForceAndARecord) {
   for (const bool paced : {false, true}) {
     FakeDevice device;
-    device.path = kPressed;
+    device.path = pressed;
     device.meddle = [](std::uint64_t k, DeviceReading& r) {
       if (k == 100) r.status = DeviceStatus::kFault;
     };
@@ -145,7 +146,7 @@ TEST(ServoLoop, RecordsTheLastTwoSeconds) {
 
 TEST(ServoLoop, AStallRampsToZeroAndComesBackSoftly) {
   FakeDevice device;
-  device.path = kPressed;
+  device.path = pressed;
   device.meddle = [](std::uint64_t k, DeviceReading& r) {
     if (k >= 600 && k < 700) r.sequence = 600;
   };
@@ -225,7 +226,7 @@ TEST(ServoLoop, TurnsForcesIntoTheDevicesAxes) {
 TEST(ServoLoop, TakesNewScenesWhileItRuns) {
   for (const bool paced : {false, true}) {
     FakeDevice device;
-    device.path = kPressed;
+    device.path = pressed;
     SnapshotExchange<const RenderModel> scene(wall(1000.0));
     const std::atomic<bool> stop{false};
     ServoConfig config = unpaced(0.3);
@@ -250,7 +251,7 @@ TEST(ServoLoop, TakesNewScenesWhileItRuns) {
 TEST(ServoLoop, AnExceptionOfTheListenerStopsItWithZeroForce) {
   for (const bool paced : {false, true}) {
     FakeDevice device;
-    device.path = kPressed;
+    device.path = pressed;
     SnapshotExchange<const RenderModel> scene(wall(1000.0));
     const std::atomic<bool> stop{false};
     ServoConfig config = unpaced(0.0);
@@ -288,7 +289,7 @@ TEST(ServoLoop, RefusesAConfigOutOfRange) {
 
 TEST(ServoLoop, PacedKeepsOrderAndZeroesTheForce) {
   FakeDevice device;
-  device.path = kPressed;
+  device.path = pressed;
   ServoConfig config;
   config.duration_s = 0.3;
   config.timed = true;

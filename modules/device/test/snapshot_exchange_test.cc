@@ -49,6 +49,7 @@ void run(int publishers, int publisher_idle, int reader_idle) {
     SnapshotExchange<const Snapshot> exchange(std::make_unique<const Snapshot>(1));
     std::atomic<int> running{publishers};
     std::vector<std::thread> threads;
+    threads.reserve(static_cast<std::size_t>(publishers));
     for (int p = 0; p < publishers; ++p) {
       threads.emplace_back([&] {
         for (std::uint64_t k = 2; k < kEach; ++k) {
@@ -93,6 +94,29 @@ TEST(SnapshotExchange, ReaderSeesWhatWasPublishedBeforeItsAcquire) {
     EXPECT_EQ(exchange.acquire()->numbers[0], k);
     EXPECT_EQ(exchange.acquire()->numbers[0], k);
   }
+}
+
+// What was published before an acquire() began is seen by it, whatever the two threads do to each other in between.
+TEST(SnapshotExchange, NoPublishIsLost) {
+  constexpr std::uint64_t kPublishes = 300'000;
+  SnapshotExchange<const std::uint64_t> exchange(std::make_unique<const std::uint64_t>(1));
+  std::atomic<std::uint64_t> published{1};
+  std::uint64_t lost = 0;
+  std::thread reader([&] {
+    for (std::uint64_t before = 1; before < kPublishes;) {
+      before = published;
+      if (*exchange.acquire() < before) ++lost;
+    }
+  });
+  // Several at once, so that whole publishes fit into one acquire(), then none for some acquires.
+  for (std::uint64_t k = 2; k <= kPublishes; ++k) {
+    exchange.publish(std::make_unique<const std::uint64_t>(k));
+    published = k;
+    if (k % 3 == 0) idle(100);
+  }
+  reader.join();
+  EXPECT_EQ(lost, 0U);
+  EXPECT_EQ(*exchange.acquire(), kPublishes);
 }
 
 TEST(SnapshotExchange, RefusesNone) {

@@ -1,6 +1,9 @@
 #include "asperity/pipeline/surface_stroke.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -41,33 +44,6 @@ TEST(SurfaceStroke, TheLongestPieceOfATornTextureIsTaken) {
   EXPECT_NEAR(line.p_world_m.back().x(), 80e-3, kRounding_m);
 }
 
-TEST(SurfaceStroke, ATextureInTwoStripsHasTwoLines) {
-  Scene scene = feel_test::plate(80.0);
-  // Rows below 8 mm and above 12 mm, each with its own y = 0, their x apart by less than a cell.
-  for (std::size_t t = 0; t < scene.objects[0].mesh.haptic.size(); ++t) {
-    HapticTriangle& haptic = scene.objects[0].mesh.haptic[t];
-    const double lowest_m = scene.objects[0].mesh.vertices[scene.objects[0].mesh.triangles[t][0]].y();
-    if (lowest_m > 7e-3 && lowest_m < 11e-3) haptic.texture = -1;
-    for (Eigen::Vector2d& xy_mm : haptic.xy_mm)
-      xy_mm += lowest_m < 9e-3 ? Eigen::Vector2d(0, 6) : Eigen::Vector2d(0.7, -6);
-  }
-  EXPECT_NEAR(textured_line(scene).s_m.back(), 80e-3, 1e-9);
-}
-
-TEST(SurfaceStroke, OnePressServesTheFaceThatTheMiddleLiesOn) {
-  // A roof: the plate, from x = 50 mm on, folded down by 70 degrees.
-  Scene scene = feel_test::plate(80.0);
-  for (Eigen::Vector3d& v : scene.objects[0].mesh.vertices) {
-    const double beyond_m = v.x() - 50e-3;
-    if (beyond_m > 1e-9) v = {50e-3 + 0.342 * beyond_m, v.y(), -0.940 * beyond_m};
-  }
-  const SurfaceLine line = textured_line(scene);
-  EXPECT_NEAR(line.s_m.back(), 80e-3, 0.1e-3);
-  EXPECT_NEAR(facing_part(line).s_m.back(), 50e-3, 0.1e-3);
-  EXPECT_THROW(line_across(Scene{}, 0.1), Error);
-  EXPECT_EQ(textured_line(Scene{}).size(), 0u);
-}
-
 TEST(SurfaceStroke, WithoutTexturesTheLongestAxisIsCrossed) {
   Scene scene = feel_test::plate(80.0);
   scene.objects[0].mesh.haptic.clear();
@@ -76,6 +52,93 @@ TEST(SurfaceStroke, WithoutTexturesTheLongestAxisIsCrossed) {
   EXPECT_NEAR(line.s_m.back(), 50e-3, 1e-9);
   EXPECT_NEAR(line.p_world_m.front().x(), 15e-3, 1e-9);
   EXPECT_NEAR(line.p_world_m.back().y(), 10e-3, 1e-9);
+}
+
+TEST(SurfaceStroke, EachOfSeveralStrokesOfATextureIsWhole) {
+  // The plate's upper half is a second strip whose coordinates run as the lower one's, but 0.7 mm on.
+  Scene scene = feel_test::plate(80.0);
+  MeshFile& mesh = scene.objects[0].mesh;
+  for (std::size_t t = 0; t < mesh.haptic.size(); ++t) {
+    const Triangle& corners = mesh.triangles[t];
+    double highest_m = 0.0;
+    for (const std::uint32_t v : corners) highest_m = std::max(highest_m, mesh.vertices[v].y());
+    const bool upper = highest_m > 11e-3;
+    for (Eigen::Vector2d& xy_mm : mesh.haptic[t].xy_mm) {
+      xy_mm += upper ? Eigen::Vector2d(0.7, -5.0) : Eigen::Vector2d(0.0, 5.0);
+    }
+  }
+  const SurfaceLine line = textured_line(scene);
+  ASSERT_GT(line.size(), 1u);
+  EXPECT_NEAR(line.s_m.back(), 80e-3, kRounding_m);
+  EXPECT_FALSE(line.turns_away);
+}
+
+// A closed box about the origin, two triangles a face.
+Scene box(double x_m, double y_m, double z_m) {
+  SceneObject object;
+  for (int i = 0; i < 8; ++i) {
+    object.mesh.vertices.emplace_back((i & 4) != 0 ? x_m : -x_m, (i & 2) != 0 ? y_m : -y_m, (i & 1) != 0 ? z_m : -z_m);
+  }
+  object.mesh.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
+                           {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
+  Scene scene;
+  scene.objects.push_back(std::move(object));
+  return scene;
+}
+
+TEST(SurfaceStroke, EndsWhereTheSurfaceTurnsAway) {
+  for (const auto& [x_m, y_m, z_m] : {std::array{20e-3, 20e-3, 20e-3}, std::array{30e-3, 20e-3, 10e-3},
+                                      std::array{10e-3, 10e-3, 30e-3}, std::array{20e-3, 20e-3, 20.0000001e-3}}) {
+    const SurfaceLine line = line_across(box(x_m, y_m, z_m), 80e-3);
+    ASSERT_GT(line.size(), 1u);
+    EXPECT_NEAR(line.s_m.back(), 2.0 * std::max({x_m, y_m, z_m}), kRounding_m);
+    EXPECT_TRUE(line.turns_away);
+    for (const Eigen::Vector3d& n : line.n_world) EXPECT_NEAR(n.dot(line.n_world.front()), 1.0, 1e-12);
+    EXPECT_LT(steepest_rad(line), 1e-6);
+  }
+  const SurfaceLine whole = line_across(box(50e-3, 30e-3, 5e-3), 80e-3);
+  EXPECT_NEAR(whole.s_m.back(), 80e-3, kRounding_m);
+  EXPECT_FALSE(whole.turns_away);
+}
+
+TEST(SurfaceStroke, EndsOnARoundObjectAtSixtyDegrees) {
+  // A cylinder of 20 mm radius about y in facets of 3 degrees, textured all round.
+  constexpr double kRadius_m = 20e-3, kHalf_m = 10e-3;
+  constexpr std::uint32_t kFacets = 120;
+  Scene scene = feel_test::plate(80.0);
+  MeshFile& mesh = scene.objects[0].mesh;
+  mesh = {};
+  for (std::uint32_t i = 0; i < kFacets; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kFacets;
+    for (const double y_m : {-kHalf_m, kHalf_m}) {
+      mesh.vertices.emplace_back(kRadius_m * std::sin(angle), y_m, kRadius_m * std::cos(angle));
+    }
+  }
+  const double facet_mm = 2e3 * std::numbers::pi * kRadius_m / kFacets;
+  for (std::uint32_t i = 0; i < kFacets; ++i) {
+    const std::uint32_t a = 2 * i, next = 2 * ((i + 1) % kFacets);
+    const Eigen::Vector2d low(facet_mm * i, -1e3 * kHalf_m), high(facet_mm * i, 1e3 * kHalf_m), on(facet_mm, 0.0);
+    mesh.triangles.push_back({a, next, next + 1});
+    mesh.triangles.push_back({a, next + 1, a + 1});
+    HapticTriangle first, second;
+    first.texture = second.texture = 1;
+    first.xy_mm = {low, low + on, high + on};
+    second.xy_mm = {low, high + on, high};
+    mesh.haptic.push_back(first);
+    mesh.haptic.push_back(second);
+  }
+  const SurfaceLine line = textured_line(scene);
+  ASSERT_GT(line.size(), 1u);
+  const double wanted_m = 2.0 * std::numbers::pi / 3.0 * kRadius_m, facet_m = 1e-3 * facet_mm;
+  EXPECT_NEAR(line.s_m.back(), wanted_m, 2.0 * facet_m) << "120 degrees in all";
+  EXPECT_TRUE(line.turns_away);
+  EXPECT_LT(steepest_rad(line), std::numbers::pi / 180.0 * 65.0);
+}
+
+TEST(SurfaceStroke, ASceneWithoutObjectsIsRefused) {
+  EXPECT_EQ(textured_line({}).size(), 0u);
+  EXPECT_THROW(line_across({}, 80e-3), Error);
+  EXPECT_THROW(line_between({}, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitX()), Error);
 }
 
 TEST(SurfaceStroke, GoesToAndFroAtItsSpeed) {

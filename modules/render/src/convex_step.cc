@@ -19,8 +19,8 @@ constexpr int kMostRetellings = 4;  // of projections without planes that proved
 class Stepper {
  public:
   // cppcheck-suppress uninitMemberVar
-  Stepper(std::span<const NearTriangle> triangles, const Ball& ball, const Vector3d& goal_m)
-      : triangles_(triangles), ball_(ball), goal_m_(goal_m - ball.centre_m) {
+  Stepper(std::span<const NearTriangle> triangles, const Ball& ball, const Vector3d& goal_m, std::int64_t most_work)
+      : triangles_(triangles), ball_(ball), goal_m_(goal_m - ball.centre_m), most_work_(most_work) {
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       const NearTriangle& t = triangles_[i];
       height_m_[i] = t.normal.dot(ball_.centre_m - t.a_m);
@@ -39,6 +39,7 @@ class Stepper {
       if (telling == 0 || left2 < best2 || (step.exact && left2 <= best2 * (1.0 + 0x1p-40))) best = step, best2 = left2;
       if (step.exact || !complete || !forbid_false_faces(step)) break;
     }
+    best.work = work_;
     return best;
   }
 
@@ -133,7 +134,8 @@ class Stepper {
       if (!projection_.add(plane, static_cast<int>(i))) return infeasible_ = true, false;
       ++told;
     }
-    for (; told < kMostPlanes; ++told) {
+    for (; told < kMostPlanes && work_ < most_work_; ++told) {
+      work_ += static_cast<std::int64_t>(triangles_.size());
       std::size_t worst = triangles_.size();
       double worst_m = 0.0;
       HalfSpace plane, worst_plane;
@@ -151,6 +153,7 @@ class Stepper {
   double free_part(const Vector3d& y) {
     double part = 1.0;
     HalfSpace plane;
+    work_ += static_cast<std::int64_t>(triangles_.size());
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       if (!(violation(i, projection_, plane) > 0.0)) continue;
       const auto part_of = [&](const HalfSpace& p) {
@@ -226,6 +229,7 @@ class Stepper {
   const Ball& ball_;
   Vector3d goal_m_;
   PlaneProjection projection_{Vector3d::Zero()};
+  std::int64_t most_work_, work_ = 0;
   bool lenient_ = false, infeasible_ = false;
   std::array<bool, 3> false_{};
   std::array<double, NearTriangles::kMost> height_m_;  // of the centre over each triangle's plane
@@ -236,8 +240,8 @@ class Stepper {
 }  // namespace
 
 ConvexStep convex_step(std::span<const NearTriangle> triangles, const Ball& ball, const Vector3d& goal_m,
-                       std::span<const std::uint32_t> first) noexcept {
-  return Stepper(triangles, ball, goal_m).run(first);
+                       std::span<const std::uint32_t> first, std::int64_t most_work) noexcept {
+  return Stepper(triangles, ball, goal_m, most_work).run(first);
 }
 
 }  // namespace asperity

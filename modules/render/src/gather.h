@@ -18,4 +18,7 @@ inline constexpr ObjectSet kAllObjects = ~ObjectSet{0};
 bool gather(const RenderModel& model, const Eigen::Vector3d& centre_m, double radius_m, ObjectSet objects,
             NearTriangles& near) noexcept;
 
+// Puts one more triangle of the model at the end of a list. False if the list is full or has it already.
+bool add_triangle(const RenderModel& model, std::uint32_t object, std::uint32_t triangle, NearTriangles& near) noexcept;
+
 }  // namespace asperity

@@ -53,7 +53,7 @@ bool can_hop(const NearTriangles& near, const Vector3d& from_m, const Vector3d& 
 
 }  // namespace
 
-bool hop_over_nook(ProxyState& proxy, const ProxyBall& ball, const Vector3d& goal_m) noexcept {
+bool hop_over_nook(ProxyState& proxy, const ProxyBall& ball, const Vector3d& goal_m, std::int64_t& work) noexcept {
   const NearTriangles& near = proxy.near;
   const Vector3d from_m = proxy.p_world_m;
   const double left_m = (goal_m - from_m).norm();
@@ -80,7 +80,10 @@ bool hop_over_nook(ProxyState& proxy, const ProxyBall& ball, const Vector3d& goa
         for (const double side : {1.0, -1.0}) {
           const Vector3d to_m = place_m + (side * height * ball.radius_m) * t.normal;
           if (!((goal_m - to_m).norm() < left_m - ball.slack_m)) continue;
+          if (work <= 0) return false;
+          work -= near.count;
           if (!(nearest_m(near, to_m) >= ball.radius_m - ball.slack_m)) continue;
+          work -= 4 * std::int64_t{near.count};
           if (!can_hop(near, from_m, away, ball.radius_m, to_m)) continue;
           proxy.p_world_m = to_m;
           proxy.touch_count = 0;

@@ -22,22 +22,46 @@ constexpr double kLeap = 1.5;
 constexpr double kLeapGrowth = 1.125;  // so that it gets there
 constexpr double kPointLike = 16.0;    // of a radius in skins: below, the skin is what the ball is made of
 
+// What one call may cost, in evaluations of triangles of some nanoseconds each. Every iteration is safe: what is not
+// reached in this step of the servo is in the next.
+constexpr std::int64_t kMostWork = 1 << 17;
+constexpr std::int64_t kQueryWork = 64;                        // of a search in one object's tree
+constexpr std::int64_t kMetPerTry = 2 * NearTriangles::kMost;  // of a gathering in vain
+
+constexpr double kFarther = 8.0;  // than before
+constexpr int kMostTries = 3;     // to gather
+constexpr int kMostAdded = 64;    // triangles to an incomplete list in one call
+
 // Looking far costs triangles at each step, looking near costs a search more often: the list is to last for some steps
 // of the hand unless it gets long, and need not be kept short where it is.
 constexpr double kStrides = 1.5;
 constexpr std::uint32_t kManyTriangles = 8;
 constexpr std::uint32_t kFewTriangles = 4;
 
-// Gathers round the proxy, at least `wanted_m` beyond its ball if that is not too many triangles.
+// Gathers round the proxy, at least `wanted_m` beyond its ball if that is not too many triangles and not much farther
+// than it was worth before: so a goal far away costs no more in one step than one that is near. Where too many
+// triangles meet, the list keeps those that are touched; move_proxy() adds what it meets.
 void gather_around(const RenderModel& model, const ProxyBall& ball, double wanted_m, ObjectSet objects,
                    ProxyState& proxy) {
   const double least_m = 0x1p-10 * ball.coarse_m;
   if (!(proxy.reach_m > 0.0)) proxy.reach_m = ball.coarse_m;
-  double reach_m = std::max(proxy.reach_m, wanted_m);
-  while (!gather(model, proxy.p_world_m, ball.radius_m + reach_m, objects, proxy.near) && reach_m > least_m)
-    reach_m *= 0.5;
+  double reach_m = std::max(proxy.reach_m, std::min(wanted_m, kFarther * proxy.reach_m));
   const double enough_m = std::max(kStrides * ball.stride_m, least_m);
-  proxy.reach_m = std::min(proxy.reach_m, reach_m);
+  for (int tries = 0; !gather(model, proxy.p_world_m, ball.radius_m + reach_m, objects, proxy.near); ++tries) {
+    proxy.work += kMetPerTry;
+    if (tries == kMostTries) {
+      proxy.near.radius_m = ball.radius_m + std::max(reach_m, std::min(enough_m, proxy.reach_m));
+      proxy.near.count = 0;
+      if (!proxy.over_texture)
+        for (std::uint32_t k = 0; k < proxy.touch_count; ++k)
+          if (objects >> proxy.touches[k].object & 1u)
+            add_triangle(model, proxy.touches[k].object, proxy.touches[k].triangle, proxy.near);
+      return;
+    }
+    reach_m *= 0.25;
+  }
+  proxy.work += 4 * std::int64_t{proxy.near.count};
+  proxy.reach_m = std::max(std::min(proxy.reach_m, reach_m), least_m);
   if (proxy.near.count > kManyTriangles) proxy.reach_m = std::min(proxy.reach_m, std::max(0.5 * reach_m, enough_m));
   if (proxy.near.count < kFewTriangles) proxy.reach_m = std::min(2.0 * reach_m, 64.0 * ball.coarse_m);
 }
@@ -47,15 +71,23 @@ double room_m(const ProxyState& proxy, double radius_m) {
   return proxy.near.radius_m - radius_m - (proxy.p_world_m - proxy.near.centre_m).norm();
 }
 
-bool is_free(const RenderModel& model, const ProxyBall& ball, ObjectSet objects, const Vector3d& p_m) {
-  for (std::size_t o = 0; o < model.objects.size(); ++o) {
+// A triangle that bars the straight way to `to_m`: crossed by the centre's way, or too near to its end or its middle.
+// Of a way that is long beside the ball the triangles that the ball would only brush are not all found.
+bool find_barrier(const RenderModel& model, const ProxyBall& ball, ObjectSet objects, const Vector3d& from_m,
+                  const Vector3d& to_m, std::uint32_t& barrier_object, std::uint32_t& barrier) {
+  const double free_m = ball.radius_m - 2.0 * ball.slack_m;
+  for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
     if (!(objects >> o & 1u)) continue;
     const RenderObject& object = model.objects[o];
-    const ClosestPoint closest =
-        object.bvh.closest_point(object.T_world_mesh.inverse() * p_m, ball.radius_m - 2.0 * ball.slack_m);
-    if (closest.found()) return false;
+    const Pose T_mesh_world = object.T_world_mesh.inverse();
+    const Vector3d a_m = T_mesh_world * from_m, b_m = T_mesh_world * to_m;
+    barrier_object = o;
+    barrier = object.bvh.cast_ray(a_m, b_m - a_m, 1.0).triangle;
+    if (barrier == ClosestPoint::kNone) barrier = object.bvh.closest_point(b_m, free_m).triangle;
+    if (barrier == ClosestPoint::kNone) barrier = object.bvh.closest_point(0.5 * (a_m + b_m), free_m).triangle;
+    if (barrier != ClosestPoint::kNone) return true;
   }
-  return true;
+  return false;
 }
 
 // The places in the list of the triangles that the proxy touches.
@@ -101,7 +133,9 @@ bool move_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d&
   const bool may_hop = ball.radius_m <= kPointLike * ball.skin_m;
   double leap_m = std::max(kLeap * ball.stride_m, 0x1p-4 * ball.coarse_m);
   int hops = 0;
-  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+  int added = 0;
+  const std::int64_t most_work = proxy.work + kMostWork;
+  for (int iteration = 0; iteration < kMostIterations && proxy.work < most_work; ++iteration) {
     const double left_m = (goal_m - proxy.p_world_m).norm();
     double reach_m = room_m(proxy, ball.radius_m);
     if (!(reach_m > 0.0)) {
@@ -111,21 +145,35 @@ bool move_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d&
     }
     std::array<std::uint32_t, 3> touched{};
     const std::size_t touched_count = find_touched(proxy, touched);
-    const ConvexStep step =
-        convex_step(std::span(proxy.near.triangles.data(), proxy.near.count),
-                    {proxy.p_world_m, ball.radius_m, ball.slack_m}, goal_m, std::span(touched.data(), touched_count));
+    const ConvexStep step = convex_step(std::span(proxy.near.triangles.data(), proxy.near.count),
+                                        {proxy.p_world_m, ball.radius_m, ball.slack_m}, goal_m,
+                                        std::span(touched.data(), touched_count), most_work - proxy.work);
+    proxy.work += step.work;
     note_touches(step, proxy);
     const Vector3d way_m = step.centre_m - proxy.p_world_m;
     const double length_m = way_m.norm();
     // Not farther than the triangles are known, nor than it can be said to follow the surface.
     const double most_m = std::min(reach_m, leap_m);
-    leap_m *= kLeapGrowth;
     double part = length_m > most_m ? most_m / length_m : 1.0;
     if (!proxy.near.complete) {
-      // Too many triangles for the list: the end of the way is checked against all of them, the way itself is not.
-      while (part > 0x1p-10 && !is_free(model, ball, objects, proxy.p_world_m + part * way_m)) part *= 0.5;
-      if (!(part > 0x1p-10)) return false;
+      std::uint32_t object = 0, triangle = 0;
+      const auto is_barred = [&] {
+        proxy.work += kQueryWork * static_cast<std::int64_t>(model.objects.size());
+        return find_barrier(model, ball, objects, proxy.p_world_m, proxy.p_world_m + part * way_m, object, triangle);
+      };
+      if (is_barred()) {
+        if (added < kMostAdded && add_triangle(model, object, triangle, proxy.near)) {
+          ++added;
+          --iteration;
+          continue;
+        }
+        do {
+          part *= 0.25;
+          if (part < 0x1p-10) return false;
+        } while (is_barred());
+      }
     }
+    leap_m *= kLeapGrowth;
     if (part < 1.0) {
       proxy.p_world_m += part * way_m;
       if (most_m >= reach_m) proxy.near.radius_m = -1.0;
@@ -133,9 +181,12 @@ bool move_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d&
     }
     proxy.p_world_m = step.centre_m;
     if (!step.exact && length_m > 0x1p-40 * left_m) continue;
-    if (!may_hop || hops == kMostHops || proxy.touch_count < 2) return true;
+    if (!may_hop || hops == kMostHops || !proxy.near.complete || proxy.touch_count < 2) return true;
     ++hops;
-    if (!hop_over_nook(proxy, ball, goal_m)) return true;
+    std::int64_t work = most_work - proxy.work;
+    const bool hopped = hop_over_nook(proxy, ball, goal_m, work);
+    proxy.work = most_work - work;
+    if (!hopped) return true;
   }
   return false;
 }

@@ -63,13 +63,15 @@ ServoOutput render_step(const RenderModel& model, ServoState& state, const Devic
   ServoOutput out;
   ProxyState& proxy = state.proxy;
   const Vector3d& p_m = device.p_world_m;
-  if (!is_finite(device)) {
+  const double stride_m = proxy.started ? (p_m - proxy.device_world_m).norm() : 0.0;
+  proxy.work = 0;
+  // A place so far away that its square is not a number is as bad as one that is none.
+  if (!is_finite(device) || !std::isfinite(p_m.squaredNorm()) || !std::isfinite(stride_m)) {
     out.proxy_m = proxy.p_world_m;
     return out;
   }
   const double skin_m = kSkin * model.extent_m;
-  const ProxyBall ball{model.config.tip_radius_m + skin_m, 0x1p-12 * skin_m, 0x1p-8 * model.extent_m,
-                       proxy.started ? (p_m - proxy.device_world_m).norm() : 0.0, skin_m};
+  const ProxyBall ball{model.config.tip_radius_m + skin_m, 0x1p-12 * skin_m, 0x1p-8 * model.extent_m, stride_m, skin_m};
   if (!start_proxy(model, ball, p_m, proxy)) {
     no_texture_force(state.texture, false, device.dt_s);
     out.proxy_m = p_m;

@@ -13,6 +13,8 @@ struct State {
   bool absent = false;
   bool unplugged = false;
   bool stalled = false;
+  bool refuses_force = false;
+  bool refuses_position = false;
   int failures_to_come = 0;
   bool open = false;
   bool force_enabled = false;
@@ -76,6 +78,7 @@ int dhdEnableForce(unsigned char on, char id) {
 
 int dhdGetPosition(double* x, double* y, double* z, char id) {
   if (refusal(id) < 0) return -1;
+  if (state().refuses_position) return fail("no position");
   *x = state().hand.p_m[2];
   *y = state().hand.p_m[0];
   *z = state().hand.p_m[1];
@@ -98,6 +101,7 @@ int dhdSetForce(double x, double y, double z, char id) {
   if (state().forces_left == 0) state().unplugged = true;
   if (state().forces_left > 0) --state().forces_left;
   if (refusal(id) < 0) return -1;
+  if (state().refuses_force) return fail("no force");
   if (!state().force_enabled) return fail("force is off");
   const double norm_N = std::hypot(x, y, z);
   if (norm_N > kMaxForce_N) {
@@ -121,6 +125,8 @@ void fake_dhd_set(const char* what, int value) {
   if (std::strcmp(what, "absent") == 0) state().absent = value != 0;
   if (std::strcmp(what, "unplugged") == 0) state().unplugged = value != 0;
   if (std::strcmp(what, "stalled") == 0) state().stalled = value != 0;
+  if (std::strcmp(what, "refuses_force") == 0) state().refuses_force = value != 0;
+  if (std::strcmp(what, "refuses_position") == 0) state().refuses_position = value != 0;
   if (std::strcmp(what, "failures") == 0) state().failures_to_come = value;
 }
 void fake_dhd_move(double x, double y, double z) {

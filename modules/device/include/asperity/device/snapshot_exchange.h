@@ -13,8 +13,9 @@ namespace asperity {
 // neither waits, locks, allocates nor frees: what it has put aside is freed by the next publish() or at the end.
 //
 // There is one place for what is published and one for what was put aside. The reader takes a snapshot only while
-// the second place is empty; a publisher empties it after it has filled the first. So, once publish() has returned,
-// nothing keeps the reader from the new snapshot.
+// the second place is empty, and fills the second before it empties the first; a publisher fills the first, then
+// empties the second. So, once publish() has returned, nothing keeps the reader from the new snapshot: the second place
+// can be full again only by an acquire() that goes on to take it.
 template <class T>
 class SnapshotExchange {
  public:
@@ -43,10 +44,11 @@ class SnapshotExchange {
   T* acquire() noexcept {
     if (pending_.load(std::memory_order_relaxed) == nullptr) return current_;
     if (retired_.load(std::memory_order_acquire) != nullptr) return current_;
-    // A publisher may have exchanged it for a newer one since, but never for none.
-    T* const fresh = pending_.exchange(nullptr, std::memory_order_acq_rel);
+    // Put aside first: the other way round a whole publish() fits between, finds nothing to free, and its snapshot
+    // would wait behind the one put aside after it. From here the old one may be freed at any time.
     retired_.store(current_, std::memory_order_release);
-    current_ = fresh;
+    // A publisher may have exchanged it for a newer one since, but never for none.
+    current_ = pending_.exchange(nullptr, std::memory_order_acq_rel);
     return current_;
   }
 

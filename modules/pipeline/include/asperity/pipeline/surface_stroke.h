@@ -16,27 +16,30 @@ struct SurfaceLine {
   std::vector<Eigen::Vector3d> p_world_m;
   std::vector<Eigen::Vector3d> n_world;  // unit, outward, interpolated between the mesh's corner normals
   std::vector<double> s_m;               // along it, from 0, rising
+  bool turns_away = false;               // it ends where the surface turns away
 
   std::size_t size() const { return s_m.size(); }
 };
 
+// One direction of pressing serves no surface that turns away from it: textured_line and line_across end where the
+// normal is more than 60 degrees from that of their middle.
+
 // The longest line without a jump along the x of the first texture of the scene: what was scanned or painted. It runs
 // at y = 0, or in the middle of coordinates that lie on one side of it, and beside that by a thousandth of their width:
-// where a path followed edges of the mesh, y = 0 is on either side of them by rounding. Empty if no triangle has a
-// texture.
+// a path along edges of the mesh has their corners on either side of 0 by rounding. Empty if no triangle has a texture.
 SurfaceLine textured_line(const Scene& scene);
 
 // The shortest way over the first object between the points of it nearest to two others. Throws Error as
-// virtual_path (paint.h) does, and for a scene without objects.
+// virtual_path (paint.h) does, and for a scene without objects. It may lead round edges.
 SurfaceLine line_between(const Scene& scene, const Eigen::Vector3d& from_world_m, const Eigen::Vector3d& to_world_m);
 
 // Straight on over the first object, along its longest axis, through the place where its shortest axis leaves it:
-// for `length_m`, half to either side, or as far as the surface goes. Axes are those of the box in its own frame.
+// for `length_m`, half to either side, or as far as the surface goes. Axes are those of the box in its own frame. Throws
+// Error for a scene without objects.
 SurfaceLine line_across(const Scene& scene, double length_m);
 
-// The part about the line's middle whose normals are within 60 degrees of the middle's: what one direction of pressing
-// serves. Empty if the middle itself is at an edge.
-SurfaceLine facing_part(const SurfaceLine& line);
+// The largest angle between its normals and the direction in which stroke_along presses, inwards.
+double steepest_rad(const SurfaceLine& line);
 
 // The line without `margin_m` at either end, but never less than its middle half: a hand keeps away from borders.
 SurfaceLine shortened(const SurfaceLine& line, double margin_m);

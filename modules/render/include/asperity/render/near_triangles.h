@@ -24,7 +24,7 @@ struct NearTriangles {
 
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();
   double radius_m = -1.0;  // negative: nothing was gathered yet
-  bool complete = true;    // false: there are more than kMost
+  bool complete = true;    // false: there are more than kMost, and some of them are here
   std::uint32_t count = 0;
   std::array<NearTriangle, kMost> triangles;
 };

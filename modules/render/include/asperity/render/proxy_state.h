@@ -38,7 +38,8 @@ struct ProxyState {
   std::array<std::uint64_t, kMostObjects> object_id{};
   std::array<Pose, kMostObjects> T_world_mesh;
 
-  double reach_m = 0.0;  // how far round the proxy triangles were gathered last
+  std::int64_t work = 0;  // evaluations of triangles in the step: what bounds its time
+  double reach_m = 0.0;   // how far round the proxy triangles were gathered last
   NearTriangles near;
 };
 
