@@ -13,19 +13,16 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
-#include "asperity/device/cap_scene.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/write_flight_record.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/pipeline/score_rendering.h"
-#include "asperity/scene/height_map_viewer.h"
-#include "asperity/scene/read_scene.h"
-#include "asperity/texture/read_height_image.h"
 #include "commands.h"
 #include "feel_device.h"
 #include "feel_drive.h"
 #include "feel_log.h"
 #include "feel_report.h"
+#include "feel_scene.h"
 #include "feel_settings.h"
 #include "feel_verdict.h"
 #include "interrupt.h"
@@ -39,21 +36,21 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr double kTile_mm = 10.0, kHeightRange_mm = 2.5;
 constexpr std::array<const char*, 4> kEndNames{"duration", "device_ended", "stopped", "fault"};
 
 class FeelCommand : public Command {
  public:
   explicit FeelCommand(CLI::App& root)
       : Command(root, "feel", "Feel a scene with a haptic device, or log what it would") {
-    parser().add_option("SCENE", scene_, "A scene.json, a folder that has one, or a mesh without textures");
+    parser().add_option("SCENE", input_.scene, "A scene.json, a folder that has one, or a mesh without textures");
     parser()
-        .add_option("--height-maps", height_maps_, "Instead of SCENE: images side by side on a plane, a.png,b.png,…")
+        .add_option("--height-maps", input_.height_maps,
+                    "Instead of SCENE: images side by side on a plane, a.png,b.png,…")
         ->delimiter(',')
         ->allow_extra_args(false)
         ->type_name("FILES");
-    parser().add_option("--tile", tile_, "Side of a height map's tile; 10mm")->type_name("LENGTH");
-    parser().add_option("--height-range", height_range_, "From black to white; 2.5mm")->type_name("LENGTH");
+    parser().add_option("--tile", input_.tile, "Side of a height map's tile; 10mm")->type_name("LENGTH");
+    parser().add_option("--height-range", input_.height_range, "From black to white; 2.5mm")->type_name("LENGTH");
     parser()
         .add_option("--device", device_,
                     "sim (the default: a modelled hand), replay (the default with --replay), haply, openhaptics, dhd, "
@@ -73,7 +70,7 @@ class FeelCommand : public Command {
     parser().add_flag("--timing", timing_, "Time each step: a column step_ns in the log");
     parser().add_flag("--realtime", realtime_, "By the clock also where nobody is there to feel it (sim, replay)");
     parser()
-        .add_option("--mesh-unit", mesh_unit_, "Of a mesh given alone: m (the default), mm, or such as 0.06m")
+        .add_option("--mesh-unit", input_.mesh_unit, "Of a mesh given alone: m (the default), mm, or such as 0.06m")
         ->type_name("LENGTH");
     parser().add_option("--tip", tip_, "Radius of the tip; a point")->type_name("LENGTH");
     parser()
@@ -112,12 +109,14 @@ class FeelCommand : public Command {
   }
 
   int run(const Observer& observer) override {
-    choose_scene();
+    check_scene_input(input_);
+    if (parser().count("--log") > 0 && (log_.empty() || log_ == "-"))
+      throw UsageError("--log: a file's name is needed");
     choose_device();
     std::optional<OutputFolder> folder;
     if (!output_.empty()) folder.emplace(output_, is_our_folder);
     observer.update("reading", 0.0);
-    Scene scene = read_felt_scene();
+    const Scene scene = read_felt_scene(input_, settings_);
     FeelDrive drive;
     if (!replay_.empty()) {
       drive = read_drive(replay_, mapped_, scene, settings_, observer);
@@ -125,11 +124,14 @@ class FeelCommand : public Command {
       drive = make_drive(scene, point("--from", from_), point("--to", to_), settings_);
     }
     if (settings_.servo.duration_s > 0.0) cut_drive(drive, settings_.servo.duration_s, settings_.servo.rate_Hz);
+    check_length(drive);
     warn_of(scene.problems);
     warn_of(drive.problems);
     const std::unique_ptr<HapticDevice> device = open_device(device_, drive, settings_);
     observer.update("scene", 0.0);
-    SnapshotExchange<const RenderModel> model(make_model(scene, *device));
+    FeltModel felt = make_felt_model(scene, *device, kind_.driven, settings_);
+    warnings_ = felt.warnings;
+    SnapshotExchange<const RenderModel> model(std::move(felt.model));
     const fs::path log = !log_.empty() ? fs::path(log_) : folder ? folder->path() / "log.csv" : fs::path();
     const ServoResult servo = feel(*device, model, log, observer);
     const RunVerdict run = judge_run(figures_, servo, *device, drive, *model.acquire(), settings_.servo.safety);
@@ -137,7 +139,9 @@ class FeelCommand : public Command {
     warnings_.insert(warnings_.end(), notes_.begin(), notes_.end());
     for (const std::string& doubt : run.doubts) distrust(doubt);
     std::optional<RenderingScore> score;
-    if (drive.scan && servo.end != ServoEnd::kFault) {
+    const bool whole = device_ != "sim" && !(settings_.servo.duration_s > 0.0) && servo.end == ServoEnd::kDeviceEnded;
+    if (drive.scan && !whole) warnings_.push_back("real and rendered are compared over a whole replay only");
+    if (drive.scan && whole) {
       score = score_rendering(drive.scan->measured, drive.scan->pressed, *model.acquire(), settings_.servo.rate_Hz,
                               settings_.score, observer);
       if (!score->trustworthy) distrust("real against rendered: " + score->verdict);
@@ -167,17 +171,6 @@ class FeelCommand : public Command {
     set_text(option, setting, number_text(value));
   }
 
-  void choose_scene() {
-    if (scene_.empty() == height_maps_.empty())
-      throw UsageError(scene_.empty() ? "SCENE is missing" : "--height-maps stands instead of SCENE");
-    for (const auto& [option, text] : {std::pair{"--tile", &tile_}, std::pair{"--height-range", &height_range_}}) {
-      if (!text->empty() && height_maps_.empty()) throw UsageError(std::string(option) + " needs --height-maps");
-    }
-    if (!mesh_unit_.empty() && scene_.empty()) throw UsageError("--mesh-unit needs a mesh");
-    if (parser().count("--log") > 0 && (log_.empty() || log_ == "-"))
-      throw UsageError("--log: a file's name is needed");
-  }
-
   void choose_device() {
     if (device_.empty()) device_ = replay_.empty() ? "sim" : "replay";
     if (device_ == "mouse") throw UsageError("--device mouse: the mouse feels in the studio's page alone");
@@ -187,6 +180,9 @@ class FeelCommand : public Command {
                        "' is none of sim, replay, haply, openhaptics, dhd, 2diy, audio and gamepad");
     }
     kind_ = *kind;
+    if (device_ == "2diy" && settings_.two_diy.port.empty()) {
+      throw UsageError("--device 2diy: its serial port is missing, --set 2diy.port=/dev/ttyACM0 or such");
+    }
     if (device_ == "replay" && replay_.empty()) throw UsageError("--device replay needs --replay");
     if (!kind_.driven && !replay_.empty()) throw UsageError("--replay: " + device_ + " is moved by a hand");
     if (mapped_ && replay_.empty()) throw UsageError("--mapped needs --replay");
@@ -200,63 +196,6 @@ class FeelCommand : public Command {
     return point_option_m(option, text);
   }
 
-  // Images as tiles of a plane (seed Fig. 38), by Basdogan's model unless another is asked for.
-  Scene read_height_maps() {
-    ReadHeightImageConfig image;
-    HeightMapViewerConfig viewer;
-    viewer.tile_mm = tile_.empty() ? kTile_mm : 1e3 * length_option_m("--tile", tile_);
-    image.width_mm = viewer.tile_mm;
-    image.range_mm = height_range_.empty() ? kHeightRange_mm : 1e3 * length_option_m("--height-range", height_range_);
-    viewer.stiffness_N_per_m = settings_.render.stiffness_N_per_m;
-    viewer.friction = settings_.render.friction;
-    if (settings_.texture_model == TextureModelChoice::kAuto) {
-      settings_.texture_model = TextureModelChoice::kNormalPerturbation;
-    }
-    std::vector<Texture> tiles;
-    for (const std::string& file : height_maps_) tiles.push_back(read_height_image(file, image));
-    return make_height_map_viewer(tiles, viewer);
-  }
-
-  Scene read_felt_scene() {
-    if (!height_maps_.empty()) return read_height_maps();
-    fs::path path(scene_);
-    if (fs::is_directory(path)) path /= "scene.json";
-    Scene scene = read_scene(path);
-    if (!mesh_unit_.empty()) {
-      const double unit_m = unit_option_m("--mesh-unit", mesh_unit_);
-      SceneObject& object = scene.objects.front();
-      if (path.extension() == ".json" && object.unit_m != unit_m)
-        throw UsageError(fmt::format("--mesh-unit: the scene says {} m", object.unit_m));
-      object.unit_m = unit_m;
-    }
-    return scene;
-  }
-
-  // A scene within what the device can render, standing where the hand is.
-  std::unique_ptr<const RenderModel> make_model(const Scene& scene, const HapticDevice& device) {
-    RenderConfig config = settings_.render_config();
-    if (kind_.driven) return std::make_unique<const RenderModel>(make_render_model(scene, config));
-    const DeviceCaps caps =
-        find_device_caps(device.info(), settings_.servo, settings_.caps);
-    CappedScene capped = cap_scene(scene, config, caps);
-    warnings_.insert(warnings_.end(), capped.warnings.begin(), capped.warnings.end());
-    auto model = std::make_unique<RenderModel>(make_render_model(capped.scene, capped.config));
-    if (settings_.servo.frame.translation_m.isZero(0.0)) place_device(*model, device.info());
-    return model;
-  }
-
-  // Puts the middle of the workspace (the device's origin where that is not known) into the middle of the scene.
-  void place_device(const RenderModel& model, const DeviceInfo& info) {
-    Eigen::AlignedBox3d box;
-    for (const RenderObject& object : model.objects) {
-      for (const Eigen::Vector3d& vertex_m : object.mesh.vertices_m) box.extend(object.T_world_mesh * vertex_m);
-    }
-    DeviceFrame& frame = settings_.servo.frame;
-    const Eigen::Vector3d middle_m = 0.5 * (info.workspace_min_m + info.workspace_max_m);
-    frame.translation_m =
-        box.center() - (middle_m.allFinite() ? frame.position_m(middle_m) : Eigen::Vector3d(Eigen::Vector3d::Zero()));
-  }
-
   // Runs the loop; throws Cancelled if it was interrupted, with zero force and no log.
   ServoResult feel(HapticDevice& device, SnapshotExchange<const RenderModel>& model, const fs::path& log,
                    const Observer& observer) {
@@ -265,6 +204,8 @@ class FeelCommand : public Command {
     ServoConfig config = settings_.servo;
     if (kind_.driven) config.duration_s = 0.0;  // the path has it: no ramp follows
     const double whole_s = settings_.servo.duration_s;
+    std::optional<ForceHold> hold;
+    if (kind_.felt) hold.emplace();
     ServoResult servo = run_servo(device, model, config, interrupt_flag(), [&](const ServoTick& tick) {
       figures_.add(tick);
       if (rows) rows->add(tick);
@@ -272,16 +213,25 @@ class FeelCommand : public Command {
         observer.update("feeling", whole_s > 0.0 ? 1e-9 * static_cast<double>(tick.t_ns) / whole_s : 0.0);
       }
     });
+    device.close();  // before anything that takes time
+    hold.reset();
     if (servo.end == ServoEnd::kStopped && kind_.driven) throw Cancelled();
     if (rows) rows->commit();
-    if (servo.end == ServoEnd::kFault && !log.empty()) {
-      fs::path file = log;
-      file.replace_extension(".flight.csv");
+    if (servo.end == ServoEnd::kFault) keep_flight_record(log, servo);
+    return servo;
+  }
+
+  // The time before a fault: beside the log, or in the current folder.
+  void keep_flight_record(const fs::path& log, const ServoResult& servo) {
+    fs::path file = log.empty() ? fs::path("asperity-feel.csv") : log;
+    file.replace_extension(".flight.csv");
+    try {
       refuse_stranger(file, format_flight_record({}));
       write_flight_record(file, servo.last_ticks);
       warnings_.push_back("what happened before the fault is in " + printable(file.filename().string(), 200));
+    } catch (const Error& error) {
+      warnings_.push_back(std::string("no flight record: ") + error.what());
     }
-    return servo;
   }
 
   void distrust(const std::string& why) { verdict_ += (verdict_.empty() ? "" : "; ") + why; }
@@ -294,7 +244,7 @@ class FeelCommand : public Command {
     Json out;
     out["format"] = "asperity-feel";
     out["version"] = 1;
-    out["scene"] = scene_.empty() ? Json(height_maps_) : Json(scene_);
+    out["scene"] = input_.scene.empty() ? Json(input_.height_maps) : Json(input_.scene);
     out["device"] = device_;
     out["model"] = device.info().model;
     if (!replay_.empty()) out["replay"] = replay_;
@@ -333,10 +283,10 @@ class FeelCommand : public Command {
     if (!verdict_.empty()) complain("not to be trusted: " + verdict_);
   }
 
-  std::string scene_, device_, replay_, rate_, log_, duration_, mesh_unit_, tip_, model_, stiffness_, friction_;
-  std::string from_, to_, press_, speed_, output_, tile_, height_range_;
-  std::vector<std::string> height_maps_;
+  std::string device_, replay_, rate_, log_, duration_, tip_, model_, stiffness_, friction_;
+  std::string from_, to_, press_, speed_, output_;
   bool mapped_ = false, timing_ = false, realtime_ = false;
+  SceneInput input_;
   DeviceKind kind_;
   FeelSettings settings_;
   FeelFigures figures_;

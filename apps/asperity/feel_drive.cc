@@ -65,6 +65,15 @@ void cut_drive(FeelDrive& drive, double duration_s, double rate_Hz) {
   drive.stroke->press_N.resize(drive.stroke->path.size(), drive.stroke->press_N.back());
 }
 
+void check_length(const FeelDrive& drive) {
+  constexpr double kLongest_s = 36'000.0;
+  if (!drive.path || drive.path->size() == 0) return;
+  const double whole_s = 1e-9 * static_cast<double>(drive.path->t_ns.back());
+  if (whole_s > kLongest_s) {
+    throw Error(fmt::format("--replay: the path takes {:.4g} s, more than ten hours; --duration cuts it", whole_s));
+  }
+}
+
 FeelDrive read_drive(const std::string& replay, bool mapped, const Scene& scene, const FeelSettings& settings,
                      const Observer& observer) {
   if (fs::is_directory(replay)) return repeat_recording(replay, scene, settings, observer);

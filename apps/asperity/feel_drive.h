@@ -41,4 +41,7 @@ FeelDrive make_drive(const Scene& scene, const std::optional<Eigen::Vector3d>& f
 // Ends a drive so that a run has the ticks before `duration_s` and no others, if it is longer.
 void cut_drive(FeelDrive& drive, double duration_s, double rate_Hz);
 
+// Throws Error for a path of more than ten hours: a row a tick would fill any disk.
+void check_length(const FeelDrive& drive);
+
 }  // namespace asperity::app

@@ -47,7 +47,7 @@ void FeelFigures::add(const ServoTick& tick) {
   peak_contact_N_ = std::max(peak_contact_N_, output.contact_N.norm());
   peak_texture_N_ = std::max(peak_texture_N_, output.texture_N.norm());
   peak_friction_N_ = std::max(peak_friction_N_, output.friction_N.norm());
-  if (!output.contact.found()) return;
+  if (!output.contact.found() || force_N == 0.0) return;
   ++touching_;
   lowest_m_ = std::min(lowest_m_, output.texture_height_m);
   highest_m_ = std::max(highest_m_, output.texture_height_m);
@@ -104,23 +104,29 @@ Json score_json(const RenderingScore& score) {
   out["compared_m"] = number(score.compared_m);
   out["ticks"] = score.ticks;
   out["touched"] = score.touched;
-  out["repeats"] = score.repeats;
+  out["phase_known"] = score.phase_known;
+  if (!score.phase_known) out["phase_unknown"] = score.phase_unknown;
   out["correlation"] = number(score.correlation);
   out["gain"] = number(score.gain);
   out["shift_m"] = number(score.shift_m);
+  out["distribution_distance"] = number(score.distribution_distance);
   out["height"] = spectrum_json(score.height, "m");
   out["force"] = spectrum_json(score.force, "N");
+  out["measured_force"] = spectrum_json(score.measured_force, "N");
   return out;
 }
 
 std::string score_text(const RenderingScore& score) {
-  return fmt::format(
-      "score      {:.3f} of 1 (heights {:.3f}, force {:.3f}), over {:.1f} mm from {:.2f} to {:.2f} cycles/mm: {}\n"
-      "  heights  real {:.1f} µm RMS, rendered {:.1f} µm, correlation {:.3f}, gain {:.3f}\n"
-      "  force    real {:.3f} N RMS, rendered {:.3f} N\n",
+  std::string out = fmt::format(
+      "score      {:.3f} of 1 (heights {:.3f}, force {:.3f}), over {:.1f} mm from {:.2f} to {:.2f} "
+      "cycles/mm: {}\n",
       score.score, score.height_score, score.force_score, score.compared_m * 1e3, score.low_cycles_per_mm,
-      score.high_cycles_per_mm, score.verdict, score.height.real_rms * 1e6, score.height.rendered_rms * 1e6,
-      score.correlation, score.gain, score.force.real_rms, score.force.rendered_rms);
+      score.high_cycles_per_mm, score.verdict);
+  out += fmt::format("  heights  real {:.1f} µm RMS, rendered {:.1f} µm, correlation {:.3f}, gain {:.3f}\n",
+                     score.height.real_rms * 1e6, score.height.rendered_rms * 1e6, score.correlation, score.gain);
+  return out +
+         fmt::format("  force    the texture adds {:.3f} N RMS, the real heights would {:.3f} N; measured {:.3f} N\n",
+                     score.force.rendered_rms, score.force.real_rms, score.measured_force.real_rms);
 }
 
 Json timing_json(const ServoStatistics& statistics, const ServoConfig& config) {

@@ -17,6 +17,15 @@ namespace {
 
 std::atomic<int> signal_seen{0};
 std::atomic<bool> stop_asked{false};
+std::atomic<int> forces_held{0};
+
+void wait_for_zero_force() {
+  constexpr auto kStep = std::chrono::milliseconds(2);
+  constexpr auto kLongest = std::chrono::seconds(2);
+  for (auto waited = std::chrono::milliseconds(0); forces_held > 0 && waited < kLongest; waited += kStep) {
+    std::this_thread::sleep_for(kStep);
+  }
+}
 
 }  // namespace
 
@@ -39,11 +48,15 @@ void watch_interrupts() {
     stop_asked = true;
     const timespec patience{1, 0};
     sigtimedwait(&set, nullptr, &patience);
+    wait_for_zero_force();
     remove_unfinished_output();
     complain(kInterrupted);
     ::_exit(128 + number);
   }).detach();
 }
+
+ForceHold::ForceHold() { ++forces_held; }
+ForceHold::~ForceHold() { --forces_held; }
 
 bool interrupted() { return signal_seen != 0; }
 

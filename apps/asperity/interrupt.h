@@ -12,6 +12,17 @@ inline constexpr const char* kInterrupted = "interrupted; nothing was written";
 void watch_interrupts();
 
 bool interrupted();
+
+// While one lives, a hand may have force on it: the program is not ended by a signal, a second one either, before it
+// is gone, for two seconds more at most.
+class ForceHold {
+ public:
+  ForceHold();
+  ~ForceHold();
+  ForceHold(const ForceHold&) = delete;
+  ForceHold& operator=(const ForceHold&) = delete;
+};
+
 // The same for those that watch a flag: turns true with interrupted(), and stays true.
 const std::atomic<bool>& interrupt_flag();
 // 128 + the signal that came, 130 for Ctrl-C.

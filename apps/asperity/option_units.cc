@@ -109,8 +109,8 @@ double number_option(const std::string& option, const std::string& text, const s
   if (digits.ends_with(unit)) digits.remove_suffix(unit.size());
   const auto number = parse_double(digits);
   if (!number || !(*number >= low && *number <= high)) {
-    throw UsageError(option + ": '" + printable(text) + "' is not between " + number_text(low) + " and " +
-                     number_text(high) + " " + unit);
+    throw UsageError(option + ": '" + printable(text) + "' is not a number" + (unit.empty() ? "" : " of " + unit) +
+                     " from " + number_text(low) + " to " + number_text(high));
   }
   return *number;
 }

@@ -221,6 +221,12 @@ TEST_F(FeelCommands, WhatCannotBeMeantIsRefused) {
   EXPECT_EQ(bad.code, 1);
   EXPECT_THAT(bad.err, HasSubstr("bad.csv:3: column 'py_m'"));
   EXPECT_FALSE(fs::exists(path("log.csv")));
+  write_text(path("long.csv"), "t_s,px_m,py_m,pz_m\n0,0,0,1\n1e9,0,0,1\n");
+  const Outcome endless = feel(scene, {"--replay", path("long.csv"), "--log", path("log.csv")});
+  EXPECT_EQ(endless.code, 1);
+  EXPECT_THAT(endless.err, HasSubstr("--duration cuts it"));
+  EXPECT_EQ(feel(scene, {"--replay", path("long.csv"), "--duration", "10ms"}).code, 0);
+  EXPECT_EQ(feel(scene, {"--device", "2diy"}).code, 2);
   EXPECT_EQ(feel(path("none.scene.json"), {}).code, 1);
 }
 

@@ -37,8 +37,9 @@ std::vector<double> bridged_force(const TipMotion& motion) {
 ProcessResult measure_on_scene(const Recording& recording, const Scene& scene, const ProcessConfig& config,
                                const Observer& observer) {
   if (!scene.T_mesh_world) throw Error("the scene has no registration (T_mesh_world), which says where the scan lies");
+  if (scene.objects.empty()) throw Error("the scene has no object");
   ProcessResult result = estimate_motion(recording, config, observer);
-  const MeshSurface surface(to_metres(scene.objects.at(0).mesh, scene.objects.at(0).unit_m));
+  const MeshSurface surface(to_metres(scene.objects.front().mesh, scene.objects.front().unit_m));
   const FindBase find_base = [&](const TipMotion& motion) {
     return base_path_on_mesh(motion, recording.calibration.tip_in_marker_m, surface, *scene.T_mesh_world, config.base);
   };
@@ -51,13 +52,15 @@ PressedScan press_in_scan(const ProcessResult& measured, const Scene& scene, dou
   const BasePath& base = measured.base.path;
   if (!scene.T_mesh_world) throw Error("press in: the scene has no registration");
   if (base.size() == 0 || base.size() != motion.size()) throw Error("press in: the scan has no base path");
-  const SceneObject& object = scene.objects.at(0);
+  if (scene.objects.empty()) throw Error("press in: the scene has no object");
+  const SceneObject& object = scene.objects.front();
   const TriangleMesh mesh = to_metres(object.mesh, object.unit_m);
   const MeshBvh bvh(mesh);
   const Pose T_scene_tracker = object.T_world_mesh * *scene.T_mesh_world;
   const std::vector<double> force_N = bridged_force(motion);
 
   PressedScan out;
+  double texture_N_per_m = 0.0;  // of the last place in contact
   const auto add = [&](std::int64_t t_ns, const Vector3d& p_world_m, std::size_t i, double force, bool contact) {
     out.path.t_ns.push_back(t_ns);
     out.path.p_world_m.push_back(p_world_m);
@@ -65,6 +68,7 @@ PressedScan press_in_scan(const ProcessResult& measured, const Scene& scene, dou
     out.force_N.push_back(force);
     out.n_world.push_back(T_scene_tracker.rotation * base.n_world[i]);
     out.contact.push_back(contact ? 1 : 0);
+    out.texture_N_per_m.push_back(texture_N_per_m);
   };
   ClosestPoint on;
   for (std::size_t i = 0; i < motion.size(); ++i) {
@@ -74,8 +78,9 @@ PressedScan press_in_scan(const ProcessResult& measured, const Scene& scene, dou
     if (contact) {
       const Vector3d p_mesh_m = *scene.T_mesh_world * base.p_world_m[i];
       on = on.found() ? bvh.closest_point(p_mesh_m, on) : bvh.closest_point(p_mesh_m);
-      const double known = material_at(scene, object, on.triangle, on.barycentric).stiffness_N_per_m;
-      const double k = std::isfinite(known) ? known : stiffness_N_per_m;
+      const Material known = material_at(scene, object, on.triangle, on.barycentric);
+      const double k = std::isfinite(known.stiffness_N_per_m) ? known.stiffness_N_per_m : stiffness_N_per_m;
+      texture_N_per_m = k * (std::isfinite(known.compliance_kc) ? known.compliance_kc : 1.0);
       if (!(k > 0.0)) throw Error("press in: the stiffness is not positive");
       force = std::max(force_N[i], 0.0);
       above_m = -force / k;

@@ -25,15 +25,30 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // What was real and what was rendered, one entry a tick in which the scan was in contact.
 struct Ticks {
-  std::vector<double> s_m, height_m, force_N, measured_N;
+  std::vector<double> s_m, height_m, force_N, measured_N, texture_N_per_m;
   std::size_t all = 0, touching = 0;
-  double texture_length_m = 0.0;  // of the texture that was touched most; 0: none, or one without a length
+  const Texture* texture = nullptr;  // that was touched most
 };
 
-// How far a texture goes on along x before it repeats.
+// How far a texture goes on along x with places of its own; 0 for one that has none.
 double length_along_m(const Texture& texture) {
   if (const auto* series = std::get_if<Fourier1d>(&texture.model)) return 1e-3 * series->length_mm;
+  if (const auto* map = std::get_if<HeightMap>(&texture.model)) {
+    return 1e-3 * map->mm_per_px_x * static_cast<double>(map->columns);
+  }
+  if (const auto* areal = std::get_if<ArealTexture>(&texture.model)) {
+    return areal->surface.spacing_x_m * static_cast<double>(areal->surface.columns);
+  }
   return 0.0;
+}
+
+// Why a texture cannot have the phase of a scan of this length, in words; empty if it can.
+std::string why_no_phase(const Texture* texture, double path_m) {
+  if (texture == nullptr) return "the scan lies where the scene has no texture";
+  if (std::holds_alternative<Fourier2d>(texture->model)) return "the texture is made up from a spectrum";
+  const double length_m = length_along_m(*texture);
+  if (length_m == 0.0) return "the texture has no heights of its own";
+  return length_m > path_m ? "" : fmt::format("the texture repeats after {:.1f} mm", 1e3 * length_m);
 }
 
 Ticks render_scan(const PressedScan& pressed, const RenderModel& model, double rate_Hz, const Observer& observer) {
@@ -62,6 +77,7 @@ Ticks render_scan(const PressedScan& pressed, const RenderModel& model, double r
     const bool touching = output.contact.found();
     out.s_m.push_back(between(pressed.s_m));
     out.measured_N.push_back(between(pressed.force_N));
+    out.texture_N_per_m.push_back(between(pressed.texture_N_per_m));
     out.height_m.push_back(touching ? output.texture_height_m : kNan);
     out.force_N.push_back(touching ? output.force_N.dot(pressed.n_world[place.index]) : kNan);
     ++out.all;
@@ -73,7 +89,7 @@ Ticks render_scan(const PressedScan& pressed, const RenderModel& model, double r
   const auto most = std::max_element(touched.begin(), touched.end(),
                                      [](const auto& a, const auto& b) { return a.second < b.second; });
   if (most != touched.end() && most->first >= 0) {
-    out.texture_length_m = length_along_m(model.textures[static_cast<std::size_t>(most->first)].texture);
+    out.texture = &model.textures[static_cast<std::size_t>(most->first)].texture;
   }
   return out;
 }
@@ -139,19 +155,56 @@ SpectrumAgreement compare_spectra(const Pair& pair, double spacing_m, const Comp
   return out;
 }
 
+// The mean difference of the quantiles of both lines about their means, over the real RMS value.
+double compare_distributions(const Pair& pair, double spacing_m, const CompareTexturesConfig& config) {
+  std::vector<double> real = band_limited_heights(pair.real, spacing_m, config);
+  std::vector<double> rendered = band_limited_heights(pair.rendered, spacing_m, config);
+  const double spread = standard_deviation(real), offset = mean(real) - mean(rendered);
+  std::sort(real.begin(), real.end());
+  std::sort(rendered.begin(), rendered.end());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < real.size(); ++i) sum += std::abs(rendered[i] + offset - real[i]);
+  return sum / (static_cast<double>(real.size()) * spread);
+}
+
+// What the texture's spring makes of the real heights.
+std::vector<double> expected_force(const Profile& profile, const std::vector<double>& texture_N_per_m) {
+  double lowest_m = std::numeric_limits<double>::infinity();
+  for (const double height_m : profile.height_m) {
+    if (std::isfinite(height_m)) lowest_m = std::min(lowest_m, height_m);
+  }
+  std::vector<double> out = texture_N_per_m;
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] *= profile.height_m[i] - lowest_m;
+  return out;
+}
+
+// What is rendered beyond the measured force, which the press alone renders.
+std::vector<double> added_force(std::vector<double> rendered_N, const std::vector<double>& measured_N) {
+  for (std::size_t i = 0; i < rendered_N.size(); ++i) rendered_N[i] -= measured_N[i];
+  return rendered_N;
+}
+
 void judge(RenderingScore& out, const ScoreConfig& config) {
-  const auto agreement = [&](double distance_dB) { return std::exp2(-distance_dB / config.half_dB); };
-  out.height_score = agreement(out.height.distance_dB);
-  if (!out.repeats) out.height_score = std::sqrt(std::max(out.correlation, 0.0) * out.height_score);
-  out.force_score = agreement(out.force.distance_dB);
+  const auto agreement = [](double distance, double half) { return std::exp2(-distance / half); };
+  const double ratio = out.height.rms_ratio;
+  out.height_score = std::min(ratio, 1.0 / ratio) * agreement(out.height.distance_dB, config.half_dB);
+  out.height_score *=
+      out.phase_known ? std::max(out.correlation, 0.0) : agreement(out.distribution_distance, config.half_distribution);
+  out.force_score = agreement(out.force.distance_dB, config.half_dB);
   for (double* score : {&out.height_score, &out.force_score}) {
     if (!std::isfinite(*score)) *score = 0.0;
   }
-  out.score = std::sqrt(out.height_score * out.force_score);
-  const std::string what = out.repeats ? "the texture repeats over the path, so the spectra alone are compared: "
-                                       : fmt::format("heights correlate by {:.3f}, ", out.correlation);
-  out.verdict = fmt::format("{}spectra of height are {:.1f} dB apart, of force {:.1f} dB", what, out.height.distance_dB,
-                            out.force.distance_dB);
+  out.score = out.height_score * out.force_score;
+  const std::string what = out.phase_known
+                               ? fmt::format("heights correlate by {:.3f}", out.correlation)
+                               : fmt::format(
+                                     "{}, so spectra and distributions alone are compared; the heights' are {:.2f} RMS "
+                                     "heights apart",
+                                     out.phase_unknown, out.distribution_distance);
+  out.verdict = fmt::format(
+      "{}, rendered ones are {:.2f} of the real; spectra of height are {:.1f} dB apart, of force "
+      "{:.1f} dB",
+      what, ratio, out.height.distance_dB, out.force.distance_dB);
   if (out.touched < config.least_touched) {
     out.trustworthy = false;
     out.verdict += fmt::format("; only {:.0f} % of the scan touched the surface", 100.0 * out.touched);
@@ -190,7 +243,8 @@ RenderingScore score_rendering(const ProcessResult& measured, const PressedScan&
   out.gain = heights.gain;
   out.shift_m = heights.shift_m;
   out.compared_m = heights.compared_m;
-  out.repeats = !(ticks.texture_length_m > out.compared_m);
+  out.phase_unknown = why_no_phase(ticks.texture, out.compared_m);
+  out.phase_known = out.phase_unknown.empty();
 
   CompareTexturesConfig spectra;
   spectra.speed_mps = out.speed_mps;
@@ -199,8 +253,13 @@ RenderingScore score_rendering(const ProcessResult& measured, const PressedScan&
   spectra.segment_mm = config.segment_mm;
   spectra.least_part = config.least_part;
   const auto grid = [&](const std::vector<double>& x) { return on_grid(ticks, x, profile, comparison.max_hole_m); };
-  out.height = compare_spectra(common(profile.height_m, grid(ticks.height_m)), profile.spacing_m, spectra);
-  out.force = compare_spectra(common(grid(ticks.measured_N), grid(ticks.force_N)), profile.spacing_m, spectra);
+  const Pair both = common(profile.height_m, grid(ticks.height_m));
+  out.height = compare_spectra(both, profile.spacing_m, spectra);
+  out.distribution_distance = compare_distributions(both, profile.spacing_m, spectra);
+  const std::vector<double> measured_N = grid(ticks.measured_N), rendered_N = grid(ticks.force_N);
+  const std::vector<double> expected_N = expected_force(profile, grid(ticks.texture_N_per_m));
+  out.force = compare_spectra(common(expected_N, added_force(rendered_N, measured_N)), profile.spacing_m, spectra);
+  out.measured_force = compare_spectra(common(measured_N, rendered_N), profile.spacing_m, spectra);
   judge(out, config);
   return out;
 }

@@ -1,6 +1,9 @@
 #include "asperity/pipeline/score_rendering.h"
 
 #include <cmath>
+#include <numbers>
+#include <utility>
+#include <variant>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -80,42 +83,105 @@ TEST(PressInScan, TheDepthIsTheForceOverTheStiffnessOfThePlace) {
   EXPECT_THROW(press_in_scan(measured, scene, 1000.0), Error);
 }
 
+// The wave, and what else a texture could make of it: the plate's own series times `factor`.
+Scene plate_times(double length_mm, double factor) {
+  Scene scene = registered_plate(length_mm);
+  std::get<Fourier1d>(scene.objects[0].textures[0].texture.model).a_m.back() *= factor;
+  return scene;
+}
+
 TEST(ScoreRendering, AFaithfulTextureHasTheScansHeights) {
   const RenderingScore result = score(registered_plate(80.0), scan(kTracker, feel_test::wave_m));
-  EXPECT_FALSE(result.repeats);
+  EXPECT_TRUE(result.phase_known);
   EXPECT_GT(result.correlation, 0.9999);
   EXPECT_NEAR(result.gain, 1.0, 2e-3);
+  EXPECT_NEAR(result.shift_m, 0.0, 5e-6);
   EXPECT_NEAR(result.height.rms_ratio, 1.0, 2e-3);
   EXPECT_LT(result.height.distance_dB, 0.1);
+  EXPECT_LT(result.force.distance_dB, 0.1);
   EXPECT_NEAR(result.touched, 1.0, 1e-12);
-  EXPECT_GT(result.height_score, 0.98);
-  // Where the measured force is constant, the rendered one has the texture's spring alone: k_c k_s of the cosine.
+  EXPECT_GT(result.score, 0.97);
+  EXPECT_TRUE(result.trustworthy);
+  // The texture's spring alone: k_c k_s of the cosine; what was measured does not vary.
   constexpr double kRms_N = 1000.0 * feel_test::kAmplitude_m / 1.4142135623730951;
   EXPECT_NEAR(result.force.rendered_rms, kRms_N, 0.005 * kRms_N);
+  EXPECT_NEAR(result.measured_force.rendered_rms, kRms_N, 0.005 * kRms_N);
+  EXPECT_LT(result.measured_force.real_rms, 1e-9);
   EXPECT_NEAR(result.high_cycles_per_mm, 4.0, 1e-12);
 }
 
-TEST(ScoreRendering, ARepeatingTextureIsJudgedByItsSpectrum) {
-  // The scan is the wave a quarter of its pitch further on: no fault of a texture that repeats.
-  const RenderingScore result =
-      score(registered_plate(10.0), scan(kTracker, [](double x_m) { return feel_test::wave_m(x_m + 0.625e-3); }));
-  EXPECT_TRUE(result.repeats);
-  EXPECT_GT(result.height_score, 0.98);
-  EXPECT_THAT(result.verdict, ::testing::HasSubstr("repeats"));
+TEST(ScoreRendering, TheSpringsOfTheSceneDoNotMatter) {
+  const ProcessResult measured = scan(kTracker, feel_test::wave_m);
+  for (const auto& [k_N_per_m, k_c] : {std::pair{100.0, 1.0}, {5000.0, 1.0}, {1000.0, 0.3}}) {
+    Scene scene = registered_plate(80.0);
+    scene.objects[0].textures[0].texture.stiffness_N_per_m = k_N_per_m;
+    scene.objects[0].textures[0].texture.compliance_kc = k_c;
+    EXPECT_GT(score(scene, measured).score, 0.97) << k_N_per_m << ' ' << k_c;
+  }
 }
 
-TEST(ScoreRendering, AnotherTextureScoresPoorly) {
+TEST(ScoreRendering, OtherHeightsAreNoticed) {
+  const ProcessResult measured = scan(kTracker, feel_test::wave_m);
+  for (const auto& [factor, most] : {std::pair{0.7, 0.45}, {0.5, 0.2}, {2.0, 0.2}, {-1.0, 1e-6}}) {
+    const RenderingScore result = score(plate_times(80.0, factor), measured);
+    EXPECT_LT(result.score, most) << factor;
+    EXPECT_FALSE(result.trustworthy);
+    EXPECT_THAT(result.verdict, ::testing::HasSubstr("poor"));
+    EXPECT_NEAR(result.height.distance_dB, std::abs(20.0 * std::log10(std::abs(factor))), 0.1) << factor;
+  }
   const RenderingScore pitch =
       score(registered_plate(80.0), scan(kTracker, [](double x_m) { return feel_test::wave_m(1.9 * x_m); }));
-  EXPECT_LT(pitch.score, 0.2);
-  EXPECT_FALSE(pitch.trustworthy);
-  EXPECT_THAT(pitch.verdict, ::testing::HasSubstr("poor"));
-  // Four times as high: 12 dB, two halvings, and the correlation is perfect.
-  const RenderingScore height =
-      score(registered_plate(80.0), scan(kTracker, [](double x_m) { return 4.0 * feel_test::wave_m(x_m); }));
-  EXPECT_NEAR(height.height.distance_dB, 12.04, 0.1);
-  EXPECT_NEAR(height.height_score, 0.5, 0.01);
-  EXPECT_NEAR(height.gain, 0.25, 2e-3);
+  EXPECT_LT(pitch.score, 0.01);
+}
+
+TEST(ScoreRendering, AForceThatHasNoPartAlongTheNormalIsNoticed) {
+  const Scene scene = registered_plate(80.0);
+  const ProcessResult measured = scan(kTracker, feel_test::wave_m);
+  RenderConfig config;
+  config.texture.model = TextureForceModel::kLateralGradient;
+  const RenderingScore result =
+      score_rendering(measured, press_in_scan(measured, scene, 1000.0), make_render_model(scene, config), 1000.0, {});
+  EXPECT_GT(result.height_score, 0.97);
+  EXPECT_LT(result.score, 0.05);
+}
+
+// Holes as of a board: narrow, 0.3 mm deep.
+double holes_m(double x_m) {
+  return -0.3e-3 * std::pow(0.5 + 0.5 * feel_test::wave_m(x_m) / feel_test::kAmplitude_m, 4);
+}
+
+TEST(ScoreRendering, ARepeatingTextureIsJudgedBySpectrumAndDistribution) {
+  // The series of the holes over 10 mm, from their samples.
+  const auto board = [](double factor) {
+    Scene scene = registered_plate(10.0);
+    Fourier1d& series = std::get<Fourier1d>(scene.objects[0].textures[0].texture.model);
+    constexpr int kSamples = 256, kHarmonics = 32;
+    series.a_m.assign(kHarmonics, 0.0);
+    series.b_m.assign(kHarmonics, 0.0);
+    for (int m = 0; m < kSamples; ++m) {
+      for (int j = 1; j <= kHarmonics; ++j) {
+        series.a_m[static_cast<std::size_t>(j - 1)] += factor * 2.0 / kSamples * holes_m(10e-3 * m / kSamples) *
+                                                       std::cos(2.0 * std::numbers::pi * j * m / kSamples);
+      }
+    }
+    return scene;
+  };
+  // The scan lies a quarter of the pitch further on: no fault of a texture that repeats.
+  const ProcessResult measured = scan(kTracker, [](double x_m) { return holes_m(x_m + 0.625e-3); });
+  const RenderingScore faithful = score(board(1.0), measured);
+  EXPECT_FALSE(faithful.phase_known);
+  EXPECT_THAT(faithful.verdict, ::testing::HasSubstr("the texture repeats after 10.0 mm"));
+  EXPECT_GT(faithful.score, 0.85);
+  for (const double factor : {0.5, 2.0, -1.0}) EXPECT_LT(score(board(factor), measured).score, 0.45) << factor;
+}
+
+TEST(ScoreRendering, APlateWithoutTextureIsCalledSo) {
+  Scene scene = registered_plate(80.0);
+  scene.objects[0].mesh.haptic.clear();
+  scene.objects[0].textures.clear();
+  const RenderingScore result = score(scene, scan(kTracker, feel_test::wave_m));
+  EXPECT_EQ(result.score, 0.0);
+  EXPECT_THAT(result.verdict, ::testing::HasSubstr("no texture"));
 }
 
 TEST(ScoreRendering, AScanBesideTheSceneIsRefused) {

@@ -19,6 +19,7 @@ struct PressedScan {
   std::vector<double> s_m;               // along the scan path, those of the profile
   std::vector<double> force_N;           // measured, interpolated between the sensor's readings; 0 out of contact
   std::vector<Eigen::Vector3d> n_world;  // outward
+  std::vector<double> texture_N_per_m;   // k_c k_s of the place, the spring of a texture there
   std::vector<char> contact;
 };
 

@@ -35,12 +35,15 @@ struct RenderingScore {
   std::size_t ticks = 0;
   double touched = 0.0;  // part of the scan's contact in which the renderer was in contact
 
-  bool repeats = false;  // the texture is shorter than the path: it cannot have the scan's phase
+  bool phase_known = false;   // the texture has the scan's own places, not its spectrum alone
+  std::string phase_unknown;  // why not, in words
   double correlation = std::numeric_limits<double>::quiet_NaN();  // of the heights, after one rigid shift
   double gain = std::numeric_limits<double>::quiet_NaN();         // slope of rendered on real heights
   double shift_m = 0.0;
-  SpectrumAgreement height;  // m
-  SpectrumAgreement force;   // N, along the normal
+  double distribution_distance = std::numeric_limits<double>::quiet_NaN();  // of the heights, in real RMS heights
+  SpectrumAgreement height;                                                 // m
+  SpectrumAgreement force;           // N, along the normal: what the texture adds, against what the real heights would
+  SpectrumAgreement measured_force;  // N: rendered against measured; told, not judged
 
   double height_score = 0.0;  // each from 0 to 1 (score_rendering.h)
   double force_score = 0.0;

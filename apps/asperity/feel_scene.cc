@@ -1,0 +1,92 @@
+#include "feel_scene.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "asperity/base/error.h"
+#include "asperity/device/cap_scene.h"
+#include "asperity/scene/height_map_viewer.h"
+#include "asperity/scene/read_scene.h"
+#include "asperity/texture/read_height_image.h"
+#include "command.h"
+#include "option_units.h"
+
+namespace asperity::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kTile_mm = 10.0, kHeightRange_mm = 2.5;
+
+// Images as tiles of a plane (seed Fig. 38), by Basdogan's model unless another is asked for.
+Scene read_height_maps(const SceneInput& input, FeelSettings& settings) {
+  ReadHeightImageConfig image;
+  HeightMapViewerConfig viewer;
+  viewer.tile_mm = input.tile.empty() ? kTile_mm : 1e3 * length_option_m("--tile", input.tile);
+  image.width_mm = viewer.tile_mm;
+  image.range_mm =
+      input.height_range.empty() ? kHeightRange_mm : 1e3 * length_option_m("--height-range", input.height_range);
+  viewer.stiffness_N_per_m = settings.render.stiffness_N_per_m;
+  viewer.friction = settings.render.friction;
+  if (settings.texture_model == TextureModelChoice::kAuto) {
+    settings.texture_model = TextureModelChoice::kNormalPerturbation;
+  }
+  std::vector<Texture> tiles;
+  for (const std::string& file : input.height_maps) tiles.push_back(read_height_image(file, image));
+  return make_height_map_viewer(tiles, viewer);
+}
+
+// Puts the middle of the workspace (the device's origin where that is not known) into the middle of the scene.
+void place_device(const RenderModel& model, const DeviceInfo& info, DeviceFrame& frame) {
+  Eigen::AlignedBox3d box;
+  for (const RenderObject& object : model.objects) {
+    for (const Eigen::Vector3d& vertex_m : object.mesh.vertices_m) box.extend(object.T_world_mesh * vertex_m);
+  }
+  const Eigen::Vector3d middle_m = 0.5 * (info.workspace_min_m + info.workspace_max_m);
+  frame.translation_m =
+      box.center() - (middle_m.allFinite() ? frame.position_m(middle_m) : Eigen::Vector3d(Eigen::Vector3d::Zero()));
+}
+
+}  // namespace
+
+void check_scene_input(const SceneInput& input) {
+  if (input.scene.empty() == input.height_maps.empty())
+    throw UsageError(input.scene.empty() ? "SCENE is missing" : "--height-maps stands instead of SCENE");
+  for (const auto& [option, text] :
+       {std::pair{"--tile", &input.tile}, std::pair{"--height-range", &input.height_range}}) {
+    if (!text->empty() && input.height_maps.empty()) throw UsageError(std::string(option) + " needs --height-maps");
+  }
+  if (!input.mesh_unit.empty() && input.scene.empty()) throw UsageError("--mesh-unit needs a mesh");
+}
+
+Scene read_felt_scene(const SceneInput& input, FeelSettings& settings) {
+  if (!input.height_maps.empty()) return read_height_maps(input, settings);
+  fs::path path(input.scene);
+  if (fs::is_directory(path)) path /= "scene.json";
+  Scene scene = read_scene(path);
+  if (!input.mesh_unit.empty()) {
+    const double unit_m = unit_option_m("--mesh-unit", input.mesh_unit);
+    SceneObject& object = scene.objects.front();
+    if (path.extension() == ".json" && object.unit_m != unit_m)
+      throw UsageError(fmt::format("--mesh-unit: the scene says {} m", object.unit_m));
+    object.unit_m = unit_m;
+  }
+  return scene;
+}
+
+FeltModel make_felt_model(const Scene& scene, const HapticDevice& device, bool driven, FeelSettings& settings) {
+  RenderConfig config = settings.render_config();
+  if (driven) return {std::make_unique<const RenderModel>(make_render_model(scene, config)), {}};
+  const DeviceCaps caps = find_device_caps(device.info(), settings.servo, settings.caps);
+  CappedScene capped = cap_scene(scene, config, caps);
+  auto model = std::make_unique<RenderModel>(make_render_model(capped.scene, capped.config));
+  if (settings.servo.frame.translation_m.isZero(0.0)) place_device(*model, device.info(), settings.servo.frame);
+  return {std::move(model), std::move(capped.warnings)};
+}
+
+}  // namespace asperity::app
