@@ -113,7 +113,8 @@ ServoOutput render_step(const RenderModel& model, ServoState& state, const Devic
   out.friction_N =
       friction_force_N(friction_of(model, feel, proxy.texture_load_N), proxy.sticking, feel.rest_m, holding.load_N);
   out.force_N = out.contact_N + out.texture_N + out.friction_N;
-  out.proxy_m = is_free ? p_m : feel.proxy_m;
+  // Over a texture friction holds the proxy back as well.
+  out.proxy_m = is_free && !(proxy.over_texture && holding.load_N > 0.0) ? p_m : feel.proxy_m;
   out.contact = strongest_contact(model, proxy, feel);
   out.sticking = proxy.sticking;
   proxy.device_world_m = p_m;
