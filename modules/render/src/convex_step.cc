@@ -36,8 +36,9 @@ class Stepper {
       ConvexStep step = finish(complete);
       const double left2 = (goal_m_ - (step.centre_m - ball_.centre_m)).squaredNorm();
       // Of the same place, take the planes of triangles that are really there.
-      if (telling == 0 || left2 < best2 || (step.exact && left2 <= best2 * (1.0 + 0x1p-40))) best = step, best2 = left2;
-      if (step.exact || !complete || !forbid_false_faces(step)) break;
+      if (telling == 0 || (complete && left2 < best2) || (step.exact && left2 <= best2 * (1.0 + 0x1p-40)))
+        best = step, best2 = left2;
+      if (step.exact || !complete || work_ >= most_work_ || !forbid_false_faces(step)) break;
     }
     best.work = work_;
     return best;
@@ -116,7 +117,7 @@ class Stepper {
   bool project(std::span<const std::uint32_t> first) {
     lenient_ = false;
     if (try_project(first)) return true;
-    if (!infeasible_) return false;
+    if (!infeasible_ || work_ >= most_work_) return false;
     // Rounding left nothing between two walls: what already overlaps may stay as it is.
     lenient_ = true;
     for (std::size_t i = 0; i < triangles_.size(); ++i) known_[i] &= static_cast<std::uint8_t>(~kClosestKnown);
@@ -170,6 +171,7 @@ class Stepper {
     const Vector3d y = complete ? projection_.x_m() : Vector3d(free_part(projection_.x_m()) * projection_.x_m());
     step.centre_m = ball_.centre_m + y;
     step.exact = complete;
+    step.failed = !complete;
     const double beside_m = ball_.slack_m + 0x1p-20 * (goal_m_ - y).norm();
     for (int k = 0; k < projection_.size(); ++k) {
       const PlaneProjection::Active& active = projection_.active(k);

@@ -30,13 +30,25 @@ constexpr std::int64_t kMetPerTry = 2 * NearTriangles::kMost;  // of a gathering
 
 constexpr double kFarther = 8.0;  // than before
 constexpr int kMostTries = 3;     // to gather
-constexpr int kMostAdded = 64;    // triangles to an incomplete list in one call
+constexpr std::uint32_t kCrowd = 32;
+constexpr int kPatience = 24;   // iterations among a crowd
+constexpr int kMostAdded = 64;  // triangles to an incomplete list in one call
 
 // Looking far costs triangles at each step, looking near costs a search more often: the list is to last for some steps
 // of the hand unless it gets long, and need not be kept short where it is.
 constexpr double kStrides = 1.5;
 constexpr std::uint32_t kManyTriangles = 8;
 constexpr std::uint32_t kFewTriangles = 4;
+
+// Leaves in the list no triangles but those that the proxy touches.
+void keep_touched(const RenderModel& model, ObjectSet objects, ProxyState& proxy) {
+  proxy.near.complete = false;
+  proxy.near.count = 0;
+  if (proxy.over_texture) return;
+  for (std::uint32_t k = 0; k < proxy.touch_count; ++k)
+    if (objects >> proxy.touches[k].object & 1u)
+      add_triangle(model, proxy.touches[k].object, proxy.touches[k].triangle, proxy.near);
+}
 
 // Gathers round the proxy, at least `wanted_m` beyond its ball if that is not too many triangles and not much farther
 // than it was worth before: so a goal far away costs no more in one step than one that is near. Where too many
@@ -51,11 +63,7 @@ void gather_around(const RenderModel& model, const ProxyBall& ball, double wante
     proxy.work += kMetPerTry;
     if (tries == kMostTries) {
       proxy.near.radius_m = ball.radius_m + std::max(reach_m, std::min(enough_m, proxy.reach_m));
-      proxy.near.count = 0;
-      if (!proxy.over_texture)
-        for (std::uint32_t k = 0; k < proxy.touch_count; ++k)
-          if (objects >> proxy.touches[k].object & 1u)
-            add_triangle(model, proxy.touches[k].object, proxy.touches[k].triangle, proxy.near);
+      keep_touched(model, objects, proxy);
       return;
     }
     reach_m *= 0.25;
@@ -149,6 +157,11 @@ bool move_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d&
                                         {proxy.p_world_m, ball.radius_m, ball.slack_m}, goal_m,
                                         std::span(touched.data(), touched_count), most_work - proxy.work);
     proxy.work += step.work;
+    if (proxy.near.complete && proxy.near.count > kCrowd && (step.failed || iteration == kPatience)) {
+      // Very many planes that differ by little: those that matter are found one by one.
+      keep_touched(model, objects, proxy);
+      continue;
+    }
     note_touches(step, proxy);
     const Vector3d way_m = step.centre_m - proxy.p_world_m;
     const double length_m = way_m.norm();

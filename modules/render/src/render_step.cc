@@ -22,8 +22,8 @@ bool is_finite(const DeviceState& device) {
 }
 
 Friction friction_of(const RenderModel& model, const Feel& feel, double texture_N) {
-  return {feel.contact_N.norm() + texture_N, feel.friction, feel.friction * model.config.static_friction_ratio,
-          feel.stiffness_N_per_m};
+  return {std::max(feel.contact_N.norm() + texture_N, 0.0), feel.friction,
+          feel.friction * model.config.static_friction_ratio, feel.stiffness_N_per_m};
 }
 
 // Along which forces act: the contacts' own normal, or the interpolated one (Morgenbesser and Srinivasan 1996).
@@ -109,11 +109,12 @@ ServoOutput render_step(const RenderModel& model, ServoState& state, const Devic
   const TextureForce texture = touch_texture(model, proxy, feel, normal, v_proxy_mps, device, state.texture);
   out.texture_N = texture.force_N;
   out.texture_height_m = texture.height_m;
-  proxy.texture_load_N = std::max(normal.dot(texture.force_N), 0.0);
+  proxy.texture_load_N = normal.dot(texture.force_N);
   out.friction_N =
       friction_force_N(friction_of(model, feel, proxy.texture_load_N), proxy.sticking, feel.rest_m, holding.load_N);
   out.force_N = out.contact_N + out.texture_N + out.friction_N;
-  out.proxy_m = is_free ? p_m : feel.proxy_m;
+  // Over a texture friction holds the proxy back as well.
+  out.proxy_m = is_free && !(proxy.over_texture && holding.load_N > 0.0) ? p_m : feel.proxy_m;
   out.contact = strongest_contact(model, proxy, feel);
   out.sticking = proxy.sticking;
   proxy.device_world_m = p_m;

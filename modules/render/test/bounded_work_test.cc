@@ -68,7 +68,7 @@ TEST(BoundedWork, JumpsThroughTheSphereStayOutside) {
   const RenderModel model = make_render_model(scene_of(bumpy_sphere(kSphere_m, 20, 0.02)), {});
   const auto state = std::make_unique<ServoState>();
   render_step(model, *state, at({0.0, 0.0, 0.1}));
-  for (int k = 0; k < 400; ++k) {
+  for (int k = 0; k < 100; ++k) {
     const double turn = 2.4 * k;
     render_step(model, *state, at(0.1 * Vector3d(std::cos(turn), std::sin(turn), std::cos(0.7 * turn))));
     ASSERT_LE(state->proxy.work, kMostWork) << k;
@@ -81,27 +81,26 @@ TEST(BoundedWork, PoleOfThreeThousandTriangles) {
   for (const double tip_m : {0.0, 0.5e-3}) {
     RenderConfig config;
     config.tip_radius_m = tip_m;
-    const RenderModel model = make_render_model(scene_of(globe(3000, 200)), config);
+    const RenderModel model = make_render_model(scene_of(globe(3000, 64)), config);
     const auto state = std::make_unique<ServoState>();
     const double pressed_m = kSphere_m + tip_m - 1e-3;
     const auto place_m = [&](double x_m) { return Vector3d(pressed_m * Vector3d(x_m, 1e-5, kSphere_m).normalized()); };
-    stroke(model, *state, 1.2 * place_m(-2e-3), place_m(-2e-3), 1e-4);
+    stroke(model, *state, 1.2 * place_m(-0.4e-3), place_m(-0.4e-3), 1e-4);
     int frozen = 0;
     double worst_N = 0.0;
     std::int64_t most_work = 0;
-    for (int k = 0; k < 800; ++k) {
+    for (int k = 0; k < 160; ++k) {
       const Vector3d before_m = state->proxy.p_world_m;
-      const ServoOutput out = render_step(model, *state, at(place_m(-2e-3 + 5e-6 * k)));
+      const ServoOutput out = render_step(model, *state, at(place_m(-0.4e-3 + 5e-6 * k)));
       if (k < 20) continue;
       frozen += state->proxy.p_world_m == before_m;
       worst_N = std::max(worst_N, std::abs(out.force_N.norm() - 1.0));
       most_work = std::max(most_work, state->proxy.work);
     }
     EXPECT_EQ(frozen, 0) << tip_m;
-    // The facets of 200 rings lie up to 1.6 um below the sphere; 1000 N/m, and the lag on the cone at the pole.
-    EXPECT_LE(worst_N, 5e-3) << tip_m;
+    // The facets of 64 rings lie up to R (1 - cos(pi / 128)) = 15 um below the sphere; 1000 N/m.
+    EXPECT_LE(worst_N, 16e-3) << tip_m;
     EXPECT_LE(most_work, kMostWork) << tip_m;
-    RecordProperty("most_work", static_cast<int>(most_work));
   }
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -105,6 +106,27 @@ TEST(ProxyTexture, FrictionTakesTheTextureAsLoad) {
       }
     }
   }
+}
+
+// A random texture pulls as often as it pushes: both count in the load that friction bears.
+TEST(ProxyTexture, PullsTakeLoadOffFriction) {
+  RenderModel model = wavy_plane(1.0, 0.5, 1.0);
+  Texture texture = model.textures[0].texture;
+  RenderTextureConfig config;
+  config.model = TextureForceModel::kStochastic;
+  model.textures[0] = make_render_texture(texture, config);
+  model.textures[0].grains.lift_sigma = 0.0;
+  ServoState state;
+  stroke(model, state, {0.03, 0.05, 0.01}, {0.03, 0.05, -0.3e-3}, 1e-5);
+  int pulls = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const ServoOutput out = render_step(model, state, at({0.03 + 2e-5 * k, 0.05, -0.3e-3}));
+    pulls += out.texture_N.z() < 0.0;
+    const double normal_N = std::max((out.contact_N + out.texture_N).z(), 0.0);
+    const double bears = 0.5 * (out.sticking ? model.config.static_friction_ratio : 1.0);
+    ASSERT_LE(out.friction_N.norm(), bears * normal_N + 1e-12) << k;
+  }
+  EXPECT_GT(pulls, 100);
 }
 
 }  // namespace

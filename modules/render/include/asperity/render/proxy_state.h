@@ -29,7 +29,7 @@ struct ProxyState {
   bool over_texture = false;                                 // the touch is with a texture above the surface alone
   Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();       // centre of the proxy with its skin (docs/render.md)
   Eigen::Vector3d device_world_m = Eigen::Vector3d::Zero();  // of the step before
-  double texture_load_N = 0.0;                               // of the texture along the normal, in the step before
+  double texture_load_N = 0.0;  // of the texture along the normal (signed), in the step before
   std::uint32_t touch_count = 0;
   std::array<ProxyTouch, 3> touches;  // the strongest first
 
