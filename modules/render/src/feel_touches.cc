@@ -45,7 +45,13 @@ Feel feel_touches(const RenderModel& model, const ProxyState& proxy, double skin
     feel.compliance_kc += share * material.compliance_kc;
     feel.friction += share * material.friction;
   }
-  for (double& weight : feel.weights) weight /= sum_N;
+  // Where nothing has stiffness the touches share by depth.
+  for (std::size_t k = 0; k < count; ++k) {
+    if (sum_N > 0.0)
+      feel.weights[k] /= sum_N;
+    else
+      feel.weights[k] = sum_m > 0.0 ? split.shares_m[k] / sum_m : (k == 0 ? 1.0 : 0.0);
+  }
   return feel;
 }
 

@@ -102,12 +102,13 @@ double first_known(const std::optional<double>& a, const std::optional<double>& 
   return a ? *a : b.value_or(otherwise);
 }
 
-// What material_at.h says of the three corners, and the config's where nobody knows. A corner without a value
-// of the map has the mean of those of the triangle that have one.
+// What material_at.h says of the three corners, and the config's where nobody knows. A vertex for which the map has no
+// value has one for all its triangles, so that nothing steps at their edges: the mean of the values of the vertices
+// that share a triangle with it, if one of these has any.
 class Materials {
  public:
   Materials(const Scene& scene, const SceneObject& object, const RenderConfig& config, RenderObject& out)
-      : object_(object), out_(out) {
+      : object_(object), map_(object.material.vertices), out_(out) {
     const Texture bare;
     without_ = defaults(scene, bare, config);
     for (const SceneTexture& texture : object.textures)
@@ -116,6 +117,7 @@ class Materials {
 
   void run() {
     const auto& triangles = object_.mesh.triangles;
+    for (double Material::*const property : kProperties) fill(property);
     std::vector<std::array<std::uint32_t, 3>> corners(triangles.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
       const RenderMaterial& base = base_of(t);
@@ -140,17 +142,23 @@ class Materials {
   }
 
   double value(std::size_t t, std::size_t corner, double Material::*property, double otherwise) const {
-    const auto& map = object_.material.vertices;
-    if (map.empty()) return otherwise;
-    const Triangle& vertices = object_.mesh.triangles[t];
-    const double own = map[vertices[corner]].*property;
-    if (std::isfinite(own)) return own;
-    double sum = 0.0, known = 0.0;
-    for (const std::uint32_t v : vertices) {
-      const double x = map[v].*property;
-      if (std::isfinite(x)) sum += x, known += 1.0;
+    if (map_.empty()) return otherwise;
+    const double known = map_[object_.mesh.triangles[t][corner]].*property;
+    return std::isfinite(known) ? known : otherwise;
+  }
+
+  void fill(double Material::*property) {
+    const auto known = [&](std::uint32_t v) { return std::isfinite(object_.material.vertices[v].*property); };
+    std::vector<double> sum(map_.size(), 0.0), count(map_.size(), 0.0);
+    for (const Triangle& corners : object_.mesh.triangles) {
+      for (const std::uint32_t v : corners) {
+        if (map_.empty() || known(v)) continue;
+        for (const std::uint32_t other : corners)
+          if (known(other)) sum[v] += object_.material.vertices[other].*property, count[v] += 1.0;
+      }
     }
-    return known > 0.0 ? sum / known : otherwise;
+    for (std::size_t v = 0; v < map_.size(); ++v)
+      if (count[v] > 0.0) map_[v].*property = sum[v] / count[v];
   }
 
   std::uint32_t index_of(const RenderMaterial& material) {
@@ -160,7 +168,11 @@ class Materials {
     return place->second;
   }
 
+  static constexpr std::array<double Material::*, 3> kProperties{&Material::stiffness_N_per_m, &Material::compliance_kc,
+                                                                 &Material::friction};
+
   const SceneObject& object_;
+  std::vector<Material> map_;  // the scene's, filled
   RenderObject& out_;
   RenderMaterial without_;
   std::map<int, RenderMaterial> with_;
@@ -222,7 +234,7 @@ RenderObject make_object(const Scene& scene, const SceneObject& object, const Re
   out.closed = is_closed(out.mesh);
   out.id = hash_of(out.mesh);
   lay_textures(object, model, config, out);
-  out.border = make_texture_border(out, config.border_fade_m);
+  out.border = make_texture_border(out, model.textures, config.border_fade_m);
   if (config.force_shading) {
     const TriangleMesh welded = weld_vertices(out.mesh);
     out.corner_normals = corner_normals(welded, make_adjacency(welded));

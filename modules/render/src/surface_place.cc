@@ -31,9 +31,8 @@ TexturePlace texture_place(const RenderModel& model, const RenderObject& object,
   out.xy_m = barycentric[0] * xy[0] + barycentric[1] * xy[1] + barycentric[2] * xy[2];
   const Triangle& t = object.mesh.triangles[triangle];
   const auto corner = [&](std::size_t k) -> const Vector3d& { return object.mesh.vertices_m[t[k]]; };
-  if (!object.border.first.empty())
-    out.fade = border_fade(object, triangle,
-                           barycentric[0] * corner(0) + barycentric[1] * corner(1) + barycentric[2] * corner(2),
+  if (object.border.edges)
+    out.fade = border_fade(object, barycentric[0] * corner(0) + barycentric[1] * corner(1) + barycentric[2] * corner(2),
                            model.config.border_fade_m);
   const Vector3d e1 = corner(1) - corner(0);
   const Vector3d e2 = corner(2) - corner(0);

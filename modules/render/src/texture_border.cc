@@ -3,90 +3,55 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "asperity/geometry/mesh_adjacency.h"
+#include "texture_tear.h"
 
 namespace asperity {
-namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kMostEdges = 64;  // of a triangle
-
-double distance2_to_edge(const std::array<Vector3d, 2>& edge, const Vector3d& p_m) {
-  const Vector3d along = edge[1] - edge[0], from = p_m - edge[0];
-  const double square = along.squaredNorm();
-  const double t = square > 0.0 ? std::clamp(from.dot(along) / square, 0.0, 1.0) : 0.0;
-  return (from - t * along).squaredNorm();
-}
-
-}  // namespace
-
-TextureBorder make_texture_border(const RenderObject& object, double fade_m) {
+TextureBorder make_texture_border(const RenderObject& object, const std::vector<RenderTexture>& textures,
+                                  double fade_m) {
   TextureBorder out;
   if (object.texture.empty() || !(fade_m > 0.0)) return out;
   const TriangleMesh welded = weld_vertices(object.mesh);
   const MeshAdjacency adjacency = make_adjacency(welded);
+  const auto at_ends = [&](std::uint32_t t, const std::array<std::uint32_t, 2>& ends) {
+    std::array<Eigen::Vector2d, 2> xy_m;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Triangle& corners = welded.triangles[t];
+      const std::size_t corner = corners[0] == ends[k] ? 0 : corners[1] == ends[k] ? 1 : 2;
+      xy_m[k] = object.texture_xy_m[t][corner];
+    }
+    return xy_m;
+  };
+  // The edges as triangles without area: distances to those are exact, and the tree finds the nearest at once.
+  TriangleMesh edges;
   for (std::uint32_t e = 0; e < adjacency.edge_vertices.size(); ++e) {
     const auto triangles = adjacency.triangles_of_edge(e);
-    bool differs = false;
-    for (const std::uint32_t t : triangles) differs = differs || object.texture[t] != object.texture[triangles[0]];
-    if (!differs) continue;
-    out.edges_m.push_back(
-        {welded.vertices_m[adjacency.edge_vertices[e][0]], welded.vertices_m[adjacency.edge_vertices[e][1]]});
-  }
-  if (out.edges_m.empty()) return out;
-
-  // By triangle: the distance of an edge, no more than the true one, and the edge.
-  std::vector<std::vector<std::pair<double, std::uint32_t>>> near(object.mesh.triangles.size());
-  std::vector<std::uint32_t> found(1024);
-  for (std::uint32_t e = 0; e < out.edges_m.size(); ++e) {
-    const Vector3d middle_m = 0.5 * (out.edges_m[e][0] + out.edges_m[e][1]);
-    const double half_m = 0.5 * (out.edges_m[e][1] - out.edges_m[e][0]).norm();
-    std::size_t count = object.bvh.triangles_within(middle_m, half_m + fade_m, found);
-    if (count > found.size()) {
-      found.resize(count);
-      count = object.bvh.triangles_within(middle_m, half_m + fade_m, found);
+    const auto& ends = adjacency.edge_vertices[e];
+    const std::int32_t texture = object.texture[triangles[0]];
+    bool ends_here = false;
+    for (const std::uint32_t t : triangles.subspan(1)) {
+      ends_here = ends_here || object.texture[t] != texture ||
+                  (texture >= 0 &&
+                   is_torn(textures[static_cast<std::size_t>(texture)], at_ends(triangles[0], ends), at_ends(t, ends)));
     }
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::uint32_t t = found[k];
-      if (object.texture[t] < 0) continue;
-      const Triangle& corners = object.mesh.triangles[t];
-      const Vector3d centre_m = (object.mesh.vertices_m[corners[0]] + object.mesh.vertices_m[corners[1]] +
-                                 object.mesh.vertices_m[corners[2]]) /
-                                3.0;
-      double radius_m = 0.0;
-      for (const std::uint32_t v : corners)
-        radius_m = std::max(radius_m, (object.mesh.vertices_m[v] - centre_m).norm());
-      const double distance_m = std::sqrt(distance2_to_edge(out.edges_m[e], centre_m)) - radius_m;
-      if (distance_m > fade_m) continue;
-      auto& list = near[t];
-      list.emplace_back(distance_m, e);
-      if (list.size() < 2 * kMostEdges) continue;
-      std::sort(list.begin(), list.end());
-      list.resize(kMostEdges);
-    }
+    if (!ends_here) continue;
+    const auto first = static_cast<std::uint32_t>(edges.vertices_m.size());
+    for (const std::uint32_t v : ends) edges.vertices_m.push_back(welded.vertices_m[v]);
+    edges.triangles.push_back({first, first + 1, first + 1});
   }
-  out.first.reserve(near.size() + 1);
-  for (auto& list : near) {
-    out.first.push_back(static_cast<std::uint32_t>(out.near.size()));
-    std::sort(list.begin(), list.end());
-    if (list.size() > kMostEdges) list.resize(kMostEdges);
-    for (const auto& entry : list) out.near.push_back(entry.second);
-  }
-  out.first.push_back(static_cast<std::uint32_t>(out.near.size()));
+  if (!edges.triangles.empty()) out.edges.emplace(edges);
   return out;
 }
 
-double border_fade(const RenderObject& object, std::uint32_t triangle, const Vector3d& p_mesh_m,
-                   double fade_m) noexcept {
-  const TextureBorder& border = object.border;
-  if (border.first.empty()) return 1.0;
-  double nearest2 = fade_m * fade_m;
-  for (std::uint32_t k = border.first[triangle]; k < border.first[triangle + 1]; ++k)
-    nearest2 = std::min(nearest2, distance2_to_edge(border.edges_m[border.near[k]], p_mesh_m));
-  const double t = std::min(std::sqrt(nearest2) / fade_m, 1.0);
+double border_fade(const RenderObject& object, const Vector3d& p_mesh_m, double fade_m) noexcept {
+  if (!object.border.edges) return 1.0;
+  const ClosestPoint nearest = object.border.edges->closest_point(p_mesh_m, fade_m);
+  if (!nearest.found()) return 1.0;
+  const double t = std::min(nearest.distance_m / fade_m, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
 

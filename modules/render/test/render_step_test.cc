@@ -92,5 +92,15 @@ TEST(RenderStep, InputsThatAreNotFiniteGiveNoForceAndDoNoHarm) {
   EXPECT_NEAR(render_step(model, state, at({0.05, 0.05, -1e-3})).force_N.z(), 1.0, kRounding_N);
 }
 
+TEST(RenderStep, OfASurfaceWithoutStiffnessIsFiniteAndNothing) {
+  Scene scene = scene_of(testkit::plane_mesh({0.1, 0.1}, 4, 4));
+  scene.stiffness_N_per_m = 0.0;
+  const RenderModel model = make_render_model(scene, {});
+  ServoState state;
+  const ServoOutput out = stroke(model, state, {0.031, 0.052, 1e-3}, {0.031, 0.052, -1e-3}, 1e-5);
+  EXPECT_EQ(out.contact.weight, 1.0);
+  EXPECT_EQ(out.force_N, Vector3d::Zero());
+}
+
 }  // namespace
 }  // namespace asperity

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -33,12 +34,10 @@ struct RenderMaterial {
   double friction = 0.0;
 };
 
-// The edges at which a textured area ends or another begins, and for each triangle those that are within the fade of
-// it. Empty: none.
+// The edges at which a textured area ends, another begins or the texture's coordinates tear, as triangles without
+// area. Empty: none.
 struct TextureBorder {
-  std::vector<std::array<Eigen::Vector3d, 2>> edges_m;
-  std::vector<std::uint32_t> first;  // [triangle]: where its edges begin in `near`; one more at the end
-  std::vector<std::uint32_t> near;   // indices of edges
+  std::optional<MeshBvh> edges;
 };
 
 // A mesh made ready for the servo thread, in metres, in the frame of the mesh.
