@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -106,7 +107,9 @@ class BenchCommand : public Command {
 
   Scene scene() const {
     if (mesh_.empty()) return make_render_bench();
-    Scene out = read_scene(mesh_);
+    std::filesystem::path path(mesh_);
+    if (std::filesystem::is_directory(path)) path /= "scene.json";
+    Scene out = read_scene(path);
     if (!mesh_unit_.empty()) out.objects.front().unit_m = unit_option_m("--mesh-unit", mesh_unit_);
     return out;
   }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,7 @@
 #include "feel_verdict.h"
 #include "interrupt.h"
 #include "option_units.h"
+#include "our_file.h"
 #include "our_folder.h"
 
 namespace asperity::app {
@@ -48,9 +50,8 @@ class FeelCommand : public Command {
       : Command(root, "feel", "Feel a scene with a haptic device, or log what it would") {
     parser().add_option("SCENE", scene_, "A scene.json, a folder that has one, or a mesh without textures");
     parser()
-        .add_option("--height-maps", height_maps_, "Instead of SCENE: images side by side on a plane, a.png,b.png,…")
-        ->delimiter(',')
-        ->allow_extra_args(false)
+        .add_option("--height-maps", height_map_list_,
+                    "Instead of SCENE: images side by side on a plane, a.png,b.png,…")
         ->type_name("FILES");
     parser().add_option("--tile", tile_, "Side of a height map's tile; 10mm")->type_name("LENGTH");
     parser().add_option("--height-range", height_range_, "From black to white; 2.5mm")->type_name("LENGTH");
@@ -106,7 +107,7 @@ class FeelCommand : public Command {
     if (!friction_.empty()) {
       set("--friction", "render.friction", number_option("--friction", friction_, "", 0.0, 10.0));
     }
-    if (!press_.empty()) set("--press", "stroke.press_N", number_option("--press", press_, "N", 0.0, 50.0));
+    if (!press_.empty()) set("--press", "stroke.press_N", force_option_N("--press", press_, 50.0));
     if (!speed_.empty()) set("--speed", "stroke.speed_mps", speed_option_mps("--speed", speed_));
     if (!model_.empty()) set_text("--texture-model", "render.texture.model", model_);
   }
@@ -122,7 +123,8 @@ class FeelCommand : public Command {
     if (!replay_.empty()) {
       drive = read_drive(replay_, mapped_, scene, settings_, observer);
     } else if (kind_.driven) {
-      drive = make_drive(scene, point("--from", from_), point("--to", to_), settings_);
+      drive = tile_stroke_m_ ? make_drive(scene, tile_stroke_m_->front(), tile_stroke_m_->back(), settings_)
+                             : make_drive(scene, point("--from", from_), point("--to", to_), settings_);
     }
     if (settings_.servo.duration_s > 0.0) cut_drive(drive, settings_.servo.duration_s, settings_.servo.rate_Hz);
     warn_of(scene.problems);
@@ -168,14 +170,24 @@ class FeelCommand : public Command {
   }
 
   void choose_scene() {
-    if (scene_.empty() == height_maps_.empty())
+    if (scene_.empty() == height_map_list_.empty())
       throw UsageError(scene_.empty() ? "SCENE is missing" : "--height-maps stands instead of SCENE");
+    for (std::string_view rest = height_map_list_; !height_map_list_.empty();) {
+      const auto comma = rest.find(',');
+      height_maps_.emplace_back(rest.substr(0, comma));
+      if (height_maps_.back().empty()) throw UsageError("--height-maps: a file's name is empty");
+      if (comma == std::string_view::npos) break;
+      rest.remove_prefix(comma + 1);
+    }
     for (const auto& [option, text] : {std::pair{"--tile", &tile_}, std::pair{"--height-range", &height_range_}}) {
-      if (!text->empty() && height_maps_.empty()) throw UsageError(std::string(option) + " needs --height-maps");
+      if (!text->empty() && height_map_list_.empty()) throw UsageError(std::string(option) + " needs --height-maps");
     }
     if (!mesh_unit_.empty() && scene_.empty()) throw UsageError("--mesh-unit needs a mesh");
     if (parser().count("--log") > 0 && (log_.empty() || log_ == "-"))
       throw UsageError("--log: a file's name is needed");
+    std::vector<std::string> inputs = height_maps_;
+    inputs.insert(inputs.end(), {scene_, replay_});
+    if (!log_.empty()) refuse_stranger(log_, kFeelLogColumns, inputs);
   }
 
   void choose_device() {
@@ -212,6 +224,7 @@ class FeelCommand : public Command {
     if (settings_.texture_model == TextureModelChoice::kAuto) {
       settings_.texture_model = TextureModelChoice::kNormalPerturbation;
     }
+    if (from_.empty()) tile_stroke_m_ = viewer_stroke_m(height_maps_.size(), viewer);
     std::vector<Texture> tiles;
     for (const std::string& file : height_maps_) tiles.push_back(read_height_image(file, image));
     return make_height_map_viewer(tiles, viewer);
@@ -334,8 +347,9 @@ class FeelCommand : public Command {
   }
 
   std::string scene_, device_, replay_, rate_, log_, duration_, mesh_unit_, tip_, model_, stiffness_, friction_;
-  std::string from_, to_, press_, speed_, output_, tile_, height_range_;
+  std::string from_, to_, press_, speed_, output_, tile_, height_range_, height_map_list_;
   std::vector<std::string> height_maps_;
+  std::optional<std::array<Eigen::Vector3d, 2>> tile_stroke_m_;
   bool mapped_ = false, timing_ = false, realtime_ = false;
   DeviceKind kind_;
   FeelSettings settings_;
