@@ -90,13 +90,18 @@ Scene read_felt_scene(SceneInput& input, FeelSettings& settings) {
 }
 
 FeltModel make_felt_model(const Scene& scene, const HapticDevice& device, bool driven, FeelSettings& settings) {
-  RenderConfig config = settings.render_config();
-  if (driven) return {std::make_unique<const RenderModel>(make_render_model(scene, config)), {}};
+  FeltModel out;
+  const RenderConfig config = settings.render_config();
+  if (driven) {
+    out.model = std::make_unique<const RenderModel>(make_render_model(scene, config));
+    return out;
+  }
   const DeviceCaps caps = find_device_caps(device.info(), settings.servo, settings.caps);
   CappedScene capped = cap_scene(scene, config, caps);
-  auto model = std::make_unique<RenderModel>(make_render_model(capped.scene, capped.config));
-  if (settings.servo.frame.translation_m.isZero(0.0)) place_device(*model, device.info(), settings.servo.frame);
-  return {std::move(model), std::move(capped.warnings)};
+  out.model = std::make_unique<const RenderModel>(make_render_model(capped.scene, capped.config));
+  out.warnings = std::move(capped.warnings);
+  if (settings.servo.frame.translation_m.isZero(0.0)) place_device(*out.model, device.info(), settings.servo.frame);
+  return out;
 }
 
 }  // namespace asperity::app
