@@ -178,6 +178,7 @@ class Stepper {
       if (!(active.multiplier_m > 0.0)) continue;
       auto& touch = step.touches[static_cast<std::size_t>(step.touch_count++)];
       touch.index = static_cast<std::uint32_t>(active.tag);
+      told_by_[static_cast<std::size_t>(step.touch_count - 1)] = touch.index;
       touch.normal = active.plane.normal;
       touch.pull_m = active.multiplier_m;
       TriangleFoot foot = foot_on(triangles_[touch.index], step.centre_m);
@@ -214,7 +215,7 @@ class Stepper {
   bool forbid_false_faces(const ConvexStep& step) {
     bool any = false;
     for (int k = 0; k < step.touch_count; ++k) {
-      const std::uint32_t i = step.touches[static_cast<std::size_t>(k)].index;
+      const std::uint32_t i = told_by_[static_cast<std::size_t>(k)];
       if (!false_[static_cast<std::size_t>(k)] || !has_face(i)) continue;
       for (std::size_t other = 0; other < triangles_.size(); ++other) {
         if (std::abs(triangles_[i].normal.dot(triangles_[other].normal)) >= 1.0 - 0x1p-44 &&
@@ -234,6 +235,7 @@ class Stepper {
   std::int64_t most_work_, work_ = 0;
   bool lenient_ = false, infeasible_ = false;
   std::array<bool, 3> false_{};
+  std::array<std::uint32_t, 3> told_by_{};  // whose plane each touch is; find_in_plane() may name another triangle
   std::array<double, NearTriangles::kMost> height_m_;  // of the centre over each triangle's plane
   std::array<std::uint8_t, NearTriangles::kMost> known_;
   std::array<KeptPlane, NearTriangles::kMost> closest_;
