@@ -27,6 +27,7 @@
 #include "feel_verdict.h"
 #include "interrupt.h"
 #include "option_units.h"
+#include "our_file.h"
 #include "our_folder.h"
 
 namespace asperity::app {
@@ -44,10 +45,8 @@ class FeelCommand : public Command {
       : Command(root, "feel", "Feel a scene with a haptic device, or log what it would") {
     parser().add_option("SCENE", input_.scene, "A scene.json, a folder that has one, or a mesh without textures");
     parser()
-        .add_option("--height-maps", input_.height_maps,
+        .add_option("--height-maps", input_.height_map_list,
                     "Instead of SCENE: images side by side on a plane, a.png,b.png,…")
-        ->delimiter(',')
-        ->allow_extra_args(false)
         ->type_name("FILES");
     parser().add_option("--tile", input_.tile, "Side of a height map's tile; 10mm")->type_name("LENGTH");
     parser().add_option("--height-range", input_.height_range, "From black to white; 2.5mm")->type_name("LENGTH");
@@ -103,7 +102,7 @@ class FeelCommand : public Command {
     if (!friction_.empty()) {
       set("--friction", "render.friction", number_option("--friction", friction_, "", 0.0, 10.0));
     }
-    if (!press_.empty()) set("--press", "stroke.press_N", number_option("--press", press_, "N", 0.0, 50.0));
+    if (!press_.empty()) set("--press", "stroke.press_N", force_option_N("--press", press_, 50.0));
     if (!speed_.empty()) set("--speed", "stroke.speed_mps", speed_option_mps("--speed", speed_));
     if (!model_.empty()) set_text("--texture-model", "render.texture.model", model_);
   }
@@ -112,6 +111,9 @@ class FeelCommand : public Command {
     check_scene_input(input_);
     if (parser().count("--log") > 0 && (log_.empty() || log_ == "-"))
       throw UsageError("--log: a file's name is needed");
+    std::vector<std::string> inputs = input_.height_maps;
+    inputs.insert(inputs.end(), {input_.scene, replay_});
+    if (!log_.empty()) refuse_stranger(log_, kFeelLogColumns, inputs);
     choose_device();
     std::optional<OutputFolder> folder;
     if (!output_.empty()) folder.emplace(output_, is_our_folder);
@@ -120,6 +122,8 @@ class FeelCommand : public Command {
     FeelDrive drive;
     if (!replay_.empty()) {
       drive = read_drive(replay_, mapped_, scene, settings_, observer);
+    } else if (kind_.driven && from_.empty() && input_.tile_stroke_m) {
+      drive = make_drive(scene, input_.tile_stroke_m->front(), input_.tile_stroke_m->back(), settings_);
     } else if (kind_.driven) {
       drive = make_drive(scene, point("--from", from_), point("--to", to_), settings_);
     }

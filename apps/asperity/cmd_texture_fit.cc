@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/csv.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/pipeline/config_json.h"
@@ -20,6 +21,7 @@
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
 #include "option_units.h"
+#include "our_file.h"
 #include "read_series.h"
 #include "texture_fit_settings.h"
 #include "texture_input.h"
@@ -74,6 +76,7 @@ class TextureFitCommand : public Command {
 
   int run(const Observer&) override {
     if (!output_.ends_with(".json")) throw UsageError("-o: a texture's file is called *.texture.json");
+    refuse_stranger(output_, begins_as_texture, files_);
     Fitted fitted;
     switch (settings_.fit.model) {
       case FitModel::kFourier1d:
@@ -260,6 +263,18 @@ class TextureFitCommand : public Command {
     fitted.texture.model = fit.texture;
   }
 
+  // Files beside the texture's own are replaced if the texture that is there now names them.
+  void refuse_other_payloads(const Texture& texture) const {
+    std::string before;
+    if (std::filesystem::exists(output_)) before = read_file(output_, std::uint64_t{1} << 24);
+    for (const TexturePayload& payload : format_texture_files(texture, texture_stem(output_)).payloads) {
+      const bool named = before.find('"' + payload.file + '"') != std::string::npos;
+      refuse_stranger(
+          std::filesystem::path(output_).parent_path() / payload.file, [named](std::string_view) { return named; },
+          files_);
+    }
+  }
+
   void finish(Fitted& fitted) {
     Texture& texture = fitted.texture;
     if (is_height_field(texture.model)) texture.lift_m = lift_m(texture.model);
@@ -282,6 +297,7 @@ class TextureFitCommand : public Command {
     Json extra = Json::parse(texture.extra_json);
     extra["fit"] = fitted.report;
     texture.extra_json = extra.dump();
+    refuse_other_payloads(texture);
     write_texture(output_, texture);
 
     Json out;

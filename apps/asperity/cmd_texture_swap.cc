@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "asperity/scene/write_scene.h"
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
+#include "our_file.h"
 
 namespace asperity::app {
 
@@ -47,6 +49,7 @@ class TextureSwapCommand : public Command {
     swap_texture(scene, index_, read_texture(texture_), fs::path(texture_).filename().string());
     if (!output_.empty() && fs::exists(target) && !fs::equivalent(target, scene_))
       throw Error(printable(output_, 200) + ": exists; nothing was changed");
+    refuse_stranger(target, [](std::string_view) { return true; });  // no link, which a file would replace
     const std::string file = folder_of(target) == folder_of(scene_) ? put_beside(scene) : put_elsewhere(scene, target);
     write_file(target, format_scene(scene));
     Json out;

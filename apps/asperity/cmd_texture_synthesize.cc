@@ -3,6 +3,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -19,12 +20,16 @@
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
 #include "option_units.h"
+#include "our_file.h"
 
 namespace asperity::app {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kLineColumns = "s_m,height_m\n";
+constexpr const char* kStrokeColumns = "t_s,acceleration_mps2\n";
 
 struct SynthesizeSettings {
   SampleHeightsConfig line;
@@ -63,6 +68,12 @@ class TextureSynthesizeCommand : public Command {
   int run(const Observer&) override {
     Texture texture = read_texture(file_);
     if (seed_option_->count() > 0) reseed(texture);
+    refuse_stranger(output_,
+                    [](std::string_view begin) {
+                      return begin.starts_with(kLineColumns) || begin.starts_with(kStrokeColumns) ||
+                             begins_as_signed_png(begin);
+                    },
+                    {file_});
     Json out;
     out["format"] = "asperity-texture-synthesis";
     out["version"] = 1;
@@ -96,7 +107,7 @@ class TextureSynthesizeCommand : public Command {
 
   void write_line(const Texture& texture, Json& out) {
     const std::vector<double> height_m = sample_heights(texture.model, settings_.line);
-    std::string text = "s_m,height_m\n";
+    std::string text = kLineColumns;
     for (std::size_t i = 0; i < height_m.size(); ++i) {
       append_number(text, static_cast<double>(i) * settings_.line.spacing_mm * 1e-3);
       text += ',';
@@ -110,7 +121,7 @@ class TextureSynthesizeCommand : public Command {
 
   void write_stroke(const Texture& texture, Json& out) {
     const std::vector<double> acceleration_mps2 = synthesize_stroke(texture, settings_.stroke);
-    std::string text = "t_s,acceleration_mps2\n";
+    std::string text = kStrokeColumns;
     for (std::size_t i = 0; i < acceleration_mps2.size(); ++i) {
       append_number(text, static_cast<double>(i) / settings_.stroke.rate_Hz);
       text += ',';
@@ -126,7 +137,7 @@ class TextureSynthesizeCommand : public Command {
   void write_tile(const Texture& texture, Json& out) {
     const HeightMapFit fit = make_height_map(texture.model, settings_.tile);
     const HeightMap& map = fit.texture;
-    write_file(output_, format_png({map.columns, map.rows, map.bits, map.level}));
+    write_file(output_, signed_png(format_png({map.columns, map.rows, map.bits, map.level})));
     out["columns"] = map.columns;
     out["rows"] = map.rows;
     out["bits"] = map.bits;

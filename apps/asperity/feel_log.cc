@@ -1,11 +1,9 @@
 #include "feel_log.h"
 
-#include <fstream>
-
 #include <Eigen/Core>
 
-#include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "our_file.h"
 
 namespace asperity::app {
 
@@ -25,6 +23,11 @@ double signed_texture_N(const ServoOutput& output) {
   return output.texture_N.dot(output.contact.normal_world) < 0.0 ? -magnitude_N : magnitude_N;
 }
 
+std::filesystem::path checked(const std::filesystem::path& file) {
+  refuse_stranger(file, kFeelLogColumns);
+  return file;
+}
+
 }  // namespace
 
 void append_feel_row(std::string& out, const ServoTick& tick) {
@@ -40,32 +43,6 @@ void append_feel_row(std::string& out, const ServoTick& tick) {
   }
   append_vector(out, tick.out_world_N);
 }
-
-void refuse_stranger(const std::filesystem::path& file, std::string_view header) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return;
-  std::string begin(header.size(), '\0');
-  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  begin.resize(static_cast<std::size_t>(in.gcount()));
-  if (!begin.empty() && begin != header) {
-    throw Error(printable(file.string(), 200) + ": exists and was not written by asperity feel; nothing was changed");
-  }
-}
-
-namespace {
-
-// Where a log goes: a link stays, what it leads to is replaced if it is a log.
-std::filesystem::path checked(const std::filesystem::path& file) {
-  std::error_code ignored;
-  const std::filesystem::path whole = std::filesystem::weakly_canonical(file, ignored);
-  std::filesystem::path target = whole.empty() ? file : whole;
-  if (!std::filesystem::exists(target, ignored) || std::filesystem::is_regular_file(target, ignored)) {
-    refuse_stranger(target, kFeelLogColumns);
-  }
-  return target;
-}
-
-}  // namespace
 
 FeelLog::FeelLog(const std::filesystem::path& file, bool timing) : file_(checked(file)), timing_(timing) {
   rows_.reserve(kPiece_bytes + (1 << 12));

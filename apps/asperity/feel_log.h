@@ -18,9 +18,6 @@ inline constexpr const char* kFeelLogColumns =
 // texture's part is negative where it pulls into the object.
 void append_feel_row(std::string& out, const ServoTick& tick);
 
-// Throws Error if `file` exists, is not empty and does not begin with `header`: somebody else's, not to be replaced.
-void refuse_stranger(const std::filesystem::path& file, std::string_view header);
-
 // The log of a run, written as a whole by rename: without commit() nothing remains.
 class FeelLog {
  public:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -24,7 +25,7 @@ namespace {
 constexpr double kTile_mm = 10.0, kHeightRange_mm = 2.5;
 
 // Images as tiles of a plane (seed Fig. 38), by Basdogan's model unless another is asked for.
-Scene read_height_maps(const SceneInput& input, FeelSettings& settings) {
+Scene read_height_maps(SceneInput& input, FeelSettings& settings) {
   ReadHeightImageConfig image;
   HeightMapViewerConfig viewer;
   viewer.tile_mm = input.tile.empty() ? kTile_mm : 1e3 * length_option_m("--tile", input.tile);
@@ -36,7 +37,9 @@ Scene read_height_maps(const SceneInput& input, FeelSettings& settings) {
   if (settings.texture_model == TextureModelChoice::kAuto) {
     settings.texture_model = TextureModelChoice::kNormalPerturbation;
   }
+  input.tile_stroke_m = viewer_stroke_m(input.height_maps.size(), viewer);
   std::vector<Texture> tiles;
+  tiles.reserve(input.height_maps.size());
   for (const std::string& file : input.height_maps) tiles.push_back(read_height_image(file, image));
   return make_height_map_viewer(tiles, viewer);
 }
@@ -54,9 +57,16 @@ void place_device(const RenderModel& model, const DeviceInfo& info, DeviceFrame&
 
 }  // namespace
 
-void check_scene_input(const SceneInput& input) {
-  if (input.scene.empty() == input.height_maps.empty())
+void check_scene_input(SceneInput& input) {
+  if (input.scene.empty() == input.height_map_list.empty())
     throw UsageError(input.scene.empty() ? "SCENE is missing" : "--height-maps stands instead of SCENE");
+  for (std::string_view rest = input.height_map_list; !input.height_map_list.empty();) {
+    const auto comma = rest.find(',');
+    input.height_maps.emplace_back(rest.substr(0, comma));
+    if (input.height_maps.back().empty()) throw UsageError("--height-maps: a file's name is empty");
+    if (comma == std::string_view::npos) break;
+    rest.remove_prefix(comma + 1);
+  }
   for (const auto& [option, text] :
        {std::pair{"--tile", &input.tile}, std::pair{"--height-range", &input.height_range}}) {
     if (!text->empty() && input.height_maps.empty()) throw UsageError(std::string(option) + " needs --height-maps");
@@ -64,7 +74,7 @@ void check_scene_input(const SceneInput& input) {
   if (!input.mesh_unit.empty() && input.scene.empty()) throw UsageError("--mesh-unit needs a mesh");
 }
 
-Scene read_felt_scene(const SceneInput& input, FeelSettings& settings) {
+Scene read_felt_scene(SceneInput& input, FeelSettings& settings) {
   if (!input.height_maps.empty()) return read_height_maps(input, settings);
   fs::path path(input.scene);
   if (fs::is_directory(path)) path /= "scene.json";
@@ -80,13 +90,18 @@ Scene read_felt_scene(const SceneInput& input, FeelSettings& settings) {
 }
 
 FeltModel make_felt_model(const Scene& scene, const HapticDevice& device, bool driven, FeelSettings& settings) {
-  RenderConfig config = settings.render_config();
-  if (driven) return {std::make_unique<const RenderModel>(make_render_model(scene, config)), {}};
+  FeltModel out;
+  const RenderConfig config = settings.render_config();
+  if (driven) {
+    out.model = std::make_unique<const RenderModel>(make_render_model(scene, config));
+    return out;
+  }
   const DeviceCaps caps = find_device_caps(device.info(), settings.servo, settings.caps);
   CappedScene capped = cap_scene(scene, config, caps);
-  auto model = std::make_unique<RenderModel>(make_render_model(capped.scene, capped.config));
-  if (settings.servo.frame.translation_m.isZero(0.0)) place_device(*model, device.info(), settings.servo.frame);
-  return {std::move(model), std::move(capped.warnings)};
+  out.model = std::make_unique<const RenderModel>(make_render_model(capped.scene, capped.config));
+  out.warnings = std::move(capped.warnings);
+  if (settings.servo.frame.translation_m.isZero(0.0)) place_device(*out.model, device.info(), settings.servo.frame);
+  return out;
 }
 
 }  // namespace asperity::app

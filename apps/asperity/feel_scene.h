@@ -1,8 +1,12 @@
 #pragma once
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "asperity/device/haptic_device.h"
 #include "asperity/render/render_model.h"
@@ -15,16 +19,18 @@ namespace asperity::app {
 struct SceneInput {
   std::string scene;  // scene.json, its folder, or a mesh
   std::string mesh_unit;
-  std::vector<std::string> height_maps;
+  std::string height_map_list;           // as given: a.png,b.png,…
+  std::vector<std::string> height_maps;  // its files
   std::string tile, height_range;
+  std::optional<std::array<Eigen::Vector3d, 2>> tile_stroke_m;  // across the first row of tiles
 };
 
-// Throws UsageError for options that do not go together.
-void check_scene_input(const SceneInput& input);
+// Takes the list of images apart. Throws UsageError for options that do not go together.
+void check_scene_input(SceneInput& input);
 
 // Reads it. Images become tiles of a plane (seed Fig. 38), rendered by Basdogan's model unless the settings name
 // another. Throws Error naming the file.
-Scene read_felt_scene(const SceneInput& input, FeelSettings& settings);
+Scene read_felt_scene(SceneInput& input, FeelSettings& settings);
 
 struct FeltModel {
   std::unique_ptr<const RenderModel> model;

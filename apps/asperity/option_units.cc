@@ -115,6 +115,11 @@ double number_option(const std::string& option, const std::string& text, const s
   return *number;
 }
 
+double force_option_N(const std::string& option, const std::string& text, double most_N) {
+  if (!trim(text).ends_with('N')) throw UsageError(option + ": '" + printable(text) + "' is no force, such as 1N");
+  return number_option(option, text, "N", 0.0, most_N);
+}
+
 Eigen::Vector3d point_option_m(const std::string& option, const std::string& text) {
   if (const auto p = numbers<3>(text)) return {(*p)[0], (*p)[1], (*p)[2]};
   const std::array<double, 3> p = lengths_option_m(option, text);

@@ -117,10 +117,15 @@ TEST_F(FeelCommands, OnlyALogIsReplacedByALog) {
     EXPECT_THAT(outcome.err, HasSubstr("nothing was changed"));
     EXPECT_EQ(contents(dir_.path()), before);
   }
-  for (const char* name : {"log.csv", "link.csv", "log.csv"}) {
-    EXPECT_EQ(feel(path("scene"), {"--replay", path("path.csv"), "--log", path(name)}).code, 0) << name;
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(feel(path("scene"), {"--replay", path("path.csv"), "--log", path("log.csv")}).code, 0);
   }
+  const Outcome itself = feel(path("scene"), {"--replay", path("log.csv"), "--log", path("log.csv")});
+  EXPECT_EQ(itself.code, 1);
+  EXPECT_THAT(itself.err, HasSubstr("is read by this command"));
+  EXPECT_EQ(feel(path("scene"), {"--replay", path("path.csv"), "--log", path("link.csv")}).code, 1);
   EXPECT_TRUE(fs::is_symlink(path("link.csv")));
+  EXPECT_EQ(feel(path("scene"), {"--replay", path("path.csv"), "--log", ""}).code, 2);
   EXPECT_EQ(read_table(path("log.csv")).rows.size(), 401u);
 }
 
@@ -187,7 +192,32 @@ TEST_F(FeelCommands, HeightMapsAreFeltOnAPlane) {
   EXPECT_EQ(json.at("config").at("render").at("texture").at("model"), "normal-perturbation");
   EXPECT_NEAR(json.at("texture_height").at("highest_m").get<double>(), 0.5e-3 * 200.0 / 255.0, 0.1e-3);
   EXPECT_EQ(run({"feel", path("scene"), "--height-maps", files}).code, 2);
+  EXPECT_EQ(run({"feel", "--height-maps", files + ","}).code, 2);
+  EXPECT_EQ(run({"feel", "--height-maps", path("a.pgm") + ",," + path("b.pgm")}).code, 2);
   EXPECT_EQ(run({"feel", path("scene"), "--tile", "10mm"}).code, 2);
+}
+
+TEST_F(FeelCommands, BlackIsZeroOnEachHeightMap) {
+  write_text(path("black.pgm"), "P5 8 8 255\n" + std::string(64, '\0'));
+  write_text(path("grey.pgm"), "P5 8 8 255\n" + std::string(64, '\x66'));  // 0.4
+  const std::string black = path("black.pgm"), grey = path("grey.pgm");
+  const Outcome outcome = run({"feel", "--height-maps", black + "," + grey + "," + black + "," + grey, "--height-range",
+                               "0.5mm", "--log", path("log.csv")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Table log = read_table(path("log.csv"));
+  const std::vector<double> x = log.column("px_m"), height = log.column("texture_height_m");
+  // Tiles of 10 mm from 2 mm and from 14 mm; the texture fades over 1 mm at its border.
+  double on_black_m = 0.0, on_grey_m = 0.0;
+  std::size_t grey_ticks = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (x[i] > 3.2e-3 && x[i] < 10.8e-3) on_black_m = std::max(on_black_m, height[i]);
+    if (!(x[i] > 15.2e-3 && x[i] < 22.8e-3)) continue;
+    on_grey_m = std::max(on_grey_m, std::abs(height[i] - 0.2e-3));
+    ++grey_ticks;
+  }
+  EXPECT_LT(on_black_m, 1e-12);
+  EXPECT_LT(on_grey_m, 1e-12);
+  EXPECT_GT(grey_ticks, 100u);
 }
 
 TEST_F(FeelCommands, SettingsAreThoseOfTheOptions) {
@@ -206,10 +236,10 @@ TEST_F(FeelCommands, SettingsAreThoseOfTheOptions) {
 
 TEST_F(FeelCommands, WhatCannotBeMeantIsRefused) {
   const std::string scene = path("scene");
-  const std::vector<Words> usage{{"--device", "mouse"}, {"--device", "spoon"},         {"--device", "replay"},
-                                 {"--mapped"},          {"--from", "0,0,0"},           {"--rate", "5"},
-                                 {"--duration", "0s"},  {"--texture-model", "velvet"}, {"--tip", "0.5"},
-                                 {"--press", "1kg"}};
+  const std::vector<Words> usage{
+      {"--device", "mouse"}, {"--device", "spoon"}, {"--device", "replay"}, {"--mapped"},
+      {"--from", "0,0,0"},   {"--rate", "5"},       {"--duration", "0s"},   {"--texture-model", "velvet"},
+      {"--tip", "0.5"},      {"--press", "1kg"},    {"--press", "1"}};
   for (const Words& words : usage) EXPECT_EQ(feel(scene, words).code, 2) << ::testing::PrintToString(words);
   EXPECT_THAT(feel(scene, {"--device", "mouse"}).err, HasSubstr("studio"));
   EXPECT_EQ(run({"feel"}).code, 2);

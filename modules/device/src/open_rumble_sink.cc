@@ -100,6 +100,7 @@ class RumbleSink final : public VibrationSink {
       wake_.wait_until(lock, due, [this] { return stop_; });
     }
     drive({});
+    SDL_TLSCleanup();  // what SDL keeps for a thread that it has not made
   }
 
   // Takes what was pushed; true if something was. After a gap nobody felt the step to the first force.

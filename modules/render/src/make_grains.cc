@@ -10,6 +10,7 @@
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/fit_stochastic.h"
 #include "asperity/texture/sample_heights.h"
+#include "texture_window.h"
 
 namespace asperity {
 namespace {
@@ -20,33 +21,12 @@ constexpr double kOriginalRate_Hz = 1000.0;
 // What the evaluator lets speed and force multiply σ by at most.
 constexpr double kMostScale = 10.0;
 
-// Where a height field's grains are measured: a period, or up to 256 cells of what does not repeat.
-struct Window {
-  double x_m = 0.0;
-  double y_m = 0.0;
-  double length_m = 0.01;
-  double width_m = 0.01;
-};
-
-Window window_of(const TextureModel& model) {
-  const auto cells = [](std::size_t count) { return static_cast<double>(std::min<std::size_t>(count, 256)); };
-  if (const auto period = period_m(model)) return {0.0, 0.0, *period, *period};
-  if (const auto* map = std::get_if<HeightMap>(&model))
-    return {0.0, 0.0, cells(map->columns) * 1e-3 * map->mm_per_px_x, cells(map->rows) * 1e-3 * map->mm_per_px_y};
-  if (const auto* areal = std::get_if<ArealTexture>(&model)) {
-    const SplineGrid& grid = areal->surface;
-    return {grid.origin_x_m, grid.origin_y_m, cells(grid.columns) * grid.spacing_x_m,
-            cells(grid.rows) * grid.spacing_y_m};
-  }
-  return {};
-}
-
 // σ and the correlation length of the heights along x, several lines of them (seed §6.5: "variance equal to the
 // variation in height of the texture function").
 StochasticTexture grains_of(const TextureModel& model) {
   constexpr std::size_t kSamples = 2048;
   constexpr int kLines = 16;
-  const Window window = window_of(model);
+  const TextureWindow window = texture_window(model, 256);
   const double spacing_m = window.length_m / static_cast<double>(kSamples);
   std::vector<double> height_m;
   for (int line = 0; line < kLines; ++line) {

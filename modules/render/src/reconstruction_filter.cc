@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/texture/evaluate_height.h"
+#include "texture_window.h"
 
 namespace asperity {
 namespace {
@@ -21,23 +23,30 @@ void check(const char* what, double value) {
     throw Error(std::string("render: ") + what + " of " + number_text(value) + " is not a positive number");
 }
 
-// The largest slope and change of slope over a patch, seen at points a 512th of it apart.
+void check_known(const char* what, double value) {
+  if (!std::isnan(value)) check(what, value);
+}
+
+// The largest slope and change of slope over all of the texture, along rows, seen at two points a cell; at 4096 points
+// a side where there are more than 2048 cells.
 void measure(const RenderTexture& texture, TextureFit& fit) {
-  const double length_m = period_m(texture.texture.model).value_or(0.01);
-  constexpr int kLinePoints = 16384;
-  constexpr int kGridPoints = 512;
+  const TextureWindow window = texture_window(texture.texture.model, std::numeric_limits<std::size_t>::max());
   const bool line = std::holds_alternative<Fourier1d>(texture.texture.model);
-  const int columns = line ? kLinePoints : kGridPoints;
-  const int rows = line ? 1 : kGridPoints;
-  const double step_m = length_m / columns;
-  const auto at = [&](int c, int r) { return render_height(texture, step_m * c, step_m * r); };
-  for (int r = 0; r < rows; ++r) {
+  const std::size_t columns = line ? 16384 : std::clamp<std::size_t>(2 * window.columns, 512, 4096);
+  const std::size_t rows = line ? 1 : std::clamp<std::size_t>(2 * window.rows, 512, 4096);
+  const double step_x_m = window.length_m / static_cast<double>(columns);
+  const double step_y_m = window.width_m / static_cast<double>(rows);
+  const auto at = [&](std::size_t c, std::size_t r) {
+    return render_height(texture, window.x_m + step_x_m * static_cast<double>(c),
+                         window.y_m + step_y_m * static_cast<double>(r));
+  };
+  for (std::size_t r = 0; r < rows; ++r) {
     HeightAndGradient here = at(0, r);
-    for (int c = 0; c < columns; ++c) {
+    for (std::size_t c = 0; c < columns; ++c) {
       const HeightAndGradient next = at(c + 1, r);
       fit.steepest = std::max(fit.steepest, std::hypot(next.slope_x, next.slope_y));
       const double turn = std::hypot(next.slope_x - here.slope_x, next.slope_y - here.slope_y);
-      fit.most_curved_per_m = std::max(fit.most_curved_per_m, turn / step_m);
+      fit.most_curved_per_m = std::max(fit.most_curved_per_m, turn / step_x_m);
       here = next;
     }
   }
@@ -68,6 +77,8 @@ std::string rounded(double value) { return number_text(std::round(100.0 * value)
 double reconstruction_cutoff_cycles_per_mm(const TextureDevice& device) {
   check("a rate", device.rate_Hz);
   check("a speed", device.highest_speed_mps);
+  check_known("a bandwidth", device.bandwidth_Hz);
+  check_known("a resolution", device.position_resolution_m);
   // fmin takes the other where one is nan.
   const double highest_Hz = std::fmin(device.bandwidth_Hz, device.rate_Hz / kRateOverHighest);
   const double by_time = 1e-3 * highest_Hz / device.highest_speed_mps;

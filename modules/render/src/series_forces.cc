@@ -26,8 +26,9 @@ double smooth_step(double x) noexcept {
   return t * t * (3.0 - 2.0 * t);
 }
 
+// The tangential part is friction's (erratum 19): where it is positive it is against the motion.
 Eigen::Vector3d along(const TextureTouch& touch, double normal_N, double tangential_N) noexcept {
-  return normal_N * touch.normal + tangential_N * direction(touch.v_tangential_mps);
+  return normal_N * touch.normal - tangential_N * direction(touch.v_tangential_mps);
 }
 
 }  // namespace

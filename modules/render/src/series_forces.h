@@ -4,10 +4,11 @@
 
 namespace asperity {
 
-// The forces of the models that have no place but a past. `state` is the series'. Realtime-safe: yes.
+// The forces of the models that have no place but a past. The tangential part opposes the motion while the normal one
+// pushes the tip out, as friction does (erratum 19). Realtime-safe: yes.
 
-// k Δh n + ρ k (H − lift) along the motion, H the next height of the grains, Δh = clamp(H − z, 0, H) (Siira and Pai
-// 1996; erratum 27).
+// k Δh n − ρ k (H − lift) v̂, v̂ along the motion, H the next height of the grains, Δh = clamp(H − z, 0, H): grains above
+// the mean brake and those below it yield (Siira and Pai 1996, whose ρ approximates Coulomb friction; erratum 27).
 TextureForce stochastic_force(const RenderTexture& texture, SeriesState& series, const TextureTouch& touch) noexcept;
 
 // The tool's vibration as a force of mean zero, no stronger than the load that carries it (Romano and Kuchenbecker

@@ -24,7 +24,7 @@ bool crosses_odd(const RenderObject& object, const Vector3d& p_mesh_m, const Vec
     odd = !odd;
     origin_m += (hit.t + step_m) * direction;
   }
-  return false;
+  return true;  // not known: inside is the side of no force
 }
 
 bool same_objects(const RenderModel& model, const ProxyState& proxy) {
@@ -62,6 +62,7 @@ bool start_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d
   proxy.starts_inside = false;
   proxy.sticking = false;
   proxy.over_texture = false;
+  proxy.texture_hidden = false;
   proxy.p_world_m = p_world_m;
   proxy.device_world_m = p_world_m;
   proxy.texture_load_N = 0.0;

@@ -12,6 +12,7 @@ using Eigen::Vector3d;
 
 void find_texture_below(const RenderModel& model, const ProxyBall& ball, ProxyState& proxy) noexcept {
   proxy.over_texture = false;
+  proxy.texture_hidden = false;
   proxy.touch_count = 0;
   if (!(model.highest_m > 0.0)) return;
   look_around(model, ball, ball.radius_m + model.highest_m, kAllObjects, proxy);
@@ -31,12 +32,14 @@ void find_texture_below(const RenderModel& model, const ProxyBall& ball, ProxySt
   if (proxy.touch_count == 0) return;
   const RenderObject& object = model.objects[proxy.touches[0].object];
   proxy.over_texture = !object.texture.empty() && object.texture[proxy.touches[0].triangle] >= 0;
+  proxy.texture_hidden = !proxy.over_texture;
   if (!proxy.over_texture) proxy.touch_count = 0;
 }
 
 TextureForce touch_texture(const RenderModel& model, const ProxyState& proxy, const Feel& feel, const Vector3d& normal,
                            const Vector3d& v_proxy_mps, const DeviceState& device, TextureState& state) noexcept {
-  if (proxy.touch_count == 0) return no_texture_force(state, false, device.dt_s);
+  // What hides a texture may do so in one step: as a surface without one it lets the force fade, in and out.
+  if (proxy.touch_count == 0) return no_texture_force(state, proxy.texture_hidden, device.dt_s);
   std::size_t strongest = 0;
   for (std::size_t k = 1; k < proxy.touch_count; ++k)
     if (feel.weights[k] > feel.weights[strongest]) strongest = k;
@@ -48,8 +51,10 @@ TextureForce touch_texture(const RenderModel& model, const ProxyState& proxy, co
   TextureTouch touch;
   touch.x_m = place.xy_m.x();
   touch.y_m = place.xy_m.y();
-  touch.x_gradient = place.x_gradient;
-  touch.y_gradient = place.y_gradient;
+  // The force's normal may be another than the triangle's (shaded, of an edge, of several touches): a slope is across
+  // it.
+  touch.x_gradient = place.x_gradient - normal * normal.dot(place.x_gradient);
+  touch.y_gradient = place.y_gradient - normal * normal.dot(place.y_gradient);
   touch.normal = normal;
   touch.z_m = -feel.depth_m();
   if (!(feel.depth_m() > 0.0)) {

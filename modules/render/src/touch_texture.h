@@ -14,7 +14,7 @@ namespace asperity {
 
 // Where no surface pushes the proxy: notes the nearest textured place that the highest texture could reach as its
 // touch, `over_texture` (seed §6.5: "touching only the surface profile of the texture"); or that there is none. A
-// triangle without texture that is nearer hides it.
+// triangle without texture that is nearer hides it, `texture_hidden`.
 void find_texture_below(const RenderModel& model, const ProxyBall& ball, ProxyState& proxy) noexcept;
 
 // One step of the texture under the strongest touch, along the common normal of the touches. `v_proxy_mps`: of the

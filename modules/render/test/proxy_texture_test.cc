@@ -129,5 +129,38 @@ TEST(ProxyTexture, PullsTakeLoadOffFriction) {
   EXPECT_GT(pulls, 100);
 }
 
+// Above a textured floor, towards a bare wall of another object, and back: where the wall becomes nearer than the floor
+// the texture is hidden in one step, but its force fades.
+TEST(ProxyTexture, HiddenByABareSurfaceFadesAndDoesNotClick) {
+  Scene scene = scene_of(testkit::plane_mesh({0.1, 0.1}, 4, 4));
+  SceneTexture laid;
+  laid.index = 1;
+  laid.texture.model = Fourier1d{kWave_mm, {0.0}, {0.0}, 0.0};
+  laid.texture.lift_m = 1.5e-3;
+  scene.objects[0].textures.push_back(laid);
+  HapticTriangle all;
+  all.texture = 1;
+  scene.objects[0].mesh.haptic.assign(scene.objects[0].mesh.triangles.size(), all);
+  TriangleMesh wall;
+  wall.vertices_m = {{0.05, -0.05, -0.05}, {0.05, 0.15, -0.05}, {0.05, 0.15, 0.15}, {0.05, -0.05, 0.15}};
+  wall.triangles = {{0, 2, 1}, {0, 3, 2}};
+  scene.objects.push_back(testing_render::object_of(wall));
+  const RenderModel model = make_render_model(scene, {});
+  ServoState state;
+  Vector3d before_N = stroke(model, state, {0.045, 0.05, 3e-3}, {0.045, 0.05, 0.7e-3}, 1e-5).texture_N;
+  EXPECT_NEAR(before_N.z(), kStiffness * 0.8e-3, 1e-6);
+  const auto go = [&](double x_m) {
+    const Vector3d f_N = render_step(model, state, at({x_m, 0.05, 0.7e-3})).texture_N;
+    EXPECT_LT((f_N - before_N).norm(), 1.01 * 1.5 / 50.0 * 0.8) << x_m;  // 0.05 s of 1 ms
+    before_N = f_N;
+  };
+  for (int k = 0; k < 480; ++k) go(0.045 + 1e-5 * k);
+  EXPECT_NEAR(before_N.norm(), 0.0, 0.8);
+  for (int k = 0; k < 100; ++k) go(0.0498);
+  EXPECT_EQ(before_N, Vector3d::Zero());
+  for (int k = 480; k > 0; --k) go(0.045 + 1e-5 * k);
+  EXPECT_NEAR(before_N.z(), kStiffness * 0.8e-3, 1e-6);
+}
+
 }  // namespace
 }  // namespace asperity

@@ -71,6 +71,35 @@ TEST(ReconstructionFilter, MeasuresHowMuchATextureStiffensTheLoop) {
               std::sqrt(1.0 + s * s) + 2.0 * kAmplitude_m * c, 2e-3);
 }
 
+TEST(ReconstructionFilter, RefusesABandwidthOrAResolutionThatIsNotPositive) {
+  for (const double wrong : {0.0, -5.0}) {
+    TextureDevice device;
+    device.bandwidth_Hz = wrong;
+    EXPECT_THROW(reconstruction_cutoff_cycles_per_mm(device), Error);
+    device = {};
+    device.position_resolution_m = wrong;
+    EXPECT_THROW(reconstruction_cutoff_cycles_per_mm(device), Error);
+  }
+}
+
+// Steps of 1 mm in 0.1 mm, 20 mm away from the origin of an image of 50 mm.
+TEST(ReconstructionFilter, MeasuresAllOfAnImage) {
+  HeightMap map;
+  map.columns = map.rows = 500;
+  map.mm_per_px_x = map.mm_per_px_y = 0.1;
+  map.high_m = 1e-3;
+  map.bits = 8;
+  map.border = Border::kMirror;
+  map.level.assign(map.columns * map.rows, 0);
+  for (std::size_t r = 200; r < 300; ++r)
+    for (std::size_t c = 200; c < 300; ++c) map.level[r * map.columns + c] = (c / 3) % 2 == 0 ? 255 : 0;
+  Texture texture;
+  texture.model = map;
+  const TextureFit fit = fit_texture_to_device(make_render_texture(texture, {}), 400.0, 1.0, {});
+  EXPECT_GT(fit.steepest, 5.0);
+  EXPECT_GT(fit.loop_gain, 5.0);
+}
+
 TEST(ReconstructionFilter, WarnsInWords) {
   TextureDevice device;
   device.max_force_N = 0.1;

@@ -120,12 +120,13 @@ TEST(StochasticForce, OfAHeightFieldHasItsSpread) {
   EXPECT_NEAR(s.sigma_N, 1000.0 * texture.grains.sigma_m, 0.05 * 1000.0 * texture.grains.sigma_m);
 }
 
-TEST(StochasticForce, TangentialPartIsItsRatioOfTheNormalOne) {
+// As friction: a grain above the mean brakes, one below it yields.
+TEST(StochasticForce, TangentialPartIsItsRatioOfTheNormalOneAgainstTheMotion) {
   const RenderTexture texture = make_render_texture(grains(1e-4), {});
   TextureState state;
   for (int i = 0; i < 1000; ++i) {
     const Eigen::Vector3d f = texture_force(texture, state, stroke(0.1, 1.0, 1e-3)).force_N;
-    EXPECT_NEAR(f.x(), 0.3 * (f.z() - 300.0 * 3.0 * 2e-5), 1e-12);
+    EXPECT_NEAR(f.x(), -0.3 * (f.z() - 300.0 * 3.0 * 2e-5), 1e-12);
     EXPECT_EQ(f.y(), 0.0);
   }
 }
@@ -155,6 +156,17 @@ TEST(AutoregressiveForce, IsConvertedToTheServosRate) {
   config.rate_Hz = 4000.0;
   const RenderTexture texture = make_render_texture(vibration(2.0), config);
   EXPECT_EQ(std::get<AutoregressiveTexture>(texture.texture.model).rate_Hz, 4000.0);
+}
+
+TEST(AutoregressiveForce, TangentialPartOpposesTheMotion) {
+  Texture source = vibration(2.0);
+  std::get<AutoregressiveTexture>(source.model).tangential_ratio = 0.4;
+  const RenderTexture texture = make_render_texture(source, {});
+  TextureState state;
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Vector3d f = texture_force(texture, state, stroke(0.1, 1.0, 1e-3)).force_N;
+    EXPECT_NEAR(f.x(), -0.4 * f.z(), 1e-12);
+  }
 }
 
 DecayingSinusoids ringing() {

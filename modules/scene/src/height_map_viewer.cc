@@ -56,24 +56,33 @@ void add_square(MeshFile& mesh, const std::array<std::uint32_t, 4>& corner, int 
   }
 }
 
-}  // namespace
+// Tiles side by side and one above the other.
+struct Grid {
+  int columns, rows;
+};
 
-Scene make_height_map_viewer(std::span<const Texture> tiles, const HeightMapViewerConfig& config) {
-  if (tiles.empty() || tiles.size() > kMostViewerTiles) {
-    throw Error("height-map viewer: " + std::to_string(tiles.size()) + " tiles; 1 to " +
-                std::to_string(kMostViewerTiles) + " are possible");
+Grid grid_of(std::size_t tiles, const HeightMapViewerConfig& config) {
+  if (tiles == 0 || tiles > kMostViewerTiles) {
+    throw Error("height-map viewer: " + std::to_string(tiles) + " tiles; 1 to " + std::to_string(kMostViewerTiles) +
+                " are possible");
   }
   check("tiles with a side in mm", config.tile_mm, false);
   check("a gap in mm", config.gap_mm, true);
   check("a stiffness in N/m", config.stiffness_N_per_m, false);
   check("a friction", config.friction, true);
-  const int count = static_cast<int>(tiles.size());
+  const int count = static_cast<int>(tiles);
   if (config.columns < 0) throw Error("height-map viewer: " + std::to_string(config.columns) + " columns");
   const int wanted =
       config.columns > 0 ? config.columns : static_cast<int>(std::floor(std::sqrt(static_cast<double>(count))));
   const int columns = std::min(wanted, count);
-  const int rows = (count + columns - 1) / columns;
+  return {columns, (count + columns - 1) / columns};
+}
 
+}  // namespace
+
+Scene make_height_map_viewer(std::span<const Texture> tiles, const HeightMapViewerConfig& config) {
+  const auto [columns, rows] = grid_of(tiles.size(), config);
+  const int count = static_cast<int>(tiles.size());
   SceneObject object;
   object.mesh_file = "tiles.obj";
   const Lines x = lines(columns, config);
@@ -101,6 +110,18 @@ Scene make_height_map_viewer(std::span<const Texture> tiles, const HeightMapView
   scene.stiffness_N_per_m = config.stiffness_N_per_m;
   scene.friction = config.friction;
   return scene;
+}
+
+std::array<Eigen::Vector3d, 2> viewer_stroke_m(std::size_t tiles, const HeightMapViewerConfig& config) {
+  const auto [columns, rows] = grid_of(tiles, config);
+  const auto low_mm = [&](int k) { return config.gap_mm + k * (config.tile_mm + config.gap_mm); };
+  const auto point_m = [](double x_mm, double y_mm) -> Eigen::Vector3d { return {1e-3 * x_mm, 1e-3 * y_mm, 0.0}; };
+  if (columns == 1) {
+    const double x_mm = low_mm(0) + 0.5 * config.tile_mm;
+    return {point_m(x_mm, low_mm(rows - 1) + config.tile_mm), point_m(x_mm, low_mm(0))};
+  }
+  const double y_mm = low_mm(rows - 1) + 0.5 * config.tile_mm;
+  return {point_m(low_mm(0), y_mm), point_m(low_mm(columns - 1) + config.tile_mm, y_mm)};
 }
 
 }  // namespace asperity

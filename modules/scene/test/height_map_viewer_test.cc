@@ -104,5 +104,27 @@ TEST(HeightMapViewer, RefusesWhatItCannotLay) {
   EXPECT_THROW(make_height_map_viewer(std::vector<Texture>{tile(1)}, config), Error);
 }
 
+TEST(HeightMapViewer, ItsStrokeGoesOverAllTilesOfARow) {
+  HeightMapViewerConfig config;
+  config.columns = 3;
+  const std::vector<Texture> tiles(5, tile(1));
+  const Scene scene = make_height_map_viewer(tiles, config);
+  const auto [from_m, to_m] = viewer_stroke_m(tiles.size(), config);
+  std::set<int> met;
+  for (int i = 0; i <= 1000; ++i) {
+    const Eigen::Vector3d p_m = from_m + i / 1000.0 * (to_m - from_m);
+    met.insert(at(scene, 1e3 * p_m.x(), 1e3 * p_m.y()).texture);
+  }
+  EXPECT_EQ(met, (std::set<int>{-1, 1, 2, 3}));
+  EXPECT_NEAR((to_m - from_m).x(), 34e-3, 1e-12) << "three tiles and the two gaps between them";
+  EXPECT_EQ((to_m - from_m).y(), 0.0);
+  config.columns = 1;
+  const auto [top_m, bottom_m] = viewer_stroke_m(2, config);
+  EXPECT_EQ(top_m.x(), 7e-3);
+  EXPECT_EQ(top_m.x(), bottom_m.x());
+  EXPECT_NEAR((top_m - bottom_m).y(), 22e-3, 1e-12);
+  EXPECT_THROW(viewer_stroke_m(0, config), Error);
+}
+
 }  // namespace
 }  // namespace asperity

@@ -40,14 +40,15 @@ inline Inside to_inside(double u, double low, double high, Border border) noexce
   if (border == Border::kClamp) {
     const Inside above = rounded_ramp(u - low);
     const Inside below = rounded_ramp(span - above.u);
-    return {high - below.u, below.du * above.du};
+    return {std::clamp(high - below.u, low, high), below.du * above.du};
   }
   const double period = 2.0 * span;
   double t = u - low;
   t -= period * std::floor(t / period + 0.5);  // [-span, span]
   const Inside fold = rounded_fold(t);
   const Inside far = rounded_fold(span - fold.u);
-  return {high - far.u, far.du * fold.du};
+  // Far out, where a period is below rounding, the fold may miss.
+  return {std::clamp(high - far.u, low, high), far.du * fold.du};
 }
 
 // Four neighbouring indices from `first` on, brought into the grid.

@@ -40,6 +40,7 @@ Texture parse_height_image(std::string_view data, const std::string& name, const
   Texture texture;
   texture.name = name;
   texture.model = std::move(map);
+  texture.lift_m = 0.0;
   return texture;
 }
 

@@ -28,6 +28,7 @@ struct ProxyState {
   bool starts_inside = false;  // the device was inside an object and has not left it yet: no force
   bool sticking = false;
   bool over_texture = false;                                 // the touch is with a texture above the surface alone
+  bool texture_hidden = false;                               // nothing touches, and what is nearest has no texture
   Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();       // centre of the proxy with its skin (docs/render.md)
   Eigen::Vector3d device_world_m = Eigen::Vector3d::Zero();  // of the step before
   double texture_load_N = 0.0;  // of the texture along the normal (signed), in the step before

@@ -22,7 +22,7 @@ struct TextureDevice {
 //   f = min(bandwidth, rate / 4) / v,
 // and no wave shorter than four steps of the position's sensors. A quarter of the rate: there the first image of the
 // held samples has a third of the wave's amplitude (sin(πf/r)/(πf/r) at r − f against f). Throws Error for a rate or
-// speed that is not positive.
+// speed that is not positive, and for a bandwidth or resolution that is known and is not.
 double reconstruction_cutoff_cycles_per_mm(const TextureDevice& device);
 
 // How a texture stands on a device.

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
+
+#include <Eigen/Core>
 
 #include "asperity/scene/scene.h"
 
@@ -32,5 +35,9 @@ inline constexpr std::size_t kMostViewerTiles = 256;
 // coordinates in mm; texture k has index k + 1. To be rendered with TextureForceModel::kNormalPerturbation (Basdogan).
 // Throws Error for no tile or more than kMostViewerTiles, and for a config out of range.
 Scene make_height_map_viewer(std::span<const Texture> tiles, const HeightMapViewerConfig& config = {});
+
+// The ends of a stroke over the viewer's tiles, on its plane in metres: over the middles of the first row from left to
+// right, or of the only column from the top down. Throws Error as make_height_map_viewer does.
+std::array<Eigen::Vector3d, 2> viewer_stroke_m(std::size_t tiles, const HeightMapViewerConfig& config = {});
 
 }  // namespace asperity
