@@ -37,7 +37,8 @@ Feel feel_touches(const RenderModel& model, const ProxyState& proxy, double skin
     const ProxyTouch& touch = proxy.touches[k];
     const double share = sum_m > 0.0 ? split.shares_m[k] / sum_m : (k == 0 ? 1.0 : 0.0);
     if (!(share > 0.0)) continue;
-    const RenderMaterial material = material_of(model.objects[touch.object], touch.triangle, touch.barycentric);
+    RenderMaterial material = material_of(model, model.objects[touch.object], touch.triangle, touch.barycentric);
+    if (proxy.material.left > 0.0) material = between(material, proxy.material.from, proxy.material.left);
     feel.weights[k] = material.stiffness_N_per_m * (sum_m > 0.0 ? split.shares_m[k] : 1.0);
     sum_N += feel.weights[k];
     if (sum_m > 0.0) feel.contact_N += feel.weights[k] * normals[k];

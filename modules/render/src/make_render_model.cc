@@ -13,6 +13,7 @@
 #include "asperity/geometry/mesh_normals.h"
 #include "asperity/render/proxy_state.h"
 #include "asperity/render/render_model.h"
+#include "material_id.h"
 #include "proxy_ball.h"
 #include "texture_border.h"
 
@@ -119,17 +120,26 @@ class Materials {
     const auto& triangles = object_.mesh.triangles;
     for (double Material::*const property : kProperties) fill(property);
     std::vector<std::array<std::uint32_t, 3>> corners(triangles.size());
-    for (std::size_t t = 0; t < triangles.size(); ++t) {
-      const RenderMaterial& base = base_of(t);
-      for (std::size_t k = 0; k < 3; ++k)
-        corners[t][k] = index_of({value(t, k, &Material::stiffness_N_per_m, base.stiffness_N_per_m),
-                                  value(t, k, &Material::compliance_kc, base.compliance_kc),
-                                  value(t, k, &Material::friction, base.friction)});
+    for (std::size_t t = 0; t < triangles.size(); ++t) corners[t] = corners_of(t, base_of(t));
+    if (out_.border.edges) {
+      auto bare = corners;
+      for (std::size_t t = 0; t < triangles.size(); ++t)
+        if (out_.texture[t] >= 0) bare[t] = corners_of(t, without_);
+      if (bare != corners) out_.bare_material = std::move(bare);
     }
     if (out_.materials.size() > 1) out_.corner_material = std::move(corners);
   }
 
  private:
+  std::array<std::uint32_t, 3> corners_of(std::size_t t, const RenderMaterial& base) {
+    std::array<std::uint32_t, 3> out;
+    for (std::size_t k = 0; k < 3; ++k)
+      out[k] = index_of({value(t, k, &Material::stiffness_N_per_m, base.stiffness_N_per_m),
+                         value(t, k, &Material::compliance_kc, base.compliance_kc),
+                         value(t, k, &Material::friction, base.friction)});
+    return out;
+  }
+
   static RenderMaterial defaults(const Scene& scene, const Texture& texture, const RenderConfig& config) {
     return {first_known(texture.stiffness_N_per_m, scene.stiffness_N_per_m, config.stiffness_N_per_m),
             texture.compliance_kc.value_or(1.0), first_known(texture.friction, scene.friction, config.friction)};
@@ -229,7 +239,8 @@ RenderObject make_object(const Scene& scene, const SceneObject& object, const Re
                    .border = {},
                    .corner_normals = {},
                    .materials = {},
-                   .corner_material = {}};
+                   .corner_material = {},
+                   .bare_material = {}};
   out.normals = facet_normals(out.mesh);
   out.closed = is_closed(out.mesh);
   out.id = hash_of(out.mesh);
@@ -264,6 +275,7 @@ RenderModel make_render_model(const Scene& scene, const RenderConfig& config) {
   }
   for (const RenderTexture& texture : model.textures) model.highest_m = std::max(model.highest_m, texture.highest_m);
   if (!(model.extent_m > 0.0)) throw Error("rendering: the objects have no extent");
+  model.material_id = material_id(model);
   return model;
 }
 

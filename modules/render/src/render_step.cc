@@ -5,6 +5,7 @@
 
 #include "asperity/render/texture_force.h"
 #include "carry_proxy.h"
+#include "ease_material.h"
 #include "feel_touches.h"
 #include "friction.h"
 #include "move_proxy.h"
@@ -79,6 +80,7 @@ ServoOutput render_step(const RenderModel& model, ServoState& state, const Devic
     return out;
   }
   carry_proxy(model, ball, proxy);
+  ease_material(model, device.dt_s, proxy.material);
 
   // Friction holds the proxy back: its goal is not the device but a point that it lags behind by what friction bears.
   const Vector3d before_m = proxy.p_world_m;
@@ -117,6 +119,8 @@ ServoOutput render_step(const RenderModel& model, ServoState& state, const Devic
   out.proxy_m = is_free && !(proxy.over_texture && holding.load_N > 0.0) ? p_m : feel.proxy_m;
   out.contact = strongest_contact(model, proxy, feel);
   out.sticking = proxy.sticking;
+  proxy.material.felt = proxy.touch_count > 0;
+  proxy.material.last = {feel.stiffness_N_per_m, feel.compliance_kc, feel.friction};
   proxy.device_world_m = p_m;
   return out;
 }

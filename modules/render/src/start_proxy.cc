@@ -68,6 +68,7 @@ bool start_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d
   proxy.texture_load_N = 0.0;
   proxy.touch_count = 0;
   proxy.near.radius_m = -1.0;
+  proxy.material = {};
   proxy.object_count = static_cast<std::uint32_t>(model.objects.size());
   for (std::size_t k = 0; k < model.objects.size(); ++k) {
     proxy.object_id[k] = model.objects[k].id;

@@ -9,17 +9,39 @@ namespace asperity {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-RenderMaterial material_of(const RenderObject& object, std::uint32_t triangle, const Vector3d& barycentric) noexcept {
-  if (object.corner_material.empty()) return object.materials[0];
+namespace {
+
+RenderMaterial mean_of(const RenderObject& object, const std::array<std::uint32_t, 3>& corners,
+                       const Vector3d& barycentric) {
   RenderMaterial out{0.0, 0.0, 0.0};
   for (std::size_t k = 0; k < 3; ++k) {
-    const RenderMaterial& corner = object.materials[object.corner_material[triangle][k]];
+    const RenderMaterial& corner = object.materials[corners[k]];
     const double weight = barycentric[static_cast<Eigen::Index>(k)];
     out.stiffness_N_per_m += weight * corner.stiffness_N_per_m;
     out.compliance_kc += weight * corner.compliance_kc;
     out.friction += weight * corner.friction;
   }
   return out;
+}
+
+double fade_at(const RenderModel& model, const RenderObject& object, std::uint32_t triangle,
+               const Vector3d& barycentric) {
+  if (!object.border.edges) return 1.0;
+  const Triangle& t = object.mesh.triangles[triangle];
+  const auto corner = [&](std::size_t k) -> const Vector3d& { return object.mesh.vertices_m[t[k]]; };
+  return border_fade(object, barycentric[0] * corner(0) + barycentric[1] * corner(1) + barycentric[2] * corner(2),
+                     model.config.border_fade_m);
+}
+
+}  // namespace
+
+RenderMaterial material_of(const RenderModel& model, const RenderObject& object, std::uint32_t triangle,
+                           const Vector3d& barycentric) noexcept {
+  if (object.corner_material.empty()) return object.materials[0];
+  const RenderMaterial own = mean_of(object, object.corner_material[triangle], barycentric);
+  if (object.bare_material.empty() || object.bare_material[triangle] == object.corner_material[triangle]) return own;
+  const double fade = fade_at(model, object, triangle, barycentric);
+  return fade < 1.0 ? between(mean_of(object, object.bare_material[triangle], barycentric), own, fade) : own;
 }
 
 TexturePlace texture_place(const RenderModel& model, const RenderObject& object, std::uint32_t triangle,
@@ -31,9 +53,7 @@ TexturePlace texture_place(const RenderModel& model, const RenderObject& object,
   out.xy_m = barycentric[0] * xy[0] + barycentric[1] * xy[1] + barycentric[2] * xy[2];
   const Triangle& t = object.mesh.triangles[triangle];
   const auto corner = [&](std::size_t k) -> const Vector3d& { return object.mesh.vertices_m[t[k]]; };
-  if (object.border.edges)
-    out.fade = border_fade(object, barycentric[0] * corner(0) + barycentric[1] * corner(1) + barycentric[2] * corner(2),
-                           model.config.border_fade_m);
+  out.fade = fade_at(model, object, triangle, barycentric);
   const Vector3d e1 = corner(1) - corner(0);
   const Vector3d e2 = corner(2) - corner(0);
   const Vector3d area = e1.cross(e2);

@@ -8,8 +8,9 @@
 
 namespace asperity {
 
-// The material at a point of an object's triangle, interpolated over its corners. Realtime-safe: yes.
-RenderMaterial material_of(const RenderObject& object, std::uint32_t triangle,
+// The material at a point of an object's triangle, interpolated over its corners. What a texture brings fades towards
+// the texture's border as its heights do: there the material is that without texture. Realtime-safe: yes.
+RenderMaterial material_of(const RenderModel& model, const RenderObject& object, std::uint32_t triangle,
                            const Eigen::Vector3d& barycentric) noexcept;
 
 // Where a point of a triangle lies in its texture.

@@ -5,6 +5,7 @@
 
 #include "asperity/texture/series_state.h"
 #include "height_forces.h"
+#include "left_of_fade.h"
 #include "series_forces.h"
 
 namespace asperity {
@@ -32,12 +33,6 @@ TextureForce force_of(const RenderTexture& texture, TextureState& state, const T
       return ringing_force(texture, state.series, touch, touch.contact_N > 0.0 && !state.loaded);
   }
   return {};
-}
-
-// 1 at 0, 0 from 1 on, without a corner at either end.
-double left_of_fade(double part) noexcept {
-  const double t = std::clamp(part, 0.0, 1.0);
-  return 1.0 - t * t * (3.0 - 2.0 * t);
 }
 
 // At a change the force stays what it was; the difference to what it should be begins to fade.

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "asperity/geometry/pose.h"
+#include "asperity/render/eased_material.h"
 #include "asperity/render/near_triangles.h"
 
 namespace asperity {
@@ -33,6 +34,7 @@ struct ProxyState {
   double texture_load_N = 0.0;  // of the texture along the normal (signed), in the step before
   std::uint32_t touch_count = 0;
   std::array<ProxyTouch, 3> touches;  // the strongest first
+  EasedMaterial material;
 
   // The objects as they were in the step before.
   std::uint32_t object_count = 0;

@@ -11,6 +11,7 @@
 #include "asperity/geometry/mesh_bvh.h"
 #include "asperity/geometry/pose.h"
 #include "asperity/geometry/triangle_mesh.h"
+#include "asperity/render/render_material.h"
 #include "asperity/render/render_texture.h"
 #include "asperity/scene/scene.h"
 
@@ -25,13 +26,6 @@ struct RenderConfig {
   bool force_shading = false;          // forces along interpolated normals
   double border_fade_m = 1e-3;         // width over which a texture fades at the border of its area (erratum 20)
   RenderTextureConfig texture;
-};
-
-// How a corner of a triangle yields and rubs, all known.
-struct RenderMaterial {
-  double stiffness_N_per_m = 0.0;
-  double compliance_kc = 1.0;
-  double friction = 0.0;
 };
 
 // The edges at which a textured area ends, another begins or the texture's coordinates tear, as triangles without
@@ -55,6 +49,7 @@ struct RenderObject {
   std::vector<std::array<Eigen::Vector3d, 3>> corner_normals;  // for force shading; empty without
   std::vector<RenderMaterial> materials;                       // those that differ; at least one
   std::vector<std::array<std::uint32_t, 3>> corner_material;   // indices; empty: materials[0] everywhere
+  std::vector<std::array<std::uint32_t, 3>> bare_material;  // without textures, felt at their borders; empty: the same
 };
 
 // What is felt, immutable while it is.
@@ -62,8 +57,9 @@ struct RenderModel {
   std::vector<RenderObject> objects;
   std::vector<RenderTexture> textures;
   RenderConfig config;
-  double extent_m = 0.0;   // of the largest object, for the proxy's skin (docs/render.md)
-  double highest_m = 0.0;  // of all textures, lifted
+  double extent_m = 0.0;          // of the largest object, for the proxy's skin (docs/render.md)
+  double highest_m = 0.0;         // of all textures, lifted
+  std::uint64_t material_id = 0;  // of the objects' materials: a hash of what is where
 };
 
 // Throws Error for a scene that cannot be rendered, naming object and place.
