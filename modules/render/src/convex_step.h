@@ -30,7 +30,7 @@ struct ConvexStep {
   int touch_count = 0;
   std::array<Touch, 3> touches;
   bool exact = false;     // no nearer place can be reached from here: every plane that holds the ball touches it
-  bool failed = false;  // the planes left no place: some only touch each other within rounding
+  bool failed = false;    // the planes left no place: some only touch each other within rounding
   std::int64_t work = 0;  // evaluations of triangles
 };
 

@@ -34,8 +34,8 @@ SurfaceLine textured_line(const Scene& scene);
 SurfaceLine line_between(const Scene& scene, const Eigen::Vector3d& from_world_m, const Eigen::Vector3d& to_world_m);
 
 // Straight on over the first object, along its longest axis, through the place where its shortest axis leaves it:
-// for `length_m`, half to either side, or as far as the surface goes. Axes are those of the box in its own frame. Throws
-// Error for a scene without objects.
+// for `length_m`, half to either side, or as far as the surface goes. Axes are those of the box in its own frame.
+// Throws Error for a scene without objects.
 SurfaceLine line_across(const Scene& scene, double length_m);
 
 // The largest angle between its normals and the direction in which stroke_along presses, inwards.
