@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include "asperity/base/random.h"
 #include "asperity/geometry/mesh_bvh.h"
@@ -106,6 +107,34 @@ inline double pose_error_m(const Pose& T_mesh_world, const Pose& T_world_mesh,
   double square = 0.0;
   for (const Eigen::Vector3d& p_m : p_mesh_m) square += (back * p_m - p_m).squaredNorm();
   return std::sqrt(square / static_cast<double>(p_mesh_m.size()));
+}
+
+// Where the tests put the mesh in the tracker's world.
+inline const Pose kWorldMesh{exp_rotation({0.3, -1.2, 0.8}), {0.2, -0.1, 0.4}};
+
+inline const Body& bumpy_body() {
+  static const Body body(bumpy_mesh());
+  return body;
+}
+
+// The Cramér–Rao limit of the points' RMS motion: independent errors along the facets' normals.
+inline double limit_m(const Body& body, const std::vector<Eigen::Vector3d>& p_m, double sigma_m) {
+  Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
+  for (const auto& p : p_m) mean_m += p / static_cast<double>(p_m.size());
+  Eigen::Matrix<double, 6, 6> info = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 6> metric = info;
+  for (const auto& p : p_m) {
+    const auto& [a, b, c] = body.mesh.triangles[body.bvh.closest_point(p).triangle];
+    const auto& v = body.mesh.vertices_m;
+    const Eigen::Vector3d n = (v[b] - v[a]).cross(v[c] - v[a]).normalized();
+    Eigen::Matrix<double, 6, 1> j;
+    j << (p - mean_m).cross(n), n;
+    info += j * j.transpose();
+    Eigen::Matrix<double, 3, 6> motion;
+    motion << -skew(p - mean_m), Eigen::Matrix3d::Identity();
+    metric += motion.transpose() * motion / static_cast<double>(p_m.size());
+  }
+  return sigma_m * std::sqrt((info.inverse() * metric).trace());
 }
 
 }  // namespace asperity::test

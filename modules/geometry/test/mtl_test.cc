@@ -1,0 +1,56 @@
+#include "asperity/geometry/read_mtl.h"
+
+#include <filesystem>
+
+#include <gmock/gmock.h>
+
+#include "asperity/base/output.h"
+#include "asperity/geometry/read_mesh.h"
+#include "asperity/geometry/write_mtl.h"
+#include "asperity/testkit/temp_dir.h"
+#include "mesh_format_rig.h"
+
+namespace asperity {
+namespace {
+
+using test::message_of;
+using testing::Contains;
+using testing::Field;
+using testing::HasSubstr;
+
+TEST(Mtl, KeepsColourAndMapsAndReportsTheRest) {
+  const MaterialLibrary library = parse_mtl(
+      "Kd 1 1 1\nnewmtl red clay\nKa 0 0 0\nKd 1 0.5 .25\nmap_Kd -s 1 1 1 a b.png\nnorm -bm 2 n.png\nbump b.png -bm "
+      "3\ndisp d/e.png\n"
+      "newmtl other\nmap_Kd ../../secret.png\nbump /etc/passwd\nKd red\n",
+      "t.mtl");
+  ASSERT_EQ(library.materials.size(), 2u);
+  const MeshMaterial& m = library.materials[0];
+  EXPECT_EQ(m.base_colour, Eigen::Vector3d(1, 0.5, 0.25));
+  EXPECT_EQ(m.base_colour_map, "a b.png");
+  EXPECT_EQ(m.normal_map, "n.png");
+  EXPECT_EQ(m.bump_map, "b.png");
+  EXPECT_EQ(m.displacement_map, "d/e.png");
+  EXPECT_EQ(library.materials[1].base_colour_map, "");
+  EXPECT_THAT(library.problems,
+              Contains(testing::AllOf(Field(&Problem::kind, "outside_path"), Field(&Problem::count, 2u))));
+  EXPECT_THAT(library.problems,
+              Contains(testing::AllOf(Field(&Problem::kind, "material_line"), Field(&Problem::count, 2u))));
+  const MaterialLibrary again = parse_mtl(format_mtl(library.materials), "again");
+  EXPECT_EQ(format_mtl(again.materials), format_mtl(library.materials));
+}
+
+TEST(Mtl, LibrariesStayInTheFolder) {
+  const testkit::TempDir folder;
+  std::filesystem::create_directory(folder / "in");
+  write_file(folder / "outside.mtl", "newmtl a\nKd 1 0 0\n");
+  write_file(folder / "in" / "t.obj", "mtllib ../outside.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n");
+  const MeshFile mesh = read_mesh(folder / "in" / "t.obj");
+  EXPECT_FALSE(mesh.materials.at(0).base_colour);
+  EXPECT_THAT(mesh.problems, Contains(Field(&Problem::kind, "outside_path")));
+  EXPECT_THAT(message_of([&] { read_mesh(folder / "in" / "t.off"); }),
+              HasSubstr("'.off' is not a mesh that can be read"));
+}
+
+}  // namespace
+}  // namespace asperity
