@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+
+namespace asperity {
+
+// What a probe's link has carried so far. All counts only rise.
+struct LinkStatistics {
+  std::uint64_t bytes = 0;
+  std::uint64_t frames = 0;          // accepted
+  std::uint64_t samples = 0;         // accepted rows of the inertial sensor
+  std::uint64_t force_samples = 0;   // accepted samples of the force sensor
+  std::uint64_t lost_frames = 0;     // never arrived whole: exact where frames are numbered, else estimated from time
+  std::uint64_t lost_samples = 0;    // rows in those
+  std::uint64_t damaged_frames = 0;  // pieces between delimiters that failed their check, or bytes given up as frames
+  std::uint64_t late_frames = 0;     // came twice or after a later one; not used
+  std::uint64_t foreign_frames = 0;  // sound, but of a type or version that is not known
+  std::uint64_t resyncs = 0;         // times that the frames had to be found anew
+  std::uint64_t restarts = 0;        // times that the probe began to count anew
+  std::uint64_t overruns = 0;        // times that the probe said that it had dropped samples itself
+  bool losses_are_estimated = false;
+};
+
+}  // namespace asperity

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "asperity/recording/append.h"
+
+namespace asperity {
+
+// A tag as it was found in an image.
+struct TagDetection {
+  int id = 0;
+  Eigen::Matrix<double, 2, 4> corners_px;  // its black border's corners, in the order of the tag's own frame
+};
+
+// A pose of the marker body with what is known of its error.
+struct TrackedPose {
+  TrackerSample sample;  // in the camera's frame
+  // Of (position, m; rotation vector, rad), both along the world's axes: T_world_marker = (exp(δφ) R, t + δt). nan
+  // where unknown.
+  Eigen::Matrix<double, 6, 6> covariance =
+      Eigen::Matrix<double, 6, 6>::Constant(std::numeric_limits<double>::quiet_NaN());
+  std::vector<TagDetection> tags;  // those used
+};
+
+}  // namespace asperity
