@@ -88,13 +88,14 @@ TEST(WhatFramer, BackWithinFiveCleanFrames) {
         for (auto& byte : extra) byte = static_cast<std::uint8_t>(random.bits() >> 56);
         damaged.back().insert(damaged.back().begin() + place, extra.begin(), extra.end());
       }
-      for (const Bytes& bytes : damaged) {
+      for (std::size_t c = 0; c < damaged.size(); ++c) {
+        const Bytes& bytes = damaged[c];
         const auto got = data_of(frames_of(bytes));
         // The damage ends at the latest in frame 160 + 3 + 1; five clean frames later all are there.
         const std::size_t tail = sent.size() - 1 - 169;
         ASSERT_GE(got.size(), tail);
         EXPECT_TRUE(std::equal(got.rbegin(), got.rbegin() + static_cast<std::ptrdiff_t>(tail), sent.rbegin() + 1))
-            << "byte " << at << ", sensor " << stuck;
+            << "byte " << at << ", sensor " << stuck << ", damage " << c;
         const auto before = static_cast<std::size_t>(
             std::mismatch(got.begin(), got.end(), sent.begin(), sent.end()).first - got.begin());
         EXPECT_GE(before, 158u);
