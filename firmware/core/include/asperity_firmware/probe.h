@@ -43,7 +43,9 @@ typedef struct {
 } asp_probe_statistics;
 
 typedef struct {
-  asp_imu_row row;
+  uint64_t time_ns;
+  int16_t accel[3];
+  int16_t gyro[3];
   uint32_t index;  // counts every row taken, also those dropped
 } asp_queued_row;
 
