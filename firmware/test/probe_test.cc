@@ -294,16 +294,6 @@ TEST(FirmwareProbe, WritesDatagramsOfWholeFrames) {
   EXPECT_EQ(check_samples(rig, rig.decoded().samples).rows_missing, 0u);
 }
 
-TEST(FirmwareProbe, SendsTheRunNumberInEveryFrame) {
-  asp_probe_config config = asp_default_config;
-  config.run = 0xBEEF;
-  Rig rig(FakeBoard::Options{}, true, false, config);
-  rig.run_us(200'000, 1000);
-  const Decoded decoded = rig.decoded();
-  ASSERT_FALSE(decoded.samples.empty());
-  for (const SampleFrame& frame : decoded.samples) EXPECT_EQ(frame.run, 0xBEEF);
-}
-
 TEST(FirmwareProbe, FillsTheLargestFrame) {
   FakeBoard::Options options;
   options.link_bytes_per_s = 400000.0;

@@ -46,8 +46,7 @@ SampleFrame parse_samples(std::span<const std::uint8_t> payload) {
   const auto imu_count = reader.take(1);
   const auto force_count = reader.take(1);
   expect(imu_count <= 64 && force_count <= 16, "counts");
-  expect(reader.take(1) == 0, "reserved bytes are sent as 0");
-  out.run = static_cast<int>(reader.take(2));
+  expect(reader.take(3) == 0, "reserved bytes are sent as 0");
   out.sequence = static_cast<std::uint32_t>(reader.take(4));
   out.imu_index = static_cast<std::uint32_t>(reader.take(4));
   out.time_us = reader.take(8);

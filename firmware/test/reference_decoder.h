@@ -28,7 +28,6 @@ struct SampleFrame {
   bool overrun = false;
   bool gyro = false;
   bool force3 = false;
-  int run = 0;
   std::uint32_t sequence = 0;
   std::uint32_t imu_index = 0;
   std::uint64_t time_us = 0;

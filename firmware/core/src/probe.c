@@ -4,7 +4,7 @@
 
 enum { kRowsARead = 16, kHostBytesAStep = 64, kFramesAStep = 8, kAskedPause_us = 100000 };
 
-const asp_probe_config asp_default_config = {16, 10000, 1000000, 0};
+const asp_probe_config asp_default_config = {16, 10000, 1000000};
 
 _Static_assert((ASP_ROW_QUEUE & (ASP_ROW_QUEUE - 1u)) == 0, "the queue's counters wrap at 2^32");
 _Static_assert((ASP_FORCE_QUEUE & (ASP_FORCE_QUEUE - 1u)) == 0, "the queue's counters wrap at 2^32");

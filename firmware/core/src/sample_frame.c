@@ -106,7 +106,7 @@ bool asp_make_sample_frame(asp_probe* probe, uint64_t now_us) {
   asp_frame_put_u8(&writer, (uint8_t)rows);
   asp_frame_put_u8(&writer, (uint8_t)forces);
   asp_frame_put_u8(&writer, 0);
-  asp_frame_put_u16(&writer, probe->config.run);
+  asp_frame_put_u16(&writer, 0);
   asp_frame_put_u32(&writer, probe->sequence);
   asp_frame_put_u32(&writer, index);
   asp_frame_put_u64(&writer, time_us);
