@@ -72,15 +72,25 @@ class ApriltagDetector : public TagDetector {
 
   std::optional<TagPattern> pattern(int id) const override {
     if (id < 0 || static_cast<std::uint32_t>(id) >= family_->ncodes) return std::nullopt;
-    const std::unique_ptr<image_u8_t, void (*)(image_u8_t*)> drawn(apriltag_to_image(family_.get(), id),
-                                                                   image_u8_destroy);
+    const apriltag_family_t& family = *family_;
     TagPattern out;
-    out.cells = family_->total_width;
-    out.margin = (family_->total_width - family_->width_at_border) / 2;
-    for (int row = 0; row < out.cells; ++row) {
-      for (int column = 0; column < out.cells; ++column) {
-        out.white.push_back(drawn->buf[row * drawn->stride + column] > 127 ? 1 : 0);
+    out.cells = family.total_width;
+    out.margin = (family.total_width - family.width_at_border) / 2;
+    out.white.assign(static_cast<std::size_t>(out.cells * out.cells), 0);
+    const auto set_white = [&](int column, int row) {
+      out.white[static_cast<std::size_t>(row * out.cells + column)] = 1;
+    };
+    // A white ring round the black border, or inside of it where black and white change places.
+    const int first = family.reversed_border ? out.margin : out.margin - 1, last = out.cells - 1 - first;
+    for (int i = first; i <= last; ++i) {
+      for (const int edge : {first, last}) {
+        set_white(i, edge);
+        set_white(edge, i);
       }
+    }
+    for (std::uint32_t bit = 0; bit < family.nbits; ++bit) {
+      if ((family.codes[id] >> (family.nbits - 1 - bit) & 1U) == 0) continue;
+      set_white(out.margin + static_cast<int>(family.bit_x[bit]), out.margin + static_cast<int>(family.bit_y[bit]));
     }
     return out;
   }

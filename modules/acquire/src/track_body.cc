@@ -46,6 +46,7 @@ struct BodyTracker::Impl {
   Problems problems;
   std::vector<TimedPose> last;                // at most two, the newest at the end
   std::vector<std::vector<SeenTag>> misfits;  // frames that speak against the tag frame declared
+  int unclear = 0;                            // frames of two tags or more that fit in no way
   bool frame_settled = false;
   bool frame_changed = false;
 
@@ -132,7 +133,6 @@ void BodyTracker::Impl::find_tags(const GrayImage& image, const ImageRegion& reg
 bool BodyTracker::Impl::settle_tag_frame(const std::vector<FoundTag>& found) {
   if (frame_settled || !config.find_tag_frame || body.size() < 2 || found.size() < 2) return true;
   constexpr std::size_t kFramesToBeSure = 3;
-  constexpr std::size_t kMostMisfits = 30;
   std::vector<SeenTag> seen;
   for (const FoundTag& tag : found) seen.push_back(tag.seen);
   misfits.push_back(std::move(seen));
@@ -142,7 +142,13 @@ bool BodyTracker::Impl::settle_tag_frame(const std::vector<FoundTag>& found) {
     frame_settled = true;
     return true;
   }
-  if (!alone.determined) misfits.pop_back();
+  if (!alone.determined) {
+    misfits.pop_back();
+    // Tags that fit in no way are badly placed, or wrongly read: the declared frame is as good as any.
+    constexpr int kMostUnclear = 5;
+    if (++unclear >= kMostUnclear) frame_settled = true;
+    return frame_settled;
+  }
   if (misfits.size() >= kFramesToBeSure) {
     const TagFrameFinding finding = find_tag_frame(camera, body, misfits, config.pose);
     if (finding.determined && !finding.as_declared) {
@@ -158,10 +164,7 @@ bool BodyTracker::Impl::settle_tag_frame(const std::vector<FoundTag>& found) {
                finding.description, finding.error_px, finding.declared_error_px)});
       return true;
     }
-    if (misfits.size() >= kMostMisfits) {
-      frame_settled = true;
-      misfits.clear();
-    }
+    frame_settled = true;
   }
   return frame_settled;
 }

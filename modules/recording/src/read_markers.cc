@@ -39,8 +39,7 @@ Eigen::Quaterniond R_frame_tag(TagFrame frame, std::string_view family) {
   if (frame == TagFrame::kAprilTag) return Eigen::Quaterniond::Identity();
   // OpenCV's frame is x right, y up, z towards the viewer, and its pictures of AprilTag's first families are turned by
   // half a turn in their plane.
-  const bool turned =
-      family == "tag36h11" || family == "tag36h10" || family == "tag25h9" || family == "tag16h5";
+  const bool turned = family == "tag36h11" || family == "tag36h10" || family == "tag25h9" || family == "tag16h5";
   return turned ? Eigen::Quaterniond(0.0, 0.0, 1.0, 0.0) : Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
 }
 
