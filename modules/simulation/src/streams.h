@@ -26,6 +26,8 @@ enum class Stream : std::uint64_t {
   kSensorTruth,
   kCalibration,
   kGravity,
+  kBackground,
+  kCameraNoise,
 };
 
 constexpr std::uint64_t stream(Stream s) { return static_cast<std::uint64_t>(s); }
