@@ -4,6 +4,7 @@
 #include <apriltag/tag36h11.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -150,7 +151,10 @@ PrintedFigure print_board(const SimulatedBoard& board) {
       } else if (charuco) {
         const double margin_m = 0.5 * (board.square_m - board.marker_m);
         const Eigen::Isometry2d T(Eigen::Translation2d(low_m + Eigen::Vector2d::Constant(margin_m)));
-        add_cells(figure, tag_cells(marker++), T, board.marker_m / kTagCells);
+        TagCells cells = tag_cells(marker++);  // OpenCV's dictionary has the tags of this family upside down
+        std::reverse(cells.begin(), cells.end());
+        for (auto& cell_row : cells) std::reverse(cell_row.begin(), cell_row.end());
+        add_cells(figure, cells, T, board.marker_m / kTagCells);
       }
     }
   }
