@@ -27,6 +27,9 @@ enum class Stream : std::uint64_t {
   kCalibration,
   kGravity,
   kBackground,
+  kCalibrationMotion,
+  kLink,
+  kBoards,
   kCameraNoise,
 };
 
