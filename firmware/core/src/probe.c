@@ -2,7 +2,7 @@
 
 #include "probe_internal.h"
 
-enum { kRowsARead = 16, kHostBytesAStep = 64, kFramesAStep = 8, kAskedPause_us = 100000 };
+enum { kHostBytesAStep = 64, kFramesAStep = 8, kAskedPause_us = 100000 };
 
 const asp_probe_config asp_default_config = {16, 10000, 1000000};
 
@@ -49,14 +49,14 @@ static void queue_row(asp_probe* probe, const asp_imu_row* row) {
 
 static bool take_rows(asp_probe* probe) {
   bool worked = false;
-  for (uint32_t reads = 0; reads < ASP_ROW_QUEUE / kRowsARead; ++reads) {
-    asp_imu_row rows[kRowsARead];
-    const size_t count = probe->board->read_imu(probe->board->context, rows, kRowsARead);
+  for (uint32_t reads = 0; reads < ASP_ROW_QUEUE / ASP_ROWS_A_READ; ++reads) {
+    asp_imu_row rows[ASP_ROWS_A_READ];
+    const size_t count = probe->board->read_imu(probe->board->context, rows, ASP_ROWS_A_READ);
     for (size_t i = 0; i < count; ++i) {
       queue_row(probe, &rows[i]);
     }
     worked = worked || count > 0;
-    if (count < kRowsARead) {
+    if (count < ASP_ROWS_A_READ) {
       break;
     }
   }
