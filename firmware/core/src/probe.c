@@ -1,5 +1,7 @@
 #include "asperity_firmware/probe.h"
 
+#include <string.h>
+
 #include "probe_internal.h"
 
 enum { kHostBytesAStep = 64, kFramesAStep = 8, kAskedPause_us = 100000 };
@@ -9,11 +11,15 @@ const asp_probe_config asp_default_config = {16, 10000, 1000000};
 _Static_assert((ASP_ROW_QUEUE & (ASP_ROW_QUEUE - 1u)) == 0, "the queue's counters wrap at 2^32");
 _Static_assert((ASP_FORCE_QUEUE & (ASP_FORCE_QUEUE - 1u)) == 0, "the queue's counters wrap at 2^32");
 _Static_assert(1u + ASP_FRAME_BYTES(2u + ASP_DESCRIPTION_MAX) <= ASP_LINE_BYTES, "a description fits the line");
-_Static_assert(sizeof(asp_probe) <= 16u * 1024u, "docs/build-a-probe.md states this");
+_Static_assert(sizeof(asp_probe) <= 12u * 1024u, "firmware/README.md states this");
 
 bool asp_probe_init(asp_probe* probe, const asp_board* board, const asp_description* description,
                     const asp_probe_config* config) {
-  *probe = (asp_probe){.board = board, .config = config != NULL ? *config : asp_default_config, .start = true};
+  // No compound literal: unoptimised, it would stand on the stack.
+  memset(probe, 0, sizeof *probe);
+  probe->board = board;
+  probe->config = config != NULL ? *config : asp_default_config;
+  probe->start = true;
   probe->has_gyro = description->has_gyro;
   probe->has_force3 = description->force_axes == 3;
   probe->description_size = (uint32_t)asp_write_description(description, probe->description, sizeof probe->description);
