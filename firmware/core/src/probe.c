@@ -4,7 +4,7 @@
 
 enum { kRowsARead = 16, kHostBytesAStep = 64, kFramesAStep = 8, kAskedPause_us = 100000 };
 
-const asp_probe_config asp_default_config = {16, 10000, 1000000, 0};
+const asp_probe_config asp_default_config = {16, 10000, 1000000};
 
 _Static_assert((ASP_ROW_QUEUE & (ASP_ROW_QUEUE - 1u)) == 0, "the queue's counters wrap at 2^32");
 _Static_assert((ASP_FORCE_QUEUE & (ASP_FORCE_QUEUE - 1u)) == 0, "the queue's counters wrap at 2^32");
@@ -31,12 +31,17 @@ static void count_lost_rows(asp_probe* probe, uint32_t lost) {
 
 // A row that finds the queue full is dropped, and its number with it: the host sees the gap.
 static void queue_row(asp_probe* probe, const asp_imu_row* row) {
+  count_lost_rows(probe, row->lost_before);
   if (probe->rows_put - probe->rows_taken == ASP_ROW_QUEUE) {
     count_lost_rows(probe, 1);
     return;
   }
   asp_queued_row* place = &probe->rows[probe->rows_put % ASP_ROW_QUEUE];
-  place->row = *row;
+  place->time_ns = row->time_ns;
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    place->accel[axis] = row->accel[axis];
+    place->gyro[axis] = row->gyro[axis];
+  }
   place->index = probe->next_index;
   ++probe->rows_put;
   ++probe->next_index;
@@ -46,9 +51,7 @@ static bool take_rows(asp_probe* probe) {
   bool worked = false;
   for (uint32_t reads = 0; reads < ASP_ROW_QUEUE / kRowsARead; ++reads) {
     asp_imu_row rows[kRowsARead];
-    uint32_t lost_before = 0;
-    const size_t count = probe->board->read_imu(probe->board->context, rows, kRowsARead, &lost_before);
-    count_lost_rows(probe, lost_before);
+    const size_t count = probe->board->read_imu(probe->board->context, rows, kRowsARead);
     for (size_t i = 0; i < count; ++i) {
       queue_row(probe, &rows[i]);
     }

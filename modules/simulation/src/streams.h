@@ -26,6 +26,11 @@ enum class Stream : std::uint64_t {
   kSensorTruth,
   kCalibration,
   kGravity,
+  kBackground,
+  kCalibrationMotion,
+  kLink,
+  kBoards,
+  kCameraNoise,
 };
 
 constexpr std::uint64_t stream(Stream s) { return static_cast<std::uint64_t>(s); }

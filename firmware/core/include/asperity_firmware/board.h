@@ -14,6 +14,7 @@ typedef struct {
   uint64_t time_ns;  // on the clock of asp_board.clock_us, rising from row to row
   int16_t accel[3];  // raw counts along i, j, k
   int16_t gyro[3];
+  uint32_t lost_before;  // rows that the sensor made but that were lost just before this one
 } asp_imu_row;
 
 typedef struct {
@@ -28,9 +29,8 @@ typedef struct {
   // Starts anywhere, never steps back (asp_clock64 makes one of a 32-bit counter).
   uint64_t (*clock_us)(void* context);
 
-  // Up to `capacity` of the rows that have not been read, oldest first; `lost_before`, 0 on entry: how many rows
-  // the sensor dropped before the first of these. Fewer rows than `capacity`: no more for now.
-  size_t (*read_imu)(void* context, asp_imu_row* rows, size_t capacity, uint32_t* lost_before);
+  // Up to `capacity` of the rows that have not been read, oldest first. Fewer than `capacity`: no more for now.
+  size_t (*read_imu)(void* context, asp_imu_row* rows, size_t capacity);
 
   // The next conversion of the force sensor; false if there is none. NULL: no such sensor.
   bool (*read_force)(void* context, asp_force_sample* sample);
