@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -30,12 +32,21 @@ class BoundedQueue {
     batch.clear();
   }
 
+  // Waits at most `timeout` until half of it is free; for a source that can wait itself. False if it did not come.
+  bool wait_for_room(std::chrono::milliseconds timeout) {
+    std::unique_lock lock(mutex_);
+    return emptied_.wait_for(lock, timeout, [this] { return 2 * waiting_.size() <= capacity_; });
+  }
+
   // Puts all that wait into `out`, whose own rows are lost and whose memory is used in turn.
   void take(std::vector<T>& out) {
     out.clear();
     out.reserve(capacity_);
-    const std::lock_guard lock(mutex_);
-    waiting_.swap(out);
+    {
+      const std::lock_guard lock(mutex_);
+      waiting_.swap(out);
+    }
+    emptied_.notify_one();
   }
 
   struct Figures {
@@ -53,6 +64,7 @@ class BoundedQueue {
  private:
   const std::size_t capacity_;
   mutable std::mutex mutex_;
+  std::condition_variable emptied_;
   std::vector<T> waiting_;
   std::size_t highest_ = 0;
   std::uint64_t overflowed_ = 0;

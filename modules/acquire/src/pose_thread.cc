@@ -28,7 +28,7 @@ TrackerSample with_sigmas(const TrackedPose& pose) {
 }  // namespace
 
 PoseThread::PoseThread(std::function<std::unique_ptr<PoseSource>()> open, bool reopen, const RecorderConfig& config)
-    : open_(std::move(open)), source_(open_()), queue_(static_cast<std::size_t>(config.pose_queue)) {
+    : open_(std::move(open)), waits_(!reopen), source_(open_()), queue_(static_cast<std::size_t>(config.pose_queue)) {
   if (!source_) throw Error("recorder: the tracker could not be opened");
   name_ = source_->name();
   nominal_rate_Hz_ = source_->nominal_rate_Hz();
@@ -44,6 +44,8 @@ PoseThread::PoseThread(std::function<std::unique_ptr<PoseSource>()> open, bool r
 }
 
 bool PoseThread::read(std::chrono::milliseconds timeout) {
+  // A file can wait for the disk; a sensor cannot.
+  if (waits_ && !queue_.wait_for_room(timeout)) return true;
   const auto pose = source_->read(timeout);
   if (pose) {
     poses_.push_back(with_sigmas(*pose));

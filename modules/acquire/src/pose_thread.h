@@ -32,6 +32,7 @@ class PoseThread {
   void close() noexcept;
 
   std::function<std::unique_ptr<PoseSource>()> open_;
+  bool waits_;  // for room in the queue
   std::unique_ptr<PoseSource> source_;
   std::vector<TrackerSample> poses_;
   BoundedQueue<TrackerSample> queue_;

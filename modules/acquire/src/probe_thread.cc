@@ -1,5 +1,6 @@
 #include "probe_thread.h"
 
+#include <exception>
 #include <utility>
 
 #include "asperity/base/error.h"
@@ -28,7 +29,7 @@ LinkStatistics operator+(LinkStatistics a, const LinkStatistics& b) {
 }  // namespace
 
 ProbeThread::ProbeThread(std::function<std::unique_ptr<ProbeSource>()> open, bool reopen, const RecorderConfig& config)
-    : open_(std::move(open)), source_(open_()), queue_(static_cast<std::size_t>(config.probe_queue)) {
+    : open_(std::move(open)), waits_(!reopen), source_(open_()), queue_(static_cast<std::size_t>(config.probe_queue)) {
   if (!source_) throw Error("recorder: the probe could not be opened");
   name_ = source_->name();
   SensorLoop loop;
@@ -43,17 +44,26 @@ ProbeThread::ProbeThread(std::function<std::unique_ptr<ProbeSource>()> open, boo
 }
 
 bool ProbeThread::read(std::chrono::milliseconds timeout) {
-  source_->read(samples_, timeout);
+  // A file can wait for the disk; a sensor cannot.
+  if (waits_ && !queue_.wait_for_room(timeout)) return true;
+  std::exception_ptr lost;
+  try {
+    source_->read(samples_, timeout);
+  } catch (const Error&) {
+    lost = std::current_exception();  // after what had come before
+  }
   const bool alive = !samples_.empty();
   const LinkStatistics figures = source_->statistics();
   auto description = source_->description();
   if (alive) queue_.push(samples_);
-  const std::lock_guard lock(mutex_);
-  now_ = figures;
-  if (description) {
-    description_ = std::move(description);
-    described_.notify_all();
+  {
+    const std::lock_guard lock(mutex_);
+    now_ = figures;
+    if (description) description_ = std::move(description);
+    ended_ = waits_ && lost;
   }
+  described_.notify_all();
+  if (lost) std::rethrow_exception(lost);
   return alive;
 }
 
@@ -66,7 +76,8 @@ void ProbeThread::close() noexcept {
 
 void ProbeThread::wait_for_description(double most_s) {
   std::unique_lock lock(mutex_);
-  described_.wait_for(lock, std::chrono::duration<double>(most_s), [this] { return description_.has_value(); });
+  described_.wait_for(lock, std::chrono::duration<double>(most_s),
+                      [this] { return description_.has_value() || ended_; });
 }
 
 std::optional<ProbeDescription> ProbeThread::description() const {

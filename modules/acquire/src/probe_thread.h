@@ -23,7 +23,7 @@ class ProbeThread {
   ~ProbeThread() { stop(); }
 
   void stop() { thread_->stop(); }
-  // Returns when the probe has described itself, or after `most_s`.
+  // Returns when the probe has described itself or come to its end, or after `most_s`.
   void wait_for_description(double most_s);
   std::optional<ProbeDescription> description() const;
   void take(std::vector<ProbeSample>& out) { queue_.take(out); }
@@ -35,6 +35,7 @@ class ProbeThread {
   void close() noexcept;
 
   std::function<std::unique_ptr<ProbeSource>()> open_;
+  bool waits_;  // for room in the queue
   std::unique_ptr<ProbeSource> source_;
   std::vector<ProbeSample> samples_;
   BoundedQueue<ProbeSample> queue_;
@@ -44,6 +45,7 @@ class ProbeThread {
   LinkStatistics before_;  // of the times that it was open before
   LinkStatistics now_;
   std::optional<ProbeDescription> description_;
+  bool ended_ = false;  // a file has come to its end
   std::optional<SensorThread> thread_;
 };
 

@@ -53,7 +53,11 @@ class Recorder::Parts {
  public:
   Parts(const fs::path& folder, const RecordingInfo& info, const std::optional<Calibration>& calibration,
         RecorderSensors sensors, const RecorderConfig& config)
-      : config_(config), start_ns_(host_now_ns()), probe_rate_(start_ns_), pose_rate_(start_ns_) {
+      : config_(config),
+        replayed_(sensors.replayed),
+        start_ns_(host_now_ns()),
+        probe_rate_(start_ns_),
+        pose_rate_(start_ns_) {
     check_new(folder);
     if (!sensors.open_probe) throw Error("recorder: there is no probe");
     probe_.emplace(std::move(sensors.open_probe), sensors.reopen_probe, config);
@@ -111,7 +115,9 @@ class Recorder::Parts {
 
   bool stop_asked() {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::duration<double>(config_.flush_s), [this] { return stop_; });
+    // A file waits for the queue, which is not to make it slow.
+    const double period_s = replayed_ ? std::min(config_.flush_s, 0.005) : config_.flush_s;
+    return changed_.wait_for(lock, std::chrono::duration<double>(period_s), [this] { return stop_; });
   }
 
   // The writing thread. The sensors have stopped before it is asked to: its last round takes all there is.
@@ -155,7 +161,8 @@ class Recorder::Parts {
     try {
       std::span<const ProbeSample> samples(probe_rows_);
       std::span<const TrackerSample> poses(pose_rows_);
-      for (const RecorderCommand& command : commands) {
+      for (RecorderCommand& command : commands) {
+        if (replayed_) command.t_ns = writer_->latest_ns();
         writer_->add(split_before(poses, command.t_ns));
         writer_->add(split_before(samples, command.t_ns));
         writer_->apply(command);
@@ -182,6 +189,7 @@ class Recorder::Parts {
   }
 
   RecorderConfig config_;
+  bool replayed_;
   std::int64_t start_ns_;
   std::optional<ProbeThread> probe_;
   std::optional<PoseThread> poses_;

@@ -58,6 +58,7 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& folder, RecordingI
       gravity_(config.rest, calibration),
       appender_(folder, info_, calibration, columns_of(description, has_poses)),
       segments_(appender_, ns(config.pre_roll_s)) {
+  if (config.mode == StoreMode::kSegments && config.start_at_once) begin("segment_", SegmentWriter::kFromFirstRow);
   appender_.update(current_info(false));
 }
 

@@ -34,6 +34,7 @@ class RecordingWriter {
   void add(std::span<const ProbeSample> samples);
   void add(std::span<const TrackerSample> poses);
   void apply(const RecorderCommand& command);
+  std::int64_t latest_ns() const { return segments_.latest_ns(); }
   // What the sensors have lost so far, for recording.json.
   void set_problems(std::map<std::string, std::int64_t> problems) { problems_ = std::move(problems); }
   // recording.json is to be written at the next commit().

@@ -10,6 +10,7 @@ namespace asperity {
 namespace {
 
 constexpr std::int64_t kLateness_ns = 1'000'000'000;
+constexpr std::int64_t kSkew_ns = 10 * kLateness_ns;        // between the streams, at most
 constexpr std::size_t kMostWaiting = std::size_t{1} << 18;  // rows of a ring, whatever their times
 
 }  // namespace
@@ -45,8 +46,11 @@ void SegmentWriter::take(Stream<Sample>& stream, const Sample& sample) {
     return;
   }
   stream.ring.push_back(sample);
+  // Rows wait for the stream that is behind, if it is still coming.
+  const std::int64_t behind_ns = std::min(probe_.last_ns, tracker_.last_ns);
+  const std::int64_t reached_ns = behind_ns > latest_ns_ - kSkew_ns ? behind_ns : latest_ns_;
   while (!stream.ring.empty() &&
-         (stream.ring.size() > kMostWaiting || stream.ring.front().t_ns < latest_ns_ - keep_ns_ - kLateness_ns)) {
+         (stream.ring.size() > kMostWaiting || stream.ring.front().t_ns < reached_ns - keep_ns_ - kLateness_ns)) {
     stream.ring.pop_front();
   }
 }
@@ -64,6 +68,7 @@ void SegmentWriter::add(const TrackerSample& sample) { take(tracker_, sample); }
 
 bool SegmentWriter::start(std::string name, std::int64_t t_ns, std::int64_t pre_roll_ns) {
   if (open_ || segments_.size() >= kMostSegments) return false;
+  t_ns = std::max(t_ns, kFromFirstRow);
   const std::int64_t earliest_ns = std::max(first_ns_, discarded_until_ns_);
   const std::int64_t start_ns = std::min(t_ns, std::max(t_ns - pre_roll_ns, earliest_ns));
   segments_.push_back({std::move(name), start_ns, kNoEnd});
@@ -93,14 +98,16 @@ bool SegmentWriter::settle() {
 
 void SegmentWriter::close(std::int64_t t_ns) {
   if (!open_) return;
-  end_at(std::min(t_ns, segments_.back().end_ns));
+  if (latest_ns_ == kNever) segments_.pop_back();  // there was not one row
+  if (latest_ns_ != kNever) end_at(std::min(t_ns, segments_.back().end_ns));
   open_ = false;
 }
 
 std::optional<std::string> SegmentWriter::discard(std::int64_t t_ns) {
   if (segments_.empty()) return std::nullopt;
-  close(t_ns);
-  discarded_until_ns_ = std::max(discarded_until_ns_, segments_.back().end_ns);
+  if (latest_ns_ != kNever) close(t_ns);
+  open_ = false;
+  if (latest_ns_ != kNever) discarded_until_ns_ = std::max(discarded_until_ns_, segments_.back().end_ns);
   std::string name = std::move(segments_.back().name);
   segments_.pop_back();
   ++discarded_;
@@ -108,15 +115,19 @@ std::optional<std::string> SegmentWriter::discard(std::int64_t t_ns) {
 }
 
 std::vector<Segment> SegmentWriter::segments() const {
+  if (latest_ns_ == kNever) return {};
   std::vector<Segment> out = segments_;
+  for (Segment& segment : out) segment.start_ns = std::max(segment.start_ns, first_ns_);
   if (open_) out.back().end_ns = std::max(out.back().start_ns, std::min(out.back().end_ns, latest_ns_));
   return out;
 }
 
 double SegmentWriter::recorded_s() const {
+  if (latest_ns_ == kNever) return 0.0;
   std::int64_t sum_ns = 0;
   for (const Segment& segment : segments_) {
-    sum_ns += std::max<std::int64_t>(0, std::min(segment.end_ns, latest_ns_) - segment.start_ns);
+    const std::int64_t start_ns = std::max(segment.start_ns, first_ns_);
+    sum_ns += std::max<std::int64_t>(0, std::min(segment.end_ns, latest_ns_) - start_ns);
   }
   return static_cast<double>(sum_ns) * kNanosecond_s;
 }

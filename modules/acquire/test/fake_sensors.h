@@ -81,6 +81,34 @@ class FakeProbe : public ProbeSource {
 };
 
 // A pose every `period_ns`, at rest; px_m counts the frames in mm.
+// A whole capture at once: `count` samples of `period_ns` from `start_ns` on, then its end.
+class ReplayedProbe : public ProbeSource {
+ public:
+  ReplayedProbe(std::int64_t start_ns, std::int64_t period_ns, std::uint64_t count)
+      : start_ns_(start_ns), period_ns_(period_ns), count_(count) {}
+
+  void read(std::vector<ProbeSample>& out, std::chrono::milliseconds) override {
+    constexpr std::uint64_t kPiece = 1000;
+    if (statistics_.samples == count_) throw LinkLost("replay: at its end");
+    for (std::uint64_t i = 0; i < kPiece && statistics_.samples < count_; ++i) {
+      ProbeSample sample;
+      sample.t_ns = start_ns_ + period_ns_ * static_cast<std::int64_t>(statistics_.samples++);
+      sample.accel_counts = {0.0, -980.665, 0.0};
+      out.push_back(sample);
+    }
+  }
+
+  LinkStatistics statistics() const override { return statistics_; }
+  std::optional<ProbeDescription> description() const override { return std::nullopt; }
+  std::string name() const override { return "replay"; }
+
+ private:
+  std::int64_t start_ns_;
+  std::int64_t period_ns_;
+  std::uint64_t count_;
+  LinkStatistics statistics_;
+};
+
 class FakePoses : public PoseSource {
  public:
   FakePoses(std::shared_ptr<FakeControl> control, std::int64_t period_ns)

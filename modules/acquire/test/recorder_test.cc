@@ -250,6 +250,23 @@ TEST(Recorder, RefusesAnExistingFolderAndAMissingProbe) {
   EXPECT_TRUE(std::filesystem::is_empty(rig.folder()));
 }
 
+// A capture comes faster than the disk, with times of another day; nothing of it is lost.
+TEST(Recorder, ACaptureIsRecordedWhole) {
+  Rig rig;
+  rig.config.start_at_once = true;
+  rig.config.probe_queue = 4096;
+  RecorderSensors sensors;
+  sensors.open_probe = [] { return std::make_unique<ReplayedProbe>(5'000'000, 250'000, 200'000); };
+  sensors.reopen_probe = false;
+  sensors.replayed = true;
+  Recorder recorder(rig.folder(), {}, calibration_of(), sensors, rig.config);
+  ASSERT_TRUE(wait_for(recorder, [](const RecorderSnapshot& now) { return now.probe.state == SensorState::kEnded; }));
+  recorder.finish();
+  const std::string probe = read_file(rig.folder() / "probe.csv", 1 << 24);
+  EXPECT_EQ(std::count(probe.begin(), probe.end(), '\n'), 200'001);
+  EXPECT_THAT(probe, HasSubstr("\n5000000,"));
+}
+
 // The figures of one snapshot belong together, whichever thread asks.
 TEST(Recorder, SnapshotsAreOfOneMoment) {
   Rig rig;

@@ -20,8 +20,9 @@ struct RecorderSensors {
   std::function<std::unique_ptr<ProbeSource>()> open_probe;
   std::function<std::unique_ptr<PoseSource>()> open_poses;  // empty: no tracker
   bool probe_describes_itself = true;                       // false: the columns are known without
-  bool reopen_probe = true;                                 // false: a file, whose end is the end
+  bool reopen_probe = true;                                 // false: a file, whose end is the end, and which can wait
   bool reopen_poses = true;
+  bool replayed = false;  // times are not of now: commands happen at the newest row's
 };
 
 // Records a probe and a tracker (seed §3.3, docs/recorder.md): a thread for each sensor, which never waits for the

@@ -14,6 +14,7 @@ inline constexpr std::array<std::string_view, 2> kStoreModeNames{"segments", "au
 
 struct RecorderConfig {
   StoreMode mode = StoreMode::kSegments;
+  bool start_at_once = false;
   double pre_roll_s = 1.0;
   double post_roll_s = 0.5;
   ContactConfig contact;
@@ -30,6 +31,7 @@ struct RecorderConfig {
   template <class V>
   void visit(V& v) {
     v.choice("mode", mode, kStoreModeNames, "segments: from start to stop; auto: while the probe touches");
+    v.field("start_at_once", start_at_once, "segments: begin the first one with the first row");
     v.field("pre_roll_s", pre_roll_s, "stored before a segment's start, s", {0.0, 10.0});
     v.field("post_roll_s", post_roll_s, "auto: stored after the touch, s", {0.0, 10.0});
     v.group("contact", contact);

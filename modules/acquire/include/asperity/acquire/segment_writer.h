@@ -24,7 +24,8 @@ class SegmentWriter {
   void add(const TrackerSample& sample);
 
   // Begins a segment `pre_roll_ns` before `t_ns`, earlier rows from the rings included; not before the first row, nor
-  // before the end of what was discarded. False if one is open, or there are too many.
+  // before the end of what was discarded. kFromFirstRow: where the first row will be. False if one is open, or there
+  // are too many.
   bool start(std::string name, std::int64_t t_ns, std::int64_t pre_roll_ns);
   // The open segment ends at `t_ns`, which may lie ahead; reopen() takes that back while it does.
   void end_at(std::int64_t t_ns);
@@ -40,7 +41,7 @@ class SegmentWriter {
 
   bool is_open() const { return open_; }
   bool is_ending() const { return open_ && segments_.back().end_ns != kNoEnd; }
-  // The open one, too, which then ends at the latest row.
+  // The open one, too, which then ends at the latest row; without one it is not yet there.
   std::vector<Segment> segments() const;
   std::size_t count() const { return segments_.size(); }
   std::string last_name() const { return segments_.empty() ? "" : segments_.back().name; }
@@ -53,6 +54,7 @@ class SegmentWriter {
   // The latest time that a row of either stream has had.
   std::int64_t latest_ns() const { return latest_ns_; }
 
+  static constexpr std::int64_t kFromFirstRow = std::numeric_limits<std::int64_t>::min() / 4;
   static constexpr std::int64_t kNoEnd = std::numeric_limits<std::int64_t>::max();
   static constexpr std::size_t kMostSegments = 10'000;
 
