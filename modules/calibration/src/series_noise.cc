@@ -90,8 +90,7 @@ double profiled(const Series& series, const Ratio& at) {
 }
 
 double exact(const Series& series, const Logs& at) {
-  const Likelihood likelihood =
-      run_filter(series, std::exp(2.0 * at[0]), std::exp(2.0 * at[1]), std::exp(at[2]));
+  const Likelihood likelihood = run_filter(series, std::exp(2.0 * at[0]), std::exp(2.0 * at[1]), std::exp(at[2]));
   return likelihood.value(1.0, static_cast<double>(series.x.size()));
 }
 
@@ -118,9 +117,8 @@ Eigen::Matrix3d covariance_of(const Series& series, const Logs& at) {
 void test_shape(const Series& series, double white, double slow, double time_s, SeriesNoise& out) {
   std::vector<double> z(series.x.size());
   const double mean = run_filter(series, white, slow, time_s).mean;
-  run_filter(series, white, slow, time_s, [&](std::size_t i, double ex, double eo, double s) {
-    z[i] = (ex - mean * eo) / std::sqrt(s);
-  });
+  run_filter(series, white, slow, time_s,
+             [&](std::size_t i, double ex, double eo, double s) { z[i] = (ex - mean * eo) / std::sqrt(s); });
   const GaussianTest test = test_gaussian(std::move(z));
   out.skewness = test.skewness;
   out.excess_kurtosis = test.excess_kurtosis;
@@ -139,11 +137,12 @@ double sample_deviation(std::span<const double> x) {
 void check(std::span<const double> t_s, std::span<const double> x) {
   constexpr std::size_t kFewest = 8;
   if (t_s.size() != x.size() || x.size() < kFewest) {
-    throw Error(fmt::format("series noise: {} times for {} values, must be as many and at least {}", t_s.size(), x.size(),
-                            kFewest));
+    throw Error(fmt::format("series noise: {} times for {} values, must be as many and at least {}", t_s.size(),
+                            x.size(), kFewest));
   }
   for (std::size_t i = 0; i < x.size(); ++i) {
-    if (!std::isfinite(x[i]) || !std::isfinite(t_s[i])) throw Error(fmt::format("series noise: value {} is not finite", i));
+    if (!std::isfinite(x[i]) || !std::isfinite(t_s[i]))
+      throw Error(fmt::format("series noise: value {} is not finite", i));
     if (i > 0 && !(t_s[i] > t_s[i - 1])) throw Error(fmt::format("series noise: time {} does not rise", i));
   }
 }

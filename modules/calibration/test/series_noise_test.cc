@@ -72,7 +72,8 @@ TEST(SeriesNoise, StandardErrorsAreTrueWithASlowPart) {
     refused += fit.gaussian_probability < 0.05;
     coverage.add("white", fit.white, truth.white, fit.white_error);
     coverage.add("slow (log)", std::log(fit.slow), std::log(truth.slow), fit.slow_error / fit.slow);
-    coverage.add("time (log)", std::log(fit.slow_time_s), std::log(truth.time_s), fit.slow_time_error_s / fit.slow_time_s);
+    coverage.add("time (log)", std::log(fit.slow_time_s), std::log(truth.time_s),
+                 fit.slow_time_error_s / fit.slow_time_s);
     coverage.add("total", fit.total, std::hypot(truth.white, truth.slow), fit.total_error);
   }
   coverage.expect("tracker noise, white and slow", kTrials);

@@ -30,9 +30,9 @@ struct SeriesNoise {
 };
 
 // Both parts by restricted maximum likelihood (the mean is free) through a scalar Kalman filter, exact for uneven
-// times; standard errors from the curvature of the likelihood. The slow part is kept where it raises the log-likelihood by
-// more than 4.5 (three standard errors). Linear in the number of samples. Throws Error for fewer than eight samples, sizes that differ, times
-// that do not rise, or numbers that are not finite. A constant series has no noise: all zero.
+// times; standard errors from the curvature of the likelihood. The slow part is kept where it raises the log-likelihood
+// by more than 4.5 (three standard errors). Linear in the number of samples. Throws Error for fewer than eight samples,
+// sizes that differ, times that do not rise, or numbers that are not finite. A constant series has no noise: all zero.
 SeriesNoise fit_series_noise(std::span<const double> t_s, std::span<const double> x);
 
 }  // namespace asperity
