@@ -8,6 +8,7 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/recording/parse.h"
+#include "unfinished.h"
 
 namespace asperity {
 
@@ -39,6 +40,7 @@ Recording read_recording(const fs::path& folder, const ReadLimits& limits) {
   out.tracker = parse_tracker_csv(read_file(tracker, limits.csv_bytes), tracker.string(), out.problems, limits);
   const fs::path truth = folder / "truth.csv";
   if (fs::exists(truth, error)) out.truth = read_truth(truth, out.problems, limits);
+  close_unfinished(out);
   return out;
 }
 
