@@ -1,0 +1,132 @@
+#include "calibrate_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "asperity/base/text.h"
+#include "asperity/base/version.h"
+#include "asperity/pipeline/config_json.h"
+#include "asperity/recording/read_recording.h"
+#include "asperity/recording/write_recording.h"
+#include "our_file.h"
+
+namespace asperity::app {
+
+namespace fs = std::filesystem;
+using Json = CalibrateOutcome::Json;
+
+namespace {
+
+bool begins_as_calibration(std::string_view begin) {
+  std::string dense;
+  std::copy_if(begin.begin(), begin.end(), std::back_inserter(dense),
+               [](char c) { return c != ' ' && c != '\n' && c != '\r' && c != '\t'; });
+  return dense.starts_with(R"({"format":"asperity-calibration",)");
+}
+
+// Counts taken for SI units and a tip at the marker's origin: what has not been calibrated claims nothing.
+Calibration neutral_calibration() {
+  Calibration out;
+  out.accelerometer.B = Eigen::Matrix3d::Identity();
+  out.accelerometer.rotation_known = false;
+  return out;
+}
+
+Calibration calibration_before(const fs::path& file) {
+  std::error_code ignored;
+  if (!fs::exists(file, ignored) || fs::file_size(file, ignored) == 0) return neutral_calibration();
+  return read_calibration(file);
+}
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+}  // namespace
+
+CalibrateCommand::CalibrateCommand(CLI::App& calibrate, const std::string& kind, const std::string& description)
+    : Command(calibrate, kind, description), kind_(kind) {
+  parser()
+      .add_option("-o,--output", output_, "Where to put the values; what other kinds have calibrated is kept")
+      ->type_name("calibration.json");
+}
+
+int CalibrateCommand::run(const Observer& observer) {
+  Calibration before;
+  if (!output_.empty()) {
+    refuse_stranger(output_, begins_as_calibration, inputs());
+    before = calibration_before(output_);
+  }
+  const CalibrateOutcome outcome = calibrate(observer);
+  if (!output_.empty()) write(before, outcome);
+  print_json(report(outcome).dump(2, ' ', false, Json::error_handler_t::replace));
+  say(text(outcome));
+  if (outcome.verdict.trustworthy) return kDone;
+  complain(kind_ + ": " + outcome.verdict.text);
+  return kNotTrustworthy;
+}
+
+void CalibrateCommand::write(const Calibration& before, const CalibrateOutcome& outcome) {
+  Calibration calibration = before;
+  outcome.store(calibration);
+  Json extra = Json::parse(calibration.extra_json.empty() ? "{}" : calibration.extra_json);
+  if (!extra["calibrated"].is_object()) extra["calibrated"] = Json::object();
+  extra["calibrated"][kind_] = {
+      {"values", outcome.values},
+      {"stderr", outcome.standard_errors},
+      {"residuals", outcome.residuals},
+      {"trustworthy", outcome.verdict.trustworthy},
+      {"verdict", outcome.verdict.text},
+      {"config", Json::parse(config_json(fields()))},
+      {"asperity", kVersion},
+  };
+  calibration.extra_json = extra.dump(-1, ' ', false, Json::error_handler_t::replace);
+  write_calibration(output_, calibration);
+}
+
+Json CalibrateCommand::report(const CalibrateOutcome& outcome) {
+  Json out;
+  out["format"] = "asperity-calibrate";
+  out["version"] = 1;
+  out["kind"] = kind_;
+  out["values"] = outcome.values;
+  out["stderr"] = outcome.standard_errors;
+  out["residuals"] = outcome.residuals;
+  out["trustworthy"] = outcome.verdict.trustworthy;
+  out["verdict"] = outcome.verdict.text;
+  out["notes"] = outcome.notes;
+  for (const auto& [key, value] : outcome.details.items()) out[key] = value;
+  if (!output_.empty()) out["file"] = output_;
+  out["config"] = Json::parse(config_json(fields()));
+  out["asperity"] = kVersion;
+  return out;
+}
+
+std::string CalibrateCommand::text(const CalibrateOutcome& outcome) const {
+  std::size_t width = 0;
+  for (const CalibratedValue& row : outcome.table) width = std::max(width, row.name.size());
+  std::string out;
+  for (const CalibratedValue& row : outcome.table) {
+    const std::string error = std::isfinite(row.standard_error) ? fmt::format("± {:<10.3g}", row.standard_error) : "";
+    out += fmt::format("{:<{}} {:>13.7g} {:<12} {}\n", row.name, width, row.value, error, row.unit);
+  }
+  for (const std::string& note : outcome.notes) out += "note: " + note + "\n";
+  out += (outcome.verdict.trustworthy ? "good: " : "NOT TO BE TRUSTED: ") + outcome.verdict.text + "\n";
+  if (!output_.empty()) out += printable(output_, 200) + ": " + kind_ + " written\n";
+  return out;
+}
+
+Json json_of(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  Json out = Json::array();
+  for (Eigen::Index i = 0; i < values.size(); ++i) out.push_back(number_or_null(values[i]));
+  return out;
+}
+
+Json json_of_rows(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
+  Json out = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) out.push_back(json_of(matrix.row(i).transpose()));
+  return out;
+}
+
+}  // namespace asperity::app

@@ -1,0 +1,39 @@
+#include "asperity/calibration/read_force_points.h"
+
+#include <cmath>
+
+#include "asperity/base/csv.h"
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::uint64_t kLargestFile_bytes = std::uint64_t{64} << 20;
+constexpr std::size_t kMostPoints = 1'000'000;
+
+}  // namespace
+
+ForcePoints read_force_points(const std::filesystem::path& file) {
+  const std::string name = printable(file.string(), 200);
+  const std::string text = read_file(file, kLargestFile_bytes);
+  CsvReader reader(text, name);
+  reader.accept_unterminated();
+  const std::size_t counts = reader.require("counts");
+  const std::size_t force = reader.require("force_N");
+  ForcePoints out;
+  const auto number = [&](std::size_t column) {
+    const double value = reader.number(column);
+    if (!std::isfinite(value)) reader.fail(column, "is no finite number");
+    return value;
+  };
+  while (reader.next()) {
+    if (out.size() == kMostPoints) throw Error(name + ": more than a million readings");
+    out.counts.push_back(number(counts));
+    out.force_N.push_back(number(force));
+  }
+  return out;
+}
+
+}  // namespace asperity
