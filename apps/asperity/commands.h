@@ -18,6 +18,7 @@ std::unique_ptr<Command> make_paint(CLI::App& root);
 std::unique_ptr<Command> make_process(CLI::App& root);
 std::unique_ptr<Command> make_register(CLI::App& root);
 std::unique_ptr<Command> make_roughness(CLI::App& root);
+std::unique_ptr<Command> make_track(CLI::App& root);
 
 // The commands below `asperity texture`.
 std::unique_ptr<Command> make_texture_fit(CLI::App& texture);
