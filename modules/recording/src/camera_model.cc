@@ -38,6 +38,18 @@ std::optional<Eigen::Vector2d> project(const CameraCalibration& camera, const Ei
   return Eigen::Vector2d(camera.fx * at.x() + camera.cx, camera.fy * at.y() + camera.cy);
 }
 
+std::optional<Projection> project_with_derivative(const CameraCalibration& camera, const Eigen::Vector3d& p_camera_m) {
+  if (!(p_camera_m.z() > 0.0)) return std::nullopt;
+  const double inverse_z = 1.0 / p_camera_m.z();
+  const Eigen::Vector2d p = p_camera_m.head<2>() * inverse_z;
+  const Distorted seen = distort(camera, p);
+  Eigen::Matrix<double, 2, 3> p_by_point;
+  p_by_point << inverse_z, 0.0, -p.x() * inverse_z, 0.0, inverse_z, -p.y() * inverse_z;
+  const Eigen::Vector2d focal(camera.fx, camera.fy);
+  return Projection{{camera.fx * seen.at.x() + camera.cx, camera.fy * seen.at.y() + camera.cy},
+                    focal.asDiagonal() * seen.jacobian * p_by_point};
+}
+
 std::optional<Eigen::Vector3d> unproject(const CameraCalibration& camera, const Eigen::Vector2d& pixel) {
   constexpr int kMostSteps = 20;
   constexpr double kClose = 1e-13;  // of the tangent of the angle to the axis: 1e-10 px at any focal length

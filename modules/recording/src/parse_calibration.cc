@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "asperity/recording/parse.h"
+#include "calibration_parts.h"
 #include "json_reader.h"
-#include "quaternion_check.h"
 
 namespace asperity {
 
@@ -97,49 +97,6 @@ TrackerCalibration read_tracker(JsonObject object) {
   return out;
 }
 
-int required_int(JsonObject& object, const std::string& key, std::int64_t low, std::int64_t high) {
-  std::int64_t value = 0;
-  object.require(key);
-  object.read_integer(key, value, low, high);
-  return static_cast<int>(value);
-}
-
-CameraCalibration read_camera(JsonObject object) {
-  CameraCalibration out;
-  out.width = required_int(object, "width", 1, 100'000);
-  out.height = required_int(object, "height", 1, 100'000);
-  for (const auto& [key, target] : {std::pair{"fx", &out.fx}, {"fy", &out.fy}, {"cx", &out.cx}, {"cy", &out.cy}}) {
-    object.require(key);
-    const bool focal = key[0] == 'f';
-    object.read_number(key, *target, focal ? Range{1e-3, 1e7} : Range{-1e7, 1e7});
-  }
-  if (object.find("distortion") != nullptr) {
-    out.distortion.resize(5);
-    object.read_numbers("distortion", out.distortion.data(), 5);
-  }
-  object.finish();
-  return out;
-}
-
-MarkerPlacement read_marker(JsonObject object) {
-  MarkerPlacement out;
-  out.id = required_int(object, "id", 0, 1'000'000);
-  object.require("family");
-  object.read_text("family", out.family);
-  object.require("size_m");
-  object.read_number("size_m", out.size_m, {1e-6, 100.0});
-  object.require("T_marker_tag");
-  double pose[7] = {};
-  object.read_numbers("T_marker_tag", pose, 7);
-  out.T_marker_tag.translation_m = {pose[0], pose[1], pose[2]};
-  out.T_marker_tag.rotation = {pose[3], pose[4], pose[5], pose[6]};
-  if (make_unit(out.T_marker_tag.rotation) == QuaternionState::kUnusable) {
-    object.fail("T_marker_tag", "its quaternion is not of length one");
-  }
-  object.finish();
-  return out;
-}
-
 }  // namespace
 
 Calibration parse_calibration(std::string_view text, const std::string& name, const ReadLimits& limits) {
@@ -154,11 +111,11 @@ Calibration parse_calibration(std::string_view text, const std::string& name, co
   object.read_vector("tip_in_marker_m", out.tip_in_marker_m, kWithinMetres);
   object.read_number("tip_radius_m", out.tip_radius_m, {0.0, 1.0});
   if (auto tracker = object.object("tracker")) out.tracker = read_tracker(*tracker);
-  if (auto camera = object.object("camera")) out.camera = read_camera(*camera);
+  if (auto camera = object.object("camera")) out.camera = read_camera_object(*camera);
   if (const json* markers = object.find("markers")) {
     if (!markers->is_array()) object.fail("markers", "must be an array");
     for (std::size_t i = 0; i < markers->size(); ++i) {
-      out.markers.push_back(read_marker(JsonObject((*markers)[i], name, fmt::format("markers[{}]", i))));
+      out.markers.push_back(read_marker_object(JsonObject((*markers)[i], name, fmt::format("markers[{}]", i))));
     }
   }
   if (auto extra = object.object("extra")) {

@@ -23,6 +23,7 @@ class CameraSource {
   // came in time. Throws LinkLost when no more can come, Error for anything else that fails.
   virtual bool read(CameraFrame& frame, std::chrono::milliseconds timeout) = 0;
 
+  virtual double nominal_rate_Hz() const { return 0.0; }  // 0: unknown
   virtual std::string name() const = 0;
 
   // What a person should know of how the images are taken: "focus is not locked: …". Empty: nothing.

@@ -18,6 +18,15 @@ namespace asperity {
 // The pixel at which `p_camera_m` is seen; nullopt for a point that is not in front of the camera.
 std::optional<Eigen::Vector2d> project(const CameraCalibration& camera, const Eigen::Vector3d& p_camera_m);
 
+// A pixel and how it moves with the point.
+struct Projection {
+  Eigen::Vector2d pixel;
+  Eigen::Matrix<double, 2, 3> by_point;  // px per metre of p_camera_m
+};
+
+// The same with its derivative.
+std::optional<Projection> project_with_derivative(const CameraCalibration& camera, const Eigen::Vector3d& p_camera_m);
+
 // The point (x, y, 1) of the ray through `pixel`, by Newton's method from the pixel without distortion;
 // nullopt where the distortion has no inverse near.
 std::optional<Eigen::Vector3d> unproject(const CameraCalibration& camera, const Eigen::Vector2d& pixel);

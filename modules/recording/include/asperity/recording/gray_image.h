@@ -6,6 +6,9 @@
 
 namespace asperity {
 
+// Larger images are refused before memory is taken: 64 megapixels.
+inline constexpr int kLargestImageSide_px = 8192;
+
 // An 8-bit camera image, row by row from the top. The centre of the pixel (column, row) has the
 // coordinates (column, row), as in CameraCalibration.
 struct GrayImage {

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "asperity/recording/calibration.h"
+#include "json_reader.h"
+
+namespace asperity {
+
+// Objects that calibration.json shares with other files.
+CameraCalibration read_camera_object(JsonObject object);
+MarkerPlacement read_marker_object(JsonObject object);
+
+}  // namespace asperity
