@@ -27,6 +27,7 @@ std::unique_ptr<Command> make_texture_swap(CLI::App& texture);
 std::unique_ptr<Command> make_texture_compare(CLI::App& texture);
 
 // The commands below `asperity calibrate`.
+std::unique_ptr<Command> make_calibrate_accel(CLI::App& calibrate);
 std::unique_ptr<Command> make_calibrate_force(CLI::App& calibrate);
 
 }  // namespace asperity::app

@@ -40,10 +40,10 @@ struct Program {
          {make_texture_fit, make_texture_info, make_texture_synthesize, make_texture_swap, make_texture_compare}) {
       commands.push_back(make(*texture));
     }
-    CLI::App* calibrate =
-        parser.add_subcommand("calibrate", "Find a calibration's values, their standard errors and whether to trust them");
+    CLI::App* calibrate = parser.add_subcommand(
+        "calibrate", "Find a calibration's values, their standard errors and whether to trust them");
     calibrate->require_subcommand(1);
-    for (const auto make : {make_calibrate_force}) commands.push_back(make(*calibrate));
+    for (const auto make : {make_calibrate_force, make_calibrate_accel}) commands.push_back(make(*calibrate));
   }
 };
 

@@ -1,50 +1,20 @@
 #include "asperity_firmware/request.h"
 
-#include "asperity_firmware/crc32.h"
-#include "asperity_firmware/frame.h"
-
-enum { kDecoded = 6, kCoded = 7 };
-
-// A request is shorter than a full COBS block: each block but the last stands for a zero.
-static bool decode(const uint8_t* block, uint8_t* out) {
-  uint8_t left = 0;
-  for (uint8_t i = 0; i < kCoded; ++i) {
-    if (left == 0) {
-      left = block[i];
-      if (i > 0) {
-        out[i - 1] = 0;
-      }
-    } else {
-      out[i - 1] = block[i];
-    }
-    --left;
-  }
-  return left == 0;
-}
-
-static bool is_request(const uint8_t* block) {
-  uint8_t decoded[kDecoded];
-  if (!decode(block, decoded) || decoded[0] != ASP_PROTOCOL_VERSION || decoded[1] != ASP_TYPE_ASK_DESCRIPTION) {
-    return false;
-  }
-  const uint32_t crc = asp_crc32_result(asp_crc32_put(asp_crc32_put(ASP_CRC32_START, decoded[0]), decoded[1]));
-  for (unsigned i = 0; i < 4; ++i) {
-    if (decoded[2 + i] != ((crc >> (8 * i)) & 0xFFu)) {
-      return false;
-    }
-  }
-  return true;
-}
+// Nothing follows its version and type, so its frame is always these bytes: the COBS group of all six, version, type,
+// CRC-32. No other block decodes to them.
+static const uint8_t kRequest[] = {0x07, 0x01, 0x81, 0x08, 0x90, 0x7D, 0xC2};
 
 bool asp_request_put(asp_request_reader* reader, uint8_t byte) {
-  if (byte != 0) {
-    if (reader->used < sizeof reader->block) {
-      reader->block[reader->used] = byte;
-      ++reader->used;
-    }
-    return false;
+  if (byte == 0) {
+    const bool asked = !reader->other && reader->matched == sizeof kRequest;
+    reader->matched = 0;
+    reader->other = false;
+    return asked;
   }
-  const bool asked = reader->used == kCoded && is_request(reader->block);
-  reader->used = 0;
-  return asked;
+  if (reader->matched < sizeof kRequest && kRequest[reader->matched] == byte) {
+    ++reader->matched;
+  } else {
+    reader->other = true;
+  }
+  return false;
 }

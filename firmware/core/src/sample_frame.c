@@ -13,12 +13,12 @@ static uint32_t count_run(const asp_probe* probe, bool* run_ended) {
   for (uint32_t i = 1; i < most; ++i) {
     const asp_queued_row* before = asp_row_at(probe, i - 1);
     const asp_queued_row* row = asp_row_at(probe, i);
-    const uint64_t step_ns = row->row.time_ns - before->row.time_ns;
+    const uint64_t step_ns = row->time_ns - before->time_ns;
     if (i == 1) {
       spacing_ns = step_ns;
     }
     const uint64_t off_ns = step_ns > spacing_ns ? step_ns - spacing_ns : spacing_ns - step_ns;
-    if (row->index != before->index + 1u || row->row.time_ns <= before->row.time_ns || step_ns > UINT32_MAX ||
+    if (row->index != before->index + 1u || row->time_ns <= before->time_ns || step_ns > UINT32_MAX ||
         off_ns > spacing_ns / 4u) {
       *run_ended = true;
       return i;
@@ -34,7 +34,7 @@ static bool is_old(const asp_probe* probe, uint64_t now_us, uint64_t sample_us) 
 static bool is_due(const asp_probe* probe, uint64_t now_us, uint32_t rows, bool run_ended) {
   const uint32_t forces = probe->forces_put - probe->forces_taken;
   return rows >= probe->config.rows_per_frame || run_ended || forces >= ASP_MAX_FORCES ||
-         (rows > 0 && is_old(probe, now_us, asp_row_at(probe, 0)->row.time_ns / 1000u)) ||
+         (rows > 0 && is_old(probe, now_us, asp_row_at(probe, 0)->time_ns / 1000u)) ||
          (forces > 0 && is_old(probe, now_us, asp_force_at(probe, 0)->time_us));
 }
 
@@ -60,13 +60,13 @@ static uint32_t period_ns(const asp_probe* probe, uint32_t rows) {
   if (rows < 2) {
     return 0;
   }
-  const uint64_t span_ns = asp_row_at(probe, rows - 1)->row.time_ns - asp_row_at(probe, 0)->row.time_ns;
+  const uint64_t span_ns = asp_row_at(probe, rows - 1)->time_ns - asp_row_at(probe, 0)->time_ns;
   return (uint32_t)((span_ns + (rows - 1u) / 2u) / (rows - 1u));
 }
 
 static void put_rows(asp_frame_writer* writer, asp_probe* probe, uint32_t rows) {
   for (uint32_t i = 0; i < rows; ++i) {
-    const asp_imu_row* row = &asp_row_at(probe, i)->row;
+    const asp_queued_row* row = asp_row_at(probe, i);
     for (unsigned axis = 0; axis < 3; ++axis) {
       asp_frame_put_u16(writer, (uint16_t)row->accel[axis]);
     }
@@ -93,7 +93,7 @@ bool asp_make_sample_frame(asp_probe* probe, uint64_t now_us) {
     return false;
   }
   const uint32_t index = rows > 0 ? asp_row_at(probe, 0)->index : probe->next_index;
-  const uint64_t time_us = rows > 0 ? asp_row_at(probe, 0)->row.time_ns / 1000u : asp_force_at(probe, 0)->time_us;
+  const uint64_t time_us = rows > 0 ? asp_row_at(probe, 0)->time_ns / 1000u : asp_force_at(probe, 0)->time_us;
   const uint32_t forces = count_forces(probe, time_us);
   const bool overrun = probe->force_overrun || index != probe->expected_index;
 
@@ -106,7 +106,7 @@ bool asp_make_sample_frame(asp_probe* probe, uint64_t now_us) {
   asp_frame_put_u8(&writer, (uint8_t)rows);
   asp_frame_put_u8(&writer, (uint8_t)forces);
   asp_frame_put_u8(&writer, 0);
-  asp_frame_put_u16(&writer, probe->config.run);
+  asp_frame_put_u16(&writer, 0);
   asp_frame_put_u32(&writer, probe->sequence);
   asp_frame_put_u32(&writer, index);
   asp_frame_put_u64(&writer, time_us);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "asperity/acquire/open_video.h"
 #include "asperity/acquire/open_y4m.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
@@ -127,6 +128,7 @@ std::unique_ptr<CameraSource> open_camera(const CameraAddress& address) {
     case CameraKind::kImages:
       return open_image_folder(address.path, address.images);
     case CameraKind::kV4l2:
+      break;
     case CameraKind::kVideo:
       break;
   }

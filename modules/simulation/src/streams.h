@@ -26,6 +26,12 @@ enum class Stream : std::uint64_t {
   kSensorTruth,
   kCalibration,
   kGravity,
+  kBackground,
+  kCalibrationMotion,
+  kLink,
+  kBoards,
+  kFrameTimes,
+  kCameraNoise,
 };
 
 constexpr std::uint64_t stream(Stream s) { return static_cast<std::uint64_t>(s); }

@@ -14,12 +14,16 @@ typedef struct {
   uint64_t time_ns;  // on the clock of asp_board.clock_us, rising from row to row
   int16_t accel[3];  // raw counts along i, j, k
   int16_t gyro[3];
+  uint32_t lost_before;  // rows that the sensor made but that were lost just before this one
 } asp_imu_row;
 
 typedef struct {
   uint64_t time_us;   // middle of the conversion
   int32_t counts[3];  // one axis: the first; three: the third is along the probe's axis
 } asp_force_sample;
+
+// Rows for which the core asks at a time.
+#define ASP_ROWS_A_READ 16u
 
 // What the core needs of the hardware. No function may wait. All are called from asp_probe_step() only.
 typedef struct {
@@ -28,9 +32,8 @@ typedef struct {
   // Starts anywhere, never steps back (asp_clock64 makes one of a 32-bit counter).
   uint64_t (*clock_us)(void* context);
 
-  // Up to `capacity` of the rows that have not been read, oldest first; `lost_before`, 0 on entry: how many rows
-  // the sensor dropped before the first of these. Fewer rows than `capacity`: no more for now.
-  size_t (*read_imu)(void* context, asp_imu_row* rows, size_t capacity, uint32_t* lost_before);
+  // Up to `capacity` of the rows that have not been read, oldest first. Fewer than `capacity`: no more for now.
+  size_t (*read_imu)(void* context, asp_imu_row* rows, size_t capacity);
 
   // The next conversion of the force sensor; false if there is none. NULL: no such sensor.
   bool (*read_force)(void* context, asp_force_sample* sample);

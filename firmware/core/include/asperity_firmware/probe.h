@@ -28,10 +28,9 @@ typedef struct {
   uint32_t rows_per_frame;         // 1 to 64: a frame is sent as soon as it has so many
   uint32_t latency_us;             // or as soon as its oldest sample is so old
   uint32_t description_period_us;  // at most 2 s, by the protocol
-  uint16_t run;                    // drawn anew at each start, from a random source of the board: tells a restart
 } asp_probe_config;
 
-// 16 rows, 10 ms, 1 s, run 0. At 4 kHz with gyroscope and 1 kHz of force: 65 kB/s of the 92 that 921,600 bps carry.
+// 16 rows, 10 ms, 1 s. At 4 kHz with gyroscope and 1 kHz of force: 65 kB/s of the 92 that 921,600 bps carry.
 extern const asp_probe_config asp_default_config;
 
 typedef struct {
@@ -43,7 +42,9 @@ typedef struct {
 } asp_probe_statistics;
 
 typedef struct {
-  asp_imu_row row;
+  uint64_t time_ns;
+  int16_t accel[3];
+  int16_t gyro[3];
   uint32_t index;  // counts every row taken, also those dropped
 } asp_queued_row;
 

@@ -8,14 +8,14 @@
 extern "C" {
 #endif
 
-// What the host asks for, taken from its bytes one by one. Any bytes are survived: a block that is too long for
-// a request is passed over to its end.
+// Finds the host's request for the description in its bytes, taken one by one. Any bytes are survived. Start with
+// zeros.
 typedef struct {
-  uint8_t block[8];  // COBS-coded: two bytes of payload, four of CRC, one of code, and one to see a longer one
-  uint8_t used;
+  uint8_t matched;  // bytes of the request since the last zero byte
+  bool other;       // the block under way is something else
 } asp_request_reader;
 
-// Takes one byte; true if it ended a sound request for the description.
+// True if `byte` ended a sound request.
 bool asp_request_put(asp_request_reader* reader, uint8_t byte);
 
 #ifdef __cplusplus

@@ -7,11 +7,12 @@ namespace asperity {
 // What a probe's link has carried so far. All counts only rise.
 struct LinkStatistics {
   std::uint64_t bytes = 0;
-  std::uint64_t frames = 0;          // accepted
-  std::uint64_t samples = 0;         // accepted rows of the inertial sensor
-  std::uint64_t force_samples = 0;   // accepted samples of the force sensor
-  std::uint64_t lost_frames = 0;     // never arrived whole: exact where frames are numbered, else estimated from time
-  std::uint64_t lost_samples = 0;    // rows in those
+  std::uint64_t frames = 0;         // of samples, accepted
+  std::uint64_t samples = 0;        // accepted rows of the inertial sensor
+  std::uint64_t force_samples = 0;  // accepted samples of the force sensor
+  std::uint64_t lost_frames =
+      0;  // never arrived whole, or late: exact where frames are numbered, else estimated from time
+  std::uint64_t lost_samples = 0;    // rows in those, and those that the probe dropped and numbered
   std::uint64_t damaged_frames = 0;  // pieces between delimiters that failed their check, or bytes given up as frames
   std::uint64_t late_frames = 0;     // came twice or after a later one; not used
   std::uint64_t foreign_frames = 0;  // sound, but of a type or version that is not known

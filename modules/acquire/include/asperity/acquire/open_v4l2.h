@@ -19,10 +19,10 @@ struct V4l2Config {
   int height = 0;  // px
   double rate_Hz = 0.0;
   V4l2Format format = V4l2Format::kAny;  // any: the first it has of grey, yuyv, uyvy, mjpg at that size and rate
-  std::optional<double> exposure_s;
-  std::optional<int> gain;             // in the driver's units
-  std::optional<int> white_balance_K;  // the driver's colour temperature
-  std::optional<int> focus;            // in the driver's units
+  std::optional<double> exposure_s = std::nullopt;
+  std::optional<int> gain = std::nullopt;             // in the driver's units
+  std::optional<int> white_balance_K = std::nullopt;  // the driver's colour temperature
+  std::optional<int> focus = std::nullopt;            // in the driver's units
 };
 
 // A camera of Video4Linux2, such as a webcam at /dev/video0, for this process alone while it is open.

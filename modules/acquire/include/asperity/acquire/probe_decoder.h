@@ -34,4 +34,7 @@ class ProbeDecoder {
 
 std::unique_ptr<ProbeDecoder> make_probe_decoder(ProbeProtocol protocol);
 
+// The bits per second of a serial line to such a probe, where nothing else is said: 115,200 (seed §3.1) and 921,600.
+int default_baud(ProbeProtocol protocol) noexcept;
+
 }  // namespace asperity

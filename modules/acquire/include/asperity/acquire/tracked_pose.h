@@ -23,6 +23,7 @@ struct TrackedPose {
   Eigen::Matrix<double, 6, 6> covariance =
       Eigen::Matrix<double, 6, 6>::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<TagDetection> tags;  // those used
+  bool ambiguous = false;          // the other way in which the tags' plane can lie fits nearly as well
 };
 
 }  // namespace asperity

@@ -1,0 +1,210 @@
+#include "body_least_squares.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include "asperity/base/error.h"
+#include "asperity/recording/camera_model.h"
+
+namespace asperity {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Vector8 = Eigen::Matrix<double, 8, 1>;
+using Matrix8 = Eigen::Matrix<double, 8, 8>;
+
+// One up to half of `limit`, then falling smoothly to nothing at it: the corners of a sound frame all count fully, so
+// that the least squares' own covariance holds.
+double weight(double distance, double limit) {
+  const double begin = 0.5 * limit;
+  if (distance <= begin) return 1.0;
+  if (distance >= limit) return 0.0;
+  const double u = (distance - begin) / (limit - begin);
+  return (1.0 - u * u) * (1.0 - u * u);
+}
+
+// The scale of distances d in the plane, whose squares have the median 2 ln 2, never below what is known of the
+// corners.
+double robust_scale(std::vector<double> squares) {
+  const double n = static_cast<double>(squares.size());
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  const double fitted = 2.0 * n / (2.0 * n - 6.0);
+  return std::sqrt(std::max(1.0, *middle * fitted / (2.0 * std::log(2.0))));
+}
+
+Pose moved(const Pose& pose, const Vector6& step) {
+  return {(exp_rotation(step.tail<3>()) * pose.rotation).normalized(), pose.translation_m + step.head<3>()};
+}
+
+}  // namespace
+
+BodyLeastSquares::BodyLeastSquares(const CameraCalibration& camera, const std::vector<MarkerPlacement>& body,
+                                   std::span<const SeenTag> seen, const BodyPoseConfig& config)
+    : camera_(&camera), config_(&config) {
+  observations_.reserve(seen.size());
+  for (const SeenTag& tag : seen) {
+    Observation one;
+    one.p_marker_m = tag_corners_m(body[tag.tag]);
+    one.corners_px = tag.corners_px;
+    Matrix8 covariance = Matrix8::Identity() * (config.corner_sigma_px * config.corner_sigma_px);
+    if (tag.has_covariance) covariance = tag.covariance_px2;
+    const Eigen::LLT<Matrix8> factor(covariance);
+    if (!one.corners_px.allFinite() || factor.info() != Eigen::Success) {
+      throw Error("solve_body_pose: a tag's corners or their covariance are no numbers");
+    }
+    one.information = factor.solve(Matrix8::Identity());
+    for (int corner = 0; corner < 4; ++corner) {
+      one.own.block<2, 2>(0, 2 * corner) = covariance.block<2, 2>(2 * corner, 2 * corner).inverse();
+    }
+    observations_.push_back(one);
+  }
+}
+
+bool BodyLeastSquares::evaluate(const Pose& pose, Residuals& out, bool with_derivative) const {
+  out.r_px.resize(observations_.size());
+  if (with_derivative) out.by_pose.resize(observations_.size());
+  for (std::size_t i = 0; i < observations_.size(); ++i) {
+    for (int corner = 0; corner < 4; ++corner) {
+      const Eigen::Vector3d arm_m = pose.rotation * observations_[i].p_marker_m.col(corner);
+      const auto seen = project_with_derivative(*camera_, arm_m + pose.translation_m);
+      if (!seen || !seen->pixel.allFinite()) return false;
+      out.r_px[i].segment<2>(2 * corner) = seen->pixel - observations_[i].corners_px.col(corner);
+      if (!with_derivative) continue;
+      out.by_pose[i].block<2, 3>(2 * corner, 0) = seen->by_point;
+      out.by_pose[i].block<2, 3>(2 * corner, 3) = -seen->by_point * skew(arm_m);
+    }
+  }
+  return true;
+}
+
+void BodyLeastSquares::distances2(const Residuals& residuals, std::vector<double>& out) const {
+  out.resize(4 * observations_.size());
+  for (std::size_t i = 0; i < observations_.size(); ++i) {
+    for (int corner = 0; corner < 4; ++corner) {
+      const Eigen::Vector2d r = residuals.r_px[i].segment<2>(2 * corner);
+      out[4 * i + static_cast<std::size_t>(corner)] = r.dot(observations_[i].own.block<2, 2>(0, 2 * corner) * r);
+    }
+  }
+}
+
+std::optional<double> BodyLeastSquares::loose_cost(const Pose& pose, double loose_px) const {
+  Residuals residuals;
+  if (!evaluate(pose, residuals, false)) return std::nullopt;
+  double cost = 0.0;
+  for (const Vector8& r : residuals.r_px) {
+    for (int corner = 0; corner < 4; ++corner) {
+      cost += std::log1p(r.segment<2>(2 * corner).squaredNorm() / (loose_px * loose_px));
+    }
+  }
+  return cost;
+}
+
+std::optional<LeastSquaresPose> BodyLeastSquares::minimise(const Pose& start) const {
+  LeastSquaresPose out;
+  out.pose = start;
+  Residuals here, there;
+  if (!evaluate(out.pose, here, true)) return std::nullopt;
+  std::vector<double> squares, root_weights(4 * observations_.size());
+  Matrix6 normal;
+  double scale = 1.0;
+  const auto weighted = [&](const Residuals& residuals, std::size_t i) {
+    Vector8 r = residuals.r_px[i];
+    for (int k = 0; k < 8; ++k) r[k] *= root_weights[4 * i + static_cast<std::size_t>(k / 2)];
+    return r;
+  };
+  const auto weighted_cost = [&](const Residuals& residuals) {
+    double cost = 0.0;
+    for (std::size_t i = 0; i < observations_.size(); ++i) {
+      const Vector8 r = weighted(residuals, i);
+      cost += r.dot(observations_[i].information * r);
+    }
+    return cost;
+  };
+  const auto reweigh = [&] {
+    distances2(here, squares);
+    scale = robust_scale(squares);
+    for (std::size_t k = 0; k < squares.size(); ++k) {
+      root_weights[k] = std::sqrt(weight(std::sqrt(squares[k]), config_->outlier_sigmas * scale));
+    }
+  };
+
+  double damping = 1e-3;  // of the diagonal
+  for (int iteration = 0; iteration < config_->most_iterations && !out.converged; ++iteration) {
+    reweigh();
+    normal.setZero();
+    Vector6 gradient = Vector6::Zero();
+    for (std::size_t i = 0; i < observations_.size(); ++i) {
+      Eigen::Matrix<double, 8, 6> J = here.by_pose[i];
+      for (int k = 0; k < 8; ++k) J.row(k) *= root_weights[4 * i + static_cast<std::size_t>(k / 2)];
+      const Eigen::Matrix<double, 6, 8> JtL = J.transpose() * observations_[i].information;
+      normal.noalias() += JtL * J;
+      gradient.noalias() += JtL * weighted(here, i);
+    }
+    const double cost = weighted_cost(here);
+    bool accepted = false;
+    for (int attempt = 0; attempt < 10 && !accepted; ++attempt) {
+      Matrix6 damped = normal;
+      damped.diagonal() *= 1.0 + damping;
+      const Eigen::LDLT<Matrix6> factor(damped);
+      if (factor.info() != Eigen::Success || !factor.isPositive()) return std::nullopt;
+      const Vector6 step = -factor.solve(gradient);
+      if (!step.allFinite()) return std::nullopt;
+      const Pose next = moved(out.pose, step);
+      if (evaluate(next, there, true) && weighted_cost(there) <= cost) {
+        accepted = true;
+        // The step in standard errors.
+        constexpr double kSmall = 1e-3;
+        out.converged = step.dot(normal * step) <= kSmall * kSmall * scale * scale;
+        out.pose = next;
+        std::swap(here, there);
+        damping = std::max(1e-9, damping * 0.1);
+      } else {
+        damping *= 10.0;
+      }
+    }
+    if (!accepted) {
+      // No direction leads down: the minimum, within rounding.
+      out.converged = true;
+      break;
+    }
+  }
+
+  reweigh();
+  normal.setZero();
+  double effective = 0.0, sum_px2 = 0.0;
+  out.corners_of_tag.assign(observations_.size(), 0);
+  for (std::size_t i = 0; i < observations_.size(); ++i) {
+    Eigen::Matrix<double, 8, 6> J = here.by_pose[i];
+    for (int corner = 0; corner < 4; ++corner) {
+      const std::size_t k = 4 * i + static_cast<std::size_t>(corner);
+      J.middleRows<2>(2 * corner) *= root_weights[k];
+      effective += root_weights[k] * root_weights[k];
+      out.robust_cost += std::log1p(squares[k] / 9.0);
+      if (root_weights[k] <= 0.5) continue;
+      ++out.corners_of_tag[i];
+      ++out.corners_used;
+      sum_px2 += here.r_px[i].segment<2>(2 * corner).squaredNorm();
+    }
+    normal.noalias() += J.transpose() * observations_[i].information * J;
+  }
+  if (out.corners_used < 3) return std::nullopt;
+  out.reprojection_px = std::sqrt(sum_px2 / out.corners_used);
+  const double dof = std::max(0.0, 2.0 * effective - 6.0);
+  const double variance = config_->prior_dof + dof > 0.0
+                              ? (config_->prior_dof + weighted_cost(here)) / (config_->prior_dof + dof)
+                              : scale * scale;
+  out.scale = std::sqrt(variance);
+  const Eigen::LDLT<Matrix6> factor(normal);
+  if (factor.info() != Eigen::Success || !factor.isPositive()) return std::nullopt;
+  out.covariance = variance * factor.solve(Matrix6::Identity());
+  out.covariance = (0.5 * (out.covariance + out.covariance.transpose())).eval();
+  if (!out.covariance.allFinite()) return std::nullopt;
+  return out;
+}
+
+}  // namespace asperity

@@ -1,0 +1,259 @@
+#include "asperity/acquire/track_body.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "asperity/base/error.h"
+#include "asperity/base/units.h"
+#include "asperity/recording/camera_model.h"
+
+namespace asperity {
+namespace {
+
+struct TimedPose {
+  std::int64_t t_ns = 0;
+  Pose pose;
+};
+
+double turn_between_rad(const Pose& a, const Pose& b) {
+  return log_rotation(a.rotation.conjugate() * b.rotation).norm();
+}
+
+// A tag as the detector and the image's fit have seen it.
+struct FoundTag {
+  TagDetection detection;
+  SeenTag seen;
+};
+
+}  // namespace
+
+struct BodyTracker::Impl {
+  struct Family {
+    std::string name;
+    std::unique_ptr<TagDetector> detector;
+  };
+
+  CameraCalibration camera;
+  std::vector<MarkerPlacement> body;
+  TrackConfig config;
+  std::vector<Family> families;
+  std::vector<TagPattern> patterns;  // of the body's tags
+  std::vector<PointSpread> spreads;  // as last seen of each
+  TrackingStatistics statistics;
+  Problems problems;
+  std::vector<TimedPose> last;                // at most two, the newest at the end
+  std::vector<std::vector<SeenTag>> misfits;  // frames that speak against the tag frame declared
+  int unclear = 0;                            // frames of two tags or more that fit in no way
+  bool frame_settled = false;
+  bool frame_changed = false;
+
+  std::optional<Pose> predict(std::int64_t t_ns) const;
+  std::optional<ImageRegion> expected_region(const Pose& pose) const;
+  void find_tags(const GrayImage& image, const ImageRegion& region, std::vector<FoundTag>& out);
+  std::optional<TrackedPose> solve(const std::vector<FoundTag>& found, const std::optional<Pose>& predicted,
+                                   std::int64_t t_ns);
+  bool settle_tag_frame(const std::vector<FoundTag>& found);
+  bool is_leap(const Pose& pose, std::int64_t t_ns) const;
+};
+
+// Constant velocity from the last two poses.
+std::optional<Pose> BodyTracker::Impl::predict(std::int64_t t_ns) const {
+  if (last.empty()) return std::nullopt;
+  const TimedPose& newest = last.back();
+  const double ahead_s = static_cast<double>(t_ns - newest.t_ns) * kNanosecond_s;
+  if (ahead_s < 0.0 || ahead_s > config.longest_gap_s) return std::nullopt;
+  if (last.size() < 2) return newest.pose;
+  const double step_s = static_cast<double>(newest.t_ns - last.front().t_ns) * kNanosecond_s;
+  if (step_s <= 0.0 || step_s > config.longest_gap_s) return newest.pose;
+  // A velocity from two noisy poses is not worth more than this far.
+  constexpr double kFarthest = 3.0;
+  const double share = std::min(kFarthest, ahead_s / step_s);
+  const Pose& a = last.front().pose;
+  const Pose& b = newest.pose;
+  return Pose{exp_rotation(share * log_rotation(b.rotation * a.rotation.conjugate())) * b.rotation,
+              b.translation_m + share * (b.translation_m - a.translation_m)};
+}
+
+std::optional<ImageRegion> BodyTracker::Impl::expected_region(const Pose& pose) const {
+  Eigen::AlignedBox2d box;
+  for (const MarkerPlacement& marker : body) {
+    const Eigen::Matrix<double, 3, 4> corners_m = tag_corners_m(marker);
+    for (int i = 0; i < 4; ++i) {
+      const auto pixel = project(camera, pose * corners_m.col(i));
+      if (!pixel || !pixel->allFinite()) return std::nullopt;
+      box.extend(*pixel);
+    }
+  }
+  constexpr double kLeastMargin_px = 16.0;
+  const double margin_px = std::max(kLeastMargin_px, config.region_margin * box.sizes().maxCoeff());
+  const auto column = [&](double x) { return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(camera.width))); };
+  const auto row = [&](double y) { return static_cast<int>(std::clamp(y, 0.0, static_cast<double>(camera.height))); };
+  const ImageRegion region{column(box.min().x() - margin_px), row(box.min().y() - margin_px),
+                           column(box.max().x() + margin_px + 1.0), row(box.max().y() + margin_px + 1.0)};
+  if (region.empty()) return std::nullopt;
+  return region;
+}
+
+void BodyTracker::Impl::find_tags(const GrayImage& image, const ImageRegion& region, std::vector<FoundTag>& out) {
+  out.clear();
+  std::vector<TagDetection> detections;
+  for (const Family& family : families) {
+    detections.clear();
+    family.detector->detect(image, region, detections);
+    for (const TagDetection& detection : detections) {
+      const auto placement = std::find_if(body.begin(), body.end(), [&](const MarkerPlacement& marker) {
+        return marker.id == detection.id && marker.family == family.name;
+      });
+      if (placement == body.end()) continue;
+      FoundTag found{detection, {}};
+      found.seen.tag = static_cast<std::size_t>(placement - body.begin());
+      found.seen.corners_px = detection.corners_px;
+      if (config.refine.enabled) {
+        PointSpread& spread = spreads[found.seen.tag];
+        auto refined =
+            refine_corners(image, camera, patterns[found.seen.tag], detection.corners_px, spread, config.refine);
+        if (refined) {
+          found.seen.corners_px = found.detection.corners_px = refined->corners_px;
+          found.seen.covariance_px2 = refined->covariance_px2;
+          found.seen.has_covariance = true;
+          spread = refined->spread;
+        } else {
+          spread = {};
+        }
+      }
+      out.push_back(found);
+    }
+  }
+}
+
+// True once the body's tag frame is known, or nothing speaks against it.
+bool BodyTracker::Impl::settle_tag_frame(const std::vector<FoundTag>& found) {
+  if (frame_settled || !config.find_tag_frame || body.size() < 2 || found.size() < 2) return true;
+  constexpr std::size_t kFramesToBeSure = 3;
+  std::vector<SeenTag> seen;
+  for (const FoundTag& tag : found) seen.push_back(tag.seen);
+  misfits.push_back(std::move(seen));
+  const TagFrameFinding alone = find_tag_frame(camera, body, std::span(&misfits.back(), 1), config.pose);
+  if (alone.determined && alone.as_declared) {
+    misfits.clear();
+    frame_settled = true;
+    return true;
+  }
+  if (!alone.determined) {
+    misfits.pop_back();
+    // Tags that fit in no way are badly placed, or wrongly read: the declared frame is as good as any.
+    constexpr int kMostUnclear = 5;
+    if (++unclear >= kMostUnclear) frame_settled = true;
+    return frame_settled;
+  }
+  if (misfits.size() >= kFramesToBeSure) {
+    const TagFrameFinding finding = find_tag_frame(camera, body, misfits, config.pose);
+    if (finding.determined && !finding.as_declared) {
+      body = with_tag_frame(std::move(body), finding.R_frame_tag);
+      frame_settled = frame_changed = true;
+      misfits.clear();
+      last.clear();
+      problems.push_back(
+          {"tag_frame",
+           fmt::format(
+               "the markers' T_marker_tag fit the images only if the tag frame is {}: their corners are then off "
+               "by {:.2f} px instead of {:.1f} px; taken so for the whole run",
+               finding.description, finding.error_px, finding.declared_error_px)});
+      return true;
+    }
+    frame_settled = true;
+  }
+  return frame_settled;
+}
+
+// Farther from the last pose than a hand can have moved it.
+bool BodyTracker::Impl::is_leap(const Pose& pose, std::int64_t t_ns) const {
+  if (last.empty()) return false;
+  const double gap_s = static_cast<double>(t_ns - last.back().t_ns) * kNanosecond_s;
+  if (gap_s < 0.0 || gap_s > config.longest_gap_s) return false;
+  return (pose.translation_m - last.back().pose.translation_m).norm() > config.fastest_mps * gap_s ||
+         turn_between_rad(pose, last.back().pose) > config.fastest_radps * gap_s;
+}
+
+std::optional<TrackedPose> BodyTracker::Impl::solve(const std::vector<FoundTag>& found,
+                                                    const std::optional<Pose>& predicted, std::int64_t t_ns) {
+  if (found.empty()) return std::nullopt;
+  std::vector<SeenTag> seen;
+  for (const FoundTag& tag : found) seen.push_back(tag.seen);
+  const auto solved = solve_body_pose(camera, body, seen, predicted, config.pose);
+  if (!solved || solved->reprojection_px > config.largest_reprojection_px || solved->corners_used < 4)
+    return std::nullopt;
+  if (solved->tags_used < 2 && is_leap(solved->T_camera_marker, t_ns)) return std::nullopt;
+  TrackedPose out;
+  out.sample.t_ns = t_ns;
+  out.sample.T_world_marker = solved->T_camera_marker;
+  out.sample.markers = solved->tags_used;
+  out.sample.reprojection_px = solved->reprojection_px;
+  out.covariance = solved->covariance;
+  out.ambiguous = solved->ambiguous;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (solved->used[i]) out.tags.push_back(found[i].detection);
+  }
+  return out;
+}
+
+BodyTracker::BodyTracker(CameraCalibration camera, std::vector<MarkerPlacement> body, TrackConfig config)
+    : impl_(std::make_unique<Impl>()) {
+  if (!(camera.fx > 0.0) || !(camera.fy > 0.0)) throw Error("track: the camera has no focal length");
+  if (body.empty()) throw Error("track: the body has no tags");
+  for (const MarkerPlacement& marker : body) {
+    auto family = std::find_if(impl_->families.begin(), impl_->families.end(),
+                               [&](const Impl::Family& known) { return known.name == marker.family; });
+    if (family == impl_->families.end()) {
+      impl_->families.push_back({marker.family, make_tag_detector(marker.family, config.detector)});
+      family = impl_->families.end() - 1;
+    }
+    auto pattern = family->detector->pattern(marker.id);
+    if (!pattern) throw Error(fmt::format("markers: {} has no tag {}", marker.family, marker.id));
+    impl_->patterns.push_back(std::move(*pattern));
+  }
+  impl_->spreads.resize(body.size());
+  impl_->camera = std::move(camera);
+  impl_->body = std::move(body);
+  impl_->config = config;
+}
+
+BodyTracker::~BodyTracker() = default;
+BodyTracker::BodyTracker(BodyTracker&&) noexcept = default;
+BodyTracker& BodyTracker::operator=(BodyTracker&&) noexcept = default;
+
+std::optional<TrackedPose> BodyTracker::push(const GrayImage& image, std::int64_t t_ns) {
+  Impl& self = *impl_;
+  if (image.width != self.camera.width || image.height != self.camera.height) {
+    throw Error(fmt::format("the image is {}×{}, the camera was calibrated at {}×{}", image.width, image.height,
+                            self.camera.width, self.camera.height));
+  }
+  ++self.statistics.frames;
+  const std::optional<Pose> predicted = self.predict(t_ns);
+  const std::optional<ImageRegion> region = predicted ? self.expected_region(*predicted) : std::nullopt;
+  std::vector<FoundTag> found;
+  std::optional<TrackedPose> out;
+  if (region) {
+    self.find_tags(image, *region, found);
+    if (self.settle_tag_frame(found)) out = self.solve(found, predicted, t_ns);
+  }
+  if (!out) {
+    self.find_tags(image, whole(image), found);
+    if (self.settle_tag_frame(found)) out = self.solve(found, predicted, t_ns);
+  }
+  if (!out) return std::nullopt;
+  ++self.statistics.poses;
+  if (self.last.size() == 2) self.last.erase(self.last.begin());
+  self.last.push_back({t_ns, out->sample.T_world_marker});
+  return out;
+}
+
+const TrackingStatistics& BodyTracker::statistics() const { return impl_->statistics; }
+const std::vector<MarkerPlacement>& BodyTracker::body() const { return impl_->body; }
+bool BodyTracker::tag_frame_was_changed() const { return impl_->frame_changed; }
+const Problems& BodyTracker::problems() const { return impl_->problems; }
+
+}  // namespace asperity

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "asperity/recording/calibration.h"
+#include "asperity/recording/read_limits.h"
+
+namespace asperity {
+
+// How the frame of a tag lies on the tag, where there are several habits (docs/tracking.md).
+enum class TagFrame { kAprilTag, kOpenCv };
+
+// A body's markers. T_marker_tag is always in terms of our tag frame, that of AprilTag: x right, y down, z into the
+// tag, for a tag upright as libapriltag draws it; a file that declares another one is converted when it is read.
+struct MarkerFile {
+  std::vector<MarkerPlacement> markers;
+  TagFrame declared = TagFrame::kAprilTag;
+};
+
+// The rotation that maps our tag frame's coordinates into those of `frame` for a tag of `family`.
+Eigen::Quaterniond R_frame_tag(TagFrame frame, std::string_view family);
+
+// markers.json, {"markers":[…]} with "tag_frame":"apriltag"|"opencv" where it is not ours, or a calibration.json with
+// "markers" (its "tag_frame" in "extra"). Throws Error naming the file and the key: no marker, a marker given twice, more
+// than 1000, or a value out of range.
+MarkerFile parse_markers(std::string_view text, const std::string& name, const ReadLimits& limits = {});
+MarkerFile read_markers(const std::filesystem::path& path, const ReadLimits& limits = {});
+
+// The camera of a calibration.json, of which nothing else needs to be there. Throws Error naming the file and the key.
+CameraCalibration parse_camera(std::string_view text, const std::string& name, const ReadLimits& limits = {});
+CameraCalibration read_camera(const std::filesystem::path& path, const ReadLimits& limits = {});
+
+}  // namespace asperity

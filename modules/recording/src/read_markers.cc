@@ -1,0 +1,90 @@
+#include "asperity/recording/read_markers.h"
+
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "asperity/base/csv.h"
+#include "asperity/base/text.h"
+#include "calibration_parts.h"
+#include "json_reader.h"
+
+namespace asperity {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t kMostMarkers = 1000;
+
+bool is_calibration(const json& root) {
+  return root.is_object() && root.contains("format") && root["format"] == "asperity-calibration";
+}
+
+TagFrame read_tag_frame(JsonObject& object) {
+  std::string text = "apriltag";
+  object.read_text("tag_frame", text);
+  if (text == "apriltag") return TagFrame::kAprilTag;
+  if (text == "opencv") return TagFrame::kOpenCv;
+  object.fail("tag_frame", fmt::format("'{}' is not apriltag or opencv", printable(text)));
+}
+
+}  // namespace
+
+Eigen::Quaterniond R_frame_tag(TagFrame frame, std::string_view family) {
+  if (frame == TagFrame::kAprilTag) return Eigen::Quaterniond::Identity();
+  // OpenCV's frame is x right, y up, z towards the viewer, and its pictures of AprilTag's first families are turned by
+  // half a turn in their plane.
+  const bool turned = family == "tag36h11" || family == "tag36h10" || family == "tag25h9" || family == "tag16h5";
+  return turned ? Eigen::Quaterniond(0.0, 0.0, 1.0, 0.0) : Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
+}
+
+MarkerFile parse_markers(std::string_view text, const std::string& name, const ReadLimits& limits) {
+  const json root = parse_json(text, name, limits);
+  JsonObject object(root, name, "");
+  MarkerFile out;
+  if (is_calibration(root)) {
+    if (auto extra = object.object("extra")) out.declared = read_tag_frame(*extra);
+  } else {
+    out.declared = read_tag_frame(object);
+    if (object.find("format") != nullptr) object.require_format("asperity-markers");
+    std::string extra;
+    object.read_extra(extra);
+  }
+  const json& markers = object.require("markers");
+  if (!markers.is_array() || markers.empty() || markers.size() > kMostMarkers) {
+    object.fail("markers", fmt::format("must be an array of 1 to {} markers", kMostMarkers));
+  }
+  std::set<std::pair<std::string, int>> seen;
+  for (std::size_t i = 0; i < markers.size(); ++i) {
+    MarkerPlacement marker = read_marker_object(JsonObject(markers[i], name, fmt::format("markers[{}]", i)));
+    if (!seen.emplace(marker.family, marker.id).second) {
+      object.fail(fmt::format("markers[{}].id", i), fmt::format("marker {} is given twice", marker.id));
+    }
+    marker.T_marker_tag.rotation = marker.T_marker_tag.rotation * R_frame_tag(out.declared, marker.family);
+    out.markers.push_back(std::move(marker));
+  }
+  if (!is_calibration(root)) object.finish();
+  return out;
+}
+
+MarkerFile read_markers(const std::filesystem::path& path, const ReadLimits& limits) {
+  return parse_markers(read_file(path, limits.json_bytes), path.string(), limits);
+}
+
+CameraCalibration parse_camera(std::string_view text, const std::string& name, const ReadLimits& limits) {
+  const json root = parse_json(text, name, limits);
+  JsonObject object(root, name, "");
+  object.require_format("asperity-calibration");
+  return read_camera_object(object.required_object("camera"));
+}
+
+CameraCalibration read_camera(const std::filesystem::path& path, const ReadLimits& limits) {
+  return parse_camera(read_file(path, limits.json_bytes), path.string(), limits);
+}
+
+}  // namespace asperity
