@@ -16,6 +16,7 @@ std::unique_ptr<Command> make_export(CLI::App& root);
 std::unique_ptr<Command> make_inspect(CLI::App& root);
 std::unique_ptr<Command> make_paint(CLI::App& root);
 std::unique_ptr<Command> make_process(CLI::App& root);
+std::unique_ptr<Command> make_record(CLI::App& root);
 std::unique_ptr<Command> make_register(CLI::App& root);
 std::unique_ptr<Command> make_roughness(CLI::App& root);
 
