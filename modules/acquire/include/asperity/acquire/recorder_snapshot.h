@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "asperity/acquire/gravity_estimator.h"
 #include "asperity/acquire/link_statistics.h"
@@ -24,6 +25,7 @@ enum class SensorState {
 struct SensorSnapshot {
   SensorState state = SensorState::kAbsent;
   std::string name;
+  std::vector<std::string> warnings;  // of how it is set up, as the sensor says them
   std::string message;         // why it is lost or has ended, as the system says it: escape it where it is printed
   std::uint64_t lost = 0;      // times
   std::uint64_t returned = 0;  // times
