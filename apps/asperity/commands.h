@@ -29,4 +29,11 @@ std::unique_ptr<Command> make_texture_compare(CLI::App& texture);
 // The commands below `asperity calibrate`.
 std::unique_ptr<Command> make_calibrate_force(CLI::App& calibrate);
 
+// The commands below `asperity markers`.
+std::unique_ptr<Command> make_markers_sheet(CLI::App& markers);
+std::unique_ptr<Command> make_markers_ring(CLI::App& markers);
+std::unique_ptr<Command> make_markers_board(CLI::App& markers);
+std::unique_ptr<Command> make_markers_charuco(CLI::App& markers);
+std::unique_ptr<Command> make_markers_detect(CLI::App& markers);
+
 }  // namespace asperity::app
