@@ -73,9 +73,12 @@ void CalibrateCommand::write(const Calibration& before, const CalibrateOutcome& 
   Json extra = Json::parse(calibration.extra_json.empty() ? "{}" : calibration.extra_json);
   if (!extra["calibrated"].is_object()) extra["calibrated"] = Json::object();
   extra["calibrated"][kind_] = {
-      {"values", outcome.values},       {"stderr", outcome.standard_errors},
-      {"residuals", outcome.residuals}, {"trustworthy", outcome.verdict.trustworthy},
-      {"verdict", outcome.verdict.text}, {"config", Json::parse(config_json(fields()))},
+      {"values", outcome.values},
+      {"stderr", outcome.standard_errors},
+      {"residuals", outcome.residuals},
+      {"trustworthy", outcome.verdict.trustworthy},
+      {"verdict", outcome.verdict.text},
+      {"config", Json::parse(config_json(fields()))},
       {"asperity", kVersion},
   };
   calibration.extra_json = extra.dump(-1, ' ', false, Json::error_handler_t::replace);

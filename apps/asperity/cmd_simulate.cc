@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "asperity/base/output.h"
@@ -16,6 +17,7 @@
 #include "asperity/simulation/mesh_stroke.h"
 #include "asperity/simulation/simulate_recording.h"
 #include "commands.h"
+#include "live_scan.h"
 #include "option_units.h"
 
 namespace asperity::app {
@@ -46,6 +48,8 @@ class SimulateCommand : public Command {
         ->type_name("\"X,Y,Z;X,Y,Z\"");
     parser().add_option("--speed", speed_, "Mean speed of the hand")->type_name("SPEED");
     parser().add_option("--seed", seed_, "Of all randomness; the same seed gives the same bytes")->type_name("N");
+    parser().add_flag("--live", live_,
+                      "Play the scan in real time: the probe over a pseudo-terminal, the camera over a FIFO");
     require(parser().add_option("-o,--output", output_, "The recording's folder"))->type_name("REC");
   }
 
@@ -57,7 +61,11 @@ class SimulateCommand : public Command {
         throw UsageError(error.what());
       }
     }
-    return list_fields("", *config_);
+    std::vector<ConfigField> all = list_fields("", *config_);
+    if (live_) {
+      for (ConfigField& field : list_fields("live", live_config_)) all.push_back(std::move(field));
+    }
+    return all;
   }
 
   void apply_options() override {
@@ -85,6 +93,7 @@ class SimulateCommand : public Command {
 
   int run(const Observer& observer) override {
     OutputFolder folder(output_, is_replaceable_recording);
+    if (live_) return play(folder, observer);
     const Recording recording = simulate_recording(*config_, observer);
     write_recording(folder.path(), recording);
     observer.update("writing", 1.0);
@@ -94,6 +103,24 @@ class SimulateCommand : public Command {
   }
 
  private:
+  int play(OutputFolder& folder, const Observer& observer) {
+    const Recording recording = simulate_live_recording(*config_, live_config_, observer);
+    LiveReport report;
+    {
+      LiveScan scan(recording, config_->probe, live_config_, folder.path());
+      // Before anything is played: whoever started us opens what is named here.
+      print_json(scan.announcement().dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+      say(fmt::format("probe:       {}\ncamera:      {}\ncalibration: {}\nmarkers:     {}\n", scan.port(),
+                      scan.camera(), scan.calibration(), scan.markers()));
+      report = scan.play(observer);
+      write_recording(folder.path(), scan.on_host_clock());
+    }
+    folder.commit();
+    print_json(live_json(report, output_).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    say(live_line(report, output_));
+    return report.probe_bytes_lost + report.frames_lost > 0 ? kNotTrustworthy : kDone;
+  }
+
   void report(const Recording& recording) {
     const ProbeStream& probe = recording.probe;
     const double duration_s =
@@ -121,7 +148,9 @@ class SimulateCommand : public Command {
   std::string speed_;
   std::string seed_;
   std::string output_;
+  bool live_ = false;
   std::optional<SimulationConfig> config_;
+  LiveBenchConfig live_config_;
 };
 
 }  // namespace

@@ -46,3 +46,9 @@ asp_row_times asp_row_clock_advance(asp_row_clock* clock, uint32_t rows, uint64_
   const uint64_t step_ns = advance_ns / rows;
   return (asp_row_times){clock->last_ns - (rows - 1u) * step_ns, (uint32_t)step_ns};
 }
+
+asp_row_times asp_row_clock_coast(asp_row_clock* clock, uint32_t rows) {
+  const uint64_t step_ns = (uint64_t)clock->period_q8_ns / 256u;
+  clock->last_ns += rows * step_ns;
+  return (asp_row_times){clock->last_ns - (rows - 1u) * step_ns, (uint32_t)step_ns};
+}

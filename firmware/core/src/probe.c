@@ -1,19 +1,25 @@
 #include "asperity_firmware/probe.h"
 
+#include <string.h>
+
 #include "probe_internal.h"
 
-enum { kRowsARead = 16, kHostBytesAStep = 64, kFramesAStep = 8, kAskedPause_us = 100000 };
+enum { kHostBytesAStep = 64, kFramesAStep = 8, kAskedPause_us = 100000 };
 
 const asp_probe_config asp_default_config = {16, 10000, 1000000};
 
 _Static_assert((ASP_ROW_QUEUE & (ASP_ROW_QUEUE - 1u)) == 0, "the queue's counters wrap at 2^32");
 _Static_assert((ASP_FORCE_QUEUE & (ASP_FORCE_QUEUE - 1u)) == 0, "the queue's counters wrap at 2^32");
 _Static_assert(1u + ASP_FRAME_BYTES(2u + ASP_DESCRIPTION_MAX) <= ASP_LINE_BYTES, "a description fits the line");
-_Static_assert(sizeof(asp_probe) <= 16u * 1024u, "docs/build-a-probe.md states this");
+_Static_assert(sizeof(asp_probe) <= 12u * 1024u, "firmware/README.md states this");
 
 bool asp_probe_init(asp_probe* probe, const asp_board* board, const asp_description* description,
                     const asp_probe_config* config) {
-  *probe = (asp_probe){.board = board, .config = config != NULL ? *config : asp_default_config, .start = true};
+  // No compound literal: unoptimised, it would stand on the stack.
+  memset(probe, 0, sizeof *probe);
+  probe->board = board;
+  probe->config = config != NULL ? *config : asp_default_config;
+  probe->start = true;
   probe->has_gyro = description->has_gyro;
   probe->has_force3 = description->force_axes == 3;
   probe->description_size = (uint32_t)asp_write_description(description, probe->description, sizeof probe->description);
@@ -49,14 +55,14 @@ static void queue_row(asp_probe* probe, const asp_imu_row* row) {
 
 static bool take_rows(asp_probe* probe) {
   bool worked = false;
-  for (uint32_t reads = 0; reads < ASP_ROW_QUEUE / kRowsARead; ++reads) {
-    asp_imu_row rows[kRowsARead];
-    const size_t count = probe->board->read_imu(probe->board->context, rows, kRowsARead);
+  for (uint32_t reads = 0; reads < ASP_ROW_QUEUE / ASP_ROWS_A_READ; ++reads) {
+    asp_imu_row rows[ASP_ROWS_A_READ];
+    const size_t count = probe->board->read_imu(probe->board->context, rows, ASP_ROWS_A_READ);
     for (size_t i = 0; i < count; ++i) {
       queue_row(probe, &rows[i]);
     }
     worked = worked || count > 0;
-    if (count < kRowsARead) {
+    if (count < ASP_ROWS_A_READ) {
       break;
     }
   }

@@ -58,6 +58,24 @@ struct TagView {
         (Eigen::Vector2d(camera->fx * ray->x() + camera->cx, camera->fy * ray->y() + camera->cy) - centre_px) /
         half_px);
   }
+  // The same from a place close by, by Newton's steps until nothing is left; as exact, at a fraction of the time.
+  bool undistort_near(const Eigen::Vector2d& pixel, Eigen::Vector2d& q) const {
+    constexpr int kMostSteps = 4;
+    constexpr double kClose_px = 1e-7;
+    for (int i = 0; i < kMostSteps; ++i) {
+      const Projection here = seen(q);
+      const Eigen::Vector2d miss_px = pixel - here.pixel;
+      const auto& J = here.by_point;
+      const double determinant = J(0, 0) * J(1, 1) - J(0, 1) * J(1, 0);
+      if (!(determinant > 0.0)) return false;
+      q += Eigen::Vector2d(J(1, 1) * miss_px.x() - J(0, 1) * miss_px.y(),
+                           J(0, 0) * miss_px.y() - J(1, 0) * miss_px.x()) /
+           determinant;
+      // What a step leaves is of the square of what it took away.
+      if (miss_px.squaredNorm() < kClose_px) return true;
+    }
+    return false;
+  }
   // The pixel of a place, and how it moves with it.
   Projection seen(const Eigen::Vector2d& q) const {
     const Eigen::Vector2d ideal = centre_px + half_px * q;
@@ -100,21 +118,38 @@ std::vector<TagPixel> choose_pixels(const GrayImage& image, const TagView& view,
               static_cast<std::size_t>(std::max(0, bottom - top + 1)));
   // Edges as far off as the detector may have been still count as near.
   const double wide = 0.7 * std::max(middle.u_by_px.norm(), middle.v_by_px.norm());
+  // Half of a tag's pixels are near edges; where there are many, only every stride-th is looked at.
+  const double area_px2 = (high - low).prod();
+  const int stride = std::max(1, static_cast<int>(0.4 * area_px2 / most));
   for (int row = top; row <= bottom; ++row) {
-    for (int column = left; column <= right; ++column) {
-      const auto q = view.undistorted(Eigen::Vector2d(column, row));
-      if (!q) continue;
-      const TagImageModel::Place at = model.place(state, q->x(), q->y());
+    Eigen::Vector2d q = Eigen::Vector2d::Zero(), step = Eigen::Vector2d::Zero();
+    bool known = false;
+    // Each row begins elsewhere, so that no column is left out for good.
+    for (int column = left + (row * 5) % stride; column <= right; column += stride) {
+      const Eigen::Vector2d pixel(column, row), previous = q;
+      q += step;
+      if (!known || !view.undistort_near(pixel, q)) {
+        const auto start = view.undistorted(pixel);
+        known = false;
+        step.setZero();
+        if (!start) continue;
+        q = *start;
+      } else {
+        step = q - previous;
+      }
+      known = true;
+      const TagImageModel::Place at = model.place(state, q.x(), q.y());
       if (!(at.w > 0.0) || !(at.u > inset) || !(at.v > inset) || !(at.u < pattern.cells - inset) ||
           !(at.v < pattern.cells - inset)) {
         continue;
       }
-      const double su = std::hypot(at.sigma_u, wide), sv = std::hypot(at.sigma_v, wide);
+      const double su = std::sqrt(at.sigma_u * at.sigma_u + wide * wide);
+      const double sv = std::sqrt(at.sigma_v * at.sigma_v + wide * wide);
       const BlurredValue around = blurred_pattern(pattern, at.u, at.v, su, sv);
       constexpr double kFlat = 0.03;  // of the contrast, over one spread
       const bool flat = std::abs(around.by_u) * su < kFlat && std::abs(around.by_v) * sv < kFlat;
-      if (flat && ((row | column) & 1) != 0) continue;
-      out.push_back({q->x(), q->y(), static_cast<double>(image.at(column, row))});
+      if (flat && ((row / 2 + column / 2) & 3) != 0) continue;
+      out.push_back({q.x(), q.y(), static_cast<double>(image.at(column, row))});
     }
   }
   if (out.size() <= static_cast<std::size_t>(most)) return out;

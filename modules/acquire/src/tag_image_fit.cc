@@ -98,106 +98,150 @@ double TagImageModel::grey(const TagImageState& state, const TagPixel& pixel, Fi
   return s[0] + s[1] * at.x + s[2] * at.y + contrast * blurred.value;
 }
 
-TagImageFit fit_tag_image(const TagImageModel& model, const std::vector<TagPixel>& pixels, const TagImageState& start,
-                          const RefineCornersConfig& config) {
-  constexpr int kBlock = 64;
-  const std::size_t n = pixels.size();
-  TagImageFit out;
-  out.state = start;
-  Eigen::Matrix<double, kFitUnknowns, kBlock> block;
-  Eigen::Matrix<double, kFitUnknowns, Eigen::Dynamic> by_state(kFitUnknowns, static_cast<Eigen::Index>(n));
-  std::vector<double> residuals(n), weights(n), work, trial_residuals(n);
-  FitMatrix normal;
-  FitVector gradient;
-  double sum_weights = 0.0, cost = 0.0;
+namespace {
 
-  const auto linearise = [&] {
-    FitVector column;
-    for (std::size_t i = 0; i < n; ++i) {
-      residuals[i] = model.grey(out.state, pixels[i], column) - pixels[i].grey;
-      by_state.col(static_cast<Eigen::Index>(i)) = column;
+// The pixels' misfits at a state, and the normal equations under weights.
+class Linearised {
+ public:
+  explicit Linearised(std::size_t n) : residuals_(n), rows_(n) {}
+
+  void evaluate(const TagImageModel& model, const std::vector<TagPixel>& pixels, const TagImageState& state) {
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      residuals_[i] = model.grey(state, pixels[i], rows_[i]) - pixels[i].grey;
     }
-  };
-  const auto accumulate = [&](double limit) {
+  }
+
+  double cost(const std::vector<double>& weights) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < weights.size(); ++i) sum += weights[i] * residuals_[i] * residuals_[i];
+    return sum;
+  }
+
+  void accumulate(const std::vector<double>& weights, FitMatrix& normal, FitVector& gradient) const {
     normal.setZero();
     gradient.setZero();
-    sum_weights = cost = 0.0;
-    for (std::size_t begin = 0; begin < n; begin += kBlock) {
-      const std::size_t count = std::min<std::size_t>(kBlock, n - begin);
-      for (std::size_t k = 0; k < count; ++k) {
-        const std::size_t i = begin + k;
-        weights[i] = weight(residuals[i], limit);
-        sum_weights += weights[i];
-        cost += weights[i] * residuals[i] * residuals[i];
-        const auto column = by_state.col(static_cast<Eigen::Index>(i));
-        block.col(static_cast<Eigen::Index>(k)) = std::sqrt(weights[i]) * column;
-        gradient += weights[i] * residuals[i] * column;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      if (weights[i] == 0.0) continue;
+      const FitVector& row = rows_[i];
+      for (int k = 0; k < kFitUnknowns; ++k) {
+        const double scaled = weights[i] * row[k];
+        double* const column = normal.data() + k * kFitUnknowns;
+        for (int j = 0; j <= k; ++j) column[j] += scaled * row[j];
       }
-      const auto filled = block.leftCols(static_cast<Eigen::Index>(count));
-      normal.noalias() += filled * filled.transpose();
+      gradient += (weights[i] * residuals_[i]) * row;
     }
-  };
-
-  double damping = 1e-4;
-  double floor = 0.2 * std::abs(start.shading[3]);  // lowered step by step: at first nearly every edge is off
-  linearise();
-  for (out.iterations = 0; out.iterations < config.most_iterations && !out.converged; ++out.iterations) {
-    // Quantisation alone leaves 0.29 grey levels.
-    const double scale = std::max({robust_scale(residuals, work), floor, 0.29});
-    const bool settled = floor <= robust_scale(residuals, work) || floor < 0.29;
-    floor *= 0.4;
-    accumulate(6.0 * scale);
-    bool accepted = false;
-    FitVector step;
-    for (int attempt = 0; attempt < 6 && !accepted; ++attempt) {
-      FitMatrix damped = normal;
-      damped.diagonal() *= 1.0 + damping;
-      const Eigen::LLT<FitMatrix> factor(damped);
-      if (factor.info() != Eigen::Success) return out;
-      step = -factor.solve(gradient);
-      TagImageState next = out.state;
-      next.add(step);
-      double next_cost = 0.0;
-      for (std::size_t i = 0; i < n; ++i) {
-        trial_residuals[i] = model.grey(next, pixels[i]) - pixels[i].grey;
-        next_cost += weights[i] * trial_residuals[i] * trial_residuals[i];
-      }
-      if (next_cost <= cost) {
-        accepted = true;
-        out.state = next;
-        damping = std::max(damping * 0.1, 1e-9);
-      } else {
-        damping = std::max(damping, 1e-6) * 10.0;
-      }
-    }
-    if (!accepted) {
-      out.converged = settled;
-      if (settled) break;
-      continue;
-    }
-    linearise();
-    // Of the standard errors.
-    constexpr double kSmall = 0.03;
-    const double variance = std::max(cost / std::max(1.0, sum_weights - kFitUnknowns), 1e-12);
-    out.converged =
-        settled && step.head<8>().dot(normal.topLeftCorner<8, 8>() * step.head<8>()) < kSmall * kSmall * variance;
+    normal.triangularView<Eigen::StrictlyLower>() = normal.transpose();
   }
 
-  const double scale = std::max(robust_scale(residuals, work), 0.29);
-  accumulate(6.0 * scale);
-  if (!(sum_weights > 2.0 * kFitUnknowns)) {
-    out.converged = false;
-    return out;
+  const std::vector<double>& residuals() const { return residuals_; }
+
+ private:
+  std::vector<double> residuals_;
+  std::vector<FitVector> rows_;
+};
+
+// Quantisation alone leaves 0.29 grey levels.
+constexpr double kLeastScale = 0.29;
+
+// Levenberg–Marquardt from `out.state`, with weights by the residuals' scale but never below `floor`, which is lowered
+// step by step. Ends when a step is below `small` standard errors.
+class Descent {
+ public:
+  Descent(const TagImageModel& model, const std::vector<TagPixel>& pixels)
+      : model_(&model), pixels_(&pixels), here_(pixels.size()), there_(pixels.size()), weights_(pixels.size()) {}
+
+  bool run(TagImageFit& out, double floor, double small, int most_iterations) {
+    double damping = 1e-6;
+    here_.evaluate(*model_, *pixels_, out.state);
+    bool converged = false;
+    for (int i = 0; i < most_iterations && !converged; ++i, ++out.iterations) {
+      const double seen = std::max(robust_scale(here_.residuals(), work_), kLeastScale);
+      const bool settled = floor <= seen;
+      accumulate(6.0 * std::max(seen, floor));
+      floor *= 0.25;
+      bool accepted = false;
+      FitVector step;
+      for (int attempt = 0; attempt < 6 && !accepted; ++attempt) {
+        FitMatrix damped = normal_;
+        damped.diagonal() *= 1.0 + damping;
+        const Eigen::LLT<FitMatrix> factor(damped);
+        if (factor.info() != Eigen::Success) return false;
+        step = -factor.solve(gradient_);
+        TagImageState next = out.state;
+        next.add(step);
+        there_.evaluate(*model_, *pixels_, next);
+        if (there_.cost(weights_) <= cost_) {
+          accepted = true;
+          out.state = next;
+          std::swap(here_, there_);
+          damping = std::max(damping * 0.1, 1e-9);
+        } else {
+          damping = std::max(damping * 10.0, 1e-4);
+        }
+      }
+      if (!settled) continue;
+      const auto moved = step.head<8>();
+      const double moved2 = moved.dot(normal_.topLeftCorner<8, 8>() * moved);
+      // Without a direction that leads down this is the minimum, within rounding.
+      converged = !accepted || moved2 < small * small * variance();
+    }
+    return converged;
   }
-  const double variance = std::max(cost / (sum_weights - kFitUnknowns), 1.0 / 12.0);
-  out.residual = std::sqrt(variance);
-  const Eigen::LLT<FitMatrix> factor(normal);
-  if (factor.info() != Eigen::Success) {
-    out.converged = false;
-    return out;
+
+  // The covariance at the state where run() ended; false where it is not determined.
+  bool finish(TagImageFit& out) {
+    accumulate(6.0 * std::max(robust_scale(here_.residuals(), work_), kLeastScale));
+    const Eigen::LLT<FitMatrix> factor(normal_);
+    if (!(sum_weights_ > 2.0 * kFitUnknowns) || factor.info() != Eigen::Success) return false;
+    out.residual = std::sqrt(variance());
+    out.covariance = variance() * factor.solve(FitMatrix::Identity()).topLeftCorner<8, 8>();
+    return true;
   }
-  const FitMatrix inverse = factor.solve(FitMatrix::Identity());
-  out.covariance = variance * inverse.topLeftCorner<8, 8>();
+
+ private:
+  void accumulate(double limit) {
+    sum_weights_ = 0.0;
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+      sum_weights_ += weights_[i] = weight(here_.residuals()[i], limit);
+    }
+    cost_ = here_.cost(weights_);
+    here_.accumulate(weights_, normal_, gradient_);
+  }
+  double variance() const {
+    return std::max(cost_ / std::max(1.0, sum_weights_ - kFitUnknowns), kLeastScale * kLeastScale);
+  }
+
+  const TagImageModel* model_;
+  const std::vector<TagPixel>* pixels_;
+  Linearised here_, there_;
+  std::vector<double> weights_, work_;
+  FitMatrix normal_;
+  FitVector gradient_;
+  double sum_weights_ = 0.0, cost_ = 0.0;
+};
+
+}  // namespace
+
+TagImageFit fit_tag_image(const TagImageModel& model, const std::vector<TagPixel>& pixels, const TagImageState& start,
+                          const RefineCornersConfig& config) {
+  TagImageFit out;
+  out.state = start;
+  // At first nearly every edge is off, by up to the whole contrast.
+  double floor = 0.2 * std::abs(start.shading[3]);
+  // The way there is found with few pixels; all of them then take one or two more steps.
+  constexpr std::size_t kFew = 500;
+  const std::size_t stride = pixels.size() / kFew;
+  if (stride > 1) {
+    std::vector<TagPixel> few;
+    few.reserve(pixels.size() / stride + 1);
+    for (std::size_t i = 0; i < pixels.size(); i += stride) few.push_back(pixels[i]);
+    Descent coarse(model, few);
+    if (!coarse.run(out, floor, 0.2, config.most_iterations)) return out;
+    floor = 0.0;
+  }
+  Descent fine(model, pixels);
+  // A step of a standard error leaves far less than one: the model is nearly linear there.
+  out.converged = fine.run(out, floor, 1.0, config.most_iterations) && fine.finish(out);
   return out;
 }
 

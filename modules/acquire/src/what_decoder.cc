@@ -16,8 +16,10 @@ constexpr double kFirstRateError = 0.15;
 constexpr double kRateError = 0.02;
 constexpr std::size_t kLearn_frames = 128;
 constexpr std::int64_t kStretch_frames = 20;
-constexpr double kLate_periods = 0.6;
+constexpr double kLate_periods = 0.7;
+constexpr double kEarly_periods = 0.6;
 constexpr std::int64_t kHold_ns = 20'000'000;
+constexpr int kHold_reads = 8;
 constexpr std::size_t kMostHeld = 512;
 constexpr std::int64_t kSilence_ns = 2'000'000'000;
 constexpr double kLeastSpacing = 0.4;  // of a period
@@ -126,36 +128,40 @@ double WhatDecoder::late_periods(const Timed& timed) const {
 }
 
 void WhatDecoder::decide(const Timed& timed, std::vector<ProbeSample>& out) {
-  held_.push_back(timed);
   if (!timed.newest) {
+    held_.push_back(timed);
     if (held_.size() > kMostHeld) release(out);
     return;
   }
   const double late = late_periods(timed);
-  if (std::abs(late) <= kLate_periods) {
-    least_late_ = 0.0;
-    held_since_ns_ = 0;
+  if (held_late_ > 0 && late > last_late_ + kLate_periods)
+    release(out);  // lost in between: those before were merely late
+  held_.push_back(timed);
+  if (late < -kEarly_periods) {
+    put_forward(std::min<std::int64_t>(-1, std::llround(std::max(late, -1e6))));
     release(out);
     return;
   }
-  if (late < 0.0) {
-    const auto ahead = static_cast<std::int64_t>(std::llround(std::max(late, -1e6)));
-    for (Timed& held : held_) held.number += ahead;
-    last_number_ += ahead;
+  if (late <= kLate_periods) {
     release(out);
     return;
   }
-  if (least_late_ == 0.0) {
+  if (held_late_++ == 0) {
     least_late_ = late;
     held_since_ns_ = timed.raw_ns;
   }
+  last_late_ = late;
   least_late_ = std::min(least_late_, late);
-  if (timed.raw_ns - held_since_ns_ < kHold_ns && held_.size() <= kMostHeld) return;
-  const std::int64_t lost = std::llround(least_late_);
-  for (Timed& held : held_) held.number += lost;
-  last_number_ += lost;
-  least_late_ = 0.0;
+  const bool decided = held_late_ >= kHold_reads && timed.raw_ns - held_since_ns_ >= kHold_ns;
+  if (!decided && held_.size() <= kMostHeld) return;
+  // Even the least late frame may have been a little late itself: the number is rather too low than too high.
+  put_forward(std::max<std::int64_t>(1, static_cast<std::int64_t>(std::floor(least_late_ + 1.0 - kLate_periods))));
   release(out);
+}
+
+void WhatDecoder::put_forward(std::int64_t frames) {
+  for (Timed& held : held_) held.number += frames;
+  last_number_ += frames;
 }
 
 void WhatDecoder::release(std::vector<ProbeSample>& out) {
@@ -168,6 +174,7 @@ void WhatDecoder::release(std::vector<ProbeSample>& out) {
     count_lost(timed.number);
   }
   held_.clear();
+  held_late_ = 0;
 }
 
 void WhatDecoder::count_lost(std::int64_t number) {

@@ -50,6 +50,7 @@ class WhatDecoder : public ProbeDecoder {
   void learn(const Timed& timed);
   void settle_pace();
   void decide(const Timed& timed, std::vector<ProbeSample>& out);
+  void put_forward(std::int64_t frames);
   void release(std::vector<ProbeSample>& out);
   void count_lost(std::int64_t number);
   double late_periods(const Timed& timed) const;
@@ -74,7 +75,9 @@ class WhatDecoder : public ProbeDecoder {
 
   std::vector<Timed> held_;
   std::int64_t held_since_ns_ = 0;
-  double least_late_ = 0.0;  // periods, of the newest ones among held_
+  int held_late_ = 0;        // newest ones among held_
+  double least_late_ = 0.0;  // of these, in periods
+  double last_late_ = 0.0;
 };
 
 }  // namespace asperity

@@ -14,6 +14,7 @@ constexpr double kLead = 6.0;
 constexpr double kForget = 1.0 / 32.0;
 constexpr double kLeastRate = 0.02;
 constexpr double kMostRate = 0.9;
+constexpr double kOftenFull = 0.5;
 
 }  // namespace
 
@@ -34,6 +35,14 @@ bool WhatFramer::step(std::vector<WhatFrame>& out) {
   const std::size_t there = bytes_.size() - cursor_;
   if (there <= kFrame_bytes) return false;
   if (starts(1)) {
+    if (looks_odd()) {
+      if (there <= kWindow_bytes) return false;
+      const auto score = scores();
+      if (*std::max_element(score.begin(), score.end()) > score[0] + kLead) {
+        in_step_ = false;
+        return true;
+      }
+    }
     take(out);
     return true;
   }
@@ -62,8 +71,16 @@ void WhatFramer::take(std::vector<WhatFrame>& out) {
   out.push_back(frame);
 }
 
-bool WhatFramer::find_phase() {
-  if (bytes_.size() - cursor_ <= kWindow_bytes) return false;
+// True if a place that has mostly been FFh of late is not: a slip may have brought it under the start byte.
+bool WhatFramer::looks_odd() const {
+  for (std::size_t place = 1; place < kFrame_bytes; ++place) {
+    if (start_rate_[place] > kOftenFull && bytes_[cursor_ + place] != kStartByte) return true;
+  }
+  return false;
+}
+
+// The likelihoods of the phases over the window at the cursor.
+std::array<double, 5> WhatFramer::scores() const {
   std::array<double, kFrame_bytes> if_start{};
   std::array<double, kFrame_bytes> if_not{};
   for (std::size_t place = 0; place < kFrame_bytes; ++place) {
@@ -82,25 +99,28 @@ bool WhatFramer::find_phase() {
       score[phase] += hits * if_start[place] + (static_cast<int>(kWindow_bytes / kFrame_bytes) - hits) * if_not[place];
     }
   }
+  return score;
+}
+
+bool WhatFramer::find_phase() {
+  if (bytes_.size() - cursor_ <= kWindow_bytes) return false;
+  const auto score = scores();
   const auto best = static_cast<std::size_t>(std::max_element(score.begin(), score.end()) - score.begin());
   bool leads = true;
   for (std::size_t phase = 0; phase < kFrame_bytes; ++phase) {
     leads = leads && (phase == best || score[best] - score[phase] >= kLead);
   }
-  std::size_t at = best;
-  while (leads && at + kFrame_bytes < kWindow_bytes) {
-    if (bytes_[cursor_ + at] == kStartByte && bytes_[cursor_ + at + kFrame_bytes] == kStartByte) {
-      cursor_ += at;
-      in_step_ = true;
-      if (was_in_step_) {
-        ++resyncs_;
-      } else {
-        was_in_step_ = true;
-        taken_ = base_ + cursor_;
-      }
-      return true;
+  for (std::size_t at = best; leads && at + kFrame_bytes < kWindow_bytes; at += kFrame_bytes) {
+    if (bytes_[cursor_ + at] != kStartByte || bytes_[cursor_ + at + kFrame_bytes] != kStartByte) continue;
+    cursor_ += at;
+    in_step_ = true;
+    if (was_in_step_) {
+      ++resyncs_;
+    } else {
+      was_in_step_ = true;
+      taken_ = base_ + cursor_;
     }
-    at += kFrame_bytes;
+    return true;
   }
   ++cursor_;
   return true;

@@ -41,6 +41,8 @@ class WhatFramer {
 
  private:
   bool step(std::vector<WhatFrame>& out);
+  bool looks_odd() const;
+  std::array<double, 5> scores() const;
   bool find_phase();
   void take(std::vector<WhatFrame>& out);
 

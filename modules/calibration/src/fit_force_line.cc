@@ -109,7 +109,8 @@ std::vector<std::size_t> find_saturated(const ForcePoints& points, double share)
       least_N = std::min(least_N, points.force_N[i]);
       most_N = std::max(most_N, points.force_N[i]);
     }
-    if (there.size() > 1 && most_N - least_N > share * (*most - *least)) out.insert(out.end(), there.begin(), there.end());
+    if (there.size() > 1 && most_N - least_N > share * (*most - *least))
+      out.insert(out.end(), there.begin(), there.end());
   }
   return out;
 }
@@ -133,19 +134,22 @@ CalibrationVerdict judge(const ForceLineFit& fit, double span_N, const FitForceL
                      100.0 * half));
   }
   if (!fit.saturated.empty()) {
-    fail(fmt::format("Points {} share one end of the counts at different forces: the sensor is saturated there; leave "
-                     "them out.",
-                     places(fit.saturated)));
+    fail(
+        fmt::format("Points {} share one end of the counts at different forces: the sensor is saturated there; leave "
+                    "them out.",
+                    places(fit.saturated)));
   }
   if (fit.bend_probability < config.significance && fit.bend_newton > config.linearity_share * span_N) {
-    fail(fmt::format("The sensor is not straight: a parabola leaves the line by {:.2g} N, {:.1f} % of the range "
-                     "(probability {:.1g} by chance).",
-                     fit.bend_newton, 100.0 * fit.bend_newton / span_N, fit.bend_probability));
+    fail(
+        fmt::format("The sensor is not straight: a parabola leaves the line by {:.2g} N, {:.1f} % of the range "
+                    "(probability {:.1g} by chance).",
+                    fit.bend_newton, 100.0 * fit.bend_newton / span_N, fit.bend_probability));
   }
   if (out.trustworthy) {
-    out.text = fmt::format("A straight line fits to {:.2g} N with {} degrees of freedom; the slope is known to ±{:.1f} % "
-                           "(95 %).",
-                           fit.force.residual_newton, fit.degrees_of_freedom, 100.0 * half);
+    out.text = fmt::format(
+        "A straight line fits to {:.2g} N with {} degrees of freedom; the slope is known to ±{:.1f} % "
+        "(95 %).",
+        fit.force.residual_newton, fit.degrees_of_freedom, 100.0 * half);
   }
   if (!fit.outliers.empty()) {
     out.text += fmt::format(" Point {} contradicts the others: look at it again.", places(fit.outliers));

@@ -4,11 +4,13 @@
 #include <unistd.h>
 #include <cerrno>
 #include <cstring>
+#include <string_view>
 
 #include "asperity/base/error.h"
 #include "asperity/recording/format.h"
 #include "asperity/recording/write_recording.h"
 #include "csv_line.h"
+#include "keep_rows.h"
 
 namespace asperity {
 
@@ -20,6 +22,16 @@ constexpr std::size_t kBatch_bytes = 64 * 1024;
 
 [[noreturn]] void fail(const fs::path& path) {
   throw Error(path.string() + ": cannot be written: " + std::strerror(errno));
+}
+
+bool write_whole(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::write(file, text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
 }
 
 }  // namespace
@@ -45,6 +57,7 @@ void RecordingAppender::Stream::write() {
       fail(path);
     }
     done += static_cast<std::size_t>(count);
+    bytes += static_cast<std::uint64_t>(count);
   }
   waiting.clear();
 }
@@ -66,7 +79,7 @@ RecordingAppender::RecordingAppender(fs::path folder, const RecordingInfo& info,
   write_calibration(folder_ / "calibration.json", calibration);
   try {
     probe_.open_new(folder_ / "probe.csv", probe_header(columns.gyro, columns.force3));
-    tracker_.open_new(folder_ / "tracker.csv", tracker_header(columns.markers, columns.reprojection));
+    tracker_.open_new(folder_ / "tracker.csv", tracker_header(columns.markers, columns.reprojection, columns.sigmas));
   } catch (...) {
     probe_.close();
     tracker_.close();
@@ -102,6 +115,10 @@ void RecordingAppender::add(const TrackerSample& sample) {
   append_cells(out, sample.T_world_marker.rotation);
   if (columns_.markers) append_cell(out, static_cast<double>(sample.markers));
   if (columns_.reprojection) append_cell(out, sample.reprojection_px);
+  if (columns_.sigmas) {
+    append_cells(out, sample.sigma_position_m);
+    append_cells(out, sample.sigma_rotation_rad);
+  }
   out += '\n';
   if (out.size() >= kBatch_bytes) tracker_.write();
 }
@@ -114,11 +131,26 @@ void RecordingAppender::flush(bool to_disk) {
   }
 }
 
-void RecordingAppender::finish(const RecordingInfo& info) {
+void RecordingAppender::update(const RecordingInfo& info) {
+  const std::string text = format_recording_info(info);
+  const fs::path temporary = folder_ / ".recording.json.new";
+  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) fail(temporary);
+  const bool written = write_whole(file, text);
+  const int reason = errno;
+  ::close(file);
+  errno = reason;
+  if (!written || ::rename(temporary.c_str(), (folder_ / "recording.json").c_str()) != 0) fail(temporary);
+}
+
+void RecordingAppender::finish(const RecordingInfo& info, bool only_segments) {
   flush(true);
   probe_.close();
   tracker_.close();
+  // First the list: whoever dies in between leaves rows that no segment claims, not segments without rows.
   write_recording_info(folder_ / "recording.json", info);
+  if (!only_segments) return;
+  for (const Stream* stream : {&probe_, &tracker_}) keep_rows(stream->path, info.segments);
 }
 
 }  // namespace asperity

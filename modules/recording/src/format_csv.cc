@@ -10,10 +10,11 @@ std::string probe_header(bool has_gyro, bool has_force3) {
   return out + "\n";
 }
 
-std::string tracker_header(bool has_markers, bool has_reprojection) {
+std::string tracker_header(bool has_markers, bool has_reprojection, bool has_sigmas) {
   std::string out = "t_ns,px_m,py_m,pz_m,qw,qx,qy,qz";
   if (has_markers) out += ",markers";
   if (has_reprojection) out += ",reprojection_px";
+  if (has_sigmas) out += ",sigma_px_m,sigma_py_m,sigma_pz_m,sigma_rx_rad,sigma_ry_rad,sigma_rz_rad";
   return out + "\n";
 }
 

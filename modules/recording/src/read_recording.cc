@@ -8,6 +8,7 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/recording/parse.h"
+#include "unfinished.h"
 
 namespace asperity {
 
@@ -39,6 +40,7 @@ Recording read_recording(const fs::path& folder, const ReadLimits& limits) {
   out.tracker = parse_tracker_csv(read_file(tracker, limits.csv_bytes), tracker.string(), out.problems, limits);
   const fs::path truth = folder / "truth.csv";
   if (fs::exists(truth, error)) out.truth = read_truth(truth, out.problems, limits);
+  close_unfinished(out);
   return out;
 }
 
@@ -53,8 +55,8 @@ bool is_recording_folder(const fs::path& folder) noexcept {
 }
 
 bool is_replaceable_recording(const fs::path& folder) noexcept {
-  constexpr std::array<std::string_view, 6> kOurs{"recording.json",   "probe.csv", "tracker.csv",
-                                                  "calibration.json", "truth.csv", "frames"};
+  constexpr std::array<std::string_view, 8> kOurs{"recording.json",   "probe.csv",   "tracker.csv",  "truth.csv",
+                                                  "calibration.json", "camera.json", "markers.json", "frames"};
   try {
     constexpr std::uint64_t kLargest_bytes = std::uint64_t{64} << 20;
     const auto root = nlohmann::json::parse(read_file(folder / "recording.json", kLargest_bytes), nullptr, false);

@@ -127,7 +127,7 @@ std::vector<PlacedFigure> print_tags(const std::vector<MarkerPlacement>& tags) {
 PrintedFigure print_board(const SimulatedBoard& board) {
   constexpr int kMostSquares = 60;
   constexpr int kTags = 587;
-  const bool charuco = board.kind == BoardKind::kCharuco;
+  const bool charuco = board.charuco;
   const int columns = board.columns + (charuco ? 0 : 1);
   const int rows = board.rows + (charuco ? 0 : 1);
   if (columns < 2 || rows < 2 || columns > kMostSquares || rows > kMostSquares)

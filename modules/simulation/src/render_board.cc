@@ -6,7 +6,7 @@
 namespace asperity {
 
 std::vector<Eigen::Vector3d> board_corners_m(const SimulatedBoard& board) {
-  const bool charuco = board.kind == BoardKind::kCharuco;
+  const bool charuco = board.charuco;
   const int first = charuco ? 1 : 0;
   const int columns = board.columns - first;
   const int rows = board.rows - first;
@@ -19,7 +19,7 @@ std::vector<Eigen::Vector3d> board_corners_m(const SimulatedBoard& board) {
 }
 
 Eigen::Vector3d board_centre_m(const SimulatedBoard& board) {
-  const double less = board.kind == BoardKind::kCharuco ? 0.0 : 1.0;
+  const double less = board.charuco ? 0.0 : 1.0;
   return 0.5 * board.square_m * Eigen::Vector3d(board.columns - less, board.rows - less, 0.0);
 }
 

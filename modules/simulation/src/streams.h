@@ -30,6 +30,7 @@ enum class Stream : std::uint64_t {
   kCalibrationMotion,
   kLink,
   kBoards,
+  kFrameTimes,
   kCameraNoise,
 };
 

@@ -25,9 +25,9 @@ Eigen::Vector3d ray(const Pose& T_world_marker) { return T_world_marker.translat
 
 }  // namespace
 
-TrackerNoise tracker_noise(const SimulatedTrackerConfig& config, const Pose& T_world_marker) {
+SimulatedTrackerNoise simulated_tracker_noise(const SimulatedTrackerConfig& config, const Pose& T_world_marker) {
   constexpr double kLeastCosine = 0.2;  // a marker seen at 80 degrees is lost before its noise grows further
-  TrackerNoise noise;
+  SimulatedTrackerNoise noise;
   const Eigen::Vector3d along = ray(T_world_marker);
   const Eigen::Vector3d sideways = Eigen::Vector3d::UnitY().cross(along);
   const Eigen::Vector3d right = sideways.norm() > 1e-6 ? sideways.normalized() : Eigen::Vector3d::UnitX();
@@ -77,7 +77,7 @@ void TrackerSampler::push(const MotionState& state) {
 
 void TrackerSampler::take(const Pose& T_world_marker, double t_s) {
   ++frames_;
-  const TrackerNoise noise = tracker_noise(config_, T_world_marker);
+  const SimulatedTrackerNoise noise = simulated_tracker_noise(config_, T_world_marker);
   const Eigen::Vector3d position_m = noise.world_from_ray * noise.position_m.cwiseProduct(normal3(noise_));
   const Eigen::Vector3d rotation_rad = noise.world_from_ray * noise.rotation_rad.cwiseProduct(normal3(noise_));
   const double flip_shift_m = config_.flip_depth_m * noise_.normal();

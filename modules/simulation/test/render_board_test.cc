@@ -49,7 +49,7 @@ TEST(RenderBoard, OpenCVFindsTheCharucoBoardWhereItIs) {
   const SimulatedCameraConfig config;
   const CameraCalibration camera = camera_truth(config);
   SimulatedBoard board;
-  board.kind = BoardKind::kCharuco;
+  board.charuco = true;
   board.columns = 8;
   board.rows = 6;
   board.square_m = 0.03;
@@ -92,7 +92,7 @@ TEST(RenderBoard, RefusesWhatItCannotDraw) {
   board.columns = 100;
   EXPECT_THROW(BoardRenderer(SimulatedCameraConfig{}, board), Error);
   board = {};
-  board.kind = BoardKind::kCharuco;
+  board.charuco = true;
   board.marker_m = board.square_m;
   EXPECT_THROW(BoardRenderer(SimulatedCameraConfig{}, board), Error);
 }

@@ -57,8 +57,10 @@ TEST(TrackerSampler, NoiseGrowsWithTheViewingAngle) {
   const SimulatedTrackerConfig config;
   const Pose facing{Eigen::Quaterniond::Identity(), {0.0, 0.0, 0.28}};
   const Pose turned{exp_rotation({0.0, std::acos(0.5), 0.0}), {0.0, 0.0, 0.28}};
-  EXPECT_NEAR((tracker_noise(config, turned).position_m - 2.0 * tracker_noise(config, facing).position_m).norm(), 0.0,
-              1e-12);
+  EXPECT_NEAR(
+      (simulated_tracker_noise(config, turned).position_m - 2.0 * simulated_tracker_noise(config, facing).position_m)
+          .norm(),
+      0.0, 1e-12);
 }
 
 TEST(TrackerSampler, StampsCarryTheLatency) {

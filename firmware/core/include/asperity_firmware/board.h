@@ -22,6 +22,9 @@ typedef struct {
   int32_t counts[3];  // one axis: the first; three: the third is along the probe's axis
 } asp_force_sample;
 
+// Rows for which the core asks at a time.
+#define ASP_ROWS_A_READ 16u
+
 // What the core needs of the hardware. No function may wait. All are called from asp_probe_step() only.
 typedef struct {
   void* context;  // handed to each

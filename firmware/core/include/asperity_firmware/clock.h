@@ -36,6 +36,9 @@ typedef struct {
 // rows. An edge that is off the line by more than a quarter of what it has to predict begins a new line.
 asp_row_times asp_row_clock_advance(asp_row_clock* clock, uint32_t rows, uint64_t edge_us);
 
+// The same where no interrupt was seen: the rows go on along the line, which must have begun (count > 0).
+asp_row_times asp_row_clock_coast(asp_row_clock* clock, uint32_t rows);
+
 // Forgets where the line was, but not its slope: rows were lost, how many is not known. The next advance begins anew.
 void asp_row_clock_restart(asp_row_clock* clock);
 

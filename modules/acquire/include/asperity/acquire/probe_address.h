@@ -22,7 +22,7 @@ struct ProbeAddress {
   std::string address = "0.0.0.0";  // udp: of this host, to bind
   std::uint16_t port = 0;           // udp
   int baud = 0;                     // serial, usb; 0: the protocol's
-  double bytes_per_s = 0.0;         // file; 0: as its arrivals say, or at the protocol's rate
+  double bytes_per_s = 0.0;         // file; 0: as its arrivals say
 };
 
 // Reads "serial:PATH[@BAUD]", "usb:VID:PID[:SERIAL][@BAUD]" (hexadecimal), "udp:[ADDRESS:]PORT" or

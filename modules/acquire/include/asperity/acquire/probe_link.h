@@ -31,14 +31,13 @@ class ProbeLink {
   std::string name() const { return source_->name(); }
 
  private:
-  void ask(std::int64_t now_ns);
+  void ask();
 
   std::unique_ptr<ByteSource> source_;
   ProbeProtocol protocol_;
   std::unique_ptr<ProbeDecoder> decoder_;
   std::vector<std::uint8_t> buffer_;
   std::int64_t next_request_ns_ = 0;
-  bool waits_for_description_ = false;
 };
 
 }  // namespace asperity

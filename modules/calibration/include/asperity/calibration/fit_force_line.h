@@ -40,12 +40,12 @@ struct ForceLineFit {
   ForceCalibration force;  // newton_per_count, offset_newton, residual_newton
   double newton_per_count_stderr = 0.0;
   double offset_newton_stderr = 0.0;
-  double correlation = 0.0;        // of the two errors
+  double correlation = 0.0;  // of the two errors
   std::size_t points = 0;
-  int degrees_of_freedom = 0;      // points − 2
-  double bend_newton = 0.0;        // greatest distance of the best parabola from the line, within the counts' range
-  double bend_probability = 1.0;   // that a straight sensor shows such a bend; 1 below 4 points or 3 counts
-  double counts_error_newton = 0.0;  // what rounding to whole counts adds to a residual, newton_per_count/√12
+  int degrees_of_freedom = 0;          // points − 2
+  double bend_newton = 0.0;            // greatest distance of the best parabola from the line, within the counts' range
+  double bend_probability = 1.0;       // that a straight sensor shows such a bend; 1 below 4 points or 3 counts
+  double counts_error_newton = 0.0;    // what rounding to whole counts adds to a residual, newton_per_count/√12
   std::vector<std::size_t> outliers;   // places of points that the others contradict
   std::vector<std::size_t> saturated;  // places of points at the end of the counts that the force does not move
   CalibrationVerdict verdict;

@@ -15,6 +15,7 @@ struct AppendColumns {
   bool force3 = false;
   bool markers = false;
   bool reprojection = false;
+  bool sigmas = false;  // of each pose
 };
 
 struct ProbeSample {
@@ -30,6 +31,9 @@ struct TrackerSample {
   Pose T_world_marker;
   int markers = 0;
   double reprojection_px = std::numeric_limits<double>::quiet_NaN();
+  // Standard deviations of translation and of the rotation vector, both along the world's axes; nan: unknown.
+  Eigen::Vector3d sigma_position_m = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::Vector3d sigma_rotation_rad = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 
 // Writes a recording while it is made, so that a process or a machine that dies leaves a folder that
@@ -52,15 +56,25 @@ class RecordingAppender {
   // with `to_disk`, waits until a power cut cannot either. Throws Error if the disk is full.
   void flush(bool to_disk = false);
 
+  // Replaces recording.json by `info` while the recording goes on: by rename, so that a process that dies leaves
+  // the old or the new one, but without waiting for the disk. Throws Error.
+  void update(const RecordingInfo& info);
+
   // Flushes to disk, closes the streams and replaces recording.json by `info` with its final segments
-  // and problems. Throws Error if a stream cannot be written; the rows so far remain readable.
-  void finish(const RecordingInfo& info);
+  // and problems. With `only_segments` the rows that lie in none of info.segments are taken out of both streams
+  // afterwards, each stream replaced by rename. Throws Error if a stream cannot be written; the rows so far
+  // remain readable.
+  void finish(const RecordingInfo& info, bool only_segments = false);
+
+  // Handed to the operating system so far, of both streams; the lines in memory are not counted.
+  std::uint64_t bytes() const { return probe_.bytes + tracker_.bytes; }
 
  private:
   struct Stream {
     std::filesystem::path path;
     int file = -1;
     std::string waiting;
+    std::uint64_t bytes = 0;  // written
     void open_new(const std::filesystem::path& new_path, std::string header);
     void write();
     void close() noexcept;

@@ -18,7 +18,7 @@ std::string format_markers(const std::vector<MarkerPlacement>& markers);
 
 // The header line of probe.csv for the sensors there are, and of tracker.csv; with their newline.
 std::string probe_header(bool has_gyro, bool has_force3);
-std::string tracker_header(bool has_markers, bool has_reprojection);
+std::string tracker_header(bool has_markers, bool has_reprojection, bool has_sigmas = false);
 
 // Appends rows `first` to `last` (exclusive) as lines; a sample that is nan gives an empty cell.
 void append_probe_rows(std::string& out, const ProbeStream& probe, std::size_t first, std::size_t last);

@@ -13,13 +13,11 @@
 
 namespace asperity {
 
-enum class BoardKind { kCheckerboard, kCharuco };
-
 // A flat board for the camera's calibration, with a white margin of one square. `columns` × `rows` counts the inner
 // corners of a checkerboard (OpenCV's pattern size; its first square is black) and the squares of a ChArUco board,
 // whose white squares hold tag36h11 markers in OpenCV's order, turned as OpenCV's DICT_APRILTAG_36h11 turns them.
 struct SimulatedBoard {
-  BoardKind kind = BoardKind::kCheckerboard;
+  bool charuco = false;
   int columns = 9;
   int rows = 6;
   double square_m = 0.025;

@@ -11,12 +11,12 @@ namespace asperity {
 
 // Standard deviations of a tracked pose along the ray's own axes: right, down, along the ray. Across the
 // ray they grow with the distance, along it with its square; all with the marker's foreshortening.
-struct TrackerNoise {
+struct SimulatedTrackerNoise {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();
   Eigen::Matrix3d world_from_ray = Eigen::Matrix3d::Identity();  // its columns are the ray's axes
 };
-TrackerNoise tracker_noise(const SimulatedTrackerConfig& config, const Pose& T_world_marker);
+SimulatedTrackerNoise simulated_tracker_noise(const SimulatedTrackerConfig& config, const Pose& T_world_marker);
 
 // The other pose of a flat marker with nearly the same image: its relief mirrored in depth about the
 // plane across the viewing ray (Schweighofer and Pinz, 2006, in weak perspective).

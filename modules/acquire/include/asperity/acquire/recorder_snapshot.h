@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "asperity/acquire/gravity_estimator.h"
+#include "asperity/acquire/link_statistics.h"
+#include "asperity/acquire/pose_source.h"
+#include "asperity/acquire/probe_description.h"
+#include "asperity/recording/append.h"
+
+namespace asperity {
+
+enum class SensorState {
+  kAbsent,   // not asked for
+  kRunning,  // data come
+  kSilent,   // open, but nothing has come yet
+  kLost,     // gone; opened again and again
+  kEnded     // came to its end; not to be opened again
+};
+
+struct SensorSnapshot {
+  SensorState state = SensorState::kAbsent;
+  std::string name;
+  std::vector<std::string> warnings;  // of how it is set up, as the sensor says them
+  std::string message;         // why it is lost or has ended, as the system says it: escape it where it is printed
+  std::uint64_t lost = 0;      // times
+  std::uint64_t returned = 0;  // times
+  double rate_Hz = 0.0;        // rows in the last second
+  std::uint64_t received = 0;  // rows
+  double queue_fill = 0.0;     // share
+  double highest_queue_fill = 0.0;
+  std::uint64_t overflowed = 0;  // rows dropped because the queue was full
+};
+
+// How a recording under way stands, all of one moment.
+struct RecorderSnapshot {
+  double running_s = 0.0;
+  SensorSnapshot probe;
+  SensorSnapshot poses;
+  LinkStatistics link;          // over all times that the probe was opened
+  TrackingStatistics tracking;  // likewise
+  std::optional<ProbeDescription> description;
+
+  double force_N = std::numeric_limits<double>::quiet_NaN();  // newest; counts if not calibrated
+  bool force_is_calibrated = false;
+  bool touching = false;
+  bool contact_ready = false;  // false: the idle level is still being taken
+  std::uint64_t touches = 0;
+  std::optional<TrackerSample> pose;  // newest
+  double pose_age_s = std::numeric_limits<double>::quiet_NaN();
+
+  bool storing = false;
+  std::string segment;  // the open one, or the last
+  std::size_t segments = 0;
+  std::size_t discarded = 0;
+  double recorded_s = 0.0;
+  std::uint64_t probe_rows = 0;  // written
+  std::uint64_t tracker_rows = 0;
+  std::uint64_t disk_bytes = 0;
+  double highest_write_s = 0.0;  // longest time that the disk took for one batch
+
+  GravityEstimate gravity;
+  std::string failure;  // why nothing can be stored any more; empty: nothing is wrong
+};
+
+}  // namespace asperity

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "asperity/recording/append.h"
+
+namespace asperity {
+
+// Decides which rows of the two streams go to disk: those within segments. Rows that no segment has claimed yet wait in
+// two rings for a segment that begins in the past. Works on the rows' own times; no clock, no thread.
+class SegmentWriter {
+ public:
+  // `keep_ns`: how far back a segment may begin. The appender must live longer.
+  SegmentWriter(RecordingAppender& appender, std::int64_t keep_ns);
+
+  // Rows of a stream in order of time; one that does not rise is dropped and counted. The rings hold a second more
+  // than `keep_ns`, for the stream that comes late.
+  void add(const ProbeSample& sample);
+  void add(const TrackerSample& sample);
+
+  // Begins a segment `pre_roll_ns` before `t_ns`, earlier rows from the rings included; not before the first row, nor
+  // before the end of what was discarded. kFromFirstRow: where the first row will be. False if one is open, or there
+  // are too many.
+  bool start(std::string name, std::int64_t t_ns, std::int64_t pre_roll_ns);
+  // The open segment ends at `t_ns`, which may lie ahead; reopen() takes that back while it does.
+  void end_at(std::int64_t t_ns);
+  bool reopen();
+  // Closes the open segment if rows have come to its end; the other stream's that come later are taken still. True if
+  // it did.
+  bool settle();
+  // Closes it at `t_ns`, or where it was to end before.
+  void close(std::int64_t t_ns);
+  // Takes the open segment out of the list, or else the last one, and gives its name; nullopt if there is none.
+  // Its rows stay in the files until RecordingAppender::finish.
+  std::optional<std::string> discard(std::int64_t t_ns);
+
+  bool is_open() const { return open_; }
+  bool is_ending() const { return open_ && segments_.back().end_ns != kNoEnd; }
+  // The open one, too, which then ends at the latest row; without one it is not yet there.
+  std::vector<Segment> segments() const;
+  std::size_t count() const { return segments_.size(); }
+  std::string last_name() const { return segments_.empty() ? "" : segments_.back().name; }
+  std::size_t discarded() const { return discarded_; }
+  std::uint64_t probe_rows() const { return probe_.written; }
+  std::uint64_t tracker_rows() const { return tracker_.written; }
+  std::uint64_t late_rows() const { return probe_.late + tracker_.late; }
+  // Seconds within segments so far.
+  double recorded_s() const;
+  // The latest time that a row of either stream has had.
+  std::int64_t latest_ns() const { return latest_ns_; }
+
+  static constexpr std::int64_t kFromFirstRow = std::numeric_limits<std::int64_t>::min() / 4;
+  static constexpr std::int64_t kNoEnd = std::numeric_limits<std::int64_t>::max();
+  static constexpr std::size_t kMostSegments = 10'000;
+
+ private:
+  static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min();
+
+  template <class Sample>
+  struct Stream {
+    std::deque<Sample> ring;
+    std::int64_t last_ns = kNever;
+    std::uint64_t written = 0;
+    std::uint64_t late = 0;
+  };
+
+  template <class Sample>
+  void take(Stream<Sample>& stream, const Sample& sample);
+  template <class Sample>
+  void write(Stream<Sample>& stream, const Sample& sample);
+  template <class Sample>
+  void claim(Stream<Sample>& stream, std::int64_t start_ns);
+  bool is_claimed(std::int64_t t_ns) const;
+
+  RecordingAppender& appender_;
+  std::int64_t keep_ns_;
+  Stream<ProbeSample> probe_;
+  Stream<TrackerSample> tracker_;
+  std::vector<Segment> segments_;
+  bool open_ = false;  // the last one
+  std::size_t discarded_ = 0;
+  std::int64_t discarded_until_ns_ = kNever;
+  std::int64_t first_ns_ = kNoEnd;
+  std::int64_t latest_ns_ = kNever;
+};
+
+}  // namespace asperity

@@ -1,0 +1,91 @@
+#include "pose_thread.h"
+
+#include <utility>
+
+#include "asperity/base/error.h"
+
+namespace asperity {
+
+namespace {
+
+TrackingStatistics operator+(TrackingStatistics a, const TrackingStatistics& b) {
+  a.frames += b.frames;
+  a.poses += b.poses;
+  a.skipped_frames += b.skipped_frames;
+  return a;
+}
+
+// The pose as a row, its covariance as standard deviations.
+TrackerSample with_sigmas(const TrackedPose& pose) {
+  TrackerSample out = pose.sample;
+  const Eigen::Matrix<double, 6, 1> variance = pose.covariance.diagonal();
+  if (!(variance.array() >= 0.0).all()) return out;
+  out.sigma_position_m = variance.head<3>().cwiseSqrt();
+  out.sigma_rotation_rad = variance.tail<3>().cwiseSqrt();
+  return out;
+}
+
+}  // namespace
+
+PoseThread::PoseThread(std::function<std::unique_ptr<PoseSource>()> open, bool reopen, const RecorderConfig& config)
+    : open_(std::move(open)), waits_(!reopen), source_(open_()), queue_(static_cast<std::size_t>(config.pose_queue)) {
+  if (!source_) throw Error("recorder: the tracker could not be opened");
+  name_ = source_->name();
+  nominal_rate_Hz_ = source_->nominal_rate_Hz();
+  SensorLoop loop;
+  loop.open = [this] {
+    source_ = open_();
+    if (!source_) throw Error(name_ + ": cannot be opened");
+  };
+  loop.close = [this] { close(); };
+  loop.read = [this](std::chrono::milliseconds timeout) { return read(timeout); };
+  loop.reopen = reopen;
+  thread_.emplace(std::move(loop), config);
+}
+
+bool PoseThread::read(std::chrono::milliseconds timeout) {
+  // A file can wait for the disk; a sensor cannot.
+  if (waits_ && !queue_.wait_for_room(timeout)) return true;
+  const auto pose = source_->read(timeout);
+  if (pose) {
+    poses_.push_back(with_sigmas(*pose));
+    queue_.push(poses_);
+  }
+  const TrackingStatistics figures = source_->statistics();
+  constexpr unsigned kReadsPerLook = 64;  // a tracker may come to warn later
+  const bool look = reads_++ % kReadsPerLook == 0;
+  std::vector<std::string> warnings;
+  if (look) warnings = source_->warnings();
+  const std::lock_guard lock(mutex_);
+  // A tracker that sees no marker is alive as long as its frames come.
+  const bool alive = pose.has_value() || figures.frames != now_.frames;
+  now_ = figures;
+  if (look) warnings_ = std::move(warnings);
+  return alive;
+}
+
+void PoseThread::close() noexcept {
+  source_.reset();
+  const std::lock_guard lock(mutex_);
+  before_ = before_ + now_;
+  now_ = {};
+}
+
+void PoseThread::describe(RecorderSnapshot& out) const {
+  const auto health = thread_->health();
+  const auto queue = queue_.figures();
+  out.poses.name = name_;
+  out.poses.state = health.state;
+  out.poses.message = health.message;
+  out.poses.lost = health.lost;
+  out.poses.returned = health.returned;
+  out.poses.queue_fill = queue.fill;
+  out.poses.highest_queue_fill = queue.highest_fill;
+  out.poses.overflowed = queue.overflowed;
+  out.poses.received = queue.received;
+  const std::lock_guard lock(mutex_);
+  out.tracking = before_ + now_;
+  out.poses.warnings = warnings_;
+}
+
+}  // namespace asperity

@@ -1,0 +1,104 @@
+#include "probe_thread.h"
+
+#include <exception>
+#include <utility>
+
+#include "asperity/base/error.h"
+
+namespace asperity {
+
+namespace {
+
+LinkStatistics operator+(LinkStatistics a, const LinkStatistics& b) {
+  a.bytes += b.bytes;
+  a.frames += b.frames;
+  a.samples += b.samples;
+  a.force_samples += b.force_samples;
+  a.lost_frames += b.lost_frames;
+  a.lost_samples += b.lost_samples;
+  a.damaged_frames += b.damaged_frames;
+  a.late_frames += b.late_frames;
+  a.foreign_frames += b.foreign_frames;
+  a.resyncs += b.resyncs;
+  a.restarts += b.restarts;
+  a.overruns += b.overruns;
+  a.losses_are_estimated = a.losses_are_estimated || b.losses_are_estimated;
+  return a;
+}
+
+}  // namespace
+
+ProbeThread::ProbeThread(std::function<std::unique_ptr<ProbeSource>()> open, bool reopen, const RecorderConfig& config)
+    : open_(std::move(open)), waits_(!reopen), source_(open_()), queue_(static_cast<std::size_t>(config.probe_queue)) {
+  if (!source_) throw Error("recorder: the probe could not be opened");
+  name_ = source_->name();
+  SensorLoop loop;
+  loop.open = [this] {
+    source_ = open_();
+    if (!source_) throw Error(name_ + ": cannot be opened");
+  };
+  loop.close = [this] { close(); };
+  loop.read = [this](std::chrono::milliseconds timeout) { return read(timeout); };
+  loop.reopen = reopen;
+  thread_.emplace(std::move(loop), config);
+}
+
+bool ProbeThread::read(std::chrono::milliseconds timeout) {
+  // A file can wait for the disk; a sensor cannot.
+  if (waits_ && !queue_.wait_for_room(timeout)) return true;
+  std::exception_ptr lost;
+  try {
+    source_->read(samples_, timeout);
+  } catch (const Error&) {
+    lost = std::current_exception();  // after what had come before
+  }
+  const bool alive = !samples_.empty();
+  const LinkStatistics figures = source_->statistics();
+  auto description = source_->description();
+  if (alive) queue_.push(samples_);
+  {
+    const std::lock_guard lock(mutex_);
+    now_ = figures;
+    if (description) description_ = std::move(description);
+    ended_ = waits_ && lost;
+  }
+  described_.notify_all();
+  if (lost) std::rethrow_exception(lost);
+  return alive;
+}
+
+void ProbeThread::close() noexcept {
+  source_.reset();
+  const std::lock_guard lock(mutex_);
+  before_ = before_ + now_;
+  now_ = {};
+}
+
+void ProbeThread::wait_for_description(double most_s) {
+  std::unique_lock lock(mutex_);
+  described_.wait_for(lock, std::chrono::duration<double>(most_s),
+                      [this] { return description_.has_value() || ended_; });
+}
+
+std::optional<ProbeDescription> ProbeThread::description() const {
+  const std::lock_guard lock(mutex_);
+  return description_;
+}
+
+void ProbeThread::describe(RecorderSnapshot& out) const {
+  const auto health = thread_->health();
+  const auto queue = queue_.figures();
+  out.probe.state = health.state;
+  out.probe.message = health.message;
+  out.probe.lost = health.lost;
+  out.probe.returned = health.returned;
+  out.probe.queue_fill = queue.fill;
+  out.probe.highest_queue_fill = queue.highest_fill;
+  out.probe.overflowed = queue.overflowed;
+  out.probe.received = queue.received;
+  const std::lock_guard lock(mutex_);
+  out.probe.name = name_;
+  out.link = before_ + now_;
+}
+
+}  // namespace asperity

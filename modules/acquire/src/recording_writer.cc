@@ -1,0 +1,191 @@
+#include "recording_writer.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/base/units.h"
+#include "asperity/recording/uncalibrated.h"
+
+namespace asperity {
+
+namespace {
+
+using Json = nlohmann::json;
+
+std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(time_s / kNanosecond_s)); }
+
+RecordingInfo with_description(RecordingInfo info, const std::optional<ProbeDescription>& description) {
+  if (!description) return info;
+  info.probe_model = printable(description->model);
+  info.probe_rate_Hz = description->rate_Hz;
+  info.adc_min = description->adc_min;
+  info.adc_max = description->adc_max;
+  return info;
+}
+
+AppendColumns columns_of(const std::optional<ProbeDescription>& description, bool has_poses) {
+  AppendColumns out;
+  out.gyro = description && description->has_gyro;
+  out.force3 = description && description->force_axes == 3;
+  out.markers = out.reprojection = out.sigmas = has_poses;
+  return out;
+}
+
+std::optional<ForceCalibration> force_of(const Calibration& calibration) {
+  if (is_uncalibrated(calibration)) return std::nullopt;
+  return calibration.force;
+}
+
+Json numbers(const Eigen::Vector3d& values) {
+  Json out = Json::array();
+  for (const double value : values) out.push_back(std::isfinite(value) ? Json(value) : Json());
+  return out;
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(const std::filesystem::path& folder, RecordingInfo info,
+                                 const Calibration& calibration, const std::optional<ProbeDescription>& description,
+                                 bool has_poses, const RecorderConfig& config)
+    : config_(config),
+      info_(with_description(std::move(info), description)),
+      description_(description),
+      force_(force_of(calibration)),
+      contact_(config.contact, force_),
+      gravity_(config.rest, calibration),
+      appender_(folder, info_, calibration, columns_of(description, has_poses)),
+      segments_(appender_, ns(config.pre_roll_s)) {
+  if (config.mode == StoreMode::kSegments && config.start_at_once) begin("segment_", SegmentWriter::kFromFirstRow);
+  appender_.update(current_info(false));
+}
+
+void RecordingWriter::add(std::span<const ProbeSample> samples) {
+  for (const ProbeSample& sample : samples) {
+    segments_.add(sample);
+    gravity_.add_probe(sample.t_ns, sample.accel_counts);
+    if (!std::isfinite(sample.force_counts)) continue;
+    force_N_ = force_ ? force_->force_N(sample.force_counts) : sample.force_counts;
+    if (const auto change = contact_.push(sample.t_ns, sample.force_counts)) touch(*change);
+  }
+  if (segments_.settle()) changed_ = true;
+}
+
+void RecordingWriter::add(std::span<const TrackerSample> poses) {
+  for (const TrackerSample& pose : poses) {
+    segments_.add(pose);
+    gravity_.add_pose(pose.t_ns, pose.T_world_marker);
+  }
+  if (!poses.empty()) pose_ = poses.back();
+  if (segments_.settle()) changed_ = true;
+}
+
+void RecordingWriter::touch(const ContactChange& change) {
+  if (change.touching) ++touches_;
+  if (config_.mode != StoreMode::kAuto) return;
+  if (change.touching) {
+    // Touching again before the post-roll is over goes on with the same segment.
+    if (!segments_.reopen()) begin("contact_", change.t_ns);
+  } else if (segments_.is_open()) {
+    segments_.end_at(change.t_ns + ns(config_.post_roll_s));
+  }
+}
+
+void RecordingWriter::begin(std::string name, std::int64_t t_ns) {
+  if (name.ends_with('_')) name += std::to_string(segments_.count() + 1);
+  if (!segments_.start(std::move(name), t_ns, ns(config_.pre_roll_s))) ++refused_;
+  changed_ = true;
+}
+
+void RecordingWriter::apply(const RecorderCommand& command) {
+  const bool by_hand = config_.mode == StoreMode::kSegments;
+  switch (command.kind) {
+    case RecorderCommand::Kind::kStart:
+      if (!by_hand || (segments_.is_open() && !segments_.is_ending())) return;
+      segments_.close(command.t_ns);
+      begin(command.name.empty() ? "segment_" : command.name, command.t_ns);
+      return;
+    case RecorderCommand::Kind::kStop:
+      if (by_hand) segments_.end_at(command.t_ns);
+      return;
+    case RecorderCommand::Kind::kDiscard:
+    case RecorderCommand::Kind::kRescan:
+      const auto name = segments_.discard(command.t_ns);
+      if (!name) return;
+      changed_ = true;
+      if (by_hand && command.kind == RecorderCommand::Kind::kRescan) begin(*name, command.t_ns);
+      return;
+  }
+}
+
+RecordingInfo RecordingWriter::current_info(bool finished) const {
+  RecordingInfo out = info_;
+  out.segments = segments_.segments();
+  const GravityEstimate gravity = gravity_.estimate();
+  if (gravity.measured) out.gravity_world_mps2 = gravity.gravity_world_mps2;
+  for (const auto& [name, count] : problems_) {
+    if (count > 0) out.problems[name] = count;
+  }
+  const auto problem = [&](const char* name, std::uint64_t count) {
+    if (count > 0) out.problems[name] = static_cast<std::int64_t>(count);
+  };
+  problem("rows_out_of_order", segments_.late_rows());
+  problem("segments_refused", refused_);
+  if (gravity.implausible) out.problems["gravity_implausible"] = 1;
+
+  Json extra = Json::parse(info_.extra_json.empty() ? "{}" : info_.extra_json, nullptr, false);
+  if (!extra.is_object()) throw Error("recorder: extra_json is not a JSON object: " + printable(info_.extra_json));
+  Json recorder;
+  recorder["state"] = finished ? "finished" : "recording";
+  recorder["mode"] = kStoreModeNames.at(static_cast<std::size_t>(config_.mode));
+  recorder["last_segment_is_open"] = segments_.is_open();
+  recorder["discarded_segments"] = segments_.discarded();
+  recorder["gravity"] = {{"measured", gravity.measured},
+                         {"windows_at_rest", gravity.windows},
+                         {"scatter_mps2", numbers(gravity.scatter_mps2)}};
+  if (description_) {
+    recorder["probe_name"] = printable(description_->name);
+    recorder["probe_firmware"] = printable(description_->firmware);
+  }
+  extra["recorder"] = std::move(recorder);
+  out.extra_json = extra.dump();
+  return out;
+}
+
+void RecordingWriter::commit() {
+  appender_.flush();
+  const bool measured = gravity_.estimate().measured;
+  if (!changed_ && measured == gravity_written_) return;
+  appender_.update(current_info(false));
+  changed_ = false;
+  gravity_written_ = measured;
+}
+
+void RecordingWriter::finish() {
+  segments_.close(segments_.latest_ns());
+  gravity_.finish();
+  appender_.finish(current_info(true), segments_.discarded() > 0);
+}
+
+void RecordingWriter::describe(RecorderSnapshot& out) const {
+  out.description = description_;
+  out.force_N = force_N_;
+  out.force_is_calibrated = force_.has_value();
+  out.touching = contact_.touching();
+  out.contact_ready = contact_.ready();
+  out.touches = touches_;
+  out.pose = pose_;
+  out.storing = segments_.is_open();
+  out.segments = segments_.count();
+  out.segment = segments_.last_name();
+  out.discarded = segments_.discarded();
+  out.recorded_s = segments_.recorded_s();
+  out.probe_rows = segments_.probe_rows();
+  out.tracker_rows = segments_.tracker_rows();
+  out.disk_bytes = appender_.bytes();
+  out.gravity = gravity_.estimate();
+}
+
+}  // namespace asperity

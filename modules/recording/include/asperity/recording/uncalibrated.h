@@ -1,0 +1,14 @@
+#pragma once
+
+#include "asperity/recording/calibration.h"
+
+namespace asperity {
+
+// A calibration that stands for none: nominal scales (0: unknown, taken as 1), no offsets, the sensor's rotation to the
+// marker unknown, the tip at the marker's origin. extra.uncalibrated says so.
+Calibration make_uncalibrated(double accel_counts_per_mps2, double gyro_counts_per_radps, double newton_per_count);
+
+// True for such a calibration. Never throws.
+bool is_uncalibrated(const Calibration& calibration) noexcept;
+
+}  // namespace asperity

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "asperity/recording/recording.h"
+
+namespace asperity {
+
+// Takes the rows whose time (the first cell) lies in none of `segments` out of a stream, piece by piece, and
+// replaces the file by rename; left as it is if there is no such row. The header stays. Throws Error if a file
+// cannot be read or written.
+void keep_rows(const std::filesystem::path& path, const std::vector<Segment>& segments);
+
+}  // namespace asperity

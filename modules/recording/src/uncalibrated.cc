@@ -1,0 +1,37 @@
+#include "asperity/recording/uncalibrated.h"
+
+#include <exception>
+#include <nlohmann/json.hpp>
+
+namespace asperity {
+
+namespace {
+
+double or_one(double scale) { return scale > 0.0 ? scale : 1.0; }
+
+}  // namespace
+
+Calibration make_uncalibrated(double accel_counts_per_mps2, double gyro_counts_per_radps, double newton_per_count) {
+  Calibration out;
+  out.accelerometer.B = or_one(accel_counts_per_mps2) * Eigen::Matrix3d::Identity();
+  out.accelerometer.rotation_known = false;
+  if (gyro_counts_per_radps > 0.0) {
+    out.gyroscope.emplace();
+    out.gyroscope->B = gyro_counts_per_radps * Eigen::Matrix3d::Identity();
+  }
+  out.force.newton_per_count = or_one(newton_per_count);
+  out.force.axis_in_marker = Eigen::Vector3d::UnitZ();
+  out.extra_json = R"({"uncalibrated":true})";
+  return out;
+}
+
+bool is_uncalibrated(const Calibration& calibration) noexcept {
+  try {
+    const auto extra = nlohmann::json::parse(calibration.extra_json, nullptr, false);
+    return extra.is_object() && extra.contains("uncalibrated") && extra["uncalibrated"] == true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+}  // namespace asperity
