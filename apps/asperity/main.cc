@@ -40,6 +40,13 @@ struct Program {
          {make_texture_fit, make_texture_info, make_texture_synthesize, make_texture_swap, make_texture_compare}) {
       commands.push_back(make(*texture));
     }
+    CLI::App* markers =
+        parser.add_subcommand("markers", "Print tags and boards at true scale, and find them in images");
+    markers->require_subcommand(1);
+    for (const auto make :
+         {make_markers_sheet, make_markers_ring, make_markers_board, make_markers_charuco, make_markers_detect}) {
+      commands.push_back(make(*markers));
+    }
     CLI::App* calibrate = parser.add_subcommand(
         "calibrate", "Find a calibration's values, their standard errors and whether to trust them");
     calibrate->require_subcommand(1);
