@@ -19,6 +19,7 @@ std::unique_ptr<Command> make_process(CLI::App& root);
 std::unique_ptr<Command> make_record(CLI::App& root);
 std::unique_ptr<Command> make_register(CLI::App& root);
 std::unique_ptr<Command> make_roughness(CLI::App& root);
+std::unique_ptr<Command> make_track(CLI::App& root);
 
 // The commands below `asperity texture`.
 std::unique_ptr<Command> make_texture_fit(CLI::App& texture);
@@ -30,5 +31,6 @@ std::unique_ptr<Command> make_texture_compare(CLI::App& texture);
 // The commands below `asperity calibrate`.
 std::unique_ptr<Command> make_calibrate_accel(CLI::App& calibrate);
 std::unique_ptr<Command> make_calibrate_force(CLI::App& calibrate);
+std::unique_ptr<Command> make_calibrate_tip(CLI::App& calibrate);
 
 }  // namespace asperity::app

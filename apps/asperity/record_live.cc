@@ -66,7 +66,7 @@ LiveRecording record_live(const Recording& scan, const SimulatedProbeConfig& pro
     try {
       RecorderSensors sensors;
       sensors.open_probe = [&] {
-        return make_probe_source(open_serial(live.port(), kBaud), make_probe_decoder(protocol_of(probe)));
+        return make_probe_source(ProbeLink(open_serial(live.port(), kBaud), protocol_of(probe)));
       };
       sensors.open_poses = [&] {
         return make_camera_pose_source(open_y4m(live.camera()),
