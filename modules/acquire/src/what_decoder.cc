@@ -26,10 +26,12 @@ constexpr std::int64_t kHold_ns = 20'000'000;
 constexpr int kHold_reads = 8;
 constexpr std::size_t kMostHeld = 512;
 constexpr std::int64_t kSilence_ns = 2'000'000'000;
+constexpr double kWindow_s = 4.0;  // the pace may drift by parts in 10⁴ a second
 constexpr double kLeastSpacing = 0.4;  // of a period
 
 DeviceClockConfig clock_config(double period_ns, double rate_error) {
   DeviceClockConfig config;
+  config.window_s = kWindow_s;
   config.max_rate_error = rate_error;
   config.min_spacing_ns = std::llround(kLeastSpacing * period_ns);
   return config;

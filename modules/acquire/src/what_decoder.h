@@ -18,9 +18,9 @@ namespace asperity {
 // The probe has no clock and no numbers, but an even pace T: that of frame n was sent at the host's time α + β Σ T over
 // the frames up to n. n goes on by one from frame to frame, and by the bytes given up between two of them, in frames,
 // rounded. A frame's raw time is that of its arrival less the bytes that came with and after it at the byte rate: late,
-// never early, so α and β come from DeviceClock with Σ T as the device's time. T is the median pace over stretches of
-// the last 512 frames, taken anew every 64 frames; frames lost in a few of the stretches do not move it. Before 128
-// frames have come, T is 1/450 s and β within 15 % of 1, then within 1 %, from 512 frames on within 0.3 %.
+// never early, so α and β come from DeviceClock with Σ T as the device's time. T is 1/450 s, then, at the 128th
+// and the 512th frame, the median pace over stretches of up to 100 frames, which a few lost ones do not move; β stays
+// within 15 %, 1 % and 0.3 % of 1. A probe whose pace drifts takes T along when β has left 0.2 %.
 //
 // Frames that were lost without a byte show in time alone. If the newest frame of what came together is later than the
 // line by more than 0.8 T, frames are held back; they are released when one is in time again (they were late), or, if
