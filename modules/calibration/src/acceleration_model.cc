@@ -1,0 +1,102 @@
+#include "acceleration_model.h"
+
+#include <limits>
+
+namespace asperity {
+
+namespace {
+
+using Columns = Eigen::Matrix<double, 3, 10>;  // acceleration, then its slopes by bias, gravity and rotation
+
+// A sample's world acceleration, its integral and double integral.
+struct Integral {
+  Columns acceleration = Columns::Zero(), velocity = Columns::Zero(), position = Columns::Zero();
+};
+
+// One step to `next`, the acceleration being linear in time.
+void advance(Integral& s, const Columns& next, double step_s) {
+  s.position += step_s * s.velocity + step_s * step_s / 6.0 * (2.0 * s.acceleration + next);
+  s.velocity += 0.5 * step_s * (s.acceleration + next);
+  s.acceleration = next;
+}
+
+}  // namespace
+
+AccelerationModel::AccelerationModel(const SensorSeries& sensor, const PoseSeries& poses,
+                                     const PoseInterpolator& tracker, const Eigen::Vector3d& lever_arm_m,
+                                     const Eigen::Vector3d& gravity, bool solve_rotation)
+    : gravity_world_mps2(gravity),
+      sensor_(sensor),
+      poses_(poses),
+      tracker_(tracker),
+      lever_arm_m_(lever_arm_m),
+      solve_rotation_(solve_rotation),
+      least_drift_rate_(integral_noise_rate(sensor)) {}
+
+Eigen::VectorXd AccelerationModel::residuals(double latency, Eigen::MatrixXd* slopes) const {
+  const std::size_t poses = poses_.t_s.size();
+  Eigen::VectorXd out(static_cast<Eigen::Index>(3 * poses));
+  std::size_t hint = 0;
+  const auto columns_at = [&](std::size_t row) {
+    const Eigen::Matrix3d R = tracker_.at(sensor_.t_s[row] + latency, hint).rotation.toRotationMatrix();
+    const Eigen::Vector3d f = R_marker_sensor * sensor_.x[row];
+    Columns c;
+    c.col(0) = R * (f - bias_mps2) + gravity_world_mps2;
+    c.middleCols<3>(1) = -R;
+    c.middleCols<3>(4).setIdentity();
+    c.rightCols<3>() = -R * skew(f);
+    return c;
+  };
+  // From the row before the first pose: earlier samples have no rotation.
+  std::size_t row = row_before(sensor_.t_s, poses_.t_s[0] - latency, 0);
+  Integral at;
+  at.acceleration = columns_at(row);
+  for (std::size_t i = 0; i < poses; ++i) {
+    const double t_s = poses_.t_s[i] - latency;
+    const std::size_t target = row_before(sensor_.t_s, t_s, row);
+    if (poses_.starts[i] != 0) {
+      row = target;
+      at = Integral{};
+      at.acceleration = columns_at(row);
+    }
+    for (; row < target; ++row) advance(at, columns_at(row + 1), sensor_.t_s[row + 1] - sensor_.t_s[row]);
+    const double part_s = t_s - sensor_.t_s[row];
+    const double share = part_s / (sensor_.t_s[row + 1] - sensor_.t_s[row]);
+    Integral there = at;
+    // The next sample's columns are needed for the part of a step only.
+    advance(there, at.acceleration + share * (columns_at(row + 1) - at.acceleration), part_s);
+    const Eigen::Vector3d seen = poses_.T_world_marker[i] * lever_arm_m_;
+    const auto k = static_cast<Eigen::Index>(3 * i);
+    out.segment<3>(k) = seen - there.position.col(0);
+    if (slopes != nullptr) slopes->block(k, 1, 3, parameters() - 1) = -there.position.middleCols(1, parameters() - 1);
+  }
+  return out;
+}
+
+LatencyRows AccelerationModel::rows() const {
+  LatencyRows out;
+  out.slopes.resize(static_cast<Eigen::Index>(3 * poses_.t_s.size()), parameters());
+  out.residual = residuals(latency_s, &out.slopes);
+  // The rotations move with the latency too: by differences.
+  constexpr double kStep_s = 5e-4;
+  out.slopes.col(0) =
+      (residuals(latency_s + kStep_s, nullptr) - residuals(latency_s - kStep_s, nullptr)) / (2.0 * kStep_s);
+  return out;
+}
+
+void AccelerationModel::step(const Eigen::VectorXd& delta) {
+  latency_s += delta[0];
+  bias_mps2 += delta.segment<3>(1);
+  gravity_world_mps2 += delta.segment<3>(4);
+  if (solve_rotation_) R_marker_sensor = (exp_rotation(delta.segment<3>(7)) * R_marker_sensor).normalized();
+}
+
+Eigen::VectorXd AccelerationModel::prior_sigma() const {
+  // Bias and gravity look alike while the probe keeps its orientation; bounds as wide as these decide nothing else.
+  Eigen::VectorXd out = Eigen::VectorXd::Constant(parameters(), std::numeric_limits<double>::infinity());
+  out.segment<3>(1).setConstant(2.0);
+  out.segment<3>(4).setConstant(1.0);
+  return out;
+}
+
+}  // namespace asperity
