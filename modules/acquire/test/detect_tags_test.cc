@@ -117,7 +117,7 @@ TEST(DetectTagsErrors, AFamilyThatIsNotKnownIsNamed) {
     make_tag_detector("tag\n99");
     FAIL();
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("tag\\x0A99"));
+    EXPECT_THAT(error.what(), HasSubstr("tag\\x0a99"));
     EXPECT_THAT(error.what(), HasSubstr("tag36h11"));
   }
 }

@@ -108,7 +108,7 @@ TEST(SolveBodyPose, TheCovarianceIsThatOfTheErrors) {
     const Vector6 e = error_of(found->T_camera_marker, truth);
     const double d2 = e.dot(found->covariance.ldlt().solve(e));
     sum += d2;
-    within += d2 < 12.59 ? 1 : 0;  // 95 % of χ² with 6 degrees of freedom
+    within += d2 < 17.1 ? 1 : 0;  // 95 % of six times F(6, 14): the variance is estimated from 10 + 4 residuals
     for (int i = 0; i < 6; ++i) {
       const double sigma = std::sqrt(found->covariance(i, i));
       mean[i] += e[i] / sigma / kTrials;
@@ -125,7 +125,7 @@ TEST(SolveBodyPose, TheCovarianceIsThatOfTheErrors) {
   // covariance by 1.3 would show.
   EXPECT_GT(sum / kTrials, 5.0);
   EXPECT_LT(sum / kTrials, 7.8);
-  EXPECT_GE(within, 176);
+  EXPECT_GE(within, 184);
   EXPECT_GE(covered.minCoeff(), 0.97);
   EXPECT_LT(mean.cwiseAbs().maxCoeff(), 0.25);
 }
