@@ -21,6 +21,7 @@
 #include "demo_feel.h"
 #include "demo_figure.h"
 #include "demo_mesh.h"
+#include "demo_scanner.h"
 
 namespace asperity::app {
 
@@ -106,7 +107,7 @@ class DemoCommand : public Command {
                 "Simulate scans of two surfaces and of a mesh, process and register them, feel them, print measured "
                 "against "
                 "true") {
-    parser().add_flag("--full", full_, "All five surfaces");
+    parser().add_flag("--full", full_, "All five surfaces, and the scanner: calibrated, live and end to end");
     require(parser().add_option("-o,--output", output_, "Folder of the recordings and results"))->type_name("DIR");
   }
 
@@ -154,6 +155,13 @@ class DemoCommand : public Command {
     text += felt.text;
     if (!felt.trustworthy) complain("feel: not to be trusted: " + felt.verdict);
     trustworthy &= felt.trustworthy;
+    if (full_) {
+      const ScannerDemo scanner = demonstrate_scanner(folder.path() / "scanner", config_, observer);
+      out["scanner"] = scanner.json;
+      text += scanner.text;
+      if (!scanner.trustworthy) complain("scanner: not to be trusted: " + scanner.verdict);
+      trustworthy &= scanner.trustworthy;
+    }
     const std::string json = out.dump(2, ' ', false, Json::error_handler_t::replace);
     write_file(folder.path() / kMark, json + "\n");
     observer.update("writing", 1.0);

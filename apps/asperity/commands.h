@@ -16,8 +16,10 @@ std::unique_ptr<Command> make_export(CLI::App& root);
 std::unique_ptr<Command> make_inspect(CLI::App& root);
 std::unique_ptr<Command> make_paint(CLI::App& root);
 std::unique_ptr<Command> make_process(CLI::App& root);
+std::unique_ptr<Command> make_record(CLI::App& root);
 std::unique_ptr<Command> make_register(CLI::App& root);
 std::unique_ptr<Command> make_roughness(CLI::App& root);
+std::unique_ptr<Command> make_track(CLI::App& root);
 
 // The commands below `asperity texture`.
 std::unique_ptr<Command> make_texture_fit(CLI::App& texture);
@@ -32,5 +34,13 @@ std::unique_ptr<Command> make_calibrate_camera(CLI::App& calibrate);
 std::unique_ptr<Command> make_calibrate_force(CLI::App& calibrate);
 std::unique_ptr<Command> make_calibrate_latency(CLI::App& calibrate);
 std::unique_ptr<Command> make_calibrate_tracker(CLI::App& calibrate);
+std::unique_ptr<Command> make_calibrate_tip(CLI::App& calibrate);
+
+// The commands below `asperity markers`.
+std::unique_ptr<Command> make_markers_sheet(CLI::App& markers);
+std::unique_ptr<Command> make_markers_ring(CLI::App& markers);
+std::unique_ptr<Command> make_markers_board(CLI::App& markers);
+std::unique_ptr<Command> make_markers_charuco(CLI::App& markers);
+std::unique_ptr<Command> make_markers_detect(CLI::App& markers);
 
 }  // namespace asperity::app

@@ -18,6 +18,7 @@ namespace {
 std::atomic<int> signal_seen{0};
 std::atomic<bool> stop_asked{false};
 std::atomic<int> forces_held{0};
+std::atomic<int> finishes_held{0};
 
 void wait_for_zero_force() {
   constexpr auto kStep = std::chrono::milliseconds(2);
@@ -47,7 +48,10 @@ void watch_interrupts() {
     signal_seen = number;
     stop_asked = true;
     const timespec patience{1, 0};
-    sigtimedwait(&set, nullptr, &patience);
+    constexpr int kMostFinish_s = 60;
+    for (int waited_s = 0; waited_s == 0 || (finishes_held > 0 && waited_s < kMostFinish_s); ++waited_s) {
+      if (sigtimedwait(&set, nullptr, &patience) > 0) break;
+    }
     wait_for_zero_force();
     remove_unfinished_output();
     complain(kInterrupted);
@@ -57,6 +61,9 @@ void watch_interrupts() {
 
 ForceHold::ForceHold() { ++forces_held; }
 ForceHold::~ForceHold() { --forces_held; }
+
+FinishHold::FinishHold() { ++finishes_held; }
+FinishHold::~FinishHold() { --finishes_held; }
 
 bool interrupted() { return signal_seen != 0; }
 

@@ -23,6 +23,16 @@ class ForceHold {
   ForceHold& operator=(const ForceHold&) = delete;
 };
 
+// While one lives, something is being brought to its end: after the signal the program has a minute for that. A second
+// signal ends it all the same.
+class FinishHold {
+ public:
+  FinishHold();
+  ~FinishHold();
+  FinishHold(const FinishHold&) = delete;
+  FinishHold& operator=(const FinishHold&) = delete;
+};
+
 // The same for those that watch a flag: turns true with interrupted(), and stays true.
 const std::atomic<bool>& interrupt_flag();
 // 128 + the signal that came, 130 for Ctrl-C.

@@ -31,7 +31,7 @@ struct Program {
     parser.add_option("--completion", completion, "Print completions for a shell")->check(CLI::IsMember({"bash"}));
     parser.require_subcommand(0, 1);
     for (const auto make : {make_demo, make_simulate, make_export, make_feel, make_import, make_inspect, make_paint,
-                            make_process, make_register, make_bench, make_roughness}) {
+                            make_process, make_record, make_register, make_bench, make_roughness, make_track}) {
       commands.push_back(make(parser));
     }
     CLI::App* texture = parser.add_subcommand("texture", "Fit, describe, synthesize, swap and compare textures");
@@ -40,11 +40,18 @@ struct Program {
          {make_texture_fit, make_texture_info, make_texture_synthesize, make_texture_swap, make_texture_compare}) {
       commands.push_back(make(*texture));
     }
+    CLI::App* markers =
+        parser.add_subcommand("markers", "Print tags and boards at true scale, and find them in images");
+    markers->require_subcommand(1);
+    for (const auto make :
+         {make_markers_sheet, make_markers_ring, make_markers_board, make_markers_charuco, make_markers_detect}) {
+      commands.push_back(make(*markers));
+    }
     CLI::App* calibrate = parser.add_subcommand(
         "calibrate", "Find a calibration's values, their standard errors and whether to trust them");
     calibrate->require_subcommand(1);
     for (const auto make : {make_calibrate_camera, make_calibrate_tracker, make_calibrate_force, make_calibrate_accel,
-                            make_calibrate_latency}) {
+                            make_calibrate_tip, make_calibrate_latency}) {
       commands.push_back(make(*calibrate));
     }
   }

@@ -23,7 +23,6 @@ namespace {
 
 constexpr std::size_t kLargestDatagram_bytes = 65536;
 constexpr int kReceiveBuffer_bytes = 1 << 20;
-constexpr std::int64_t kSilence_ns = 2'000'000'000;
 
 std::string endpoint_text(const std::string& address, unsigned port) {
   const bool is_v6 = address.find(':') != std::string::npos;
@@ -32,7 +31,7 @@ std::string endpoint_text(const std::string& address, unsigned port) {
 
 class UdpSource : public ByteSource {
  public:
-  explicit UdpSource(const UdpConfig& config) : any_sender_(config.any_sender), socket_(context_) {
+  explicit UdpSource(const UdpConfig& config) : config_(config), socket_(context_) {
     name_ = endpoint_text(config.address, config.port);
     boost::system::error_code error;
     const auto address = asio::ip::make_address(config.address, error);
@@ -102,11 +101,11 @@ class UdpSource : public ByteSource {
   }
 
   bool is_probe(const udp::endpoint& from, std::int64_t now_ns) const {
-    if (any_sender_ || !sender_ || from == *sender_) return true;
-    return from.address() == sender_->address() && now_ns - arrival_ns_ > kSilence_ns;
+    if (config_.any_sender || !sender_ || from == *sender_) return true;
+    return from.address() == sender_->address() && 1e-9 * static_cast<double>(now_ns - arrival_ns_) > config_.silence_s;
   }
 
-  bool any_sender_;
+  UdpConfig config_;
   std::string name_;
   asio::io_context context_{1};
   udp::socket socket_;

@@ -52,10 +52,15 @@ bool PoseThread::read(std::chrono::milliseconds timeout) {
     queue_.push(poses_);
   }
   const TrackingStatistics figures = source_->statistics();
+  constexpr unsigned kReadsPerLook = 64;  // a tracker may come to warn later
+  const bool look = reads_++ % kReadsPerLook == 0;
+  std::vector<std::string> warnings;
+  if (look) warnings = source_->warnings();
   const std::lock_guard lock(mutex_);
   // A tracker that sees no marker is alive as long as its frames come.
   const bool alive = pose.has_value() || figures.frames != now_.frames;
   now_ = figures;
+  if (look) warnings_ = std::move(warnings);
   return alive;
 }
 
@@ -80,6 +85,7 @@ void PoseThread::describe(RecorderSnapshot& out) const {
   out.poses.received = queue.received;
   const std::lock_guard lock(mutex_);
   out.tracking = before_ + now_;
+  out.poses.warnings = warnings_;
 }
 
 }  // namespace asperity

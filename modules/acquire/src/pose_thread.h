@@ -41,6 +41,8 @@ class PoseThread {
   mutable std::mutex mutex_;
   TrackingStatistics before_;  // of the times that it was open before
   TrackingStatistics now_;
+  std::vector<std::string> warnings_;
+  unsigned reads_ = 0;
   std::optional<SensorThread> thread_;
 };
 

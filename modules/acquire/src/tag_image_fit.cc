@@ -229,7 +229,7 @@ TagImageFit fit_tag_image(const TagImageModel& model, const std::vector<TagPixel
   // At first nearly every edge is off, by up to the whole contrast.
   double floor = 0.2 * std::abs(start.shading[3]);
   // The way there is found with few pixels; all of them then take one or two more steps.
-  constexpr std::size_t kFew = 500;
+  constexpr std::size_t kFew = 350;
   const std::size_t stride = pixels.size() / kFew;
   if (stride > 1) {
     std::vector<TagPixel> few;

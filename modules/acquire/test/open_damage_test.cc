@@ -4,69 +4,14 @@
 #include <algorithm>
 
 #include "asperity/acquire/open_protocol.h"
-#include "asperity/acquire/probe_decoder.h"
 #include "asperity/base/random.h"
 #include "asperity/testkit/corrupt_bytes.h"
+#include "numbered_stream.h"
 
 namespace asperity {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-
-std::int16_t mixed(std::uint32_t number, int which) {
-  std::uint32_t x = number * 2654435761U + static_cast<std::uint32_t>(which) * 40503U;
-  x ^= x >> 15;
-  return static_cast<std::int16_t>(x * 2246822519U >> 16);
-}
-
-OpenRow row_of(std::uint32_t number) {
-  OpenRow row;
-  row.accel = {static_cast<std::int16_t>(number & 0xFFFFU), static_cast<std::int16_t>(number >> 16), mixed(number, 0)};
-  row.gyro = {mixed(number, 1), mixed(number, 2), 0};
-  return row;
-}
-
-// The row's number if it is one that was sent.
-std::optional<std::uint32_t> number_of(const ProbeSample& sample) {
-  const auto low = static_cast<std::uint16_t>(static_cast<std::int16_t>(sample.accel_counts[0]));
-  const auto high = static_cast<std::uint16_t>(static_cast<std::int16_t>(sample.accel_counts[1]));
-  const std::uint32_t number = std::uint32_t{high} << 16 | low;
-  const OpenRow row = row_of(number);
-  for (int axis = 0; axis < 3; ++axis) {
-    if (sample.accel_counts[axis] != row.accel[static_cast<std::size_t>(axis)]) return std::nullopt;
-    if (sample.gyro_counts[axis] != row.gyro[static_cast<std::size_t>(axis)]) return std::nullopt;
-  }
-  return number;
-}
-
-struct Sent {
-  Bytes bytes;
-  std::vector<std::uint32_t> first_row;  // of each frame; one more for the end
-};
-
-Sent send(int frames, std::uint64_t seed) {
-  Random random(seed);
-  Sent sent;
-  std::uint32_t row = 0;
-  OpenSamples samples;
-  samples.has_gyro = true;
-  samples.imu_period_ns = 250'000;
-  for (int i = 0; i < frames; ++i) {
-    samples.start = i == 0;
-    samples.sequence = static_cast<std::uint32_t>(i);
-    samples.imu_index = row;
-    samples.time_us = 1'000'000 + std::uint64_t{row} * 250;
-    samples.row_count = 1 + (random.bits() >> 61);
-    for (std::size_t k = 0; k < samples.row_count; ++k) samples.rows[k] = row_of(row + static_cast<std::uint32_t>(k));
-    samples.force_count = random.chance(0.5) ? 1 : 0;
-    samples.forces[0] = {250, {static_cast<std::int32_t>(row), 0, 0}};
-    append_open_samples(samples, sent.bytes);
-    sent.first_row.push_back(row);
-    row += static_cast<std::uint32_t>(samples.row_count);
-  }
-  sent.first_row.push_back(row);
-  return sent;
-}
 
 struct Received {
   std::vector<ProbeSample> samples;
@@ -85,26 +30,14 @@ Received receive(std::span<const std::uint8_t> bytes) {
   return received;
 }
 
-// Every row was sent, in order; what is missing between the first and the last is exactly what was counted as lost.
-void expect_exact(const Sent& sent, const Received& received) {
+void expect_exact(const testkit::NumberedStream& sent, const Received& received) {
   const LinkStatistics& statistics = received.statistics;
-  ASSERT_EQ(statistics.samples, received.samples.size());
-  if (received.samples.empty()) return;
-  std::optional<std::uint32_t> before;
-  std::uint32_t first = 0;
-  for (const ProbeSample& sample : received.samples) {
-    const auto number = number_of(sample);
-    ASSERT_TRUE(number.has_value()) << "a row that was never sent";
-    ASSERT_TRUE(!before || *number > *before);
-    if (!before) first = *number;
-    before = number;
-  }
-  EXPECT_EQ(statistics.lost_samples + statistics.samples, *before - first + 1);
-  const auto frame_of = [&](std::uint32_t row) {
-    return std::upper_bound(sent.first_row.begin(), sent.first_row.end(), row) - sent.first_row.begin() - 1;
-  };
-  EXPECT_EQ(statistics.lost_frames + statistics.frames,
-            static_cast<std::uint64_t>(frame_of(*before) - frame_of(first) + 1));
+  const testkit::StreamTruth truth = testkit::compare_with_sent(sent, received.samples);
+  EXPECT_EQ(truth.false_rows, 0u);
+  EXPECT_EQ(statistics.samples, received.samples.size());
+  EXPECT_EQ(statistics.lost_samples, truth.missing_rows);
+  EXPECT_EQ(statistics.frames, truth.frames);
+  EXPECT_EQ(statistics.lost_frames, truth.missing_frames);
   EXPECT_EQ(statistics.restarts, 0u);
   for (std::size_t i = 1; i < received.samples.size(); ++i) {
     ASSERT_LT(received.samples[i - 1].t_ns, received.samples[i].t_ns);
@@ -112,7 +45,7 @@ void expect_exact(const Sent& sent, const Received& received) {
 }
 
 TEST(OpenDamage, WholeStreamComesThroughWhole) {
-  const Sent sent = send(3000, 1);
+  const auto sent = testkit::numbered_stream(3000, 1);
   const Received received = receive(sent.bytes);
   EXPECT_EQ(received.statistics.frames, 3000u);
   EXPECT_EQ(received.statistics.lost_frames, 0u);
@@ -123,7 +56,7 @@ TEST(OpenDamage, WholeStreamComesThroughWhole) {
 
 // Each byte of a frame between two others: damaged in each of its bits, dropped, doubled, and one put before it.
 TEST(OpenDamage, EachByteOfAFrame) {
-  const Sent sent = send(3, 2);
+  const auto sent = testkit::numbered_stream(3, 2);
   const auto frame_begin =
       static_cast<std::size_t>(std::find(sent.bytes.begin(), sent.bytes.end(), 0) - sent.bytes.begin() + 1);
   const auto frame_end = static_cast<std::size_t>(
@@ -132,7 +65,7 @@ TEST(OpenDamage, EachByteOfAFrame) {
   for (std::size_t at = frame_begin; at <= frame_end; ++at) {
     const auto place = static_cast<std::ptrdiff_t>(at);
     for (int bit = 0; bit < 8; ++bit) {
-      Sent damaged = sent;
+      auto damaged = sent;
       damaged.bytes[at] ^= static_cast<std::uint8_t>(1U << bit);
       const Received received = receive(damaged.bytes);
       // Of a damaged delimiter the next frame falls too.
@@ -140,12 +73,12 @@ TEST(OpenDamage, EachByteOfAFrame) {
       EXPECT_GE(received.statistics.damaged_frames, 1u);
       expect_exact(sent, received);
     }
-    Sent dropped = sent;
+    auto dropped = sent;
     dropped.bytes.erase(dropped.bytes.begin() + place);
     expect_exact(sent, receive(dropped.bytes));
     EXPECT_EQ(receive(dropped.bytes).statistics.frames, at == frame_end ? 1u : 2u);
     for (int value = 0; value < 256; value += 15) {
-      Sent inserted = sent;
+      auto inserted = sent;
       inserted.bytes.insert(inserted.bytes.begin() + place, static_cast<std::uint8_t>(value));
       const Received received = receive(inserted.bytes);
       expect_exact(sent, received);
@@ -156,7 +89,7 @@ TEST(OpenDamage, EachByteOfAFrame) {
 }
 
 TEST(OpenDamage, NoFalseFrameAndLossesExact) {
-  const Sent sent = send(20'000, 3);
+  const auto sent = testkit::numbered_stream(20'000, 3);
   Random random(4);
   Bytes bytes;
   testkit::corrupt_bytes(sent.bytes, {0.003, 0.003, 0.003}, random, bytes);
@@ -168,7 +101,7 @@ TEST(OpenDamage, NoFalseFrameAndLossesExact) {
 }
 
 TEST(OpenDamage, WholeFramesLostLateAndTwice) {
-  const Sent sent = send(5000, 5);
+  const auto sent = testkit::numbered_stream(5000, 5);
   Random random(6);
   std::vector<std::span<const std::uint8_t>> frames;
   std::span<const std::uint8_t> rest = sent.bytes;

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "asperity/base/random.h"
+#include "asperity/simulation/true_motion.h"
+#include "smooth_step.h"
 #include "streams.h"
 
 namespace asperity {
@@ -44,12 +46,6 @@ struct TimedWave3 {
   Eigen::Vector3d at(double t_s) const { return {x.at(t_s), y.at(t_s), z.at(t_s)}; }
   TimedWave x, y, z;
 };
-
-// From 0 to 1, with three derivatives of zero at both ends.
-double smooth_step(double share) {
-  const double u = std::clamp(share, 0.0, 1.0);
-  return u * u * u * u * (35.0 + u * (-84.0 + u * (70.0 - 20.0 * u)));
-}
 
 MotionState state_of(const Pose& T_world_marker, const Eigen::Vector3d& tip_in_marker_m) {
   MotionState state;
@@ -118,6 +114,15 @@ MotionFunction static_poses_motion(const StaticPosesMotion& poses, const Eigen::
     T.rotation = slerp((*turns)[here], (*turns)[next], share);
     return state_of(T, tip_in_marker_m);
   };
+}
+
+std::vector<Eigen::Vector3d> resting_force_mps2(const Recording& bench, const std::vector<std::int64_t>& t_ns) {
+  const TrueMotion motion(bench);
+  std::vector<Eigen::Vector3d> out;
+  out.reserve(t_ns.size());
+  for (const std::int64_t t : t_ns)
+    out.emplace_back(motion.T_world_marker(t).rotation.conjugate() * -bench.info.gravity_world_mps2);
+  return out;
 }
 
 }  // namespace asperity

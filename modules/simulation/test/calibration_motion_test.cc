@@ -6,6 +6,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/simulation/board_poses.h"
+#include "asperity/simulation/force_steps.h"
 #include "asperity/simulation/live_bench.h"
 
 namespace asperity {
@@ -72,6 +73,19 @@ TEST(CalibrationMotion, ShakingBeginsAtRest) {
   const MotionFunction motion = shake_motion(shake, tip_of(config));
   EXPECT_EQ(motion(0.0).p_world_tip_m, motion(shake.rest_s).p_world_tip_m);
   EXPECT_GT((motion(3.0).p_world_tip_m - motion(3.1).p_world_tip_m).norm(), 1e-4);
+}
+
+TEST(CalibrationMotion, ForceStepsAreReadBack) {
+  SimulationConfig config = quiet_config();
+  config.probe.force_noise_N = 0.0;
+  const ForceSteps steps;
+  const Recording recording =
+      simulate_motion(config, force_steps_motion(steps, {}, tip_of(config)), steps.duration_s(), "force");
+  const ForceReadings readings = read_force_steps(steps, recording.probe, recording.truth->t_ns.front());
+  ASSERT_EQ(readings.counts.size(), steps.force_N.size());
+  for (std::size_t i = 0; i < readings.counts.size(); ++i)
+    EXPECT_NEAR(recording.calibration.force.force_N(readings.counts[i]), steps.force_N[i], 3e-4);  // a count
+  EXPECT_THROW(read_force_steps(steps, recording.probe, recording.truth->t_ns.front() + 60'000'000'000), Error);
 }
 
 TEST(CalibrationMotion, RefusesWhatCannotBe) {

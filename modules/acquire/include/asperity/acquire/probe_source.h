@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "asperity/acquire/byte_source.h"
 #include "asperity/acquire/link_statistics.h"
-#include "asperity/acquire/probe_decoder.h"
 #include "asperity/acquire/probe_description.h"
+#include "asperity/acquire/probe_link.h"
 #include "asperity/recording/append.h"
 
 namespace asperity {
@@ -28,8 +27,6 @@ class ProbeSource {
   virtual std::string name() const = 0;
 };
 
-// The samples that `decoder` finds in the bytes of `bytes`.
-std::unique_ptr<ProbeSource> make_probe_source(std::unique_ptr<ByteSource> bytes,
-                                               std::unique_ptr<ProbeDecoder> decoder);
+std::unique_ptr<ProbeSource> make_probe_source(ProbeLink link);
 
 }  // namespace asperity

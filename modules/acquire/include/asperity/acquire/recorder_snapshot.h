@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "asperity/acquire/gravity_estimator.h"
 #include "asperity/acquire/link_statistics.h"
@@ -24,6 +25,7 @@ enum class SensorState {
 struct SensorSnapshot {
   SensorState state = SensorState::kAbsent;
   std::string name;
+  std::vector<std::string> warnings;  // of how it is set up, as the sensor says them
   std::string message;         // why it is lost or has ended, as the system says it: escape it where it is printed
   std::uint64_t lost = 0;      // times
   std::uint64_t returned = 0;  // times
@@ -42,6 +44,7 @@ struct RecorderSnapshot {
   LinkStatistics link;          // over all times that the probe was opened
   TrackingStatistics tracking;  // likewise
   std::optional<ProbeDescription> description;
+  bool columns_missing = false;  // it described itself too late: it has sensors that are not stored
 
   double force_N = std::numeric_limits<double>::quiet_NaN();  // newest; counts if not calibrated
   bool force_is_calibrated = false;

@@ -12,7 +12,7 @@ namespace asperity {
 
 struct RefineCornersConfig {
   bool enabled = true;
-  int most_pixels = 2500;  // of one tag that are compared; more are thinned out
+  int most_pixels = 2000;  // of one tag that are compared; more are thinned out
   int most_iterations = 12;
   double largest_move_px = 3.0;   // a corner that would move farther stays where the detector saw it
   double model_sigma_px = 0.003;  // what the model leaves out, beside the noise: of each coordinate

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "asperity/geometry/pose.h"
 #include "asperity/simulation/simulate_motion.h"
@@ -49,5 +50,9 @@ struct StaticPosesMotion {
   double duration_s() const { return poses * (hold_s + move_s); }
 };
 MotionFunction static_poses_motion(const StaticPosesMotion& poses, const Eigen::Vector3d& tip_in_marker_m);
+
+// The specific force of a probe at rest, −g in the marker frame, at times `t_ns` of a recording of the bench: what a
+// tilting table or a robot that holds the probe knows (seed §3.5, Freedom 6S; erratum 5).
+std::vector<Eigen::Vector3d> resting_force_mps2(const Recording& bench, const std::vector<std::int64_t>& t_ns);
 
 }  // namespace asperity

@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "asperity/acquire/frame_writer.h"
+#include "asperity/acquire/recorder.h"
+#include "asperity/base/text.h"
+#include "asperity/pipeline/config_json.h"
+#include "commands.h"
+#include "interrupt.h"
+#include "option_units.h"
+#include "record_input.h"
+#include "record_report.h"
+#include "record_status.h"
+#include "record_verdict.h"
+#include "terminal_keys.h"
+
+namespace asperity::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RecordSettings {
+  RecorderConfig recorder;
+  TrackConfig track;
+  RecordVerdictConfig verdict;
+
+  template <class V>
+  void visit(V& v) {
+    v.group("recorder", recorder);
+    v.group("track", track);
+    v.group("verdict", verdict);
+  }
+};
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday,
+                     parts.tm_hour, parts.tm_min, parts.tm_sec);
+}
+
+class RecordCommand : public Command {
+ public:
+  explicit RecordCommand(CLI::App& root) : Command(root, "record", "Record a probe and its pose while a hand scans") {
+    settings_.recorder.start_at_once = true;
+    require(parser().add_option("--probe", input_.probe,
+                                "serial:/dev/ttyUSB0[@BAUD], usb:VID:PID[:SERIAL], udp:PORT or file:CAPTURE"))
+        ->type_name("ADDRESS");
+    parser().add_option("--protocol", input_.protocol, "open (the default) or what")->type_name("NAME");
+    parser()
+        .add_option("--camera", input_.camera, "v4l2:/dev/video0[?rate=120&…], y4m:PATH, images:FOLDER or video:FILE")
+        ->type_name("ADDRESS");
+    parser()
+        .add_option("--markers", input_.markers, "The tags on the probe; else those of the calibration")
+        ->type_name("markers.json");
+    parser()
+        .add_option("--poses", input_.poses,
+                    "Instead of a camera another tracker's lines t_ns,px_m,…: udp:PORT, pipe:PATH or file:PATH")
+        ->type_name("ADDRESS");
+    parser().add_option("--world", info_.world, "The poses' world: camera (the default) or z_up")->type_name("NAME");
+    parser()
+        .add_option("--calibration", input_.calibration, "Of the probe, the camera and the tracker")
+        ->type_name("calibration.json");
+    parser().add_flag("--uncalibrated", input_.uncalibrated, "Record without one, to calibrate from");
+    parser().add_flag("--auto", auto_, "Store only while the probe touches");
+    parser().add_option("--duration", duration_, "Stop after this time; else at q or Ctrl-C")->type_name("TIME");
+    parser().add_option("--object", info_.object, "What is scanned")->type_name("NAME");
+    parser().add_flag("--frames", frames_, "Keep the camera's images as PNG in frames/");
+    require(parser().add_option("-o,--output", output_, "The recording's folder, which must not exist yet"))
+        ->type_name("REC");
+  }
+
+  std::vector<ConfigField> fields() override { return list_fields("", settings_); }
+
+  void apply_options() override {
+    if (auto_) settings_.recorder.mode = StoreMode::kAuto;
+    if (!duration_.empty()) duration_s_ = duration_option_s("--duration", duration_, 86'400.0);
+  }
+
+  int run(const Observer&) override {
+    check_record_input(input_);
+    if (info_.world != "camera" && info_.world != "z_up")
+      throw UsageError("--world: '" + printable(info_.world) + "' is neither camera nor z_up");
+    if (!is_utf8(info_.object)) throw UsageError("--object: is not UTF-8");
+    if (frames_ && input_.camera.empty()) throw UsageError("--frames needs --camera");
+    if (info_.world == "z_up") info_.gravity_world_mps2 = {0.0, 0.0, -info_.gravity_world_mps2.norm()};
+    info_.created = utc_now();
+    const std::optional<Calibration> calibration = read_record_calibration(input_);
+
+    std::optional<FrameWriter> kept;
+    if (frames_) kept.emplace(fs::path(output_) / "frames");
+    const auto on_frame = [&](const CameraFrame& frame) {
+      if (kept && storing_) kept->push(frame);
+    };
+    const FinishHold hold;
+    RecordOutcome outcome;
+    outcome.recording = output_;
+    {
+      Recorder recorder(output_, info_, calibration,
+                        make_record_sensors(input_, calibration, settings_.track, on_frame), settings_.recorder);
+      outcome.end = watch(recorder);
+      storing_ = false;
+      outcome.figures = recorder.finish();
+    }
+    if (kept) {
+      kept->finish();
+      outcome.frames = kept->figures();
+    }
+    return report(outcome, calibration.has_value());
+  }
+
+ private:
+  // Shows how it goes and hears the keys, until there is a reason to end.
+  std::string watch(Recorder& recorder) {
+    using namespace std::chrono_literals;
+    TerminalKeys keys(!quiet());
+    RecordStatus status(quiet() || json(), keys.active());
+    for (;;) {
+      const RecorderSnapshot now = recorder.snapshot();
+      storing_ = now.storing;
+      status.show(now);
+      if (interrupted()) return "signal";
+      if (!now.failure.empty()) return "failure";
+      if (duration_s_ > 0.0 && now.running_s >= duration_s_) return "duration";
+      const bool poses_ended = now.poses.state == SensorState::kEnded || now.poses.state == SensorState::kAbsent;
+      if (now.probe.state == SensorState::kEnded && poses_ended) return "inputs_ended";
+      const char key = keys.read(50ms);
+      if (key == 'q') return "key";
+      if (key == ' ' && now.storing) recorder.stop_segment();
+      if (key == ' ' && !now.storing) recorder.start_segment();
+      if (key == 'd') recorder.discard_segment();
+      if (key == 'r') recorder.rescan_segment();
+    }
+  }
+
+  int report(RecordOutcome& outcome, bool calibrated) {
+    const bool by_contact = settings_.recorder.mode == StoreMode::kAuto;
+    outcome.verdict = judge_recording(outcome.figures, by_contact, calibrated, settings_.verdict);
+    if (!outcome.frames.failure.empty())
+      outcome.verdict.warnings.push_back("images were not kept: " + printable(outcome.frames.failure, 300));
+    else if (outcome.frames.dropped > 0)
+      outcome.verdict.warnings.push_back(
+          fmt::format("{} images were not kept: the disk or PNG is too slow", outcome.frames.dropped));
+    print_json(record_json(outcome, config_json(fields())));
+    say(record_text(outcome));
+    if (!quiet()) {
+      for (const std::string& warning : outcome.verdict.warnings) complain(warning);
+    }
+    for (const std::string& doubt : outcome.verdict.doubts) complain("not to be trusted: " + doubt);
+    return outcome.verdict.doubts.empty() ? kDone : kNotTrustworthy;
+  }
+
+  RecordInput input_;
+  RecordingInfo info_;
+  std::string duration_, output_;
+  double duration_s_ = 0.0;
+  bool auto_ = false, frames_ = false;
+  std::atomic<bool> storing_{false};
+  RecordSettings settings_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_record(CLI::App& root) { return std::make_unique<RecordCommand>(root); }
+
+}  // namespace asperity::app

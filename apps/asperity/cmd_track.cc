@@ -1,0 +1,164 @@
+#include <time.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "asperity/acquire/open_image_folder.h"
+#include "asperity/acquire/track_images.h"
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
+#include "asperity/base/version.h"
+#include "asperity/pipeline/config_json.h"
+#include "asperity/recording/read_markers.h"
+#include "commands.h"
+#include "our_file.h"
+
+namespace asperity::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_image_name(const fs::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".pgm";
+}
+
+// The images that are named, those of folders by name.
+std::vector<fs::path> list_images(const std::vector<std::string>& named) {
+  std::vector<fs::path> out;
+  for (const std::string& path : named) {
+    std::error_code error;
+    if (!fs::is_directory(path, error)) {
+      out.emplace_back(path);
+      continue;
+    }
+    std::vector<fs::path> inside;
+    for (fs::directory_iterator entry(path, error), end; !error && entry != end; entry.increment(error)) {
+      std::error_code ignored;
+      if (is_image_name(entry->path()) && entry->is_regular_file(ignored)) inside.push_back(entry->path());
+    }
+    if (error) throw Error(printable(path, 200) + ": cannot be read: " + error.message());
+    if (inside.empty()) throw Error(printable(path, 200) + ": there is no image (*.png, *.jpg, *.jpeg, *.pgm)");
+    std::sort(inside.begin(), inside.end());
+    out.insert(out.end(), inside.begin(), inside.end());
+  }
+  return out;
+}
+
+double processor_s() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+class TrackCommand : public Command {
+ public:
+  explicit TrackCommand(CLI::App& root) : Command(root, "track", "The poses of a body of tags in a camera's images") {
+    require(parser().add_option("IMAGES", images_,
+                                "Images (PNG, JPEG, PGM), or folders of them, named by their time in ns"));
+    require(parser().add_option("--camera", camera_, "A calibration.json with the camera"))->type_name("FILE.json");
+    require(
+        parser().add_option("--markers", markers_, "The body's tags: markers.json, or a calibration.json with them"))
+        ->type_name("FILE.json");
+    parser().add_option("--rate", rate_Hz_, "Images a second, where their names are no times")->type_name("HZ");
+    parser().add_flag("--timing", timing_, "Tell the frames a second of one core, reading included");
+    require(parser().add_option("-o,--output", output_, "The tracker.csv to write"))->type_name("FILE.csv");
+  }
+
+  std::vector<ConfigField> fields() override { return list_fields("track", config_); }
+
+  int run(const Observer& observer) override {
+    if (rate_Hz_ && !(*rate_Hz_ > 0.0)) throw UsageError("--rate: must be above 0");
+    refuse_stranger(output_, tracked_csv_header(), {camera_, markers_});
+    const CameraCalibration camera = read_camera(camera_);
+    const MarkerFile markers = read_markers(markers_);
+    const std::vector<fs::path> files = list_images(images_);
+    ImageFolderConfig images;
+    if (rate_Hz_) {
+      images.rate_Hz = *rate_Hz_;
+    } else {
+      for (const fs::path& file : files) {
+        if (!parse_int64(file.stem().string())) {
+          throw UsageError("the name of " + printable(file.filename().string()) +
+                           " is not a time in ns; give the images a --rate");
+        }
+      }
+    }
+    const bool one_folder = images_.size() == 1 && fs::is_directory(images_.front());
+    const auto open = [&] {
+      return one_folder ? open_image_folder(images_.front(), images) : open_image_list(files, images);
+    };
+    const double start_s = processor_s();
+    TrackedImages tracked = track_images(open, camera, markers.markers, config_, observer, files.size());
+    const double frames_per_s = static_cast<double>(tracked.frames) / std::max(1e-9, processor_s() - start_s);
+    write_file(output_, format_tracked_csv(tracked.poses));
+    report(tracked, markers.declared, frames_per_s);
+    for (const Problem& problem : tracked.problems) complain("warning: " + problem.message);
+    if (!tracked.trustworthy) complain("not to be trusted: " + tracked.verdict);
+    return tracked.trustworthy ? kDone : kNotTrustworthy;
+  }
+
+ private:
+  static nlohmann::ordered_json numbers(const Eigen::Vector3d& v) {
+    if (!v.allFinite()) return nullptr;
+    return {v.x(), v.y(), v.z()};
+  }
+
+  void report(const TrackedImages& tracked, TagFrame declared, double frames_per_s) {
+    nlohmann::ordered_json out;
+    out["format"] = "asperity-tracked";
+    out["version"] = 1;
+    out["output"] = output_;
+    out["frames"] = tracked.frames;
+    out["poses"] = tracked.poses.size();
+    out["ambiguous"] = tracked.ambiguous;
+    if (timing_) out["frames_per_s"] = frames_per_s;
+    out["median_reprojection_px"] = tracked.median_reprojection_px;  // null if nan
+    out["median_sigma_m"] = numbers(tracked.median_sigma_m);
+    out["median_sigma_rad"] = numbers(tracked.median_sigma_rad);
+    out["tag_frame_declared"] = declared == TagFrame::kOpenCv ? "opencv" : "apriltag";
+    out["problems"] = nlohmann::ordered_json::array();
+    for (const Problem& problem : tracked.problems) {
+      out["problems"].push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
+    }
+    out["trustworthy"] = tracked.trustworthy;
+    out["verdict"] = tracked.verdict;
+    out["config"] = nlohmann::ordered_json::parse(config_json(fields()));
+    out["asperity"] = kVersion;
+    print_json(out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+
+    std::string text = fmt::format("{}: {}\n", printable(output_, 200), tracked.verdict);
+    if (!tracked.poses.empty()) {
+      text += fmt::format(
+          "residual      {:.3f} px\n"
+          "sigma         {:.4f}, {:.4f}, {:.4f} mm; {:.4f}, {:.4f}, {:.4f} mrad (median, along and about x, y, z)\n",
+          tracked.median_reprojection_px, tracked.median_sigma_m.x() * 1e3, tracked.median_sigma_m.y() * 1e3,
+          tracked.median_sigma_m.z() * 1e3, tracked.median_sigma_rad.x() * 1e3, tracked.median_sigma_rad.y() * 1e3,
+          tracked.median_sigma_rad.z() * 1e3);
+    }
+    if (timing_) text += fmt::format("speed         {:.0f} frames/s of one core\n", frames_per_s);
+    say(text);
+  }
+
+  std::vector<std::string> images_;
+  std::string camera_, markers_, output_;
+  std::optional<double> rate_Hz_;
+  bool timing_ = false;
+  TrackConfig config_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_track(CLI::App& root) { return std::make_unique<TrackCommand>(root); }
+
+}  // namespace asperity::app

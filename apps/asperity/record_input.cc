@@ -1,0 +1,102 @@
+#include "record_input.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "asperity/acquire/camera_pose_source.h"
+#include "asperity/acquire/open_camera.h"
+#include "asperity/acquire/open_pose_stream.h"
+#include "asperity/acquire/probe_address.h"
+#include "asperity/acquire/probe_link.h"
+#include "asperity/base/text.h"
+#include "asperity/recording/read_markers.h"
+#include "asperity/recording/read_recording.h"
+#include "command.h"
+
+namespace asperity::app {
+
+namespace {
+
+ProbeProtocol protocol_of(const std::string& name) {
+  const auto found = std::find(kProbeProtocolNames.begin(), kProbeProtocolNames.end(), name);
+  if (found == kProbeProtocolNames.end())
+    throw UsageError("--protocol: '" + printable(name) + "' is neither what nor open");
+  return static_cast<ProbeProtocol>(found - kProbeProtocolNames.begin());
+}
+
+template <class Parse>
+auto address_of(const char* option, const Parse& parse, const std::string& text) {
+  try {
+    return parse(text);
+  } catch (const Error& error) {
+    throw UsageError(std::string(option) + ": " + error.what());
+  }
+}
+
+// A device may come back; a file's end is the end.
+bool is_live(const CameraAddress& address) {
+  return address.kind == CameraKind::kV4l2 ||
+         (address.kind == CameraKind::kY4m && (address.path == "-" || std::filesystem::is_fifo(address.path)));
+}
+
+void add_camera(RecorderSensors& sensors, const RecordInput& input, const Calibration& calibration,
+                const TrackConfig& track, const std::function<void(const CameraFrame&)>& on_frame) {
+  const CameraAddress address = address_of("--camera", parse_camera_address, input.camera);
+  const std::string file = printable(input.calibration, 200);
+  if (!calibration.camera) throw Error(file + ": camera is missing; see asperity calibrate camera");
+  if (calibration.markers.empty()) throw Error(file + ": markers are missing; give --markers");
+  const CameraCalibration camera = *calibration.camera;
+  const std::vector<MarkerPlacement> body = calibration.markers;
+  CameraPoseConfig config;
+  config.newest = is_live(address);
+  config.nominal_rate_Hz = address.kind == CameraKind::kV4l2 ? address.v4l2.rate_Hz : address.images.rate_Hz;
+  BodyTracker(camera, body, track);  // throws now, not in a thread
+  sensors.reopen_poses = config.newest;
+  sensors.open_poses = [=] {
+    return make_camera_pose_source(open_camera(address), BodyTracker(camera, body, track), config, on_frame);
+  };
+}
+
+}  // namespace
+
+void check_record_input(const RecordInput& input) {
+  if (input.probe.empty()) throw UsageError("--probe: an address is needed");
+  if (!input.camera.empty() && !input.poses.empty()) throw UsageError("--camera and --poses exclude each other");
+  if (input.calibration.empty() && !input.uncalibrated)
+    throw UsageError("--calibration is missing; without one, --uncalibrated records what is to be calibrated");
+  if (!input.calibration.empty() && input.uncalibrated)
+    throw UsageError("--calibration and --uncalibrated exclude each other");
+  if (!input.camera.empty() && input.uncalibrated)
+    throw UsageError("--camera needs the camera's --calibration to find poses");
+  if (!input.markers.empty() && input.camera.empty()) throw UsageError("--markers needs --camera");
+}
+
+std::optional<Calibration> read_record_calibration(const RecordInput& input) {
+  if (input.uncalibrated) return std::nullopt;
+  Calibration out = read_calibration(input.calibration);
+  if (!input.markers.empty()) out.markers = read_markers(input.markers).markers;
+  return out;
+}
+
+RecorderSensors make_record_sensors(const RecordInput& input, const std::optional<Calibration>& calibration,
+                                    const TrackConfig& track, const std::function<void(const CameraFrame&)>& on_frame) {
+  RecorderSensors out;
+  const ProbeProtocol protocol = protocol_of(input.protocol);
+  const ProbeAddress probe = address_of("--probe", parse_probe_address, input.probe);
+  out.probe_describes_itself = protocol == ProbeProtocol::kOpen;
+  out.reopen_probe = probe.kind != ProbeLinkKind::kFile;
+  out.replayed = !out.reopen_probe;
+  out.open_probe = [=] { return make_probe_source(ProbeLink(open_probe_source(probe, protocol), protocol)); };
+  if (!input.camera.empty()) add_camera(out, input, *calibration, track, on_frame);
+  if (!input.poses.empty()) {
+    const PoseAddress poses = address_of("--poses", parse_pose_address, input.poses);
+    out.reopen_poses = poses.kind != PoseAddress::Kind::kFile;
+    out.open_poses = [=] { return open_pose_stream(poses); };
+  }
+  return out;
+}
+
+}  // namespace asperity::app

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "asperity/acquire/camera_source.h"
+#include "asperity/acquire/recorder.h"
+#include "asperity/acquire/track_body.h"
+#include "asperity/recording/calibration.h"
+
+namespace asperity::app {
+
+// What `record` is told of its sensors, as typed.
+struct RecordInput {
+  std::string probe;
+  std::string protocol = "open";
+  std::string camera;
+  std::string markers;
+  std::string poses;
+  std::string calibration;
+  bool uncalibrated = false;
+};
+
+// Throws UsageError for what cannot be meant.
+void check_record_input(const RecordInput& input);
+
+// calibration.json with the markers of markers.json where there is one; nullopt for --uncalibrated. Throws Error naming
+// the file.
+std::optional<Calibration> read_record_calibration(const RecordInput& input);
+
+// The functions that open the sensors. `on_frame` is given the camera's images. Throws Error for an address that is
+// none, and for a camera without a calibration or markers.
+RecorderSensors make_record_sensors(const RecordInput& input, const std::optional<Calibration>& calibration,
+                                    const TrackConfig& track, const std::function<void(const CameraFrame&)>& on_frame);
+
+}  // namespace asperity::app

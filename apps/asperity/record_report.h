@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "asperity/acquire/frame_writer.h"
+#include "asperity/acquire/recorder_snapshot.h"
+#include "record_verdict.h"
+
+namespace asperity::app {
+
+struct RecordOutcome {
+  std::string recording;  // its folder
+  std::string end;        // why: "duration", "key", "signal", "inputs_ended"
+  RecorderSnapshot figures;
+  FrameWriter::Figures frames;
+  RecordVerdict verdict;
+};
+
+// The outcome as one JSON object; `config_json`: the settings.
+std::string record_json(const RecordOutcome& outcome, const std::string& config_json);
+// And in a few lines for a person.
+std::string record_text(const RecordOutcome& outcome);
+
+}  // namespace asperity::app
