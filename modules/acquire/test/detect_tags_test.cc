@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(Families, DetectTags,
                                          Case{"tag25h9", tag25h9_create, tag25h9_destroy},
                                          Case{"tag16h5", tag16h5_create, tag16h5_destroy},
                                          Case{"tagStandard41h12", tagStandard41h12_create, tagStandard41h12_destroy}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const testing::TestParamInfo<Case>& tested) { return std::string(tested.param.name); });
 
 TEST(DetectTagsErrors, AFamilyThatIsNotKnownIsNamed) {
   try {

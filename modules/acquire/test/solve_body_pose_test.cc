@@ -259,7 +259,9 @@ TEST(SolveBodyPose, WhatCannotBeSolvedIsSaid) {
   SeenTag line;
   line.corners_px << 100, 110, 120, 130, 50, 50, 50, 50;
   const auto degenerate = solve_body_pose(camera, {body[0]}, std::vector<SeenTag>{line});
-  if (degenerate) EXPECT_TRUE(degenerate->covariance.allFinite());
+  if (degenerate) {
+    EXPECT_TRUE(degenerate->covariance.allFinite());
+  }
 }
 
 }  // namespace
