@@ -30,7 +30,10 @@ std::unique_ptr<Command> make_texture_compare(CLI::App& texture);
 
 // The commands below `asperity calibrate`.
 std::unique_ptr<Command> make_calibrate_accel(CLI::App& calibrate);
+std::unique_ptr<Command> make_calibrate_camera(CLI::App& calibrate);
 std::unique_ptr<Command> make_calibrate_force(CLI::App& calibrate);
+std::unique_ptr<Command> make_calibrate_latency(CLI::App& calibrate);
+std::unique_ptr<Command> make_calibrate_tracker(CLI::App& calibrate);
 std::unique_ptr<Command> make_calibrate_tip(CLI::App& calibrate);
 
 // The commands below `asperity markers`.

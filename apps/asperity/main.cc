@@ -50,8 +50,10 @@ struct Program {
     CLI::App* calibrate = parser.add_subcommand(
         "calibrate", "Find a calibration's values, their standard errors and whether to trust them");
     calibrate->require_subcommand(1);
-    for (const auto make : {make_calibrate_force, make_calibrate_accel, make_calibrate_tip})
+    for (const auto make : {make_calibrate_camera, make_calibrate_tracker, make_calibrate_force, make_calibrate_accel,
+                            make_calibrate_tip, make_calibrate_latency}) {
       commands.push_back(make(*calibrate));
+    }
   }
 };
 

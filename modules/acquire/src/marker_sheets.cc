@@ -81,7 +81,7 @@ class RingLayout {
       marker.family = family_.name;
       marker.size_m = config_.size_m;
       marker.T_marker_tag.translation_m = {apothem_m * std::sin(theta), 0.0, apothem_m * (1.0 - std::cos(theta))};
-      marker.T_marker_tag.rotation = {std::cos(0.5 * theta), 0.0, -std::sin(0.5 * theta), 0.0};
+      marker.T_marker_tag.rotation = {std::cos(0.5 * theta), 0.0, 0.0 - std::sin(0.5 * theta), 0.0};
       out_.markers.push_back(marker);
     }
   }
