@@ -172,7 +172,7 @@ void calibrate_the_accelerometer(Rig& rig, const Observer& observer) {
   const Recording bench =
       move(rig, static_poses_motion(poses, rig.tip_in_marker_m()), poses.duration_s(), "static poses", observer);
   const auto [heard, description] = through_link(bench, rig.simulation.probe);
-  AccelerometerSamples samples = accelerometer_samples_of(heard).samples;
+  const AccelerometerSamples samples = accelerometer_samples_of(heard).samples;
   const AccelerometerFieldResult field = calibrate_accelerometer_field(samples);
   rig.judge("accelerometer in the field", field.verdict);
   const AccelerometerCalibration& truth = bench.calibration.accelerometer;
@@ -186,8 +186,16 @@ void calibrate_the_accelerometer(Rig& rig, const Observer& observer) {
   rig.add("accelerometer_field", fmt::format("accelerometer from gravity alone: {} poses", field.used), figures);
 
   // On a tilting table, which knows how it stands: the sensor's rotation to the marker comes with it.
-  samples.specific_force_mps2 = resting_force_mps2(bench, heard.probe.t_ns);
-  const AccelerometerFit fit = fit_accelerometer(samples);
+  const std::vector<Eigen::Vector3d> force_mps2 = resting_force_mps2(bench, heard.probe.t_ns);
+  AccelerometerSamples still;
+  for (const FieldPose& pose : field.poses) {
+    for (std::size_t i = pose.pose.first; i < pose.pose.last; ++i) {
+      still.t_s.push_back(samples.t_s[i]);
+      still.counts.push_back(samples.counts[i]);
+      still.specific_force_mps2.push_back(force_mps2[i]);
+    }
+  }
+  const AccelerometerFit fit = fit_accelerometer(still);
   rig.judge("accelerometer", fit.verdict);
   rig.calibration.accelerometer = fit.accelerometer;
   rig.calibration.accelerometer.position_in_marker_m = truth.position_in_marker_m;
@@ -236,7 +244,7 @@ void calibrate_the_latency(Rig& rig, const Observer& observer) {
   rig.judge("latency", fit.verdict);
   rig.add("latency", fmt::format("latency: shaken live, {} poses", fit.poses),
           {{"latency_s", "latency", "ms", 1e3, fit.latency_s, fit.latency_error_s, DemoFigure::kNone,
-            scan.calibration.tracker.latency_s}});
+            scan.calibration.tracker.latency_s - live.stamp_delay_s}});
 }
 
 void scan_the_protoboard(Rig& rig, const ProcessConfig& process, const Observer& observer) {

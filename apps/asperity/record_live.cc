@@ -19,6 +19,7 @@
 #include "asperity/recording/format.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/simulation/probe_device.h"
+#include "asperity/simulation/stamp_delay.h"
 #include "live_scan.h"
 
 namespace asperity::app {
@@ -46,6 +47,7 @@ LiveRecording record_live(const Recording& scan, const SimulatedProbeConfig& pro
   fs::create_directories(live_folder);
   fs::create_directories(folder);
   LiveRecording out;
+  Recording bench;
   {
     LiveScan live(scan, probe, config, live_folder);
     std::atomic<bool> stop{false};
@@ -97,10 +99,12 @@ LiveRecording record_live(const Recording& scan, const SimulatedProbeConfig& pro
     }
     player.join();
     if (failure) std::rethrow_exception(failure);
-    write_file(folder / "truth.csv", format_truth_csv(*live.on_host_clock().truth));
+    bench = live.on_host_clock();
   }
+  write_file(folder / "truth.csv", format_truth_csv(*bench.truth));
   fs::remove_all(live_folder);
   out.recording = read_recording(folder);
+  out.stamp_delay_s = stamp_delay_s(out.recording.probe, bench);
   return out;
 }
 

@@ -14,7 +14,8 @@
 namespace asperity::app {
 
 struct LiveRecording {
-  Recording recording;  // what the recorder made of it, with the bench's truth
+  Recording recording;         // what the recorder made of it, with the bench's truth
+  double stamp_delay_s = 0.0;  // of the probe's rows (stamp_delay.h)
   LiveReport played;
   RecorderSnapshot recorder;
 };

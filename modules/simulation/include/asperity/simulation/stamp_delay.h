@@ -1,0 +1,13 @@
+#pragma once
+
+#include "asperity/recording/recording.h"
+
+namespace asperity {
+
+// By how much the recorded rows of the probe are stamped later than they were taken, in the mean, s: what the link and
+// its least delay leave, which no host can see and which the latency of the tracker is measured against. `recorded` is
+// what a recorder made of `bench` (LiveBench::on_host_clock); its rows are found in the bench's by their counts. Throws
+// Error if they are not.
+double stamp_delay_s(const ProbeStream& recorded, const Recording& bench);
+
+}  // namespace asperity
