@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "asperity/base/error.h"
+#include "asperity/simulation/low_pass.h"
 
 namespace asperity {
 
@@ -27,6 +28,10 @@ double stamp_delay_s(const ProbeStream& recorded, const Recording& bench) {
   }
   if (found == 0 || 2 * found < recorded.size()) throw Error("the recorded rows are not those of the bench");
   return sum_s / static_cast<double>(found);
+}
+
+double gyroscope_delay_s(const SimulationConfig& config) {
+  return SensorLowPass<double>(config.probe.gyro_bandwidth_Hz, config.probe.accel_poles, 1.0 / config.step_s).delay_s();
 }
 
 }  // namespace asperity

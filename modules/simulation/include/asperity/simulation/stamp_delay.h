@@ -1,6 +1,7 @@
 #pragma once
 
 #include "asperity/recording/recording.h"
+#include "asperity/simulation/simulation_config.h"
 
 namespace asperity {
 
@@ -9,5 +10,8 @@ namespace asperity {
 // what a recorder made of `bench` (LiveBench::on_host_clock); its rows are found in the bench's by their counts. Throws
 // Error if they are not.
 double stamp_delay_s(const ProbeStream& recorded, const Recording& bench);
+
+// By how much the gyroscope's readings lag the motion: the group delay of its low-pass.
+double gyroscope_delay_s(const SimulationConfig& config);
 
 }  // namespace asperity
