@@ -5,7 +5,8 @@
 
 namespace asperity {
 
-// By how much the recorded rows of the probe are stamped later than they were taken, in the mean, s: what the link and
+// By how much the recorded rows of the probe are stamped later than they were taken, the median, s (the first rows may
+// come late before the host knows the probe's clock): what the link and
 // its least delay leave, which no host can see and which the latency of the tracker is measured against. `recorded` is
 // what a recorder made of `bench` (LiveBench::on_host_clock); its rows are found in the bench's by their counts. Throws
 // Error if they are not.
