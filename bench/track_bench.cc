@@ -127,7 +127,7 @@ int main(int argc, char** argv) {
         Errors errors;
         for (std::size_t i = 0; i < images.size(); ++i) {
           const double start = now_s();
-          const auto pose = tracker.push(images[i], static_cast<std::int64_t>(i) * 10'000'000);
+          auto pose = tracker.push(images[i], static_cast<std::int64_t>(i) * 10'000'000);
           errors.seconds += now_s() - start;
           ++errors.frames;
           if (!pose) continue;

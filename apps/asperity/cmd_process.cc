@@ -13,6 +13,7 @@
 #include "asperity/base/text.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/write_result.h"
+#include "asperity/recording/cut_recording.h"
 #include "asperity/recording/read_recording.h"
 #include "commands.h"
 #include "result_summary.h"
@@ -34,8 +35,11 @@ class ProcessCommand : public Command {
  public:
   explicit ProcessCommand(CLI::App& root)
       : Command(root, "process", "From recordings to surface profiles, roughness and haptic textures") {
-    require(parser().add_option("REC", recordings_, "Recordings; several give OUT/NAME/ each"));
+    require(parser().add_option("REC", recordings_,
+                                "Recordings; several give OUT/NAME/ each, and several segments with gaps between them "
+                                "OUT/SEGMENT/ or OUT/NAME/SEGMENT/ each"));
     require(parser().add_option("-o,--output", output_, "Folder of the results"))->type_name("OUT");
+    parser().add_option("--segment", segment_, "Only this segment of each recording")->type_name("NAME");
     parser().add_option("--method", method_, "fused (ours, the default) or thesis (the baseline)")->type_name("NAME");
   }
 
@@ -59,27 +63,69 @@ class ProcessCommand : public Command {
       }
     }
     OutputFolder folder(output_, is_result_folder);
-    bool trustworthy = true;
     std::string text;
     for (const std::string& path : recordings_) {
       const std::string name = folder_name(path);
-      const fs::path place = recordings_.size() == 1 ? folder.path() : folder.path() / name;
-      fs::create_directories(place);
-      trustworthy &= process(path, name, place, observer, text);
+      process_pieces(path, name, recordings_.size() == 1 ? folder.path() : folder.path() / name, observer, text);
     }
     observer.update("writing", 1.0);
     folder.commit();
-    print_json(recordings_.size() == 1 ? results_.front().second : joined_results());
+    print_json(alone_ ? results_.front().second : joined_results());
     say(text + "results in " + printable(output_, 200) + "\n");
     for (const std::string& why : distrust_) complain(why);
-    return trustworthy ? kDone : kNotTrustworthy;
+    return distrust_.empty() ? kDone : kNotTrustworthy;
   }
 
  private:
-  bool process(const std::string& path, const std::string& name, const fs::path& place, const Observer& observer,
-               std::string& text) {
+  // The whole recording, or its segments each for itself where they stand apart.
+  void process_pieces(const std::string& path, const std::string& name, const fs::path& place, const Observer& observer,
+                      std::string& text) {
     observer.update("reading", 0.0);
     const Recording recording = read_recording(path);
+    const std::vector<Segment> pieces = chosen_segments(path, recording);
+    alone_ = recordings_.size() == 1 && pieces.size() < 2;
+    if (pieces.empty()) {
+      process(path, name, recording, place, observer, text);
+    } else if (pieces.size() == 1) {
+      process(path, name, cut_recording(recording, pieces[0].start_ns, pieces[0].end_ns), place, observer, text);
+    } else {
+      process_each(path, name, recording, pieces, place, observer, text);
+    }
+  }
+
+  std::vector<Segment> chosen_segments(const std::string& path, const Recording& recording) const {
+    if (segment_.empty()) return separate_segments(recording);
+    try {
+      return {find_segment(recording, segment_)};
+    } catch (const Error& error) {
+      throw Error(printable(path, 200) + ": " + error.what());
+    }
+  }
+
+  // A touch too short for a profile is left out; that all are is an error.
+  void process_each(const std::string& path, const std::string& name, const Recording& recording,
+                    const std::vector<Segment>& pieces, const fs::path& place, const Observer& observer,
+                    std::string& text) {
+    const std::vector<std::string> folders = segment_folders(pieces);
+    const std::size_t before = results_.size();
+    std::string first_fault;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const Recording piece = cut_recording(recording, pieces[i].start_ns, pieces[i].end_ns);
+      const std::string whole_name = recordings_.size() == 1 ? folders[i] : name + "/" + folders[i];
+      try {
+        process(path + "/" + folders[i], whole_name, piece, place / folders[i], observer, text);
+      } catch (const Cancelled&) {
+        throw;
+      } catch (const Error& error) {
+        if (first_fault.empty()) first_fault = error.what();
+        distrust_.push_back(std::string(error.what()) + "; left out");
+      }
+    }
+    if (results_.size() == before) throw Error(first_fault);
+  }
+
+  void process(const std::string& path, const std::string& name, const Recording& recording, const fs::path& place,
+               const Observer& observer, std::string& text) {
     ProcessResult result;
     try {
       result = process_recording(recording, config_, observer);
@@ -89,11 +135,11 @@ class ProcessCommand : public Command {
       throw Error(printable(path, 200) + ": " + error.what());
     }
     observer.update("writing", 0.0);
+    fs::create_directories(place);
     write_result(place, result, recording, name);
     results_.emplace_back(name, format_result(result, recording, name));
     text += printable(name, 200) + "\n" + result_summary(result);
     if (!result.trustworthy) distrust_.push_back(printable(path, 200) + ": not to be trusted: " + result.verdict);
-    return result.trustworthy;
   }
 
   std::string joined_results() const {
@@ -109,6 +155,8 @@ class ProcessCommand : public Command {
   std::vector<std::string> recordings_;
   std::string output_;
   std::string method_;
+  std::string segment_;
+  bool alone_ = true;  // one result, not several by name
   ProcessConfig config_;
   std::vector<std::pair<std::string, std::string>> results_;
   std::vector<std::string> distrust_;

@@ -53,6 +53,7 @@ std::string utc_now() {
 class RecordCommand : public Command {
  public:
   explicit RecordCommand(CLI::App& root) : Command(root, "record", "Record a probe and its pose while a hand scans") {
+    settings_.recorder.start_at_once = true;
     require(parser().add_option("--probe", input_.probe,
                                 "serial:/dev/ttyUSB0[@BAUD], usb:VID:PID[:SERIAL], udp:PORT or file:CAPTURE"))
         ->type_name("ADDRESS");
@@ -83,7 +84,6 @@ class RecordCommand : public Command {
   std::vector<ConfigField> fields() override { return list_fields("", settings_); }
 
   void apply_options() override {
-    settings_.recorder.start_at_once = true;
     if (auto_) settings_.recorder.mode = StoreMode::kAuto;
     if (!duration_.empty()) duration_s_ = duration_option_s("--duration", duration_, 86'400.0);
   }

@@ -30,7 +30,17 @@ std::unique_ptr<Command> make_texture_compare(CLI::App& texture);
 
 // The commands below `asperity calibrate`.
 std::unique_ptr<Command> make_calibrate_accel(CLI::App& calibrate);
+std::unique_ptr<Command> make_calibrate_camera(CLI::App& calibrate);
 std::unique_ptr<Command> make_calibrate_force(CLI::App& calibrate);
+std::unique_ptr<Command> make_calibrate_latency(CLI::App& calibrate);
+std::unique_ptr<Command> make_calibrate_tracker(CLI::App& calibrate);
 std::unique_ptr<Command> make_calibrate_tip(CLI::App& calibrate);
+
+// The commands below `asperity markers`.
+std::unique_ptr<Command> make_markers_sheet(CLI::App& markers);
+std::unique_ptr<Command> make_markers_ring(CLI::App& markers);
+std::unique_ptr<Command> make_markers_board(CLI::App& markers);
+std::unique_ptr<Command> make_markers_charuco(CLI::App& markers);
+std::unique_ptr<Command> make_markers_detect(CLI::App& markers);
 
 }  // namespace asperity::app

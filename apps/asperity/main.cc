@@ -40,11 +40,20 @@ struct Program {
          {make_texture_fit, make_texture_info, make_texture_synthesize, make_texture_swap, make_texture_compare}) {
       commands.push_back(make(*texture));
     }
+    CLI::App* markers =
+        parser.add_subcommand("markers", "Print tags and boards at true scale, and find them in images");
+    markers->require_subcommand(1);
+    for (const auto make :
+         {make_markers_sheet, make_markers_ring, make_markers_board, make_markers_charuco, make_markers_detect}) {
+      commands.push_back(make(*markers));
+    }
     CLI::App* calibrate = parser.add_subcommand(
         "calibrate", "Find a calibration's values, their standard errors and whether to trust them");
     calibrate->require_subcommand(1);
-    for (const auto make : {make_calibrate_force, make_calibrate_accel, make_calibrate_tip})
+    for (const auto make : {make_calibrate_camera, make_calibrate_tracker, make_calibrate_force, make_calibrate_accel,
+                            make_calibrate_tip, make_calibrate_latency}) {
       commands.push_back(make(*calibrate));
+    }
   }
 };
 

@@ -1,6 +1,7 @@
 #include "record_status.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -28,6 +29,18 @@ std::string rate_text(const char* what, const SensorSnapshot& sensor) {
       break;
   }
   return fmt::format("  {} {:.0f}/s", what, sensor.rate_Hz);
+}
+
+// As much of the line as the terminal has columns for, or it could not be written over.
+std::string fitting(const std::string& line) {
+  winsize size{};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return line;
+  std::size_t columns = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const bool begins_a_character = (static_cast<unsigned char>(line[i]) & 0xC0u) != 0x80u;
+    if (begins_a_character && ++columns >= size.ws_col) return line.substr(0, i);
+  }
+  return line;
 }
 
 }  // namespace
@@ -84,7 +97,7 @@ void RecordStatus::show(const RecorderSnapshot& now) {
   next_ = Clock::now() + (terminal_ ? Clock::duration(200ms) : Clock::duration(2s));
   const std::string line = record_line(now);
   if (terminal_) {
-    std::fprintf(stderr, "\r\033[K%s", line.c_str());
+    std::fprintf(stderr, "\r\033[K%s", fitting(line).c_str());
     std::fflush(stderr);
     visible_ = true;
   } else {

@@ -58,6 +58,8 @@ RecordVerdict judge_recording(const RecorderSnapshot& end, bool asked_for_contac
   }
   if (end.probe.overflowed > 0)
     out.doubts.push_back(fmt::format("{} samples did not reach the disk in time", end.probe.overflowed));
+  if (end.columns_missing)
+    out.doubts.push_back("the probe described itself too late: not all of its sensors were stored");
   if (link.overruns > 0)
     out.warnings.push_back(fmt::format("the probe dropped samples itself {} times", link.overruns));
   judge_poses(end, config, out);

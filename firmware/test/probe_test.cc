@@ -1,98 +1,16 @@
 #include "asperity_firmware/probe.h"
 
 #include <gmock/gmock.h>
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "fake_board.h"
-#include "reference_decoder.h"
+#include "probe_rig.h"
 
 namespace asperity {
 namespace {
 
 using reference::Decoded;
 using reference::SampleFrame;
-
-asp_description description_of(bool gyro, bool force3) {
-  return {"test probe", "1.0.0", 4000, -32768, 32767, 208.848, gyro, 939.65, force3 ? 3 : 1, 1000, 1.2e-06};
-}
-
-class Rig {
- public:
-  Rig(const FakeBoard::Options& options, bool gyro, bool force3, const asp_probe_config& config = asp_default_config)
-      : board(options), probe(std::make_unique<asp_probe>()) {
-    const asp_description description = description_of(gyro, force3);
-    EXPECT_TRUE(asp_probe_init(probe.get(), board.board(), &description, &config));
-  }
-
-  void run_us(std::uint64_t us, std::uint64_t step_us) {
-    for (std::uint64_t done = 0; done < us; done += step_us) {
-      board.advance(step_us);
-      asp_probe_step(probe.get());
-    }
-  }
-
-  Decoded decoded() const { return reference::decode(board.received()); }
-
-  FakeBoard board;
-  std::unique_ptr<asp_probe> probe;
-};
-
-struct Account {
-  std::uint64_t rows = 0;
-  std::uint64_t rows_missing = 0;
-  std::uint64_t forces = 0;
-  std::uint64_t forces_missing = 0;
-  std::uint64_t next_row = 0;  // number after the last one
-  std::uint64_t next_force = 0;
-  int overruns = 0;
-  int needless_overruns = 0;  // of frames before which no row is missing: of force samples
-};
-
-// Every sample of every frame is the one that the sensor made, at its time, in order; every gap is told by imu_index
-// and `overrun`. Times are cut to whole µs, and a period is rounded to whole ns.
-Account check_samples(const Rig& rig, const std::vector<SampleFrame>& frames, std::uint32_t first_sequence = 0,
-                      std::uint32_t first_index = 0, double time_tol_ns = 1100.0) {
-  Account account;
-  std::uint32_t sequence = first_sequence;
-  for (const SampleFrame& frame : frames) {
-    EXPECT_EQ(frame.start, &frame == &frames.front());
-    EXPECT_EQ(frame.sequence, sequence++);
-    const std::uint64_t expected_row = account.next_row;
-    account.next_row +=
-        static_cast<std::uint32_t>(frame.imu_index - first_index - static_cast<std::uint32_t>(expected_row));
-    account.rows_missing += account.next_row - expected_row;
-    const bool gap = account.next_row != expected_row;
-    for (std::size_t i = 0; i < frame.rows.size(); ++i) {
-      reference::Row row = fake_row(account.next_row);
-      if (!frame.gyro) row.gyro = {};
-      EXPECT_EQ(frame.rows[i], row) << account.next_row;
-      const double time_ns = static_cast<double>(frame.time_us) * 1e3 + static_cast<double>(i) * frame.imu_period_ns;
-      EXPECT_NEAR(time_ns - rig.board.row_time_ns(account.next_row), 0.0, time_tol_ns) << account.next_row;
-      ++account.next_row;
-    }
-    account.rows += frame.rows.size();
-    for (const reference::Force& force : frame.forces) {
-      const auto time_us = static_cast<std::uint64_t>(static_cast<std::int64_t>(frame.time_us) + force.offset_us);
-      while (static_cast<std::uint64_t>(rig.board.force_time_us(account.next_force)) < time_us) {
-        ++account.next_force;
-        ++account.forces_missing;
-      }
-      EXPECT_EQ(static_cast<std::uint64_t>(rig.board.force_time_us(account.next_force)), time_us);
-      auto counts = fake_force(account.next_force);
-      if (!frame.force3) counts[1] = counts[2] = 0;
-      EXPECT_EQ(force.counts, counts) << account.next_force;
-      ++account.next_force;
-    }
-    account.forces += frame.forces.size();
-    EXPECT_TRUE(frame.overrun || !gap) << frame.sequence;
-    account.needless_overruns += frame.overrun && !gap ? 1 : 0;
-    account.overruns += frame.overrun ? 1 : 0;
-    if (testing::Test::HasFailure()) break;
-  }
-  return account;
-}
 
 void expect_every_sample(double imu_rate_Hz, double force_rate_Hz, bool gyro, bool force3, std::uint64_t step_us) {
   SCOPED_TRACE(testing::Message() << imu_rate_Hz << " Hz, force " << force_rate_Hz << " Hz, gyro " << gyro
@@ -102,7 +20,7 @@ void expect_every_sample(double imu_rate_Hz, double force_rate_Hz, bool gyro, bo
   options.force_rate_Hz = force_rate_Hz;
   options.link_buffer = 4096;
   options.link_bytes_per_s = 200000.0;
-  Rig rig(options, gyro, force3);
+  ProbeRig rig(options, gyro, force3);
   rig.run_us(3'000'000, step_us);
   const Decoded decoded = rig.decoded();
   EXPECT_EQ(decoded.damaged, 0);
@@ -131,84 +49,9 @@ TEST(FirmwareProbe, SendsEverySampleAtAnyRates) {
   }
 }
 
-TEST(FirmwareProbe, CountsExactlyWhatASlowLinkCosts) {
-  FakeBoard::Options options;
-  options.link_bytes_per_s = 30000.0;  // about half of what the samples need
-  Rig rig(options, true, false);
-  rig.run_us(5'000'000, 500);
-  rig.board.set_link_speed(1e6);
-  rig.run_us(1'000'000, 500);
-  const Account account = check_samples(rig, rig.decoded().samples);
-  EXPECT_GT(account.rows_missing, 5000u);
-  EXPECT_EQ(account.rows_missing, rig.probe->statistics.rows_dropped);
-  EXPECT_EQ(account.forces_missing, rig.probe->statistics.forces_dropped);
-  EXPECT_LE(rig.board.rows_made() - account.next_row, 60u);
-  EXPECT_GT(account.overruns, 100);
-}
-
-TEST(FirmwareProbe, ToldOfDroppedForceSamples) {
-  FakeBoard::Options options;
-  options.imu_rate_Hz = 0.0;
-  options.link_bytes_per_s = 0.0;
-  Rig rig(options, true, false);
-  rig.run_us(500'000, 1000);
-  rig.board.set_link_speed(1e6);
-  rig.run_us(500'000, 1000);
-  const Decoded decoded = rig.decoded();
-  const Account account = check_samples(rig, decoded.samples);
-  EXPECT_GT(account.forces_missing, 100u);
-  EXPECT_EQ(account.forces_missing, rig.probe->statistics.forces_dropped);
-  EXPECT_GE(account.overruns, 1);
-}
-
-TEST(FirmwareProbe, LosesNothingWhileTheLinkStallsFor50Milliseconds) {
-  FakeBoard::Options options;
-  options.link_bytes_per_s = 115200.0;
-  Rig rig(options, true, false);
-  for (int i = 0; i < 10; ++i) {
-    rig.run_us(450'000, 500);
-    rig.board.set_link_speed(0.0);
-    rig.run_us(50'000, 500);
-    rig.board.set_link_speed(115200.0);
-  }
-  rig.run_us(450'000, 500);
-  const Account account = check_samples(rig, rig.decoded().samples);
-  EXPECT_EQ(account.rows_missing, 0u);
-  EXPECT_EQ(account.overruns, 0);
-  EXPECT_GT(account.rows, 19000u);
-}
-
-TEST(FirmwareProbe, CountsWhatTheSensorLost) {
-  FakeBoard::Options options;
-  Rig rig(options, true, false);
-  for (const std::uint32_t lost : {1u, 7u, 1u, 300u, 2u}) {
-    rig.run_us(200'000, 500);
-    rig.board.make_sensor_lose(lost);
-  }
-  rig.run_us(400'000, 500);
-  const Account account = check_samples(rig, rig.decoded().samples);
-  EXPECT_EQ(account.rows_missing, 311u);
-  EXPECT_EQ(account.overruns, 5);
-  EXPECT_EQ(rig.probe->statistics.rows_dropped, 311u);
-}
-
-TEST(FirmwareProbe, CountsWhatAFullFifoCost) {
-  FakeBoard::Options options;
-  Rig rig(options, true, false);
-  for (int i = 0; i < 5; ++i) {
-    rig.run_us(200'000, 500);
-    rig.run_us(100'000, 100'000);  // the loop was held up
-  }
-  rig.run_us(300'000, 500);
-  const Account account = check_samples(rig, rig.decoded().samples);
-  EXPECT_GT(account.rows_missing, 1000u);
-  EXPECT_EQ(account.rows_missing, rig.board.fifo_lost());
-  EXPECT_EQ(account.needless_overruns, 0);
-}
-
 TEST(FirmwareProbe, CountersWrap) {
   FakeBoard::Options options;
-  Rig rig(options, true, true);
+  ProbeRig rig(options, true, true);
   const std::uint32_t near_the_end = 0xFFFFFF00u;
   rig.probe->sequence = near_the_end;
   rig.probe->next_index = near_the_end;
@@ -228,7 +71,7 @@ TEST(FirmwareProbe, ClockMayStartAnywhere) {
   for (const std::uint64_t start_us : {std::uint64_t{0}, (std::uint64_t{1} << 32) - 500'000}) {
     FakeBoard::Options options;
     options.start_us = start_us;
-    Rig rig(options, true, false);
+    ProbeRig rig(options, true, false);
     rig.run_us(1'000'000, 500);
     const Account account = check_samples(rig, rig.decoded().samples);
     EXPECT_EQ(account.rows_missing, 0u);
@@ -239,7 +82,7 @@ TEST(FirmwareProbe, ClockMayStartAnywhere) {
 TEST(FirmwareProbe, KeepsJitterOutOfTheFrames) {
   FakeBoard::Options options;
   options.row_jitter_us = 12.0;  // of a period of 250 µs: two spacings differ by less than a quarter
-  Rig rig(options, true, false);
+  ProbeRig rig(options, true, false);
   rig.run_us(1'000'000, 500);
   const Decoded decoded = rig.decoded();
   const Account account = check_samples(rig, decoded.samples, 0, 0, 25.1e3);
@@ -249,7 +92,7 @@ TEST(FirmwareProbe, KeepsJitterOutOfTheFrames) {
 
 TEST(FirmwareProbe, DescribesItselfAtTheStartAndEverySecond) {
   FakeBoard::Options options;
-  Rig rig(options, true, false);
+  ProbeRig rig(options, true, false);
   rig.run_us(10'500'000, 1000);
   const Decoded decoded = rig.decoded();
   EXPECT_EQ(decoded.order.front(), 'd');
@@ -261,14 +104,14 @@ TEST(FirmwareProbe, DescribesItselfAtTheStartAndEverySecond) {
 TEST(FirmwareProbe, DescribesItselfInTimeOnALinkThatIsTooSlow) {
   FakeBoard::Options options;
   options.link_bytes_per_s = 20000.0;
-  Rig rig(options, true, false);
+  ProbeRig rig(options, true, false);
   rig.run_us(10'000'000, 1000);
   EXPECT_GE(rig.decoded().descriptions.size(), 9u);
 }
 
 TEST(FirmwareProbe, AnswersTheHostButNotWithoutEnd) {
   FakeBoard::Options options;
-  Rig rig(options, true, false);
+  ProbeRig rig(options, true, false);
   rig.run_us(300'000, 1000);
   ASSERT_EQ(rig.decoded().descriptions.size(), 1u);
   const std::vector<std::uint8_t> request = reference::frame_of(std::vector<std::uint8_t>{0x01, 0x81});
@@ -288,7 +131,7 @@ TEST(FirmwareProbe, WritesDatagramsOfWholeFrames) {
   FakeBoard::Options options;
   options.datagrams = true;
   options.link_buffer = 1500;
-  Rig rig(options, true, false);
+  ProbeRig rig(options, true, false);
   rig.run_us(1'000'000, 1000);
   std::size_t at = 0;
   for (const std::size_t size : rig.board.writes()) {
@@ -308,7 +151,7 @@ TEST(FirmwareProbe, FillsTheLargestFrame) {
   asp_probe_config config = asp_default_config;
   config.rows_per_frame = 64;
   config.latency_us = 100000;
-  Rig rig(options, true, true, config);
+  ProbeRig rig(options, true, true, config);
   rig.run_us(1'000'000, 30'000);
   const Decoded decoded = rig.decoded();
   std::size_t largest = 0;
@@ -385,7 +228,7 @@ TEST(FirmwareProbe, RefusesAConfigurationOutOfRange) {
 
 TEST(FirmwareProbe, RunsForTwoMinutesWithoutALoss) {
   FakeBoard::Options options;
-  Rig rig(options, true, false);
+  ProbeRig rig(options, true, false);
   rig.run_us(120'000'000, 1000);
   const Decoded decoded = rig.decoded();
   EXPECT_EQ(decoded.damaged, 0);

@@ -201,6 +201,12 @@ ArucoDictionary parse_aruco_dictionary(std::string_view text, const std::string&
   return Parser(text, name).parse();
 }
 
+std::string aruco_file(std::string_view family) {
+  constexpr std::string_view kPrefix = "aruco:";
+  const bool is_file = family.ends_with(".yml") || family.ends_with(".yaml");
+  return family.starts_with(kPrefix) && is_file ? std::string(family.substr(kPrefix.size())) : std::string();
+}
+
 ArucoDictionary read_aruco_dictionary(const std::filesystem::path& path) {
   return parse_aruco_dictionary(read_file(path, kLargestFile_bytes), path.string());
 }

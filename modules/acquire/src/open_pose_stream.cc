@@ -1,10 +1,13 @@
 #include "asperity/acquire/open_pose_stream.h"
 
 #include <array>
+#include <cstdlib>
 #include <deque>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "asperity/acquire/device_clock.h"
 #include "asperity/acquire/open_udp.h"
 #include "asperity/acquire/pose_lines.h"
 #include "asperity/base/error.h"
@@ -15,9 +18,34 @@ namespace asperity {
 
 namespace {
 
+// The sender's clock is another one if it leaps by more than this against ours.
+constexpr std::int64_t kLeap_ns = 5'000'000'000;
+
+// Brings times of a sender's clock to the host's.
+class SenderClock {
+ public:
+  std::int64_t to_host(std::int64_t sender_ns, std::int64_t arrival_ns) {
+    // Both lie within 0 and 2^62: their difference fits.
+    const std::int64_t offset_ns = arrival_ns - sender_ns;
+    if (!offset_ns_ || std::abs(offset_ns - *offset_ns_) > kLeap_ns) {
+      clock_.restart();
+      begin_ns_ = sender_ns;
+    }
+    offset_ns_ = offset_ns;
+    // From its beginning: a clock that counts from 1970 is beyond what DeviceClock takes.
+    clock_.observe(sender_ns - begin_ns_, arrival_ns);
+    return clock_.stamp(sender_ns - begin_ns_);
+  }
+
+ private:
+  std::optional<std::int64_t> offset_ns_;  // of the two clocks, as last seen
+  std::int64_t begin_ns_ = 0;
+  DeviceClock clock_;
+};
+
 class PoseStream : public PoseSource {
  public:
-  explicit PoseStream(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes)) {
+  PoseStream(std::unique_ptr<ByteSource> bytes, PoseTimes times) : bytes_(std::move(bytes)), times_(times) {
     if (!bytes_) throw Error("there is no stream of poses");
   }
 
@@ -26,6 +54,12 @@ class PoseStream : public PoseSource {
       const Arrival arrival = bytes_->read(buffer_, timeout);
       poses_.clear();
       lines_.push(std::span(buffer_).first(arrival.count), arrival.arrival_ns, poses_);
+      for (TrackerSample& pose : poses_) {
+        // Those without a time of their own have the arrival's.
+        if (times_ == PoseTimes::kSendersClock && pose.t_ns != arrival.arrival_ns) {
+          pose.t_ns = sender_.to_host(pose.t_ns, arrival.arrival_ns);
+        }
+      }
       waiting_.insert(waiting_.end(), poses_.begin(), poses_.end());
       statistics_.frames += poses_.size();
     }
@@ -46,6 +80,8 @@ class PoseStream : public PoseSource {
 
  private:
   std::unique_ptr<ByteSource> bytes_;
+  PoseTimes times_;
+  SenderClock sender_;
   PoseLines lines_;
   std::array<std::uint8_t, 65536> buffer_{};
   std::vector<TrackerSample> poses_;
@@ -88,11 +124,11 @@ std::unique_ptr<PoseSource> open_pose_stream(const PoseAddress& address) {
   UdpConfig udp;
   udp.address = address.address;
   udp.port = address.port;
-  return make_pose_stream(open_udp(udp));
+  return make_pose_stream(open_udp(udp), PoseTimes::kSendersClock);
 }
 
-std::unique_ptr<PoseSource> make_pose_stream(std::unique_ptr<ByteSource> bytes) {
-  return std::make_unique<PoseStream>(std::move(bytes));
+std::unique_ptr<PoseSource> make_pose_stream(std::unique_ptr<ByteSource> bytes, PoseTimes times) {
+  return std::make_unique<PoseStream>(std::move(bytes), times);
 }
 
 }  // namespace asperity

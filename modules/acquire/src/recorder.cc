@@ -137,6 +137,7 @@ class Recorder::Parts {
   RecorderSnapshot take_round() {
     RecorderSnapshot out;
     probe_->describe(out);
+    out.description = probe_->description();
     probe_->take(probe_rows_);
     if (poses_) {
       poses_->describe(out);
@@ -169,6 +170,7 @@ class Recorder::Parts {
       }
       writer_->add(poses);
       writer_->add(samples);
+      writer_->note_description(now.description);
       writer_->set_problems(sensor_problems(now));
       if (events != events_) writer_->note_change();
       events_ = events;

@@ -120,6 +120,13 @@ void RecordingWriter::apply(const RecorderCommand& command) {
   }
 }
 
+void RecordingWriter::note_description(const std::optional<ProbeDescription>& description) {
+  if (!description) return;
+  const AppendColumns wanted = columns_of(description, false);
+  const AppendColumns stored = columns_of(description_, false);
+  if ((wanted.gyro && !stored.gyro) || (wanted.force3 && !stored.force3)) columns_missing_ = true;
+}
+
 RecordingInfo RecordingWriter::current_info(bool finished) const {
   RecordingInfo out = info_;
   out.segments = segments_.segments();
@@ -133,7 +140,8 @@ RecordingInfo RecordingWriter::current_info(bool finished) const {
   };
   problem("rows_out_of_order", segments_.late_rows());
   problem("segments_refused", refused_);
-  if (gravity.implausible) out.problems["gravity_implausible"] = 1;
+  problem("gravity_implausible", gravity.implausible ? 1 : 0);
+  problem("columns_missing", columns_missing_ ? 1 : 0);
 
   Json extra = Json::parse(info_.extra_json.empty() ? "{}" : info_.extra_json, nullptr, false);
   if (!extra.is_object()) throw Error("recorder: extra_json is not a JSON object: " + printable(info_.extra_json));
@@ -170,7 +178,7 @@ void RecordingWriter::finish() {
 }
 
 void RecordingWriter::describe(RecorderSnapshot& out) const {
-  out.description = description_;
+  out.columns_missing = columns_missing_;
   out.force_N = force_N_;
   out.force_is_calibrated = force_.has_value();
   out.touching = contact_.touching();

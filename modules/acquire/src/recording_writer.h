@@ -37,6 +37,8 @@ class RecordingWriter {
   std::int64_t latest_ns() const { return segments_.latest_ns(); }
   // What the sensors have lost so far, for recording.json.
   void set_problems(std::map<std::string, std::int64_t> problems) { problems_ = std::move(problems); }
+  // Told what the probe says of itself now, which may come after the columns were settled.
+  void note_description(const std::optional<ProbeDescription>& description);
   // recording.json is to be written at the next commit().
   void note_change() { changed_ = true; }
 
@@ -63,6 +65,7 @@ class RecordingWriter {
   SegmentWriter segments_;
   std::map<std::string, std::int64_t> problems_;
   bool changed_ = false;
+  bool columns_missing_ = false;
   bool gravity_written_ = false;
   double force_N_ = std::numeric_limits<double>::quiet_NaN();
   std::optional<TrackerSample> pose_;

@@ -87,6 +87,21 @@ struct TagView {
   }
 };
 
+// True if two cells of unlike colour meet within `reach_px` along a row or a column of the picture.
+bool near_edge(const TagPattern& pattern, const TagImageModel::Place& at, double reach_px) {
+  const int column = static_cast<int>(at.u), row = static_cast<int>(at.v);
+  const auto differs = [&](double place, double cells_per_px, int dc, int dr) {
+    const double inside = place - std::floor(place);
+    const int side = inside < 0.5 ? -1 : 1;
+    const double away = side < 0 ? inside : 1.0 - inside;
+    if (away > reach_px * cells_per_px) return false;
+    const int c = column + side * dc, r = row + side * dr;
+    if (c < 0 || r < 0 || c >= pattern.cells || r >= pattern.cells) return false;
+    return pattern.is_white(c, r) != pattern.is_white(column, row);
+  };
+  return differs(at.u, at.u_by_px.norm(), 1, 0) || differs(at.v, at.v_by_px.norm(), 0, 1);
+}
+
 // The pixels of the tag at which its picture says something: those near edges, and a quarter of the rest.
 std::vector<TagPixel> choose_pixels(const GrayImage& image, const TagView& view, const TagPattern& pattern,
                                     const TagImageModel& model, const TagImageState& state, const Corners& corners_px,
@@ -116,8 +131,9 @@ std::vector<TagPixel> choose_pixels(const GrayImage& image, const TagView& view,
   std::vector<TagPixel> out;
   out.reserve(static_cast<std::size_t>(std::max(0, right - left + 1)) *
               static_cast<std::size_t>(std::max(0, bottom - top + 1)));
-  // Edges as far off as the detector may have been still count as near.
-  const double wide = 0.7 * std::max(middle.u_by_px.norm(), middle.v_by_px.norm());
+  // Two spreads, and as far as the detector may have been off.
+  const auto& spread = state.spread_px2;
+  const double reach_px = 0.5 + 2.0 * std::sqrt(0.5 * (spread[0] + spread[2]));
   // Half of a tag's pixels are near edges; where there are many, only every stride-th is looked at.
   const double area_px2 = (high - low).prod();
   const int stride = std::max(1, static_cast<int>(0.4 * area_px2 / most));
@@ -143,12 +159,7 @@ std::vector<TagPixel> choose_pixels(const GrayImage& image, const TagView& view,
           !(at.v < pattern.cells - inset)) {
         continue;
       }
-      const double su = std::sqrt(at.sigma_u * at.sigma_u + wide * wide);
-      const double sv = std::sqrt(at.sigma_v * at.sigma_v + wide * wide);
-      const BlurredValue around = blurred_pattern(pattern, at.u, at.v, su, sv);
-      constexpr double kFlat = 0.03;  // of the contrast, over one spread
-      const bool flat = std::abs(around.by_u) * su < kFlat && std::abs(around.by_v) * sv < kFlat;
-      if (flat && ((row / 2 + column / 2) & 3) != 0) continue;
+      if (!near_edge(pattern, at, reach_px) && ((row / 2 + column / 2) & 3) != 0) continue;
       out.push_back({q.x(), q.y(), static_cast<double>(image.at(column, row))});
     }
   }

@@ -14,6 +14,9 @@ namespace {
 // A pixel is a box one px wide: no image is sharper.
 constexpr double kLeastSpread_px2 = 1.0 / 12.0;
 
+// The growth is modelled to first order only.
+constexpr double kMostGrowth_px = 1.0;
+
 double weight(double misfit, double limit) {
   const double begin = 0.5 * limit;
   misfit = std::abs(misfit);
@@ -23,9 +26,13 @@ double weight(double misfit, double limit) {
   return (1.0 - u * u) * (1.0 - u * u);
 }
 
-double robust_scale(const std::vector<double>& residuals, std::vector<double>& work) {
-  work.resize(residuals.size());
-  std::transform(residuals.begin(), residuals.end(), work.begin(), [](double r) { return std::abs(r); });
+// Of the residuals of those pixels that are not `clipped`.
+double robust_scale(const std::vector<double>& residuals, const std::vector<char>& clipped, std::vector<double>& work) {
+  work.clear();
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    if (clipped[i] == 0) work.push_back(std::abs(residuals[i]));
+  }
+  if (work.empty()) return 0.0;
   const auto middle = work.begin() + static_cast<std::ptrdiff_t>(work.size() / 2);
   std::nth_element(work.begin(), middle, work.end());
   return 1.4826 * *middle;
@@ -36,7 +43,8 @@ double robust_scale(const std::vector<double>& residuals, std::vector<double>& w
 void TagImageState::add(const FitVector& step) {
   homography += step.head<8>();
   spread_px2 += step.segment<3>(8);
-  shading += step.tail<6>();
+  shading += step.segment<6>(11);
+  growth_px = std::clamp(growth_px + step[17], -kMostGrowth_px, kMostGrowth_px);
   spread_px2[0] = std::max(spread_px2[0], kLeastSpread_px2);
   spread_px2[2] = std::max(spread_px2[2], kLeastSpread_px2);
   const double most = std::sqrt((spread_px2[0] - 0.99 * kLeastSpread_px2) * (spread_px2[2] - 0.99 * kLeastSpread_px2));
@@ -72,18 +80,13 @@ TagImageModel::Place TagImageModel::place(const TagImageState& state, double qx,
   return out;
 }
 
-double TagImageModel::grey(const TagImageState& state, const TagPixel& pixel) const {
-  const Place at = place(state, pixel.qx, pixel.qy);
-  const auto& s = state.shading;
-  return s[0] + s[1] * at.x + s[2] * at.y +
-         (s[3] + s[4] * at.x + s[5] * at.y) * blurred_pattern(*pattern_, at.u, at.v, at.sigma_u, at.sigma_v).value;
-}
-
 double TagImageModel::grey(const TagImageState& state, const TagPixel& pixel, FitVector& by_state) const {
   const Place at = place(state, pixel.qx, pixel.qy);
   const BlurredValue blurred = blurred_pattern(*pattern_, at.u, at.v, at.sigma_u, at.sigma_v);
   const auto& s = state.shading;
   const double contrast = s[3] + s[4] * at.x + s[5] * at.y;
+  const double slope_per_px = (blurred.by_u * at.u_by_px + blurred.by_v * at.v_by_px).norm();
+  const double value = blurred.value + state.growth_px * slope_per_px;
   // A step of the homography that moves the picture's points by dq moves the picture's point seen here by −∂x/∂q dq.
   const Eigen::Vector2d by_x(contrast * blurred.by_u * cells_per_x_, contrast * blurred.by_v * cells_per_x_);
   const Eigen::Vector2d by_q = -at.x_by_q.transpose() * by_x;
@@ -94,8 +97,8 @@ double TagImageModel::grey(const TagImageState& state, const TagPixel& pixel, Fi
   const auto &gu = at.u_by_px, &gv = at.v_by_px;
   by_state.segment<3>(8) << by_uu * gu.x() * gu.x() + by_vv * gv.x() * gv.x(),
       2.0 * (by_uu * gu.x() * gu.y() + by_vv * gv.x() * gv.y()), by_uu * gu.y() * gu.y() + by_vv * gv.y() * gv.y();
-  by_state.tail<6>() << 1.0, at.x, at.y, blurred.value, blurred.value * at.x, blurred.value * at.y;
-  return s[0] + s[1] * at.x + s[2] * at.y + contrast * blurred.value;
+  by_state.tail<7>() << 1.0, at.x, at.y, value, value * at.x, value * at.y, contrast * slope_per_px;
+  return s[0] + s[1] * at.x + s[2] * at.y + contrast * value;
 }
 
 namespace {
@@ -103,11 +106,16 @@ namespace {
 // The pixels' misfits at a state, and the normal equations under weights.
 class Linearised {
  public:
-  explicit Linearised(std::size_t n) : residuals_(n), rows_(n) {}
+  explicit Linearised(std::size_t n) : residuals_(n), clipped_(n), rows_(n) {}
 
-  void evaluate(const TagImageModel& model, const std::vector<TagPixel>& pixels, const TagImageState& state) {
+  void evaluate(const TagImageModel& model, const std::vector<TagPixel>& pixels, double brightest,
+                const TagImageState& state) {
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-      residuals_[i] = model.grey(state, pixels[i], rows_[i]) - pixels[i].grey;
+      const double grey = model.grey(state, pixels[i], rows_[i]);
+      const double seen = std::clamp(grey, 0.0, brightest);
+      clipped_[i] = seen != grey ? 1 : 0;
+      if (clipped_[i] != 0) rows_[i].setZero();
+      residuals_[i] = seen - pixels[i].grey;
     }
   }
 
@@ -134,9 +142,12 @@ class Linearised {
   }
 
   const std::vector<double>& residuals() const { return residuals_; }
+  // Pixels at which the model is darker or brighter than the camera can tell: they say nothing of the edges.
+  const std::vector<char>& clipped() const { return clipped_; }
 
  private:
   std::vector<double> residuals_;
+  std::vector<char> clipped_;
   std::vector<FitVector> rows_;
 };
 
@@ -147,15 +158,20 @@ constexpr double kLeastScale = 0.29;
 // step by step. Ends when a step is below `small` standard errors.
 class Descent {
  public:
-  Descent(const TagImageModel& model, const std::vector<TagPixel>& pixels)
-      : model_(&model), pixels_(&pixels), here_(pixels.size()), there_(pixels.size()), weights_(pixels.size()) {}
+  Descent(const TagImageModel& model, const std::vector<TagPixel>& pixels, double brightest)
+      : model_(&model),
+        pixels_(&pixels),
+        brightest_(brightest),
+        here_(pixels.size()),
+        there_(pixels.size()),
+        weights_(pixels.size()) {}
 
   bool run(TagImageFit& out, double floor, double small, int most_iterations) {
     double damping = 1e-6;
-    here_.evaluate(*model_, *pixels_, out.state);
+    here_.evaluate(*model_, *pixels_, brightest_, out.state);
     bool converged = false;
     for (int i = 0; i < most_iterations && !converged; ++i, ++out.iterations) {
-      const double seen = std::max(robust_scale(here_.residuals(), work_), kLeastScale);
+      const double seen = std::max(robust_scale(here_.residuals(), here_.clipped(), work_), kLeastScale);
       const bool settled = floor <= seen;
       accumulate(6.0 * std::max(seen, floor));
       floor *= 0.25;
@@ -169,7 +185,7 @@ class Descent {
         step = -factor.solve(gradient_);
         TagImageState next = out.state;
         next.add(step);
-        there_.evaluate(*model_, *pixels_, next);
+        there_.evaluate(*model_, *pixels_, brightest_, next);
         if (there_.cost(weights_) <= cost_) {
           accepted = true;
           out.state = next;
@@ -190,7 +206,7 @@ class Descent {
 
   // The covariance at the state where run() ended; false where it is not determined.
   bool finish(TagImageFit& out) {
-    accumulate(6.0 * std::max(robust_scale(here_.residuals(), work_), kLeastScale));
+    accumulate(6.0 * std::max(robust_scale(here_.residuals(), here_.clipped(), work_), kLeastScale));
     const Eigen::LLT<FitMatrix> factor(normal_);
     if (!(sum_weights_ > 2.0 * kFitUnknowns) || factor.info() != Eigen::Success) return false;
     out.residual = std::sqrt(variance());
@@ -202,7 +218,8 @@ class Descent {
   void accumulate(double limit) {
     sum_weights_ = 0.0;
     for (std::size_t i = 0; i < weights_.size(); ++i) {
-      sum_weights_ += weights_[i] = weight(here_.residuals()[i], limit);
+      weights_[i] = weight(here_.residuals()[i], limit);
+      if (here_.clipped()[i] == 0) sum_weights_ += weights_[i];
     }
     cost_ = here_.cost(weights_);
     here_.accumulate(weights_, normal_, gradient_);
@@ -213,6 +230,7 @@ class Descent {
 
   const TagImageModel* model_;
   const std::vector<TagPixel>* pixels_;
+  double brightest_;
   Linearised here_, there_;
   std::vector<double> weights_, work_;
   FitMatrix normal_;
@@ -220,26 +238,43 @@ class Descent {
   double sum_weights_ = 0.0, cost_ = 0.0;
 };
 
+// The grey level at which the camera's white saturates: where many pixels share the brightest.
+double find_brightest(const std::vector<TagPixel>& pixels) {
+  constexpr double kBright = 230.0;
+  constexpr double kMany = 0.05;
+  double brightest = 0.0;
+  std::size_t count = 0;
+  for (const TagPixel& pixel : pixels) {
+    if (pixel.grey > brightest) count = 0;
+    brightest = std::max(brightest, pixel.grey);
+    count += pixel.grey == brightest ? 1 : 0;
+  }
+  const bool saturates =
+      brightest >= kBright && static_cast<double>(count) > kMany * static_cast<double>(pixels.size());
+  return saturates ? brightest : 255.0;
+}
+
 }  // namespace
 
 TagImageFit fit_tag_image(const TagImageModel& model, const std::vector<TagPixel>& pixels, const TagImageState& start,
                           const RefineCornersConfig& config) {
   TagImageFit out;
   out.state = start;
+  const double brightest = find_brightest(pixels);
   // At first nearly every edge is off, by up to the whole contrast.
   double floor = 0.2 * std::abs(start.shading[3]);
   // The way there is found with few pixels; all of them then take one or two more steps.
-  constexpr std::size_t kFew = 500;
+  constexpr std::size_t kFew = 350;
   const std::size_t stride = pixels.size() / kFew;
   if (stride > 1) {
     std::vector<TagPixel> few;
     few.reserve(pixels.size() / stride + 1);
     for (std::size_t i = 0; i < pixels.size(); i += stride) few.push_back(pixels[i]);
-    Descent coarse(model, few);
+    Descent coarse(model, few, brightest);
     if (!coarse.run(out, floor, 0.2, config.most_iterations)) return out;
     floor = 0.0;
   }
-  Descent fine(model, pixels);
+  Descent fine(model, pixels, brightest);
   // A step of a standard error leaves far less than one: the model is nearly linear there.
   out.converged = fine.run(out, floor, 1.0, config.most_iterations) && fine.finish(out);
   return out;

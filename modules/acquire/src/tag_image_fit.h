@@ -8,7 +8,7 @@
 
 namespace asperity {
 
-inline constexpr int kFitUnknowns = 17;
+inline constexpr int kFitUnknowns = 18;
 using FitVector = Eigen::Matrix<double, kFitUnknowns, 1>;
 using FitMatrix = Eigen::Matrix<double, kFitUnknowns, kFitUnknowns>;
 
@@ -18,6 +18,8 @@ struct TagImageState {
   Eigen::Matrix<double, 8, 1> homography;  // by rows, from the tag's (x, y) in [−1, 1]²
   Eigen::Vector3d spread_px2;              // xx, xy, yy
   Eigen::Matrix<double, 6, 1> shading;     // β at the centre, by x, by y; γ likewise: grey levels
+
+  double growth_px = 0.0;  // by which white seems to have grown into black
 
   void add(const FitVector& step);
 };
@@ -44,7 +46,6 @@ class TagImageModel {
   Place place(const TagImageState& state, double qx, double qy) const;
 
   // The grey level, and its derivative by the unknowns.
-  double grey(const TagImageState& state, const TagPixel& pixel) const;
   double grey(const TagImageState& state, const TagPixel& pixel, FitVector& by_state) const;
 
  private:

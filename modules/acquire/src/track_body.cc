@@ -53,6 +53,7 @@ struct BodyTracker::Impl {
   std::optional<Pose> predict(std::int64_t t_ns) const;
   std::optional<ImageRegion> expected_region(const Pose& pose) const;
   void find_tags(const GrayImage& image, const ImageRegion& region, std::vector<FoundTag>& out);
+  void refine(const GrayImage& image, std::vector<FoundTag>& found);
   std::optional<TrackedPose> solve(const std::vector<FoundTag>& found, const std::optional<Pose>& predicted,
                                    std::int64_t t_ns);
   bool settle_tag_frame(const std::vector<FoundTag>& found);
@@ -111,21 +112,27 @@ void BodyTracker::Impl::find_tags(const GrayImage& image, const ImageRegion& reg
       FoundTag found{detection, {}};
       found.seen.tag = static_cast<std::size_t>(placement - body.begin());
       found.seen.corners_px = detection.corners_px;
-      if (config.refine.enabled) {
-        PointSpread& spread = spreads[found.seen.tag];
-        auto refined =
-            refine_corners(image, camera, patterns[found.seen.tag], detection.corners_px, spread, config.refine);
-        if (refined) {
-          found.seen.corners_px = found.detection.corners_px = refined->corners_px;
-          found.seen.covariance_px2 = refined->covariance_px2;
-          found.seen.has_covariance = true;
-          spread = refined->spread;
-        } else {
-          spread = {};
-        }
-      }
       out.push_back(found);
     }
+  }
+  if (config.refine.enabled) refine(image, out);
+}
+
+void BodyTracker::Impl::refine(const GrayImage& image, std::vector<FoundTag>& found) {
+  constexpr int kFewest = 400;  // of one tag
+  RefineCornersConfig each = config.refine;
+  if (!found.empty()) {
+    each.most_pixels =
+        std::min(each.most_pixels, std::max(kFewest, config.most_pixels / static_cast<int>(found.size())));
+  }
+  for (FoundTag& tag : found) {
+    PointSpread& spread = spreads[tag.seen.tag];
+    const auto refined = refine_corners(image, camera, patterns[tag.seen.tag], tag.detection.corners_px, spread, each);
+    spread = refined ? refined->spread : PointSpread{};
+    if (!refined) continue;
+    tag.seen.corners_px = tag.detection.corners_px = refined->corners_px;
+    tag.seen.covariance_px2 = refined->covariance_px2;
+    tag.seen.has_covariance = true;
   }
 }
 

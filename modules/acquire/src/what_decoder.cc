@@ -13,19 +13,25 @@ constexpr double kFirstPeriod_ns = 1e9 / 450.0;
 constexpr double kShortestPeriod_ns = 1e9 / 600.0;
 constexpr double kLongestPeriod_ns = 1e9 / 300.0;
 constexpr double kFirstRateError = 0.15;
-constexpr double kRateError = 0.02;
+constexpr double kLearningRateError = 0.01;
+constexpr double kRateError = 0.003;
+constexpr double kRelearnRateError = 0.002;
 constexpr std::size_t kLearn_frames = 128;
-constexpr std::int64_t kStretch_frames = 20;
-constexpr double kLate_periods = 0.7;
-constexpr double kEarly_periods = 0.6;
+constexpr std::size_t kLearnWell_frames = 512;
+constexpr std::size_t kRelearn_frames = 64;
+constexpr std::size_t kMarks = 512;
+constexpr double kLate_periods = 0.8;
+constexpr double kEarly_periods = 0.25;
 constexpr std::int64_t kHold_ns = 20'000'000;
 constexpr int kHold_reads = 8;
 constexpr std::size_t kMostHeld = 512;
 constexpr std::int64_t kSilence_ns = 2'000'000'000;
+constexpr double kWindow_s = 4.0;  // the pace may drift by parts in 10⁴ a second
 constexpr double kLeastSpacing = 0.4;  // of a period
 
 DeviceClockConfig clock_config(double period_ns, double rate_error) {
   DeviceClockConfig config;
+  config.window_s = kWindow_s;
   config.max_rate_error = rate_error;
   config.min_spacing_ns = std::llround(kLeastSpacing * period_ns);
   return config;
@@ -61,70 +67,93 @@ WhatDecoder::Timed WhatDecoder::time_of(const WhatFrame& frame) {
 }
 
 void WhatDecoder::take(Timed timed, std::vector<ProbeSample>& out) {
-  number_frame(timed);
-  last_raw_ns_ = std::max(last_raw_ns_, timed.raw_ns);
+  const auto skipped = static_cast<std::int64_t>((timed.frame.skipped + kFrame_bytes / 2) / kFrame_bytes);
+  if (timed.frame.skipped > 0) {
+    statistics_.damaged_frames += static_cast<std::uint64_t>(std::max<std::int64_t>(1, skipped));
+  }
   ++statistics_.frames;
   ++statistics_.samples;
   ++statistics_.force_samples;
-  if (!pace_known_) {
-    learn(timed);
-    held_.push_back(timed);
-    release(out);
-    return;
-  }
-  decide(timed, out);
-}
-
-void WhatDecoder::number_frame(Timed& timed) {
-  const auto skipped = static_cast<std::int64_t>((timed.frame.skipped + kFrame_bytes / 2) / kFrame_bytes);
-  if (timed.frame.skipped > 0)
-    statistics_.damaged_frames += static_cast<std::uint64_t>(std::max<std::int64_t>(1, skipped));
+  std::int64_t ahead = 1 + skipped;
   if (!has_last_) {
     has_last_ = true;
     last_raw_ns_ = timed.raw_ns;
+    ahead = 0;
   } else if (timed.raw_ns - last_raw_ns_ > kSilence_ns) {
+    release(out);
     const auto silent = static_cast<double>(timed.raw_ns - last_raw_ns_) / (period_ns_ * clock_.rate());
-    last_number_ += std::max<std::int64_t>(1, std::llround(std::min(silent, 1e9)));
-    pace_known_ = false;
-    learned_.clear();
-    seen_ = 0;
-    clock_.restart(clock_config(period_ns_, kFirstRateError));
+    ahead = std::max<std::int64_t>(1, std::llround(std::min(silent, 1e9)));
+    begin_learning();
+  }
+  number_ += ahead;
+  count_ += ahead;
+  device_ns_ += static_cast<double>(ahead) * period_ns_;
+  timed.number = number_;
+  timed.device_ns = device_ns_;
+  last_raw_ns_ = std::max(last_raw_ns_, timed.raw_ns);
+  learn(timed);
+  if (learned_ >= kLearn_frames) {
+    decide(timed, out);
   } else {
-    last_number_ += 1 + skipped;
+    held_.push_back(timed);
+    release(out);
   }
-  timed.number = last_number_;
 }
 
-void WhatDecoder::learn(const Timed& timed) {
-  clock_.observe(device_ns(timed.number), timed.raw_ns);
-  if (timed.newest) learned_.push_back(timed);
-  if (++seen_ >= kLearn_frames) settle_pace();
+void WhatDecoder::begin_learning() {
+  marks_.clear();
+  learned_ = 0;
+  clock_.restart(clock_config(period_ns_, kFirstRateError));
 }
 
-// The median pace over stretches: a few losses or late pieces do not move it.
-void WhatDecoder::settle_pace() {
+void WhatDecoder::learn(Timed& timed) {
+  if (timed.newest) {
+    if (marks_.size() == kMarks) marks_.pop_front();
+    marks_.push_back({count_, timed.device_ns, timed.raw_ns});
+  }
+  ++learned_;
+  if (learned_ == kLearn_frames || learned_ == kLearnWell_frames) {
+    const double pace_ns = median_pace_ns();
+    if (pace_ns > 0.0) period_ns_ = std::clamp(pace_ns, kShortestPeriod_ns, kLongestPeriod_ns);
+    begin_clock(learned_ == kLearn_frames ? kLearningRateError : kRateError, timed);
+  } else if (learned_ > kLearnWell_frames && learned_ % kRelearn_frames == 0 &&
+             std::abs(clock_.rate() - 1.0) > kRelearnRateError) {
+    period_ns_ = std::clamp(period_ns_ * clock_.rate(), kShortestPeriod_ns, kLongestPeriod_ns);
+    begin_clock(kRateError, timed);
+  }
+}
+
+// Over stretches of a third of what is known, at most 100 frames; 0 if there are too few.
+double WhatDecoder::median_pace_ns() const {
   std::vector<double> paces_ns;
+  paces_ns.reserve(marks_.size());
+  const std::int64_t stretch = std::min<std::int64_t>(100, (marks_.back().count - marks_.front().count) / 3);
   std::size_t back = 0;
-  for (const Timed& timed : learned_) {
-    while (timed.number - learned_[back].number > kStretch_frames) ++back;
-    const std::int64_t frames = timed.number - learned_[back].number;
-    if (frames < kStretch_frames / 2) continue;
-    paces_ns.push_back(static_cast<double>(timed.raw_ns - learned_[back].raw_ns) / static_cast<double>(frames));
+  for (const Mark& mark : marks_) {
+    while (mark.count - marks_[back + 1].count >= stretch && &marks_[back + 1] != &mark) ++back;
+    const std::int64_t frames = mark.count - marks_[back].count;
+    if (frames < std::max<std::int64_t>(1, stretch)) continue;
+    paces_ns.push_back(static_cast<double>(mark.raw_ns - marks_[back].raw_ns) / static_cast<double>(frames));
   }
-  if (paces_ns.size() > 8) {
-    const auto middle = paces_ns.begin() + static_cast<std::ptrdiff_t>(paces_ns.size() / 2);
-    std::nth_element(paces_ns.begin(), middle, paces_ns.end());
-    period_ns_ = std::clamp(*middle, kShortestPeriod_ns, kLongestPeriod_ns);
-    clock_.restart(clock_config(period_ns_, kRateError));
-    for (const Timed& timed : learned_) clock_.observe(device_ns(timed.number), timed.raw_ns);
-    pace_known_ = true;
+  if (paces_ns.size() < 8) return 0.0;
+  const auto middle = paces_ns.begin() + static_cast<std::ptrdiff_t>(paces_ns.size() / 2);
+  std::nth_element(paces_ns.begin(), middle, paces_ns.end());
+  return *middle;
+}
+
+// The device's time is counted anew at the pace that is known now, back to the oldest mark.
+void WhatDecoder::begin_clock(double rate_error, Timed& timed) {
+  clock_.restart(clock_config(period_ns_, rate_error));
+  const double end_ns = marks_.empty() ? timed.device_ns : marks_.back().device_ns;
+  for (Mark& mark : marks_) {
+    mark.device_ns = end_ns - static_cast<double>(marks_.back().count - mark.count) * period_ns_;
+    clock_.observe(std::llround(mark.device_ns), mark.raw_ns);
   }
-  learned_.clear();
-  seen_ = 0;
 }
 
 double WhatDecoder::late_periods(const Timed& timed) const {
-  return static_cast<double>(timed.raw_ns - clock_.line_ns(device_ns(timed.number))) / (period_ns_ * clock_.rate());
+  const std::int64_t line_ns = clock_.line_ns(std::llround(timed.device_ns));
+  return static_cast<double>(timed.raw_ns - line_ns) / (period_ns_ * clock_.rate());
 }
 
 void WhatDecoder::decide(const Timed& timed, std::vector<ProbeSample>& out) {
@@ -160,15 +189,20 @@ void WhatDecoder::decide(const Timed& timed, std::vector<ProbeSample>& out) {
 }
 
 void WhatDecoder::put_forward(std::int64_t frames) {
-  for (Timed& held : held_) held.number += frames;
-  last_number_ += frames;
+  const double ahead_ns = static_cast<double>(frames) * period_ns_;
+  for (Timed& held : held_) {
+    held.number += frames;
+    held.device_ns += ahead_ns;
+  }
+  number_ += frames;
+  device_ns_ += ahead_ns;
 }
 
 void WhatDecoder::release(std::vector<ProbeSample>& out) {
   for (const Timed& timed : held_) {
-    if (pace_known_) clock_.observe(device_ns(timed.number), timed.raw_ns);
+    clock_.observe(std::llround(timed.device_ns), timed.raw_ns);
     ProbeSample& sample = out.emplace_back();
-    sample.t_ns = clock_.stamp(device_ns(timed.number));
+    sample.t_ns = clock_.stamp(std::llround(timed.device_ns));
     for (int axis = 0; axis < 3; ++axis) sample.accel_counts[axis] = timed.frame.data[static_cast<std::size_t>(axis)];
     sample.force_counts = timed.frame.data[3];
     count_lost(timed.number);
@@ -184,10 +218,6 @@ void WhatDecoder::count_lost(std::int64_t number) {
     statistics_.lost_frames = static_cast<std::uint64_t>(lost);
     statistics_.lost_samples = statistics_.lost_frames;
   }
-}
-
-std::int64_t WhatDecoder::device_ns(std::int64_t number) const {
-  return std::llround(period_ns_ * static_cast<double>(number));
 }
 
 }  // namespace asperity

@@ -257,6 +257,7 @@ TEST(Recorder, ACaptureIsRecordedWhole) {
   rig.config.probe_queue = 4096;
   RecorderSensors sensors;
   sensors.open_probe = [] { return std::make_unique<ReplayedProbe>(5'000'000, 250'000, 200'000); };
+  sensors.probe_describes_itself = false;
   sensors.reopen_probe = false;
   sensors.replayed = true;
   Recorder recorder(rig.folder(), {}, calibration_of(), sensors, rig.config);

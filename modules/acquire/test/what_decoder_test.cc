@@ -63,8 +63,9 @@ TEST(WhatDecoder, CleanLine) {
     ASSERT_GE(result.samples.size(), 9'990u);
     EXPECT_EQ(number_of(result.samples[5000]), 5000);
     EXPECT_EQ(result.samples[5000].force_counts, 48.0);
-    // Once the pace is known, times are good to a part of the host's millisecond.
-    EXPECT_LT(time_errors_us(result, sent, 256).back(), 500.0);
+    // The host looks once in a millisecond; once the pace is known well, times are far better than that.
+    EXPECT_LT(time_errors_us(result, sent, 128).back(), 2500.0);
+    EXPECT_LT(time_errors_us(result, sent, 600).back(), 200.0);
   }
 }
 
@@ -123,6 +124,21 @@ TEST(WhatDecoder, DamagedBytes) {
   EXPECT_GT(result.statistics.resyncs, 100u);
   const auto errors_us = time_errors_us(result, sent, 600);
   EXPECT_LT(errors_us[errors_us.size() * 98 / 100], 600.0);
+}
+
+// The pace of a probe without a crystal: 2 % in two minutes.
+TEST(WhatDecoder, DriftingPace) {
+  Random random(8);
+  auto sent = even_frames(60'000, 450.0);
+  auto t_ns = static_cast<double>(sent.front().t_ns);
+  for (std::size_t i = 1; i < sent.size(); ++i) {
+    t_ns += 1e9 / 450.0 * (1.0 + 0.02 * static_cast<double>(i) / 60'000.0);
+    sent[i].t_ns = std::llround(t_ns);
+  }
+  const Result result = receive(testkit::what_line(sent, {}, random));
+  EXPECT_EQ(result.statistics.lost_frames, 0u);
+  // The line over 4 s misses a bend of 1.5e-4 /s by 0.5 · 1.5e-4 · 2² s = 0.3 ms.
+  EXPECT_LT(time_errors_us(result, sent, 600).back(), 600.0);
 }
 
 // The probe is switched off for a while and comes back at another pace.

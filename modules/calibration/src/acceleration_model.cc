@@ -36,9 +36,9 @@ AccelerationModel::AccelerationModel(const SensorSeries& sensor, const PoseSerie
 Eigen::VectorXd AccelerationModel::residuals(double latency, Eigen::MatrixXd* slopes) const {
   const std::size_t poses = poses_.t_s.size();
   Eigen::VectorXd out(static_cast<Eigen::Index>(3 * poses));
-  std::size_t hint = 0;
+  PoseInterpolator::Cursor cursor;
   const auto columns_at = [&](std::size_t row) {
-    const Eigen::Matrix3d R = tracker_.at(sensor_.t_s[row] + latency, hint).rotation.toRotationMatrix();
+    const Eigen::Matrix3d R = tracker_.at(sensor_.t_s[row] + latency, cursor).rotation.toRotationMatrix();
     const Eigen::Vector3d f = R_marker_sensor * sensor_.x[row];
     Columns c;
     c.col(0) = R * (f - bias_mps2) + gravity_world_mps2;

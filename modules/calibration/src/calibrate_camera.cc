@@ -181,11 +181,9 @@ CalibrationVerdict judge(const CameraFit& fit, const CameraFitConfig& config) {
   }
   CalibrationVerdict verdict;
   verdict.trustworthy = faults.empty();
-  verdict.text = faults.empty() ? fmt::format("Good: focal length to {:.2f} %, corners within {:.2f} px RMS.",
-                                              100.0 * share, fit.rms_px)
-                                : "Not to be trusted: " + faults.front();
-  for (std::size_t i = 1; i < faults.size(); ++i) verdict.text += "; " + faults[i];
-  if (!faults.empty()) verdict.text += ".";
+  verdict.text = fmt::format("focal length to {:.2f} %, corners within {:.2f} px RMS", 100.0 * share, fit.rms_px);
+  for (const std::string& fault : faults) verdict.text += "; " + fault;
+  verdict.text += ".";
   verdict.text += fit.k3_free ? " k3 was fitted: the distortion asks for it." : " k3 is held at 0.";
   if (fit.errors_scaled) {
     verdict.text += fmt::format(

@@ -66,7 +66,7 @@ LatencyEstimate estimate_robustly(Model& model, PoseSeries& poses, const Latency
   for (int round = 0; round < 2 && estimate.converged; ++round) {
     const std::size_t dropped = drop_outliers(estimate.worst_innovation, config.outlier_sigmas, poses);
     if (dropped == 0) break;
-    if (out.problems.empty()) out.problems.push_back({"tracker_outlier", "", 0});
+    if (round == 0) out.problems.push_back({"tracker_outlier", "", 0});
     out.problems.back().count += dropped;
     out.problems.back().message =
         fmt::format("{} poses lie far off the sensor's prediction and were left out", out.problems.back().count);
@@ -135,15 +135,38 @@ void start_after_gaps(PoseSeries& poses) {
   }
 }
 
+// Leaves out the poses whose rotation is far off the middle of their neighbours': the accelerometer is turned by them.
+std::size_t drop_flips(PoseSeries& poses) {
+  constexpr double kMost = 8.0;  // of the median; a flip takes its two neighbours with it
+  Eigen::VectorXd off = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(poses.t_s.size()));
+  std::vector<double> sorted;
+  for (std::size_t i = 1; i + 1 < poses.t_s.size(); ++i) {
+    const double share = (poses.t_s[i] - poses.t_s[i - 1]) / (poses.t_s[i + 1] - poses.t_s[i - 1]);
+    const Eigen::Quaterniond middle =
+        slerp(poses.T_world_marker[i - 1].rotation, poses.T_world_marker[i + 1].rotation, share);
+    off[static_cast<Eigen::Index>(i)] = log_rotation(middle.conjugate() * poses.T_world_marker[i].rotation).norm();
+    sorted.push_back(off[static_cast<Eigen::Index>(i)]);
+  }
+  const auto median = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), median, sorted.end());
+  return *median > 0.0 ? drop_outliers(off, kMost * *median, poses) : 0;
+}
+
 LatencyFit by_accelerometer(const Recording& recording, const LatencyConfig& config) {
   const SensorSeries sensor = accelerometer_series(recording, config);
   PoseSeries poses = poses_within(recording, sensor, config);
   start_after_gaps(poses);
   refuse_few_poses(poses, config);
+  const std::size_t flips = drop_flips(poses);
   const std::vector<Pose> all = poses.T_world_marker;
   const PoseInterpolator tracker(poses.t_s, all);
   LatencyFit out;
   out.by_gyroscope = false;
+  if (flips > 0) {
+    out.problems.push_back({"tracker_outlier",
+                            fmt::format("{} poses are turned far off their neighbours and were left out", flips),
+                            flips});
+  }
   out.rotation_solved = config.solve_rotation || !recording.calibration.accelerometer.rotation_known;
   const Eigen::Vector3d lever_m = recording.calibration.accelerometer_in_marker_m();
   const Eigen::Vector3d gravity = recording.info.gravity_world_mps2;

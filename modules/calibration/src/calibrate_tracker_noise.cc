@@ -174,7 +174,7 @@ void fit_model(const TrackerNoiseConfig& config, TrackerNoise& out) {
   constexpr std::size_t kFewest = 4;
   if (across.size() < kFewest) {
     out.no_model_because = fmt::format(
-        "{} usable rests seen from the camera, the law over distance and tilt needs {}: record the probe clamped at "
+        "usable rests seen from the camera: {}, {} are needed: record the probe clamped at "
         "several distances and tilts",
         across.size(), kFewest);
     return;

@@ -193,13 +193,13 @@ LatencyScan scan_accelerometer(const SensorSeries& sensor, const PoseSeries& pos
   const double h = std::max(0.04, 2.0 * median_step_s(poses.t_s));
   std::vector<double> t_s;
   std::vector<Eigen::Vector3d> seen;
-  std::size_t hint = 0;
+  PoseInterpolator::Cursor cursor;
   for (std::size_t i = 0; i < poses.t_s.size(); ++i) {
     const double at = poses.t_s[i];
     if (at - h < tracker.first_s() || at + h > tracker.last_s()) continue;
     if (at - h - config.largest_latency_s < sensor.t_s.front() || at + h - config.least_latency_s > sensor.t_s.back())
       continue;
-    const Pose before = tracker.at(at - h, hint), here = tracker.at(at, hint), after = tracker.at(at + h, hint);
+    const Pose before = tracker.at(at - h, cursor), here = tracker.at(at, cursor), after = tracker.at(at + h, cursor);
     const Eigen::Vector3d bend = before * lever_arm_m - 2.0 * (here * lever_arm_m) + after * lever_arm_m;
     t_s.push_back(at);
     seen.push_back(here.rotation.conjugate() * (bend / (h * h) - gravity_world_mps2));

@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 
 #include "asperity/base/error.h"
-#include "recovery.h"
+#include "coverage.h"
 #include "simulated_accelerometer.h"
 
 namespace asperity {
 namespace {
+
+constexpr int kTrials = 200;
 
 using test::SimulatedAccelerometer;
 using testing::HasSubstr;
@@ -42,8 +44,8 @@ std::string message_of(const AccelerometerSamples& samples) {
 }
 
 void recover(const std::string& name, double scale, double offset, double drift, double noise) {
-  test::Recovery recovery;
-  for (int trial = 0; trial < test::kTrials; ++trial) {
+  test::Coverage coverage;
+  for (int trial = 0; trial < kTrials; ++trial) {
     Random random(21, static_cast<std::uint64_t>(trial));
     SimulatedAccelerometer sensor = draw_sensor(scale, offset, random);
     sensor.drift_counts = drift;
@@ -54,21 +56,21 @@ void recover(const std::string& name, double scale, double offset, double drift,
     const Eigen::Matrix3d unit = length.cwiseInverse().asDiagonal() * sensor.B;
     for (int axis = 0; axis < 3; ++axis) {
       const std::string letter(1, "ijk"[axis]);
-      recovery.add("scale " + letter, result.scale_counts_per_mps2[axis], result.scale_stderr[axis], length[axis]);
-      recovery.add("bias " + letter, result.accelerometer.C[axis], result.bias_stderr_counts[axis], sensor.C[axis]);
+      coverage.add("scale " + letter, result.scale_counts_per_mps2[axis], length[axis], result.scale_stderr[axis]);
+      coverage.add("bias " + letter, result.accelerometer.C[axis], sensor.C[axis], result.bias_stderr_counts[axis]);
       for (int column = 0; column <= axis; ++column) {
-        recovery.add("B " + letter + std::string(1, "xyz"[column]), result.accelerometer.B(axis, column),
-                     result.accelerometer.standard_errors(axis, column), sensor.B(axis, column));
+        coverage.add("B " + letter + std::string(1, "xyz"[column]), result.accelerometer.B(axis, column),
+                     sensor.B(axis, column), result.accelerometer.standard_errors(axis, column));
       }
     }
     int pair = 0;
     for (const auto& [a, b] : {std::pair{0, 1}, {0, 2}, {1, 2}}) {
-      recovery.add("angle " + std::to_string(pair), result.misalignment_rad[pair], result.misalignment_stderr_rad[pair],
-                   std::asin(unit.row(a).dot(unit.row(b))));
+      coverage.add("angle " + std::to_string(pair), result.misalignment_rad[pair],
+                   std::asin(unit.row(a).dot(unit.row(b))), result.misalignment_stderr_rad[pair]);
       ++pair;
     }
   }
-  recovery.expect_true(name);
+  coverage.expect(name, kTrials);
 }
 
 TEST(CalibrateAccelerometerField, TwoHundredSixteenBitSensorsKeepTheirErrors) {

@@ -137,6 +137,22 @@ TEST(CalibrateLatency, GapsAndFlipsAreLeftOut) {
   EXPECT_NEAR(fit.latency_s, probe.latency_s, 4.0 * fit.latency_error_s);
 }
 
+TEST(CalibrateLatency, FlipsDoNotTurnTheAccelerometer) {
+  Random random(81);
+  ShakenProbe probe;
+  probe.gyro = false;
+  probe.move_m = 0.03;
+  Recording recording = test::shake(random, probe);
+  for (std::size_t i = 60; i < 560; i += 50) {
+    recording.tracker.T_world_marker[i].rotation =
+        exp_rotation({0.4, 0.0, 0.2}) * recording.tracker.T_world_marker[i].rotation;
+  }
+  const LatencyFit fit = calibrate_latency(recording);
+  ASSERT_FALSE(fit.problems.empty());
+  EXPECT_NEAR(fit.latency_s, probe.latency_s, 4.0 * fit.latency_error_s);
+  EXPECT_LT(fit.latency_error_s, 1e-4);
+}
+
 TEST(CalibrateLatency, RefusesRegularMotion) {
   Random random(76);
   ShakenProbe probe;

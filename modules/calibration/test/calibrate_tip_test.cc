@@ -4,10 +4,12 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
-#include "recovery.h"
+#include "coverage.h"
 
 namespace asperity {
 namespace {
+
+constexpr int kTrials = 200;
 
 using testing::HasSubstr;
 
@@ -89,11 +91,11 @@ std::string message_of(const TrackerStream& poses, const TrackerCalibration& tra
 }
 
 void recover(const std::string& name, const Swing& kind) {
-  test::Recovery recovery;
+  test::Coverage coverage;
   const TrackerCalibration tracker;
   CalibrateTipConfig config;
   config.trials = 150;
-  for (int trial = 0; trial < test::kTrials; ++trial) {
+  for (int trial = 0; trial < kTrials; ++trial) {
     Random random(41, static_cast<std::uint64_t>(trial));
     Swing swing = kind;
     for (int axis = 0; axis < 3; ++axis) {
@@ -104,11 +106,11 @@ void recover(const std::string& name, const Swing& kind) {
     const TipCalibration tip = calibrate_tip(simulate(swing, tracker, random), tracker, config);
     for (int axis = 0; axis < 3; ++axis) {
       const std::string letter(1, "xyz"[axis]);
-      recovery.add("tip " + letter, tip.tip_in_marker_m[axis], tip.stderr_m[axis], swing.tip_m[axis]);
-      recovery.add("dimple " + letter, tip.dimple_world_m[axis], tip.dimple_stderr_m[axis], swing.dimple_m[axis]);
+      coverage.add("tip " + letter, tip.tip_in_marker_m[axis], swing.tip_m[axis], tip.stderr_m[axis]);
+      coverage.add("dimple " + letter, tip.dimple_world_m[axis], swing.dimple_m[axis], tip.dimple_stderr_m[axis]);
     }
   }
-  recovery.expect_true(name);
+  coverage.expect(name, kTrials);
 }
 
 TEST(CalibrateTip, TwoHundredSwingsWithRestSlipAndBadFramesKeepTheirErrors) {

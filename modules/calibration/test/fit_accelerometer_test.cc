@@ -4,11 +4,13 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/units.h"
-#include "recovery.h"
+#include "coverage.h"
 #include "simulated_accelerometer.h"
 
 namespace asperity {
 namespace {
+
+constexpr int kTrials = 200;
 
 using test::SimulatedAccelerometer;
 using testing::ElementsAre;
@@ -46,53 +48,53 @@ std::string message_of(const AccelerometerSamples& samples, const FitAcceleromet
   return "";
 }
 
-void add_model(test::Recovery& recovery, const AccelerometerCalibration& found, const Eigen::MatrixXd& B,
+void add_model(test::Coverage& coverage, const AccelerometerCalibration& found, const Eigen::MatrixXd& B,
                const Eigen::Vector3d& C) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::string letter(1, "ijk"[axis]);
     const Eigen::Index width = found.B.cols();
     for (Eigen::Index k = 0; k < width; ++k) {
       if (found.standard_errors(axis, k) == 0.0) continue;
-      recovery.add("B " + letter + std::to_string(k), found.B(axis, k), found.standard_errors(axis, k), B(axis, k));
+      coverage.add("B " + letter + std::to_string(k), found.B(axis, k), B(axis, k), found.standard_errors(axis, k));
     }
-    recovery.add("C " + letter, found.C[axis], found.standard_errors(axis, width), C[axis]);
+    coverage.add("C " + letter, found.C[axis], C[axis], found.standard_errors(axis, width));
   }
 }
 
 TEST(FitAccelerometer, TwoHundredLinearFitsUnderGravityKeepTheirErrors) {
-  test::Recovery recovery;
+  test::Coverage coverage;
   int linear = 0;
-  for (int trial = 0; trial < test::kTrials; ++trial) {
+  for (int trial = 0; trial < kTrials; ++trial) {
     Random random(31, static_cast<std::uint64_t>(trial));
     const SimulatedAccelerometer sensor = seed_sensor();
     const double g = kStandardGravity_mps2;
     const AccelerometerFit fit = fit_accelerometer(test::place_in(forces(30, g, g, random), sensor, random));
     EXPECT_EQ(fit.poses, 30U);
-    add_model(recovery, fit.models[1].accelerometer, sensor.B, sensor.C);
+    add_model(coverage, fit.models[1].accelerometer, sensor.B, sensor.C);
     linear += fit.accelerometer.model == AccelerometerModel::kLinear ? 1 : 0;
   }
-  recovery.expect_true("accelerometer under a known force, linear, 30 poses");
+  coverage.expect("accelerometer under a known force, linear, 30 poses", kTrials);
   EXPECT_GE(linear, 180) << "Schwarz's criterion finds the model that the data came from";
 }
 
 TEST(FitAccelerometer, TwoHundredScalarOffsetFitsKeepTheirErrors) {
-  test::Recovery recovery;
-  for (int trial = 0; trial < test::kTrials; ++trial) {
+  test::Coverage coverage;
+  for (int trial = 0; trial < kTrials; ++trial) {
     Random random(32, static_cast<std::uint64_t>(trial));
     SimulatedAccelerometer sensor = seed_sensor();
     sensor.B << 5.5, 0, 0, 0, 0, 5.4, 0, -5.7, 0;
     const double g = kStandardGravity_mps2;
     const AccelerometerFit fit = fit_accelerometer(test::place_in(forces(20, g, g, random), sensor, random));
     EXPECT_THAT(fit.marker_axis, ElementsAre(0, 2, 1));
-    add_model(recovery, fit.models[0].accelerometer, sensor.B, sensor.C);
+    add_model(coverage, fit.models[0].accelerometer, sensor.B, sensor.C);
   }
-  recovery.expect_true("accelerometer under a known force, scalar and offset, 20 poses");
+  coverage.expect("accelerometer under a known force, scalar and offset, 20 poses", kTrials);
 }
 
 TEST(FitAccelerometer, TwoHundredQuadricFitsKeepTheirErrors) {
-  test::Recovery recovery;
+  test::Coverage coverage;
   int quadric = 0;
-  for (int trial = 0; trial < test::kTrials; ++trial) {
+  for (int trial = 0; trial < kTrials; ++trial) {
     Random random(33, static_cast<std::uint64_t>(trial));
     const SimulatedAccelerometer sensor = seed_sensor();
     Eigen::Matrix<double, 3, 9> B = Eigen::Matrix<double, 3, 9>::Zero();
@@ -111,10 +113,10 @@ TEST(FitAccelerometer, TwoHundredQuadricFitsKeepTheirErrors) {
     const AccelerometerFit fit = fit_accelerometer(samples);
     ASSERT_EQ(fit.models.size(), 3U);
     EXPECT_THAT(fit.models[2].dropped, IsEmpty());
-    add_model(recovery, fit.models[2].accelerometer, B, sensor.C);
+    add_model(coverage, fit.models[2].accelerometer, B, sensor.C);
     quadric += fit.accelerometer.model == AccelerometerModel::kQuadric ? 1 : 0;
   }
-  recovery.expect_true("accelerometer under a known force, quadric, 60 forces");
+  coverage.expect("accelerometer under a known force, quadric, 60 forces", kTrials);
   EXPECT_GE(quadric, 180);
 }
 
@@ -151,8 +153,8 @@ TEST(FitAccelerometer, MoreRowsAPoseDoNotMakeItMorePrecise) {
 
 // A sensor that drifts like a random walk while it is turned slowly, as in the seed, without ever stopping.
 TEST(FitAccelerometer, SlowTurnsWithDriftingErrorsKeepTheirErrors) {
-  test::Recovery recovery;
-  for (int trial = 0; trial < test::kTrials; ++trial) {
+  test::Coverage coverage;
+  for (int trial = 0; trial < kTrials; ++trial) {
     Random random(34, static_cast<std::uint64_t>(trial));
     const SimulatedAccelerometer sensor = seed_sensor();
     AccelerometerSamples samples;
@@ -172,9 +174,9 @@ TEST(FitAccelerometer, SlowTurnsWithDriftingErrorsKeepTheirErrors) {
       samples.counts.push_back(sensor.read(f, drift, random));
     }
     const AccelerometerFit fit = fit_accelerometer(samples);
-    add_model(recovery, fit.models[1].accelerometer, sensor.B, sensor.C);
+    add_model(coverage, fit.models[1].accelerometer, sensor.B, sensor.C);
   }
-  recovery.expect_true("accelerometer under a known force, turned slowly, correlated errors");
+  coverage.expect("accelerometer under a known force, turned slowly, correlated errors", kTrials);
 }
 
 TEST(FitAccelerometer, RefusesDirectionsThatDetermineNothing) {

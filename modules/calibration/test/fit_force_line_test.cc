@@ -8,10 +8,12 @@
 #include "asperity/base/random.h"
 #include "asperity/calibration/read_force_points.h"
 #include "asperity/testkit/temp_dir.h"
-#include "recovery.h"
+#include "coverage.h"
 
 namespace asperity {
 namespace {
+
+constexpr int kTrials = 200;
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -43,8 +45,8 @@ TEST(FitForceLine, Figure11) {
 }
 
 TEST(FitForceLine, TwoHundredCalibrationsOfAnEightBitSensorKeepTheirErrors) {
-  test::Recovery recovery;
-  for (int trial = 0; trial < test::kTrials; ++trial) {
+  test::Coverage coverage;
+  for (int trial = 0; trial < kTrials; ++trial) {
     Random random(11, static_cast<std::uint64_t>(trial));
     const double slope = random.uniform(0.015, 0.03);
     const double offset = random.uniform(-1.5, 0.0);
@@ -55,10 +57,10 @@ TEST(FitForceLine, TwoHundredCalibrationsOfAnEightBitSensorKeepTheirErrors) {
       points.force_N.push_back(slope * counts + offset + 0.1 * random.normal());
     }
     const ForceLineFit fit = fit_force_line(points);
-    recovery.add("slope", fit.force.newton_per_count, fit.newton_per_count_stderr, slope);
-    recovery.add("offset", fit.force.offset_newton, fit.offset_newton_stderr, offset);
+    coverage.add("slope", fit.force.newton_per_count, slope, fit.newton_per_count_stderr);
+    coverage.add("offset", fit.force.offset_newton, offset, fit.offset_newton_stderr);
   }
-  recovery.expect_true("force line, 12 points");
+  coverage.expect("force line, 12 points", kTrials);
 }
 
 TEST(FitForceLine, ABentSensorIsNotTrusted) {

@@ -45,6 +45,17 @@ bool is_one_result(const fs::path& folder) {
   return true;
 }
 
+// One result, or nothing but folders that hold results, at most `deepest` levels of them.
+bool holds_results(const fs::path& folder, int deepest) {
+  if (fs::is_regular_file(folder / "result.json")) return is_one_result(folder);
+  bool any = false;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (deepest == 0 || !entry.is_directory() || !holds_results(entry.path(), deepest - 1)) return false;
+    any = true;
+  }
+  return any;
+}
+
 }  // namespace
 
 std::string format_trajectory_csv(const TipMotion& motion) {
@@ -87,14 +98,9 @@ void write_result(const fs::path& folder, const ProcessResult& result, const Rec
 }
 
 bool is_result_folder(const fs::path& folder) noexcept {
+  constexpr int kDeepest = 2;  // recordings, and their segments
   try {
-    if (fs::is_regular_file(folder / "result.json")) return is_one_result(folder);
-    bool any = false;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      if (!entry.is_directory() || !is_one_result(entry.path())) return false;
-      any = true;
-    }
-    return any;
+    return holds_results(folder, kDeepest);
   } catch (const std::exception&) {
     return false;
   }

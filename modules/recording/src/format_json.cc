@@ -111,6 +111,17 @@ std::string format_calibration(const Calibration& calibration) {
   return out.finish();
 }
 
+std::string format_markers(const std::vector<MarkerPlacement>& markers) {
+  JsonWriter out;
+  out.text("format", "asperity-markers");
+  out.integer("version", 1);
+  out.text("tag_frame", "apriltag");
+  out.begin_array("markers");
+  for (const auto& marker : markers) write_marker(out, marker);
+  out.end_array();
+  return out.finish();
+}
+
 std::string format_recording_info(const RecordingInfo& info) {
   JsonWriter out;
   out.text("format", "asperity-recording");

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "asperity/base/csv.h"
+#include "asperity/base/error.h"
+#include "asperity/base/inner_path.h"
 #include "asperity/base/text.h"
 #include "calibration_parts.h"
 #include "json_reader.h"
@@ -73,7 +75,19 @@ MarkerFile parse_markers(std::string_view text, const std::string& name, const R
 }
 
 MarkerFile read_markers(const std::filesystem::path& path, const ReadLimits& limits) {
-  return parse_markers(read_file(path, limits.json_bytes), path.string(), limits);
+  MarkerFile out = parse_markers(read_file(path, limits.json_bytes), path.string(), limits);
+  for (MarkerPlacement& marker : out.markers) {
+    constexpr std::string_view kPrefix = "aruco:";
+    const bool is_file = marker.family.ends_with(".yml") || marker.family.ends_with(".yaml");
+    if (!is_file || !marker.family.starts_with(kPrefix)) continue;
+    const std::string written = marker.family.substr(kPrefix.size());
+    if (!inner_file(path.parent_path(), written)) {
+      throw Error(fmt::format("{}: family '{}' names a file that is not in the folder of this one", path.string(),
+                              printable(marker.family)));
+    }
+    marker.family = std::string(kPrefix) + (path.parent_path() / written).string();
+  }
+  return out;
 }
 
 CameraCalibration parse_camera(std::string_view text, const std::string& name, const ReadLimits& limits) {

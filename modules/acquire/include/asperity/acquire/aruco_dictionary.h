@@ -27,4 +27,7 @@ ArucoDictionary predefined_aruco_dictionary(std::string_view name);
 ArucoDictionary parse_aruco_dictionary(std::string_view text, const std::string& name);
 ArucoDictionary read_aruco_dictionary(const std::filesystem::path& path);
 
+// The file that a family's name names, "aruco:FILE.yml" (or .yaml); empty for other names.
+std::string aruco_file(std::string_view family);
+
 }  // namespace asperity

@@ -52,6 +52,9 @@ class TagDetector {
 // True for AprilTag's families: tag36h11, tag25h9, tag16h5, tagStandard41h12.
 bool is_apriltag_family(std::string_view family);
 
+// True for "aruco:DICT_4X4_50" and the like, and "aruco:FILE.yml" (aruco_dictionary.h).
+bool is_aruco_family(std::string_view family);
+
 // A detector of `family`. Throws Error for one that is not known.
 std::unique_ptr<TagDetector> make_tag_detector(const std::string& family, const TagDetectorConfig& config = {});
 

@@ -26,7 +26,15 @@ PoseAddress parse_pose_address(std::string_view text);
 // Opens what the address names; throws Error if it cannot.
 std::unique_ptr<PoseSource> open_pose_stream(const PoseAddress& address);
 
-// The poses in the lines that `bytes` gives.
-std::unique_ptr<PoseSource> make_pose_stream(std::unique_ptr<ByteSource> bytes);
+// Whose clock the times in the lines are of.
+enum class PoseTimes {
+  kHostClock,     // this host's monotonic one: taken as they are
+  kSendersClock,  // any that counts ns: brought to the host's by device_clock.h, whose constant delay is latency
+};
+
+// The poses in the lines that `bytes` gives. Over UDP open_pose_stream takes the sender's clock: another machine has
+// another one.
+std::unique_ptr<PoseSource> make_pose_stream(std::unique_ptr<ByteSource> bytes,
+                                             PoseTimes times = PoseTimes::kHostClock);
 
 }  // namespace asperity

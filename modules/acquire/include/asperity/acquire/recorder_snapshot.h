@@ -44,6 +44,7 @@ struct RecorderSnapshot {
   LinkStatistics link;          // over all times that the probe was opened
   TrackingStatistics tracking;  // likewise
   std::optional<ProbeDescription> description;
+  bool columns_missing = false;  // it described itself too late: it has sensors that are not stored
 
   double force_N = std::numeric_limits<double>::quiet_NaN();  // newest; counts if not calibrated
   bool force_is_calibrated = false;

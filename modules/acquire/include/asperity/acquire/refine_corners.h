@@ -12,7 +12,7 @@ namespace asperity {
 
 struct RefineCornersConfig {
   bool enabled = true;
-  int most_pixels = 2500;  // of one tag that are compared; more are thinned out
+  int most_pixels = 2000;  // of one tag that are compared; more are thinned out
   int most_iterations = 12;
   double largest_move_px = 3.0;   // a corner that would move farther stays where the detector saw it
   double model_sigma_px = 0.003;  // what the model leaves out, beside the noise: of each coordinate
@@ -50,10 +50,12 @@ struct RefinedCorners {
 // tag count, inside as well as the border's, dark to light as well as light to dark, so that a camera that lets
 // white bleed into black moves none of them. The picture is mapped by a homography and the lens distortion, spread by a
 // Gaussian (PointSpread, fitted) and shaded by two planes (fitted):
-//   I(p) = β(x) + γ(x) (P ∗ G_S)(x),  x = H⁻¹(undistort(p)),  β and γ linear in x.
-// Levenberg–Marquardt on H, S, β and γ over the pixels at edges; a pixel that does not fit loses its weight. The
-// covariance is that of the least squares with the residual's own variance. nullopt where the picture does not fit, or
-// the tag is too small or cut by the image's border. `corners_px` within about a cell of the truth.
+//   I(p) = min(I_max, β(x) + γ(x) (B + e |∇B|)(x)),  B = P ∗ G_S,  x = H⁻¹(undistort(p)),  β and γ linear in x,
+// where e, in px, is how far white has grown into black or black into white: ink that has run, a camera that is not
+// linear or bleeds. Levenberg–Marquardt on H, S, β, γ and e over the pixels at edges; a pixel that does not fit loses
+// its weight, one that is saturated has none. The covariance is that of the least squares with the residual's own
+// variance. nullopt where the picture does not fit, or the tag is too small or cut by the image's border. `corners_px`
+// within about a cell of the truth.
 std::optional<RefinedCorners> refine_corners(const GrayImage& image, const CameraCalibration& camera,
                                              const TagPattern& pattern, const Eigen::Matrix<double, 2, 4>& corners_px,
                                              const PointSpread& spread = {}, const RefineCornersConfig& config = {});

@@ -16,7 +16,7 @@ namespace asperity {
 
 struct BodyPoseConfig {
   double corner_sigma_px = 0.1;  // error of a coordinate of a corner that brings no covariance
-  double prior_dof = 6.0;        // how many residuals the corners' own covariances are worth against the frame's
+  double prior_dof = 4.0;        // how many residuals the corners' own covariances are worth against the frame's
   double outlier_sigmas = 6.0;   // a corner farther off than this has no weight
   double ambiguous_ratio = 3.0;  // of the residuals of the runner-up and the best: below, they are not told apart
   int most_iterations = 30;

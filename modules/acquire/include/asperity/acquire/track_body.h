@@ -22,6 +22,7 @@ struct TrackConfig {
   TagDetectorConfig detector;
   RefineCornersConfig refine;
   BodyPoseConfig pose;
+  int most_pixels = 3600;       // of all tags of a frame that are compared with their pictures
   double region_margin = 0.25;  // round the predicted body, of its size in the image
   double largest_reprojection_px = 2.0;
   double longest_gap_s = 0.25;  // a pose predicts no longer than this
@@ -34,6 +35,8 @@ struct TrackConfig {
     v.group("detector", detector);
     v.group("refine", refine);
     v.group("pose", pose);
+    v.field("most_pixels", most_pixels, "of all tags of a frame that are compared with their pictures",
+            {200, 10'000'000});
     v.field("region_margin", region_margin, "round the predicted body, of its size in the image", {0.0, 10.0});
     v.field("largest_reprojection_px", largest_reprojection_px, "a worse pose is none", {0.01, 100.0});
     v.field("longest_gap_s", longest_gap_s, "a pose predicts no longer than this", {0.0, 10.0});

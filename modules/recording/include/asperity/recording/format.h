@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "asperity/recording/recording.h"
 
@@ -12,6 +13,8 @@ namespace asperity {
 
 std::string format_recording_info(const RecordingInfo& info);
 std::string format_calibration(const Calibration& calibration);
+// markers.json, the body's markers in our tag frame (read_markers.h).
+std::string format_markers(const std::vector<MarkerPlacement>& markers);
 
 // The header line of probe.csv for the sensors there are, and of tracker.csv; with their newline.
 std::string probe_header(bool has_gyro, bool has_force3);

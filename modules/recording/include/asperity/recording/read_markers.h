@@ -24,8 +24,9 @@ struct MarkerFile {
 Eigen::Quaterniond R_frame_tag(TagFrame frame, std::string_view family);
 
 // markers.json, {"markers":[…]} with "tag_frame":"apriltag"|"opencv" where it is not ours, or a calibration.json with
-// "markers" (its "tag_frame" in "extra"). Throws Error naming the file and the key: no marker, a marker given twice, more
-// than 1000, or a value out of range.
+// "markers" (its "tag_frame" in "extra"). Throws Error naming the file and the key: no marker, a marker given twice,
+// more than 1000, or a value out of range. A family "aruco:FILE.yml" is a dictionary's file in the folder of the
+// body's; read_markers gives it with that folder before it.
 MarkerFile parse_markers(std::string_view text, const std::string& name, const ReadLimits& limits = {});
 MarkerFile read_markers(const std::filesystem::path& path, const ReadLimits& limits = {});
 

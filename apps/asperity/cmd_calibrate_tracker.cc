@@ -1,0 +1,182 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
+#include "asperity/base/units.h"
+#include "asperity/calibration/calibrate_tracker_noise.h"
+#include "asperity/recording/read_recording.h"
+#include "calibrate_command.h"
+#include "commands.h"
+#include "noise_figure.h"
+#include "our_file.h"
+
+namespace asperity::app {
+
+namespace {
+
+using Json = CalibrateOutcome::Json;
+
+Json json_of_noise(const SeriesNoise& noise, const std::string& unit) {
+  return {{"samples", noise.samples},
+          {"white_" + unit, noise.white},
+          {"white_stderr_" + unit, noise.white_error},
+          {"slow_" + unit, noise.slow},
+          {"slow_stderr_" + unit, std::isfinite(noise.slow_error) ? Json(noise.slow_error) : Json(nullptr)},
+          {"slow_time_s", noise.slow_time_s},
+          {"total_" + unit, noise.total},
+          {"effective_samples", noise.effective_samples},
+          {"skewness", noise.skewness},
+          {"excess_kurtosis", noise.excess_kurtosis},
+          {"anderson_darling", noise.anderson_darling},
+          {"gaussian_probability",
+           std::isfinite(noise.gaussian_probability) ? Json(noise.gaussian_probability) : Json(nullptr)}};
+}
+
+Json json_of_axes(const std::array<SeriesNoise, 3>& axes, const std::string& unit) {
+  Json out = Json::array();
+  for (const SeriesNoise& noise : axes) out.push_back(json_of_noise(noise, unit));
+  return out;
+}
+
+Json json_of_rest(const TrackerRest& rest) {
+  return {{"recording", printable(rest.recording, 200)},
+          {"start_ns", rest.start_ns},
+          {"end_ns", rest.end_ns},
+          {"outliers", rest.outliers},
+          {"distance_m", rest.distance_m},
+          {"tilt_rad", rest.tilt_rad},
+          {"position", json_of_axes(rest.position_m, "m")},
+          {"rotation", json_of_axes(rest.rotation_rad, "rad")}};
+}
+
+Json json_of_law(const NoiseLaw& law) {
+  return {{"scale", law.scale},
+          {"scale_stderr", law.scale_error},
+          {"distance_power", law.power},
+          {"tilt_power", law.tilt_power},
+          {"tilt_power_stderr", law.tilt_power_error},
+          {"measured_distance_power", law.measured_power},
+          {"measured_distance_power_stderr", law.measured_power_error},
+          {"chi_square", law.chi_square},
+          {"degrees_of_freedom", law.degrees_of_freedom}};
+}
+
+Json json_of_model(const TrackerNoiseModel& model) {
+  return {{"formula", "sigma = scale * (distance / 1 m)^distance_power * cos(tilt)^-tilt_power"},
+          {"position_across_ray_m", json_of_law(model.across_m)},
+          {"position_along_ray_m", json_of_law(model.along_m)},
+          {"rotation_about_ray_rad", json_of_law(model.about_rad)},
+          {"rotation_across_ray_rad", json_of_law(model.tilt_rad)},
+          {"nearest_m", model.nearest_m},
+          {"farthest_m", model.farthest_m},
+          {"steepest_rad", model.steepest_rad}};
+}
+
+class CalibrateTrackerCommand : public CalibrateCommand {
+ public:
+  explicit CalibrateTrackerCommand(CLI::App& calibrate)
+      : CalibrateCommand(calibrate, "tracker", "The tracker's noise from recordings in which the probe rests") {
+    require(parser().add_option("REC", folders_, "Recordings; the rests in them are found"));
+    parser().add_option("--figure", figure_, "Histograms of the longest rest")->type_name("FILE.svg");
+  }
+
+  std::vector<ConfigField> fields() override { return list_fields("calibration", config_); }
+
+ private:
+  std::vector<std::string> inputs() const override { return folders_; }
+
+  CalibrateOutcome calibrate(const Observer& observer) override {
+    if (!figure_.empty()) refuse_stranger(figure_, kNoiseSvgBegin, folders_);
+    std::vector<Recording> recordings;
+    for (const std::string& folder : folders_) {
+      observer.update("reading", static_cast<double>(recordings.size()) / static_cast<double>(folders_.size()));
+      recordings.push_back(read_recording(folder));
+    }
+    std::vector<RestingTracker> trackers;
+    for (std::size_t i = 0; i < recordings.size(); ++i) {
+      trackers.push_back({printable(folders_[i], 200), &recordings[i].tracker, recordings[i].calibration.markers,
+                          recordings[i].info.world == "camera"});
+    }
+    const TrackerNoise noise = calibrate_tracker_noise(trackers, config_);
+    if (!figure_.empty()) {
+      const auto longest = std::max_element(
+          noise.rests.begin(), noise.rests.end(),
+          [](const TrackerRest& a, const TrackerRest& b) { return a.deviation_m.size() < b.deviation_m.size(); });
+      write_file(figure_, noise_svg(*longest));
+    }
+    return describe(noise);
+  }
+
+  static CalibrateOutcome describe(const TrackerNoise& noise) {
+    CalibrateOutcome out;
+    out.values = {{"sigma_position_m", json_of(noise.sigma_position_m)},
+                  {"sigma_rotation_rad", json_of(noise.sigma_rotation_rad)}};
+    out.standard_errors = {{"sigma_position_m", json_of(noise.sigma_position_error_m)},
+                           {"sigma_rotation_rad", json_of(noise.sigma_rotation_error_rad)}};
+    out.residuals = {{"slow_position_m", json_of(noise.slow_position_m)},
+                     {"slow_rotation_rad", json_of(noise.slow_rotation_rad)}};
+    Json rests = Json::array();
+    for (const TrackerRest& rest : noise.rests) rests.push_back(json_of_rest(rest));
+    out.details = {{"gaussian", noise.gaussian}, {"moving", noise.moving}, {"rests", rests}};
+    out.details["model"] = noise.model ? json_of_model(*noise.model) : Json(nullptr);
+    constexpr double kMilli = 1e3;
+    for (int axis = 0; axis < 3; ++axis) {
+      out.table.push_back({fmt::format("position {}", "xyz"[axis]), kMilli * noise.sigma_position_m[axis],
+                           kMilli * noise.sigma_position_error_m[axis], "mm"});
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      out.table.push_back({fmt::format("rotation {}", "xyz"[axis]), kMilli * noise.sigma_rotation_rad[axis],
+                           kMilli * noise.sigma_rotation_error_rad[axis], "mrad"});
+    }
+    for (const TrackerRest& rest : noise.rests) {
+      std::string note =
+          fmt::format("rest of {:.1f} s, {} poses", static_cast<double>(rest.end_ns - rest.start_ns) * kNanosecond_s,
+                      rest.deviation_m.size());
+      if (rest.distance_m > 0.0) {
+        note += fmt::format(", {:.0f} mm away, tilted by {:.0f} degrees", kMilli * rest.distance_m,
+                            rest.tilt_rad * 180.0 / std::numbers::pi);
+      }
+      out.notes.push_back(note);
+    }
+    for (const Problem& problem : noise.problems) out.notes.push_back(problem.message);
+    if (noise.model) {
+      const TrackerNoiseModel& m = *noise.model;
+      out.notes.push_back(
+          fmt::format("at 1 m facing the camera: {:.3g} mm across the ray (grows with distance to the power {:.2f} ± "
+                      "{:.2f}), {:.3g} mm along it ({:.2f} ± {:.2f})",
+                      kMilli * m.across_m.scale, m.across_m.measured_power, m.across_m.measured_power_error,
+                      kMilli * m.along_m.scale, m.along_m.measured_power, m.along_m.measured_power_error));
+    } else {
+      out.notes.push_back("no law over distance and tilt: " + noise.no_model_because);
+    }
+    out.verdict = noise.verdict;
+    out.store = [noise](Calibration& calibration) {
+      calibration.tracker.sigma_position_m = noise.sigma_position_m;
+      calibration.tracker.sigma_rotation_rad = noise.sigma_rotation_rad;
+      if (!noise.model) return;
+      Json extra = Json::parse(calibration.extra_json.empty() ? "{}" : calibration.extra_json);
+      extra["tracker_noise_model"] = json_of_model(*noise.model);
+      calibration.extra_json = extra.dump();
+    };
+    return out;
+  }
+
+  std::vector<std::string> folders_;
+  std::string figure_;
+  TrackerNoiseConfig config_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_calibrate_tracker(CLI::App& calibrate) {
+  return std::make_unique<CalibrateTrackerCommand>(calibrate);
+}
+
+}  // namespace asperity::app

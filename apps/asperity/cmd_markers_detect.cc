@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "asperity/acquire/detect_tags.h"
+#include "asperity/acquire/read_gray_image.h"
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
+#include "commands.h"
+#include "our_file.h"
+
+namespace asperity::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kHeader = "image,id,x0_px,y0_px,x1_px,y1_px,x2_px,y2_px,x3_px,y3_px\n";
+
+class MarkersDetectCommand : public Command {
+ public:
+  explicit MarkersDetectCommand(CLI::App& markers)
+      : Command(markers, "detect", "The tags in images and where their corners are") {
+    require(parser().add_option("IMAGE", images_, "PNG, JPEG or PGM"));
+    parser()
+        .add_option("--family", family_, "tag36h11, tag25h9, tag16h5, tagStandard41h12, aruco:NAME or aruco:FILE.yml")
+        ->capture_default_str();
+    parser().add_option("-o,--output", output_, "Write a table of the corners")->type_name("FILE.csv");
+  }
+
+  std::vector<ConfigField> fields() override { return list_fields("detector", config_); }
+
+  int run(const Observer& observer) override {
+    if (!output_.empty()) refuse_stranger(output_, kHeader, images_);
+    const std::unique_ptr<TagDetector> detector = make_tag_detector(family_, config_);
+    std::string table(kHeader), text;
+    Json images = Json::array();
+    std::size_t found = 0;
+    std::vector<TagDetection> tags;
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+      observer.update("detecting", static_cast<double>(i) / static_cast<double>(images_.size()));
+      const GrayImage image = read_gray_image(images_[i]);
+      tags.clear();
+      detector->detect(image, whole(image), tags);
+      std::stable_sort(tags.begin(), tags.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+      found += tags.size();
+      const std::string name = printable(images_[i], 300);
+      if (!output_.empty() && name.find(',') != std::string::npos) {
+        throw Error(name + ": a name with a comma has no place in a table");
+      }
+      text += fmt::format("{}: {} marker{}\n", name, tags.size(), tags.size() == 1 ? "" : "s");
+      Json markers = Json::array();
+      for (const TagDetection& tag : tags) {
+        table += fmt::format("{},{}", name, tag.id);
+        text += fmt::format("  id {:<4}", tag.id);
+        Json corners = Json::array();
+        for (int k = 0; k < 4; ++k) {
+          const double x = tag.corners_px(0, k), y = tag.corners_px(1, k);
+          table += fmt::format(",{:.3f},{:.3f}", x, y);
+          text += fmt::format("  ({:.2f}, {:.2f})", x, y);
+          corners.push_back({x, y});
+        }
+        table += '\n';
+        text += '\n';
+        markers.push_back({{"id", tag.id}, {"corners_px", corners}});
+      }
+      images.push_back({{"image", images_[i]}, {"markers", markers}});
+    }
+    if (!output_.empty()) write_file(output_, table);
+    const Json out{{"format", "asperity-markers-detect"}, {"version", 1}, {"family", family_}, {"images", images}};
+    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    say(text);
+    if (found == 0) complain("no marker of " + printable(family_) + " was found");
+    return found == 0 ? kNotTrustworthy : kDone;
+  }
+
+ private:
+  std::vector<std::string> images_;
+  std::string family_ = "tag36h11", output_;
+  TagDetectorConfig config_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_markers_detect(CLI::App& markers) {
+  return std::make_unique<MarkersDetectCommand>(markers);
+}
+
+}  // namespace asperity::app

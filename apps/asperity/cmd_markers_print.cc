@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "asperity/acquire/format_pdf.h"
+#include "asperity/acquire/marker_sheets.h"
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
+#include "asperity/recording/format.h"
+#include "commands.h"
+#include "marker_family.h"
+#include "option_units.h"
+#include "our_file.h"
+
+namespace asperity::app {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kPdfHeader = "%PDF-1.7\n%asperity\n";
+
+bool begins_as_markers(std::string_view begin) { return begin.find("\"asperity-markers\"") != std::string_view::npos; }
+
+// "0,1,4-7".
+std::vector<int> ids_option(const std::string& text) {
+  std::vector<int> out;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    const std::string part = text.substr(at, end - at);
+    const auto dash = part.find('-', 1);
+    const auto first = parse_int64(part.substr(0, dash));
+    const auto last = dash == std::string::npos ? first : parse_int64(part.substr(dash + 1));
+    if (!first || !last || *first < 0 || *last < *first || *last > 1'000'000 || *last - *first >= 1000) {
+      throw UsageError("--ids: '" + printable(part) + "' is not an id or a span of at most 1000, such as 0-5");
+    }
+    for (auto id = *first; id <= *last; ++id) out.push_back(static_cast<int>(id));
+    if (out.size() > 1000) throw UsageError("--ids: more than 1000");
+    at = end + 1;
+  }
+  return out;
+}
+
+// "9x6".
+std::pair<int, int> board_option(const std::string& text) {
+  const auto x = text.find('x');
+  const auto columns = parse_int64(text.substr(0, x));
+  const auto rows = x == std::string::npos ? std::nullopt : parse_int64(text.substr(x + 1));
+  if (!columns || !rows || *columns < 1 || *rows < 1 || *columns > 1000 || *rows > 1000) {
+    throw UsageError("--board: '" + printable(text) + "' is not COLUMNSxROWS, such as 9x6");
+  }
+  return {static_cast<int>(*columns), static_cast<int>(*rows)};
+}
+
+// What all commands that print share: paper, the PDF, and the markers.json of what they print.
+class PrintCommand : public Command {
+ public:
+  PrintCommand(CLI::App& markers, const std::string& name, const std::string& description)
+      : Command(markers, name, description) {
+    require(parser().add_option("-o,--output", output_, "Where to put the pages")->type_name("FILE.pdf"));
+    parser()
+        .add_option("--paper", paper_, "a4 or letter")
+        ->check(CLI::IsMember({"a4", "letter"}))
+        ->capture_default_str();
+  }
+
+  int run(const Observer&) override {
+    refuse_stranger(output_, kPdfHeader);
+    if (!markers_.empty()) refuse_stranger(markers_, begins_as_markers, {output_});
+    MarkerPrint print = layout(paper_ == "letter" ? Paper::kLetter : Paper::kA4);
+    if (!markers_.empty() && print.markers.empty()) {
+      throw Error("--markers: tags on several pages are no rigid body");
+    }
+    if (!markers_.empty()) {
+      for (MarkerPlacement& marker : print.markers) {
+        marker.family = family_beside(marker.family, std::filesystem::path(markers_).parent_path());
+      }
+      write_file(markers_, format_markers(print.markers));
+    }
+    write_file(output_, format_pdf(print.pages, "asperity markers"));
+    Json out{{"format", "asperity-markers-print"}, {"version", 1}, {"output", output_}, {"pages", print.pages.size()}};
+    if (!markers_.empty()) out["markers"] = markers_;
+    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    say(fmt::format("{}: {} page{}{}\nPrint at 100 %, without fitting to the page, and measure both rulers.\n",
+                    printable(output_, 200), print.pages.size(), print.pages.size() == 1 ? "" : "s",
+                    markers_.empty() ? "" : "; the body is in " + printable(markers_, 200)));
+    return kDone;
+  }
+
+ protected:
+  virtual MarkerPrint layout(Paper paper) = 0;
+
+  void add_family(const std::string& default_family) {
+    family_ = default_family;
+    parser()
+        .add_option("--family", family_, "tag36h11, tag25h9, tag16h5, tagStandard41h12, aruco:NAME or aruco:FILE.yml")
+        ->capture_default_str();
+  }
+  void add_markers() {
+    parser().add_option("--markers", markers_, "Write the body too: where its tags are")->type_name("markers.json");
+  }
+  TagFamily family() const { return open_family(family_); }
+
+ private:
+  std::string output_, markers_, family_;
+  std::string paper_ = "a4";
+};
+
+class SheetCommand : public PrintCommand {
+ public:
+  explicit SheetCommand(CLI::App& markers) : PrintCommand(markers, "sheet", "Flat tags to print and cut out") {
+    add_family("tag36h11");
+    add_markers();
+    parser().add_option("--size", size_, "The black border's outer edge")->capture_default_str();
+    parser().add_option("--ids", ids_, "Ids, such as 0,1,4-7")->capture_default_str();
+  }
+
+ private:
+  MarkerPrint layout(Paper paper) override {
+    return layout_tags(family(), ids_option(ids_), length_option_m("--size", size_), paper);
+  }
+  std::string size_ = "46mm", ids_ = "0";
+};
+
+class RingCommand : public PrintCommand {
+ public:
+  explicit RingCommand(CLI::App& markers)
+      : PrintCommand(markers, "ring", "A prism of tags to print and fold, seen from all around") {
+    add_family("tag36h11");
+    add_markers();
+    parser().add_option("--size", size_, "The black border's outer edge")->capture_default_str();
+    parser().add_option("--sides", config_.sides, "Faces, 3 to 36")->capture_default_str();
+    parser().add_option("--first-id", config_.first_id, "The id of face 0")->capture_default_str();
+    parser().add_option("--face", face_, "Width of a face; as narrow as a tag with its white margin without");
+  }
+
+ private:
+  MarkerPrint layout(Paper paper) override {
+    config_.size_m = length_option_m("--size", size_);
+    if (!face_.empty()) config_.face_m = length_option_m("--face", face_);
+    return layout_ring(family(), config_, paper);
+  }
+  std::string size_ = "46mm", face_;
+  RingConfig config_;
+};
+
+class BoardCommand : public PrintCommand {
+ public:
+  explicit BoardCommand(CLI::App& markers)
+      : PrintCommand(markers, "board", "A checkerboard to calibrate the camera with") {
+    parser().add_option("--board", board_, "Inner corners, COLUMNSxROWS")->capture_default_str();
+    parser().add_option("--square", square_, "Width of a square")->capture_default_str();
+  }
+
+ private:
+  MarkerPrint layout(Paper paper) override {
+    const auto [columns, rows] = board_option(board_);
+    return {{layout_checkerboard(columns, rows, length_option_m("--square", square_), paper)}, {}};
+  }
+  std::string board_ = "9x6", square_ = "25mm";
+};
+
+class CharucoCommand : public PrintCommand {
+ public:
+  explicit CharucoCommand(CLI::App& markers)
+      : PrintCommand(markers, "charuco", "A ChArUco board to calibrate the camera with, as OpenCV 4.6 numbers it") {
+    add_family("aruco:DICT_4X4_50");
+    parser().add_option("--board", board_, "Squares, COLUMNSxROWS")->capture_default_str();
+    parser().add_option("--square", square_, "Width of a square")->capture_default_str();
+    parser().add_option("--marker", marker_, "Width of a marker")->capture_default_str();
+  }
+
+ private:
+  MarkerPrint layout(Paper paper) override {
+    const auto [columns, rows] = board_option(board_);
+    return {{layout_charuco(family(), columns, rows, length_option_m("--square", square_),
+                            length_option_m("--marker", marker_), paper)},
+            {}};
+  }
+  std::string board_ = "7x5", square_ = "30mm", marker_ = "22mm";
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_markers_sheet(CLI::App& markers) { return std::make_unique<SheetCommand>(markers); }
+std::unique_ptr<Command> make_markers_ring(CLI::App& markers) { return std::make_unique<RingCommand>(markers); }
+std::unique_ptr<Command> make_markers_board(CLI::App& markers) { return std::make_unique<BoardCommand>(markers); }
+std::unique_ptr<Command> make_markers_charuco(CLI::App& markers) { return std::make_unique<CharucoCommand>(markers); }
+
+}  // namespace asperity::app

@@ -1,0 +1,141 @@
+#include "asperity/recording/cut_recording.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <utility>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::int64_t kJoinedGap_ns = 100'000'000;
+
+struct Rows {
+  std::size_t first = 0;
+  std::size_t last = 0;  // exclusive
+};
+
+Rows rows_between(const std::vector<std::int64_t>& t_ns, std::int64_t start_ns, std::int64_t end_ns) {
+  const auto first = std::lower_bound(t_ns.begin(), t_ns.end(), start_ns);
+  const auto last = std::upper_bound(first, t_ns.end(), end_ns);
+  return {static_cast<std::size_t>(first - t_ns.begin()), static_cast<std::size_t>(last - t_ns.begin())};
+}
+
+// An empty column, of a sensor that is not there, stays empty.
+template <class T>
+std::vector<T> cut(const std::vector<T>& column, const Rows& rows) {
+  if (column.empty()) return {};
+  return {column.begin() + static_cast<std::ptrdiff_t>(rows.first),
+          column.begin() + static_cast<std::ptrdiff_t>(rows.last)};
+}
+
+bool is_made_by_recorder(const RecordingInfo& info) {
+  const auto extra = nlohmann::json::parse(info.extra_json, nullptr, false);
+  return extra.is_object() && extra.contains("recorder");
+}
+
+std::vector<Segment> joined(std::vector<Segment> segments) {
+  std::stable_sort(segments.begin(), segments.end(),
+                   [](const Segment& a, const Segment& b) { return a.start_ns < b.start_ns; });
+  std::vector<Segment> out;
+  std::int64_t longest_ns = 0;  // of those in the last
+  for (const Segment& segment : segments) {
+    const std::int64_t length_ns = segment.end_ns - segment.start_ns;
+    if (out.empty() || segment.start_ns - out.back().end_ns >= kJoinedGap_ns) {
+      out.push_back(segment);
+      longest_ns = length_ns;
+      continue;
+    }
+    Segment& last = out.back();
+    last.end_ns = std::max(last.end_ns, segment.end_ns);
+    if (length_ns > longest_ns) last.name = segment.name;
+    longest_ns = std::max(longest_ns, length_ns);
+  }
+  return out;
+}
+
+std::string folder_name(const std::string& name) {
+  constexpr std::size_t kLongest_bytes = 64;
+  std::string out = name.substr(0, kLongest_bytes);
+  for (char& c : out) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (!letter && c != '-' && c != '_' && c != '.') c = '_';
+  }
+  return out.starts_with('.') ? "" : out;
+}
+
+}  // namespace
+
+Recording cut_recording(const Recording& recording, std::int64_t start_ns, std::int64_t end_ns) {
+  Recording out;
+  out.info = recording.info;
+  out.info.segments.clear();
+  for (Segment segment : recording.info.segments) {
+    segment.start_ns = std::max(segment.start_ns, start_ns);
+    segment.end_ns = std::min(segment.end_ns, end_ns);
+    if (segment.start_ns < segment.end_ns) out.info.segments.push_back(std::move(segment));
+  }
+  out.calibration = recording.calibration;
+  out.problems = recording.problems;
+
+  const ProbeStream& probe = recording.probe;
+  const Rows samples = rows_between(probe.t_ns, start_ns, end_ns);
+  out.probe = {cut(probe.t_ns, samples), cut(probe.accel_counts, samples), cut(probe.force_counts, samples),
+               cut(probe.gyro_counts, samples), cut(probe.force3_counts, samples)};
+  const TrackerStream& tracker = recording.tracker;
+  const Rows poses = rows_between(tracker.t_ns, start_ns, end_ns);
+  out.tracker = {cut(tracker.t_ns, poses), cut(tracker.T_world_marker, poses), cut(tracker.markers, poses),
+                 cut(tracker.reprojection_px, poses)};
+  if (!recording.truth) return out;
+  const Truth& truth = *recording.truth;
+  const Rows known = rows_between(truth.t_ns, start_ns, end_ns);
+  out.truth = {cut(truth.t_ns, known),           cut(truth.s_m, known),
+               cut(truth.height_m, known),       cut(truth.p_world_tip_m, known),
+               cut(truth.q_world_marker, known), cut(truth.force_N, known)};
+  return out;
+}
+
+std::vector<Segment> separate_segments(const Recording& recording) {
+  if (is_made_by_recorder(recording.info)) return recording.info.segments;
+  std::vector<Segment> out = joined(recording.info.segments);
+  if (out.size() < 2) out.clear();
+  return out;
+}
+
+Segment find_segment(const Recording& recording, const std::string& name) {
+  const Segment* found = nullptr;
+  std::string names;
+  constexpr std::size_t kMostNames = 20;
+  for (std::size_t i = 0; i < recording.info.segments.size(); ++i) {
+    const Segment& segment = recording.info.segments[i];
+    if (i < kMostNames) names += (names.empty() ? "" : ", ") + printable(segment.name);
+    if (segment.name != name) continue;
+    if (found != nullptr) throw Error("there is more than one segment '" + printable(name) + "'");
+    found = &segment;
+  }
+  if (found == nullptr) {
+    throw Error("there is no segment '" + printable(name) + "'" +
+                (names.empty() ? "; the recording has none" : "; there are: " + names));
+  }
+  return *found;
+}
+
+std::vector<std::string> segment_folders(const std::vector<Segment>& segments) {
+  std::vector<std::string> out;
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    std::string own = folder_name(segments[i].name);
+    if (own.empty()) own = "segment";
+    std::string name = own;
+    // Bounded: each try has another number.
+    for (std::size_t number = i + 1; !taken.insert(name).second; ++number) name = own + "_" + std::to_string(number);
+    out.push_back(std::move(name));
+  }
+  return out;
+}
+
+}  // namespace asperity
