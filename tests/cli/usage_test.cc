@@ -13,7 +13,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-const std::vector<std::string> kCommands{"demo", "simulate", "import", "inspect", "process", "roughness", "feel", "record"};
+const std::vector<std::string> kCommands{"demo",    "simulate",  "import", "inspect",
+                                         "process", "roughness", "feel",   "record"};
 
 TEST(Usage, VersionAndHelp) {
   const Outcome version = run({"--version"});
@@ -109,6 +110,11 @@ TEST(Usage, ManualPageAndCompletionNameEveryCommandAndOption) {
     EXPECT_THAT(manual.out, HasSubstr(".SS asperity " + command));
     EXPECT_THAT(completion.out, HasSubstr("    " + command + ") words=\""));
   }
+  for (const std::string command : {"texture fit", "markers ring", "calibrate camera", "calibrate latency"}) {
+    EXPECT_THAT(manual.out, HasSubstr(".SS asperity " + command));
+    EXPECT_THAT(completion.out, HasSubstr("    \"" + command + "\") words=\"--help"));
+  }
+  EXPECT_THAT(completion.out, HasSubstr("    calibrate) words=\"camera tracker force accel tip latency --help -h\""));
   EXPECT_THAT(completion.out, HasSubstr("--spacing"));
   EXPECT_THAT(completion.out, HasSubstr("    --method) values=\"fused thesis\" ;;"));
   EXPECT_THAT(completion.out, HasSubstr("complete -o filenames -F _asperity asperity"));
