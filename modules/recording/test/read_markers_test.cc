@@ -80,7 +80,7 @@ TEST(ReadMarkers, WhatIsWrongIsNamed) {
 }
 
 TEST(ReadMarkers, ADictionarysFileStaysInTheFolder) {
-  const TempDir folder;
+  const testkit::TempDir folder;
   const auto write = [&](const std::string& family) {
     std::string text = "{\"markers\":[" + marker(3) + "]}";
     text.replace(text.find("tag36h11"), 8, family);
