@@ -88,7 +88,7 @@ TEST(ReadMarkers, ADictionarysFileStaysInTheFolder) {
     return folder.path() / "markers.json";
   };
   const MarkerFile file = read_markers(write("aruco:own.yml"));
-  EXPECT_EQ(file.markers[0].family, "aruco:" + (std::filesystem::weakly_canonical(folder.path()) / "own.yml").string());
+  EXPECT_EQ(file.markers[0].family, "aruco:" + (folder.path() / "own.yml").string());
   EXPECT_EQ(read_markers(write("aruco:DICT_4X4_50")).markers[0].family, "aruco:DICT_4X4_50");
   EXPECT_THROW(read_markers(write("aruco:../own.yml")), Error);
   EXPECT_THROW(read_markers(write("aruco:/etc/own.yml")), Error);
