@@ -61,8 +61,8 @@ struct Rig {
 
 TEST(Recorder, RecordsBothStreamsWithoutLoss) {
   Rig rig;
+  rig.config.start_at_once = true;
   const auto recorder = rig.record();
-  recorder->start_segment();
   ASSERT_TRUE(wait_for(*recorder, [](const RecorderSnapshot& now) { return now.recorded_s > 1.2; }));
   const RecorderSnapshot live = recorder->snapshot();
   EXPECT_TRUE(live.storing);
@@ -90,7 +90,7 @@ TEST(Recorder, RecordsBothStreamsWithoutLoss) {
     ASSERT_NEAR(recording.tracker.T_world_marker[i].translation_m.x(),
                 recording.tracker.T_world_marker[i - 1].translation_m.x() + 1e-6, 1e-12);
   }
-  EXPECT_EQ(recording.probe.accel_counts.front().x(), 0.0);  // the pre-roll reaches to the start
+  EXPECT_EQ(recording.probe.accel_counts.front().x(), 0.0);
   const std::string tracker = read_file(rig.folder() / "tracker.csv", 1 << 24);
   EXPECT_THAT(tracker, HasSubstr("markers,reprojection_px,sigma_px_m,sigma_py_m,sigma_pz_m,sigma_rx_rad"));
   EXPECT_THAT(tracker, HasSubstr(",2,0.125,1e-04,1e-04,1e-04,1e-04,1e-04,1e-04\n"));
