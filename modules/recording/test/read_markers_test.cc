@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "asperity/base/error.h"
+#include "asperity/base/output.h"
+#include "asperity/testkit/temp_dir.h"
 
 namespace asperity {
 namespace {
@@ -74,6 +77,21 @@ TEST(ReadMarkers, WhatIsWrongIsNamed) {
   std::string many = "{\"markers\":[" + marker(0);
   for (int i = 1; i < 1001; ++i) many += "," + marker(i);
   expect_error(many + "]}", "1 to 1000");
+}
+
+TEST(ReadMarkers, ADictionarysFileStaysInTheFolder) {
+  const testkit::TempDir folder;
+  const auto write = [&](const std::string& family) {
+    std::string text = "{\"markers\":[" + marker(3) + "]}";
+    text.replace(text.find("tag36h11"), 8, family);
+    write_file(folder.path() / "markers.json", text);
+    return folder.path() / "markers.json";
+  };
+  const MarkerFile file = read_markers(write("aruco:own.yml"));
+  EXPECT_EQ(file.markers[0].family, "aruco:" + (folder.path() / "own.yml").string());
+  EXPECT_EQ(read_markers(write("aruco:DICT_4X4_50")).markers[0].family, "aruco:DICT_4X4_50");
+  EXPECT_THROW(read_markers(write("aruco:../own.yml")), Error);
+  EXPECT_THROW(read_markers(write("aruco:/etc/own.yml")), Error);
 }
 
 TEST(ReadMarkers, AFileWithoutACameraIsRefused) {
