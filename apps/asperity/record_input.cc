@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
@@ -78,7 +79,12 @@ void check_record_input(const RecordInput& input) {
 std::optional<Calibration> read_record_calibration(const RecordInput& input) {
   if (input.uncalibrated) return std::nullopt;
   Calibration out = read_calibration(input.calibration);
-  if (!input.markers.empty()) out.markers = read_markers(input.markers).markers;
+  const std::string& markers = input.markers.empty() ? input.calibration : input.markers;
+  if (input.markers.empty() && out.markers.empty()) return out;
+  out.markers = read_markers(markers).markers;
+  // They are now in terms of our tag frame, whatever the file had declared.
+  auto extra = nlohmann::json::parse(out.extra_json, nullptr, false);
+  if (extra.is_object() && extra.erase("tag_frame") > 0) out.extra_json = extra.dump();
   return out;
 }
 
