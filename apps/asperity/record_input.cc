@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,7 @@ void add_camera(RecorderSensors& sensors, const RecordInput& input, const Calibr
   config.nominal_rate_Hz = address.kind == CameraKind::kV4l2 ? address.v4l2.rate_Hz : address.images.rate_Hz;
   BodyTracker(camera, body, track);  // throws now, not in a thread
   sensors.reopen_poses = config.newest;
+  sensors.reopen_silent_poses = address.kind == CameraKind::kV4l2;
   sensors.open_poses = [=] {
     return make_camera_pose_source(open_camera(address), BodyTracker(camera, body, track), config, on_frame);
   };
@@ -77,7 +79,12 @@ void check_record_input(const RecordInput& input) {
 std::optional<Calibration> read_record_calibration(const RecordInput& input) {
   if (input.uncalibrated) return std::nullopt;
   Calibration out = read_calibration(input.calibration);
-  if (!input.markers.empty()) out.markers = read_markers(input.markers).markers;
+  const std::string& markers = input.markers.empty() ? input.calibration : input.markers;
+  if (input.markers.empty() && out.markers.empty()) return out;
+  out.markers = read_markers(markers).markers;
+  // They are now in terms of our tag frame, whatever the file had declared.
+  auto extra = nlohmann::json::parse(out.extra_json, nullptr, false);
+  if (extra.is_object() && extra.erase("tag_frame") > 0) out.extra_json = extra.dump();
   return out;
 }
 
@@ -88,12 +95,14 @@ RecorderSensors make_record_sensors(const RecordInput& input, const std::optiona
   const ProbeAddress probe = address_of("--probe", parse_probe_address, input.probe);
   out.probe_describes_itself = protocol == ProbeProtocol::kOpen;
   out.reopen_probe = probe.kind != ProbeLinkKind::kFile;
+  out.reopen_silent_probe = probe.kind != ProbeLinkKind::kUdp;
   out.replayed = !out.reopen_probe;
   out.open_probe = [=] { return make_probe_source(ProbeLink(open_probe_source(probe, protocol), protocol)); };
   if (!input.camera.empty()) add_camera(out, input, *calibration, track, on_frame);
   if (!input.poses.empty()) {
     const PoseAddress poses = address_of("--poses", parse_pose_address, input.poses);
     out.reopen_poses = poses.kind != PoseAddress::Kind::kFile;
+    out.reopen_silent_poses = false;
     out.open_poses = [=] { return open_pose_stream(poses); };
   }
   return out;

@@ -49,7 +49,7 @@ Normal normal(double x) {
           hermite(p0, -x0 * p0 * kStep, p1, -(x0 + kStep) * p1 * kStep)};
 }
 
-// std::floor is a call on processors of the least kind; places are within the int's range.
+// std::floor is a call on processors of the least kind; x is within the int's range.
 int floor_int(double x) {
   const int i = static_cast<int>(x);
   return i - (x < i ? 1 : 0);
@@ -90,6 +90,9 @@ void find_shares(double u, double sigma, int cells, Shares& out) {
 }  // namespace
 
 BlurredValue blurred_pattern(const TagPattern& pattern, double u, double v, double sigma_u, double sigma_v) {
+  // A place beyond all bounds, or none: a step of the fit that will not be accepted.
+  constexpr double kFar_cells = 1e6;
+  if (!(std::abs(u) + std::abs(v) + sigma_u + sigma_v < kFar_cells)) return {};
   Shares columns, rows;
   find_shares(u, sigma_u, pattern.cells, columns);
   find_shares(v, sigma_v, pattern.cells, rows);

@@ -60,8 +60,9 @@ class Recorder::Parts {
         pose_rate_(start_ns_) {
     check_new(folder);
     if (!sensors.open_probe) throw Error("recorder: there is no probe");
-    probe_.emplace(std::move(sensors.open_probe), sensors.reopen_probe, config);
-    if (sensors.open_poses) poses_.emplace(std::move(sensors.open_poses), sensors.reopen_poses, config);
+    probe_.emplace(std::move(sensors.open_probe), sensors.reopen_probe, sensors.reopen_silent_probe, config);
+    if (sensors.open_poses)
+      poses_.emplace(std::move(sensors.open_poses), sensors.reopen_poses, sensors.reopen_silent_poses, config);
     if (sensors.probe_describes_itself) probe_->wait_for_description(config.describe_s);
     const auto description = probe_->description();
     writer_.emplace(folder, with_rates(info), calibration ? *calibration : nominal(description), description,

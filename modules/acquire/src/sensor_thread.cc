@@ -71,13 +71,22 @@ void SensorThread::read_once() {
     health_.state = SensorState::kRunning;
     health_.message.clear();
   } else if (loop_.reopen && now - alive_at_ > std::chrono::duration<double>(config_.stale_s)) {
-    lose("nothing comes");
+    constexpr const char* kSilent = "nothing comes";
+    if (loop_.reopen_silent) {
+      lose(kSilent);
+    } else {
+      report_lost(kSilent);
+    }
   }
 }
 
 void SensorThread::lose(const std::string& why) {
   loop_.close();
   open_ = false;
+  report_lost(why);
+}
+
+void SensorThread::report_lost(const std::string& why) {
   const std::lock_guard lock(mutex_);
   if (health_.state != SensorState::kLost) ++health_.lost;
   health_.state = loop_.reopen ? SensorState::kLost : SensorState::kEnded;

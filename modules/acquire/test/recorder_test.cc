@@ -205,6 +205,21 @@ TEST(Recorder, ALostSensorIsReportedAndTakenBack) {
   EXPECT_GE(rig.probe->opened, 2);
 }
 
+// The writer of a pipe would die if its reader went.
+TEST(Recorder, ASilentStreamStaysOpen) {
+  Rig rig;
+  RecorderSensors sensors{open_fake_probe(rig.probe), open_fake_poses(rig.poses)};
+  sensors.reopen_silent_probe = false;
+  Recorder recorder(rig.folder(), {}, calibration_of(), sensors, rig.config);
+  rig.probe->silent = true;
+  ASSERT_TRUE(wait_for(recorder, [](const RecorderSnapshot& now) { return now.probe.state == SensorState::kLost; }));
+  EXPECT_EQ(recorder.snapshot().probe.message, "nothing comes");
+  rig.probe->silent = false;
+  ASSERT_TRUE(wait_for(recorder, [](const RecorderSnapshot& now) { return now.probe.returned == 1; }));
+  EXPECT_EQ(recorder.snapshot().probe.lost, 1u);
+  EXPECT_EQ(rig.probe->opened, 1);
+}
+
 TEST(Recorder, ATrackerThatSeesNothingIsNotLost) {
   Rig rig;
   rig.poses->silent = true;
