@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
@@ -22,10 +21,6 @@ double fisher_tail(double f, double a, double b) {
   if (std::isnan(f)) return 1.0;
   if (!std::isfinite(f)) return 0.0;
   return boost::math::cdf(boost::math::complement(boost::math::fisher_f(a, b), f));
-}
-
-double chi_squared_quantile(double probability, double degrees_of_freedom) {
-  return boost::math::quantile(boost::math::complement(boost::math::chi_squared(degrees_of_freedom), probability));
 }
 
 }  // namespace asperity
