@@ -147,7 +147,7 @@ TEST(Calibrate, WhatIsNotToBeTrustedEndsWith3AndSaysSoInTheFile) {
 TEST(Calibrate, KindsAreNamedInHelp) {
   const Outcome help = run({"calibrate", "--help"});
   EXPECT_EQ(help.code, 0);
-  for (const char* kind : {"force", "accel", "tip"}) {
+  for (const char* kind : {"camera", "tracker", "force", "accel", "tip", "latency"}) {
     EXPECT_THAT(help.out, HasSubstr(kind));
     EXPECT_EQ(run({"calibrate", kind, "--print-config"}).code, 0);
     EXPECT_EQ(run({"calibrate", kind}).code, 2);

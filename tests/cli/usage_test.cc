@@ -110,6 +110,11 @@ TEST(Usage, ManualPageAndCompletionNameEveryCommandAndOption) {
     EXPECT_THAT(manual.out, HasSubstr(".SS asperity " + command));
     EXPECT_THAT(completion.out, HasSubstr("    " + command + ") words=\""));
   }
+  for (const std::string command : {"texture fit", "markers ring", "calibrate camera", "calibrate latency"}) {
+    EXPECT_THAT(manual.out, HasSubstr(".SS asperity " + command));
+    EXPECT_THAT(completion.out, HasSubstr("    \"" + command + "\") words=\"--help"));
+  }
+  EXPECT_THAT(completion.out, HasSubstr("    calibrate) words=\"camera tracker force accel tip latency --help -h\""));
   EXPECT_THAT(completion.out, HasSubstr("--spacing"));
   EXPECT_THAT(completion.out, HasSubstr("    --method) values=\"fused thesis\" ;;"));
   EXPECT_THAT(completion.out, HasSubstr("complete -o filenames -F _asperity asperity"));

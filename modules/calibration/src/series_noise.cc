@@ -110,7 +110,7 @@ Eigen::Matrix3d covariance_of(const Series& series, const Logs& at) {
     }
   }
   const Eigen::LLT<Eigen::Matrix3d> root(0.5 * curvature);
-  if (root.info() != Eigen::Success) return Eigen::Matrix3d::Identity() * std::numeric_limits<double>::infinity();
+  if (root.info() != Eigen::Success) return Eigen::Matrix3d::Constant(std::numeric_limits<double>::infinity());
   return root.solve(Eigen::Matrix3d::Identity());
 }
 
