@@ -62,7 +62,7 @@ class CalibrateAccelCommand : public CalibrateCommand {
 
   CalibrateOutcome calibrate(const Observer& observer) override {
     std::optional<Recording> recording;
-    if (std::filesystem::is_directory(file_)) recording = read_recording(file_);
+    if (std::filesystem::is_directory(file_)) recording = read_probe_recording(file_);
     const AccelerometerFile file = recording ? accelerometer_samples_of(*recording) : read_accelerometer_samples(file_);
     observer.update("fitting", 0.5);
     CalibrateOutcome out;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <nlohmann/json.hpp>
 
 #include "asperity/base/random.h"
@@ -12,7 +13,6 @@
 #include "asperity/simulation/board_poses.h"
 #include "asperity/simulation/calibration_motion.h"
 #include "asperity/simulation/render_board.h"
-#include "asperity/simulation/stamp_delay.h"
 #include "asperity/testkit/temp_dir.h"
 #include "run_asperity.h"
 
@@ -150,8 +150,10 @@ TEST(CalibrateOptics, TheLatencyFromAShakenRecording) {
   const double error_s = out["stderr"]["latency_s"].get<double>();
   EXPECT_GT(error_s, 0.0);
   EXPECT_LT(error_s, 5e-4);
-  // The gyroscope's low-pass makes its rows late, so the tracker seems later by less. 20 µs: the poses' flips.
-  EXPECT_NEAR(out["values"]["latency_s"].get<double>(), latency_s - gyroscope_delay_s(config), 4.0 * error_s + 2e-5);
+  // The gyroscope's rows are late by its low-pass, a second-order Butterworth, so the tracker seems later by less.
+  const double low_pass_s = std::numbers::sqrt2 / (2.0 * std::numbers::pi * config.probe.gyro_bandwidth_Hz);
+  // 20 µs: rows are stamped to that.
+  EXPECT_NEAR(out["values"]["latency_s"].get<double>(), latency_s - low_pass_s, 4.0 * error_s + 2e-5);
   const Calibration after = read_calibration(to);
   EXPECT_EQ(after.tracker.latency_s, out["values"]["latency_s"].get<double>());
   EXPECT_EQ(after.tracker.latency_sigma_s, error_s);

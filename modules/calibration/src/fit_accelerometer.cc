@@ -51,7 +51,7 @@ Eigen::JacobiSVD<Eigen::MatrixXd> directions_of(const ForcePoses& poses) {
   Eigen::MatrixXd G = design(poses, {0, 1, 2});
   const double size = mean_force(poses);
   G.leftCols<3>() /= size > 0.0 ? size : 1.0;
-  return {G, Eigen::ComputeThinV};
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(G, Eigen::ComputeThinU | Eigen::ComputeThinV);
 }
 
 double spread_of(const ForcePoses& poses, const Eigen::JacobiSVD<Eigen::MatrixXd>& directions) {
