@@ -126,7 +126,7 @@ class TrackCommand : public Command {
     out["median_reprojection_px"] = tracked.median_reprojection_px;  // null if nan
     out["median_sigma_m"] = numbers(tracked.median_sigma_m);
     out["median_sigma_rad"] = numbers(tracked.median_sigma_rad);
-    out["tag_frame_declared"] = declared == TagFrame::kOpenCv ? "opencv" : "apriltag";
+    out["tag_frame_declared"] = name_of(declared);
     out["problems"] = nlohmann::ordered_json::array();
     for (const Problem& problem : tracked.problems) {
       out["problems"].push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
