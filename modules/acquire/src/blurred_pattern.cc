@@ -89,12 +89,11 @@ void find_shares(double u, double sigma, int cells, Shares& out) {
 
 }  // namespace
 
-BlurredValue blurred_pattern(const TagPattern& pattern, double u, double v, double sigma_u, double sigma_v) {
+BlurredValue blurred_pattern(const TagPattern& pattern, double u, double v, double sigma_u, double sigma_v,
+                             double covariance) {
   // A place beyond all bounds, or none: a step of the fit that will not be accepted.
   constexpr double kFar_cells = 1e6;
   if (!(std::abs(u) + std::abs(v) + sigma_u + sigma_v < kFar_cells)) return {};
-BlurredValue blurred_pattern(const TagPattern& pattern, double u, double v, double sigma_u, double sigma_v,
-                             double covariance) {
   Shares columns, rows;
   find_shares(u, sigma_u, pattern.cells, columns);
   find_shares(v, sigma_v, pattern.cells, rows);
