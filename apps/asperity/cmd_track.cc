@@ -98,6 +98,11 @@ class TrackCommand : public Command {
     const auto open = [&] {
       return one_folder ? open_image_folder(images_.front(), images) : open_image_list(files, images);
     };
+    try {
+      BodyTracker check(camera, markers.markers, config_);
+    } catch (const Error& error) {
+      throw Error(markers_ + ": " + error.what());
+    }
     const double start_s = processor_s();
     TrackedImages tracked = track_images(open, camera, markers.markers, config_, observer, files.size());
     const double frames_per_s = static_cast<double>(tracked.frames) / std::max(1e-9, processor_s() - start_s);
