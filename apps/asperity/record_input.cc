@@ -54,8 +54,8 @@ void add_camera(RecorderSensors& sensors, const RecordInput& input, const Calibr
   CameraPoseConfig config;
   config.newest = is_live(address);
   config.nominal_rate_Hz = address.kind == CameraKind::kV4l2 ? address.v4l2.rate_Hz : address.images.rate_Hz;
-  BodyTracker(camera, body, track);  // throws now, not in a thread
-  sensors.reopen_poses = config.newest;
+  BodyTracker(camera, body, track);                             // throws now, not in a thread
+  sensors.reopen_poses = config.newest && address.path != "-";  // standard input does not come back
   sensors.reopen_silent_poses = address.kind == CameraKind::kV4l2;
   sensors.open_poses = [=] {
     return make_camera_pose_source(open_camera(address), BodyTracker(camera, body, track), config, on_frame);

@@ -13,8 +13,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-const std::vector<std::string> kCommands{"demo",    "simulate",  "import", "inspect",
-                                         "process", "roughness", "feel",   "record"};
+const std::vector<std::string> kCommands{"demo",      "simulate", "import", "inspect", "process",
+                                         "roughness", "feel",     "record", "track"};
 
 TEST(Usage, VersionAndHelp) {
   const Outcome version = run({"--version"});
@@ -31,6 +31,13 @@ TEST(Usage, VersionAndHelp) {
       EXPECT_THAT(one.out, HasSubstr(option)) << command;
     }
   }
+}
+
+TEST(Usage, NamesReachTheTerminalEscaped) {
+  const Outcome outcome = run({"roughness", "no\x1b[31mfile.txt", "--spacing", "1um"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("no\\x1b[31mfile.txt"));
+  EXPECT_THAT(outcome.err, testing::Not(HasSubstr("\x1b")));
 }
 
 TEST(Usage, WrongCommandLinesEndWith2AndOneHint) {

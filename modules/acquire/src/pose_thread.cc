@@ -79,6 +79,7 @@ void PoseThread::describe(RecorderSnapshot& out) const {
   out.poses.name = name_;
   out.poses.state = health.state;
   out.poses.message = health.message;
+  out.poses.failed = health.failed;
   out.poses.lost = health.lost;
   out.poses.returned = health.returned;
   out.poses.queue_fill = queue.fill;

@@ -92,6 +92,7 @@ void ProbeThread::describe(RecorderSnapshot& out) const {
   const auto queue = queue_.figures();
   out.probe.state = health.state;
   out.probe.message = health.message;
+  out.probe.failed = health.failed;
   out.probe.lost = health.lost;
   out.probe.returned = health.returned;
   out.probe.queue_fill = queue.fill;

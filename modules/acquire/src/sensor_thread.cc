@@ -59,7 +59,10 @@ void SensorThread::read_once() {
   try {
     alive = loop_.read(kReadTimeout);
   } catch (const std::exception& error) {
+    const bool is_end = dynamic_cast<const LinkLost*>(&error) != nullptr;
     lose(error.what());
+    const std::lock_guard lock(mutex_);
+    health_.failed = !loop_.reopen && !is_end;
     return;
   }
   const Clock::time_point now = Clock::now();

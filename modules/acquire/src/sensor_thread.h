@@ -39,6 +39,7 @@ class SensorThread {
     std::string message;
     std::uint64_t lost = 0;
     std::uint64_t returned = 0;
+    bool failed = false;  // ended by another error than LinkLost
   };
   Health health() const;
 

@@ -77,12 +77,14 @@ TagImageModel::Place TagImageModel::place(const TagImageState& state, double qx,
   };
   out.sigma_u = sigma(out.u_by_px);
   out.sigma_v = sigma(out.v_by_px);
+  const auto &gu = out.u_by_px, &gv = out.v_by_px;
+  out.covariance_uv = gu.x() * gv.x() * s[0] + (gu.x() * gv.y() + gu.y() * gv.x()) * s[1] + gu.y() * gv.y() * s[2];
   return out;
 }
 
 double TagImageModel::grey(const TagImageState& state, const TagPixel& pixel, FitVector& by_state) const {
   const Place at = place(state, pixel.qx, pixel.qy);
-  const BlurredValue blurred = blurred_pattern(*pattern_, at.u, at.v, at.sigma_u, at.sigma_v);
+  const BlurredValue blurred = blurred_pattern(*pattern_, at.u, at.v, at.sigma_u, at.sigma_v, at.covariance_uv);
   const auto& s = state.shading;
   const double contrast = s[3] + s[4] * at.x + s[5] * at.y;
   const double slope_per_px = (blurred.by_u * at.u_by_px + blurred.by_v * at.v_by_px).norm();
@@ -95,8 +97,10 @@ double TagImageModel::grey(const TagImageState& state, const TagPixel& pixel, Fi
   const double by_uu = contrast * blurred.by_sigma_u / (2.0 * at.sigma_u);
   const double by_vv = contrast * blurred.by_sigma_v / (2.0 * at.sigma_v);
   const auto &gu = at.u_by_px, &gv = at.v_by_px;
-  by_state.segment<3>(8) << by_uu * gu.x() * gu.x() + by_vv * gv.x() * gv.x(),
-      2.0 * (by_uu * gu.x() * gu.y() + by_vv * gv.x() * gv.y()), by_uu * gu.y() * gu.y() + by_vv * gv.y() * gv.y();
+  const double by_uv = contrast * blurred.by_covariance;
+  by_state.segment<3>(8) << by_uu * gu.x() * gu.x() + by_vv * gv.x() * gv.x() + by_uv * gu.x() * gv.x(),
+      2.0 * (by_uu * gu.x() * gu.y() + by_vv * gv.x() * gv.y()) + by_uv * (gu.x() * gv.y() + gu.y() * gv.x()),
+      by_uu * gu.y() * gu.y() + by_vv * gv.y() * gv.y() + by_uv * gu.y() * gv.y();
   by_state.tail<7>() << 1.0, at.x, at.y, value, value * at.x, value * at.y, contrast * slope_per_px;
   return s[0] + s[1] * at.x + s[2] * at.y + contrast * value;
 }

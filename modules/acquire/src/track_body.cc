@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "asperity/base/error.h"
 #include "asperity/base/units.h"
@@ -136,6 +137,22 @@ void BodyTracker::Impl::refine(const GrayImage& image, std::vector<FoundTag>& fo
   }
 }
 
+std::string say_found(const TagFrameFinding& finding) {
+  const std::string off =
+      fmt::format("their corners are then off by {:.2f} px instead of {:.1f} px; taken so for the whole run",
+                  finding.error_px, finding.declared_error_px);
+  if (finding.as_good.empty()) {
+    return fmt::format("the markers' T_marker_tag fit the images only if the tag frame is {}: {}", finding.description,
+                       off);
+  }
+  return fmt::format(
+      "the markers' T_marker_tag do not fit the images in the tag frame declared; {} frames fit alike and the images "
+      "cannot tell them apart, of which the most usual is {}: {}. The other{}: {}. If it is not the one meant, declare "
+      "\"tag_frame\": \"opencv\" or \"opencv_upright\" in the markers' file, or turn its T_marker_tag",
+      finding.as_good.size() + 1, finding.description, off, finding.as_good.size() == 1 ? "" : "s",
+      fmt::join(finding.as_good, "; "));
+}
+
 // True once the body's tag frame is known, or nothing speaks against it.
 bool BodyTracker::Impl::settle_tag_frame(const std::vector<FoundTag>& found) {
   if (frame_settled || !config.find_tag_frame || body.size() < 2 || found.size() < 2) return true;
@@ -163,12 +180,7 @@ bool BodyTracker::Impl::settle_tag_frame(const std::vector<FoundTag>& found) {
       frame_settled = frame_changed = true;
       misfits.clear();
       last.clear();
-      problems.push_back(
-          {"tag_frame",
-           fmt::format(
-               "the markers' T_marker_tag fit the images only if the tag frame is {}: their corners are then off "
-               "by {:.2f} px instead of {:.1f} px; taken so for the whole run",
-               finding.description, finding.error_px, finding.declared_error_px)});
+      problems.push_back({"tag_frame", say_found(finding)});
       return true;
     }
     frame_settled = true;

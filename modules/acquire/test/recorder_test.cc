@@ -283,6 +283,36 @@ TEST(Recorder, ACaptureIsRecordedWhole) {
   EXPECT_THAT(probe, HasSubstr("\n5000000,"));
 }
 
+// A capture of which no more can be read, though it is not at its end.
+class BrokenReplay : public ReplayedProbe {
+ public:
+  using ReplayedProbe::ReplayedProbe;
+  void read(std::vector<ProbeSample>& out, std::chrono::milliseconds timeout) override {
+    if (statistics().samples >= 3000) throw Error("replay: damaged");
+    ReplayedProbe::read(out, timeout);
+  }
+};
+
+TEST(Recorder, AFaultIsToldFromTheEnd) {
+  for (const bool broken : {false, true}) {
+    Rig rig;
+    rig.config.start_at_once = true;
+    RecorderSensors sensors;
+    sensors.open_probe = [broken]() -> std::unique_ptr<ProbeSource> {
+      if (broken) return std::make_unique<BrokenReplay>(5'000'000, 250'000, 6000);
+      return std::make_unique<ReplayedProbe>(5'000'000, 250'000, 6000);
+    };
+    sensors.probe_describes_itself = false;
+    sensors.reopen_probe = false;
+    sensors.replayed = true;
+    Recorder recorder(rig.folder(), {}, calibration_of(), sensors, rig.config);
+    ASSERT_TRUE(wait_for(recorder, [](const RecorderSnapshot& now) { return now.probe.state == SensorState::kEnded; }));
+    const RecorderSnapshot end = recorder.finish();
+    EXPECT_EQ(end.probe.failed, broken);
+    EXPECT_EQ(end.probe_rows, broken ? 3000u : 6000u);
+  }
+}
+
 // The figures of one snapshot belong together, whichever thread asks.
 TEST(Recorder, SnapshotsAreOfOneMoment) {
   Rig rig;

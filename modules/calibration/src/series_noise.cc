@@ -64,6 +64,7 @@ Likelihood run_filter(const Series& series, double white, double slow, double ti
     state_one += gain * eo;
     variance -= gain * variance;
   }
+  if (!(oo > 0.0)) return out;  // an empty series says nothing
   out.mean = xo / oo;
   out.square = xx - xo * xo / oo;
   out.log_determinant += std::log(oo);

@@ -42,6 +42,10 @@ TEST(ReadMarkers, MarkersAreRead) {
 TEST(ReadMarkers, OpenCvsFrameIsConverted) {
   const MarkerFile file = parse_markers("{\"tag_frame\":\"opencv\",\"markers\":[" + marker(3) + "]}", "markers.json");
   EXPECT_EQ(file.declared, TagFrame::kOpenCv);
+  EXPECT_EQ(parse_markers("{\"tag_frame\":\"opencv_upright\",\"markers\":[" + marker(3) + "]}", "m.json").declared,
+            TagFrame::kOpenCvUpright);
+  EXPECT_TRUE((R_frame_tag(TagFrame::kOpenCvUpright, "tag36h11") * Eigen::Vector3d::UnitX())
+                  .isApprox(Eigen::Vector3d::UnitX()));
   // OpenCV's picture of this family is turned by half a turn: seen upright as AprilTag draws it, OpenCV's x points
   // left, y down and z out of the tag.
   const Eigen::Quaterniond& R = file.markers[0].T_marker_tag.rotation;

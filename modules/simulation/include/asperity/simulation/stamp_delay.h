@@ -5,9 +5,9 @@
 
 namespace asperity {
 
-// By how much the recorded rows of the probe are stamped later than they were taken, in the mean, s: what the link and its
-// least delay leave, which no host can see and which the latency of the tracker is measured against. The first `skip_s`
-// do not count: the host is still learning the probe's clock. `recorded` is what a recorder made of `bench`
+// By how much the recorded rows of the probe are stamped later than they were taken, in the mean, s: what the link and
+// its least delay leave, which no host can see and which the latency of the tracker is measured against. The first
+// `skip_s` do not count: the host is still learning the probe's clock. `recorded` is what a recorder made of `bench`
 // (LiveBench::on_host_clock); its rows are found in the bench's by their counts. Throws Error if they are not.
 double stamp_delay_s(const ProbeStream& recorded, const Recording& bench, double skip_s);
 
