@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "asperity/acquire/camera_pose_source.h"
+#include "asperity/acquire/capture_to_file.h"
 #include "asperity/acquire/open_camera.h"
 #include "asperity/acquire/open_pose_stream.h"
 #include "asperity/acquire/probe_address.h"
@@ -97,7 +99,16 @@ RecorderSensors make_record_sensors(const RecordInput& input, const std::optiona
   out.reopen_probe = probe.kind != ProbeLinkKind::kFile;
   out.reopen_silent_probe = probe.kind != ProbeLinkKind::kUdp;
   out.replayed = !out.reopen_probe;
-  out.open_probe = [=] { return make_probe_source(ProbeLink(open_probe_source(probe, protocol), protocol)); };
+  // A link that is lost and comes back goes on in a file of its own: a capture is one run of a decoder.
+  const auto captures = std::make_shared<int>(0);
+  out.open_probe = [=, capture = input.capture] {
+    auto source = open_probe_source(probe, protocol);
+    if (!capture.empty()) {
+      ++*captures;
+      source = capture_to_file(std::move(source), *captures == 1 ? capture : capture + "." + std::to_string(*captures));
+    }
+    return make_probe_source(ProbeLink(std::move(source), protocol));
+  };
   if (!input.camera.empty()) add_camera(out, input, *calibration, track, on_frame);
   if (!input.poses.empty()) {
     const PoseAddress poses = address_of("--poses", parse_pose_address, input.poses);

@@ -37,7 +37,7 @@ TEST(Live, IsRecordedByTheRecorder) {
   const std::string scan = folder / "scan";
   const std::string recorded = folder / "recorded";
   Outcome simulated;
-  std::thread bench([&] {
+  std::jthread bench([&] {
     simulated = run_into(folder / "said", {"simulate", "--live", "--json", "--surface", "protoboard", "--set",
                                            "hand.length_m=0.03", "--set", "live.camera.rate_Hz=30", "--set",
                                            "live.wait_s=120", "--set", "live.linger_s=0.3", "-o", scan});

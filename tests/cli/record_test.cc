@@ -77,6 +77,19 @@ TEST(Record, FromASerialPortAndAPoseStream) {
   EXPECT_EQ(contents(rig.dir / "rec"), before);
 }
 
+TEST(Record, ACaptureGivesTheSameRowsAgain) {
+  const Rig rig;
+  const std::string capture = rig.dir / "probe.bin";
+  ASSERT_EQ(run(rig.words({"--duration", "1s", "--capture", capture})).code, 0);
+  run({"record", "--probe", "file:" + capture, "--uncalibrated", "--json", "-o", rig.dir / "again"});
+  const ProbeStream first = read_recording(rig.dir / "rec").probe;
+  // Without poses it is no recording to process, but its rows are there.
+  const std::string rows = contents(rig.dir / "again").at("probe.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')), first.size() + 1);
+  const Outcome twice = run(rig.words({"--duration", "1s", "--capture", capture}));
+  EXPECT_EQ(twice.code, 1);
+}
+
 TEST(Record, CtrlCEndsWithAWholeRecording) {
   const Rig rig;
   const Outcome outcome = run_and_signal(rig.words({}), SIGINT, std::chrono::milliseconds(3000));

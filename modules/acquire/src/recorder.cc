@@ -64,6 +64,7 @@ class Recorder::Parts {
     if (sensors.open_poses)
       poses_.emplace(std::move(sensors.open_poses), sensors.reopen_poses, sensors.reopen_silent_poses, config);
     if (sensors.probe_describes_itself) probe_->wait_for_description(config.describe_s);
+    start_ns_ = host_now_ns();  // the wait is none of the recording's time
     const auto description = probe_->description();
     writer_.emplace(folder, with_rates(info), calibration ? *calibration : nominal(description), description,
                     poses_.has_value(), config);
