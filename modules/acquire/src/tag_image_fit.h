@@ -44,6 +44,7 @@ class TagImageModel {
     Eigen::Vector2d u_by_px, v_by_px;
   };
   Place place(const TagImageState& state, double qx, double qy) const;
+  int cells() const { return pattern_->cells; }
 
   // The grey level, and its derivative by the unknowns.
   double grey(const TagImageState& state, const TagPixel& pixel, FitVector& by_state) const;
