@@ -13,7 +13,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-const std::vector<std::string> kCommands{"demo", "simulate", "import", "inspect", "process", "roughness", "feel", "record"};
+const std::vector<std::string> kCommands{"demo",      "simulate", "import", "inspect",  "process",
+                                         "roughness", "feel",     "record", "check-rig"};
 
 TEST(Usage, VersionAndHelp) {
   const Outcome version = run({"--version"});
