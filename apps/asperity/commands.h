@@ -8,6 +8,7 @@
 namespace asperity::app {
 
 std::unique_ptr<Command> make_bench(CLI::App& root);
+std::unique_ptr<Command> make_check_rig(CLI::App& root);
 std::unique_ptr<Command> make_demo(CLI::App& root);
 std::unique_ptr<Command> make_simulate(CLI::App& root);
 std::unique_ptr<Command> make_feel(CLI::App& root);

@@ -53,8 +53,8 @@ Json stroke_json(const RigStroke& stroke, const RigCheck& check) {
 }
 
 std::string row(const char* name, const Repeated& figure, double scale, const char* unit, double true_value) {
-  const std::string deviation = figure.count > 1 ? fmt::format("{:.3g}", scale * figure.deviation) : "?";
-  const std::string half_width = figure.count > 1 ? fmt::format("{:.3g}", scale * figure.half_width) : "?";
+  const std::string deviation = figure.count > 1 ? fmt::format("{:.2g}", scale * figure.deviation) : "?";
+  const std::string half_width = figure.count > 1 ? fmt::format("{:.2g}", scale * figure.half_width) : "?";
   std::string out =
       fmt::format("{:<13} {:>9.5g} ± {:<8} {:<4} each ± {:<8}", name, scale * figure.mean, half_width, unit, deviation);
   if (std::isfinite(true_value)) {

@@ -150,8 +150,7 @@ class RigJudge {
   void judge_rest() {
     if (check_.gravity_share.count == 0) check_.remarks.emplace_back("the probe never rests: gravity is not checked");
     if (std::abs(gravity_share_) > limits_.gravity) {
-      fault("gravity",
-            fmt::format("At rest the accelerometer reads {:+.1f} % of gravity too much.", 100.0 * gravity_share_),
+      fault("gravity", fmt::format("At rest the accelerometer is {:+.1f} % off gravity.", 100.0 * gravity_share_),
             "The accelerometer's scale or offset: asperity calibrate accel.");
     }
     if (check_.median_gravity_angle_rad > limits_.gravity_angle_rad) {

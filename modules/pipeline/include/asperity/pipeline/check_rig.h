@@ -30,7 +30,7 @@ struct RigLimits {
   double gravity_angle_rad = 0.03;
   double noise = 1.5;
   double outlying = 0.05;
-  double lost = 0.03;
+  double lost = 0.05;
 
   template <class V>
   void visit(V& v) {
