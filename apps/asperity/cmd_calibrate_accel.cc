@@ -62,7 +62,7 @@ class CalibrateAccelCommand : public CalibrateCommand {
 
   CalibrateOutcome calibrate(const Observer& observer) override {
     std::optional<Recording> recording;
-    if (std::filesystem::is_directory(file_)) recording = read_recording(file_);
+    if (std::filesystem::is_directory(file_)) recording = read_probe_recording(file_);
     const AccelerometerFile file = recording ? accelerometer_samples_of(*recording) : read_accelerometer_samples(file_);
     observer.update("fitting", 0.5);
     CalibrateOutcome out;
@@ -93,6 +93,7 @@ class CalibrateAccelCommand : public CalibrateCommand {
       poses.push_back({{"start_s", pose.pose.start_s},
                        {"duration_s", pose.pose.duration_s},
                        {"counts", json_of(pose.pose.mean_counts)},
+                       {"drift_counts", pose.pose.drift_counts},
                        {"residual_mps2", pose.residual_mps2},
                        {"used", pose.used}});
       if (!pose.used) left_out += fmt::format("{}{:.1f} s", left_out.empty() ? "" : ", ", pose.pose.start_s);

@@ -160,9 +160,9 @@ class CalibrateTrackerCommand : public CalibrateCommand {
     out.store = [noise](Calibration& calibration) {
       calibration.tracker.sigma_position_m = noise.sigma_position_m;
       calibration.tracker.sigma_rotation_rad = noise.sigma_rotation_rad;
-      if (!noise.model) return;
       Json extra = Json::parse(calibration.extra_json.empty() ? "{}" : calibration.extra_json);
-      extra["tracker_noise_model"] = json_of_model(*noise.model);
+      extra.erase("tracker_noise_model");  // of an earlier calibration, with other figures
+      if (noise.model) extra["tracker_noise_model"] = json_of_model(*noise.model);
       calibration.extra_json = extra.dump();
     };
     return out;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -38,7 +39,11 @@ std::vector<int> ids_option(const std::string& text) {
     if (!first || !last || *first < 0 || *last < *first || *last > 1'000'000 || *last - *first >= 1000) {
       throw UsageError("--ids: '" + printable(part) + "' is not an id or a span of at most 1000, such as 0-5");
     }
-    for (auto id = *first; id <= *last; ++id) out.push_back(static_cast<int>(id));
+    for (auto id = *first; id <= *last; ++id) {
+      if (std::find(out.begin(), out.end(), id) != out.end())
+        throw UsageError("--ids: " + std::to_string(id) + " is given twice: a body has each tag once");
+      out.push_back(static_cast<int>(id));
+    }
     if (out.size() > 1000) throw UsageError("--ids: more than 1000");
     at = end + 1;
   }

@@ -59,6 +59,9 @@ class RecordCommand : public Command {
         ->type_name("ADDRESS");
     parser().add_option("--protocol", input_.protocol, "open (the default) or what")->type_name("NAME");
     parser()
+        .add_option("--capture", input_.capture, "Keep the probe's bytes too, in a new file for --probe file:CAPTURE")
+        ->type_name("FILE");
+    parser()
         .add_option("--camera", input_.camera, "v4l2:/dev/video0[?rate=120&…], y4m:PATH, images:FOLDER or video:FILE")
         ->type_name("ADDRESS");
     parser()

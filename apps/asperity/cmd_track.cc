@@ -98,6 +98,11 @@ class TrackCommand : public Command {
     const auto open = [&] {
       return one_folder ? open_image_folder(images_.front(), images) : open_image_list(files, images);
     };
+    try {
+      BodyTracker check(camera, markers.markers, config_);
+    } catch (const Error& error) {
+      throw Error(markers_ + ": " + error.what());
+    }
     const double start_s = processor_s();
     TrackedImages tracked = track_images(open, camera, markers.markers, config_, observer, files.size());
     const double frames_per_s = static_cast<double>(tracked.frames) / std::max(1e-9, processor_s() - start_s);
@@ -126,7 +131,7 @@ class TrackCommand : public Command {
     out["median_reprojection_px"] = tracked.median_reprojection_px;  // null if nan
     out["median_sigma_m"] = numbers(tracked.median_sigma_m);
     out["median_sigma_rad"] = numbers(tracked.median_sigma_rad);
-    out["tag_frame_declared"] = declared == TagFrame::kOpenCv ? "opencv" : "apriltag";
+    out["tag_frame_declared"] = name_of(declared);
     out["problems"] = nlohmann::ordered_json::array();
     for (const Problem& problem : tracked.problems) {
       out["problems"].push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});

@@ -1,5 +1,6 @@
 #include "command.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -68,7 +69,14 @@ void print(std::string_view text) {
 }
 
 void complain(std::string_view text) {
-  std::fprintf(stderr, "asperity: %.*s\n", static_cast<int>(text.size()), text.data());
+  // Paths and names in it may be a stranger's: nothing in them reaches the terminal as a command.
+  std::string lines = "asperity: ";
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t to = std::min(text.find('\n', from), text.size());
+    lines += printable(text.substr(from, to - from), std::string_view::npos) + '\n';
+    from = to + 1;
+  }
+  std::fwrite(lines.data(), 1, lines.size(), stderr);
 }
 
 }  // namespace asperity::app

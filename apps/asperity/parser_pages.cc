@@ -54,6 +54,21 @@ std::string words(const CLI::App& app) {
   return out;
 }
 
+// "fit info …": what follows a command that has commands below it.
+std::string names_below(const CLI::App& app) {
+  std::string out;
+  for (const CLI::App* below : app.get_subcommands({})) out += below->get_name() + " ";
+  return out;
+}
+
+std::string command_section(const CLI::App& command, const std::string& name) {
+  std::string out = ".SS asperity " + roff(name) + "\n" + roff(command.get_description()) + "\n" + option_list(command);
+  for (const CLI::App* below : command.get_subcommands({})) {
+    out += command_section(*below, name + " " + below->get_name());
+  }
+  return out;
+}
+
 // One case of the completion: the words that may follow `option`. "file" is none: a file's name is.
 template <class Names>
 std::string value_case(const std::string& option, const Names& names) {
@@ -71,10 +86,7 @@ std::string manual_page(const CLI::App& root) {
   out += ".SH NAME\nasperity \\- " + roff(root.get_description()) + "\n";
   out += ".SH SYNOPSIS\n.B asperity\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n.SH OPTIONS\n" + option_list(root);
   out += ".SH COMMANDS\n";
-  for (const CLI::App* command : root.get_subcommands({})) {
-    out += ".SS asperity " + roff(command->get_name()) + "\n" + roff(command->get_description()) + "\n" +
-           option_list(*command);
-  }
+  for (const CLI::App* command : root.get_subcommands({})) out += command_section(*command, command->get_name());
   out +=
       ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\nthe input is bad; standard error says where\n.TP\n2\nthe command line is "
       "wrong\n";
@@ -85,22 +97,30 @@ std::string manual_page(const CLI::App& root) {
 }
 
 std::string bash_completion(const CLI::App& root) {
-  std::string names;
   std::string cases;
+  std::string cases_below;
   for (const CLI::App* command : root.get_subcommands({})) {
-    names += (names.empty() ? "" : " ") + command->get_name();
-    cases += "    " + command->get_name() + ") words=\"" + words(*command) + "\" ;;\n";
+    const std::string names = names_below(*command);
+    cases += "    " + command->get_name() + ") words=\"" + names + words(*command) + "\"" +
+             (names.empty() ? "" : " names=2") + " ;;\n";
+    for (const CLI::App* below : command->get_subcommands({})) {
+      cases_below +=
+          "    \"" + command->get_name() + " " + below->get_name() + "\") words=\"" + words(*below) + "\" ;;\n";
+    }
   }
   const std::string values = value_case("--method", kMethodNames) + value_case("--probe", kProbeModelNames) +
                              value_case("--surface", kSurfaceNames) +
                              value_case("--completion", std::vector<std::string_view>{"bash"});
   return "# bash completion for asperity: source it, or put it in /etc/bash_completion.d/\n"
          "_asperity() {\n"
-         "  local current=${COMP_WORDS[COMP_CWORD]} words=\"" +
-         names + " " + words(root) +
+         "  local current=${COMP_WORDS[COMP_CWORD]} names=1 words=\"" +
+         names_below(root) + words(root) +
          "\"\n"
-         "  case ${COMP_WORDS[1]-} in\n" +
+         "  [[ $COMP_CWORD -lt 2 ]] || case ${COMP_WORDS[1]} in\n" +
          cases +
+         "  esac\n"
+         "  [[ $COMP_CWORD -lt 3 ]] || case \"${COMP_WORDS[1]} ${COMP_WORDS[2]}\" in\n" +
+         cases_below +
          "  esac\n"
          "  local values=\n"
          "  case ${COMP_WORDS[COMP_CWORD-1]} in\n" +
@@ -110,7 +130,7 @@ std::string bash_completion(const CLI::App& root) {
          "  if [[ $values && $current != -* ]]; then\n"
          "    mapfile -t COMPREPLY < <(compgen -W \"$values\" -- \"$current\")\n"
          "    [[ ${#COMPREPLY[@]} -gt 0 ]] || mapfile -t COMPREPLY < <(compgen -f -- \"$current\")\n"
-         "  elif [[ $COMP_CWORD -eq 1 || $current == -* ]]; then\n"
+         "  elif [[ $COMP_CWORD -le $names || $current == -* ]]; then\n"
          "    mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$current\")\n"
          "  else\n"
          "    mapfile -t COMPREPLY < <(compgen -f -- \"$current\")\n"

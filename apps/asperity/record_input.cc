@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "asperity/acquire/camera_pose_source.h"
+#include "asperity/acquire/capture_to_file.h"
 #include "asperity/acquire/open_camera.h"
 #include "asperity/acquire/open_pose_stream.h"
 #include "asperity/acquire/probe_address.h"
@@ -53,8 +56,9 @@ void add_camera(RecorderSensors& sensors, const RecordInput& input, const Calibr
   CameraPoseConfig config;
   config.newest = is_live(address);
   config.nominal_rate_Hz = address.kind == CameraKind::kV4l2 ? address.v4l2.rate_Hz : address.images.rate_Hz;
-  BodyTracker(camera, body, track);  // throws now, not in a thread
-  sensors.reopen_poses = config.newest;
+  BodyTracker(camera, body, track);                             // throws now, not in a thread
+  sensors.reopen_poses = config.newest && address.path != "-";  // standard input does not come back
+  sensors.reopen_silent_poses = address.kind == CameraKind::kV4l2;
   sensors.open_poses = [=] {
     return make_camera_pose_source(open_camera(address), BodyTracker(camera, body, track), config, on_frame);
   };
@@ -77,7 +81,12 @@ void check_record_input(const RecordInput& input) {
 std::optional<Calibration> read_record_calibration(const RecordInput& input) {
   if (input.uncalibrated) return std::nullopt;
   Calibration out = read_calibration(input.calibration);
-  if (!input.markers.empty()) out.markers = read_markers(input.markers).markers;
+  const std::string& markers = input.markers.empty() ? input.calibration : input.markers;
+  if (input.markers.empty() && out.markers.empty()) return out;
+  out.markers = read_markers(markers).markers;
+  // They are now in terms of our tag frame, whatever the file had declared.
+  auto extra = nlohmann::json::parse(out.extra_json, nullptr, false);
+  if (extra.is_object() && extra.erase("tag_frame") > 0) out.extra_json = extra.dump();
   return out;
 }
 
@@ -88,12 +97,23 @@ RecorderSensors make_record_sensors(const RecordInput& input, const std::optiona
   const ProbeAddress probe = address_of("--probe", parse_probe_address, input.probe);
   out.probe_describes_itself = protocol == ProbeProtocol::kOpen;
   out.reopen_probe = probe.kind != ProbeLinkKind::kFile;
+  out.reopen_silent_probe = probe.kind != ProbeLinkKind::kUdp;
   out.replayed = !out.reopen_probe;
-  out.open_probe = [=] { return make_probe_source(ProbeLink(open_probe_source(probe, protocol), protocol)); };
+  // A link that is lost and comes back goes on in a file of its own: a capture is one run of a decoder.
+  const auto captures = std::make_shared<int>(0);
+  out.open_probe = [=, capture = input.capture] {
+    auto source = open_probe_source(probe, protocol);
+    if (!capture.empty()) {
+      ++*captures;
+      source = capture_to_file(std::move(source), *captures == 1 ? capture : capture + "." + std::to_string(*captures));
+    }
+    return make_probe_source(ProbeLink(std::move(source), protocol));
+  };
   if (!input.camera.empty()) add_camera(out, input, *calibration, track, on_frame);
   if (!input.poses.empty()) {
     const PoseAddress poses = address_of("--poses", parse_pose_address, input.poses);
     out.reopen_poses = poses.kind != PoseAddress::Kind::kFile;
+    out.reopen_silent_poses = false;
     out.open_poses = [=] { return open_pose_stream(poses); };
   }
   return out;

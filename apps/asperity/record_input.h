@@ -15,6 +15,7 @@ namespace asperity::app {
 struct RecordInput {
   std::string probe;
   std::string protocol = "open";
+  std::string capture;  // where the probe's bytes are kept too, or empty
   std::string camera;
   std::string markers;
   std::string poses;

@@ -43,6 +43,7 @@ bool has_ended(const SensorSnapshot& sensor) {
 LiveRecording record_live(const Recording& scan, const SimulatedProbeConfig& probe, const LiveBenchConfig& config,
                           const Calibration& calibration, const fs::path& folder, const Observer& observer) {
   constexpr auto kLook = std::chrono::milliseconds(20);
+  constexpr double kLearning_s = 1.2;
   const fs::path live_folder = folder.string() + ".live";
   fs::create_directories(live_folder);
   fs::create_directories(folder);
@@ -104,7 +105,7 @@ LiveRecording record_live(const Recording& scan, const SimulatedProbeConfig& pro
   write_file(folder / "truth.csv", format_truth_csv(*bench.truth));
   fs::remove_all(live_folder);
   out.recording = read_recording(folder);
-  out.stamp_delay_s = stamp_delay_s(out.recording.probe, bench);
+  out.stamp_delay_s = stamp_delay_s(out.recording.probe, bench, kLearning_s);
   return out;
 }
 

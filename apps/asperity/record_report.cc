@@ -28,6 +28,7 @@ Json sensor_json(const SensorSnapshot& sensor) {
   out["highest_queue_fill"] = sensor.highest_queue_fill;
   out["disappeared"] = sensor.lost;
   out["returned"] = sensor.returned;
+  out["warnings"] = sensor.warnings;
   return out;
 }
 

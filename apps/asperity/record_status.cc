@@ -31,6 +31,12 @@ std::string rate_text(const char* what, const SensorSnapshot& sensor) {
   return fmt::format("  {} {:.0f}/s", what, sensor.rate_Hz);
 }
 
+// What is said once is not said again with another count.
+std::string without_digits(std::string text) {
+  std::erase_if(text, [](char c) { return c >= '0' && c <= '9'; });
+  return text;
+}
+
 // As much of the line as the terminal has columns for, or it could not be written over.
 std::string fitting(const std::string& line) {
   winsize size{};
@@ -84,7 +90,7 @@ void RecordStatus::tell_changes(const char* what, const SensorSnapshot& now, Sen
   if (now.lost > before.lost) tell(fmt::format("{} lost: {}", what, printable(now.message, 300)));
   if (now.returned > before.returned) tell(fmt::format("{} is back", what));
   for (const std::string& warning : now.warnings) {
-    if (told_.insert(warning).second) tell(printable(warning, 300));
+    if (told_.insert(without_digits(warning)).second) tell(printable(warning, 300));
   }
   before = now;
 }

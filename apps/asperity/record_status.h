@@ -35,7 +35,7 @@ class RecordStatus {
   Clock::time_point next_ = Clock::now();
   SensorSnapshot probe_;
   SensorSnapshot poses_;
-  std::set<std::string> told_;
+  std::set<std::string> told_;  // warnings, without their digits
 };
 
 }  // namespace asperity::app

@@ -64,6 +64,8 @@ RecordVerdict judge_recording(const RecorderSnapshot& end, bool asked_for_contac
     out.warnings.push_back(fmt::format("the probe dropped samples itself {} times", link.overruns));
   judge_poses(end, config, out);
   for (const auto& [what, sensor] : {std::pair{"the probe", &end.probe}, {"the tracker", &end.poses}}) {
+    if (sensor->failed)
+      out.doubts.push_back(fmt::format("{} ended by a fault: {}", what, printable(sensor->message, 300)));
     if (sensor->lost > 0 && sensor->state != SensorState::kEnded)
       out.warnings.push_back(fmt::format("{} disappeared {} times", what, sensor->lost));
   }

@@ -22,9 +22,14 @@ using ::testing::HasSubstr;
 const char* const kFigure11 =
     "counts,force_N\n48,0\n95,1.14\n100,1.24\n105,1.34\n115,1.54\n128,1.79\n155,2.29\n161,2.44\n185,3.54\n195,3.84\n";
 
+struct Reading {
+  double t_s = 0.0;
+  Eigen::Vector3d counts;
+};
+
 // Thirty poses of a second and a half, a coarse spiral over all directions, with brisk turns between.
-std::string held_by_hand(double counts_per_mps2) {
-  std::string out = "t_s,accel_i,accel_j,accel_k\n";
+std::vector<Reading> held_by_hand(double counts_per_mps2) {
+  std::vector<Reading> out;
   Random random(5);
   double t_s = 0.0;
   const auto direction = [](double p) {
@@ -36,10 +41,19 @@ std::string held_by_hand(double counts_per_mps2) {
     const int pose = i / 100;
     const double turned = std::max((i % 100 - 75) / 25.0, 0.0);
     const Eigen::Vector3d f = 9.80665 * ((1.0 - turned) * direction(pose) + turned * direction(pose + 1));
-    out += number_text(t_s);
-    for (int axis = 0; axis < 3; ++axis) {
-      out += ',' + number_text(std::round(30000.0 + counts_per_mps2 * f[axis] + 3.0 * random.normal()));
-    }
+    Eigen::Vector3d counts;
+    for (int axis = 0; axis < 3; ++axis)
+      counts[axis] = std::round(30000.0 + counts_per_mps2 * f[axis] + 3.0 * random.normal());
+    out.push_back({t_s, counts});
+  }
+  return out;
+}
+
+std::string table_of(const std::vector<Reading>& readings) {
+  std::string out = "t_s,accel_i,accel_j,accel_k\n";
+  for (const Reading& reading : readings) {
+    out += number_text(reading.t_s);
+    for (int axis = 0; axis < 3; ++axis) out += ',' + number_text(reading.counts[axis]);
     out += '\n';
   }
   return out;
@@ -88,7 +102,7 @@ TEST(Calibrate, EachKindReplacesItsOwnPartAlone) {
   const std::string accel = (dir / "accel.csv").string();
   const std::string to = (dir / "calibration.json").string();
   write_text(force, kFigure11);
-  write_text(accel, held_by_hand(400.0));
+  write_text(accel, table_of(held_by_hand(400.0)));
   const std::filesystem::path recording = dir / "swing";
   std::filesystem::create_directory(recording);
   write_recording(recording, swung());
@@ -112,6 +126,26 @@ TEST(Calibrate, EachKindReplacesItsOwnPartAlone) {
   const std::string before = read_file(to, 1 << 20);
   ASSERT_EQ(run({"calibrate", "force", force, "-o", to}).code, 0);
   EXPECT_EQ(read_file(to, 1 << 20), before) << "the same input gives the same bytes";
+}
+
+// What `record --uncalibrated` without a camera leaves: poses that turn every side up are out of any camera's sight.
+TEST(Calibrate, AccelFromARecordingWithoutATracker) {
+  const testkit::TempDir dir;
+  Recording recording = swung();
+  recording.probe = {};
+  for (const Reading& reading : held_by_hand(400.0)) {
+    recording.probe.t_ns.push_back(static_cast<std::int64_t>(1e9 + 1e9 * reading.t_s));
+    recording.probe.accel_counts.push_back(reading.counts);
+    recording.probe.force_counts.push_back(0.0);
+  }
+  const std::filesystem::path folder = dir / "held";
+  std::filesystem::create_directory(folder);
+  write_recording(folder, recording);
+  write_text(folder / "tracker.csv", "t_ns,px_m,py_m,pz_m,qw,qx,qy,qz\n");
+  const Outcome outcome = run({"calibrate", "accel", folder.string(), "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  for (const json& scale : json::parse(outcome.out)["values"]["scale_counts_per_mps2"])
+    EXPECT_NEAR(scale.get<double>(), 400.0, 1.0);
 }
 
 TEST(Calibrate, NothingIsWrittenOverAStrangersFileNorFromDataThatSayNothing) {
@@ -147,7 +181,7 @@ TEST(Calibrate, WhatIsNotToBeTrustedEndsWith3AndSaysSoInTheFile) {
 TEST(Calibrate, KindsAreNamedInHelp) {
   const Outcome help = run({"calibrate", "--help"});
   EXPECT_EQ(help.code, 0);
-  for (const char* kind : {"force", "accel", "tip"}) {
+  for (const char* kind : {"camera", "tracker", "force", "accel", "tip", "latency"}) {
     EXPECT_THAT(help.out, HasSubstr(kind));
     EXPECT_EQ(run({"calibrate", kind, "--print-config"}).code, 0);
     EXPECT_EQ(run({"calibrate", kind}).code, 2);

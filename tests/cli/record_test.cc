@@ -5,9 +5,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -76,6 +79,20 @@ TEST(Record, FromASerialPortAndAPoseStream) {
   EXPECT_EQ(contents(rig.dir / "rec"), before);
 }
 
+TEST(Record, ACaptureGivesTheSameRowsAgain) {
+  const Rig rig;
+  const std::string capture = rig.dir / "probe.bin";
+  ASSERT_EQ(run(rig.words({"--duration", "1s", "--capture", capture})).code, 0);
+  run({"record", "--probe", "file:" + capture, "--uncalibrated", "--json", "-o", rig.dir / "again"});
+  const ProbeStream first = read_recording(rig.dir / "rec").probe;
+  // Without poses it is no recording to process, but its rows are there.
+  std::ifstream file(rig.dir / "again/probe.csv");
+  const std::string rows{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_EQ(static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')), first.size() + 1);
+  const Outcome twice = run(rig.words({"--duration", "1s", "--capture", capture}));
+  EXPECT_EQ(twice.code, 1);
+}
+
 TEST(Record, CtrlCEndsWithAWholeRecording) {
   const Rig rig;
   const Outcome outcome = run_and_signal(rig.words({}), SIGINT, std::chrono::milliseconds(3000));
@@ -136,6 +153,21 @@ TEST(Record, WrongCommandLines) {
   EXPECT_EQ(run({"record", "--probe", "udp:9", "--uncalibrated", "--poses", "vrpn:x", "-o", rec}).code, 2);
   EXPECT_EQ(run({"record", "--probe", "serial:" + rec + "/none", "--uncalibrated", "-o", rec}).code, 1);
   EXPECT_FALSE(std::filesystem::exists(rec));
+}
+
+// A dictionary named in the calibration stays in its folder.
+TEST(Record, AMarkersFileOutsideIsRefused) {
+  const testkit::TempDir dir;
+  write_live_calibration(dir / "calibration.json");
+  auto calibration = nlohmann::json::parse(std::ifstream(dir / "calibration.json"));
+  calibration["camera"] = {{"width", 64}, {"height", 48}, {"fx", 60}, {"fy", 60}, {"cx", 31.5}, {"cy", 23.5}};
+  calibration["markers"].push_back(
+      {{"id", 0}, {"family", "aruco:../d.yml"}, {"size_m", 0.046}, {"T_marker_tag", {0, 0, 0, 1, 0, 0, 0}}});
+  std::ofstream(dir / "calibration.json") << calibration.dump();
+  const Outcome outcome = run({"record", "--probe", "udp:9", "--camera", "images:" + dir.path().string(),
+                               "--calibration", (dir / "calibration.json").string(), "-o", (dir / "rec").string()});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("not in the folder"));
 }
 
 // The program on a terminal of its own: what it shows, and keys typed once `text` has been shown.

@@ -13,8 +13,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-const std::vector<std::string> kCommands{"demo",      "simulate", "import", "inspect",  "process",
-                                         "roughness", "feel",     "record", "check-rig"};
+const std::vector<std::string> kCommands{"demo",      "simulate", "import", "inspect", "process",
+                                         "roughness", "feel",     "record", "track",   "check-rig"};
 
 TEST(Usage, VersionAndHelp) {
   const Outcome version = run({"--version"});
@@ -31,6 +31,13 @@ TEST(Usage, VersionAndHelp) {
       EXPECT_THAT(one.out, HasSubstr(option)) << command;
     }
   }
+}
+
+TEST(Usage, NamesReachTheTerminalEscaped) {
+  const Outcome outcome = run({"roughness", "no\x1b[31mfile.txt", "--spacing", "1um"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("no\\x1b[31mfile.txt"));
+  EXPECT_THAT(outcome.err, testing::Not(HasSubstr("\x1b")));
 }
 
 TEST(Usage, WrongCommandLinesEndWith2AndOneHint) {
@@ -110,6 +117,11 @@ TEST(Usage, ManualPageAndCompletionNameEveryCommandAndOption) {
     EXPECT_THAT(manual.out, HasSubstr(".SS asperity " + command));
     EXPECT_THAT(completion.out, HasSubstr("    " + command + ") words=\""));
   }
+  for (const std::string command : {"texture fit", "markers ring", "calibrate camera", "calibrate latency"}) {
+    EXPECT_THAT(manual.out, HasSubstr(".SS asperity " + command));
+    EXPECT_THAT(completion.out, HasSubstr("    \"" + command + "\") words=\"--help"));
+  }
+  EXPECT_THAT(completion.out, HasSubstr("    calibrate) words=\"camera tracker force accel tip latency --help -h\""));
   EXPECT_THAT(completion.out, HasSubstr("--spacing"));
   EXPECT_THAT(completion.out, HasSubstr("    --method) values=\"fused thesis\" ;;"));
   EXPECT_THAT(completion.out, HasSubstr("complete -o filenames -F _asperity asperity"));

@@ -11,10 +11,16 @@
 namespace asperity {
 namespace {
 
-class CorruptedLink : public testing::TestWithParam<const char*> {};
+struct Scan {
+  const char* surface;
+  std::uint64_t seed;
+  bool pitch_is_within_reach;
+};
+
+class CorruptedLink : public testing::TestWithParam<Scan> {};
 
 TEST_P(CorruptedLink, ThePipelineSurvivesWhatTheDecoderCannotSee) {
-  const Recording sent = simulate_recording(faultless_what_config(GetParam(), 1));
+  const Recording sent = simulate_recording(faultless_what_config(GetParam().surface, GetParam().seed));
   const LineResult clean = through_what_line(sent, {}, 1);
   testkit::WhatLineConfig line;
   line.corruption = {0.003, 0.003, 0.003};
@@ -35,13 +41,17 @@ TEST_P(CorruptedLink, ThePipelineSurvivesWhatTheDecoderCannotSee) {
       1e3 * of_clean.periodicity.pitch_m, 1e3 * of_damaged.periodicity.pitch_m, of_clean.accuracy->profile->correlation,
       of_damaged.accuracy->profile->correlation, of_clean.accuracy->profile->rms_um,
       of_damaged.accuracy->profile->rms_um);
-  EXPECT_TRUE(of_damaged.periodicity.periodic);
-  // The seed's own method measured the board's 2.5 mm as 2.81 mm.
-  EXPECT_NEAR(of_damaged.periodicity.pitch_m, of_clean.periodicity.pitch_m, 0.02e-3);
   EXPECT_GT(of_damaged.accuracy->profile->correlation, of_clean.accuracy->profile->correlation - 0.1);
+  // On the board this probe of 8 bits and ±2 g loses the pitch in some strokes that came through unharmed
+  // (docs/probe-links.md): there the pitch says nothing of the link.
+  if (!GetParam().pitch_is_within_reach) return;
+  EXPECT_TRUE(of_damaged.periodicity.periodic);
+  EXPECT_NEAR(of_damaged.periodicity.pitch_m, of_clean.periodicity.pitch_m, 0.02e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Surfaces, CorruptedLink, testing::Values("protoboard", "sine"));
+INSTANTIATE_TEST_SUITE_P(Scans, CorruptedLink,
+                         testing::Values(Scan{"sine", 1, true}, Scan{"sine", 2, true}, Scan{"sine", 3, true},
+                                         Scan{"protoboard", 1, true}));
 
 }  // namespace
 }  // namespace asperity

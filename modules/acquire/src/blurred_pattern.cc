@@ -49,7 +49,7 @@ Normal normal(double x) {
           hermite(p0, -x0 * p0 * kStep, p1, -(x0 + kStep) * p1 * kStep)};
 }
 
-// std::floor is a call on processors of the least kind; places are within the int's range.
+// std::floor is a call on processors of the least kind; x is within the int's range.
 int floor_int(double x) {
   const int i = static_cast<int>(x);
   return i - (x < i ? 1 : 0);
@@ -89,11 +89,16 @@ void find_shares(double u, double sigma, int cells, Shares& out) {
 
 }  // namespace
 
-BlurredValue blurred_pattern(const TagPattern& pattern, double u, double v, double sigma_u, double sigma_v) {
+BlurredValue blurred_pattern(const TagPattern& pattern, double u, double v, double sigma_u, double sigma_v,
+                             double covariance) {
+  // A place beyond all bounds, or none: a step of the fit that will not be accepted.
+  constexpr double kFar_cells = 1e6;
+  if (!(std::abs(u) + std::abs(v) + sigma_u + sigma_v < kFar_cells)) return {};
   Shares columns, rows;
   find_shares(u, sigma_u, pattern.cells, columns);
   find_shares(v, sigma_v, pattern.cells, rows);
   BlurredValue out;
+  double by_uv = 0.0, by_sigmas = 0.0;
   for (int j = 0; j < rows.count; ++j) {
     double value = 0.0, by_u = 0.0, by_sigma = 0.0;
     const std::uint8_t* const white = pattern.white.data() + (rows.first + j) * pattern.cells + columns.first;
@@ -110,7 +115,13 @@ BlurredValue blurred_pattern(const TagPattern& pattern, double u, double v, doub
     out.by_sigma_u += rows.share[k] * by_sigma;
     out.by_v += rows.by_u[k] * value;
     out.by_sigma_v += rows.by_sigma[k] * value;
+    by_uv += rows.by_u[k] * by_u;
+    by_sigmas += rows.by_sigma[k] * by_sigma;
   }
+  // ∂²/∂u² is 1/σ ∂/∂σ.
+  const double by_uuvv = by_sigmas / (sigma_u * sigma_v);
+  out.value += covariance * (by_uv + 0.5 * covariance * by_uuvv);
+  out.by_covariance = by_uv + covariance * by_uuvv;
   return out;
 }
 

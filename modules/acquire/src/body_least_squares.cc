@@ -51,15 +51,10 @@ BodyLeastSquares::BodyLeastSquares(const CameraCalibration& camera, const std::v
     Observation one;
     one.p_marker_m = tag_corners_m(body[tag.tag]);
     one.corners_px = tag.corners_px;
-    Matrix8 covariance = Matrix8::Identity() * (config.corner_sigma_px * config.corner_sigma_px);
-    if (tag.has_covariance) covariance = tag.covariance_px2;
-    const Eigen::LLT<Matrix8> factor(covariance);
-    if (!one.corners_px.allFinite() || factor.info() != Eigen::Success) {
+    one.covariance = Matrix8::Identity() * (config.corner_sigma_px * config.corner_sigma_px);
+    if (tag.has_covariance) one.covariance = tag.covariance_px2;
+    if (!one.corners_px.allFinite() || Eigen::LLT<Matrix8>(one.covariance).info() != Eigen::Success) {
       throw Error("solve_body_pose: a tag's corners or their covariance are no numbers");
-    }
-    one.information = factor.solve(Matrix8::Identity());
-    for (int corner = 0; corner < 4; ++corner) {
-      one.own.block<2, 2>(0, 2 * corner) = covariance.block<2, 2>(2 * corner, 2 * corner).inverse();
     }
     observations_.push_back(one);
   }
@@ -82,12 +77,30 @@ bool BodyLeastSquares::evaluate(const Pose& pose, Residuals& out, bool with_deri
   return true;
 }
 
-void BodyLeastSquares::distances2(const Residuals& residuals, std::vector<double>& out) const {
+// The corners' errors and those of their tags' places: a tag that is off moves its corners together.
+bool BodyLeastSquares::weigh_tags(const Residuals& at, std::vector<Metric>& out) const {
+  const double placement2_m2 = config_->placement_sigma_m * config_->placement_sigma_m;
+  out.resize(observations_.size());
+  for (std::size_t i = 0; i < observations_.size(); ++i) {
+    const auto by_place = at.by_pose[i].leftCols<3>();
+    const Matrix8 covariance = observations_[i].covariance + placement2_m2 * by_place * by_place.transpose();
+    const Eigen::LLT<Matrix8> factor(covariance);
+    if (factor.info() != Eigen::Success) return false;
+    out[i].information = factor.solve(Matrix8::Identity());
+    for (int corner = 0; corner < 4; ++corner) {
+      out[i].own.block<2, 2>(0, 2 * corner) = covariance.block<2, 2>(2 * corner, 2 * corner).inverse();
+    }
+  }
+  return true;
+}
+
+void BodyLeastSquares::distances2(const Residuals& residuals, const std::vector<Metric>& metric,
+                                  std::vector<double>& out) const {
   out.resize(4 * observations_.size());
   for (std::size_t i = 0; i < observations_.size(); ++i) {
     for (int corner = 0; corner < 4; ++corner) {
       const Eigen::Vector2d r = residuals.r_px[i].segment<2>(2 * corner);
-      out[4 * i + static_cast<std::size_t>(corner)] = r.dot(observations_[i].own.block<2, 2>(0, 2 * corner) * r);
+      out[4 * i + static_cast<std::size_t>(corner)] = r.dot(metric[i].own.block<2, 2>(0, 2 * corner) * r);
     }
   }
 }
@@ -108,7 +121,8 @@ std::optional<LeastSquaresPose> BodyLeastSquares::minimise(const Pose& start) co
   LeastSquaresPose out;
   out.pose = start;
   Residuals here, there;
-  if (!evaluate(out.pose, here, true)) return std::nullopt;
+  std::vector<Metric> metric;
+  if (!evaluate(out.pose, here, true) || !weigh_tags(here, metric)) return std::nullopt;
   std::vector<double> squares, root_weights(4 * observations_.size());
   Matrix6 normal;
   double scale = 1.0;
@@ -121,12 +135,12 @@ std::optional<LeastSquaresPose> BodyLeastSquares::minimise(const Pose& start) co
     double cost = 0.0;
     for (std::size_t i = 0; i < observations_.size(); ++i) {
       const Vector8 r = weighted(residuals, i);
-      cost += r.dot(observations_[i].information * r);
+      cost += r.dot(metric[i].information * r);
     }
     return cost;
   };
   const auto reweigh = [&] {
-    distances2(here, squares);
+    distances2(here, metric, squares);
     scale = robust_scale(squares);
     for (std::size_t k = 0; k < squares.size(); ++k) {
       root_weights[k] = std::sqrt(weight(std::sqrt(squares[k]), config_->outlier_sigmas * scale));
@@ -141,7 +155,7 @@ std::optional<LeastSquaresPose> BodyLeastSquares::minimise(const Pose& start) co
     for (std::size_t i = 0; i < observations_.size(); ++i) {
       Eigen::Matrix<double, 8, 6> J = here.by_pose[i];
       for (int k = 0; k < 8; ++k) J.row(k) *= root_weights[4 * i + static_cast<std::size_t>(k / 2)];
-      const Eigen::Matrix<double, 6, 8> JtL = J.transpose() * observations_[i].information;
+      const Eigen::Matrix<double, 6, 8> JtL = J.transpose() * metric[i].information;
       normal.noalias() += JtL * J;
       gradient.noalias() += JtL * weighted(here, i);
     }
@@ -190,7 +204,7 @@ std::optional<LeastSquaresPose> BodyLeastSquares::minimise(const Pose& start) co
       ++out.corners_used;
       sum_px2 += here.r_px[i].segment<2>(2 * corner).squaredNorm();
     }
-    normal.noalias() += J.transpose() * observations_[i].information * J;
+    normal.noalias() += J.transpose() * metric[i].information * J;
   }
   if (out.corners_used < 3) return std::nullopt;
   out.reprojection_px = std::sqrt(sum_px2 / out.corners_used);

@@ -36,6 +36,10 @@ class BodyLeastSquares {
   struct Observation {
     Eigen::Matrix<double, 3, 4> p_marker_m;
     Eigen::Matrix<double, 2, 4> corners_px;
+    Eigen::Matrix<double, 8, 8> covariance;  // px²
+  };
+  // A tag's inverse covariance.
+  struct Metric {
     Eigen::Matrix<double, 8, 8> information;  // 1/px²
     Eigen::Matrix<double, 2, 8> own;          // each corner's own information, 2×2 blocks
   };
@@ -45,8 +49,9 @@ class BodyLeastSquares {
   };
 
   bool evaluate(const Pose& pose, Residuals& out, bool with_derivative) const;
+  bool weigh_tags(const Residuals& at, std::vector<Metric>& out) const;
   // Squared distances of the corners in their own covariances, four a tag.
-  void distances2(const Residuals& residuals, std::vector<double>& out) const;
+  void distances2(const Residuals& residuals, const std::vector<Metric>& metric, std::vector<double>& out) const;
 
   const CameraCalibration* camera_;
   const BodyPoseConfig* config_;

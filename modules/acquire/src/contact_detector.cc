@@ -67,7 +67,7 @@ void ContactDetector::learn_idle(std::int64_t t_ns, double counts) {
 }
 
 std::optional<ContactChange> ContactDetector::push(std::int64_t t_ns, double force_counts) {
-  if (!std::isfinite(force_counts)) return std::nullopt;
+  if (!std::isfinite(force_counts) || (first_ns_ && t_ns <= last_ns_)) return std::nullopt;
   if (!first_ns_) {
     first_ns_ = t_ns;
     last_ns_ = t_ns;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "asperity/acquire/open_v4l2.h"
 #include "asperity/acquire/open_video.h"
 #include "asperity/acquire/open_y4m.h"
 #include "asperity/base/error.h"
@@ -128,11 +129,11 @@ std::unique_ptr<CameraSource> open_camera(const CameraAddress& address) {
     case CameraKind::kImages:
       return open_image_folder(address.path, address.images);
     case CameraKind::kV4l2:
-      break;
+      return open_v4l2(address.path, address.v4l2);
     case CameraKind::kVideo:
-      break;
+      return open_video(address.path);
   }
-  throw Error("camera: this kind cannot be opened");
+  throw Error("camera: there is no such kind");
 }
 
 }  // namespace asperity

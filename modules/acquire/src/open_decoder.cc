@@ -180,8 +180,8 @@ void OpenDecoder::give_rows(std::int64_t time_ns, std::vector<ProbeSample>& out)
     rows[i].t_ns = clock_.stamp(time_ns + static_cast<std::int64_t>(i) * std::int64_t{samples_.imu_period_ns});
     for (int axis = 0; axis < 3; ++axis) {
       rows[i].accel_counts[axis] = from.accel[static_cast<std::size_t>(axis)];
-      rows[i].gyro_counts[axis] = from.gyro[static_cast<std::size_t>(axis)];
-      if (samples_.has_force3) rows[i].force3_counts[axis] = kNone;
+      rows[i].gyro_counts[axis] = samples_.has_gyro ? from.gyro[static_cast<std::size_t>(axis)] : kNone;
+      rows[i].force3_counts[axis] = kNone;
     }
   }
   statistics_.samples += rows.size();

@@ -21,6 +21,9 @@ namespace {
 // The sender's clock is another one if it leaps by more than this against ours.
 constexpr std::int64_t kLeap_ns = 5'000'000'000;
 
+// A pose that had one time far ahead would make all later ones late.
+constexpr std::int64_t kAhead_ns = 1'000'000'000;
+
 // Brings times of a sender's clock to the host's.
 class SenderClock {
  public:
@@ -54,6 +57,10 @@ class PoseStream : public PoseSource {
       const Arrival arrival = bytes_->read(buffer_, timeout);
       poses_.clear();
       lines_.push(std::span(buffer_).first(arrival.count), arrival.arrival_ns, poses_);
+      if (times_ == PoseTimes::kHostClock) {
+        ahead_ += std::erase_if(poses_,
+                                [&](const TrackerSample& pose) { return pose.t_ns > arrival.arrival_ns + kAhead_ns; });
+      }
       for (TrackerSample& pose : poses_) {
         // Those without a time of their own have the arrival's.
         if (times_ == PoseTimes::kSendersClock && pose.t_ns != arrival.arrival_ns) {
@@ -74,8 +81,10 @@ class PoseStream : public PoseSource {
   TrackingStatistics statistics() const override { return statistics_; }
   std::string name() const override { return bytes_->name(); }
   std::vector<std::string> warnings() const override {
-    if (lines_.bad_lines() == 0) return {};
-    return {std::to_string(lines_.bad_lines()) + " lines were no poses"};
+    std::vector<std::string> out;
+    if (lines_.bad_lines() > 0) out.push_back(std::to_string(lines_.bad_lines()) + " lines were no poses");
+    if (ahead_ > 0) out.push_back(std::to_string(ahead_) + " poses had times ahead of this host's clock");
+    return out;
   }
 
  private:
@@ -83,6 +92,7 @@ class PoseStream : public PoseSource {
   PoseTimes times_;
   SenderClock sender_;
   PoseLines lines_;
+  std::size_t ahead_ = 0;
   std::array<std::uint8_t, 65536> buffer_{};
   std::vector<TrackerSample> poses_;
   std::deque<TrackerSample> waiting_;
@@ -120,7 +130,10 @@ PoseAddress parse_pose_address(std::string_view text) {
 }
 
 std::unique_ptr<PoseSource> open_pose_stream(const PoseAddress& address) {
-  if (address.kind != PoseAddress::Kind::kUdp) return make_pose_stream(open_path(address.path));
+  if (address.kind == PoseAddress::Kind::kFile) return make_pose_stream(open_path(address.path));
+  if (address.kind == PoseAddress::Kind::kPipe) {
+    return make_pose_stream(open_path(address.path), PoseTimes::kHostClock);
+  }
   UdpConfig udp;
   udp.address = address.address;
   udp.port = address.port;

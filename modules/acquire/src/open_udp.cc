@@ -53,6 +53,8 @@ class UdpSource : public ByteSource {
     while (begin_ == end_) {
       const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until - std::chrono::steady_clock::now());
       if (!receive(std::max(left, std::chrono::milliseconds(0)))) return {};
+      // Strangers who send without end must not keep the caller here.
+      if (begin_ == end_ && std::chrono::steady_clock::now() >= until) return {};
     }
     Arrival arrival{std::min(into.size(), end_ - begin_), arrival_ns_};
     std::memcpy(into.data(), datagram_.data() + begin_, arrival.count);

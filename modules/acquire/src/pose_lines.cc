@@ -42,7 +42,7 @@ std::optional<TrackerSample> parse_line(std::string_view line, std::int64_t arri
   out.T_world_marker.rotation = q.normalized();
   if (const auto markers = parse_int64(next_cell(line)); markers && *markers >= 0 && *markers <= kMostMarkers)
     out.markers = static_cast<int>(*markers);
-  if (const auto px = parse_double(next_cell(line)); px && *px >= 0.0) out.reprojection_px = *px;
+  if (const auto px = parse_double(next_cell(line)); px && std::isfinite(*px) && *px >= 0.0) out.reprojection_px = *px;
   return out;
 }
 

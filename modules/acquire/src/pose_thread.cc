@@ -27,7 +27,8 @@ TrackerSample with_sigmas(const TrackedPose& pose) {
 
 }  // namespace
 
-PoseThread::PoseThread(std::function<std::unique_ptr<PoseSource>()> open, bool reopen, const RecorderConfig& config)
+PoseThread::PoseThread(std::function<std::unique_ptr<PoseSource>()> open, bool reopen, bool reopen_silent,
+                       const RecorderConfig& config)
     : open_(std::move(open)), waits_(!reopen), source_(open_()), queue_(static_cast<std::size_t>(config.pose_queue)) {
   if (!source_) throw Error("recorder: the tracker could not be opened");
   name_ = source_->name();
@@ -40,6 +41,7 @@ PoseThread::PoseThread(std::function<std::unique_ptr<PoseSource>()> open, bool r
   loop.close = [this] { close(); };
   loop.read = [this](std::chrono::milliseconds timeout) { return read(timeout); };
   loop.reopen = reopen;
+  loop.reopen_silent = reopen_silent;
   thread_.emplace(std::move(loop), config);
 }
 
@@ -77,6 +79,7 @@ void PoseThread::describe(RecorderSnapshot& out) const {
   out.poses.name = name_;
   out.poses.state = health.state;
   out.poses.message = health.message;
+  out.poses.failed = health.failed;
   out.poses.lost = health.lost;
   out.poses.returned = health.returned;
   out.poses.queue_fill = queue.fill;

@@ -18,7 +18,8 @@ namespace asperity {
 // The tracker's thread with its queue. Opens the tracker at once; throws Error if that fails.
 class PoseThread {
  public:
-  PoseThread(std::function<std::unique_ptr<PoseSource>()> open, bool reopen, const RecorderConfig& config);
+  PoseThread(std::function<std::unique_ptr<PoseSource>()> open, bool reopen, bool reopen_silent,
+             const RecorderConfig& config);
   ~PoseThread() { stop(); }
 
   void stop() { thread_->stop(); }

@@ -28,7 +28,8 @@ LinkStatistics operator+(LinkStatistics a, const LinkStatistics& b) {
 
 }  // namespace
 
-ProbeThread::ProbeThread(std::function<std::unique_ptr<ProbeSource>()> open, bool reopen, const RecorderConfig& config)
+ProbeThread::ProbeThread(std::function<std::unique_ptr<ProbeSource>()> open, bool reopen, bool reopen_silent,
+                         const RecorderConfig& config)
     : open_(std::move(open)), waits_(!reopen), source_(open_()), queue_(static_cast<std::size_t>(config.probe_queue)) {
   if (!source_) throw Error("recorder: the probe could not be opened");
   name_ = source_->name();
@@ -40,6 +41,7 @@ ProbeThread::ProbeThread(std::function<std::unique_ptr<ProbeSource>()> open, boo
   loop.close = [this] { close(); };
   loop.read = [this](std::chrono::milliseconds timeout) { return read(timeout); };
   loop.reopen = reopen;
+  loop.reopen_silent = reopen_silent;
   thread_.emplace(std::move(loop), config);
 }
 
@@ -90,6 +92,7 @@ void ProbeThread::describe(RecorderSnapshot& out) const {
   const auto queue = queue_.figures();
   out.probe.state = health.state;
   out.probe.message = health.message;
+  out.probe.failed = health.failed;
   out.probe.lost = health.lost;
   out.probe.returned = health.returned;
   out.probe.queue_fill = queue.fill;

@@ -19,7 +19,8 @@ namespace asperity {
 // The probe's thread with its queue. Opens the probe at once; throws Error if that fails.
 class ProbeThread {
  public:
-  ProbeThread(std::function<std::unique_ptr<ProbeSource>()> open, bool reopen, const RecorderConfig& config);
+  ProbeThread(std::function<std::unique_ptr<ProbeSource>()> open, bool reopen, bool reopen_silent,
+              const RecorderConfig& config);
   ~ProbeThread() { stop(); }
 
   void stop() { thread_->stop(); }

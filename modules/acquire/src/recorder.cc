@@ -14,10 +14,10 @@
 #include "asperity/base/units.h"
 #include "asperity/recording/uncalibrated.h"
 #include "bounded_queue.h"
-#include "folder_sync.h"
 #include "pose_thread.h"
 #include "probe_thread.h"
 #include "rate_meter.h"
+#include "recording_clerk.h"
 #include "recording_writer.h"
 #include "sensor_problems.h"
 
@@ -60,13 +60,15 @@ class Recorder::Parts {
         pose_rate_(start_ns_) {
     check_new(folder);
     if (!sensors.open_probe) throw Error("recorder: there is no probe");
-    probe_.emplace(std::move(sensors.open_probe), sensors.reopen_probe, config);
-    if (sensors.open_poses) poses_.emplace(std::move(sensors.open_poses), sensors.reopen_poses, config);
+    probe_.emplace(std::move(sensors.open_probe), sensors.reopen_probe, sensors.reopen_silent_probe, config);
+    if (sensors.open_poses)
+      poses_.emplace(std::move(sensors.open_poses), sensors.reopen_poses, sensors.reopen_silent_poses, config);
     if (sensors.probe_describes_itself) probe_->wait_for_description(config.describe_s);
+    start_ns_ = host_now_ns();  // the wait is none of the recording's time
     const auto description = probe_->description();
     writer_.emplace(folder, with_rates(info), calibration ? *calibration : nominal(description), description,
                     poses_.has_value(), config);
-    sync_.emplace(folder, config.sync_s);
+    clerk_.emplace(folder, config.sync_s);
     thread_ = std::thread([this] { run(); });
   }
 
@@ -110,7 +112,6 @@ class Recorder::Parts {
     }
     changed_.notify_all();
     thread_.join();
-    sync_.reset();
   }
 
   bool stop_asked() {
@@ -174,7 +175,8 @@ class Recorder::Parts {
       writer_->set_problems(sensor_problems(now));
       if (events != events_) writer_->note_change();
       events_ = events;
-      writer_->commit();
+      if (const auto info = writer_->commit()) clerk_->put(*info);
+      if (last) clerk_.reset();
       if (last) writer_->finish();
     } catch (const std::exception& error) {
       failure_ = error.what();
@@ -196,7 +198,7 @@ class Recorder::Parts {
   std::optional<ProbeThread> probe_;
   std::optional<PoseThread> poses_;
   std::optional<RecordingWriter> writer_;
-  std::optional<FolderSync> sync_;
+  std::optional<RecordingClerk> clerk_;  // gone once the last recording.json is to be written
 
   std::vector<ProbeSample> probe_rows_;
   std::vector<TrackerSample> pose_rows_;

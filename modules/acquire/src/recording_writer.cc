@@ -8,6 +8,7 @@
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
 #include "asperity/recording/uncalibrated.h"
+#include "asperity/recording/write_recording.h"
 
 namespace asperity {
 
@@ -59,7 +60,7 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& folder, RecordingI
       appender_(folder, info_, calibration, columns_of(description, has_poses)),
       segments_(appender_, ns(config.pre_roll_s)) {
   if (config.mode == StoreMode::kSegments && config.start_at_once) begin("segment_", SegmentWriter::kFromFirstRow);
-  appender_.update(current_info(false));
+  replace_recording_info(folder / "recording.json", current_info(false));
 }
 
 void RecordingWriter::add(std::span<const ProbeSample> samples) {
@@ -149,6 +150,7 @@ RecordingInfo RecordingWriter::current_info(bool finished) const {
   recorder["state"] = finished ? "finished" : "recording";
   recorder["mode"] = kStoreModeNames.at(static_cast<std::size_t>(config_.mode));
   recorder["last_segment_is_open"] = segments_.is_open();
+  if (const auto until_ns = segments_.discarded_until_ns()) recorder["discarded_until_ns"] = *until_ns;
   recorder["discarded_segments"] = segments_.discarded();
   recorder["gravity"] = {{"measured", gravity.measured},
                          {"windows_at_rest", gravity.windows},
@@ -162,13 +164,13 @@ RecordingInfo RecordingWriter::current_info(bool finished) const {
   return out;
 }
 
-void RecordingWriter::commit() {
+std::optional<RecordingInfo> RecordingWriter::commit() {
   appender_.flush();
   const bool measured = gravity_.estimate().measured;
-  if (!changed_ && measured == gravity_written_) return;
-  appender_.update(current_info(false));
+  if (!changed_ && measured == gravity_written_) return std::nullopt;
   changed_ = false;
   gravity_written_ = measured;
+  return current_info(false);
 }
 
 void RecordingWriter::finish() {

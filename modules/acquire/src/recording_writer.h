@@ -42,9 +42,9 @@ class RecordingWriter {
   // recording.json is to be written at the next commit().
   void note_change() { changed_ = true; }
 
-  // Hands all rows to the operating system, and a new recording.json if segments have changed or gravity has
-  // been measured.
-  void commit();
+  // Hands all rows to the operating system. A new recording.json if segments have changed, gravity has been measured,
+  // or a change was noted.
+  std::optional<RecordingInfo> commit();
   void finish();
 
   // The parts of a snapshot that are known here.

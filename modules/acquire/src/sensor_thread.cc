@@ -59,7 +59,10 @@ void SensorThread::read_once() {
   try {
     alive = loop_.read(kReadTimeout);
   } catch (const std::exception& error) {
+    const bool is_end = dynamic_cast<const LinkLost*>(&error) != nullptr;
     lose(error.what());
+    const std::lock_guard lock(mutex_);
+    health_.failed = !loop_.reopen && !is_end;
     return;
   }
   const Clock::time_point now = Clock::now();
@@ -71,13 +74,22 @@ void SensorThread::read_once() {
     health_.state = SensorState::kRunning;
     health_.message.clear();
   } else if (loop_.reopen && now - alive_at_ > std::chrono::duration<double>(config_.stale_s)) {
-    lose("nothing comes");
+    constexpr const char* kSilent = "nothing comes";
+    if (loop_.reopen_silent) {
+      lose(kSilent);
+    } else {
+      report_lost(kSilent);
+    }
   }
 }
 
 void SensorThread::lose(const std::string& why) {
   loop_.close();
   open_ = false;
+  report_lost(why);
+}
+
+void SensorThread::report_lost(const std::string& why) {
   const std::lock_guard lock(mutex_);
   if (health_.state != SensorState::kLost) ++health_.lost;
   health_.state = loop_.reopen ? SensorState::kLost : SensorState::kEnded;

@@ -18,10 +18,11 @@ struct SensorLoop {
   std::function<void()> close;                          // never throws
   std::function<bool(std::chrono::milliseconds)> read;  // waits; true if the sensor is alive
   bool reopen = true;
+  bool reopen_silent = true;  // false: after a silence the same stream goes on
 };
 
 // Reads one sensor until stop(). When it is lost, or silent for config.stale_s, it is closed and opened again with
-// growing waits in between.
+// growing waits in between; without `reopen_silent` one that is silent is called lost but stays open.
 class SensorThread {
  public:
   // The sensor is open already. `sensor` names it in messages.
@@ -38,6 +39,7 @@ class SensorThread {
     std::string message;
     std::uint64_t lost = 0;
     std::uint64_t returned = 0;
+    bool failed = false;  // ended by another error than LinkLost
   };
   Health health() const;
 
@@ -47,6 +49,7 @@ class SensorThread {
   void read_once();
   void open_again();
   void lose(const std::string& why);
+  void report_lost(const std::string& why);
   bool wait(std::chrono::duration<double> time);
   bool stopping() const;
 

@@ -77,12 +77,14 @@ TagImageModel::Place TagImageModel::place(const TagImageState& state, double qx,
   };
   out.sigma_u = sigma(out.u_by_px);
   out.sigma_v = sigma(out.v_by_px);
+  const auto &gu = out.u_by_px, &gv = out.v_by_px;
+  out.covariance_uv = gu.x() * gv.x() * s[0] + (gu.x() * gv.y() + gu.y() * gv.x()) * s[1] + gu.y() * gv.y() * s[2];
   return out;
 }
 
 double TagImageModel::grey(const TagImageState& state, const TagPixel& pixel, FitVector& by_state) const {
   const Place at = place(state, pixel.qx, pixel.qy);
-  const BlurredValue blurred = blurred_pattern(*pattern_, at.u, at.v, at.sigma_u, at.sigma_v);
+  const BlurredValue blurred = blurred_pattern(*pattern_, at.u, at.v, at.sigma_u, at.sigma_v, at.covariance_uv);
   const auto& s = state.shading;
   const double contrast = s[3] + s[4] * at.x + s[5] * at.y;
   const double slope_per_px = (blurred.by_u * at.u_by_px + blurred.by_v * at.v_by_px).norm();
@@ -95,8 +97,10 @@ double TagImageModel::grey(const TagImageState& state, const TagPixel& pixel, Fi
   const double by_uu = contrast * blurred.by_sigma_u / (2.0 * at.sigma_u);
   const double by_vv = contrast * blurred.by_sigma_v / (2.0 * at.sigma_v);
   const auto &gu = at.u_by_px, &gv = at.v_by_px;
-  by_state.segment<3>(8) << by_uu * gu.x() * gu.x() + by_vv * gv.x() * gv.x(),
-      2.0 * (by_uu * gu.x() * gu.y() + by_vv * gv.x() * gv.y()), by_uu * gu.y() * gu.y() + by_vv * gv.y() * gv.y();
+  const double by_uv = contrast * blurred.by_covariance;
+  by_state.segment<3>(8) << by_uu * gu.x() * gu.x() + by_vv * gv.x() * gv.x() + by_uv * gu.x() * gv.x(),
+      2.0 * (by_uu * gu.x() * gu.y() + by_vv * gv.x() * gv.y()) + by_uv * (gu.x() * gv.y() + gu.y() * gv.x()),
+      by_uu * gu.y() * gu.y() + by_vv * gv.y() * gv.y() + by_uv * gu.y() * gv.y();
   by_state.tail<7>() << 1.0, at.x, at.y, value, value * at.x, value * at.y, contrast * slope_per_px;
   return s[0] + s[1] * at.x + s[2] * at.y + contrast * value;
 }
@@ -204,6 +208,41 @@ class Descent {
     return converged;
   }
 
+  // The pixels outside of covered cells: where more than a quarter of a cell's pixels do not fit, something lies on it,
+  // and its edge may lie on the cells beside it, where it moves edges by less than a pixel's own misfit tells.
+  std::vector<TagPixel> uncovered(const TagImageState& state, int cells) const {
+    constexpr double kOdd = 3.0;  // of the residual's scale: one pixel in 370 by noise alone
+    constexpr int kFewest = 4;
+    const auto side = static_cast<std::size_t>(cells);
+    std::vector<int> seen(side * side, 0), odd(side * side, 0);
+    std::vector<std::size_t> cell_of(pixels_->size());
+    std::vector<double> work;
+    const double limit = kOdd * std::max(robust_scale(here_.residuals(), here_.clipped(), work), kLeastScale);
+    for (std::size_t i = 0; i < pixels_->size(); ++i) {
+      const TagImageModel::Place at = model_->place(state, (*pixels_)[i].qx, (*pixels_)[i].qy);
+      const auto index = [&](double place) { return static_cast<std::size_t>(std::clamp(place, 0.0, cells - 1.0)); };
+      cell_of[i] = index(at.v) * side + index(at.u);
+      ++seen[cell_of[i]];
+      odd[cell_of[i]] += std::abs(here_.residuals()[i]) > limit ? 1 : 0;
+    }
+    std::vector<char> covered(side * side, 0);
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      if (odd[k] < kFewest || 4 * odd[k] < seen[k]) continue;
+      const std::size_t row = k / side, column = k % side;
+      for (std::size_t r = row - std::min<std::size_t>(row, 1); r <= std::min(row + 1, side - 1); ++r) {
+        for (std::size_t c = column - std::min<std::size_t>(column, 1); c <= std::min(column + 1, side - 1); ++c) {
+          covered[r * side + c] = 1;
+        }
+      }
+    }
+    std::vector<TagPixel> out;
+    out.reserve(pixels_->size());
+    for (std::size_t i = 0; i < pixels_->size(); ++i) {
+      if (covered[cell_of[i]] == 0) out.push_back((*pixels_)[i]);
+    }
+    return out;
+  }
+
   // The covariance at the state where run() ended; false where it is not determined.
   bool finish(TagImageFit& out) {
     accumulate(6.0 * std::max(robust_scale(here_.residuals(), here_.clipped(), work_), kLeastScale));
@@ -276,7 +315,16 @@ TagImageFit fit_tag_image(const TagImageModel& model, const std::vector<TagPixel
   }
   Descent fine(model, pixels, brightest);
   // A step of a standard error leaves far less than one: the model is nearly linear there.
-  out.converged = fine.run(out, floor, 1.0, config.most_iterations) && fine.finish(out);
+  if (!fine.run(out, floor, 1.0, config.most_iterations)) return out;
+  const std::vector<TagPixel> uncovered = fine.uncovered(out.state, model.cells());
+  if (uncovered.size() == pixels.size()) {
+    out.converged = fine.finish(out);
+    return out;
+  }
+  // Less than a third of a tag fits many pictures.
+  if (3 * uncovered.size() < pixels.size()) return out;
+  Descent rest(model, uncovered, brightest);
+  out.converged = rest.run(out, 0.0, 0.3, config.most_iterations) && rest.finish(out);
   return out;
 }
 

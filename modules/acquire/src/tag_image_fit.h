@@ -40,10 +40,11 @@ class TagImageModel {
   struct Place {
     double x = 0.0, y = 0.0, w = 1.0;
     Eigen::Matrix2d x_by_q;
-    double u = 0.0, v = 0.0, sigma_u = 0.0, sigma_v = 0.0;
+    double u = 0.0, v = 0.0, sigma_u = 0.0, sigma_v = 0.0, covariance_uv = 0.0;
     Eigen::Vector2d u_by_px, v_by_px;
   };
   Place place(const TagImageState& state, double qx, double qy) const;
+  int cells() const { return pattern_->cells; }
 
   // The grey level, and its derivative by the unknowns.
   double grey(const TagImageState& state, const TagPixel& pixel, FitVector& by_state) const;

@@ -5,10 +5,12 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "asperity/base/error.h"
 #include "asperity/base/units.h"
 #include "asperity/recording/camera_model.h"
+#include "grey_band.h"
 
 namespace asperity {
 namespace {
@@ -47,12 +49,19 @@ struct BodyTracker::Impl {
   std::vector<TimedPose> last;                // at most two, the newest at the end
   std::vector<std::vector<SeenTag>> misfits;  // frames that speak against the tag frame declared
   int unclear = 0;                            // frames of two tags or more that fit in no way
+  std::optional<GreyBand> band;               // in which the body was last seen, where it is not seen without
+  int faint_misses = 0;                       // images in a row without a tag in any band
   bool frame_settled = false;
   bool frame_changed = false;
 
   std::optional<Pose> predict(std::int64_t t_ns) const;
   std::optional<ImageRegion> expected_region(const Pose& pose) const;
-  void find_tags(const GrayImage& image, const ImageRegion& region, std::vector<FoundTag>& out);
+  // `band`: the grey levels that are looked at; nullopt for all of them.
+  void find_tags(const GrayImage& image, const ImageRegion& region, const std::optional<GreyBand>& band,
+                 std::vector<FoundTag>& out);
+  void detect(const GrayImage& view, const ImageRegion& region, std::vector<FoundTag>& out) const;
+  void find_faint_tags(const GrayImage& image, std::vector<FoundTag>& out);
+  bool find_covered_tags(const GrayImage& image, const Pose& pose, std::vector<FoundTag>& found);
   void refine(const GrayImage& image, std::vector<FoundTag>& found);
   std::optional<TrackedPose> solve(const std::vector<FoundTag>& found, const std::optional<Pose>& predicted,
                                    std::int64_t t_ns);
@@ -98,12 +107,27 @@ std::optional<ImageRegion> BodyTracker::Impl::expected_region(const Pose& pose) 
   return region;
 }
 
-void BodyTracker::Impl::find_tags(const GrayImage& image, const ImageRegion& region, std::vector<FoundTag>& out) {
+void BodyTracker::Impl::find_tags(const GrayImage& image, const ImageRegion& region, const std::optional<GreyBand>& in,
+                                  std::vector<FoundTag>& out) {
   out.clear();
+  if (in) {
+    const GrayImage view = stretch_band(image, region, *in);
+    detect(view, whole(view), out);
+    for (FoundTag& tag : out) {
+      tag.detection.corners_px.colwise() += Eigen::Vector2d(region.left, region.top);
+      tag.seen.corners_px = tag.detection.corners_px;
+    }
+  } else {
+    detect(image, region, out);
+  }
+  if (config.refine.enabled) refine(image, out);
+}
+
+void BodyTracker::Impl::detect(const GrayImage& view, const ImageRegion& region, std::vector<FoundTag>& out) const {
   std::vector<TagDetection> detections;
   for (const Family& family : families) {
     detections.clear();
-    family.detector->detect(image, region, detections);
+    family.detector->detect(view, region, detections);
     for (const TagDetection& detection : detections) {
       const auto placement = std::find_if(body.begin(), body.end(), [&](const MarkerPlacement& marker) {
         return marker.id == detection.id && marker.family == family.name;
@@ -115,7 +139,62 @@ void BodyTracker::Impl::find_tags(const GrayImage& image, const ImageRegion& reg
       out.push_back(found);
     }
   }
-  if (config.refine.enabled) refine(image, out);
+}
+
+// The whole image in each of the overlapping bands of grey; the band that shows most tags is kept for the next image.
+void BodyTracker::Impl::find_faint_tags(const GrayImage& image, std::vector<FoundTag>& out) {
+  out.clear();
+  band.reset();
+  const std::vector<GreyBand> bands = grey_bands();
+  // Where the body is away for long, one band an image has to do.
+  constexpr int kMostInFull = 8;
+  const bool in_full = faint_misses < kMostInFull;
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    if (!in_full && i != statistics.frames % bands.size()) continue;
+    const GreyBand& one = bands[i];
+    std::vector<FoundTag> found;
+    find_tags(image, whole(image), one, found);
+    if (found.size() <= out.size()) continue;
+    out = std::move(found);
+    band = one;
+  }
+  faint_misses = out.empty() ? faint_misses + 1 : 0;
+}
+
+// Tags that the detector has missed, most often because their border is covered in part, by their picture alone, where
+// the pose of the others says that they are. True if one was found.
+bool BodyTracker::Impl::find_covered_tags(const GrayImage& image, const Pose& pose, std::vector<FoundTag>& found) {
+  constexpr double kLeastCosine = 0.35;   // of the angle between the line of sight and the tag's axis: 70°
+  constexpr double kLeastContrast = 4.0;  // in residuals: a picture that is not there leaves one of about 0.5
+  bool any = false;
+  for (std::size_t i = 0; i < body.size(); ++i) {
+    if (std::any_of(found.begin(), found.end(), [&](const FoundTag& tag) { return tag.seen.tag == i; })) continue;
+    const Pose T_camera_tag = pose * body[i].T_marker_tag;
+    const Eigen::Vector3d axis = T_camera_tag.rotation * Eigen::Vector3d::UnitZ();
+    if (!(axis.dot(T_camera_tag.translation_m) > kLeastCosine * T_camera_tag.translation_m.norm())) continue;
+    const Eigen::Matrix<double, 3, 4> corners_m = tag_corners_m(body[i]);
+    FoundTag tag;
+    tag.detection.id = body[i].id;
+    bool inside = true;
+    for (int k = 0; k < 4 && inside; ++k) {
+      const auto pixel = project(camera, pose * corners_m.col(k));
+      inside = pixel && pixel->x() > 0.0 && pixel->y() > 0.0 && pixel->x() < image.width - 1.0 &&
+               pixel->y() < image.height - 1.0;
+      if (inside) tag.detection.corners_px.col(k) = *pixel;
+    }
+    if (!inside) continue;
+    const auto refined = refine_corners(image, camera, patterns[i], tag.detection.corners_px,
+                                        spreads[found.front().seen.tag], config.refine);
+    if (!refined || !(refined->white - refined->black > kLeastContrast * refined->residual)) continue;
+    spreads[i] = refined->spread;
+    tag.seen.tag = i;
+    tag.seen.corners_px = tag.detection.corners_px = refined->corners_px;
+    tag.seen.covariance_px2 = refined->covariance_px2;
+    tag.seen.has_covariance = true;
+    found.push_back(tag);
+    any = true;
+  }
+  return any;
 }
 
 void BodyTracker::Impl::refine(const GrayImage& image, std::vector<FoundTag>& found) {
@@ -134,6 +213,22 @@ void BodyTracker::Impl::refine(const GrayImage& image, std::vector<FoundTag>& fo
     tag.seen.covariance_px2 = refined->covariance_px2;
     tag.seen.has_covariance = true;
   }
+}
+
+std::string say_found(const TagFrameFinding& finding) {
+  const std::string off =
+      fmt::format("their corners are then off by {:.2f} px instead of {:.1f} px; taken so for the whole run",
+                  finding.error_px, finding.declared_error_px);
+  if (finding.as_good.empty()) {
+    return fmt::format("the markers' T_marker_tag fit the images only if the tag frame is {}: {}", finding.description,
+                       off);
+  }
+  return fmt::format(
+      "the markers' T_marker_tag do not fit the images in the tag frame declared; {} frames fit alike and the images "
+      "cannot tell them apart, of which the most usual is {}: {}. The other{}: {}. If it is not the one meant, declare "
+      "\"tag_frame\": \"opencv\" or \"opencv_upright\" in the markers' file, or turn its T_marker_tag",
+      finding.as_good.size() + 1, finding.description, off, finding.as_good.size() == 1 ? "" : "s",
+      fmt::join(finding.as_good, "; "));
 }
 
 // True once the body's tag frame is known, or nothing speaks against it.
@@ -163,12 +258,7 @@ bool BodyTracker::Impl::settle_tag_frame(const std::vector<FoundTag>& found) {
       frame_settled = frame_changed = true;
       misfits.clear();
       last.clear();
-      problems.push_back(
-          {"tag_frame",
-           fmt::format(
-               "the markers' T_marker_tag fit the images only if the tag frame is {}: their corners are then off "
-               "by {:.2f} px instead of {:.1f} px; taken so for the whole run",
-               finding.description, finding.error_px, finding.declared_error_px)});
+      problems.push_back({"tag_frame", say_found(finding)});
       return true;
     }
     frame_settled = true;
@@ -243,13 +333,25 @@ std::optional<TrackedPose> BodyTracker::push(const GrayImage& image, std::int64_
   const std::optional<ImageRegion> region = predicted ? self.expected_region(*predicted) : std::nullopt;
   std::vector<FoundTag> found;
   std::optional<TrackedPose> out;
-  if (region) {
-    self.find_tags(image, *region, found);
+  const auto pose_of_found = [&] {
     if (self.settle_tag_frame(found)) out = self.solve(found, predicted, t_ns);
+  };
+  if (region) {
+    self.find_tags(image, *region, self.band, found);
+    pose_of_found();
   }
   if (!out) {
-    self.find_tags(image, whole(image), found);
-    if (self.settle_tag_frame(found)) out = self.solve(found, predicted, t_ns);
+    self.find_tags(image, whole(image), std::nullopt, found);
+    pose_of_found();
+    if (out) self.band.reset();
+  }
+  if (!out && self.config.find_faint) {
+    self.find_faint_tags(image, found);
+    pose_of_found();
+  }
+  if (out && self.config.refine.enabled && self.config.find_covered &&
+      self.find_covered_tags(image, out->sample.T_world_marker, found)) {
+    if (auto better = self.solve(found, out->sample.T_world_marker, t_ns)) out = std::move(better);
   }
   if (!out) return std::nullopt;
   ++self.statistics.poses;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "asperity/acquire/byte_source.h"
+#include "asperity/base/error.h"
 #include "asperity/base/text.h"
 
 namespace asperity {
@@ -17,6 +19,16 @@ double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+// Names the image that the tracker cannot use.
+std::optional<TrackedPose> push(BodyTracker& tracker, const CameraFrame& frame, const CameraSource& source,
+                                std::size_t number) {
+  try {
+    return tracker.push(frame.image, frame.t_ns);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: image {}, t_ns {}: {}", source.name(), number, frame.t_ns, error.what()));
+  }
 }
 
 // False if the tags' frame was found to be another while rows had gone before.
@@ -33,7 +45,7 @@ bool follow(CameraSource& source, BodyTracker& tracker, TrackedImages& out, cons
                                                                            static_cast<double>(frames_expected)));
       if (!source.read(frame, std::chrono::milliseconds(1000))) continue;
       ++out.frames;
-      if (auto pose = tracker.push(frame.image, frame.t_ns)) out.poses.push_back(std::move(*pose));
+      if (auto pose = push(tracker, frame, source, out.frames)) out.poses.push_back(std::move(*pose));
       if (tracker.tag_frame_was_changed() != was_changed) return false;
     }
   } catch (const LinkLost&) {

@@ -26,7 +26,7 @@ constexpr std::int64_t kHold_ns = 20'000'000;
 constexpr int kHold_reads = 8;
 constexpr std::size_t kMostHeld = 512;
 constexpr std::int64_t kSilence_ns = 2'000'000'000;
-constexpr double kWindow_s = 4.0;  // the pace may drift by parts in 10⁴ a second
+constexpr double kWindow_s = 4.0;      // the pace may drift by parts in 10⁴ a second
 constexpr double kLeastSpacing = 0.4;  // of a period
 
 DeviceClockConfig clock_config(double period_ns, double rate_error) {

@@ -2,6 +2,7 @@
 
 #include "asperity/acquire/open_camera.h"
 #include "asperity/base/error.h"
+#include "asperity/testkit/temp_dir.h"
 
 namespace asperity {
 namespace {
@@ -56,6 +57,18 @@ TEST(CameraAddress, SaysWhatIsWrong) {
   refuses("v4l2:a?format=rgb", "none of any, grey");
   refuses("v4l2:a?colour=1", "there are size, rate");
   refuses("\x1b[31m:a", "\\x1b");
+}
+
+// Each kind reaches its own opener: the message is that one's.
+TEST(OpenCamera, OpensEveryKind) {
+  const testkit::TempDir dir;
+  const auto refuses = [](const std::string& address, const std::string& part) {
+    EXPECT_THAT([&] { open_camera(parse_camera_address(address)); }, ThrowsMessage<Error>(HasSubstr(part))) << address;
+  };
+  refuses("v4l2:/proc/self/status", "v4l2:/proc/self/status: is no video device");
+  refuses("y4m:" + (dir / "none").string(), "none: cannot be opened");
+  refuses("images:" + dir.path().string(), "there is no image");
+  refuses("video:" + (dir / "none").string(), "none: is not a file");
 }
 
 }  // namespace

@@ -52,6 +52,16 @@ TEST(ContactDetector, NewtonThresholdsWithHysteresisAndHold) {
   EXPECT_EQ(seen[1].t_ns, 899 * kPeriod_ns);
 }
 
+TEST(ContactDetector, ATimeThatDoesNotRiseIsPassedOver) {
+  ContactDetector detector({}, std::nullopt);
+  const auto idle = [](int i) { return 100.0 + i % 2; };
+  EXPECT_TRUE(changes(detector, 1000, idle).empty());
+  // Ten seconds back the idle level would follow by e²⁰ times what is off.
+  EXPECT_FALSE(detector.push(-9'000 * kPeriod_ns, 101.0));
+  EXPECT_TRUE(changes(detector, 1000, idle, 1000).empty());
+  EXPECT_FALSE(detector.touching());
+}
+
 TEST(ContactDetector, SpikesAndMissingSamplesDoNotTouch) {
   ContactDetector detector({}, newtons());
   const auto seen = changes(detector, 3000, [](int i) {

@@ -80,7 +80,6 @@ class FakeProbe : public ProbeSource {
   LinkStatistics statistics_;
 };
 
-// A pose every `period_ns`, at rest; px_m counts the frames in mm.
 // A whole capture at once: `count` samples of `period_ns` from `start_ns` on, then its end.
 class ReplayedProbe : public ProbeSource {
  public:
@@ -109,6 +108,7 @@ class ReplayedProbe : public ProbeSource {
   LinkStatistics statistics_;
 };
 
+// A pose every `period_ns`, at rest; px_m counts the frames in µm.
 class FakePoses : public PoseSource {
  public:
   FakePoses(std::shared_ptr<FakeControl> control, std::int64_t period_ns)

@@ -91,6 +91,28 @@ TEST(FindTagFrame, OpenCvsIsCalledSo) {
   EXPECT_THAT(finding.description, HasSubstr("OpenCV"));
 }
 
+// Two tags in a plane, one above the other: half a turn about the line across them maps the body onto itself, so that
+// two frames fit alike.
+TEST(FindTagFrame, OfFramesThatFitAlikeTheMostUsualIsTakenAndTheOthersAreTold) {
+  std::vector<MarkerPlacement> body(2);
+  for (int i = 0; i < 2; ++i) {
+    body[static_cast<std::size_t>(i)] = {i, "tag36h11", 0.046, {Eigen::Quaterniond::Identity(), {0.0, 0.058 * i, 0.0}}};
+  }
+  const Eigen::Quaterniond R = R_frame_tag(TagFrame::kOpenCvUpright, "tag36h11");
+  const auto finding = find_tag_frame(camera_640(), with_tag_frame(body, R.conjugate()), frames_of(body));
+  ASSERT_TRUE(finding.determined);
+  EXPECT_FALSE(finding.as_declared);
+  EXPECT_LT(finding.R_frame_tag.angularDistance(R), 1e-6);
+  EXPECT_EQ(finding.description, "x right, y up, z out of the tag, upright as libapriltag draws it");
+  EXPECT_THAT(finding.as_good, testing::ElementsAre("x left, y up, z into the tag, upright as libapriltag draws it"));
+}
+
+TEST(FindTagFrame, ABodyThatTellsTheFramesApartHasNoOthers) {
+  const auto body = odd_body();
+  const auto written = with_tag_frame(body, R_frame_tag(TagFrame::kOpenCv, "tag36h11").conjugate());
+  EXPECT_TRUE(find_tag_frame(camera_640(), written, frames_of(body)).as_good.empty());
+}
+
 TEST(FindTagFrame, WhatFitsInNoWayIsLeftAsDeclared) {
   auto body = odd_body();
   const auto frames = frames_of(body);

@@ -178,6 +178,26 @@ TEST(OpenForces, GoToTheNearestRow) {
   EXPECT_EQ(decoder->statistics().force_samples, 4u);
 }
 
+// What a frame does not have is no reading of zero.
+TEST(OpenRows, SensorsThatAreAbsentAreNan) {
+  OpenSamples frame;
+  frame.row_count = 1;
+  Bytes bytes;
+  append_open_samples(frame, bytes);
+  frame.sequence = frame.imu_index = 1;
+  frame.time_us = 250;
+  frame.has_gyro = true;
+  frame.rows[0].gyro = {1, 2, 3};
+  append_open_samples(frame, bytes);
+  const auto decoder = make_probe_decoder(ProbeProtocol::kOpen);
+  std::vector<ProbeSample> samples;
+  decoder->push(bytes, 0, samples);
+  ASSERT_EQ(samples.size(), 2u);
+  EXPECT_TRUE(samples[0].gyro_counts.array().isNaN().all());
+  EXPECT_EQ(samples[1].gyro_counts, Eigen::Vector3d(1.0, 2.0, 3.0));
+  EXPECT_TRUE(samples[1].force3_counts.array().isNaN().all());
+}
+
 TEST(OpenForces, FramesOfOneRow) {
   const auto decoder = make_probe_decoder(ProbeProtocol::kOpen);
   std::vector<ProbeSample> samples;

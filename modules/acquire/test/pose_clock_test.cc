@@ -57,6 +57,16 @@ TEST(PoseStream, TheSendersClockTakesTheLinksJitterAway) {
   EXPECT_LT(largest_ns, 0.5e6);  // ns; arrival alone would be up to 5 ms off
 }
 
+TEST(PoseStream, TimesAheadOfTheHostsClockAreNoPoses) {
+  const std::deque<std::pair<std::int64_t, std::string>> datagrams{
+      {2'000'000'000, "4611686018427387904,0,0,0,1,0,0,0\n1990000000,0,0,0,1,0,0,0\n"}};
+  const auto live = make_pose_stream(std::make_unique<PlayedDatagrams>(datagrams), PoseTimes::kHostClock);
+  EXPECT_EQ(live->read(milliseconds(0)).value().sample.t_ns, 1'990'000'000);
+  EXPECT_THAT(live->warnings(), testing::ElementsAre(testing::HasSubstr("ahead of this host's clock")));
+  const auto file = make_pose_stream(std::make_unique<PlayedDatagrams>(datagrams));
+  EXPECT_EQ(file->read(milliseconds(0)).value().sample.t_ns, std::int64_t{1} << 62);
+}
+
 TEST(PoseStream, ANewClockOfTheSenderIsNoLeapInTime) {
   std::deque<std::pair<std::int64_t, std::string>> datagrams;
   for (int i = 0; i < 200; ++i) {

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <string_view>
 
 #include "asperity/acquire/open_pose_stream.h"
@@ -44,8 +45,9 @@ TEST(PoseLines, CountsWhatIsNoPose) {
   lines.push(bytes_of(std::string(100'000, '1') + "\n"), 0, poses);
   EXPECT_EQ(lines.bad_lines(), 7u);
   EXPECT_TRUE(poses.empty());
-  lines.push(bytes_of("1,0,0,0,1,0,0,0\n"), 0, poses);
-  EXPECT_EQ(poses.size(), 1u);
+  lines.push(bytes_of("1,0,0,0,1,0,0,0,2,inf\n"), 0, poses);
+  ASSERT_EQ(poses.size(), 1u);
+  EXPECT_TRUE(std::isnan(poses[0].reprojection_px));
 }
 
 TEST(PoseLines, SurvivesAnyBytes) {

@@ -132,10 +132,10 @@ class SilentSource : public ByteSource {
 
 TEST(ProbeLink, AsksAnOpenProbeForItsDescription) {
   std::vector<Bytes> written;
+  const auto begin = std::chrono::steady_clock::now();
   ProbeLink link(std::make_unique<SilentSource>(&written), ProbeProtocol::kOpen);
   EXPECT_FALSE(link.description().has_value());
   std::vector<ProbeSample> samples;
-  const auto begin = std::chrono::steady_clock::now();
   while (!link.description() && std::chrono::steady_clock::now() - begin < 30s) link.read(samples, 1ms);
   ASSERT_TRUE(link.description().has_value());
   EXPECT_EQ(link.description()->name, "asked");

@@ -61,8 +61,8 @@ struct Rig {
 
 TEST(Recorder, RecordsBothStreamsWithoutLoss) {
   Rig rig;
+  rig.config.start_at_once = true;
   const auto recorder = rig.record();
-  recorder->start_segment();
   ASSERT_TRUE(wait_for(*recorder, [](const RecorderSnapshot& now) { return now.recorded_s > 1.2; }));
   const RecorderSnapshot live = recorder->snapshot();
   EXPECT_TRUE(live.storing);
@@ -90,7 +90,7 @@ TEST(Recorder, RecordsBothStreamsWithoutLoss) {
     ASSERT_NEAR(recording.tracker.T_world_marker[i].translation_m.x(),
                 recording.tracker.T_world_marker[i - 1].translation_m.x() + 1e-6, 1e-12);
   }
-  EXPECT_EQ(recording.probe.accel_counts.front().x(), 0.0);  // the pre-roll reaches to the start
+  EXPECT_EQ(recording.probe.accel_counts.front().x(), 0.0);
   const std::string tracker = read_file(rig.folder() / "tracker.csv", 1 << 24);
   EXPECT_THAT(tracker, HasSubstr("markers,reprojection_px,sigma_px_m,sigma_py_m,sigma_pz_m,sigma_rx_rad"));
   EXPECT_THAT(tracker, HasSubstr(",2,0.125,1e-04,1e-04,1e-04,1e-04,1e-04,1e-04\n"));
@@ -205,6 +205,21 @@ TEST(Recorder, ALostSensorIsReportedAndTakenBack) {
   EXPECT_GE(rig.probe->opened, 2);
 }
 
+// The writer of a pipe would die if its reader went.
+TEST(Recorder, ASilentStreamStaysOpen) {
+  Rig rig;
+  RecorderSensors sensors{open_fake_probe(rig.probe), open_fake_poses(rig.poses)};
+  sensors.reopen_silent_probe = false;
+  Recorder recorder(rig.folder(), {}, calibration_of(), sensors, rig.config);
+  rig.probe->silent = true;
+  ASSERT_TRUE(wait_for(recorder, [](const RecorderSnapshot& now) { return now.probe.state == SensorState::kLost; }));
+  EXPECT_EQ(recorder.snapshot().probe.message, "nothing comes");
+  rig.probe->silent = false;
+  ASSERT_TRUE(wait_for(recorder, [](const RecorderSnapshot& now) { return now.probe.returned == 1; }));
+  EXPECT_EQ(recorder.snapshot().probe.lost, 1u);
+  EXPECT_EQ(rig.probe->opened, 1);
+}
+
 TEST(Recorder, ATrackerThatSeesNothingIsNotLost) {
   Rig rig;
   rig.poses->silent = true;
@@ -266,6 +281,36 @@ TEST(Recorder, ACaptureIsRecordedWhole) {
   const std::string probe = read_file(rig.folder() / "probe.csv", 1 << 24);
   EXPECT_EQ(std::count(probe.begin(), probe.end(), '\n'), 200'001);
   EXPECT_THAT(probe, HasSubstr("\n5000000,"));
+}
+
+// A capture of which no more can be read, though it is not at its end.
+class BrokenReplay : public ReplayedProbe {
+ public:
+  using ReplayedProbe::ReplayedProbe;
+  void read(std::vector<ProbeSample>& out, std::chrono::milliseconds timeout) override {
+    if (statistics().samples >= 3000) throw Error("replay: damaged");
+    ReplayedProbe::read(out, timeout);
+  }
+};
+
+TEST(Recorder, AFaultIsToldFromTheEnd) {
+  for (const bool broken : {false, true}) {
+    Rig rig;
+    rig.config.start_at_once = true;
+    RecorderSensors sensors;
+    sensors.open_probe = [broken]() -> std::unique_ptr<ProbeSource> {
+      if (broken) return std::make_unique<BrokenReplay>(5'000'000, 250'000, 6000);
+      return std::make_unique<ReplayedProbe>(5'000'000, 250'000, 6000);
+    };
+    sensors.probe_describes_itself = false;
+    sensors.reopen_probe = false;
+    sensors.replayed = true;
+    Recorder recorder(rig.folder(), {}, calibration_of(), sensors, rig.config);
+    ASSERT_TRUE(wait_for(recorder, [](const RecorderSnapshot& now) { return now.probe.state == SensorState::kEnded; }));
+    const RecorderSnapshot end = recorder.finish();
+    EXPECT_EQ(end.probe.failed, broken);
+    EXPECT_EQ(end.probe_rows, broken ? 3000u : 6000u);
+  }
 }
 
 // The figures of one snapshot belong together, whichever thread asks.

@@ -11,6 +11,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "asperity/base/error.h"
+#include "asperity/base/text.h"
 #include "camera_bundle.h"
 #include "camera_start.h"
 #include "camera_views.h"
@@ -227,8 +228,8 @@ CameraFit calibrate_camera(std::span<const BoardView> all_views, int width, int 
     left_out.push_back(
         describe(view, fit.bundle.parameters, fit.bundle.T_camera_board[static_cast<std::size_t>(at)], false));
     out.problems.push_back(
-        {"view_left_out", fmt::format("{}: its corners miss by {:.2f} px RMS, the median is {:.2f} px", view.name,
-                                      *worst, median(rms))});
+        {"view_left_out", fmt::format("{}: its corners miss by {:.2f} px RMS, the median is {:.2f} px",
+                                      printable(view.name), *worst, median(rms))});
     views.erase(views.begin() + at);
     start = fit.bundle;
     start.T_camera_board.erase(start.T_camera_board.begin() + at);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/base/text.h"
 
 namespace asperity {
 
@@ -71,7 +72,8 @@ CameraBundle start_bundle(std::span<const BoardView* const> views, int width, in
     bundle.parameters.head<4>() << f, f, 0.5 * (width - 1), 0.5 * (height - 1);
     for (std::size_t v = 0; v < views.size(); ++v) {
       const std::vector<Pose> poses = planar_poses(cv_views[v], bundle.parameters);
-      if (poses.empty()) throw Error(fmt::format("calibrate camera: {}: no pose of the board fits", views[v]->name));
+      if (poses.empty())
+        throw Error(fmt::format("calibrate camera: {}: no pose of the board fits", printable(views[v]->name)));
       bundle.T_camera_board.push_back(poses.front());
     }
     return bundle;

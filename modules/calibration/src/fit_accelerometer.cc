@@ -46,7 +46,19 @@ std::string missing_directions(const ForcePoses& poses) {
   return out;
 }
 
-// The least singular value of (f/|f|, 1) over √poses; refuses directions that do not determine the linear model.
+// The singular values of (f/|f|, 1), the least of which over √poses tells how far the directions spread.
+Eigen::JacobiSVD<Eigen::MatrixXd> directions_of(const ForcePoses& poses) {
+  Eigen::MatrixXd G = design(poses, {0, 1, 2});
+  const double size = mean_force(poses);
+  G.leftCols<3>() /= size > 0.0 ? size : 1.0;
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(G, Eigen::ComputeThinU | Eigen::ComputeThinV);
+}
+
+double spread_of(const ForcePoses& poses, const Eigen::JacobiSVD<Eigen::MatrixXd>& directions) {
+  return directions.singularValues()[3] / std::sqrt(static_cast<double>(poses.size()));
+}
+
+// The spread; refuses directions that do not determine the linear model.
 double check_directions(const ForcePoses& poses, const FitAccelerometerConfig& config) {
   if (poses.size() < config.fewest_poses) {
     throw Error(
@@ -54,11 +66,8 @@ double check_directions(const ForcePoses& poses, const FitAccelerometerConfig& c
                     "every side up once, and hold each for two seconds",
                     poses.size(), config.fewest_poses));
   }
-  Eigen::MatrixXd G = design(poses, {0, 1, 2});
-  const double size = mean_force(poses);
-  G.leftCols<3>() /= size > 0.0 ? size : 1.0;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(G, Eigen::ComputeThinV);
-  const double spread = svd.singularValues()[3] / std::sqrt(static_cast<double>(poses.size()));
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd = directions_of(poses);
+  const double spread = spread_of(poses, svd);
   if (spread >= config.least_spread) return spread;
   Eigen::Index axis = 0;
   svd.matrixV().col(3).head<3>().cwiseAbs().maxCoeff(&axis);
@@ -202,9 +211,12 @@ AccelerometerFit fit_accelerometer(const AccelerometerSamples& samples, const Fi
   constexpr double kGone = 0.5;   // once shown, averaging goes on until hardly anything is left
   constexpr Eigen::Index kFewestAveraged = 24;
   while (correlated(out.joined == 1 ? kShown : kGone) && poses.size() >= 2 * kFewestAveraged) {
-    poses = average_pairs(poses);
+    const ForcePoses pairs = average_pairs(poses);
+    const double spread = spread_of(pairs, directions_of(pairs));
+    if (!(spread >= config.least_spread)) break;  // neighbours face opposite ways: their mean says nothing
+    poses = pairs;
     out.joined *= 2;
-    out.spread = check_directions(poses, config);
+    out.spread = spread;
     linear = fit_linear(poses);
     out.correlation = neighbour_correlation(poses, linear);
   }

@@ -64,6 +64,7 @@ Likelihood run_filter(const Series& series, double white, double slow, double ti
     state_one += gain * eo;
     variance -= gain * variance;
   }
+  if (!(oo > 0.0)) return out;  // an empty series says nothing
   out.mean = xo / oo;
   out.square = xx - xo * xo / oo;
   out.log_determinant += std::log(oo);
@@ -110,7 +111,7 @@ Eigen::Matrix3d covariance_of(const Series& series, const Logs& at) {
     }
   }
   const Eigen::LLT<Eigen::Matrix3d> root(0.5 * curvature);
-  if (root.info() != Eigen::Success) return Eigen::Matrix3d::Identity() * std::numeric_limits<double>::infinity();
+  if (root.info() != Eigen::Success) return Eigen::Matrix3d::Constant(std::numeric_limits<double>::infinity());
   return root.solve(Eigen::Matrix3d::Identity());
 }
 

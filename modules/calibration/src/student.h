@@ -11,7 +11,4 @@ double student_quantile(double confidence, double degrees_of_freedom);
 // The probability that F(a, b) is at least `f`.
 double fisher_tail(double f, double a, double b);
 
-// The value that χ² with `degrees_of_freedom` exceeds with `probability`.
-double chi_squared_quantile(double probability, double degrees_of_freedom);
-
 }  // namespace asperity

@@ -179,6 +179,33 @@ TEST(FitAccelerometer, SlowTurnsWithDriftingErrorsKeepTheirErrors) {
   coverage.expect("accelerometer under a known force, turned slowly, correlated errors", kTrials);
 }
 
+// Each direction with its opposite next to it, and errors that last from pose to pose: averaged in pairs the forces
+// would be nothing. The poses determine the model all the same; only their errors are not independent.
+TEST(FitAccelerometer, OppositePosesInARowAreNotAveragedAway) {
+  Random random(9);
+  SimulatedAccelerometer sensor = seed_sensor();
+  sensor.drift_counts = 0.0;
+  AccelerometerSamples samples;
+  Eigen::Vector3d drift = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction;
+  for (int pose = 0; pose < 64; ++pose) {
+    if (pose % 2 == 0) direction = test::random_direction(random);
+    drift = 0.9 * drift + 2.0 * test::random_direction(random);
+    const Eigen::Vector3d f = (pose % 2 == 0 ? 1.0 : -1.0) * kStandardGravity_mps2 * direction;
+    for (int i = 0; i < 40; ++i) {
+      samples.t_s.push_back(static_cast<double>(samples.size()) / sensor.rate_Hz);
+      samples.counts.push_back(sensor.read(f, drift, random));
+      samples.specific_force_mps2.push_back(f);
+    }
+  }
+  const AccelerometerFit fit = fit_accelerometer(samples);
+  EXPECT_EQ(fit.joined, 1U);
+  EXPECT_EQ(fit.poses, 64U);
+  EXPECT_GT(fit.correlation, 0.5);
+  EXPECT_FALSE(fit.verdict.trustworthy);
+  EXPECT_THAT(fit.verdict.text, HasSubstr("neighbouring poses are alike"));
+}
+
 TEST(FitAccelerometer, RefusesDirectionsThatDetermineNothing) {
   Random random(5);
   const SimulatedAccelerometer sensor = seed_sensor();

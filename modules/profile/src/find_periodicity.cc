@@ -16,6 +16,7 @@ namespace {
 
 constexpr int kHarmonics = 4;
 constexpr std::size_t kSearchPoints = 10000;  // a longer profile adds nothing to the search, only to the phase's line
+constexpr double kReachOfLag = 0.03;          // as far as the lag's parabola may be off
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 // The mean product at a lag over the mean square of the same points, gaps left out.
@@ -70,11 +71,12 @@ double find_lag(std::span<const double> x, std::size_t shortest, std::size_t lon
   return 0.0;
 }
 
-double refine_frequency(std::span<const double> x, double f) {
-  // Steps of an eighth of the resolution, as far as the lag's parabola may be off.
+// The frequency near `f` whose harmonics hold most power, searched over a relative distance of `relative_reach`.
+double refine_frequency(std::span<const double> x, double f, double relative_reach) {
+  // Steps of an eighth of the resolution.
   const double step = 0.125 / static_cast<double>(x.size());
   double best = f, most = harmonic_power(x, f);
-  const int reach = static_cast<int>(std::clamp(0.03 * f / step, 4.0, 64.0));
+  const int reach = static_cast<int>(std::clamp(relative_reach * f / step, 4.0, 64.0));
   for (int k = -reach; k <= reach; ++k) {
     const double power = harmonic_power(x, f + k * step);
     if (power > most) {
@@ -85,6 +87,20 @@ double refine_frequency(std::span<const double> x, double f) {
   const double before = harmonic_power(x, best - step), after = harmonic_power(x, best + step);
   const double bend = before - 2.0 * most + after;
   return bend < 0.0 ? best + 0.5 * step * (before - after) / bend : best;
+}
+
+// In noise the peak at twice or thrice the period may happen to be the highest. Where the correlation is so weak that
+// noise decides, the shortest of these periods is taken whose harmonics hold as much power as those of the long one.
+double undo_multiple(std::span<const double> x, double f) {
+  constexpr double kClear = 0.6;
+  constexpr double kReachInNoise = 0.06;
+  if (autocorrelation(x, static_cast<std::size_t>(std::lround(1.0 / f))) >= kClear) return f;
+  const double power = harmonic_power(x, f);
+  for (const int multiple : {4, 3, 2}) {
+    const double shorter = refine_frequency(x, multiple * f, kReachInNoise);
+    if (shorter < 0.5 && harmonic_power(x, shorter) >= power) return shorter;
+  }
+  return f;
 }
 
 // Corrects f by the drift of the fundamental's phase and gives its standard error, relative.
@@ -159,7 +175,7 @@ Periodicity find_periodicity(std::span<const double> height_m, double spacing_m,
   const std::span<const double> part = search_part(x);
   const double lag = find_lag(part, shortest, std::min(longest, part.size() / 3));
   if (!(lag > 0.0)) return out;
-  double f = refine_frequency(part, 1.0 / lag);
+  double f = undo_multiple(part, refine_frequency(part, 1.0 / lag, kReachOfLag));
   const double relative = follow_phase(x, f);
   const double period = 1.0 / f;
   out.pitch_m = spacing_m * period;

@@ -4,7 +4,6 @@
 #include <unistd.h>
 #include <cerrno>
 #include <cstring>
-#include <string_view>
 
 #include "asperity/base/error.h"
 #include "asperity/recording/format.h"
@@ -22,16 +21,6 @@ constexpr std::size_t kBatch_bytes = 64 * 1024;
 
 [[noreturn]] void fail(const fs::path& path) {
   throw Error(path.string() + ": cannot be written: " + std::strerror(errno));
-}
-
-bool write_whole(int file, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t count = ::write(file, text.data(), text.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return true;
 }
 
 }  // namespace
@@ -129,18 +118,6 @@ void RecordingAppender::flush(bool to_disk) {
     stream->write();
     if (to_disk && ::fdatasync(stream->file) != 0) fail(stream->path);
   }
-}
-
-void RecordingAppender::update(const RecordingInfo& info) {
-  const std::string text = format_recording_info(info);
-  const fs::path temporary = folder_ / ".recording.json.new";
-  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) fail(temporary);
-  const bool written = write_whole(file, text);
-  const int reason = errno;
-  ::close(file);
-  errno = reason;
-  if (!written || ::rename(temporary.c_str(), (folder_ / "recording.json").c_str()) != 0) fail(temporary);
 }
 
 void RecordingAppender::finish(const RecordingInfo& info, bool only_segments) {

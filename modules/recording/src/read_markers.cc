@@ -31,17 +31,25 @@ TagFrame read_tag_frame(JsonObject& object) {
   std::string text = "apriltag";
   object.read_text("tag_frame", text);
   if (text == "apriltag") return TagFrame::kAprilTag;
-  if (text == "opencv") return TagFrame::kOpenCv;
-  object.fail("tag_frame", fmt::format("'{}' is not apriltag or opencv", printable(text)));
+  for (const TagFrame frame : {TagFrame::kOpenCv, TagFrame::kOpenCvUpright}) {
+    if (text == name_of(frame)) return frame;
+  }
+  object.fail("tag_frame", fmt::format("'{}' is not apriltag or opencv or opencv_upright", printable(text)));
 }
 
 }  // namespace
+
+std::string_view name_of(TagFrame frame) {
+  if (frame == TagFrame::kAprilTag) return "apriltag";
+  return frame == TagFrame::kOpenCv ? "opencv" : "opencv_upright";
+}
 
 Eigen::Quaterniond R_frame_tag(TagFrame frame, std::string_view family) {
   if (frame == TagFrame::kAprilTag) return Eigen::Quaterniond::Identity();
   // OpenCV's frame is x right, y up, z towards the viewer, and its pictures of AprilTag's first families are turned by
   // half a turn in their plane.
-  const bool turned = family == "tag36h11" || family == "tag36h10" || family == "tag25h9" || family == "tag16h5";
+  const bool turned = frame == TagFrame::kOpenCv &&
+                      (family == "tag36h11" || family == "tag36h10" || family == "tag25h9" || family == "tag16h5");
   return turned ? Eigen::Quaterniond(0.0, 0.0, 1.0, 0.0) : Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
 }
 

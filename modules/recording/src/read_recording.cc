@@ -22,7 +22,7 @@ Truth read_truth(const fs::path& path, Problems& problems, const ReadLimits& lim
   return parse_truth_csv(read_file(path, limits.csv_bytes), path.string(), problems, limits);
 }
 
-Recording read_recording(const fs::path& folder, const ReadLimits& limits) {
+Recording read_probe_recording(const fs::path& folder, const ReadLimits& limits) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) throw Error(folder.string() + ": not a recording folder");
   const fs::path info = folder / "recording.json";
@@ -36,9 +36,15 @@ Recording read_recording(const fs::path& folder, const ReadLimits& limits) {
   out.calibration = read_calibration(calibration, limits);
   const fs::path probe = folder / "probe.csv";
   out.probe = parse_probe_csv(read_file(probe, limits.csv_bytes), probe.string(), out.problems, limits);
+  return out;
+}
+
+Recording read_recording(const fs::path& folder, const ReadLimits& limits) {
+  Recording out = read_probe_recording(folder, limits);
   const fs::path tracker = folder / "tracker.csv";
   out.tracker = parse_tracker_csv(read_file(tracker, limits.csv_bytes), tracker.string(), out.problems, limits);
   const fs::path truth = folder / "truth.csv";
+  std::error_code error;
   if (fs::exists(truth, error)) out.truth = read_truth(truth, out.problems, limits);
   close_unfinished(out);
   return out;

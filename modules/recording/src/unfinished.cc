@@ -1,9 +1,29 @@
 #include "unfinished.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 namespace asperity {
+
+namespace {
+
+// A segment may have begun that recording.json did not yet know of.
+void add_unlisted(Recording& recording, const nlohmann::json& recorder, std::int64_t last_row_ns) {
+  constexpr std::int64_t kOverhang_ns = 200'000'000;  // rows that a segment may have behind its end
+  std::int64_t known_ns = std::numeric_limits<std::int64_t>::min();
+  for (const Segment& segment : recording.info.segments) known_ns = std::max(known_ns, segment.end_ns);
+  if (recorder.contains("discarded_until_ns") && recorder["discarded_until_ns"].is_number_integer())
+    known_ns = std::max(known_ns, recorder["discarded_until_ns"].get<std::int64_t>());
+  const auto& t_ns = recording.probe.t_ns;
+  const auto first = std::upper_bound(t_ns.begin(), t_ns.end(), known_ns);
+  if (first == t_ns.end() || last_row_ns - *first < kOverhang_ns) return;
+  recording.info.segments.push_back({"unfinished", *first, last_row_ns});
+}
+
+}  // namespace
 
 void close_unfinished(Recording& recording) {
   const auto extra = nlohmann::json::parse(recording.info.extra_json, nullptr, false);
@@ -11,11 +31,16 @@ void close_unfinished(Recording& recording) {
   const auto& recorder = extra["recorder"];
   if (!recorder.contains("state") || recorder["state"] != "recording") return;
   recording.problems.push_back({"unfinished", "the recorder did not come to its end; what it had stored is there"});
+  std::int64_t last_row_ns = std::numeric_limits<std::int64_t>::min();
+  if (recording.probe.size() > 0) last_row_ns = std::max(last_row_ns, recording.probe.t_ns.back());
+  if (recording.tracker.size() > 0) last_row_ns = std::max(last_row_ns, recording.tracker.t_ns.back());
+  std::vector<Segment>& segments = recording.info.segments;
   const bool open = recorder.contains("last_segment_is_open") && recorder["last_segment_is_open"] == true;
-  if (!open || recording.info.segments.empty()) return;
-  Segment& last = recording.info.segments.back();
-  if (recording.probe.size() > 0) last.end_ns = std::max(last.end_ns, recording.probe.t_ns.back());
-  if (recording.tracker.size() > 0) last.end_ns = std::max(last.end_ns, recording.tracker.t_ns.back());
+  if (open && !segments.empty()) {
+    segments.back().end_ns = std::max(segments.back().end_ns, last_row_ns);
+    return;
+  }
+  add_unlisted(recording, recorder, last_row_ns);
 }
 
 }  // namespace asperity

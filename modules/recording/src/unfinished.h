@@ -5,7 +5,8 @@
 namespace asperity {
 
 // A recorder that died (extra.recorder.state is "recording") could not write down where its last segment ends: it
-// then reaches to the last row. Adds a Problem "unfinished".
+// then reaches to the last row, and rows that lie behind all that is listed or discarded are one called "unfinished".
+// Adds a Problem "unfinished".
 void close_unfinished(Recording& recording);
 
 }  // namespace asperity

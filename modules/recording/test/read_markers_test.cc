@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 #include "asperity/base/error.h"
+#include "asperity/base/output.h"
+#include "asperity/testkit/temp_dir.h"
 
 namespace asperity {
 namespace {
@@ -39,6 +42,10 @@ TEST(ReadMarkers, MarkersAreRead) {
 TEST(ReadMarkers, OpenCvsFrameIsConverted) {
   const MarkerFile file = parse_markers("{\"tag_frame\":\"opencv\",\"markers\":[" + marker(3) + "]}", "markers.json");
   EXPECT_EQ(file.declared, TagFrame::kOpenCv);
+  EXPECT_EQ(parse_markers("{\"tag_frame\":\"opencv_upright\",\"markers\":[" + marker(3) + "]}", "m.json").declared,
+            TagFrame::kOpenCvUpright);
+  EXPECT_TRUE((R_frame_tag(TagFrame::kOpenCvUpright, "tag36h11") * Eigen::Vector3d::UnitX())
+                  .isApprox(Eigen::Vector3d::UnitX()));
   // OpenCV's picture of this family is turned by half a turn: seen upright as AprilTag draws it, OpenCV's x points
   // left, y down and z out of the tag.
   const Eigen::Quaterniond& R = file.markers[0].T_marker_tag.rotation;
@@ -74,6 +81,21 @@ TEST(ReadMarkers, WhatIsWrongIsNamed) {
   std::string many = "{\"markers\":[" + marker(0);
   for (int i = 1; i < 1001; ++i) many += "," + marker(i);
   expect_error(many + "]}", "1 to 1000");
+}
+
+TEST(ReadMarkers, ADictionarysFileStaysInTheFolder) {
+  const testkit::TempDir folder;
+  const auto write = [&](const std::string& family) {
+    std::string text = "{\"markers\":[" + marker(3) + "]}";
+    text.replace(text.find("tag36h11"), 8, family);
+    write_file(folder.path() / "markers.json", text);
+    return folder.path() / "markers.json";
+  };
+  const MarkerFile file = read_markers(write("aruco:own.yml"));
+  EXPECT_EQ(file.markers[0].family, "aruco:" + (folder.path() / "own.yml").string());
+  EXPECT_EQ(read_markers(write("aruco:DICT_4X4_50")).markers[0].family, "aruco:DICT_4X4_50");
+  EXPECT_THROW(read_markers(write("aruco:../own.yml")), Error);
+  EXPECT_THROW(read_markers(write("aruco:/etc/own.yml")), Error);
 }
 
 TEST(ReadMarkers, AFileWithoutACameraIsRefused) {

@@ -77,13 +77,13 @@ struct LiveBench::Impl {
   }
 
   void play_probe() {
-    constexpr std::int64_t kTick_ns = 1'000'000;
+    constexpr std::int64_t kTick_ns = 250'000;           // two microframes of a fast USB link
     constexpr std::int64_t kAfterwards_ns = 50'000'000;  // the last frame is not full
     constexpr std::size_t kMostWaiting = std::size_t{1} << 18;
     const std::int64_t end_ns = recording.truth->t_ns.back() + kAfterwards_ns;
     std::vector<std::uint8_t> sent, waiting, heard;
     std::int64_t due_ns = host_start_ns;
-    for (bool more = true; more && sleep_until(due_ns); due_ns += kTick_ns) {
+    for (bool more = true; more && sleep_until(due_ns);) {
       const std::int64_t host_ns = now_ns();
       const std::int64_t t_ns = std::min(host_ns - shift_ns, end_ns);
       report.latest_probe_s = std::max(report.latest_probe_s, 1e-9 * static_cast<double>(host_ns - due_ns));
@@ -102,10 +102,11 @@ struct LiveBench::Impl {
       }
       if (!waiting.empty())
         waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(terminal.write(waiting)));
+      due_ns += kTick_ns * std::max<std::int64_t>(1, (host_ns - due_ns) / kTick_ns);
     }
     // Closing the near end would take from the reader what it has not read yet.
     const std::int64_t linger_end_ns = now_ns() + std::llround(config.linger_s * 1e9);
-    while (terminal.has_reader() && now_ns() < linger_end_ns && sleep_until(now_ns() + 10 * kTick_ns)) {
+    while (terminal.has_reader() && now_ns() < linger_end_ns && sleep_until(now_ns() + 40 * kTick_ns)) {
       if (!waiting.empty())
         waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(terminal.write(waiting)));
     }

@@ -24,7 +24,7 @@ class ContactDetector {
   // Throws Error if a lower threshold lies above its upper one.
   ContactDetector(const ContactConfig& config, const std::optional<ForceCalibration>& force);
 
-  // The next sample of the force, times rising; nan is passed over. What has changed by it.
+  // The next sample of the force; nan is passed over, and a time that does not rise. What has changed by it.
   std::optional<ContactChange> push(std::int64_t t_ns, double force_counts);
 
   bool touching() const { return touching_; }

@@ -28,13 +28,14 @@ std::unique_ptr<PoseSource> open_pose_stream(const PoseAddress& address);
 
 // Whose clock the times in the lines are of.
 enum class PoseTimes {
-  kHostClock,     // this host's monotonic one: taken as they are
+  kAsWritten,     // of any one clock: taken as they are
+  kHostClock,     // this host's monotonic one: what is more than a second ahead of its arrival is no pose
   kSendersClock,  // any that counts ns: brought to the host's by device_clock.h, whose constant delay is latency
 };
 
 // The poses in the lines that `bytes` gives. Over UDP open_pose_stream takes the sender's clock: another machine has
 // another one.
 std::unique_ptr<PoseSource> make_pose_stream(std::unique_ptr<ByteSource> bytes,
-                                             PoseTimes times = PoseTimes::kHostClock);
+                                             PoseTimes times = PoseTimes::kAsWritten);
 
 }  // namespace asperity

@@ -22,6 +22,10 @@ struct RecorderSensors {
   bool probe_describes_itself = true;                       // false: the columns are known without
   bool reopen_probe = true;                                 // false: a file, whose end is the end, and which can wait
   bool reopen_poses = true;
+  // False: a pipe or a socket, which goes on after a silence, and whose other end might not begin anew if it was
+  // closed.
+  bool reopen_silent_probe = true;
+  bool reopen_silent_poses = true;
   bool replayed = false;  // times are not of now: commands happen at the newest row's
 };
 

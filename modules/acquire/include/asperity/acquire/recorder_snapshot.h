@@ -27,6 +27,7 @@ struct SensorSnapshot {
   std::string name;
   std::vector<std::string> warnings;  // of how it is set up, as the sensor says them
   std::string message;         // why it is lost or has ended, as the system says it: escape it where it is printed
+  bool failed = false;         // it has ended by a fault, such as an image that cannot be read, before its end
   std::uint64_t lost = 0;      // times
   std::uint64_t returned = 0;  // times
   double rate_Hz = 0.0;        // rows in the last second

@@ -46,6 +46,10 @@ class SegmentWriter {
   std::size_t count() const { return segments_.size(); }
   std::string last_name() const { return segments_.empty() ? "" : segments_.back().name; }
   std::size_t discarded() const { return discarded_; }
+  // The latest end of what was discarded; nullopt: nothing was.
+  std::optional<std::int64_t> discarded_until_ns() const {
+    return discarded_until_ns_ == kNever ? std::nullopt : std::optional(discarded_until_ns_);
+  }
   std::uint64_t probe_rows() const { return probe_.written; }
   std::uint64_t tracker_rows() const { return tracker_.written; }
   std::uint64_t late_rows() const { return probe_.late + tracker_.late; }

@@ -15,16 +15,18 @@
 namespace asperity {
 
 struct BodyPoseConfig {
-  double corner_sigma_px = 0.1;  // error of a coordinate of a corner that brings no covariance
-  double prior_dof = 4.0;        // how many residuals the corners' own covariances are worth against the frame's
-  double outlier_sigmas = 6.0;   // a corner farther off than this has no weight
-  double ambiguous_ratio = 3.0;  // of the residuals of the runner-up and the best: below, they are not told apart
+  double corner_sigma_px = 0.1;    // error of a coordinate of a corner that brings no covariance
+  double placement_sigma_m = 0.0;  // of each tag's place on the body, in each direction
+  double prior_dof = 4.0;          // how many residuals the corners' own covariances are worth against the frame's
+  double outlier_sigmas = 6.0;     // a corner farther off than this has no weight
+  double ambiguous_ratio = 3.0;    // of the residuals of the runner-up and the best: below, they are not told apart
   int most_iterations = 30;
 
   template <class V>
   void visit(V& v) {
     v.field("corner_sigma_px", corner_sigma_px, "error of a coordinate of a corner that brings no covariance",
             {1e-4, 10.0});
+    v.field("placement_sigma_m", placement_sigma_m, "of each tag's place on the body, in each direction", {0.0, 0.1});
     v.field("prior_dof", prior_dof, "how many residuals the corners' own covariances are worth against the frame's",
             {0.0, 1e6});
     v.field("outlier_sigmas", outlier_sigmas, "a corner farther off than this has no weight", {2.0, 100.0});
@@ -58,7 +60,9 @@ struct BodyPose {
 // the median). The covariance is that of the least squares times a variance factor that the residual shows, a scaled
 // inverse χ² estimate with `prior_dof` at 1:
 //   s² = (ν₀ + Σ w r²) / (ν₀ + 2 n − 6).
-// nullopt if no tag was seen or no pose puts the body in front of the camera. Throws Error for a tag that the
+// It is the error of one frame against the next ones: what is wrong with all of them alike (the camera's calibration,
+// a printed size, a tag's place on the body) is in it only as far as the residual shows it, or `placement_sigma_m`
+// says. nullopt if no tag was seen or no pose puts the body in front of the camera. Throws Error for a tag that the
 // body does not have.
 std::optional<BodyPose> solve_body_pose(const CameraCalibration& camera, const std::vector<MarkerPlacement>& body,
                                         std::span<const SeenTag> seen, const std::optional<Pose>& predicted = {},

@@ -29,6 +29,8 @@ struct TrackConfig {
   double fastest_mps = 5.0;     // a single tag that has jumped farther is not the body's
   double fastest_radps = 60.0;
   bool find_tag_frame = true;
+  bool find_faint = true;    // where no tag is seen: look again, in parts of the grey levels
+  bool find_covered = true;  // tags that were not detected, by their picture, where the others say they are
 
   template <class V>
   void visit(V& v) {
@@ -43,12 +45,16 @@ struct TrackConfig {
     v.field("fastest_mps", fastest_mps, "a single tag that has jumped farther is not the body's", {0.01, 1000.0});
     v.field("fastest_radps", fastest_radps, "a single tag that has turned farther is not the body's", {0.1, 10000.0});
     v.field("find_tag_frame", find_tag_frame, "find out how the tags' frames lie where the declared one does not fit");
+    v.field("find_faint", find_faint, "where no tag is seen: look again, in parts of the grey levels");
+    v.field("find_covered", find_covered,
+            "tags that were not detected, by their picture, where the others say they are");
   }
 };
 
 // Follows a rigid body of tags from frame to frame: predict by the last two poses, look for tags round the prediction
-// (in the whole image where there is none, or nothing was found), refine their corners, solve the pose. One thread at a
-// time.
+// (in the whole image where there is none, or nothing was found; then in parts of its grey levels, for tags of little
+// contrast), refine their corners, solve the pose, look for tags that were not detected by their picture, solve it
+// again. One thread at a time.
 class BodyTracker {
  public:
   // Throws Error for a camera without a focal length, a body without tags or a family that is not known.

@@ -56,10 +56,6 @@ class RecordingAppender {
   // with `to_disk`, waits until a power cut cannot either. Throws Error if the disk is full.
   void flush(bool to_disk = false);
 
-  // Replaces recording.json by `info` while the recording goes on: by rename, so that a process that dies leaves
-  // the old or the new one, but without waiting for the disk. Throws Error.
-  void update(const RecordingInfo& info);
-
   // Flushes to disk, closes the streams and replaces recording.json by `info` with its final segments
   // and problems. With `only_segments` the rows that lie in none of info.segments are taken out of both streams
   // afterwards, each stream replaced by rename. Throws Error if a stream cannot be written; the rows so far

@@ -11,7 +11,11 @@
 namespace asperity {
 
 // How the frame of a tag lies on the tag, where there are several habits (docs/tracking.md).
-enum class TagFrame { kAprilTag, kOpenCv };
+enum class TagFrame {
+  kAprilTag,       // x right, y down, z into the tag
+  kOpenCv,         // x right, y up, z out of the tag, for a tag upright as OpenCV draws it
+  kOpenCvUpright,  // the same for a tag upright as libapriltag draws it
+};
 
 // A body's markers. T_marker_tag is always in terms of our tag frame, that of AprilTag: x right, y down, z into the
 // tag, for a tag upright as libapriltag draws it; a file that declares another one is converted when it is read.
@@ -20,13 +24,16 @@ struct MarkerFile {
   TagFrame declared = TagFrame::kAprilTag;
 };
 
+// "apriltag", "opencv" or "opencv_upright": as it is declared in a file.
+std::string_view name_of(TagFrame frame);
+
 // The rotation that maps our tag frame's coordinates into those of `frame` for a tag of `family`.
 Eigen::Quaterniond R_frame_tag(TagFrame frame, std::string_view family);
 
-// markers.json, {"markers":[…]} with "tag_frame":"apriltag"|"opencv" where it is not ours, or a calibration.json with
-// "markers" (its "tag_frame" in "extra"). Throws Error naming the file and the key: no marker, a marker given twice,
-// more than 1000, or a value out of range. A family "aruco:FILE.yml" is a dictionary's file in the folder of the
-// body's; read_markers gives it with that folder before it.
+// markers.json, {"markers":[…]} with "tag_frame":"apriltag"|"opencv"|"opencv_upright" where it is not ours, or a
+// calibration.json with "markers" (its "tag_frame" in "extra"). Throws Error naming the file and the key: no marker, a
+// marker given twice, more than 1000, or a value out of range. A family "aruco:FILE.yml" is a dictionary's file in the
+// folder of the body's; read_markers gives it with that folder before it.
 MarkerFile parse_markers(std::string_view text, const std::string& name, const ReadLimits& limits = {});
 MarkerFile read_markers(const std::filesystem::path& path, const ReadLimits& limits = {});
 

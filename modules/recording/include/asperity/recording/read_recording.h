@@ -13,6 +13,10 @@ namespace asperity {
 // Throws Error naming file and line, or file and key, for what cannot be used.
 Recording read_recording(const std::filesystem::path& folder, const ReadLimits& limits = {});
 
+// The same without the tracker and the truth, which need not be there: what the probe alone felt, in the hand with no
+// camera in sight.
+Recording read_probe_recording(const std::filesystem::path& folder, const ReadLimits& limits = {});
+
 // calibration.json. Throws Error naming the file and the key.
 Calibration read_calibration(const std::filesystem::path& path, const ReadLimits& limits = {});
 

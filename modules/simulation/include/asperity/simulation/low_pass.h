@@ -16,11 +16,13 @@ class SensorLowPass {
     passes_all_ = false;
     const double w = std::tan(std::numbers::pi * cutoff_Hz / rate_Hz);
     if (poles == 1) {
+      delay_s_ = 0.5 / (w * rate_Hz);
       b0_ = w / (1.0 + w);
       b1_ = b0_;
       a1_ = (w - 1.0) / (w + 1.0);
       return;
     }
+    delay_s_ = 0.5 * std::numbers::sqrt2 / (w * rate_Hz);
     const double norm = 1.0 / (1.0 + std::numbers::sqrt2 * w + w * w);
     b0_ = w * w * norm;
     b1_ = 2.0 * b0_;
@@ -42,7 +44,11 @@ class SensorLowPass {
     return y;
   }
 
+  // By which it delays what is slow against its cut-off: the group delay at frequency 0.
+  double delay_s() const { return delay_s_; }
+
  private:
+  double delay_s_ = 0.0;
   bool passes_all_ = true;
   bool settled_ = false;
   double b0_ = 1.0, b1_ = 0.0, b2_ = 0.0, a1_ = 0.0, a2_ = 0.0;
