@@ -333,23 +333,25 @@ std::optional<TrackedPose> BodyTracker::push(const GrayImage& image, std::int64_
   const std::optional<ImageRegion> region = predicted ? self.expected_region(*predicted) : std::nullopt;
   std::vector<FoundTag> found;
   std::optional<TrackedPose> out;
-  const auto pose_of_found = [&] {
+  const auto solve_found = [&] {
     if (self.settle_tag_frame(found)) out = self.solve(found, predicted, t_ns);
+    return out.has_value();
   };
+  bool solved = false;
   if (region) {
     self.find_tags(image, *region, self.band, found);
-    pose_of_found();
+    solved = solve_found();
   }
-  if (!out) {
+  if (!solved) {
     self.find_tags(image, whole(image), std::nullopt, found);
-    pose_of_found();
-    if (out) self.band.reset();
+    solved = solve_found();
+    if (solved) self.band.reset();
   }
-  if (!out && self.config.find_faint) {
+  if (!solved && self.config.find_faint) {
     self.find_faint_tags(image, found);
-    pose_of_found();
+    solved = solve_found();
   }
-  if (out && self.config.refine.enabled && self.config.find_covered &&
+  if (solved && self.config.refine.enabled && self.config.find_covered &&
       self.find_covered_tags(image, out->sample.T_world_marker, found)) {
     if (auto better = self.solve(found, out->sample.T_world_marker, t_ns)) out = std::move(better);
   }
