@@ -11,6 +11,13 @@
 
 namespace asperity {
 
+struct QueueFigures {
+  double fill = 0.0;  // share
+  double highest_fill = 0.0;
+  std::uint64_t overflowed = 0;  // rows dropped
+  std::uint64_t received = 0;    // rows
+};
+
 // Rows from a sensor's thread to the writing one. Neither waits for the other for longer than a copy takes: the
 // writer takes all at once, and what does not fit is dropped and counted.
 template <class T>
@@ -49,13 +56,7 @@ class BoundedQueue {
     emptied_.notify_one();
   }
 
-  struct Figures {
-    double fill = 0.0;
-    double highest_fill = 0.0;
-    std::uint64_t overflowed = 0;
-    std::uint64_t received = 0;
-  };
-  Figures figures() const {
+  QueueFigures figures() const {
     const std::lock_guard lock(mutex_);
     const auto share = [this](std::size_t rows) { return static_cast<double>(rows) / static_cast<double>(capacity_); };
     return {share(waiting_.size()), share(highest_), overflowed_, received_};

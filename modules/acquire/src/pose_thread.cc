@@ -29,15 +29,10 @@ TrackerSample with_sigmas(const TrackedPose& pose) {
 
 PoseThread::PoseThread(std::function<std::unique_ptr<PoseSource>()> open, bool reopen, bool reopen_silent,
                        const RecorderConfig& config)
-    : open_(std::move(open)), waits_(!reopen), source_(open_()), queue_(static_cast<std::size_t>(config.pose_queue)) {
-  if (!source_) throw Error("recorder: the tracker could not be opened");
-  name_ = source_->name();
+    : waits_(!reopen), source_(std::move(open), "tracker"), queue_(static_cast<std::size_t>(config.pose_queue)) {
   nominal_rate_Hz_ = source_->nominal_rate_Hz();
   SensorLoop loop;
-  loop.open = [this] {
-    source_ = open_();
-    if (!source_) throw Error(name_ + ": cannot be opened");
-  };
+  loop.open = [this] { source_.open_again(); };
   loop.close = [this] { close(); };
   loop.read = [this](std::chrono::milliseconds timeout) { return read(timeout); };
   loop.reopen = reopen;
@@ -67,25 +62,15 @@ bool PoseThread::read(std::chrono::milliseconds timeout) {
 }
 
 void PoseThread::close() noexcept {
-  source_.reset();
+  source_.close();
   const std::lock_guard lock(mutex_);
   before_ = before_ + now_;
   now_ = {};
 }
 
 void PoseThread::describe(RecorderSnapshot& out) const {
-  const auto health = thread_->health();
-  const auto queue = queue_.figures();
-  out.poses.name = name_;
-  out.poses.state = health.state;
-  out.poses.message = health.message;
-  out.poses.failed = health.failed;
-  out.poses.lost = health.lost;
-  out.poses.returned = health.returned;
-  out.poses.queue_fill = queue.fill;
-  out.poses.highest_queue_fill = queue.highest_fill;
-  out.poses.overflowed = queue.overflowed;
-  out.poses.received = queue.received;
+  describe_sensor(thread_->health(), queue_.figures(), out.poses);
+  out.poses.name = source_.name();
   const std::lock_guard lock(mutex_);
   out.tracking = before_ + now_;
   out.poses.warnings = warnings_;

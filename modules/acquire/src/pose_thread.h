@@ -11,6 +11,7 @@
 #include "asperity/acquire/recorder_config.h"
 #include "asperity/acquire/recorder_snapshot.h"
 #include "bounded_queue.h"
+#include "opened_source.h"
 #include "sensor_thread.h"
 
 namespace asperity {
@@ -32,13 +33,11 @@ class PoseThread {
   bool read(std::chrono::milliseconds timeout);
   void close() noexcept;
 
-  std::function<std::unique_ptr<PoseSource>()> open_;
   bool waits_;  // for room in the queue
-  std::unique_ptr<PoseSource> source_;
+  OpenedSource<PoseSource> source_;
   std::vector<TrackerSample> poses_;
   BoundedQueue<TrackerSample> queue_;
   double nominal_rate_Hz_ = 0.0;
-  std::string name_;
   mutable std::mutex mutex_;
   TrackingStatistics before_;  // of the times that it was open before
   TrackingStatistics now_;

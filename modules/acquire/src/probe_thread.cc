@@ -30,14 +30,9 @@ LinkStatistics operator+(LinkStatistics a, const LinkStatistics& b) {
 
 ProbeThread::ProbeThread(std::function<std::unique_ptr<ProbeSource>()> open, bool reopen, bool reopen_silent,
                          const RecorderConfig& config)
-    : open_(std::move(open)), waits_(!reopen), source_(open_()), queue_(static_cast<std::size_t>(config.probe_queue)) {
-  if (!source_) throw Error("recorder: the probe could not be opened");
-  name_ = source_->name();
+    : waits_(!reopen), source_(std::move(open), "probe"), queue_(static_cast<std::size_t>(config.probe_queue)) {
   SensorLoop loop;
-  loop.open = [this] {
-    source_ = open_();
-    if (!source_) throw Error(name_ + ": cannot be opened");
-  };
+  loop.open = [this] { source_.open_again(); };
   loop.close = [this] { close(); };
   loop.read = [this](std::chrono::milliseconds timeout) { return read(timeout); };
   loop.reopen = reopen;
@@ -70,7 +65,7 @@ bool ProbeThread::read(std::chrono::milliseconds timeout) {
 }
 
 void ProbeThread::close() noexcept {
-  source_.reset();
+  source_.close();
   const std::lock_guard lock(mutex_);
   before_ = before_ + now_;
   now_ = {};
@@ -88,19 +83,9 @@ std::optional<ProbeDescription> ProbeThread::description() const {
 }
 
 void ProbeThread::describe(RecorderSnapshot& out) const {
-  const auto health = thread_->health();
-  const auto queue = queue_.figures();
-  out.probe.state = health.state;
-  out.probe.message = health.message;
-  out.probe.failed = health.failed;
-  out.probe.lost = health.lost;
-  out.probe.returned = health.returned;
-  out.probe.queue_fill = queue.fill;
-  out.probe.highest_queue_fill = queue.highest_fill;
-  out.probe.overflowed = queue.overflowed;
-  out.probe.received = queue.received;
+  describe_sensor(thread_->health(), queue_.figures(), out.probe);
+  out.probe.name = source_.name();
   const std::lock_guard lock(mutex_);
-  out.probe.name = name_;
   out.link = before_ + now_;
 }
 

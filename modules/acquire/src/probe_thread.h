@@ -12,6 +12,7 @@
 #include "asperity/acquire/recorder_config.h"
 #include "asperity/acquire/recorder_snapshot.h"
 #include "bounded_queue.h"
+#include "opened_source.h"
 #include "sensor_thread.h"
 
 namespace asperity {
@@ -35,14 +36,12 @@ class ProbeThread {
   bool read(std::chrono::milliseconds timeout);
   void close() noexcept;
 
-  std::function<std::unique_ptr<ProbeSource>()> open_;
   bool waits_;  // for room in the queue
-  std::unique_ptr<ProbeSource> source_;
+  OpenedSource<ProbeSource> source_;
   std::vector<ProbeSample> samples_;
   BoundedQueue<ProbeSample> queue_;
   mutable std::mutex mutex_;
   std::condition_variable described_;
-  std::string name_;
   LinkStatistics before_;  // of the times that it was open before
   LinkStatistics now_;
   std::optional<ProbeDescription> description_;

@@ -10,7 +10,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/units.h"
 #include "asperity/recording/camera_model.h"
-#include "grey_band.h"
+#include "tag_search.h"
 
 namespace asperity {
 namespace {
@@ -24,45 +24,26 @@ double turn_between_rad(const Pose& a, const Pose& b) {
   return log_rotation(a.rotation.conjugate() * b.rotation).norm();
 }
 
-// A tag as the detector and the image's fit have seen it.
-struct FoundTag {
-  TagDetection detection;
-  SeenTag seen;
-};
-
 }  // namespace
 
 struct BodyTracker::Impl {
-  struct Family {
-    std::string name;
-    std::unique_ptr<TagDetector> detector;
-  };
+  Impl(CameraCalibration of, std::vector<MarkerPlacement> tags, const TrackConfig& settings)
+      : camera(std::move(of)), body(std::move(tags)), config(settings), search(camera, body, config) {}
 
   CameraCalibration camera;
   std::vector<MarkerPlacement> body;
   TrackConfig config;
-  std::vector<Family> families;
-  std::vector<TagPattern> patterns;  // of the body's tags
-  std::vector<PointSpread> spreads;  // as last seen of each
+  TagSearch search;
   TrackingStatistics statistics;
   Problems problems;
   std::vector<TimedPose> last;                // at most two, the newest at the end
   std::vector<std::vector<SeenTag>> misfits;  // frames that speak against the tag frame declared
   int unclear = 0;                            // frames of two tags or more that fit in no way
-  std::optional<GreyBand> band;               // in which the body was last seen, where it is not seen without
-  int faint_misses = 0;                       // images in a row without a tag in any band
   bool frame_settled = false;
   bool frame_changed = false;
 
   std::optional<Pose> predict(std::int64_t t_ns) const;
   std::optional<ImageRegion> expected_region(const Pose& pose) const;
-  // `band`: the grey levels that are looked at; nullopt for all of them.
-  void find_tags(const GrayImage& image, const ImageRegion& region, const std::optional<GreyBand>& band,
-                 std::vector<FoundTag>& out);
-  void detect(const GrayImage& view, const ImageRegion& region, std::vector<FoundTag>& out) const;
-  void find_faint_tags(const GrayImage& image, std::vector<FoundTag>& out);
-  bool find_covered_tags(const GrayImage& image, const Pose& pose, std::vector<FoundTag>& found);
-  void refine(const GrayImage& image, std::vector<FoundTag>& found);
   std::optional<TrackedPose> solve(const std::vector<FoundTag>& found, const std::optional<Pose>& predicted,
                                    std::int64_t t_ns);
   bool settle_tag_frame(const std::vector<FoundTag>& found);
@@ -105,114 +86,6 @@ std::optional<ImageRegion> BodyTracker::Impl::expected_region(const Pose& pose) 
                            column(box.max().x() + margin_px + 1.0), row(box.max().y() + margin_px + 1.0)};
   if (region.empty()) return std::nullopt;
   return region;
-}
-
-void BodyTracker::Impl::find_tags(const GrayImage& image, const ImageRegion& region, const std::optional<GreyBand>& in,
-                                  std::vector<FoundTag>& out) {
-  out.clear();
-  if (in) {
-    const GrayImage view = stretch_band(image, region, *in);
-    detect(view, whole(view), out);
-    for (FoundTag& tag : out) {
-      tag.detection.corners_px.colwise() += Eigen::Vector2d(region.left, region.top);
-      tag.seen.corners_px = tag.detection.corners_px;
-    }
-  } else {
-    detect(image, region, out);
-  }
-  if (config.refine.enabled) refine(image, out);
-}
-
-void BodyTracker::Impl::detect(const GrayImage& view, const ImageRegion& region, std::vector<FoundTag>& out) const {
-  std::vector<TagDetection> detections;
-  for (const Family& family : families) {
-    detections.clear();
-    family.detector->detect(view, region, detections);
-    for (const TagDetection& detection : detections) {
-      const auto placement = std::find_if(body.begin(), body.end(), [&](const MarkerPlacement& marker) {
-        return marker.id == detection.id && marker.family == family.name;
-      });
-      if (placement == body.end()) continue;
-      FoundTag found{detection, {}};
-      found.seen.tag = static_cast<std::size_t>(placement - body.begin());
-      found.seen.corners_px = detection.corners_px;
-      out.push_back(found);
-    }
-  }
-}
-
-// The whole image in each of the overlapping bands of grey; the band that shows most tags is kept for the next image.
-void BodyTracker::Impl::find_faint_tags(const GrayImage& image, std::vector<FoundTag>& out) {
-  out.clear();
-  band.reset();
-  const std::vector<GreyBand> bands = grey_bands();
-  // Where the body is away for long, one band an image has to do.
-  constexpr int kMostInFull = 8;
-  const bool in_full = faint_misses < kMostInFull;
-  for (std::size_t i = 0; i < bands.size(); ++i) {
-    if (!in_full && i != statistics.frames % bands.size()) continue;
-    const GreyBand& one = bands[i];
-    std::vector<FoundTag> found;
-    find_tags(image, whole(image), one, found);
-    if (found.size() <= out.size()) continue;
-    out = std::move(found);
-    band = one;
-  }
-  faint_misses = out.empty() ? faint_misses + 1 : 0;
-}
-
-// Tags that the detector has missed, most often because their border is covered in part, by their picture alone, where
-// the pose of the others says that they are. True if one was found.
-bool BodyTracker::Impl::find_covered_tags(const GrayImage& image, const Pose& pose, std::vector<FoundTag>& found) {
-  constexpr double kLeastCosine = 0.35;   // of the angle between the line of sight and the tag's axis: 70°
-  constexpr double kLeastContrast = 4.0;  // in residuals: a picture that is not there leaves one of about 0.5
-  bool any = false;
-  for (std::size_t i = 0; i < body.size(); ++i) {
-    if (std::any_of(found.begin(), found.end(), [&](const FoundTag& tag) { return tag.seen.tag == i; })) continue;
-    const Pose T_camera_tag = pose * body[i].T_marker_tag;
-    const Eigen::Vector3d axis = T_camera_tag.rotation * Eigen::Vector3d::UnitZ();
-    if (!(axis.dot(T_camera_tag.translation_m) > kLeastCosine * T_camera_tag.translation_m.norm())) continue;
-    const Eigen::Matrix<double, 3, 4> corners_m = tag_corners_m(body[i]);
-    FoundTag tag;
-    tag.detection.id = body[i].id;
-    bool inside = true;
-    for (int k = 0; k < 4 && inside; ++k) {
-      const auto pixel = project(camera, pose * corners_m.col(k));
-      inside = pixel && pixel->x() > 0.0 && pixel->y() > 0.0 && pixel->x() < image.width - 1.0 &&
-               pixel->y() < image.height - 1.0;
-      if (inside) tag.detection.corners_px.col(k) = *pixel;
-    }
-    if (!inside) continue;
-    const auto refined = refine_corners(image, camera, patterns[i], tag.detection.corners_px,
-                                        spreads[found.front().seen.tag], config.refine);
-    if (!refined || !(refined->white - refined->black > kLeastContrast * refined->residual)) continue;
-    spreads[i] = refined->spread;
-    tag.seen.tag = i;
-    tag.seen.corners_px = tag.detection.corners_px = refined->corners_px;
-    tag.seen.covariance_px2 = refined->covariance_px2;
-    tag.seen.has_covariance = true;
-    found.push_back(tag);
-    any = true;
-  }
-  return any;
-}
-
-void BodyTracker::Impl::refine(const GrayImage& image, std::vector<FoundTag>& found) {
-  constexpr int kFewest = 400;  // of one tag
-  RefineCornersConfig each = config.refine;
-  if (!found.empty()) {
-    each.most_pixels =
-        std::min(each.most_pixels, std::max(kFewest, config.most_pixels / static_cast<int>(found.size())));
-  }
-  for (FoundTag& tag : found) {
-    PointSpread& spread = spreads[tag.seen.tag];
-    const auto refined = refine_corners(image, camera, patterns[tag.seen.tag], tag.detection.corners_px, spread, each);
-    spread = refined ? refined->spread : PointSpread{};
-    if (!refined) continue;
-    tag.seen.corners_px = tag.detection.corners_px = refined->corners_px;
-    tag.seen.covariance_px2 = refined->covariance_px2;
-    tag.seen.has_covariance = true;
-  }
 }
 
 std::string say_found(const TagFrameFinding& finding) {
@@ -297,25 +170,10 @@ std::optional<TrackedPose> BodyTracker::Impl::solve(const std::vector<FoundTag>&
   return out;
 }
 
-BodyTracker::BodyTracker(CameraCalibration camera, std::vector<MarkerPlacement> body, TrackConfig config)
-    : impl_(std::make_unique<Impl>()) {
+BodyTracker::BodyTracker(CameraCalibration camera, std::vector<MarkerPlacement> body, TrackConfig config) {
   if (!(camera.fx > 0.0) || !(camera.fy > 0.0)) throw Error("track: the camera has no focal length");
   if (body.empty()) throw Error("track: the body has no tags");
-  for (const MarkerPlacement& marker : body) {
-    auto family = std::find_if(impl_->families.begin(), impl_->families.end(),
-                               [&](const Impl::Family& known) { return known.name == marker.family; });
-    if (family == impl_->families.end()) {
-      impl_->families.push_back({marker.family, make_tag_detector(marker.family, config.detector)});
-      family = impl_->families.end() - 1;
-    }
-    auto pattern = family->detector->pattern(marker.id);
-    if (!pattern) throw Error(fmt::format("markers: {} has no tag {}", marker.family, marker.id));
-    impl_->patterns.push_back(std::move(*pattern));
-  }
-  impl_->spreads.resize(body.size());
-  impl_->camera = std::move(camera);
-  impl_->body = std::move(body);
-  impl_->config = config;
+  impl_ = std::make_unique<Impl>(std::move(camera), std::move(body), config);
 }
 
 BodyTracker::~BodyTracker() = default;
@@ -339,20 +197,20 @@ std::optional<TrackedPose> BodyTracker::push(const GrayImage& image, std::int64_
   };
   bool solved = false;
   if (region) {
-    self.find_tags(image, *region, self.band, found);
+    self.search.find(image, *region, self.body, found);
     solved = solve_found();
   }
   if (!solved) {
-    self.find_tags(image, whole(image), std::nullopt, found);
+    self.search.find_in_whole(image, self.body, found);
     solved = solve_found();
-    if (solved) self.band.reset();
+    if (solved) self.search.forget_band();
   }
   if (!solved && self.config.find_faint) {
-    self.find_faint_tags(image, found);
+    self.search.find_faint(image, self.body, found);
     solved = solve_found();
   }
   if (solved && self.config.refine.enabled && self.config.find_covered &&
-      self.find_covered_tags(image, out->sample.T_world_marker, found)) {
+      self.search.find_covered(image, self.body, out->sample.T_world_marker, found)) {
     if (auto better = self.solve(found, out->sample.T_world_marker, t_ns)) out = std::move(better);
   }
   if (!out) return std::nullopt;
