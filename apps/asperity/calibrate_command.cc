@@ -41,8 +41,6 @@ Calibration calibration_before(const fs::path& file) {
   return read_calibration(file);
 }
 
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 }  // namespace
 
 CalibrateCommand::CalibrateCommand(CLI::App& calibrate, const std::string& kind, const std::string& description)
@@ -114,18 +112,6 @@ std::string CalibrateCommand::text(const CalibrateOutcome& outcome) const {
   for (const std::string& note : outcome.notes) out += "note: " + note + "\n";
   out += (outcome.verdict.trustworthy ? "good: " : "NOT TO BE TRUSTED: ") + outcome.verdict.text + "\n";
   if (!output_.empty()) out += printable(output_, 200) + ": " + kind_ + " written\n";
-  return out;
-}
-
-Json json_of(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  Json out = Json::array();
-  for (Eigen::Index i = 0; i < values.size(); ++i) out.push_back(number_or_null(values[i]));
-  return out;
-}
-
-Json json_of_rows(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
-  Json out = Json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) out.push_back(json_of(matrix.row(i).transpose()));
   return out;
 }
 

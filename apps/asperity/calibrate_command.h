@@ -8,6 +8,7 @@
 #include "asperity/calibration/calibration_verdict.h"
 #include "asperity/recording/calibration.h"
 #include "command.h"
+#include "json_of.h"
 
 namespace asperity::app {
 
@@ -56,9 +57,5 @@ class CalibrateCommand : public Command {
   std::string kind_;
   std::string output_;
 };
-
-// Numbers as JSON arrays; one that is not finite becomes null.
-CalibrateOutcome::Json json_of(const Eigen::Ref<const Eigen::VectorXd>& values);
-CalibrateOutcome::Json json_of_rows(const Eigen::Ref<const Eigen::MatrixXd>& matrix);
 
 }  // namespace asperity::app

@@ -7,18 +7,13 @@
 
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "json_of.h"
 
 namespace asperity::app {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json vector_json(const Eigen::Vector3d& values) {
-  Json out = Json::array();
-  for (const double value : values) out.push_back(std::isfinite(value) ? Json(value) : Json());
-  return out;
-}
 
 Json sensor_json(const SensorSnapshot& sensor) {
   Json out;
@@ -80,8 +75,8 @@ std::string record_json(const RecordOutcome& outcome, const std::string& config_
   out["frames_kept"] = outcome.frames.written;
   out["frames_not_kept"] = outcome.frames.dropped;
   out["gravity"] = {{"measured", f.gravity.measured},
-                    {"gravity_world_mps2", vector_json(f.gravity.gravity_world_mps2)},
-                    {"scatter_mps2", vector_json(f.gravity.scatter_mps2)},
+                    {"gravity_world_mps2", json_of(f.gravity.gravity_world_mps2)},
+                    {"scatter_mps2", json_of(f.gravity.scatter_mps2)},
                     {"windows_at_rest", f.gravity.windows}};
   out["trustworthy"] = outcome.verdict.doubts.empty();
   out["verdict"] = joined(outcome.verdict.doubts);

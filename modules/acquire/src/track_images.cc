@@ -10,15 +10,13 @@
 #include "asperity/acquire/byte_source.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/signal/statistics.h"
 
 namespace asperity {
 namespace {
 
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+double median_or_nan(const std::vector<double>& values) {
+  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : median(values);
 }
 
 // Names the image that the tracker cannot use.
@@ -61,10 +59,10 @@ void summarise(TrackedImages& out) {
     for (int i = 0; i < 6; ++i) sigma[static_cast<std::size_t>(i)].push_back(std::sqrt(pose.covariance(i, i)));
     out.ambiguous += pose.ambiguous ? 1 : 0;
   }
-  out.median_reprojection_px = median(std::move(reprojection));
+  out.median_reprojection_px = median_or_nan(reprojection);
   for (int i = 0; i < 3; ++i) {
-    out.median_sigma_m[i] = median(std::move(sigma[static_cast<std::size_t>(i)]));
-    out.median_sigma_rad[i] = median(std::move(sigma[static_cast<std::size_t>(i + 3)]));
+    out.median_sigma_m[i] = median_or_nan(sigma[static_cast<std::size_t>(i)]);
+    out.median_sigma_rad[i] = median_or_nan(sigma[static_cast<std::size_t>(i + 3)]);
   }
 }
 

@@ -12,6 +12,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/signal/statistics.h"
 #include "camera_bundle.h"
 #include "camera_start.h"
 #include "camera_views.h"
@@ -121,11 +122,6 @@ std::vector<double> rms_by_view_px(const Views& views, const CameraBundle& bundl
     out.push_back(std::sqrt(sum / static_cast<double>(views[v]->corner_px.size())));
   }
   return out;
-}
-
-double median(std::vector<double> x) {
-  std::nth_element(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2), x.end());
-  return x[x.size() / 2];
 }
 
 CameraFitView describe(const BoardView& view, const CameraVector& parameters, const Pose& T_camera_board, bool used) {

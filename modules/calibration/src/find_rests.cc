@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <queue>
+#include <vector>
 
 #include "asperity/base/units.h"
 
@@ -58,11 +61,29 @@ bool gap_between(const TrackerStream& tracker, const Block& a, const Block& b, c
   return static_cast<double>(gap_ns) * kNanosecond_s > config.largest_gap_s;
 }
 
-double median(std::vector<double> x) {
-  if (x.empty()) return 0.0;
-  std::nth_element(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2), x.end());
-  return x[x.size() / 2];
-}
+// The median of what has come so far, of two in the middle the greater.
+class RunningMedian {
+ public:
+  void add(double value) {
+    if (upper_.empty() || value >= upper_.top()) {
+      upper_.push(value);
+    } else {
+      lower_.push(value);
+    }
+    if (upper_.size() > lower_.size() + 1) {
+      lower_.push(upper_.top());
+      upper_.pop();
+    } else if (lower_.size() > upper_.size()) {
+      upper_.push(lower_.top());
+      lower_.pop();
+    }
+  }
+  double value() const { return upper_.top(); }
+
+ private:
+  std::priority_queue<double> lower_;
+  std::priority_queue<double, std::vector<double>, std::greater<>> upper_;
+};
 
 }  // namespace
 
@@ -84,16 +105,16 @@ std::vector<PoseRange> find_rests(const TrackerStream& tracker, const TrackerNoi
     // Noise alone takes the means of blocks apart by this much at most.
     constexpr double kByChance = 5.0;
     Eigen::Vector3d centre = blocks[first].position_m;
-    std::vector<double> position_noise, rotation_noise;
+    RunningMedian position_noise, rotation_noise;
     std::size_t last = first;
     while (last < blocks.size()) {
       const Block& block = blocks[last];
       if (last > first && gap_between(tracker, blocks[last - 1], block, config)) break;
       const double count = std::sqrt(static_cast<double>(block.rows.last - block.rows.first));
-      position_noise.push_back(block.position_noise_m);
-      rotation_noise.push_back(block.rotation_noise_rad);
-      const double position_m = config.rest_position_m + kByChance * median(position_noise) / count;
-      const double rotation_rad = config.rest_rotation_rad + kByChance * median(rotation_noise) / count;
+      position_noise.add(block.position_noise_m);
+      rotation_noise.add(block.rotation_noise_rad);
+      const double position_m = config.rest_position_m + kByChance * position_noise.value() / count;
+      const double rotation_rad = config.rest_rotation_rad + kByChance * rotation_noise.value() / count;
       if ((block.position_m - centre).norm() > position_m) break;
       if (log_rotation(block.rotation * blocks[first].rotation.conjugate()).norm() > rotation_rad) break;
       ++last;

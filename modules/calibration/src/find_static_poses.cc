@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "asperity/base/error.h"
+#include "asperity/signal/statistics.h"
 
 namespace asperity {
 
@@ -33,12 +34,6 @@ void check(const AccelerometerSamples& samples) {
       throw Error(fmt::format("accelerometer: the time of reading {} does not rise", i + 1));
     }
   }
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // The variance that rounding leaves in readings that do not move at all: a twelfth of the smallest step squared.
@@ -172,7 +167,7 @@ StaticPoses find_static_poses(const AccelerometerSamples& samples, const FindSta
   check(samples);
   std::vector<double> steps_s(samples.size() - 1);
   for (std::size_t i = 0; i + 1 < samples.size(); ++i) steps_s[i] = samples.t_s[i + 1] - samples.t_s[i];
-  const double period_s = median(std::move(steps_s));
+  const double period_s = median(steps_s);
   const std::vector<double> variance = window_variances(samples, config.window_s, period_s);
 
   std::vector<double> apart;
