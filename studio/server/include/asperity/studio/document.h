@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "asperity/studio/block.h"
+
+namespace asperity::studio {
+
+// One change of the document, as it went.
+struct Edit {
+  std::string path;  // JSON pointer below a section: "/align/T_mesh_world"
+  Json before;       // null: was not there
+  Json after;        // null: taken out
+  std::string label;    // in words, for the undo button: "move the path"
+  std::string gesture;  // edits one after another of the same gesture and path are one for undo; "": each its own
+};
+
+// All that a user decides and would be sorry to lose, as one JSON value with a section a page: choices, settings, poses,
+// strokes; results are made from it again. Every change is an edit that can be undone. Stored as `.asperity-studio.json`
+// in the project's folder, by rename, at the latest a second after an edit and at the end, with its undo steps; read
+// again at the start. On the studio's thread alone.
+class Document {
+ public:
+  // Checks a section as a whole before it is taken; throws Error in words.
+  using Validator = std::function<void(const Json& section)>;
+  using Listener = std::function<void(const Edit&)>;
+
+  // An unreadable file is put aside under another name and a note is left in problems().
+  explicit Document(std::filesystem::path file);
+
+  // Before load(): a page's section with its first value.
+  void add_section(const std::string& name, Json first, Validator validator);
+  // Reads the file. A section that its page does not take begins with its first value, and a note is left.
+  void load();
+
+  const Json& value() const { return value_; }
+  const Json& section(std::string_view name) const;
+  std::uint64_t version() const { return version_; }
+
+  // Throws Error, and nothing is changed, for a path that is not below a section or leads nowhere, and for a value that
+  // the section refuses.
+  void edit(std::string_view path, Json after, std::string_view label, std::string_view gesture = {});
+  bool undo();
+  bool redo();
+  std::string undo_label() const;  // empty: nothing to undo
+  std::string redo_label() const;
+
+  // Called after each change, undo and redo.
+  void on_change(Listener listener) { listeners_.push_back(std::move(listener)); }
+
+  // Writes the file if there is something new.
+  void save();
+  const std::vector<std::string>& problems() const { return problems_; }
+
+ private:
+  void apply(const Edit& edit);
+
+  std::filesystem::path file_;
+  Json value_ = Json::object();
+  std::map<std::string, Json, std::less<>> first_;
+  std::map<std::string, Validator, std::less<>> validators_;
+  std::vector<Edit> undo_, redo_;
+  std::vector<Listener> listeners_;
+  std::vector<std::string> problems_;
+  std::uint64_t version_ = 0;
+  bool unsaved_ = false;
+};
+
+}  // namespace asperity::studio

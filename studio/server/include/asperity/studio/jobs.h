@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "asperity/base/progress.h"
+#include "asperity/studio/calls.h"
+
+namespace asperity::studio {
+
+// Long work, one after another on a thread of its own, with progress and cancel. The browsers see
+//   event "job" {"id","title","stage","fraction","state":"waiting"|"running"|"done"|"failed"|"cancelled"}
+// and can call job.cancel {"job":id}. Its functions are for the studio's thread.
+class Jobs {
+ public:
+  using Work = std::function<void(const Observer&)>;      // on the jobs' thread; may throw
+  using Done = std::function<void(std::exception_ptr)>;   // on the studio's thread, always once; null if all went well
+  using Post = std::function<void(std::function<void()>)>;  // hands a function to the studio's thread
+
+  Jobs(Hub& hub, Post post);
+  // Cancels all and waits.
+  ~Jobs();
+  Jobs(const Jobs&) = delete;
+  Jobs& operator=(const Jobs&) = delete;
+
+  // A job whose `slot` is not empty takes the place of those of the same slot: a waiting one is dropped, a running one
+  // cancelled. So only the newest setting of a slider is worked out. Returns its id.
+  std::uint64_t start(const std::string& title, const std::string& slot, Work work, Done done);
+  void cancel(std::uint64_t job);
+
+  void bind(Calls& calls);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Answers `request` with what `work` gives: a Json or a BlockWriter. Its error is the request's refusal.
+template <class Work>
+void answer_by_job(Jobs& jobs, const Request& request, const std::string& title, const std::string& slot, Work work) {
+  using Result = std::invoke_result_t<Work, const Observer&>;
+  auto result = std::make_shared<std::optional<Result>>();
+  jobs.start(
+      title, slot, [result, work = std::move(work)](const Observer& observer) { result->emplace(work(observer)); },
+      [result, request](std::exception_ptr error) {
+        if (!error) return request.answer(std::move(**result));
+        try {
+          std::rethrow_exception(error);
+        } catch (const std::exception& fault) {
+          request.refuse(fault);
+        }
+      });
+}
+
+}  // namespace asperity::studio

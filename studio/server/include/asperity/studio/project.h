@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace asperity::studio {
+
+enum class EntryKind { kRecording, kScene, kMesh, kTexture, kResult, kImage };
+
+// Something in the project's folder that the studio can open.
+struct Entry {
+  EntryKind kind;
+  std::string name;  // relative to the folder, with /
+};
+
+// The folder that the studio works in. A browser names files only relative to it, and gets at nothing outside.
+class Project {
+ public:
+  // Throws Error if it is no folder.
+  explicit Project(std::filesystem::path folder);
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+  // What is there, sorted by name, three folders deep, at most 10,000 entries; hidden files are left out, links are not
+  // followed.
+  std::vector<Entry> entries() const;
+
+  // The path of something that exists. Throws Error naming it for an absolute name, one with `..`, one that is not
+  // UTF-8 or leads through a link out of the folder, and one that does not exist.
+  std::filesystem::path existing(const std::string& name) const;
+  // The path of something to be written: as above, but it need not exist; its parent must.
+  std::filesystem::path writable(const std::string& name) const;
+  // A free name like "scan", "scan_2", … in the folder.
+  std::string free_name(const std::string& stem) const;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace asperity::studio

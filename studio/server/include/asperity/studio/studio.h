@@ -1,0 +1,24 @@
+#pragma once
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "asperity/studio/web_server.h"
+
+namespace asperity::studio {
+
+struct StudioConfig {
+  WebServerConfig server;
+  bool remote_force = false;  // forces also where the host is not this machine's own
+  std::filesystem::path folder;
+  std::optional<std::string> open;  // recording, scene or mesh in it that is opened first
+};
+
+// Runs the studio until `stop`. `started` is given the address. Throws Error if it cannot begin.
+void run_studio(const StudioConfig& config, const std::function<void(const std::string& address)>& started,
+                const std::atomic<bool>& stop);
+
+}  // namespace asperity::studio

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "asperity/studio/hub.h"
+#include "asperity/studio/message.h"
+
+namespace asperity::studio {
+
+struct WebServerConfig {
+  std::string host = "127.0.0.1";
+  int port = 0;  // 0: a free one
+  int max_clients = 64;
+};
+
+// What the server tells. Called on its own thread: hand it on.
+struct WebServerEvents {
+  std::function<void(ClientId)> joined;
+  std::function<void(ClientId)> left;
+  std::function<void(ClientId, Message)> message;
+  // The bytes of a file that a page offers for download, by the name in /download/NAME; nullopt: there is none.
+  std::function<std::optional<std::string>(const std::string& name)> download;
+};
+
+// Serves the embedded app over HTTP and its messages over a WebSocket, from one thread of its own (docs/studio-safety.md).
+// Without a cookie that was given for the token, nothing but the bare app is served. Host is checked on every request,
+// Origin on every WebSocket; an absent one is foreign. The token is new with every start, 128 bits from the system.
+class WebServer : public Hub {
+ public:
+  // Listens at once. Throws Error if the address cannot be had, saying who might have it.
+  static std::unique_ptr<WebServer> start(const WebServerConfig& config, WebServerEvents events);
+
+  virtual int port() const = 0;
+  virtual std::string address() const = 0;  // "http://127.0.0.1:8137/#token=…"
+  // Frames that were dropped for slow browsers, over all time.
+  virtual std::uint64_t dropped_frames() const = 0;
+  // Closes all connections and waits for its thread; no event comes after. The destructor does too.
+  virtual void stop() = 0;
+};
+
+}  // namespace asperity::studio

@@ -1,0 +1,136 @@
+// The one connection to the server: calls and their answers, events, topics. It comes back by itself.
+import { signal } from "@preact/signals";
+import { decodeBlock, type Block } from "./block";
+
+export type Link = "connecting" | "open" | "lost" | "refused";
+
+/** How the connection stands; the shell shows it. */
+export const link = signal<Link>("connecting");
+
+/** What the server refused, in words, and what to do next. */
+export class Refusal extends Error {
+  constructor(
+    message: string,
+    readonly hint: string,
+  ) {
+    super(message);
+  }
+}
+
+interface Waiting {
+  resolve(value: any): void;
+  reject(reason: Error): void;
+}
+
+const waiting = new Map<number, Waiting>();
+const topics = new Map<string, Set<(block: Block) => void>>();
+const events = new Map<string, Set<(data: any) => void>>();
+let socket: WebSocket | null = null;
+let nextId = 1;
+let retry_ms = 250;
+let pointerSequence = 0;
+
+/** Calls the server; the answer is JSON or a Block. Rejects with a Refusal. */
+export function call<T = any>(name: string, args: Record<string, unknown> = {}): Promise<T> {
+  return new Promise((resolve, reject) => {
+    if (!socket || socket.readyState !== WebSocket.OPEN) {
+      reject(new Refusal("The studio's server does not answer.", "Is `asperity studio` still running? The page goes on by itself when it is back."));
+      return;
+    }
+    const id = nextId++;
+    waiting.set(id, { resolve, reject });
+    socket.send(JSON.stringify({ id, call: name, args }));
+  });
+}
+
+/** Frames of a topic, until the function that it returns is called. */
+export function subscribe(topic: string, listener: (block: Block) => void): () => void {
+  let listeners = topics.get(topic);
+  if (!listeners) {
+    listeners = new Set();
+    topics.set(topic, listeners);
+    if (link.value === "open") void call("subscribe", { topic });
+  }
+  listeners.add(listener);
+  return () => {
+    listeners.delete(listener);
+    if (listeners.size > 0 || topics.get(topic) !== listeners) return;
+    topics.delete(topic);
+    if (link.value === "open") void call("unsubscribe", { topic });
+  };
+}
+
+/** Events of a name, until the function that it returns is called. */
+export function onEvent(name: string, listener: (data: any) => void): () => void {
+  const listeners = events.get(name) ?? new Set();
+  events.set(name, listeners);
+  listeners.add(listener);
+  return () => listeners.delete(listener);
+}
+
+/** Where the pointer pulls the device point; heard only from the owner of the force. */
+export function sendPointer(x_m: number, y_m: number, z_m: number): void {
+  if (!socket || socket.readyState !== WebSocket.OPEN || socket.bufferedAmount > 4096) return;
+  const frame = new DataView(new ArrayBuffer(32));
+  frame.setUint32(0, 0x31505341, true); // "ASP1"
+  frame.setUint32(4, pointerSequence++, true);
+  frame.setFloat64(8, x_m, true);
+  frame.setFloat64(16, y_m, true);
+  frame.setFloat64(24, z_m, true);
+  socket.send(frame.buffer);
+}
+
+/** Changes the token of the address for a cookie, and connects. Called once. */
+export async function connect(): Promise<void> {
+  const token = new URLSearchParams(location.hash.slice(1)).get("token");
+  if (token) {
+    history.replaceState(null, "", location.pathname);
+    await fetch("/session", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ token }) });
+  }
+  open();
+}
+
+function open(): void {
+  const opened = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/ws`);
+  opened.binaryType = "arraybuffer";
+  socket = opened;
+  opened.onopen = () => {
+    retry_ms = 250;
+    link.value = "open";
+    for (const topic of topics.keys()) void call("subscribe", { topic });
+  };
+  opened.onmessage = (message) => {
+    if (typeof message.data === "string") hearText(JSON.parse(message.data));
+    else hearBlock(decodeBlock(message.data));
+  };
+  opened.onclose = (closed) => {
+    for (const { reject } of waiting.values()) reject(new Refusal("The connection to the studio's server was lost.", "The page goes on by itself when it is back."));
+    waiting.clear();
+    link.value = closed.code === 4401 ? "refused" : "lost";
+    setTimeout(open, retry_ms);
+    retry_ms = Math.min(4000, 2 * retry_ms);
+  };
+}
+
+function hearText(message: any): void {
+  if (message.event) {
+    events.get(message.event)?.forEach((listener) => listener(message.data));
+    return;
+  }
+  const call = waiting.get(message.id);
+  if (!call) return;
+  waiting.delete(message.id);
+  if (message.error) call.reject(new Refusal(message.error.message, message.error.hint ?? ""));
+  else call.resolve(message.result);
+}
+
+function hearBlock(block: Block): void {
+  if (block.head.topic) {
+    topics.get(block.head.topic)?.forEach((listener) => listener(block));
+    return;
+  }
+  const call = waiting.get(block.head.id);
+  if (!call) return;
+  waiting.delete(block.head.id);
+  call.resolve(block);
+}
