@@ -15,7 +15,12 @@ struct WebServerConfig {
   std::string host = "127.0.0.1";
   int port = 0;  // 0: a free one
   int max_clients = 64;
+  double request_timeout_s = 10.0;  // for a whole request, a handshake and its answer
+  double idle_timeout_s = 30.0;     // without a sign of life from a browser, which is asked for one
 };
+
+// True if only programs on this machine can reach `host`.
+bool is_this_machine_only(const std::string& host);
 
 // What the server tells. Called on its own thread: hand it on.
 struct WebServerEvents {
@@ -26,9 +31,10 @@ struct WebServerEvents {
   std::function<std::optional<std::string>(const std::string& name)> download;
 };
 
-// Serves the embedded app over HTTP and its messages over a WebSocket, from one thread of its own (docs/studio-safety.md).
-// Without a cookie that was given for the token, nothing but the bare app is served. Host is checked on every request,
-// Origin on every WebSocket; an absent one is foreign. The token is new with every start, 128 bits from the system.
+// Serves the embedded app over HTTP and its messages over a WebSocket, from one thread of its own
+// (docs/studio-safety.md). Without a cookie that was given for the token, nothing but the bare app is served. Host is
+// checked on every request, Origin on every WebSocket; an absent one is foreign. The token is new with every start, 128
+// bits from the system.
 class WebServer : public Hub {
  public:
   // Listens at once. Throws Error if the address cannot be had, saying who might have it.
@@ -36,7 +42,7 @@ class WebServer : public Hub {
 
   virtual int port() const = 0;
   virtual std::string address() const = 0;  // "http://127.0.0.1:8137/#token=…"
-  // Frames that were dropped for slow browsers, over all time.
+  // Frames of series that were dropped for slow browsers, over all time.
   virtual std::uint64_t dropped_frames() const = 0;
   // Closes all connections and waits for its thread; no event comes after. The destructor does too.
   virtual void stop() = 0;
