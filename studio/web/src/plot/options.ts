@@ -24,7 +24,7 @@ export function axis(words: AxisWords, logarithmic: boolean, side: "x" | "y"): u
     gap: 4,
     size: side === "x" ? 22 : (_plot, words) => 12 + 6.2 * Math.max(2, ...(words ?? []).map((word) => word?.length ?? 0)),
     space: side === "x" ? 64 : 26,
-    grid: { stroke: line, width: 1 },
+    grid: { stroke: line, width: 1, ...(logarithmic ? { filter: onlyDecades } : {}) },
     ticks: { stroke: line, width: 1, size: 4 },
     border: { show: true, stroke: themeColour("--line-strong"), width: 1 },
     values: logarithmic ? (_plot, splits) => splits.map((value) => (isDecade(value) ? decadeWords(value) : "")) : (_plot, splits) => tickWords(splits),
@@ -32,6 +32,8 @@ export function axis(words: AxisWords, logarithmic: boolean, side: "x" | "y"): u
 }
 
 const isDecade = (value: number): boolean => Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-9;
+
+const onlyDecades: uPlot.Axis.Filter = (_plot, splits) => splits.map((value) => (isDecade(value) ? value : null));
 
 /** A power of ten, short. */
 function decadeWords(value: number): string {

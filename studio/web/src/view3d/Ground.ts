@@ -16,7 +16,7 @@ import { upOf, type Upright } from "./views";
 
 const kCells = 10;
 
-/** A grid below the content, its cells a round number of millimetres, and the three axes at its corner. */
+/** A grid below the content, its cells a round number of millimetres, and the three axes beside the content. */
 export class Ground {
   readonly object = new Group();
   private readonly grid = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
@@ -51,11 +51,16 @@ export class Ground {
     }
     this.grid.geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
     this.grid.geometry.computeBoundingSphere();
-    const origin = centre.clone().addScaledVector(along, (-kCells * cell) / 2).addScaledVector(across, (-kCells * cell) / 2);
+    const size = box.getSize(new Vector3());
+    const beside = 0.55;
+    const origin = centre
+      .clone()
+      .addScaledVector(along, -beside * size.x - cell / 2)
+      .addScaledVector(across, -beside * Math.abs(size.dot(across)) - cell / 2);
     this.axes.forEach(({ line, letter }, index) => {
       const tip = origin.clone().setComponent(index, origin.getComponent(index) + cell);
       letter.position.copy(origin).setComponent(index, origin.getComponent(index) + 1.3 * cell);
-      letter.scale.setScalar(0.6 * cell);
+      letter.scale.setScalar(0.5 * cell);
       line.geometry.setAttribute("position", new Float32BufferAttribute([...origin.toArray(), ...tip.toArray()], 3));
       line.geometry.computeBoundingSphere();
     });
