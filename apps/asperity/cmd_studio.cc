@@ -16,9 +16,11 @@ namespace fs = std::filesystem;
 
 class StudioCommand : public Command {
  public:
-  explicit StudioCommand(CLI::App& root) : Command(root, "studio", "Scan, process, align, paint and feel in a browser") {
+  explicit StudioCommand(CLI::App& root)
+      : Command(root, "studio", "Scan, process, align, paint and feel in a browser") {
     parser().add_option("WHAT", what_, "A recording, a scene or a mesh; its folder is worked in, else the current one");
-    parser().add_option("--port", config_.server.port, "0 (the default): a free one")
+    parser()
+        .add_option("--port", config_.server.port, "0 (the default): a free one")
         ->check(CLI::Range(0, 65535))
         ->type_name("N");
     parser().add_option("--host", config_.server.host, "Address to listen at; 127.0.0.1")->type_name("ADDRESS");
@@ -30,7 +32,8 @@ class StudioCommand : public Command {
   int run(const Observer&) override {
     if (!web::built()) {
       throw Error(
-          "this asperity was built without the studio, because Node.js was not found; install it (scripts/bootstrap) and "
+          "this asperity was built without the studio, because Node.js was not found; install it (scripts/bootstrap) "
+          "and "
           "build again");
     }
     config_.folder = fs::current_path();

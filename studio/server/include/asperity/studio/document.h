@@ -14,17 +14,17 @@ namespace asperity::studio {
 
 // One change of the document, as it went.
 struct Edit {
-  std::string path;  // JSON pointer below a section: "/align/T_mesh_world"
-  Json before;       // null: was not there
-  Json after;        // null: taken out
+  std::string path;     // JSON pointer below a section: "/align/T_mesh_world"
+  Json before;          // null: was not there
+  Json after;           // null: taken out
   std::string label;    // in words, for the undo button: "move the path"
   std::string gesture;  // edits one after another of the same gesture and path are one for undo; "": each its own
 };
 
-// All that a user decides and would be sorry to lose, as one JSON value with a section a page: choices, settings, poses,
-// strokes; results are made from it again. Every change is an edit that can be undone. Stored as `.asperity-studio.json`
-// in the project's folder, by rename, at the latest a second after an edit and at the end, with its undo steps; read
-// again at the start. On the studio's thread alone.
+// All that a user decides and would be sorry to lose, as one JSON value with a section a page: choices, settings,
+// poses, strokes; results are made from it again. Every change is an edit that can be undone. Stored as
+// `.asperity-studio.json` in the project's folder, by rename, at the latest a second after an edit and at the end, with
+// its undo steps; read again at the start. On the studio's thread alone.
 class Document {
  public:
   // Checks a section as a whole before it is taken; throws Error in words.

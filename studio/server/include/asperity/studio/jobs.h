@@ -16,8 +16,8 @@ namespace asperity::studio {
 // and can call job.cancel {"job":id}. Its functions are for the studio's thread.
 class Jobs {
  public:
-  using Work = std::function<void(const Observer&)>;      // on the jobs' thread; may throw
-  using Done = std::function<void(std::exception_ptr)>;   // on the studio's thread, always once; null if all went well
+  using Work = std::function<void(const Observer&)>;     // on the jobs' thread; may throw
+  using Done = std::function<void(std::exception_ptr)>;  // on the studio's thread, always once; null if all went well
   using Post = std::function<void(std::function<void()>)>;  // hands a function to the studio's thread
 
   Jobs(Hub& hub, Post post);

@@ -8,6 +8,7 @@
 #include "asperity/studio/force_lease.h"
 #include "asperity/studio/hub.h"
 #include "asperity/studio/jobs.h"
+#include "asperity/studio/message.h"
 #include "asperity/studio/project.h"
 
 namespace asperity::studio {
@@ -36,6 +37,7 @@ class Page {
   // 30 times a second.
   virtual void tick(std::int64_t /*now_ns*/) {}
   virtual void edited(const Edit&) {}
+  virtual void pointed(ClientId, const Pointer&) {}
   virtual void client_left(ClientId) {}
   // Before the end: sensors closed, forces at zero.
   virtual void stop() {}

@@ -26,9 +26,10 @@ struct WebServerEvents {
   std::function<std::optional<std::string>(const std::string& name)> download;
 };
 
-// Serves the embedded app over HTTP and its messages over a WebSocket, from one thread of its own (docs/studio-safety.md).
-// Without a cookie that was given for the token, nothing but the bare app is served. Host is checked on every request,
-// Origin on every WebSocket; an absent one is foreign. The token is new with every start, 128 bits from the system.
+// Serves the embedded app over HTTP and its messages over a WebSocket, from one thread of its own
+// (docs/studio-safety.md). Without a cookie that was given for the token, nothing but the bare app is served. Host is
+// checked on every request, Origin on every WebSocket; an absent one is foreign. The token is new with every start, 128
+// bits from the system.
 class WebServer : public Hub {
  public:
   // Listens at once. Throws Error if the address cannot be had, saying who might have it.

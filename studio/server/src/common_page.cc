@@ -1,0 +1,146 @@
+#include "common_page.h"
+
+#include <array>
+#include <utility>
+
+#include "asperity/acquire/host_clock.h"
+#include "asperity/base/version.h"
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr std::array<std::string_view, 6> kKindNames{"recording", "scene", "mesh", "texture", "result", "image"};
+constexpr std::int64_t kLook_ns = 2'000'000'000;
+
+Json entries_json(const Project& project) {
+  Json out = Json::array();
+  for (const Entry& entry : project.entries()) {
+    Json each;
+    each["kind"] = kKindNames.at(static_cast<std::size_t>(entry.kind));
+    each["name"] = entry.name;
+    out.push_back(std::move(each));
+  }
+  return out;
+}
+
+}  // namespace
+
+CommonPage::CommonPage(Shared& shared, std::optional<std::string> opened)
+    : shared_(shared), opened_(std::move(opened)) {}
+
+void CommonPage::bind(Document&, Calls& calls) {
+  bind_document(calls);
+  bind_project(calls);
+  bind_lease(calls);
+}
+
+void CommonPage::bind_document(Calls& calls) {
+  calls.add("document.read", [this](const Request& request) {
+    Json out;
+    out["value"] = shared_.document.value();
+    out["version"] = shared_.document.version();
+    out["undo"] = shared_.document.undo_label();
+    out["redo"] = shared_.document.redo_label();
+    request.answer(out);
+  });
+  calls.add("document.edit", [this](const Request& request) {
+    const auto value = request.args().find("value");
+    shared_.document.edit(request.text("path"), value == request.args().end() ? Json() : *value, request.text("label"),
+                          request.text("gesture"));
+    request.done();
+  });
+  calls.add("document.undo", [this](const Request& request) {
+    if (!shared_.document.undo()) throw Error("there is nothing to undo");
+    request.done();
+  });
+  calls.add("document.redo", [this](const Request& request) {
+    if (!shared_.document.redo()) throw Error("there is nothing to redo");
+    request.done();
+  });
+}
+
+void CommonPage::bind_project(Calls& calls) {
+  calls.add("project.entries", [this](const Request& request) {
+    entries_ = entries_json(shared_.project);
+    request.answer(entries_);
+  });
+  calls.add("studio.about", [this](const Request& request) {
+    Json out;
+    out["version"] = kVersion;
+    out["folder"] = shared_.project.folder().filename().string();
+    out["opened"] = opened_ ? Json(*opened_) : Json();
+    out["may_command_forces"] = shared_.may_command_forces;
+    out["client"] = request.client();
+    out["problems"] = shared_.document.problems();
+    request.answer(out);
+  });
+  calls.add("studio.ping", [](const Request& request) {
+    Json out;
+    out["t_ns"] = host_now_ns();
+    request.answer(out);
+  });
+}
+
+void CommonPage::bind_lease(Calls& calls) {
+  calls.add("lease.acquire", [this](const Request& request) {
+    if (!shared_.may_command_forces) {
+      throw Advice(
+          "forces are not commanded from here",
+          "The studio was started for other machines to look on: start it with --remote-force to change that.");
+    }
+    const std::int64_t now_ns = host_now_ns();
+    Json out;
+    out["mine"] = shared_.lease.acquire(request.client(), now_ns);
+    request.answer(out);
+    tell_owner(now_ns);
+  });
+  calls.add("lease.heartbeat", [this](const Request& request) {
+    const std::int64_t now_ns = host_now_ns();
+    shared_.lease.heartbeat(request.client(), now_ns);
+    Json out;
+    out["mine"] = shared_.lease.owner(now_ns) == request.client();
+    request.answer(out);
+  });
+  calls.add("lease.release", [this](const Request& request) {
+    shared_.lease.release(request.client());
+    request.done();
+    tell_owner(host_now_ns());
+  });
+}
+
+void CommonPage::tell_owner(std::int64_t now_ns) {
+  const std::optional<ClientId> owner = shared_.lease.owner(now_ns);
+  if (owner == told_owner_) return;
+  told_owner_ = owner;
+  Json data;
+  data["owner"] = owner ? Json(*owner) : Json();
+  shared_.hub.broadcast("lease", data);
+}
+
+void CommonPage::tick(std::int64_t now_ns) {
+  tell_owner(now_ns);
+  if (now_ns - looked_ns_ < kLook_ns) return;
+  looked_ns_ = now_ns;
+  Json now = entries_json(shared_.project);
+  if (now == entries_) return;
+  entries_ = std::move(now);
+  shared_.hub.broadcast("entries", entries_);
+}
+
+void CommonPage::edited(const Edit& edit) {
+  Json data;
+  data["path"] = edit.path;
+  data["value"] = edit.after;
+  data["version"] = shared_.document.version();
+  data["undo"] = shared_.document.undo_label();
+  data["redo"] = shared_.document.redo_label();
+  shared_.hub.broadcast("document", data);
+}
+
+void CommonPage::client_left(ClientId client) {
+  shared_.lease.release(client);
+  tell_owner(host_now_ns());
+}
+
+}  // namespace asperity::studio

@@ -1,0 +1,13 @@
+#include "pages.h"
+
+#include "common_page.h"
+
+namespace asperity::studio {
+
+std::vector<std::unique_ptr<Page>> make_pages(Shared& shared, const std::optional<std::string>& opened) {
+  std::vector<std::unique_ptr<Page>> pages;
+  pages.push_back(std::make_unique<CommonPage>(shared, opened));
+  return pages;
+}
+
+}  // namespace asperity::studio

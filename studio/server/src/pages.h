@@ -1,0 +1,15 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "asperity/studio/page.h"
+
+namespace asperity::studio {
+
+// All pages, in the order in which they hear of things.
+std::vector<std::unique_ptr<Page>> make_pages(Shared& shared, const std::optional<std::string>& opened);
+
+}  // namespace asperity::studio

@@ -1,0 +1,98 @@
+#include "asperity/studio/project.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "asperity/base/error.h"
+#include "asperity/base/inner_path.h"
+#include "asperity/base/text.h"
+
+namespace asperity::studio {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kDeepest = 3;
+constexpr std::size_t kMostEntries = 10'000;
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+std::optional<EntryKind> kind_of_file(const fs::path& path) {
+  const std::string name = path.filename().string();
+  if (name.ends_with("scene.json")) return EntryKind::kScene;
+  if (name.ends_with("texture.json")) return EntryKind::kTexture;
+  constexpr std::array<std::string_view, 5> meshes{".obj", ".ply", ".stl", ".gltf", ".glb"};
+  constexpr std::array<std::string_view, 2> images{".png", ".pgm"};
+  const std::string extension = path.extension().string();
+  if (std::find(meshes.begin(), meshes.end(), extension) != meshes.end()) return EntryKind::kMesh;
+  if (std::find(images.begin(), images.end(), extension) != images.end()) return EntryKind::kImage;
+  return std::nullopt;
+}
+
+void list(const fs::path& folder, const std::string& prefix, int depth, std::vector<Entry>& out) {
+  std::error_code error;
+  for (fs::directory_iterator at(folder, fs::directory_options::skip_permission_denied, error), end; at != end;
+       at.increment(error)) {
+    if (error || out.size() >= kMostEntries) return;
+    const std::string name = at->path().filename().string();
+    if (name.starts_with('.') || !is_utf8(name) || at->is_symlink(error)) continue;
+    if (at->is_directory(error)) {
+      if (is_file(at->path() / "recording.json")) {
+        out.push_back({EntryKind::kRecording, prefix + name});
+        continue;
+      }
+      if (is_file(at->path() / "result.json") && is_file(at->path() / "profile.csv")) {
+        out.push_back({EntryKind::kResult, prefix + name});
+      }
+      if (depth < kDeepest) list(at->path(), prefix + name + "/", depth + 1, out);
+    } else if (const std::optional<EntryKind> kind = kind_of_file(at->path())) {
+      out.push_back({*kind, prefix + name});
+    }
+  }
+}
+
+}  // namespace
+
+Project::Project(fs::path folder) {
+  std::error_code error;
+  folder_ = fs::canonical(folder, error);
+  if (error || !fs::is_directory(folder_, error)) throw Error(printable(folder.string(), 200) + ": is no folder");
+}
+
+std::vector<Entry> Project::entries() const {
+  std::vector<Entry> out;
+  list(folder_, "", 1, out);
+  std::sort(out.begin(), out.end(), [](const Entry& a, const Entry& b) { return a.name < b.name; });
+  return out;
+}
+
+fs::path Project::existing(const std::string& name) const {
+  std::error_code error;
+  const fs::path path = writable(name);
+  if (!fs::exists(path, error)) throw Error(printable(name, 200) + ": is not in the project's folder");
+  return path;
+}
+
+fs::path Project::writable(const std::string& name) const {
+  const std::optional<fs::path> path = is_utf8(name) ? inner_file(folder_, name) : std::nullopt;
+  if (!path || *path == folder_) throw Error(printable(name, 200) + ": is no name inside the project's folder");
+  std::error_code error;
+  if (!fs::is_directory(path->parent_path(), error)) {
+    throw Error(printable(name, 200) + ": the folder that it would lie in does not exist");
+  }
+  return *path;
+}
+
+std::string Project::free_name(const std::string& stem) const {
+  std::error_code error;
+  std::string name = stem;
+  for (int i = 2; fs::exists(fs::symlink_status(folder_ / name, error)); ++i) name = stem + "_" + std::to_string(i);
+  return name;
+}
+
+}  // namespace asperity::studio

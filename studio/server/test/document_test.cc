@@ -1,0 +1,119 @@
+#include "asperity/studio/document.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "asperity/base/error.h"
+#include "asperity/testkit/temp_dir.h"
+
+namespace asperity::studio {
+namespace {
+
+void refuse_negative(const Json& section) {
+  if (section.at("a") < 0) throw Error("a is negative");
+}
+
+std::unique_ptr<Document> make_document(const std::filesystem::path& file) {
+  auto out = std::make_unique<Document>(file);
+  out->add_section("page", Json::parse(R"({"a":1,"list":[1,2,3],"deep":{"x":0}})"), refuse_negative);
+  out->load();
+  return out;
+}
+
+class DocumentTest : public ::testing::Test {
+ protected:
+  TempDir folder_;
+  std::filesystem::path file_ = folder_.path() / ".asperity-studio.json";
+  std::unique_ptr<Document> document_ = make_document(file_);
+  const Json first_ = document_->value();
+};
+
+TEST_F(DocumentTest, UndoAndRedoGoBackAndForth) {
+  document_->edit("/page/a", 2, "two");
+  document_->edit("/page/deep/y", "new", "a key");
+  document_->edit("/page/deep/x", nullptr, "taken out");
+  const Json last = document_->value();
+  EXPECT_EQ(last, Json::parse(R"({"page":{"a":2,"list":[1,2,3],"deep":{"y":"new"}}})"));
+  EXPECT_EQ(document_->undo_label(), "taken out");
+  while (document_->undo()) {
+  }
+  EXPECT_EQ(document_->value(), first_);
+  while (document_->redo()) {
+  }
+  EXPECT_EQ(document_->value(), last);
+}
+
+TEST_F(DocumentTest, ListsGrowAndShrinkAndComeBack) {
+  document_->edit("/page/list/-", 4, "one more");
+  document_->edit("/page/list/0", nullptr, "one less");
+  document_->edit("/page/list/1", 7, "another");
+  EXPECT_EQ(document_->value()["page"]["list"], Json::parse("[2,7,4]"));
+  document_->undo();
+  document_->undo();
+  EXPECT_EQ(document_->value()["page"]["list"], Json::parse("[1,2,3,4]"));
+  document_->undo();
+  EXPECT_EQ(document_->value(), first_);
+}
+
+TEST_F(DocumentTest, AGestureIsOneStep) {
+  for (int i = 2; i < 9; ++i) document_->edit("/page/a", i, "slide", "g");
+  document_->edit("/page/a", 9, "slide", "h");
+  document_->undo();
+  EXPECT_EQ(document_->value()["page"]["a"], 8);
+  document_->undo();
+  EXPECT_EQ(document_->value(), first_);
+}
+
+TEST_F(DocumentTest, WhatASectionRefusesChangesNothing) {
+  EXPECT_THROW(document_->edit("/page/a", -1, "negative"), Error);
+  EXPECT_THROW(document_->edit("/other/a", 1, "nowhere"), Error);
+  EXPECT_THROW(document_->edit("/page/none/x", 1, "nowhere"), Error);
+  EXPECT_THROW(document_->edit("/page/list/9", 1, "nowhere"), Error);
+  EXPECT_THROW(document_->edit("/page/list/x", 1, "nowhere"), Error);
+  EXPECT_THROW(document_->edit("", Json::object(), "all"), Error);
+  EXPECT_THROW(document_->edit("page", 1, "no pointer"), Error);
+  EXPECT_THROW(document_->edit("/page", nullptr, "gone"), Error);
+  EXPECT_THROW(document_->edit("/page/a", std::string(5U << 20U, 'x'), "large"), Error);
+  EXPECT_EQ(document_->value(), first_);
+  EXPECT_FALSE(document_->undo());
+}
+
+TEST_F(DocumentTest, IsThereAgainWithItsSteps) {
+  document_->edit("/page/a", 2, "two");
+  document_->edit("/page/a", 3, "three");
+  document_->undo();
+  document_->save();
+  const auto again = make_document(file_);
+  EXPECT_TRUE(again->problems().empty());
+  EXPECT_EQ(again->value(), document_->value());
+  EXPECT_EQ(again->redo_label(), "three");
+  again->redo();
+  EXPECT_EQ(again->value()["page"]["a"], 3);
+  again->undo();
+  again->undo();
+  EXPECT_EQ(again->value(), first_);
+}
+
+TEST_F(DocumentTest, ADamagedFileIsPutAside) {
+  for (const std::string content : {std::string("{\"format\":"), std::string(100'000, '['), std::string("7"),
+                                    std::string(R"({"format":"asperity-studio","version":2})")}) {
+    std::ofstream(file_) << content;
+    const auto again = make_document(file_);
+    EXPECT_EQ(again->value(), first_);
+    EXPECT_EQ(again->problems().size(), 1U);
+    EXPECT_TRUE(std::filesystem::exists(file_.string() + ".unreadable"));
+    EXPECT_FALSE(std::filesystem::exists(file_));
+  }
+}
+
+TEST_F(DocumentTest, ASectionThatItsPageRefusesBeginsAnew) {
+  std::ofstream(file_)
+      << R"({"format":"asperity-studio","version":1,"document":{"page":{"a":-5}},"undo":[],"redo":[]})";
+  const auto again = make_document(file_);
+  EXPECT_EQ(again->value(), first_);
+  EXPECT_EQ(again->problems().size(), 1U);
+}
+
+}  // namespace
+}  // namespace asperity::studio
