@@ -103,6 +103,7 @@ bool ServoCore::tick(std::uint64_t k, std::uint64_t ticks_since, std::int64_t la
 
   tick.out_world_N = safe.force_N;
   tick.limited_by = safe.limited_by;
+  tick.gain = safe.gain;
   ++statistics_.ticks;
   if (tick.out_world_N != tick.output.force_N) ++statistics_.limited_ticks;
   statistics_.dissipated_J += safe.dissipated_J;

@@ -59,6 +59,7 @@ TEST(ForcePermit, RevokingRampsToZeroAndGivingComesBackSoftly) {
   for (std::size_t k = 0; k < 20; ++k) {
     EXPECT_NEAR(ticks[800 + k].out_world_N.z(), 1.0 - 0.05 * static_cast<double>(k + 1), 1e-9);
     EXPECT_EQ(ticks[800 + k].limited_by, kNotPermitted);
+    EXPECT_NEAR(ticks[800 + k].gain, 1.0 - 0.05 * static_cast<double>(k + 1), 1e-9);
   }
   for (std::size_t k = 820; k < 1100; ++k) EXPECT_EQ(ticks[k].out_world_N, Eigen::Vector3d::Zero());
   // soft_start_s: half after 250 ticks.

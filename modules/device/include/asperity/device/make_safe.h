@@ -40,6 +40,7 @@ struct SafeForce {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
   std::uint32_t limited_by = 0;  // SafetyCause flags
   double dissipated_J = 0.0;     // by the passivity controller at this velocity
+  double gain = 0.0;             // of the soft start and of the ramps to zero, within 0 and 1
 };
 
 // `config` with its limits lowered to those of the device, where it states any; without the passivity controller for a
