@@ -15,7 +15,12 @@ struct WebServerConfig {
   std::string host = "127.0.0.1";
   int port = 0;  // 0: a free one
   int max_clients = 64;
+  double request_timeout_s = 10.0;  // for a whole request, a handshake and its answer
+  double idle_timeout_s = 30.0;     // without a sign of life from a browser, which is asked for one
 };
+
+// True if only programs on this machine can reach `host`.
+bool is_this_machine_only(const std::string& host);
 
 // What the server tells. Called on its own thread: hand it on.
 struct WebServerEvents {
@@ -37,7 +42,7 @@ class WebServer : public Hub {
 
   virtual int port() const = 0;
   virtual std::string address() const = 0;  // "http://127.0.0.1:8137/#token=…"
-  // Frames that were dropped for slow browsers, over all time.
+  // Frames of series that were dropped for slow browsers, over all time.
   virtual std::uint64_t dropped_frames() const = 0;
   // Closes all connections and waits for its thread; no event comes after. The destructor does too.
   virtual void stop() = 0;

@@ -1,0 +1,37 @@
+#include "answer_text.h"
+
+#include <utility>
+
+namespace asperity::studio {
+
+namespace {
+
+std::string text(const Json& message) { return message.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+}  // namespace
+
+std::string answer_text(std::uint64_t id, const Json& result) {
+  Json message;
+  message["id"] = id;
+  message["result"] = result;
+  return text(message);
+}
+
+std::string refusal_text(std::uint64_t id, std::string_view words, std::string_view hint) {
+  Json error;
+  error["message"] = words;
+  error["hint"] = hint;
+  Json message;
+  message["id"] = id;
+  message["error"] = std::move(error);
+  return text(message);
+}
+
+std::string event_text(std::string_view event, const Json& data) {
+  Json message;
+  message["event"] = event;
+  message["data"] = data;
+  return text(message);
+}
+
+}  // namespace asperity::studio

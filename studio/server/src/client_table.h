@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "outbox.h"
+
+namespace asperity::studio {
+
+// The browsers that are connected, their topics and what waits to be sent to each. Thread-safe; no function waits for
+// a browser.
+class ClientTable {
+ public:
+  // Called on any thread when a client that had nothing to be sent has something; must only hand it on.
+  using Wake = std::function<void()>;
+
+  static constexpr std::size_t kMostTopics = 64;
+  static constexpr std::size_t kMostUnanswered = 1000;
+
+  explicit ClientTable(std::size_t most_clients) : most_clients_(most_clients) {}
+
+  // None if there are too many.
+  std::optional<ClientId> join(Wake wake);
+  // False if it had left.
+  bool leave(ClientId client);
+
+  // Both throw Error for what is no name of a topic; subscribe for too many of them.
+  void subscribe(ClientId client, std::string_view topic);
+  void unsubscribe(ClientId client, std::string_view topic);
+  bool has_subscribers(std::string_view topic) const;
+
+  void publish(std::string_view topic, std::string frame, Delivery delivery);
+  void send_all(std::string text);
+  void send(ClientId client, std::string bytes, bool is_text);
+
+  // Counts the calls that a client waits for. begin_call is false if it would be one too many.
+  bool begin_call(ClientId client);
+  void end_call(ClientId client);
+
+  enum class State { kFrame, kNothing, kGone };
+  // The next frame for a client. kNothing: it will be woken when there is one. kGone: it has left, or must be cut off
+  // because it does not take its answers.
+  State next(ClientId client, OutFrame& frame);
+
+  // Frames of series that were dropped for slow browsers.
+  std::uint64_t dropped() const;
+  // The most bytes that wait for any client.
+  std::size_t most_waiting_bytes() const;
+
+ private:
+  struct Client {
+    Wake wake;
+    Outbox outbox;
+    std::set<std::string, std::less<>> topics;
+    std::size_t unanswered = 0;
+    bool awake = false;
+    bool cut = false;
+  };
+
+  static void rouse(Client& client);
+  static void push(Client& client, const OutFrame& frame);
+  void drop_topic(const std::string& topic);
+
+  const std::size_t most_clients_;
+  mutable std::mutex mutex_;
+  std::map<ClientId, Client> clients_;
+  std::map<std::string, std::size_t, std::less<>> subscribers_;
+  ClientId last_id_ = 0;
+  std::uint64_t dropped_ = 0;
+};
+
+}  // namespace asperity::studio

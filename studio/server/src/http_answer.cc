@@ -1,0 +1,186 @@
+#include "http_answer.h"
+
+#include <algorithm>
+
+#include "asperity/base/text.h"
+#include "asperity/studio/block.h"
+#include "secret.h"
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr std::string_view kDownload = "/download/";
+
+bool has_session(const HttpRequest& request, const Site& site) {
+  if (!request.cookie) return false;
+  const auto value = cookie_value(*request.cookie, site.cookie_name);
+  return value && same_secret(*value, site.session);
+}
+
+bool takes_gzip(const HttpRequest& request) {
+  std::string_view rest = request.accept_encoding ? std::string_view(*request.accept_encoding) : std::string_view();
+  while (!rest.empty()) {
+    const std::size_t end = rest.find(',');
+    const std::string_view one = trim(rest.substr(0, end));
+    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+    if (one == "gzip") return true;
+    if (one.starts_with("gzip;")) return !one.ends_with("=0") && one.find("=0.000") == std::string_view::npos;
+  }
+  return false;
+}
+
+HttpAnswer wrong_method(std::string_view allowed) {
+  HttpAnswer answer = refusal(405, "this is not to be done here");
+  answer.headers.emplace_back("Allow", allowed);
+  return answer;
+}
+
+HttpAnswer answer_asset(const HttpRequest& request, std::string_view path, const Site& site) {
+  const auto asset = site.asset(path == "/" ? "/index.html" : path);
+  if (!asset) return refusal(404, "there is nothing here");
+  if (asset->compressed && !takes_gzip(request)) return refusal(406, "this server has its files as gzip alone");
+  HttpAnswer answer;
+  answer.headers = safety_headers(request.host);
+  answer.headers.emplace_back("Content-Type", asset->content_type);
+  if (asset->compressed) answer.headers.emplace_back("Content-Encoding", "gzip");
+  answer.body = asset->content;
+  return answer;
+}
+
+std::optional<std::string> token_of(const std::string& body) {
+  const Json json = Json::parse(body, nullptr, false);
+  if (!json.is_object() || json.size() != 1 || !json.contains("token") || !json["token"].is_string()) {
+    return std::nullopt;
+  }
+  return json["token"].get<std::string>();
+}
+
+HttpAnswer answer_session(const HttpRequest& request, const Site& site) {
+  if (!request.origin || !site.hosts.is_own_origin(*request.origin, *request.host)) {
+    return refusal(403, "this page is of another origin");
+  }
+  const auto token = token_of(request.body);
+  if (!token) return refusal(400, "this is no {\"token\":…}");
+  if (!same_secret(*token, site.token)) {
+    HttpAnswer answer = refusal(403, "this token is not this server's; open the address that it printed");
+    answer.late = true;
+    return answer;
+  }
+  HttpAnswer answer;
+  answer.status = 204;
+  answer.headers = safety_headers(request.host);
+  answer.headers.emplace_back("Set-Cookie",
+                              site.cookie_name + "=" + site.session + "; HttpOnly; SameSite=Strict; Path=/");
+  return answer;
+}
+
+std::optional<int> hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return std::nullopt;
+}
+
+// The name of a file for download from what stands in the address; none for one that could lead elsewhere.
+std::optional<std::string> download_name(std::string_view written) {
+  std::string name;
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    if (written[i] != '%') {
+      name += written[i];
+      continue;
+    }
+    const auto high = i + 2 < written.size() ? hex_digit(written[i + 1]) : std::nullopt;
+    const auto low = i + 2 < written.size() ? hex_digit(written[i + 2]) : std::nullopt;
+    if (!high || !low) return std::nullopt;
+    name += static_cast<char>(16 * *high + *low);
+    i += 2;
+  }
+  const auto bad = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F || c == '/' || c == '\\'; };
+  if (name.empty() || name.size() > 255 || name.front() == '.' || !is_utf8(name)) return std::nullopt;
+  if (std::any_of(name.begin(), name.end(), bad)) return std::nullopt;
+  return name;
+}
+
+std::string percent_encoded(const std::string& name) {
+  constexpr char kDigits[] = "0123456789ABCDEF";
+  std::string out;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '.' || c == '-' ||
+        c == '_') {
+      out += c;
+    } else {
+      out += {'%', kDigits[byte >> 4U], kDigits[byte & 15U]};
+    }
+  }
+  return out;
+}
+
+HttpAnswer answer_download(const HttpRequest& request, std::string_view written, const Site& site) {
+  if (!has_session(request, site)) return refusal(403, "open the address that the studio printed");
+  const auto name = download_name(written);
+  auto bytes = name ? site.download(*name) : std::nullopt;
+  if (!bytes) return refusal(404, "there is nothing here");
+  HttpAnswer answer;
+  answer.headers = safety_headers(request.host);
+  answer.headers.emplace_back("Content-Type", "application/octet-stream");
+  answer.headers.emplace_back("Content-Disposition", "attachment; filename*=UTF-8''" + percent_encoded(*name));
+  answer.body = std::move(*bytes);
+  return answer;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> safety_headers(const std::optional<std::string>& host) {
+  std::string policy =
+      "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; worker-src 'self'; "
+      "font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; connect-src 'self'";
+  // Not all browsers take a WebSocket of the same origin for 'self'.
+  if (host) policy += " ws://" + *host;
+  return {
+      {"Content-Security-Policy", policy},
+      {"Referrer-Policy", "no-referrer"},
+      {"X-Content-Type-Options", "nosniff"},
+      {"X-Frame-Options", "DENY"},
+      {"Cross-Origin-Opener-Policy", "same-origin"},
+      {"Cross-Origin-Resource-Policy", "same-origin"},
+      {"Cache-Control", "no-store"},
+      {"Permissions-Policy", "camera=(), microphone=(), geolocation=(), usb=(), serial=()"},
+  };
+}
+
+HttpAnswer refusal(unsigned status, std::string_view words) {
+  HttpAnswer answer;
+  answer.status = status;
+  answer.headers = safety_headers(std::nullopt);
+  answer.headers.emplace_back("Content-Type", "text/plain; charset=utf-8");
+  answer.body = std::string(words) + "\n";
+  return answer;
+}
+
+HttpAnswer answer_http(const HttpRequest& request, const Site& site) {
+  if (!request.host || !site.hosts.contains(*request.host)) {
+    return refusal(403, "this server is not of that name; open the address that it printed");
+  }
+  const std::string_view path = std::string_view(request.target).substr(0, request.target.find('?'));
+  if (path == "/session") {
+    return request.method == "POST" ? answer_session(request, site) : wrong_method("POST");
+  }
+  if (request.method != "GET") return wrong_method("GET");
+  if (path == "/ws") {
+    HttpAnswer answer = refusal(426, "this is a WebSocket");
+    answer.headers.emplace_back("Upgrade", "websocket");
+    return answer;
+  }
+  if (path.starts_with(kDownload)) return answer_download(request, path.substr(kDownload.size()), site);
+  return answer_asset(request, path, site);
+}
+
+Admission admit_websocket(const HttpRequest& request, const Site& site) {
+  const bool own = request.host && request.origin && site.hosts.is_own_origin(*request.origin, *request.host);
+  if (!own || request.method != "GET" || request.target != "/ws") return Admission::kForeign;
+  return has_session(request, site) ? Admission::kWelcome : Admission::kStranger;
+}
+
+}  // namespace asperity::studio

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "asperity/web/assets.h"
+#include "own_hosts.h"
+
+namespace asperity::studio {
+
+// What of a request matters. A header that is there twice is as absent.
+struct HttpRequest {
+  std::string method, target, body;
+  std::optional<std::string> host, origin, cookie, accept_encoding;
+};
+
+struct HttpAnswer {
+  unsigned status = 200;
+  std::vector<std::pair<std::string, std::string>> headers;
+  std::string body;
+  bool late = false;  // to be held back for a while: a guess should cost time
+};
+
+// A server's secrets and what it serves.
+struct Site {
+  OwnHosts hosts;
+  std::string token;    // in the address that is printed
+  std::string session;  // in the cookie that is given for it
+  std::string cookie_name;
+  std::function<std::optional<web::Asset>(std::string_view path)> asset;
+  std::function<std::optional<std::string>(const std::string& name)> download;
+};
+
+// The answer to a request that asks for no WebSocket (docs/studio-safety.md).
+HttpAnswer answer_http(const HttpRequest& request, const Site& site);
+
+// A refusal with the headers that all answers have.
+HttpAnswer refusal(unsigned status, std::string_view words);
+
+// The headers of every answer, a refused one's too; `host` is the request's if it is one of the site's own.
+std::vector<std::pair<std::string, std::string>> safety_headers(const std::optional<std::string>& host);
+
+enum class Admission {
+  kForeign,   // of another host or origin, or for another path: no WebSocket
+  kStranger,  // our own page, without the cookie: to be told so by close code 4401
+  kWelcome,
+};
+Admission admit_websocket(const HttpRequest& request, const Site& site);
+
+}  // namespace asperity::studio

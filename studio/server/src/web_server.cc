@@ -1,0 +1,164 @@
+// The one translation unit with Beast, which takes long to compile.
+// Asio's fences are for contexts of several threads; ours has one, and the thread sanitizer knows no fences.
+#define BOOST_ASIO_DISABLE_FENCED_BLOCK
+// Boost 1.74's Asio uses std::exchange without including its header.
+#include <utility>
+
+#include "asperity/studio/web_server.h"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <optional>
+#include <thread>
+
+#include "answer_text.h"
+#include "asperity/web/assets.h"
+#include "secret.h"
+#include "web_connection.h"
+
+namespace asperity::studio {
+
+namespace {
+
+// Open connections that are no WebSockets, or not yet.
+constexpr int kMostHttpConnections = 64;
+constexpr auto kAcceptPause = std::chrono::milliseconds(100);
+
+std::string place(const WebServerConfig& config) { return config.host + ", port " + std::to_string(config.port); }
+
+Error cannot_listen(const WebServerConfig& config, const error_code& error) {
+  std::string why = error.message();
+  if (error == asio::error::address_in_use) {
+    why = "another program has this port, perhaps another studio; end it, or choose another port with --port";
+  } else if (error == asio::error::access_denied) {
+    why = "ports below 1024 are the administrator's; choose another with --port";
+  } else if (error == boost::system::errc::address_not_available) {
+    why = "this machine has no such address";
+  }
+  return Error("the studio cannot listen at " + place(config) + ": " + why);
+}
+
+tcp::acceptor listen(asio::io_context& context, const WebServerConfig& config) {
+  error_code error;
+  tcp::resolver resolver(context);
+  const auto found = resolver.resolve(config.host, std::to_string(config.port), tcp::resolver::passive, error);
+  if (error) throw cannot_listen(config, error);
+  const tcp::endpoint endpoint = found.begin()->endpoint();
+  tcp::acceptor acceptor(context);
+  acceptor.open(endpoint.protocol(), error);
+  if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
+  if (!error) acceptor.bind(endpoint, error);
+  if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+  if (error) throw cannot_listen(config, error);
+  return acceptor;
+}
+
+Site make_site(const WebServerConfig& config, int port, const WebServerEvents& events) {
+  Site site{OwnHosts(config.host, port), random_secret(), random_secret(), {}, {}, {}};
+  // Cookies know no ports: a second studio's would take this one's place.
+  site.cookie_name = "asperity_" + std::to_string(port);
+  site.asset = [](std::string_view path) { return web::find_asset(path); };
+  site.download = [download = events.download](const std::string& name) {
+    return download ? download(name) : std::nullopt;
+  };
+  return site;
+}
+
+class BeastServer : public WebServer {
+ public:
+  BeastServer(const WebServerConfig& config, const WebServerEvents& events)
+      : acceptor_(listen(context_, config)), pause_(context_), port_(acceptor_.local_endpoint().port()) {
+    state_.emplace(config, events, make_site(config, port_, events));
+    accept();
+    thread_ = std::thread([this] { run(); });
+  }
+  ~BeastServer() override { BeastServer::stop(); }
+
+  int port() const override { return port_; }
+  std::string address() const override { return state_->site.hosts.address() + "/#token=" + state_->site.token; }
+  std::uint64_t dropped_frames() const override { return state_->clients.dropped(); }
+
+  void stop() override {
+    context_.stop();
+    if (thread_.joinable()) thread_.join();
+  }
+
+  void publish(std::string_view topic, std::string frame, Delivery delivery) override {
+    state_->clients.publish(topic, std::move(frame), delivery);
+  }
+  bool has_subscribers(std::string_view topic) const override { return state_->clients.has_subscribers(topic); }
+  void broadcast(std::string_view event, const Json& data) override {
+    state_->clients.send_all(event_text(event, data));
+  }
+  void notify(ClientId client, std::string_view event, const Json& data) override {
+    state_->clients.send(client, event_text(event, data), true);
+  }
+  void answer(ClientId client, std::uint64_t id, const Json& result) override {
+    end_call(client, answer_text(id, result), true);
+  }
+  void answer_block(ClientId client, std::uint64_t id, BlockWriter block) override {
+    block.head()["id"] = id;
+    end_call(client, block.take(), false);
+  }
+  void refuse(ClientId client, std::uint64_t id, std::string_view message, std::string_view hint) override {
+    end_call(client, refusal_text(id, message, hint), true);
+  }
+
+ private:
+  void end_call(ClientId client, std::string bytes, bool is_text) {
+    state_->clients.end_call(client);
+    state_->clients.send(client, std::move(bytes), is_text);
+  }
+
+  // What a handler throws (no memory) ends its connection, not the server.
+  void run() {
+    for (;;) {
+      try {
+        context_.run();
+        return;
+      } catch (const std::exception&) {
+        continue;
+      }
+    }
+  }
+
+  void accept() {
+    acceptor_.async_accept([this](const error_code& error, tcp::socket socket) {
+      // No file descriptor is free: one may be later.
+      if (error) return accept_later();
+      if (state_->connections < state_->config.max_clients + kMostHttpConnections) {
+        error_code ignored;
+        socket.set_option(tcp::no_delay(true), ignored);
+        std::make_shared<HttpConnection>(std::move(socket), *state_)->read();
+      }
+      accept();
+    });
+  }
+
+  void accept_later() {
+    pause_.expires_after(kAcceptPause);
+    pause_.async_wait([this](const error_code& stopped) {
+      if (!stopped) accept();
+    });
+  }
+
+  std::optional<ServerState> state_;  // outlives the connections, which go with the context
+  asio::io_context context_{1};
+  tcp::acceptor acceptor_;
+  asio::steady_timer pause_;
+  const int port_;
+  std::thread thread_;
+};
+
+}  // namespace
+
+std::unique_ptr<WebServer> WebServer::start(const WebServerConfig& config, WebServerEvents events) {
+  return std::make_unique<BeastServer>(config, events);
+}
+
+}  // namespace asperity::studio
