@@ -1,6 +1,7 @@
 # No two public headers define a type of the same name: two definitions of one name in one program are undefined
 # behaviour, and the linker takes either without a word.
 #   cmake -DROOT=… -P unique_names.cmake
+cmake_minimum_required(VERSION 3.22)
 file(GLOB_RECURSE headers "${ROOT}/modules/*/include/*.h" "${ROOT}/studio/*/include/*.h")
 set(seen "")
 set(faults 0)
