@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asperity/base/text.h"
+#include "json_pose.h"
 
 namespace asperity::studio {
 
@@ -122,7 +123,7 @@ Json recorder_json(const RecorderSnapshot& now) {
   out["contact_ready"] = now.contact_ready;
   out["touches"] = now.touches;
   out["markers"] = now.pose ? Json(now.pose->markers) : Json();
-  out["pose"] = now.pose ? pose_json(*now.pose) : Json();
+  out["pose"] = now.pose ? json_of_pose(now.pose->T_world_marker) : Json();
   out["pose_age_s"] = finite(now.pose_age_s);
   out["storing"] = now.storing;
   out["automatic"] = now.automatic;
