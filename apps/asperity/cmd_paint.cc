@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,12 +15,11 @@
 #include "asperity/base/version.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/scene/paint.h"
-#include "asperity/scene/read_scene.h"
 #include "asperity/scene/write_scene.h"
-#include "asperity/texture/texture_file.h"
 #include "commands.h"
 #include "option_units.h"
 #include "our_folder.h"
+#include "paint_scene.h"
 
 namespace asperity::app {
 
@@ -72,24 +72,9 @@ class PaintCommand : public Command {
     if (picks.size() < 2) throw UsageError("--through: at least two points x,y,z are needed, with ; between");
     OutputFolder folder(output_, is_our_folder);
     observer.update("reading", 0.0);
-    Scene scene = read_scene(mesh_);
+    Scene scene = read(unit_m);
     SceneObject& object = scene.objects.front();
-    const bool is_scene = fs::path(mesh_).extension() == ".json";
-    if (!mesh_unit_.empty()) {
-      if (is_scene && object.unit_m != unit_m)
-        throw UsageError(fmt::format("--mesh-unit: the scene says {} m", object.unit_m));
-      object.unit_m = unit_m;
-    }
-    for (SceneObject& each : scene.objects) {
-      if (fs::path(each.mesh_file).extension() != ".obj")
-        each.mesh_file = fs::path(each.mesh_file).replace_extension(".obj").string();
-    }
-    if (!is_scene) object.mesh_file = "textured.obj";
-
-    SceneTexture texture;
-    texture.index = index_ >= 0 ? index_ : next_index(object);
-    texture.texture = read_texture(texture_);
-    texture.file = free_name(scene, texture.index, fs::path(texture_).filename().string());
+    const SceneTexture texture = choose_texture(scene, texture_, index_);
 
     observer.update("painting", 0.0);
     const PaintResult result = paint(object, picks, texture, settings_.coordinates);
@@ -105,51 +90,16 @@ class PaintCommand : public Command {
   }
 
  private:
-  static int next_index(const SceneObject& object) {
-    int index = 0;
-    for (const SceneTexture& texture : object.textures) index = std::max(index, texture.index);
-    for (const HapticTriangle& triangle : object.mesh.haptic) index = std::max(index, triangle.texture);
-    return index + 1;
-  }
-
-  // Two textures of one scene share no file, nor the images named after them; none is called as another file is.
-  static bool is_taken(const Scene& scene, int index, const std::string& name) {
-    if (name == "scene.json" || name == "paint.json" || name == "files.json") return true;
-    for (const SceneObject& object : scene.objects) {
-      if (name == object.mesh_file || name == object.material_file) return true;
-      for (const SceneTexture& other : object.textures) {
-        const bool replaced = &object == &scene.objects.front() && other.index == index;
-        if (!replaced && texture_stem(other.file) == texture_stem(name)) return true;
-      }
+  Scene read(double unit_m) const {
+    try {
+      return read_painted_scene(mesh_, mesh_unit_.empty() ? std::nullopt : std::optional(unit_m));
+    } catch (const WrongUnit& error) {
+      throw UsageError(std::string("--mesh-unit: ") + error.what());
     }
-    return false;
-  }
-
-  static std::string free_name(const Scene& scene, int index, const std::string& wanted) {
-    std::string name = wanted;
-    for (int n = index; is_taken(scene, index, name); ++n) name = fmt::format("{}-{}", n, wanted);
-    return name;
   }
 
   Json to_json(const PaintResult& result, const SceneObject& object, const SceneTexture& texture) {
-    Json out;
-    out["format"] = "asperity-paint";
-    out["version"] = 1;
-    out["mesh"] = object.mesh_file;
-    out["texture"] = {{"index", texture.index}, {"file", texture.file}};
-    out["path_length_m"] = result.path.path.s_m.back();
-    out["pick_distance_m"] = result.path.pick_distance_m;
-    const HapticWarp& warp = result.warp;
-    out["triangles"] = warp.triangles;
-    out["painted_over"] = result.painted_over;
-    out["warp"] = {{"stretch_min", warp.stretch_min},    {"stretch_max", warp.stretch_max},
-                   {"stretch_rms", warp.stretch_rms},    {"folded", warp.folded.size()},
-                   {"stretched", warp.stretched.size()}, {"overlapping", warp.overlapping.size()},
-                   {"along_rms_m", warp.along_rms_m},    {"along_max_m", warp.along_max_m},
-                   {"length_ratio", warp.length_ratio}};
-    out["problems"] = Json::array();
-    for (const Problem& problem : result.problems)
-      out["problems"].push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
+    Json out = stroke_json(result, object, texture);
     out["config"] = Json::parse(config_json(fields()));
     out["asperity"] = kVersion;
     return out;

@@ -6,9 +6,11 @@ namespace asperity::registration {
 
 double compare_solutions(const Common& common, Matcher& fine, const std::vector<CentredPose>& poses, Settled& best,
                          RegistrationResult& out) {
-  const auto& [surface, points, rules, options, config, noise_m] = common;
+  const auto& [surface, points, rules, options, config, noise_m, watch] = common;
+  watch.begin(RegistrationPhase::kComparison);
   std::vector<Settled> solutions{best};
   for (const CentredPose& pose : poses) {
+    watch.next_start();
     Settled other = settle(surface, points, rules, fine, pose, options, config);
     if (!other.fit.enough) continue;
     out.iterations += other.fit.iterations;

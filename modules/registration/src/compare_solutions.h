@@ -14,6 +14,7 @@ struct Common {
   const FitOptions& options;
   const RegistrationConfig& config;
   double noise_m = 0.0;
+  IterationWatch& watch;
 };
 
 // Below this z the runner-up fits as well.

@@ -68,7 +68,7 @@ struct Scored {
 
 // The best poses of all rotations and positions by the mean distance of a few points.
 std::vector<Scored> score_poses(const RegistrationSurface& surface, const PointSet& points, bool use_outward,
-                                const SearchConfig& config) {
+                                const SearchConfig& config, const Observer& observer) {
   const std::vector<std::uint32_t> few = choose_uniform(points, static_cast<std::size_t>(config.points));
   const std::vector<SurfacePoint> positions = spread_over(*surface.mesh, config.positions);
   const std::uint32_t anchor = few[few.size() / 2];
@@ -76,6 +76,7 @@ std::vector<Scored> score_poses(const RegistrationSurface& surface, const PointS
   const auto worse = [](const Scored& a, const Scored& b) { return a.score_m < b.score_m; };
   std::vector<Scored> best;  // a heap, its worst first
   for (int i = 0; i < config.rotations; ++i) {
+    observer.update("search", static_cast<double>(i) / config.rotations);
     const Eigen::Quaterniond rotation = spiral_rotation(i, config.rotations);
     const Eigen::Vector3d outward = rotation * points.outward[anchor];
     for (const SurfacePoint& at : positions) {
@@ -103,19 +104,20 @@ std::vector<Scored> score_poses(const RegistrationSurface& surface, const PointS
 }  // namespace
 
 RegistrationResult find_registration(std::span<const MeasuredPath> paths, const RegistrationSurface& surface,
-                                     const SearchConfig& config) {
+                                     const SearchConfig& config, const RegistrationObserver& observer) {
   check_surface(surface);
   if (static_cast<double>(config.rotations) * config.positions > 1e8) {
     throw Error(
         fmt::format("registration: {} rotations at {} positions are too many", config.rotations, config.positions));
   }
+  IterationWatch watch(observer);
   RegistrationResult out;
   const PointSet points = gather_points(paths, out.problems);
   MatchRules rules = match_rules(config.registration);
   const bool use_outward = rules.facing_cos > -1.0 && std::none_of(points.outward.begin(), points.outward.end(),
                                                                    [](const auto& o) { return o.isZero(); });
   if (!use_outward) rules.facing_cos = -1.0;
-  const std::vector<Scored> scored = score_poses(surface, points, use_outward, config);
+  const std::vector<Scored> scored = score_poses(surface, points, use_outward, config, observer);
   if (scored.empty()) throw Error("registration: the probe's directions fit the mesh at no pose");
 
   FitOptions options;
@@ -125,12 +127,14 @@ RegistrationResult find_registration(std::span<const MeasuredPath> paths, const 
   options.max_iterations = 25;
   options.step_sigmas = 1.0;
   options.reference = scored.front().pose;
+  options.watch = &watch;
   std::vector<CentredPose> starts;
   starts.reserve(scored.size());
   for (const Scored& s : scored) starts.push_back(s.pose);
+  watch.begin(RegistrationPhase::kSearch);
   Matcher sparse(surface, points, choose_uniform(points, static_cast<std::size_t>(config.coarse_points)), rules);
   const std::vector<CoarseRun> runs =
-      run_coarsely(sparse, points, starts, options, 0.0, static_cast<std::size_t>(config.refined));
+      run_coarsely(sparse, points, starts, options, 0.0, static_cast<std::size_t>(config.refined), watch);
   if (runs.empty()) throw Error("registration: too few points of the path meet the mesh at any pose");
 
   options.isotropic = 0.0;
@@ -140,13 +144,14 @@ RegistrationResult find_registration(std::span<const MeasuredPath> paths, const 
   const int limit = config.registration.max_points;
   Matcher fine(surface, points, choose_uniform(points, limit == 0 ? points.size() : static_cast<std::size_t>(limit)),
                rules);
+  watch.begin(RegistrationPhase::kFit);
   Settled best = settle(surface, points, rules, fine, runs.front().pose, options, config.registration);
   out.iterations = best.fit.iterations;
   const double noise_m = std::hypot(path_noise_m(points, fine, best.pose), facet_sag_m(surface, fine));
   std::vector<CentredPose> others;
   for (std::size_t i = 1; i < runs.size(); ++i) others.push_back(runs[i].pose);
-  const double z =
-      compare_solutions({surface, points, rules, options, config.registration, noise_m}, fine, others, best, out);
+  const double z = compare_solutions({surface, points, rules, options, config.registration, noise_m, watch}, fine,
+                                     others, best, out);
   write_verdict({best, noise_m, TriedStarts::kEverywhere, z < kAmbiguousZ}, points, fine.size(), config.registration,
                 out);
   return out;

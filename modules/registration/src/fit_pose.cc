@@ -100,6 +100,7 @@ Fit fit_pose(Matcher& matcher, const PointSet& points, const CentredPose& start,
   double last_sigmas = 0.0;
 
   for (int k = 0; k < options.max_iterations; ++k) {
+    if (options.watch != nullptr) options.watch->check();
     matcher.match(pose);
     if (!settled) {
       const double now_m = std::max(matcher.scale_m(), rounding_m);
@@ -108,6 +109,7 @@ Fit fit_pose(Matcher& matcher, const PointSet& points, const CentredPose& start,
       if (!settled || now_m < scale_m || scale_m == 0.0) scale_m = now_m;
     }
     const double width_m = options.robust_sigmas * scale_m;
+    if (options.watch != nullptr) options.watch->report(matcher, points, pose, width_m);
     const Sums sums = accumulate(matcher, pose, width_m);
     best.iterations = k + 1;
     if (sums.usable < 3 || !(sums.weight > 0.0)) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "iteration_watch.h"
 #include "match_points.h"
 
 namespace asperity::registration {
@@ -26,6 +27,7 @@ struct FitOptions {
   std::vector<Hold> holds;       // at a motion from `reference`
   double fixed_scale_m = 0.0;    // of the distances; 0: measured
   double known_scale_m = 0.0;    // where the pose has been fitted to some of the points already; 0: it has not
+  const IterationWatch* watch = nullptr;
 };
 
 struct Fit {
@@ -38,7 +40,8 @@ struct Fit {
   bool enough = true;    // at least three usable pairs at each step
 };
 
-// Gauss–Newton on SE(3) from `start`, closest points anew each step (docs/registration.md).
+// Gauss–Newton on SE(3) from `start`, closest points anew each step (docs/registration.md). Throws Cancelled where the
+// watch does.
 Fit fit_pose(Matcher& matcher, const PointSet& points, const CentredPose& start, const FitOptions& options);
 
 // The mean robust cost (Welsch) of the matcher's present pairs at a scale.

@@ -39,11 +39,13 @@ std::vector<CentredPose> starts_about(const CentredPose& guess, int count, doubl
 }
 
 std::vector<CoarseRun> run_coarsely(Matcher& matcher, const PointSet& points, const std::vector<CentredPose>& starts,
-                                    const FitOptions& options, double least_width_m, std::size_t keep) {
+                                    const FitOptions& options, double least_width_m, std::size_t keep,
+                                    IterationWatch& watch) {
   std::vector<CoarseRun> runs;
   runs.reserve(starts.size());
   double least_scale_m = std::numeric_limits<double>::infinity();
   for (const CentredPose& start : starts) {
+    watch.next_start();
     const Fit fit = fit_pose(matcher, points, start, options);
     if (!fit.enough) continue;
     CoarseRun run{fit.pose, fit.scale_m, 0.0, {}};

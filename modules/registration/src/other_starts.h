@@ -22,6 +22,7 @@ struct CoarseRun {
 // Runs ICP from each start with few points and steps. The runs come back best first, those that ended at the same
 // place as a better one left out.
 std::vector<CoarseRun> run_coarsely(Matcher& matcher, const PointSet& points, const std::vector<CentredPose>& starts,
-                                    const FitOptions& options, double least_width_m, std::size_t keep);
+                                    const FitOptions& options, double least_width_m, std::size_t keep,
+                                    IterationWatch& watch);
 
 }  // namespace asperity::registration

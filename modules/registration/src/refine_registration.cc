@@ -14,6 +14,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "iteration_watch.h"
 #include "path_chain.h"
 #include "pose_motion.h"
 #include "refinement.h"
@@ -26,6 +27,7 @@ namespace {
 
 using registration::Equations;
 using registration::FacetHeights;
+using registration::IterationWatch;
 using registration::kLeastPoints;
 using registration::Matrix6;
 using registration::PathChain;
@@ -63,12 +65,15 @@ struct Refined {
 
 // Gauss–Newton with one filter, from one state.
 Refined descend(const Refinement& problem, const State& start, const Whitening& whitening,
-                std::span<const UndeterminedMotion> held, int max_iterations) {
+                std::span<const UndeterminedMotion> held, int max_iterations, IterationWatch& watch) {
+  watch.next_start();
   Refined out;
   out.state = start;
   out.heights = problem.heights(start);
   for (int k = 0; k < max_iterations; ++k) {
     ++out.iterations;
+    watch.check();
+    watch.report(out.state.T_mesh_world, out.heights.rms_m, out.heights.d_m.size(), out.heights.count);
     Equations equations = problem.equations(out.state, out.heights, whitening);
     out.cost = equations.cost;
     if (equations.rows < kLeastPoints) return out;
@@ -189,7 +194,9 @@ void name_rival(const PathChain& chain, const std::vector<Valley>& valleys, Regi
 
 RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, const MeshSurface& surface,
                                         const RegistrationResult& start, std::span<const Pose> others,
-                                        const RefineConfig& given) {
+                                        const RefineConfig& given, const RegistrationObserver& observer) {
+  IterationWatch watch(observer);
+  watch.begin(RegistrationPhase::kRefinement);
   RefinedRegistration out;
   out.registration = start;
   out.slow_error_world_m.resize(paths.size());
@@ -215,20 +222,20 @@ RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, con
   // The valley of the start, with the relief's spectrum as it is there; then all valleys with that spectrum.
   Whitening whitening = registration::make_whitening(chain, heights, order, smooth);
   if (!(whitening.variance_m2 > 0.0)) return give_up("the path lies on the mesh exactly");
-  Refined best = descend(problem, first, whitening, start.undetermined, config.max_iterations);
+  Refined best = descend(problem, first, whitening, start.undetermined, config.max_iterations, watch);
   int iterations = best.iterations;
   std::vector<Valley> valleys;  // with the first round's whitening
   for (int round = 0; round < kRounds; ++round) {
     whitening = registration::make_whitening(chain, best.heights, order, smooth);
     if (!(whitening.variance_m2 > 0.0)) return give_up("the path lies on the mesh exactly");
-    best = descend(problem, best.state, whitening, start.undetermined, config.max_iterations);
+    best = descend(problem, best.state, whitening, start.undetermined, config.max_iterations, watch);
     iterations += best.iterations;
     if (round > 0) continue;
     valleys.push_back({best.cost, best.state.T_mesh_world, best.heights.rms_m});
     for (const Pose& pose : others) {
       State other = first;
       other.T_mesh_world = pose;
-      Refined there = descend(problem, other, whitening, start.undetermined, config.max_iterations);
+      Refined there = descend(problem, other, whitening, start.undetermined, config.max_iterations, watch);
       iterations += there.iterations;
       valleys.push_back({there.cost, there.state.T_mesh_world, there.heights.rms_m});
       if (there.cost < best.cost) best = std::move(there);
@@ -245,7 +252,7 @@ RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, con
   if (start.ambiguous && start.runner_up) {
     State other = first;
     other.T_mesh_world = start.runner_up->T_mesh_world;
-    decide(descend(problem, other, whitening, {}, config.max_iterations).cost - best.cost, result);
+    decide(descend(problem, other, whitening, {}, config.max_iterations, watch).cost - best.cost, result);
   }
   name_rival(chain, valleys, result);
   result.verdict +=

@@ -43,11 +43,13 @@ double points_alike(const PointSet& points, std::size_t used, double error_lengt
 }  // namespace
 
 RegistrationResult register_path(std::span<const MeasuredPath> paths, const RegistrationSurface& surface,
-                                 const Pose& guess, const RegistrationConfig& config) {
+                                 const Pose& guess, const RegistrationConfig& config,
+                                 const RegistrationObserver& observer) {
   check_surface(surface);
   if (!guess.rotation.coeffs().allFinite() || !(guess.rotation.norm() > 0.0) || !guess.translation_m.allFinite()) {
     throw Error("registration: the guess is not a finite pose");
   }
+  IterationWatch watch(observer);
   RegistrationResult out;
   const PointSet points = gather_points(paths, out.problems);
   const CentredPose start = centred(guess, points);
@@ -65,7 +67,9 @@ RegistrationResult register_path(std::span<const MeasuredPath> paths, const Regi
   coarse_options.alike = points_alike(points, few.size(), config.error_length_m);
   coarse_options.reference = start;
   coarse_options.step_sigmas = kCoarseStep;
+  coarse_options.watch = &watch;
   Matcher coarse(surface, points, few, rules);
+  watch.begin(RegistrationPhase::kAnnealing);
   const Fit first = fit_pose(coarse, points, start, coarse_options);
 
   const std::size_t limit =
@@ -76,6 +80,7 @@ RegistrationResult register_path(std::span<const MeasuredPath> paths, const Regi
   fine_options.known_scale_m = first.scale_m;
   fine_options.alike = points_alike(points, limit, config.error_length_m);
   Matcher fine(surface, points, choose_uniform(points, limit), rules);
+  watch.begin(RegistrationPhase::kFit);
   Settled best = settle(surface, points, rules, fine, first.pose, fine_options, config);
   out.iterations = first.iterations + best.fit.iterations;
 
@@ -93,13 +98,15 @@ RegistrationResult register_path(std::span<const MeasuredPath> paths, const Regi
     std::vector<CentredPose> starts =
         starts_about(start, config.starts.count, config.starts.radius_m, config.starts.turn_deg);
     starts.insert(starts.begin(), best.pose);
+    watch.begin(RegistrationPhase::kRestarts);
     const std::vector<CoarseRun> runs = run_coarsely(sparse, points, starts, quick, config.robust_sigmas * noise_m,
-                                                     static_cast<std::size_t>(config.starts.refined) + 1);
+                                                     static_cast<std::size_t>(config.starts.refined) + 1, watch);
     std::vector<CentredPose> poses;
     poses.reserve(runs.size());
     for (const CoarseRun& run : runs) poses.push_back(run.pose);
     fine_options.known_scale_m = 0.0;
-    runner_up_z = compare_solutions({surface, points, rules, fine_options, config, noise_m}, fine, poses, best, out);
+    runner_up_z =
+        compare_solutions({surface, points, rules, fine_options, config, noise_m, watch}, fine, poses, best, out);
   }
   write_verdict({best, noise_m, tried ? TriedStarts::kAboutGuess : TriedStarts::kNone, runner_up_z < kAmbiguousZ},
                 points, fine.size(), config, out);

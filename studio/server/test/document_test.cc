@@ -23,7 +23,7 @@ std::unique_ptr<Document> make_document(const std::filesystem::path& file) {
 
 class DocumentTest : public ::testing::Test {
  protected:
-  TempDir folder_;
+  testkit::TempDir folder_;
   std::filesystem::path file_ = folder_.path() / ".asperity-studio.json";
   std::unique_ptr<Document> document_ = make_document(file_);
   const Json first_ = document_->value();
@@ -96,8 +96,8 @@ TEST_F(DocumentTest, IsThereAgainWithItsSteps) {
 }
 
 TEST_F(DocumentTest, ADamagedFileIsPutAside) {
-  for (const std::string content : {std::string("{\"format\":"), std::string(100'000, '['), std::string("7"),
-                                    std::string(R"({"format":"asperity-studio","version":2})")}) {
+  for (const std::string& content : {std::string("{\"format\":"), std::string(100'000, '['), std::string("7"),
+                                     std::string(R"({"format":"asperity-studio","version":2})")}) {
     std::ofstream(file_) << content;
     const auto again = make_document(file_);
     EXPECT_EQ(again->value(), first_);

@@ -6,28 +6,19 @@
 #include <vector>
 
 #include "asperity/base/problem.h"
-#include "asperity/base/progress.h"
 #include "asperity/geometry/mesh_path.h"
 #include "asperity/geometry/pose.h"
 #include "asperity/geometry/triangle_mesh.h"
 #include "asperity/pipeline/path_texture.h"
 #include "asperity/pipeline/process_result.h"
-#include "asperity/pipeline/read_path.h"
 #include "asperity/pipeline/register_config.h"
-#include "asperity/recording/recording.h"
+#include "asperity/pipeline/scan.h"
 #include "asperity/registration/haptic_coordinates.h"
+#include "asperity/registration/registration_iteration.h"
 #include "asperity/registration/registration_result.h"
 #include "asperity/texture/texture.h"
 
 namespace asperity {
-
-// What is to be registered: a recording, or a path alone. All scans of a call share one world frame.
-struct Scan {
-  std::string name;
-  std::optional<Recording> recording;
-  PathFile path;                   // used if there is no recording
-  std::optional<Texture> texture;  // laid along the path instead of the scan's own
-};
 
 // A scan in its place on the mesh.
 struct RegisteredScan {
@@ -55,6 +46,6 @@ struct ScansOnMesh {
 // haptic coordinates. `mesh` is in metres. Throws Error if a scan or a setting does not allow it at all, naming
 // the scan, and Cancelled.
 ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& mesh, const std::optional<Pose>& guess,
-                           const RegisterConfig& config, const Observer& observer = {});
+                           const RegisterConfig& config, const RegistrationObserver& observer = {});
 
 }  // namespace asperity

@@ -30,8 +30,8 @@ struct SearchConfig {
 // The registration without a guess: rotations of a super-Fibonacci spiral (Alexa 2022) times points spread over the
 // surface, scored at a few points; the best run coarsely, the best of these to the end. The best is the
 // result, the next the runner-up, which decides whether it can be trusted. A motion that the paths do not determine is
-// arbitrary. Throws Error as register_path does, and for more than 10^8 poses.
+// arbitrary. Throws Error as register_path does, and for more than 10^8 poses; and Cancelled.
 RegistrationResult find_registration(std::span<const MeasuredPath> paths, const RegistrationSurface& surface,
-                                     const SearchConfig& config);
+                                     const SearchConfig& config, const RegistrationObserver& observer = {});
 
 }  // namespace asperity

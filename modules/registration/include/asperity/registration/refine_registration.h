@@ -7,6 +7,7 @@
 
 #include "asperity/base/config.h"
 #include "asperity/geometry/mesh_surface.h"
+#include "asperity/registration/registration_iteration.h"
 #include "asperity/registration/registration_result.h"
 
 namespace asperity {
@@ -68,9 +69,9 @@ struct RefinedRegistration {
 // poses to begin from: a path has several valleys near a guess (Fig. 25), and with the same whitening for all, the cost
 // says which is the deepest. Motions that `start` lists as undetermined stay as they are. The result has the refined
 // pose, residual and covariance, and lists turns that are less certain than undetermined_deg as undetermined. Where
-// fewer than 30 points are usable, `start` is given back with a Problem.
+// fewer than 30 points are usable, `start` is given back with a Problem. Throws Cancelled.
 RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, const MeshSurface& surface,
                                         const RegistrationResult& start, std::span<const Pose> others,
-                                        const RefineConfig& config);
+                                        const RefineConfig& config, const RegistrationObserver& observer = {});
 
 }  // namespace asperity

@@ -17,7 +17,8 @@ namespace asperity::studio {
 class Jobs {
  public:
   using Work = std::function<void(const Observer&)>;     // on the jobs' thread; may throw
-  using Done = std::function<void(std::exception_ptr)>;  // on the studio's thread, always once; null if all went well
+  using Done = std::function<void(std::exception_ptr)>;  // on the studio's thread, once unless the studio ends; null:
+                                                         // all went well
   using Post = std::function<void(std::function<void()>)>;  // hands a function to the studio's thread
 
   Jobs(Hub& hub, Post post);

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "asperity/pipeline/live_estimate.h"
+#include "asperity/pipeline/scan_hints_config.h"
+#include "asperity/recording/append.h"
+#include "asperity/recording/calibration.h"
+#include "asperity/recording/recording.h"
+
+namespace asperity {
+
+enum class HintKind {
+  kNoCalibration,
+  kProbeSilent,
+  kRowsLost,
+  kMarkerLost,
+  kAccelerometerSaturating,
+  kForceSaturating,
+  kTooFast,
+  kTooLight,
+  kTooHard,
+  kTiltedTooFar,
+  kTiltingTooFast,
+  kDoublingBack,
+};
+inline constexpr std::array<std::string_view, 12> kHintKindNames{
+    "no_calibration", "probe_silent", "rows_lost", "marker_lost",    "accelerometer_saturating", "force_saturating",
+    "too_fast",       "too_light",    "too_hard",  "tilted_too_far", "tilting_too_fast",         "doubling_back"};
+
+// kWarning: the scan is worse than it could be. kError: what is scanned now gives no profile.
+enum class HintSeverity { kWarning, kError };
+inline constexpr std::array<std::string_view, 2> kHintSeverityNames{"warning", "error"};
+
+// One thing that an operator can act on now.
+struct Hint {
+  HintKind kind = HintKind::kNoCalibration;
+  HintSeverity severity = HintSeverity::kWarning;
+  std::string text;           // a plain sentence or two: the number with its unit, and what to do
+  double value = 0.0;         // measured, SI
+  double limit = 0.0;         // that it is beside, SI
+  std::int64_t since_ns = 0;  // data time at which it began
+};
+
+// What an operator should do differently, from the sensors' own rows and the live estimate, all in data time. Each
+// hint comes after its condition has held for a minimum time, goes after it has been better than a lower threshold
+// for another, and is shown for a minimum time, so that none flickers. Thread-safe: no.
+class ScanAdvisor {
+ public:
+  // Throws Error for a config out of range. `calibrated` false: only what needs no calibration is judged.
+  ScanAdvisor(const Calibration& calibration, const RecordingInfo& info, const ScanHintsConfig& config = {},
+              bool calibrated = true);
+
+  void push(const ProbeSample& row);
+  void push(const TrackerSample& pose);
+  void push(const LiveEstimate& estimate);
+
+  // The hints at `now_ns`, of the clock of the rows' times (the newest row's if there is no clock); the gravest first,
+  // then in the order of HintKind.
+  std::vector<Hint> hints(std::int64_t now_ns);
+
+  // The speed below which the texture wanted is resolved, m/s; infinite if nothing limits it.
+  double highest_speed_mps() const;
+
+  // A new stroke or segment: the direction of travel and the path behind are forgotten.
+  void restart();
+
+  void configure(const ScanHintsConfig& config);
+
+ private:
+  struct Condition {
+    bool held = false;  // beyond the upper threshold, or between both while it is shown
+    bool shown = false;
+    std::int64_t held_since_ns = 0;
+    std::int64_t shown_since_ns = 0;
+    std::int64_t better_since_ns = 0;
+    double value = 0.0;
+  };
+  struct Judged;
+
+  Condition& of(HintKind kind) { return conditions_[static_cast<std::size_t>(kind)]; }
+  void judge(HintKind kind, std::int64_t t_ns, bool beyond, bool better, double value);
+  Hint describe(HintKind kind, std::int64_t now_ns) const;
+
+  Calibration calibration_;
+  RecordingInfo info_;
+  ScanHintsConfig config_;
+  bool calibrated_ = true;
+  std::array<Condition, kHintKindNames.size()> conditions_{};
+};
+
+}  // namespace asperity

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "asperity/base/progress.h"
+#include "asperity/pipeline/measured_path.h"
+#include "asperity/pipeline/process_result.h"
+#include "asperity/pipeline/register_config.h"
+#include "asperity/pipeline/scan.h"
+
+namespace asperity {
+
+// Where the tips of scans were, as registration wants it; one entry a scan.
+struct ScanPoints {
+  std::vector<ProcessResult> motions;  // the trajectory and what is doubtful about it; the rest is empty
+  std::vector<PathPoints> points;
+  bool in_sequence = true;  // all scans have times: their points follow one another, and errors last along them
+};
+
+// The tips' trajectories (seed §4.1 to §4.3) and their points. A path without times is given some: only its sequence
+// counts. Throws Error naming the scan, for no scan, and Cancelled.
+ScanPoints find_scan_points(const std::vector<Scan>& scans, const RegisterConfig& config,
+                            const Observer& observer = {});
+
+}  // namespace asperity

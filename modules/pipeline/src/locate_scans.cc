@@ -1,0 +1,101 @@
+#include "asperity/pipeline/locate_scans.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "asperity/registration/find_registration.h"
+#include "asperity/registration/refine_registration.h"
+#include "asperity/registration/register_path.h"
+
+namespace asperity {
+
+namespace {
+
+struct PoseStep {
+  Eigen::Vector3d turn, shift_m;
+};
+
+// Turns and shifts within balls of the given radii, on an additive sequence (Roberts 2018) of six numbers.
+std::vector<PoseStep> spread_steps(int count, double shift_m, double turn_rad) {
+  constexpr double kRoot = 1.1347241384015194;  // x⁷ = x + 1
+  std::vector<PoseStep> out;
+  for (int i = 1; out.size() < static_cast<std::size_t>(count) && i < 100 * count; ++i) {
+    std::array<double, 6> u{};
+    double power = 1.0;
+    for (double& value : u) {
+      power /= kRoot;
+      value = 2.0 * std::fmod(0.5 + power * i, 1.0) - 1.0;
+    }
+    const Eigen::Vector3d a(u[0], u[1], u[2]), b(u[3], u[4], u[5]);
+    if (a.norm() <= 1.0 && b.norm() <= 1.0) out.push_back({turn_rad * a, shift_m * b});
+  }
+  return out;
+}
+
+// Where fits end that begin at other guesses, evenly spread about the given one.
+std::vector<Pose> other_fits(const std::vector<MeasuredPath>& paths, const RegistrationSurface& surface,
+                             const std::optional<Pose>& guess, RegistrationConfig config, const RefineConfig& refine,
+                             const RegistrationObserver& observer) {
+  std::vector<Pose> out;
+  if (!guess || !refine.enabled) return out;
+  config.starts.when = OtherStarts::kNever;
+  config.max_points = config.coarse_points;
+  Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();
+  std::size_t count = 0;
+  for (const MeasuredPath& path : paths) {
+    for (const Eigen::Vector3d& p_m : path.p_world_m) middle_m += p_m;
+    count += path.p_world_m.size();
+  }
+  middle_m = *guess * Eigen::Vector3d(middle_m / static_cast<double>(std::max<std::size_t>(1, count)));
+  RegistrationObserver inner = observer;
+  if (observer.iterated) {
+    inner.iterated = [&observer, &out](RegistrationIteration iteration) {
+      iteration.phase = RegistrationPhase::kGuesses;
+      iteration.start = static_cast<int>(out.size());
+      observer.iterated(iteration);
+    };
+  }
+  for (const PoseStep& step :
+       spread_steps(refine.other_starts, refine.other_shift_m, refine.other_turn_deg * std::numbers::pi / 180.0)) {
+    observer.update("other guesses", static_cast<double>(out.size()) / std::max(1, refine.other_starts));
+    const Eigen::Quaterniond turn = exp_rotation(step.turn);
+    const Pose about{turn * guess->rotation, turn * (guess->translation_m - middle_m) + middle_m + step.shift_m};
+    out.push_back(register_path(paths, surface, about, config, inner).T_mesh_world);
+  }
+  return out;
+}
+
+}  // namespace
+
+LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, const std::optional<Pose>& guess,
+                          const RegisterConfig& config, const RegistrationObserver& observer) {
+  const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
+  observer.update("registration", 0.0);
+  std::vector<MeasuredPath> paths, smooth;
+  for (const PathPoints& points : scans.points) {
+    paths.push_back(points.path);
+    smooth.push_back(scans.in_sequence ? smooth_path(points.path, config.points.smoothing_m) : points.path);
+  }
+  SearchConfig search = config.search;
+  if (scans.in_sequence && search.registration.error_length_m == 0.0) {
+    search.registration.error_length_m = config.refinement.slow_length_m;
+  }
+  LocatedScans out;
+  out.registration = guess ? register_path(smooth, ready, *guess, search.registration, observer)
+                           : find_registration(smooth, ready, search, observer);
+  // Scans have errors that last along the path; points without a sequence have none that is known.
+  out.slow_error_world_m.resize(scans.points.size());
+  if (scans.in_sequence) {
+    const std::vector<Pose> others = other_fits(smooth, ready, guess, search.registration, config.refinement, observer);
+    observer.update("refinement", 0.0);
+    RefinedRegistration refined =
+        refine_registration(paths, surface, out.registration, others, config.refinement, observer);
+    out.registration = std::move(refined.registration);
+    out.slow_error_world_m = std::move(refined.slow_error_world_m);
+  }
+  return out;
+}
+
+}  // namespace asperity

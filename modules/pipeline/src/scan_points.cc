@@ -1,0 +1,68 @@
+#include "asperity/pipeline/scan_points.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/pipeline/process_motion.h"
+#include "asperity/profile/find_contact.h"
+
+namespace asperity {
+
+namespace {
+
+// A path without times is given some: evenly, at a usual speed of the hand. Only its sequence counts.
+void spread_times(TipMotion& motion) {
+  constexpr double kUsual_mps = 0.025;
+  constexpr std::size_t kChords = 200;  // few enough for noise not to lengthen them much
+  const std::size_t n = motion.size(), step = std::max<std::size_t>(1, n / kChords);
+  double length_m = 0.0;
+  for (std::size_t i = step; i < n; i += step) {
+    length_m += (motion.p_world_tip_m[i] - motion.p_world_tip_m[i - step]).norm();
+  }
+  constexpr double kLongest_ns = 1e18;  // 30 years: what a length in other units than metres makes of it
+  const double step_ns = std::max(1.0, std::min(length_m / kUsual_mps * 1e9, kLongest_ns) / static_cast<double>(n));
+  for (std::size_t i = 0; i < n; ++i) motion.t_ns[i] = static_cast<std::int64_t>(static_cast<double>(i) * step_ns);
+}
+
+ProcessResult motion_of(const Scan& scan, const RegisterConfig& config, const Observer& observer) {
+  if (scan.recording) return estimate_motion(*scan.recording, config.process, observer);
+  ProcessResult out;
+  out.trajectory.motion = scan.path.motion;
+  out.problems = scan.path.problems;
+  if (!scan.path.timed) spread_times(out.trajectory.motion);
+  return out;
+}
+
+PathPoints points_of(const Scan& scan, const TipMotion& motion, const RegisterConfig& config) {
+  // Points without times stand for themselves: nothing rests in them.
+  if (!scan.recording && !scan.path.timed) {
+    PathPoints out;
+    out.path.p_world_m = motion.p_world_tip_m;
+    for (std::size_t i = 0; i < motion.size(); ++i) out.sample.push_back(static_cast<double>(i));
+    return out;
+  }
+  return measured_path(motion, find_contact(motion, config.process.base.contact), tip_in_marker_m(scan), config.points);
+}
+
+}  // namespace
+
+ScanPoints find_scan_points(const std::vector<Scan>& scans, const RegisterConfig& config, const Observer& observer) {
+  if (scans.empty()) throw Error("registration: no scan");
+  ScanPoints out;
+  for (const Scan& scan : scans) {
+    try {
+      out.motions.push_back(motion_of(scan, config, observer));
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const Error& error) {
+      throw Error(printable(scan.name, 200) + ": " + error.what());
+    }
+    out.points.push_back(points_of(scan, out.motions.back().trajectory.motion, config));
+    out.in_sequence = out.in_sequence && (scan.recording.has_value() || scan.path.timed);
+  }
+  return out;
+}
+
+}  // namespace asperity

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "asperity/geometry/motion.h"
+#include "asperity/recording/append.h"
+#include "asperity/recording/calibration.h"
+#include "asperity/recording/recording.h"
+#include "asperity/trajectory/fused.h"
+
+namespace asperity {
+
+struct CausalTipConfig {
+  double lag_s = 0.14;
+  double blend_s = 0.08;
+  double hop_s = 0.02;
+  double start_s = 0.25;
+  double mounting_s = 3.0;
+  double context_s = 0.25;
+  double max_row_gap_s = 0.3;
+
+  template <class V>
+  void visit(V& v) {
+    v.field("lag_s", lag_s, "a sample is final this long after it was taken, s", {0.01, 10.0});
+    v.field("blend_s", blend_s, "the last part of the lag, over which successive estimates are blended, s",
+            {0.001, 10.0});
+    v.field("hop_s", hop_s, "between two estimates of the window, s", {0.001, 1.0});
+    v.field("start_s", start_s, "of rows and poses before the first estimate, s", {0.05, 10.0});
+    v.field("mounting_s", mounting_s, "the same where the sensor's rotation is unknown, s", {0.5, 60.0});
+    v.field("context_s", context_s, "of rows before the window that its clock is smoothed over, s", {0.05, 10.0});
+    v.field("max_row_gap_s", max_row_gap_s, "a longer hole in the rows begins the estimate anew, s", {0.01, 10.0});
+  }
+};
+
+struct CausalTipCounts {
+  std::uint64_t rows = 0, rows_refused = 0, rows_lost = 0;
+  std::uint64_t poses = 0, poses_refused = 0, poses_late = 0, poses_outlying = 0;
+  std::uint64_t restarts = 0;
+};
+
+// The tip's motion at the probe's own sample times while they come: the filter of fused.h, smoothed over a fixed lag
+// (docs/live-profile.md). Memory is bounded. Thread-safe: no.
+class CausalTip {
+ public:
+  // Throws Error if the calibration is singular or a lag is shorter than its blend and hop.
+  CausalTip(const Calibration& calibration, const RecordingInfo& info, const FusedConfig& fused,
+            const CausalTipConfig& config);
+  ~CausalTip();
+  CausalTip(CausalTip&&) noexcept;
+  CausalTip& operator=(CausalTip&&) noexcept;
+
+  // Rows in order of time; poses as received, the latency still in them, at any time after. What is out of order,
+  // repeated or not finite is passed over and counted.
+  void push(const ProbeSample& row);
+  void push(const TrackerSample& pose);
+
+  // Appends the samples that have become final since the last call to `out`, in order of time. `broken` is set for a
+  // sample before which the estimate began anew: positions jump there.
+  struct Samples {
+    TipMotion motion;
+    std::vector<char> broken;
+  };
+  void take(Samples& out);
+
+  const CausalTipCounts& counts() const;
+  std::int64_t newest_row_ns() const;
+  std::int64_t newest_pose_ns() const;  // its true time
+  std::int64_t final_ns() const;        // up to here samples are final
+  std::string waiting() const;          // why nothing is estimated yet; empty: it is
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace asperity

@@ -1,0 +1,94 @@
+#include "asperity/studio/jobs.h"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "fake_hub.h"
+#include "inbox.h"
+
+namespace asperity::studio {
+namespace {
+
+using namespace std::chrono_literals;
+
+// The studio's thread is the test's.
+class JobsTest : public ::testing::Test {
+ protected:
+  FakeHub hub_;
+  Inbox inbox_;
+  Jobs jobs_{hub_, [this](Inbox::Work work) { inbox_.post(std::move(work)); }};
+
+  Request request(std::uint64_t id) { return Request(hub_, 1, Call{id, "test", Json::object()}); }
+
+  // Does what is posted until `id` is answered.
+  FakeHub::Answer wait_for(std::uint64_t id) {
+    const auto end = std::chrono::steady_clock::now() + 60s;
+    while (!hub_.answered(id) && std::chrono::steady_clock::now() < end) {
+      for (const auto& work : inbox_.wait(end)) work();
+    }
+    return hub_.answer_to(id);
+  }
+};
+
+TEST_F(JobsTest, AnswersWithWhatTheWorkGives) {
+  answer_by_job(jobs_, request(1), "adds", "", [](const Observer&) { return Json(42); });
+  EXPECT_EQ(wait_for(1).result, 42);
+  EXPECT_EQ(hub_.events("job").back()["state"], "done");
+}
+
+TEST_F(JobsTest, AnErrorIsARefusal) {
+  answer_by_job(jobs_, request(1), "fails", "", [](const Observer&) -> Json { throw Advice("no", "try again"); });
+  EXPECT_EQ(wait_for(1).error, "no");
+  EXPECT_EQ(wait_for(1).hint, "try again");
+  EXPECT_EQ(hub_.events("job").back()["state"], "failed");
+}
+
+TEST_F(JobsTest, TheNewestOfASlotIsWorkedOut) {
+  std::atomic<bool> started{false};
+  answer_by_job(jobs_, request(1), "first", "slot", [&](const Observer& observer) -> Json {
+    started = true;
+    for (;;) observer.update("turning", 0.5);
+  });
+  while (!started) std::this_thread::yield();
+  answer_by_job(jobs_, request(2), "second", "slot", [](const Observer&) { return Json(2); });
+  answer_by_job(jobs_, request(3), "third", "slot", [](const Observer&) { return Json(3); });
+  EXPECT_EQ(wait_for(3).result, 3);
+  EXPECT_EQ(wait_for(1).error, "cancelled");
+  EXPECT_EQ(wait_for(2).error, "cancelled");
+}
+
+TEST_F(JobsTest, OthersOfNoSlotOrAnotherGoOn) {
+  for (std::uint64_t id = 1; id < 6; ++id) {
+    answer_by_job(jobs_, request(id), "job", id % 2 == 0 ? "slot" + std::to_string(id) : "",
+                  [id](const Observer&) { return Json(id); });
+  }
+  for (std::uint64_t id = 1; id < 6; ++id) EXPECT_EQ(wait_for(id).result, id);
+}
+
+TEST_F(JobsTest, IsCancelledByItsNumber) {
+  Calls calls;
+  jobs_.bind(calls);
+  std::atomic<bool> started{false};
+  const std::uint64_t job = jobs_.start(
+      "turns", "",
+      [&](const Observer& observer) {
+        started = true;
+        for (;;) observer.update("", 0.5);
+      },
+      [this](std::exception_ptr error) {
+        EXPECT_TRUE(error);
+        request(7).done();
+      });
+  while (!started) std::this_thread::yield();
+  Json args;
+  args["job"] = job;
+  calls.dispatch(Request(hub_, 1, Call{8, "job.cancel", args}));
+  wait_for(7);
+  EXPECT_EQ(hub_.events("job").back()["state"], "cancelled");
+}
+
+}  // namespace
+}  // namespace asperity::studio

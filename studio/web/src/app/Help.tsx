@@ -1,0 +1,50 @@
+import { Dialog } from "../ui/Dialog";
+import { keyGroups } from "../ui/keys";
+import { route } from "./routes";
+
+/** What the page is for, and its keys. */
+export function Help({ open, onClose }: { open: boolean; onClose(): void }) {
+  return (
+    <Dialog open={open} title={`Help: ${route.value.title}`} onClose={onClose}>
+      <p>{route.value.purpose}</p>
+      {keyGroups.value.map((group, index) => (
+        <section key={index} class="help-keys">
+          <h3>{group.title}</h3>
+          <dl>
+            {group.keys.map((key) => (
+              <div key={key.key}>
+                <dt>
+                  {keyCaps(key.key).map((cap, at) => (
+                    <kbd key={at}>{cap}</kbd>
+                  ))}
+                </dt>
+                <dd>{key.label}</dd>
+              </div>
+            ))}
+          </dl>
+        </section>
+      ))}
+    </Dialog>
+  );
+}
+
+const NAMES: Record<string, string> = {
+  arrowup: "↑",
+  arrowdown: "↓",
+  arrowleft: "←",
+  arrowright: "→",
+  escape: "Esc",
+  space: "Space",
+  enter: "Enter",
+  delete: "Del",
+  ctrl: "Ctrl",
+  shift: "Shift",
+  alt: "Alt",
+};
+
+/** "ctrl+z" as Ctrl, Z. */
+function keyCaps(key: string): string[] {
+  return key
+    .split(/[ ]|(?<=.)\+(?=.)/)
+    .map((part) => NAMES[part] ?? (part.length === 1 ? part.toUpperCase() : part.charAt(0).toUpperCase() + part.slice(1)));
+}

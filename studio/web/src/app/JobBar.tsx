@@ -1,0 +1,19 @@
+import { IconButton } from "../ui/IconButton";
+import { cancelJob, jobs } from "../ui/job";
+
+/** What the server works on, how far it is, and cancel. */
+export function JobBar() {
+  const shown = jobs.value;
+  return (
+    <section class={shown.length ? "jobs" : "jobs jobs-none"} aria-label="Work in progress" data-testid="jobs">
+      {shown.map((job) => (
+        <div key={job.id} class="job">
+          <span class="job-title">{job.title}</span>
+          <progress aria-label={job.title} max={1} value={job.state === "running" && job.fraction >= 0 ? job.fraction : undefined} />
+          <span class="job-stage">{job.state === "waiting" ? "waiting" : job.stage}</span>
+          <IconButton icon="close" label={`Cancel: ${job.title}`} onClick={() => cancelJob(job.id)} />
+        </div>
+      ))}
+    </section>
+  );
+}

@@ -1,0 +1,50 @@
+import type { ComponentType } from "preact";
+import { useEffect, useErrorBoundary, useState } from "preact/hooks";
+import { Button } from "../ui/Button";
+import { pageLoader, type Route } from "./routes";
+
+/** The page of a route, its code loaded when it is first needed. */
+export function PageFrame({ route }: { route: Route }) {
+  const [page, setPage] = useState<{ id: string; Page: ComponentType } | null>(null);
+  const [fault, setFault] = useState<string | null>(null);
+  const [broken, mend] = useErrorBoundary();
+
+  const load = () => {
+    setFault(null);
+    const loader = pageLoader(route.id);
+    if (!loader) return setPage({ id: route.id, Page: () => <Empty route={route} /> });
+    loader().then(
+      (module) => setPage({ id: route.id, Page: module.default }),
+      () => setFault("The page's code could not be loaded."),
+    );
+  };
+  useEffect(load, [route.id]);
+
+  if (broken) {
+    return (
+      <Failure words={`The page has failed: ${broken instanceof Error ? broken.message : String(broken)}`} again={mend} />
+    );
+  }
+  if (fault) return <Failure words={fault} again={load} />;
+  if (page?.id !== route.id) return <p class="page-wait">Loading {route.title} …</p>;
+  return <page.Page key={page.id} />;
+}
+
+function Empty({ route }: { route: Route }) {
+  return (
+    <div class="page-empty">
+      <h1>{route.title}</h1>
+      <p>{route.purpose}</p>
+    </div>
+  );
+}
+
+function Failure({ words, again }: { words: string; again(): void }) {
+  return (
+    <div class="page-empty" role="alert">
+      <p>{words}</p>
+      <p>What you have decided is kept by the server and is not lost.</p>
+      <Button onClick={again}>Try again</Button>
+    </div>
+  );
+}

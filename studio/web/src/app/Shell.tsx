@@ -1,0 +1,80 @@
+import { useState } from "preact/hooks";
+import { link } from "../net/connection";
+import { ForceStatus } from "../pages/feel/ForceStatus";
+import { redo, redoLabel, undo, undoLabel } from "../state/document";
+import { IconButton } from "../ui/IconButton";
+import { useKeys } from "../ui/keys";
+import { Lamp, type LampState } from "../ui/Lamp";
+import { Toasts } from "../ui/Toasts";
+import { Help } from "./Help";
+import { JobBar } from "./JobBar";
+import { PageFrame } from "./PageFrame";
+import { go, route, routes } from "./routes";
+import { nextTheme, theme } from "./settings";
+
+const LINKS: Record<string, [LampState, string]> = {
+  connecting: ["busy", "connecting"],
+  open: ["good", "connected"],
+  lost: ["bad", "no connection"],
+  refused: ["bad", "not admitted"],
+};
+
+/** Header, page and messages. */
+export function Shell() {
+  const [help, setHelp] = useState(false);
+  useKeys(
+    [
+      { key: "ctrl+z", label: "undo", run: () => undoLabel.value && undo() },
+      { key: "ctrl+shift+z", label: "redo", run: () => redoLabel.value && redo() },
+      { key: "?", label: "show the keys", run: () => setHelp(true) },
+      ...routes.map(({ id, title, key }) => ({ key: `g ${key}`, label: `go to ${title}`, run: () => go(id) })),
+    ],
+    "Everywhere",
+  );
+  const [lamp, word] = LINKS[link.value]!;
+  return (
+    <div class="shell">
+      <a class="skip-link" href="#main" onClick={skipToPage}>
+        Skip to the page
+      </a>
+      <header class="shell-header">
+        <span class="shell-name">Asperity</span>
+        <nav aria-label="Pages" class="shell-nav">
+          {routes.map(({ id, title }) => (
+            <a key={id} href={`#/${id}`} aria-current={route.value.id === id ? "page" : undefined}>
+              {title}
+            </a>
+          ))}
+        </nav>
+        <div class="shell-force">
+          <ForceStatus />
+        </div>
+        <div class="shell-tools">
+          <IconButton icon="undo" label={undoLabel.value ? `Undo: ${undoLabel.value}` : "Nothing to undo"} disabled={!undoLabel.value} onClick={undo} testId="undo" />
+          <IconButton icon="redo" label={redoLabel.value ? `Redo: ${redoLabel.value}` : "Nothing to redo"} disabled={!redoLabel.value} onClick={redo} testId="redo" />
+          <IconButton icon={theme.value} label={`Theme: ${theme.value}`} onClick={nextTheme} testId="theme" />
+          <IconButton icon="help" label="Help and keys" onClick={() => setHelp(true)} testId="help" />
+          <Lamp state={lamp} word={word} label="Server:" live testId="link" />
+        </div>
+      </header>
+      {(link.value === "lost" || link.value === "refused") && (
+        <p class="shell-banner" role="alert">
+          {link.value === "lost"
+            ? "The studio's server does not answer. Nothing is lost; the page goes on by itself when it is back."
+            : "The server has not admitted this page. Open it with the address that `asperity studio` has printed."}
+        </p>
+      )}
+      <main id="main" class="shell-main" tabIndex={-1} inert={link.value === "lost" || link.value === "refused"}>
+        <PageFrame route={route.value} />
+      </main>
+      <JobBar />
+      <Toasts />
+      <Help open={help} onClose={() => setHelp(false)} />
+    </div>
+  );
+}
+
+function skipToPage(event: Event): void {
+  event.preventDefault();
+  document.getElementById("main")?.focus();
+}

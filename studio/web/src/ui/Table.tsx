@@ -1,0 +1,84 @@
+import type { ComponentChildren } from "preact";
+import { number } from "./format";
+
+export interface Column<Row> {
+  key: string;
+  label: string;
+  unit?: string;
+  /** What a cell shows; without it row[key], numbers with four digits. */
+  cell?(row: Row, index: number): ComponentChildren;
+  numeric?: boolean;
+}
+
+export interface TableProps<Row> {
+  /** What the table holds; read out. */
+  caption: string;
+  columns: readonly Column<Row>[];
+  rows: readonly Row[];
+  rowKey?(row: Row, index: number): string | number;
+  /** Makes rows choosable, by click, Enter and Space. */
+  onChoose?(row: Row, index: number): void;
+  chosen?(row: Row, index: number): boolean;
+  /** Shown instead of rows where there are none. */
+  empty?: string;
+  testId?: string;
+}
+
+/** Rows and columns; numbers to the right. */
+export function Table<Row>({ caption, columns, rows, rowKey, onChoose, chosen, empty = "Nothing yet.", testId }: TableProps<Row>) {
+  return (
+    <div class="table-frame" data-testid={testId} role="region" aria-label={caption} tabIndex={0}>
+      <table>
+        <caption class="visually-hidden">{caption}</caption>
+        <thead>
+          <tr>
+            {columns.map((column) => (
+              <th key={column.key} scope="col" class={column.numeric ? "numeric" : undefined}>
+                {column.label}
+                {column.unit && <span class="unit"> {column.unit}</span>}
+              </th>
+            ))}
+          </tr>
+        </thead>
+        <tbody>
+          {rows.length === 0 && (
+            <tr>
+              <td colSpan={columns.length} class="empty">
+                {empty}
+              </td>
+            </tr>
+          )}
+          {rows.map((row, index) => (
+            <tr
+              key={rowKey ? rowKey(row, index) : index}
+              class={onChoose ? "choosable" : undefined}
+              tabIndex={onChoose ? 0 : undefined}
+              aria-selected={onChoose ? (chosen?.(row, index) ?? false) : undefined}
+              onClick={onChoose && (() => onChoose(row, index))}
+              onKeyDown={
+                onChoose &&
+                ((event) => {
+                  if (event.target !== event.currentTarget || (event.key !== "Enter" && event.key !== " ")) return;
+                  event.preventDefault();
+                  onChoose(row, index);
+                })
+              }
+            >
+              {columns.map((column) => (
+                <td key={column.key} class={column.numeric ? "numeric" : undefined}>
+                  {content(column, row, index)}
+                </td>
+              ))}
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+function content<Row>(column: Column<Row>, row: Row, index: number): ComponentChildren {
+  if (column.cell) return column.cell(row, index);
+  const value = (row as Record<string, unknown>)[column.key];
+  return typeof value === "number" ? number(value) : ((value ?? "–") as ComponentChildren);
+}

@@ -1,0 +1,68 @@
+// Numbers as people read them: few digits, a proper minus, a thin space before the unit.
+
+const THIN = "\u2009";
+const MINUS = "\u2212";
+const NOTHING = "–";
+
+/** A number with `digits` significant digits; "–" for what is none. */
+export function number(value: number | null | undefined, digits = 4): string {
+  if (value == null || !Number.isFinite(value)) return NOTHING;
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e6 || size < 1e-4) return power(value, digits);
+  const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(Number(size.toPrecision(digits)))));
+  return minus(value.toFixed(Math.min(decimals, 12)));
+}
+
+/** A number with a fixed count of decimals, for what changes while one looks. */
+export function fixed(value: number | null | undefined, decimals: number): string {
+  if (value == null || !Number.isFinite(value)) return NOTHING;
+  const text = value.toFixed(decimals);
+  return minus(Number(text) === 0 ? text.replace("-", "") : text);
+}
+
+/** A number and its unit. */
+export function quantity(value: number | null | undefined, unit: string, digits = 4): string {
+  const text = number(value, digits);
+  return unit && text !== NOTHING ? `${text}${gap(unit)}${unit}` : text;
+}
+
+/** "12.34 ± 0.05 mm": the error with two significant digits, the value with as many decimals. */
+export function withError(value: number | null | undefined, error: number | null | undefined, unit = ""): string {
+  if (value == null || !Number.isFinite(value)) return NOTHING;
+  if (error == null || !Number.isFinite(error) || error <= 0) return quantity(value, unit);
+  const exponent = Math.floor(Math.log10(Number(error.toPrecision(2))));
+  const decimals = 1 - exponent;
+  const both =
+    decimals < 0 || decimals > 9
+      ? `${number(value)} ± ${number(error, 2)}`
+      : `${fixed(value, decimals)} ± ${fixed(error, decimals)}`;
+  return unit ? `${both}${gap(unit)}${unit}` : both;
+}
+
+export const millimetres = (value_m: number | null | undefined, digits = 4) => quantity(scaled(value_m, 1e3), "mm", digits);
+export const micrometres = (value_m: number | null | undefined, digits = 4) => quantity(scaled(value_m, 1e6), "µm", digits);
+export const newtons = (value_N: number | null | undefined, digits = 3) => quantity(value_N, "N", digits);
+export const millimetresPerSecond = (value_m_s: number | null | undefined, digits = 3) => quantity(scaled(value_m_s, 1e3), "mm/s", digits);
+export const degrees = (value_rad: number | null | undefined, digits = 3) => quantity(scaled(value_rad, 180 / Math.PI), "°", digits);
+export const seconds = (value_s: number | null | undefined, digits = 3) => quantity(value_s, "s", digits);
+export const percent = (fraction: number | null | undefined, digits = 3) => quantity(scaled(fraction, 100), "%", digits);
+
+/** A length in the unit that suits its size: µm, mm or m. */
+export function length(value_m: number | null | undefined, digits = 4): string {
+  const size = Math.abs(value_m ?? 0);
+  if (size > 0 && size < 1e-3) return micrometres(value_m, digits);
+  return size < 1 ? millimetres(value_m, digits) : quantity(value_m, "m", digits);
+}
+
+const scaled = (value: number | null | undefined, factor: number) => (value == null ? value : value * factor);
+const minus = (text: string) => text.replace("-", MINUS);
+const gap = (unit: string) => (unit.startsWith("°") && unit.length === 1 ? "" : THIN);
+
+const SUPERSCRIPTS: Record<string, string> = { "-": "⁻", ...Object.fromEntries([..."⁰¹²³⁴⁵⁶⁷⁸⁹"].map((sign, digit) => [String(digit), sign])) };
+
+function power(value: number, digits: number): string {
+  const [mantissa, exponent] = value.toExponential(digits - 1).split("e") as [string, string];
+  const raised = [...exponent.replace("+", "")].map((sign) => SUPERSCRIPTS[sign]).join("");
+  return `${minus(mantissa)}${THIN}×${THIN}10${raised}`;
+}

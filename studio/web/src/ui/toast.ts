@@ -1,0 +1,40 @@
+// Short messages to the user, shown in a corner and read out.
+import { signal } from "@preact/signals";
+import { Refusal } from "../net/connection";
+
+export interface Toast {
+  id: number;
+  kind: "note" | "error";
+  message: string;
+  hint: string;
+}
+
+const kShown_ms = 6000;
+const kMost = 5;
+
+export const toasts = signal<Toast[]>([]);
+let nextId = 1;
+
+/** Tells that something happened; goes away by itself. */
+export function say(message: string, hint = ""): void {
+  const id = add({ kind: "note", message, hint });
+  setTimeout(() => dismiss(id), kShown_ms);
+}
+
+/** Shows what went wrong and what to do next; stays until it is closed. */
+export function complain(error: unknown): void {
+  const message = error instanceof Error ? error.message : String(error);
+  const hint = error instanceof Refusal ? error.hint : "";
+  if (toasts.value.some((toast) => toast.kind === "error" && toast.message === message)) return;
+  add({ kind: "error", message, hint });
+}
+
+export function dismiss(id: number): void {
+  toasts.value = toasts.value.filter((toast) => toast.id !== id);
+}
+
+function add(toast: Omit<Toast, "id">): number {
+  const id = nextId++;
+  toasts.value = [...toasts.value, { id, ...toast }].slice(-kMost);
+  return id;
+}
