@@ -114,9 +114,8 @@ Json recorder_json(const RecorderSnapshot& now) {
   out["probe"] = sensor_json(now.probe);
   out["poses"] = sensor_json(now.poses);
   out["link"] = link_json(now.link);
-  out["tracking"] = {{"frames", now.tracking.frames},
-                     {"poses", now.tracking.poses},
-                     {"skipped_frames", now.tracking.skipped_frames}};
+  out["tracking"] = {
+      {"frames", now.tracking.frames}, {"poses", now.tracking.poses}, {"skipped_frames", now.tracking.skipped_frames}};
   out["force_N"] = finite(now.force_N);
   out["force_is_calibrated"] = now.force_is_calibrated;
   out["touching"] = now.touching;
