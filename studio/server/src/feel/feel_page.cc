@@ -1,0 +1,1 @@
+#include "feel/feel_page.h"
