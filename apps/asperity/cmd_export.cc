@@ -12,9 +12,8 @@
 #include "asperity/base/version.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/scene/export_scene.h"
-#include "asperity/scene/read_scene.h"
-#include "asperity/texture/texture_file.h"
 #include "commands.h"
+#include "export_files.h"
 #include "option_units.h"
 #include "our_folder.h"
 
@@ -24,25 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-// What is to be exported: a scene, a mesh, or a texture alone.
-Scene read_source(const fs::path& path) {
-  const auto texture_alone = [](const fs::path& file) {
-    Scene scene;
-    SceneObject object;
-    object.textures.push_back({1, file.filename().string(), read_texture(file)});
-    scene.objects.push_back(std::move(object));
-    return scene;
-  };
-  if (fs::is_directory(path)) {
-    if (fs::exists(path / "scene.json")) return read_scene(path / "scene.json");
-    if (fs::exists(path / "texture.json")) return texture_alone(path / "texture.json");
-    throw Error(printable(path.string(), 200) + ": holds neither scene.json nor texture.json");
-  }
-  const std::string name = path.filename().string();
-  if (name == "texture.json" || name.ends_with(".texture.json")) return texture_alone(path);
-  return read_scene(path);
-}
 
 class ExportCommand : public Command {
  public:
@@ -78,7 +58,7 @@ class ExportCommand : public Command {
     }
     OutputFolder folder(target, is_our_folder);
     observer.update("reading", 0.0);
-    Scene scene = read_source(source_);
+    Scene scene = read_export_source(source_);
     if (!mesh_unit_.empty()) {
       if (fs::path(source_).extension() == ".json" || fs::is_directory(source_))
         throw UsageError("--mesh-unit: the scene says what its unit is");
@@ -92,21 +72,13 @@ class ExportCommand : public Command {
     out["version"] = 1;
     out["to"] = format_;
     out["folder"] = is_utf8(target.string()) ? target.string() : printable(target.string(), 200);
-    out["files"] = Json::array();
+    out.update(write_export(folder.path(), result));
     std::string text;
-    for (const ExportedFile& file : result.files) {
-      write_file(folder.path() / file.name, file.content);
-      out["files"].push_back({{"name", file.name}, {"bytes", file.content.size()}});
+    for (const ExportedFile& file : result.files)
       text += fmt::format("{:>12} bytes  {}\n", file.content.size(), printable(file.name, 200));
-    }
-    out["problems"] = Json::array();
-    for (const Problem& problem : result.problems) {
-      out["problems"].push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
-      text += "problem: " + printable(problem.message, 300) + "\n";
-    }
+    for (const Problem& problem : result.problems) text += "problem: " + printable(problem.message, 300) + "\n";
     out["config"] = Json::parse(config_json(fields()));
     out["asperity"] = kVersion;
-    write_listing(folder.path());
     folder.commit();
     print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
     say(text + "in " + printable(target.string(), 200) + "\n");

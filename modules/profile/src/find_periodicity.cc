@@ -85,6 +85,8 @@ double refine_frequency(std::span<const double> x, double f, double relative_rea
     }
   }
   const double before = harmonic_power(x, best - step), after = harmonic_power(x, best + step);
+  // At the end of the search the power may still rise: a parabola through a flank has its top anywhere.
+  if (before > most || after > most) return best;
   const double bend = before - 2.0 * most + after;
   return bend < 0.0 ? best + 0.5 * step * (before - after) / bend : best;
 }

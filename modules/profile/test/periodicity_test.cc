@@ -89,5 +89,18 @@ TEST(Periodicity, RoughnessIsNotPeriodic) {
   EXPECT_THROW(find_periodicity(h, 0.0, {}), Error);
 }
 
+TEST(Periodicity, OfAShortProfileOfNoiseIsAPeriodOfIt) {
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    Random random(seed);
+    std::vector<double> h(40 + seed % 200);
+    double x = 0.0;
+    for (double& height_m : h) height_m = x = 0.9 * x + 1e-6 * random.normal();
+    const Periodicity p = find_periodicity(h, kSpacing_m, {});
+    if (std::isnan(p.pitch_m)) continue;
+    EXPECT_GT(p.pitch_m, 2.0 * kSpacing_m) << "seed " << seed;
+    EXPECT_LT(p.pitch_m, kSpacing_m * static_cast<double>(h.size())) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace asperity

@@ -1,0 +1,187 @@
+#include "paint/paint_page.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "asperity/scene/read_scene.h"
+#include "asperity/studio/calls.h"
+#include "asperity/testkit/temp_dir.h"
+#include "asperity/texture/texture_file.h"
+#include "fake_hub.h"
+#include "inbox.h"
+
+namespace asperity::studio {
+namespace {
+
+// A flat plate of 40 mm by 20 mm in millimetres, one quad a millimetre.
+void write_plate(const std::filesystem::path& file) {
+  std::ofstream out(file);
+  for (int y = 0; y <= 20; ++y) {
+    for (int x = 0; x <= 40; ++x) out << "v " << x << ' ' << y << " 0\n";
+  }
+  for (int y = 0; y < 20; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      const int a = 41 * y + x + 1;
+      out << "f " << a << ' ' << a + 1 << ' ' << a + 42 << ' ' << a + 41 << '\n';
+    }
+  }
+}
+
+void write_wave(const std::filesystem::path& file) {
+  Texture texture;
+  texture.name = "wave";
+  Fourier1d wave;
+  wave.length_mm = 2.0;
+  wave.a_m = {0.0};
+  wave.b_m = {1e-5};
+  texture.model = wave;
+  write_texture(file, texture);
+}
+
+class PaintPageTest : public ::testing::Test {
+ protected:
+  PaintPageTest() {
+    write_plate(folder_ / "plate.obj");
+    write_wave(folder_ / "wave.texture.json");
+    page_->bind(document_, calls_);
+    document_.load();
+    document_.edit("/paint/object", "plate.obj", "open");
+    document_.edit("/paint/unit_m", 0.001, "unit");
+    document_.edit("/paint/half_width_mm", 3.0, "width");
+  }
+
+  FakeHub::Answer call(const std::string& name, Json args) {
+    const std::uint64_t id = ++last_id_;
+    calls_.dispatch(Request(hub_, 1, Call{id, name, std::move(args)}));
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!hub_.answered(id) && std::chrono::steady_clock::now() < end) {
+      for (const auto& work : inbox_.wait(end)) work();
+    }
+    return hub_.answer_to(id);
+  }
+
+  void add_stroke(const char* picks) {
+    Json stroke;
+    stroke["texture"] = "wave.texture.json";
+    stroke["index"] = 1;
+    stroke["picks_m"] = Json::parse(picks);
+    document_.edit("/paint/strokes/-", stroke, "stroke");
+  }
+
+  static Json head_of(const std::string& block) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, block.data() + 4, 4);
+    return Json::parse(block.substr(8, length));
+  }
+  template <class T>
+  static std::vector<T> array_of(const std::string& block, const std::string& name) {
+    const Json head = head_of(block);
+    for (const Json& array : head.at("arrays")) {
+      if (array.at("name") != name) continue;
+      std::size_t count = 1;
+      for (const Json& size : array.at("shape")) count *= size.get<std::size_t>();
+      std::vector<T> out(count);
+      std::memcpy(out.data(), block.data() + array.at("offset").get<std::size_t>(), count * sizeof(T));
+      return out;
+    }
+    throw std::runtime_error("no array " + name);
+  }
+
+  testkit::TempDir folder_;
+  FakeHub hub_;
+  Inbox inbox_;
+  Project project_{folder_.path()};
+  Document document_{folder_ / ".asperity-studio.json"};
+  Calls calls_;
+  ForceLease lease_;
+  Jobs jobs_{hub_, [this](Inbox::Work work) { inbox_.post(std::move(work)); }};
+  Shared shared_{
+      hub_, project_, document_, jobs_, lease_, true, [this](Inbox::Work work) { inbox_.post(std::move(work)); }};
+  std::unique_ptr<Page> page_ = make_paint_page(shared_);
+  std::uint64_t last_id_ = 0;
+};
+
+TEST_F(PaintPageTest, ShowsCoordinatesThatKeepLengthsOnAPlane) {
+  add_stroke("[[0.005,0.01,0],[0.035,0.01,0]]");
+  const FakeHub::Answer answer = call("paint.show", Json::object());
+  ASSERT_EQ(answer.error, "");
+  const Json head = head_of(answer.block);
+  EXPECT_EQ(head["strokes"].size(), 1U);
+  EXPECT_NEAR(head["strokes"][0]["path_length_m"].get<double>(), 0.030, 1e-9);
+  EXPECT_EQ(head["textures"][0]["name"], "wave");
+  const auto texture = array_of<std::int32_t>(answer.block, "texture");
+  const auto stretch = array_of<float>(answer.block, "stretch");
+  ASSERT_EQ(texture.size(), 1600U);
+  std::size_t painted = 0;
+  for (std::size_t t = 0; t < texture.size(); ++t) {
+    if (texture[t] < 0) continue;
+    ++painted;
+    EXPECT_NEAR(std::abs(stretch[t]), 1.0, 1e-3) << t;  // a plane is laid out without stretching it
+  }
+  EXPECT_EQ(painted, head["strokes"][0]["triangles"].get<std::size_t>());
+  EXPECT_GT(painted, 2U * 30U * 5U);  // about 30 mm by 6 mm
+}
+
+TEST_F(PaintPageTest, WritesWhatIsReadAsAScene) {
+  add_stroke("[[0.005,0.01,0],[0.035,0.01,0]]");
+  const FakeHub::Answer answer = call("paint.write", Json{{"name", "painted"}});
+  ASSERT_EQ(answer.error, "");
+  EXPECT_EQ(answer.result["scene"], "painted/scene.json");
+  const Scene scene = read_scene(folder_ / "painted/scene.json");
+  EXPECT_EQ(scene.objects.front().textures.front().texture.name, "wave");
+  EXPECT_EQ(scene.objects.front().unit_m, 0.001);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "painted/paint.json"));
+  const FakeHub::Answer exported =
+      call("paint.export", Json{{"source", "painted/scene.json"}, {"format", "gltf"}, {"name", "painted-gltf"}});
+  ASSERT_EQ(exported.error, "");
+  EXPECT_FALSE(exported.result["files"].empty());
+}
+
+TEST_F(PaintPageTest, AStrokeThatCannotBePaintedSaysWhyAndTheOthersStay) {
+  add_stroke("[[0.005,0.01,0],[0.035,0.01,0]]");
+  add_stroke("[[0.005,0.01,0]]");
+  const Json head = head_of(call("paint.show", Json::object()).block);
+  EXPECT_TRUE(head["strokes"][0].contains("path_length_m"));
+  EXPECT_THAT(head["strokes"][1]["fault"].get<std::string>(), ::testing::HasSubstr("at least two"));
+  EXPECT_THAT(call("paint.write", Json{{"name", "painted"}}).error, ::testing::HasSubstr("at least two"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "painted"));
+}
+
+TEST_F(PaintPageTest, RefusesNonsenseAndStrangersFolders) {
+  for (const char* value :
+       {"7", "\"x\"", "[1]", "[{}]", R"([{"texture":1,"index":1,"picks_m":[]}])",
+        R"([{"texture":"w","index":-1,"picks_m":[]}])", R"([{"texture":"w","index":1,"picks_m":[[1,2]]}])",
+        R"([{"texture":"w","index":1,"picks_m":[[1,2,"x"]]}])"}) {
+    EXPECT_THROW(document_.edit("/paint/strokes", Json::parse(value), "x"), Error) << value;
+  }
+  add_stroke("[[0.005,0.01,0],[0.035,0.01,0]]");
+  std::filesystem::create_directory(folder_ / "mine");
+  std::ofstream(folder_ / "mine/notes.txt") << "do not lose";
+  EXPECT_NE(call("paint.write", Json{{"name", "mine"}}).error, "");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "mine/notes.txt"));
+  EXPECT_NE(call("paint.write", Json{{"name", "../out"}}).error, "");
+  EXPECT_NE(call("paint.texture", Json{{"file", "/etc/passwd"}}).error, "");
+  EXPECT_NE(call("paint.export", Json{{"source", "plate.obj"}, {"format", "exe"}, {"name", "x"}}).error, "");
+}
+
+TEST_F(PaintPageTest, PreviewsAPath) {
+  const FakeHub::Answer answer =
+      call("paint.path", Json{{"picks_m", Json::parse("[[0.005,0.005,0],[0.005,0.015,0]]")}});
+  ASSERT_EQ(answer.error, "");
+  EXPECT_NEAR(head_of(answer.block)["length_m"].get<double>(), 0.010, 1e-9);
+}
+
+TEST_F(PaintPageTest, ShowsATexture) {
+  const FakeHub::Answer answer = call("paint.texture", Json{{"file", "wave.texture.json"}});
+  ASSERT_EQ(answer.error, "");
+  const auto height_m = array_of<float>(answer.block, "height_m");
+  ASSERT_EQ(height_m.size(), 4096U);
+  EXPECT_NEAR(*std::max_element(height_m.begin(), height_m.end()), 1e-5, 1e-8);
+}
+
+}  // namespace
+}  // namespace asperity::studio

@@ -1,0 +1,150 @@
+import uPlot from "uplot";
+import { themeColour } from "./colours";
+import { axis, uBands, uSeries } from "./options";
+import type { PlotProps } from "./Plot";
+import { columnsBetween, extent, type Series } from "./series";
+import { zoomed, type Range } from "./zoom";
+
+/** The uPlot of a <Plot>: it draws again from all the data whenever the range of x changes. */
+export class Drawing {
+  private readonly plot: uPlot;
+  private readonly observer: ResizeObserver;
+  private all: Range;
+  private drawnRange = "";
+
+  constructor(
+    private readonly place: HTMLElement,
+    private readonly props: () => PlotProps,
+    private series: readonly Series[],
+  ) {
+    const { logX = false, logY = false, xAxis, yAxis, syncKey } = props();
+    this.all = this.range();
+    const columns = this.columns(this.all);
+    const options: uPlot.Options = {
+      ...this.size(),
+      padding: [8, 12, 0, 0],
+      legend: { show: false },
+      scales: {
+        x: { time: false, distr: logX ? 3 : 1, range: (_plot, low, high) => [low, high] },
+        y: { distr: logY ? 3 : 1, range: (_plot, low, high) => this.yRange(low, high) },
+      },
+      axes: [axis(xAxis, logX, "x"), axis(yAxis, logY, "y")],
+      series: [{}, ...series.flatMap(uSeries)],
+      bands: uBands(series, columns.at),
+      cursor: {
+        drag: { x: true, y: false, setScale: true },
+        points: { size: 6 },
+        ...(syncKey ? { sync: { key: syncKey, setSeries: false } } : {}),
+      },
+      hooks: {
+        setScale: [(_plot, key) => key === "x" && this.rangeChanged()],
+        setCursor: [() => this.cursorMoved()],
+        draw: [(plot) => this.drawMarks(plot)],
+      },
+    };
+    this.plot = new uPlot(options, columns.data as uPlot.AlignedData, place);
+    this.plot.setScale("x", this.all);
+    this.plot.over.addEventListener("dblclick", () => this.show(this.all));
+    this.plot.over.addEventListener("click", () => this.picked());
+    this.observer = new ResizeObserver(() => this.plot.setSize(this.size()));
+    this.observer.observe(place);
+  }
+
+  destroy(): void {
+    this.observer.disconnect();
+    this.plot.destroy();
+  }
+
+  /** New data, with the same looks. What is zoomed into stays so while it is there. */
+  setSeries(series: readonly Series[]): void {
+    const shown = this.shown();
+    const sawAll = shown.min <= this.all.min && shown.max >= this.all.max;
+    this.series = series;
+    this.all = this.range();
+    const isOut = shown.min >= this.all.max || shown.max <= this.all.min;
+    this.drawnRange = "";
+    this.show(sawAll || isOut ? this.all : shown);
+    this.rangeChanged();
+  }
+
+  key(key: string): boolean {
+    const next = zoomed(this.shown(), this.all, key, this.props().logX ?? false);
+    if (next) this.show(next);
+    return next !== null;
+  }
+
+  private show(range: Range): void {
+    this.plot.setScale("x", range);
+  }
+
+  private shown(): Range {
+    const { min, max } = this.plot.scales.x!;
+    return { min: min ?? this.all.min, max: max ?? this.all.max };
+  }
+
+  private rangeChanged(): void {
+    const range = this.shown();
+    const name = `${range.min} ${range.max} ${this.plot.width}`;
+    if (name === this.drawnRange) return;
+    this.drawnRange = name;
+    this.plot.batch(() => {
+      this.plot.setData(this.columns(range).data as uPlot.AlignedData, false);
+      this.plot.setScale("x", range);
+    });
+    this.props().onRange?.(range.min, range.max);
+  }
+
+  private cursorMoved(): void {
+    const { left } = this.plot.cursor;
+    this.props().onCursor?.(left == null || left < 0 ? null : this.plot.posToVal(left, "x"));
+  }
+
+  private picked(): void {
+    const { left } = this.plot.cursor;
+    if (left != null && left >= 0 && this.plot.select.width < 2) this.props().onPick?.(this.plot.posToVal(left, "x"));
+  }
+
+  private drawMarks(plot: uPlot): void {
+    const { ctx, bbox } = plot;
+    ctx.save();
+    ctx.strokeStyle = ctx.fillStyle = themeColour("--text-2");
+    ctx.font = `${11 * devicePixelRatio}px ${themeColour("--font")}`;
+    ctx.textAlign = "left";
+    ctx.textBaseline = "alphabetic";
+    ctx.setLineDash([4 * devicePixelRatio, 3 * devicePixelRatio]);
+    for (const mark of this.props().marks ?? []) {
+      const left = plot.valToPos(mark.x, "x", true);
+      if (left < bbox.left || left > bbox.left + bbox.width) continue;
+      ctx.beginPath();
+      ctx.moveTo(left, bbox.top);
+      ctx.lineTo(left, bbox.top + bbox.height);
+      ctx.stroke();
+      ctx.fillText(mark.label, left + 4 * devicePixelRatio, bbox.top + 12 * devicePixelRatio);
+    }
+    ctx.restore();
+  }
+
+  private columns(range: Range) {
+    return columnsBetween(this.props().x, this.series, range.min, range.max, Math.max(200, this.place.clientWidth));
+  }
+
+  private range(): Range {
+    const found = extent(this.props().x, this.series) ?? [0, 1];
+    const [low, high] = found;
+    if (this.props().logX) return { min: low > 0 ? low : high / 1e4, max: high };
+    return low === high ? { min: low - 0.5, max: high + 0.5 } : { min: low, max: high };
+  }
+
+  private yRange(low: number | null, high: number | null): [number, number] {
+    const { yRange, logY } = this.props();
+    if (yRange) return yRange;
+    if (low === null || high === null || !Number.isFinite(low) || !Number.isFinite(high)) return logY ? [0.1, 1] : [0, 1];
+    if (logY) return uPlot.rangeLog(Math.max(low, high / 1e8), high, 10, false) as [number, number];
+    const gap = high > low ? 0.06 * (high - low) : Math.abs(high) || 1;
+    return [low - gap, high + gap];
+  }
+
+  private size(): { width: number; height: number } {
+    return { width: Math.max(120, this.place.clientWidth), height: Math.max(80, this.place.clientHeight) };
+  }
+}

@@ -1,0 +1,92 @@
+import "uplot/dist/uPlot.min.css";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { dark } from "../app/settings";
+import type { AxisWords } from "./options";
+import { Legend } from "./Legend";
+import { Drawing } from "./Drawing";
+import type { Series } from "./series";
+import { summary } from "./summary";
+
+export interface PlotProps {
+  /** What the plot shows; read out with a summary of the series. */
+  label: string;
+  series: readonly Series[];
+  /** Common x of all series that have none of their own; rising. */
+  x?: ArrayLike<number>;
+  xAxis: AxisWords;
+  yAxis: AxisWords;
+  logX?: boolean;
+  logY?: boolean;
+  /** Plots with the same key share the cursor. */
+  syncKey?: string;
+  /** Fixed range of y; without it what is shown fits. */
+  yRange?: [number, number];
+  /** Upright lines with words, at values of x. */
+  marks?: readonly { x: number; label: string }[];
+  /** x under the cursor, or null. */
+  onCursor?(x: number | null): void;
+  /** A click, at this x. */
+  onPick?(x: number): void;
+  /** The range of x that is shown, after each zoom. */
+  onRange?(low: number, high: number): void;
+  legend?: boolean;
+  empty?: string;
+  testId?: string;
+}
+
+/**
+ * A plot that fills its place. Drag zooms, a double click shows all; with the focus + and − zoom, arrows move, 0 shows
+ * all. Series of any length: only what can be seen is drawn.
+ */
+export function Plot(props: PlotProps) {
+  const { series, legend = series.length > 1, empty = "Nothing to show yet." } = props;
+  const place = useRef<HTMLDivElement>(null);
+  const drawing = useRef<Drawing | null>(null);
+  const newest = useRef(props);
+  newest.current = props;
+  const [hidden, setHidden] = useState<ReadonlySet<string>>(new Set());
+
+  const isEmpty = series.every((one) => one.y.length === 0);
+  const shape = series.map((one) => [one.label, one.kind, one.colour, one.dashed, one.width, one.hidden || hidden.has(one.label), !!one.lo].join()).join("|");
+  const looks = [shape, props.logX, props.logY, props.syncKey, props.xAxis.label, props.xAxis.unit, props.yAxis.label, props.yAxis.unit].join("|");
+  const shown = useMemo(() => series.map((one) => (hidden.has(one.label) ? { ...one, hidden: true } : one)), [series, hidden]);
+
+  useEffect(() => {
+    if (isEmpty || !place.current) return;
+    const made = new Drawing(place.current, () => newest.current, shown);
+    drawing.current = made;
+    return () => {
+      drawing.current = null;
+      made.destroy();
+    };
+  }, [looks, dark.value, isEmpty]);
+  useEffect(() => drawing.current?.setSeries(shown), [shown, props.x, props.yRange?.[0], props.yRange?.[1], props.marks]);
+
+  return (
+    <div class="plot" data-testid={props.testId}>
+      {legend && (
+        <Legend
+          series={series}
+          hidden={hidden}
+          onToggle={(label) => setHidden(new Set(hidden.has(label) ? [...hidden].filter((one) => one !== label) : [...hidden, label]))}
+        />
+      )}
+      {isEmpty ? (
+        <p class="plot-empty empty">{empty}</p>
+      ) : (
+        <div
+          ref={place}
+          class="plot-canvas"
+          role="img"
+          tabIndex={0}
+          aria-label={`${props.label}. ${summary(props)} Keys: plus and minus zoom, arrows move, 0 shows all.`}
+          onKeyDown={(event) => {
+            if (event.ctrlKey || event.altKey || event.metaKey || !drawing.current?.key(event.key)) return;
+            event.preventDefault();
+            event.stopPropagation();
+          }}
+        />
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,51 @@
+import type { Intersection, Object3D, Ray } from "three";
+import type { View } from "./View";
+
+export interface PointerHit {
+  kind: "down" | "move" | "up" | "leave";
+  event: PointerEvent;
+  /** Through the pointer, in the world of the view. */
+  ray: Ray;
+  /** The nearest thing hit among `targets`, or null. */
+  hit: Intersection<Object3D> | null;
+}
+
+export interface PointerListener {
+  /** What can be hit; all of the content without it. */
+  targets?(): Object3D[];
+  /** Returns true to have the pointer for itself: the view does not turn until it is up. */
+  on(pointer: PointerHit): boolean | void;
+}
+
+export function listenToPointer(view: View, { targets, on }: PointerListener): () => void {
+  const { canvas, controls } = view;
+  const tell = (kind: PointerHit["kind"], event: PointerEvent): boolean => {
+    const raycaster = view.aim(event.clientX, event.clientY);
+    const hits = kind === "leave" ? [] : raycaster.intersectObjects(targets?.() ?? [view.content], true);
+    return on({ kind, event, ray: raycaster.ray, hit: hits[0] ?? null }) === true;
+  };
+  const down = (event: PointerEvent) => {
+    if (!tell("down", event)) return;
+    controls.enabled = false;
+    canvas.setPointerCapture(event.pointerId);
+    event.stopImmediatePropagation();
+  };
+  const move = (event: PointerEvent) => void tell("move", event);
+  const up = (event: PointerEvent) => {
+    controls.enabled = true;
+    tell("up", event);
+  };
+  const leave = (event: PointerEvent) => void tell("leave", event);
+  canvas.addEventListener("pointerdown", down, { capture: true });
+  canvas.addEventListener("pointermove", move);
+  canvas.addEventListener("pointerup", up);
+  canvas.addEventListener("pointercancel", up);
+  canvas.addEventListener("pointerleave", leave);
+  return () => {
+    canvas.removeEventListener("pointerdown", down, { capture: true });
+    canvas.removeEventListener("pointermove", move);
+    canvas.removeEventListener("pointerup", up);
+    canvas.removeEventListener("pointercancel", up);
+    canvas.removeEventListener("pointerleave", leave);
+  };
+}

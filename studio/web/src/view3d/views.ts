@@ -1,0 +1,36 @@
+import { Vector3 } from "three";
+
+/** The direction that is up on the screen, in the frame of the data: "-y" in the tracker's world, "z" on meshes. */
+export type Upright = "-y" | "y" | "z";
+
+export const viewNames = ["top", "bottom", "front", "back", "left", "right"] as const;
+export type ViewName = (typeof viewNames)[number] | "home";
+
+export function upOf(up: Upright): Vector3 {
+  if (up === "z") return new Vector3(0, 0, 1);
+  return new Vector3(0, up === "y" ? 1 : -1, 0);
+}
+
+/** Where the viewer stands, seen from the middle; "front" is where the tracker's camera stands, or −y where z is up. */
+export function directionOf(name: ViewName, up: Upright): Vector3 {
+  const above = upOf(up);
+  const front = up === "z" ? new Vector3(0, -1, 0) : new Vector3(0, 0, up === "y" ? 1 : -1);
+  const right = new Vector3().crossVectors(above, front);
+  const nearPole = 1e-3; // a viewer exactly above has no "up" on the screen
+  switch (name) {
+    case "top":
+      return above.addScaledVector(front, nearPole);
+    case "bottom":
+      return above.negate().addScaledVector(front, nearPole);
+    case "front":
+      return front;
+    case "back":
+      return front.negate();
+    case "left":
+      return right.negate();
+    case "right":
+      return right;
+    case "home":
+      return front.addScaledVector(right, 0.7).addScaledVector(above, 0.8);
+  }
+}
