@@ -133,7 +133,7 @@ class FeelCommand : public Command {
     warn_of(drive.problems);
     const std::unique_ptr<HapticDevice> device = open_device(device_, drive, settings_);
     observer.update("scene", 0.0);
-    FeltModel felt = make_felt_model(scene, *device, kind_.driven, settings_);
+    FeltModel felt = make_felt_model(scene, device->info(), kind_.driven, settings_);
     warnings_ = felt.warnings;
     SnapshotExchange<const RenderModel> model(std::move(felt.model));
     const fs::path log = !log_.empty() ? fs::path(log_) : folder ? folder->path() / "log.csv" : fs::path();

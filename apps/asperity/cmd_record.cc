@@ -2,7 +2,6 @@
 
 #include <atomic>
 #include <chrono>
-#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -22,6 +21,7 @@
 #include "record_status.h"
 #include "record_verdict.h"
 #include "terminal_keys.h"
+#include "utc_now.h"
 
 namespace asperity::app {
 
@@ -41,14 +41,6 @@ struct RecordSettings {
     v.group("verdict", verdict);
   }
 };
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday,
-                     parts.tm_hour, parts.tm_min, parts.tm_sec);
-}
 
 class RecordCommand : public Command {
  public:

@@ -19,6 +19,7 @@ std::unique_ptr<Command> make_paint(CLI::App& root);
 std::unique_ptr<Command> make_process(CLI::App& root);
 std::unique_ptr<Command> make_record(CLI::App& root);
 std::unique_ptr<Command> make_register(CLI::App& root);
+std::unique_ptr<Command> make_report(CLI::App& root);
 std::unique_ptr<Command> make_roughness(CLI::App& root);
 std::unique_ptr<Command> make_studio(CLI::App& root);
 std::unique_ptr<Command> make_track(CLI::App& root);

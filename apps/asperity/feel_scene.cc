@@ -89,18 +89,18 @@ Scene read_felt_scene(SceneInput& input, FeelSettings& settings) {
   return scene;
 }
 
-FeltModel make_felt_model(const Scene& scene, const HapticDevice& device, bool driven, FeelSettings& settings) {
+FeltModel make_felt_model(const Scene& scene, const DeviceInfo& device, bool driven, FeelSettings& settings) {
   FeltModel out;
   const RenderConfig config = settings.render_config();
   if (driven) {
     out.model = std::make_unique<const RenderModel>(make_render_model(scene, config));
     return out;
   }
-  const DeviceCaps caps = find_device_caps(device.info(), settings.servo, settings.caps);
+  const DeviceCaps caps = find_device_caps(device, settings.servo, settings.caps);
   CappedScene capped = cap_scene(scene, config, caps);
   out.model = std::make_unique<const RenderModel>(make_render_model(capped.scene, capped.config));
   out.warnings = std::move(capped.warnings);
-  if (settings.servo.frame.translation_m.isZero(0.0)) place_device(*out.model, device.info(), settings.servo.frame);
+  if (settings.servo.frame.translation_m.isZero(0.0)) place_device(*out.model, device, settings.servo.frame);
   return out;
 }
 

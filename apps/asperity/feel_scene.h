@@ -39,6 +39,6 @@ struct FeltModel {
 
 // A scene ready for the servo: within what the device can render and, unless the settings say where, with the middle
 // of its workspace in the middle of the scene. For a driven device the scene is left as it is.
-FeltModel make_felt_model(const Scene& scene, const HapticDevice& device, bool driven, FeelSettings& settings);
+FeltModel make_felt_model(const Scene& scene, const DeviceInfo& device, bool driven, FeelSettings& settings);
 
 }  // namespace asperity::app

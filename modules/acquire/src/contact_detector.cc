@@ -27,7 +27,7 @@ std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(t
 
 }  // namespace
 
-ContactDetector::ContactDetector(const ContactConfig& config, const std::optional<ForceCalibration>& force)
+ContactDetector::ContactDetector(const TouchConfig& config, const std::optional<ForceCalibration>& force)
     : config_(config), force_(force) {
   check("off_N", config.off_N, "on_N", config.on_N);
   check("off_noise", config.off_noise, "on_noise", config.on_noise);

@@ -6,27 +6,6 @@
 
 namespace asperity {
 
-namespace {
-
-TrackingStatistics operator+(TrackingStatistics a, const TrackingStatistics& b) {
-  a.frames += b.frames;
-  a.poses += b.poses;
-  a.skipped_frames += b.skipped_frames;
-  return a;
-}
-
-// The pose as a row, its covariance as standard deviations.
-TrackerSample with_sigmas(const TrackedPose& pose) {
-  TrackerSample out = pose.sample;
-  const Eigen::Matrix<double, 6, 1> variance = pose.covariance.diagonal();
-  if (!(variance.array() >= 0.0).all()) return out;
-  out.sigma_position_m = variance.head<3>().cwiseSqrt();
-  out.sigma_rotation_rad = variance.tail<3>().cwiseSqrt();
-  return out;
-}
-
-}  // namespace
-
 PoseThread::PoseThread(std::function<std::unique_ptr<PoseSource>()> open, bool reopen, bool reopen_silent,
                        const RecorderConfig& config)
     : waits_(!reopen), source_(std::move(open), "tracker"), queue_(static_cast<std::size_t>(config.pose_queue)) {

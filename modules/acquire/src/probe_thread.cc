@@ -7,27 +7,6 @@
 
 namespace asperity {
 
-namespace {
-
-LinkStatistics operator+(LinkStatistics a, const LinkStatistics& b) {
-  a.bytes += b.bytes;
-  a.frames += b.frames;
-  a.samples += b.samples;
-  a.force_samples += b.force_samples;
-  a.lost_frames += b.lost_frames;
-  a.lost_samples += b.lost_samples;
-  a.damaged_frames += b.damaged_frames;
-  a.late_frames += b.late_frames;
-  a.foreign_frames += b.foreign_frames;
-  a.resyncs += b.resyncs;
-  a.restarts += b.restarts;
-  a.overruns += b.overruns;
-  a.losses_are_estimated = a.losses_are_estimated || b.losses_are_estimated;
-  return a;
-}
-
-}  // namespace
-
 ProbeThread::ProbeThread(std::function<std::unique_ptr<ProbeSource>()> open, bool reopen, bool reopen_silent,
                          const RecorderConfig& config)
     : waits_(!reopen), source_(std::move(open), "probe"), queue_(static_cast<std::size_t>(config.probe_queue)) {

@@ -171,6 +171,7 @@ class Recorder::Parts {
       }
       writer_->add(poses);
       writer_->add(samples);
+      if (!replayed_) writer_->pass_time(host_now_ns());
       writer_->note_description(now.description);
       writer_->set_problems(sensor_problems(now));
       if (events != events_) writer_->note_change();
@@ -227,6 +228,9 @@ void Recorder::start_segment(std::string name) { parts_->ask(RecorderCommand::Ki
 void Recorder::stop_segment() { parts_->ask(RecorderCommand::Kind::kStop, ""); }
 void Recorder::discard_segment() { parts_->ask(RecorderCommand::Kind::kDiscard, ""); }
 void Recorder::rescan_segment() { parts_->ask(RecorderCommand::Kind::kRescan, ""); }
+void Recorder::set_mode(StoreMode mode) {
+  parts_->ask(mode == StoreMode::kAuto ? RecorderCommand::Kind::kByContact : RecorderCommand::Kind::kByHand, "");
+}
 
 RecorderSnapshot Recorder::snapshot() const { return parts_->snapshot(); }
 RecorderSnapshot Recorder::finish() { return parts_->finish(); }

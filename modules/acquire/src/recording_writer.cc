@@ -112,13 +112,28 @@ void RecordingWriter::apply(const RecorderCommand& command) {
       if (by_hand) segments_.end_at(command.t_ns);
       return;
     case RecorderCommand::Kind::kDiscard:
-    case RecorderCommand::Kind::kRescan:
+    case RecorderCommand::Kind::kRescan: {
       const auto name = segments_.discard(command.t_ns);
       if (!name) return;
       changed_ = true;
       if (by_hand && command.kind == RecorderCommand::Kind::kRescan) begin(*name, command.t_ns);
       return;
+    }
+    case RecorderCommand::Kind::kByHand:
+      // Where the touch's end has set one, the segment would stop by itself.
+      if (!by_hand) segments_.reopen();
+      config_.mode = StoreMode::kSegments;
+      return;
+    case RecorderCommand::Kind::kByContact:
+      config_.mode = StoreMode::kAuto;
+      if (contact_.touching() && !segments_.is_open()) begin("contact_", command.t_ns);
+      return;
   }
+}
+
+void RecordingWriter::pass_time(std::int64_t now_ns) {
+  constexpr std::int64_t kLatest_ns = 300'000'000;
+  if (segments_.settle(now_ns - kLatest_ns)) changed_ = true;
 }
 
 void RecordingWriter::note_description(const std::optional<ProbeDescription>& description) {
@@ -189,6 +204,8 @@ void RecordingWriter::describe(RecorderSnapshot& out) const {
   out.pose = pose_;
   out.storing = segments_.is_open();
   out.segments = segments_.count();
+  out.segment_list = segments_.segments();
+  out.automatic = config_.mode == StoreMode::kAuto;
   out.segment = segments_.last_name();
   out.discarded = segments_.discarded();
   out.recorded_s = segments_.recorded_s();

@@ -18,7 +18,7 @@
 namespace asperity {
 
 struct RecorderCommand {
-  enum class Kind { kStart, kStop, kDiscard, kRescan };
+  enum class Kind { kStart, kStop, kDiscard, kRescan, kByHand, kByContact };
   Kind kind = Kind::kStart;
   std::string name;
   std::int64_t t_ns = 0;  // when it was asked for
@@ -34,6 +34,8 @@ class RecordingWriter {
   void add(std::span<const ProbeSample> samples);
   void add(std::span<const TrackerSample> poses);
   void apply(const RecorderCommand& command);
+  // It is `now_ns` on the rows' clock: what was to end well before has ended, also if no row comes any more.
+  void pass_time(std::int64_t now_ns);
   std::int64_t latest_ns() const { return segments_.latest_ns(); }
   // What the sensors have lost so far, for recording.json.
   void set_problems(std::map<std::string, std::int64_t> problems) { problems_ = std::move(problems); }

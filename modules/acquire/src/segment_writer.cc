@@ -90,8 +90,8 @@ bool SegmentWriter::reopen() {
   return true;
 }
 
-bool SegmentWriter::settle() {
-  if (!is_ending() || latest_ns_ < segments_.back().end_ns) return false;
+bool SegmentWriter::settle(std::int64_t t_ns) {
+  if (!is_ending() || std::max(t_ns, latest_ns_) < segments_.back().end_ns) return false;
   open_ = false;
   return true;
 }

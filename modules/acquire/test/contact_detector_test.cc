@@ -112,7 +112,7 @@ TEST(ContactDetector, AConstantLevelHasTheNoiseOfRounding) {
 }
 
 TEST(ContactDetector, RefusesThresholdsThatContradict) {
-  ContactConfig config;
+  TouchConfig config;
   config.off_N = 0.5;
   EXPECT_THAT([&] { ContactDetector(config, newtons()); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("contact.off_N (0.5)")));

@@ -56,8 +56,10 @@ SafeForce make_safe(const SafetyConfig& config, SafetyState& state, const Safety
   if (!finite) safe.limited_by |= flag(SafetyCause::kNonFinite);
   if (stale) safe.limited_by |= flag(SafetyCause::kStale);
   if (input.ending) safe.limited_by |= flag(SafetyCause::kEnding);
+  if (!input.permitted) safe.limited_by |= flag(SafetyCause::kNotPermitted);
   const bool well = safe.limited_by == 0;
   state.gain = stood_still ? 0.0 : next_gain(state.gain, well, config, dt_s);
+  safe.gain = state.gain;
   if (well && state.gain < 1.0) safe.limited_by |= flag(SafetyCause::kSoftStart);
 
   if (finite) state.held_N = input.force_N;

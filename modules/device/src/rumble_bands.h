@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "second_order_filter.h"
+#include "asperity/device/second_order_filter.h"
 
 namespace asperity {
 

@@ -1,5 +1,6 @@
 #include "servo_core.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "monotonic_clock.h"
@@ -16,12 +17,13 @@ std::int64_t due_ns(std::uint64_t k, double rate_Hz) noexcept {
 }
 
 ServoCore::ServoCore(HapticDevice& device, SnapshotExchange<const RenderModel>& scene, const ServoConfig& config,
-                     ServoStep step)
+                     ServoStep step, const ForcePermit* permit)
     : device_(device),
       scene_(scene),
       config_(config),
       safety_config_(lower_to_device(config.safety, device.info())),
       step_(step),
+      permit_(permit),
       duration_ticks_(static_cast<std::uint64_t>(std::llround(config.duration_s * config.rate_Hz))),
       recorder_(static_cast<std::size_t>(std::ceil(kRecorded_s * config.rate_Hz))) {}
 
@@ -29,6 +31,15 @@ void ServoCore::begin_ending(ServoEnd end) noexcept {
   if (ending_) return;
   ending_ = true;
   end_ = end;
+}
+
+SafeForce ServoCore::make_safe_now(SafetyInput input) noexcept {
+  SafetyConfig config = safety_config_;
+  if (permit_ != nullptr) {
+    input.permitted = is_permitted(permit_watch_, *permit_, input.dt_s);
+    config.max_force_N = std::min(config.max_force_N, permit_->max_force_N());
+  }
+  return make_safe(config, safety_, input);
 }
 
 ServoOutput ServoCore::render(const DeviceReading& reading, const Eigen::Vector3d& v_device_mps, double dt_s,
@@ -87,11 +98,12 @@ bool ServoCore::tick(std::uint64_t k, std::uint64_t ticks_since, std::int64_t la
   input.ending = ending_;
   input.dt_s = dt_s;
   input.tick_s = 1.0 / config_.rate_Hz;
-  const SafeForce safe = make_safe(safety_config_, safety_, input);
+  const SafeForce safe = make_safe_now(input);
   device_.write(config_.frame.device_force_N(safe.force_N));
 
   tick.out_world_N = safe.force_N;
   tick.limited_by = safe.limited_by;
+  tick.gain = safe.gain;
   ++statistics_.ticks;
   if (tick.out_world_N != tick.output.force_N) ++statistics_.limited_ticks;
   statistics_.dissipated_J += safe.dissipated_J;

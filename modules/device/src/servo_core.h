@@ -23,8 +23,8 @@ std::int64_t due_ns(std::uint64_t k, double rate_Hz) noexcept;
 // What happens at each tick, whoever paces it. No clock but for the duration of a timed step.
 class ServoCore {
  public:
-  ServoCore(HapticDevice& device, SnapshotExchange<const RenderModel>& scene, const ServoConfig& config,
-            ServoStep step);
+  ServoCore(HapticDevice& device, SnapshotExchange<const RenderModel>& scene, const ServoConfig& config, ServoStep step,
+            const ForcePermit* permit);
 
   // Tick `k`, by its schedule `ticks_since` after the tick before, started `late_ns` after it was due. True if the
   // run goes on; if not, the device has zero force.
@@ -37,6 +37,7 @@ class ServoCore {
 
  private:
   void begin_ending(ServoEnd end) noexcept;
+  SafeForce make_safe_now(SafetyInput input) noexcept;
   ServoOutput render(const DeviceReading& reading, const Eigen::Vector3d& v_device_mps, double dt_s,
                      ServoTick& tick) noexcept;
 
@@ -45,6 +46,8 @@ class ServoCore {
   const ServoConfig& config_;
   SafetyConfig safety_config_;
   ServoStep step_;
+  const ForcePermit* permit_;  // null: always permitted
+  PermitWatch permit_watch_;
   std::uint64_t duration_ticks_;  // 0: no end
 
   ServoState servo_;

@@ -146,10 +146,10 @@ void run_paced(ServoCore& core, const ServoConfig& config, const std::atomic<boo
 
 ServoResult run_servo(HapticDevice& device, SnapshotExchange<const RenderModel>& scene, const ServoConfig& config,
                       const std::atomic<bool>& stop, const std::function<void(const ServoTick&)>& on_tick,
-                      ServoStep step) {
+                      ServoStep step, const ForcePermit* permit) {
   const ForceGuard guard(device);
   check(config);
-  ServoCore core(device, scene, config, step);
+  ServoCore core(device, scene, config, step, permit);
   if (config.paced) {
     run_paced(core, config, stop, on_tick);
   } else {

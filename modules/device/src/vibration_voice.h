@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <span>
 
+#include "asperity/device/second_order_filter.h"
 #include "asperity/device/spsc_ring.h"
 #include "asperity/device/vibration_config.h"
 #include "band_limited_reader.h"
-#include "second_order_filter.h"
 
 namespace asperity {
 

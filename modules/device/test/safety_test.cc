@@ -265,6 +265,7 @@ TEST(SafetyCause, Names) {
   EXPECT_EQ(cause_names(0), "");
   EXPECT_EQ(cause_names(flag(SafetyCause::kStale) | flag(SafetyCause::kRateLimit)), "stale+rate-limit");
   EXPECT_EQ(cause_names(flag(SafetyCause::kFault)), "fault");
+  EXPECT_EQ(cause_names(flag(SafetyCause::kNotPermitted)), "not-permitted");
 }
 
 }  // namespace

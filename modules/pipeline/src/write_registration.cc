@@ -183,7 +183,7 @@ bool is_registration_folder(const fs::path& folder) noexcept {
     if (!fs::is_regular_file(file)) return false;
     const std::set<std::string> ours = listed_files(file);
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-      if (entry.is_directory()) continue;
+      if (entry.is_directory() || entry.path().filename() == "report.html") continue;
       if (!ours.contains(fs::relative(entry.path(), folder).generic_string())) return false;
     }
     return true;

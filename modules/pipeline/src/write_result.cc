@@ -45,11 +45,12 @@ bool is_one_result(const fs::path& folder) {
   return true;
 }
 
-// One result, or nothing but folders that hold results, at most `deepest` levels of them.
+// One result, or nothing but folders that hold results, at most `deepest` levels of them, and a report of them all.
 bool holds_results(const fs::path& folder, int deepest) {
   if (fs::is_regular_file(folder / "result.json")) return is_one_result(folder);
   bool any = false;
   for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file() && entry.path().filename() == "report.html") continue;
     if (deepest == 0 || !entry.is_directory() || !holds_results(entry.path(), deepest - 1)) return false;
     any = true;
   }

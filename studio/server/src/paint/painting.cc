@@ -80,7 +80,7 @@ Json textures_json(const SceneObject& object) {
 }  // namespace
 
 Json first_painting() {
-  return Json::parse(R"({"object":"","unit_m":1.0,"rings":1,"half_width_mm":0.0,"strokes":[],"swaps":{}})");
+  return Json::parse(R"({"object":"","unit_m":1.0,"rings":1,"half_width_mm":0.0,"strokes":[],"swaps":{},"current":-1})");
 }
 
 Painting parse_painting(const Json& section) {
@@ -94,6 +94,7 @@ Painting parse_painting(const Json& section) {
       throw Error("paint: there are more than " + std::to_string(kMostStrokes) + " strokes");
     }
     for (const Json& stroke : section.at("strokes")) out.strokes.push_back(stroke_of(stroke));
+    number_of(section.at("current"), "the chosen stroke", -1, kMostStrokes);
     for (const auto& [index, texture] : section.at("swaps").items()) {
       if (index.empty() || index.size() > 6 || index.find_first_not_of("0123456789") != std::string::npos) {
         throw Error("paint: '" + index + "' is no texture's number");

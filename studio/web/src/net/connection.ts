@@ -103,13 +103,25 @@ function open(): void {
     if (typeof message.data === "string") hearText(JSON.parse(message.data));
     else hearBlock(decodeBlock(message.data));
   };
-  opened.onclose = (closed) => {
+  opened.onclose = () => {
     for (const { reject } of waiting.values()) reject(new Refusal("The connection to the studio's server was lost.", "The page goes on by itself when it is back."));
     waiting.clear();
-    link.value = closed.code === 4401 ? "refused" : "lost";
+    if (link.value !== "refused") link.value = "lost";
+    void isRefused().then((refused) => {
+      if (socket === opened) link.value = refused ? "refused" : "lost";
+    });
     setTimeout(open, retry_ms);
     retry_ms = Math.min(4000, 2 * retry_ms);
   };
+}
+
+/** True if the server is there but does not know this browser: a WebSocket alone does not tell the two apart. */
+async function isRefused(): Promise<boolean> {
+  try {
+    return (await fetch("/download/-", { cache: "no-store" })).status === 403;
+  } catch {
+    return false;
+  }
 }
 
 function hearText(message: any): void {

@@ -109,6 +109,8 @@ export class Drawing {
     ctx.save();
     ctx.strokeStyle = ctx.fillStyle = themeColour("--text-2");
     ctx.font = `${11 * devicePixelRatio}px ${themeColour("--font")}`;
+    ctx.textAlign = "left";
+    ctx.textBaseline = "alphabetic";
     ctx.setLineDash([4 * devicePixelRatio, 3 * devicePixelRatio]);
     for (const mark of this.props().marks ?? []) {
       const left = plot.valToPos(mark.x, "x", true);

@@ -1,5 +1,8 @@
 // Fewer points that look the same: the smallest and the largest value of each bucket.
 
+/** Which value of a bucket is kept: both, or twice the smallest or the largest, as the edges of a band want it. */
+export type Keep = "both" | "low" | "high";
+
 export interface Decimated {
   x: Float64Array;
   ys: Float64Array[];
@@ -7,9 +10,17 @@ export interface Decimated {
 
 /**
  * Values `from` … `to` (not included) of series with one common, rising x, in `buckets` of equal counts: two points a
- * bucket, each series with its smallest and largest value there, in the order in which they come. What fits is copied.
+ * bucket, each series with its smallest and largest value there, in the order in which they come, or what `keep` says
+ * for it. What fits is copied.
  */
-export function decimate(x: ArrayLike<number>, ys: readonly ArrayLike<number>[], from: number, to: number, buckets: number): Decimated {
+export function decimate(
+  x: ArrayLike<number>,
+  ys: readonly ArrayLike<number>[],
+  from: number,
+  to: number,
+  buckets: number,
+  keep: readonly Keep[] = [],
+): Decimated {
   const count = Math.max(0, to - from);
   if (count <= 2 * buckets) {
     return { x: copied(x, from, to), ys: ys.map((y) => copied(y, from, to)) };
@@ -20,7 +31,14 @@ export function decimate(x: ArrayLike<number>, ys: readonly ArrayLike<number>[],
     const end = from + Math.floor(((bucket + 1) * count) / buckets);
     result.x[2 * bucket] = x[first]!;
     result.x[2 * bucket + 1] = x[end - 1]!;
-    for (let series = 0; series < ys.length; ++series) minMax(ys[series]!, first, end, result.ys[series]!, 2 * bucket);
+    for (let series = 0; series < ys.length; ++series) {
+      const out = result.ys[series]!;
+      minMax(ys[series]!, first, end, out, 2 * bucket);
+      const kept = keep[series] ?? "both";
+      if (kept === "both") continue;
+      const choose = kept === "low" ? Math.min : Math.max;
+      out.fill(choose(out[2 * bucket]!, out[2 * bucket + 1]!), 2 * bucket, 2 * bucket + 2);
+    }
   }
   return result;
 }

@@ -1,6 +1,6 @@
 // How a plot looks: uPlot's options in the colours of the theme.
 import uPlot from "uplot";
-import { number } from "../ui/format";
+import { fixed, number, superscript } from "../ui/format";
 import { faded, seriesColour, themeColour } from "./colours";
 import type { Series } from "./series";
 
@@ -22,16 +22,24 @@ export function axis(words: AxisWords, logarithmic: boolean, side: "x" | "y"): u
     labelSize: 16,
     labelGap: 0,
     gap: 4,
-    size: side === "x" ? 22 : 46,
+    size: side === "x" ? 22 : (_plot, words) => 12 + 6.2 * Math.max(2, ...(words ?? []).map((word) => word?.length ?? 0)),
     space: side === "x" ? 64 : 26,
-    grid: { stroke: line, width: 1 },
+    grid: { stroke: line, width: 1, ...(logarithmic ? { filter: onlyDecades } : {}) },
     ticks: { stroke: line, width: 1, size: 4 },
     border: { show: true, stroke: themeColour("--line-strong"), width: 1 },
-    values: logarithmic ? (_plot, splits) => splits.map((value) => (isDecade(value) ? number(value, 3) : "")) : (_plot, splits) => tickWords(splits),
+    values: logarithmic ? (_plot, splits) => splits.map((value) => (isDecade(value) ? decadeWords(value) : "")) : (_plot, splits) => tickWords(splits),
   };
 }
 
 const isDecade = (value: number): boolean => Math.abs(Math.log10(value) - Math.round(Math.log10(value))) < 1e-9;
+
+const onlyDecades: uPlot.Axis.Filter = (_plot, splits) => splits.map((value) => (isDecade(value) ? value : null));
+
+/** A power of ten, short. */
+function decadeWords(value: number): string {
+  const exponent = Math.round(Math.log10(value));
+  return Math.abs(exponent) <= 2 ? String(Number(value.toPrecision(1))) : `10${superscript(exponent)}`;
+}
 
 /** All with the decimals that the step between them needs. */
 export function tickWords(splits: (number | null)[]): string[] {
@@ -39,8 +47,9 @@ export function tickWords(splits: (number | null)[]): string[] {
   const step = values.length > 1 ? Math.abs(values[1]! - values[0]!) : 1;
   const largest = Math.max(...values.map(Math.abs), 0);
   if (largest >= 1e6 || (step > 0 && step < 1e-5)) return splits.map((value) => (value === null ? "" : number(value, 3)));
-  const decimals = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
-  return splits.map((value) => (value === null ? "" : value.toFixed(Math.min(decimals, 6)).replace("-", "−").replace(/^−(0(\.0*)?)$/, "$1")));
+  let decimals = 0;
+  while (decimals < 6 && Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) > 1e-6) ++decimals;
+  return splits.map((value) => (value === null ? "" : fixed(value, decimals)));
 }
 
 /** uPlot's series of one of ours: y, or lo, hi and y. */

@@ -1,5 +1,5 @@
 // What a plot shows, and the data that uPlot wants for it.
-import { decimate, lowerBound } from "./decimate";
+import { decimate, lowerBound, type Keep } from "./decimate";
 
 /** Names of the CSS variables --series-1 … 8, and the text's second colour. */
 export type SeriesColour = 1 | 2 | 3 | 4 | 5 | 6 | 7 | 8 | "muted" | "good" | "warn" | "bad";
@@ -29,6 +29,7 @@ export interface Columns {
 }
 
 const columnsOf = (series: Series): ArrayLike<number>[] => (series.lo && series.hi ? [series.lo, series.hi, series.y] : [series.y]);
+const keepOf = (series: Series): Keep[] => (series.lo && series.hi ? ["low", "high", "both"] : ["both"]);
 
 /** The part of the series between two values of x, at most about two points a bucket and series. */
 export function columnsBetween(x: ArrayLike<number> | undefined, series: readonly Series[], low: number, high: number, buckets: number): Columns {
@@ -44,7 +45,7 @@ export function columnsBetween(x: ArrayLike<number> | undefined, series: readonl
 
 function together(x: ArrayLike<number>, series: readonly Series[], low: number, high: number, buckets: number): Column[] {
   const [from, to] = range(x, low, high);
-  const few = decimate(x, series.flatMap(columnsOf), from, to, buckets);
+  const few = decimate(x, series.flatMap(columnsOf), from, to, buckets, series.flatMap(keepOf));
   return [few.x, ...few.ys.map(gaps)];
 }
 
@@ -52,7 +53,7 @@ function merged(x: ArrayLike<number>, series: readonly Series[], low: number, hi
   const parts = series.map((one) => {
     const own = one.x ?? x;
     const [from, to] = range(own, low, high);
-    return decimate(own, columnsOf(one), from, to, buckets);
+    return decimate(own, columnsOf(one), from, to, buckets, keepOf(one));
   });
   const places = parts.flatMap((part, index) => Array.from(part.x, (value, row) => ({ value, index, row })));
   places.sort((a, b) => a.value - b.value);

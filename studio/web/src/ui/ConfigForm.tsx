@@ -22,7 +22,7 @@ export function ConfigForm({ fields, onChange, disabled }: ConfigFormProps) {
   return (
     <div class="config">
       <div class="config-search">
-        <TextField label="Search the settings" value={search} onInput={setSearch} onChange={setSearch} />
+        <TextField label="Search the settings" wide value={search} onInput={setSearch} onChange={setSearch} />
         <label class="config-changed">
           <input type="checkbox" checked={changedOnly} onChange={(event) => setChangedOnly(event.currentTarget.checked)} />
           Changed only ({changed})

@@ -12,11 +12,13 @@ export interface TextFieldProps {
   hint?: string;
   error?: string;
   disabled?: boolean;
+  /** The field below its label. */
+  wide?: boolean;
   testId?: string;
 }
 
 /** A line of text. */
-export function TextField({ label, value, onChange, onInput, placeholder, hint, error, disabled, testId }: TextFieldProps) {
+export function TextField({ label, value, onChange, onInput, placeholder, hint, error, disabled, wide, testId }: TextFieldProps) {
   const [typed, setTyped] = useState<string | null>(null);
   const take = () => {
     if (typed !== null && typed !== value) onChange(typed);
@@ -27,6 +29,7 @@ export function TextField({ label, value, onChange, onInput, placeholder, hint, 
       label={label}
       hint={hint}
       error={error}
+      wide={wide}
       control={({ id, describedBy }) => (
         <input
           id={id}

@@ -61,8 +61,10 @@ const gap = (unit: string) => (unit.startsWith("°") && unit.length === 1 ? "" :
 
 const SUPERSCRIPTS: Record<string, string> = { "-": "⁻", ...Object.fromEntries([..."⁰¹²³⁴⁵⁶⁷⁸⁹"].map((sign, digit) => [String(digit), sign])) };
 
+/** A whole number in raised digits. */
+export const superscript = (exponent: number): string => [...String(exponent)].map((sign) => SUPERSCRIPTS[sign]).join("");
+
 function power(value: number, digits: number): string {
   const [mantissa, exponent] = value.toExponential(digits - 1).split("e") as [string, string];
-  const raised = [...exponent.replace("+", "")].map((sign) => SUPERSCRIPTS[sign]).join("");
-  return `${minus(mantissa)}${THIN}×${THIN}10${raised}`;
+  return `${minus(mantissa)}${THIN}×${THIN}10${superscript(Number(exponent))}`;
 }

@@ -9,32 +9,34 @@ export interface Toast {
   hint: string;
 }
 
-const kShown_ms = 6000;
+const kNoteShown_ms = 6000;
+const kErrorShown_ms = 20000;
 const kMost = 5;
+const kCancelled = "cancelled";
 
 export const toasts = signal<Toast[]>([]);
 let nextId = 1;
 
 /** Tells that something happened; goes away by itself. */
 export function say(message: string, hint = ""): void {
-  const id = add({ kind: "note", message, hint });
-  setTimeout(() => dismiss(id), kShown_ms);
+  add({ kind: "note", message, hint }, kNoteShown_ms);
 }
 
-/** Shows what went wrong and what to do next; stays until it is closed. */
+/** Shows what went wrong and what to do next; not that a newer request has taken the place of an older one. */
 export function complain(error: unknown): void {
   const message = error instanceof Error ? error.message : String(error);
+  if (message === kCancelled) return;
   const hint = error instanceof Refusal ? error.hint : "";
   if (toasts.value.some((toast) => toast.kind === "error" && toast.message === message)) return;
-  add({ kind: "error", message, hint });
+  add({ kind: "error", message, hint }, kErrorShown_ms);
 }
 
 export function dismiss(id: number): void {
   toasts.value = toasts.value.filter((toast) => toast.id !== id);
 }
 
-function add(toast: Omit<Toast, "id">): number {
+function add(toast: Omit<Toast, "id">, shown_ms: number): void {
   const id = nextId++;
   toasts.value = [...toasts.value, { id, ...toast }].slice(-kMost);
-  return id;
+  setTimeout(() => dismiss(id), shown_ms);
 }

@@ -1,20 +1,33 @@
-import { type Box3, BufferGeometry, Color, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Vector3 } from "three";
+import {
+  type Box3,
+  BufferGeometry,
+  CanvasTexture,
+  Color,
+  Float32BufferAttribute,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Sprite,
+  SpriteMaterial,
+  Vector3,
+} from "three";
 import { themeColour } from "../plot/colours";
 import { upOf, type Upright } from "./views";
 
 const kCells = 10;
 
-/** A grid below the content, its cells a round number of millimetres, and the three axes at its corner. */
+/** A grid below the content, its cells a round number of millimetres, and the three axes beside the content. */
 export class Ground {
   readonly object = new Group();
   private readonly grid = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
   private readonly axes = (["x", "y", "z"] as const).map((name) => ({
     name,
     line: new LineSegments(new BufferGeometry(), new LineBasicMaterial()),
+    letter: new Sprite(new SpriteMaterial({ map: letterTexture(name), depthTest: false })),
   }));
 
   constructor() {
-    this.object.add(this.grid, ...this.axes.map(({ line }) => line));
+    this.object.add(this.grid, ...this.axes.flatMap(({ line, letter }) => [line, letter]));
   }
 
   /** Below the box, as large as it. */
@@ -38,9 +51,16 @@ export class Ground {
     }
     this.grid.geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
     this.grid.geometry.computeBoundingSphere();
-    const origin = centre.clone().addScaledVector(along, (-kCells * cell) / 2).addScaledVector(across, (-kCells * cell) / 2);
-    this.axes.forEach(({ line }, index) => {
+    const size = box.getSize(new Vector3());
+    const beside = 0.55;
+    const origin = centre
+      .clone()
+      .addScaledVector(along, -beside * size.x - cell / 2)
+      .addScaledVector(across, -beside * Math.abs(size.dot(across)) - cell / 2);
+    this.axes.forEach(({ line, letter }, index) => {
       const tip = origin.clone().setComponent(index, origin.getComponent(index) + cell);
+      letter.position.copy(origin).setComponent(index, origin.getComponent(index) + 1.3 * cell);
+      letter.scale.setScalar(0.5 * cell);
       line.geometry.setAttribute("position", new Float32BufferAttribute([...origin.toArray(), ...tip.toArray()], 3));
       line.geometry.computeBoundingSphere();
     });
@@ -48,8 +68,24 @@ export class Ground {
 
   takeColours(): void {
     this.grid.material.color = new Color(themeColour("--view-grid"));
-    for (const { name, line } of this.axes) line.material.color = new Color(themeColour(`--axis-${name}`));
+    for (const { name, line, letter } of this.axes) {
+      line.material.color = new Color(themeColour(`--axis-${name}`));
+      letter.material.color = line.material.color;
+    }
   }
+}
+
+/** A white letter, which its material colours. */
+function letterTexture(letter: string): CanvasTexture {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 64;
+  const pen = canvas.getContext("2d")!;
+  pen.fillStyle = "#fff";
+  pen.font = "600 52px sans-serif";
+  pen.textAlign = "center";
+  pen.textBaseline = "middle";
+  pen.fillText(letter, 32, 32);
+  return new CanvasTexture(canvas);
 }
 
 /** The largest of 1, 2, 5 × 10ⁿ that is at most `size`. */

@@ -21,6 +21,8 @@ import { dispose } from "./helpers";
 import { listenToPointer, type PointerListener } from "./pointer";
 import { directionOf, upOf, type Upright, type ViewName } from "./views";
 
+const kNear_px = 5;
+
 Mesh.prototype.raycast = acceleratedRaycast;
 
 /**
@@ -136,6 +138,9 @@ export class View {
     const place = this.canvas.getBoundingClientRect();
     const at = new Vector2(((clientX - place.left) / place.width) * 2 - 1, 1 - ((clientY - place.top) / place.height) * 2);
     this.raycaster.setFromCamera(at, this.camera);
+    const near_m = kNear_px * this.metresPerPixel();
+    this.raycaster.params.Line.threshold = near_m;
+    this.raycaster.params.Points.threshold = near_m;
     return this.raycaster;
   }
 

@@ -163,6 +163,9 @@ export function dispose(object: Object3D): void {
   object.traverse((part) => {
     const { geometry, material } = part as Partial<Mesh>;
     geometry?.dispose();
-    for (const one of material ? [material].flat() : []) (one as Material).dispose();
+    for (const one of material ? [material].flat() : []) {
+      (one as MeshStandardMaterial).map?.dispose();
+      (one as Material).dispose();
+    }
   });
 }

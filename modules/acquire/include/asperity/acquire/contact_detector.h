@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "asperity/acquire/contact_config.h"
+#include "asperity/acquire/touch_config.h"
 #include "asperity/recording/calibration.h"
 
 namespace asperity {
@@ -22,7 +22,7 @@ struct ContactChange {
 class ContactDetector {
  public:
   // Throws Error if a lower threshold lies above its upper one.
-  ContactDetector(const ContactConfig& config, const std::optional<ForceCalibration>& force);
+  ContactDetector(const TouchConfig& config, const std::optional<ForceCalibration>& force);
 
   // The next sample of the force; nan is passed over, and a time that does not rise. What has changed by it.
   std::optional<ContactChange> push(std::int64_t t_ns, double force_counts);
@@ -36,7 +36,7 @@ class ContactDetector {
   Level level(std::int64_t t_ns, double counts);
   void learn_idle(std::int64_t t_ns, double counts);
 
-  ContactConfig config_;
+  TouchConfig config_;
   std::optional<ForceCalibration> force_;
   bool touching_ = false;
   std::optional<std::int64_t> above_since_ns_;  // while it does not touch

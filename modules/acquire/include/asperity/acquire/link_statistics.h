@@ -22,4 +22,23 @@ struct LinkStatistics {
   bool losses_are_estimated = false;
 };
 
+// Of both, one after the other.
+inline LinkStatistics& operator+=(LinkStatistics& a, const LinkStatistics& b) {
+  a.bytes += b.bytes;
+  a.frames += b.frames;
+  a.samples += b.samples;
+  a.force_samples += b.force_samples;
+  a.lost_frames += b.lost_frames;
+  a.lost_samples += b.lost_samples;
+  a.damaged_frames += b.damaged_frames;
+  a.late_frames += b.late_frames;
+  a.foreign_frames += b.foreign_frames;
+  a.resyncs += b.resyncs;
+  a.restarts += b.restarts;
+  a.overruns += b.overruns;
+  a.losses_are_estimated = a.losses_are_estimated || b.losses_are_estimated;
+  return a;
+}
+inline LinkStatistics operator+(LinkStatistics a, const LinkStatistics& b) { return a += b; }
+
 }  // namespace asperity

@@ -17,6 +17,15 @@ struct TrackingStatistics {
   std::uint64_t skipped_frames = 0;  // passed over because a newer one was there
 };
 
+// Of both, one after the other.
+inline TrackingStatistics& operator+=(TrackingStatistics& a, const TrackingStatistics& b) {
+  a.frames += b.frames;
+  a.poses += b.poses;
+  a.skipped_frames += b.skipped_frames;
+  return a;
+}
+inline TrackingStatistics operator+(TrackingStatistics a, const TrackingStatistics& b) { return a += b; }
+
 // Where poses of the marker body come from: a camera with a tracker, another tracker's stream, a file. One
 // thread at a time.
 class PoseSource {

@@ -3,7 +3,7 @@
 #include <array>
 #include <string_view>
 
-#include "asperity/acquire/contact_config.h"
+#include "asperity/acquire/touch_config.h"
 #include "asperity/acquire/gravity_estimator.h"
 
 namespace asperity {
@@ -17,7 +17,7 @@ struct RecorderConfig {
   bool start_at_once = false;
   double pre_roll_s = 1.0;
   double post_roll_s = 0.5;
-  ContactConfig contact;
+  TouchConfig contact;
   RestConfig rest;
   int probe_queue = 65'536;
   int pose_queue = 4'096;

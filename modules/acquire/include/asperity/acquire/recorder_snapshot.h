@@ -58,6 +58,8 @@ struct RecorderSnapshot {
   bool storing = false;
   std::string segment;  // the open one, or the last
   std::size_t segments = 0;
+  std::vector<Segment> segment_list;  // the open one too, which ends at the newest row
+  bool automatic = false;             // segments start and stop by themselves
   std::size_t discarded = 0;
   double recorded_s = 0.0;
   std::uint64_t probe_rows = 0;  // written

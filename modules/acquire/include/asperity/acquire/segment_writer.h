@@ -32,7 +32,9 @@ class SegmentWriter {
   bool reopen();
   // Closes the open segment if rows have come to its end; the other stream's that come later are taken still. True if
   // it did.
-  bool settle();
+  bool settle() { return settle(latest_ns_); }
+  // The same where time is known to have come to `t_ns` without rows.
+  bool settle(std::int64_t t_ns);
   // Closes it at `t_ns`, or where it was to end before.
   void close(std::int64_t t_ns);
   // Takes the open segment out of the list, or else the last one, and gives its name; nullopt if there is none.

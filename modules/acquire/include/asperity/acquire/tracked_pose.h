@@ -26,4 +26,14 @@ struct TrackedPose {
   bool ambiguous = false;          // the other way in which the tags' plane can lie fits nearly as well
 };
 
+// The pose as a row, its covariance as standard deviations.
+inline TrackerSample with_sigmas(const TrackedPose& pose) {
+  TrackerSample out = pose.sample;
+  const Eigen::Matrix<double, 6, 1> variance = pose.covariance.diagonal();
+  if (!(variance.array() >= 0.0).all()) return out;
+  out.sigma_position_m = variance.head<3>().cwiseSqrt();
+  out.sigma_rotation_rad = variance.tail<3>().cwiseSqrt();
+  return out;
+}
+
 }  // namespace asperity

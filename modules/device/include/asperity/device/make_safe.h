@@ -31,6 +31,7 @@ struct SafetyInput {
   DeviceStatus status = DeviceStatus::kReady;
   bool scene_changed = false;  // rendered from another snapshot than at the tick before
   bool ending = false;         // ramp to zero, for good
+  bool permitted = true;       // else ramp to zero (force_permit.h)
   double dt_s = 1e-3;          // since the tick before
   double tick_s = 1e-3;        // between two ticks of the schedule
 };
@@ -39,6 +40,7 @@ struct SafeForce {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
   std::uint32_t limited_by = 0;  // SafetyCause flags
   double dissipated_J = 0.0;     // by the passivity controller at this velocity
+  double gain = 0.0;             // of the soft start and of the ramps to zero, within 0 and 1
 };
 
 // `config` with its limits lowered to those of the device, where it states any; without the passivity controller for a
@@ -46,11 +48,11 @@ struct SafeForce {
 SafetyConfig lower_to_device(SafetyConfig config, const DeviceInfo& info);
 
 // The force that may reach the hand at this tick, in this order (docs/safety.md): fault, the force limit, the gain
-// (non-finite numbers, a stale position, the end of the run; soft start), the passivity controller's damping, the
-// force limit of the sum, the force-rate limit. Whatever comes in, what goes out is finite, at most max_force_N long,
-// and, unless the device has a fault, at most max_force_rate_N_per_s · dt from the force before, where dt is dt_s but
-// no more than three ticks. A loop that stood still for longer than stale_after_s begins softly again: the hand is
-// elsewhere. Realtime-safe: yes.
+// (non-finite numbers, a stale position, no permit, the end of the run; soft start), the passivity controller's
+// damping, the force limit of the sum, the force-rate limit. Whatever comes in, what goes out is finite, at most
+// max_force_N long, and, unless the device has a fault, at most max_force_rate_N_per_s · dt from the force before,
+// where dt is dt_s but no more than three ticks. A loop that stood still for longer than stale_after_s begins softly
+// again: the hand is elsewhere. Realtime-safe: yes.
 SafeForce make_safe(const SafetyConfig& config, SafetyState& state, const SafetyInput& input) noexcept;
 
 // True if nothing is left to ramp down: the next force of an ending run is zero too.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asperity/device/device_frame.h"
+#include "asperity/device/force_permit.h"
 #include "asperity/device/haptic_device.h"
 #include "asperity/device/safety_config.h"
 #include "asperity/device/servo_statistics.h"
@@ -78,9 +79,10 @@ using ServoStep = ServoOutput (*)(const RenderModel&, ServoState&, const DeviceS
 //
 // Not paced, everything runs on the calling thread, no tick is lost, and the same device, scene and config give
 // the same bits: DeviceState::dt_s is 1/rate_Hz.
+// With a `permit` the force is there only while it is given, and within its limit.
 // Throws Error for a config out of range, and if the priority is enforced but not granted.
 ServoResult run_servo(HapticDevice& device, SnapshotExchange<const RenderModel>& scene, const ServoConfig& config,
                       const std::atomic<bool>& stop, const std::function<void(const ServoTick&)>& on_tick,
-                      ServoStep step = &render_step);
+                      ServoStep step = &render_step, const ForcePermit* permit = nullptr);
 
 }  // namespace asperity

@@ -17,6 +17,7 @@ struct ServoTick {
   ServoOutput output;                                     // what was rendered
   Eigen::Vector3d out_world_N = Eigen::Vector3d::Zero();  // what the safety layer let through
   std::uint32_t limited_by = 0;                           // SafetyCause flags
+  double gain = 0.0;                                      // of its soft start and ramps to zero, within 0 and 1
   std::int64_t late_ns = 0;                               // start of the tick after its due time; 0 if not paced
   std::int64_t step_ns = 0;                               // duration of the render step; 0 if not timed
 };

@@ -21,7 +21,7 @@ struct ArrivalConfig {
 };
 
 // A row or a pose of a recording, and when it would have arrived.
-struct Arrival {
+struct ScanArrival {
   enum class Kind { kRow, kPose };
   Kind kind = Kind::kRow;
   std::size_t index = 0;  // in its stream
@@ -30,7 +30,7 @@ struct Arrival {
 
 // All rows and poses of `recording` in the order of their arrival. A time stamp of tracker.csv holds the latency
 // already: the pose is stamped that long after its image was taken.
-std::vector<Arrival> list_arrivals(const Recording& recording, const ArrivalConfig& config = {});
+std::vector<ScanArrival> list_arrivals(const Recording& recording, const ArrivalConfig& config = {});
 
 // One row or pose as a sensor would have handed it over. Throws Error for an index beyond the stream.
 ProbeSample probe_sample(const ProbeStream& stream, std::size_t index);

@@ -27,7 +27,8 @@ Scene make_scene(const ScansOnMesh& result, const MeshFile& mesh, double unit_m)
 void write_registration(const std::filesystem::path& folder, const ScansOnMesh& result, const std::vector<Scan>& scans,
                         const MeshFile& mesh, double unit_m);
 
-// True if `folder` holds a registration.json of ours and nothing but the files that it lists. Never throws.
+// True if `folder` holds a registration.json of ours and nothing but the files that it lists and report.html. Never
+// throws.
 bool is_registration_folder(const std::filesystem::path& folder) noexcept;
 
 }  // namespace asperity

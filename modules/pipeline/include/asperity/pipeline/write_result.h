@@ -21,7 +21,8 @@ std::string format_profile_csv(const Profile& profile);
 void write_result(const std::filesystem::path& folder, const ProcessResult& result, const Recording& recording,
                   const std::string& name);
 
-// True if `folder` holds a result.json of ours, or nothing but folders that do, or folders of such. Never throws.
+// True if `folder` holds a result.json of ours, or nothing but folders that do, or folders of such; a report.html may
+// be beside. Never throws.
 bool is_result_folder(const std::filesystem::path& folder) noexcept;
 
 }  // namespace asperity

@@ -3,6 +3,9 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "asperity/geometry/motion.h"
 #include "asperity/recording/append.h"
@@ -20,6 +23,7 @@ struct CausalTipConfig {
   double mounting_s = 3.0;
   double context_s = 0.25;
   double max_row_gap_s = 0.3;
+  double ahead_s = 0.08;
 
   template <class V>
   void visit(V& v) {
@@ -31,6 +35,7 @@ struct CausalTipConfig {
     v.field("mounting_s", mounting_s, "the same where the sensor's rotation is unknown, s", {0.5, 60.0});
     v.field("context_s", context_s, "of rows before the window that its clock is smoothed over, s", {0.05, 10.0});
     v.field("max_row_gap_s", max_row_gap_s, "a longer hole in the rows begins the estimate anew, s", {0.01, 10.0});
+    v.field("ahead_s", ahead_s, "how far a sample looks ahead for its direction of travel, s", {0.001, 1.0});
   }
 };
 
@@ -58,13 +63,15 @@ class CausalTip {
 
   // Appends the samples that have become final since the last call to `out`, in order of time. `broken` is set for a
   // sample before which the estimate began anew: positions jump there.
+  // `ahead_m` is the way from the sample to where the newest window has the tip ahead_s later: not final.
   struct Samples {
     TipMotion motion;
     std::vector<char> broken;
+    std::vector<Eigen::Vector3d> ahead_m;
   };
   void take(Samples& out);
 
-  const CausalTipCounts& counts() const;
+  CausalTipCounts counts() const;
   std::int64_t newest_row_ns() const;
   std::int64_t newest_pose_ns() const;  // its true time
   std::int64_t final_ns() const;        // up to here samples are final

@@ -4,7 +4,7 @@ namespace asperity {
 
 // When a probe counts as touching. Two thresholds, and two times for which they must be passed, keep a noisy force
 // from opening and closing a segment again and again.
-struct ContactConfig {
+struct TouchConfig {
   double on_N = 0.3;
   double off_N = 0.15;
   double on_noise = 8.0;

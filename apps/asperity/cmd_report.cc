@@ -1,0 +1,76 @@
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
+#include "asperity/studio/format_report.h"
+#include "asperity/studio/read_report_item.h"
+#include "commands.h"
+
+namespace asperity::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class ReportCommand : public Command {
+ public:
+  explicit ReportCommand(CLI::App& root) : Command(root, "report", "From results to one page for the browser") {
+    require(parser().add_option(
+        "OUT", folders_,
+        "Folders that asperity process or register has written; several results are laid over each other"));
+    parser()
+        .add_option("-o,--output", output_, "The page; without it OUT/report.html, if there is one OUT")
+        ->type_name("FILE.html");
+  }
+
+  int run(const Observer& observer) override {
+    if (output_.empty() && folders_.size() > 1) throw UsageError("several folders need -o FILE.html");
+    std::vector<studio::ReportItem> items;
+    for (const std::string& folder : folders_) {
+      for (const fs::path& result : studio::find_results(folder)) {
+        observer.update("reading", 0.0);
+        items.push_back(studio::read_report_item(result, name_of(folder, result)));
+        if (items.size() > studio::kMaxReportItems) {
+          throw UsageError("more than " + std::to_string(studio::kMaxReportItems) +
+                           " results, too many for one report");
+        }
+      }
+    }
+    const fs::path file = output_.empty() ? fs::path(folders_.front()) / "report.html" : fs::path(output_);
+    const std::string page = studio::format_report(items);
+    observer.update("writing", 1.0);
+    write_file(file, page);
+    nlohmann::ordered_json out;
+    out["format"] = "asperity-report";
+    out["version"] = 1;
+    out["file"] = printable(file.string(), 4096);
+    for (const studio::ReportItem& item : items) out["results"].push_back(printable(item.name, 200));
+    print_json(out.dump(2));
+    say("report of " + std::to_string(items.size()) + (items.size() == 1 ? " result" : " results") + " in " +
+        printable(file.string(), 200) + "\n");
+    return kDone;
+  }
+
+ private:
+  // A result alone has its recording's name; of several, their folders tell them apart.
+  std::string name_of(const std::string& folder, const fs::path& result) const {
+    const std::string below = result.lexically_relative(folder).generic_string();
+    const bool itself = below.empty() || below == ".";
+    if (itself && folders_.size() == 1) return {};
+    if (itself) return fs::path(folder).lexically_normal().generic_string();
+    return folders_.size() == 1 ? below : (fs::path(folder) / below).lexically_normal().generic_string();
+  }
+
+  std::vector<std::string> folders_;
+  std::string output_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_report(CLI::App& root) { return std::make_unique<ReportCommand>(root); }
+
+}  // namespace asperity::app

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "asperity/studio/report_item.h"
+
+namespace asperity::studio {
+
+inline constexpr std::size_t kMaxReportItems = 64;
+
+// The folders at and below `folder`, three levels deep, that hold a result (a result.json), sorted by name. Throws
+// Error if there is none, if there are more than kMaxReportItems, or if `folder` is none.
+std::vector<std::filesystem::path> find_results(const std::filesystem::path& folder);
+
+// What the files of one result, result.json, profile.csv and trajectory.csv, give for a report; the last may be
+// missing. `name` is what the report calls it; empty: the recording's. Throws Error naming file, line and value.
+ReportItem read_report_item(const std::filesystem::path& folder, const std::string& name = {});
+
+}  // namespace asperity::studio

@@ -1,0 +1,141 @@
+#include "feel/feel_devices.h"
+
+#include <array>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/studio/calls.h"
+#include "feel_device.h"
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr double kHandGoesOn_s = 600.0;
+constexpr double kAbove = 0.1;  // of the scene's size: where the pointer's point begins
+
+constexpr std::array<FeelDeviceKind, 9> kKinds{{{"mouse", "Mouse, pen or keys", false, false},
+                                                {"sim", "Modelled hand", true, false},
+                                                {"replay", "Recorded path", true, false},
+                                                {"haply", "Haply Inverse3", false, true},
+                                                {"openhaptics", "3D Systems (OpenHaptics)", false, true},
+                                                {"dhd", "Force Dimension or Falcon", false, true},
+                                                {"2diy", "Haply 2diy", false, true},
+                                                {"audio", "Voice coil (audio)", true, true},
+                                                {"gamepad", "Gamepad", true, true}}};
+
+// What is needed that can be told without a try.
+std::string missing(std::string_view name, const FeelConfig& start) {
+  if (name == "2diy" && start.feel.two_diy.port.empty()) return "Its serial port is not set; start the studio with it.";
+  return "";
+}
+
+std::string_view words_of(std::string_view name) {
+  if (name == "mouse") return "The pointer pulls the point; what a hand would feel is drawn and heard.";
+  if (name == "sim") return "A modelled hand strokes the scene for ten minutes.";
+  if (name == "replay") return "A recording or a table of positions moves the point.";
+  if (name == "audio" || name == "gamepad") return "The modelled hand moves the point; its vibration is put out.";
+  return "It is looked for when you start.";
+}
+
+Eigen::Vector3d above_scene_m(const RenderModel& model) {
+  Eigen::AlignedBox3d box;
+  for (const RenderObject& object : model.objects) {
+    for (const Eigen::Vector3d& vertex_m : object.mesh.vertices_m) box.extend(object.T_world_mesh * vertex_m);
+  }
+  Eigen::Vector3d out_m = box.center();
+  out_m.z() = box.max().z() + kAbove * box.diagonal().norm();
+  return out_m;
+}
+
+app::FeelDrive drive_of(const FeelSetup& setup, const FeelDeviceKind& kind, const Scene& scene,
+                        const Observer& observer) {
+  if (!kind.driven) return {};
+  FeelConfig config = setup.config;
+  config.feel.servo.duration_s = kHandGoesOn_s;
+  app::FeelDrive drive;
+  if (kind.name == "replay" || !setup.replay.empty()) {
+    if (setup.replay.empty()) {
+      throw Advice("the recorded path is missing", "Choose a recording or a table of positions to replay.");
+    }
+    drive = app::read_drive(setup.replay, setup.mapped, scene, config.feel, observer);
+  } else if (setup.input.tile_stroke_m) {
+    drive = app::make_drive(scene, setup.input.tile_stroke_m->front(), setup.input.tile_stroke_m->back(), config.feel);
+  } else {
+    drive = app::make_drive(scene, std::nullopt, std::nullopt, config.feel);
+  }
+  app::check_length(drive);
+  return drive;
+}
+
+}  // namespace
+
+bool is_feel_device(std::string_view name) {
+  for (const FeelDeviceKind& kind : kKinds) {
+    if (kind.name == name) return true;
+  }
+  return false;
+}
+
+const FeelDeviceKind& feel_device_kind(std::string_view name) {
+  for (const FeelDeviceKind& kind : kKinds) {
+    if (kind.name == name) return kind;
+  }
+  throw Error("there is no device '" + printable(std::string(name), 100) + "'");
+}
+
+Json feel_devices_json(const FeelConfig& start) {
+  Json out = Json::array();
+  for (const FeelDeviceKind& kind : kKinds) {
+    const std::string lack = missing(kind.name, start);
+    Json each;
+    each["name"] = kind.name;
+    each["title"] = kind.title;
+    each["available"] = lack.empty();
+    each["words"] = lack.empty() ? std::string(words_of(kind.name)) : lack;
+    each["driven"] = kind.driven;
+    each["felt"] = kind.felt;
+    out.push_back(std::move(each));
+  }
+  return out;
+}
+
+OpenedFeel open_feel(const FeelSetup& setup, const Scene& scene, const Observer& observer) {
+  OpenedFeel out;
+  out.kind = feel_device_kind(setup.device);
+  const std::string lack = missing(out.kind.name, setup.config);
+  if (!lack.empty()) throw Advice(std::string(out.kind.title) + " cannot be opened", lack);
+  out.config = setup.config;
+  out.config.feel.servo.paced = true;
+  out.config.feel.servo.duration_s = 0.0;
+  out.config.pointer.rate_Hz = out.config.feel.servo.rate_Hz;
+  observer.update("the way", 0.0);
+  out.drive = drive_of(setup, out.kind, scene, observer);
+  const bool mouse = out.kind.name == "mouse";
+  observer.update("the device", 0.3);
+  if (!mouse) {
+    out.device = app::open_device(setup.device, out.drive, out.config.feel);
+    out.info = out.device->info();
+  }
+  observer.update("the scene", 0.6);
+  // Nobody's motors are at the pointer's end: the scene is left as it is.
+  app::FeltModel felt = app::make_felt_model(scene, out.info, mouse || out.kind.driven, out.config.feel);
+  if (mouse) {
+    const Eigen::Vector3d start_m = above_scene_m(*felt.model);
+    out.targets = std::make_shared<PointerTargets>(start_m);
+    // The pointer is in the scene's world already.
+    out.config.feel.servo.frame = DeviceFrame();
+    out.device = open_pointer(out.config.pointer, start_m, out.targets);
+    out.info = out.device->info();
+  }
+  if (out.kind.driven) out.config.feel.servo.frame = DeviceFrame();
+  out.model = std::move(felt.model);
+  out.warnings = std::move(felt.warnings);
+  for (const Problem& problem : out.drive.problems) out.warnings.push_back(problem.message);
+  return out;
+}
+
+}  // namespace asperity::studio

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "asperity/base/progress.h"
+#include "asperity/device/pointer_device.h"
+#include "asperity/render/render_model.h"
+#include "feel/feel_setup.h"
+#include "feel_drive.h"
+
+namespace asperity::studio {
+
+// What is known of a device before it is opened.
+struct FeelDeviceKind {
+  std::string_view name;   // as of `asperity feel --device`, and "mouse"
+  std::string_view title;  // for people
+  bool driven = false;     // its point is moved by a path or the modelled hand
+  bool felt = true;        // forces reach a person
+};
+
+bool is_feel_device(std::string_view name);
+// Throws Error for a name that is none.
+const FeelDeviceKind& feel_device_kind(std::string_view name);
+
+// All devices: [{"name","title","available","words"}]. Nothing is opened for it: what only a try can tell is said so.
+Json feel_devices_json(const FeelConfig& start);
+
+// A device that is open, and what it is to feel.
+struct OpenedFeel {
+  FeelDeviceKind kind;
+  std::unique_ptr<HapticDevice> device;
+  DeviceInfo info;
+  std::shared_ptr<PointerTargets> targets;  // of the mouse, else null
+  app::FeelDrive drive;
+  FeelConfig config;  // with the device placed in the scene
+  std::unique_ptr<const RenderModel> model;
+  std::vector<std::string> warnings;
+};
+
+// Opens the device of `setup` for a scene that was read from it. Not for the studio's thread: drivers take their time.
+// Throws Error in words for a device that is not there.
+OpenedFeel open_feel(const FeelSetup& setup, const Scene& scene, const Observer& observer);
+
+}  // namespace asperity::studio

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "asperity/acquire/camera_source.h"
+#include "asperity/acquire/recorder.h"
+#include "asperity/acquire/tracked_pose.h"
+
+namespace asperity::studio {
+
+// A camera's image made small for a browser: `factor` by `factor` pixels became one.
+struct SmallImage {
+  std::int64_t t_ns = 0;
+  int factor = 1;
+  GrayImage image;
+};
+
+// A copy of what the sensors give, for whoever shows it. The sensors' threads put rows in and never wait for longer
+// than a copy takes; what nobody fetches in time is dropped and counted, the recorder has it all the same. Thread-safe.
+class RowTap {
+ public:
+  static constexpr std::size_t kMostRows = 65'536;
+  static constexpr std::size_t kMostPoses = 4'096;
+  static constexpr int kWidestImage_px = 640;
+  static constexpr std::int64_t kImagePeriod_ns = 60'000'000;
+
+  void add(std::span<const ProbeSample> rows);
+  void add(const TrackedPose& pose);
+  // Keeps a small copy if images are wanted and the last one is old enough.
+  void add(const CameraFrame& frame);
+  void want_images(bool wanted) { images_wanted_ = wanted; }
+
+  struct Taken {
+    std::vector<ProbeSample> rows;
+    std::uint64_t first_row = 0;  // number of the first of `rows` among all that came
+    std::vector<TrackedPose> poses;
+    std::optional<SmallImage> image;  // the newest, if there is a new one
+    std::uint64_t rows_dropped = 0;   // since the beginning
+    std::uint64_t poses_dropped = 0;
+  };
+  // All that waits; the memory of `out` is used in turn.
+  void take(Taken& out);
+
+ private:
+  std::atomic<bool> images_wanted_{false};
+  std::int64_t next_image_ns_ = 0;  // of the camera's thread
+  std::mutex mutex_;
+  std::vector<ProbeSample> rows_;
+  std::vector<TrackedPose> poses_;
+  std::optional<SmallImage> image_;
+  std::uint64_t rows_came_ = 0;
+  std::uint64_t rows_dropped_ = 0;
+  std::uint64_t poses_dropped_ = 0;
+};
+
+// The image by means over squares of pixels, at most `widest_px` wide.
+SmallImage make_small(const CameraFrame& frame, int widest_px);
+
+// The same sensors, with a copy of all they give in `tap`, which has to outlive them.
+RecorderSensors with_tap(RecorderSensors sensors, RowTap& tap);
+
+}  // namespace asperity::studio

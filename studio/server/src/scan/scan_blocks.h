@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "asperity/acquire/recorder_snapshot.h"
+#include "asperity/recording/calibration.h"
+#include "asperity/studio/block.h"
+#include "scan/row_tap.h"
+
+namespace asperity::studio {
+
+// Rows of the probe with their units: t_s since `origin_ns`, force_N (nan where there is no new reading), accel_mps2
+// (three a row, specific force in the marker's frame). Without a calibration counts, and "calibrated" is false. The
+// head's "sequence" is the first row's number, "newest_ns" the newest row's time.
+BlockWriter probe_block(std::span<const ProbeSample> rows, std::uint64_t first_row, std::uint64_t dropped,
+                        std::int64_t origin_ns, const std::optional<Calibration>& calibration);
+
+// A camera's image with what was found in it: "tags" [{"id","corners_px":[x0,y0,…]}] in pixels of this image, and
+// "reprojection_px" of the full one, if `pose` is of this image.
+BlockWriter image_block(const SmallImage& small, const std::optional<TrackedPose>& pose);
+
+// How a recording under way stands (docs/studio-scan.md).
+Json recorder_json(const RecorderSnapshot& now);
+
+}  // namespace asperity::studio

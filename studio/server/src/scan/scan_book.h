@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "asperity/pipeline/live_estimate.h"
+#include "asperity/studio/block.h"
+
+namespace asperity::studio {
+
+// The profile and the tip's path as they have grown so far, and the frames by which they grow in a browser. A new
+// generation begins from nothing: a browser that sees one it does not know, or a gap, asks for the whole.
+class ScanBook {
+ public:
+  static constexpr std::size_t kMostPoints = 1'000'000;
+  static constexpr std::size_t kMostTips = 100'000;
+  static constexpr std::size_t kMostTipsInTheAir = 5'000;
+
+  void begin_anew();
+  void add(const LiveEstimate& estimate, bool storing);
+
+  // What add() has brought since the last call, with "sequence", "generation" and "first"; empty: nothing.
+  bool grown() const { return told_points_ < s_m_.size(); }
+  bool moved() const { return told_tips_ < t_ns_.size(); }
+  BlockWriter take_growth();
+  BlockWriter take_motion();
+  // All of it.
+  BlockWriter profile() const { return profile_from(0); }
+  BlockWriter path() const { return path_from(0); }
+
+  std::span<const double> s_m() const { return s_m_; }
+  std::span<const double> height_m() const { return height_m_; }
+
+ private:
+  BlockWriter profile_from(std::size_t first) const;
+  BlockWriter path_from(std::size_t first) const;
+
+  std::uint32_t generation_ = 0;
+  std::uint64_t profile_sequence_ = 0, path_sequence_ = 0;
+  std::size_t told_points_ = 0, told_tips_ = 0;
+  LiveBase base_;
+  std::int64_t motion_ns_ = 0;
+  std::vector<double> s_m_, height_m_;
+  std::vector<float> sigma_m_, texture_m_, point_force_N_, speed_mps_;
+  std::vector<std::int64_t> t_ns_;
+  std::vector<float> tips_m_;  // three a tip
+  std::vector<float> axes_;    // of the probe, three a tip
+  std::vector<float> force_N_;
+  std::vector<std::uint8_t> state_;  // 1: in contact, 2: enters the profile
+};
+
+}  // namespace asperity::studio

@@ -1,0 +1,353 @@
+#include "scan/scan_session.h"
+
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include "asperity/acquire/host_clock.h"
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/recording/uncalibrated.h"
+#include "scan/scan_blocks.h"
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr auto kRound = std::chrono::milliseconds(16);
+constexpr std::int64_t kStatePeriod_ns = 80'000'000;
+constexpr std::int64_t kPosesLate_ns = 250'000'000;  // behind the rows of their time, at most
+
+}  // namespace
+
+ScanSession::ScanSession(Hub& hub, ScanSetup setup, ScanEvents events)
+    : hub_(hub),
+      setup_(std::move(setup)),
+      events_(std::move(events)),
+      origin_ns_(host_now_ns()),
+      calibration_(setup_.source->calibration().value_or(make_uncalibrated(0.0, 0.0, 0.0))),
+      config_(setup_.config) {
+  RecorderConfig recorder = config_.recorder;
+  recorder.mode = setup_.automatic ? StoreMode::kAuto : StoreMode::kSegments;
+  recorder.start_at_once = false;
+  setup_.source->adapt(recorder);
+  RecordingInfo info = setup_.source->info();
+  info.created = setup_.created;
+  if (!setup_.object.empty()) info.object = setup_.object;
+  const auto on_frame = [this](const CameraFrame& frame) { tap_.add(frame); };
+  recorder_ = std::make_unique<Recorder>(setup_.folder, info, setup_.source->calibration(),
+                                         with_tap(setup_.source->sensors(config_.track, on_frame), tap_), recorder);
+  try {
+    make_estimators(recorder_->snapshot());
+    thread_ = std::thread([this] { run(); });
+  } catch (...) {
+    recorder_.reset();
+    std::error_code ignored;
+    std::filesystem::remove_all(setup_.folder, ignored);
+    throw;
+  }
+}
+
+ScanSession::~ScanSession() {
+  try {
+    finish();
+  } catch (const Error&) {
+    // The rows so far remain readable.
+  }
+}
+
+void ScanSession::start(const std::string& name) {
+  if (setup_.source->plays()) setup_.source->play();
+  recorder_->start_segment(name);
+}
+
+void ScanSession::stop() {
+  recorder_->stop_segment();
+  if (setup_.source->plays()) setup_.source->stop_playing();
+}
+
+void ScanSession::next_segment(const std::string& name) {
+  recorder_->stop_segment();
+  start(name);
+}
+
+void ScanSession::discard() {
+  recorder_->discard_segment();
+  if (setup_.source->plays()) setup_.source->stop_playing();
+}
+
+void ScanSession::rescan() {
+  if (setup_.source->plays()) setup_.source->play();
+  recorder_->rescan_segment();
+}
+
+void ScanSession::set_automatic(bool automatic) {
+  recorder_->set_mode(automatic ? StoreMode::kAuto : StoreMode::kSegments);
+}
+
+void ScanSession::tune(const ScanConfig& config) {
+  const std::lock_guard lock(mutex_);
+  wanted_ = config;
+}
+
+Json ScanSession::description() const {
+  Json out;
+  out["name"] = setup_.name;
+  out["object"] = setup_.object;
+  out["plays"] = setup_.source->plays();
+  out["playing"] = setup_.source->playing();
+  out["calibrated"] = setup_.source->calibration().has_value();
+  out["tip_in_marker_m"] = {calibration_.tip_in_marker_m.x(), calibration_.tip_in_marker_m.y(),
+                            calibration_.tip_in_marker_m.z()};
+  if (calibration_.camera) {
+    const CameraCalibration& camera = *calibration_.camera;
+    out["camera"] = {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+                     {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
+  }
+  return out;
+}
+
+BlockWriter ScanSession::profile() const {
+  const std::lock_guard lock(mutex_);
+  return book_.profile();
+}
+
+BlockWriter ScanSession::path() const {
+  const std::lock_guard lock(mutex_);
+  return book_.path();
+}
+
+bool ScanSession::finish() {
+  if (!recorder_) return true;
+  setup_.source->stop_playing();
+  // The recorder ends first: the last round of the session's thread sees all that there was.
+  std::exception_ptr failure;
+  std::size_t segments = 0;
+  try {
+    segments = recorder_->finish().segments;
+  } catch (const Error&) {
+    failure = std::current_exception();
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    end_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+  recorder_.reset();
+  setup_.source.reset();
+  if (failure) std::rethrow_exception(failure);
+  if (segments > 0) return true;
+  std::error_code ignored;
+  std::filesystem::remove_all(setup_.folder, ignored);
+  return false;
+}
+
+RecordingInfo ScanSession::info_of(const RecorderSnapshot& now) const {
+  RecordingInfo out = setup_.source->info();
+  if (!setup_.object.empty()) out.object = setup_.object;
+  if (now.description) {
+    out.probe_model = printable(now.description->model);
+    out.probe_rate_Hz = now.description->rate_Hz;
+    out.adc_min = now.description->adc_min;
+    out.adc_max = now.description->adc_max;
+  }
+  if (now.gravity.measured) out.gravity_world_mps2 = now.gravity.gravity_world_mps2;
+  return out;
+}
+
+void ScanSession::make_estimators(const RecorderSnapshot& now) {
+  const RecordingInfo info = info_of(now);
+  const bool calibrated = setup_.source->calibration().has_value();
+  live_.emplace(calibration_, info, config_.live);
+  advisor_.emplace(calibration_, info, config_.hints, calibrated);
+  gravity_used_ = now.gravity.measured;
+}
+
+void ScanSession::run() {
+  for (bool last = false; !last;) {
+    {
+      std::unique_lock lock(mutex_);
+      last = changed_.wait_for(lock, kRound, [this] { return end_; });
+    }
+    const RecorderSnapshot now = recorder_->snapshot();
+    tap_.want_images(hub_.has_subscribers("scan.image"));
+    tap_.take(taken_);
+    watch(now);
+    retune(now);
+    take_rows(now.storing);
+    show(now, host_now_ns());
+    if (hand_over_at_ns_ && (last || host_now_ns() >= *hand_over_at_ns_)) hand_over(now);
+  }
+}
+
+void ScanSession::take_rows(bool storing) {
+  for (const ProbeSample& row : taken_.rows) {
+    live_->push(row);
+    advisor_->push(row);
+  }
+  kept_.add(taken_.rows);
+  for (const TrackedPose& pose : taken_.poses) {
+    const TrackerSample sample = with_sigmas(pose);
+    live_->push(sample);
+    advisor_->push(sample);
+    kept_.add(sample);
+  }
+  if (!taken_.rows.empty()) newest_row_ns_ = taken_.rows.back().t_ns;
+  const LiveEstimate estimate = live_->estimate();
+  advisor_->push(estimate);
+  age_s_ = estimate.age_s;
+  waiting_ = estimate.waiting;
+  const std::lock_guard lock(mutex_);
+  book_.add(estimate, storing);
+}
+
+// What has become of the segments since the last round.
+void ScanSession::watch(const RecorderSnapshot& now) {
+  const bool discarded = now.discarded > before_.discarded;
+  if (discarded) {
+    hand_over_at_ns_.reset();
+    shown_.reset();
+    events_.discarded();
+    const std::lock_guard lock(mutex_);
+    book_.begin_anew();
+  }
+  if (now.storing && (!before_.storing || discarded)) begin_scan(now);
+  if (now.storing && !now.segment_list.empty()) shown_ = now.segment_list.back();
+  if (!now.storing && before_.storing && !discarded && !now.segment_list.empty()) {
+    shown_ = now.segment_list.back();
+    hand_over_at_ns_ = host_now_ns() + kPosesLate_ns;
+  }
+  // A source that has played to its end has nothing more for the segment that is open.
+  if (setup_.source->plays() && now.storing && !now.automatic && was_playing_ && !setup_.source->playing())
+    recorder_->stop_segment();
+  was_playing_ = setup_.source->playing();
+  if (!now.storing && now.gravity.measured && !gravity_used_) make_estimators(now);
+  before_ = {now.storing, now.discarded};
+}
+
+void ScanSession::begin_scan(const RecorderSnapshot& now) {
+  if (now.gravity.measured != gravity_used_) make_estimators(now);
+  live_->restart();
+  advisor_->restart();
+  kept_.hold(true);
+  const std::lock_guard lock(mutex_);
+  book_.begin_anew();
+}
+
+void ScanSession::hand_over(const RecorderSnapshot& now) {
+  hand_over_at_ns_.reset();
+  kept_.hold(now.storing);
+  if (!shown_ || !kept_.covers(shown_->start_ns)) return;
+  FinishedScan out;
+  out.recording = setup_.name;
+  out.segment = *shown_;
+  out.rows.info = info_of(now);
+  out.rows.info.segments = {*shown_};
+  out.rows.calibration = calibration_;
+  kept_.copy(shown_->start_ns, shown_->end_ns, now.description && now.description->has_gyro, out.rows);
+  const TrackerStream& poses = out.rows.tracker;
+  if (out.rows.info.tracker_rate_Hz <= 0.0 && poses.size() > 1) {
+    const auto span_ns = static_cast<double>(poses.t_ns.back() - poses.t_ns.front());
+    out.rows.info.tracker_rate_Hz = 1e9 * static_cast<double>(poses.size() - 1) / span_ns;
+  }
+  out.live = live_heights();
+  events_.ended(std::move(out));
+}
+
+LiveHeights ScanSession::live_heights() const {
+  const std::lock_guard lock(mutex_);
+  return {{book_.s_m().begin(), book_.s_m().end()}, {book_.height_m().begin(), book_.height_m().end()}};
+}
+
+// With new settings the scan that is shown grows anew at once from the rows that were kept.
+void ScanSession::retune(const RecorderSnapshot& now) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!wanted_) return;
+    config_ = *std::exchange(wanted_, std::nullopt);
+  }
+  try {
+    advisor_->configure(config_.hints);
+    live_->configure(config_.live);
+    if (!shown_ || !kept_.covers(shown_->start_ns)) return;
+    LiveProfile again(calibration_, info_of(now), config_.live);
+    kept_.replay(
+        shown_->start_ns, now.storing ? std::numeric_limits<std::int64_t>::max() : shown_->end_ns,
+        [&](const ProbeSample& row) { again.push(row); }, [&](const TrackerSample& pose) { again.push(pose); });
+    const LiveEstimate estimate = again.estimate();
+    if (now.storing) live_.emplace(std::move(again));
+    {
+      const std::lock_guard lock(mutex_);
+      book_.begin_anew();
+      book_.add(estimate, true);
+    }
+    if (!now.storing) events_.retuned(live_heights());
+  } catch (const Error& error) {
+    Json note;
+    note["message"] = std::string("The live profile cannot be worked out with these settings: ") + error.what();
+    note["hint"] = "Take the last change back.";
+    hub_.broadcast("note", note);
+  }
+}
+
+void ScanSession::publish(std::string_view topic, BlockWriter block, Delivery delivery) {
+  block.head()["topic"] = topic;
+  hub_.publish(topic, block.take(), delivery);
+}
+
+void ScanSession::show(const RecorderSnapshot& now, std::int64_t now_ns) {
+  if (!taken_.rows.empty() && hub_.has_subscribers("scan.probe")) {
+    publish("scan.probe",
+            probe_block(taken_.rows, taken_.first_row, taken_.rows_dropped, origin_ns_, setup_.source->calibration()),
+            Delivery::kSeries);
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    if (book_.grown() && hub_.has_subscribers("scan.profile"))
+      publish("scan.profile", book_.take_growth(), Delivery::kSeries);
+    if (book_.moved() && hub_.has_subscribers("scan.pose"))
+      publish("scan.pose", book_.take_motion(), Delivery::kSeries);
+  }
+  show_image();
+  if (now_ns - stated_ns_ < kStatePeriod_ns) return;
+  stated_ns_ = now_ns;
+  BlockWriter state("scan.state");
+  Json& head = state.head();
+  head["open"] = true;
+  head["t_ns"] = now_ns;
+  head["source"] = description();
+  head["recorder"] = recorder_json(now);
+  head["live"] = {{"waiting", waiting_}, {"age_s", age_s_}, {"highest_speed_mps", Json()}};
+  const double fastest_mps = advisor_->highest_speed_mps();
+  if (std::isfinite(fastest_mps)) head["live"]["highest_speed_mps"] = fastest_mps;
+  head["hints"] = Json::array();
+  if (setup_.source->playing()) {
+    for (const Hint& hint : advisor_->hints(now_ns)) {
+      head["hints"].push_back({{"kind", kHintKindNames.at(static_cast<std::size_t>(hint.kind))},
+                               {"severity", kHintSeverityNames.at(static_cast<std::size_t>(hint.severity))},
+                               {"text", hint.text}});
+    }
+  }
+  publish("scan.state", std::move(state), Delivery::kLatest);
+}
+
+// An image goes with its pose, or without one when a later pose or image has come.
+void ScanSession::show_image() {
+  if (taken_.image) {
+    if (image_) publish("scan.image", image_block(*image_, std::nullopt), Delivery::kLatest);
+    image_ = std::move(taken_.image);
+  }
+  if (!image_) return;
+  for (const TrackedPose& pose : taken_.poses) {
+    if (pose.sample.t_ns < image_->t_ns) continue;
+    publish("scan.image", image_block(*image_, pose), Delivery::kLatest);
+    image_.reset();
+    return;
+  }
+}
+
+}  // namespace asperity::studio

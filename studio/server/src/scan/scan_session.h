@@ -1,0 +1,140 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "asperity/acquire/recorder.h"
+#include "asperity/pipeline/live_profile.h"
+#include "asperity/pipeline/scan_hints.h"
+#include "asperity/studio/hub.h"
+#include "scan/kept_rows.h"
+#include "scan/row_tap.h"
+#include "scan/scan_book.h"
+#include "scan/scan_config.h"
+#include "scan/scan_source.h"
+
+namespace asperity::studio {
+
+struct ScanSetup {
+  std::unique_ptr<ScanSource> source;
+  ScanConfig config;
+  bool automatic = false;
+  std::filesystem::path folder;  // new
+  std::string name;              // of the folder in the project
+  std::string object;
+  std::string created;  // ISO 8601
+};
+
+// The causal profile of a scan.
+struct LiveHeights {
+  std::vector<double> s_m, height_m;
+};
+
+// A stroke that has ended, as the recording has it.
+struct FinishedScan {
+  std::string recording;  // name of the folder in the project
+  Segment segment;
+  Recording rows;  // of the segment alone
+  LiveHeights live;
+};
+
+// What a session tells, in its own thread.
+struct ScanEvents {
+  std::function<void(FinishedScan)> ended;
+  std::function<void(LiveHeights)> retuned;  // the finished scan's causal profile, with other settings
+  std::function<void()> discarded;           // there is none any more
+};
+
+// An open source with its recorder, and a thread that shows what comes from it: topics scan.probe, scan.state,
+// scan.pose, scan.profile and scan.image. Opening takes as long as the sensors need. Functions are for one thread at a
+// time, the studio's; none of them waits but finish().
+class ScanSession {
+ public:
+  // Throws Error if a sensor cannot be opened.
+  ScanSession(Hub& hub, ScanSetup setup, ScanEvents events);
+  ~ScanSession();
+  ScanSession(const ScanSession&) = delete;
+  ScanSession& operator=(const ScanSession&) = delete;
+
+  void start(const std::string& name);
+  void stop();
+  // Ends the open segment and begins the next one, called `name` unless that is empty.
+  void next_segment(const std::string& name);
+  void discard();
+  void rescan();
+  void set_automatic(bool automatic);
+  // New settings of the live estimate and of the hints; the scan so far is worked out anew with them.
+  void tune(const ScanConfig& config);
+
+  const std::string& name() const { return setup_.name; }
+  Json description() const;
+  RecorderSnapshot snapshot() const { return recorder_->snapshot(); }
+  BlockWriter profile() const;
+  BlockWriter path() const;
+
+  // Closes the sensors and makes the recording final; one that holds nothing is taken away again, and false. Throws
+  // Error if it could not be written.
+  bool finish();
+
+ private:
+  struct Watched {
+    bool storing = false;
+    std::size_t discarded = 0;
+  };
+
+  RecordingInfo info_of(const RecorderSnapshot& now) const;
+  void run();
+  void take_rows(bool storing);
+  void watch(const RecorderSnapshot& now);
+  void begin_scan(const RecorderSnapshot& now);
+  void hand_over(const RecorderSnapshot& now);
+  void retune(const RecorderSnapshot& now);
+  LiveHeights live_heights() const;
+  void make_estimators(const RecorderSnapshot& now);
+  void show(const RecorderSnapshot& now, std::int64_t now_ns);
+  void show_image();
+  void publish(std::string_view topic, BlockWriter block, Delivery delivery);
+
+  Hub& hub_;
+  ScanSetup setup_;
+  ScanEvents events_;
+  std::int64_t origin_ns_;
+  Calibration calibration_;  // or a stand-in
+  RowTap tap_;
+  std::unique_ptr<Recorder> recorder_;
+
+  // The session's thread alone.
+  RowTap::Taken taken_;
+  KeptRows kept_;
+  std::optional<LiveProfile> live_;
+  std::optional<ScanAdvisor> advisor_;
+  ScanConfig config_;
+  bool gravity_used_ = false;
+  Watched before_;
+  bool was_playing_ = false;
+  std::optional<Segment> shown_;  // the scan that the book tells of
+  std::optional<std::int64_t> hand_over_at_ns_;
+  std::optional<SmallImage> image_;  // waits for its pose
+  std::int64_t newest_row_ns_ = 0;
+  double age_s_ = 0.0;
+  std::string waiting_;
+  std::int64_t stated_ns_ = 0;
+
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  ScanBook book_;
+  std::optional<ScanConfig> wanted_;  // settings to be taken
+  bool end_ = false;
+  std::thread thread_;
+};
+
+}  // namespace asperity::studio

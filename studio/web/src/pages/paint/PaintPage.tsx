@@ -1,0 +1,157 @@
+import { useEffect, useRef, useState } from "preact/hooks";
+import type { Block } from "../../net/block";
+import { call } from "../../net/connection";
+import { edit, newGesture, section } from "../../state/document";
+import { Button } from "../../ui/Button";
+import { FilePicker } from "../../ui/FilePicker";
+import { length } from "../../ui/format";
+import { useKeys } from "../../ui/keys";
+import { PageLayout } from "../../ui/PageLayout";
+import { Panel } from "../../ui/Panel";
+import { Select } from "../../ui/Select";
+import { Slider } from "../../ui/Slider";
+import { complain } from "../../ui/toast";
+import { chequer_mm, indexOf, type PaintSection, type Point, type SceneTextureName, type Show, type Stroke, type StrokeFigures, warpWords } from "./painting";
+import { type Hover, PaintView } from "./PaintView";
+import { StrokePanel } from "./StrokePanel";
+import { SwapPanel } from "./SwapPanel";
+import { TexturePreview } from "./TexturePreview";
+import { WritePanel } from "./WritePanel";
+import "./paint.css";
+
+const painting = section<PaintSection>("paint");
+
+const SHOWS: { value: Show; label: string }[] = [
+  { value: "textures", label: "Textures" },
+  { value: "coordinates", label: "Texture coordinates" },
+  { value: "warp", label: "Warp" },
+];
+const UNITS = [
+  { value: "1", label: "metre" },
+  { value: "0.01", label: "centimetre" },
+  { value: "0.001", label: "millimetre" },
+  { value: "0.0254", label: "inch" },
+];
+
+/** Draw textures onto a mesh (seed §5.4). */
+export default function PaintPage() {
+  const paint = painting.value;
+  const [block, setBlock] = useState<Block | null>(null);
+  const [show, setShow] = useState<Show>("coordinates");
+  const [hover, setHover] = useState<Hover | null>(null);
+  const [busy, setBusy] = useState(false);
+  const gesture = useRef("");
+  const asked = useRef(0);
+
+  useEffect(() => {
+    if (!paint.object) return setBlock(null);
+    const mine = ++asked.current;
+    setBusy(true);
+    call<Block>("paint.show")
+      .then((shown) => mine === asked.current && setBlock(shown))
+      .catch((error: Error) => error.message !== "cancelled" && complain(error))
+      .finally(() => mine === asked.current && setBusy(false));
+  }, [paint.object, paint.unit_m, paint.rings, paint.half_width_mm, paint.strokes, paint.swaps]);
+
+  const textures: SceneTextureName[] = block?.head.textures ?? [];
+  const figures: StrokeFigures[] = block?.head.strokes ?? [];
+  const stroke = paint.strokes[paint.current];
+  const cell_mm = chequer_mm(Math.max(...figures.map((one) => one.path_length_m ?? 0), 0.02));
+
+  const begin = async (texture: string) => {
+    const fresh: Stroke = { picks_m: [], texture, index: indexOf(texture, paint.strokes, textures) };
+    await edit("/paint", { ...paint, strokes: [...paint.strokes, fresh], current: paint.strokes.length }, "begin a stroke");
+  };
+  const pick = (point: Point) => edit(`/paint/strokes/${paint.current}/picks_m`, [...stroke!.picks_m, point], "add a point").catch(complain);
+  const dropPick = () =>
+    stroke && stroke.picks_m.length > 0 && edit(`/paint/strokes/${paint.current}/picks_m`, stroke.picks_m.slice(0, -1), "take out a point");
+  const move = (index: number, point: Point, first: boolean) => {
+    if (first) gesture.current = newGesture();
+    const picks = stroke!.picks_m.map((old, at) => (at === index ? point : old));
+    edit(`/paint/strokes/${paint.current}/picks_m`, picks, "move a point", gesture.current).catch(complain);
+  };
+
+  useKeys([
+    { key: "n", label: "new stroke with the same texture", run: () => stroke && begin(stroke.texture) },
+    { key: "backspace", label: "take out the last point", run: dropPick },
+    { key: "enter", label: "finish the stroke", run: () => stroke && edit("/paint/current", -1, "finish the stroke") },
+    { key: "c", label: "show textures, coordinates, warp in turn", run: () => setShow(SHOWS[(SHOWS.findIndex((one) => one.value === show) + 1) % 3]!.value) },
+  ]);
+
+  return (
+    <PageLayout
+      title="Paint"
+      side={
+        <>
+          <Panel title="What is painted on">
+            <FilePicker label="Mesh or scene" kinds={["mesh", "scene"]} value={paint.object} testId="paint-object"
+              onChange={(object) => edit("/paint", { ...paint, object, strokes: [], swaps: {}, current: -1 }, `open ${object}`).catch(complain)} />
+            {paint.object && !paint.object.endsWith(".json") && (
+              <Select label="The mesh's unit" value={String(paint.unit_m)} options={UNITS} testId="paint-unit"
+                onChange={(unit) => edit("/paint/unit_m", Number(unit), "change the unit").catch(complain)} />
+            )}
+            {block && <p class="field-hint" data-testid="paint-size">{sizeWords(block)}</p>}
+          </Panel>
+          <Panel title="Texture">
+            <FilePicker label={stroke ? "Of this stroke" : "Begin a stroke with"} kinds={["texture"]} value={stroke?.texture ?? ""} disabled={!paint.object} testId="paint-texture"
+              hint={paint.object ? undefined : "Choose a mesh first."}
+              onChange={(texture) =>
+                (stroke
+                  ? edit(`/paint/strokes/${paint.current}`, { ...stroke, texture, index: indexOf(texture, paint.strokes, textures) }, "change the texture")
+                  : begin(texture)
+                ).catch(complain)} />
+            <TexturePreview file={stroke?.texture ?? ""} />
+            <Slider label="Half the stroke's width" value={paint.half_width_mm} low={0} high={20} step={0.1} unit="mm"
+              hint={paint.half_width_mm > 0 ? undefined : "0: the triangles under the path and their neighbours"}
+              onInput={(value, name) => edit("/paint/half_width_mm", value, "change the width", name).catch(complain)} />
+          </Panel>
+          <StrokePanel paint={paint} figures={figures} onBegin={begin} />
+          <SwapPanel textures={textures} swaps={paint.swaps} />
+        </>
+      }
+      results={<WritePanel paint={paint} figures={figures} />}
+    >
+      <div class="paint-main">
+        <div class="paint-bar">
+          <Select label="Show" value={show} options={SHOWS} onChange={(value) => setShow(value as Show)} testId="paint-show" />
+          <p class="paint-help" role="status" data-testid="paint-help">
+            {help(paint, busy)}
+          </p>
+          {stroke && <Button onClick={() => edit("/paint/current", -1, "finish the stroke")}>Finish stroke</Button>}
+        </div>
+        <PaintView block={block} strokes={paint.strokes} current={paint.current} show={show} cell_mm={cell_mm} drawing={stroke !== undefined}
+          onPick={pick} onMove={move} onHover={setHover} />
+        <p class="paint-legend" data-testid="paint-legend">
+          {legend(show, cell_mm, hover)}
+        </p>
+      </div>
+    </PageLayout>
+  );
+}
+
+/** How large the mesh is, so that a wrong unit is seen. */
+function sizeWords(block: Block): string {
+  const size = (block.head.high_m as number[]).map((high, axis) => high - block.head.low_m[axis]);
+  const words = `${size.map((one) => length(one, 3)).join(" × ")}, ${block.arrays.texture!.length} triangles.`;
+  return Math.max(...size) > 2 ? `${words} Is the unit right?` : words;
+}
+
+function help(paint: PaintSection, busy: boolean): string {
+  if (!paint.object) return "Choose a mesh or a scene of the folder.";
+  if (busy) return "Painting …";
+  const stroke = paint.strokes[paint.current];
+  if (!stroke) return paint.strokes.length > 0 ? "Choose a stroke to change it, or begin another." : "Choose a texture to begin a stroke.";
+  if (stroke.picks_m.length < 2) return `Click on the mesh: ${2 - stroke.picks_m.length} more ${stroke.picks_m.length === 1 ? "point" : "points"} at least.`;
+  return "Click to go on, drag a point to move it, Enter to finish.";
+}
+
+function legend(show: Show, cell_mm: number, hover: Hover | null): string {
+  const what =
+    show === "warp"
+      ? "Blue: squeezed, red: stretched, full colour from 1.25 times on; fold colour: turned over."
+      : `One square of the chequer is ${cell_mm} mm of the texture.`;
+  if (!hover) return what;
+  if (hover.texture < 0) return `${what} Here: no texture.`;
+  const at = hover.xy_mm ? `, ${hover.xy_mm[0].toFixed(2)} mm along and ${hover.xy_mm[1].toFixed(2)} mm across` : "";
+  return `${what} Here: texture ${hover.texture}${at}, ${hover.folded ? "turned over" : warpWords(hover.stretch)}.`;
+}

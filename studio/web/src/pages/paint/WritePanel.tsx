@@ -1,0 +1,88 @@
+import { useState } from "preact/hooks";
+import { go } from "../../app/routes";
+import { call } from "../../net/connection";
+import { Button } from "../../ui/Button";
+import { readEntries } from "../../ui/entries";
+import { Figure } from "../../ui/Figure";
+import { Figures } from "../../ui/Figures";
+import { Panel } from "../../ui/Panel";
+import { Select } from "../../ui/Select";
+import { TextField } from "../../ui/TextField";
+import { say } from "../../ui/toast";
+import { kWarpLimit, type PaintSection, type StrokeFigures } from "./painting";
+
+const FORMATS = [
+  { value: "gltf", label: "glTF (.glb)" },
+  { value: "obj", label: "OBJ with coordinates" },
+  { value: "stl", label: "STL relief to print" },
+  { value: "png", label: "PNG height and normal maps" },
+  { value: "wav", label: "WAV of a stroke" },
+  { value: "x3p", label: "X3P heights" },
+];
+
+/** What came of the strokes, and where it goes. */
+export function WritePanel({ paint, figures }: { paint: PaintSection; figures: StrokeFigures[] }) {
+  const [name, setName] = useState("painted");
+  const [format, setFormat] = useState("gltf");
+  const [written, setWritten] = useState("");
+
+  const write = async () => {
+    const { scene } = await call("paint.write", { name });
+    setWritten(scene);
+    await readEntries();
+    say(`Written: ${scene}`);
+  };
+  const exportTo = async () => {
+    const { folder, files } = await call("paint.export", { source: written, format, name: `${name}-${format}` });
+    await readEntries();
+    say(`Exported: ${folder}, ${files.length} ${files.length === 1 ? "file" : "files"}`);
+  };
+
+  return (
+    <>
+      {figures.map((one, index) => (one.warp ? <StrokeResult key={index} number={index + 1} figures={one} /> : null))}
+      <Panel title="Write">
+        <TextField label="Name of the folder" value={name} onChange={setName} testId="paint-name" />
+        <Button kind="primary" onClick={write} disabled={paint.strokes.length === 0 && Object.keys(paint.swaps).length === 0} testId="paint-write">
+          Write scene
+        </Button>
+        {written && (
+          <>
+            <Button onClick={() => go("feel")}>Go to Feel</Button>
+            <Select label="Export as" value={format} options={FORMATS} onChange={setFormat} testId="paint-format" />
+            <Button onClick={exportTo} testId="paint-export">
+              Export
+            </Button>
+          </>
+        )}
+        <p class="field-hint" role="status" data-testid="paint-written">
+          {written && `Written to ${written}`}
+        </p>
+      </Panel>
+    </>
+  );
+}
+
+function StrokeResult({ number, figures }: { number: number; figures: StrokeFigures }) {
+  const warp = figures.warp!;
+  return (
+    <Panel title={`Stroke ${number}`} testId={`paint-result-${number}`}>
+      <Figures>
+        <Figure label="Length over the surface" value={figures.path_length_m} factor={1e3} unit="mm" />
+        <Figure label="Triangles" value={String(figures.triangles)} />
+        <Figure label="Lengths kept, RMS" value={warp.stretch_rms} factor={100} unit="%" digits={2} hint="Deviation of the singular values from 1, by area" />
+        <Figure label="Most squeezed" value={warp.stretch_min} digits={3} hint="Least singular value; 1 keeps lengths" />
+        <Figure label="Most stretched" value={warp.stretch_max} digits={3} hint="Greatest singular value; 1 keeps lengths" />
+        <Figure label={`Beyond ${kWarpLimit} times`} value={`${warp.stretched} triangles`} />
+        <Figure label="Turned over" value={`${warp.folded} triangles`} />
+        <Figure label="Overlapping" value={`${warp.overlapping} triangles`} />
+        <Figure label="Points from the mesh" value={Math.max(...(figures.pick_distance_m ?? [0]))} factor={1e3} unit="mm" digits={2} />
+      </Figures>
+      {(figures.problems ?? []).map((problem) => (
+        <p key={problem.message} class="field-error">
+          {problem.message}
+        </p>
+      ))}
+    </Panel>
+  );
+}
