@@ -76,12 +76,13 @@ void ClientTable::rouse(Client& client) {
   client.wake();
 }
 
-if (client.cut) return;
-if (client.outbox.push_message(frame)) return rouse(client);
-// Woken even though it is being written to: that will not come to an end.
-client.cut = true;
-client.outbox = {};
-client.wake();
+void ClientTable::push(Client& client, const OutFrame& frame) {
+  if (client.cut) return;
+  if (client.outbox.push_message(frame)) return rouse(client);
+  // Woken even though it is being written to: that will not come to an end.
+  client.cut = true;
+  client.outbox = {};
+  client.wake();
 }
 
 void ClientTable::publish(std::string_view topic, std::string bytes, Delivery delivery) {
