@@ -9,19 +9,19 @@
 
 namespace asperity {
 
-std::vector<Arrival> list_arrivals(const Recording& recording, const ArrivalConfig& config) {
+std::vector<ScanArrival> list_arrivals(const Recording& recording, const ArrivalConfig& config) {
   const std::int64_t row_ns = std::llround(config.probe_delay_s * 1e9);
   const std::int64_t pose_ns = std::llround(config.pose_delay_s * 1e9);
-  std::vector<Arrival> out;
+  std::vector<ScanArrival> out;
   out.reserve(recording.probe.size() + recording.tracker.size());
   for (std::size_t i = 0; i < recording.probe.size(); ++i) {
-    out.push_back({Arrival::Kind::kRow, i, recording.probe.t_ns[i] + row_ns});
+    out.push_back({ScanArrival::Kind::kRow, i, recording.probe.t_ns[i] + row_ns});
   }
   for (std::size_t i = 0; i < recording.tracker.size(); ++i) {
-    out.push_back({Arrival::Kind::kPose, i, recording.tracker.t_ns[i] + pose_ns});
+    out.push_back({ScanArrival::Kind::kPose, i, recording.tracker.t_ns[i] + pose_ns});
   }
   std::stable_sort(out.begin(), out.end(),
-                   [](const Arrival& a, const Arrival& b) { return a.arrival_ns < b.arrival_ns; });
+                   [](const ScanArrival& a, const ScanArrival& b) { return a.arrival_ns < b.arrival_ns; });
   return out;
 }
 
