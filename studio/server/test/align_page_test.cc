@@ -116,7 +116,9 @@ TEST_F(AlignPageTest, ResidualsAreThoseOfBruteForce) {
       }
       EXPECT_NEAR(std::abs(distances[i]), least_m, 1e-8);  // floats of the points about their middle
       // The pebble is about star-shaped: farther out is outside, where the distance says anything.
-      if (least_m > 1e-3) EXPECT_EQ(distances[i] > 0.0F, p_m.norm() > bench_.bvh.closest_point(p_m).p_m.norm());
+      if (least_m > 1e-3) {
+        EXPECT_EQ(distances[i] > 0.0F, p_m.norm() > bench_.bvh.closest_point(p_m).p_m.norm());
+      }
     }
     EXPECT_NEAR(block.head.at("mean_m").get<double>(), sum_m, 1e-6 * sum_m);
     EXPECT_NEAR(block.head.at("rms_m").get<double>(), std::sqrt(square_m2), 1e-6 * std::sqrt(square_m2));
