@@ -44,8 +44,8 @@ Played play(const Recording& recording, const SpoilRow& spoil_row = {}, const Sp
   Played out;
   LiveProfile live(recording.calibration, recording.info, config);
   std::size_t count = 0;
-  for (const Arrival& arrival : list_arrivals(recording)) {
-    if (arrival.kind == Arrival::Kind::kRow) {
+  for (const ScanArrival& arrival : list_arrivals(recording)) {
+    if (arrival.kind == ScanArrival::Kind::kRow) {
       ProbeSample row = probe_sample(recording.probe, arrival.index);
       if (!spoil_row || spoil_row(row, live)) live.push(row);
     } else {
@@ -246,12 +246,12 @@ TEST(LiveProfile, SettingsChangeWhileScanning) {
 }
 
 TEST(ListArrivals, PosesComeAfterTheRowsOfTheirTime) {
-  const std::vector<Arrival> arrivals = list_arrivals(sine_scan(), {0.0, 0.01});
+  const std::vector<ScanArrival> arrivals = list_arrivals(sine_scan(), {0.0, 0.01});
   ASSERT_EQ(arrivals.size(), sine_scan().probe.size() + sine_scan().tracker.size());
   EXPECT_TRUE(std::is_sorted(arrivals.begin(), arrivals.end(),
-                             [](const Arrival& a, const Arrival& b) { return a.arrival_ns < b.arrival_ns; }));
+                             [](const ScanArrival& a, const ScanArrival& b) { return a.arrival_ns < b.arrival_ns; }));
   const auto pose =
-      std::find_if(arrivals.begin(), arrivals.end(), [](const Arrival& a) { return a.kind == Arrival::Kind::kPose; });
+      std::find_if(arrivals.begin(), arrivals.end(), [](const ScanArrival& a) { return a.kind == ScanArrival::Kind::kPose; });
   EXPECT_EQ(pose->arrival_ns, sine_scan().tracker.t_ns[pose->index] + 10'000'000);
 }
 
