@@ -1,56 +1,18 @@
 // The server over plain sockets: who is let in, and what a browser that is let in gets.
 #include <gmock/gmock.h>
 
-#include <atomic>
-#include <future>
-#include <memory>
-#include <mutex>
+#include <cstring>
 #include <string>
 #include <vector>
 
 #include "asperity/base/error.h"
-#include "asperity/studio/web_server.h"
-#include "raw_client.h"
+#include "asperity/web/assets.h"
+#include "web_server_fixture.h"
 
 namespace asperity::studio {
 namespace {
 
 using testing::HasSubstr;
-
-class WebServerSocket : public testing::Test {
- protected:
-  void SetUp() override { start({}); }
-  void start(const WebServerConfig& config) {
-    server_.reset();
-    WebServerEvents events;
-    events.message = [this](ClientId client, const Message& message) {
-      if (const Call* call = std::get_if<Call>(&message)) server_->answer(client, call->id, call->args);
-    };
-    events.left = [this](ClientId) { ++left_; };
-    events.download = [](const std::string& name) -> std::optional<std::string> {
-      if (name == "a b.csv") return "x,y\n";
-      return std::nullopt;
-    };
-    server_ = WebServer::start(config, events);
-    port_ = server_->port();
-    host_ = "127.0.0.1:" + std::to_string(port_);
-    cookie_ = session_cookie(port_, server_->address());
-  }
-  RawClient::Response ask(const std::string& request) const {
-    RawClient client(port_);
-    client.send(request);
-    return client.response();
-  }
-  RawClient::Response get(const std::string& target, const std::string& headers = "") const {
-    return ask("GET " + target + " HTTP/1.1\r\nHost: " + host_ + "\r\nAccept-Encoding: gzip\r\n" + headers + "\r\n");
-  }
-  RawClient browser() const { return open_websocket(port_, cookie_); }
-
-  std::unique_ptr<WebServer> server_;
-  int port_ = 0;
-  std::string host_, cookie_;
-  std::atomic<int> left_{0};
-};
 
 TEST_F(WebServerSocket, PrintsAnAddressWithATokenOf128Bits) {
   EXPECT_THAT(server_->address(), testing::MatchesRegex("http://127.0.0.1:[0-9]+/#token=[0-9a-f]+"));
@@ -147,6 +109,48 @@ TEST_F(WebServerSocket, GivesDownloadsForTheCookieAlone) {
   EXPECT_EQ(file.body, "x,y\n");
   EXPECT_EQ(file.header("Content-Disposition"), "attachment; filename*=UTF-8''a%20b.csv");
   EXPECT_EQ(get("/download/none", cookie).status, 404);
+}
+
+TEST_F(WebServerSocket, ServesTheAppAndNothingElse) {
+  const auto page = get("/");
+  EXPECT_EQ(page.status, web::built() ? 200 : 404);
+  EXPECT_THAT(page.header("Content-Security-Policy"), HasSubstr("default-src 'none'"));
+  EXPECT_EQ(page.header("Referrer-Policy"), "no-referrer");
+  for (const char* target : {"/../etc/passwd", "/assets/../../etc/passwd", "/%2e%2e/etc/passwd", "//etc/passwd",
+                             "/assets/", "/assets//", "/assets/%00", "/index.html/", "http://127.0.0.1/x", "*"}) {
+    EXPECT_EQ(get(target).status, 404) << target;
+  }
+  // A NUL is no part of a request's line.
+  EXPECT_EQ(get(std::string("/a\0b", 4)).status, 400);
+  EXPECT_EQ(get("/session").status, 405);
+  EXPECT_EQ(get("/ws").status, 426);
+  for (const char* method : {"POST", "PUT", "DELETE", "HEAD", "OPTIONS", "TRACE", "BREW"}) {
+    RawClient client(port_);
+    client.send(std::string(method) + " / HTTP/1.1\r\nHost: " + host_ + "\r\nContent-Length: 0\r\n\r\n");
+    EXPECT_EQ(client.response().status, 405) << method;
+  }
+}
+
+TEST_F(WebServerSocket, KnowsItsOwnHostsAlone) {
+  const auto status = [this](const std::string& hosts) {
+    return ask("GET /none HTTP/1.1\r\n" + hosts + "\r\n").status;
+  };
+  const std::string port = std::to_string(port_);
+  EXPECT_EQ(status("Host: localhost:" + port + "\r\n"), 404);
+  EXPECT_EQ(status("Host: [::1]:" + port + "\r\n"), 404);
+  EXPECT_EQ(status("Host: 127.0.0.1\r\n"), 403);
+  EXPECT_EQ(status("Host: evil.example:" + port + "\r\n"), 403);
+  EXPECT_EQ(status(""), 403);
+  EXPECT_EQ(status("Host: " + host_ + "\r\nHost: " + host_ + "\r\n"), 403);
+}
+
+TEST_F(WebServerSocket, TakesAPointer) {
+  RawClient client = browser();
+  std::string bytes = "ASP1" + std::string(28, '\0');
+  bytes[4] = 5;
+  client.send(RawClient::frame(2, bytes));
+  ASSERT_TRUE(answers(client));
+  EXPECT_EQ(pointer_sequence_, 5U);
 }
 
 TEST_F(WebServerSocket, StopsWithBrowsersConnected) {
