@@ -38,6 +38,9 @@ std::string error_of(const fs::path& folder) {
   return "no error";
 }
 
+// The block's text, without its numbers.
+std::string head_of(const std::string& block) { return block.substr(0, block.find("]}")); }
+
 // The examples of RFC 4648, §10.
 TEST(Base64, IsThatOfTheStandard) {
   EXPECT_EQ(base64(""), "");
@@ -53,17 +56,18 @@ TEST(ReportItem, HoldsWhatTheFilesHold) {
   write_file(dir / "rec" / "trajectory.csv", "t_ns,px_m,py_m,pz_m\n5,1,2,3\n1000000005,4,5,6\n");
   const ReportItem item = read_report_item(dir / "rec");
   EXPECT_EQ(item.name, "rec");
-  EXPECT_THAT(item.block, HasSubstr(R"("path_points":2)"));
-  EXPECT_THAT(item.block, HasSubstr(R"("length_m":0.001)"));
-  EXPECT_THAT(item.block, HasSubstr(R"({"name":"path_m","type":"f32","shape":[2,3])"));
+  EXPECT_THAT(head_of(item.block), HasSubstr(R"("path_points":2)"));
+  EXPECT_THAT(head_of(item.block), HasSubstr(R"("length_m":0.001)"));
+  EXPECT_THAT(head_of(item.block), HasSubstr(R"({"name":"path_m","type":"f32","shape":[2,3])"));
   EXPECT_EQ(item.block, read_report_item(dir / "rec").block);
   const float path_m[] = {1, 2, 3, 4, 5, 6};
-  EXPECT_THAT(item.block, HasSubstr(std::string(reinterpret_cast<const char*>(path_m), sizeof path_m)));
+  EXPECT_NE(item.block.find(std::string(reinterpret_cast<const char*>(path_m), sizeof path_m)), std::string::npos);
 }
 
 TEST(ReportItem, NeedsNoTrajectory) {
   const testkit::TempDir dir;
-  EXPECT_THAT(read_report_item(write_result(dir / "rec"), "other").block, HasSubstr(R"("path_points":0)"));
+  EXPECT_THAT(read_report_item(write_result(dir / "rec"), "other").block.substr(0, 2000),
+              HasSubstr(R"("path_points":0)"));
 }
 
 TEST(ReportItem, ThinsALongPath) {
@@ -73,10 +77,10 @@ TEST(ReportItem, ThinsALongPath) {
   for (int i = 0; i < 50'001; ++i) rows += std::to_string(i) + ",0,0," + std::to_string(i) + "\n";
   write_file(dir / "rec" / "trajectory.csv", rows);
   const ReportItem item = read_report_item(dir / "rec");
-  EXPECT_THAT(item.block, HasSubstr(R"("path_points":50001)"));
-  EXPECT_THAT(item.block, HasSubstr(R"("shape":[16667,3])"));  // every third, the last among them
+  EXPECT_THAT(head_of(item.block), HasSubstr(R"("path_points":50001)"));
+  EXPECT_THAT(head_of(item.block), HasSubstr(R"("shape":[16667,3])"));  // every third, the last among them
   const float last[] = {0, 0, 50'000};
-  EXPECT_THAT(item.block, HasSubstr(std::string(reinterpret_cast<const char*>(last), sizeof last)));
+  EXPECT_NE(item.block.find(std::string(reinterpret_cast<const char*>(last), sizeof last)), std::string::npos);
 }
 
 TEST(ReportItem, NamesWhatIsWrong) {

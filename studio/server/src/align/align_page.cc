@@ -9,6 +9,7 @@
 #include "align/path_residuals.h"
 #include "align/write_alignment.h"
 #include "asperity/registration/manual_alignment.h"
+#include "config_fields.h"
 #include "json_pose.h"
 
 namespace asperity::studio {
@@ -33,6 +34,10 @@ std::array<double, 3> three(const Request& request, std::string_view name) {
 void AlignPage::bind(Document& document, Calls& calls) {
   document.add_section(kSection, json_of_choice({}), check_section);
   calls.add("align.paths", [this](const Request& request) { request.answer(list_paths(shared_.project)); });
+  calls.add("align.config", [this](const Request& request) {
+    RegisterConfig config = config_of(choice()), first;
+    request.answer(fields_json(list_fields("", config), list_fields("", first)));
+  });
   calls.add("align.open", [this](const Request& request) { open(request); });
   calls.add("align.sliders", [this](const Request& request) { turn_sliders(request); });
   calls.add("align.pick", [this](const Request& request) { pick(request); });
