@@ -1,10 +1,71 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "asperity/studio/page.h"
+#include "feel/feel_run.h"
+#include "feel/felt_world.h"
 
 namespace asperity::studio {
+
+// The Feel page (docs/studio-feel.md): a scene, a device, and the loop between them.
+class FeelPage : public Page {
+ public:
+  // `start` is what the command line and the user's config say; a browser changes of it only settable_fields(), and
+  // lowers the largest force.
+  explicit FeelPage(Shared& shared, FeelConfig start = {});
+  ~FeelPage() override;
+
+  void bind(Document& document, Calls& calls) override;
+  void start() override;
+  void tick(std::int64_t now_ns) override;
+  void edited(const Edit& edit) override;
+  void pointed(ClientId client, const Pointer& pointer) override;
+  void stop() override;
+
+ private:
+  enum class State { kIdle, kOpening, kRunning, kStopping };
+  struct Opening;
+
+  FeelChoices choices() const;
+  double largest_force_N() const;
+  void load();
+  void loaded(std::shared_ptr<const FeltWorld> world);
+  void begin(const Request& request);
+  void opened(Opening& opening, std::exception_ptr error);
+  void swap_model();
+  void ended();
+  void finish_log();
+  void set_log(const Request& request);
+  void keep_flight_record(const ServoResult& servo);
+  void permit(std::int64_t now_ns);
+  void complain(std::exception_ptr error);
+  void tell();
+  Json status() const;
+  Json fields() const;
+
+  Shared& shared_;
+  FeelConfig start_;
+  State state_ = State::kIdle;
+  bool stop_asked_ = false;  // while opening
+
+  std::shared_ptr<const FeltWorld> world_;  // the newest that is whole
+  std::uint64_t revision_ = 0;              // of the choices
+  bool loading_ = false;
+  std::string problem_, hint_;
+
+  std::unique_ptr<FeelRun> run_;
+  std::uint64_t run_number_ = 0;
+  OpenedFeel running_;  // without device and model
+  std::string device_model_;
+  std::vector<std::string> warnings_;
+  std::string log_name_;
+  Json last_run_;
+  Json told_;
+};
 
 std::unique_ptr<Page> make_feel_page(Shared& shared);
 

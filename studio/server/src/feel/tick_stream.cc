@@ -109,6 +109,7 @@ void TickStream::flush() {
 void TickStream::send_state() {
   BlockWriter block(kFeelStateTopic);
   Json& head = block.head();
+  head["topic"] = kFeelStateTopic;
   const ServoOutput& output = last_.output;
   head["run"] = run_;
   head["t_s"] = 1e-9 * static_cast<double>(last_.t_ns);
@@ -140,6 +141,7 @@ void TickStream::send_state() {
 
 void TickStream::send_ticks() {
   BlockWriter block(kFeelTicksTopic);
+  block.head()["topic"] = kFeelTicksTopic;
   block.head()["run"] = run_;
   block.head()["sequence"] = ticks_sequence_++;
   block.head()["rate_Hz"] = rate_Hz_;
@@ -161,6 +163,7 @@ void TickStream::send_ticks() {
 
 void TickStream::send_sound() {
   BlockWriter block(kFeelSoundTopic);
+  block.head()["topic"] = kFeelSoundTopic;
   block.head()["run"] = run_;
   block.head()["sequence"] = sound_sequence_++;
   block.head()["rate_Hz"] = rate_Hz_;

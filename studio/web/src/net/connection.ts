@@ -94,12 +94,10 @@ function open(): void {
   const opened = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/ws`);
   opened.binaryType = "arraybuffer";
   socket = opened;
-  opened.onopen = () => {
-    retry_ms = 250;
-    link.value = "open";
-    for (const topic of topics.keys()) void call("subscribe", { topic });
-  };
+  // A server that does not know this browser opens the socket and closes it with a reason: open is what has answered.
+  opened.onopen = () => opened.send(JSON.stringify({ id: nextId++, call: "studio.ping", args: {} }));
   opened.onmessage = (message) => {
+    if (link.value !== "open") begin();
     if (typeof message.data === "string") hearText(JSON.parse(message.data));
     else hearBlock(decodeBlock(message.data));
   };
@@ -110,6 +108,12 @@ function open(): void {
     setTimeout(open, retry_ms);
     retry_ms = Math.min(4000, 2 * retry_ms);
   };
+}
+
+function begin(): void {
+  retry_ms = 250;
+  link.value = "open";
+  for (const topic of topics.keys()) void call("subscribe", { topic });
 }
 
 function hearText(message: any): void {

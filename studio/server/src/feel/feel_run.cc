@@ -1,0 +1,71 @@
+#include "feel/feel_run.h"
+
+#include <utility>
+
+#include "asperity/base/error.h"
+#include "feel/tick_stream.h"
+#include "interrupt.h"
+
+namespace asperity::studio {
+
+FeelRun::FeelRun(FeelRunParts parts, Hub& hub, std::uint64_t number, std::function<void()> ended)
+    : parts_(std::move(parts)), scene_(std::move(parts_.model)), ended_(std::move(ended)) {
+  thread_ = std::thread([this, &hub, number] { run(hub, number); });
+}
+
+FeelRun::~FeelRun() {
+  stop();
+  if (thread_.joinable()) thread_.join();
+}
+
+void FeelRun::point(const Eigen::Vector3d& p_world_m) noexcept {
+  if (parts_.targets) parts_.targets->publish(p_world_m);
+}
+
+void FeelRun::start_log(std::unique_ptr<app::FeelLog> log) {
+  const std::lock_guard lock(log_lock_);
+  if (log_) throw Error("a log is being written already");
+  log_ = std::move(log);
+}
+
+void FeelRun::finish_log() {
+  std::unique_ptr<app::FeelLog> log;
+  {
+    const std::lock_guard lock(log_lock_);
+    log = std::move(log_);
+  }
+  if (log) log->commit();
+}
+
+FeelOutcome FeelRun::take_outcome() {
+  if (thread_.joinable()) thread_.join();
+  return std::move(outcome_);
+}
+
+void FeelRun::run(Hub& hub, std::uint64_t number) {
+  try {
+    std::optional<app::ForceHold> hold;
+    if (parts_.felt) hold.emplace();
+    TickStream stream(hub, parts_.servo.rate_Hz, number);
+    outcome_.servo = run_servo(
+        *parts_.device, scene_, parts_.servo, stop_,
+        [&](const ServoTick& tick) {
+          outcome_.figures.add(tick);
+          stream.add(tick);
+          const std::lock_guard lock(log_lock_);
+          if (log_) log_->add(tick);
+        },
+        &render_step, &permit_);
+    parts_.device->close();
+    hold.reset();
+    stream.flush();
+    outcome_.verdict = app::judge_run(outcome_.figures, outcome_.servo, *parts_.device, parts_.drive, *scene_.acquire(),
+                                      parts_.servo.safety);
+  } catch (...) {
+    outcome_.failure = std::current_exception();
+  }
+  parts_.device->close();
+  ended_();
+}
+
+}  // namespace asperity::studio

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "asperity/device/force_permit.h"
+#include "asperity/device/pointer_device.h"
+#include "asperity/device/servo_loop.h"
+#include "asperity/device/snapshot_exchange.h"
+#include "asperity/studio/hub.h"
+#include "feel_log.h"
+#include "feel_report.h"
+#include "feel_verdict.h"
+
+namespace asperity::studio {
+
+// What a run is made of.
+struct FeelRunParts {
+  std::unique_ptr<HapticDevice> device;
+  std::unique_ptr<const RenderModel> model;
+  ServoConfig servo;
+  std::shared_ptr<PointerTargets> targets;  // of the mouse, else null
+  app::FeelDrive drive;                     // what moves the point, if no hand does
+  bool felt = false;                        // a hand is at it: a signal does not end the program before it is free
+};
+
+// How a run ended.
+struct FeelOutcome {
+  ServoResult servo;
+  app::FeelFigures figures;
+  app::RunVerdict verdict;
+  std::exception_ptr failure;  // what the loop or the log threw, with zero force
+};
+
+// A scene being felt: run_servo on threads of its own, which no browser and no page can delay. Functions are for the
+// studio's thread and never wait for the servo. Forces are there only while the permit is renewed.
+class FeelRun {
+ public:
+  // Begins at once. `ended` is called on the run's thread when the force is zero and the device closed.
+  FeelRun(FeelRunParts parts, Hub& hub, std::uint64_t number, std::function<void()> ended);
+  // Stops it, and waits for its end: the safety layer's ramp.
+  ~FeelRun();
+  FeelRun(const FeelRun&) = delete;
+  FeelRun& operator=(const FeelRun&) = delete;
+
+  ForcePermit& permit() { return permit_; }
+  void stop() noexcept { stop_.store(true); }
+  // Another scene, while it is touched.
+  void swap(std::unique_ptr<const RenderModel> model) { scene_.publish(std::move(model)); }
+  // Where the pointer wants the device point; nothing for a device that a hand or a path moves.
+  void point(const Eigen::Vector3d& p_world_m) noexcept;
+
+  // Rows from the next tick on. Throws Error if one is being written.
+  void start_log(std::unique_ptr<app::FeelLog> log);
+  // The log is whole then. Throws Error if the file cannot be written.
+  void finish_log();
+
+  // After `ended`: waits for the thread's last steps.
+  FeelOutcome take_outcome();
+
+ private:
+  void run(Hub& hub, std::uint64_t number);
+
+  FeelRunParts parts_;
+  SnapshotExchange<const RenderModel> scene_;
+  ForcePermit permit_;
+  std::atomic<bool> stop_{false};
+  std::mutex log_lock_;  // of the log; the servo thread has no part in it
+  std::unique_ptr<app::FeelLog> log_;
+  FeelOutcome outcome_;
+  std::function<void()> ended_;
+  std::thread thread_;
+};
+
+}  // namespace asperity::studio

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "asperity/base/progress.h"
+#include "feel/feel_devices.h"
+#include "feel/feel_setup.h"
+
+namespace asperity::studio {
+
+// What is felt and shown, as the choices say. Immutable, and kept until a newer one is whole.
+struct FeltWorld {
+  FeelSetup setup;
+  std::string source;                  // what of the choices the scene was read from
+  std::shared_ptr<const Scene> scene;  // as it was read
+  BlockWriter block{"feel.scene"};     // as it is drawn
+  std::uint64_t revision = 0;
+  std::string title;
+};
+
+// Reads the scene, unless `before` was read from the same, and makes its block. Not for the studio's thread. Throws
+// Error in words for what cannot be read or rendered.
+std::shared_ptr<const FeltWorld> make_felt_world(FeelSetup setup, const FeelChoices& choices,
+                                                 const std::shared_ptr<const FeltWorld>& before,
+                                                 std::uint64_t revision);
+
+// The model of a world for a device that runs already, within what it can render. Not for the studio's thread.
+app::FeltModel make_swapped_model(const FeltWorld& world, const DeviceInfo& device, bool as_it_is,
+                                  const FeelConfig& running);
+
+}  // namespace asperity::studio
