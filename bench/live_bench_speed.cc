@@ -90,9 +90,9 @@ Run play(const asperity::Recording& recording, const Options& options) {
   asperity::LiveProfile live(recording.calibration, recording.info, options.config);
   std::int64_t next_ns = 0;
   std::int64_t last_point_ns = 0;
-  for (const asperity::Arrival& arrival : asperity::list_arrivals(recording, {0.0, options.pose_delay_s})) {
+  for (const asperity::ScanArrival& arrival : asperity::list_arrivals(recording, {0.0, options.pose_delay_s})) {
     const double before_s = processor_s();
-    if (arrival.kind == asperity::Arrival::Kind::kRow) {
+    if (arrival.kind == asperity::ScanArrival::Kind::kRow) {
       live.push(asperity::probe_sample(recording.probe, arrival.index));
     } else {
       live.push(asperity::tracker_sample(recording.tracker, arrival.index));

@@ -231,8 +231,8 @@ TEST(ScanAdvisor, AGoodSimulatedScanGivesNoHint) {
   LiveProfile live(recording.calibration, recording.info);
   ScanAdvisor advisor(recording.calibration, recording.info);
   std::int64_t next_ns = 0;
-  for (const Arrival& arrival : list_arrivals(recording)) {
-    if (arrival.kind == Arrival::Kind::kRow) {
+  for (const ScanArrival& arrival : list_arrivals(recording)) {
+    if (arrival.kind == ScanArrival::Kind::kRow) {
       const ProbeSample row = probe_sample(recording.probe, arrival.index);
       live.push(row);
       advisor.push(row);
