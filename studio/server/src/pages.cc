@@ -1,6 +1,7 @@
 #include "pages.h"
 
 #include "common_page.h"
+#include "feel/feel_page.h"
 #include "paint/paint_page.h"
 
 namespace asperity::studio {
@@ -9,6 +10,7 @@ std::vector<std::unique_ptr<Page>> make_pages(Shared& shared, const std::optiona
   std::vector<std::unique_ptr<Page>> pages;
   pages.push_back(std::make_unique<CommonPage>(shared, opened));
   pages.push_back(make_paint_page(shared));
+  pages.push_back(make_feel_page(shared));
   return pages;
 }
 
