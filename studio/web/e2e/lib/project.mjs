@@ -25,6 +25,8 @@ export function pebbleObj(rings = 48, sectors = 96) {
   return `${lines.join("\n")}\n`;
 }
 
+const kZigzag = "-0.03,-0.012,0.02;-0.01,0.014,0.024;0.01,-0.014,0.024;0.03,0.012,0.02";
+
 /** Made once; each flow works in a copy. */
 export class Projects {
   constructor(binary) {
@@ -39,7 +41,7 @@ export class Projects {
     writeFileSync(join(this.first, "pebble.obj"), pebbleObj());
     run("simulate", "--surface", "protoboard", "--probe", "open", "--speed", "25mm/s", "--seed", "1", "-o", "board", "--quiet");
     run("simulate", "--surface", "protoboard", "--probe", "open", "--speed", "25mm/s", "--seed", "2", "-o", "board_again", "--quiet");
-    run("simulate", "--surface", "sandpaper", "--mesh", "pebble.obj", "--mesh-unit", "mm", "--seed", "1", "-o", "stroke", "--quiet");
+    run("simulate", "--surface", "sandpaper", "--mesh", "pebble.obj", "--mesh-unit", "mm", "--through", kZigzag, "--seed", "1", "-o", "stroke", "--quiet");
     run("process", "board", "-o", "measured", "--quiet");
     run("paint", "pebble.obj", "--mesh-unit", "mm", "--through", "-0.03,0,0.02;0.03,0,0.02", "--texture", "measured/texture.json", "-o", "painted", "--quiet");
   }

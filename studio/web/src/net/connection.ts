@@ -49,15 +49,22 @@ export function subscribe(topic: string, listener: (block: Block) => void): () =
   if (!listeners) {
     listeners = new Set();
     topics.set(topic, listeners);
-    if (link.value === "open") void call("subscribe", { topic });
+    if (link.value === "open") ask("subscribe", topic);
   }
   listeners.add(listener);
   return () => {
     listeners.delete(listener);
     if (listeners.size > 0 || topics.get(topic) !== listeners) return;
     topics.delete(topic);
-    if (link.value === "open") void call("unsubscribe", { topic });
+    if (link.value === "open") ask("unsubscribe", topic);
   };
+}
+
+/** A request that a lost connection takes away is made again when it is back. */
+function ask(name: "subscribe" | "unsubscribe", topic: string): void {
+  call(name, { topic }).catch((error) => {
+    if (link.value === "open") throw error;
+  });
 }
 
 /** Events of a name, until the function that it returns is called. */
@@ -113,7 +120,7 @@ function open(): void {
 function begin(): void {
   retry_ms = 250;
   link.value = "open";
-  for (const topic of topics.keys()) void call("subscribe", { topic });
+  for (const topic of topics.keys()) ask("subscribe", topic);
 }
 
 function hearText(message: any): void {
