@@ -157,7 +157,8 @@ void LiveProfile::Impl::add(std::size_t i) {
   out.s_m = s_m;
   if (base.begun()) {
     const Vector3d n = base.normal_at(p);
-    const double height_m = base.height_m(p);
+    // Along the path the best position; above it the one that is steadiest over a few millimetres.
+    const double height_m = base.height_m(p) + n.dot(samples.steady_m[i] - p);
     const double sigma_m = std::sqrt(std::max(0.0, n.dot(cov * n)));
     if (!contact.measured()) touching = std::abs(height_m) <= config.base.max_height_m;
     if (base.fitted()) out.tilt_rad = std::acos(std::clamp(n.dot(out.probe_axis_world), -1.0, 1.0));

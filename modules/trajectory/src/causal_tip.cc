@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include <Eigen/LU>
@@ -15,7 +13,9 @@
 #include "fused_problem.h"
 #include "fused_setup.h"
 #include "inertial_smoother.h"
+#include "noise_scale.h"
 #include "sample_intake.h"
+#include "steady_path.h"
 #include "tip_motion.h"
 
 namespace asperity {
@@ -25,25 +25,18 @@ namespace {
 using inertial_smoother::Checkpoint;
 using inertial_smoother::Smoothed;
 using WindowProblem = inertial_smoother::Problem;
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kLongestWindow_s = 0.5;  // a pose later than this is not waited for
 constexpr double kLongestBlind_s = 1.0;   // without a pose: dead reckoning is lost
-constexpr double kScaleStretch_s = 1.2;   // on which the process noise is judged
-constexpr double kScalePeriod_s = 0.6;    // between two judgements
-constexpr double kScaleStep = 2.5;
-
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 std::int64_t nanoseconds(double s) { return std::llround(s * 1e9); }
 
-// What the windows have said of one sample so far.
-struct Pending {
-  std::int64_t row_ns = 0;  // the stamp it came with: its name
-  double weight = 0.0;
-  Vector3d p = Vector3d::Zero();
-  Vector3d v = Vector3d::Zero();
-  Matrix3d cov = Matrix3d::Zero();
+// Where the window before had the first sample that it left open.
+struct Seam {
+  std::int64_t row_ns = 0;  // the stamp that the sample came with: its name
+  Vector3d p_m = Vector3d::Zero();
+  Vector3d v_mps = Vector3d::Zero();
 };
 
 }  // namespace
@@ -58,13 +51,14 @@ struct CausalTip::Impl {
   std::optional<Checkpoint> checkpoint;
   std::int64_t begin_ns = 0;
   bool gyro_turns_too = true;
-  double process_scale = 1.0;
+  NoiseScale process_scale;
   double rate_scale = 1.0;
 
   std::int64_t next_run_ns = std::numeric_limits<std::int64_t>::min();
   std::int64_t final_row_ns = std::numeric_limits<std::int64_t>::min();  // stamp of the newest final sample
   std::int64_t final_ns = std::numeric_limits<std::int64_t>::min();      // its smoothed time
-  std::deque<Pending> pending;
+  std::optional<Seam> seam;
+  SteadyPath steady;
   bool broken = true;
   double accel_floor_mps2 = std::numeric_limits<double>::infinity();
   double gyro_floor_radps = std::numeric_limits<double>::infinity();
@@ -74,11 +68,13 @@ struct CausalTip::Impl {
   CausalTipCounts counts;
 
   Impl(const Calibration& c, const RecordingInfo& info, const FusedConfig& f, const CausalTipConfig& t)
-      : calibration(c), fused(f), config(t), intake(c, info) {
-    if (!(t.blend_s + t.hop_s <= t.lag_s)) {
-      throw Error("live tip: lag_s " + number_text(t.lag_s) + " is shorter than blend_s and hop_s together");
-    }
-    if (f.process_noise_scale > 0.0) process_scale = rate_scale = f.process_noise_scale;
+      : calibration(c),
+        fused(f),
+        config(t),
+        intake(c, info),
+        process_scale(f.process_noise_scale),
+        steady(t.correction_Hz) {
+    if (f.process_noise_scale > 0.0) rate_scale = f.process_noise_scale;
   }
 
   void run();
@@ -88,7 +84,6 @@ struct CausalTip::Impl {
   void keep_needed();
   InertialStream inertial();
   void configure(bool has_gyro, WindowProblem& problem) const;
-  void judge_scale(const WindowProblem& problem, bool has_gyro);
   void collect(const InertialStream& inertial, const Smoothed& smoothed, bool last);
 };
 
@@ -115,7 +110,7 @@ void CausalTip::Impl::configure(bool has_gyro, WindowProblem& problem) const {
   problem.gravity = intake.recording().info.gravity_world_mps2;
   problem.sigma_position = inertial_smoother::stated_sigma_m(calibration.tracker);
   problem.sigma_rotation = inertial_smoother::stated_sigma_rad(calibration.tracker);
-  problem.process_scale = process_scale;
+  problem.process_scale = process_scale.factor();
   problem.rate_scale = rate_scale;
   problem.gyro_turns_too = gyro_turns_too;
   problem.gate_innovations = true;
@@ -124,7 +119,8 @@ void CausalTip::Impl::configure(bool has_gyro, WindowProblem& problem) const {
 // Everything that the filter knows is given up; rows and poses that are still in hand stay.
 void CausalTip::Impl::forget() {
   checkpoint.reset();
-  pending.clear();
+  seam.reset();
+  process_scale.forget();
   broken = true;
 }
 
@@ -155,73 +151,43 @@ void CausalTip::Impl::begin() {
   intake.set_begin(begin_ns);
 }
 
-// Tries a stronger and a weaker process noise on the last second or so, and takes what makes its poses likelier.
-void CausalTip::Impl::judge_scale(const WindowProblem& problem, bool has_gyro) {
-  WindowProblem trial = problem;
-  const auto search = [&](double WindowProblem::*factor, double lowest) {
-    const double now = trial.*factor;
-    double best = now;
-    double best_likelihood = inertial_smoother::log_likelihood(trial);
-    for (const double other : {now * kScaleStep, now / kScaleStep}) {
-      if (other > 1e5 || other < lowest) continue;
-      trial.*factor = other;
-      const double likelihood = inertial_smoother::log_likelihood(trial);
-      if (likelihood > best_likelihood) best = other, best_likelihood = likelihood;
-    }
-    trial.*factor = best;
-  };
-  search(&WindowProblem::process_scale, 0.3);
-  if (!has_gyro) search(&WindowProblem::rate_scale, 1e-4);
-  process_scale = trial.process_scale;
-  rate_scale = trial.rate_scale;
-}
-
-// Adds what this window says of its samples; those older than the lag are final.
+// Takes the window's samples that are older than the lag: they are final.
 void CausalTip::Impl::collect(const InertialStream& stream, const Smoothed& smoothed, bool last) {
   const TipMotion motion = inertial_smoother::make_tip_motion(stream, smoothed, calibration.tip_in_marker_m);
   const std::vector<std::int64_t>& stamps = intake.recording().probe.t_ns;
   const std::int64_t newest_ns = stream.t_ns.back();
-  std::size_t k = 0;
   std::size_t ahead = 0;
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const std::int64_t stamp = stamps[static_cast<std::size_t>(smoothed.sample[i])];
     if (stamp <= final_row_ns) continue;
-    const double age_s = seconds(newest_ns - motion.t_ns[i]);
-    while (k < pending.size() && pending[k].row_ns < stamp) ++k;
-    if (k == pending.size() || pending[k].row_ns != stamp) {
-      pending.insert(pending.begin() + static_cast<std::ptrdiff_t>(k), Pending{.row_ns = stamp});
+    if (!last && seconds(newest_ns - motion.t_ns[i]) < config.lag_s) {
+      seam = Seam{stamp, motion.p_world_tip_m[i], motion.v_world_tip_mps[i]};
+      return;
     }
-    Pending& sample = pending[k];
-    const bool final = last || age_s >= config.lag_s;
-    const double phase = (age_s - (config.lag_s - config.blend_s)) / config.blend_s;
-    double w = phase > 0.0 && phase < 1.0 ? std::pow(std::sin(std::numbers::pi * phase), 2) : 0.0;
-    if (final && sample.weight + w < 1e-3) w = 1.0;
-    if (w > 0.0) {
-      sample.weight += w;
-      sample.p += w * motion.p_world_tip_m[i];
-      sample.v += w * motion.v_world_tip_mps[i];
-      sample.cov += w * motion.cov_world_tip_m2[i];
-    }
-    if (!final) continue;
-    final_row_ns = stamp;
     const std::int64_t t_ns = std::max(motion.t_ns[i], final_ns + 1);
+    if (broken) steady.reset();
+    if (seam && seam->row_ns == stamp) {
+      steady.jump(motion.p_world_tip_m[i] - seam->p_m, motion.v_world_tip_mps[i] - seam->v_mps);
+    }
+    seam.reset();
+    final_row_ns = stamp;
     final_ns = t_ns;
+    ready.steady_m.push_back(steady.push(t_ns, motion.p_world_tip_m[i]));
     ready.motion.t_ns.push_back(t_ns);
-    ready.motion.p_world_tip_m.push_back(sample.p / sample.weight);
+    ready.motion.p_world_tip_m.push_back(motion.p_world_tip_m[i]);
     ready.motion.q_world_marker.push_back(motion.q_world_marker[i]);
-    ready.motion.v_world_tip_mps.push_back(sample.v / sample.weight);
+    ready.motion.v_world_tip_mps.push_back(motion.v_world_tip_mps[i]);
     ready.motion.a_world_tip_mps2.push_back(motion.a_world_tip_mps2[i]);
-    ready.motion.cov_world_tip_m2.push_back(sample.cov / sample.weight);
+    ready.motion.cov_world_tip_m2.push_back(motion.cov_world_tip_m2[i]);
     ready.motion.force_N.push_back(motion.force_N[i]);
     ready.broken.push_back(broken ? 1 : 0);
+    broken = false;
     while (ahead + 1 < motion.size() && seconds(motion.t_ns[ahead] - motion.t_ns[i]) < config.ahead_s) ++ahead;
     const double reached_s = seconds(motion.t_ns[ahead] - motion.t_ns[i]);
     const Vector3d way = motion.p_world_tip_m[ahead] - motion.p_world_tip_m[i];
     ready.ahead_m.push_back(reached_s > 0.5 * config.ahead_s ? Vector3d(config.ahead_s / reached_s * way)
                                                              : Vector3d(config.ahead_s * motion.v_world_tip_mps[i]));
-    broken = false;
   }
-  while (!pending.empty() && pending.front().row_ns <= final_row_ns) pending.pop_front();
 }
 
 // One estimate of the window; then its start moves on.
@@ -265,7 +231,7 @@ void CausalTip::Impl::step(bool last) {
     const double dr = smoothed.rotation_residual[i].cwiseQuotient(problem.sigma_rotation).squaredNorm();
     outlying += inertial_smoother::redescending(std::max(dp, dr), problem.gate_chi2) < 0.5;
   }
-  checkpoint = smoothed.checkpoint;
+  checkpoint = process_scale.judge(problem, smoothed.checkpoint);
   begin_ns = origin_ns + nanoseconds(moved_s);
   intake.set_begin(begin_ns);
 }
@@ -329,6 +295,7 @@ void CausalTip::take(Samples& out) {
   append(out.motion.cov_world_tip_m2, from.cov_world_tip_m2);
   append(out.motion.force_N, from.force_N);
   append(out.broken, impl_->ready.broken);
+  append(out.steady_m, impl_->ready.steady_m);
   append(out.ahead_m, impl_->ready.ahead_m);
 }
 

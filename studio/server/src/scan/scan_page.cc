@@ -77,6 +77,7 @@ class ScanPage : public Page {
       Json out;
       out["open"] = session_ != nullptr;
       out["opening"] = busy_;
+      out["refined"] = refined_.has_value();
       request.answer(out);
     });
     calls.add("scan.open", [this](const Request& request) { open(request); });

@@ -6,7 +6,7 @@ import type { Result } from "./result";
 export function Comparison({ results }: { results: Result[] }) {
   const rows = comparedRows(results.map((result) => result.json));
   return (
-    <section class="report-drawing" aria-label="Side by side">
+    <section class="report-drawing report-compared" aria-label="Side by side">
       <h2>Side by side</h2>
       <Table<ComparedRow>
         caption="Figures of all results"

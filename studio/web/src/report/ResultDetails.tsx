@@ -4,24 +4,13 @@ import { Figures } from "../ui/Figures";
 import { figureGroups } from "./figures";
 import { flatSettings, type Problem, type Result } from "./result";
 
-/** Figures, what was dropped and why, and the settings of one result. */
+/** Figures (of several results they stand side by side elsewhere), what was dropped and why, and the settings of one result. */
 export function ResultDetails({ result, named }: { result: Result; named: boolean }) {
   const problems: Problem[] = Array.isArray(result.json.problems) ? result.json.problems : [];
   return (
     <>
       {named && <h2 class="report-name">{result.name}</h2>}
-      <section class="report-groups" aria-label="Figures">
-        {figureGroups(result.json).map((group) => (
-          <section key={group.title} class="report-group">
-            <h2>{group.title}</h2>
-            <Figures>
-              {group.rows.map((row) => (
-                <Figure key={row.label} {...row} />
-              ))}
-            </Figures>
-          </section>
-        ))}
-      </section>
+      {!named && <FigureGroups json={result.json} />}
       <section class="report-drawing" aria-label="What was dropped or looked wrong">
         <h2>What was dropped or looked wrong</h2>
         {problems.length === 0 ? (
@@ -50,5 +39,22 @@ export function ResultDetails({ result, named }: { result: Result; named: boolea
         />
       </details>
     </>
+  );
+}
+
+function FigureGroups({ json }: { json: Record<string, any> }) {
+  return (
+    <section class="report-groups" aria-label="Figures">
+      {figureGroups(json).map((group) => (
+        <section key={group.title} class="report-group">
+          <h2>{group.title}</h2>
+          <Figures>
+            {group.rows.map((row) => (
+              <Figure key={row.label} {...row} />
+            ))}
+          </Figures>
+        </section>
+      ))}
+    </section>
   );
 }

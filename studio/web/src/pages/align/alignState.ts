@@ -210,7 +210,8 @@ export function followAlign(): () => void {
   const ends = [
     effect(() => {
       showing.value = "placed";
-      if (what.value) void open();
+      // The edit that this follows is sent first: it is under way in the caller.
+      if (what.value) queueMicrotask(() => void open());
       else opened.value = null;
     }),
     effect(() => {

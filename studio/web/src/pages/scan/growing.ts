@@ -39,7 +39,7 @@ export class Growing<Names extends string> {
   /** `names`: each array of the block with the factor to the unit that is shown. `width`: values a point of `names`. */
   constructor(
     private readonly names: Record<Names, number>,
-    private readonly counted: Names,
+    private readonly counted: NoInfer<Names>,
     private readonly askAll: () => void,
     private readonly width = 1,
   ) {
@@ -59,8 +59,7 @@ export class Growing<Names extends string> {
     for (const name of Object.keys(this.names) as Names[]) {
       const values = block.arrays[name] as NumberArray | undefined;
       if (!values) continue;
-      const perPoint = name === this.counted ? this.width : this.widthOf(block, name);
-      this.columns[name].append(values.subarray(Math.min(values.length, skip * perPoint)), this.names[name]);
+      this.columns[name].append(values.subarray(Math.min(values.length, skip * (block.shapes[name]?.[1] ?? 1))), this.names[name]);
     }
     ++this.version;
   }
@@ -68,10 +67,6 @@ export class Growing<Names extends string> {
   clear(): void {
     this.begin(-1);
     ++this.version;
-  }
-
-  private widthOf(block: Block, name: Names): number {
-    return block.shapes[name]?.[1] ?? 1;
   }
 
   private begin(generation: number): void {
