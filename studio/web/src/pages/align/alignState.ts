@@ -104,6 +104,12 @@ export const ghostPose = computed<Pose | null>(() => {
 /** True where the pose is still that of the registration it was taken from. */
 export const isRegistered = computed(() => samePose(align.value?.T_mesh_world, align.value?.registered?.T_mesh_world));
 
+/** Changes what turns leave in its place; the six numbers are then others. */
+export function turnAbout(what: "middle" | "origin"): void {
+  six.value = null;
+  about.value = what;
+}
+
 const pivot = (): Point => (about.value === "middle" ? frame.value!.middle_world_m : [0, 0, 0]);
 export const shownSix = computed<Six | null>(() => draftSix.value ?? six.value);
 
@@ -123,8 +129,9 @@ export function move(pose: Pose, gesture: string): void {
 const turner = latest(
   async ({ wanted, gesture }: { wanted: Six; gesture: string }) => {
     try {
-      const { pose } = await call("align.sliders", { ...wanted, about_world_m: pivot() });
+      const { pose, shift_m, turn_deg } = await call("align.sliders", { ...wanted, about_world_m: pivot() });
       draft.value = pose;
+      six.value = { shift_m, turn_deg };
       await edit(POSE_PATH, pose, "move the path", gesture);
     } catch (error) {
       complain(error);
