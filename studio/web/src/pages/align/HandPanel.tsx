@@ -37,7 +37,7 @@ export function HandPanel() {
           <Slider
             key={axis}
             label={axis}
-            value={value}
+            value={rounded(value, 1e-6)}
             low={low}
             high={high}
             step={1e-4}
@@ -53,7 +53,7 @@ export function HandPanel() {
         <Slider
           key={axis}
           label={`turn ${axis}`}
-          value={six?.turn_deg[index] ?? 0}
+          value={rounded(six?.turn_deg[index] ?? 0, 0.01)}
           low={-TURN_LIMITS_deg[index]!}
           high={TURN_LIMITS_deg[index]!}
           step={0.1}
@@ -69,6 +69,9 @@ export function HandPanel() {
     </Panel>
   );
 }
+
+/** As it is shown; what is not touched keeps its digits. */
+const rounded = (value: number, step: number): number => Number((Math.round(value / step) * step).toPrecision(12));
 
 /** Half a mesh beyond the mesh; about the world's origin, the reach of a tracker. */
 function range(head: Record<string, any> | undefined, axis: number, value: number): [number, number] {

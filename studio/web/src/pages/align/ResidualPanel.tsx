@@ -19,6 +19,7 @@ export function ResidualPanel() {
       </Figures>
       <div class="align-histogram">
         <Plot
+          key={bars?.edges_mm[0]}
           label="Histogram of the distances, negative inside the mesh"
           x={bars?.edges_mm ?? []}
           series={[{ label: "points", y: bars?.percent ?? [], kind: "step", colour: 1 }]}

@@ -217,7 +217,7 @@ export function followAlign(): () => void {
     timer = undefined;
     batch(() => {
       iterations.value = news.splice(0).reduce(withBlock, iterations.value);
-      if (running.value) scrub.value = Math.max(0, iterations.value.poses.length - 1);
+      if (running.value || showing.value !== "iteration") scrub.value = Math.max(0, iterations.value.poses.length - 1);
     });
   };
   const what = computed(() => {
