@@ -1,1 +1,248 @@
-#include <gtest/gtest.h>
+#include "feel/feel_page.h"
+
+#include <algorithm>
+
+#include <gmock/gmock.h>
+
+#include "feel_rig.h"
+
+namespace asperity::studio {
+namespace {
+
+using testing::HasSubstr;
+
+// From the last tick at which the force was as rendered, those until it was zero for good.
+std::size_t ramp_ticks(const std::vector<FeelHub::Tick>& ticks) {
+  std::size_t zero = ticks.size();
+  while (zero > 0 && ticks[zero - 1].out_N == 0.0) --zero;
+  std::size_t full = zero;
+  while (full > 0 && ticks[full - 1].out_N < 0.98 * ticks[full - 1].rendered_N) --full;
+  return zero - full;
+}
+
+// The largest change of force from tick to tick beyond what the rate limit allows in the time between them.
+double beyond_rate_N(const std::vector<FeelHub::Tick>& ticks) {
+  double worst_N = 0.0;
+  const SafetyConfig safety;
+  for (std::size_t k = 1; k < ticks.size(); ++k) {
+    const double dt_s = std::min(ticks[k].t_s - ticks[k - 1].t_s, 3e-3);
+    worst_N = std::max(worst_N, std::abs(ticks[k].out_N - ticks[k - 1].out_N) - dt_s * safety.max_force_rate_N_per_s);
+  }
+  return worst_N;
+}
+
+}  // namespace
+
+TEST(FeelPage, IsFeltWithThePointerWhileItHasTheForce) {
+  FeelRig rig;
+  rig.choose_height_maps();
+  rig.own_force();
+  EXPECT_EQ(rig.ask("feel.start").error, "");
+  EXPECT_EQ(rig.status()["state"], "running");
+  rig.touch();
+  EXPECT_LE(rig.hub.newest().out_N, 5.0);
+  EXPECT_TRUE(rig.pump([&] { return rig.hub.state()["touching"].get<bool>() && rig.hub.state()["height_m"] > 0.0; }));
+
+  // Its heartbeats stop: nothing else is done.
+  rig.beating.clear();
+  EXPECT_TRUE(rig.pump([&] { return rig.hub.newest().out_N == 0.0; }));
+  const std::vector<FeelHub::Tick> ticks = rig.hub.ticks();
+  // ramp_down_s is 20 ticks; ticks that came late count for more, none for less.
+  EXPECT_LE(ramp_ticks(ticks), 22U);
+  EXPECT_LE(beyond_rate_N(ticks), 1e-6);
+  EXPECT_GT(ticks.back().rendered_N, 0.3);  // it is still shown what a hand would feel
+  EXPECT_TRUE(rig.pump([&] {
+    const Json state = rig.hub.state();
+    return std::count(state["limited"].begin(), state["limited"].end(), "not-permitted") == 1;
+  }));
+
+  // And it comes back with the lease.
+  rig.own_force();
+  EXPECT_TRUE(rig.pump([&] { return rig.hub.newest().out_N > 0.3; }));
+}
+
+TEST(FeelPage, OnlyTheOwnerOfTheForceMovesThePointer) {
+  FeelRig rig;
+  rig.choose_height_maps();
+  rig.own_force();
+  ASSERT_EQ(rig.ask("feel.start").error, "");
+  rig.touch();
+  const Pointer elsewhere{0, {0.5, 0.5, 0.5}};
+  const std::size_t before = rig.hub.ticks().size();
+  EXPECT_TRUE(rig.pump([&] {
+    rig.page.pointed(FeelRig::kOwner + 1, elsewhere);
+    return rig.hub.ticks().size() > before + 200;
+  }));
+  EXPECT_GT(rig.hub.newest().out_N, 0.3);
+}
+
+TEST(FeelPage, AnyoneMayStop) {
+  FeelRig rig;
+  rig.choose_height_maps();
+  rig.own_force();
+  ASSERT_EQ(rig.ask("feel.start").error, "");
+  rig.touch();
+  EXPECT_EQ(rig.ask("feel.stop", Json::object(), FeelRig::kOwner + 1).error, "");
+  EXPECT_TRUE(rig.pump([&] { return rig.status()["state"] == "idle"; }));
+  EXPECT_EQ(rig.hub.newest().out_N, 0.0);
+  EXPECT_LE(ramp_ticks(rig.hub.ticks()), 22U);
+  EXPECT_EQ(rig.status()["last_run"]["end"], "stopped");
+  // And again.
+  EXPECT_EQ(rig.ask("feel.start").error, "");
+  rig.touch();
+}
+
+TEST(FeelPage, ChangesWhileTouchingDoNotStepTheForce) {
+  FeelRig rig;
+  rig.choose_height_maps();
+  rig.own_force();
+  ASSERT_EQ(rig.ask("feel.start").error, "");
+  rig.touch();
+  const std::array<std::pair<const char*, Json>, 4> edits{{{"/feel/settings/render.texture.model", "stochastic"},
+                                                           {"/feel/settings/render.friction", 0.4},
+                                                           {"/feel/settings/render.stiffness_N_per_m", 900.0},
+                                                           {"/feel/range_mm", 0.5}}};
+  for (const auto& [path, value] : edits) {
+    const Json before = rig.status()["revision"];
+    rig.document.edit(path, value, "change");
+    EXPECT_TRUE(rig.pump([&] { return rig.status()["revision"] != before; })) << path;
+    const std::size_t ticks = rig.hub.ticks().size();
+    EXPECT_TRUE(rig.pump([&] { return rig.hub.ticks().size() > ticks + 150; }));
+  }
+  EXPECT_LE(beyond_rate_N(rig.hub.ticks()), 1e-6);
+  EXPECT_GT(rig.hub.newest().out_N, 0.3);
+  EXPECT_EQ(rig.status()["problem"], "");
+}
+
+TEST(FeelPage, ASceneThatCannotBeReadLeavesTheRunningOneAlone) {
+  FeelRig rig;
+  rig.choose_height_maps();
+  rig.own_force();
+  ASSERT_EQ(rig.ask("feel.start").error, "");
+  rig.touch();
+  const Json before = rig.status();
+  std::ofstream(rig.folder / "broken.pgm") << "P5\nthis is no image";
+  rig.document.edit("/feel/height_maps", {"broken.pgm"}, "choose");
+  EXPECT_TRUE(rig.pump([&] { return rig.status()["problem"] != ""; }));
+  EXPECT_THAT(rig.status()["problem"].get<std::string>(), HasSubstr("broken.pgm"));
+  EXPECT_EQ(rig.status()["state"], "running");
+  EXPECT_EQ(rig.status()["revision"], before["revision"]);
+  const std::size_t ticks = rig.hub.ticks().size();
+  EXPECT_TRUE(rig.pump([&] { return rig.hub.ticks().size() > ticks + 100; }));
+  EXPECT_GT(rig.hub.newest().out_N, 0.3);
+  rig.document.undo();
+  EXPECT_TRUE(rig.pump([&] { return rig.status()["problem"] == ""; }));
+}
+
+TEST(FeelPage, TheLargestForceIsLoweredFromTheBrowserAndNotRaised) {
+  FeelRig rig;
+  rig.choose_height_maps();
+  rig.own_force();
+  ASSERT_EQ(rig.ask("feel.start").error, "");
+  rig.touch();
+  rig.document.edit("/feel/max_force_N", 0.1, "limit");
+  EXPECT_TRUE(rig.pump([&] { return rig.hub.newest().out_N <= 0.1 + 1e-6; }));
+  rig.document.edit("/feel/max_force_N", 500.0, "limit");
+  EXPECT_EQ(rig.status()["max_force_N"], SafetyConfig().max_force_N);
+}
+
+TEST(FeelPage, WhoMayNotCommandForcesIsToldSo) {
+  FeelRig rig(false);
+  rig.choose_height_maps();
+  rig.document.edit("/feel/device", "haply", "device");
+  const FakeHub::Answer answer = rig.ask("feel.start");
+  EXPECT_THAT(answer.error, HasSubstr("not commanded from here"));
+  EXPECT_THAT(answer.hint, HasSubstr("--remote-force"));
+  // The modelled hand is shown; nothing is let through.
+  rig.document.edit("/feel/device", "sim", "device");
+  EXPECT_EQ(rig.ask("feel.start").error, "");
+  EXPECT_TRUE(rig.pump([&] { return rig.hub.newest().rendered_N > 0.1; }));
+  for (const FeelHub::Tick& tick : rig.hub.ticks()) ASSERT_EQ(tick.out_N, 0.0);
+}
+
+TEST(FeelPage, AnotherWindowThatHasTheForceKeepsIt) {
+  FeelRig rig;
+  rig.choose_height_maps();
+  rig.own_force();
+  EXPECT_THAT(rig.ask("feel.start", Json::object(), FeelRig::kOwner + 1).error, HasSubstr("another window"));
+  EXPECT_EQ(rig.ask("feel.start").error, "");
+  EXPECT_THAT(rig.ask("feel.start").error, HasSubstr("already"));
+}
+
+TEST(FeelPage, WritesALog) {
+  FeelRig rig;
+  rig.choose_height_maps();
+  rig.own_force();
+  EXPECT_NE(rig.ask("feel.log", {{"on", true}}).error, "");
+  ASSERT_EQ(rig.ask("feel.start").error, "");
+  EXPECT_EQ(rig.ask("feel.log", {{"on", true}}).result["log"], "feel.csv");
+  const std::size_t ticks = rig.hub.ticks().size();
+  EXPECT_TRUE(rig.pump([&] { return rig.hub.ticks().size() > ticks + 100; }));
+  EXPECT_EQ(rig.ask("feel.log", {{"on", false}}).result["log"], "feel.csv");
+  std::ifstream file(rig.folder / "feel.csv");
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line, app::kFeelLogColumns);
+  int rows = 0;
+  while (std::getline(file, line)) ++rows;
+  EXPECT_GT(rows, 50);
+  // The next one is another file, and is whole when the run ends.
+  EXPECT_EQ(rig.ask("feel.log", {{"on", true}}).result["log"], "feel_2.csv");
+  rig.ask("feel.stop");
+  EXPECT_TRUE(rig.pump([&] { return rig.status()["state"] == "idle"; }));
+  EXPECT_TRUE(std::filesystem::exists(rig.folder / "feel_2.csv"));
+}
+
+TEST(FeelPage, WhatNobodySeesIsNotMade) {
+  FeelRig rig;
+  rig.choose_height_maps();
+  rig.hub.subscribed = false;
+  ASSERT_EQ(rig.ask("feel.start").error, "");
+  rig.ask("feel.log", {{"on", true}});
+  rig.ask("feel.stop");
+  EXPECT_TRUE(rig.pump([&] { return rig.status()["state"] == "idle"; }));
+  EXPECT_GT(rig.status()["last_run"]["figures"]["ticks"], 0);
+  EXPECT_EQ(rig.hub.frames_of("feel.state") + rig.hub.frames_of("feel.ticks") + rig.hub.frames_of("feel.sound"), 0U);
+}
+
+TEST(FeelPage, ShowsTheSceneWithItsHeights) {
+  FeelRig rig;
+  EXPECT_NE(rig.ask("feel.open").error, "");
+  rig.choose_height_maps();
+  const std::string block = rig.ask("feel.open").block;
+  const Json head = head_of(block);
+  EXPECT_EQ(head["objects"], 1U);
+  ASSERT_EQ(head["textures"].size(), 4U);
+  EXPECT_EQ(head["textures"][2]["model"], "normal-perturbation");
+  EXPECT_EQ(array_of<float>(block, "height_0").size(), 256U * 256U);
+  const auto texture = array_of<std::int32_t>(block, "texture_0");
+  EXPECT_EQ(array_of<std::uint32_t>(block, "triangles_0").size(), 3 * texture.size());
+  EXPECT_EQ(*std::max_element(texture.begin(), texture.end()), 3);
+  EXPECT_EQ(*std::min_element(texture.begin(), texture.end()), -1);  // the plane between the tiles
+
+  rig.document.edit("/feel/height_maps", Json::array(), "choose");
+  rig.document.edit("/feel/scene", "plate.obj", "choose");
+  EXPECT_TRUE(rig.pump([&] { return rig.status()["title"] == "plate.obj"; }));
+  EXPECT_EQ(head_of(rig.ask("feel.open").block)["textures"].size(), 0U);
+}
+
+TEST(FeelPage, ARecordedPathAndTheModelledHandEndByThemselvesOrWhenStopped) {
+  FeelRig rig;
+  rig.choose_height_maps();
+  std::ofstream path(rig.folder / "path.csv");
+  path << "t_ns,px_m,py_m,pz_m\n";
+  for (int k = 0; k < 400; ++k) {
+    path << k * 1'000'000 << ',' << 0.004 + 1e-5 * k << ",0.017," << (k < 200 ? 1e-3 - 1e-5 * k : -1e-3) << '\n';
+  }
+  path.close();
+  rig.document.edit("/feel/device", "replay", "device");
+  EXPECT_THAT(rig.ask("feel.start").error, HasSubstr("recorded path is missing"));
+  rig.document.edit("/feel/replay", "path.csv", "path");
+  rig.own_force();
+  EXPECT_EQ(rig.ask("feel.start").error, "");
+  EXPECT_TRUE(rig.pump([&] { return rig.status()["state"] == "idle"; }));
+  EXPECT_EQ(rig.status()["last_run"]["end"], "the way was at its end");
+  EXPECT_GT(rig.status()["last_run"]["figures"]["force"]["peak_N"], 0.1);
+}
+
+}  // namespace asperity::studio

@@ -75,9 +75,17 @@ std::map<int, std::string> textures_of(const Json& value) {
 }  // namespace
 
 Json first_feel_section() {
-  return {{"scene", ""},     {"mesh_unit", ""},           {"height_maps", Json::array()}, {"tile_mm", 10.0},
-          {"range_mm", 2.5}, {"device", "mouse"},         {"replay", ""},                 {"mapped", false},
-          {"settings", Json::object()}, {"max_force_N", nullptr}, {"textures", Json::object()}};
+  return {{"scene", ""},
+          {"mesh_unit", ""},
+          {"height_maps", Json::array()},
+          {"tile_mm", 10.0},
+          {"range_mm", 2.5},
+          {"device", "mouse"},
+          {"replay", ""},
+          {"mapped", false},
+          {"settings", Json::object()},
+          {"max_force_N", nullptr},
+          {"textures", Json::object()}};
 }
 
 FeelChoices read_feel_choices(const Json& section) {

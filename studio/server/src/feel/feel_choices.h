@@ -17,11 +17,11 @@ struct FeelChoices {
   double tile_mm = 10.0;
   double range_mm = 2.5;
   std::string device = "mouse";
-  std::string replay;                          // recording or table that moves the point; empty: none
-  bool mapped = false;                         // its table is in the tracker's world
+  std::string replay;                           // recording or table that moves the point; empty: none
+  bool mapped = false;                          // its table is in the tracker's world
   std::map<std::string, std::string> settings;  // those that differ from the start's, by their path, as in TOML
-  std::optional<double> max_force_N;           // lower than the start's
-  std::map<int, std::string> textures;         // another texture's file for an index
+  std::optional<double> max_force_N;            // lower than the start's
+  std::map<int, std::string> textures;          // another texture's file for an index
 
   bool empty() const { return scene.empty() && height_maps.empty(); }
 };

@@ -1,20 +1,13 @@
 #include "feel/feel_json.h"
 
 #include <array>
-#include <cmath>
 #include <filesystem>
-
-#include "feel/feel_setup.h"
 
 namespace asperity::studio {
 
 namespace {
 
 constexpr std::array<const char*, 4> kEnds{"its time was over", "the way was at its end", "stopped", "fault"};
-constexpr std::array<const char*, 6> kTypes{"bool", "integer", "number", "text", "choice", "numbers"};
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
 }  // namespace
 
 Json outcome_json(const FeelOutcome& outcome, const ServoConfig& servo) {
@@ -26,25 +19,6 @@ Json outcome_json(const FeelOutcome& outcome, const ServoConfig& servo) {
   out["figures"] = outcome.figures.json();
   out["timing"] = app::timing_json(outcome.servo.statistics, servo);
   out["text"] = outcome.figures.text();
-  return out;
-}
-
-Json fields_json(const std::vector<ConfigField>& fields) {
-  Json out = Json::array();
-  for (const ConfigField& field : fields) {
-    Json each;
-    each["path"] = field.path;
-    each["type"] = kTypes.at(static_cast<std::size_t>(field.type));
-    each["description"] = field.description;
-    each["low"] = number(field.range.low);
-    each["high"] = number(field.range.high);
-    each["choices"] = field.choices;
-    // TOML's numbers, lists, flags and plain texts are JSON too.
-    const Json value = Json::parse(field.get(), nullptr, false);
-    each["value"] = value.is_discarded() ? Json(field.get()) : value;
-    each["live"] = is_live(field.path);
-    out.push_back(std::move(each));
-  }
   return out;
 }
 

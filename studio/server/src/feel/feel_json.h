@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "asperity/base/config.h"
 #include "asperity/studio/project.h"
 #include "feel/feel_run.h"
 
@@ -11,9 +10,6 @@ namespace asperity::studio {
 
 // How a run went: its end, figures, doubts and warnings in words, and how well the schedule of `servo` was kept.
 Json outcome_json(const FeelOutcome& outcome, const ServoConfig& servo);
-
-// Settings for a form: [{"path","type","description","low","high","choices","value","live"}], `value` being the start's.
-Json fields_json(const std::vector<ConfigField>& fields);
 
 // "feel.csv", "feel_2.csv", …: the first that is free in the project's folder.
 std::string free_log_name(const Project& project);

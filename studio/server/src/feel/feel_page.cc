@@ -7,6 +7,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/device/write_flight_record.h"
+#include "config_fields.h"
 #include "feel/feel_json.h"
 #include "our_file.h"
 
@@ -205,7 +206,8 @@ void FeelPage::opened(Opening& opening, std::exception_ptr error) {
   world_ = opening.world;
   problem_.clear();
   hint_.clear();
-  run_ = std::make_unique<FeelRun>(std::move(parts), shared_.hub, ++run_number_, [this, number = run_number_] {
+  const std::uint64_t number = ++run_number_;
+  run_ = std::make_unique<FeelRun>(std::move(parts), shared_.hub, number, [this, number] {
     shared_.post([this, number] {
       if (run_ && number == run_number_) ended();
     });
@@ -296,8 +298,10 @@ void FeelPage::stop() {
 }
 
 Json FeelPage::fields() const {
-  FeelConfig config = start_;
-  return fields_json(settable_fields(config));
+  FeelConfig first = start_, chosen = start_;
+  const std::vector<ConfigField> fields = settable_fields(chosen);
+  for (const auto& [path, value] : choices().settings) set_field(fields, path, value);
+  return fields_json(fields, settable_fields(first));
 }
 
 Json FeelPage::status() const {

@@ -15,11 +15,10 @@ namespace asperity::studio {
 namespace {
 
 constexpr std::array<std::string_view, 4> kGroups{"render.", "stroke.", "hand.", "pointer."};
-constexpr std::array<std::string_view, 8> kSingles{
-    "servo.rate_Hz",           "servo.timed",
-    "servo.velocity_noise_m",  "servo.frame.R_world_device_xyzw",
-    "servo.frame.scale",       "servo.frame.translation_m",
-    "audio.vibration.volume",  "gamepad.volume"};
+constexpr std::array<std::string_view, 8> kSingles{"servo.rate_Hz",          "servo.timed",
+                                                   "servo.velocity_noise_m", "servo.frame.R_world_device_xyzw",
+                                                   "servo.frame.scale",      "servo.frame.translation_m",
+                                                   "audio.vibration.volume", "gamepad.volume"};
 
 bool is_settable(std::string_view path) {
   for (const std::string_view group : kGroups) {

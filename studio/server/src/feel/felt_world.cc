@@ -21,7 +21,8 @@ std::string source_of(const FeelSetup& setup) {
 
 std::string title_of(const FeelChoices& choices) {
   if (choices.height_maps.empty()) return choices.scene;
-  return std::to_string(choices.height_maps.size()) + (choices.height_maps.size() == 1 ? " height map" : " height maps");
+  return std::to_string(choices.height_maps.size()) +
+         (choices.height_maps.size() == 1 ? " height map" : " height maps");
 }
 
 }  // namespace

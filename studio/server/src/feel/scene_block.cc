@@ -71,7 +71,8 @@ void add_heights(BlockWriter& block, const std::string& name, const RenderTextur
   for (std::size_t row = 0; row < drawn.rows; ++row) {
     const double y_m = drawn.y0_m + drawn.height_m * (static_cast<double>(row) + 0.5) / static_cast<double>(drawn.rows);
     for (std::size_t column = 0; column < drawn.columns; ++column) {
-      const double x_m = drawn.x0_m + drawn.width_m * (static_cast<double>(column) + 0.5) / static_cast<double>(drawn.columns);
+      const double x_m =
+          drawn.x0_m + drawn.width_m * (static_cast<double>(column) + 0.5) / static_cast<double>(drawn.columns);
       heights_m.push_back(static_cast<float>(render_height(texture, x_m, y_m).height_m));
     }
   }

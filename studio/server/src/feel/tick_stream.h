@@ -45,8 +45,8 @@ class TickStream {
   std::uint64_t ticks_ = 0, skipped_ = 0, since_frame_ = 0;
   Eigen::Vector3d v_world_mps_ = Eigen::Vector3d::Zero();
   double way_m_ = 0.0;
-  std::uint32_t limited_by_ = 0;                // since the last state
-  std::unique_ptr<DurationHistogram> late_;     // of this second
+  std::uint32_t limited_by_ = 0;             // since the last state
+  std::unique_ptr<DurationHistogram> late_;  // of this second
   std::uint64_t late_until_ = 0;
   double late_p99_s_ = 0.0, late_max_s_ = 0.0;  // of the second before
 

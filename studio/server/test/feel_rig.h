@@ -1,0 +1,201 @@
+#pragma once
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "asperity/acquire/host_clock.h"
+#include "asperity/testkit/temp_dir.h"
+#include "fake_hub.h"
+#include "feel/feel_page.h"
+#include "inbox.h"
+
+namespace asperity::studio {
+
+// Four grey ramps and waves of 32 × 32 pixels, as a viewer's tiles.
+inline void write_height_maps(const std::filesystem::path& folder) {
+  for (int k = 0; k < 4; ++k) {
+    std::ofstream out(folder / ("tile" + std::to_string(k) + ".pgm"), std::ios::binary);
+    out << "P5\n32 32\n255\n";
+    for (int row = 0; row < 32; ++row) {
+      for (int column = 0; column < 32; ++column) {
+        const double wave = std::sin(0.3 * (k + 1) * column) * std::cos(0.2 * row);
+        out.put(static_cast<char>(static_cast<unsigned char>(40.0 + 15.0 * wave)));
+      }
+    }
+  }
+}
+
+// A square of 20 mm in metres, facing up, without textures.
+inline void write_plate(const std::filesystem::path& file) {
+  std::ofstream(file) << "v 0 0 0\nv 0.02 0 0\nv 0.02 0.02 0\nv 0 0.02 0\nf 1 2 3\nf 1 3 4\n";
+}
+
+inline Json head_of(const std::string& block) {
+  std::uint32_t length = 0;
+  std::memcpy(&length, block.data() + 4, 4);
+  return Json::parse(block.substr(8, length));
+}
+
+template <class T>
+std::vector<T> array_of(const std::string& block, const std::string& name) {
+  const Json head = head_of(block);
+  for (const Json& array : head.at("arrays")) {
+    if (array.at("name") != name) continue;
+    std::size_t count = 1;
+    for (const Json& size : array.at("shape")) count *= size.get<std::size_t>();
+    std::vector<T> out(count);
+    std::memcpy(out.data(), block.data() + array.at("offset").get<std::size_t>(), count * sizeof(T));
+    return out;
+  }
+  throw std::runtime_error("no array " + name);
+}
+
+// Keeps every tick of a run as the page would see it.
+class FeelHub : public FakeHub {
+ public:
+  struct Tick {
+    double t_s = 0.0;
+    double rendered_N = 0.0, out_N = 0.0;  // along the normal, and what was let through
+  };
+
+  void publish(std::string_view topic, std::string frame, Delivery) override {
+    const std::lock_guard lock(mutex_);
+    ++frames_[std::string(topic)];
+    if (topic == "feel.state") state_ = head_of(frame);
+    if (topic == "feel.sound") sound_ += array_of<float>(frame, "force_N").size();
+    if (topic != "feel.ticks") return;
+    const auto t_s = array_of<double>(frame, "t_s");
+    const auto contact = array_of<float>(frame, "contact_N"), texture = array_of<float>(frame, "texture_N"),
+               out = array_of<float>(frame, "out_N");
+    for (std::size_t k = 0; k < t_s.size(); ++k) {
+      ticks_.push_back({t_s[k], static_cast<double>(contact[k]) + static_cast<double>(texture[k]), out[k]});
+    }
+  }
+  std::vector<Tick> ticks() const {
+    const std::lock_guard lock(mutex_);
+    return ticks_;
+  }
+  Tick newest() const {
+    const std::lock_guard lock(mutex_);
+    return ticks_.empty() ? Tick{} : ticks_.back();
+  }
+  std::size_t frames_of(const std::string& topic) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = frames_.find(topic);
+    return found == frames_.end() ? 0 : found->second;
+  }
+  std::size_t sound() const {
+    const std::lock_guard lock(mutex_);
+    return sound_;
+  }
+  Json state() const {
+    const std::lock_guard lock(mutex_);
+    return state_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<std::string, std::size_t> frames_;
+  std::vector<Tick> ticks_;
+  std::size_t sound_ = 0;
+  Json state_;
+};
+
+// The page with all that it shares, on the test's thread instead of the studio's.
+class FeelRig {
+ public:
+  explicit FeelRig(bool may_command_forces = true) {
+    write_height_maps(folder.path());
+    write_plate(folder / "plate.obj");
+    shared.may_command_forces = may_command_forces;
+    page.bind(document, calls);
+    jobs.bind(calls);
+    document.load();
+    document.on_change([this](const Edit& edit) { page.edited(edit); });
+    page.start();
+  }
+  ~FeelRig() { page.stop(); }
+  FeelRig(const FeelRig&) = delete;
+  FeelRig& operator=(const FeelRig&) = delete;
+
+  // What a loaded machine may take; the servo's own clock is not asked for anything here.
+  static FeelConfig config() {
+    FeelConfig out;
+    out.feel.servo.safety.stale_after_s = 1.0;
+    out.feel.servo.safety.soft_start_s = 0.02;
+    out.feel.servo.priority = RealTimePriority::kIgnore;
+    out.pointer.stalled_after_s = 2.0;
+    return out;
+  }
+
+  // Runs the studio's thread until `done`; false if that takes too long.
+  bool pump(const std::function<bool()>& done) {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (!done()) {
+      if (std::chrono::steady_clock::now() > until) return false;
+      for (const auto& work : inbox.wait(std::chrono::steady_clock::now() + std::chrono::milliseconds(2))) work();
+      page.tick(host_now_ns());
+      for (const ClientId client : beating) lease.heartbeat(client, host_now_ns());
+      if (pointing) page.pointed(kOwner, Pointer{0, {pointer_m.x(), pointer_m.y(), pointer_m.z()}});
+    }
+    return true;
+  }
+
+  // Calls and waits for the answer.
+  FakeHub::Answer ask(const std::string& name, Json args = Json::object(), ClientId client = kOwner) {
+    Call call;
+    call.id = ++id;
+    call.name = name;
+    call.args = std::move(args);
+    calls.dispatch(Request(hub, client, call));
+    EXPECT_TRUE(pump([&] { return hub.answered(call.id); })) << name;
+    return hub.answer_to(call.id);
+  }
+  Json status() { return ask("feel.status").result; }
+
+  void choose_height_maps() {
+    document.edit("/feel/height_maps", {"tile0.pgm", "tile1.pgm", "tile2.pgm", "tile3.pgm"}, "choose");
+    EXPECT_TRUE(pump([&] { return !status()["revision"].is_null() && !status()["loading"].get<bool>(); }));
+  }
+  void own_force() {
+    EXPECT_TRUE(lease.acquire(kOwner, host_now_ns()));
+    beating = {kOwner};
+  }
+  // Presses into the first tile; returns when the hand would feel it.
+  void touch() {
+    pointer_m = {0.007, 0.017, 0.004};
+    pointing = true;
+    const std::size_t before = hub.ticks().size();
+    EXPECT_TRUE(pump([&] { return hub.ticks().size() > before + 300; }));
+    pointer_m.z() = -0.004;
+    EXPECT_TRUE(pump([&] { return hub.newest().out_N > 0.3; }));
+  }
+
+  static constexpr ClientId kOwner = 7;
+  testkit::TempDir folder;
+  FeelHub hub;
+  Inbox inbox;
+  Project project{folder.path()};
+  Document document{folder / ".asperity-studio.json"};
+  ForceLease lease;
+  Calls calls;
+  Jobs jobs{hub, [this](Inbox::Work work) { inbox.post(std::move(work)); }};
+  Shared shared{hub, project, document, jobs, lease, true, [this](Inbox::Work work) { inbox.post(std::move(work)); }};
+  FeelPage page{shared, config()};
+  std::vector<ClientId> beating;
+  bool pointing = false;
+  Eigen::Vector3d pointer_m = Eigen::Vector3d::Zero();
+  std::uint64_t id = 0;
+};
+
+}  // namespace asperity::studio

@@ -1,0 +1,109 @@
+import { useEffect, useRef } from "preact/hooks";
+import { Box3, type Group, Vector3 } from "three";
+import { dark } from "../../app/settings";
+import type { Block } from "../../net/block";
+import { seriesColour } from "../../plot/colours";
+import { fixed } from "../../ui/format";
+import { leaseIsMine } from "../../state/lease";
+import type { View } from "../../view3d/View";
+import { Viewport } from "../../view3d/Viewport";
+import { pointOf, type Target } from "./drag";
+import { followPointer } from "./feelPointer";
+import { makeFeelScene } from "./feelScene";
+import { feelState, feelStatus, length3 } from "./feelStore";
+import { FORCES, ForceMarks } from "./ForceMarks";
+
+export interface FeelViewProps {
+  block: Block | null;
+  depth_m: number;
+  deepest_m: number;
+  onDepth(depth_m: number): void;
+}
+
+const kHoverOfScene = 0.06;
+
+/** The scene, the touch in it, and the pointer that pulls the device point. */
+export function FeelView(props: FeelViewProps) {
+  const view = useRef<View | null>(null);
+  const surface = useRef<Group | null>(null);
+  const marks = useRef<ForceMarks | null>(null);
+  const target = useRef<Target | null>(null);
+  const radius_m = useRef(0.02);
+  const shape = useRef("");
+  const now = useRef(props);
+  now.current = props;
+  const { block } = props;
+
+  useEffect(() => {
+    if (!view.current) return;
+    view.current.remove(surface.current);
+    surface.current = block ? view.current.add(makeFeelScene(block)) : null;
+    marks.current?.takeColours();
+    if (!surface.current) return;
+    const box = new Box3().setFromObject(surface.current);
+    radius_m.current = Math.max(1e-4, box.getSize(new Vector3()).length() / 2);
+    marks.current?.size(radius_m.current);
+    const here = JSON.stringify([box.min, box.max]);
+    if (here !== shape.current) view.current.fit(surface.current);
+    shape.current = here;
+  }, [block, dark.value]);
+
+  const state = feelState.value;
+  useEffect(() => {
+    if (!view.current || !marks.current) return;
+    const most_N = feelStatus.value?.max_force_N ?? 5;
+    if (state) marks.current.show(state, target.current && pointOf(target.current), most_N);
+    else marks.current.hide();
+    view.current.invalidate();
+  }, [state]);
+
+  const isMouse = feelStatus.value?.state === "running" && feelStatus.value.device === "mouse" && leaseIsMine.value;
+  return (
+    <Viewport
+      label={isMouse ? "The scene. The pointer feels: press to touch, Page Down presses deeper, arrows move" : "The scene with its textured areas"}
+      up="z"
+      testId="feel-view"
+      onReady={(made) => {
+        view.current = made;
+        marks.current = new ForceMarks();
+        made.scene.add(marks.current.object);
+        const end = followPointer(made, {
+          surface: () => surface.current,
+          active: () => feelStatus.value?.state === "running" && feelStatus.value.device === "mouse" && leaseIsMine.value,
+          depth_m: () => now.current.depth_m,
+          setDepth: (depth_m) => now.current.onDepth(depth_m),
+          limits: () => ({ hover_m: kHoverOfScene * radius_m.current, deepest_m: now.current.deepest_m }),
+          onTarget: (next) => void (target.current = next),
+        });
+        return () => {
+          end();
+          view.current = null;
+          surface.current = null;
+          marks.current = null;
+          shape.current = "";
+        };
+      }}
+    >
+      <Legend />
+    </Viewport>
+  );
+}
+
+/** The forces by component, with their colour and number. */
+function Legend() {
+  void dark.value;
+  const state = feelState.value;
+  return (
+    <ul class="feel-legend" aria-label="Forces in the picture">
+      {FORCES.map(({ key, label, colour }) => (
+        <li key={key}>
+          <svg width="22" height="10" viewBox="0 0 22 10" aria-hidden="true">
+            <path d="M1 5h13M13 1.500 20 5l-7 3.500z" style={{ stroke: seriesColour(colour, 0), fill: seriesColour(colour, 0), strokeWidth: 2 }} />
+          </svg>
+          <span>{label}</span>
+          <span class="numeric">{state ? fixed(length3(state[key]), 2) : "–"} N</span>
+        </li>
+      ))}
+    </ul>
+  );
+}

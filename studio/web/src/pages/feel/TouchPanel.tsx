@@ -1,0 +1,78 @@
+import { call } from "../../net/connection";
+import { Button } from "../../ui/Button";
+import { Figure } from "../../ui/Figure";
+import { Figures } from "../../ui/Figures";
+import { Lamp } from "../../ui/Lamp";
+import { Panel } from "../../ui/Panel";
+import { say } from "../../ui/toast";
+import { causeWords, feelState, feelStatus, length3, watchdog } from "./feelStore";
+
+/** What is felt now, and what limits it. */
+export function TouchPanel() {
+  const state = feelState.value;
+  const status = feelStatus.value;
+  const dog = state ? watchdog(state) : null;
+  return (
+    <Panel title="Touch">
+      <Lamp state={!state ? "off" : state.touching ? "good" : "off"} word={!state ? "not running" : state.touching ? (state.sticking ? "in contact, sticking" : "in contact") : "in the air"} live testId="feel-contact" />
+      <Figures>
+        <Figure label="Force on the hand" value={state && length3(state.out)} unit="N" digits={3} testId="feel-out" />
+        <Figure label="Texture height" value={state?.height_m} factor={1e6} unit="µm" digits={3} testId="feel-height" />
+        <Figure label="Speed" value={state?.speed_mps} factor={1e3} unit="mm/s" digits={3} />
+        <Figure label="Way over the surface" value={state?.way_m} factor={1e3} unit="mm" digits={4} />
+      </Figures>
+      <h3>Safety</h3>
+      <Lamp state={dog?.lamp ?? "off"} word={dog?.word ?? "off"} label="Watchdog:" testId="feel-watchdog" />
+      {state && state.limited.length > 0 && <p class="field-hint">{state.limited.map(causeWords).join(", ")}</p>}
+      <Figures>
+        <Figure label="Largest force" value={status?.max_force_N} unit="N" digits={3} testId="feel-limit" />
+        <Figure label="Gain of the ramp" value={state && 100 * state.gain} unit="%" digits={3} testId="feel-gain" />
+        <Figure label="Loop" value={state && status ? status.rate_Hz : null} unit="Hz" />
+        <Figure label="Late, 99 %" value={state?.late_p99_us} unit="µs" digits={3} hint="Start of a tick after it was due, over a second" />
+        <Figure label="Late, most" value={state?.late_max_us} unit="µs" digits={3} />
+        <Figure label="Ticks left out" value={state?.skipped} digits={6} />
+      </Figures>
+      {status?.warnings.map((warning) => (
+        <p key={warning} class="field-hint">
+          {warning}
+        </p>
+      ))}
+      <LastRun />
+      <Log />
+    </Panel>
+  );
+}
+
+function LastRun() {
+  const run = feelStatus.value?.last_run;
+  if (!run || feelState.value) return null;
+  return (
+    <>
+      <h3>The last run</h3>
+      <p data-testid="feel-last-run">
+        {run.duration_s.toFixed(1)} s, then {run.end}. At most {run.figures.force.peak_out_N.toFixed(2)} N on the hand.
+      </p>
+      {[...run.doubts, ...run.warnings].map((words) => (
+        <p key={words} class="field-hint">
+          {words}
+        </p>
+      ))}
+    </>
+  );
+}
+
+function Log() {
+  const status = feelStatus.value;
+  const on = !!status?.log;
+  const toggle = async () => {
+    const { log } = await call<{ log: string }>("feel.log", { on: !on });
+    if (on && log) say(`The log is in ${log}.`);
+  };
+  return (
+    <div class="buttons">
+      <Button onClick={toggle} disabled={status?.state !== "running"} pressed={on} hint="A row a tick, as of asperity feel --log" testId="feel-log">
+        {on ? `Writing ${status.log}: finish` : "Write a log"}
+      </Button>
+    </div>
+  );
+}

@@ -1,0 +1,138 @@
+// What the server says of the run: its status, and the newest state while it goes on. The same for all pages.
+import { effect, signal, type ReadonlySignal } from "@preact/signals";
+import type { Block } from "../../net/block";
+import { call, link, onEvent, subscribe } from "../../net/connection";
+import { followLease, leaseIsMine, takeForce } from "../../state/lease";
+
+export interface FeelStatus {
+  state: "idle" | "opening" | "running" | "stopping";
+  run: number;
+  device: string;
+  device_model: string;
+  rate_Hz: number;
+  real_forces: boolean;
+  loading: boolean;
+  revision: number | null;
+  title: string;
+  problem: string;
+  hint: string;
+  warnings: string[];
+  may_command_forces: boolean;
+  max_force_N: number;
+  most_force_N: number;
+  log: string;
+  last_run: LastRun | null;
+}
+
+export interface LastRun {
+  end: string;
+  text: string;
+  duration_s: number;
+  doubts: string[];
+  warnings: string[];
+  figures: { force: { peak_N: number; rms_N: number; peak_out_N: number }; safety: Record<string, number> };
+}
+
+export type Vector = [number, number, number];
+
+/** One frame of the topic "feel.state". */
+export interface FeelState {
+  run: number;
+  t_s: number;
+  status: "ready" | "stalled" | "fault" | "ended";
+  gain: number;
+  limited: string[];
+  touching: boolean;
+  sticking: boolean;
+  starts_inside: boolean;
+  height_m: number;
+  way_m: number;
+  speed_mps: number;
+  late_p99_us: number;
+  late_max_us: number;
+  skipped: number;
+  point: Vector;
+  proxy: Vector;
+  contact: Vector;
+  texture: Vector;
+  friction: Vector;
+  out: Vector;
+}
+
+const newestStatus = signal<FeelStatus | null>(null);
+const newestState = signal<FeelState | null>(null);
+export const feelStatus: ReadonlySignal<FeelStatus | null> = newestStatus;
+/** Null while nothing is felt. */
+export const feelState: ReadonlySignal<FeelState | null> = newestState;
+
+const vector = (block: Block, name: string): Vector => Array.from(block.arrays[name]!) as Vector;
+
+export function stateOf(block: Block): FeelState {
+  return {
+    ...(block.head as unknown as FeelState),
+    point: vector(block, "p_world_m"),
+    proxy: vector(block, "proxy_m"),
+    contact: vector(block, "contact_N"),
+    texture: vector(block, "texture_N"),
+    friction: vector(block, "friction_N"),
+    out: vector(block, "out_world_N"),
+  };
+}
+
+export const isActive = (status: FeelStatus | null): boolean => status !== null && status.state !== "idle";
+
+function take(status: FeelStatus): void {
+  newestStatus.value = status;
+  if (status.state !== "running" && status.state !== "stopping") newestState.value = null;
+}
+
+let follows = false;
+
+/** Begins to listen; more calls do nothing. */
+export function followFeel(): void {
+  if (follows) return;
+  follows = true;
+  followLease();
+  onEvent("feel", take);
+  subscribe("feel.state", (block) => {
+    if (newestStatus.value?.state !== "idle") newestState.value = stateOf(block);
+  });
+  effect(() => {
+    if (link.value === "open") call<FeelStatus>("feel.status").then(take, () => undefined);
+    else newestState.value = null;
+  });
+}
+
+/** Starts what the document says, with the force for this window where it may have it. */
+export async function startFeeling(): Promise<void> {
+  if (newestStatus.value?.may_command_forces && !leaseIsMine.value) await takeForce();
+  take(await call<FeelStatus>("feel.start"));
+}
+
+/** Any window may stop. */
+export const stopFeeling = (): Promise<unknown> => call("feel.stop");
+
+const CAUSES: Record<string, string> = {
+  fault: "device fault",
+  "non-finite": "not a number",
+  stale: "no news from the device",
+  ending: "ending",
+  "soft-start": "soft start",
+  passivity: "damped",
+  "force-limit": "at the force limit",
+  "rate-limit": "slowed",
+  "not-permitted": "not permitted",
+};
+
+export const causeWords = (cause: string): string => CAUSES[cause] ?? cause;
+
+/** How the watchdogs stand, in a word, and how bad that is. */
+export function watchdog(state: FeelState): { lamp: "good" | "warn" | "bad"; word: string } {
+  const serious = ["fault", "non-finite", "stale", "not-permitted", "ending"].find((cause) => state.limited.includes(cause));
+  if (serious) return { lamp: serious === "not-permitted" || serious === "ending" ? "warn" : "bad", word: causeWords(serious) };
+  if (state.starts_inside) return { lamp: "warn", word: "inside: leave the object first" };
+  const slight = state.limited[0];
+  return slight ? { lamp: "warn", word: causeWords(slight) } : { lamp: "good", word: "all well" };
+}
+
+export const length3 = ([x, y, z]: Vector): number => Math.hypot(x, y, z);
