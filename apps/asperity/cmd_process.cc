@@ -15,9 +15,7 @@
 #include "asperity/pipeline/write_result.h"
 #include "asperity/recording/cut_recording.h"
 #include "asperity/recording/read_recording.h"
-#include "asperity/studio/format_report.h"
-#include "asperity/studio/read_report_item.h"
-#include "asperity/web/assets.h"
+#include "asperity/studio/write_report.h"
 #include "commands.h"
 #include "result_summary.h"
 
@@ -72,7 +70,7 @@ class ProcessCommand : public Command {
       process_pieces(path, name, recordings_.size() == 1 ? folder.path() : folder.path() / name, observer, text);
     }
     observer.update("writing", 1.0);
-    if (!alone_) write_report(folder.path());
+    if (!alone_) studio::write_report(folder.path());
     folder.commit();
     print_json(alone_ ? results_.front().second : joined_results());
     say(text + "results in " + printable(output_, 200) + "\n");
@@ -141,18 +139,10 @@ class ProcessCommand : public Command {
     observer.update("writing", 0.0);
     fs::create_directories(place);
     write_result(place, result, recording, name);
-    write_report(place);
+    studio::write_report(place);
     results_.emplace_back(name, format_result(result, recording, name));
     text += printable(name, 200) + "\n" + result_summary(result);
     if (!result.trustworthy) distrust_.push_back(printable(path, 200) + ": not to be trusted: " + result.verdict);
-  }
-
-  // report.html of all results in `place`, if this program can make reports.
-  static void write_report(const fs::path& place) {
-    if (!web::built()) return;
-    std::vector<studio::ReportItem> items;
-    for (const fs::path& result : studio::find_results(place)) items.push_back(studio::read_report_item(result));
-    write_file(place / "report.html", studio::format_report(items));
   }
 
   std::string joined_results() const {

@@ -1,11 +1,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,39 +12,16 @@
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
-#include "asperity/geometry/read_mesh.h"
 #include "asperity/pipeline/register_scans.h"
 #include "asperity/pipeline/write_registration.h"
-#include "asperity/recording/read_recording.h"
 #include "asperity/registration/manual_alignment.h"
-#include "asperity/scene/read_scene.h"
-#include "asperity/texture/texture_file.h"
 #include "commands.h"
 #include "option_units.h"
+#include "register_input.h"
 
 namespace asperity::app {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-// The last part of a path without the ending of a file.
-std::string scan_name(const std::string& path) {
-  fs::path whole = fs::absolute(path).lexically_normal();
-  if (!whole.has_filename()) whole = whole.parent_path();
-  return fs::is_directory(path) ? whole.filename().string() : whole.stem().string();
-}
-
-Scan read_scan(const std::string& path) {
-  Scan scan;
-  scan.name = scan_name(path);
-  if (fs::is_directory(path)) {
-    scan.recording = read_recording(path);
-  } else {
-    scan.path = read_path(path);
-  }
-  return scan;
-}
 
 class RegisterCommand : public Command {
  public:
@@ -90,32 +65,15 @@ class RegisterCommand : public Command {
     if (files_.size() < 2) throw UsageError("PATH... MESH: at least one path and the mesh are needed");
     const std::string mesh_path = files_.back();
     files_.pop_back();
-    if (!textures_.empty() && textures_.size() != 1 && textures_.size() != files_.size()) {
-      throw UsageError(fmt::format("--texture: {} textures for {} paths", textures_.size(), files_.size()));
-    }
     const double unit_m = mesh_unit_.empty() ? 1.0 : unit_option_m("--mesh-unit", mesh_unit_);
     const std::optional<Pose> guess = first_pose(unit_m);
 
     OutputFolder folder(output_, is_registration_folder);
     observer.update("reading", 0.0);
-    const MeshFile mesh = read_mesh(mesh_path);
-    std::vector<Scan> scans;
-    std::set<std::string> names;
-    for (std::size_t i = 0; i < files_.size(); ++i) {
-      scans.push_back(read_scan(files_[i]));
-      if (!names.insert(scans.back().name).second) {
-        throw UsageError("two paths are called '" + printable(scans.back().name) + "'");
-      }
-      if (files_.size() > 1 && !stays_inside(scans.back().name)) {
-        throw UsageError("'" + printable(scans.back().name) + "' cannot be the name of a scan's folder");
-      }
-      if (!textures_.empty()) scans.back().texture = read_texture(textures_[textures_.size() == 1 ? 0 : i]);
-    }
-    ScansOnMesh result = register_scans(scans, to_metres(mesh, unit_m), guess, config_, observer);
-    result.problems.insert(result.problems.begin(), mesh.problems.begin(), mesh.problems.end());
-    warn_of_size(mesh, unit_m, result);
+    const RegisterInput input = read_register_input(files_, mesh_path, unit_m, textures_);
+    const ScansOnMesh result = register_input(input, guess, config_, observer);
     observer.update("writing", 1.0);
-    write_registration(folder.path(), result, scans, mesh, unit_m);
+    write_registration(folder.path(), result, input.scans, input.mesh, unit_m);
     const std::string json = read_file(folder.path() / "registration.json", std::uint64_t{1} << 30);
     folder.commit();
     print_json(trim(json));
@@ -135,18 +93,6 @@ class RegisterCommand : public Command {
       return align_picked(pairs.p_world_m, pairs.p_mesh_m).T_b_a;
     } catch (const Error& error) {
       throw UsageError(std::string("--picks: ") + error.what());
-    }
-  }
-
-  // Nothing that a hand scans is as large as a house: the unit was forgotten.
-  static void warn_of_size(const MeshFile& mesh, double unit_m, ScansOnMesh& result) {
-    constexpr double kLarge_m = 5.0;
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3d& vertex : mesh.vertices) box.extend(vertex);
-    const double size_m = box.isEmpty() ? 0.0 : box.diagonal().norm() * unit_m;
-    if (size_m > kLarge_m) {
-      result.problems.push_back(
-          {"large_mesh", fmt::format("the mesh is {:.0f} m large; is --mesh-unit right?", size_m), 1});
     }
   }
 

@@ -1,12 +1,16 @@
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "asperity/base/text.h"
 #include "asperity/studio/studio.h"
+#include "asperity/studio/web_server.h"
 #include "asperity/web/assets.h"
 #include "commands.h"
 #include "interrupt.h"
+#include "open_browser.h"
 
 namespace asperity::app {
 
@@ -18,7 +22,8 @@ class StudioCommand : public Command {
  public:
   explicit StudioCommand(CLI::App& root)
       : Command(root, "studio", "Scan, process, align, paint and feel in a browser") {
-    parser().add_option("WHAT", what_, "A recording, a scene or a mesh; its folder is worked in, else the current one");
+    parser().add_option("WHAT", what_,
+                        "A recording, scene or mesh, whose folder is worked in, or a folder; the current one");
     parser()
         .add_option("--port", config_.server.port, "0 (the default): a free one")
         ->check(CLI::Range(0, 65535))
@@ -36,20 +41,49 @@ class StudioCommand : public Command {
           "and "
           "build again");
     }
-    config_.folder = fs::current_path();
-    if (!what_.empty()) {
-      const fs::path what = fs::absolute(what_).lexically_normal();
-      const fs::path whole = what.has_filename() ? what : what.parent_path();
-      if (!fs::exists(whole)) throw Error(printable(what_, 200) + ": no such file or folder");
-      config_.folder = whole.parent_path();
-      config_.open = whole.filename().string();
-    }
-    studio::run_studio(
-        config_, [this](const std::string& address) { say("studio     " + address + "\n"); }, interrupt_flag());
+    choose_folder();
+    const bool is_open_to_others = !studio::is_this_machine_only(config_.server.host);
+    std::optional<OpenedBrowser> browser;
+    // A signal waits until no hand has force on it and everything is saved.
+    const ForceHold force;
+    const FinishHold finish;
+    const auto started = [&](const std::string& address) {
+      tell(address, is_open_to_others);
+      if (!no_open_) browser.emplace(address);
+    };
+    studio::run_studio(config_, started, interrupt_flag());
     return kDone;
   }
 
  private:
+  void choose_folder() {
+    config_.folder = fs::current_path();
+    if (what_.empty()) return;
+    const fs::path what = fs::absolute(what_).lexically_normal();
+    const fs::path whole = what.has_filename() ? what : what.parent_path();
+    if (!fs::exists(whole)) throw Error(printable(what_, 200) + ": no such file or folder");
+    if (fs::is_directory(whole) && !fs::exists(whole / "recording.json")) {
+      config_.folder = whole;
+      return;
+    }
+    config_.folder = whole.parent_path();
+    config_.open = whole.filename().string();
+  }
+
+  void tell(const std::string& address, bool is_open_to_others) const {
+    const std::string bare = address.substr(0, address.find("/#"));
+    nlohmann::ordered_json told;
+    told["address"] = address;
+    told["port"] = std::stoi(bare.substr(bare.rfind(':') + 1));
+    print_json(told.dump());
+    say("studio     " + address + "\n");
+    if (!is_open_to_others) return;
+    say("           other machines that reach " + printable(config_.server.host) +
+        " and have this address can use it, and it is not encrypted\n");
+    say(config_.remote_force ? "           browsers may command forces, other machines' too (--remote-force)\n"
+                             : "           forces are shown, not commanded; --remote-force allows it\n");
+  }
+
   std::string what_;
   bool no_open_ = false;
   studio::StudioConfig config_;

@@ -13,8 +13,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-const std::vector<std::string> kCommands{"demo",      "simulate", "import", "inspect", "process",
-                                         "roughness", "feel",     "record", "track",   "check-rig"};
+const std::vector<std::string> kCommands{"demo", "simulate", "import", "inspect",   "process", "roughness",
+                                         "feel", "record",   "track",  "check-rig", "report"};
 
 TEST(Usage, VersionAndHelp) {
   const Outcome version = run({"--version"});

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "asperity/base/error.h"
@@ -134,7 +135,10 @@ Accuracy measure_accuracy(const Recording& recording, const TipMotion& motion, c
           std::min(config.high_cycles_per_mm, comparison_limit_cycles_per_mm(rate_Hz, speed_mps));
     }
     out.band_high_cycles_per_mm = comparison.high_cycles_per_mm;
-    out.profile = compare_profiles(profile.s_m, profile.height_m, truth.s_m, heights_in_contact(truth), comparison);
+    AlignedProfiles aligned =
+        align_profiles(profile.s_m, profile.height_m, truth.s_m, heights_in_contact(truth), comparison);
+    out.profile = aligned.comparison;
+    out.heights = std::move(aligned.heights);
   }
   return out;
 }

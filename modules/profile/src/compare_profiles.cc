@@ -130,6 +130,18 @@ Moments overlap(const BandPassed& truth, const BandPassed& measured, std::ptrdif
   return m;
 }
 
+// Both sides on the points of their common span.
+ComparedHeights common_heights(const BandPassed& truth, const BandPassed& measured, double spacing_m) {
+  ComparedHeights out;
+  const auto end = [](const BandPassed& one) { return one.first + static_cast<std::ptrdiff_t>(one.height_m.size()); };
+  for (auto k = std::max(truth.first, measured.first); k < std::min(end(truth), end(measured)); ++k) {
+    out.s_m.push_back(static_cast<double>(k) * spacing_m);
+    out.true_m.push_back(truth.height_m[static_cast<std::size_t>(k - truth.first)]);
+    out.measured_m.push_back(measured.height_m[static_cast<std::size_t>(k - measured.first)]);
+  }
+  return out;
+}
+
 double span_m(const PathKnots& knots) { return knots.s_m.back() - knots.s_m.front(); }
 
 }  // namespace
@@ -142,9 +154,9 @@ double comparison_limit_cycles_per_mm(double rate_hz, double speed_mps) {
   return std::min(4.0, 0.4 * rate_hz / (1e3 * speed_mps));
 }
 
-ProfileComparison compare_profiles(std::span<const double> measured_s_m, std::span<const double> measured_height_m,
-                                   std::span<const double> true_s_m, std::span<const double> true_height_m,
-                                   const ComparisonConfig& config) {
+AlignedProfiles align_profiles(std::span<const double> measured_s_m, std::span<const double> measured_height_m,
+                               std::span<const double> true_s_m, std::span<const double> true_height_m,
+                               const ComparisonConfig& config) {
   if (!(config.low_cycles_per_mm > 0.0) || !(config.high_cycles_per_mm > config.low_cycles_per_mm) ||
       !(config.max_shift_m >= 0.0)) {
     throw Error("comparison: band " + number_text(config.low_cycles_per_mm) + " to " +
@@ -155,7 +167,8 @@ ProfileComparison compare_profiles(std::span<const double> measured_s_m, std::sp
   const BandPassed truth = band_pass(true_knots, 0.0, gaps_of(measured_knots, 0.0, config), config);
   const BandPassed measured = band_pass(measured_knots, 0.0, {}, config);
 
-  ProfileComparison out;
+  AlignedProfiles aligned;
+  ProfileComparison& out = aligned.comparison;
   out.length_error_percent = 100.0 * (span_m(measured_knots) / span_m(true_knots) - 1.0);
   const auto reach = static_cast<std::ptrdiff_t>(config.max_shift_m / config.spacing_m);
   // An overlap much shorter than the whole could fit by chance.
@@ -169,7 +182,7 @@ ProfileComparison compare_profiles(std::span<const double> measured_s_m, std::sp
       best = lag;
     }
   }
-  if (highest < -1.5) return out;
+  if (highest < -1.5) return aligned;
   const double before = overlap(truth, measured, best - 1).correlation(),
                after = overlap(truth, measured, best + 1).correlation();
   const double bend = before - 2.0 * highest + after;
@@ -178,15 +191,23 @@ ProfileComparison compare_profiles(std::span<const double> measured_s_m, std::sp
       std::clamp((static_cast<double>(best) + fraction) * config.spacing_m, -config.max_shift_m, config.max_shift_m);
 
   const BandPassed moved = band_pass(measured_knots, out.shift_m, {}, config);
-  const Moments m = overlap(band_pass(true_knots, 0.0, gaps_of(measured_knots, out.shift_m, config), config), moved, 0);
-  if (m.n < 10.0) return out;
+  const BandPassed beside = band_pass(true_knots, 0.0, gaps_of(measured_knots, out.shift_m, config), config);
+  const Moments m = overlap(beside, moved, 0);
+  if (m.n < 10.0) return aligned;
   out.correlation = m.correlation();
   const double true_variance = m.xx / m.n - m.x / m.n * (m.x / m.n);
   if (true_variance > 0.0) out.gain = m.covariance() / true_variance;
   out.rms_um = 1e6 * std::sqrt(m.dd / m.n);
   out.true_rms_um = 1e6 * std::sqrt(m.xx / m.n);
   out.compared_m = m.n * config.spacing_m;
-  return out;
+  aligned.heights = common_heights(beside, moved, config.spacing_m);
+  return aligned;
+}
+
+ProfileComparison compare_profiles(std::span<const double> measured_s_m, std::span<const double> measured_height_m,
+                                   std::span<const double> true_s_m, std::span<const double> true_height_m,
+                                   const ComparisonConfig& config) {
+  return align_profiles(measured_s_m, measured_height_m, true_s_m, true_height_m, config).comparison;
 }
 
 }  // namespace asperity

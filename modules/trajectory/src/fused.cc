@@ -6,6 +6,7 @@
 
 #include "asperity/base/error.h"
 #include "fused_problem.h"
+#include "fused_setup.h"
 #include "inertial_smoother.h"
 #include "tip_motion.h"
 
@@ -14,86 +15,17 @@ namespace asperity {
 namespace {
 
 using inertial_smoother::Epoch;
+using inertial_smoother::kPositionFloor_m;
+using inertial_smoother::kRotationFloor_rad;
+using inertial_smoother::latency_sigma_s;
 using inertial_smoother::Layout;
 using inertial_smoother::Nominal;
+using inertial_smoother::prior_latency_s;
 using inertial_smoother::Smoothed;
-using inertial_smoother::Square;
+using inertial_smoother::stated_sigma_m;
 using SmootherProblem = inertial_smoother::Problem;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-constexpr double kPositionFloor_m = 1e-5;  // below this a tracker's σ is not believed
-constexpr double kRotationFloor_rad = 1e-4;
-
-// Only the difference of the two streams' latencies shows in the data.
-double latency_sigma_s(const Calibration& calibration) {
-  return std::hypot(calibration.tracker.latency_sigma_s, calibration.probe_latency_sigma_s);
-}
-
-Layout choose_layout(const Recording& recording, const FusedConfig& config) {
-  Layout layout;
-  if (config.estimate_latency && latency_sigma_s(recording.calibration) > 0.0) layout.latency = layout.size++;
-  if (recording.calibration.accelerometer.position_sigma_m > 0.0) {
-    layout.lever = layout.size;
-    layout.size += 3;
-  }
-  const AccelerometerCalibration& accelerometer = recording.calibration.accelerometer;
-  if (!accelerometer.rotation_known || accelerometer.rotation_sigma_rad > 0.0) {
-    layout.misalignment = layout.size;
-    layout.size += 3;
-  }
-  return layout;
-}
-
-Square prior(const Recording& recording, const InertialStream& inertial, const FusedConfig& config,
-             const Layout& layout) {
-  namespace s = inertial_smoother;
-  const Calibration& calibration = recording.calibration;
-  Square P = Square::Zero(layout.size, layout.size);
-  const auto set3 = [&](int at, double sigma) { P.diagonal().segment<3>(at).setConstant(sigma * sigma); };
-  set3(s::kP, 0.01);    // m: the first poses are near, their noise is far below
-  set3(s::kV, 0.3);     // m/s: a hand
-  set3(s::kPhi, 0.05);  // rad
-  set3(s::kBa, config.accel_bias_sigma_mps2);
-  set3(s::kBg, inertial.has_gyro ? config.gyro_bias_sigma_radps : 2.0);  // rad/s: a hand turns
-  if (layout.latency >= 0) P(layout.latency, layout.latency) = std::pow(latency_sigma_s(calibration), 2);
-  if (layout.lever >= 0) set3(layout.lever, calibration.accelerometer.position_sigma_m);
-  if (layout.misalignment >= 0) {
-    constexpr double kGuess_rad = 0.2;  // of a rotation found from the recording itself
-    set3(layout.misalignment,
-         calibration.accelerometer.rotation_known ? calibration.accelerometer.rotation_sigma_rad : kGuess_rad);
-  }
-  return P;
-}
-
-// The factors on the process noise under which the poses are likeliest, on a stretch of the recording.
-void choose_process_noise(SmootherProblem& problem, bool has_gyro) {
-  constexpr double kStretch_s = 12.0;  // after which biases are known as well as anywhere
-  SmootherProblem trial = inertial_smoother::first_stretch(problem, kStretch_s);
-  // The sensors' own noise is a floor: a smaller factor would only fit this stretch's luck.
-  const auto search = [&](double SmootherProblem::*factor, double lowest, std::initializer_list<double> steps) {
-    double best = trial.*factor;
-    double best_likelihood = inertial_smoother::log_likelihood(trial);
-    for (const double step : steps) {
-      for (const double direction : {step, 1.0 / step}) {
-        while (true) {
-          trial.*factor = best * direction;
-          if (trial.*factor > 1e5 || trial.*factor < lowest) break;
-          const double likelihood = inertial_smoother::log_likelihood(trial);
-          if (!(likelihood > best_likelihood)) break;
-          best = trial.*factor;
-          best_likelihood = likelihood;
-        }
-      }
-    }
-    trial.*factor = best;
-  };
-  if (!has_gyro) search(&SmootherProblem::rate_scale, 1e-4, {10.0});
-  search(&SmootherProblem::process_scale, 0.3, {8.0, 2.5});
-  if (!has_gyro) search(&SmootherProblem::rate_scale, 1e-4, {3.0});
-  problem.process_scale = trial.process_scale;
-  problem.rate_scale = trial.rate_scale;
-}
 
 // Weights of the next pass from the residuals of this one.
 void weigh_poses(const Smoothed& smoothed, SmootherProblem& problem) {
@@ -148,25 +80,12 @@ struct Estimates {
   std::vector<double> rotation_weight;
 };
 
-double prior_latency_s(const Calibration& calibration) {
-  return calibration.tracker.latency_s - calibration.probe_latency_s;
-}
-
-// A σ of zero says that nobody measured it: the seed's tracker stands in (Fig. 9).
-Vector3d stated_sigma_m(const TrackerCalibration& tracker) {
-  const Vector3d sigma_m =
-      tracker.sigma_position_m.isZero() ? TrackerCalibration{}.sigma_position_m : tracker.sigma_position_m;
-  return sigma_m.cwiseMax(kPositionFloor_m);
-}
-
 Estimates first_estimates(const Calibration& calibration, const FusedConfig& config) {
   const TrackerCalibration& tracker = calibration.tracker;
   Estimates out;
   out.latency_s = prior_latency_s(calibration);
   out.sigma_position_m = stated_sigma_m(tracker);
-  out.sigma_rotation_rad =
-      (tracker.sigma_rotation_rad.isZero() ? TrackerCalibration{}.sigma_rotation_rad : tracker.sigma_rotation_rad)
-          .cwiseMax(kRotationFloor_rad);
+  out.sigma_rotation_rad = inertial_smoother::stated_sigma_rad(tracker);
   if (config.process_noise_scale > 0.0) out.process_scale = out.rate_scale = config.process_noise_scale;
   return out;
 }
@@ -180,15 +99,11 @@ SmootherProblem prepare(const Recording& recording, const InertialStream& inerti
   problem.gravity = recording.info.gravity_world_mps2;
   problem.sigma_position = estimates.sigma_position_m;
   problem.sigma_rotation = estimates.sigma_rotation_rad;
-  problem.time_sigma = config.tracker_time_sigma_s;
-  problem.gate_chi2 = config.gate_chi2;
-  problem.accel_bias_psd = std::pow(config.accel_bias_walk_mps2_rts, 2);
-  problem.gyro_bias_psd =
-      std::pow(inertial.has_gyro ? config.gyro_bias_walk_radps_rts : config.angular_accel_radps2_rtHz, 2);
+  inertial_smoother::set_constants(config, inertial.has_gyro, problem);
   problem.process_scale = estimates.process_scale;
   problem.rate_scale = estimates.rate_scale;
   problem.gyro_turns_too = estimates.gyro_turns_too;
-  problem.start_covariance = prior(recording, inertial, config, layout);
+  problem.start_covariance = inertial_smoother::prior(recording.calibration, inertial.has_gyro, config, layout);
   problem.gate_innovations = estimates.position_weight.empty();
   if (problem.gate_innovations) {
     problem.start = inertial_smoother::first_guess(recording, problem);
@@ -270,7 +185,7 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
   const Calibration& calibration = recording.calibration;
   observer.update("calibrate", 0.0);
   const InertialStream inertial = calibrate_inertial(recording, config.inertial);
-  const Layout layout = choose_layout(recording, config);
+  const Layout layout = inertial_smoother::choose_layout(calibration, config);
 
   Estimates estimates = first_estimates(calibration, config);
   SmootherProblem problem;
@@ -284,7 +199,7 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
     }
     if (config.process_noise_scale == 0.0 && pass < 2) {
       observer.update("noise", 0.0);
-      choose_process_noise(problem, inertial.has_gyro);
+      inertial_smoother::choose_process_noise(problem, inertial.has_gyro);
       estimates.process_scale = problem.process_scale;
       estimates.rate_scale = problem.rate_scale;
     }

@@ -17,9 +17,9 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kLongestInterval_s = 0.02;  // keeps first-order noise terms exact enough
-
 double seconds(std::int64_t t_ns, std::int64_t origin_ns) { return static_cast<double>(t_ns - origin_ns) * 1e-9; }
+
+}  // namespace
 
 Knot at_sample(const InertialStream& inertial, std::size_t i, std::int64_t origin_ns) {
   Knot knot;
@@ -48,7 +48,18 @@ void set_noise(const InertialStream& inertial, const FusedConfig& config, std::s
   if (inertial.has_gyro && dt > 5.0 * period) knot.gyro_psd = std::max(knot.gyro_psd, 0.25 * correlation);
 }
 
-}  // namespace
+Knot between_samples(const InertialStream& inertial, const FusedConfig& config, std::size_t after, double t_s,
+                     std::int64_t origin_ns) {
+  const Knot k0 = at_sample(inertial, after - 1, origin_ns);
+  const Knot k1 = at_sample(inertial, after, origin_ns);
+  const double share = std::clamp((t_s - k0.t) / (k1.t - k0.t), 0.0, 1.0);
+  Knot knot;
+  knot.t = t_s;
+  knot.f = k0.f + share * (k1.f - k0.f);
+  knot.w = k0.w + share * (k1.w - k0.w);
+  set_noise(inertial, config, after - 1, knot);
+  return knot;
+}
 
 Problem make_problem(const Recording& recording, const InertialStream& inertial, const FusedConfig& config,
                      double latency_s, std::int64_t origin_ns) {
@@ -104,13 +115,7 @@ Problem make_problem(const Recording& recording, const InertialStream& inertial,
       ++next_sample;
     } else {
       const std::size_t after = std::clamp<std::size_t>(next_sample, 1, inertial.size() - 1);
-      const Knot k0 = at_sample(inertial, after - 1, origin_ns);
-      const Knot k1 = at_sample(inertial, after, origin_ns);
-      const double share = std::clamp((pose_t[i] - k0.t) / (k1.t - k0.t), 0.0, 1.0);
-      knot.t = pose_t[i];
-      knot.f = k0.f + share * (k1.f - k0.f);
-      knot.w = k0.w + share * (k1.w - k0.w);
-      set_noise(inertial, config, after - 1, knot);
+      knot = between_samples(inertial, config, after, pose_t[i], origin_ns);
     }
     problem.knots.push_back(knot);
     add_epoch(static_cast<std::int64_t>(i));

@@ -13,6 +13,17 @@ namespace asperity::inertial_smoother {
 Problem make_problem(const Recording& recording, const InertialStream& inertial, const FusedConfig& config,
                      double latency_s, std::int64_t origin_ns);
 
+// The knot of sample `i`, its noise unset; and the noise densities of the segment between the samples i and i + 1.
+Knot at_sample(const InertialStream& inertial, std::size_t i, std::int64_t origin_ns);
+void set_noise(const InertialStream& inertial, const FusedConfig& config, std::size_t i, Knot& knot);
+
+// The knot at `t_s`, in or beside the interval that ends with sample `after` (1 or more), with its noise.
+Knot between_samples(const InertialStream& inertial, const FusedConfig& config, std::size_t after, double t_s,
+                     std::int64_t origin_ns);
+
+// Epochs are never further apart: it keeps first-order noise terms exact enough.
+inline constexpr double kLongestInterval_s = 0.02;
+
 // A first state from the poses alone, robust against single wild ones; with the rotation marker ←
 // sensor from the directions of the specific force where the calibration leaves it open.
 Nominal first_guess(const Recording& recording, const Problem& problem);

@@ -38,6 +38,7 @@ struct Record {
   Matrix6d S_inverse;
   Vector6d y;
   bool updated = false;
+  int refused_in_a_row = 0;
 };
 
 struct Forward {
@@ -51,7 +52,7 @@ Forward run_forward(const Problem& problem, bool keep, const Observer& observer)
   if (keep) out.records.resize(problem.epochs.size());
   Nominal x = problem.start;
   Square P = problem.start_covariance;
-  int rejected_in_a_row = 0;
+  int refused_in_a_row = problem.refused_in_a_row;
   for (std::size_t e = 0; e < problem.epochs.size(); ++e) {
     if (e > 0) {
       const Mounting mounting = mounting_of(x, problem);
@@ -88,8 +89,8 @@ Forward run_forward(const Problem& problem, bool keep, const Observer& observer)
         wp = redescending(yp.dot(trial.topLeftCorner<3, 3>().ldlt().solve(yp)), problem.gate_chi2);
         wr = redescending(yr.dot(trial.bottomRightCorner<3, 3>().ldlt().solve(yr)), problem.gate_chi2);
         // A filter that refuses everything is itself wrong: after a dozen poses it listens again.
-        rejected_in_a_row = wp < 0.05 || wr < 0.05 ? rejected_in_a_row + 1 : 0;
-        if (rejected_in_a_row > 12) wp = wr = 1.0, rejected_in_a_row = 0;
+        refused_in_a_row = wp < 0.05 || wr < 0.05 ? refused_in_a_row + 1 : 0;
+        if (refused_in_a_row > 12) wp = wr = 1.0, refused_in_a_row = 0;
       }
       // A pose with a wrong orientation seldom has the right position.
       wp = std::min(wp, std::sqrt(wr));
@@ -122,6 +123,7 @@ Forward run_forward(const Problem& problem, bool keep, const Observer& observer)
     if (keep) {
       record.x = x;
       record.P = P;
+      record.refused_in_a_row = refused_in_a_row;
       out.records[e] = std::move(record);
       if (e % 256 == 0) observer.update("filter", static_cast<double>(e) / static_cast<double>(problem.epochs.size()));
     }
@@ -160,6 +162,8 @@ Smoothed smooth(const Problem& problem, const Vector3d& tip_in_marker, const Obs
   out.rotation_residual.assign(problem.poses.size(), Vector3d::Zero());
   out.epoch_t.resize(epochs);
   out.tip_covariance.resize(epochs);
+  const Record& checkpoint = records[std::min(problem.checkpoint_epoch, epochs - 1)];
+  out.checkpoint = {checkpoint.x, checkpoint.P, checkpoint.refused_in_a_row};
   out.last_sigma = records.back().P.diagonal().cwiseMax(0.0).cwiseSqrt();
 
   State lambda = State::Zero(n);  // the adjoint after the epoch in hand

@@ -54,6 +54,13 @@ struct Epoch {
   std::int64_t pose = -1;  // index in the tracker's stream
 };
 
+// The filter at an epoch, after its pose: from here it can go on.
+struct Checkpoint {
+  Nominal x;
+  Square P;
+  int refused_in_a_row = 0;  // poses outside the gate
+};
+
 struct Problem {
   Layout layout;
   std::vector<Knot> knots;
@@ -74,6 +81,8 @@ struct Problem {
   double rate_scale = 1.0;     // on gyro_bias_psd
   Nominal start;
   Square start_covariance;
+  int refused_in_a_row = 0;
+  std::size_t checkpoint_epoch = 0;  // the epoch that Smoothed::checkpoint is taken at
 };
 
 struct Smoothed {
@@ -89,6 +98,7 @@ struct Smoothed {
   Nominal first;  // smoothed state at the first epoch
   Nominal last;   // and at the last: its constants are the estimates
   State last_sigma;
+  Checkpoint checkpoint;
 };
 
 // The weight of a measurement whose normalised square is d2: 1 inside the gate, falling as 1/d⁴.

@@ -77,8 +77,12 @@ void ClientTable::rouse(Client& client) {
 }
 
 void ClientTable::push(Client& client, const OutFrame& frame) {
-  if (!client.outbox.push_message(frame)) client.cut = true;
-  rouse(client);
+  if (client.cut) return;
+  if (client.outbox.push_message(frame)) return rouse(client);
+  // Woken even though it is being written to: that will not come to an end.
+  client.cut = true;
+  client.outbox = {};
+  client.wake();
 }
 
 void ClientTable::publish(std::string_view topic, std::string bytes, Delivery delivery) {
@@ -86,7 +90,7 @@ void ClientTable::publish(std::string_view topic, std::string bytes, Delivery de
   const std::lock_guard lock(mutex_);
   if (!subscribers_.contains(topic)) return;
   for (auto& [id, client] : clients_) {
-    if (!client.topics.contains(topic)) continue;
+    if (client.cut || !client.topics.contains(topic)) continue;
     dropped_ += client.outbox.push_topic(topic, frame, delivery);
     rouse(client);
   }
@@ -128,6 +132,12 @@ ClientTable::State ClientTable::next(ClientId id, OutFrame& frame) {
   }
   found->second.awake = false;
   return State::kNothing;
+}
+
+bool ClientTable::is_cut(ClientId id) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = clients_.find(id);
+  return found == clients_.end() || found->second.cut;
 }
 
 std::uint64_t ClientTable::dropped() const {

@@ -45,9 +45,10 @@ class ClientTable {
   void end_call(ClientId client);
 
   enum class State { kFrame, kNothing, kGone };
-  // The next frame for a client. kNothing: it will be woken when there is one. kGone: it has left, or must be cut off
-  // because it does not take its answers.
+  // The next frame for a client. kNothing: it will be woken when there is one. kGone: it has left or is cut.
   State next(ClientId client, OutFrame& frame);
+  // True if it has left, or does not take its answers and is to be cut off, which it is woken for.
+  bool is_cut(ClientId client) const;
 
   // Frames of series that were dropped for slow browsers.
   std::uint64_t dropped() const;

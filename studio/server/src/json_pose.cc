@@ -47,7 +47,9 @@ Pose pose_of_json(const Json& json, std::string_view what) {
   if (!(std::abs(q.norm() - 1.0) <= kUnit)) {
     throw Error(std::string(what) + ": its quaternion has the length " + std::to_string(q.norm()) + ", not 1");
   }
-  return {q.normalized(), Eigen::Vector3d(v[0], v[1], v[2])};
+  Eigen::Quaterniond unit = q.normalized();
+  if (unit.w() < 0.0) unit.coeffs() = -unit.coeffs();
+  return {unit, Eigen::Vector3d(v[0], v[1], v[2])};
 }
 
 }  // namespace asperity::studio

@@ -1,16 +1,20 @@
 #include "pages.h"
 
+#include "align/align_page.h"
 #include "common_page.h"
 #include "feel/feel_page.h"
 #include "paint/paint_page.h"
+#include "scan/scan_page.h"
 
 namespace asperity::studio {
 
 std::vector<std::unique_ptr<Page>> make_pages(Shared& shared, const std::optional<std::string>& opened) {
   std::vector<std::unique_ptr<Page>> pages;
   pages.push_back(std::make_unique<CommonPage>(shared, opened));
-  pages.push_back(make_paint_page(shared));
+  pages.push_back(make_align_page(shared));
   pages.push_back(make_feel_page(shared));
+  pages.push_back(make_paint_page(shared));
+  pages.push_back(make_scan_page(shared));
   return pages;
 }
 

@@ -20,8 +20,6 @@ constexpr auto kTick = std::chrono::microseconds(33'333);
 constexpr auto kSaveAfter = std::chrono::seconds(1);
 constexpr const char* kDocumentFile = ".asperity-studio.json";
 
-bool is_loopback(const std::string& host) { return host == "127.0.0.1" || host == "::1" || host == "localhost"; }
-
 // The thread on which pages live: hears the browsers, ticks, keeps the document.
 class Studio {
  public:
@@ -36,7 +34,7 @@ class Studio {
                 document_,
                 *jobs_,
                 lease_,
-                is_loopback(config.server.host) || config.remote_force,
+                is_this_machine_only(config.server.host) || config.remote_force,
                 [this](Inbox::Work work) { inbox_.post(std::move(work)); }},
         pages_(make_pages(shared_, config.open)) {
     for (const auto& page : pages_) page->bind(document_, calls_);

@@ -119,7 +119,19 @@ class SocketConnection : public std::enable_shared_from_this<SocketConnection> {
       if (call->name == "subscribe" || call->name == "unsubscribe") return answer_subscription(*call);
       if (!server_.clients.begin_call(client_)) return refuse(*call, "more than 1000 calls wait for their answers");
     }
+    if (std::holds_alternative<Pointer>(message) && !pointer_has_time()) return;
     if (server_.events.message) server_.events.message(client_, std::move(message));
+  }
+
+  // A thousand a second, in heaps of at most a hundred: a flood of them must not pile up behind the server.
+  bool pointer_has_time() {
+    constexpr auto kApart = std::chrono::milliseconds(1);
+    constexpr auto kMostAhead = 100 * kApart;
+    const auto now = std::chrono::steady_clock::now();
+    pointer_time_ = std::max(pointer_time_, now - kMostAhead);
+    if (pointer_time_ > now) return false;
+    pointer_time_ += kApart;
+    return true;
   }
 
   void answer_subscription(const Call& call) {
@@ -146,16 +158,12 @@ class SocketConnection : public std::enable_shared_from_this<SocketConnection> {
 
   // Sends what waits, one frame after another.
   void pump() {
-    if (writing_ || leaving_) return;
-    switch (server_.clients.next(client_, frame_)) {
-      case ClientTable::State::kNothing:
-        return;
-      case ClientTable::State::kGone:
-        beast::get_lowest_layer(stream_).close();
-        return leave();
-      case ClientTable::State::kFrame:
-        break;
+    if (leaving_) return;
+    if (server_.clients.is_cut(client_)) {
+      beast::get_lowest_layer(stream_).close();
+      return leave();
     }
+    if (writing_ || server_.clients.next(client_, frame_) != ClientTable::State::kFrame) return;
     writing_ = true;
     stream_.text(frame_.is_text);
     stream_.async_write(asio::buffer(*frame_.bytes), [self = shared_from_this()](const error_code& error, std::size_t) {
@@ -189,6 +197,7 @@ class SocketConnection : public std::enable_shared_from_this<SocketConnection> {
   const Counted counted_{server_};
   beast::flat_buffer buffer_;
   ClientId client_ = 0;
+  std::chrono::steady_clock::time_point pointer_time_;
   OutFrame frame_;
   websocket::close_reason reason_;
   bool writing_ = false, closing_ = false, leaving_ = false;

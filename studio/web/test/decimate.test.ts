@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { decimate, lowerBound } from "../src/plot/decimate";
 import { LiveBuffer } from "../src/plot/LiveBuffer";
-import { columnsBetween, extent } from "../src/plot/series";
+import { columnsBetween, extent, nearest } from "../src/plot/series";
 import { tickWords } from "../src/plot/options";
 import { zoomed } from "../src/plot/zoom";
 
@@ -67,6 +67,11 @@ test("series with an x of their own are merged in order, each in its column", ()
 
 test("lowerBound is the first that is not smaller", () => {
   expect([0, 1, 1.5, 4, 9].map((value) => lowerBound([1, 2, 4], value))).toEqual([0, 0, 1, 2, 3]);
+});
+
+test("nearest is the nearer neighbour", () => {
+  expect([0, 1.4, 1.6, 9].map((value) => nearest([1, 2, 4], value))).toEqual([0, 0, 1, 2]);
+  expect(nearest([], 1)).toBe(-1);
 });
 
 test("a live buffer keeps the newest and shows its peaks", () => {

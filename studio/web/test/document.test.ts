@@ -59,3 +59,13 @@ test("changes of others are followed, with escaped paths", () => {
   expect(undoLabel.value).toBe("set");
   expect(redoLabel.value).toBe("back");
 });
+
+test("what an edit sets off calls the server after it", async () => {
+  const { effect } = await import("@preact/signals");
+  const end = effect(() => {
+    if (valueAt("/align/name") === "b") server.call("align.open");
+  });
+  await edit("/align/name", "b", "choose another");
+  expect(server.call.mock.calls.map(([name]) => name)).toEqual(["document.edit", "align.open"]);
+  end();
+});

@@ -140,8 +140,7 @@ class BenchSource : public ScanSource {
     if (thread_.joinable()) thread_.join();
   }
 
-  RecorderSensors sensors(const TrackConfig& track,
-                          const std::function<void(const CameraFrame&)>& on_frame) override {
+  RecorderSensors sensors(const TrackConfig& track, const std::function<void(const CameraFrame&)>& on_frame) override {
     BodyTracker(recording_.calibration.camera.value(), recording_.calibration.markers, track);  // throws now
     const ProbeProtocol protocol = probe_.model == ProbeModel::kWhat ? ProbeProtocol::kWhat : ProbeProtocol::kOpen;
     RecorderSensors out;

@@ -39,8 +39,7 @@ void KeptRows::forget_before(std::int64_t t_ns) {
   dropped_until_ns_ = std::max(dropped_until_ns_, t_ns - 1);
 }
 
-void KeptRows::replay(std::int64_t start_ns, std::int64_t end_ns,
-                      const std::function<void(const ProbeSample&)>& on_row,
+void KeptRows::replay(std::int64_t start_ns, std::int64_t end_ns, const std::function<void(const ProbeSample&)>& on_row,
                       const std::function<void(const TrackerSample&)>& on_pose) const {
   auto pose = from(poses_, start_ns);
   for (auto row = from(rows_, start_ns); row != rows_.end() && row->t_ns <= end_ns; ++row) {

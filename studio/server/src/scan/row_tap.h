@@ -21,8 +21,8 @@ struct SmallImage {
   GrayImage image;
 };
 
-// A copy of what the sensors give, for whoever shows it. The sensors' threads put rows in and never wait for longer than
-// a copy takes; what nobody fetches in time is dropped and counted, the recorder has it all the same. Thread-safe.
+// A copy of what the sensors give, for whoever shows it. The sensors' threads put rows in and never wait for longer
+// than a copy takes; what nobody fetches in time is dropped and counted, the recorder has it all the same. Thread-safe.
 class RowTap {
  public:
   static constexpr std::size_t kMostRows = 65'536;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asperity/base/text.h"
+#include "json_pose.h"
 
 namespace asperity::studio {
 
@@ -113,16 +114,15 @@ Json recorder_json(const RecorderSnapshot& now) {
   out["probe"] = sensor_json(now.probe);
   out["poses"] = sensor_json(now.poses);
   out["link"] = link_json(now.link);
-  out["tracking"] = {{"frames", now.tracking.frames},
-                     {"poses", now.tracking.poses},
-                     {"skipped_frames", now.tracking.skipped_frames}};
+  out["tracking"] = {
+      {"frames", now.tracking.frames}, {"poses", now.tracking.poses}, {"skipped_frames", now.tracking.skipped_frames}};
   out["force_N"] = finite(now.force_N);
   out["force_is_calibrated"] = now.force_is_calibrated;
   out["touching"] = now.touching;
   out["contact_ready"] = now.contact_ready;
   out["touches"] = now.touches;
   out["markers"] = now.pose ? Json(now.pose->markers) : Json();
-  out["pose"] = now.pose ? pose_json(*now.pose) : Json();
+  out["pose"] = now.pose ? json_of_pose(now.pose->T_world_marker) : Json();
   out["pose_age_s"] = finite(now.pose_age_s);
   out["storing"] = now.storing;
   out["automatic"] = now.automatic;

@@ -16,11 +16,11 @@ struct ScanChoices {
   SourceKind source = SourceKind::kBench;
   app::RecordInput hardware;  // as typed; files are names in the project's folder
   std::string world = "camera";
-  std::string recording;  // that is replayed
-  std::string segment;    // of it; empty: all
-  std::string object;     // what is scanned
-  std::string name = "scan";  // of the folder that is made for it
-  bool automatic = false;     // store while the probe touches
+  std::string recording;                        // that is replayed
+  std::string segment;                          // of it; empty: all
+  std::string object;                           // what is scanned
+  std::string name = "scan";                    // of the folder that is made for it
+  bool automatic = false;                       // store while the probe touches
   std::map<std::string, std::string> settings;  // as in TOML, by their path
 };
 

@@ -23,10 +23,10 @@ constexpr std::int64_t kPosesLate_ns = 250'000'000;  // behind the rows of their
 
 }  // namespace
 
-ScanSession::ScanSession(Hub& hub, ScanSetup setup, std::function<void(FinishedScan)> ended)
+ScanSession::ScanSession(Hub& hub, ScanSetup setup, ScanEvents events)
     : hub_(hub),
       setup_(std::move(setup)),
-      ended_(std::move(ended)),
+      events_(std::move(events)),
       origin_ns_(host_now_ns()),
       calibration_(setup_.source->calibration().value_or(make_uncalibrated(0.0, 0.0, 0.0))),
       config_(setup_.config) {
@@ -67,6 +67,11 @@ void ScanSession::start(const std::string& name) {
 void ScanSession::stop() {
   recorder_->stop_segment();
   if (setup_.source->plays()) setup_.source->stop_playing();
+}
+
+void ScanSession::next_segment(const std::string& name) {
+  recorder_->stop_segment();
+  start(name);
 }
 
 void ScanSession::discard() {
@@ -206,6 +211,7 @@ void ScanSession::watch(const RecorderSnapshot& now) {
   if (discarded) {
     hand_over_at_ns_.reset();
     shown_.reset();
+    events_.discarded();
     const std::lock_guard lock(mutex_);
     book_.begin_anew();
   }
@@ -242,15 +248,19 @@ void ScanSession::hand_over(const RecorderSnapshot& now) {
   out.rows.info = info_of(now);
   out.rows.info.segments = {*shown_};
   out.rows.calibration = calibration_;
-  if (now.poses.state != SensorState::kAbsent)
-    out.rows.info.tracker_rate_Hz = now.poses.rate_Hz;
   kept_.copy(shown_->start_ns, shown_->end_ns, now.description && now.description->has_gyro, out.rows);
-  {
-    const std::lock_guard lock(mutex_);
-    out.live_s_m.assign(book_.s_m().begin(), book_.s_m().end());
-    out.live_height_m.assign(book_.height_m().begin(), book_.height_m().end());
+  const TrackerStream& poses = out.rows.tracker;
+  if (out.rows.info.tracker_rate_Hz <= 0.0 && poses.size() > 1) {
+    const auto span_ns = static_cast<double>(poses.t_ns.back() - poses.t_ns.front());
+    out.rows.info.tracker_rate_Hz = 1e9 * static_cast<double>(poses.size() - 1) / span_ns;
   }
-  ended_(std::move(out));
+  out.live = live_heights();
+  events_.ended(std::move(out));
+}
+
+LiveHeights ScanSession::live_heights() const {
+  const std::lock_guard lock(mutex_);
+  return {{book_.s_m().begin(), book_.s_m().end()}, {book_.height_m().begin(), book_.height_m().end()}};
 }
 
 // With new settings the scan that is shown grows anew at once from the rows that were kept.
@@ -270,9 +280,12 @@ void ScanSession::retune(const RecorderSnapshot& now) {
         [&](const ProbeSample& row) { again.push(row); }, [&](const TrackerSample& pose) { again.push(pose); });
     const LiveEstimate estimate = again.estimate();
     if (now.storing) live_.emplace(std::move(again));
-    const std::lock_guard lock(mutex_);
-    book_.begin_anew();
-    book_.add(estimate, true);
+    {
+      const std::lock_guard lock(mutex_);
+      book_.begin_anew();
+      book_.add(estimate, true);
+    }
+    if (!now.storing) events_.retuned(live_heights());
   } catch (const Error& error) {
     Json note;
     note["message"] = std::string("The live profile cannot be worked out with these settings: ") + error.what();

@@ -1,14 +1,16 @@
 #pragma once
 
-#include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 #include "asperity/acquire/recorder.h"
 #include "asperity/pipeline/live_profile.h"
@@ -32,12 +34,24 @@ struct ScanSetup {
   std::string created;  // ISO 8601
 };
 
+// The causal profile of a scan.
+struct LiveHeights {
+  std::vector<double> s_m, height_m;
+};
+
 // A stroke that has ended, as the recording has it.
 struct FinishedScan {
   std::string recording;  // name of the folder in the project
   Segment segment;
-  Recording rows;                              // of the segment alone
-  std::vector<double> live_s_m, live_height_m;  // the causal profile
+  Recording rows;  // of the segment alone
+  LiveHeights live;
+};
+
+// What a session tells, in its own thread.
+struct ScanEvents {
+  std::function<void(FinishedScan)> ended;
+  std::function<void(LiveHeights)> retuned;  // the finished scan's causal profile, with other settings
+  std::function<void()> discarded;           // there is none any more
 };
 
 // An open source with its recorder, and a thread that shows what comes from it: topics scan.probe, scan.state,
@@ -45,14 +59,16 @@ struct FinishedScan {
 // time, the studio's; none of them waits but finish().
 class ScanSession {
  public:
-  // `ended` is called in the session's own thread. Throws Error if a sensor cannot be opened.
-  ScanSession(Hub& hub, ScanSetup setup, std::function<void(FinishedScan)> ended);
+  // Throws Error if a sensor cannot be opened.
+  ScanSession(Hub& hub, ScanSetup setup, ScanEvents events);
   ~ScanSession();
   ScanSession(const ScanSession&) = delete;
   ScanSession& operator=(const ScanSession&) = delete;
 
   void start(const std::string& name);
   void stop();
+  // Ends the open segment and begins the next one, called `name` unless that is empty.
+  void next_segment(const std::string& name);
   void discard();
   void rescan();
   void set_automatic(bool automatic);
@@ -82,6 +98,7 @@ class ScanSession {
   void begin_scan(const RecorderSnapshot& now);
   void hand_over(const RecorderSnapshot& now);
   void retune(const RecorderSnapshot& now);
+  LiveHeights live_heights() const;
   void make_estimators(const RecorderSnapshot& now);
   void show(const RecorderSnapshot& now, std::int64_t now_ns);
   void show_image();
@@ -89,7 +106,7 @@ class ScanSession {
 
   Hub& hub_;
   ScanSetup setup_;
-  std::function<void(FinishedScan)> ended_;
+  ScanEvents events_;
   std::int64_t origin_ns_;
   Calibration calibration_;  // or a stand-in
   RowTap tap_;
@@ -104,7 +121,7 @@ class ScanSession {
   bool gravity_used_ = false;
   Watched before_;
   bool was_playing_ = false;
-  std::optional<Segment> shown_;     // the scan that the book tells of
+  std::optional<Segment> shown_;  // the scan that the book tells of
   std::optional<std::int64_t> hand_over_at_ns_;
   std::optional<SmallImage> image_;  // waits for its pose
   std::int64_t newest_row_ns_ = 0;

@@ -1,9 +1,10 @@
 import type { ComponentType } from "preact";
 import { useEffect, useErrorBoundary, useState } from "preact/hooks";
+import { documentIsRead } from "../state/document";
 import { Button } from "../ui/Button";
 import { pageLoader, type Route } from "./routes";
 
-/** The page of a route, its code loaded when it is first needed. */
+/** The page of a route, its code loaded when it is first needed; shown when the document has been read. */
 export function PageFrame({ route }: { route: Route }) {
   const [page, setPage] = useState<{ id: string; Page: ComponentType } | null>(null);
   const [fault, setFault] = useState<string | null>(null);
@@ -26,7 +27,7 @@ export function PageFrame({ route }: { route: Route }) {
     );
   }
   if (fault) return <Failure words={fault} again={load} />;
-  if (page?.id !== route.id) return <p class="page-wait">Loading {route.title} …</p>;
+  if (page?.id !== route.id || !documentIsRead.value) return <p class="page-wait">Loading {route.title} …</p>;
   return <page.Page key={page.id} />;
 }
 

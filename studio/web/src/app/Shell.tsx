@@ -1,6 +1,7 @@
 import { useState } from "preact/hooks";
 import { link } from "../net/connection";
 import { ForceStatus } from "../pages/feel/ForceStatus";
+import { about } from "../state/about";
 import { redo, redoLabel, undo, undoLabel } from "../state/document";
 import { IconButton } from "../ui/IconButton";
 import { useKeys } from "../ui/keys";
@@ -38,7 +39,9 @@ export function Shell() {
         Skip to the page
       </a>
       <header class="shell-header">
-        <span class="shell-name">Asperity</span>
+        <span class="shell-name" title={about.value ? `Folder ${about.value.folder}, version ${about.value.version}` : undefined}>
+          Asperity
+        </span>
         <nav aria-label="Pages" class="shell-nav">
           {routes.map(({ id, title }) => (
             <a key={id} href={`#/${id}`} aria-current={route.value.id === id ? "page" : undefined}>
@@ -50,8 +53,8 @@ export function Shell() {
           <ForceStatus />
         </div>
         <div class="shell-tools">
-          <IconButton icon="undo" label={undoLabel.value ? `Undo: ${undoLabel.value}` : "Nothing to undo"} disabled={!undoLabel.value} onClick={undo} testId="undo" />
-          <IconButton icon="redo" label={redoLabel.value ? `Redo: ${redoLabel.value}` : "Nothing to redo"} disabled={!redoLabel.value} onClick={redo} testId="redo" />
+          <UndoButton icon="undo" word="Undo" of={undoLabel.value} onClick={undo} />
+          <UndoButton icon="redo" word="Redo" of={redoLabel.value} onClick={redo} />
           <IconButton icon={theme.value} label={`Theme: ${theme.value}`} onClick={nextTheme} testId="theme" />
           <IconButton icon="help" label="Help and keys" onClick={() => setHelp(true)} testId="help" />
           <Lamp state={lamp} word={word} label="Server:" live testId="link" />
@@ -60,8 +63,8 @@ export function Shell() {
       {(link.value === "lost" || link.value === "refused") && (
         <p class="shell-banner" role="alert">
           {link.value === "lost"
-            ? "The studio's server does not answer. Nothing is lost; the page goes on by itself when it is back."
-            : "The server has not admitted this page. Open it with the address that `asperity studio` has printed."}
+            ? "The studio's server does not answer. Nothing is lost: the page goes on by itself when it is back. If it has to be started again, open the address that it prints."
+            : "The server does not know this browser. Open the address that asperity studio has printed last; all that you have decided is there."}
         </p>
       )}
       <main id="main" class="shell-main" tabIndex={-1} inert={link.value === "lost" || link.value === "refused"}>
@@ -72,6 +75,11 @@ export function Shell() {
       <Help open={help} onClose={() => setHelp(false)} />
     </div>
   );
+}
+
+function UndoButton({ icon, word, of, onClick }: { icon: "undo" | "redo"; word: string; of: string; onClick(): unknown }) {
+  const label = of ? `${word}: ${of}` : `Nothing to ${icon}`;
+  return <IconButton icon={icon} label={label} disabled={!of || link.value !== "open"} onClick={onClick} testId={icon} />;
 }
 
 function skipToPage(event: Event): void {

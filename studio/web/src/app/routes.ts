@@ -17,7 +17,6 @@ export const routes: readonly Route[] = [
   { id: "align", title: "Align", purpose: "Lay a scan path onto a mesh.", key: "a" },
   { id: "paint", title: "Paint", purpose: "Draw textures onto a mesh.", key: "t" },
   { id: "feel", title: "Feel", purpose: "Touch the scene with a device or with the mouse.", key: "f" },
-  { id: "study", title: "Study", purpose: "Let people compare textures.", key: "u" },
 ];
 
 const current = signal<Route>(routeOf(typeof location === "undefined" ? "" : location.hash));

@@ -49,15 +49,22 @@ export function subscribe(topic: string, listener: (block: Block) => void): () =
   if (!listeners) {
     listeners = new Set();
     topics.set(topic, listeners);
-    if (link.value === "open") void call("subscribe", { topic });
+    if (link.value === "open") ask("subscribe", topic);
   }
   listeners.add(listener);
   return () => {
     listeners.delete(listener);
     if (listeners.size > 0 || topics.get(topic) !== listeners) return;
     topics.delete(topic);
-    if (link.value === "open") void call("unsubscribe", { topic });
+    if (link.value === "open") ask("unsubscribe", topic);
   };
+}
+
+/** A request that a lost connection takes away is made again when it is back. */
+function ask(name: "subscribe" | "unsubscribe", topic: string): void {
+  call(name, { topic }).catch((error) => {
+    if (link.value === "open") throw error;
+  });
 }
 
 /** Events of a name, until the function that it returns is called. */
@@ -94,12 +101,10 @@ function open(): void {
   const opened = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/ws`);
   opened.binaryType = "arraybuffer";
   socket = opened;
-  opened.onopen = () => {
-    retry_ms = 250;
-    link.value = "open";
-    for (const topic of topics.keys()) void call("subscribe", { topic });
-  };
+  // A server that does not know this browser opens the socket and closes it with a reason: open is what has answered.
+  opened.onopen = () => opened.send(JSON.stringify({ id: nextId++, call: "studio.ping", args: {} }));
   opened.onmessage = (message) => {
+    if (link.value !== "open") begin();
     if (typeof message.data === "string") hearText(JSON.parse(message.data));
     else hearBlock(decodeBlock(message.data));
   };
@@ -110,6 +115,12 @@ function open(): void {
     setTimeout(open, retry_ms);
     retry_ms = Math.min(4000, 2 * retry_ms);
   };
+}
+
+function begin(): void {
+  retry_ms = 250;
+  link.value = "open";
+  for (const topic of topics.keys()) ask("subscribe", topic);
 }
 
 function hearText(message: any): void {

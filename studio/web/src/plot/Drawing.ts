@@ -2,6 +2,7 @@ import uPlot from "uplot";
 import { themeColour } from "./colours";
 import { axis, uBands, uSeries } from "./options";
 import type { PlotProps } from "./Plot";
+import { readout } from "./readout";
 import { columnsBetween, extent, type Series } from "./series";
 import { zoomed, type Range } from "./zoom";
 
@@ -10,16 +11,21 @@ export class Drawing {
   private readonly plot: uPlot;
   private readonly observer: ResizeObserver;
   private all: Range;
+  private shown: Range;
   private drawnRange = "";
 
   constructor(
     private readonly place: HTMLElement,
     private readonly props: () => PlotProps,
     private series: readonly Series[],
+    private readonly tell: (words: string) => void,
+    kept: Range | null = null,
   ) {
     const { logX = false, logY = false, xAxis, yAxis, syncKey } = props();
     this.all = this.range();
-    const columns = this.columns(this.all);
+    const isInside = kept && kept.min >= this.all.min && kept.max <= this.all.max;
+    const first = (this.shown = isInside ? kept : this.all);
+    const columns = this.columns(first);
     const options: uPlot.Options = {
       ...this.size(),
       padding: [8, 12, 0, 0],
@@ -43,7 +49,7 @@ export class Drawing {
       },
     };
     this.plot = new uPlot(options, columns.data as uPlot.AlignedData, place);
-    this.plot.setScale("x", this.all);
+    this.show(first);
     this.plot.over.addEventListener("dblclick", () => this.show(this.all));
     this.plot.over.addEventListener("click", () => this.picked());
     this.observer = new ResizeObserver(() => this.plot.setSize(this.size()));
@@ -57,33 +63,36 @@ export class Drawing {
 
   /** New data, with the same looks. What is zoomed into stays so while it is there. */
   setSeries(series: readonly Series[]): void {
-    const shown = this.shown();
-    const sawAll = shown.min <= this.all.min && shown.max >= this.all.max;
+    const shown = this.zoomedInto();
     this.series = series;
     this.all = this.range();
-    const isOut = shown.min >= this.all.max || shown.max <= this.all.min;
+    const isOut = shown && (shown.min >= this.all.max || shown.max <= this.all.min);
     this.drawnRange = "";
-    this.show(sawAll || isOut ? this.all : shown);
+    this.show(!shown || isOut ? this.all : shown);
     this.rangeChanged();
   }
 
   key(key: string): boolean {
-    const next = zoomed(this.shown(), this.all, key, this.props().logX ?? false);
+    const next = zoomed(this.shown, this.all, key, this.props().logX ?? false);
     if (next) this.show(next);
     return next !== null;
   }
 
+  /** The range of x that is zoomed into; null if all is shown. */
+  zoomedInto(): Range | null {
+    const { shown } = this;
+    return shown.min <= this.all.min && shown.max >= this.all.max ? null : shown;
+  }
+
   private show(range: Range): void {
+    this.shown = range;
     this.plot.setScale("x", range);
   }
 
-  private shown(): Range {
-    const { min, max } = this.plot.scales.x!;
-    return { min: min ?? this.all.min, max: max ?? this.all.max };
-  }
-
   private rangeChanged(): void {
-    const range = this.shown();
+    const { min, max } = this.plot.scales.x!;
+    if (min == null || max == null) return;
+    const range = (this.shown = { min, max });
     const name = `${range.min} ${range.max} ${this.plot.width}`;
     if (name === this.drawnRange) return;
     this.drawnRange = name;
@@ -96,7 +105,9 @@ export class Drawing {
 
   private cursorMoved(): void {
     const { left } = this.plot.cursor;
-    this.props().onCursor?.(left == null || left < 0 ? null : this.plot.posToVal(left, "x"));
+    const x = left == null || left < 0 ? null : this.plot.posToVal(left, "x");
+    this.tell(x === null ? "" : readout(this.props(), this.series, x));
+    this.props().onCursor?.(x);
   }
 
   private picked(): void {

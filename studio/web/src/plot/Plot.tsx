@@ -5,6 +5,7 @@ import type { AxisWords } from "./options";
 import { Legend } from "./Legend";
 import { Drawing } from "./Drawing";
 import type { Series } from "./series";
+import type { Range } from "./zoom";
 import { summary } from "./summary";
 
 export interface PlotProps {
@@ -41,7 +42,9 @@ export interface PlotProps {
 export function Plot(props: PlotProps) {
   const { series, legend = series.length > 1, empty = "Nothing to show yet." } = props;
   const place = useRef<HTMLDivElement>(null);
+  const readout = useRef<HTMLDivElement>(null);
   const drawing = useRef<Drawing | null>(null);
+  const kept = useRef<Range | null>(null);
   const newest = useRef(props);
   newest.current = props;
   const [hidden, setHidden] = useState<ReadonlySet<string>>(new Set());
@@ -53,9 +56,10 @@ export function Plot(props: PlotProps) {
 
   useEffect(() => {
     if (isEmpty || !place.current) return;
-    const made = new Drawing(place.current, () => newest.current, shown);
+    const made = new Drawing(place.current, () => newest.current, shown, (words) => (readout.current!.textContent = words), kept.current);
     drawing.current = made;
     return () => {
+      kept.current = made.zoomedInto();
       drawing.current = null;
       made.destroy();
     };
@@ -74,18 +78,23 @@ export function Plot(props: PlotProps) {
       {isEmpty ? (
         <p class="plot-empty empty">{empty}</p>
       ) : (
-        <div
-          ref={place}
-          class="plot-canvas"
-          role="img"
-          tabIndex={0}
-          aria-label={`${props.label}. ${summary(props)} Keys: plus and minus zoom, arrows move, 0 shows all.`}
-          onKeyDown={(event) => {
-            if (event.ctrlKey || event.altKey || event.metaKey || !drawing.current?.key(event.key)) return;
-            event.preventDefault();
-            event.stopPropagation();
-          }}
-        />
+        <>
+          <div class="plot-over">
+            <div ref={readout} class="plot-readout" aria-hidden="true" />
+          </div>
+          <div
+            ref={place}
+            class="plot-canvas"
+            role="img"
+            tabIndex={0}
+            aria-label={`${props.label}. ${summary(props)} Keys: plus and minus zoom, arrows move, 0 shows all.`}
+            onKeyDown={(event) => {
+              if (event.ctrlKey || event.altKey || event.metaKey || !drawing.current?.key(event.key)) return;
+              event.preventDefault();
+              event.stopPropagation();
+            }}
+          />
+        </>
       )}
     </div>
   );

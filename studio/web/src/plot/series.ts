@@ -74,6 +74,14 @@ function gaps(values: Float64Array): Column {
   return values.every(Number.isFinite) ? values : Array.from(values, (value) => (Number.isFinite(value) ? value : null));
 }
 
+/** Index of the value of a rising x that is nearest; -1 if there is none. */
+export function nearest(x: ArrayLike<number>, value: number): number {
+  const above = lowerBound(x, value);
+  if (above === 0) return x.length > 0 ? 0 : -1;
+  if (above === x.length) return above - 1;
+  return x[above]! - value < value - x[above - 1]! ? above : above - 1;
+}
+
 /** Smallest and largest x of all series; null if there is none. */
 export function extent(x: ArrayLike<number> | undefined, series: readonly Series[]): [number, number] | null {
   let low = Infinity;

@@ -27,9 +27,11 @@ export function valueAt(path: string): any {
  * being dragged) are one step for undo.
  */
 export async function edit(path: string, value: unknown, label: string, gesture = ""): Promise<void> {
+  // First the server: what a change here sets off calls it, and must find it changed there.
+  const told = call("document.edit", { path, value, label, gesture });
   whole.value = replaced(whole.value, parts(path), value);
   try {
-    await call("document.edit", { path, value, label, gesture });
+    await told;
   } catch (error) {
     await readDocument();
     throw error;

@@ -20,7 +20,7 @@ export function Dialog({ open, title, onClose, children, actions }: DialogProps)
     if (!open && dialog.current?.open) dialog.current.close();
   }, [open]);
   return (
-    <dialog ref={dialog} class="dialog" aria-labelledby={id} onClose={onClose}>
+    <dialog ref={dialog} class="dialog" aria-labelledby={open ? id : undefined} onClose={onClose}>
       {open && (
         <>
           <header class="dialog-header">

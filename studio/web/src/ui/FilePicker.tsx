@@ -28,6 +28,7 @@ export function FilePicker({ label, kinds, value, onChange, none, hint, disabled
       onChange={onChange}
       hint={hint}
       disabled={disabled}
+      wide
       testId={testId}
     />
   );

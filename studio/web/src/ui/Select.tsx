@@ -13,16 +13,19 @@ export interface SelectProps {
   onChange(value: string): void;
   hint?: string;
   disabled?: boolean;
+  /** The choice below its label. */
+  wide?: boolean;
   testId?: string;
 }
 
 /** One of some choices. */
-export function Select({ label, value, options, onChange, hint, disabled, testId }: SelectProps) {
+export function Select({ label, value, options, onChange, hint, disabled, wide, testId }: SelectProps) {
   const all = options.map((option) => (typeof option === "string" ? { value: option, label: option } : option));
   return (
     <Field
       label={label}
       hint={hint}
+      wide={wide}
       control={({ id, describedBy }) => (
         <select
           id={id}

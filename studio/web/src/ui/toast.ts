@@ -12,6 +12,7 @@ export interface Toast {
 const kNoteShown_ms = 6000;
 const kErrorShown_ms = 20000;
 const kMost = 5;
+const kCancelled = "cancelled";
 
 export const toasts = signal<Toast[]>([]);
 let nextId = 1;
@@ -21,9 +22,10 @@ export function say(message: string, hint = ""): void {
   add({ kind: "note", message, hint }, kNoteShown_ms);
 }
 
-/** Shows what went wrong and what to do next. */
+/** Shows what went wrong and what to do next; not that a newer request has taken the place of an older one. */
 export function complain(error: unknown): void {
   const message = error instanceof Error ? error.message : String(error);
+  if (message === kCancelled) return;
   const hint = error instanceof Refusal ? error.hint : "";
   if (toasts.value.some((toast) => toast.kind === "error" && toast.message === message)) return;
   add({ kind: "error", message, hint }, kErrorShown_ms);

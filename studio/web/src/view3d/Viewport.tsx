@@ -1,6 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { dark } from "../app/settings";
+import { length } from "../ui/format";
 import { roundStep } from "./Ground";
 import { View } from "./View";
 import { viewNames, type Upright, type ViewName } from "./views";
@@ -110,5 +111,5 @@ function showScale(bar: HTMLDivElement | null, view: View): void {
   const perPixel_m = view.metresPerPixel();
   const length_m = roundStep(120 * perPixel_m);
   bar.style.width = `${Math.round(length_m / perPixel_m)}px`;
-  bar.textContent = length_m < 1e-3 ? `${Number((length_m * 1e6).toPrecision(1))} µm` : `${Number((length_m * 1e3).toPrecision(1))} mm`;
+  bar.textContent = length(length_m, 1);
 }

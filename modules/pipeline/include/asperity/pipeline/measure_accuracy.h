@@ -18,6 +18,7 @@ struct Accuracy {
   std::size_t compared = 0;  // true positions that both were compared at
   double band_high_cycles_per_mm = 0.0;
   std::optional<ProfileComparison> profile;  // nullopt: the truth has no heights
+  ComparedHeights heights;                   // both profiles in that band, aligned
 };
 
 // Positions are compared at the truth's own times, within the spans of the motion and of the poses;

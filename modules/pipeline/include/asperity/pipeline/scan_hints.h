@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -73,24 +75,44 @@ class ScanAdvisor {
 
  private:
   struct Condition {
-    bool held = false;  // beyond the upper threshold, or between both while it is shown
+    bool held = false;  // worse than its limit, or not yet better by the hysteresis while it is shown
     bool shown = false;
     std::int64_t held_since_ns = 0;
     std::int64_t shown_since_ns = 0;
     std::int64_t better_since_ns = 0;
     double value = 0.0;
+    double worst = 0.0;  // the value that it is shown with
   };
-  struct Judged;
+  // A mean over the last `window_s`, exponentially weighted; while less than that has come, over all.
+  struct RunningMean {
+    double mean = 0.0;
+    double span_s = 0.0;
+    void add(double value, double step_s, double window_s) {
+      span_s = std::min(span_s + step_s, window_s);
+      mean += (span_s > 0.0 ? std::min(1.0, step_s / span_s) : 1.0) * (value - mean);
+    }
+  };
 
   Condition& of(HintKind kind) { return conditions_[static_cast<std::size_t>(kind)]; }
   void judge(HintKind kind, std::int64_t t_ns, bool beyond, bool better, double value);
-  Hint describe(HintKind kind, std::int64_t now_ns) const;
+  void count_lost(double step_s);
+  void judge_tip(const LiveTip& tip);
+  void judge_way(const LiveTip& tip);
+
+  static constexpr double kMoving_mps = 2e-3;
 
   Calibration calibration_;
   RecordingInfo info_;
   ScanHintsConfig config_;
   bool calibrated_ = true;
   std::array<Condition, kHintKindNames.size()> conditions_{};
+
+  std::optional<std::int64_t> begun_ns_, newest_row_ns_, newest_pose_ns_;
+  double period_s_ = 0.0;  // of the rows
+  RunningMean clipped_, lost_, speed_, touch_force_, turning_;
+  std::optional<LiveTip> last_tip_;
+  Eigen::Vector3d stroke_ = Eigen::Vector3d::Zero();  // direction of the stroke under way; zero: none
+  double back_m_ = 0.0;
 };
 
 }  // namespace asperity

@@ -45,6 +45,18 @@ struct ProfileComparison {
   double compared_m = 0.0;                                                 // length that entered
 };
 
+// The heights that were compared, point by point on one grid, both band-passed; nan where a side has none.
+struct ComparedHeights {
+  std::vector<double> s_m;  // along the true profile
+  std::vector<double> measured_m;
+  std::vector<double> true_m;
+};
+
+struct AlignedProfiles {
+  ProfileComparison comparison;
+  ComparedHeights heights;  // empty where the comparison stays nan
+};
+
 // Compares a measured with a true profile, each given by arc length and height (m); s may be irregular, dwell
 // or repeat, and heights may be nan. Both are resampled alike (resample_over_path.h), band-passed alike
 // (second-order Butterworth, zero phase, -3 dB of the whole filter at the band's edges), and compared over
@@ -54,6 +66,11 @@ struct ProfileComparison {
 // error compares the spans from first to last finite height, so both must cover the same motion.
 // Throws Error for a band or shift out of range, or if a side has fewer than 8 finite heights. Where the
 // overlap is shorter than ten points, the results stay nan.
+AlignedProfiles align_profiles(std::span<const double> measured_s_m, std::span<const double> measured_height_m,
+                               std::span<const double> true_s_m, std::span<const double> true_height_m,
+                               const ComparisonConfig& config);
+
+// Its figures alone.
 ProfileComparison compare_profiles(std::span<const double> measured_s_m, std::span<const double> measured_height_m,
                                    std::span<const double> true_s_m, std::span<const double> true_height_m,
                                    const ComparisonConfig& config);

@@ -3,6 +3,9 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "asperity/geometry/motion.h"
 #include "asperity/recording/append.h"
@@ -14,23 +17,25 @@ namespace asperity {
 
 struct CausalTipConfig {
   double lag_s = 0.14;
-  double blend_s = 0.08;
+  double correction_Hz = 0.8;
   double hop_s = 0.02;
   double start_s = 0.25;
   double mounting_s = 3.0;
   double context_s = 0.25;
   double max_row_gap_s = 0.3;
+  double ahead_s = 0.08;
 
   template <class V>
   void visit(V& v) {
     v.field("lag_s", lag_s, "a sample is final this long after it was taken, s", {0.01, 10.0});
-    v.field("blend_s", blend_s, "the last part of the lag, over which successive estimates are blended, s",
-            {0.001, 10.0});
+    v.field("correction_Hz", correction_Hz, "corner of what the tracker corrects in the steady path, Hz",
+            {0.01, 100.0});
     v.field("hop_s", hop_s, "between two estimates of the window, s", {0.001, 1.0});
     v.field("start_s", start_s, "of rows and poses before the first estimate, s", {0.05, 10.0});
     v.field("mounting_s", mounting_s, "the same where the sensor's rotation is unknown, s", {0.5, 60.0});
     v.field("context_s", context_s, "of rows before the window that its clock is smoothed over, s", {0.05, 10.0});
     v.field("max_row_gap_s", max_row_gap_s, "a longer hole in the rows begins the estimate anew, s", {0.01, 10.0});
+    v.field("ahead_s", ahead_s, "how far a sample looks ahead for its direction of travel, s", {0.001, 1.0});
   }
 };
 
@@ -44,7 +49,7 @@ struct CausalTipCounts {
 // (docs/live-profile.md). Memory is bounded. Thread-safe: no.
 class CausalTip {
  public:
-  // Throws Error if the calibration is singular or a lag is shorter than its blend and hop.
+  // Throws Error if the calibration is singular.
   CausalTip(const Calibration& calibration, const RecordingInfo& info, const FusedConfig& fused,
             const CausalTipConfig& config);
   ~CausalTip();
@@ -58,13 +63,18 @@ class CausalTip {
 
   // Appends the samples that have become final since the last call to `out`, in order of time. `broken` is set for a
   // sample before which the estimate began anew: positions jump there.
+  // `steady_m` is the tip's position again, with the tracker's corrections let in slowly: worse as a position, far
+  // better where it is compared with itself a few millimetres back (docs/live-profile.md).
+  // `ahead_m` is the way from the sample to where the newest window has the tip ahead_s later: not final.
   struct Samples {
     TipMotion motion;
     std::vector<char> broken;
+    std::vector<Eigen::Vector3d> steady_m;
+    std::vector<Eigen::Vector3d> ahead_m;
   };
   void take(Samples& out);
 
-  const CausalTipCounts& counts() const;
+  CausalTipCounts counts() const;
   std::int64_t newest_row_ns() const;
   std::int64_t newest_pose_ns() const;  // its true time
   std::int64_t final_ns() const;        // up to here samples are final

@@ -1,0 +1,174 @@
+#include "asperity/studio/measured_block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "asperity/base/units.h"
+#include "asperity/pipeline/write_result.h"
+#include "asperity/profile/measure_spectrum.h"
+#include "asperity/studio/measured_figures.h"
+#include "profile_gaps.h"
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+// Every k-th of `count` indices.
+struct Chosen {
+  std::size_t every = 1;
+  std::vector<std::size_t> index;
+};
+
+Chosen choose(std::size_t count, std::size_t at_most) {
+  Chosen out;
+  out.every = std::max<std::size_t>(1, (count + at_most - 1) / at_most);
+  for (std::size_t i = 0; i < count; i += out.every) out.index.push_back(i);
+  return out;
+}
+
+template <class Value>
+std::vector<float> gather(const Chosen& chosen, Value value) {
+  std::vector<float> out;
+  out.reserve(chosen.index.size());
+  for (const std::size_t i : chosen.index) out.push_back(static_cast<float>(value(i)));
+  return out;
+}
+
+void add_points(BlockWriter& block, std::string_view name, const Chosen& chosen,
+                const std::vector<Eigen::Vector3d>& points_m, const Eigen::Vector3d& origin_m) {
+  std::vector<float> out;
+  for (const std::size_t i : chosen.index) {
+    for (int axis = 0; axis < 3; ++axis) out.push_back(static_cast<float>(points_m[i][axis] - origin_m[axis]));
+  }
+  block.add(name, out, {chosen.index.size(), 3});
+}
+
+// Force sensors are slower than the probe: each reading holds until the next.
+std::vector<double> held(const std::vector<double>& readings, std::size_t size) {
+  std::vector<double> out(size, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < std::min(size, readings.size()); ++i)
+    out[i] = std::isfinite(readings[i]) || i == 0 ? readings[i] : out[i - 1];
+  return out;
+}
+
+void add_trajectory(const ProcessResult& result, std::size_t max_points, BlockWriter& block) {
+  const TipMotion& motion = result.trajectory.motion;
+  const BasePath& base = result.base.path;
+  const Chosen chosen = choose(motion.size(), max_points);
+  const Eigen::Vector3d origin_m =
+      motion.size() > 0 ? motion.p_world_tip_m[motion.size() / 2] : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  std::vector<double> t_s;
+  for (const std::size_t i : chosen.index)
+    t_s.push_back(static_cast<double>(motion.t_ns[i] - motion.t_ns[0]) * kNanosecond_s);
+  block.head()["trajectory"] = {{"samples", motion.size()},
+                                {"every", chosen.every},
+                                {"points", chosen.index.size()},
+                                {"origin_m", {origin_m.x(), origin_m.y(), origin_m.z()}},
+                                {"duration_s", t_s.empty() ? 0.0 : t_s.back()}};
+  block.add("trajectory_t_s", t_s);
+  add_points(block, "trajectory_p_m", chosen, motion.p_world_tip_m, origin_m);
+  const std::vector<double> force_N = held(motion.force_N, motion.size());
+  block.add("trajectory_force_N", gather(chosen, [&](std::size_t i) { return force_N[i]; }));
+  block.add("trajectory_sigma_m", gather(chosen, [&](std::size_t i) {
+              return motion.cov_world_tip_m2.empty() ? kNan : std::sqrt(motion.cov_world_tip_m2[i].trace() / 3.0);
+            }));
+
+  const bool has_base = base.size() == motion.size() && base.size() > 0;
+  const Chosen on_base = has_base ? chosen : Chosen{};
+  add_points(block, "base_p_m", on_base, base.p_world_m, origin_m);
+  block.add("trajectory_height_m", gather(on_base, [&](std::size_t i) {
+              return base.n_world[i].dot(motion.p_world_tip_m[i] - base.p_world_m[i]);
+            }));
+  block.add("trajectory_speed_mps", gather(chosen, [&](std::size_t i) {
+              return has_base ? result.base.speed_mps.at(i) : motion.v_world_tip_mps[i].norm();
+            }));
+  std::vector<std::uint8_t> contact;
+  for (const std::size_t i : on_base.index) contact.push_back(result.base.contact[i] != 0 ? 1 : 0);
+  block.add("trajectory_contact", contact);
+}
+
+void add_profile(const Profile& profile, std::size_t max_points, BlockWriter& block) {
+  const Chosen chosen = choose(profile.size(), max_points);
+  block.head()["profile"] = {{"samples", profile.size()},
+                             {"every", chosen.every},
+                             {"points", chosen.index.size()},
+                             {"first_m", profile.size() > 0 ? profile.s_m[0] : 0.0},
+                             {"spacing_m", profile.spacing_m * static_cast<double>(chosen.every)}};
+  const auto add = [&](std::string_view name, const std::vector<double>& values) {
+    block.add(name, gather(chosen, [&](std::size_t i) { return values.at(i); }));
+  };
+  add("profile_height_m", profile.height_m);
+  add("profile_sigma_m", profile.sigma_m);
+  add("profile_texture_m", profile.texture_m);
+  add("profile_force_N", profile.force_N);
+  add("profile_speed_mps", profile.speed_mps);
+}
+
+void add_spectrum(const Profile& profile, BlockWriter& block) {
+  const PowerSpectrum spectrum =
+      profile.size() > 0 ? measure_spectrum(profile.texture_m, profile.spacing_m) : PowerSpectrum{};
+  block.head()["spectrum"] = {{"segments", spectrum.segments}};
+  block.add("spectrum_cycles_per_mm", spectrum.frequency);
+  block.add("spectrum_density_m2_mm", spectrum.density);
+}
+
+void add_compliance(const Compliance& compliance, BlockWriter& block) {
+  block.head()["compliance"] = {{"k_c", compliance.k_c},
+                                {"sigma_r2", compliance.sigma_r2},
+                                {"exponent", compliance.exponent},
+                                {"exponent_error", compliance.exponent_error},
+                                {"ratio_variance", compliance.ratio_variance}};
+  std::vector<double> force_N, ratio, speed_mps, amplitude_mps2;
+  for (const ComplianceWindow& window : compliance.windows) {
+    force_N.push_back(window.force_N);
+    ratio.push_back(window.ratio);
+    speed_mps.push_back(window.speed_mps);
+    amplitude_mps2.push_back(window.amplitude_mps2);
+  }
+  block.add("compliance_force_N", force_N);
+  block.add("compliance_ratio", ratio);
+  block.add("compliance_speed_mps", speed_mps);
+  block.add("compliance_amplitude_mps2", amplitude_mps2);
+}
+
+void add_compared(const ComparedHeights& heights, BlockWriter& block) {
+  block.add("compared_s_m", heights.s_m);
+  block.add("compared_measured_m", std::vector<float>(heights.measured_m.begin(), heights.measured_m.end()));
+  block.add("compared_true_m", std::vector<float>(heights.true_m.begin(), heights.true_m.end()));
+}
+
+void add_dropped(const ProcessResult& result, std::size_t max_gaps, BlockWriter& block) {
+  Json dropped = Json::array();
+  for (const Problem& problem : result.problems)
+    dropped.push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
+  block.head()["dropped"] = std::move(dropped);
+  Json gaps = Json::array();
+  const std::vector<ProfileGap> found = find_gaps(result);
+  for (std::size_t i = 0; i < std::min(max_gaps, found.size()); ++i)
+    gaps.push_back({{"from_m", found[i].from_m}, {"to_m", found[i].to_m}, {"why", found[i].why}});
+  block.head()["gaps"] = std::move(gaps);
+  block.head()["gap_count"] = found.size();
+}
+
+}  // namespace
+
+BlockWriter measured_block(const ProcessResult& result, const Recording& recording, const std::string& name,
+                           const MeasuredBlockConfig& config) {
+  BlockWriter block("measured");
+  block.head()["result"] = Json::parse(format_result(result, recording, name));
+  block.head()["world"] = recording.info.world;
+  block.head()["figures"] = measured_figures(result);
+  add_dropped(result, config.max_gaps, block);
+  add_trajectory(result, config.max_trajectory_points, block);
+  add_profile(result.profile, config.max_profile_points, block);
+  add_spectrum(result.profile, block);
+  add_compliance(result.compliance, block);
+  if (result.accuracy) add_compared(result.accuracy->heights, block);
+  return block;
+}
+
+}  // namespace asperity::studio

@@ -1,0 +1,124 @@
+#include "align/align_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "json_pose.h"
+#include "option_units.h"
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr std::size_t kMostPaths = 16;
+constexpr std::size_t kMostPicks = 1000;
+constexpr std::size_t kMostSettings = 200;
+constexpr std::size_t kLongestName = 1000;
+constexpr std::array<std::string_view, 8> kKeys{"paths",  "mesh",  "mesh_unit",    "textures",
+                                                "config", "picks", "T_mesh_world", "registered"};
+
+std::string text_of(const Json& json, std::string_view what) {
+  if (!json.is_string() || json.get_ref<const std::string&>().size() > kLongestName) {
+    throw Error("align: " + std::string(what) + " is not a text of at most 1000 bytes");
+  }
+  return json.get<std::string>();
+}
+
+const Json& part(const Json& json, const char* key, std::string_view what) {
+  if (!json.is_object() || !json.contains(key)) throw Error("align: " + std::string(what) + " has no '" + key + "'");
+  return json.at(key);
+}
+
+std::vector<std::string> names_of(const Json& json, std::string_view what) {
+  if (!json.is_array() || json.size() > kMostPaths) {
+    throw Error("align: " + std::string(what) + " is not a list of at most 16 names");
+  }
+  std::vector<std::string> out;
+  for (const Json& name : json) out.push_back(text_of(name, what));
+  return out;
+}
+
+std::vector<AlignChoice::Pick> picks_of(const Json& json) {
+  if (!json.is_array() || json.size() > kMostPicks) throw Error("align: picks is not a list of at most 1000 pairs");
+  std::vector<AlignChoice::Pick> out;
+  for (const Json& pick : json) {
+    out.push_back({point_of_json(part(pick, "path", "a pair"), "align: the point on the path"),
+                   point_of_json(part(pick, "mesh", "a pair"), "align: the point on the mesh")});
+  }
+  return out;
+}
+
+AlignChoice::Registered registered_of(const Json& json) {
+  AlignChoice::Registered out;
+  const Json& guess = part(json, "guess", "registered");
+  if (!guess.is_null()) out.guess = pose_of_json(guess, "align: the guess");
+  const Json& near = part(json, "near", "registered");
+  if (!near.is_boolean()) throw Error("align: registered.near is neither true nor false");
+  out.near = near.get<bool>();
+  out.T_mesh_world = pose_of_json(part(json, "T_mesh_world", "registered"), "align: the registered pose");
+  return out;
+}
+
+}  // namespace
+
+Json json_of_choice(const AlignChoice& choice) {
+  Json out;
+  out["paths"] = choice.paths;
+  out["mesh"] = choice.mesh;
+  out["mesh_unit"] = choice.mesh_unit;
+  out["textures"] = choice.textures;
+  out["config"] = Json::object();
+  for (const auto& [path, value] : choice.config) out["config"][path] = value;
+  out["picks"] = Json::array();
+  for (const AlignChoice::Pick& pick : choice.picks) {
+    Json pair;
+    pair["path"] = json_of_point(pick.p_world_m);
+    pair["mesh"] = json_of_point(pick.p_mesh_m);
+    out["picks"].push_back(std::move(pair));
+  }
+  if (choice.T_mesh_world) out["T_mesh_world"] = json_of_pose(*choice.T_mesh_world);
+  if (choice.registered) {
+    Json& registered = out["registered"];
+    registered["guess"] = choice.registered->guess ? json_of_pose(*choice.registered->guess) : Json();
+    registered["near"] = choice.registered->near;
+    registered["T_mesh_world"] = json_of_pose(choice.registered->T_mesh_world);
+  }
+  return out;
+}
+
+AlignChoice choice_of_json(const Json& section) {
+  if (!section.is_object()) throw Error("align: the section is no object");
+  for (const auto& [key, value] : section.items()) {
+    if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
+      throw Error("align: there is no '" + printable(key) + "'");
+    }
+  }
+  AlignChoice out;
+  out.paths = names_of(part(section, "paths", "the section"), "paths");
+  out.mesh = text_of(part(section, "mesh", "the section"), "mesh");
+  out.mesh_unit = text_of(part(section, "mesh_unit", "the section"), "mesh_unit");
+  unit_m(out);
+  out.textures = names_of(part(section, "textures", "the section"), "textures");
+  const Json& config = part(section, "config", "the section");
+  if (!config.is_object() || config.size() > kMostSettings) throw Error("align: config is no object of settings");
+  for (const auto& [path, value] : config.items()) out.config[path] = text_of(value, path);
+  config_of(out);
+  out.picks = picks_of(part(section, "picks", "the section"));
+  if (section.contains("T_mesh_world")) out.T_mesh_world = pose_of_json(section.at("T_mesh_world"), "align: the pose");
+  if (section.contains("registered")) out.registered = registered_of(section.at("registered"));
+  return out;
+}
+
+double unit_m(const AlignChoice& choice) { return app::unit_option_m("the mesh's unit", choice.mesh_unit); }
+
+RegisterConfig config_of(const AlignChoice& choice) {
+  RegisterConfig out;
+  const std::vector<ConfigField> fields = list_fields("", out);
+  for (const auto& [path, value] : choice.config) set_field(fields, path, value);
+  return out;
+}
+
+}  // namespace asperity::studio

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "asperity/geometry/pose.h"
+#include "asperity/pipeline/register_config.h"
+#include "asperity/studio/block.h"
+
+namespace asperity::studio {
+
+// What the user has decided on the page Align, as the document's section "align" holds it:
+//   "paths"         recordings and CSV files that share one world frame, by their names in the project
+//   "mesh"          a mesh file, or ""
+//   "mesh_unit"     the length of its unit as text: "mm", "0.06m"
+//   "textures"      texture files to lay along the paths instead of their own: none, one for all, or one a path
+//   "config"        settings of the registration that are not the default: dotted path -> text
+//   "picks"         [{"path":[x,y,z],"mesh":[x,y,z]}]: pairs of points, world and mesh frame, metres
+//   "T_mesh_world"  [x,y,z,qw,qx,qy,qz], where there is one
+//   "registered"    the registration that "T_mesh_world" was taken from, where it was
+struct AlignChoice {
+  struct Pick {
+    Eigen::Vector3d p_world_m, p_mesh_m;
+  };
+  // How to come to the same pose again.
+  struct Registered {
+    std::optional<Pose> guess;  // nullopt: from anywhere
+    bool near = false;          // other places were not tried
+    Pose T_mesh_world;          // where it ended
+  };
+
+  std::vector<std::string> paths;
+  std::string mesh;
+  std::string mesh_unit = "mm";
+  std::vector<std::string> textures;
+  std::map<std::string, std::string> config;
+  std::vector<Pick> picks;
+  std::optional<Pose> T_mesh_world;
+  std::optional<Registered> registered;
+};
+
+Json json_of_choice(const AlignChoice& choice);
+
+// Throws Error in words for anything that is not a choice: unknown keys, more than 16 paths or 1000 picks, numbers that
+// are not finite, a unit that is none, a setting that the registration does not know or take.
+AlignChoice choice_of_json(const Json& section);
+
+double unit_m(const AlignChoice& choice);
+RegisterConfig config_of(const AlignChoice& choice);
+
+}  // namespace asperity::studio

@@ -1,0 +1,213 @@
+#include "align/align_page.h"
+
+#include <array>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "align/list_paths.h"
+#include "align/path_residuals.h"
+#include "align/write_alignment.h"
+#include "asperity/registration/manual_alignment.h"
+#include "config_fields.h"
+#include "json_pose.h"
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr const char* kSection = "align";
+
+void check_section(const Json& section) { choice_of_json(section); }
+
+Pose pose_argument(const Request& request, std::string_view name) {
+  return pose_of_json(request.args().value(std::string(name), Json()), request.name() + ": " + std::string(name));
+}
+
+std::array<double, 3> three(const Request& request, std::string_view name) {
+  const std::vector<double> v = request.numbers(name, 3);
+  return {v[0], v[1], v[2]};
+}
+
+}  // namespace
+
+void AlignPage::bind(Document& document, Calls& calls) {
+  document.add_section(kSection, json_of_choice({}), check_section);
+  calls.add("align.paths", [this](const Request& request) { request.answer(list_paths(shared_.project)); });
+  calls.add("align.config", [this](const Request& request) {
+    RegisterConfig config = config_of(choice()), first;
+    request.answer(fields_json(list_fields("", config), list_fields("", first)));
+  });
+  calls.add("align.open", [this](const Request& request) { open(request); });
+  calls.add("align.sliders", [this](const Request& request) { turn_sliders(request); });
+  calls.add("align.pick", [this](const Request& request) { pick(request); });
+  calls.add("align.residuals", [this](const Request& request) { measure(request); });
+  calls.add("align.run", [this](const Request& request) { run(request); });
+  calls.add("align.iterations",
+            [this](const Request& request) { request.answer(log_ ? log_->all() : IterationLog(0).all()); });
+  calls.add("align.result", [this](const Request& request) {
+    const bool current = last_ && last_->scene == scene_ && scene_ && is_same_scene(scene_->of, choice());
+    request.answer(current ? json_of_run(*last_) : Json());
+  });
+  calls.add("align.accept", [this](const Request& request) { accept(request); });
+  calls.add("align.write", [this](const Request& request) { write(request); });
+}
+
+void AlignPage::tick(std::int64_t) { tell_iterations(); }
+
+AlignChoice AlignPage::choice() const { return choice_of_json(shared_.document.section(kSection)); }
+
+Pose AlignPage::pose(const AlignScene& scene) const { return choice().T_mesh_world.value_or(start_pose(scene)); }
+
+std::shared_ptr<const AlignScene> AlignPage::scene() const {
+  if (!scene_ || !is_same_scene(scene_->of, choice())) {
+    throw Advice("the mesh and the scan are not open", "Wait until they are read, or choose them again.");
+  }
+  return scene_;
+}
+
+void AlignPage::open(const Request& request) {
+  const AlignChoice wanted = choice();
+  if (scene_ && is_same_scene(scene_->of, wanted)) return request.answer(align_block(*scene_));
+  auto made = std::make_shared<std::shared_ptr<const AlignScene>>();
+  shared_.jobs.start(
+      "Opening " + wanted.mesh, "align.open",
+      [made, wanted, project = shared_.project](const Observer& observer) {
+        *made = load_align_scene(wanted, project, observer);
+      },
+      [this, made, request](std::exception_ptr error) {
+        try {
+          if (error) std::rethrow_exception(error);
+          scene_ = *made;
+          closest_.clear();
+          request.answer(align_block(*scene_));
+        } catch (const std::exception& fault) {
+          request.refuse(fault);
+        }
+      });
+}
+
+void AlignPage::turn_sliders(const Request& request) const {
+  const std::array<double, 3> about =
+      request.has("about_world_m") ? three(request, "about_world_m") : std::array<double, 3>{};
+  const Eigen::Vector3d pivot_m(about[0], about[1], about[2]);
+  Pose pose;
+  if (request.has("pose")) {
+    pose = pose_argument(request, "pose");
+  } else {
+    pose = align_manually({three(request, "shift_m"), three(request, "turn_deg")});
+    pose.translation_m -= pose.rotation * pivot_m;
+  }
+  // The six numbers are those of the pose from a world whose origin is the pivot.
+  const ManualAlignment six = manual_alignment({pose.rotation, pose * pivot_m});
+  Json out;
+  out["pose"] = json_of_pose(pose);
+  out["shift_m"] = six.shift_m;
+  out["turn_deg"] = six.turn_deg;
+  request.answer(out);
+}
+
+void AlignPage::pick(const Request& request) {
+  std::vector<Eigen::Vector3d> p_world_m, p_mesh_m;
+  for (const AlignChoice::Pick& pair : choice().picks) {
+    p_world_m.push_back(pair.p_world_m);
+    p_mesh_m.push_back(pair.p_mesh_m);
+  }
+  if (p_world_m.size() < 3) {
+    throw Advice("there are " + std::to_string(p_world_m.size()) + " pairs of points, and three are needed",
+                 "Pick more points on the path, each with its point on the mesh.");
+  }
+  const AbsoluteOrientation found = align_picked(p_world_m, p_mesh_m);
+  Json out;
+  out["T_mesh_world"] = json_of_pose(found.T_b_a);
+  out["rms_m"] = found.rms_m;
+  shared_.document.edit("/align/T_mesh_world", out["T_mesh_world"], "lay the picked points on each other");
+  request.answer(out);
+}
+
+void AlignPage::measure(const Request& request) {
+  const PathResiduals residuals =
+      path_residuals(scene()->p_world_m, scene_->surface, pose_argument(request, "pose"), closest_);
+  BlockWriter out("align.residuals");
+  out.head()["mean_m"] = residuals.mean_m;
+  out.head()["rms_m"] = residuals.rms_m;
+  out.head()["most_m"] = residuals.most_m;
+  out.add("distance_m", std::span<const float>(residuals.distance_m));
+  request.answer(std::move(out));
+}
+
+void AlignPage::run(const Request& request) {
+  const std::shared_ptr<const AlignScene> scene = this->scene();
+  const AlignChoice wanted = choice();
+  const std::optional<Pose> guess = request.flag("guess") ? std::optional<Pose>(pose(*scene)) : std::nullopt;
+  const std::uint64_t number = ++runs_;
+  tell_iterations();
+  log_ = std::make_shared<IterationLog>(number);
+  auto made = std::make_shared<AlignRun>();
+  shared_.jobs.start(
+      guess ? "Registering from the pose shown" : "Registering from anywhere", "align.run",
+      [made, scene, wanted, guess, number, log = log_](const Observer& observer) {
+        RegistrationObserver watched(observer);
+        watched.iterated = [log](const RegistrationIteration& iteration) { log->add(iteration); };
+        *made = run_align(number, scene, wanted, guess, watched);
+      },
+      [this, made, request](std::exception_ptr error) {
+        try {
+          if (error) std::rethrow_exception(error);
+          finish(request, std::move(*made));
+        } catch (const std::exception& fault) {
+          tell_iterations();
+          request.refuse(fault);
+        }
+      });
+}
+
+void AlignPage::finish(const Request& request, AlignRun run) {
+  tell_iterations();
+  last_ = std::move(run);
+  const Json result = json_of_run(*last_);
+  shared_.hub.broadcast("align.result", result);
+  request.answer(result);
+}
+
+void AlignPage::accept(const Request& request) {
+  const std::string solution = request.text("solution");
+  if (solution != "best" && solution != "runner_up") {
+    throw Error("align.accept: solution: '" + solution + "' is neither 'best' nor 'runner_up'");
+  }
+  if (!last_ || last_->scene != scene()) {
+    throw Advice("there is no registration of these scans on this mesh", "Run one first.");
+  }
+  AlignChoice taken = choice();
+  if (solution == "best") {
+    taken.registered = last_->how;
+  } else {
+    if (!last_->result.runner_up) throw Advice("the registration has no runner-up", "Take its best pose.");
+    const Pose& other = last_->result.runner_up->T_mesh_world;
+    taken.registered = AlignChoice::Registered{other, true, other};
+  }
+  taken.T_mesh_world = taken.registered->T_mesh_world;
+  shared_.document.edit("/align", json_of_choice(taken),
+                        solution == "best" ? "take the registered pose" : "take the runner-up");
+  request.done();
+}
+
+void AlignPage::write(const Request& request) {
+  AlignChoice taken = choice();
+  const std::string name = request.text("name");
+  answer_by_job(shared_.jobs, request, "Writing " + name, "align.write",
+                [taken = std::move(taken), name, project = shared_.project](const Observer& observer) {
+                  return write_alignment(taken, project, name, observer);
+                });
+}
+
+void AlignPage::tell_iterations() {
+  if (!log_) return;
+  if (std::optional<BlockWriter> news = log_->take_news()) {
+    shared_.hub.publish("align.iteration", news->take(), Delivery::kSeries);
+  }
+}
+
+std::unique_ptr<Page> make_align_page(Shared& shared) { return std::make_unique<AlignPage>(shared); }
+
+}  // namespace asperity::studio

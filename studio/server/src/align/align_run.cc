@@ -1,0 +1,89 @@
+#include "align/align_run.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "asperity/pipeline/locate_scans.h"
+#include "json_pose.h"
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+// Standard deviations of the middle's place and of the turn, from the covariance.
+std::string certainty_of(const RegistrationResult& result) {
+  const double shift_m = std::sqrt(result.covariance.bottomRightCorner<3, 3>().trace());
+  const double turn_rad = std::sqrt(result.covariance.topLeftCorner<3, 3>().trace());
+  if (!std::isfinite(shift_m) || !std::isfinite(turn_rad)) return "How well the pose is known cannot be said.";
+  std::string out = fmt::format("The path's middle is known to {:.3g} mm and its turn to {:.2g}° (standard deviations)",
+                                1e3 * shift_m, turn_rad / kDegree);
+  if (!result.undetermined.empty()) out += ", the motions below apart";
+  return out + ".";
+}
+
+}  // namespace
+
+RegisterConfig run_config(const AlignChoice& choice, bool near) {
+  RegisterConfig out = config_of(choice);
+  if (near) {
+    out.search.registration.starts.when = OtherStarts::kNever;
+    out.refinement.other_starts = 0;
+  }
+  return out;
+}
+
+AlignRun run_align(std::uint64_t number, const std::shared_ptr<const AlignScene>& scene, const AlignChoice& choice,
+                   const std::optional<Pose>& guess, const RegistrationObserver& observer) {
+  AlignRun out;
+  out.number = number;
+  out.scene = scene;
+  out.result = locate_scans(scene->scans, scene->surface, guess, run_config(choice, false), observer).registration;
+  out.how = {guess, false, out.result.T_mesh_world};
+  out.certainty = certainty_of(out.result);
+  return out;
+}
+
+Json json_of_run(const AlignRun& run) {
+  const RegistrationResult& result = run.result;
+  Json out;
+  out["run"] = run.number;
+  out["guess"] = run.how.guess ? json_of_pose(*run.how.guess) : Json();
+  out["T_mesh_world"] = json_of_pose(result.T_mesh_world);
+  out["rms_m"] = finite(result.rms_m);
+  out["mean_m"] = finite(result.mean_m);
+  out["points"] = result.points;
+  out["outliers"] = result.outliers;
+  out["iterations"] = result.iterations;
+  out["converged"] = result.converged;
+  out["trustworthy"] = result.trustworthy;
+  out["ambiguous"] = result.ambiguous;
+  out["verdict"] = result.verdict;
+  out["certainty"] = run.certainty;
+  out["undetermined"] = Json::array();
+  for (const UndeterminedMotion& motion : result.undetermined) {
+    Json each;
+    each["description"] = motion.description;
+    each["sigma_m"] = finite(motion.sigma_m);
+    out["undetermined"].push_back(std::move(each));
+  }
+  out["runner_up"] = nullptr;
+  if (result.runner_up) {
+    Json other;
+    other["T_mesh_world"] = json_of_pose(result.runner_up->T_mesh_world);
+    other["rms_m"] = finite(result.runner_up->rms_m);
+    other["distance_m"] = finite(result.runner_up->distance_m);
+    other["turn_deg"] = finite(result.runner_up->turn_rad / kDegree);
+    out["runner_up"] = std::move(other);
+  }
+  out["problems"] = Json::array();
+  for (const Problem& problem : result.problems) out["problems"].push_back(problem.message);
+  return out;
+}
+
+}  // namespace asperity::studio

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "align/align_scene.h"
+#include "align/iteration_log.h"
+#include "asperity/registration/registration_result.h"
+
+namespace asperity::studio {
+
+// One registration of a scene, from a guess or from anywhere.
+struct AlignRun {
+  std::uint64_t number = 0;
+  std::shared_ptr<const AlignScene> scene;
+  AlignChoice::Registered how;  // its T_mesh_world is where it ended
+  RegistrationResult result;
+  std::string certainty;  // how well the pose is known, in words
+};
+
+// The choice's settings; where the guess is to be kept to, without other places about it.
+RegisterConfig run_config(const AlignChoice& choice, bool near);
+
+// Registers, as register_scans does. Throws as locate_scans does.
+AlignRun run_align(std::uint64_t number, const std::shared_ptr<const AlignScene>& scene, const AlignChoice& choice,
+                   const std::optional<Pose>& guess, const RegistrationObserver& observer);
+
+// {"run","guess","T_mesh_world","rms_m","mean_m","points","outliers","iterations","converged","trustworthy",
+// "ambiguous","verdict","certainty","undetermined":[{"description","sigma_m"}],"runner_up","problems"}; what is not
+// finite is null.
+Json json_of_run(const AlignRun& run);
+
+}  // namespace asperity::studio

@@ -1,0 +1,103 @@
+#include "align/align_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "asperity/studio/calls.h"
+#include "json_pose.h"
+#include "mesh_block.h"
+#include "register_input.h"
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr std::size_t kMostShown = 6000;
+
+std::vector<std::string> files_of(const std::vector<std::string>& names, const Project& project) {
+  std::vector<std::string> out;
+  for (const std::string& name : names) out.push_back(project.existing(name).string());
+  return out;
+}
+
+// The settings that the points depend on.
+std::map<std::string, std::string> point_settings(const AlignChoice& choice) {
+  std::map<std::string, std::string> out;
+  for (const auto& [path, value] : choice.config) {
+    if (path.starts_with("process.") || path.starts_with("points.")) out[path] = value;
+  }
+  return out;
+}
+
+void show_points(AlignScene& scene) {
+  std::size_t total = 0;
+  for (const PathPoints& points : scene.scans.points) total += points.path.p_world_m.size();
+  const std::size_t stride = std::max<std::size_t>(1, (total + kMostShown - 1) / kMostShown);
+  for (std::size_t k = 0; k < scene.scans.points.size(); ++k) {
+    const std::vector<Eigen::Vector3d>& p_m = scene.scans.points[k].path.p_world_m;
+    for (std::size_t i = 0; i < p_m.size(); i += stride) {
+      if (!p_m[i].allFinite()) continue;
+      scene.p_world_m.push_back(p_m[i]);
+      scene.path.push_back(static_cast<std::uint32_t>(k));
+      scene.middle_world_m += p_m[i];
+    }
+  }
+  scene.registered_points = total;
+  if (scene.p_world_m.empty()) throw Error("the paths have no point that is finite");
+  scene.middle_world_m /= static_cast<double>(scene.p_world_m.size());
+}
+
+}  // namespace
+
+bool is_same_scene(const AlignChoice& made, const AlignChoice& wanted) {
+  return made.paths == wanted.paths && made.mesh == wanted.mesh && made.mesh_unit == wanted.mesh_unit &&
+         point_settings(made) == point_settings(wanted);
+}
+
+std::shared_ptr<const AlignScene> load_align_scene(const AlignChoice& choice, const Project& project,
+                                                   const Observer& observer) {
+  if (choice.mesh.empty()) throw Advice("no mesh is chosen", "Choose a mesh file of the project's folder.");
+  if (choice.paths.empty()) throw Advice("no scan is chosen", "Choose a recording, or a CSV file of a path.");
+  observer.update("reading", 0.0);
+  const app::RegisterInput input = app::read_register_input(files_of(choice.paths, project),
+                                                            project.existing(choice.mesh).string(), unit_m(choice), {});
+  observer.update("mesh", 0.2);
+  auto out = std::make_shared<AlignScene>(
+      AlignScene{choice, MeshSurface(to_metres(input.mesh, input.unit_m)), {}, {}, {}, {}, 0, input.mesh.problems});
+  out->scans = find_scan_points(input.scans, config_of(choice), observer);
+  for (const ProcessResult& motion : out->scans.motions) {
+    out->problems.insert(out->problems.end(), motion.problems.begin(), motion.problems.end());
+  }
+  show_points(*out);
+  return out;
+}
+
+Pose start_pose(const AlignScene& scene) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p_m : scene.surface.mesh.vertices_m) box.extend(p_m);
+  return {Eigen::Quaterniond::Identity(), box.center() - scene.middle_world_m};
+}
+
+BlockWriter align_block(const AlignScene& scene) {
+  BlockWriter out = mesh_block("align", scene.surface.mesh);
+  std::vector<float> points;
+  for (const Eigen::Vector3d& p_m : scene.p_world_m) {
+    for (Eigen::Index k = 0; k < 3; ++k) points.push_back(static_cast<float>(p_m[k] - scene.middle_world_m[k]));
+  }
+  out.add("path_points", std::span<const float>(points), {scene.p_world_m.size(), 3});
+  out.add("path_of", std::span<const std::uint32_t>(scene.path));
+  Json& head = out.head();
+  head["middle_world_m"] = json_of_point(scene.middle_world_m);
+  head["paths"] = scene.of.paths;
+  head["registered_points"] = scene.registered_points;
+  head["start"] = json_of_pose(start_pose(scene));
+  head["problems"] = Json::array();
+  for (const Problem& problem : scene.problems) head["problems"].push_back(problem.message);
+  return out;
+}
+
+}  // namespace asperity::studio

@@ -1,0 +1,87 @@
+#include "align/write_alignment.h"
+
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "align/align_run.h"
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
+#include "asperity/pipeline/write_registration.h"
+#include "asperity/studio/calls.h"
+#include "json_pose.h"
+#include "register_input.h"
+
+namespace asperity::studio {
+
+namespace {
+
+struct Start {
+  std::optional<Pose> guess;
+  bool near = false;
+};
+
+Start start_of(const AlignChoice& choice) {
+  if (!choice.T_mesh_world) {
+    throw Advice("the path has no place on the mesh yet",
+                 "Lay it there by hand, by picked points or by a registration.");
+  }
+  const std::optional<AlignChoice::Registered>& registered = choice.registered;
+  const bool unmoved = registered && json_of_pose(registered->T_mesh_world) == json_of_pose(*choice.T_mesh_world);
+  return unmoved ? Start{registered->guess, registered->near} : Start{choice.T_mesh_world, false};
+}
+
+std::string quoted(const std::string& word) {
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+std::string command_of(const AlignChoice& choice, const Start& start, const std::string& name) {
+  std::string out = "asperity register";
+  for (const std::string& path : choice.paths) out += " " + quoted(path);
+  out += " " + quoted(choice.mesh) + " --mesh-unit " + quoted(choice.mesh_unit);
+  if (start.guess) {
+    std::string numbers;
+    for (const Json& number : json_of_pose(*start.guess)) {
+      if (!numbers.empty()) numbers += ',';
+      append_number(numbers, number.get<double>());
+    }
+    out += " --guess=" + numbers;
+  }
+  for (const std::string& texture : choice.textures) out += " --texture " + quoted(texture);
+  for (const auto& [path, value] : choice.config) out += " --set " + quoted(path + "=" + value);
+  if (start.near) {
+    out += " --set search.registration.starts.when=never --set refinement.other_starts=0";
+  }
+  return out + " -o " + quoted(name);
+}
+
+}  // namespace
+
+Json write_alignment(const AlignChoice& choice, const Project& project, const std::string& name,
+                     const Observer& observer) {
+  const Start start = start_of(choice);
+  OutputFolder folder(project.writable(name), is_registration_folder);
+  observer.update("reading", 0.0);
+  std::vector<std::string> scans, textures;
+  for (const std::string& path : choice.paths) scans.push_back(project.existing(path).string());
+  for (const std::string& texture : choice.textures) textures.push_back(project.existing(texture).string());
+  const app::RegisterInput input =
+      app::read_register_input(scans, project.existing(choice.mesh).string(), unit_m(choice), textures);
+  const ScansOnMesh result = app::register_input(input, start.guess, run_config(choice, start.near), observer);
+  observer.update("writing", 1.0);
+  write_registration(folder.path(), result, input.scans, input.mesh, input.unit_m);
+  folder.commit();
+
+  Json out;
+  out["name"] = name;
+  out["scene"] = name + "/scene.json";
+  out["trustworthy"] = result.trustworthy;
+  out["verdict"] = result.verdict.empty() ? result.registration.verdict : result.verdict;
+  out["T_mesh_world"] = json_of_pose(result.registration.T_mesh_world);
+  out["command"] = command_of(choice, start, name);
+  return out;
+}
+
+}  // namespace asperity::studio

@@ -1,0 +1,74 @@
+#include "scan/refine_scan.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/profile/compare_profiles.h"
+
+namespace asperity::studio {
+
+namespace {
+
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+// The causal profile against the refined one, where both can be compared.
+Json difference_json(const LiveHeights& live, const ProcessResult& result, double rate_Hz, ComparisonConfig config) {
+  try {
+    config.high_cycles_per_mm =
+        std::min(config.high_cycles_per_mm, comparison_limit_cycles_per_mm(rate_Hz, result.speed.mean_mps));
+    const ProfileComparison found =
+        compare_profiles(live.s_m, live.height_m, result.profile.s_m, result.profile.height_m, config);
+    Json out;
+    out["correlation"] = finite(found.correlation);
+    out["rms_um"] = finite(found.rms_um);
+    out["gain"] = finite(found.gain);
+    out["shift_m"] = finite(found.shift_m);
+    out["compared_m"] = finite(found.compared_m);
+    return out;
+  } catch (const Error&) {
+    return nullptr;  // too short
+  }
+}
+
+}  // namespace
+
+ScanRefiner::ScanRefiner(FinishedScan scan)
+    : recording_(std::move(scan.recording)),
+      segment_(std::move(scan.segment.name)),
+      live_(std::move(scan.live)),
+      session_(std::move(scan.rows)) {}
+
+BlockWriter ScanRefiner::refine(const ProcessConfig& config, const Observer& observer) {
+  const auto start = std::chrono::steady_clock::now();
+  const ProcessResult& result = session_.process(config, observer);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  const Profile& profile = result.profile;
+  BlockWriter out("scan.refined");
+  Json& head = out.head();
+  head["recording"] = recording_;
+  head["segment"] = printable(segment_, 100);
+  head["took_s"] = took.count();
+  head["trustworthy"] = result.trustworthy;
+  head["verdict"] = printable(result.verdict, 500);
+  head["length_m"] = result.coverage.length_m;
+  head["covered"] = result.coverage.covered;
+  head["speed_mps"] = result.speed.mean_mps;
+  head["roughness"] = nullptr;
+  if (result.roughness) {
+    head["roughness"] = {{"Ra_m", finite(result.roughness->Ra_m)}, {"Rq_m", finite(result.roughness->Rq_m)}};
+  }
+  head["difference"] = difference_json(live_, result, session_.recording().info.probe_rate_Hz, config.comparison);
+  out.add("s_m", std::span<const double>(profile.s_m));
+  out.add("height_m", std::span<const double>(profile.height_m));
+  out.add("sigma_m", std::span<const double>(profile.sigma_m));
+  out.add("texture_m", std::span<const double>(profile.texture_m));
+  out.add("force_N", std::span<const double>(profile.force_N));
+  out.add("speed_mps", std::span<const double>(profile.speed_mps));
+  return out;
+}
+
+}  // namespace asperity::studio

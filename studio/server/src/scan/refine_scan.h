@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "asperity/base/progress.h"
+#include "asperity/pipeline/process_config.h"
+#include "asperity/pipeline/process_session.h"
+#include "asperity/studio/block.h"
+#include "scan/scan_session.h"
+
+namespace asperity::studio {
+
+// A stroke that has ended, worked out in full again and again as its settings are tuned. On the jobs' thread alone.
+class ScanRefiner {
+ public:
+  // Takes the rows over.
+  explicit ScanRefiner(FinishedScan scan);
+
+  // The refined profile (s_m, height_m, sigma_m, texture_m, force_N, speed_mps), and in the head what is known of it:
+  // "recording", "segment", "took_s", "trustworthy", "verdict", "roughness", and as "difference" how the causal one
+  // lies against it. Throws Error where the recording or a setting allows no profile, and Cancelled.
+  BlockWriter refine(const ProcessConfig& config, const Observer& observer);
+
+  // What the causal profile has become by a tuning.
+  void set_live(LiveHeights live) { live_ = std::move(live); }
+
+ private:
+  std::string recording_;
+  std::string segment_;
+  LiveHeights live_;
+  ProcessSession session_;
+};
+
+}  // namespace asperity::studio

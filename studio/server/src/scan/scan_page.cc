@@ -1,0 +1,282 @@
+#include "scan/scan_page.h"
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "asperity/acquire/host_clock.h"
+#include "asperity/recording/cut_recording.h"
+#include "asperity/recording/read_recording.h"
+#include "config_fields.h"
+#include "scan/bench_source.h"
+#include "scan/hardware_source.h"
+#include "scan/refine_scan.h"
+#include "scan/replay_source.h"
+#include "scan/scan_choices.h"
+#include "scan/scan_session.h"
+#include "utc_now.h"
+
+namespace asperity::studio {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t kClosedStatePeriod_ns = 500'000'000;
+
+// The devices that are there, by name alone: none is opened.
+Json devices_json() {
+  Json out;
+  out["serial"] = Json::array();
+  out["cameras"] = Json::array();
+  std::error_code error;
+  for (fs::directory_iterator entry("/dev", error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with("ttyUSB") || name.starts_with("ttyACM")) out["serial"].push_back("serial:/dev/" + name);
+    if (name.starts_with("video")) out["cameras"].push_back("v4l2:/dev/" + name);
+  }
+  for (Json& list : out) std::sort(list.begin(), list.end());
+  return out;
+}
+
+std::unique_ptr<ScanSource> open_source(const ScanChoices& choices, const ScanConfig& config,
+                                        const std::optional<fs::path>& recording, const Observer& observer) {
+  switch (choices.source) {
+    case SourceKind::kBench:
+      return make_bench_source(config.bench, observer);
+    case SourceKind::kHardware:
+      return make_hardware_source(choices.hardware, choices.world);
+    case SourceKind::kReplay:
+      break;
+  }
+  Recording read = read_recording(recording.value());
+  if (!choices.segment.empty()) {
+    const Segment segment = find_segment(read, choices.segment);
+    read = cut_recording(read, segment.start_ns, segment.end_ns);
+  }
+  return make_replay_source(std::move(read));
+}
+
+class ScanPage : public Page {
+ public:
+  explicit ScanPage(Shared& shared) : shared_(shared) {}
+
+  void bind(Document& document, Calls& calls) override {
+    document.add_section("scan", first_scan_section(), [](const Json& section) { read_scan_choices(section); });
+    calls.add("scan.sources", [](const Request& request) { request.answer(devices_json()); });
+    calls.add("scan.fields", [this](const Request& request) {
+      ScanConfig now = make_scan_config(choices().settings), first = make_scan_config({});
+      request.answer(fields_json(scan_fields(now), scan_fields(first)));
+    });
+    calls.add("scan.status", [this](const Request& request) {
+      Json out;
+      out["open"] = session_ != nullptr;
+      out["opening"] = busy_;
+      out["refined"] = refined_.has_value();
+      request.answer(out);
+    });
+    calls.add("scan.open", [this](const Request& request) { open(request); });
+    calls.add("scan.close", [this](const Request& request) { close(request); });
+    calls.add("scan.start", [this](const Request& request) {
+      session().start("");
+      request.done();
+    });
+    calls.add("scan.stop", [this](const Request& request) {
+      session().stop();
+      request.done();
+    });
+    calls.add("scan.segment", [this](const Request& request) {
+      const std::string name = request.text("name");
+      constexpr std::size_t kLongest = 100;
+      if (name.size() > kLongest) throw Advice("the segment's name is too long", "Take at most 100 letters.");
+      session().next_segment(name);
+      request.done();
+    });
+    calls.add("scan.discard", [this](const Request& request) {
+      session().discard();
+      request.done();
+    });
+    calls.add("scan.rescan", [this](const Request& request) {
+      session().rescan();
+      request.done();
+    });
+    calls.add("scan.profile", [this](const Request& request) { request.answer(session().profile()); });
+    calls.add("scan.path", [this](const Request& request) { request.answer(session().path()); });
+    calls.add("scan.refined", [this](const Request& request) {
+      if (!refined_) throw Advice("there is no finished scan yet", "Scan, and press Stop.");
+      request.answer(*refined_);
+    });
+  }
+
+  void tick(std::int64_t now_ns) override {
+    if (session_ || now_ns - stated_ns_ < kClosedStatePeriod_ns) return;
+    stated_ns_ = now_ns;
+    if (!shared_.hub.has_subscribers("scan.state")) return;
+    BlockWriter state("scan.state");
+    state.head()["topic"] = "scan.state";
+    state.head()["open"] = false;
+    state.head()["opening"] = busy_;
+    shared_.hub.publish("scan.state", state.take(), Delivery::kLatest);
+  }
+
+  void edited(const Edit& edit) override {
+    if (edit.path != "/scan" && !edit.path.starts_with("/scan/")) return;
+    const ScanChoices now = choices();
+    if (session_ && now.automatic != automatic_) session_->set_automatic(now.automatic);
+    automatic_ = now.automatic;
+    if (now.settings == settings_) return;
+    settings_ = now.settings;
+    if (session_) session_->tune(make_scan_config(settings_));
+    refine();
+  }
+
+  void start() override {
+    settings_ = choices().settings;
+    automatic_ = choices().automatic;
+  }
+
+  void stop() override { session_.reset(); }
+
+ private:
+  ScanChoices choices() const { return read_scan_choices(shared_.document.section("scan")); }
+
+  ScanSession& session() {
+    if (!session_) throw Advice("no source is open", "Choose a source and press Open.");
+    return *session_;
+  }
+
+  void open(const Request& request) {
+    if (busy_) throw Advice("a source is being opened or closed", "Wait until that is done.");
+    if (session_) throw Advice("a source is open already", "Close it first.");
+    ScanChoices chosen = choices();
+    chosen.hardware = resolve_hardware(chosen.hardware, shared_.project);
+    std::optional<fs::path> recording;
+    if (chosen.source == SourceKind::kReplay) {
+      if (chosen.recording.empty())
+        throw Advice("no recording is chosen", "Choose one of the project's folder to be replayed.");
+      recording = shared_.project.existing(chosen.recording);
+    }
+    ScanSetup setup;
+    setup.config = make_scan_config(chosen.settings);
+    setup.automatic = chosen.automatic;
+    setup.name = shared_.project.free_name(chosen.name);
+    setup.folder = shared_.project.writable(setup.name);
+    setup.object = chosen.object;
+    setup.created = app::utc_now();
+    busy_ = true;
+    auto opened = std::make_shared<std::unique_ptr<ScanSession>>();
+    auto waiting = std::make_shared<ScanSetup>(std::move(setup));
+    shared_.jobs.start(
+        "Opening the source", "",
+        [this, chosen, recording, waiting, opened](const Observer& observer) {
+          waiting->source = open_source(chosen, waiting->config, recording, observer);
+          *opened = std::make_unique<ScanSession>(shared_.hub, std::move(*waiting), events());
+        },
+        [this, request, opened](std::exception_ptr error) {
+          busy_ = false;
+          if (error) return refuse(request, error);
+          session_ = std::move(*opened);
+          session_->set_automatic(automatic_);
+          Json out;
+          out["recording"] = session_->name();
+          request.answer(out);
+        });
+  }
+
+  void close(const Request& request) {
+    if (busy_) throw Advice("a source is being opened or closed", "Wait until that is done.");
+    if (!session_) return request.answer(Json{{"recording", nullptr}});
+    busy_ = true;
+    auto ending = std::shared_ptr<ScanSession>(std::move(session_));
+    auto kept = std::make_shared<bool>(false);
+    shared_.jobs.start(
+        "Finishing the recording", "", [ending, kept](const Observer&) { *kept = ending->finish(); },
+        [this, request, ending, kept](std::exception_ptr error) {
+          busy_ = false;
+          if (error) return refuse(request, error);
+          request.answer(Json{{"recording", *kept ? Json(ending->name()) : Json()}});
+        });
+  }
+
+  static void refuse(const Request& request, const std::exception_ptr& error) {
+    try {
+      std::rethrow_exception(error);
+    } catch (const std::exception& fault) {
+      request.refuse(fault);
+    }
+  }
+
+  ScanEvents events() {
+    ScanEvents out;
+    out.ended = [this](FinishedScan scan) {
+      auto handed = std::make_shared<FinishedScan>(std::move(scan));
+      shared_.post([this, handed] {
+        refiner_ = std::make_shared<ScanRefiner>(std::move(*handed));
+        refine();
+      });
+    };
+    out.retuned = [this](LiveHeights live) {
+      auto handed = std::make_shared<LiveHeights>(std::move(live));
+      shared_.post([this, handed] { refine(std::move(*handed)); });
+    };
+    out.discarded = [this] {
+      shared_.post([this] {
+        refiner_.reset();
+        show_refined(BlockWriter("scan.refined"));
+        refined_.reset();
+      });
+    };
+    return out;
+  }
+
+  // The finished scan in full, with the newest settings and against the newest causal profile.
+  void refine(std::optional<LiveHeights> live = std::nullopt) {
+    if (!refiner_) return;
+    auto refined = std::make_shared<std::optional<BlockWriter>>();
+    shared_.jobs.start(
+        "Refining the profile", "scan.refine",
+        [refiner = refiner_, process = make_scan_config(settings_).process, live, refined](const Observer& observer) {
+          if (live) refiner->set_live(*live);
+          refined->emplace(refiner->refine(process, observer));
+        },
+        [this, refiner = refiner_, refined](std::exception_ptr error) {
+          if (refiner != refiner_) return;
+          if (!error) return show_refined(std::move(**refined));
+          try {
+            std::rethrow_exception(error);
+          } catch (const Cancelled&) {
+            // A newer setting has taken its place.
+          } catch (const std::exception& fault) {
+            BlockWriter failed("scan.refined");
+            failed.head()["failure"] = fault.what();
+            show_refined(std::move(failed));
+          }
+        });
+  }
+
+  void show_refined(BlockWriter block) {
+    refined_ = block;
+    block.head()["topic"] = "scan.refined";
+    shared_.hub.publish("scan.refined", block.take(), Delivery::kLatest);
+  }
+
+  Shared& shared_;
+  std::unique_ptr<ScanSession> session_;
+  bool busy_ = false;  // opening or closing
+  bool automatic_ = false;
+  std::map<std::string, std::string> settings_;
+  std::shared_ptr<ScanRefiner> refiner_;  // of the last finished scan; used by the jobs' thread
+  std::optional<BlockWriter> refined_;
+  std::int64_t stated_ns_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Page> make_scan_page(Shared& shared) { return std::make_unique<ScanPage>(shared); }
+
+}  // namespace asperity::studio

@@ -1,0 +1,113 @@
+#pragma once
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "align/align_page.h"
+#include "asperity/base/output.h"
+#include "asperity/base/random.h"
+#include "asperity/base/text.h"
+#include "asperity/geometry/mesh_bvh.h"
+#include "asperity/geometry/write_obj.h"
+#include "asperity/simulation/make_pebble.h"
+#include "asperity/simulation/random_motion.h"
+#include "asperity/testkit/temp_dir.h"
+#include "fake_hub.h"
+#include "inbox.h"
+#include "json_pose.h"
+#include "read_block.h"
+
+namespace asperity::studio {
+
+// A folder with a pebble in millimetres and a path that winds over its upper half with 10 µm of noise, seen from a
+// world of its own; and the page over it, the test being the studio's thread.
+class AlignBench {
+ public:
+  AlignBench() {
+    MeshFile file;
+    file.triangles = pebble.triangles;
+    for (const Eigen::Vector3d& vertex_m : pebble.vertices_m) file.vertices.push_back(1e3 * vertex_m);
+    write_obj(folder.path() / "pebble.obj", file);
+    Random random(3);
+    std::string csv = "t_ns,px_m,py_m,pz_m\n";
+    for (int i = 0; i < 500; ++i) {
+      const double t = 2.0 * std::numbers::pi * i / 500.0;
+      const Eigen::Vector3d towards(std::cos(t), std::sin(t), 0.9 + 0.5 * std::sin(5.0 * t));
+      p_mesh_m.push_back(bvh.closest_point(0.06 * towards.normalized()).p_m);
+      const Eigen::Vector3d noise_m = 10e-6 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+      const Eigen::Vector3d p_m = T_mesh_world.inverse() * Eigen::Vector3d(p_mesh_m.back() + noise_m);
+      csv += std::to_string(10'000'000LL * i) + "," + number_text(p_m.x()) + "," + number_text(p_m.y()) + "," +
+             number_text(p_m.z()) + "\n";
+    }
+    write_file(folder.path() / "path.csv", csv);
+    page = make_align_page(shared);
+    page->bind(document, calls);
+    jobs->bind(calls);
+    document.load();
+    document.edit("/align/paths", {"path.csv"}, "");
+    document.edit("/align/mesh", "pebble.obj", "");
+    document.edit("/align/T_mesh_world", json_of_pose(guess()), "");
+  }
+
+  // 5 mm and 5 degrees off.
+  Pose guess() const { return random_motion(5e-3, 5.0 * std::numbers::pi / 180.0, p_mesh_m[0], 4) * T_mesh_world; }
+
+  FakeHub::Answer call(const std::string& name, const Json& args = Json::object()) {
+    const std::uint64_t id = begin(name, args);
+    return wait_for(id);
+  }
+  std::uint64_t begin(const std::string& name, const Json& args) {
+    calls.dispatch(Request(hub, 1, Call{++last_id_, name, args}));
+    return last_id_;
+  }
+  // Does what is posted until `id` is answered.
+  FakeHub::Answer wait_for(std::uint64_t id) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+    while (!hub.answered(id) && std::chrono::steady_clock::now() < end) {
+      for (const auto& work : inbox.wait(std::chrono::steady_clock::now() + std::chrono::milliseconds(5))) work();
+      page->tick(0);
+    }
+    return hub.answer_to(id);
+  }
+  Pose pose() const { return pose_of_json(document.section("align").at("T_mesh_world"), "pose"); }
+
+  // Root mean square of how far the pose puts the path's points from where they belong.
+  double error_m(const Pose& pose) const {
+    double square_m2 = 0.0;
+    for (const Eigen::Vector3d& p_m : p_mesh_m) {
+      square_m2 += (pose * (T_mesh_world.inverse() * p_m) - p_m).squaredNorm() / static_cast<double>(p_mesh_m.size());
+    }
+    return std::sqrt(square_m2);
+  }
+
+  const Pose T_mesh_world{exp_rotation({0.3, -1.2, 0.8}), {0.2, -0.1, 0.4}};
+  const TriangleMesh pebble = make_pebble();
+  const MeshBvh bvh{pebble};
+  std::vector<Eigen::Vector3d> p_mesh_m;
+
+  testkit::TempDir folder;
+  FakeHub hub;
+  Inbox inbox;
+  Calls calls;
+  Project project{folder.path()};
+  Document document{folder.path() / ".asperity-studio.json"};
+  ForceLease lease;
+  std::unique_ptr<Jobs> jobs = std::make_unique<Jobs>(hub, [this](Inbox::Work work) { inbox.post(std::move(work)); });
+  Shared shared{hub, project, document, *jobs, lease, true, [this](Inbox::Work work) { inbox.post(std::move(work)); }};
+  std::unique_ptr<Page> page;
+
+ private:
+  std::uint64_t last_id_ = 0;
+};
+
+inline Json args_of(std::initializer_list<std::pair<std::string, Json>> args) {
+  Json out = Json::object();
+  for (const auto& [name, value] : args) out[name] = value;
+  return out;
+}
+
+}  // namespace asperity::studio

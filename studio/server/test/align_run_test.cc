@@ -1,0 +1,124 @@
+#include "align/align_run.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <set>
+
+#include "align_bench.h"
+#include "asperity/base/csv.h"
+#include "asperity/pipeline/write_registration.h"
+#include "register_input.h"
+
+namespace asperity::studio {
+namespace {
+
+using testing::HasSubstr;
+
+class AlignRunTest : public ::testing::Test {
+ protected:
+  AlignRunTest() { bench_.call("align.open"); }
+
+  AlignBench bench_;
+};
+
+// 500 points with 10 µm of noise determine the pose to about 10 µm / sqrt(500) times a few, and facets of 1.5 mm
+// are met to a tenth of that noise: 50 µm is far, and 5 mm is where it began.
+constexpr double kReached_m = 50e-6;
+
+TEST_F(AlignRunTest, ReachesTheTruthAndTellsEveryIteration) {
+  ASSERT_GT(bench_.error_m(bench_.pose()), 4e-3);
+  const Json result = bench_.call("align.run", args_of({{"guess", true}})).result;
+  ASSERT_TRUE(result.is_object());
+  EXPECT_LT(bench_.error_m(pose_of_json(result["T_mesh_world"], "")), kReached_m);
+  EXPECT_THAT(result["verdict"].get<std::string>(), HasSubstr("converged"));
+  EXPECT_THAT(result["certainty"].get<std::string>(), HasSubstr("known to"));
+  EXPECT_TRUE(result["trustworthy"].get<bool>()) << result["verdict"];
+  EXPECT_EQ(bench_.hub.events("align.result").back(), result);
+  EXPECT_EQ(bench_.call("align.result").result, result);
+
+  std::size_t count = 0;
+  std::uint64_t sequence = 0;
+  std::set<int> phases;
+  for (const std::string& frame : bench_.hub.frames("align.iteration")) {
+    const ReadBlock block(frame);
+    EXPECT_EQ(block.head.at("topic"), "align.iteration");
+    EXPECT_EQ(block.head.at("first").get<std::size_t>(), count);
+    EXPECT_EQ(block.head.at("sequence").get<std::uint64_t>(), sequence++);
+    for (const std::uint8_t phase : block.array<std::uint8_t>("phase")) phases.insert(phase);
+    count += block.array<double>("rms_m").size();
+  }
+  EXPECT_GE(static_cast<int>(count), result["iterations"].get<int>());
+  EXPECT_TRUE(phases.contains(static_cast<int>(RegistrationPhase::kAnnealing)));
+  EXPECT_TRUE(phases.contains(static_cast<int>(RegistrationPhase::kFit)));
+  EXPECT_TRUE(phases.contains(static_cast<int>(RegistrationPhase::kRefinement)));
+  const ReadBlock all(bench_.call("align.iterations").block);
+  EXPECT_EQ(all.array<double>("rms_m").size(), count);
+  const std::vector<double> poses = all.array<double>("T_mesh_world");
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(poses[k], bench_.pose().translation_m[static_cast<int>(k)], 1e-12);
+}
+
+TEST_F(AlignRunTest, TakenItIsOneStepAndWrittenAsTheCommandLineWrites) {
+  const Json before = bench_.document.section("align");
+  EXPECT_THAT(bench_.call("align.accept", args_of({{"solution", "best"}})).hint, HasSubstr("Run one"));
+  const Json result = bench_.call("align.run", args_of({{"guess", true}})).result;
+  bench_.call("align.accept", args_of({{"solution", "best"}}));
+  EXPECT_EQ(bench_.document.section("align").at("T_mesh_world"), result["T_mesh_world"]);
+  bench_.document.undo();
+  EXPECT_EQ(bench_.document.section("align"), before);
+  bench_.document.redo();
+
+  const FakeHub::Answer written = bench_.call("align.write", args_of({{"name", "laid"}}));
+  ASSERT_EQ(written.error, "");
+  EXPECT_EQ(written.result["scene"], "laid/scene.json");
+  EXPECT_EQ(written.result["T_mesh_world"], result["T_mesh_world"]);
+  EXPECT_THAT(written.result["command"].get<std::string>(),
+              HasSubstr("asperity register 'path.csv' 'pebble.obj' --mesh-unit 'mm' --guess="));
+
+  // The same through the functions of `asperity register`.
+  const std::filesystem::path other = bench_.folder.path() / "other";
+  std::filesystem::create_directory(other);
+  const app::RegisterInput input = app::read_register_input({(bench_.folder.path() / "path.csv").string()},
+                                                            (bench_.folder.path() / "pebble.obj").string(), 1e-3, {});
+  const Pose guess = pose_of_json(json_of_pose(pose_of_json(before["T_mesh_world"], "")), "");
+  write_registration(other, app::register_input(input, guess, {}), input.scans, input.mesh, 1e-3);
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(other)) {
+    if (entry.is_directory()) continue;
+    const auto name = std::filesystem::relative(entry.path(), other);
+    EXPECT_EQ(read_file(entry.path(), 1U << 30U), read_file(bench_.folder.path() / "laid" / name, 1U << 30U)) << name;
+    ++files;
+  }
+  EXPECT_GE(files, 4U);
+}
+
+TEST_F(AlignRunTest, TheRunnerUpIsTakenAndKept) {
+  // From anywhere there is nearly always another place that is next best.
+  bench_.document.edit("/align/config", Json::parse(R"({"search.rotations":"200","search.positions":"20"})"), "");
+  const Json result = bench_.call("align.run", args_of({{"guess", false}})).result;
+  ASSERT_TRUE(result.is_object());
+  EXPECT_TRUE(result["guess"].is_null());
+  ASSERT_TRUE(result["runner_up"].is_object());
+  bench_.call("align.accept", args_of({{"solution", "runner_up"}}));
+  const Json& section = bench_.document.section("align");
+  EXPECT_EQ(section["T_mesh_world"], result["runner_up"]["T_mesh_world"]);
+  EXPECT_EQ(section["registered"]["guess"], section["T_mesh_world"]);
+  EXPECT_TRUE(section["registered"]["near"].get<bool>());
+  const RegisterConfig config = run_config(choice_of_json(section), true);
+  EXPECT_EQ(config.search.registration.starts.when, OtherStarts::kNever);
+  EXPECT_EQ(config.refinement.other_starts, 0);
+}
+
+TEST_F(AlignRunTest, IsCancelledAndWritesNothingThen) {
+  const std::uint64_t run = bench_.begin("align.run", args_of({{"guess", false}}));
+  const std::uint64_t write = bench_.begin("align.write", args_of({{"name", "never"}}));
+  bench_.call("job.cancel", args_of({{"job", 3}}));
+  bench_.call("job.cancel", args_of({{"job", 2}}));
+  EXPECT_EQ(bench_.wait_for(run).error, "cancelled");
+  EXPECT_EQ(bench_.wait_for(write).error, "cancelled");
+  EXPECT_FALSE(std::filesystem::exists(bench_.folder.path() / "never"));
+  EXPECT_TRUE(bench_.call("align.result").result.is_null());
+}
+
+}  // namespace
+}  // namespace asperity::studio

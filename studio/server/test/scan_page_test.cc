@@ -1,0 +1,254 @@
+#include <gmock/gmock.h>
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "asperity/recording/read_recording.h"
+#include "asperity/recording/write_recording.h"
+#include "asperity/simulation/simulate_recording.h"
+#include "scan_bench.h"
+
+namespace asperity::studio {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+std::set<std::string> temporary_folders() {
+  std::set<std::string> out;
+  for (const auto& entry : fs::directory_iterator(fs::temp_directory_path())) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("asperity-scan-")) out.insert(name);
+  }
+  return out;
+}
+
+// A stroke of 15 mm over a sine, 0.8 s long.
+Recording short_scan() {
+  SimulationConfig config = make_simulation_config("sine", "open");
+  config.hand.length_m = 0.015;
+  config.hand.speed_mps = 0.05;
+  config.hand.rest_s = 0.2;
+  return simulate_recording(config);
+}
+
+void choose_replay(ScanBench& bench) {
+  write_recording(bench.folder() / "old", short_scan());
+  bench.edit("/scan/source", "replay");
+  bench.edit("/scan/recording", "old");
+}
+
+// Opens, scans once, and waits until the stroke has been worked out in full.
+void scan_once(ScanBench& bench, const std::string& command = "scan.start") {
+  const std::size_t before = bench.hub().frames("scan.refined").size();
+  bench.ask(command);
+  ASSERT_TRUE(bench.wait([&] { return bench.storing(); }));
+  ASSERT_TRUE(bench.wait([&] { return !bench.storing() && bench.segments() > 0; }));
+  ASSERT_TRUE(bench.wait([&] {
+    const auto frames = bench.hub().frames("scan.refined");
+    return frames.size() > before && !ReadBlock(frames.back()).array<double>("s_m").empty();
+  })) << (bench.refined().empty() ? "no refined profile" : ReadBlock(bench.refined()).head.dump());
+}
+
+TEST(ScanPage, ScansTheBenchFromEndToEnd) {
+  const std::set<std::string> before = temporary_folders();
+  {
+    ScanBench bench;
+    bench.set("bench.surface", "sine");
+    bench.set("bench.length_m", "0.02");
+    bench.set("bench.speed_mps", "0.04");
+    bench.set("bench.rest_s", "0.4");
+    bench.set("bench.camera_rate_Hz", "30");
+    bench.set("bench.background", "false");
+    EXPECT_EQ(bench.ask("scan.open").at("recording"), "scan");
+    scan_once(bench);
+    const ReadBlock refined(bench.refined());
+    EXPECT_EQ(refined.head.at("recording"), "scan");
+    EXPECT_NEAR(refined.head.at("length_m").get<double>(), 0.02, 0.004);
+    EXPECT_FALSE(bench.hub().frames("scan.image").empty());
+    EXPECT_FALSE(bench.hub().frames("scan.pose").empty());
+    EXPECT_FALSE(bench.hub().frames("scan.profile").empty());
+    // Once more, to another segment.
+    scan_once(bench);
+    EXPECT_EQ(bench.segments(), 2U);
+    EXPECT_EQ(bench.ask("scan.close").at("recording"), "scan");
+    const Recording made = read_recording(bench.folder() / "scan");
+    EXPECT_EQ(made.info.segments.size(), 2U);
+    EXPECT_GT(made.probe.size(), 4000U);
+    EXPECT_GT(made.tracker.size(), 10U);
+  }
+  EXPECT_EQ(temporary_folders(), before);
+}
+
+TEST(ScanPage, ShowsEachRowOfAReplayOnceAndInOrder) {
+  ScanBench bench;
+  choose_replay(bench);
+  const Recording old = read_recording(bench.folder() / "old");
+  bench.ask("scan.open");
+  scan_once(bench);
+  std::uint64_t next = 0;
+  std::vector<float> force;
+  std::int64_t newest_ns = 0;
+  for (const std::string& frame : bench.hub().frames("scan.probe")) {
+    const ReadBlock block(frame);
+    EXPECT_EQ(block.head.at("sequence").get<std::uint64_t>(), next);
+    EXPECT_EQ(block.head.at("dropped"), 0);
+    EXPECT_GT(block.head.at("newest_ns").get<std::int64_t>(), newest_ns);
+    newest_ns = block.head.at("newest_ns").get<std::int64_t>();
+    const auto part = block.array<float>("force_N");
+    EXPECT_EQ(block.array<float>("accel_mps2").size(), 3 * part.size());
+    force.insert(force.end(), part.begin(), part.end());
+    next += part.size();
+  }
+  ASSERT_EQ(force.size(), old.probe.size());
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    const double counts = old.probe.force_counts[i];
+    if (std::isnan(counts)) {
+      EXPECT_TRUE(std::isnan(force[i])) << i;
+    } else {
+      EXPECT_NEAR(force[i], old.calibration.force.force_N(counts), 1e-5) << i;  // single precision of a newton
+    }
+  }
+  bench.ask("scan.close");
+  EXPECT_EQ(read_recording(bench.folder() / "scan").probe.size(), old.probe.size());
+}
+
+TEST(ScanPage, WorksItOutAnewWhenASettingIsTuned) {
+  ScanBench bench;
+  choose_replay(bench);
+  bench.ask("scan.open");
+  scan_once(bench);
+  const ReadBlock first(bench.refined());
+  const auto generation = ReadBlock(bench.call("scan.profile").block).head.at("generation").get<int>();
+  const std::size_t refined = bench.hub().frames("scan.refined").size();
+  bench.set("process.profile.cutoff_cycles_per_mm", "0.4");
+  ASSERT_TRUE(bench.wait([&] {
+    return bench.hub().frames("scan.refined").size() > refined &&
+           ReadBlock(bench.call("scan.profile").block).head.at("generation").get<int>() > generation;
+  }));
+  const ReadBlock second(bench.refined());
+  EXPECT_EQ(second.array<double>("height_m").size(), first.array<double>("height_m").size());
+  EXPECT_NE(second.array<double>("texture_m"), first.array<double>("texture_m"));
+  EXPECT_FALSE(ReadBlock(bench.call("scan.profile").block).array<double>("s_m").empty());
+}
+
+TEST(ScanPage, DiscardsAndScansAgainUnderTheSameName) {
+  ScanBench bench;
+  choose_replay(bench);
+  bench.ask("scan.open");
+  scan_once(bench);
+  EXPECT_EQ(bench.recorder().at("segments").at(0).at("name"), "segment_1");
+  scan_once(bench, "scan.rescan");
+  EXPECT_EQ(bench.recorder().at("segments").at(0).at("name"), "segment_1");
+  EXPECT_EQ(bench.segments(), 1U);
+  EXPECT_EQ(bench.recorder().at("discarded"), 1);
+  bench.ask("scan.discard");
+  ASSERT_TRUE(bench.wait([&] { return bench.segments() == 0; }));
+  ASSERT_TRUE(bench.wait([&] { return ReadBlock(bench.refined()).array<double>("s_m").empty(); }));
+  EXPECT_THAT(bench.call("scan.refined").error, HasSubstr("no finished scan"));
+}
+
+TEST(ScanPage, OverwritesNothingAndLeavesNothingEmptyBehind) {
+  ScanBench bench;
+  choose_replay(bench);
+  fs::create_directory(bench.folder() / "scan");
+  std::ofstream(bench.folder() / "scan" / "mine.txt") << "mine";
+  const std::string name = bench.ask("scan.open").at("recording");
+  EXPECT_NE(name, "scan");
+  EXPECT_THAT(bench.call("scan.open").error, HasSubstr("open already"));
+  EXPECT_TRUE(bench.ask("scan.close").at("recording").is_null());
+  EXPECT_FALSE(fs::exists(bench.folder() / name));
+  EXPECT_TRUE(fs::exists(bench.folder() / "scan" / "mine.txt"));
+  EXPECT_THAT(bench.call("scan.start").error, HasSubstr("no source is open"));
+}
+
+TEST(ScanPage, FollowsTheTouchInAuto) {
+  ScanBench bench;
+  choose_replay(bench);
+  bench.ask("scan.open");
+  bench.edit("/scan/auto", true);
+  ASSERT_TRUE(bench.wait([&] { return bench.recorder().is_object() && bench.recorder().at("automatic").get<bool>(); }));
+  bench.ask("scan.start");
+  ASSERT_TRUE(bench.wait([&] { return bench.segments() == 1; }));
+  EXPECT_THAT(bench.recorder().at("segments").at(0).at("name").get<std::string>(), HasSubstr("contact_"));
+}
+
+TEST(ScanPage, SaysThatAProbeHasVanished) {
+  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_GE(terminal, 0);
+  ASSERT_EQ(::grantpt(terminal), 0);
+  ASSERT_EQ(::unlockpt(terminal), 0);
+  ScanBench bench;
+  bench.edit("/scan/source", "hardware");
+  bench.edit("/scan/hardware/probe", std::string("serial:") + ::ptsname(terminal));
+  bench.edit("/scan/hardware/protocol", "what");
+  bench.edit("/scan/hardware/uncalibrated", true);
+  bench.ask("scan.open");
+  const unsigned char sample[5] = {0xFF, 128, 129, 130, 40};
+  ASSERT_TRUE(bench.wait([&] {
+    EXPECT_EQ(::write(terminal, sample, sizeof sample), static_cast<ssize_t>(sizeof sample));
+    return bench.recorder().is_object() && bench.recorder().at("probe").at("state") == "running";
+  }));
+  ::close(terminal);
+  ASSERT_TRUE(bench.wait([&] { return bench.recorder().at("probe").at("state") == "lost"; }));
+  EXPECT_NE(bench.recorder().at("probe").at("message"), "");
+  EXPECT_TRUE(bench.ask("scan.close").at("recording").is_null());
+}
+
+TEST(ScanPage, RefusesWhatLeavesTheFolderOrIsNoDevice) {
+  ScanBench bench;
+  bench.edit("/scan/source", "hardware");
+  bench.edit("/scan/hardware/uncalibrated", true);
+  for (const char* probe : {"serial:/etc/passwd", "serial:/dev/../etc/passwd", "file:/etc/passwd@1000",
+                            "file:../x@1000", "no such thing", ""}) {
+    bench.edit("/scan/hardware/probe", probe);
+    EXPECT_NE(bench.call("scan.open").error, "") << probe;
+  }
+  bench.edit("/scan/hardware/probe", "udp:0.0.0.0:1");
+  bench.edit("/scan/hardware/uncalibrated", false);
+  bench.edit("/scan/hardware/calibration", "../calibration.json");
+  EXPECT_NE(bench.call("scan.open").error, "");
+  bench.edit("/scan/hardware/calibration", "");
+  EXPECT_THAT(bench.call("scan.open").error, HasSubstr("no calibration"));
+  bench.edit("/scan/source", "replay");
+  EXPECT_THAT(bench.call("scan.open").error, HasSubstr("no recording"));
+}
+
+TEST(ScanPage, RefusesASectionThatIsNone) {
+  ScanBench bench;
+  EXPECT_THROW(bench.edit("/scan/source", "elsewhere"), Error);
+  EXPECT_THROW(bench.edit("/scan/name", "../x"), Error);
+  EXPECT_THROW(bench.edit("/scan/name", ".hidden"), Error);
+  EXPECT_THROW(bench.edit("/scan/auto", 1), Error);
+  EXPECT_THROW(bench.edit("/scan/unknown", 1), Error);
+  EXPECT_THROW(bench.set("process.nonsense", "1"), Error);
+  EXPECT_THROW(bench.set("bench.speed_mps", "-3"), Error);
+  EXPECT_THROW(bench.set("recorder.mode", "auto"), Error);  // the switch's
+}
+
+TEST(ScanPage, ListsEachSettingOnce) {
+  ScanBench bench;
+  bench.set("hints.light_N", "0.5");
+  const Json fields = bench.ask("scan.fields");
+  std::set<std::string> paths;
+  for (const Json& field : fields) {
+    EXPECT_TRUE(paths.insert(field.at("path")).second) << field.at("path");
+    if (field.at("path") == "hints.light_N") {
+      EXPECT_EQ(field.at("value"), 0.5);
+      EXPECT_EQ(field.at("default"), 0.3);
+    }
+  }
+  EXPECT_TRUE(paths.contains("process.profile.cutoff_cycles_per_mm"));
+  EXPECT_FALSE(paths.contains("live.profile.cutoff_cycles_per_mm"));
+  EXPECT_TRUE(paths.contains("live.min_speed_mps"));
+}
+
+}  // namespace
+}  // namespace asperity::studio

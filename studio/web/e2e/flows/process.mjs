@@ -1,0 +1,57 @@
+// Processing: two recordings, the cut-off tuned, every view, repeatability, results written.
+import { existsSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { figure, open, type } from "../lib/ui.mjs";
+
+const kTabs = ["Path", "Spectrum", "Compliance", "Accuracy", "Dropped", "Settings used", "Profile"];
+
+export default async function process_({ page, step, folder, until, equal, near, ok, numberIn }) {
+  await open(page, "Process");
+  const result = page.getByTestId("result");
+
+  await step("a recording is measured", async () => {
+    await page.getByTestId("add-recording").selectOption("board");
+    await result.getByTestId("verdict").filter({ hasText: "To be trusted" }).waitFor();
+    near(numberIn(await figure(result, "Pitch")), 2.5, 0.05, "pitch, mm");
+  });
+
+  await step("another cut-off gives another texture, and undo the one of before", async () => {
+    const rq = () => figure(result, "Rq");
+    const before = await rq();
+    const cutoff = page.getByTestId("tune").getByRole("spinbutton", { name: /cut-off/i }).first();
+    const was = await cutoff.inputValue();
+    await type(cutoff, 1);
+    await until(async () => (await rq()) !== before && /\d/.test(await rq()), "another Rq");
+    ok(numberIn(await rq()) < numberIn(before), "Rq falls with a higher cut-off");
+    await page.locator("#main").focus();
+    await page.keyboard.press("Control+z");
+    await until(async () => (await rq()) === before, "the Rq of before");
+    equal(await cutoff.inputValue(), was, "the cut-off of before");
+  });
+
+  await step("every view is drawn", async () => {
+    for (const name of kTabs) {
+      await page.getByRole("tab", { name, exact: true }).click();
+      await page.getByRole("tabpanel").locator("canvas, table").first().waitFor();
+    }
+    await page.getByTestId("plot-height").waitFor();
+    await page.getByTestId("plot-texture").waitFor();
+  });
+
+  await step("a second recording is laid over it", async () => {
+    await page.getByTestId("add-recording").selectOption("board_again");
+    await page.getByRole("tab", { name: "Repeatability" }).click();
+    await page.getByRole("tabpanel").locator("canvas").first().waitFor();
+    ok(/0\.9\d/.test(await page.getByRole("tabpanel").textContent()), "the two agree");
+  });
+
+  await step("the results are written as the command line writes them", async () => {
+    await page.getByTestId("write").getByLabel("Folder of the results").fill("by_studio");
+    await page.getByTestId("write-results").click();
+    await page.getByTestId("written").filter({ hasText: "by_studio" }).waitFor();
+    for (const name of ["board", "board_again"]) {
+      for (const file of ["trajectory.csv", "profile.csv", "texture.json", "result.json"]) ok(existsSync(join(folder, "by_studio", name, file)), `by_studio/${name}/${file}`);
+    }
+    equal(readFileSync(join(folder, "by_studio", "board", "profile.csv"), "utf8"), readFileSync(join(folder, "measured", "profile.csv"), "utf8"), "profile.csv of studio and command line");
+  });
+}

@@ -1,0 +1,48 @@
+// Chromium, and all that it complains of.
+import { existsSync } from "node:fs";
+import { chromium } from "playwright-core";
+
+const kArguments = [
+  "--no-sandbox",
+  "--use-angle=swiftshader",
+  "--enable-unsafe-swiftshader",
+  "--disable-quic",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
+  "--mute-audio",
+];
+
+/** Debian's Chromium, or that of ASPERITY_CHROMIUM. Throws one line if there is none. */
+export async function launch() {
+  const path = process.env.ASPERITY_CHROMIUM ?? "/usr/bin/chromium";
+  if (!existsSync(path)) throw new Error(`no Chromium at ${path}: scripts/bootstrap installs it, or ASPERITY_CHROMIUM names another`);
+  return chromium.launch({ executablePath: path, args: kArguments });
+}
+
+/** A fresh profile with one page. `complaints` has what the console, the page and the network said; it must stay empty. */
+export async function openPage(browser, { width = 1400, height = 860, colorScheme = "light", offline = false } = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, colorScheme, offline, reducedMotion: "reduce", acceptDownloads: true });
+  context.setDefaultTimeout(Number(process.env.ASPERITY_E2E_TIMEOUT_MS ?? 60_000));
+  const page = await context.newPage();
+  const complaints = [];
+  let awaited = [];
+  const hear = (words) => {
+    if (!awaited.some((pattern) => pattern.test(words))) complaints.push(words);
+  };
+  const listen = (one) => {
+    one.on("console", (message) => hear(`console ${message.type()}: ${message.text()}`));
+    one.on("pageerror", (error) => hear(`error: ${error.stack ?? error}`));
+    one.on("requestfailed", async (request) => {
+      // Chromium calls an answer without a body aborted.
+      const answer = await request.response().catch(() => null);
+      if (answer?.status() !== 204) hear(`failed: ${request.url()} ${request.failure()?.errorText}`);
+    });
+    one.on("response", (response) => response.status() >= 400 && hear(`${response.status()}: ${response.url()}`));
+  };
+  listen(page);
+  /** What a flow brings about on purpose is no complaint. */
+  const expectComplaints = (...patterns) => void (awaited = patterns);
+  return { context, page, complaints, expectComplaints };
+}

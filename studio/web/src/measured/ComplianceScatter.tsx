@@ -1,0 +1,50 @@
+import { useMemo } from "preact/hooks";
+import { Plot } from "../plot/Plot";
+import type { Series } from "../plot/series";
+import { number, withError } from "../ui/format";
+import { sortedByX, type Measured } from "./measured";
+
+/** The force-acceleration ratio of every window over its force, with the mean line (seed Fig. 34): flat where it is stiff. */
+export function ComplianceScatter({ measured }: { measured: Measured }) {
+  const series = useMemo<Series[]>(() => {
+    const points = sortedByX(measured.array("compliance_force_N"), measured.array("compliance_ratio"));
+    if (points.x.length === 0) return [];
+    const ends = Float64Array.of(points.x[0]!, points.x[points.x.length - 1]!);
+    const { exponent } = measured.compliance;
+    const out: Series[] = [
+      { label: "Window", x: points.x, y: points.y, kind: "points", colour: 1, width: 5 },
+      { label: "Mean", x: ends, y: Float64Array.of(1, 1), colour: "muted", dashed: true },
+    ];
+    if (exponent !== null) out.push({ label: "Power of the force", ...powerLine(points.x, points.y, exponent), colour: 2 });
+    return out;
+  }, [measured]);
+  const { k_c, sigma_r2, exponent, exponent_error } = measured.compliance;
+  return (
+    <div class="measured-column">
+      <Plot
+        label="Ratio of force to acceleration over the mean force, one point a window"
+        series={series}
+        xAxis={{ label: "Mean force", unit: "N" }}
+        yAxis={{ label: "Ratio over its mean" }}
+        empty="No window of the scan was fast and firm enough. Vary the force from light to firm while you scan."
+        testId="plot-compliance"
+      />
+      <p class="measured-note" data-testid="compliance-words">
+        {k_c === null
+          ? "No compliance coefficient: it wants a scan whose force goes from light to firm."
+          : `k_c = ${number(k_c, 3)} (1 stiff, towards 0 soft), σ² of the ratio ${number(sigma_r2, 3)}, ratio ∝ force^${withError(exponent, exponent_error)}.`}
+      </p>
+    </div>
+  );
+}
+
+/** c·F^n through the middle of the points in logarithms, at twenty forces. */
+export function powerLine(force: Float64Array, ratio: Float64Array, exponent: number): { x: Float64Array; y: Float64Array } {
+  let sum = 0;
+  for (let i = 0; i < force.length; ++i) sum += Math.log(ratio[i]!) - exponent * Math.log(force[i]!);
+  const c = Math.exp(sum / force.length);
+  const low = force[0]!;
+  const high = force[force.length - 1]!;
+  const x = Float64Array.from({ length: 20 }, (_, i) => low + ((high - low) * i) / 19);
+  return { x, y: x.map((F) => c * F ** exponent) };
+}

@@ -1,0 +1,38 @@
+import { millimetres } from "../ui/format";
+import { Table } from "../ui/Table";
+import type { Measured } from "./measured";
+
+/** What was dropped, repaired or could not be had, and why; and the profile's gaps. */
+export function DroppedTable({ measured }: { measured: Measured }) {
+  return (
+    <div class="measured-column">
+      <Table
+        caption="What was dropped or could not be had, and why"
+        columns={[
+          { key: "count", label: "How often", numeric: true, cell: (row) => String(row.count) },
+          { key: "message", label: "What, and why" },
+          { key: "kind", label: "Name in result.json", cell: (row) => <code>{row.kind}</code> },
+        ]}
+        rows={measured.dropped}
+        empty="Nothing was dropped."
+        testId="dropped"
+      />
+      <Table
+        caption="Gaps of the profile"
+        columns={[
+          { key: "from", label: "Gap from", numeric: true, cell: (row) => millimetres(row.from_m) },
+          { key: "to", label: "to", numeric: true, cell: (row) => millimetres(row.to_m) },
+          { key: "why", label: "Why" },
+        ]}
+        rows={measured.gaps}
+        empty="The profile has no gaps."
+        testId="gaps"
+      />
+      {measured.gapCount > measured.gaps.length && (
+        <p class="measured-note">
+          {measured.gaps.length} of {measured.gapCount} gaps are listed.
+        </p>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,22 @@
+import { Figure } from "../ui/Figure";
+import { Figures } from "../ui/Figures";
+import { figureGroups, type MeasuredFigure } from "./measured";
+
+/** Figures under their groups, each with unit and uncertainty. `groups` chooses some. */
+export function FiguresTable({ figures, groups }: { figures: readonly MeasuredFigure[]; groups?: readonly string[] }) {
+  const shown = figureGroups(figures).filter((group) => !groups || groups.includes(group.name));
+  return (
+    <div class="measured-figures" data-testid="figures">
+      {shown.map((group) => (
+        <section key={group.name}>
+          <h3>{group.name}</h3>
+          <Figures>
+            {group.figures.map((figure) => (
+              <Figure key={figure.label} label={figure.label} value={figure.value} error={figure.error} unit={figure.unit} hint={figure.key || undefined} />
+            ))}
+          </Figures>
+        </section>
+      ))}
+    </div>
+  );
+}

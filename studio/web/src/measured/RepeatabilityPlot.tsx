@@ -1,0 +1,88 @@
+import { useMemo, useState } from "preact/hooks";
+import type { Block } from "../net/block";
+import { Plot } from "../plot/Plot";
+import type { Series, SeriesColour } from "../plot/series";
+import { fixed, micrometres, millimetres, number } from "../ui/format";
+import { Table } from "../ui/Table";
+import { Toggle } from "../ui/Toggle";
+import { FiguresTable } from "./FiguresTable";
+import { scaled } from "./measured";
+import { colourRange } from "./pathColours";
+
+interface RepeatedScan {
+  name: string;
+  correlation: number | null;
+  rms_um: number | null;
+  shift_m: number;
+  pitch_m: number | null;
+  depth_m: number | null;
+}
+
+/** Profiles of several scans over one another, each shifted once, and how far they agree (seed Fig. 30). */
+export function RepeatabilityPlot({ block }: { block: Block }) {
+  const [stacked, setStacked] = useState(true);
+  const scans: RepeatedScan[] = block.head.scans;
+  const x = useMemo(() => scaled(block.arrays.s_m!, 1e3), [block]);
+  const series = useMemo<Series[]>(() => {
+    const heights = scaled(block.arrays.height_m!, 1e6);
+    const step = stacked ? spacing(heights) : 0;
+    const each = scans.map((scan, index): Series => ({
+      label: `${index + 1} ${scan.name}`,
+      y: heights.subarray(index * x.length, (index + 1) * x.length).map((height) => height - index * step),
+      colour: ((index % 8) + 1) as SeriesColour,
+      width: 1.2,
+    }));
+    if (stacked) return each;
+    const mean: Series = {
+      label: "Mean ± standard deviation",
+      y: scaled(block.arrays.mean_m!, 1e6),
+      lo: scaled(block.arrays.low_m!, 1e6),
+      hi: scaled(block.arrays.high_m!, 1e6),
+      colour: "muted",
+      width: 2,
+    };
+    return [mean, ...each];
+  }, [block, stacked]);
+  const [low, high] = block.head.band_cycles_per_mm as [number, number];
+  return (
+    <div class="measured-column">
+      <div class="measured-bar">
+        <Toggle label="One below the other" on={stacked} onChange={setStacked} testId="stacked" />
+        <p class="measured-note">
+          Band {number(low, 2)} to {number(high, 3)}{"\u2009"}cycles/mm; each scan is shifted as a whole onto the first.
+        </p>
+      </div>
+      <Plot
+        label={`Profiles of ${scans.length} scans, aligned`}
+        x={x}
+        series={series}
+        xAxis={{ label: "Way along the first", unit: "mm" }}
+        yAxis={{ label: stacked ? "Height in the band, shifted" : "Height in the band", unit: "µm" }}
+        empty="The profiles have no stretch in common."
+        testId="plot-repeatability"
+      />
+      <div class="measured-split">
+        <Table
+          caption="The scans and how they agree with the first"
+          columns={[
+            { key: "name", label: "Scan", cell: (row, index) => `${index + 1}\u00a0${row.name}` },
+            { key: "correlation", label: "Correlation", numeric: true, cell: (row) => fixed(row.correlation, 4) },
+            { key: "rms_um", label: "Difference, RMS", unit: "µm", numeric: true },
+            { key: "shift_m", label: "Shift", numeric: true, cell: (row) => millimetres(row.shift_m, 3) },
+            { key: "pitch_m", label: "Pitch", numeric: true, cell: (row) => millimetres(row.pitch_m) },
+            { key: "depth_m", label: "Depth", numeric: true, cell: (row) => micrometres(row.depth_m) },
+          ]}
+          rows={scans}
+          testId="repeated-scans"
+        />
+        <FiguresTable figures={block.head.figures} />
+      </div>
+    </div>
+  );
+}
+
+/** How far apart profiles stand so that they can be told apart: what all but a hundredth of the heights span. */
+function spacing(heights: Float64Array): number {
+  const range = colourRange(heights);
+  return range ? range.high - range.low : 0;
+}

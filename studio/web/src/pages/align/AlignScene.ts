@@ -1,0 +1,173 @@
+// The mesh, the path and what belongs to them, in a view. The view's origin is the middle of the mesh's box.
+import { Color, Group, type Mesh, type Object3D, type Points, Vector3 } from "three";
+import { TransformControls } from "three/examples/jsm/controls/TransformControls.js";
+import type { Block } from "../../net/block";
+import { themeColour } from "../../plot/colours";
+import { newGesture } from "../../state/document";
+import { dotsFromPoints, meshFromBlock, setColours, sphere } from "../../view3d/helpers";
+import type { View } from "../../view3d/View";
+import { numberLabel } from "./numberLabel";
+import { nearestOnScreen, type Pick, type Screen } from "./picks";
+import { placePath, poseOfPath, type Frame, type Point, type Pose } from "./pose";
+import { colourLimit_m, residualColours } from "./residuals";
+
+const kReach_px = 14;
+
+export interface AlignSceneEvents {
+  moved(pose: Pose, gesture: string): void;
+}
+
+export class AlignScene {
+  private readonly path = new Group();
+  private readonly ghost = new Group();
+  private readonly marks = new Group();
+  private readonly gizmo: TransformControls;
+  private readonly helper: Object3D;
+  private readonly frame: Frame;
+  private readonly size_m: number;
+  private readonly points: Float32Array;
+  private mesh: Mesh;
+  private dots: Points;
+  private gesture = "";
+
+  constructor(
+    private readonly view: View,
+    block: Block,
+    events: AlignSceneEvents,
+  ) {
+    this.frame = { middle_world_m: block.head.middle_world_m, origin_m: block.head.origin_m };
+    this.size_m = new Vector3(...block.head.high_m).sub(new Vector3(...block.head.low_m)).length();
+    this.points = block.arrays.path_points as Float32Array;
+    const mesh = meshFromBlock(block, "positions", "indices", { colour: themeColour("--view-mesh") });
+    // The path lies on the surface: the surface is drawn a little behind itself.
+    mesh.material.polygonOffset = true;
+    mesh.material.polygonOffsetFactor = 2;
+    mesh.material.polygonOffsetUnits = 8;
+    this.mesh = view.add(mesh);
+    this.dots = dotsFromPoints(this.points, new Float32Array(this.points.length).fill(0.5), 5);
+    this.path.add(this.dots);
+    this.ghost.add(dotsFromPoints(this.points, themeColour("--text-1"), 2));
+    this.ghost.visible = false;
+    view.add(this.path);
+    view.add(this.ghost);
+    view.add(this.marks);
+    this.gizmo = new TransformControls(view.camera, view.canvas);
+    this.gizmo.setSize(0.8);
+    this.helper = this.gizmo.getHelper();
+    view.scene.add(this.helper);
+    this.gizmo.addEventListener("change", view.invalidate);
+    this.gizmo.addEventListener("axis-changed", ({ value }) => (view.controls.enabled = !value));
+    this.gizmo.addEventListener("dragging-changed", ({ value }) => {
+      view.controls.enabled = !value;
+      this.gesture = newGesture();
+    });
+    this.gizmo.addEventListener("objectChange", () => events.moved(poseOfPath(this.path, this.frame), this.gesture));
+  }
+
+  /** Shows mesh and path from where the viewer stands. */
+  fit(): void {
+    this.view.fit(this.mesh);
+  }
+
+  place(pose: Pose): void {
+    if (!this.gizmo.dragging) placePath(this.path, pose, this.frame);
+    this.view.invalidate();
+  }
+
+  placeGhost(pose: Pose | null): void {
+    this.ghost.visible = pose !== null;
+    if (pose) placePath(this.ghost, pose, this.frame);
+    this.view.invalidate();
+  }
+
+  setTool(mode: "translate" | "rotate" | null): void {
+    if (mode) {
+      this.gizmo.setMode(mode);
+      this.gizmo.attach(this.path);
+    } else {
+      this.gizmo.detach();
+      this.view.controls.enabled = true;
+    }
+    this.view.invalidate();
+  }
+
+  setTranslucent(on: boolean): void {
+    const { material } = this.mesh as Mesh & { material: { transparent: boolean; opacity: number; depthWrite: boolean; needsUpdate: boolean } };
+    material.transparent = on;
+    material.opacity = on ? 0.35 : 1;
+    material.depthWrite = !on;
+    material.needsUpdate = true;
+    this.view.invalidate();
+  }
+
+  colour(distance_m: Float32Array): void {
+    if (3 * distance_m.length !== this.points.length) return;
+    setColours(this.dots, residualColours(distance_m, colourLimit_m(distance_m)));
+    this.view.invalidate();
+  }
+
+  takeColours(): void {
+    (this.mesh.material as unknown as { color: Color }).color.set(themeColour("--view-mesh"));
+    ((this.ghost.children[0] as Points).material as unknown as { color: Color }).color.set(themeColour("--text-1"));
+    this.view.invalidate();
+  }
+
+  /** Numbered balls at picked pairs: those of the path move with it. */
+  mark(picks: readonly Pick[], half: Point | null): void {
+    const old = [...this.path.children.filter((child) => child !== this.dots), ...this.marks.children];
+    for (const mark of old) this.view.remove(mark);
+    picks.forEach(({ path, mesh }, index) => {
+      this.path.add(this.marker(`${index + 1}`, this.inPath(path), "--series-2"));
+      this.marks.add(this.marker(`${index + 1}`, new Vector3(...mesh).sub(new Vector3(...this.frame.origin_m)), "--series-1"));
+    });
+    if (half) this.path.add(this.marker(`${picks.length + 1}`, this.inPath(half), "--series-2"));
+    this.view.invalidate();
+  }
+
+  /** The point of the path under a place of the window, world frame. */
+  pathPointAt(x: number, y: number): Point | null {
+    const place = this.view.canvas.getBoundingClientRect();
+    this.path.updateMatrixWorld();
+    const screen: (Screen | null)[] = [];
+    const p = new Vector3();
+    for (let at = 0; at < this.points.length; at += 3) {
+      p.fromArray(this.points, at).applyMatrix4(this.path.matrixWorld).project(this.view.camera);
+      const seen = Math.abs(p.z) <= 1;
+      screen.push(seen ? { x: place.left + ((p.x + 1) / 2) * place.width, y: place.top + ((1 - p.y) / 2) * place.height } : null);
+    }
+    const found = nearestOnScreen(screen, { x, y }, kReach_px);
+    if (found < 0) return null;
+    const world = p.fromArray(this.points, 3 * found).add(new Vector3(...this.frame.middle_world_m));
+    return [world.x, world.y, world.z];
+  }
+
+  /** The point of the mesh under a place of the window, mesh frame. */
+  meshPointAt(x: number, y: number): Point | null {
+    const hit = this.view.aim(x, y).intersectObject(this.mesh, false)[0];
+    if (!hit) return null;
+    const p = hit.point.clone().add(new Vector3(...this.frame.origin_m));
+    return [p.x, p.y, p.z];
+  }
+
+  destroy(): void {
+    this.gizmo.detach();
+    this.gizmo.dispose();
+    this.helper.removeFromParent();
+    for (const part of [this.mesh, this.path, this.ghost, this.marks]) this.view.remove(part);
+    this.view.controls.enabled = true;
+  }
+
+  private inPath(p_world_m: Point): Vector3 {
+    return new Vector3(...p_world_m).sub(new Vector3(...this.frame.middle_world_m));
+  }
+
+  private marker(text: string, at: Vector3, colour: string): Group {
+    const group = new Group();
+    const ball = sphere(0.006 * this.size_m, themeColour(colour));
+    const label = numberLabel(text, 0.035 * this.size_m, themeColour("--panel"), themeColour(colour));
+    label.position.set(0, 0, 0.025 * this.size_m);
+    group.add(ball, label);
+    group.position.copy(at);
+    return group;
+  }
+}

@@ -1,0 +1,173 @@
+import { useEffect, useRef, useState } from "preact/hooks";
+import { dark } from "../../app/settings";
+import { edit } from "../../state/document";
+import { fixed } from "../../ui/format";
+import { attempt, Button } from "../../ui/Button";
+import { useKeys } from "../../ui/keys";
+import type { View } from "../../view3d/View";
+import { viewNames } from "../../view3d/views";
+import { Viewport } from "../../view3d/Viewport";
+import { AlignScene } from "./AlignScene";
+import { align, ghostPose, half, iterations, move, opened, opening, residuals, scrub, showing, shown, take, tool, type Tool } from "./alignState";
+import { colourLimit_m, rampStops } from "./residuals";
+import { phaseWords } from "./iterations";
+
+const kClick_px = 4;
+
+/** Mesh and path, coloured by their distance, with the gizmo and the picked points. */
+export function AlignView() {
+  const view = useRef<View | null>(null);
+  const scene = useRef<AlignScene | null>(null);
+  const [translucent, setTranslucent] = useState(false);
+  const [ready, setReady] = useState(0);
+  const block = opened.value;
+  const distances = residuals.value;
+
+  useEffect(() => {
+    if (!view.current || !block) return;
+    const made = new AlignScene(view.current, block, { moved: move });
+    scene.current = made;
+    if (shown.value) made.place(shown.value);
+    made.fit();
+    return () => {
+      scene.current = null;
+      made.destroy();
+    };
+  }, [block, ready]);
+  useEffect(() => void (shown.value && scene.current?.place(shown.value)), [block, ready, shown.value]);
+  useEffect(() => scene.current?.placeGhost(ghostPose.value), [block, ready, ghostPose.value]);
+  useEffect(() => void (distances && scene.current?.colour(distances.distance_m)), [block, ready, distances]);
+  useEffect(() => scene.current?.mark(align.value?.picks ?? [], half.value), [block, ready, align.value?.picks, half.value, dark.value]);
+  useEffect(() => scene.current?.setTranslucent(translucent), [block, ready, translucent]);
+  useEffect(() => scene.current?.takeColours(), [block, ready, dark.value]);
+  const gizmo = showing.value === "placed" && (tool.value === "translate" || tool.value === "rotate") ? tool.value : null;
+  useEffect(() => scene.current?.setTool(gizmo), [block, ready, gizmo]);
+
+  useKeys([
+    { key: "t", label: "move the path with the gizmo", run: () => choose("translate") },
+    { key: "r", label: "turn the path with the gizmo", run: () => choose("rotate") },
+    { key: "p", label: "pick pairs of points", run: () => choose("pick") },
+    { key: "escape", label: "put the tool away", run: () => (half.value ? (half.value = null) : choose("look")) },
+    ...viewNames.map((name, index) => ({ key: `${index + 1}`, label: `see it from the ${name}`, run: () => view.current?.setView(name) })),
+  ]);
+
+  const limit_mm = distances ? 1e3 * colourLimit_m(distances.distance_m) : 0;
+  return (
+    <Viewport
+      label="The mesh and the scan path, coloured by its distance to the mesh"
+      up="z"
+      testId="align-view"
+      onReady={(made) => {
+        view.current = made;
+        setReady((times) => times + 1);
+        const end = listenToClicks(made, () => scene.current);
+        return () => {
+          end();
+          scene.current?.destroy();
+          scene.current = null;
+          view.current = null;
+        };
+      }}
+    >
+      <div class="align-tools" role="group" aria-label="Tools">
+        <ToolButton name="look" words="Look" hint="Drag turns the view (Esc)" />
+        <ToolButton name="translate" words="Move" hint="Arrows move the path (T)" />
+        <ToolButton name="rotate" words="Turn" hint="Rings turn the path about its middle (R)" />
+        <ToolButton name="pick" words="Pick" hint="Click a point of the path, then where it belongs on the mesh (P)" />
+        <Button pressed={translucent} onClick={() => setTranslucent(!translucent)} hint="See the path through the mesh">
+          See through
+        </Button>
+      </div>
+      {distances && (
+        <div class="align-legend" data-testid="align-legend">
+          <span>distance to the mesh</span>
+          <span class="align-ramp" style={{ background: `linear-gradient(to right, ${rampStops()})` }} />
+          <span class="align-ramp-ends">
+            <span>0</span>
+            <span>{fixed(limit_mm / 2, limit_mm < 0.1 ? 3 : 2)}</span>
+            <span>≥ {fixed(limit_mm, limit_mm < 0.1 ? 3 : 2)} mm</span>
+          </span>
+        </div>
+      )}
+      <Notice />
+    </Viewport>
+  );
+}
+
+function choose(next: Tool): void {
+  tool.value = next;
+  if (next !== "pick") half.value = null;
+  if (next !== "look") showing.value = "placed";
+}
+
+function ToolButton({ name, words, hint }: { name: Tool; words: string; hint: string }) {
+  return (
+    <Button pressed={tool.value === name} onClick={() => choose(name)} hint={hint} disabled={!opened.value} testId={`align-tool-${name}`}>
+      {words}
+    </Button>
+  );
+}
+
+/** What is shown, where it is not simply the path in its place. */
+function Notice() {
+  const words = noticeWords();
+  return (
+    <div class="align-notice" role="status">
+      {words && <span>{words}</span>}
+      {(showing.value === "best" || showing.value === "runner_up") && (
+        <>
+          <Button kind="primary" onClick={() => take(showing.value as "best" | "runner_up")}>
+            Take this pose
+          </Button>
+          <Button onClick={() => (showing.value = "placed")}>Back</Button>
+        </>
+      )}
+    </div>
+  );
+}
+
+function noticeWords(): string {
+  if (opening.value) return "Opening the mesh and the scan …";
+  if (!opened.value) return "Choose a scan and a mesh at the left.";
+  const { phases, phase, poses, rms_m } = iterations.value;
+  switch (showing.value) {
+    case "best":
+      return "Shown: the registered pose, not taken yet.";
+    case "runner_up":
+      return "Shown: the runner-up, not taken yet.";
+    case "iteration":
+      if (poses.length === 0) return "Registering …";
+      return `Iteration ${scrub.value + 1} of ${poses.length}: ${phaseWords(phases[phase[scrub.value]!] ?? "")}, ${fixed(1e3 * (rms_m[scrub.value] ?? NaN), 3)} mm RMS`;
+    case "placed":
+      if (tool.value !== "pick") return "";
+      return half.value ? "Now click where this point belongs on the mesh." : "Click a point of the path.";
+  }
+}
+
+/** A click, which is no drag, picks a point of the path and then one of the mesh. */
+function listenToClicks(view: View, scene: () => AlignScene | null): () => void {
+  let down: { x: number; y: number } | null = null;
+  return view.onPointer({
+    targets: () => [],
+    on({ kind, event }) {
+      if (kind === "down" && event.button === 0) down = { x: event.clientX, y: event.clientY };
+      if (kind !== "up" || !down) return;
+      const isClick = Math.hypot(event.clientX - down.x, event.clientY - down.y) < kClick_px;
+      down = null;
+      if (isClick && tool.value === "pick") pickAt(event.clientX, event.clientY, scene());
+    },
+  });
+}
+
+function pickAt(x: number, y: number, scene: AlignScene | null): void {
+  if (!scene) return;
+  if (!half.value) {
+    half.value = scene.pathPointAt(x, y);
+    return;
+  }
+  const mesh = scene.meshPointAt(x, y);
+  if (!mesh) return;
+  const picks = [...(align.value?.picks ?? []), { path: half.value, mesh }];
+  half.value = null;
+  void attempt(() => edit("/align/picks", picks, "pick a pair of points"));
+}

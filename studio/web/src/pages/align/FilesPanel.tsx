@@ -1,0 +1,78 @@
+import { useEffect, useState } from "preact/hooks";
+import { call } from "../../net/connection";
+import { edit } from "../../state/document";
+import { entries } from "../../ui/entries";
+import { FilePicker } from "../../ui/FilePicker";
+import { Panel } from "../../ui/Panel";
+import { Select } from "../../ui/Select";
+import { complain } from "../../ui/toast";
+import { align, opened, type AlignSection } from "./alignState";
+
+const UNITS = ["mm", "cm", "m"];
+
+interface PathEntry {
+  kind: "recording" | "path";
+  name: string;
+}
+
+/** Which scans are laid on which mesh. */
+export function FilesPanel() {
+  const [paths, setPaths] = useState<PathEntry[]>([]);
+  useEffect(() => void call<PathEntry[]>("align.paths").then(setPaths, complain), [entries.value]);
+  const section = align.value;
+  if (!section) return null;
+  const known = new Set(paths.map(({ name }) => name));
+  const shown = [...paths, ...section.paths.filter((name) => !known.has(name)).map((name) => ({ kind: "gone" as const, name }))];
+  const units = UNITS.includes(section.mesh_unit) ? UNITS : [...UNITS, section.mesh_unit];
+  const points = opened.value?.shapes.path_points?.[0];
+  const triangles = opened.value?.shapes.indices?.[0];
+  return (
+    <Panel title="Scan and mesh" testId="align-files">
+      <FilePicker label="Mesh" kinds={["mesh"]} value={section.mesh} onChange={(mesh) => change({ mesh }, "choose a mesh")} testId="align-mesh" />
+      <Select label="Its unit" value={section.mesh_unit} options={units} onChange={(mesh_unit) => change({ mesh_unit }, "choose the mesh's unit")} testId="align-unit" />
+      <fieldset class="align-paths">
+        <legend>Scans, all in one world</legend>
+        {shown.length === 0 && <p class="empty">There is no recording and no CSV of a path in the folder.</p>}
+        {shown.map(({ kind, name }) => (
+          <label key={name}>
+            <input
+              type="checkbox"
+              checked={section.paths.includes(name)}
+              onChange={(event) => choosePath(section, name, event.currentTarget.checked)}
+            />
+            {name} <span class="align-kind">{kind === "gone" ? "not in the folder" : kind}</span>
+          </label>
+        ))}
+      </fieldset>
+      <FilePicker
+        label="Texture"
+        kinds={["texture"]}
+        none="The scan's own"
+        value={section.textures[0] ?? ""}
+        onChange={(name) => edit("/align/textures", name ? [name] : [], "choose the texture")}
+        hint="What is laid along the path."
+      />
+      {points !== undefined && triangles !== undefined && (
+        <p class="field-hint" data-testid="align-opened">
+          {points} points, {triangles} triangles
+        </p>
+      )}
+      {((opened.value?.head.problems ?? []) as string[]).map((problem) => (
+        <p key={problem} class="field-hint">
+          {problem}
+        </p>
+      ))}
+    </Panel>
+  );
+}
+
+function choosePath(section: AlignSection, name: string, on: boolean): Promise<void> {
+  const paths = on ? [...section.paths, name] : section.paths.filter((other) => other !== name);
+  return change({ paths }, on ? "choose a scan" : "leave a scan out").catch(complain);
+}
+
+/** Another mesh or scan begins anew: poses and picks of the old one mean nothing there. */
+function change(part: Partial<AlignSection>, label: string): Promise<void> {
+  const { T_mesh_world: _pose, registered: _registered, ...kept } = align.value!;
+  return edit("/align", { ...kept, picks: [], ...part }, label);
+}

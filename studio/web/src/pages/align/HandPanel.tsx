@@ -1,0 +1,83 @@
+import { Panel } from "../../ui/Panel";
+import { Slider } from "../../ui/Slider";
+import { Button } from "../../ui/Button";
+import { edit } from "../../state/document";
+import { about, align, moveBySix, opened, shownSix, type Six } from "./alignState";
+
+const AXES = ["x", "y", "z"] as const;
+// Turns about x, the turned y and the twice turned z; the middle one within a quarter turn, so that the six are one pose.
+const TURN_LIMITS_deg = [180, 90, 180];
+const kOriginReach_m = 1;
+
+/** The six numbers of the pose (seed §5.4, Fig. 23). */
+export function HandPanel() {
+  const six = shownSix.value;
+  const head = opened.value?.head;
+  const set = (which: keyof Six, axis: number, value: number, gesture: string): void => {
+    if (!six) return;
+    const numbers = [...six[which]];
+    numbers[axis] = value;
+    moveBySix({ ...six, [which]: numbers }, gesture);
+  };
+  return (
+    <Panel title="By hand" collapsible testId="align-hand">
+      <div class="align-about" role="group" aria-label="Turns are about">
+        <span>About</span>
+        <Button pressed={about.value === "middle"} onClick={() => (about.value = "middle")} hint="x, y, z: where the path's middle lies in the mesh's frame">
+          path's middle
+        </Button>
+        <Button pressed={about.value === "origin"} onClick={() => (about.value = "origin")} hint="The six numbers of asperity register --align">
+          world's origin
+        </Button>
+      </div>
+      {AXES.map((axis, index) => {
+        const value = six?.shift_m[index] ?? 0;
+        const [low, high] = range(head, index, value);
+        return (
+          <Slider
+            key={axis}
+            label={axis}
+            value={value}
+            low={low}
+            high={high}
+            step={1e-4}
+            factor={1e3}
+            unit="mm"
+            disabled={!six || !head}
+            onInput={(next, gesture) => set("shift_m", index, next, gesture)}
+            testId={`align-shift-${axis}`}
+          />
+        );
+      })}
+      {AXES.map((axis, index) => (
+        <Slider
+          key={axis}
+          label={`turn ${axis}`}
+          value={six?.turn_deg[index] ?? 0}
+          low={-TURN_LIMITS_deg[index]!}
+          high={TURN_LIMITS_deg[index]!}
+          step={0.1}
+          unit="°"
+          disabled={!six || !head}
+          onInput={(next, gesture) => set("turn_deg", index, next, gesture)}
+          testId={`align-turn-${axis}`}
+        />
+      ))}
+      <Button onClick={() => edit("/align/T_mesh_world", null, "begin anew")} disabled={!align.value?.T_mesh_world} hint="The path's middle on the mesh's, unturned">
+        Begin anew
+      </Button>
+    </Panel>
+  );
+}
+
+/** Half a mesh beyond the mesh; about the world's origin, the reach of a tracker. */
+function range(head: Record<string, any> | undefined, axis: number, value: number): [number, number] {
+  if (!head || about.value === "origin") {
+    const reach = Math.max(kOriginReach_m, Math.ceil(2 * Math.abs(value)));
+    return [-reach, reach];
+  }
+  const low = head.low_m[axis] as number;
+  const high = head.high_m[axis] as number;
+  const beyond = 0.5 * Math.hypot(...[0, 1, 2].map((k) => head.high_m[k] - head.low_m[k]));
+  return [Math.min(low - beyond, value), Math.max(high + beyond, value)];
+}

@@ -1,0 +1,33 @@
+import { useMemo } from "preact/hooks";
+import { Plot } from "../../plot/Plot";
+import { Figure } from "../../ui/Figure";
+import { Figures } from "../../ui/Figures";
+import { Panel } from "../../ui/Panel";
+import { residuals } from "./alignState";
+import { colourLimit_m, histogram } from "./residuals";
+
+/** How far the path that is shown lies from the mesh. */
+export function ResidualPanel() {
+  const now = residuals.value;
+  const bars = useMemo(() => (now ? histogram(now.distance_m, colourLimit_m(now.distance_m)) : null), [now]);
+  return (
+    <Panel title="Distances" testId="align-distances">
+      <Figures columns={3}>
+        <Figure label="Mean" value={now?.mean_m} factor={1e3} unit="mm" digits={3} testId="align-mean" />
+        <Figure label="RMS" value={now?.rms_m} factor={1e3} unit="mm" digits={3} />
+        <Figure label="Most" value={now?.most_m} factor={1e3} unit="mm" digits={3} />
+      </Figures>
+      <div class="align-histogram">
+        <Plot
+          label="Histogram of the distances, negative inside the mesh"
+          x={bars?.edges_mm ?? []}
+          series={[{ label: "points", y: bars?.percent ?? [], kind: "step", colour: 1 }]}
+          xAxis={{ label: "inside − / + outside", unit: "mm" }}
+          yAxis={{ label: "points", unit: "%" }}
+          legend={false}
+          empty="No path and mesh are open."
+        />
+      </div>
+    </Panel>
+  );
+}

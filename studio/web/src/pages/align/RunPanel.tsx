@@ -1,0 +1,85 @@
+import { Button } from "../../ui/Button";
+import { Figure } from "../../ui/Figure";
+import { Figures } from "../../ui/Figures";
+import { cancelJob, jobs } from "../../ui/job";
+import { Panel } from "../../ui/Panel";
+import { Toggle } from "../../ui/Toggle";
+import { ghost, isRegistered, opened, register, result, running, showing, take, type RunResult, type Showing } from "./alignState";
+
+/** The registration: from here or from anywhere, what it says of itself, and its runner-up. */
+export function RunPanel() {
+  const found = result.value;
+  const job = jobs.value.find(({ title }) => title.startsWith("Registering"));
+  return (
+    <Panel title="Registration" testId="align-run">
+      <div class="buttons">
+        <Button kind="primary" onClick={() => register(true)} disabled={!opened.value || running.value} hint="ICP from where the path lies now" testId="align-run-here">
+          From here
+        </Button>
+        <Button onClick={() => register(false)} disabled={!opened.value || running.value} hint="Searches the whole mesh, without a guess" testId="align-run-anywhere">
+          From anywhere
+        </Button>
+        {running.value && job && <Button onClick={() => cancelJob(job.id)}>Cancel</Button>}
+      </div>
+      <div aria-live="polite">{found ? <Verdict found={found} /> : <p class="field-hint">{running.value ? "Registering …" : "Not run yet."}</p>}</div>
+      {isRegistered.value && <p class="field-hint">The path lies where a registration has put it.</p>}
+    </Panel>
+  );
+}
+
+function Verdict({ found }: { found: RunResult }) {
+  const other = found.runner_up;
+  return (
+    <>
+      <p class={found.trustworthy ? "align-verdict align-good" : "align-verdict align-doubt"} data-testid="align-verdict">
+        <strong>{found.trustworthy ? "To be trusted. " : "Not to be trusted. "}</strong>
+        {found.verdict}
+      </p>
+      <p class="field-hint">{found.certainty}</p>
+      {found.undetermined.length > 0 && (
+        <ul class="align-undetermined" aria-label="Motions that the scan does not determine">
+          {found.undetermined.map(({ description }) => (
+            <li key={description}>The path {description}.</li>
+          ))}
+        </ul>
+      )}
+      {found.problems.map((problem) => (
+        <p key={problem} class="field-hint">
+          {problem}
+        </p>
+      ))}
+      <Figures columns={2}>
+        <Figure label="Residual, RMS" value={found.rms_m} factor={1e3} unit="mm" digits={3} testId="align-rms" />
+        <Figure label="Outliers" value={`${found.outliers} of ${found.points}`} />
+        {other && <Figure label="Runner-up, RMS" value={other.rms_m} factor={1e3} unit="mm" digits={3} />}
+        {other && <Figure label="It is away" value={other.distance_m} factor={1e3} unit="mm" digits={3} />}
+      </Figures>
+      <fieldset class="align-show">
+        <legend>Show</legend>
+        <Choice value="placed" words="the path in its place" />
+        <Choice value="best" words="the registered pose" />
+        {other && <Choice value="runner_up" words="the runner-up" />}
+      </fieldset>
+      {other && <Toggle label="With the other one as a ghost" on={ghost.value} onChange={(on) => (ghost.value = on)} />}
+      <div class="buttons">
+        <Button onClick={() => take("best")} testId="align-take">
+          Take the pose
+        </Button>
+        {other && (
+          <Button onClick={() => take("runner_up")} testId="align-take-other">
+            Take the runner-up
+          </Button>
+        )}
+      </div>
+    </>
+  );
+}
+
+function Choice({ value, words }: { value: Showing; words: string }) {
+  return (
+    <label>
+      <input type="radio" name="align-show" checked={showing.value === value} onChange={() => (showing.value = value)} />
+      {words}
+    </label>
+  );
+}

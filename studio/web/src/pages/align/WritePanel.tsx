@@ -1,0 +1,60 @@
+import { useState } from "preact/hooks";
+import { go } from "../../app/routes";
+import { call } from "../../net/connection";
+import { edit } from "../../state/document";
+import { Button } from "../../ui/Button";
+import { readEntries } from "../../ui/entries";
+import { Panel } from "../../ui/Panel";
+import { TextField } from "../../ui/TextField";
+import { align } from "./alignState";
+
+interface Written {
+  name: string;
+  scene: string;
+  trustworthy: boolean;
+  verdict: string;
+  command: string;
+}
+
+/** Writes what `asperity register` writes. */
+export function WritePanel() {
+  const mesh = align.value?.mesh ?? "";
+  const stem = (mesh.split("/").pop() ?? "").replace(/\.[^.]*$/, "");
+  const [typed, setTyped] = useState("");
+  const [written, setWritten] = useState<Written | null>(null);
+  const name = typed || `${stem || "mesh"}-aligned`;
+  const write = async () => {
+    setWritten(null);
+    setWritten(await call<Written>("align.write", { name }));
+    await readEntries();
+  };
+  const feel = async () => {
+    await edit("/feel/scene", written!.scene, "feel the aligned scene");
+    go("feel");
+  };
+  return (
+    <Panel title="Write" testId="align-write">
+      <TextField label="Folder" value={name} onChange={setTyped} hint="In the project; the registration is run to its end from the pose." />
+      <Button kind="primary" onClick={write} disabled={!align.value?.T_mesh_world} hint="Needs a pose that was set or taken" testId="align-write-button">
+        Write result
+      </Button>
+      <div role="status" data-testid="align-written">
+        {written && (
+          <>
+            <p>
+              Written to {written.name}.{written.trustworthy ? "" : " Not to be trusted: "}
+              {written.trustworthy ? "" : written.verdict}
+            </p>
+            <Button onClick={feel} testId="align-feel">
+              Open in Feel
+            </Button>
+            <details>
+              <summary>The same on the command line</summary>
+              <code class="align-command">{written.command}</code>
+            </details>
+          </>
+        )}
+      </div>
+    </Panel>
+  );
+}

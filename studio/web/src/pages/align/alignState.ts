@@ -1,0 +1,233 @@
+// What the Align page knows beside the document: the open mesh and path, the last registration, what is being shown.
+import { computed, effect, signal } from "@preact/signals";
+import { call, onEvent, subscribe } from "../../net/connection";
+import type { Block } from "../../net/block";
+import { documentIsRead, edit, section } from "../../state/document";
+import { complain } from "../../ui/toast";
+import { noIterations, withBlock, type Iterations } from "./iterations";
+import { latest } from "./latest";
+import type { Pick } from "./picks";
+import { samePose, type Frame, type Point, type Pose } from "./pose";
+
+export interface AlignSection {
+  paths: string[];
+  mesh: string;
+  mesh_unit: string;
+  textures: string[];
+  config: Record<string, string>;
+  picks: Pick[];
+  T_mesh_world?: Pose;
+  registered?: { guess: Pose | null; near: boolean; T_mesh_world: Pose };
+}
+
+export interface Solution {
+  T_mesh_world: Pose;
+  rms_m: number | null;
+}
+
+export interface RunResult extends Solution {
+  run: number;
+  guess: Pose | null;
+  mean_m: number | null;
+  points: number;
+  outliers: number;
+  iterations: number;
+  converged: boolean;
+  trustworthy: boolean;
+  ambiguous: boolean;
+  verdict: string;
+  certainty: string;
+  undetermined: { description: string; sigma_m: number | null }[];
+  runner_up: (Solution & { distance_m: number | null; turn_deg: number | null }) | null;
+  problems: string[];
+}
+
+export interface Residuals {
+  distance_m: Float32Array;
+  mean_m: number;
+  rms_m: number;
+  most_m: number;
+}
+
+export interface Six {
+  shift_m: number[];
+  turn_deg: number[];
+}
+
+export type Showing = "placed" | "iteration" | "best" | "runner_up";
+export type Tool = "look" | "translate" | "rotate" | "pick";
+
+export const align = section<AlignSection | undefined>("align");
+
+export const opened = signal<Block | null>(null);
+export const opening = signal(false);
+export const residuals = signal<Residuals | null>(null);
+export const iterations = signal<Iterations>(noIterations);
+export const result = signal<RunResult | null>(null);
+export const running = signal(false);
+export const showing = signal<Showing>("placed");
+/** The iteration that is shown, from 0. */
+export const scrub = signal(0);
+export const ghost = signal(false);
+export const tool = signal<Tool>("look");
+/** The point of the path, in the world, that waits for its point of the mesh. */
+export const half = signal<Point | null>(null);
+/** What turns leave in its place. */
+export const about = signal<"middle" | "origin">("middle");
+export const six = signal<Six | null>(null);
+
+const draft = signal<Pose | null>(null);
+const draftSix = signal<Six | null>(null);
+
+export const frame = computed<Frame | null>(() => {
+  const head = opened.value?.head;
+  return head ? { middle_world_m: head.middle_world_m, origin_m: head.origin_m } : null;
+});
+
+/** The pose that is the user's: as it is dragged, as decided, or where one begins. */
+export const placed = computed<Pose | null>(() => draft.value ?? align.value?.T_mesh_world ?? opened.value?.head.start ?? null);
+
+export const shown = computed<Pose | null>(() => {
+  if (showing.value === "iteration") return iterations.value.poses[scrub.value] ?? placed.value;
+  if (showing.value === "best") return result.value?.T_mesh_world ?? placed.value;
+  if (showing.value === "runner_up") return result.value?.runner_up?.T_mesh_world ?? placed.value;
+  return placed.value;
+});
+
+/** The other solution of the two, while one of them is shown. */
+export const ghostPose = computed<Pose | null>(() => {
+  const other = result.value?.runner_up;
+  if (!ghost.value || !other) return null;
+  return showing.value === "runner_up" ? result.value!.T_mesh_world : other.T_mesh_world;
+});
+
+/** True where the pose is still that of the registration it was taken from. */
+export const isRegistered = computed(() => samePose(align.value?.T_mesh_world, align.value?.registered?.T_mesh_world));
+
+const pivot = (): Point => (about.value === "middle" ? frame.value!.middle_world_m : [0, 0, 0]);
+export const shownSix = computed<Six | null>(() => draftSix.value ?? six.value);
+
+const POSE_PATH = "/align/T_mesh_world";
+const mover = latest(
+  ({ pose, gesture }: { pose: Pose; gesture: string }) => edit(POSE_PATH, pose, "move the path", gesture).catch(complain),
+  () => (draft.value = null),
+);
+
+/** Moves the path; called as often as one likes. */
+export function move(pose: Pose, gesture: string): void {
+  showing.value = "placed";
+  draft.value = pose;
+  mover({ pose, gesture });
+}
+
+const turner = latest(
+  async ({ wanted, gesture }: { wanted: Six; gesture: string }) => {
+    try {
+      const { pose } = await call("align.sliders", { ...wanted, about_world_m: pivot() });
+      draft.value = pose;
+      await edit(POSE_PATH, pose, "move the path", gesture);
+    } catch (error) {
+      complain(error);
+    }
+  },
+  () => {
+    draft.value = null;
+    draftSix.value = null;
+  },
+);
+
+/** Poses the path by the six numbers. */
+export function moveBySix(wanted: Six, gesture: string): void {
+  showing.value = "placed";
+  draftSix.value = wanted;
+  turner({ wanted, gesture });
+}
+
+const quietly = (error: unknown): void => {
+  if (!(error instanceof Error && error.message === "cancelled")) complain(error);
+};
+
+/** Opens what the document names, again when that changes. */
+async function open(): Promise<void> {
+  opening.value = true;
+  try {
+    opened.value = await call<Block>("align.open");
+    const last = await call<RunResult | null>("align.result");
+    result.value = last;
+    iterations.value = last ? withBlock(noIterations, await call<Block>("align.iterations")) : noIterations;
+  } catch (error) {
+    opened.value = null;
+    result.value = null;
+    quietly(error);
+  } finally {
+    opening.value = false;
+  }
+}
+
+export async function register(fromHere: boolean): Promise<void> {
+  running.value = true;
+  iterations.value = noIterations;
+  result.value = null;
+  scrub.value = 0;
+  showing.value = "iteration";
+  try {
+    result.value = await call<RunResult>("align.run", { guess: fromHere });
+    showing.value = "best";
+  } catch (error) {
+    showing.value = "placed";
+    quietly(error);
+  } finally {
+    running.value = false;
+  }
+}
+
+export async function take(solution: "best" | "runner_up"): Promise<void> {
+  await call("align.accept", { solution });
+  showing.value = "placed";
+}
+
+/** Follows server and document while the page is shown; the function that it returns ends it. */
+export function followAlign(): () => void {
+  const measurer = latest(async (pose: Pose) => {
+    try {
+      const block = await call<Block>("align.residuals", { pose });
+      const { mean_m, rms_m, most_m } = block.head as Residuals;
+      residuals.value = { distance_m: block.arrays.distance_m as Float32Array, mean_m, rms_m, most_m };
+    } catch (error) {
+      residuals.value = null;
+      if (!opening.value) quietly(error);
+    }
+  });
+  const reader = latest(async (pose: Pose) => {
+    six.value = await call<Six>("align.sliders", { pose, about_world_m: pivot() });
+  });
+  const what = computed(() => {
+    const { paths = [], mesh = "", mesh_unit = "", config = {} } = align.value ?? {};
+    if (!documentIsRead.value || !mesh || paths.length === 0) return "";
+    const points = Object.entries(config).filter(([path]) => path.startsWith("process.") || path.startsWith("points."));
+    return JSON.stringify([paths, mesh, mesh_unit, points]);
+  });
+  const ends = [
+    effect(() => {
+      showing.value = "placed";
+      // The edit that this follows is sent first: it is under way in the caller.
+      if (what.value) queueMicrotask(() => void open());
+      else opened.value = null;
+    }),
+    effect(() => {
+      if (opened.value && shown.value) measurer(shown.value);
+      else residuals.value = null;
+    }),
+    effect(() => {
+      const pose = placed.value;
+      const isOpen = opened.value && about.value;
+      if (isOpen && pose && !draftSix.value) reader(pose);
+    }),
+    subscribe("align.iteration", (block) => {
+      iterations.value = withBlock(iterations.value, block);
+      if (running.value) scrub.value = Math.max(0, iterations.value.poses.length - 1);
+    }),
+    onEvent("align.result", (news: RunResult) => (result.value = news)),
+  ];
+  return () => ends.forEach((end) => end());
+}

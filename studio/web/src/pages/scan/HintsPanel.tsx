@@ -1,0 +1,38 @@
+import { Lamp } from "../../ui/Lamp";
+import { Panel } from "../../ui/Panel";
+import { state } from "./stream";
+
+const TITLES: Record<string, string> = {
+  no_calibration: "No calibration",
+  probe_silent: "Probe silent",
+  rows_lost: "Rows lost",
+  marker_lost: "Marker lost",
+  accelerometer_saturating: "Acceleration too strong",
+  force_saturating: "Force too strong",
+  too_fast: "Too fast",
+  too_light: "Too light",
+  too_hard: "Too hard",
+  tilted_too_far: "Tilted too far",
+  tilting_too_fast: "Turning too fast",
+  doubling_back: "Doubling back",
+};
+
+/** What the operator should do differently, now. */
+export function HintsPanel() {
+  const now = state.value;
+  const hints = now?.open ? (now.hints ?? []) : [];
+  const waiting = now?.open && now.source?.playing ? now.live?.waiting : "";
+  return (
+    <Panel title="Hints" testId="scan-hints">
+      <ul class="scan-hints" aria-live="polite" aria-relevant="additions text">
+        {hints.map((hint) => (
+          <li key={hint.kind} data-hint={hint.kind}>
+            <Lamp state={hint.severity === "error" ? "bad" : "warn"} word={TITLES[hint.kind] ?? hint.kind} />
+            <p>{hint.text}</p>
+          </li>
+        ))}
+        {hints.length === 0 && <li class="empty">{waiting || (now?.open ? "All is well." : "They come while you scan.")}</li>}
+      </ul>
+    </Panel>
+  );
+}

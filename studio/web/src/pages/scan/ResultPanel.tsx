@@ -1,0 +1,36 @@
+import { Button } from "../../ui/Button";
+import { Figure } from "../../ui/Figure";
+import { Figures } from "../../ui/Figures";
+import { fixed } from "../../ui/format";
+import { Panel } from "../../ui/Panel";
+import { openInProcess } from "./commands";
+import { refined, state } from "./stream";
+
+/** The last scan worked out in full, and how the live profile lies against it. */
+export function ResultPanel() {
+  const head = refined.value?.head;
+  return (
+    <Panel title="Refined on stop" testId="scan-result">
+      {!head && <p class="empty">Stop a scan, and it is worked out in full.</p>}
+      {head?.failure && <p role="alert">{head.failure}</p>}
+      {head && !head.failure && (
+        <>
+          <Figures>
+            <Figure label="Length" value={head.length_m} factor={1e3} unit="mm" />
+            <Figure label="Mean speed" value={head.speed_mps} factor={1e3} unit="mm/s" digits={3} />
+            <Figure label="Ra" value={head.roughness?.Ra_m} factor={1e6} unit="µm" digits={3} testId="scan-ra" />
+            <Figure label="Live against refined" value={head.difference ? `r = ${fixed(head.difference.correlation, 4)}` : "–"} testId="scan-correlation"
+              hint="Correlation of the two in the band in which profiles are compared" />
+            <Figure label="RMS difference" value={head.difference?.rms_um} unit="µm" digits={3} testId="scan-rms" />
+            <Figure label="Worked out in" value={Math.round(head.took_s * 1e3)} unit="ms" testId="scan-took" />
+          </Figures>
+          {!head.trustworthy && <p class="field-error" role="status">Not to be trusted: {head.verdict}</p>}
+          <Button onClick={openInProcess} testId="scan-to-process"
+            hint={state.value?.open ? "Finishes the recording, closes the source and opens it on the Process page" : undefined}>
+            Open in Process
+          </Button>
+        </>
+      )}
+    </Panel>
+  );
+}

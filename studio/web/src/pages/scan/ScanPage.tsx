@@ -1,0 +1,104 @@
+import { useEffect, useMemo, useState } from "preact/hooks";
+import { call } from "../../net/connection";
+import { LivePlot } from "../../plot/LivePlot";
+import type { ConfigField } from "../../ui/ConfigForm";
+import { useKeys } from "../../ui/keys";
+import { PageLayout } from "../../ui/PageLayout";
+import { Panel } from "../../ui/Panel";
+import { complain } from "../../ui/toast";
+import { CameraImage } from "./CameraImage";
+import { discard, rescan, segment, startOrStop, toggleAuto } from "./commands";
+import { HintsPanel } from "./HintsPanel";
+import { ProfilePlot } from "./ProfilePlot";
+import { RecordPanel } from "./RecordPanel";
+import { ResultPanel } from "./ResultPanel";
+import { ScanView } from "./ScanView";
+import { SegmentsPanel } from "./SegmentsPanel";
+import { SensorsPanel } from "./SensorsPanel";
+import { scan, withSettings } from "./settings";
+import { SourcePanel } from "./SourcePanel";
+import { acceleration, figures, follow, force, state } from "./stream";
+import { TuningPanel } from "./TuningPanel";
+import "./scan.css";
+
+const kWindow_s = 6;
+const FORCE = [{ label: "force", colour: 1 as const }];
+const ACCELERATION = [
+  { label: "x", colour: 2 as const },
+  { label: "y", colour: 3 as const },
+  { label: "z", colour: 4 as const },
+];
+
+/** Record a surface and watch its profile grow (seed Fig. 7 and §7.2). */
+export default function ScanPage() {
+  const [known, setKnown] = useState<ConfigField[]>([]);
+  useEffect(follow, []);
+  useEffect(() => void call<ConfigField[]>("scan.fields").then(setKnown).catch(complain), []);
+  const settings = scan.value.settings;
+  const fields = useMemo(() => withSettings(known, settings), [known, settings]);
+  useKeys([
+    { key: "space", label: "start or stop recording", run: startOrStop },
+    { key: "s", label: "end the segment and begin the next", run: () => segment() },
+    { key: "d", label: "discard the last segment", run: discard },
+    { key: "r", label: "rescan: discard and record again", run: rescan },
+    { key: "a", label: "record while the probe touches (Auto)", run: toggleAuto },
+  ]);
+  return (
+    <PageLayout
+      title="Scan"
+      stripHeight="48%"
+      side={
+        <>
+          <RecordPanel />
+          <SourcePanel fields={fields} />
+          <TuningPanel fields={fields} />
+        </>
+      }
+      results={
+        <>
+          <HintsPanel />
+          <SensorsPanel />
+          <ResultPanel />
+          <SegmentsPanel />
+        </>
+      }
+      strip={
+        <div class="scan-strip">
+          <ProfilePlot />
+          <div class="scan-live">
+            <Panel title="Force" grow>
+              <LivePlot label="Force" buffer={force} series={FORCE} yAxis={{ label: "force", unit: "N" }} window_s={kWindow_s} leastHeight={0.5} testId="scan-force-plot" />
+            </Panel>
+            <Panel title="Acceleration" grow>
+              <LivePlot label="Specific force of the accelerometer in the marker's frame" buffer={acceleration} series={ACCELERATION}
+                yAxis={{ label: "specific force", unit: "m/s²" }} window_s={kWindow_s} leastHeight={2} testId="scan-acceleration-plot" />
+            </Panel>
+          </div>
+        </div>
+      }
+    >
+      <div class="scan-main">
+        <ScanView />
+        <CameraImage />
+      </div>
+      <StreamLine />
+    </PageLayout>
+  );
+}
+
+/** The stream's figures for tests and scripts. */
+function StreamLine() {
+  const { median_ms, late_ms, rows, lost } = figures.value;
+  return (
+    <output
+      class="visually-hidden"
+      aria-live="off"
+      data-testid="scan-stream"
+      data-open={String(state.value?.open ?? false)}
+      data-rows={rows}
+      data-rows-lost={lost}
+      data-latency-ms={Number.isFinite(median_ms) ? median_ms.toFixed(1) : ""}
+      data-latency-p95-ms={Number.isFinite(late_ms) ? late_ms.toFixed(1) : ""}
+    />
+  );
+}

@@ -1,0 +1,51 @@
+import { Figure } from "../../ui/Figure";
+import { Figures } from "../../ui/Figures";
+import { fixed } from "../../ui/format";
+import { Lamp } from "../../ui/Lamp";
+import { Panel } from "../../ui/Panel";
+import { contactWords, gravityWords, lostRows, sensorWords, type Words } from "./scanState";
+import { figures, state } from "./stream";
+
+/** How probe and tracker stand: states, rates, losses, contact, gravity, delay. */
+export function SensorsPanel() {
+  const now = state.value?.open ? state.value : null;
+  const recorder = now?.recorder;
+  const waits = (now?.source?.plays ?? false) && !now?.source?.playing;
+  const stream = figures.value;
+  return (
+    <Panel title="Sensors" testId="scan-sensors">
+      <dl class="scan-lamps">
+        <LampRow label="Contact" words={contactWords(recorder)} testId="scan-contact" live />
+        <LampRow label="Probe" words={sensorWords(recorder?.probe, waits)} testId="scan-probe-state" />
+        <LampRow label="Tracker" words={sensorWords(recorder?.poses, waits)} testId="scan-tracker-state" />
+        <LampRow label="Calibration" words={now ? (now.source?.calibrated ? { lamp: "good", word: "known" } : { lamp: "warn", word: "none" }) : { lamp: "off", word: "–" }} testId="scan-calibration" />
+        <LampRow label="Gravity" words={gravityWords(recorder)} testId="scan-gravity" />
+      </dl>
+      {[recorder?.probe, recorder?.poses].map((sensor) => sensor?.message && sensor.state !== "running" && <p class="field-hint" role="status">{sensor.message}</p>)}
+      {[...(recorder?.probe.warnings ?? []), ...(recorder?.poses.warnings ?? [])].map((warning) => (
+        <p key={warning} class="field-hint">
+          {warning}
+        </p>
+      ))}
+      <Figures>
+        <Figure label="Force" value={fixed(recorder?.force_N, recorder?.force_is_calibrated ? 2 : 0) + (recorder?.force_is_calibrated ? "\u2009N" : recorder ? " counts" : "")} testId="scan-force" />
+        <Figure label="Probe" value={recorder ? Math.round(recorder.probe.rate_Hz) : null} unit="rows/s" testId="scan-probe-rate" />
+        <Figure label="Tracker" value={recorder ? Math.round(recorder.poses.rate_Hz) : null} unit="poses/s" testId="scan-pose-rate" />
+        <Figure label="Rows lost" value={recorder ? String(lostRows(recorder)) : "–"} hint="On the way from the probe to the recording." testId="scan-lost" />
+        <Figure label="Written" value={recorder ? recorder.disk_bytes * 1e-6 : null} unit="MB" digits={3} />
+        <Figure label="To the screen" value={Number.isFinite(stream.median_ms) ? Math.round(stream.median_ms) : null} unit="ms" hint="From the sensor to the drawn frame: the median." testId="scan-latency" />
+      </Figures>
+    </Panel>
+  );
+}
+
+function LampRow({ label, words, testId, live }: { label: string; words: Words; testId: string; live?: boolean }) {
+  return (
+    <div>
+      <dt>{label}</dt>
+      <dd>
+        <Lamp state={words.lamp} word={words.word} live={live} testId={testId} />
+      </dd>
+    </div>
+  );
+}

@@ -1,0 +1,149 @@
+// What the server says of a scan (topic "scan.state"), and the words and lamps for it.
+import type { LampState } from "../../ui/Lamp";
+
+export type SensorState = "absent" | "running" | "silent" | "lost" | "ended";
+
+export interface Sensor {
+  state: SensorState;
+  name: string;
+  message: string;
+  warnings: string[];
+  rate_Hz: number;
+  received: number;
+  lost: number;
+  returned: number;
+  queue_fill: number;
+  overflowed: number;
+}
+
+export interface SegmentInfo {
+  name: string;
+  duration_s: number;
+  open: boolean;
+}
+
+export interface RecorderState {
+  running_s: number;
+  probe: Sensor;
+  poses: Sensor;
+  link: { samples: number; lost_samples: number; damaged_frames: number; estimated: boolean };
+  tracking: { frames: number; poses: number; skipped_frames: number };
+  force_N: number | null;
+  force_is_calibrated: boolean;
+  touching: boolean;
+  contact_ready: boolean;
+  touches: number;
+  markers: number | null;
+  pose: number[] | null;
+  pose_age_s: number | null;
+  storing: boolean;
+  automatic: boolean;
+  segment: string;
+  segments: SegmentInfo[];
+  discarded: number;
+  recorded_s: number;
+  probe_rows: number;
+  tracker_rows: number;
+  disk_bytes: number;
+  gravity: { measured: boolean; implausible: boolean; magnitude_mps2: number | null };
+  columns_missing: boolean;
+  failure: string;
+}
+
+export interface SourceState {
+  name: string;
+  object: string;
+  plays: boolean;
+  playing: boolean;
+  calibrated: boolean;
+  tip_in_marker_m: [number, number, number];
+  camera?: { width: number; height: number; fx: number; fy: number; cx: number; cy: number };
+}
+
+export interface Hint {
+  kind: string;
+  severity: "warning" | "error";
+  text: string;
+}
+
+export interface ScanState {
+  open: boolean;
+  opening?: boolean;
+  source?: SourceState;
+  recorder?: RecorderState;
+  live?: { waiting: string; age_s: number; highest_speed_mps: number | null };
+  hints?: Hint[];
+}
+
+export interface Words {
+  lamp: LampState;
+  word: string;
+}
+
+/** The one thing that the operator has to see from afar. */
+export function recordWords(state: ScanState | null): Words {
+  if (!state) return { lamp: "off", word: "…" };
+  if (state.opening) return { lamp: "busy", word: state.open ? "Closing …" : "Opening …" };
+  const recorder = state.recorder;
+  if (!state.open || !recorder) return { lamp: "off", word: "No source open" };
+  if (recorder.failure) return { lamp: "bad", word: "Not recording: the disk has failed" };
+  if (recorder.storing) return { lamp: "good", word: `Recording ${recorder.segment}` };
+  if (recorder.automatic) return { lamp: "busy", word: "Waiting for contact" };
+  return { lamp: "off", word: "Ready" };
+}
+
+export function contactWords(recorder: RecorderState | undefined): Words {
+  if (!recorder) return { lamp: "off", word: "–" };
+  if (!recorder.contact_ready) return { lamp: "busy", word: "learning the idle level" };
+  return recorder.touching ? { lamp: "good", word: "in contact" } : { lamp: "off", word: "in the air" };
+}
+
+const SENSOR_WORDS: Record<SensorState, Words> = {
+  absent: { lamp: "off", word: "not asked for" },
+  running: { lamp: "good", word: "running" },
+  silent: { lamp: "warn", word: "nothing has come yet" },
+  lost: { lamp: "bad", word: "lost; tried again and again" },
+  ended: { lamp: "warn", word: "at its end" },
+};
+
+/** `waits`: the source is one that plays, and does not now. */
+export function sensorWords(sensor: Sensor | undefined, waits: boolean): Words {
+  if (!sensor) return { lamp: "off", word: "–" };
+  if (waits && (sensor.state === "running" || sensor.state === "silent")) return { lamp: "off", word: "waits for Start" };
+  return SENSOR_WORDS[sensor.state];
+}
+
+export function gravityWords(recorder: RecorderState | undefined): Words {
+  if (!recorder) return { lamp: "off", word: "–" };
+  if (recorder.gravity.implausible) return { lamp: "warn", word: "measured, but not believed" };
+  if (recorder.gravity.measured) return { lamp: "good", word: "measured" };
+  return { lamp: "warn", word: "assumed: hold the probe still" };
+}
+
+/** Rows that are missing in the recording, for whatever reason. */
+export const lostRows = (recorder: RecorderState): number =>
+  recorder.link.lost_samples + recorder.probe.overflowed + recorder.poses.overflowed;
+
+export interface Abilities {
+  start: boolean;
+  stop: boolean;
+  segment: boolean;
+  discard: boolean;
+  rescan: boolean;
+}
+
+/** Which commands make sense now. In Auto a source that plays is still started by hand. */
+export function abilities(state: ScanState | null): Abilities {
+  const recorder = state?.open && !state.opening ? state.recorder : undefined;
+  if (!recorder) return { start: false, stop: false, segment: false, discard: false, rescan: false };
+  const plays = state!.source?.plays ?? false;
+  const playing = plays && (state!.source?.playing ?? false);
+  const some = recorder.segments.length > 0;
+  return {
+    start: recorder.automatic ? plays && !playing : !recorder.storing,
+    stop: recorder.automatic ? playing : recorder.storing,
+    segment: !recorder.automatic && recorder.storing && !plays,
+    discard: some,
+    rescan: some && !(recorder.automatic && !plays),
+  };
+}

@@ -1,0 +1,121 @@
+// What comes from the server while a scan is open, gathered for the page's parts.
+import { signal } from "@preact/signals";
+import type { Block } from "../../net/block";
+import { call, link, subscribe } from "../../net/connection";
+import { LiveBuffer } from "../../plot/LiveBuffer";
+import { Growing, RowCounter } from "./growing";
+import { HostClock, Recent } from "./latency";
+import type { ScanState } from "./scanState";
+
+const kPing_ms = 5000;
+const kFigures_ms = 250;
+
+export const state = signal<ScanState | null>(null);
+/** The newest camera image, and the last scan worked out in full; null: there is none. */
+export const image = signal<Block | null>(null);
+export const refined = signal<Block | null>(null);
+
+export const force = new LiveBuffer(1);
+export const acceleration = new LiveBuffer(3);
+export const rows = new RowCounter();
+
+export const profile = new Growing(
+  { s_m: 1e3, height_m: 1e6, sigma_m: 1e6, texture_m: 1e6, force_N: 1, speed_mps: 1e3 },
+  "s_m",
+  () => void askProfile(),
+);
+export const path = new Growing({ tip_m: 1, axis: 1, force_N: 1, state: 1 }, "tip_m", () => void askPath(), 3);
+/** Grow when the profile or the path has, at most ten times a second; the 3D view looks at `path` itself. */
+export const profileVersion = signal(0);
+
+/** From the sensor to the drawn frame, and how many rows have come and not come. */
+export interface StreamFigures {
+  median_ms: number;
+  late_ms: number;
+  rows: number;
+  lost: number;
+}
+export const figures = signal<StreamFigures>({ median_ms: NaN, late_ms: NaN, rows: 0, lost: 0 });
+
+const clock = new HostClock();
+const latencies = new Recent();
+let askedProfile = false;
+let askedPath = false;
+
+/** Begins to listen; the function that it returns ends it. */
+export function follow(): () => void {
+  const ends = [
+    subscribe("scan.state", (block) => (state.value = block.head as unknown as ScanState)),
+    subscribe("scan.probe", takeRows),
+    subscribe("scan.profile", (block) => profile.take(block)),
+    subscribe("scan.pose", (block) => path.take(block)),
+    subscribe("scan.image", (block) => (image.value = block)),
+    subscribe("scan.refined", (block) => (refined.value = block.arrays.s_m || block.head.failure ? block : null)),
+    link.subscribe((now) => now === "open" && void begin()),
+  ];
+  const ping = setInterval(() => void measure(), kPing_ms);
+  const tell = setInterval(() => {
+    profileVersion.value = profile.version;
+    figures.value = { median_ms: latencies.quantile(0.5), late_ms: latencies.quantile(0.95), rows: rows.rows, lost: rows.lost };
+  }, kFigures_ms / 2);
+  return () => {
+    clearInterval(ping);
+    clearInterval(tell);
+    ends.forEach((end) => end());
+  };
+}
+
+/** The page is new, or the connection is back: what there is already. */
+async function begin(): Promise<void> {
+  rows.clear();
+  latencies.clear();
+  await measure();
+  const status = await call<{ open: boolean; refined: boolean }>("scan.status").catch(() => null);
+  if (!status) return;
+  if (status.refined) refined.value = await call<Block>("scan.refined").catch(() => null);
+  if (status.open) await Promise.all([askProfile(), askPath()]);
+}
+
+async function measure(): Promise<void> {
+  if (link.value !== "open") return;
+  const sent = performance.now();
+  const answer = await call<{ t_ns: number }>("studio.ping").catch(() => null);
+  if (answer) clock.add(sent, answer.t_ns, performance.now());
+}
+
+async function askProfile(): Promise<void> {
+  if (askedProfile) return;
+  askedProfile = true;
+  const all = await call<Block>("scan.profile").catch(() => null);
+  askedProfile = false;
+  if (all) profile.take(all);
+}
+
+async function askPath(): Promise<void> {
+  if (askedPath) return;
+  askedPath = true;
+  const all = await call<Block>("scan.path").catch(() => null);
+  askedPath = false;
+  if (all) path.take(all);
+}
+
+function takeRows(block: Block): void {
+  const t_s = block.arrays.t_s!;
+  rows.take(block.head.sequence, t_s.length);
+  const forces = block.arrays.force_N!;
+  const when: number[] = [];
+  const read: number[] = [];
+  // A force sensor slower than the rows has nothing new in most of them.
+  for (let row = 0; row < t_s.length; ++row) {
+    if (!Number.isFinite(forces[row]!)) continue;
+    when.push(t_s[row]!);
+    read.push(forces[row]!);
+  }
+  force.append(when, [read]);
+  const all = block.arrays.accel_mps2!;
+  const axes = [0, 1, 2].map((axis) => Float32Array.from(t_s, (_t, row) => all[3 * row + axis]!));
+  acceleration.append(t_s, axes);
+  const newest_ns: number = block.head.newest_ns;
+  // Drawn in the next frame; the task after it begins when that frame has been handed on.
+  requestAnimationFrame(() => setTimeout(() => clock.known && latencies.add(performance.now() - clock.toHere_ms(newest_ns))));
+}

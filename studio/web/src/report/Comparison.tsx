@@ -1,0 +1,21 @@
+import { Table } from "../ui/Table";
+import { comparedRows, type ComparedRow } from "./compare";
+import type { Result } from "./result";
+
+/** The figures of several results side by side. */
+export function Comparison({ results }: { results: Result[] }) {
+  const rows = comparedRows(results.map((result) => result.json));
+  return (
+    <section class="report-drawing report-compared" aria-label="Side by side">
+      <h2>Side by side</h2>
+      <Table<ComparedRow>
+        caption="Figures of all results"
+        columns={[
+          { key: "label", label: "Figure" },
+          ...results.map((result, index) => ({ key: `${index}`, label: result.name, numeric: true, cell: (row: ComparedRow) => row.values[index] ?? "–" })),
+        ]}
+        rows={rows}
+      />
+    </section>
+  );
+}

@@ -1,0 +1,49 @@
+import { Comparison } from "./Comparison";
+import { PathView } from "./PathView";
+import { ProfilePlots } from "./ProfilePlots";
+import { ResultDetails } from "./ResultDetails";
+import type { Result } from "./result";
+
+/** The page: plots of all results together, then each one's figures, problems and settings. */
+export function Report({ results }: { results: Result[] }) {
+  const one = results.length === 1 ? results[0]! : null;
+  return (
+    <main class="report">
+      <header class="report-head">
+        <h1>{one ? one.name : `${results.length} results`}</h1>
+        <p>{one ? subtitle(one) : results.map((result) => result.name).join(", ")}</p>
+      </header>
+      {results.map((result) => (
+        <Verdict key={result.name} result={result} named={!one} />
+      ))}
+      <ProfilePlots results={results} />
+      <PathView results={results} />
+      {!one && <Comparison results={results} />}
+      {results.map((result) => (
+        <ResultDetails key={result.name} result={result} named={!one} />
+      ))}
+      <footer class="report-foot">
+        <p>Measured by Asperity {versions(results)}. The files beside this report hold the same numbers in full; `asperity report` makes it again from them.</p>
+      </footer>
+    </main>
+  );
+}
+
+function subtitle({ json }: Result): string {
+  return [json.object, json.probe && `probe ${json.probe}`, json.method && `method ${json.method}`].filter(Boolean).join(" · ");
+}
+
+function Verdict({ result, named }: { result: Result; named: boolean }) {
+  const { trustworthy, verdict } = result.json;
+  if (trustworthy && named) return null;
+  return (
+    <p class={trustworthy ? "report-verdict" : "report-verdict report-distrust"} role="status">
+      {named && <strong>{result.name}: </strong>}
+      {trustworthy ? "✓ The measurement can be trusted." : `⚠ Not to be trusted: ${verdict}`}
+    </p>
+  );
+}
+
+function versions(results: Result[]): string {
+  return [...new Set(results.map((result) => String(result.json.asperity ?? "of unknown version")))].join(", ");
+}
