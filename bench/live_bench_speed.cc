@@ -89,6 +89,7 @@ Run play(const asperity::Recording& recording, const Options& options) {
   Run out;
   asperity::LiveProfile live(recording.calibration, recording.info, options.config);
   std::int64_t next_ns = 0;
+  std::int64_t last_point_ns = 0;
   for (const asperity::ScanArrival& arrival : asperity::list_arrivals(recording, {0.0, options.pose_delay_s})) {
     const double before_s = processor_s();
     if (arrival.kind == asperity::ScanArrival::Kind::kRow) {
@@ -115,7 +116,10 @@ Run play(const asperity::Recording& recording, const Options& options) {
       out.profile.sigma_m.push_back(point.sigma_m);
       out.profile.texture_m.push_back(point.texture_m);
       const double age_s = 1e-9 * static_cast<double>(news.newest_row_ns - point.t_ns);
-      if (point.speed_mps > 5e-3) out.highest_point_age_s = std::max(out.highest_point_age_s, age_s);
+      // While the tip stands still a point waits for it: that is no delay of the estimate.
+      const bool moving = point.t_ns - last_point_ns < 20'000'000;
+      last_point_ns = point.t_ns;
+      if (moving && point.speed_mps > 5e-3) out.highest_point_age_s = std::max(out.highest_point_age_s, age_s);
     }
   }
   return out;

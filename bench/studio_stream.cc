@@ -90,7 +90,9 @@ void follow(int port, const std::string& cookie, Received& out) {
       client.send(RawClient::frame(1, std::string(R"({"id":1,"call":"subscribe","args":{"topic":")") + topic + "\"}}"));
     }
     std::uint64_t expected = 0;
-    while (const auto frame = client.next_frame()) {
+    for (;;) {
+      const auto frame = client.next_frame();
+      if (!frame) throw Error("the server closed the connection");
       const double now = static_cast<double>(now_ns());
       if (frame->opcode == 1) {
         if (frame->payload.find("\"end\"") != std::string::npos) break;

@@ -204,7 +204,9 @@ TEST(LiveProfile, ALiftedTipGivesAGap) {
   EXPECT_EQ(inside, 0);
   for (const LiveTip& tip : played.tips) {
     const double t_s = after_start_s(sine_scan(), tip.t_ns);
-    if (t_s > 2.01 && t_s < 2.28) EXPECT_FALSE(tip.contact) << t_s;
+    if (t_s > 2.01 && t_s < 2.28) {
+      EXPECT_FALSE(tip.contact) << t_s;
+    }
   }
 }
 

@@ -102,7 +102,8 @@ TEST(ScanAdvisor, TooFastNamesTheSpeedToStayBelow) {
   EXPECT_EQ(hints[0].kind, HintKind::kTooFast);
   EXPECT_THAT(hints[0].text, HasSubstr("60 mm/s"));
   EXPECT_THAT(hints[0].text, HasSubstr("below 40 mm/s"));
-  EXPECT_GT(hints[0].since_ns, kSecond);
+  EXPECT_GE(hints[0].since_ns, kSecond);
+  EXPECT_LT(hints[0].since_ns, 2 * kSecond);
   scan.speed_mps = 0.02;
   EXPECT_THAT(scan.go(advisor, 4.0), IsEmpty());
 }
@@ -224,30 +225,28 @@ TEST(ScanAdvisor, RefusesLimitsThatExcludeEachOther) {
 }
 
 TEST(ScanAdvisor, AGoodSimulatedScanGivesNoHint) {
-  for (const char* probe : {"open", "what"}) {
-    SimulationConfig simulation = make_simulation_config("sine", probe);
-    simulation.seed = 3;
-    const Recording recording = simulate_recording(simulation);
-    LiveProfile live(recording.calibration, recording.info);
-    ScanAdvisor advisor(recording.calibration, recording.info);
-    std::int64_t next_ns = 0;
-    for (const ScanArrival& arrival : list_arrivals(recording)) {
-      if (arrival.kind == ScanArrival::Kind::kRow) {
-        const ProbeSample row = probe_sample(recording.probe, arrival.index);
-        live.push(row);
-        advisor.push(row);
-      } else {
-        const TrackerSample pose = tracker_sample(recording.tracker, arrival.index);
-        live.push(pose);
-        advisor.push(pose);
-      }
-      if (arrival.arrival_ns < next_ns) continue;
-      next_ns = arrival.arrival_ns + 20'000'000;
-      advisor.push(live.estimate());
-      for (const Hint& hint : advisor.hints(arrival.arrival_ns)) {
-        ADD_FAILURE() << probe << ": " << hint.text << " at " << arrival.arrival_ns;
-        return;
-      }
+  SimulationConfig simulation = make_simulation_config("sine", "open");
+  simulation.seed = 3;
+  const Recording recording = simulate_recording(simulation);
+  LiveProfile live(recording.calibration, recording.info);
+  ScanAdvisor advisor(recording.calibration, recording.info);
+  std::int64_t next_ns = 0;
+  for (const ScanArrival& arrival : list_arrivals(recording)) {
+    if (arrival.kind == ScanArrival::Kind::kRow) {
+      const ProbeSample row = probe_sample(recording.probe, arrival.index);
+      live.push(row);
+      advisor.push(row);
+    } else {
+      const TrackerSample pose = tracker_sample(recording.tracker, arrival.index);
+      live.push(pose);
+      advisor.push(pose);
+    }
+    if (arrival.arrival_ns < next_ns) continue;
+    next_ns = arrival.arrival_ns + 20'000'000;
+    advisor.push(live.estimate());
+    for (const Hint& hint : advisor.hints(arrival.arrival_ns)) {
+      ADD_FAILURE() << hint.text << " at " << arrival.arrival_ns;
+      return;
     }
   }
 }

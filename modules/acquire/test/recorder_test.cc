@@ -178,6 +178,39 @@ TEST(Recorder, DiscardAndRescan) {
   }
 }
 
+TEST(Recorder, GoesFromHandToTouchAndBack) {
+  Rig rig;
+  const auto recorder = rig.record();
+  rig.probe->force_counts = 100.0;
+  ASSERT_TRUE(wait_for(*recorder, [](const RecorderSnapshot& now) { return now.touching; }));
+  EXPECT_FALSE(recorder->snapshot().storing);
+  recorder->set_mode(StoreMode::kAuto);  // it touches already
+  ASSERT_TRUE(wait_for(*recorder, [](const RecorderSnapshot& now) { return now.automatic && now.storing; }));
+  ASSERT_EQ(recorder->snapshot().segment_list.size(), 1u);
+  EXPECT_EQ(recorder->snapshot().segment_list[0].name, "contact_1");
+  recorder->set_mode(StoreMode::kSegments);
+  rig.probe->force_counts = 0.0;
+  ASSERT_TRUE(wait_for(*recorder, [](const RecorderSnapshot& now) { return !now.automatic && !now.touching; }));
+  EXPECT_TRUE(recorder->snapshot().storing);  // until it is stopped
+  recorder->stop_segment();
+  ASSERT_TRUE(wait_for(*recorder, [](const RecorderSnapshot& now) { return !now.storing; }));
+}
+
+TEST(Recorder, ASegmentEndsAlsoWhenNothingComesAnyMore) {
+  Rig rig;
+  const auto recorder = rig.record();
+  recorder->start_segment();
+  ASSERT_TRUE(wait_for(*recorder, [](const RecorderSnapshot& now) { return now.probe_rows > 100; }));
+  rig.probe->unplugged = true;
+  rig.poses->unplugged = true;
+  ASSERT_TRUE(wait_for(*recorder, [](const RecorderSnapshot& now) {
+    return now.probe.state == SensorState::kLost && now.poses.state == SensorState::kLost;
+  }));
+  recorder->stop_segment();
+  ASSERT_TRUE(wait_for(*recorder, [](const RecorderSnapshot& now) { return !now.storing; }));
+  EXPECT_EQ(recorder->snapshot().segments, 1u);
+}
+
 TEST(Recorder, ALostSensorIsReportedAndTakenBack) {
   Rig rig;
   const auto recorder = rig.record();

@@ -14,8 +14,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-constexpr double kFollowPeriod = 0.02;  // a row
-constexpr double kBand = 0.4;           // of the rate: what the comparison's band allows (compare_profiles.h)
+constexpr double kStroke_m = 10e-3;
+constexpr double kStrokeBegun_m = 3e-3;  // before, a turn is only how the stroke finds its way
+constexpr double kFollowPeriod = 0.02;   // a row
+constexpr double kBand = 0.4;            // of the rate: what the comparison's band allows (compare_profiles.h)
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
@@ -36,7 +38,7 @@ void ScanAdvisor::configure(const ScanHintsConfig& config) {
 
 void ScanAdvisor::restart() {
   stroke_.setZero();
-  back_m_ = 0.0;
+  stroke_m_ = back_m_ = 0.0;
   of(HintKind::kDoublingBack) = {};
 }
 
@@ -69,9 +71,12 @@ void ScanAdvisor::judge(HintKind kind, std::int64_t t_ns, bool beyond, bool bett
 // The probe's own period, which may differ from the nominal one, tells how many rows a step stands for.
 void ScanAdvisor::count_lost(double step_s) {
   if (period_s_ == 0.0) period_s_ = info_.probe_rate_Hz > 0.0 ? 1.0 / info_.probe_rate_Hz : step_s;
-  const double lost = step_s > 1.6 * period_s_ ? std::round(step_s / period_s_) - 1.0 : 0.0;
-  lost_.add(lost, step_s, config_.window_s);
-  period_s_ += kFollowPeriod * (std::clamp(step_s, 0.5 * period_s_, 1.5 * period_s_) - period_s_);
+  // Stamps of arrival scatter: a step within the scatter is none lost.
+  const double usual_s = std::clamp(step_s, 0.5 * period_s_, 1.5 * period_s_);
+  const double lost = step_s > 1.6 * period_s_ + 6.0 * scatter_s_ ? std::round(step_s / period_s_) - 1.0 : 0.0;
+  scatter_s_ += kFollowPeriod * (std::abs(usual_s - period_s_) - scatter_s_);
+  lost_.add(lost / (lost + 1.0), step_s, config_.window_s);
+  period_s_ += kFollowPeriod * (usual_s - period_s_);
 }
 
 void ScanAdvisor::push(const ProbeSample& row) {
@@ -100,7 +105,7 @@ void ScanAdvisor::push(const ProbeSample& row) {
     }
   }
   const double limit = config_.rows_lost_share;
-  const double share = lost_.mean / (1.0 + lost_.mean);
+  const double share = lost_.mean;
   judge(HintKind::kRowsLost, row.t_ns, share > limit, share < limit * (1.0 - config_.hysteresis), share);
 }
 
@@ -152,19 +157,25 @@ void ScanAdvisor::judge_tip(const LiveTip& tip) {
 // How far the tip has gone back along the stroke that it began.
 void ScanAdvisor::judge_way(const LiveTip& tip) {
   if (tip.contact && last_tip_ && last_tip_->contact && !tip.heading_world.isZero()) {
-    if (stroke_.isZero()) stroke_ = tip.heading_world;
-    const double along_m = stroke_.dot(tip.p_world_tip_m - last_tip_->p_world_tip_m);
-    back_m_ = std::max(0.0, back_m_ - along_m);
-    // The stroke's direction follows a bend, but not a turn.
-    const double turn = stroke_.dot(tip.heading_world);
-    if (turn > 0.5) {
-      const double step_m = std::abs(along_m);
-      stroke_ += (1.0 - std::exp(-step_m / 10e-3)) * (tip.heading_world - stroke_);
-      stroke_.normalize();
+    const double step_m = std::max(0.0, tip.heading_world.dot(tip.p_world_tip_m - last_tip_->p_world_tip_m));
+    const bool back = stroke_.dot(tip.heading_world) < -0.5;
+    if (stroke_.isZero() || (back && stroke_m_ < kStrokeBegun_m)) {
+      stroke_ = tip.heading_world;
+      stroke_m_ = back_m_ = 0.0;
+    } else if (back) {
+      back_m_ += step_m;
+    } else {
+      // The stroke's direction is that of its last centimetre.
+      back_m_ = std::max(0.0, back_m_ - step_m);
+      stroke_m_ += step_m;
+      if (stroke_m_ > 0.0) {
+        stroke_ += std::min(1.0, step_m / std::min(stroke_m_, kStroke_m)) * (tip.heading_world - stroke_);
+      }
+      if (stroke_.norm() > 0.0) stroke_.normalize();
     }
   } else if (!tip.contact) {
     stroke_.setZero();
-    back_m_ = 0.0;
+    stroke_m_ = back_m_ = 0.0;
   }
   judge(HintKind::kDoublingBack, tip.t_ns, back_m_ > config_.doubling_back_m,
         back_m_ < config_.doubling_back_m * (1.0 - config_.hysteresis), back_m_);

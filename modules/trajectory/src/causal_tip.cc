@@ -13,6 +13,7 @@
 #include "fused_problem.h"
 #include "fused_setup.h"
 #include "inertial_smoother.h"
+#include "noise_scale.h"
 #include "sample_intake.h"
 #include "steady_path.h"
 #include "tip_motion.h"
@@ -28,10 +29,6 @@ using Eigen::Vector3d;
 
 constexpr double kLongestWindow_s = 0.5;  // a pose later than this is not waited for
 constexpr double kLongestBlind_s = 1.0;   // without a pose: dead reckoning is lost
-constexpr double kScaleStretch_s = 1.2;   // on which the process noise is judged
-constexpr double kScalePeriod_s = 0.6;    // between two judgements
-constexpr double kScaleStep = 2.5;
-
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 std::int64_t nanoseconds(double s) { return std::llround(s * 1e9); }
 
@@ -54,7 +51,7 @@ struct CausalTip::Impl {
   std::optional<Checkpoint> checkpoint;
   std::int64_t begin_ns = 0;
   bool gyro_turns_too = true;
-  double process_scale = 1.0;
+  NoiseScale process_scale;
   double rate_scale = 1.0;
 
   std::int64_t next_run_ns = std::numeric_limits<std::int64_t>::min();
@@ -71,8 +68,13 @@ struct CausalTip::Impl {
   CausalTipCounts counts;
 
   Impl(const Calibration& c, const RecordingInfo& info, const FusedConfig& f, const CausalTipConfig& t)
-      : calibration(c), fused(f), config(t), intake(c, info), steady(t.correction_Hz) {
-    if (f.process_noise_scale > 0.0) process_scale = rate_scale = f.process_noise_scale;
+      : calibration(c),
+        fused(f),
+        config(t),
+        intake(c, info),
+        process_scale(f.process_noise_scale),
+        steady(t.correction_Hz) {
+    if (f.process_noise_scale > 0.0) rate_scale = f.process_noise_scale;
   }
 
   void run();
@@ -82,7 +84,6 @@ struct CausalTip::Impl {
   void keep_needed();
   InertialStream inertial();
   void configure(bool has_gyro, WindowProblem& problem) const;
-  void judge_scale(const WindowProblem& problem, bool has_gyro);
   void collect(const InertialStream& inertial, const Smoothed& smoothed, bool last);
 };
 
@@ -109,7 +110,7 @@ void CausalTip::Impl::configure(bool has_gyro, WindowProblem& problem) const {
   problem.gravity = intake.recording().info.gravity_world_mps2;
   problem.sigma_position = inertial_smoother::stated_sigma_m(calibration.tracker);
   problem.sigma_rotation = inertial_smoother::stated_sigma_rad(calibration.tracker);
-  problem.process_scale = process_scale;
+  problem.process_scale = process_scale.factor();
   problem.rate_scale = rate_scale;
   problem.gyro_turns_too = gyro_turns_too;
   problem.gate_innovations = true;
@@ -119,6 +120,7 @@ void CausalTip::Impl::configure(bool has_gyro, WindowProblem& problem) const {
 void CausalTip::Impl::forget() {
   checkpoint.reset();
   seam.reset();
+  process_scale.forget();
   broken = true;
 }
 
@@ -147,27 +149,6 @@ void CausalTip::Impl::begin() {
   checkpoint = Checkpoint{problem.start, problem.start_covariance, 0};
   begin_ns = stream.t_ns.front() + nanoseconds(pose_s[first]);
   intake.set_begin(begin_ns);
-}
-
-// Tries a stronger and a weaker process noise on the last second or so, and takes what makes its poses likelier.
-void CausalTip::Impl::judge_scale(const WindowProblem& problem, bool has_gyro) {
-  WindowProblem trial = problem;
-  const auto search = [&](double WindowProblem::*factor, double lowest) {
-    const double now = trial.*factor;
-    double best = now;
-    double best_likelihood = inertial_smoother::log_likelihood(trial);
-    for (const double other : {now * kScaleStep, now / kScaleStep}) {
-      if (other > 1e5 || other < lowest) continue;
-      trial.*factor = other;
-      const double likelihood = inertial_smoother::log_likelihood(trial);
-      if (likelihood > best_likelihood) best = other, best_likelihood = likelihood;
-    }
-    trial.*factor = best;
-  };
-  search(&WindowProblem::process_scale, 0.3);
-  if (!has_gyro) search(&WindowProblem::rate_scale, 1e-4);
-  process_scale = trial.process_scale;
-  rate_scale = trial.rate_scale;
 }
 
 // Takes the window's samples that are older than the lag: they are final.
@@ -250,7 +231,7 @@ void CausalTip::Impl::step(bool last) {
     const double dr = smoothed.rotation_residual[i].cwiseQuotient(problem.sigma_rotation).squaredNorm();
     outlying += inertial_smoother::redescending(std::max(dp, dr), problem.gate_chi2) < 0.5;
   }
-  checkpoint = smoothed.checkpoint;
+  checkpoint = process_scale.judge(problem, smoothed.checkpoint);
   begin_ns = origin_ns + nanoseconds(moved_s);
   intake.set_begin(begin_ns);
 }

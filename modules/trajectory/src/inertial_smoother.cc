@@ -43,6 +43,7 @@ struct Record {
 
 struct Forward {
   std::vector<Record> records;  // per epoch; empty if only the likelihood was wanted
+  Checkpoint last;
   double log_likelihood = 0.0;
 };
 
@@ -128,6 +129,7 @@ Forward run_forward(const Problem& problem, bool keep, const Observer& observer)
       if (e % 256 == 0) observer.update("filter", static_cast<double>(e) / static_cast<double>(problem.epochs.size()));
     }
   }
+  out.last = {x, P, refused_in_a_row};
   return out;
 }
 
@@ -142,6 +144,11 @@ struct Seam {
 }  // namespace
 
 double log_likelihood(const Problem& problem) { return run_forward(problem, false, {}).log_likelihood; }
+
+Filtered filter(const Problem& problem) {
+  const Forward forward = run_forward(problem, false, {});
+  return {forward.log_likelihood, forward.last};
+}
 
 Smoothed smooth(const Problem& problem, const Vector3d& tip_in_marker, const Observer& observer) {
   const Layout& layout = problem.layout;

@@ -108,6 +108,13 @@ inline double redescending(double d2, double gate) { return d2 <= gate ? 1.0 : (
 // that a flipped one cannot decide).
 double log_likelihood(const Problem& problem);
 
+// The filter alone: the likelihood as above, and where it stands after the last epoch.
+struct Filtered {
+  double log_likelihood = 0.0;
+  Checkpoint checkpoint;
+};
+Filtered filter(const Problem& problem);
+
 // `lever_to_tip` is computed as tip_in_marker − lever with the estimated lever.
 Smoothed smooth(const Problem& problem, const Eigen::Vector3d& tip_in_marker, const Observer& observer);
 

@@ -4,6 +4,7 @@
 #include "common_page.h"
 #include "feel/feel_page.h"
 #include "paint/paint_page.h"
+#include "process/process_page.h"
 #include "scan/scan_page.h"
 
 namespace asperity::studio {
@@ -11,10 +12,18 @@ namespace asperity::studio {
 std::vector<std::unique_ptr<Page>> make_pages(Shared& shared, const std::optional<std::string>& opened) {
   std::vector<std::unique_ptr<Page>> pages;
   pages.push_back(std::make_unique<CommonPage>(shared, opened));
+<<<<<<< HEAD
   pages.push_back(make_align_page(shared));
   pages.push_back(make_feel_page(shared));
   pages.push_back(make_paint_page(shared));
   pages.push_back(make_scan_page(shared));
+=======
+  pages.push_back(make_scan_page(shared));
+  pages.push_back(make_process_page(shared));
+  pages.push_back(make_align_page(shared));
+  pages.push_back(make_paint_page(shared));
+  pages.push_back(make_feel_page(shared));
+>>>>>>> main
   return pages;
 }
 

@@ -137,8 +137,9 @@ std::optional<RawClient::Frame> RawClient::next_frame() {
     if (!need(2 + length_bytes + size)) return std::nullopt;
     Frame out{opcode, received_.substr(2 + length_bytes, size)};
     received_.erase(0, 2 + length_bytes + size);
-    constexpr unsigned kPing = 9;
+    constexpr unsigned kPing = 9, kPong = 10;
     if (opcode != kPing) return out;
+    send(frame(kPong, out.payload));
   }
 }
 

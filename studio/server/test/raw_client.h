@@ -40,7 +40,7 @@ class RawClient {
     // Of a close frame.
     int close_code() const;
   };
-  // The next frame that is no ping; nullopt if the other side has closed.
+  // The next frame that is no ping, which is answered; nullopt if the other side has closed.
   std::optional<Frame> next_frame();
 
  private:

@@ -178,6 +178,10 @@ TEST(ScanPage, FollowsTheTouchInAuto) {
   bench.ask("scan.start");
   ASSERT_TRUE(bench.wait([&] { return bench.segments() == 1; }));
   EXPECT_THAT(bench.recorder().at("segments").at(0).at("name").get<std::string>(), HasSubstr("contact_"));
+  ASSERT_TRUE(bench.wait([&] { return !bench.storing(); }));
+  // It ended in contact, and begins so.
+  bench.ask("scan.start");
+  ASSERT_TRUE(bench.wait([&] { return bench.storing() && bench.segments() == 2; }));
 }
 
 TEST(ScanPage, SaysThatAProbeHasVanished) {

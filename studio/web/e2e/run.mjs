@@ -26,7 +26,7 @@ async function withStudio(browser, projects, name, flow, steps) {
       await work();
       if (complaints.length > 0) throw new Error(`the browser complained:\n  ${complaints.splice(0).join("\n  ")}`);
     } catch (error) {
-      if (process.env.ASPERITY_E2E_PICTURES) await page.screenshot({ path: `${process.env.ASPERITY_E2E_PICTURES}/${name}-failed.png` });
+      if (process.env.ASPERITY_E2E_PICTURES) await page.screenshot({ path: `${process.env.ASPERITY_E2E_PICTURES}/${name}-failed.png` }).catch(() => {});
       throw new Error(`${name}: ${words}\n  ${error.stack ?? error}`);
     }
     steps.push(words);

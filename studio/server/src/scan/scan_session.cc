@@ -62,6 +62,7 @@ ScanSession::~ScanSession() {
 void ScanSession::start(const std::string& name) {
   if (setup_.source->plays()) setup_.source->play();
   recorder_->start_segment(name);
+  begin_in_contact();
 }
 
 void ScanSession::stop() {
@@ -82,9 +83,16 @@ void ScanSession::discard() {
 void ScanSession::rescan() {
   if (setup_.source->plays()) setup_.source->play();
   recorder_->rescan_segment();
+  begin_in_contact();
+}
+
+// What plays may have ended in contact, and begins so: no touch then begins the segment.
+void ScanSession::begin_in_contact() {
+  if (setup_.source->plays() && automatic_) recorder_->set_mode(StoreMode::kAuto);
 }
 
 void ScanSession::set_automatic(bool automatic) {
+  automatic_ = automatic;
   recorder_->set_mode(automatic ? StoreMode::kAuto : StoreMode::kSegments);
 }
 
@@ -222,8 +230,11 @@ void ScanSession::watch(const RecorderSnapshot& now) {
     hand_over_at_ns_ = host_now_ns() + kPosesLate_ns;
   }
   // A source that has played to its end has nothing more for the segment that is open.
-  if (setup_.source->plays() && now.storing && !now.automatic && was_playing_ && !setup_.source->playing())
+  if (setup_.source->plays() && now.storing && was_playing_ && !setup_.source->playing()) {
+    if (now.automatic) recorder_->set_mode(StoreMode::kSegments);
     recorder_->stop_segment();
+    if (now.automatic) recorder_->set_mode(StoreMode::kAuto);
+  }
   was_playing_ = setup_.source->playing();
   if (!now.storing && now.gravity.measured && !gravity_used_) make_estimators(now);
   before_ = {now.storing, now.discarded};

@@ -91,6 +91,7 @@ class ScanSession {
     std::size_t discarded = 0;
   };
 
+  void begin_in_contact();
   RecordingInfo info_of(const RecorderSnapshot& now) const;
   void run();
   void take_rows(bool storing);
@@ -111,6 +112,7 @@ class ScanSession {
   Calibration calibration_;  // or a stand-in
   RowTap tap_;
   std::unique_ptr<Recorder> recorder_;
+  bool automatic_ = false;
 
   // The session's thread alone.
   RowTap::Taken taken_;

@@ -15,7 +15,7 @@ export default async function align({ page, step, folder, until, equal, near, ok
 
   await step("a slider moves the path, undo takes it back", async () => {
     const mean = page.getByTestId("align-mean").locator("dd");
-    const x = page.getByTestId("align-hand").getByRole("spinbutton", { name: "x", exact: true });
+    const x = page.getByTestId("align-hand").getByRole("spinbutton", { name: "x, as a number", exact: true });
     await mean.filter({ hasText: /\d/ }).waitFor();
     const before = await mean.textContent();
     const at = await x.inputValue();

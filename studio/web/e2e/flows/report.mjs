@@ -20,7 +20,7 @@ export default async function report({ browser, openPage, step, folder, asperity
       await page.getByRole("heading", { name: "board", level: 1 }).waitFor();
       near(numberIn(await figure(page.locator("body"), "Pitch")), 2.5, 0.05, "pitch, mm");
       ok(numberIn(await figure(page.locator("body"), "Rq")) > 100, "Rq in µm");
-      await page.getByText("Settings").click();
+      await page.getByText("Settings", { exact: true }).click();
       await page.getByText("profile.cutoff_cycles_per_mm", { exact: true }).waitFor();
       equal(await page.locator("canvas").count() >= 5, true, "plots and path are drawn");
     });

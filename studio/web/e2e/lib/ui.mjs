@@ -14,9 +14,6 @@ export async function type(field, value) {
   await field.press("Enter");
 }
 
-/** The number beside a slider. */
-export const numberBeside = (page, label) => page.getByRole("spinbutton", { name: label, exact: true });
-
 /** The value of a figure, by its label. */
 export async function figure(place, label) {
   const row = place.locator(".figure", { has: place.page().locator("dt", { hasText: label }) }).first();

@@ -22,11 +22,10 @@ export function PageFrame({ route }: { route: Route }) {
   useEffect(load, [route.id]);
 
   if (broken) {
-    return (
-      <Failure words={`The page has failed: ${broken instanceof Error ? broken.message : String(broken)}`} again={mend} />
-    );
+    const words = `The page has failed: ${broken instanceof Error ? broken.message : String(broken)}`;
+    return <Failure title={route.title} words={words} again={mend} />;
   }
-  if (fault) return <Failure words={fault} again={load} />;
+  if (fault) return <Failure title={route.title} words={fault} again={load} />;
   if (page?.id !== route.id || !documentIsRead.value) return <p class="page-wait">Loading {route.title} …</p>;
   return <page.Page key={page.id} />;
 }
@@ -40,9 +39,10 @@ function Empty({ route }: { route: Route }) {
   );
 }
 
-function Failure({ words, again }: { words: string; again(): void }) {
+function Failure({ title, words, again }: { title: string; words: string; again(): void }) {
   return (
     <div class="page-empty" role="alert">
+      <h1>{title}</h1>
       <p>{words}</p>
       <p>What you have decided is kept by the server and is not lost.</p>
       <Button onClick={again}>Try again</Button>

@@ -30,7 +30,7 @@ struct RecorderSensors {
 };
 
 // Records a probe and a tracker (seed §3.3, docs/recorder.md): a thread for each sensor, which never waits for the
-// disk, and one that writes. Public functions may be called from any one thread at a time; snapshot() from any.
+// disk, and one that writes. Thread-safe but for finish().
 class Recorder {
  public:
   // Opens the sensors, waits until the probe has described itself, makes `folder` and begins to read. `info` gives

@@ -108,10 +108,12 @@ class ScanAdvisor {
   std::array<Condition, kHintKindNames.size()> conditions_{};
 
   std::optional<std::int64_t> begun_ns_, newest_row_ns_, newest_pose_ns_;
-  double period_s_ = 0.0;  // of the rows
+  double period_s_ = 0.0;   // of the rows
+  double scatter_s_ = 0.0;  // mean deviation of a step from it
   RunningMean clipped_, lost_, speed_, touch_force_, turning_;
   std::optional<LiveTip> last_tip_;
   Eigen::Vector3d stroke_ = Eigen::Vector3d::Zero();  // direction of the stroke under way; zero: none
+  double stroke_m_ = 0.0;                             // its length so far
   double back_m_ = 0.0;
 };
 

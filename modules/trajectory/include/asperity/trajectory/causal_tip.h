@@ -16,7 +16,7 @@
 namespace asperity {
 
 struct CausalTipConfig {
-  double lag_s = 0.14;
+  double lag_s = 0.13;
   double correction_Hz = 0.8;
   double hop_s = 0.02;
   double start_s = 0.25;

@@ -53,6 +53,16 @@ export function AlignView() {
 
   const limit_mm = distances ? 1e3 * colourLimit_m(distances.distance_m) : 0;
   return (
+    <>
+      <div class="align-tools" role="group" aria-label="Tools">
+        <ToolButton name="look" words="Look" hint="Drag turns the view (Esc)" />
+        <ToolButton name="translate" words="Move" hint="Arrows move the path (T)" />
+        <ToolButton name="rotate" words="Turn" hint="Rings turn the path about its middle (R)" />
+        <ToolButton name="pick" words="Pick" hint="Click a point of the path, then where it belongs on the mesh (P)" />
+        <Button pressed={translucent} onClick={() => setTranslucent(!translucent)} hint="See the path through the mesh">
+          See through
+        </Button>
+      </div>
     <Viewport
       label="The mesh and the scan path, coloured by its distance to the mesh"
       up="z"
@@ -69,15 +79,6 @@ export function AlignView() {
         };
       }}
     >
-      <div class="align-tools" role="group" aria-label="Tools">
-        <ToolButton name="look" words="Look" hint="Drag turns the view (Esc)" />
-        <ToolButton name="translate" words="Move" hint="Arrows move the path (T)" />
-        <ToolButton name="rotate" words="Turn" hint="Rings turn the path about its middle (R)" />
-        <ToolButton name="pick" words="Pick" hint="Click a point of the path, then where it belongs on the mesh (P)" />
-        <Button pressed={translucent} onClick={() => setTranslucent(!translucent)} hint="See the path through the mesh">
-          See through
-        </Button>
-      </div>
       {distances && (
         <div class="align-legend" data-testid="align-legend">
           <span>distance to the mesh</span>
@@ -91,6 +92,7 @@ export function AlignView() {
       )}
       <Notice />
     </Viewport>
+    </>
   );
 }
 

@@ -40,7 +40,10 @@ export function FilesPanel() {
               checked={section.paths.includes(name)}
               onChange={(event) => choosePath(section, name, event.currentTarget.checked)}
             />
-            {name} <span class="align-kind">{kind === "gone" ? "not in the folder" : kind}</span>
+            <span class="align-name" title={name}>
+              {name}
+            </span>
+            <span class="align-kind">{kind === "gone" ? "not there" : kind}</span>
           </label>
         ))}
       </fieldset>

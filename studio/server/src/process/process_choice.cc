@@ -1,0 +1,53 @@
+#include "process/process_choice.h"
+
+#include "asperity/base/error.h"
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr std::size_t kLongestText = 1024;
+
+const Json& member(const Json& object, const char* name) {
+  if (!object.is_object() || !object.contains(name)) throw Error(std::string("process: '") + name + "' is missing");
+  return object.at(name);
+}
+
+std::string text_of(const Json& value, const std::string& name) {
+  if (!value.is_string()) throw Error("process: '" + name + "' is no text");
+  std::string text = value.get<std::string>();
+  if (text.size() > kLongestText) throw Error("process: '" + name + "' is too long");
+  return text;
+}
+
+}  // namespace
+
+Json first_process_section() { return {{"scans", Json::array()}, {"current", 0}, {"config", Json::object()}}; }
+
+ScanName scan_name(const Json& json) {
+  ScanName out;
+  out.recording = text_of(member(json, "recording"), "recording");
+  if (json.contains("segment")) out.segment = text_of(json.at("segment"), "segment");
+  return out;
+}
+
+ProcessChoice process_choice(const Json& section) {
+  ProcessChoice out;
+  const Json& scans = member(section, "scans");
+  if (!scans.is_array() || scans.size() > kMostScans) {
+    throw Error("process: at most " + std::to_string(kMostScans) + " recordings can be looked at together");
+  }
+  for (const Json& scan : scans) out.scans.push_back(scan_name(scan));
+  const Json& current = member(section, "current");
+  if (!current.is_number_unsigned() && !(current.is_number_integer() && current.get<std::int64_t>() >= 0)) {
+    throw Error("process: 'current' is no index");
+  }
+  out.current = std::min<std::size_t>(current.get<std::size_t>(), kMostScans);
+  const Json& config = member(section, "config");
+  if (!config.is_object()) throw Error("process: 'config' is no list of settings");
+  const std::vector<ConfigField> fields = list_fields("", out.config);
+  for (const auto& [path, value] : config.items()) set_field(fields, path, text_of(value, path));
+  return out;
+}
+
+}  // namespace asperity::studio

@@ -1,0 +1,113 @@
+#include "process/process_page.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "asperity/studio/measured_block.h"
+#include "config_fields.h"
+#include "process/process_choice.h"
+#include "process/repeatability_block.h"
+#include "process/scan_sessions.h"
+#include "process/write_results.h"
+
+namespace asperity::studio {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSection = "process";
+
+std::string title_of(const ScanName& scan) {
+  return scan.segment.empty() ? scan.recording : scan.recording + ", " + scan.segment;
+}
+
+class ProcessPage : public Page {
+ public:
+  explicit ProcessPage(Shared& shared) : shared_(shared), sessions_(std::make_shared<ScanSessions>()) {}
+
+  void bind(Document& document, Calls& calls) override {
+    document.add_section(kSection, first_process_section(), [](const Json& section) { process_choice(section); });
+    calls.add("process.fields", [this](const Request& request) { tell_fields(request); });
+    calls.add("process.run", [this](const Request& request) { run(request); });
+    calls.add("process.compare", [this](const Request& request) { compare(request); });
+    calls.add("process.write", [this](const Request& request) { write(request); });
+  }
+
+ private:
+  ProcessChoice choice() const { return process_choice(shared_.document.section(kSection)); }
+
+  void tell_fields(const Request& request) const {
+    ProcessConfig config = choice().config, defaults;
+    request.answer(Json{{"fields", fields_json(list_fields("", config), list_fields("", defaults))}});
+  }
+
+  // The newest setting of a scan takes the place of the one that is worked on.
+  void run(const Request& request) {
+    const ScanName scan = scan_name(request.args());
+    const fs::path recording = shared_.project.existing(scan.recording);
+    answer_by_job(shared_.jobs, request, "Process " + title_of(scan), "process.run " + title_of(scan),
+                  [sessions = sessions_, scan, recording, config = choice().config](const Observer& observer) {
+                    observer.update("reading", 0.0);
+                    OpenScan& open = sessions->open(recording, scan.segment);
+                    const ProcessResult& result = open.session.process(config, observer);
+                    const std::string name =
+                        open.segment.empty() ? scan.recording : scan.recording + "/" + open.segment;
+                    BlockWriter block = measured_block(result, open.session.recording(), name);
+                    block.head()["scan"] = {{"recording", scan.recording}, {"segment", open.segment}};
+                    block.head()["segments"] = open.segments;
+                    return block;
+                  });
+  }
+
+  void compare(const Request& request) {
+    const ProcessChoice chosen = choice();
+    if (chosen.scans.size() < 2) {
+      throw Advice("there is nothing to compare", "Choose two recordings or more of the same surface.");
+    }
+    std::vector<fs::path> recordings;
+    for (const ScanName& scan : chosen.scans) recordings.push_back(shared_.project.existing(scan.recording));
+    answer_by_job(shared_.jobs, request, "Compare recordings", "process.compare",
+                  [sessions = sessions_, chosen, recordings](const Observer& observer) {
+                    std::vector<RepeatedScan> scans;
+                    std::vector<std::string> names;
+                    for (std::size_t i = 0; i < recordings.size(); ++i) {
+                      observer.update("reading", static_cast<double>(i) / static_cast<double>(recordings.size()));
+                      ProcessSession& session = sessions->open(recordings[i], chosen.scans[i].segment).session;
+                      scans.push_back(repeated_scan(session.process(chosen.config, observer), session.recording()));
+                      names.push_back(title_of(chosen.scans[i]));
+                    }
+                    const Repeatability measured = measure_repeatability(scans, chosen.config.comparison);
+                    return repeatability_block(measured, scans, names, chosen.config.comparison);
+                  });
+  }
+
+  void write(const Request& request) {
+    const ProcessChoice chosen = choice();
+    if (chosen.scans.empty()) throw Advice("there is nothing to write", "Choose a recording first.");
+    const std::string name = request.text("name");
+    const fs::path target = shared_.project.writable(name);
+    std::vector<NamedScan> scans;
+    for (const ScanName& scan : chosen.scans) {
+      const fs::path recording = shared_.project.existing(scan.recording);
+      scans.push_back({recording.filename().string(), recording, scan.segment});
+    }
+    answer_by_job(shared_.jobs, request, "Write " + name, "process.write",
+                  [sessions = sessions_, scans, target, config = chosen.config, name](const Observer& observer) {
+                    Json out = write_results(target, scans, config, *sessions, observer);
+                    out["folder"] = name;
+                    return out;
+                  });
+  }
+
+  Shared& shared_;
+  std::shared_ptr<ScanSessions> sessions_;  // for the jobs' thread
+};
+
+}  // namespace
+
+std::unique_ptr<Page> make_process_page(Shared& shared) { return std::make_unique<ProcessPage>(shared); }
+
+}  // namespace asperity::studio

@@ -1,0 +1,76 @@
+#include "process/write_results.h"
+
+#include <set>
+
+#include "asperity/base/error.h"
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
+#include "asperity/pipeline/write_result.h"
+#include "asperity/studio/calls.h"
+
+namespace asperity::studio {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Piece {
+  std::string segment;
+  std::string name;  // of the result
+  fs::path place;    // below the target
+};
+
+// What one scan gives: itself, or each of its segments.
+std::vector<Piece> pieces_of(const NamedScan& scan, bool alone, ScanSessions& sessions) {
+  const std::vector<std::string>& segments = sessions.open(scan.recording, scan.segment).segments;
+  const fs::path place = alone ? fs::path() : fs::path(scan.name);
+  if (!scan.segment.empty() || segments.size() < 2) return {{scan.segment, scan.name, place}};
+  std::vector<Piece> out;
+  for (const std::string& segment : segments)
+    out.push_back({segment, alone ? segment : scan.name + "/" + segment, place / segment});
+  return out;
+}
+
+void check_names(const std::vector<NamedScan>& scans) {
+  std::set<std::string> names;
+  for (const NamedScan& scan : scans) {
+    if (!names.insert(scan.name).second) {
+      throw Advice("two of the recordings are called '" + printable(scan.name) + "'",
+                   "Write them one after the other, into folders of their own.");
+    }
+  }
+}
+
+}  // namespace
+
+Json write_results(const fs::path& target, const std::vector<NamedScan>& scans, const ProcessConfig& config,
+                   ScanSessions& sessions, const Observer& observer) {
+  check_names(scans);
+  OutputFolder folder(target, is_result_folder);
+  Json files = Json::array(), notes = Json::array();
+  std::string first_fault;
+  for (const NamedScan& scan : scans) {
+    for (const Piece& piece : pieces_of(scan, scans.size() == 1, sessions)) {
+      try {
+        ProcessSession& session = sessions.open(scan.recording, piece.segment).session;
+        const ProcessResult& result = session.process(config, observer);
+        fs::create_directories(folder.path() / piece.place);
+        write_result(folder.path() / piece.place, result, session.recording(), piece.name);
+        files.push_back(piece.place.generic_string());
+        if (!result.trustworthy) notes.push_back(piece.name + ": not to be trusted: " + result.verdict);
+      } catch (const Cancelled&) {
+        throw;
+      } catch (const Error& fault) {
+        if (piece.segment.empty() || !scan.segment.empty()) throw;
+        if (first_fault.empty()) first_fault = fault.what();
+        notes.push_back(piece.name + ": " + fault.what() + "; left out");
+      }
+    }
+  }
+  if (files.empty()) throw Error(first_fault);
+  observer.update("writing", 1.0);
+  folder.commit();
+  return {{"files", std::move(files)}, {"notes", std::move(notes)}};
+}
+
+}  // namespace asperity::studio
