@@ -2,7 +2,7 @@ import type { ComponentType } from "preact";
 import { useEffect, useErrorBoundary, useState } from "preact/hooks";
 import { documentIsRead } from "../state/document";
 import { Button } from "../ui/Button";
-import { pageLoader, type Route } from "./routes";
+import type { Route } from "./routes";
 
 /** The page of a route, its code loaded when it is first needed; shown when the document has been read. */
 export function PageFrame({ route }: { route: Route }) {
@@ -12,9 +12,7 @@ export function PageFrame({ route }: { route: Route }) {
 
   const load = () => {
     setFault(null);
-    const loader = pageLoader(route.id);
-    if (!loader) return setPage({ id: route.id, Page: () => <Empty route={route} /> });
-    loader().then(
+    route.load().then(
       (module) => setPage({ id: route.id, Page: module.default }),
       () => setFault("The page's code could not be loaded."),
     );
@@ -22,27 +20,18 @@ export function PageFrame({ route }: { route: Route }) {
   useEffect(load, [route.id]);
 
   if (broken) {
-    return (
-      <Failure words={`The page has failed: ${broken instanceof Error ? broken.message : String(broken)}`} again={mend} />
-    );
+    const words = `The page has failed: ${broken instanceof Error ? broken.message : String(broken)}`;
+    return <Failure title={route.title} words={words} again={mend} />;
   }
-  if (fault) return <Failure words={fault} again={load} />;
+  if (fault) return <Failure title={route.title} words={fault} again={load} />;
   if (page?.id !== route.id || !documentIsRead.value) return <p class="page-wait">Loading {route.title} …</p>;
   return <page.Page key={page.id} />;
 }
 
-function Empty({ route }: { route: Route }) {
-  return (
-    <div class="page-empty">
-      <h1>{route.title}</h1>
-      <p>{route.purpose}</p>
-    </div>
-  );
-}
-
-function Failure({ words, again }: { words: string; again(): void }) {
+function Failure({ title, words, again }: { title: string; words: string; again(): void }) {
   return (
     <div class="page-empty" role="alert">
+      <h1>{title}</h1>
       <p>{words}</p>
       <p>What you have decided is kept by the server and is not lost.</p>
       <Button onClick={again}>Try again</Button>

@@ -68,7 +68,7 @@ export function Shell() {
         </p>
       )}
       <main id="main" class="shell-main" tabIndex={-1} inert={link.value === "lost" || link.value === "refused"}>
-        <PageFrame route={route.value} />
+        <PageFrame key={route.value.id} route={route.value} />
       </main>
       <JobBar />
       <Toasts />
