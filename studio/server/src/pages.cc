@@ -12,18 +12,11 @@ namespace asperity::studio {
 std::vector<std::unique_ptr<Page>> make_pages(Shared& shared, const std::optional<std::string>& opened) {
   std::vector<std::unique_ptr<Page>> pages;
   pages.push_back(std::make_unique<CommonPage>(shared, opened));
-<<<<<<< HEAD
-  pages.push_back(make_align_page(shared));
-  pages.push_back(make_feel_page(shared));
-  pages.push_back(make_paint_page(shared));
-  pages.push_back(make_scan_page(shared));
-=======
   pages.push_back(make_scan_page(shared));
   pages.push_back(make_process_page(shared));
   pages.push_back(make_align_page(shared));
   pages.push_back(make_paint_page(shared));
   pages.push_back(make_feel_page(shared));
->>>>>>> main
   return pages;
 }
 
