@@ -144,7 +144,7 @@ TEST(ScanBook, GrowsByFramesThatFollowEachOther) {
   EXPECT_EQ(second.head.at("sequence"), first.head.at("sequence").get<int>() + 1);
   EXPECT_EQ(second.head.at("generation"), first.head.at("generation"));
   EXPECT_THAT(second.array<double>("s_m"), ElementsAre(2.0));
-  EXPECT_THAT(ReadBlock(book.profile().take()).array<double>("height_m"), ElementsAre(0.0, 2.0, 4.0));
+  EXPECT_THAT(ReadBlock(book.profile().take()).array<float>("height_m"), ElementsAre(0.F, 2.F, 4.F));
   EXPECT_THAT(ReadBlock(book.take_motion().take()).array<float>("tip_m"),
               ElementsAre(0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 2.F, 0.F, 0.F));
   book.begin_anew();

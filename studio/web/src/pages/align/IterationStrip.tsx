@@ -28,10 +28,11 @@ export function IterationStrip() {
     <Panel title="Iterations" grow testId="align-iterations">
       <div class="align-strip">
         <Plot
+          key={`${known.run} ${running.value} ${Math.ceil(Math.log2(count + 1))}`}
           label="Residual of each iteration of the registration"
           series={series}
           xAxis={{ label: "iteration" }}
-          yAxis={{ label: "RMS of the inliers", unit: "mm" }}
+          yAxis={{ label: "RMS", unit: "mm" }}
           logY
           marks={marks}
           onPick={(x) => goTo(Math.round(x) - 1)}

@@ -48,7 +48,7 @@ function Verdict({ found }: { found: RunResult }) {
           {problem}
         </p>
       ))}
-      <Figures columns={2}>
+      <Figures>
         <Figure label="Residual, RMS" value={found.rms_m} factor={1e3} unit="mm" digits={3} testId="align-rms" />
         <Figure label="Outliers" value={`${found.outliers} of ${found.points}`} />
         {other && <Figure label="Runner-up, RMS" value={other.rms_m} factor={1e3} unit="mm" digits={3} />}
