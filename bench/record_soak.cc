@@ -43,7 +43,7 @@ bool wait_until(std::int64_t t_ns, std::chrono::milliseconds timeout) {
 
 class SoakBytes : public ByteSource {
  public:
-  ScanArrival read(std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override {
+  Arrival read(std::span<std::uint8_t> into, std::chrono::milliseconds timeout) override {
     if (waiting_.empty() && !wait_until(start_ns_ + kFrame_ns * (frame_ + 1), timeout)) return {};
     const std::int64_t now_ns = host_now_ns();
     if (frame_ == 0 && waiting_.empty()) describe();

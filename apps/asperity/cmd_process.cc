@@ -15,6 +15,7 @@
 #include "asperity/pipeline/write_result.h"
 #include "asperity/recording/cut_recording.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/studio/measured_block.h"
 #include "asperity/studio/write_report.h"
 #include "commands.h"
 #include "result_summary.h"
@@ -70,7 +71,7 @@ class ProcessCommand : public Command {
       process_pieces(path, name, recordings_.size() == 1 ? folder.path() : folder.path() / name, observer, text);
     }
     observer.update("writing", 1.0);
-    if (!alone_) studio::write_report(folder.path());
+    if (!alone_) studio::write_report(folder.path(), items_);
     folder.commit();
     print_json(alone_ ? results_.front().second : joined_results());
     say(text + "results in " + printable(output_, 200) + "\n");
@@ -139,7 +140,8 @@ class ProcessCommand : public Command {
     observer.update("writing", 0.0);
     fs::create_directories(place);
     write_result(place, result, recording, name);
-    studio::write_report(place);
+    items_.push_back({name, studio::measured_block(result, recording, name).take()});
+    studio::write_report(place, {items_.back()});
     results_.emplace_back(name, format_result(result, recording, name));
     text += printable(name, 200) + "\n" + result_summary(result);
     if (!result.trustworthy) distrust_.push_back(printable(path, 200) + ": not to be trusted: " + result.verdict);
@@ -162,6 +164,7 @@ class ProcessCommand : public Command {
   bool alone_ = true;  // one result, not several by name
   ProcessConfig config_;
   std::vector<std::pair<std::string, std::string>> results_;
+  std::vector<studio::ReportItem> items_;
   std::vector<std::string> distrust_;
 };
 

@@ -1,13 +1,17 @@
 #include "asperity/device/force_permit.h"
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "asperity/device/pointer_device.h"
 #include "asperity/device/safety_cause.h"
+#include "asperity/testkit/count_allocations.h"
 #include "servo_rig.h"
 
 namespace asperity {
@@ -108,6 +112,31 @@ TEST(ForcePermit, LowersTheLargestForceAndNeverRaisesIt) {
   for (std::size_t k = 1; k < ticks.size(); ++k) {
     ASSERT_LE((ticks[k].out_world_N - ticks[k - 1].out_world_N).norm(), config.max_force_rate_N_per_s * 1e-3 + 1e-12);
   }
+}
+
+// The whole loop of a pointer: its targets, the permit and the ramps.
+TEST(ForcePermit, ALoopWithAPointerAllocatesNothingPerTick) {
+  const auto allocations_of = [](std::size_t ticks) {
+    const auto targets = std::make_shared<PointerTargets>(Eigen::Vector3d::Zero());
+    const auto device = open_pointer({}, Eigen::Vector3d::Zero(), targets);
+    SnapshotExchange<const RenderModel> scene(wall(1000.0));
+    const std::atomic<bool> stop{false};
+    ForcePermit permit;
+    double largest_N = 0.0;
+    std::size_t k = 0;
+    const std::size_t before = testkit::count_allocations();
+    run_servo(
+        *device, scene, unpaced(1e-3 * static_cast<double>(ticks)), stop,
+        [&](const ServoTick& tick) {
+          largest_N = std::max(largest_N, tick.out_world_N.norm());
+          if (++k % 16 == 0) targets->publish({0.0, 1e-3 * static_cast<double>(k % 7), -0.004});
+          if (k % 3000 < 2000) permit.renew();
+        },
+        wall_step, &permit);
+    EXPECT_GT(largest_N, 0.5);
+    return testkit::count_allocations() - before;
+  };
+  EXPECT_EQ(allocations_of(200'000), allocations_of(5'000));
 }
 
 }  // namespace asperity

@@ -8,7 +8,9 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/base/units.h"
 #include "asperity/pipeline/read_path.h"
+#include "asperity/profile/measure_spectrum.h"
 #include "asperity/studio/block.h"
 
 namespace asperity::studio {
@@ -46,21 +48,20 @@ Json read_result(const fs::path& file) {
   return out;
 }
 
-// Every `step`-th row and the last: no more than `most`.
-std::size_t step_for(std::size_t rows, std::size_t most) { return rows <= most ? 1 : (rows + most - 2) / (most - 1); }
+// Every how many-th row is kept so that there are no more than `most`.
+std::size_t step_for(std::size_t rows, std::size_t most) { return std::max<std::size_t>(1, (rows + most - 1) / most); }
 
-template <class T>
-std::vector<T> thinned(const std::vector<T>& values, std::size_t step) {
-  std::vector<T> out;
+std::vector<float> thinned(const std::vector<double>& values, std::size_t step) {
+  std::vector<float> out;
   out.reserve(values.size() / step + 1);
-  for (std::size_t i = 0; i < values.size(); i += step) out.push_back(values[i]);
-  if (!values.empty() && (values.size() - 1) % step != 0) out.push_back(values.back());
+  for (std::size_t i = 0; i < values.size(); i += step) out.push_back(static_cast<float>(values[i]));
   return out;
 }
 
 // A column that an older file does not have is nan.
 void add_profile(const fs::path& file, BlockWriter& block) {
   constexpr std::array<const char*, 6> kColumns{"s_m", "height_m", "sigma_m", "texture_m", "force_N", "speed_mps"};
+  constexpr std::size_t kTexture = 3;
   const std::string text = read_file(file, kLargestProfile_bytes);
   CsvReader csv(text, printable(file.string(), 200));
   csv.accept_unterminated();
@@ -68,36 +69,49 @@ void add_profile(const fs::path& file, BlockWriter& block) {
   for (std::size_t k = 0; k < kColumns.size(); ++k) {
     places[k] = k < 2 ? csv.require(kColumns[k]) : csv.find(kColumns[k]);
   }
-  std::array<std::vector<float>, kColumns.size()> values;
+  std::array<std::vector<double>, kColumns.size()> values;
   while (csv.next()) {
     for (std::size_t k = 0; k < kColumns.size(); ++k) {
       const double value = places[k] ? csv.number(*places[k]) : std::numeric_limits<double>::quiet_NaN();
       if (std::isinf(value)) csv.fail(*places[k], "is not finite");
-      values[k].push_back(static_cast<float>(value));
+      values[k].push_back(value);
     }
   }
-  const std::size_t step = step_for(values[0].size(), kMostProfilePoints);
-  block.head()["profile_points"] = values[0].size();
-  for (std::size_t k = 0; k < kColumns.size(); ++k) block.add(kColumns[k], thinned(values[k], step));
+  const std::vector<double>& s_m = values[0];
+  const std::size_t step = step_for(s_m.size(), kMostProfilePoints);
+  const double spacing_m = s_m.size() < 2 ? 0.0 : (s_m.back() - s_m.front()) / static_cast<double>(s_m.size() - 1);
+  if (s_m.size() > 1 && !(spacing_m > 0.0)) throw Error(printable(file.string(), 200) + ": s_m does not rise");
+  for (std::size_t k = 1; k < kColumns.size(); ++k) {
+    block.add("profile_" + std::string(kColumns[k]), thinned(values[k], step));
+  }
+  block.head()["profile"] = {{"samples", s_m.size()},
+                             {"every", step},
+                             {"points", (s_m.size() + step - 1) / step},
+                             {"first_m", s_m.empty() ? 0.0 : s_m.front()},
+                             {"spacing_m", spacing_m * static_cast<double>(step)}};
+  const PowerSpectrum spectrum = s_m.size() < 2 ? PowerSpectrum{} : measure_spectrum(values[kTexture], spacing_m);
+  block.head()["spectrum"] = {{"segments", spectrum.segments}};
+  block.add("spectrum_cycles_per_mm", spectrum.frequency);
+  block.add("spectrum_density_m2_mm", spectrum.density);
 }
 
 void add_path(const fs::path& file, BlockWriter& block) {
-  std::vector<float> t_s, p_m;
-  std::size_t points = 0;
+  std::vector<float> p_m;
+  std::size_t points = 0, step = 1;
+  double duration_s = 0.0;
   if (fs::is_regular_file(file)) {
     const TipMotion motion = read_path(file).motion;
     points = motion.size();
-    const std::size_t step = step_for(points, kMostPathPoints);
-    for (const std::int64_t t_ns : thinned(motion.t_ns, step)) {
-      t_s.push_back(static_cast<float>(static_cast<double>(t_ns - motion.t_ns.front()) * 1e-9));
-    }
-    for (const Eigen::Vector3d& p : thinned(motion.p_world_tip_m, step)) {
-      for (const double x : p) p_m.push_back(static_cast<float>(x));
+    step = step_for(points, kMostPathPoints);
+    duration_s = static_cast<double>(motion.t_ns.back() - motion.t_ns.front()) * kNanosecond_s;
+    const Eigen::Vector3d origin_m = motion.p_world_tip_m[points / 2];
+    for (std::size_t i = 0; i < points; i += step) {
+      for (const double x : Eigen::Vector3d(motion.p_world_tip_m[i] - origin_m)) p_m.push_back(static_cast<float>(x));
     }
   }
-  block.head()["path_points"] = points;
-  block.add("path_t_s", t_s);
-  block.add("path_m", p_m, {p_m.size() / 3, 3});
+  const std::size_t drawn = p_m.size() / 3;
+  block.head()["trajectory"] = {{"samples", points}, {"every", step}, {"points", drawn}, {"duration_s", duration_s}};
+  block.add("trajectory_p_m", p_m, {drawn, 3});
 }
 
 void gather(const fs::path& folder, int deepest, std::vector<fs::path>& out) {
@@ -128,7 +142,7 @@ std::vector<fs::path> find_results(const fs::path& folder) {
 }
 
 ReportItem read_report_item(const fs::path& folder, const std::string& name) {
-  BlockWriter block("result");
+  BlockWriter block("measured");
   const Json result = read_result(folder / "result.json");
   ReportItem out;
   const auto recording = result.find("recording");
@@ -136,6 +150,12 @@ ReportItem read_report_item(const fs::path& folder, const std::string& name) {
       !name.empty() || recording == result.end() || !recording->is_string() ? name : recording->get<std::string>();
   block.head()["name"] = is_utf8(out.name) ? out.name : printable(out.name, 200);
   block.head()["result"] = result;
+  block.head()["world"] = "camera";
+  block.head()["figures"] = Json::array();
+  block.head()["dropped"] = result.value("problems", Json::array());
+  block.head()["gaps"] = Json::array();
+  block.head()["gap_count"] = 0;
+  block.head()["compliance"] = result.value("compliance", Json::object());
   add_profile(folder / "profile.csv", block);
   add_path(folder / "trajectory.csv", block);
   out.block = block.take();

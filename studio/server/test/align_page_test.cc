@@ -150,6 +150,8 @@ TEST_F(AlignPageTest, RefusesNonsenseAndKeepsWhatThereWas) {
   EXPECT_THAT(bench_.call("align.write", args_of({{"name", "../out"}})).error, HasSubstr("out"));
   EXPECT_THAT(bench_.call("align.sliders", args_of({{"shift_m", {1, 2}}, {"turn_deg", {0, 0, 0}}})).error,
               HasSubstr("shift_m"));
+  EXPECT_THAT(bench_.call("align.sliders", args_of({{"pose", before["T_mesh_world"]}, {"shift_m", {1, 2, 3}}})).error,
+              HasSubstr("not both"));
   bench_.document.edit("/align/paths", Json::parse(R"(["../../etc/passwd"])"), "");
   EXPECT_THAT(bench_.call("align.open").error, HasSubstr("passwd"));
   bench_.document.edit("/align/paths", Json::array(), "");

@@ -197,9 +197,10 @@ TEST(FeelPage, WhatNobodySeesIsNotMade) {
   FeelRig rig;
   rig.choose_height_maps();
   rig.hub.subscribed = false;
+  write_path(rig.folder / "path.csv");
+  rig.document.edit("/feel/device", "replay", "device");
+  rig.document.edit("/feel/replay", "path.csv", "path");
   ASSERT_EQ(rig.ask("feel.start").error, "");
-  rig.ask("feel.log", {{"on", true}});
-  rig.ask("feel.stop");
   EXPECT_TRUE(rig.pump([&] { return rig.status()["state"] == "idle"; }));
   EXPECT_GT(rig.status()["last_run"]["figures"]["ticks"], 0);
   EXPECT_EQ(rig.hub.frames_of("feel.state") + rig.hub.frames_of("feel.ticks") + rig.hub.frames_of("feel.sound"), 0U);
@@ -229,12 +230,7 @@ TEST(FeelPage, ShowsTheSceneWithItsHeights) {
 TEST(FeelPage, ARecordedPathAndTheModelledHandEndByThemselvesOrWhenStopped) {
   FeelRig rig;
   rig.choose_height_maps();
-  std::ofstream path(rig.folder / "path.csv");
-  path << "t_ns,px_m,py_m,pz_m\n";
-  for (int k = 0; k < 400; ++k) {
-    path << k * 1'000'000 << ',' << 0.004 + 1e-5 * k << ",0.017," << (k < 200 ? 1e-3 - 1e-5 * k : -1e-3) << '\n';
-  }
-  path.close();
+  write_path(rig.folder / "path.csv");
   rig.document.edit("/feel/device", "replay", "device");
   EXPECT_THAT(rig.ask("feel.start").error, HasSubstr("recorded path is missing"));
   rig.document.edit("/feel/replay", "path.csv", "path");

@@ -40,6 +40,15 @@ inline void write_plate(const std::filesystem::path& file) {
   std::ofstream(file) << "v 0 0 0\nv 0.02 0 0\nv 0.02 0.02 0\nv 0 0.02 0\nf 1 2 3\nf 1 3 4\n";
 }
 
+// Down onto the first tile within 0.2 s, and 2 mm over it within another 0.2 s.
+inline void write_path(const std::filesystem::path& file) {
+  std::ofstream out(file);
+  out << "t_ns,px_m,py_m,pz_m\n";
+  for (int k = 0; k < 400; ++k) {
+    out << k * 1'000'000 << ',' << 0.004 + 1e-5 * k << ",0.017," << (k < 200 ? 1e-3 - 1e-5 * k : -1e-3) << '\n';
+  }
+}
+
 inline Json head_of(const std::string& block) {
   std::uint32_t length = 0;
   std::memcpy(&length, block.data() + 4, 4);

@@ -40,6 +40,7 @@ Recording short_scan() {
 }
 
 void choose_replay(ScanBench& bench) {
+  fs::create_directory(bench.folder() / "old");
   write_recording(bench.folder() / "old", short_scan());
   bench.edit("/scan/source", "replay");
   bench.edit("/scan/recording", "old");

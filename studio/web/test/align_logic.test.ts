@@ -49,7 +49,7 @@ describe("iterations", () => {
 
 describe("distances", () => {
   it("have a round limit that most lie below", () => {
-    expect(colourLimit_m([...new Array(99).fill(1.4e-3), 1])).toBeCloseTo(2e-3, 12);
+    expect(colourLimit_m([...new Array(99).fill(1.4e-3), 1])).toBeCloseTo(1.5e-3, 12);
     expect(colourLimit_m([0, 0])).toBeCloseTo(1e-5, 12);
     expect(colourLimit_m([-5e-4, 5e-4])).toBeCloseTo(5e-4, 12);
   });

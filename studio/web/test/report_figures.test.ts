@@ -1,7 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { figureGroups, namedFigure, shownFigure } from "../src/report/figures";
 import { comparedRows } from "../src/report/compare";
-import { flatSettings } from "../src/report/result";
 
 const shown = (json: Record<string, any>, title: string, label: string) => {
   const row = figureGroups(json).find((group) => group.title === title)?.rows.find((one) => one.label === label);
@@ -37,17 +36,6 @@ describe("figures", () => {
     expect(rows.map((row) => [row.label, ...row.values.map((value) => value.replaceAll("\u2009", " "))])).toEqual([
       ["Length of the path", "10.00 mm", "20.00 mm"],
       ["Duration", "–", "3.000 s"],
-    ]);
-  });
-});
-
-describe("settings", () => {
-  it("are named with their groups", () => {
-    expect(flatSettings({ method: "fused", profile: { cutoff: 0.1, weights: [1, 2] }, none: null })).toEqual([
-      ["method", "fused"],
-      ["profile.cutoff", "0.1"],
-      ["profile.weights", "1, 2"],
-      ["none", "null"],
     ]);
   });
 });

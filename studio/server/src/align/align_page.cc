@@ -91,6 +91,9 @@ void AlignPage::turn_sliders(const Request& request) const {
   const std::array<double, 3> about =
       request.has("about_world_m") ? three(request, "about_world_m") : std::array<double, 3>{};
   const Eigen::Vector3d pivot_m(about[0], about[1], about[2]);
+  if (request.has("pose") && (request.has("shift_m") || request.has("turn_deg"))) {
+    throw Error("align.sliders: a pose or its six numbers, not both");
+  }
   Pose pose;
   if (request.has("pose")) {
     pose = pose_argument(request, "pose");

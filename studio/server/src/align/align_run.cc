@@ -1,5 +1,6 @@
 #include "align/align_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -21,10 +22,16 @@ std::string certainty_of(const RegistrationResult& result) {
   const double shift_m = std::sqrt(result.covariance.bottomRightCorner<3, 3>().trace());
   const double turn_rad = std::sqrt(result.covariance.topLeftCorner<3, 3>().trace());
   if (!std::isfinite(shift_m) || !std::isfinite(turn_rad)) return "How well the pose is known cannot be said.";
-  std::string out = fmt::format("The path's middle is known to {:.3g} mm and its turn to {:.2g}° (standard deviations)",
-                                1e3 * shift_m, turn_rad / kDegree);
-  if (!result.undetermined.empty()) out += ", the motions below apart";
-  return out + ".";
+  if (!result.undetermined.empty()) {
+    double sigma_m = 0.0;
+    for (const UndeterminedMotion& motion : result.undetermined) sigma_m = std::max(sigma_m, motion.sigma_m);
+    return std::isfinite(sigma_m)
+               ? fmt::format("Along what is not determined the path is known to {:.3g} mm (standard deviation).",
+                             1e3 * sigma_m)
+               : std::string("Along what is not determined nothing is known of the path but the guess.");
+  }
+  return fmt::format("The path's middle is known to {:.3g} mm and its turn to {:.2g}° (standard deviations).",
+                     1e3 * shift_m, turn_rad / kDegree);
 }
 
 }  // namespace

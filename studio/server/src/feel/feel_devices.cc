@@ -17,14 +17,14 @@ namespace {
 constexpr double kHandGoesOn_s = 600.0;
 constexpr double kAbove = 0.1;  // of the scene's size: where the pointer's point begins
 
-constexpr std::array<FeelDeviceKind, 9> kKinds{{{"mouse", "Mouse, pen or keys", false, false},
+constexpr std::array<FeelDeviceKind, 9> kKinds{{{"mouse", "Mouse or pen", false, false},
                                                 {"sim", "Modelled hand", true, false},
                                                 {"replay", "Recorded path", true, false},
                                                 {"haply", "Haply Inverse3", false, true},
-                                                {"openhaptics", "3D Systems (OpenHaptics)", false, true},
-                                                {"dhd", "Force Dimension or Falcon", false, true},
+                                                {"openhaptics", "OpenHaptics", false, true},
+                                                {"dhd", "Force Dimension", false, true},
                                                 {"2diy", "Haply 2diy", false, true},
-                                                {"audio", "Voice coil (audio)", true, true},
+                                                {"audio", "Voice coil", true, true},
                                                 {"gamepad", "Gamepad", true, true}}};
 
 // What is needed that can be told without a try.

@@ -7,6 +7,8 @@
 #include "asperity/base/text.h"
 #include "asperity/pipeline/write_result.h"
 #include "asperity/studio/calls.h"
+#include "asperity/studio/measured_block.h"
+#include "asperity/studio/write_report.h"
 
 namespace asperity::studio {
 
@@ -48,6 +50,7 @@ Json write_results(const fs::path& target, const std::vector<NamedScan>& scans, 
   check_names(scans);
   OutputFolder folder(target, is_result_folder);
   Json files = Json::array(), notes = Json::array();
+  std::vector<ReportItem> items;
   std::string first_fault;
   for (const NamedScan& scan : scans) {
     for (const Piece& piece : pieces_of(scan, scans.size() == 1, sessions)) {
@@ -57,6 +60,8 @@ Json write_results(const fs::path& target, const std::vector<NamedScan>& scans, 
         fs::create_directories(folder.path() / piece.place);
         write_result(folder.path() / piece.place, result, session.recording(), piece.name);
         files.push_back(piece.place.generic_string());
+        items.push_back({piece.name, measured_block(result, session.recording(), piece.name).take()});
+        write_report(folder.path() / piece.place, {items.back()});
         if (!result.trustworthy) notes.push_back(piece.name + ": not to be trusted: " + result.verdict);
       } catch (const Cancelled&) {
         throw;
@@ -69,6 +74,7 @@ Json write_results(const fs::path& target, const std::vector<NamedScan>& scans, 
   }
   if (files.empty()) throw Error(first_fault);
   observer.update("writing", 1.0);
+  if (items.size() > 1) write_report(folder.path(), items);
   folder.commit();
   return {{"files", std::move(files)}, {"notes", std::move(notes)}};
 }

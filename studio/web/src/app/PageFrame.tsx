@@ -2,7 +2,7 @@ import type { ComponentType } from "preact";
 import { useEffect, useErrorBoundary, useState } from "preact/hooks";
 import { documentIsRead } from "../state/document";
 import { Button } from "../ui/Button";
-import { pageLoader, type Route } from "./routes";
+import type { Route } from "./routes";
 
 /** The page of a route, its code loaded when it is first needed; shown when the document has been read. */
 export function PageFrame({ route }: { route: Route }) {
@@ -12,9 +12,7 @@ export function PageFrame({ route }: { route: Route }) {
 
   const load = () => {
     setFault(null);
-    const loader = pageLoader(route.id);
-    if (!loader) return setPage({ id: route.id, Page: () => <Empty route={route} /> });
-    loader().then(
+    route.load().then(
       (module) => setPage({ id: route.id, Page: module.default }),
       () => setFault("The page's code could not be loaded."),
     );
@@ -28,15 +26,6 @@ export function PageFrame({ route }: { route: Route }) {
   if (fault) return <Failure title={route.title} words={fault} again={load} />;
   if (page?.id !== route.id || !documentIsRead.value) return <p class="page-wait">Loading {route.title} …</p>;
   return <page.Page key={page.id} />;
-}
-
-function Empty({ route }: { route: Route }) {
-  return (
-    <div class="page-empty">
-      <h1>{route.title}</h1>
-      <p>{route.purpose}</p>
-    </div>
-  );
 }
 
 function Failure({ title, words, again }: { title: string; words: string; again(): void }) {

@@ -9,14 +9,46 @@ export interface Route {
   purpose: string;
   /** The key that opens it, after "g". */
   key: string;
+  /** Its code, loaded when it is first shown. */
+  load(): Promise<{ default: ComponentType }>;
 }
 
 export const routes: readonly Route[] = [
-  { id: "scan", title: "Scan", purpose: "Record a surface with the probe and watch its profile grow.", key: "s" },
-  { id: "process", title: "Process", purpose: "From recordings to profile, spectrum, roughness and compliance.", key: "p" },
-  { id: "align", title: "Align", purpose: "Lay a scan path onto a mesh.", key: "a" },
-  { id: "paint", title: "Paint", purpose: "Draw textures onto a mesh.", key: "t" },
-  { id: "feel", title: "Feel", purpose: "Touch the scene with a device or with the mouse.", key: "f" },
+  {
+    id: "scan",
+    title: "Scan",
+    purpose: "Record a surface with the probe and watch its profile grow.",
+    key: "s",
+    load: () => import("../pages/scan/ScanPage"),
+  },
+  {
+    id: "process",
+    title: "Process",
+    purpose: "From recordings to profile, spectrum, roughness and compliance.",
+    key: "p",
+    load: () => import("../pages/process/ProcessPage"),
+  },
+  {
+    id: "align",
+    title: "Align",
+    purpose: "Lay a scan path onto a mesh.",
+    key: "a",
+    load: () => import("../pages/align/AlignPage"),
+  },
+  {
+    id: "paint",
+    title: "Paint",
+    purpose: "Draw textures onto a mesh.",
+    key: "t",
+    load: () => import("../pages/paint/PaintPage"),
+  },
+  {
+    id: "feel",
+    title: "Feel",
+    purpose: "Touch the scene with a device or with the mouse.",
+    key: "f",
+    load: () => import("../pages/feel/FeelPage"),
+  },
 ];
 
 const current = signal<Route>(routeOf(typeof location === "undefined" ? "" : location.hash));
@@ -31,10 +63,3 @@ export function routeOf(hash: string): Route {
 export const go = (id: string): void => void (location.hash = `#/${id}`);
 
 if (typeof window !== "undefined") window.addEventListener("hashchange", () => (current.value = routeOf(location.hash)));
-
-const files = import.meta.glob<{ default: ComponentType }>("../pages/*/*Page.tsx");
-
-/** Loads a page's code when it is first shown; undefined where there is none. */
-export function pageLoader(id: string): (() => Promise<{ default: ComponentType }>) | undefined {
-  return files[`../pages/${id}/${id[0]!.toUpperCase()}${id.slice(1)}Page.tsx`];
-}

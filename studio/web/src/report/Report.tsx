@@ -1,6 +1,6 @@
 import { Comparison } from "./Comparison";
-import { PathView } from "./PathView";
-import { ProfilePlots } from "./ProfilePlots";
+import { OneResult } from "./OneResult";
+import { Overlaid } from "./Overlaid";
 import { ResultDetails } from "./ResultDetails";
 import type { Result } from "./result";
 
@@ -16,8 +16,7 @@ export function Report({ results }: { results: Result[] }) {
       {results.map((result) => (
         <Verdict key={result.name} result={result} named={!one} />
       ))}
-      <ProfilePlots results={results} />
-      <PathView results={results} />
+      {one ? <OneResult measured={one.measured} /> : <Overlaid results={results} />}
       {!one && <Comparison results={results} />}
       {results.map((result) => (
         <ResultDetails key={result.name} result={result} named={!one} />

@@ -15,6 +15,7 @@ import { themeColour } from "../plot/colours";
 import { upOf, type Upright } from "./views";
 
 const kCells = 10;
+const kBelow = 0.03;
 
 /** A grid below the content, its cells a round number of millimetres, and the three axes beside the content. */
 export class Ground {
@@ -39,7 +40,7 @@ export class Ground {
     const centre = box.getCenter(new Vector3());
     const corner = box.min.clone();
     const depth = up === "-y" ? box.max.y - centre.y : centre.dot(above) - corner.dot(above);
-    centre.addScaledVector(above, -depth);
+    centre.addScaledVector(above, -depth - kBelow * radius); // a flat thing does not lie in the grid
     const points: number[] = [];
     for (let line = -kCells / 2; line <= kCells / 2; ++line) {
       for (const [fixed, free] of [[along, across], [across, along]] as const) {

@@ -4,11 +4,9 @@
 
 namespace asperity::studio {
 
-// One result as report.html holds it: its name, and a block (block.h) with
-//   head    "name", "result" (the content of result.json), "path_points" and "profile_points" (how many there were;
-//           fewer are in the arrays if there were more than can be seen)
-//   arrays  the profile: s_m, height_m, sigma_m, texture_m, force_N, speed_mps, f32, nan in gaps; the tip's path in
-//           the world frame: path_t_s from its beginning, path_m [n,3], f32; of a path that was not kept, empty
+// One result as report.html holds it: its name, and a block of kind "measured" (measured_block.h). One that was read
+// from files lacks what they do not hold: base path, contact, windows of compliance, the truth, where the gaps are and
+// why.
 struct ReportItem {
   std::string name;
   std::string block;

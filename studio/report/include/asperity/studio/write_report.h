@@ -1,11 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
+
+#include "asperity/studio/report_item.h"
 
 namespace asperity::studio {
 
-// Writes report.html into `folder`, of all results at and below it (find_results). Does nothing if this program was
-// built without Node. Throws Error as read_report_item does, and if the file cannot be written.
-void write_report(const std::filesystem::path& folder);
+// Writes report.html of `items` into `folder`. Does nothing if this program was built without Node. Throws Error if
+// there is no item or the file cannot be written.
+void write_report(const std::filesystem::path& folder, const std::vector<ReportItem>& items);
 
 }  // namespace asperity::studio

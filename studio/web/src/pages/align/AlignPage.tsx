@@ -34,7 +34,7 @@ export default function AlignPage() {
         </>
       }
       strip={<IterationStrip />}
-      stripHeight="200px"
+      stripHeight="230px"
     >
       <AlignView />
     </PageLayout>

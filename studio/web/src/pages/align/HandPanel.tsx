@@ -2,7 +2,7 @@ import { Panel } from "../../ui/Panel";
 import { Slider } from "../../ui/Slider";
 import { Button } from "../../ui/Button";
 import { edit } from "../../state/document";
-import { about, align, moveBySix, opened, shownSix, type Six } from "./alignState";
+import { about, align, moveBySix, opened, shownSix, turnAbout, type Six } from "./alignState";
 
 const AXES = ["x", "y", "z"] as const;
 // Turns about x, the turned y and the twice turned z; the middle one within a quarter turn, so that the six are one pose.
@@ -23,10 +23,14 @@ export function HandPanel() {
     <Panel title="By hand" collapsible testId="align-hand">
       <div class="align-about" role="group" aria-label="Turns are about">
         <span>About</span>
-        <Button pressed={about.value === "middle"} onClick={() => (about.value = "middle")} hint="x, y, z: where the path's middle lies in the mesh's frame">
+        <Button
+          pressed={about.value === "middle"}
+          onClick={() => turnAbout("middle")}
+          hint="x, y, z: where the path's middle lies in the mesh's frame"
+        >
           path's middle
         </Button>
-        <Button pressed={about.value === "origin"} onClick={() => (about.value = "origin")} hint="The six numbers of asperity register --align">
+        <Button pressed={about.value === "origin"} onClick={() => turnAbout("origin")} hint="The six numbers of asperity register --align">
           world's origin
         </Button>
       </div>
@@ -37,7 +41,7 @@ export function HandPanel() {
           <Slider
             key={axis}
             label={axis}
-            value={value}
+            value={rounded(value, 1e-6)}
             low={low}
             high={high}
             step={1e-4}
@@ -53,7 +57,7 @@ export function HandPanel() {
         <Slider
           key={axis}
           label={`turn ${axis}`}
-          value={six?.turn_deg[index] ?? 0}
+          value={rounded(six?.turn_deg[index] ?? 0, 0.01)}
           low={-TURN_LIMITS_deg[index]!}
           high={TURN_LIMITS_deg[index]!}
           step={0.1}
@@ -63,12 +67,19 @@ export function HandPanel() {
           testId={`align-turn-${axis}`}
         />
       ))}
-      <Button onClick={() => edit("/align/T_mesh_world", null, "begin anew")} disabled={!align.value?.T_mesh_world} hint="The path's middle on the mesh's, unturned">
+      <Button
+        onClick={() => edit("/align/T_mesh_world", null, "begin anew")}
+        disabled={!align.value?.T_mesh_world}
+        hint="The path's middle on the mesh's, unturned"
+      >
         Begin anew
       </Button>
     </Panel>
   );
 }
+
+/** As it is shown; what is not touched keeps its digits. */
+const rounded = (value: number, step: number): number => Number((Math.round(value / step) * step).toPrecision(12));
 
 /** Half a mesh beyond the mesh; about the world's origin, the reach of a tracker. */
 function range(head: Record<string, any> | undefined, axis: number, value: number): [number, number] {

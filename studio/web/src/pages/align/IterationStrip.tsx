@@ -13,7 +13,8 @@ export function IterationStrip() {
   const count = known.poses.length;
   const [playing, setPlaying] = useState(false);
   const series = useMemo(() => seriesOf(known), [known]);
-  const marks = useMemo(() => (showing.value === "iteration" && count ? [{ x: scrub.value + 1, label: `${scrub.value + 1}` }] : []), [showing.value, scrub.value, count]);
+  const marked = showing.value === "iteration" && count > 0 ? scrub.value + 1 : 0;
+  const marks = useMemo(() => (marked ? [{ x: marked, label: `${marked}` }] : []), [marked]);
   useEffect(() => {
     if (!playing) return;
     const line = mainLine(iterations.value);
@@ -28,10 +29,11 @@ export function IterationStrip() {
     <Panel title="Iterations" grow testId="align-iterations">
       <div class="align-strip">
         <Plot
+          key={`${known.run} ${running.value} ${Math.ceil(Math.log2(count + 1))}`}
           label="Residual of each iteration of the registration"
           series={series}
           xAxis={{ label: "iteration" }}
-          yAxis={{ label: "RMS of the inliers", unit: "mm" }}
+          yAxis={{ label: "RMS", unit: "mm" }}
           logY
           marks={marks}
           onPick={(x) => goTo(Math.round(x) - 1)}
@@ -39,7 +41,12 @@ export function IterationStrip() {
           empty={running.value ? "Registering …" : "Run a registration: each of its iterations is shown here."}
         />
         <div class="align-scrub">
-          <IconButton icon={playing ? "pause" : "play"} label={playing ? "Stop" : "Play the iterations from the guess"} onClick={() => setPlaying(!playing)} disabled={count === 0 || running.value} />
+          <IconButton
+            icon={playing ? "pause" : "play"}
+            label={playing ? "Stop" : "Play the iterations from the guess"}
+            onClick={() => setPlaying(!playing)}
+            disabled={count === 0 || running.value}
+          />
           <label>
             <span>Iteration</span>
             <input

@@ -12,18 +12,19 @@ export function ResidualPanel() {
   const bars = useMemo(() => (now ? histogram(now.distance_m, colourLimit_m(now.distance_m)) : null), [now]);
   return (
     <Panel title="Distances" testId="align-distances">
-      <Figures columns={3}>
+      <Figures>
         <Figure label="Mean" value={now?.mean_m} factor={1e3} unit="mm" digits={3} testId="align-mean" />
         <Figure label="RMS" value={now?.rms_m} factor={1e3} unit="mm" digits={3} />
         <Figure label="Most" value={now?.most_m} factor={1e3} unit="mm" digits={3} />
       </Figures>
       <div class="align-histogram">
         <Plot
+          key={bars?.edges_mm[0]}
           label="Histogram of the distances, negative inside the mesh"
           x={bars?.edges_mm ?? []}
           series={[{ label: "points", y: bars?.percent ?? [], kind: "step", colour: 1 }]}
           xAxis={{ label: "inside − / + outside", unit: "mm" }}
-          yAxis={{ label: "points", unit: "%" }}
+          yAxis={{ label: "share", unit: "%" }}
           legend={false}
           empty="No path and mesh are open."
         />

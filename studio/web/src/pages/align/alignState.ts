@@ -1,5 +1,5 @@
 // What the Align page knows beside the document: the open mesh and path, the last registration, what is being shown.
-import { computed, effect, signal } from "@preact/signals";
+import { batch, computed, effect, signal } from "@preact/signals";
 import { call, onEvent, subscribe } from "../../net/connection";
 import type { Block } from "../../net/block";
 import { documentIsRead, edit, section } from "../../state/document";
@@ -104,9 +104,17 @@ export const ghostPose = computed<Pose | null>(() => {
 /** True where the pose is still that of the registration it was taken from. */
 export const isRegistered = computed(() => samePose(align.value?.T_mesh_world, align.value?.registered?.T_mesh_world));
 
+/** Changes what turns leave in its place; the six numbers are then others. */
+export function turnAbout(what: "middle" | "origin"): void {
+  six.value = null;
+  about.value = what;
+}
+
 const pivot = (): Point => (about.value === "middle" ? frame.value!.middle_world_m : [0, 0, 0]);
 export const shownSix = computed<Six | null>(() => draftSix.value ?? six.value);
 
+/** Iterations come faster than plots and 3D pictures are worth drawing. */
+const kPicture_ms = 150;
 const POSE_PATH = "/align/T_mesh_world";
 const mover = latest(
   ({ pose, gesture }: { pose: Pose; gesture: string }) => edit(POSE_PATH, pose, "move the path", gesture).catch(complain),
@@ -123,8 +131,9 @@ export function move(pose: Pose, gesture: string): void {
 const turner = latest(
   async ({ wanted, gesture }: { wanted: Six; gesture: string }) => {
     try {
-      const { pose } = await call("align.sliders", { ...wanted, about_world_m: pivot() });
+      const { pose, shift_m, turn_deg } = await call("align.sliders", { ...wanted, about_world_m: pivot() });
       draft.value = pose;
+      six.value = { shift_m, turn_deg };
       await edit(POSE_PATH, pose, "move the path", gesture);
     } catch (error) {
       complain(error);
@@ -199,8 +208,18 @@ export function followAlign(): () => void {
     }
   });
   const reader = latest(async (pose: Pose) => {
-    six.value = await call<Six>("align.sliders", { pose, about_world_m: pivot() });
+    const { shift_m, turn_deg } = await call<Six>("align.sliders", { pose, about_world_m: pivot() });
+    six.value = { shift_m, turn_deg };
   });
+  const news: Block[] = [];
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  const takeNews = () => {
+    timer = undefined;
+    batch(() => {
+      iterations.value = news.splice(0).reduce(withBlock, iterations.value);
+      if (running.value || showing.value !== "iteration") scrub.value = Math.max(0, iterations.value.poses.length - 1);
+    });
+  };
   const what = computed(() => {
     const { paths = [], mesh = "", mesh_unit = "", config = {} } = align.value ?? {};
     if (!documentIsRead.value || !mesh || paths.length === 0) return "";
@@ -224,10 +243,11 @@ export function followAlign(): () => void {
       if (isOpen && pose && !draftSix.value) reader(pose);
     }),
     subscribe("align.iteration", (block) => {
-      iterations.value = withBlock(iterations.value, block);
-      if (running.value) scrub.value = Math.max(0, iterations.value.poses.length - 1);
+      news.push(block);
+      timer ||= setTimeout(takeNews, kPicture_ms);
     }),
-    onEvent("align.result", (news: RunResult) => (result.value = news)),
+    () => clearTimeout(timer),
+    onEvent("align.result", (found: RunResult) => (result.value = found)),
   ];
   return () => ends.forEach((end) => end());
 }

@@ -43,7 +43,7 @@ export function colourLimit_m(distance_m: ArrayLike<number>): number {
   const sizes = Array.from(distance_m, Math.abs).sort((a, b) => a - b);
   const most = Math.max(1e-5, sizes[Math.floor(0.95 * (sizes.length - 1))] ?? 0);
   const power = 10 ** Math.floor(Math.log10(most) + 1e-9);
-  const digit = [1, 2, 5, 10].find((step) => step * power >= most * (1 - 1e-9)) ?? 10;
+  const digit = [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((step) => step * power >= most * (1 - 1e-9)) ?? 10;
   return digit * power;
 }
 

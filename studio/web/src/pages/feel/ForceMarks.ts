@@ -13,7 +13,7 @@ export const FORCES = [
   { key: "out", label: "to the hand", colour: 4 },
 ] as const;
 
-const kArrowOfScene = 0.35; // the length of the largest force that is allowed, of the scene's radius
+const kArrowOfScene = 0.6; // the length of the largest force that is allowed, of the scene's radius
 const kTurns = 9;
 
 export class ForceMarks {
@@ -39,9 +39,9 @@ export class ForceMarks {
   /** Sizes for a scene of this radius. */
   size(radius_m: number): void {
     this.radius_m = radius_m;
-    this.point.scale.setScalar(0.016 * radius_m);
-    this.proxy.scale.setScalar(0.022 * radius_m);
-    this.target.scale.setScalar(0.012 * radius_m);
+    this.point.scale.setScalar(0.011 * radius_m);
+    this.proxy.scale.setScalar(0.015 * radius_m);
+    this.target.scale.setScalar(0.008 * radius_m);
   }
 
   takeColours(): void {

@@ -17,7 +17,7 @@ export function ScenePanel({ maps, onMaps }: { maps: boolean; onMaps(maps: boole
   const status = feelStatus.value;
   const isMesh = /\.(obj|ply|stl|gltf|glb)$/i.test(chosen.scene ?? "");
   return (
-    <Panel title="What is felt">
+    <Panel title="What is felt" collapsible>
       <Select
         label="Kind"
         value={maps ? "maps" : "scene"}

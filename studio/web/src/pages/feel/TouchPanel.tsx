@@ -30,7 +30,7 @@ export function TouchPanel() {
         <Figure label="Loop" value={state && status ? status.rate_Hz : null} unit="Hz" />
         <Figure label="Late, 99 %" value={state?.late_p99_us} unit="µs" digits={3} hint="Start of a tick after it was due, over a second" />
         <Figure label="Late, most" value={state?.late_max_us} unit="µs" digits={3} />
-        <Figure label="Ticks left out" value={state?.skipped} digits={6} />
+        <Figure label="Ticks left out" value={state && String(state.skipped)} hint="Due times of the loop that passed without a tick" />
       </Figures>
       {status?.warnings.map((warning) => (
         <p key={warning} class="field-hint">

@@ -31,7 +31,7 @@ export function WritePanel({ section }: { section: ProcessSection }) {
         {written && (
           <>
             <p>
-              trajectory.csv, profile.csv, texture.json and result.json in {written.files.map((file) => `${written.folder}${file && "/"}${file}`).join(", ")}.
+              trajectory.csv, profile.csv, texture.json, result.json and report.html in {written.files.map((file) => `${written.folder}${file && "/"}${file}`).join(", ")}.
             </p>
             {written.notes.map((note) => (
               <p key={note}>{note}</p>
