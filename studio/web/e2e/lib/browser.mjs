@@ -24,7 +24,7 @@ export async function launch() {
 /** A fresh profile with one page. `complaints` has what the console, the page and the network said; it must stay empty. */
 export async function openPage(browser, { width = 1400, height = 860, colorScheme = "light", offline = false } = {}) {
   const context = await browser.newContext({ viewport: { width, height }, colorScheme, offline, reducedMotion: "reduce", acceptDownloads: true });
-  context.setDefaultTimeout(Number(process.env.ASPERITY_E2E_TIMEOUT_MS ?? 60_000));
+  context.setDefaultTimeout(Number(process.env.ASPERITY_E2E_TIMEOUT_MS ?? 90_000));
   const page = await context.newPage();
   const complaints = [];
   let awaited = [];
