@@ -7,6 +7,8 @@ import { open } from "../lib/ui.mjs";
 const kColumns = "t_ns,px_m,py_m,pz_m,proxy_x_m,proxy_y_m,proxy_z_m,fx_N,fy_N,fz_N,contact_N,texture_N,friction_N,texture_height_m,out_x_N,out_y_N,out_z_N";
 
 export default async function feel({ page, browser, openPage, studio, step, folder, asperity, until, equal, near, ok, numberIn }) {
+  // Where the processor draws, a small window has more pictures a second.
+  await page.setViewportSize({ width: 1024, height: 700 });
   await open(page, "Feel");
   const canvas = page.getByTestId("feel-view").locator("canvas");
   const shown = async (id) => {
