@@ -168,8 +168,8 @@ void FeelPage::begin(const Request& request) {
   opening->setup.config.feel.servo.safety.max_force_N = start_.feel.servo.safety.max_force_N;
   state_ = State::kOpening;
   stop_asked_ = false;
-  shared_.jobs.start(
-      "Starting " + std::string(kind.title), "",
+  shared_.jobs.start_in(
+      "feel", "Starting " + std::string(kind.title), "",
       [opening, chosen, before = world_, revision = revision_](const Observer& observer) {
         observer.update("the scene", 0.0);
         opening->world = make_felt_world(opening->setup, chosen, before, revision);

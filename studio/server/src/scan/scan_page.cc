@@ -176,8 +176,8 @@ class ScanPage : public Page {
     busy_ = true;
     auto opened = std::make_shared<std::unique_ptr<ScanSession>>();
     auto waiting = std::make_shared<ScanSetup>(std::move(setup));
-    shared_.jobs.start(
-        "Opening the source", "",
+    shared_.jobs.start_in(
+        "scan", "Opening the source", "",
         [this, chosen, recording, waiting, opened](const Observer& observer) {
           waiting->source = open_source(chosen, waiting->config, recording, observer);
           *opened = std::make_unique<ScanSession>(shared_.hub, std::move(*waiting), events());
@@ -199,8 +199,8 @@ class ScanPage : public Page {
     busy_ = true;
     auto ending = std::exchange(session_, nullptr);
     auto kept = std::make_shared<bool>(false);
-    shared_.jobs.start(
-        "Finishing the recording", "", [ending, kept](const Observer&) { *kept = ending->finish(); },
+    shared_.jobs.start_in(
+        "scan", "Finishing the recording", "", [ending, kept](const Observer&) { *kept = ending->finish(); },
         [this, request, ending, kept](std::exception_ptr error) {
           busy_ = false;
           if (error && is_cancelled(error)) session_ = ending;  // it did not begin; the recording goes on
