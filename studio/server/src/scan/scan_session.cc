@@ -184,6 +184,7 @@ void ScanSession::round(bool last) {
   const RecorderSnapshot now = recorder_->snapshot();
   tap_.want_images(hub_.has_subscribers("scan.image"));
   tap_.take(taken_);
+  show_rows();  // first: the estimate takes its time on a busy machine
   watch(now);
   retune(now);
   take_rows(now.storing);
@@ -195,10 +196,7 @@ void ScanSession::round(bool last) {
 void ScanSession::tell(const std::string& message, const std::string& hint) {
   if (message == told_) return;
   told_ = message;
-  Json note;
-  note["message"] = message;
-  note["hint"] = hint;
-  hub_.broadcast("note", note);
+  hub_.broadcast("note", Json{{"message", message}, {"hint", hint}});
 }
 
 void ScanSession::take_rows(bool storing) {
@@ -309,12 +307,16 @@ void ScanSession::publish(std::string_view topic, BlockWriter block, Delivery de
   hub_.publish(topic, block.take(), delivery);
 }
 
-void ScanSession::show(const RecorderSnapshot& now, std::int64_t now_ns) {
+void ScanSession::show_rows() {
   if (!taken_.rows.empty() && hub_.has_subscribers("scan.probe")) {
     publish("scan.probe",
             probe_block(taken_.rows, taken_.first_row, taken_.rows_dropped, origin_ns_, setup_.source->calibration()),
             Delivery::kSeries);
   }
+  if (taken_.image) publish("scan.image", image_block(*taken_.image), Delivery::kLatest);
+}
+
+void ScanSession::show(const RecorderSnapshot& now, std::int64_t now_ns) {
   {
     const std::lock_guard lock(mutex_);
     if (book_.grown() && hub_.has_subscribers("scan.profile"))
@@ -322,7 +324,6 @@ void ScanSession::show(const RecorderSnapshot& now, std::int64_t now_ns) {
     if (book_.moved() && hub_.has_subscribers("scan.pose"))
       publish("scan.pose", book_.take_motion(), Delivery::kSeries);
   }
-  if (taken_.image) publish("scan.image", image_block(*taken_.image), Delivery::kLatest);
   if (now_ns - stated_ns_ < kStatePeriod_ns) return;
   stated_ns_ = now_ns;
   publish("scan.state", state_of(now, now_ns), Delivery::kLatest);

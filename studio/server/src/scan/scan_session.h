@@ -101,6 +101,7 @@ class ScanSession {
   void round(bool last);
   void tell(const std::string& message, const std::string& hint);
   BlockWriter state_of(const RecorderSnapshot& now, std::int64_t now_ns);
+  void show_rows();
   void show(const RecorderSnapshot& now, std::int64_t now_ns);
   void publish(std::string_view topic, BlockWriter block, Delivery delivery);
 

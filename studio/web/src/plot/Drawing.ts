@@ -67,9 +67,7 @@ export class Drawing {
     this.series = series;
     this.all = this.range();
     const isOut = shown && (shown.min >= this.all.max || shown.max <= this.all.min);
-    this.drawnRange = "";
-    this.show(!shown || isOut ? this.all : shown);
-    this.rangeChanged();
+    this.draw(!shown || isOut ? this.all : shown);
   }
 
   key(key: string): boolean {
@@ -93,9 +91,15 @@ export class Drawing {
     const { min, max } = this.plot.scales.x!;
     if (min == null || max == null) return;
     const range = (this.shown = { min, max });
-    const name = `${range.min} ${range.max} ${this.plot.width}`;
-    if (name === this.drawnRange) return;
-    this.drawnRange = name;
+    if (this.nameOf(range) !== this.drawnRange) this.draw(range);
+  }
+
+  private nameOf = (range: Range): string => `${range.min} ${range.max} ${this.plot.width}`;
+
+  /** Draws the data of a range. uPlot takes a new scale only after the task, so none is read here. */
+  private draw(range: Range): void {
+    this.shown = range;
+    this.drawnRange = this.nameOf(range);
     this.plot.batch(() => {
       this.plot.setData(this.columns(range).data as uPlot.AlignedData, false);
       this.plot.setScale("x", range);

@@ -117,7 +117,7 @@ export function gravityWords(recorder: RecorderState | undefined): Words {
   if (!recorder) return { lamp: "off", word: "–" };
   if (recorder.gravity.implausible) return { lamp: "warn", word: "measured, but not believed" };
   if (recorder.gravity.measured) return { lamp: "good", word: "measured" };
-  return { lamp: "warn", word: "assumed: hold the probe still" };
+  return { lamp: "warn", word: "assumed: hold still" };
 }
 
 /** Rows that are missing in the recording, for whatever reason. */

@@ -10,6 +10,7 @@ import type { ScanState } from "./scanState";
 const kPing_ms = 5000;
 const kFigures_ms = 250;
 const kSilent_ms = 2000;
+const kPause_s = 0.5;
 
 export const state = signal<ScanState | null>(null);
 /** The newest camera image, and the last scan worked out in full; null: there is none. */
@@ -107,6 +108,11 @@ function takeRows(block: Block): void {
   const t_s = block.arrays.t_s!;
   rows.take(block.head.sequence, t_s.length);
   const forces = block.arrays.force_N!;
+  // After a pause the plots begin anew: no line goes across it.
+  if (t_s.length > 0 && acceleration.length > 0 && t_s[0]! - acceleration.newest_s > kPause_s) {
+    acceleration.clear();
+    force.clear();
+  }
   const when: number[] = [];
   const read: number[] = [];
   // A force sensor slower than the rows has nothing new in most of them.
