@@ -4,6 +4,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { dark } from "../app/settings";
 import { Legend } from "./Legend";
 import type { LiveBuffer } from "./LiveBuffer";
+import { Pace } from "./pace";
 import { axis, axisWords, uSeries, type AxisWords } from "./options";
 import type { Series } from "./series";
 
@@ -23,6 +24,7 @@ export interface LivePlotProps {
 
 const kNone: ReadonlySet<string> = new Set();
 const kBuckets = 600;
+const kPicture_ms = 15;
 
 /** The last seconds of a stream. */
 export function LivePlot(props: LivePlotProps) {
@@ -58,9 +60,11 @@ function animate(place: HTMLElement, props: () => LivePlotProps): () => void {
     place,
   );
   let drawn = -1;
-  let frame = requestAnimationFrame(function draw() {
+  const pace = new Pace(kPicture_ms);
+  let frame = requestAnimationFrame(function draw(now_ms: number) {
     frame = requestAnimationFrame(draw);
-    if (props().paused || buffer.version === drawn) return;
+    if (!pace.due(now_ms) || props().paused || buffer.version === drawn) return;
+    pace.drew(now_ms);
     drawn = buffer.version;
     const count = buffer.recent(props().window_s ?? 10, x, ys);
     plot.setData([x.subarray(0, count), ...ys.map((y) => y.subarray(0, count))] as uPlot.AlignedData);

@@ -14,6 +14,7 @@ import {
 import { effect } from "@preact/signals";
 import { dark } from "../../app/settings";
 import { themeColour } from "../../plot/colours";
+import { Pace } from "../../plot/pace";
 import { segmentsFromPoints, sphere } from "../../view3d/helpers";
 import type { View } from "../../view3d/View";
 import { Viewport } from "../../view3d/Viewport";
@@ -24,7 +25,7 @@ import { path, state } from "./stream";
 
 const kMostPoints = 101_000;
 const kMarker_m = 0.046;
-const kPicture_ms = 45; // where WebGL is made in software a picture is dear
+const kPicture_ms = 45;
 
 /** The probe, its tip's path and the camera in the tracker's world. */
 export function ScanView() {
@@ -52,14 +53,16 @@ function show(view: View): () => void {
   let frustum: ReturnType<typeof frustumOf> | null = null;
   let camera = "";
   let fitted = false;
-  let drawn_ms = 0;
+  const pace = new Pace(kPicture_ms);
+  let posed = false;
   let frame = requestAnimationFrame(function draw(now_ms: number) {
     frame = requestAnimationFrame(draw);
-    if (now_ms - drawn_ms < kPicture_ms) return;
-    drawn_ms = now_ms;
+    if (!pace.due(now_ms)) return;
     const changed = line.follow(dark.value);
     if (changed) probe.followTip();
-    if (!changed) return;
+    if (!changed && !posed) return;
+    posed = false;
+    pace.drew(now_ms);
     if (!fitted && path.length > 0) {
       fitted = true;
       view.fit();
@@ -77,7 +80,7 @@ function show(view: View): () => void {
       frustum = now?.source?.camera ? frustumOf(now.source.camera) : null;
       if (frustum) view.add(frustum);
     }
-    view.invalidate();
+    posed = true;
   });
   return () => {
     cancelAnimationFrame(frame);
