@@ -29,7 +29,7 @@ export function ForceStatus() {
     <div class="force" role="group" aria-label="Force">
       <Lamp state={lamp} word={word} label="Force:" live testId="force-watchdog" />
       <span class="force-now" data-testid="force-now">
-        {fixed(out_N, 2)} of at most {status ? fixed(status.max_force_N, 1) : "–"} N
+        {fixed(out_N, 2)} of at most {status ? fixed(status.max_force_N, 1) : "–"}{"\u202f"}N
       </span>
       <Button kind="danger" onClick={stopFeeling} disabled={!active || link.value !== "open"} hint="Ramps the force to zero and ends the run (Esc)" testId="force-stop">
         Stop

@@ -50,7 +50,7 @@ function LastRun() {
     <>
       <h3>The last run</h3>
       <p data-testid="feel-last-run">
-        {run.duration_s.toFixed(1)} s, then {run.end}. At most {run.figures.force.peak_out_N.toFixed(2)} N on the hand.
+        {run.duration_s.toFixed(1)}{"\u202f"}s, then {run.end}. At most {run.figures.force.peak_out_N.toFixed(2)}{"\u202f"}N on the hand.
       </p>
       {[...run.doubts, ...run.warnings].map((words) => (
         <p key={words} class="field-hint">
