@@ -154,7 +154,8 @@ class FeelRig {
       if (std::chrono::steady_clock::now() > until) return false;
       for (const auto& work : inbox.wait(std::chrono::steady_clock::now() + std::chrono::milliseconds(2))) work();
       page.tick(host_now_ns());
-      for (const ClientId client : beating) lease.heartbeat(client, host_now_ns());
+      for (const ClientId client : beating)
+        lease.acquire(client, host_now_ns());  // also after a long sleep of the machine
       if (pointing) page.pointed(kOwner, Pointer{0, {pointer_m.x(), pointer_m.y(), pointer_m.z()}});
     }
     return true;

@@ -50,11 +50,34 @@ TEST(RowTap, KeepsAnImageOnlyWhenItIsWanted) {
   EXPECT_FALSE(taken.image);
   tap.want_images(true);
   tap.add(frame);
-  frame.t_ns = 2;  // too soon after the last
+  frame.t_ns = 2;  // the first one was passed over by the tracker
   tap.add(frame);
+  TrackedPose pose;
+  pose.sample.t_ns = 2;
+  tap.add(pose);
   tap.take(taken);
   ASSERT_TRUE(taken.image);
-  EXPECT_EQ(taken.image->t_ns, 1);
+  EXPECT_EQ(taken.image->small.t_ns, 2);
+  EXPECT_TRUE(taken.image->pose);
+  frame.t_ns = 3;  // too soon after the last
+  tap.add(frame);
+  tap.take(taken);
+  EXPECT_FALSE(taken.image);
+}
+
+TEST(RowTap, ShowsAnImageInWhichNothingIsSeen) {
+  RowTap tap;
+  RowTap::Taken taken;
+  tap.want_images(true);
+  CameraFrame frame;
+  frame.image = {2, 1, {10, 20}};
+  for (const std::int64_t t_ns : {std::int64_t{1}, 1 + RowTap::kPoseWait_ns}) {
+    frame.t_ns = t_ns;
+    tap.add(frame);
+  }
+  tap.take(taken);
+  ASSERT_TRUE(taken.image);
+  EXPECT_FALSE(taken.image->pose);
 }
 
 TEST(SmallImage, IsTheMeanOfSquares) {
@@ -76,12 +99,11 @@ TEST(SmallImage, HasTheTagsWhereTheyAre) {
   tag.id = 3;
   tag.corners_px << -0.5, 3.5, 3.5, -0.5, -0.5, -0.5, 1.5, 1.5;  // the edges of the full image
   pose.tags.push_back(tag);
-  const ReadBlock block(image_block(small, pose).take());
+  const ReadBlock block(image_block({small, pose}).take());
   EXPECT_EQ(block.head.at("tags").at(0).at("id"), 3);
   const Json expected = {-0.5, -0.5, 1.5, -0.5, 1.5, 0.5, -0.5, 0.5};  // those of the small one
   EXPECT_EQ(block.head.at("tags").at(0).at("corners_px"), expected);
-  pose.sample.t_ns = 6;  // of another image
-  EXPECT_TRUE(ReadBlock(image_block(small, pose).take()).head.at("tags").empty());
+  EXPECT_TRUE(ReadBlock(image_block({small, std::nullopt}).take()).head.at("tags").empty());
 }
 
 TEST(KeptRows, ForgetsWhatIsOldUnlessItIsHeld) {

@@ -46,12 +46,13 @@ BlockWriter ScanRefiner::refine(const ProcessConfig& config, const Observer& obs
   const auto start = std::chrono::steady_clock::now();
   const ProcessResult& result = session_.process(config, observer);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  if (!std::exchange(only_live_, false)) took_s_ = took.count();
   const Profile& profile = result.profile;
   BlockWriter out("scan.refined");
   Json& head = out.head();
   head["recording"] = recording_;
   head["segment"] = printable(segment_, 100);
-  head["took_s"] = took.count();
+  head["took_s"] = took_s_;
   head["trustworthy"] = result.trustworthy;
   head["verdict"] = printable(result.verdict, 500);
   head["length_m"] = result.coverage.length_m;

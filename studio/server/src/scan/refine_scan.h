@@ -23,12 +23,17 @@ class ScanRefiner {
   BlockWriter refine(const ProcessConfig& config, const Observer& observer);
 
   // What the causal profile has become by a tuning.
-  void set_live(LiveHeights live) { live_ = std::move(live); }
+  void set_live(LiveHeights live) {
+    live_ = std::move(live);
+    only_live_ = true;
+  }
 
  private:
   std::string recording_;
   std::string segment_;
   LiveHeights live_;
+  bool only_live_ = false;  // nothing else has changed since the last time
+  double took_s_ = 0.0;
   ProcessSession session_;
 };
 

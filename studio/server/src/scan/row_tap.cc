@@ -66,6 +66,7 @@ void RowTap::add(std::span<const ProbeSample> rows) {
 }
 
 void RowTap::add(const TrackedPose& pose) {
+  if (pending_ && pending_->t_ns == pose.sample.t_ns) keep(pose);
   const std::lock_guard lock(mutex_);
   if (poses_.size() >= kMostPoses) {
     poses_dropped_ += poses_.size();
@@ -76,10 +77,18 @@ void RowTap::add(const TrackedPose& pose) {
 
 void RowTap::add(const CameraFrame& frame) {
   if (!images_wanted_ || frame.t_ns < next_image_ns_) return;
-  next_image_ns_ = frame.t_ns + kImagePeriod_ns;
-  SmallImage small = make_small(frame, kWidestImage_px);
+  pending_ = make_small(frame, kWidestImage_px);
+  if (!pending_since_ns_) pending_since_ns_ = frame.t_ns;
+  if (frame.t_ns - *pending_since_ns_ >= kPoseWait_ns) keep(std::nullopt);
+}
+
+void RowTap::keep(const std::optional<TrackedPose>& pose) {
+  next_image_ns_ = pending_->t_ns + kImagePeriod_ns;
+  SeenImage seen{std::move(*pending_), pose};
+  pending_.reset();
+  pending_since_ns_.reset();
   const std::lock_guard lock(mutex_);
-  image_ = std::move(small);
+  image_ = std::move(seen);
 }
 
 void RowTap::take(Taken& out) {

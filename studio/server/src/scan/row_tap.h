@@ -21,6 +21,12 @@ struct SmallImage {
   GrayImage image;
 };
 
+// An image with the pose that was found in it, if any.
+struct SeenImage {
+  SmallImage small;
+  std::optional<TrackedPose> pose;
+};
+
 // A copy of what the sensors give, for whoever shows it. The sensors' threads put rows in and never wait for longer
 // than a copy takes; what nobody fetches in time is dropped and counted, the recorder has it all the same. Thread-safe.
 class RowTap {
@@ -29,10 +35,12 @@ class RowTap {
   static constexpr std::size_t kMostPoses = 4'096;
   static constexpr int kWidestImage_px = 640;
   static constexpr std::int64_t kImagePeriod_ns = 60'000'000;
+  static constexpr std::int64_t kPoseWait_ns = 150'000'000;  // then an image goes without
 
   void add(std::span<const ProbeSample> rows);
   void add(const TrackedPose& pose);
-  // Keeps a small copy if images are wanted and the last one is old enough.
+  // Keeps a small copy if images are wanted and the last one is old enough. It goes with the pose of the same time; a
+  // newer one takes its place until that has come. In the thread that adds the poses.
   void add(const CameraFrame& frame);
   void want_images(bool wanted) { images_wanted_ = wanted; }
 
@@ -40,20 +48,24 @@ class RowTap {
     std::vector<ProbeSample> rows;
     std::uint64_t first_row = 0;  // number of the first of `rows` among all that came
     std::vector<TrackedPose> poses;
-    std::optional<SmallImage> image;  // the newest, if there is a new one
-    std::uint64_t rows_dropped = 0;   // since the beginning
+    std::optional<SeenImage> image;  // the newest, if there is a new one
+    std::uint64_t rows_dropped = 0;  // since the beginning
     std::uint64_t poses_dropped = 0;
   };
   // All that waits; the memory of `out` is used in turn.
   void take(Taken& out);
 
  private:
+  void keep(const std::optional<TrackedPose>& pose);
+
   std::atomic<bool> images_wanted_{false};
-  std::int64_t next_image_ns_ = 0;  // of the camera's thread
+  std::int64_t next_image_ns_ = 0;                // of the camera's thread, as the next two
+  std::optional<SmallImage> pending_;             // waits for its pose
+  std::optional<std::int64_t> pending_since_ns_;  // since when there has been one
   std::mutex mutex_;
   std::vector<ProbeSample> rows_;
   std::vector<TrackedPose> poses_;
-  std::optional<SmallImage> image_;
+  std::optional<SeenImage> image_;
   std::uint64_t rows_came_ = 0;
   std::uint64_t rows_dropped_ = 0;
   std::uint64_t poses_dropped_ = 0;

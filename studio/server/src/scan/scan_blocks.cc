@@ -84,12 +84,13 @@ BlockWriter probe_block(std::span<const ProbeSample> rows, std::uint64_t first_r
   return out;
 }
 
-BlockWriter image_block(const SmallImage& small, const std::optional<TrackedPose>& pose) {
+BlockWriter image_block(const SeenImage& seen) {
+  const SmallImage& small = seen.small;
   BlockWriter out("scan.image");
   out.head()["t_ns"] = small.t_ns;
   out.head()["factor"] = small.factor;
   out.head()["tags"] = Json::array();
-  if (pose && pose->sample.t_ns == small.t_ns) {
+  if (const auto& pose = seen.pose) {
     out.head()["reprojection_px"] = finite(pose->sample.reprojection_px);
     out.head()["ambiguous"] = pose->ambiguous;
     for (const TagDetection& tag : pose->tags) {

@@ -18,8 +18,8 @@ BlockWriter probe_block(std::span<const ProbeSample> rows, std::uint64_t first_r
                         std::int64_t origin_ns, const std::optional<Calibration>& calibration);
 
 // A camera's image with what was found in it: "tags" [{"id","corners_px":[x0,y0,…]}] in pixels of this image, and
-// "reprojection_px" of the full one, if `pose` is of this image.
-BlockWriter image_block(const SmallImage& small, const std::optional<TrackedPose>& pose);
+// "reprojection_px" of the full one.
+BlockWriter image_block(const SeenImage& seen);
 
 // How a recording under way stands (docs/studio-scan.md).
 Json recorder_json(const RecorderSnapshot& now);

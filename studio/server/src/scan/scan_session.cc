@@ -17,7 +17,7 @@ namespace asperity::studio {
 
 namespace {
 
-constexpr auto kRound = std::chrono::milliseconds(16);
+constexpr auto kRound = std::chrono::milliseconds(25);
 constexpr std::int64_t kStatePeriod_ns = 80'000'000;
 constexpr std::int64_t kPosesLate_ns = 250'000'000;  // behind the rows of their time, at most
 
@@ -208,6 +208,7 @@ void ScanSession::take_rows(bool storing) {
   const LiveEstimate estimate = live_->estimate();
   advisor_->push(estimate);
   age_s_ = estimate.age_s;
+  poses_late_ = estimate.counts.poses_late;
   waiting_ = estimate.waiting;
   const std::lock_guard lock(mutex_);
   book_.add(estimate, storing);
@@ -323,7 +324,7 @@ void ScanSession::show(const RecorderSnapshot& now, std::int64_t now_ns) {
     if (book_.moved() && hub_.has_subscribers("scan.pose"))
       publish("scan.pose", book_.take_motion(), Delivery::kSeries);
   }
-  show_image();
+  if (taken_.image) publish("scan.image", image_block(*taken_.image), Delivery::kLatest);
   if (now_ns - stated_ns_ < kStatePeriod_ns) return;
   stated_ns_ = now_ns;
   BlockWriter state("scan.state");
@@ -332,7 +333,7 @@ void ScanSession::show(const RecorderSnapshot& now, std::int64_t now_ns) {
   head["t_ns"] = now_ns;
   head["source"] = description();
   head["recorder"] = recorder_json(now);
-  head["live"] = {{"waiting", waiting_}, {"age_s", age_s_}, {"highest_speed_mps", Json()}};
+  head["live"] = {{"waiting", waiting_}, {"age_s", age_s_}, {"poses_late", poses_late_}, {"highest_speed_mps", Json()}};
   const double fastest_mps = advisor_->highest_speed_mps();
   if (std::isfinite(fastest_mps)) head["live"]["highest_speed_mps"] = fastest_mps;
   head["hints"] = Json::array();
@@ -344,21 +345,6 @@ void ScanSession::show(const RecorderSnapshot& now, std::int64_t now_ns) {
     }
   }
   publish("scan.state", std::move(state), Delivery::kLatest);
-}
-
-// An image goes with its pose, or without one when a later pose or image has come.
-void ScanSession::show_image() {
-  if (taken_.image) {
-    if (image_) publish("scan.image", image_block(*image_, std::nullopt), Delivery::kLatest);
-    image_ = std::move(taken_.image);
-  }
-  if (!image_) return;
-  for (const TrackedPose& pose : taken_.poses) {
-    if (pose.sample.t_ns < image_->t_ns) continue;
-    publish("scan.image", image_block(*image_, pose), Delivery::kLatest);
-    image_.reset();
-    return;
-  }
 }
 
 }  // namespace asperity::studio

@@ -102,7 +102,6 @@ class ScanSession {
   LiveHeights live_heights() const;
   void make_estimators(const RecorderSnapshot& now);
   void show(const RecorderSnapshot& now, std::int64_t now_ns);
-  void show_image();
   void publish(std::string_view topic, BlockWriter block, Delivery delivery);
 
   Hub& hub_;
@@ -125,9 +124,9 @@ class ScanSession {
   bool was_playing_ = false;
   std::optional<Segment> shown_;  // the scan that the book tells of
   std::optional<std::int64_t> hand_over_at_ns_;
-  std::optional<SmallImage> image_;  // waits for its pose
   std::int64_t newest_row_ns_ = 0;
   double age_s_ = 0.0;
+  std::uint64_t poses_late_ = 0;
   std::string waiting_;
   std::int64_t stated_ns_ = 0;
 

@@ -1,5 +1,5 @@
 // The mesh, the path and what belongs to them, in a view. The view's origin is the middle of the mesh's box.
-import { Color, Group, type Mesh, type Object3D, type Points, Vector3 } from "three";
+import { Color, Group, type Material, type Mesh, type Object3D, type Points, Vector3 } from "three";
 import { TransformControls } from "three/examples/jsm/controls/TransformControls.js";
 import type { Block } from "../../net/block";
 import { themeColour } from "../../plot/colours";
@@ -92,7 +92,7 @@ export class AlignScene {
   }
 
   setTranslucent(on: boolean): void {
-    const { material } = this.mesh as Mesh & { material: { transparent: boolean; opacity: number; depthWrite: boolean; needsUpdate: boolean } };
+    const material = this.mesh.material as Material;
     material.transparent = on;
     material.opacity = on ? 0.35 : 1;
     material.depthWrite = !on;

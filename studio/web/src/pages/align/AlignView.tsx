@@ -8,7 +8,8 @@ import type { View } from "../../view3d/View";
 import { viewNames } from "../../view3d/views";
 import { Viewport } from "../../view3d/Viewport";
 import { AlignScene } from "./AlignScene";
-import { align, ghostPose, half, iterations, move, opened, opening, residuals, scrub, showing, shown, take, tool, type Tool } from "./alignState";
+import { align, ghostPose, half, iterations, move, opened, opening, residuals, scrub, showing, shown, take, tool } from "./alignState";
+import type { Tool } from "./alignState";
 import { colourLimit_m, rampStops } from "./residuals";
 import { phaseWords } from "./iterations";
 
@@ -63,35 +64,35 @@ export function AlignView() {
           See through
         </Button>
       </div>
-    <Viewport
-      label="The mesh and the scan path, coloured by its distance to the mesh"
-      up="z"
-      testId="align-view"
-      onReady={(made) => {
-        view.current = made;
-        setReady((times) => times + 1);
-        const end = listenToClicks(made, () => scene.current);
-        return () => {
-          end();
-          scene.current?.destroy();
-          scene.current = null;
-          view.current = null;
-        };
-      }}
-    >
-      {distances && (
-        <div class="align-legend" data-testid="align-legend">
-          <span>distance to the mesh</span>
-          <span class="align-ramp" style={{ background: `linear-gradient(to right, ${rampStops()})` }} />
-          <span class="align-ramp-ends">
-            <span>0</span>
-            <span>{fixed(limit_mm / 2, limit_mm < 0.1 ? 3 : 2)}</span>
-            <span>≥ {fixed(limit_mm, limit_mm < 0.1 ? 3 : 2)} mm</span>
-          </span>
-        </div>
-      )}
-      <Notice />
-    </Viewport>
+      <Viewport
+        label="The mesh and the scan path, coloured by its distance to the mesh"
+        up="z"
+        testId="align-view"
+        onReady={(made) => {
+          view.current = made;
+          setReady((times) => times + 1);
+          const end = listenToClicks(made, () => scene.current);
+          return () => {
+            end();
+            scene.current?.destroy();
+            scene.current = null;
+            view.current = null;
+          };
+        }}
+      >
+        {distances && (
+          <div class="align-legend" data-testid="align-legend">
+            <span>distance to the mesh</span>
+            <span class="align-ramp" style={{ background: `linear-gradient(to right, ${rampStops()})` }} />
+            <span class="align-ramp-ends">
+              <span>0</span>
+              <span>{fixed(limit_mm / 2, limit_mm < 0.1 ? 3 : 2)}</span>
+              <span>≥ {fixed(limit_mm, limit_mm < 0.1 ? 3 : 2)} mm</span>
+            </span>
+          </div>
+        )}
+        <Notice />
+      </Viewport>
     </>
   );
 }
@@ -139,7 +140,10 @@ function noticeWords(): string {
       return "Shown: the runner-up, not taken yet.";
     case "iteration":
       if (poses.length === 0) return "Registering …";
-      return `Iteration ${scrub.value + 1} of ${poses.length}: ${phaseWords(phases[phase[scrub.value]!] ?? "")}, ${fixed(1e3 * (rms_m[scrub.value] ?? NaN), 3)} mm RMS`;
+      return [
+        `Iteration ${scrub.value + 1} of ${poses.length}`,
+        `${phaseWords(phases[phase[scrub.value]!] ?? "")}, ${fixed(1e3 * (rms_m[scrub.value] ?? NaN), 3)} mm RMS`,
+      ].join(": ");
     case "placed":
       if (tool.value !== "pick") return "";
       return half.value ? "Now click where this point belongs on the mesh." : "Click a point of the path.";

@@ -28,8 +28,20 @@ export function FilesPanel() {
   const triangles = opened.value?.shapes.indices?.[0];
   return (
     <Panel title="Scan and mesh" testId="align-files">
-      <FilePicker label="Mesh" kinds={["mesh"]} value={section.mesh} onChange={(mesh) => change({ mesh }, "choose a mesh")} testId="align-mesh" />
-      <Select label="Its unit" value={section.mesh_unit} options={units} onChange={(mesh_unit) => change({ mesh_unit }, "choose the mesh's unit")} testId="align-unit" />
+      <FilePicker
+        label="Mesh"
+        kinds={["mesh"]}
+        value={section.mesh}
+        onChange={(mesh) => change({ mesh }, "choose a mesh")}
+        testId="align-mesh"
+      />
+      <Select
+        label="Its unit"
+        value={section.mesh_unit}
+        options={units}
+        onChange={(mesh_unit) => change({ mesh_unit }, "choose the mesh's unit")}
+        testId="align-unit"
+      />
       <fieldset class="align-paths">
         <legend>Scans, all in one world</legend>
         {shown.length === 0 && <p class="empty">There is no recording and no CSV of a path in the folder.</p>}

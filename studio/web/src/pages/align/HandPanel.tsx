@@ -23,7 +23,11 @@ export function HandPanel() {
     <Panel title="By hand" collapsible testId="align-hand">
       <div class="align-about" role="group" aria-label="Turns are about">
         <span>About</span>
-        <Button pressed={about.value === "middle"} onClick={() => turnAbout("middle")} hint="x, y, z: where the path's middle lies in the mesh's frame">
+        <Button
+          pressed={about.value === "middle"}
+          onClick={() => turnAbout("middle")}
+          hint="x, y, z: where the path's middle lies in the mesh's frame"
+        >
           path's middle
         </Button>
         <Button pressed={about.value === "origin"} onClick={() => turnAbout("origin")} hint="The six numbers of asperity register --align">
@@ -63,7 +67,11 @@ export function HandPanel() {
           testId={`align-turn-${axis}`}
         />
       ))}
-      <Button onClick={() => edit("/align/T_mesh_world", null, "begin anew")} disabled={!align.value?.T_mesh_world} hint="The path's middle on the mesh's, unturned">
+      <Button
+        onClick={() => edit("/align/T_mesh_world", null, "begin anew")}
+        disabled={!align.value?.T_mesh_world}
+        hint="The path's middle on the mesh's, unturned"
+      >
         Begin anew
       </Button>
     </Panel>

@@ -13,7 +13,8 @@ export function IterationStrip() {
   const count = known.poses.length;
   const [playing, setPlaying] = useState(false);
   const series = useMemo(() => seriesOf(known), [known]);
-  const marks = useMemo(() => (showing.value === "iteration" && count ? [{ x: scrub.value + 1, label: `${scrub.value + 1}` }] : []), [showing.value, scrub.value, count]);
+  const marked = showing.value === "iteration" && count > 0 ? scrub.value + 1 : 0;
+  const marks = useMemo(() => (marked ? [{ x: marked, label: `${marked}` }] : []), [marked]);
   useEffect(() => {
     if (!playing) return;
     const line = mainLine(iterations.value);
@@ -40,7 +41,12 @@ export function IterationStrip() {
           empty={running.value ? "Registering …" : "Run a registration: each of its iterations is shown here."}
         />
         <div class="align-scrub">
-          <IconButton icon={playing ? "pause" : "play"} label={playing ? "Stop" : "Play the iterations from the guess"} onClick={() => setPlaying(!playing)} disabled={count === 0 || running.value} />
+          <IconButton
+            icon={playing ? "pause" : "play"}
+            label={playing ? "Stop" : "Play the iterations from the guess"}
+            onClick={() => setPlaying(!playing)}
+            disabled={count === 0 || running.value}
+          />
           <label>
             <span>Iteration</span>
             <input

@@ -13,15 +13,28 @@ export function RunPanel() {
   return (
     <Panel title="Registration" testId="align-run">
       <div class="buttons">
-        <Button kind="primary" onClick={() => register(true)} disabled={!opened.value || running.value} hint="ICP from where the path lies now" testId="align-run-here">
+        <Button
+          kind="primary"
+          onClick={() => register(true)}
+          disabled={!opened.value || running.value}
+          hint="ICP from where the path lies now"
+          testId="align-run-here"
+        >
           From here
         </Button>
-        <Button onClick={() => register(false)} disabled={!opened.value || running.value} hint="Searches the whole mesh, without a guess" testId="align-run-anywhere">
+        <Button
+          onClick={() => register(false)}
+          disabled={!opened.value || running.value}
+          hint="Searches the whole mesh, without a guess"
+          testId="align-run-anywhere"
+        >
           From anywhere
         </Button>
         {running.value && job && <Button onClick={() => cancelJob(job.id)}>Cancel</Button>}
       </div>
-      <div aria-live="polite">{found ? <Verdict found={found} /> : <p class="field-hint">{running.value ? "Registering …" : "Not run yet."}</p>}</div>
+      <div aria-live="polite">
+        {found ? <Verdict found={found} /> : <p class="field-hint">{running.value ? "Registering …" : "Not run yet."}</p>}
+      </div>
       {isRegistered.value && <p class="field-hint">The path lies where a registration has put it.</p>}
     </Panel>
   );

@@ -35,7 +35,13 @@ export function WritePanel() {
   return (
     <Panel title="Write" testId="align-write">
       <TextField label="Folder" value={name} onChange={setTyped} hint="In the project; the registration is run to its end from the pose." />
-      <Button kind="primary" onClick={write} disabled={!align.value?.T_mesh_world} hint="Needs a pose that was set or taken" testId="align-write-button">
+      <Button
+        kind="primary"
+        onClick={write}
+        disabled={!align.value?.T_mesh_world}
+        hint="Needs a pose that was set or taken"
+        testId="align-write-button"
+      >
         Write result
       </Button>
       <div role="status" data-testid="align-written">

@@ -24,6 +24,7 @@ import { path, state } from "./stream";
 
 const kMostPoints = 101_000;
 const kMarker_m = 0.046;
+const kPicture_ms = 45; // where WebGL is made in software a picture is dear
 
 /** The probe, its tip's path and the camera in the tracker's world. */
 export function ScanView() {
@@ -51,8 +52,11 @@ function show(view: View): () => void {
   let frustum: ReturnType<typeof frustumOf> | null = null;
   let camera = "";
   let fitted = false;
-  let frame = requestAnimationFrame(function draw() {
+  let drawn_ms = 0;
+  let frame = requestAnimationFrame(function draw(now_ms: number) {
     frame = requestAnimationFrame(draw);
+    if (now_ms - drawn_ms < kPicture_ms) return;
+    drawn_ms = now_ms;
     const changed = line.follow(dark.value);
     if (changed) probe.followTip();
     if (!changed) return;

@@ -71,7 +71,7 @@ export interface ScanState {
   opening?: boolean;
   source?: SourceState;
   recorder?: RecorderState;
-  live?: { waiting: string; age_s: number; highest_speed_mps: number | null };
+  live?: { waiting: string; age_s: number; poses_late: number; highest_speed_mps: number | null };
   hints?: Hint[];
 }
 
