@@ -67,9 +67,7 @@ export class Drawing {
     this.series = series;
     this.all = this.range();
     const isOut = shown && (shown.min >= this.all.max || shown.max <= this.all.min);
-    this.drawnRange = "";
-    this.show(!shown || isOut ? this.all : shown);
-    this.rangeChanged();
+    this.draw(!shown || isOut ? this.all : shown);
   }
 
   key(key: string): boolean {
@@ -92,15 +90,23 @@ export class Drawing {
   private rangeChanged(): void {
     const { min, max } = this.plot.scales.x!;
     if (min == null || max == null) return;
-    const range = (this.shown = { min, max });
-    const name = `${range.min} ${range.max} ${this.plot.width}`;
-    if (name === this.drawnRange) return;
-    this.drawnRange = name;
+    this.shown = { min, max };
+    if (this.nameOf(this.shown) !== this.drawnRange) this.draw(this.shown);
+  }
+
+  /** With the columns of this range; the scale of uPlot follows a task later and is not asked. */
+  private draw(range: Range): void {
+    this.shown = range;
+    this.drawnRange = this.nameOf(range);
     this.plot.batch(() => {
       this.plot.setData(this.columns(range).data as uPlot.AlignedData, false);
       this.plot.setScale("x", range);
     });
     this.props().onRange?.(range.min, range.max);
+  }
+
+  private nameOf(range: Range): string {
+    return `${range.min} ${range.max} ${this.plot.width}`;
   }
 
   private cursorMoved(): void {
