@@ -41,7 +41,7 @@ export function FeelPlots() {
         <LivePlot label="Forces by component" buffer={forces} series={FORCES.map(({ label, colour }) => ({ label, colour, dashed: label === "to the hand" }))} yAxis={{ label: "force", unit: "N" }} window_s={kWindow_s} leastHeight={0.5} />
       </Panel>
       <Panel
-        title="Texture under the tip"
+        title="Texture"
         grow
         testId="feel-height-plot"
         actions={

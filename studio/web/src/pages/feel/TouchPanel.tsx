@@ -2,6 +2,7 @@ import { call } from "../../net/connection";
 import { Button } from "../../ui/Button";
 import { Figure } from "../../ui/Figure";
 import { Figures } from "../../ui/Figures";
+import { fixed } from "../../ui/format";
 import { Lamp } from "../../ui/Lamp";
 import { Panel } from "../../ui/Panel";
 import { say } from "../../ui/toast";
@@ -18,7 +19,7 @@ export function TouchPanel() {
       <Figures>
         <Figure label="Force on the hand" value={state && length3(state.out)} unit="N" digits={3} testId="feel-out" />
         <Figure label="Texture height" value={state?.height_m} factor={1e6} unit="µm" digits={3} testId="feel-height" />
-        <Figure label="Speed" value={state?.speed_mps} factor={1e3} unit="mm/s" digits={3} />
+        <Figure label="Speed" value={state && `${fixed(1e3 * state.speed_mps, 1)}\u2009mm/s`} />
         <Figure label="Way over the surface" value={state?.way_m} factor={1e3} unit="mm" digits={4} />
       </Figures>
       <h3>Safety</h3>
