@@ -35,7 +35,8 @@ class Studio {
                 *jobs_,
                 lease_,
                 is_this_machine_only(config.server.host) || config.remote_force,
-                [this](Inbox::Work work) { inbox_.post(std::move(work)); }},
+                [this](Inbox::Work work) { inbox_.post(std::move(work)); },
+                config.feel},
         pages_(make_pages(shared_, config.open)) {
     for (const auto& page : pages_) page->bind(document_, calls_);
     jobs_->bind(calls_);
