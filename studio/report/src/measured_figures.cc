@@ -27,6 +27,7 @@ class List {
   void count(std::string_view key, std::string_view label, std::size_t value) {
     begin(key, label)["value"] = value;
     figures_.back()["unit"] = "";
+    figures_.back()["count"] = true;
   }
   void text(std::string_view key, std::string_view label, std::string_view value) {
     begin(key, label)["value"] = value;
@@ -146,8 +147,12 @@ void add_trajectory(const TrajectoryResult& trajectory, List& list) {
         Row{"longest_tracker_gap_s", "Longest time without a pose", kMilli, "ms", ""},
         Row{"scan_speed_mps", "Scanning velocity", kMilli, "mm/s", ""}}) {
     if (!trajectory.figures.contains(row.key)) continue;
-    list.number(std::string("trajectory.") + row.key, row.label, row.factor * figure(row.key), row.unit,
-                row.factor * figure(row.error));
+    const std::string key = std::string("trajectory.") + row.key;
+    if (std::string_view(row.unit).empty()) {
+      list.count(key, row.label, static_cast<std::size_t>(figure(row.key)));
+    } else {
+      list.number(key, row.label, row.factor * figure(row.key), row.unit, row.factor * figure(row.error));
+    }
   }
 }
 

@@ -46,15 +46,19 @@ void CommonPage::bind_document(Calls& calls) {
   });
   calls.add("document.edit", [this](const Request& request) {
     const auto value = request.args().find("value");
-    shared_.document.edit(request.text("path"), value == request.args().end() ? Json() : *value, request.text("label"),
-                          request.text("gesture"));
+    Edit edit{request.text("path"), Json(), value == request.args().end() ? Json() : *value, request.text("label"),
+              request.text("gesture")};
+    shared_.check_edit(request.client(), edit);
+    shared_.document.edit(edit.path, std::move(edit.after), edit.label, edit.gesture);
     request.done();
   });
   calls.add("document.undo", [this](const Request& request) {
+    if (const auto edit = shared_.document.next_undo()) shared_.check_edit(request.client(), *edit);
     if (!shared_.document.undo()) throw Error("there is nothing to undo");
     request.done();
   });
   calls.add("document.redo", [this](const Request& request) {
+    if (const auto edit = shared_.document.next_redo()) shared_.check_edit(request.client(), *edit);
     if (!shared_.document.redo()) throw Error("there is nothing to redo");
     request.done();
   });
@@ -62,8 +66,8 @@ void CommonPage::bind_document(Calls& calls) {
 
 void CommonPage::bind_project(Calls& calls) {
   calls.add("project.entries", [this](const Request& request) {
-    entries_ = entries_json(shared_.project);
-    request.answer(entries_);
+    answer_by_job(shared_.jobs, request, "", "",
+                  [project = shared_.project](const Observer&) { return entries_json(project); });
   });
   calls.add("studio.about", [this](const Request& request) {
     Json out;
@@ -120,12 +124,18 @@ void CommonPage::tell_owner(std::int64_t now_ns) {
 
 void CommonPage::tick(std::int64_t now_ns) {
   tell_owner(now_ns);
-  if (now_ns - looked_ns_ < kLook_ns) return;
-  looked_ns_ = now_ns;
-  Json now = entries_json(shared_.project);
-  if (now == entries_) return;
-  entries_ = std::move(now);
-  shared_.hub.broadcast("entries", entries_);
+  if (looking_ || now_ns - looked_ns_ < kLook_ns) return;
+  looking_ = true;
+  auto found = std::make_shared<Json>();
+  shared_.jobs.start_in(
+      "project", "", "", [found, project = shared_.project](const Observer&) { *found = entries_json(project); },
+      [this, found](std::exception_ptr error) {
+        looking_ = false;
+        looked_ns_ = host_now_ns();
+        if (error || *found == entries_) return;
+        entries_ = std::move(*found);
+        shared_.hub.broadcast("entries", entries_);
+      });
 }
 
 void CommonPage::edited(const Edit& edit) {

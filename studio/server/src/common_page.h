@@ -29,6 +29,7 @@ class CommonPage : public Page {
   std::optional<std::string> opened_;
   std::optional<ClientId> told_owner_;
   std::int64_t looked_ns_ = 0;
+  bool looking_ = false;
   Json entries_;
 };
 

@@ -4,7 +4,6 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
-#include "asperity/base/output.h"
 #include "asperity/base/text.h"
 
 namespace asperity::studio {
@@ -14,11 +13,18 @@ namespace {
 constexpr std::size_t kMostSteps = 200;
 constexpr std::size_t kLargestSection = 4U << 20U;
 constexpr std::uint64_t kLargestFile = std::uint64_t{64} << 20U;
-constexpr int kDeepest = 64;
+constexpr std::size_t kMostUndoBytes = 8U << 20U;
+constexpr std::size_t kLongestPath = 1000;
+constexpr std::size_t kMostParts = 32;
+constexpr std::size_t kLongestLabel = 200;
+// A message and a path are 32 deep at most; a file has two levels about a section.
+constexpr int kDeepest = 80;
 
 std::string dump(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 Json::json_pointer pointer_of(std::string_view path) {
+  const auto parts = static_cast<std::size_t>(std::count(path.begin(), path.end(), '/'));
+  if (path.size() > kLongestPath || parts > kMostParts) throw Error("'" + printable(path) + "' is too long a path");
   try {
     return Json::json_pointer(std::string(path));
   } catch (const Json::exception&) {
@@ -91,6 +97,8 @@ Json json_of(const Edit& edit) {
   return out;
 }
 
+std::size_t size_of(const Edit& edit) { return dump(edit.before).size() + dump(edit.after).size(); }
+
 std::vector<Edit> edits_of(const Json& list) {
   std::vector<Edit> out;
   for (const Json& each : list) {
@@ -98,6 +106,12 @@ std::vector<Edit> edits_of(const Json& list) {
                    each.at("label").get<std::string>(), ""});
   }
   return out;
+}
+
+// Seen from the state that it led to.
+Edit reversed(Edit edit) {
+  std::swap(edit.before, edit.after);
+  return edit;
 }
 
 Json parse_bounded(const std::string& text) {
@@ -136,10 +150,7 @@ void Document::load() {
         problems_.push_back("the page '" + name + "' begins anew: " + printable(fault.what(), 300));
       }
     }
-    if (whole) {
-      undo_ = edits_of(file.at("undo"));
-      redo_ = edits_of(file.at("redo"));
-    }
+    if (whole) read_steps(file);
   } catch (const std::exception& fault) {
     for (const auto& [name, first] : first_) value_[name] = first;
     undo_.clear();
@@ -154,84 +165,113 @@ void Document::load() {
 
 const Json& Document::section(std::string_view name) const { return value_.at(std::string(name)); }
 
-void Document::edit(std::string_view path, Json after, std::string_view label, std::string_view gesture) {
-  const std::string name = section_name(path);
-  if (!first_.contains(name)) throw Error("the document has no section '" + printable(name) + "'");
-  std::string place(path);
-  widen_to_list(value_, place, after);
-  const Json::json_pointer pointer = pointer_of(place);
-  Json changed = value_[name];
-  if (place == "/" + name) {
-    if (after.is_null()) throw Error("a section of the document cannot be taken out");
-    changed = after;
-  } else {
-    Json holder = Json::object();
-    holder[name] = std::move(changed);
-    put(holder, pointer, after, path);
-    changed = std::move(holder[name]);
+void Document::read_steps(const Json& file) {
+  try {
+    for (Edit& edit : edits_of(file.at("redo"))) redo_.push_back({edit, size_of(edit)});
+    for (Edit& edit : edits_of(file.at("undo"))) remember(std::move(edit));
+  } catch (const std::exception&) {
+    undo_.clear();
+    redo_.clear();
+    problems_.push_back("what could be undone before cannot be any more");
   }
-  if (dump(changed).size() > kLargestSection) throw Error("the page '" + name + "' would hold too much");
-  validators_.at(name)(changed);
-
-  Edit edit{place, value_at(value_, pointer), after, std::string(label), std::string(gesture)};
-  if (edit.before == edit.after) return;
-  value_[name] = std::move(changed);
-  redo_.clear();
-  const bool goes_on =
-      !undo_.empty() && !gesture.empty() && undo_.back().gesture == gesture && undo_.back().path == place;
-  if (goes_on) {
-    undo_.back().after = edit.after;
-  } else {
-    undo_.push_back(edit);
-    if (undo_.size() > kMostSteps) undo_.erase(undo_.begin());
-  }
-  apply(edit);
 }
 
-void Document::apply(const Edit& edit) {
+Json Document::changed_section(const Edit& edit) const {
+  const std::string name = section_name(edit.path);
+  if (!first_.contains(name)) throw Error("the document has no section '" + printable(name) + "'");
+  Json holder = Json::object();
+  holder[name] = value_.at(name);
+  if (edit.path == "/" + name) {
+    if (edit.after.is_null()) throw Error("a section of the document cannot be taken out");
+    holder[name] = edit.after;
+  } else {
+    put(holder, pointer_of(edit.path), edit.after, edit.path);
+  }
+  if (dump(holder[name]).size() > kLargestSection) throw Error("the page '" + name + "' would hold too much");
+  validators_.at(name)(holder[name]);
+  return std::move(holder[name]);
+}
+
+void Document::remember(Edit edit) {
+  const std::size_t bytes = size_of(edit);
+  undo_.push_back({std::move(edit), bytes});
+  std::size_t total = 0;
+  std::size_t kept = 0;
+  while (kept < undo_.size() && kept < kMostSteps) {
+    total += undo_[undo_.size() - 1 - kept].bytes;
+    if (total > kMostUndoBytes && kept > 0) break;
+    ++kept;
+  }
+  undo_.erase(undo_.begin(), undo_.end() - static_cast<std::ptrdiff_t>(kept));
+}
+
+void Document::edit(std::string_view path, Json after, std::string_view label, std::string_view gesture) {
+  if (label.size() > kLongestLabel || gesture.size() > kLongestLabel) throw Error("an edit's label is too long");
+  if (!first_.contains(section_name(path))) {
+    throw Error("the document has no section '" + printable(section_name(path)) + "'");
+  }
+  std::string place(path);
+  widen_to_list(value_, place, after);
+  Edit edit{place, value_at(value_, pointer_of(place)), std::move(after), std::string(label), std::string(gesture)};
+  Json changed = changed_section(edit);
+  if (edit.before == edit.after) return;
+  value_[section_name(place)] = std::move(changed);
+  redo_.clear();
+  const bool goes_on =
+      !undo_.empty() && !gesture.empty() && undo_.back().edit.gesture == gesture && undo_.back().edit.path == place;
+  if (goes_on) {
+    undo_.back().edit.after = edit.after;
+    undo_.back().bytes = size_of(undo_.back().edit);
+  } else {
+    remember(edit);
+  }
+  tell(edit);
+}
+
+void Document::tell(const Edit& edit) {
   ++version_;
   unsaved_ = true;
   for (const Listener& listener : listeners_) listener(edit);
 }
 
-bool Document::undo() {
-  if (undo_.empty()) return false;
-  Edit edit = undo_.back();
-  undo_.pop_back();
-  redo_.push_back(edit);
-  redo_.back().gesture.clear();
-  std::swap(edit.before, edit.after);
-  put(value_, pointer_of(edit.path), edit.after, edit.path);
-  if (!undo_.empty()) undo_.back().gesture.clear();
-  apply(edit);
+bool Document::go(std::vector<Step>& from, std::vector<Step>& to, bool back) {
+  if (from.empty()) return false;
+  Step step = std::move(from.back());
+  from.pop_back();
+  step.edit.gesture.clear();
+  const Edit edit = back ? reversed(step.edit) : step.edit;
+  value_[section_name(edit.path)] = changed_section(edit);
+  to.push_back(std::move(step));
+  if (!undo_.empty()) undo_.back().edit.gesture.clear();
+  tell(edit);
   return true;
 }
 
-bool Document::redo() {
-  if (redo_.empty()) return false;
-  const Edit edit = redo_.back();
-  redo_.pop_back();
-  undo_.push_back(edit);
-  put(value_, pointer_of(edit.path), edit.after, edit.path);
-  apply(edit);
-  return true;
+bool Document::undo() { return go(undo_, redo_, true); }
+bool Document::redo() { return go(redo_, undo_, false); }
+
+std::optional<Edit> Document::next_undo() const {
+  return undo_.empty() ? std::nullopt : std::optional(reversed(undo_.back().edit));
+}
+std::optional<Edit> Document::next_redo() const {
+  return redo_.empty() ? std::nullopt : std::optional(redo_.back().edit);
 }
 
-std::string Document::undo_label() const { return undo_.empty() ? "" : undo_.back().label; }
-std::string Document::redo_label() const { return redo_.empty() ? "" : redo_.back().label; }
+std::string Document::undo_label() const { return undo_.empty() ? "" : undo_.back().edit.label; }
+std::string Document::redo_label() const { return redo_.empty() ? "" : redo_.back().edit.label; }
 
-void Document::save() {
-  if (!unsaved_) return;
+std::optional<std::string> Document::take_unsaved() {
+  if (!unsaved_) return std::nullopt;
   Json file;
   file["format"] = "asperity-studio";
   file["version"] = 1;
   file["document"] = value_;
   file["undo"] = Json::array();
   file["redo"] = Json::array();
-  for (const Edit& edit : undo_) file["undo"].push_back(json_of(edit));
-  for (const Edit& edit : redo_) file["redo"].push_back(json_of(edit));
-  write_file(file_, file.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  for (const Step& step : undo_) file["undo"].push_back(json_of(step.edit));
+  for (const Step& step : redo_) file["redo"].push_back(json_of(step.edit));
   unsaved_ = false;
+  return dump(file) + "\n";
 }
 
 }  // namespace asperity::studio

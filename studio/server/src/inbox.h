@@ -17,6 +17,7 @@ class Inbox {
   void post(Work work) {
     {
       const std::lock_guard lock(mutex_);
+      if (closed_) return;
       works_.push_back(std::move(work));
     }
     woken_.notify_one();
@@ -29,10 +30,21 @@ class Inbox {
     return std::exchange(works_, {});
   }
 
+  // Drops what waits, and all that comes from now on.
+  void close() {
+    std::deque<Work> dropped;
+    {
+      const std::lock_guard lock(mutex_);
+      closed_ = true;
+      dropped = std::exchange(works_, {});
+    }
+  }
+
  private:
   std::mutex mutex_;
   std::condition_variable woken_;
   std::deque<Work> works_;
+  bool closed_ = false;
 };
 
 }  // namespace asperity::studio

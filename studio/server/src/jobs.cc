@@ -4,9 +4,11 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace asperity::studio {
 
@@ -20,154 +22,217 @@ struct Job {
   std::atomic<bool> cancelled{false};
 };
 
-void tell(Hub& hub, const Job& job, std::string_view stage, double fraction, std::string_view state) {
-  Json data;
-  data["id"] = job.id;
-  data["title"] = job.title;
-  data["stage"] = stage;
-  data["fraction"] = fraction;
-  data["state"] = state;
-  hub.broadcast("job", data);
-}
+std::string lane_of(const std::string& slot) { return slot.substr(0, slot.find_first_of(". ")); }
 
-// At most ten times a second, so that short stages do not flood the browsers.
-class Progress {
+// The states of all jobs under way, told to the browsers as they change. Thread-safe.
+class Board {
  public:
-  Progress(Hub& hub, const Job& job) : hub_(hub), job_(job) {}
-  void operator()(std::string_view stage, double fraction) {
-    const auto now = std::chrono::steady_clock::now();
-    if (now - last_ < std::chrono::milliseconds(100)) return;
-    last_ = now;
-    tell(hub_, job_, stage, fraction, "running");
+  explicit Board(Hub& hub) : hub_(hub) {}
+
+  void tell(const Job& job, std::string_view stage, double fraction, std::string_view state, const Json& fault = {}) {
+    if (job.title.empty()) return;
+    Json data;
+    data["id"] = job.id;
+    data["title"] = job.title;
+    data["stage"] = stage;
+    data["fraction"] = fraction;
+    data["state"] = state;
+    if (!fault.is_null()) data.update(fault);
+    {
+      const std::lock_guard lock(mutex_);
+      if (state == "waiting" || state == "running") {
+        states_[job.id] = data;
+      } else {
+        states_.erase(job.id);
+      }
+    }
+    hub_.broadcast("job", data);
+  }
+
+  Json list() const {
+    const std::lock_guard lock(mutex_);
+    Json out = Json::array();
+    for (const auto& [id, state] : states_) out.push_back(state);
+    return out;
   }
 
  private:
   Hub& hub_;
+  mutable std::mutex mutex_;
+  std::map<std::uint64_t, Json> states_;
+};
+
+// At most ten times a second, so that short stages do not flood the browsers.
+class Progress {
+ public:
+  Progress(Board& board, const Job& job) : board_(board), job_(job) {}
+  void operator()(std::string_view stage, double fraction) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_ < std::chrono::milliseconds(100)) return;
+    last_ = now;
+    board_.tell(job_, stage, fraction, "running");
+  }
+
+ private:
+  Board& board_;
   const Job& job_;
   std::chrono::steady_clock::time_point last_;
 };
 
-}  // namespace
+std::exception_ptr do_work(Board& board, Job& job) {
+  try {
+    board.tell(job, "", 0.0, "running");
+    Progress progress(board, job);
+    Observer observer;
+    observer.progress = [&](std::string_view stage, double fraction) { progress(stage, fraction); };
+    observer.cancelled = [&] { return job.cancelled.load(); };
+    observer.update("", 0.0);
+    job.work(observer);
+    return nullptr;
+  } catch (...) {
+    return std::current_exception();
+  }
+}
 
-struct Jobs::Impl {
-  Hub& hub;
-  Post post;
-  std::mutex mutex;
-  std::condition_variable woken;
-  std::deque<std::shared_ptr<Job>> waiting;
-  std::shared_ptr<Job> running;
-  bool ending = false;
-  std::uint64_t last_id = 0;
-  std::thread thread;
+void tell_end(Board& board, const Job& job, std::exception_ptr error) {
+  try {
+    if (!error) return board.tell(job, "", 1.0, "done");
+    std::rethrow_exception(error);
+  } catch (const Cancelled&) {
+    board.tell(job, "", 1.0, "cancelled");
+  } catch (const Advice& advice) {
+    board.tell(job, "", 1.0, "failed", {{"message", advice.what()}, {"hint", advice.hint()}});
+  } catch (const std::exception& fault) {
+    board.tell(job, "", 1.0, "failed", {{"message", fault.what()}, {"hint", ""}});
+  }
+}
 
-  Impl(Hub& its_hub, Post its_post) : hub(its_hub), post(std::move(its_post)) {}
+// The jobs of one lane, one after another on a thread of its own.
+class Lane {
+ public:
+  Lane(Board& board, const Jobs::Post& post) : board_(board), post_(post), thread_([this] { run(); }) {}
+  ~Lane() {
+    {
+      const std::lock_guard lock(mutex_);
+      ending_ = true;
+      if (running_) running_->cancelled = true;
+    }
+    woken_.notify_all();
+    thread_.join();
+  }
+  Lane(const Lane&) = delete;
+  Lane& operator=(const Lane&) = delete;
+
+  void add(const std::shared_ptr<Job>& job) {
+    std::vector<std::shared_ptr<Job>> dropped;
+    {
+      const std::lock_guard lock(mutex_);
+      if (!job->slot.empty()) {
+        if (running_ && running_->slot == job->slot) running_->cancelled = true;
+        dropped = take_waiting([&](const Job& old) { return old.slot == job->slot; });
+      }
+      waiting_.push_back(job);
+    }
+    board_.tell(*job, "", 0.0, "waiting");
+    for (const auto& old : dropped) finish(old, std::make_exception_ptr(Cancelled()));
+    woken_.notify_all();
+  }
+
+  void cancel(std::uint64_t id) {
+    std::vector<std::shared_ptr<Job>> dropped;
+    {
+      const std::lock_guard lock(mutex_);
+      if (running_ && running_->id == id) running_->cancelled = true;
+      dropped = take_waiting([&](const Job& job) { return job.id == id; });
+    }
+    for (const auto& old : dropped) finish(old, std::make_exception_ptr(Cancelled()));
+  }
+
+ private:
+  template <class Which>
+  std::vector<std::shared_ptr<Job>> take_waiting(Which which) {
+    std::vector<std::shared_ptr<Job>> out;
+    std::deque<std::shared_ptr<Job>> rest;
+    for (auto& job : waiting_) {
+      if (which(*job)) {
+        out.push_back(std::move(job));
+      } else {
+        rest.push_back(std::move(job));
+      }
+    }
+    waiting_ = std::move(rest);
+    return out;
+  }
 
   void run() {
     for (;;) {
       std::shared_ptr<Job> job;
       {
-        std::unique_lock lock(mutex);
-        running.reset();
-        woken.wait(lock, [&] { return ending || !waiting.empty(); });
-        if (ending) return;
-        job = waiting.front();
-        waiting.pop_front();
-        running = job;
+        std::unique_lock lock(mutex_);
+        running_.reset();
+        woken_.wait(lock, [&] { return ending_ || !waiting_.empty(); });
+        if (ending_) return;
+        job = waiting_.front();
+        waiting_.pop_front();
+        running_ = job;
       }
-      finish(job, do_work(*job));
+      finish(job, do_work(board_, *job));
     }
   }
 
-  std::exception_ptr do_work(Job& job) {
-    tell(hub, job, "", 0.0, "running");
-    Progress progress(hub, job);
-    Observer observer;
-    observer.progress = [&](std::string_view stage, double fraction) { progress(stage, fraction); };
-    observer.cancelled = [&] { return job.cancelled.load(); };
-    try {
-      observer.update("", 0.0);
-      job.work(observer);
-      return nullptr;
-    } catch (...) {
-      return std::current_exception();
-    }
-  }
-
+  // What the work holds is let go on the studio's thread, where it was made. Its end is told when what it did can be
+  // seen.
   void finish(const std::shared_ptr<Job>& job, std::exception_ptr error) {
-    std::string_view state = "done";
-    try {
-      if (error) std::rethrow_exception(error);
-    } catch (const Cancelled&) {
-      state = "cancelled";
-    } catch (...) {
-      state = "failed";
-    }
-    tell(hub, *job, "", 1.0, state);
-    // What the work holds is let go on the studio's thread, where it was made.
-    post([job, error] {
+    post_([board = &board_, job, error] {
       if (job->done) job->done(error);
       job->work = nullptr;
       job->done = nullptr;
+      tell_end(*board, *job, error);
     });
   }
+
+  Board& board_;
+  const Jobs::Post& post_;
+  std::mutex mutex_;
+  std::condition_variable woken_;
+  std::deque<std::shared_ptr<Job>> waiting_;
+  std::shared_ptr<Job> running_;
+  bool ending_ = false;
+  std::thread thread_;
 };
 
-Jobs::Jobs(Hub& hub, Post post) : impl_(std::make_unique<Impl>(hub, std::move(post))) {
-  impl_->thread = std::thread([this] { impl_->run(); });
-}
+}  // namespace
 
-Jobs::~Jobs() {
-  {
-    const std::lock_guard lock(impl_->mutex);
-    impl_->ending = true;
-    if (impl_->running) impl_->running->cancelled = true;
-  }
-  impl_->woken.notify_all();
-  impl_->thread.join();
-}
+struct Jobs::Impl {
+  Board board;
+  Post post;
+  std::map<std::string, Lane> lanes;
+  std::uint64_t last_id = 0;
+
+  Impl(Hub& hub, Post its_post) : board(hub), post(std::move(its_post)) {}
+};
+
+Jobs::Jobs(Hub& hub, Post post) : impl_(std::make_unique<Impl>(hub, std::move(post))) {}
+Jobs::~Jobs() = default;
 
 std::uint64_t Jobs::start(const std::string& title, const std::string& slot, Work work, Done done) {
+  return start_in(lane_of(slot), title, slot, std::move(work), std::move(done));
+}
+
+std::uint64_t Jobs::start_in(const std::string& lane, const std::string& title, const std::string& slot, Work work,
+                             Done done) {
   auto job = std::make_shared<Job>();
+  job->id = ++impl_->last_id;
   job->title = title;
   job->slot = slot;
   job->work = std::move(work);
   job->done = std::move(done);
-  std::deque<std::shared_ptr<Job>> dropped;
-  {
-    const std::lock_guard lock(impl_->mutex);
-    job->id = ++impl_->last_id;
-    if (!slot.empty()) {
-      if (impl_->running && impl_->running->slot == slot) impl_->running->cancelled = true;
-      for (auto at = impl_->waiting.begin(); at != impl_->waiting.end();) {
-        if ((*at)->slot != slot) {
-          ++at;
-          continue;
-        }
-        dropped.push_back(*at);
-        at = impl_->waiting.erase(at);
-      }
-    }
-    impl_->waiting.push_back(job);
-  }
-  tell(impl_->hub, *job, "", 0.0, "waiting");
-  for (const auto& old : dropped) impl_->finish(old, std::make_exception_ptr(Cancelled()));
-  impl_->woken.notify_all();
+  impl_->lanes.try_emplace(lane, impl_->board, impl_->post).first->second.add(job);
   return job->id;
 }
 
 void Jobs::cancel(std::uint64_t id) {
-  std::shared_ptr<Job> dropped;
-  {
-    const std::lock_guard lock(impl_->mutex);
-    if (impl_->running && impl_->running->id == id) impl_->running->cancelled = true;
-    for (auto at = impl_->waiting.begin(); at != impl_->waiting.end(); ++at) {
-      if ((*at)->id != id) continue;
-      dropped = *at;
-      impl_->waiting.erase(at);
-      break;
-    }
-  }
-  if (dropped) impl_->finish(dropped, std::make_exception_ptr(Cancelled()));
+  for (auto& [name, lane] : impl_->lanes) lane.cancel(id);
 }
 
 void Jobs::bind(Calls& calls) {
@@ -175,6 +240,7 @@ void Jobs::bind(Calls& calls) {
     cancel(static_cast<std::uint64_t>(request.integer("job")));
     request.done();
   });
+  calls.add("job.list", [this](const Request& request) { request.answer(impl_->board.list()); });
 }
 
 }  // namespace asperity::studio

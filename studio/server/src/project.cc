@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr int kDeepest = 3;
 constexpr std::size_t kMostEntries = 10'000;
+constexpr std::size_t kMostVisited = 100'000;
 
 bool is_file(const fs::path& path) {
   std::error_code error;
@@ -34,11 +35,11 @@ std::optional<EntryKind> kind_of_file(const fs::path& path) {
   return std::nullopt;
 }
 
-void list(const fs::path& folder, const std::string& prefix, int depth, std::vector<Entry>& out) {
+void list(const fs::path& folder, const std::string& prefix, int depth, std::size_t& visited, std::vector<Entry>& out) {
   std::error_code error;
   for (fs::directory_iterator at(folder, fs::directory_options::skip_permission_denied, error), end; at != end;
        at.increment(error)) {
-    if (error || out.size() >= kMostEntries) return;
+    if (error || out.size() >= kMostEntries || ++visited > kMostVisited) return;
     const std::string name = at->path().filename().string();
     if (name.starts_with('.') || !is_utf8(name) || at->is_symlink(error)) continue;
     if (at->is_directory(error)) {
@@ -49,7 +50,7 @@ void list(const fs::path& folder, const std::string& prefix, int depth, std::vec
       if (is_file(at->path() / "result.json") && is_file(at->path() / "profile.csv")) {
         out.push_back({EntryKind::kResult, prefix + name});
       }
-      if (depth < kDeepest) list(at->path(), prefix + name + "/", depth + 1, out);
+      if (depth < kDeepest) list(at->path(), prefix + name + "/", depth + 1, visited, out);
     } else if (const std::optional<EntryKind> kind = kind_of_file(at->path())) {
       out.push_back({*kind, prefix + name});
     }
@@ -66,7 +67,8 @@ Project::Project(fs::path folder) {
 
 std::vector<Entry> Project::entries() const {
   std::vector<Entry> out;
-  list(folder_, "", 1, out);
+  std::size_t visited = 0;
+  list(folder_, "", 1, visited, out);
   std::sort(out.begin(), out.end(), [](const Entry& a, const Entry& b) { return a.name < b.name; });
   return out;
 }
@@ -81,6 +83,9 @@ fs::path Project::existing(const std::string& name) const {
 fs::path Project::writable(const std::string& name) const {
   const std::optional<fs::path> path = is_utf8(name) ? inner_file(folder_, name) : std::nullopt;
   if (!path || *path == folder_) throw Error(printable(name, 200) + ": is no name inside the project's folder");
+  for (const fs::path& part : path->lexically_relative(folder_)) {
+    if (part.string().starts_with('.')) throw Error(printable(name, 200) + ": is a hidden file");
+  }
   std::error_code error;
   if (!fs::is_directory(path->parent_path(), error)) {
     throw Error(printable(name, 200) + ": the folder that it would lie in does not exist");

@@ -8,6 +8,8 @@
 
 #include "asperity/acquire/host_clock.h"
 #include "asperity/studio/calls.h"
+#include "file_saver.h"
+#include "folder_lock.h"
 #include "inbox.h"
 #include "pages.h"
 
@@ -37,7 +39,12 @@ class Studio {
                 is_this_machine_only(config.server.host) || config.remote_force,
                 [this](Inbox::Work work) { inbox_.post(std::move(work)); },
                 config.feel},
-        pages_(make_pages(shared_, config.open)) {
+        pages_(make_pages(shared_, config.open)),
+        saver_(document_.file(),
+               [this](std::string fault) { inbox_.post([this, fault = std::move(fault)] { cannot_save(fault); }); }) {
+    shared_.check_edit = [this](ClientId client, const Edit& edit) {
+      for (const auto& page : pages_) page->check_edit(client, edit);
+    };
     for (const auto& page : pages_) page->bind(document_, calls_);
     jobs_->bind(calls_);
     document_.load();
@@ -47,11 +54,13 @@ class Studio {
     for (const auto& page : pages_) page->start();
   }
 
+  // Sensors closed and forces at zero first; then nothing that still waits may run, for its pages are going.
   ~Studio() {
-    for (const auto& page : pages_) page->stop();
+    for (const auto& page : pages_) guarded([&] { page->stop(); });
     jobs_.reset();
+    inbox_.close();
     server_->stop();
-    save();
+    guarded([this] { save(); });
   }
   Studio(const Studio&) = delete;
   Studio& operator=(const Studio&) = delete;
@@ -62,16 +71,16 @@ class Studio {
     auto next = Clock::now();
     auto saved = next;
     while (!stop.load()) {
-      for (const Inbox::Work& work : inbox_.wait(next)) work();
+      for (const Inbox::Work& work : inbox_.wait(next)) guarded(work);
       const auto now = Clock::now();
       if (now < next) continue;
       // Ticks that were missed are not caught up with.
       next = now - next > kTick ? now + kTick : next + kTick;
       const std::int64_t now_ns = host_now_ns();
-      for (const auto& page : pages_) page->tick(now_ns);
+      for (const auto& page : pages_) guarded([&] { page->tick(now_ns); });
       if (now - saved >= kSaveAfter) {
         saved = now;
-        save();
+        guarded([this] { save(); });
       }
     }
   }
@@ -82,7 +91,7 @@ class Studio {
     out.joined = [](ClientId) {};
     out.left = [this](ClientId client) {
       inbox_.post([this, client] {
-        for (const auto& page : pages_) page->client_left(client);
+        for (const auto& page : pages_) guarded([&] { page->client_left(client); });
       });
     };
     out.message = [this](ClientId client, Message message) {
@@ -99,25 +108,44 @@ class Studio {
     }
   }
 
-  // A full disk must not end the studio: it is said once, and tried again.
-  void save() {
+  // One fault of one page must not end the others, nor a running force loop without its ramp.
+  template <class Work>
+  void guarded(const Work& work) noexcept {
     try {
-      document_.save();
-      save_failed_ = false;
-    } catch (const Error& error) {
-      if (save_failed_) return;
-      save_failed_ = true;
-      Json note;
-      note["message"] = std::string("The studio's state cannot be saved: ") + error.what();
-      note["hint"] =
-          "Free some space, or see whether the folder may be written. Nothing is lost as long as the studio runs.";
-      server_->broadcast("note", note);
+      try {
+        work();
+      } catch (const Advice& advice) {
+        note(advice.what(), advice.hint());
+      } catch (const std::exception& error) {
+        note(error.what(), "The studio goes on; try it again.");
+      }
+    } catch (...) {
+      // Not even the note could be sent.
     }
+  }
+
+  void note(const std::string& message, const std::string& hint) {
+    server_->broadcast("note", Json{{"message", message}, {"hint", hint}});
+  }
+
+  void save() {
+    if (std::optional<std::string> content = document_.take_unsaved()) {
+      saver_.save(std::move(*content));
+      save_failed_ = false;
+    }
+  }
+
+  // A full disk must not end the studio: it is said once, and tried again with the next edit.
+  void cannot_save(const std::string& fault) {
+    if (std::exchange(save_failed_, true)) return;
+    note("The studio's state cannot be saved: " + fault,
+         "Free some space, or see whether the folder may be written. Nothing is lost as long as the studio runs.");
   }
 
   StudioConfig config_;
   Inbox inbox_;
   Project project_;
+  FolderLock lock_{project_.folder()};
   Document document_;
   ForceLease lease_;
   Calls calls_;
@@ -126,6 +154,7 @@ class Studio {
   Shared shared_;
   std::vector<std::unique_ptr<Page>> pages_;
   bool save_failed_ = false;
+  FileSaver saver_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "asperity/base/error.h"
+#include "asperity/base/output.h"
 #include "asperity/testkit/temp_dir.h"
 
 namespace asperity::studio {
@@ -83,7 +84,8 @@ TEST_F(DocumentTest, IsThereAgainWithItsSteps) {
   document_->edit("/page/a", 2, "two");
   document_->edit("/page/a", 3, "three");
   document_->undo();
-  document_->save();
+  write_file(file_, *document_->take_unsaved());
+  EXPECT_FALSE(document_->take_unsaved());
   const auto again = make_document(file_);
   EXPECT_TRUE(again->problems().empty());
   EXPECT_EQ(again->value(), document_->value());
@@ -105,6 +107,40 @@ TEST_F(DocumentTest, ADamagedFileIsPutAside) {
     EXPECT_TRUE(std::filesystem::exists(file_.string() + ".unreadable"));
     EXPECT_FALSE(std::filesystem::exists(file_));
   }
+}
+
+TEST_F(DocumentTest, LongPathsAndLabelsAreRefusedAtOnce) {
+  EXPECT_THROW(document_->edit("/page" + std::string(100'000, '/'), 1, "slashes"), Error);
+  std::string deep = "/page";
+  for (int i = 0; i < 40; ++i) deep += "/x";
+  EXPECT_THROW(document_->edit(deep, 1, "deep"), Error);
+  EXPECT_THROW(document_->edit("/page/a", 2, std::string(10'000, 'x')), Error);
+  EXPECT_EQ(document_->value(), first_);
+}
+
+TEST_F(DocumentTest, ManyLargeEditsStayWithinWhatIsReadAgain) {
+  for (int i = 0; i < 60; ++i) document_->edit("/page/deep/" + std::to_string(i), std::string(50'000, 'x'), "large");
+  for (int i = 0; i < 60; ++i)
+    document_->edit("/page/deep", Json{{"x", std::string(1'000'000, 'y') + std::to_string(i)}}, "larger");
+  const std::string content = *document_->take_unsaved();
+  EXPECT_LT(content.size(), 32U << 20U);
+  write_file(file_, content);
+  const auto again = make_document(file_);
+  EXPECT_TRUE(again->problems().empty());
+  EXPECT_EQ(again->value(), document_->value());
+  EXPECT_TRUE(again->undo());
+}
+
+TEST_F(DocumentTest, AnUndoStepThatThePageRefusesIsDropped) {
+  std::ofstream(file_) << R"({"format":"asperity-studio","version":1,"document":{"page":{"a":1}},)"
+                       << R"("undo":[{"path":"/page/a","before":-7,"after":1,"label":"bad"}],)"
+                       << R"("redo":[{"path":"/page/none/x","before":0,"after":1,"label":"nowhere"}]})";
+  const auto again = make_document(file_);
+  EXPECT_THROW(again->undo(), Error);
+  EXPECT_THROW(again->redo(), Error);
+  EXPECT_EQ(again->value()["page"]["a"], 1);
+  EXPECT_FALSE(again->undo());
+  EXPECT_FALSE(again->redo());
 }
 
 TEST_F(DocumentTest, ASectionThatItsPageRefusesBeginsAnew) {

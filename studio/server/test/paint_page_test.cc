@@ -135,6 +135,8 @@ TEST_F(PaintPageTest, WritesWhatIsReadAsAScene) {
   EXPECT_EQ(scene.objects.front().textures.front().texture.name, "wave");
   EXPECT_EQ(scene.objects.front().unit_m, 0.001);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "painted/paint.json"));
+  EXPECT_THAT(call("paint.write", Json{{"name", "painted"}}).error, ::testing::HasSubstr("there already"));
+  EXPECT_EQ(call("paint.write", Json{{"name", "painted"}, {"replace", true}}).error, "");
   const FakeHub::Answer exported =
       call("paint.export", Json{{"source", "painted/scene.json"}, {"format", "gltf"}, {"name", "painted-gltf"}});
   ASSERT_EQ(exported.error, "");
@@ -161,7 +163,7 @@ TEST_F(PaintPageTest, RefusesNonsenseAndStrangersFolders) {
   add_stroke("[[0.005,0.01,0],[0.035,0.01,0]]");
   std::filesystem::create_directory(folder_ / "mine");
   std::ofstream(folder_ / "mine/notes.txt") << "do not lose";
-  EXPECT_NE(call("paint.write", Json{{"name", "mine"}}).error, "");
+  EXPECT_NE(call("paint.write", Json{{"name", "mine"}, {"replace", true}}).error, "");
   EXPECT_TRUE(std::filesystem::exists(folder_ / "mine/notes.txt"));
   EXPECT_NE(call("paint.write", Json{{"name", "../out"}}).error, "");
   EXPECT_NE(call("paint.texture", Json{{"file", "/etc/passwd"}}).error, "");

@@ -37,7 +37,7 @@ TEST(Project, NamesNothingOutside) {
   const Project project(folder.path());
   EXPECT_EQ(project.existing("in/file.obj"), fs::canonical(folder / "in/file.obj"));
   for (const char* name : {"/etc/passwd", "../x", "in/../../x", "in/link/passwd", "", ".", "in/none.obj",
-                           "in\\..\\..\\x", "C:/x", "\xff"}) {
+                           "in\\..\\..\\x", "C:/x", ".git/config", "in/.x", "\xff"}) {
     EXPECT_THROW(project.existing(name), Error) << name;
   }
   EXPECT_EQ(project.writable("in/new.obj"), fs::canonical(folder.path()) / "in/new.obj");

@@ -1,4 +1,4 @@
-// Pictures of every page: node screenshots.mjs BINARY DOCS [ALL]. Those that the documentation shows go to DOCS, all sizes and
+// Pictures of every page: node screenshots.mjs BINARY DOCS [ALL [PAGE…]]. Those that the documentation shows go to DOCS, all sizes and
 // themes to ALL.
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -8,9 +8,9 @@ import { Projects } from "./lib/project.mjs";
 import { scenes } from "./lib/scenes.mjs";
 import { startStudio } from "./lib/studio.mjs";
 
-const [binary, docs, all] = process.argv.slice(2);
+const [binary, docs, all, ...only] = process.argv.slice(2);
 if (!docs) {
-  console.error("usage: node screenshots.mjs BINARY DOCS [ALL]");
+  console.error("usage: node screenshots.mjs BINARY DOCS [ALL [PAGE…]]");
   process.exit(2);
 }
 const kSizes = [
@@ -18,21 +18,21 @@ const kSizes = [
   [1024, 700],
 ];
 
-async function picture(page, folder, name) {
+async function picture(page, folder, name, holds) {
   mkdirSync(folder, { recursive: true });
   // The cursor and what is read out to the blind do not belong into pictures; two frames let plots and views follow.
-  await page.mouse.move(0, 0);
+  if (!holds) await page.mouse.move(0, 0);
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
   writeFileSync(join(folder, `${name}.png`), await page.screenshot());
 }
 
-async function looks(page, name) {
+async function looks(page, name, holds = false) {
   for (const [width, height] of all ? kSizes : kSizes.slice(0, 1)) {
     for (const theme of all ? ["light", "dark"] : ["light"]) {
       await page.setViewportSize({ width, height });
       await page.emulateMedia({ colorScheme: theme });
-      if (all) await picture(page, all, `${name}-${width}-${theme}`);
-      if (width === 1400 && theme === "light") await picture(page, docs, name);
+      if (all) await picture(page, all, `${name}-${width}-${theme}`, holds);
+      if (width === 1400 && theme === "light") await picture(page, docs, name, holds);
     }
   }
 }
@@ -41,7 +41,7 @@ const browser = await launch();
 const projects = new Projects(binary);
 try {
   projects.prepare();
-  for (const { name, prepare, file } of scenes) {
+  for (const { name, prepare, file, holds } of scenes.filter((one) => only.length === 0 || only.includes(one.name))) {
     const folder = projects.copy(name);
     const { context, page, complaints } = await openPage(browser);
     if (file) {
@@ -53,7 +53,7 @@ try {
       await page.goto(studio.address);
       await page.getByTestId("link").filter({ hasText: "connected" }).waitFor();
       await prepare({ page, folder });
-      await looks(page, name);
+      await looks(page, name, holds);
       await context.close();
       await studio.stop();
     }

@@ -38,12 +38,15 @@ class FakeSocket {
 }
 const newest = () => FakeSocket.all.at(-1)!;
 
+let changeHash: (event: { oldURL: string }) => void;
 let net: typeof import("../src/net/connection");
 beforeEach(async () => {
   vi.resetModules();
   vi.useFakeTimers();
+  vi.clearAllTimers();
   FakeSocket.all = [];
   vi.stubGlobal("WebSocket", FakeSocket);
+  vi.stubGlobal("addEventListener", (_name: string, listener: typeof changeHash) => (changeHash = listener));
   vi.stubGlobal("location", { protocol: "http:", host: "127.0.0.1:1234", hash: "", pathname: "/" });
   net = await import("../src/net/connection");
   await net.connect();
@@ -123,4 +126,55 @@ test("a token of the address is changed for a cookie and taken out of it", async
   await (await import("../src/net/connection")).connect();
   expect(replaceState).toHaveBeenCalledWith(null, "", "/");
   expect(fetched.mock.calls[0]).toMatchObject(["/session", { method: "POST", body: '{"token":"abc"}' }]);
+});
+
+/** Opens another address of the server in the window: the browser changes the fragment alone. */
+async function openHere(before: string, token: string, answer: () => Promise<object>) {
+  const fetched = vi.fn(answer);
+  const replaceState = vi.fn((_state: unknown, _title: string, address: string) => (location.hash = new URL(address, "http://h").hash));
+  vi.stubGlobal("fetch", fetched);
+  vi.stubGlobal("history", { replaceState });
+  location.hash = `#token=${token}`;
+  changeHash({ oldURL: `http://127.0.0.1:1234/${before}` });
+  await vi.advanceTimersByTimeAsync(0);
+  return { fetched, replaceState };
+}
+
+test("a new token in the same window is changed for a cookie, the page stays, and the connection is back at once", async () => {
+  newest().open();
+  newest().answerPing();
+  newest().close(4401);
+  expect(net.link.value).toBe("refused");
+  const { fetched, replaceState } = await openHere("#/align", "new", async () => ({}));
+  expect(fetched.mock.calls).toMatchObject([["/session", { method: "POST", body: '{"token":"new"}' }]]);
+  expect(replaceState).toHaveBeenCalledWith(null, "", "/#/align");
+  expect(FakeSocket.all).toHaveLength(2);
+  newest().open();
+  newest().answerPing();
+  expect(net.link.value).toBe("open");
+  vi.advanceTimersByTime(60_000);
+  expect(FakeSocket.all).toHaveLength(2);
+});
+
+test("a token that no server has seen yet is shown again", async () => {
+  newest().close(1006);
+  let isThere = false;
+  const { fetched } = await openHere("", "new", () => (isThere ? Promise.resolve({}) : Promise.reject(new TypeError("no server"))));
+  expect(fetched).toHaveBeenCalledTimes(1);
+  newest().close(1006);
+  isThere = true;
+  await vi.advanceTimersByTimeAsync(1000);
+  expect(fetched).toHaveBeenCalledTimes(2);
+  newest().close(1006);
+  await vi.advanceTimersByTimeAsync(1000);
+  expect(fetched).toHaveBeenCalledTimes(2);
+});
+
+test("going to another page is no token", () => {
+  const sockets = FakeSocket.all.length;
+  location.hash = "#/paint";
+  changeHash({ oldURL: "http://127.0.0.1:1234/#/scan" });
+  expect(FakeSocket.all).toHaveLength(sockets);
+  expect(net.tokenOf("#token=ab")).toBe("ab");
+  expect(net.tokenOf("#/align")).toBe("");
 });

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { Block } from "../src/net/block";
 import { powerLine } from "../src/measured/ComplianceScatter";
-import { band, configRows, figureGroups, measuredOf, positivePoints, profileX_mm, sortedByX, thinnedWords } from "../src/measured/measured";
+import { band, configRows, figureGroups, figureValue, measuredOf, positivePoints, profileX_mm, sortedByX, thinnedWords } from "../src/measured/measured";
 import { colourAt, colourRange, pathColours } from "../src/measured/pathColours";
 
 const block = (head: object, arrays: Block["arrays"] = {}): Block => ({
@@ -51,6 +51,12 @@ it("figures keep their order within their groups", () => {
   const figure = (group: string, label: string) => ({ group, key: "", label, value: 1, unit: "" });
   const groups = figureGroups([figure("A", "1"), figure("B", "2"), figure("A", "3")]);
   expect(groups.map(({ name, figures }) => [name, ...figures.map(({ label }) => label)])).toEqual([["A", "1", "3"], ["B", "2"]]);
+});
+
+it("counts have no decimals", () => {
+  const figure = { group: "A", key: "", label: "Gaps", value: 1, unit: "" };
+  expect(figureValue({ ...figure, count: true })).toBe("1");
+  expect(figureValue(figure)).toBe(1);
 });
 
 it("a config's leaves have dotted paths", () => {

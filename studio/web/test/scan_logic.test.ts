@@ -4,7 +4,7 @@ import { band, Column, Growing, RowCounter } from "../src/pages/scan/growing";
 import { HostClock, Recent } from "../src/pages/scan/latency";
 import { pathColour, strongest_N } from "../src/pages/scan/pathColours";
 import { abilities, contactWords, recordWords, sensorWords, type RecorderState, type ScanState } from "../src/pages/scan/scanState";
-import { changed, valueOf, waitsForOpening, withSettings } from "../src/pages/scan/settings";
+import { changed, processSettings, valueOf, waitsForOpening, withSettings } from "../src/pages/scan/settings";
 
 const block = (generation: number, first: number, s: number[], tips?: number[]): Block => {
   const arrays: Record<string, NumberArray> = { s_m: Float64Array.from(s), height_m: Float64Array.from(s, (value) => 2 * value) };
@@ -146,6 +146,7 @@ describe("settings", () => {
     const settings = changed({ "a.x": "2" }, { "a.y": "q" });
     expect(withSettings(fields, settings).map((field) => field.value)).toEqual([2, "q"]);
     expect(withSettings(fields, changed(settings, { "a.x": null })).map((field) => field.value)).toEqual([1, "q"]);
+    expect(processSettings({ "process.profile.x": "1", "bench.seed": "2" })).toEqual({ "profile.x": "1" });
     expect([waitsForOpening("bench.seed"), waitsForOpening("process.method")]).toEqual([true, false]);
   });
 });

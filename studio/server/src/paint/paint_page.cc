@@ -18,6 +18,7 @@
 #include "our_folder.h"
 #include "paint_scene.h"
 #include "painting.h"
+#include "write_target.h"
 
 namespace asperity::studio {
 
@@ -160,7 +161,7 @@ class PaintPage : public Page {
     }
     const fs::path file = shared_.project.existing(painting.object);
     const std::string name = request.text("name");
-    const fs::path target = shared_.project.writable(name);
+    const fs::path target = write_target(shared_.project, request);
     answer_by_job(
         shared_.jobs, request, "Writing " + name, "paint.write",
         [cache = cache_, project = &shared_.project, painting, file, target, name](const Observer& observer) {
@@ -186,7 +187,7 @@ class PaintPage : public Page {
     if (found == kExportFormatNames.end()) throw Error("there is no format '" + format_name + "' to export to");
     const auto format = static_cast<ExportFormat>(found - kExportFormatNames.begin());
     const std::string name = request.text("name");
-    const fs::path target = shared_.project.writable(name);
+    const fs::path target = write_target(shared_.project, request);
     answer_by_job(shared_.jobs, request, "Exporting " + name, "paint.export",
                   [source, format, target, name](const Observer& observer) {
                     OutputFolder folder(target, app::is_our_folder);

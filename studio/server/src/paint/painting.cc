@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <span>
+#include <string_view>
 
 #include "asperity/base/error.h"
+#include "asperity/base/text.h"
 #include "asperity/registration/triangle_stretch.h"
 #include "asperity/scene/swap_texture.h"
 #include "asperity/texture/texture_file.h"
@@ -24,11 +27,22 @@ double number_of(const Json& value, const char* what, double low, double high) {
 }
 
 std::string text_of(const Json& value, const char* what) {
-  if (!value.is_string()) throw Error(std::string("paint: ") + what + " is no text");
+  constexpr std::size_t kLongest = 1000;
+  if (!value.is_string() || value.get_ref<const std::string&>().size() > kLongest)
+    throw Error(std::string("paint: ") + what + " is no text");
   return value.get<std::string>();
 }
 
+void refuse_unknown(const Json& object, std::initializer_list<std::string_view> known) {
+  for (const auto& [key, value] : object.items()) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      throw Error("paint: there is no '" + printable(key) + "'");
+    }
+  }
+}
+
 Stroke stroke_of(const Json& json) {
+  refuse_unknown(json, {"picks_m", "texture", "index"});
   Stroke out;
   out.texture = text_of(json.at("texture"), "a stroke's texture");
   out.index = static_cast<int>(number_of(json.at("index"), "a stroke's index", 0, 1e6));
@@ -80,11 +94,13 @@ Json textures_json(const SceneObject& object) {
 }  // namespace
 
 Json first_painting() {
-  return Json::parse(R"({"object":"","unit_m":1.0,"rings":1,"half_width_mm":0.0,"strokes":[],"swaps":{},"current":-1})");
+  return Json::parse(
+      R"({"object":"","unit_m":1.0,"rings":1,"half_width_mm":0.0,"strokes":[],"swaps":{},"current":-1,"written":""})");
 }
 
 Painting parse_painting(const Json& section) {
   try {
+    refuse_unknown(section, {"object", "unit_m", "rings", "half_width_mm", "strokes", "swaps", "current", "written"});
     Painting out;
     out.object = text_of(section.at("object"), "the object");
     out.unit_m = number_of(section.at("unit_m"), "the unit", 1e-9, 1e6);
@@ -94,6 +110,7 @@ Painting parse_painting(const Json& section) {
       throw Error("paint: there are more than " + std::to_string(kMostStrokes) + " strokes");
     }
     for (const Json& stroke : section.at("strokes")) out.strokes.push_back(stroke_of(stroke));
+    text_of(section.at("written"), "the scene that was written");
     number_of(section.at("current"), "the chosen stroke", -1, kMostStrokes);
     for (const auto& [index, texture] : section.at("swaps").items()) {
       if (index.empty() || index.size() > 6 || index.find_first_not_of("0123456789") != std::string::npos) {

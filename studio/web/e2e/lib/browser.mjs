@@ -1,7 +1,9 @@
 // Chromium, and all that it complains of.
-import { existsSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
+import { extname, join } from "node:path";
 import { chromium } from "playwright-core";
 
+const kTypes = { ".html": "text/html; charset=utf-8", ".js": "text/javascript; charset=utf-8", ".css": "text/css; charset=utf-8", ".svg": "image/svg+xml" };
 const kArguments = [
   "--no-sandbox",
   "--use-angle=swiftshader",
@@ -18,13 +20,30 @@ const kArguments = [
 export async function launch() {
   const path = process.env.ASPERITY_CHROMIUM ?? "/usr/bin/chromium";
   if (!existsSync(path)) throw new Error(`no Chromium at ${path}: scripts/bootstrap installs it, or ASPERITY_CHROMIUM names another`);
-  return chromium.launch({ executablePath: path, args: kArguments });
+  // What a test serves comes from no network that Chromium knows of.
+  const served = process.env.ASPERITY_E2E_APP ? ["--disable-features=LocalNetworkAccessChecks"] : [];
+  return chromium.launch({ executablePath: path, args: [...kArguments, ...served] });
+}
+
+/** The app of a folder (`npx vite build --outDir`) in the place of the one in the program, under the program's headers. */
+async function serveApp(context, folder) {
+  await context.route(/^http:\/\/[^/]+\/(assets\/.*)?$/, async (route) => {
+    const path = new URL(route.request().url()).pathname.slice(1) || "index.html";
+    const file = join(folder, path);
+    if (!existsSync(file)) return route.continue();
+    const index = await context.request.get(new URL("/", route.request().url()).href);
+    const type = kTypes[extname(file)] ?? "application/octet-stream";
+    const headers = { ...index.headers(), "content-type": type };
+    for (const name of ["content-encoding", "content-length", "etag"]) delete headers[name];
+    await route.fulfill({ status: 200, headers, body: readFileSync(file) });
+  });
 }
 
 /** A fresh profile with one page. `complaints` has what the console, the page and the network said; it must stay empty. */
 export async function openPage(browser, { width = 1400, height = 860, colorScheme = "light", offline = false } = {}) {
   const context = await browser.newContext({ viewport: { width, height }, colorScheme, offline, reducedMotion: "reduce", acceptDownloads: true });
-  context.setDefaultTimeout(Number(process.env.ASPERITY_E2E_TIMEOUT_MS ?? 60_000));
+  context.setDefaultTimeout(Number(process.env.ASPERITY_E2E_TIMEOUT_MS ?? 90_000));
+  if (process.env.ASPERITY_E2E_APP) await serveApp(context, process.env.ASPERITY_E2E_APP);
   const page = await context.newPage();
   const complaints = [];
   let awaited = [];

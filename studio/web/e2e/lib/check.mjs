@@ -2,7 +2,7 @@
 import { isDeepStrictEqual } from "node:util";
 
 const kPoll_ms = 50;
-const kPatience_ms = Number(process.env.ASPERITY_E2E_TIMEOUT_MS ?? 60_000);
+const kPatience_ms = Number(process.env.ASPERITY_E2E_TIMEOUT_MS ?? 90_000);
 
 export function equal(value, expected, what) {
   if (!isDeepStrictEqual(value, expected)) throw new Error(`${what}: ${JSON.stringify(value)} where ${JSON.stringify(expected)} was expected`);

@@ -1,4 +1,5 @@
 // What the pictures of the documentation show.
+import { numberIn, until } from "./check.mjs";
 import { open, type } from "./ui.mjs";
 
 async function scan({ page }) {
@@ -7,7 +8,11 @@ async function scan({ page }) {
   await page.getByTestId("scan-open").click();
   await page.getByTestId("scan-close").waitFor();
   await page.getByTestId("scan-start").click();
-  await page.getByTestId("scan-recorded").filter({ hasText: /^[3-9]/ }).waitFor();
+  await until(async () => numberIn(await page.getByTestId("scan-recorded").textContent()) > 4, "four seconds of scan");
+  // The bench's hand may have come to its end by then.
+  const stop = page.getByTestId("scan-stop");
+  if (await stop.isEnabled()) await stop.click({ timeout: 5000 }).catch(() => {});
+  await page.getByTestId("scan-ra").waitFor();
 }
 
 async function process_({ page }) {
@@ -38,10 +43,34 @@ async function paint({ page }) {
   await page.getByTestId("paint-result-1").waitFor();
 }
 
+/** Over the stroke, pressing; held until the pictures are taken. */
+async function feel({ page }) {
+  await open(page, "Feel");
+  await page.getByTestId("feel-scene").selectOption("painted/scene.json");
+  await page.getByTestId("feel-texture-1").waitFor();
+  await page.getByTestId("feel-view").getByRole("button", { name: "fit" }).click();
+  await page.getByTestId("feel-start").click();
+  await page.getByTestId("feel-stop").waitFor();
+  const box = await page.getByTestId("feel-view").locator("canvas").boundingBox();
+  const to = (x, y, steps) => page.mouse.move(box.x + box.width * x, box.y + box.height * y, { steps });
+  await to(0.44, 0.46);
+  await page.mouse.down();
+  await until(async () => {
+    const take = page.getByTestId("feel-take");
+    if (await take.isVisible()) await take.click({ timeout: 1000 }).then(() => to(0.44, 0.46), () => {});
+    return numberIn((await page.getByTestId("feel-gain").locator("dd").textContent()).replace("–", "0")) === 100;
+  }, "the force, ramped up");
+  await to(0.44, 0.46);
+  await page.mouse.down();
+  await to(0.53, 0.44, 60);
+  await until(async () => numberIn(await page.getByTestId("force-now").textContent()) > 0.05, "a force");
+}
+
 export const scenes = [
   { name: "scan", prepare: scan },
   { name: "process", prepare: process_ },
   { name: "align", prepare: align },
   { name: "paint", prepare: paint },
+  { name: "feel", prepare: feel, holds: true },
   { name: "report", file: "measured/report.html", prepare: ({ page }) => page.locator(".uplot").first().waitFor() },
 ];

@@ -2,13 +2,14 @@
 import { effect } from "@preact/signals";
 import { link, onEvent } from "../net/connection";
 import { readAbout } from "../state/about";
-import { followDocument, readDocument } from "../state/document";
-import { entries, followEntries, readEntries, type EntryKind } from "../ui/entries";
-import { followJobs, forgetJobs } from "../ui/job";
+import { edit, followDocument, readDocument, valueAt } from "../state/document";
+import { entries, followEntries, readEntries } from "../ui/entries";
+import { followJobs, readJobs } from "../ui/job";
 import { complain, say } from "../ui/toast";
+import { editToOpen, pageOf } from "./opened";
 import { go } from "./routes";
 
-const PAGE_OF: Partial<Record<EntryKind, string>> = { recording: "process", mesh: "align", scene: "feel" };
+const kFirstClient = 1;
 
 /** Follows the server. Called once, before connect(). */
 export function followServer(): void {
@@ -19,7 +20,6 @@ export function followServer(): void {
   let first = true;
   effect(() => {
     if (link.value !== "open") return;
-    forgetJobs();
     const isFirst = first;
     first = false;
     readAll(isFirst).catch(complain);
@@ -27,10 +27,14 @@ export function followServer(): void {
 }
 
 async function readAll(isFirst: boolean): Promise<void> {
-  const [server] = await Promise.all([readAbout(), readDocument(), readEntries()]);
-  if (!isFirst) return;
-  server.problems.forEach((problem) => say(problem));
+  const [server] = await Promise.all([readAbout(), readDocument(), readEntries(), readJobs()]);
+  // The first browser of a server's run: what it was started with is opened once.
+  const isNewServer = server.client === kFirstClient;
+  if (isFirst || isNewServer) server.problems.forEach((problem) => say(problem));
   const kind = entries.value.find(({ name }) => name === server.opened)?.kind;
-  const page = kind && PAGE_OF[kind];
-  if (page && location.hash === "") go(page);
+  const page = kind && pageOf(kind);
+  if (!page) return;
+  const change = isNewServer ? editToOpen(kind, server.opened!, valueAt(`/${page}`)) : null;
+  if (change) await edit(change.path, change.value, change.label);
+  if (isFirst && location.hash === "") go(page);
 }

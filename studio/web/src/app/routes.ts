@@ -1,6 +1,7 @@
 // The pages and their addresses: "#/scan" and so on.
 import { signal, type ReadonlySignal } from "@preact/signals";
 import type { ComponentType } from "preact";
+import { tokenOf } from "../net/connection";
 
 export interface Route {
   id: string;
@@ -62,4 +63,9 @@ export function routeOf(hash: string): Route {
 
 export const go = (id: string): void => void (location.hash = `#/${id}`);
 
-if (typeof window !== "undefined") window.addEventListener("hashchange", () => (current.value = routeOf(location.hash)));
+if (typeof window !== "undefined") {
+  window.addEventListener("hashchange", () => {
+    // A token is no page: the one that is shown stays.
+    if (!tokenOf(location.hash)) current.value = routeOf(location.hash);
+  });
+}

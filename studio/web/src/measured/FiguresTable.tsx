@@ -1,6 +1,6 @@
 import { Figure } from "../ui/Figure";
 import { Figures } from "../ui/Figures";
-import { figureGroups, type MeasuredFigure } from "./measured";
+import { figureGroups, figureValue, type MeasuredFigure } from "./measured";
 
 /** Figures under their groups, each with unit and uncertainty. `groups` chooses some. */
 export function FiguresTable({ figures, groups }: { figures: readonly MeasuredFigure[]; groups?: readonly string[] }) {
@@ -12,7 +12,7 @@ export function FiguresTable({ figures, groups }: { figures: readonly MeasuredFi
           <h3>{group.name}</h3>
           <Figures>
             {group.figures.map((figure) => (
-              <Figure key={figure.label} label={figure.label} value={figure.value} error={figure.error} unit={figure.unit} hint={figure.key || undefined} />
+              <Figure key={figure.label} label={figure.label} value={figureValue(figure)} error={figure.error} unit={figure.unit} hint={figure.key || undefined} />
             ))}
           </Figures>
         </section>

@@ -1,7 +1,7 @@
 import { useMemo } from "preact/hooks";
 import { Plot } from "../plot/Plot";
 import type { Series } from "../plot/series";
-import { band, profileX_mm, scaled, type Measured } from "./measured";
+import { band, kAxisRoom_px, profileX_mm, scaled, type Measured } from "./measured";
 
 const kSigmas = 2;
 
@@ -30,6 +30,7 @@ export function ProfilePlot({ measured, what, syncKey = "profile" }: ProfilePlot
       yAxis={{ label: what === "height" ? "Height" : "Texture", unit: "µm" }}
       syncKey={syncKey}
       empty="No profile: see what was dropped."
+      yAxisRoom_px={kAxisRoom_px}
       testId={`plot-${what}`}
       legend
     />

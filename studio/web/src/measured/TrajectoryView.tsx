@@ -11,11 +11,11 @@ import { colourRange, cssColour, pathColours } from "./pathColours";
 import "./measured.css";
 
 const QUANTITIES = {
-  trajectory_height_m: { label: "Height over the base path", unit: "µm", factor: 1e6 },
+  trajectory_height_m: { label: "Height", unit: "µm", factor: 1e6 },
   trajectory_speed_mps: { label: "Speed", unit: "mm/s", factor: 1e3 },
   trajectory_force_N: { label: "Force", unit: "N", factor: 1 },
   trajectory_contact: { label: "Contact", unit: "", factor: 1 },
-  trajectory_sigma_m: { label: "Uncertainty of the position", unit: "µm", factor: 1e6 },
+  trajectory_sigma_m: { label: "Uncertainty, 1σ", unit: "µm", factor: 1e6 },
 } as const;
 type Quantity = keyof typeof QUANTITIES;
 

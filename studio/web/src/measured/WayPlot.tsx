@@ -1,7 +1,7 @@
 import { useMemo } from "preact/hooks";
 import { Plot } from "../plot/Plot";
 import type { Series } from "../plot/series";
-import { profileX_mm, scaled, type Measured } from "./measured";
+import { kAxisRoom_px, profileX_mm, scaled, type Measured } from "./measured";
 
 const QUANTITIES = {
   force: { array: "profile_force_N", label: "Force", unit: "N", factor: 1, colour: 2 },
@@ -21,6 +21,7 @@ export function WayPlot({ measured, what }: { measured: Measured; what: keyof ty
       xAxis={{ label: "Way", unit: "mm" }}
       yAxis={{ label, unit }}
       syncKey="profile"
+      yAxisRoom_px={kAxisRoom_px}
       testId={`plot-${what}`}
     />
   );

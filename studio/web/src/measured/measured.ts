@@ -9,6 +9,8 @@ export interface MeasuredFigure {
   value: number | string | null;
   error?: number | null;
   unit: string;
+  /** A whole number, shown without decimals. */
+  count?: boolean;
 }
 
 export interface Dropped {
@@ -43,6 +45,9 @@ export interface Measured {
   segment: string;
   array(name: string): NumberArray;
 }
+
+/** What the y axes of plots over the same way take at the left. */
+export const kAxisRoom_px = 46;
 
 const NONE = new Float32Array(0);
 
@@ -89,6 +94,9 @@ export function band(y: ArrayLike<number>, sigma: ArrayLike<number>, k: number):
     hi: Float64Array.from({ length: y.length }, (_, i) => y[i]! + k * sigma[i]!),
   };
 }
+
+/** A figure's value as it is shown: counts without decimals. */
+export const figureValue = ({ value, count }: MeasuredFigure): number | string | null => (count ? String(value) : value);
 
 /** The figures by their groups, in their order. */
 export function figureGroups(figures: readonly MeasuredFigure[]): { name: string; figures: MeasuredFigure[] }[] {

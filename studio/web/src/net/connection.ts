@@ -22,12 +22,17 @@ interface Waiting {
   reject(reason: Error): void;
 }
 
+const kFirstRetry_ms = 250;
+
 const waiting = new Map<number, Waiting>();
 const topics = new Map<string, Set<(block: Block) => void>>();
 const events = new Map<string, Set<(data: any) => void>>();
 let socket: WebSocket | null = null;
 let nextId = 1;
-let retry_ms = 250;
+let retry_ms = kFirstRetry_ms;
+let retry: ReturnType<typeof setTimeout> | undefined;
+let attempt = 0;
+let token = "";
 let pointerSequence = 0;
 
 /** Calls the server; the answer is JSON or a Block. Rejects with a Refusal. */
@@ -87,38 +92,84 @@ export function sendPointer(x_m: number, y_m: number, z_m: number): void {
   socket.send(frame.buffer);
 }
 
-/** Changes the token of the address for a cookie, and connects. Called once. */
+/** The token of a fragment like "#token=…"; empty where there is none. */
+export const tokenOf = (fragment: string): string => new URLSearchParams(fragment.replace(/^#/, "")).get("token") ?? "";
+
+/**
+ * Changes the token of the address for a cookie, and connects; again where a new address of the server is opened in
+ * the same window, of which the browser changes the fragment alone. Called once.
+ */
 export async function connect(): Promise<void> {
-  const token = new URLSearchParams(location.hash.slice(1)).get("token");
-  if (token) {
-    history.replaceState(null, "", location.pathname);
-    await fetch("/session", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ token }) });
+  addEventListener("hashchange", (event) => {
+    if (!takeToken(new URL((event as HashChangeEvent).oldURL).hash)) return;
+    retry_ms = kFirstRetry_ms;
+    void (link.value === "open" ? admit() : reach());
+  });
+  takeToken("");
+  await reach();
+}
+
+/** Takes the token out of the address, in favour of the fragment that was there before it. */
+function takeToken(before: string): boolean {
+  const found = tokenOf(location.hash);
+  if (!found) return false;
+  token = found;
+  history.replaceState(null, "", location.pathname + (tokenOf(before) ? "" : before));
+  return true;
+}
+
+/** Shows the token to the server, which gives a cookie for it; kept for later where no server answers. */
+async function admit(): Promise<void> {
+  const shown = token;
+  try {
+    await fetch("/session", { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify({ token: shown }) });
+  } catch {
+    return;
   }
-  open();
+  if (token === shown) token = "";
+}
+
+/** Connects now, in the place of a connection that is there or is waited for. */
+async function reach(): Promise<void> {
+  const mine = ++attempt;
+  clearTimeout(retry);
+  if (token) await admit();
+  if (mine === attempt) open();
 }
 
 function open(): void {
   const opened = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/ws`);
   opened.binaryType = "arraybuffer";
+  const before = socket;
   socket = opened;
+  giveUp();
+  before?.close();
   // A server that does not know this browser opens the socket and closes it with a reason: open is what has answered.
   opened.onopen = () => opened.send(JSON.stringify({ id: nextId++, call: "studio.ping", args: {} }));
   opened.onmessage = (message) => {
+    if (socket !== opened) return;
     if (link.value !== "open") begin();
     if (typeof message.data === "string") hearText(JSON.parse(message.data));
     else hearBlock(decodeBlock(message.data));
   };
   opened.onclose = (closed) => {
-    for (const { reject } of waiting.values()) reject(new Refusal("The connection to the studio's server was lost.", "The page goes on by itself when it is back."));
-    waiting.clear();
+    if (socket !== opened) return;
+    giveUp();
     link.value = closed.code === 4401 ? "refused" : "lost";
-    setTimeout(open, retry_ms);
+    clearTimeout(retry);
+    retry = setTimeout(() => void reach(), retry_ms);
     retry_ms = Math.min(4000, 2 * retry_ms);
   };
 }
 
+/** No answer will come to what has been asked. */
+function giveUp(): void {
+  for (const { reject } of waiting.values()) reject(new Refusal("The connection to the studio's server was lost.", "The page goes on by itself when it is back."));
+  waiting.clear();
+}
+
 function begin(): void {
-  retry_ms = 250;
+  retry_ms = kFirstRetry_ms;
   link.value = "open";
   for (const topic of topics.keys()) ask("subscribe", topic);
 }

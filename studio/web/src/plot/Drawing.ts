@@ -21,7 +21,7 @@ export class Drawing {
     private readonly tell: (words: string) => void,
     kept: Range | null = null,
   ) {
-    const { logX = false, logY = false, xAxis, yAxis, syncKey } = props();
+    const { logX = false, logY = false, xAxis, yAxis, yAxisRoom_px, syncKey } = props();
     this.all = this.range();
     const isInside = kept && kept.min >= this.all.min && kept.max <= this.all.max;
     const first = (this.shown = isInside ? kept : this.all);
@@ -34,7 +34,7 @@ export class Drawing {
         x: { time: false, distr: logX ? 3 : 1, range: (_plot, low, high) => [low, high] },
         y: { distr: logY ? 3 : 1, range: (_plot, low, high) => this.yRange(low, high) },
       },
-      axes: [axis(xAxis, logX, "x"), axis(yAxis, logY, "y")],
+      axes: [axis(xAxis, logX, "x"), axis(yAxis, logY, "y", yAxisRoom_px)],
       series: [{}, ...series.flatMap(uSeries)],
       bands: uBands(series, columns.at),
       cursor: {

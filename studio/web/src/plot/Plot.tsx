@@ -22,6 +22,8 @@ export interface PlotProps {
   syncKey?: string;
   /** Fixed range of y; without it what is shown fits. */
   yRange?: [number, number];
+  /** Room for the y axis' numbers, so that plots above one another begin at the same place. */
+  yAxisRoom_px?: number;
   /** Upright lines with words, at values of x. */
   marks?: readonly { x: number; label: string }[];
   /** x under the cursor, or null. */

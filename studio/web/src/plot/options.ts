@@ -11,7 +11,8 @@ export interface AxisWords {
 
 export const axisWords = ({ label, unit }: AxisWords): string => (unit ? `${label} / ${unit}` : label);
 
-export function axis(words: AxisWords, logarithmic: boolean, side: "x" | "y"): uPlot.Axis {
+/** `room_px` is what the y axis takes at the left; as much as its numbers need without it. */
+export function axis(words: AxisWords, logarithmic: boolean, side: "x" | "y", room_px?: number): uPlot.Axis {
   const line = themeColour("--line");
   const font = `11px ${themeColour("--font")}`;
   return {
@@ -22,7 +23,7 @@ export function axis(words: AxisWords, logarithmic: boolean, side: "x" | "y"): u
     labelSize: 16,
     labelGap: 0,
     gap: 4,
-    size: side === "x" ? 22 : (_plot, words) => 12 + 6.2 * Math.max(2, ...(words ?? []).map((word) => word?.length ?? 0)),
+    size: side === "x" ? 22 : (room_px ?? ((_plot, words) => 12 + 6.2 * Math.max(2, ...(words ?? []).map((word) => word?.length ?? 0)))),
     space: side === "x" ? 64 : 26,
     grid: { stroke: line, width: 1, ...(logarithmic ? { filter: onlyDecades } : {}) },
     ticks: { stroke: line, width: 1, size: 4 },

@@ -1,6 +1,6 @@
 // The long work of the server, as it goes (event "job").
 import { signal, type ReadonlySignal } from "@preact/signals";
-import { call, onEvent } from "../net/connection";
+import { call, onEvent, Refusal } from "../net/connection";
 
 export type JobState = "waiting" | "running" | "done" | "failed" | "cancelled";
 
@@ -25,8 +25,16 @@ export function followJobs(): void {
   onEvent("job", (job: Job) => (all.value = withJob(all.value, job)));
 }
 
-/** After the connection was lost nothing is known of the jobs there were. */
-export const forgetJobs = () => (all.value = []);
+/** What the server works on already: after a connection nothing is known of it. A server that has no such list tells by events. */
+export async function readJobs(): Promise<void> {
+  all.value = [];
+  try {
+    const list = await call<Job[]>("job.list");
+    all.value = list.reduce(withJob, []);
+  } catch (error) {
+    if (!(error instanceof Refusal)) throw error;
+  }
+}
 
 /** The list with a job's news: changed in its place, or gone when it has ended. */
 export function withJob(list: Job[], job: Job): Job[] {

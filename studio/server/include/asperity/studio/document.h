@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,26 +47,40 @@ class Document {
   // Throws Error, and nothing is changed, for a path that is not below a section or leads nowhere, and for a value that
   // the section refuses.
   void edit(std::string_view path, Json after, std::string_view label, std::string_view gesture = {});
+  // False: there is nothing. Throws Error, and the step is dropped, if its page does not take what would come of it.
   bool undo();
   bool redo();
+  // What they would do, seen from now: its `after` is what will stand there; nullptr: nothing.
+  std::optional<Edit> next_undo() const;
+  std::optional<Edit> next_redo() const;
   std::string undo_label() const;  // empty: nothing to undo
   std::string redo_label() const;
 
   // Called after each change, undo and redo.
   void on_change(Listener listener) { listeners_.push_back(std::move(listener)); }
 
-  // Writes the file if there is something new.
-  void save();
+  // The content of the file if there is something new since the last call; the caller writes it.
+  std::optional<std::string> take_unsaved();
+  const std::filesystem::path& file() const { return file_; }
   const std::vector<std::string>& problems() const { return problems_; }
 
  private:
-  void apply(const Edit& edit);
+  struct Step {
+    Edit edit;
+    std::size_t bytes = 0;
+  };
+  // The section with the value at a path of it replaced. Throws Error if it does not take it.
+  Json changed_section(const Edit& edit) const;
+  void read_steps(const Json& file);
+  bool go(std::vector<Step>& from, std::vector<Step>& to, bool back);
+  void remember(Edit edit);
+  void tell(const Edit& edit);
 
   std::filesystem::path file_;
   Json value_ = Json::object();
   std::map<std::string, Json, std::less<>> first_;
   std::map<std::string, Validator, std::less<>> validators_;
-  std::vector<Edit> undo_, redo_;
+  std::vector<Step> undo_, redo_;
   std::vector<Listener> listeners_;
   std::vector<std::string> problems_;
   std::uint64_t version_ = 0;

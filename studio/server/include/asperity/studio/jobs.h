@@ -11,9 +11,12 @@
 
 namespace asperity::studio {
 
-// Long work, one after another on a thread of its own, with progress and cancel. The browsers see
-//   event "job" {"id","title","stage","fraction","state":"waiting"|"running"|"done"|"failed"|"cancelled"}
-// and can call job.cancel {"job":id}. Its functions are for the studio's thread.
+// Long work with progress and cancel, in lanes: the jobs of a lane run one after another on a thread of its own, those
+// of different lanes beside each other. The browsers see
+//   event "job"
+//   {"id","title","stage","fraction","state":"waiting"|"running"|"done"|"failed"|"cancelled","message","hint"}
+// but for jobs without a title, and can call job.cancel {"job":id} and job.list. Its functions are for the studio's
+// thread.
 class Jobs {
  public:
   using Work = std::function<void(const Observer&)>;     // on the jobs' thread; may throw
@@ -28,8 +31,11 @@ class Jobs {
   Jobs& operator=(const Jobs&) = delete;
 
   // A job whose `slot` is not empty takes the place of those of the same slot: a waiting one is dropped, a running one
-  // cancelled. So only the newest setting of a slider is worked out. Returns its id.
+  // cancelled. So only the newest setting of a slider is worked out. Its lane is the slot up to the first dot or blank.
+  // Returns its id.
   std::uint64_t start(const std::string& title, const std::string& slot, Work work, Done done);
+  std::uint64_t start_in(const std::string& lane, const std::string& title, const std::string& slot, Work work,
+                         Done done);
   void cancel(std::uint64_t job);
 
   void bind(Calls& calls);
@@ -39,13 +45,17 @@ class Jobs {
   std::unique_ptr<Impl> impl_;
 };
 
-// Answers `request` with what `work` gives: a Json or a BlockWriter. Its error is the request's refusal.
+// Answers `request` with what `work` gives: a Json or a BlockWriter. Its error is the request's refusal. The lane is
+// that of the call's page; a slot is the browser's own, so that one window does not cancel another's work.
 template <class Work>
 void answer_by_job(Jobs& jobs, const Request& request, const std::string& title, const std::string& slot, Work work) {
   using Result = std::invoke_result_t<Work, const Observer&>;
   auto result = std::make_shared<std::optional<Result>>();
-  jobs.start(
-      title, slot, [result, work = std::move(work)](const Observer& observer) { result->emplace(work(observer)); },
+  const std::string& call = request.name();
+  const std::string own_slot = slot.empty() ? slot : slot + " " + std::to_string(request.client());
+  jobs.start_in(
+      call.substr(0, call.find('.')), title, own_slot,
+      [result, work = std::move(work)](const Observer& observer) { result->emplace(work(observer)); },
       [result, request](std::exception_ptr error) {
         if (!error) return request.answer(std::move(**result));
         try {

@@ -26,6 +26,8 @@ struct Shared {
   bool may_command_forces = true;  // false: bound to other addresses than this machine's, without the second flag
   std::function<void(std::function<void()>)> post;   // hands a function to the studio's thread, from any thread
   std::shared_ptr<const FeelConfig> feel = nullptr;  // with what the Feel page starts; null: the defaults
+  // Throws Advice where a page does not let `client` make an edit (Page::check_edit).
+  std::function<void(ClientId client, const Edit& edit)> check_edit = [](ClientId, const Edit&) {};
 };
 
 // The server's side of one page: its section of the document, its calls ("scan.start"), its topics ("scan.probe").
@@ -40,6 +42,9 @@ class Page {
   virtual void start() {}
   // 30 times a second.
   virtual void tick(std::int64_t /*now_ns*/) {}
+  // Before an edit, an undo or a redo that `client` asks for: throws Advice if it may not, such as one that changes the
+  // force on another's hand.
+  virtual void check_edit(ClientId, const Edit&) const {}
   virtual void edited(const Edit&) {}
   virtual void pointed(ClientId, const Pointer&) {}
   virtual void client_left(ClientId) {}

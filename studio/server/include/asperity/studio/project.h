@@ -22,12 +22,12 @@ class Project {
 
   const std::filesystem::path& folder() const { return folder_; }
 
-  // What is there, sorted by name, three folders deep, at most 10,000 entries; hidden files are left out, links are not
-  // followed.
+  // What is there, sorted by name, three folders deep, at most 10,000 entries of 100,000 files; hidden ones are left
+  // out, links are not followed.
   std::vector<Entry> entries() const;
 
   // The path of something that exists. Throws Error naming it for an absolute name, one with `..`, one that is not
-  // UTF-8 or leads through a link out of the folder, and one that does not exist.
+  // UTF-8, is hidden or leads through a link out of the folder, and one that does not exist.
   std::filesystem::path existing(const std::string& name) const;
   // The path of something to be written: as above, but it need not exist; its parent must.
   std::filesystem::path writable(const std::string& name) const;

@@ -14,6 +14,7 @@ export interface FeelPointerProps {
   onTarget(target: Target | null): void;
 }
 
+const kNews_ms = 16;
 const kWheelStep = 0.05; // of the deepest, for a notch
 const kKeyStep = 0.01; // of the distance from which one looks
 
@@ -21,7 +22,6 @@ const kKeyStep = 0.01; // of the distance from which one looks
 export function followPointer(view: View, props: FeelPointerProps): () => void {
   let target: Target | null = null;
   let pressing = false;
-  let frame = 0;
   const usual = { ...view.controls.mouseButtons };
 
   const take = (next: Target | null) => {
@@ -29,7 +29,6 @@ export function followPointer(view: View, props: FeelPointerProps): () => void {
     props.onTarget(next);
   };
   const send = () => {
-    frame = requestAnimationFrame(send);
     const active = props.active();
     // The left button feels; the view is turned by the right one meanwhile.
     view.controls.mouseButtons = active ? { LEFT: null, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.ROTATE } : usual;
@@ -41,7 +40,8 @@ export function followPointer(view: View, props: FeelPointerProps): () => void {
     if (!target) take(middleOf(view, props));
     if (target) sendPointer(...pointOf(target));
   };
-  frame = requestAnimationFrame(send);
+  // By a timer: where pictures are slow (WebGL without a graphics card) frames come too seldom for the watchdog.
+  const timer = window.setInterval(send, kNews_ms);
 
   const heightOf = (event: PointerEvent): number =>
     pressing || event.shiftKey ? -pressDepth(props.depth_m(), event.pointerType, event.pressure) : props.limits().hover_m;
@@ -88,7 +88,7 @@ export function followPointer(view: View, props: FeelPointerProps): () => void {
   view.canvas.addEventListener("wheel", wheel, { capture: true, passive: false });
   view.canvas.addEventListener("keydown", keys, { capture: true });
   return () => {
-    cancelAnimationFrame(frame);
+    window.clearInterval(timer);
     endPointer();
     view.controls.mouseButtons = usual;
     view.canvas.removeEventListener("wheel", wheel, { capture: true });

@@ -85,7 +85,7 @@ export default function PaintPage() {
         <>
           <Panel title="What is painted on">
             <FilePicker label="Mesh or scene" kinds={["mesh", "scene"]} value={paint.object} testId="paint-object"
-              onChange={(object) => edit("/paint", { ...paint, object, strokes: [], swaps: {}, current: -1 }, `open ${object}`).catch(complain)} />
+              onChange={(object) => edit("/paint", { ...paint, object, strokes: [], swaps: {}, current: -1, written: "" }, `open ${object}`).catch(complain)} />
             {paint.object && !paint.object.endsWith(".json") && (
               <Select label="The mesh's unit" value={String(paint.unit_m)} options={UNITS} testId="paint-unit"
                 onChange={(unit) => edit("/paint/unit_m", Number(unit), "change the unit").catch(complain)} />

@@ -1,6 +1,7 @@
 import { useState } from "preact/hooks";
 import { go } from "../../app/routes";
 import { call } from "../../net/connection";
+import { edit } from "../../state/document";
 import { Button } from "../../ui/Button";
 import { readEntries } from "../../ui/entries";
 import { Figure } from "../../ui/Figure";
@@ -9,6 +10,8 @@ import { Panel } from "../../ui/Panel";
 import { Select } from "../../ui/Select";
 import { TextField } from "../../ui/TextField";
 import { say } from "../../ui/toast";
+import { Toggle } from "../../ui/Toggle";
+import { chooseScene } from "../feel/feelChoices";
 import { kWarpLimit, type PaintSection, type StrokeFigures } from "./painting";
 
 const FORMATS = [
@@ -24,16 +27,22 @@ const FORMATS = [
 export function WritePanel({ paint, figures }: { paint: PaintSection; figures: StrokeFigures[] }) {
   const [name, setName] = useState("painted");
   const [format, setFormat] = useState("gltf");
-  const [written, setWritten] = useState("");
+  const [replace, setReplace] = useState(false);
+  const { written } = paint;
 
   const write = async () => {
-    const { scene } = await call("paint.write", { name });
-    setWritten(scene);
+    const { scene } = await call("paint.write", { name, replace });
+    setReplace(false);
+    await edit("/paint/written", scene, `write ${scene}`);
     await readEntries();
     say(`Written: ${scene}`);
   };
+  const feel = async () => {
+    await chooseScene(written);
+    go("feel");
+  };
   const exportTo = async () => {
-    const { folder, files } = await call("paint.export", { source: written, format, name: `${name}-${format}` });
+    const { folder, files } = await call("paint.export", { source: written, format, name: `${written.split("/")[0]}-${format}`, replace });
     await readEntries();
     say(`Exported: ${folder}, ${files.length} ${files.length === 1 ? "file" : "files"}`);
   };
@@ -43,12 +52,13 @@ export function WritePanel({ paint, figures }: { paint: PaintSection; figures: S
       {figures.map((one, index) => (one.warp ? <StrokeResult key={index} number={index + 1} figures={one} /> : null))}
       <Panel title="Write">
         <TextField label="Name of the folder" value={name} onChange={setName} testId="paint-name" />
+        <Toggle label="Replace what has this name" on={replace} onChange={setReplace} testId="paint-replace" />
         <Button kind="primary" onClick={write} disabled={paint.strokes.length === 0 && Object.keys(paint.swaps).length === 0} testId="paint-write">
           Write scene
         </Button>
         {written && (
           <>
-            <Button onClick={() => go("feel")}>Go to Feel</Button>
+            <Button onClick={feel}>Open in Feel</Button>
             <Select label="Export as" value={format} options={FORMATS} onChange={setFormat} testId="paint-format" />
             <Button onClick={exportTo} testId="paint-export">
               Export

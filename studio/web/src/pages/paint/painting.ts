@@ -19,6 +19,8 @@ export interface PaintSection {
   swaps: Record<string, string>;
   /** The stroke that is drawn on; -1: none. */
   current: number;
+  /** The scene that was written last from what is here; "": none, or something was changed since. */
+  written: string;
 }
 
 /** What the server says of a stroke that it has painted, or why it could not. */

@@ -1,10 +1,11 @@
 // What the operator tells the recorder.
 import { call } from "../../net/connection";
-import { edit } from "../../state/document";
+import { edit, valueAt } from "../../state/document";
 import { go } from "../../app/routes";
 import { say } from "../../ui/toast";
+import { type ProcessSection, withScan } from "../process/processing";
 import { abilities } from "./scanState";
-import { scan } from "./settings";
+import { processSettings, scan } from "./settings";
 import { refined, state } from "./stream";
 
 const can = () => abilities(state.value);
@@ -27,11 +28,13 @@ export const discard = () => can().discard && call("scan.discard");
 export const rescan = () => can().rescan && call("scan.rescan");
 export const toggleAuto = () => edit("/scan/auto", !scan.value.auto, scan.value.auto ? "record by hand" : "record while in contact");
 
-/** Shows the last scan's recording on the Process page. */
+/** Shows the last scan on the Process page, with the settings that it was refined by. */
 export async function openInProcess(): Promise<void> {
-  const name = refined.value?.head.recording as string | undefined;
-  if (!name) return;
+  const head = refined.value?.head;
+  if (!head || head.failure) return;
   if (state.value?.open) await close();
-  await edit("/process/recordings", [name], `open ${name}`);
+  const there = valueAt("/process") as ProcessSection;
+  const next = withScan(there, { recording: head.recording, segment: head.segment });
+  await edit("/process", { ...next, config: { ...there.config, ...processSettings(scan.value.settings) } }, `open ${head.recording}`);
   go("process");
 }

@@ -56,3 +56,7 @@ export const setSettings = (changes: Record<string, string | null>, label: strin
 
 /** What takes effect only when the source is opened again. */
 export const waitsForOpening = (path: string): boolean => /^(recorder|track|bench)\./.test(path);
+
+/** Those of the processing, by their paths there. */
+export const processSettings = (settings: Record<string, string>): Record<string, string> =>
+  Object.fromEntries(Object.entries(settings).flatMap(([path, text]) => (path.startsWith("process.") ? [[path.slice("process.".length), text]] : [])));

@@ -1,0 +1,145 @@
+// Feeling: a painted pebble under the mouse, textures and stiffness changed while touching, a log, a stop from another
+// window, height maps, Escape.
+import { existsSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { open } from "../lib/ui.mjs";
+
+const kColumns = "t_ns,px_m,py_m,pz_m,proxy_x_m,proxy_y_m,proxy_z_m,fx_N,fy_N,fz_N,contact_N,texture_N,friction_N,texture_height_m,out_x_N,out_y_N,out_z_N";
+
+export default async function feel({ page, browser, openPage, studio, step, folder, asperity, until, equal, near, ok, numberIn }) {
+  // Where the processor draws, a small window has more pictures a second.
+  await page.setViewportSize({ width: 1024, height: 700 });
+  await open(page, "Feel");
+  const canvas = page.getByTestId("feel-view").locator("canvas");
+  const shown = async (id) => {
+    const words = await page.getByTestId(id).locator("dd").textContent();
+    return /\d/.test(words) ? numberIn(words) : 0;
+  };
+  const force_N = () => shown("feel-out");
+  const height_um = () => shown("feel-height");
+  const lamp = (words) => page.getByTestId("feel-contact").filter({ hasText: words }).waitFor();
+  const at = async (x, y) => {
+    const box = await canvas.boundingBox();
+    return [box.x + box.width * x, box.y + box.height * y];
+  };
+  const move = async (x, y, steps = 1) => page.mouse.move(...(await at(x, y)), { steps });
+  const press = async (x, y) => {
+    await move(x, y);
+    await page.mouse.down();
+    await pushes("a force on the hand");
+  };
+  /** With the force, ramped up: on a busy machine a heartbeat comes late, the force is lost, and a hand takes it again. */
+  const permitted = async () =>
+    until(async () => {
+      const take = page.getByTestId("feel-take");
+      if (await take.isVisible()) await take.click({ timeout: 1000 }).catch(() => {});
+      return (await shown("feel-gain")) === 100;
+    }, "the force, ramped up");
+  const pushes = async (what) =>
+    until(async () => {
+      if (await page.getByTestId("feel-take").isVisible()) await permitted();
+      return (await force_N()) > 0.05;
+    }, what);
+  const start = async () => {
+    await page.getByTestId("feel-start").click();
+    await permitted();
+  };
+  const stopped = () => page.getByTestId("feel-start").waitFor();
+
+  await step("a painted pebble, and start", async () => {
+    await page.getByTestId("feel-device").selectOption("mouse");
+    await page.getByTestId("feel-scene").selectOption("painted/scene.json");
+    await page.getByTestId("feel-texture-0").or(page.getByTestId("feel-texture-1")).first().waitFor();
+    await page.getByTestId("feel-view").getByRole("button", { name: "top" }).click();
+    await start();
+    await lamp("in the air");
+  });
+
+  await step("dragged over the texture: a force, and heights that change", async () => {
+    await press(0.45, 0.5);
+    const heights = new Set();
+    for (let i = 0; i < 40; ++i) {
+      await move(0.45 + 0.0025 * i, 0.5);
+      heights.add(await height_um());
+    }
+    ok(heights.size > 5, `heights change along the way: ${[...heights].join(" ")}`);
+    ok(Math.max(...heights) > 50, `and are those of the board, µm: ${[...heights].join(" ")}`);
+    ok((await force_N()) > 0.05, "still a force");
+    ok(numberIn(await page.getByTestId("force-now").textContent()) > 0.05, "the header has the force");
+  });
+
+  await step("force model and stiffness are switched while touching", async () => {
+    const model = page.getByTestId("feel-model");
+    const models = await model.locator("option").evaluateAll((options) => options.map((option) => option.value));
+    ok(models.length >= 3, `models to choose from: ${models.join(" ")}`);
+    for (const name of [...models.filter((one) => one !== "auto"), "auto"]) {
+      await model.selectOption(name);
+      await until(async () => (await model.inputValue()) === name && (await force_N()) > 0.05, `a force with ${name}`);
+    }
+    await lamp("in contact");
+    await page.mouse.up();
+    await lamp("in the air");
+    // A place without a texture has the stiffness of the page.
+    await press(0.5, 0.4);
+    const stiffness = page.getByRole("spinbutton", { name: /^Stiffness/ });
+    const before = await force_N();
+    await stiffness.fill("100");
+    await stiffness.press("Enter");
+    await until(async () => (await force_N()) < 0.7 * before, "less force where it is softer");
+  });
+
+  await step("a log is written, with a row a tick", async () => {
+    await page.getByTestId("feel-log").click();
+    await page.getByTestId("feel-log").filter({ hasText: "feel.csv: finish" }).waitFor();
+    await move(0.52, 0.41, 10);
+    await until(async () => (await force_N()) > 0.05, "a force during the log");
+    await page.getByTestId("feel-log").click();
+    const file = join(folder, "feel.csv");
+    await until(() => existsSync(file), "feel.csv");
+    const [head, ...rows] = readFileSync(file, "utf8").trim().split("\n");
+    equal(head, kColumns, "columns of the log");
+    ok(rows.length > 10, "rows of the log");
+    const cells = rows.map((row) => row.split(",").map(Number));
+    ok(cells.every((row) => row.length === kColumns.split(",").length && row.every(Number.isFinite)), "each row has all numbers");
+    near(cells[1][0] - cells[0][0], 1e6, 1, "a tick of the loop, ns");
+    ok(cells.some((row) => row[10] > 0.05), "contact in the log, N");
+  });
+
+  await step("another window stops it", async () => {
+    const other = await openPage(browser);
+    await other.page.goto(studio().address);
+    await other.page.getByTestId("link").filter({ hasText: "connected" }).waitFor();
+    await other.page.getByTestId("force-stop").click();
+    await other.page.getByTestId("force-watchdog").filter({ hasText: "off" }).waitFor();
+    equal(other.complaints, [], "complaints of the other window's browser");
+    await other.context.close();
+    await stopped();
+    await page.mouse.up();
+    await page.getByTestId("feel-last-run").filter({ hasText: "N on the hand" }).waitFor();
+  });
+
+  await step("four height maps are felt, and Escape stops", async () => {
+    for (const [index, side] of ["5mm", "7.5mm", "10mm", "15mm"].entries()) {
+      asperity("texture", "synthesize", "measured/texture.json", "--length", side, "-o", `tile_${index + 1}.png`, "--quiet");
+    }
+    await page.getByTestId("feel-kind").selectOption("maps");
+    for (const tile of [1, 2, 3, 4]) {
+      const picker = page.getByTestId(`feel-tile-${tile}`);
+      await picker.locator("option", { hasText: `tile_${tile}.png` }).waitFor({ state: "attached" });
+      await picker.selectOption(`tile_${tile}.png`);
+      await page.getByRole("img", { name: new RegExp(`^Heights of tile_${tile}`) }).waitFor();
+    }
+    await page.getByTestId("feel-view").getByRole("button", { name: "top" }).click();
+    await start();
+    await press(0.45, 0.45);
+    const heights = new Set();
+    for (let i = 0; i < 30; ++i) {
+      await move(0.45 + 0.003 * i, 0.45 + 0.003 * i);
+      heights.add(await height_um());
+    }
+    ok(heights.size > 5, `heights change along the way: ${[...heights].join(" ")}`);
+    await page.keyboard.press("Escape");
+    await stopped();
+    await page.mouse.up();
+  });
+}
