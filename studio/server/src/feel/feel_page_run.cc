@@ -47,8 +47,8 @@ void FeelPage::begin(const Request& request) {
   state_ = State::kOpening;
   run_owner_ = request.client();
   stop_asked_ = false;
-  shared_.jobs.start(
-      "Starting " + std::string(kind.title), "",
+  shared_.jobs.start_in(
+      "feel", "Starting " + std::string(kind.title), "",
       [opening, chosen, before = world_, number = ++worlds_](const Observer& observer) {
         observer.update("the scene", 0.0);
         opening->world = make_felt_world(opening->setup, chosen, before, number);
@@ -146,8 +146,8 @@ void FeelPage::ended() {
 
 void FeelPage::keep_flight_record(ServoResult servo) {
   const auto ticks = std::make_shared<const std::vector<ServoTick>>(std::move(servo.last_ticks));
-  shared_.jobs.start(
-      "Keeping what happened before the fault", "",
+  shared_.jobs.start_in(
+      "feel", "Keeping what happened before the fault", "",
       [ticks, file = shared_.project.folder() / kFlightRecord](const Observer&) {
         app::refuse_stranger(file, format_flight_record({}));
         write_flight_record(file, *ticks);
@@ -183,8 +183,8 @@ void FeelPage::collect_logs() {
       log_is_whole(ended.fault);
       continue;
     }
-    shared_.jobs.start(
-        "Finishing the log", "", [log = ended.log](const Observer&) { log->commit(); },
+    shared_.jobs.start_in(
+        "feel", "Finishing the log", "", [log = ended.log](const Observer&) { log->commit(); },
         [this](std::exception_ptr error) {
           try {
             if (error) std::rethrow_exception(error);

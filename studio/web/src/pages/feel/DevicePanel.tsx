@@ -41,6 +41,7 @@ export function DevicePanel({ depth_m, deepest_m, onDepth }: { depth_m: number; 
         options={devices.map((one) => ({ value: one.name, label: one.available ? one.title : `${one.title} (not set up)` }))}
         hint={device?.words}
         disabled={!idle}
+        wide
         onChange={(next) => attempt(() => edit("/feel/device", next, `device ${next}`))}
         testId="feel-device"
       />
