@@ -191,8 +191,8 @@ TEST(FeelPage, WritesALog) {
   EXPECT_TRUE(std::filesystem::exists(rig.folder / "feel_2.csv"));
 }
 
-// A disk that takes no more ends the log and not the run.
-TEST(RunLog, AFaultEndsTheLogAlone) {
+// The run hands it over as soon as it is asked to, and at its end.
+TEST(RunLog, IsHandedOverWhenAskedForAndAtTheEnd) {
   testkit::TempDir folder;
   std::vector<EndedLog> ended;
   RunLog log([&](EndedLog one) { ended.push_back(std::move(one)); });
