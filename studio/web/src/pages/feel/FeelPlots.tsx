@@ -47,10 +47,10 @@ export function FeelPlots() {
         actions={
           <>
             <Button kind="quiet" pressed={!byWay} onClick={() => setByWay(false)}>
-              over time
+              by time
             </Button>
             <Button kind="quiet" pressed={byWay} onClick={() => setByWay(true)}>
-              over the way
+              by way
             </Button>
           </>
         }

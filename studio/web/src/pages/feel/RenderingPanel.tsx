@@ -33,6 +33,7 @@ export function RenderingPanel() {
       {model && (
         <Select
           label="Force model"
+          wide
           value={String(settings?.[model.path] ?? model.default)}
           options={model.choices ?? []}
           hint="auto: each texture its own"
