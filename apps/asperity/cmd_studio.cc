@@ -3,8 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "asperity/base/text.h"
+#include "asperity/studio/feel_config.h"
 #include "asperity/studio/studio.h"
 #include "asperity/studio/web_server.h"
 #include "asperity/web/assets.h"
@@ -34,6 +36,9 @@ class StudioCommand : public Command {
     parser().add_flag("--no-open", no_open_, "Do not open a browser");
   }
 
+  // With what the Feel page starts: devices, ports, drivers and limits are set here, never from a browser.
+  std::vector<ConfigField> fields() override { return studio::feel_config_fields(feel_); }
+
   int run(const Observer&) override {
     if (!web::built()) {
       throw Error(
@@ -42,6 +47,7 @@ class StudioCommand : public Command {
           "build again");
     }
     choose_folder();
+    config_.feel = std::make_shared<const studio::FeelConfig>(feel_);
     const bool is_open_to_others = !studio::is_this_machine_only(config_.server.host);
     std::optional<OpenedBrowser> browser;
     // A signal waits until no hand has force on it and everything is saved.
@@ -87,6 +93,7 @@ class StudioCommand : public Command {
   std::string what_;
   bool no_open_ = false;
   studio::StudioConfig config_;
+  studio::FeelConfig feel_;
 };
 
 }  // namespace

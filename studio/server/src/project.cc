@@ -93,10 +93,11 @@ fs::path Project::writable(const std::string& name) const {
   return *path;
 }
 
-std::string Project::free_name(const std::string& stem) const {
+std::string Project::free_name(const std::string& stem, const std::string& extension) const {
   std::error_code error;
-  std::string name = stem;
-  for (int i = 2; fs::exists(fs::symlink_status(folder_ / name, error)); ++i) name = stem + "_" + std::to_string(i);
+  std::string name = stem + extension;
+  for (int i = 2; fs::exists(fs::symlink_status(folder_ / name, error)); ++i)
+    name = stem + "_" + std::to_string(i) + extension;
   return name;
 }
 

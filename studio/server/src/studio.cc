@@ -37,7 +37,8 @@ class Studio {
                 *jobs_,
                 lease_,
                 is_this_machine_only(config.server.host) || config.remote_force,
-                [this](Inbox::Work work) { inbox_.post(std::move(work)); }},
+                [this](Inbox::Work work) { inbox_.post(std::move(work)); },
+                config.feel},
         pages_(make_pages(shared_, config.open)),
         saver_(document_.file(),
                [this](std::string fault) { inbox_.post([this, fault = std::move(fault)] { cannot_save(fault); }); }) {

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "feel/run_log.h"
 #include "feel_rig.h"
 
 namespace asperity::studio {
@@ -186,8 +187,93 @@ TEST(FeelPage, WritesALog) {
   // The next one is another file, and is whole when the run ends.
   EXPECT_EQ(rig.ask("feel.log", {{"on", true}}).result["log"], "feel_2.csv");
   rig.ask("feel.stop");
-  EXPECT_TRUE(rig.pump([&] { return rig.status()["state"] == "idle"; }));
+  EXPECT_TRUE(rig.pump([&] { return rig.status()["state"] == "idle" && rig.status()["log"] == ""; }));
   EXPECT_TRUE(std::filesystem::exists(rig.folder / "feel_2.csv"));
+}
+
+// The run hands it over as soon as it is asked to, and at its end.
+TEST(RunLog, IsHandedOverWhenAskedForAndAtTheEnd) {
+  testkit::TempDir folder;
+  std::vector<EndedLog> ended;
+  RunLog log([&](EndedLog one) { ended.push_back(std::move(one)); });
+  const ServoTick tick;
+  log.add(tick);
+  log.begin(std::make_unique<app::FeelLog>(folder / "whole.csv", false));
+  log.add(tick);
+  log.end();
+  log.add(tick);
+  ASSERT_EQ(ended.size(), 1U);
+  EXPECT_EQ(ended[0].fault, "");
+  ended[0].log->commit();
+  EXPECT_TRUE(std::filesystem::exists(folder / "whole.csv"));
+  // Not asked for, it ends with the run.
+  log.begin(std::make_unique<app::FeelLog>(folder / "second.csv", false));
+  log.add(tick);
+  log.finish();
+  ASSERT_EQ(ended.size(), 2U);
+  EXPECT_NE(ended[1].log, nullptr);
+}
+
+// Whoever acquires the lease after the owner's silence does not bring the force back to the owner's hand.
+TEST(FeelPage, ARunBelongsToTheOneWhoStartedIt) {
+  FeelRig rig;
+  rig.choose_height_maps();
+  rig.own_force();
+  ASSERT_EQ(rig.ask("feel.start").error, "");
+  rig.touch();
+  constexpr ClientId kOther = FeelRig::kOwner + 1;
+  rig.lease.release(FeelRig::kOwner);
+  rig.beating = {kOther};
+  EXPECT_TRUE(rig.pump([&] { return rig.hub.newest().out_N == 0.0; }));
+  const std::size_t ticks = rig.hub.ticks().size();
+  EXPECT_TRUE(rig.pump([&] { return rig.hub.ticks().size() > ticks + 300; }));
+  const std::vector<FeelHub::Tick> silent = rig.hub.ticks();
+  for (std::size_t k = ticks; k < silent.size(); ++k) ASSERT_EQ(silent[k].out_N, 0.0);
+  // By its own word it may go on with it.
+  EXPECT_NE(rig.ask("feel.take", Json::object(), FeelRig::kOwner).error, "");
+  EXPECT_EQ(rig.ask("feel.take", Json::object(), kOther).error, "");
+  EXPECT_EQ(rig.status()["owner"], kOther);
+  EXPECT_TRUE(rig.pump([&] {
+    rig.page.pointed(kOther, Pointer{0, {0.007, 0.017, -0.004}});
+    return rig.hub.newest().out_N > 0.3;
+  }));
+}
+
+TEST(FeelPage, OthersChangeNothingUnderAHandButTheLargestForceDownwards) {
+  FeelRig rig;
+  rig.choose_height_maps();
+  rig.own_force();
+  constexpr ClientId kOther = FeelRig::kOwner + 1;
+  const auto may = [&](ClientId client, const char* path, const Json& value) {
+    try {
+      rig.page.check_edit(client, Edit{path, Json(), value, "", ""});
+      return true;
+    } catch (const Advice&) {
+      return false;
+    }
+  };
+  EXPECT_TRUE(may(kOther, "/feel/settings/render.friction", 0.4));
+  ASSERT_EQ(rig.ask("feel.start").error, "");
+  EXPECT_TRUE(may(FeelRig::kOwner, "/feel/settings/render.friction", 0.4));
+  EXPECT_TRUE(may(FeelRig::kOwner, "/feel/max_force_N", 3.0));
+  for (const char* path : {"/feel/settings/render.friction", "/feel/scene", "/feel", "/feel/device"}) {
+    EXPECT_FALSE(may(kOther, path, 0.4)) << path;
+  }
+  EXPECT_TRUE(may(kOther, "/paint/object", "plate.obj"));
+  EXPECT_TRUE(may(kOther, "/feel/max_force_N", 2.0));
+  rig.document.edit("/feel/max_force_N", 2.0, "limit");
+  EXPECT_FALSE(may(kOther, "/feel/max_force_N", 3.0));
+  EXPECT_FALSE(may(kOther, "/feel/max_force_N", Json()));
+}
+
+TEST(FeelPage, ASceneThatWasWrittenAnewIsReadAnew) {
+  FeelRig rig;
+  rig.document.edit("/feel/scene", "plate.obj", "choose");
+  EXPECT_TRUE(rig.pump([&] { return rig.status()["title"] == "plate.obj"; }));
+  EXPECT_EQ(array_of<std::uint32_t>(rig.ask("feel.open").block, "triangles_0").size(), 6U);
+  std::ofstream(rig.folder / "plate.obj") << "v 0 0 0\nv 0.02 0 0\nv 0.02 0.02 0\nf 1 2 3\n";
+  ASSERT_EQ(rig.ask("feel.start").error, "");
+  EXPECT_EQ(array_of<std::uint32_t>(rig.ask("feel.open").block, "triangles_0").size(), 3U);
 }
 
 TEST(FeelPage, WhatNobodySeesIsNotMade) {

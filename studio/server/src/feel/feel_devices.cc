@@ -17,19 +17,24 @@ namespace {
 constexpr double kHandGoesOn_s = 600.0;
 constexpr double kAbove = 0.1;  // of the scene's size: where the pointer's point begins
 
-constexpr std::array<FeelDeviceKind, 9> kKinds{{{"mouse", "Mouse or pen", false, false},
-                                                {"sim", "Modelled hand", true, false},
-                                                {"replay", "Recorded path", true, false},
-                                                {"haply", "Haply Inverse3", false, true},
-                                                {"openhaptics", "OpenHaptics", false, true},
-                                                {"dhd", "Force Dimension", false, true},
-                                                {"2diy", "Haply 2diy", false, true},
-                                                {"audio", "Voice coil", true, true},
-                                                {"gamepad", "Gamepad", true, true}}};
+// What the command line knows of it, and its name for people. The mouse is the studio's alone.
+FeelDeviceKind kind_of(std::string_view name, std::string_view title) {
+  const std::optional<app::DeviceKind> known = app::device_kind(name);
+  return {name, title, known && known->driven, known && known->felt};
+}
+
+const std::array<FeelDeviceKind, 9>& kinds() {
+  static const std::array<FeelDeviceKind, 9> all{
+      kind_of("mouse", "Mouse or pen"),   kind_of("sim", "Modelled hand"),       kind_of("replay", "Recorded path"),
+      kind_of("haply", "Haply Inverse3"), kind_of("openhaptics", "OpenHaptics"), kind_of("dhd", "Force Dimension"),
+      kind_of("2diy", "Haply 2diy"),      kind_of("audio", "Voice coil"),        kind_of("gamepad", "Gamepad")};
+  return all;
+}
 
 // What is needed that can be told without a try.
 std::string missing(std::string_view name, const FeelConfig& start) {
-  if (name == "2diy" && start.feel.two_diy.port.empty()) return "Its serial port is not set; start the studio with it.";
+  if (name == "2diy" && start.feel.two_diy.port.empty())
+    return "Its serial port is not set: asperity studio --set 2diy.port=/dev/ttyACM0 or such.";
   return "";
 }
 
@@ -74,14 +79,14 @@ app::FeelDrive drive_of(const FeelSetup& setup, const FeelDeviceKind& kind, cons
 }  // namespace
 
 bool is_feel_device(std::string_view name) {
-  for (const FeelDeviceKind& kind : kKinds) {
+  for (const FeelDeviceKind& kind : kinds()) {
     if (kind.name == name) return true;
   }
   return false;
 }
 
 const FeelDeviceKind& feel_device_kind(std::string_view name) {
-  for (const FeelDeviceKind& kind : kKinds) {
+  for (const FeelDeviceKind& kind : kinds()) {
     if (kind.name == name) return kind;
   }
   throw Error("there is no device '" + printable(std::string(name), 100) + "'");
@@ -89,7 +94,7 @@ const FeelDeviceKind& feel_device_kind(std::string_view name) {
 
 Json feel_devices_json(const FeelConfig& start) {
   Json out = Json::array();
-  for (const FeelDeviceKind& kind : kKinds) {
+  for (const FeelDeviceKind& kind : kinds()) {
     const std::string lack = missing(kind.name, start);
     Json each;
     each["name"] = kind.name;

@@ -1,7 +1,6 @@
 #include "feel/feel_json.h"
 
 #include <array>
-#include <filesystem>
 
 namespace asperity::studio {
 
@@ -20,15 +19,6 @@ Json outcome_json(const FeelOutcome& outcome, const ServoConfig& servo) {
   out["timing"] = app::timing_json(outcome.servo.statistics, servo);
   out["text"] = outcome.figures.text();
   return out;
-}
-
-std::string free_log_name(const Project& project) {
-  std::error_code error;
-  std::string name = "feel.csv";
-  for (int k = 2; std::filesystem::exists(std::filesystem::symlink_status(project.folder() / name, error)); ++k) {
-    name = "feel_" + std::to_string(k) + ".csv";
-  }
-  return name;
 }
 
 }  // namespace asperity::studio

@@ -11,6 +11,8 @@
 
 namespace asperity::studio {
 
+struct EndedLogs;
+
 // The Feel page (docs/studio-feel.md): a scene, a device, and the loop between them.
 class FeelPage : public Page {
  public:
@@ -23,6 +25,7 @@ class FeelPage : public Page {
   void start() override;
   void tick(std::int64_t now_ns) override;
   void edited(const Edit& edit) override;
+  void check_edit(ClientId client, const Edit& edit) const override;
   void pointed(ClientId client, const Pointer& pointer) override;
   void stop() override;
 
@@ -38,9 +41,12 @@ class FeelPage : public Page {
   void opened(Opening& opening, std::exception_ptr error);
   void swap_model();
   void ended();
-  void finish_log();
   void set_log(const Request& request);
-  void keep_flight_record(const ServoResult& servo);
+  void collect_logs();
+  void log_is_whole(const std::string& fault);
+  bool belongs_to(ClientId client) const { return run_owner_ == client; }
+  void keep_flight_record(ServoResult servo);
+  void take(const Request& request);
   void permit(std::int64_t now_ns);
   void complain(std::exception_ptr error);
   void tell();
@@ -54,6 +60,7 @@ class FeelPage : public Page {
 
   std::shared_ptr<const FeltWorld> world_;  // the newest that is whole
   std::uint64_t revision_ = 0;              // of the choices
+  std::uint64_t worlds_ = 0;                // made so far
   bool loading_ = false;
   std::string problem_, hint_;
 
@@ -62,7 +69,10 @@ class FeelPage : public Page {
   OpenedFeel running_;  // without device and model
   std::string device_model_;
   std::vector<std::string> warnings_;
+  ClientId run_owner_ = 0;  // whose run it is: only that one's lease commands its force
   std::string log_name_;
+  std::vector<Request> log_requests_;
+  std::shared_ptr<EndedLogs> ended_logs_;
   Json last_run_;
   Json told_;
 };

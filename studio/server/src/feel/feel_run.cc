@@ -2,14 +2,14 @@
 
 #include <utility>
 
-#include "asperity/base/error.h"
 #include "feel/tick_stream.h"
 #include "interrupt.h"
 
 namespace asperity::studio {
 
-FeelRun::FeelRun(FeelRunParts parts, Hub& hub, std::uint64_t number, std::function<void()> ended)
-    : parts_(std::move(parts)), scene_(std::move(parts_.model)), ended_(std::move(ended)) {
+FeelRun::FeelRun(FeelRunParts parts, Hub& hub, std::uint64_t number, std::function<void(EndedLog)> log_ended,
+                 std::function<void()> ended)
+    : parts_(std::move(parts)), scene_(std::move(parts_.model)), log_(std::move(log_ended)), ended_(std::move(ended)) {
   thread_ = std::thread([this, &hub, number] { run(hub, number); });
 }
 
@@ -20,21 +20,6 @@ FeelRun::~FeelRun() {
 
 void FeelRun::point(const Eigen::Vector3d& p_world_m) noexcept {
   if (parts_.targets) parts_.targets->publish(p_world_m);
-}
-
-void FeelRun::start_log(std::unique_ptr<app::FeelLog> log) {
-  const std::lock_guard lock(log_lock_);
-  if (log_) throw Error("a log is being written already");
-  log_ = std::move(log);
-}
-
-void FeelRun::finish_log() {
-  std::unique_ptr<app::FeelLog> log;
-  {
-    const std::lock_guard lock(log_lock_);
-    log = std::move(log_);
-  }
-  if (log) log->commit();
 }
 
 FeelOutcome FeelRun::take_outcome() {
@@ -52,8 +37,7 @@ void FeelRun::run(Hub& hub, std::uint64_t number) {
         [&](const ServoTick& tick) {
           outcome_.figures.add(tick);
           stream.add(tick);
-          const std::lock_guard lock(log_lock_);
-          if (log_) log_->add(tick);
+          log_.add(tick);
         },
         &render_step, &permit_);
     parts_.device->close();
@@ -65,6 +49,7 @@ void FeelRun::run(Hub& hub, std::uint64_t number) {
     outcome_.failure = std::current_exception();
   }
   parts_.device->close();
+  log_.finish();
   ended_();
 }
 

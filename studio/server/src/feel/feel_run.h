@@ -4,7 +4,6 @@
 #include <exception>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -14,7 +13,7 @@
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/snapshot_exchange.h"
 #include "asperity/studio/hub.h"
-#include "feel_log.h"
+#include "feel/run_log.h"
 #include "feel_report.h"
 #include "feel_verdict.h"
 
@@ -42,8 +41,10 @@ struct FeelOutcome {
 // studio's thread and never wait for the servo. Forces are there only while the permit is renewed.
 class FeelRun {
  public:
-  // Begins at once. `ended` is called on the run's thread when the force is zero and the device closed.
-  FeelRun(FeelRunParts parts, Hub& hub, std::uint64_t number, std::function<void()> ended);
+  // Begins at once. On the run's thread are called: `log_ended` for each log, and last `ended`, when the force is zero
+  // and the device closed.
+  FeelRun(FeelRunParts parts, Hub& hub, std::uint64_t number, std::function<void(EndedLog)> log_ended,
+          std::function<void()> ended);
   // Stops it, and waits for its end: the safety layer's ramp.
   ~FeelRun();
   FeelRun(const FeelRun&) = delete;
@@ -56,10 +57,7 @@ class FeelRun {
   // Where the pointer wants the device point; nothing for a device that a hand or a path moves.
   void point(const Eigen::Vector3d& p_world_m) noexcept;
 
-  // Rows from the next tick on. Throws Error if one is being written.
-  void start_log(std::unique_ptr<app::FeelLog> log);
-  // The log is whole then. Throws Error if the file cannot be written.
-  void finish_log();
+  RunLog& log() { return log_; }
 
   // After `ended`: waits for the thread's last steps.
   FeelOutcome take_outcome();
@@ -71,8 +69,7 @@ class FeelRun {
   SnapshotExchange<const RenderModel> scene_;
   ForcePermit permit_;
   std::atomic<bool> stop_{false};
-  std::mutex log_lock_;  // of the log; the servo thread has no part in it
-  std::unique_ptr<app::FeelLog> log_;
+  RunLog log_;
   FeelOutcome outcome_;
   std::function<void()> ended_;
   std::thread thread_;

@@ -34,13 +34,9 @@ bool is_settable(std::string_view path) {
 
 std::vector<ConfigField> settable_fields(FeelConfig& config) {
   std::vector<ConfigField> out;
-  const auto take = [&out](std::vector<ConfigField> fields) {
-    for (ConfigField& field : fields) {
-      if (is_settable(field.path)) out.push_back(std::move(field));
-    }
-  };
-  take(app::feel_fields(config.feel));
-  take(list_fields("pointer", config.pointer));
+  for (ConfigField& field : feel_config_fields(config)) {
+    if (is_settable(field.path)) out.push_back(std::move(field));
+  }
   return out;
 }
 

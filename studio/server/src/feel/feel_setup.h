@@ -7,24 +7,12 @@
 #include <vector>
 
 #include "asperity/base/config.h"
-#include "asperity/device/pointer_device.h"
+#include "asperity/studio/feel_config.h"
 #include "asperity/studio/project.h"
 #include "feel/feel_choices.h"
 #include "feel_scene.h"
-#include "feel_settings.h"
 
 namespace asperity::studio {
-
-// The settings of `asperity feel`, and those of the pointer.
-struct FeelConfig {
-  app::FeelSettings feel;
-  PointerDeviceConfig pointer;
-
-  FeelConfig() {
-    // With the proxy's default friction of 0 a texture is felt best; a hand is there, so it runs by the clock.
-    feel.servo.paced = true;
-  }
-};
 
 // The settings that a browser may change: how the scene is rendered, the modelled hand, the pointer, how loud. None of
 // the safety layer's, of what a device can bear, of ports, hosts, paths or drivers: those are the command line's.

@@ -1,6 +1,9 @@
 #include "feel/felt_world.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "feel/scene_block.h"
 
@@ -8,9 +11,44 @@ namespace asperity::studio {
 
 namespace {
 
+namespace fs = std::filesystem;
+
+// Size and time of a file and of those beside it that belong to it: of wood.texture.json also wood.heights.png.
+void stamp_family(const fs::path& file, std::string& out) {
+  const std::string name = file.filename().string();
+  const std::string stem = name.substr(0, name.find('.'));
+  std::vector<std::string> lines;
+  std::error_code error;
+  for (fs::directory_iterator at(file.parent_path(), error), end; !error && at != end; at.increment(error)) {
+    const std::string other = at->path().filename().string();
+    if (other.substr(0, other.find('.')) != stem) continue;
+    std::error_code gone;
+    const auto written = at->last_write_time(gone);
+    const auto size = at->file_size(gone);
+    lines.push_back(other + ' ' + std::to_string(written.time_since_epoch().count()) + ' ' + std::to_string(size));
+  }
+  std::sort(lines.begin(), lines.end());
+  for (const std::string& line : lines) out += line + '\n';
+}
+
+std::string stamp_of(const FeelSetup& setup, const Scene& scene) {
+  fs::path file(setup.input.scene);
+  if (fs::is_directory(file)) file /= "scene.json";
+  std::string out;
+  stamp_family(file, out);
+  for (const SceneObject& object : scene.objects) {
+    stamp_family(file.parent_path() / object.mesh_file, out);
+    if (!object.material_file.empty()) stamp_family(file.parent_path() / object.material_file, out);
+    for (const SceneTexture& texture : object.textures) stamp_family(file.parent_path() / texture.file, out);
+  }
+  for (const auto& [index, texture] : setup.textures) stamp_family(texture, out);
+  return out;
+}
+
 // Images become a scene with the settings' stiffness and model in it, and are small: they are read each time.
 bool same_source(const FeelSetup& setup, const std::string& source, const std::shared_ptr<const FeltWorld>& before) {
-  return before && setup.input.height_maps.empty() && before->source == source;
+  return before && setup.input.height_maps.empty() && before->source == source &&
+         before->stamp == stamp_of(setup, *before->scene);
 }
 
 std::string source_of(const FeelSetup& setup) {
@@ -34,8 +72,10 @@ std::shared_ptr<const FeltWorld> make_felt_world(FeelSetup setup, const FeelChoi
   out->source = source_of(setup);
   if (same_source(setup, out->source, before)) {
     out->scene = before->scene;
+    out->stamp = before->stamp;
   } else {
     out->scene = std::make_shared<const Scene>(read_chosen_scene(setup));
+    if (setup.input.height_maps.empty()) out->stamp = stamp_of(setup, *out->scene);
   }
   out->block = make_scene_block(*out->scene, make_render_model(*out->scene, setup.config.feel.render_config()));
   out->setup = std::move(setup);

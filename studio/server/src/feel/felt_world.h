@@ -13,6 +13,7 @@ namespace asperity::studio {
 struct FeltWorld {
   FeelSetup setup;
   std::string source;                  // what of the choices the scene was read from
+  std::string stamp;                   // of all files that were read: another one if any has changed
   std::shared_ptr<const Scene> scene;  // as it was read
   BlockWriter block{"feel.scene"};     // as it is drawn
   std::uint64_t revision = 0;

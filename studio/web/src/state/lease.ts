@@ -10,6 +10,8 @@ const me = signal<number | null>(null);
 const held = signal(false);
 let timer = 0;
 
+/** How the server calls this window. */
+export const thisClient: ReadonlySignal<number | null> = me;
 /** Whether this window has the force. */
 export const leaseIsMine: ReadonlySignal<boolean> = held;
 /** Whether another window has it. */

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 
 #include "asperity/studio/calls.h"
 #include "asperity/studio/document.h"
@@ -13,6 +14,8 @@
 
 namespace asperity::studio {
 
+struct FeelConfig;
+
 // What all pages share. Outlives them.
 struct Shared {
   Hub& hub;
@@ -21,7 +24,8 @@ struct Shared {
   Jobs& jobs;
   ForceLease& lease;
   bool may_command_forces = true;  // false: bound to other addresses than this machine's, without the second flag
-  std::function<void(std::function<void()>)> post;  // hands a function to the studio's thread, from any thread
+  std::function<void(std::function<void()>)> post;   // hands a function to the studio's thread, from any thread
+  std::shared_ptr<const FeelConfig> feel = nullptr;  // with what the Feel page starts; null: the defaults
   // Throws Advice where a page does not let `client` make an edit (Page::check_edit).
   std::function<void(ClientId client, const Edit& edit)> check_edit = [](ClientId, const Edit&) {};
 };

@@ -31,8 +31,8 @@ class Project {
   std::filesystem::path existing(const std::string& name) const;
   // The path of something to be written: as above, but it need not exist; its parent must.
   std::filesystem::path writable(const std::string& name) const;
-  // A free name like "scan", "scan_2", … in the folder.
-  std::string free_name(const std::string& stem) const;
+  // A free name like "scan", "scan_2", … in the folder, or "feel.csv", "feel_2.csv", ….
+  std::string free_name(const std::string& stem, const std::string& extension = {}) const;
 
  private:
   std::filesystem::path folder_;

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -10,11 +11,14 @@
 
 namespace asperity::studio {
 
+struct FeelConfig;
+
 struct StudioConfig {
   WebServerConfig server;
   bool remote_force = false;  // forces also where the host is not this machine's own
   std::filesystem::path folder;
-  std::optional<std::string> open;  // recording, scene or mesh in it that is opened first
+  std::optional<std::string> open;         // recording, scene or mesh in it that is opened first
+  std::shared_ptr<const FeelConfig> feel;  // with what the Feel page starts (feel_config.h); null: the defaults
 };
 
 // Runs the studio until `stop`. `started` is given the address. Throws Error if it cannot begin.

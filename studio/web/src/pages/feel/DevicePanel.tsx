@@ -1,7 +1,7 @@
 import { useEffect, useState } from "preact/hooks";
 import { call, link } from "../../net/connection";
 import { edit } from "../../state/document";
-import { giveForce, leaseIsMine, leaseIsOthers, takeForce } from "../../state/lease";
+import { giveForce, leaseIsMine, leaseIsOthers } from "../../state/lease";
 import { attempt, Button } from "../../ui/Button";
 import { FilePicker } from "../../ui/FilePicker";
 import { Lamp } from "../../ui/Lamp";
@@ -10,7 +10,7 @@ import { Select } from "../../ui/Select";
 import { Slider } from "../../ui/Slider";
 import { TextField } from "../../ui/TextField";
 import { feelSection } from "./feelChoices";
-import { feelStatus, startFeeling, stopFeeling } from "./feelStore";
+import { commandsRun, feelStatus, startFeeling, stopFeeling, takeRun } from "./feelStore";
 
 interface Device {
   name: string;
@@ -41,6 +41,7 @@ export function DevicePanel({ depth_m, deepest_m, onDepth }: { depth_m: number; 
         options={devices.map((one) => ({ value: one.name, label: one.available ? one.title : `${one.title} (not set up)` }))}
         hint={device?.words}
         disabled={!idle}
+        wide
         onChange={(next) => attempt(() => edit("/feel/device", next, `device ${next}`))}
         testId="feel-device"
       />
@@ -70,12 +71,12 @@ export function DevicePanel({ depth_m, deepest_m, onDepth }: { depth_m: number; 
           </Button>
         )}
         {status?.may_command_forces &&
-          (leaseIsMine.value ? (
+          (leaseIsMine.value && (idle || commandsRun()) ? (
             <Button onClick={giveForce} hint="The force ramps to zero; another window may take it" testId="feel-give">
               Let the force go
             </Button>
           ) : (
-            <Button onClick={() => attempt(take)} disabled={leaseIsOthers.value} testId="feel-take">
+            <Button onClick={takeRun} disabled={leaseIsOthers.value} testId="feel-take">
               Take the force
             </Button>
           ))}
@@ -83,10 +84,6 @@ export function DevicePanel({ depth_m, deepest_m, onDepth }: { depth_m: number; 
       <Lease />
     </Panel>
   );
-}
-
-async function take(): Promise<void> {
-  if (!(await takeForce())) throw new Error("Another window has the force. Let it go there first.");
 }
 
 function Lease() {

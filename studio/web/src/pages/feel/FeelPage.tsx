@@ -2,13 +2,12 @@ import { useEffect, useState } from "preact/hooks";
 import { call, link } from "../../net/connection";
 import type { Block } from "../../net/block";
 import { attempt } from "../../ui/Button";
-import { useKeys } from "../../ui/keys";
 import { PageLayout } from "../../ui/PageLayout";
 import { DevicePanel } from "./DevicePanel";
 import type { TextureHead, TextureIndex } from "./feelAreas";
 import { feelSection } from "./feelChoices";
 import { FeelPlots } from "./FeelPlots";
-import { feelStatus, followFeel, startFeeling } from "./feelStore";
+import { feelStatus, followFeel } from "./feelStore";
 import { FeelView } from "./FeelView";
 import { HeightMapsPanel } from "./HeightMapsPanel";
 import { RenderingPanel, TexturesPanel } from "./RenderingPanel";
@@ -38,14 +37,6 @@ export default function FeelPage() {
     });
     return () => void (newest = false);
   }, [revision, link.value]);
-  useKeys(
-    [
-      { key: "enter", label: "start", run: () => feelStatus.value?.state === "idle" && startFeeling() },
-      { key: "arrowup", label: "in the picture, with the mouse as device: move over the surface", run: () => undefined },
-      { key: "pagedown", label: "in the picture: press; page up lets go", run: () => undefined },
-    ],
-    "Feel",
-  );
   const maps = kind ? kind === "maps" : (feelSection.value?.height_maps?.length ?? 0) > 0;
   const isViewer = block?.head.height_maps === true;
   const depth = { depth_m, deepest_m: kDeepest_m, onDepth: setDepth };

@@ -41,16 +41,16 @@ export function FeelPlots() {
         <LivePlot label="Forces by component" buffer={forces} series={FORCES.map(({ label, colour }) => ({ label, colour, dashed: label === "to the hand" }))} yAxis={{ label: "force", unit: "N" }} window_s={kWindow_s} leastHeight={0.5} />
       </Panel>
       <Panel
-        title="Texture under the tip"
+        title="Texture"
         grow
         testId="feel-height-plot"
         actions={
           <>
             <Button kind="quiet" pressed={!byWay} onClick={() => setByWay(false)}>
-              over time
+              by time
             </Button>
             <Button kind="quiet" pressed={byWay} onClick={() => setByWay(true)}>
-              over the way
+              by way
             </Button>
           </>
         }

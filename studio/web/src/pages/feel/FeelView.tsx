@@ -1,16 +1,17 @@
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { Box3, type Group, Vector3 } from "three";
 import { dark } from "../../app/settings";
 import type { Block } from "../../net/block";
 import { seriesColour } from "../../plot/colours";
 import { fixed } from "../../ui/format";
-import { leaseIsMine } from "../../state/lease";
+import { leaseIsOthers } from "../../state/lease";
+import { Button } from "../../ui/Button";
 import type { View } from "../../view3d/View";
 import { Viewport } from "../../view3d/Viewport";
 import { pointOf, type Target } from "./drag";
 import { followPointer } from "./feelPointer";
 import { makeFeelScene } from "./feelScene";
-import { feelState, feelStatus, length3 } from "./feelStore";
+import { commandsRun, feelState, feelStatus, length3, takeRun } from "./feelStore";
 import { FORCES, ForceMarks } from "./ForceMarks";
 
 export interface FeelViewProps {
@@ -30,6 +31,7 @@ export function FeelView(props: FeelViewProps) {
   const target = useRef<Target | null>(null);
   const radius_m = useRef(0.02);
   const shape = useRef("");
+  const [ready, setReady] = useState(0);
   const now = useRef(props);
   now.current = props;
   const { block } = props;
@@ -46,7 +48,7 @@ export function FeelView(props: FeelViewProps) {
     const here = JSON.stringify([box.min, box.max]);
     if (here !== shape.current) view.current.fit(surface.current);
     shape.current = here;
-  }, [block, dark.value]);
+  }, [block, dark.value, ready]);
 
   const state = feelState.value;
   useEffect(() => {
@@ -55,9 +57,9 @@ export function FeelView(props: FeelViewProps) {
     if (state) marks.current.show(state, target.current && pointOf(target.current), most_N);
     else marks.current.hide();
     view.current.invalidate();
-  }, [state]);
+  }, [state, ready]);
 
-  const isMouse = feelStatus.value?.state === "running" && feelStatus.value.device === "mouse" && leaseIsMine.value;
+  const isMouse = feelStatus.value?.device === "mouse" && commandsRun();
   return (
     <Viewport
       label={isMouse ? "The scene. The pointer feels: press to touch, Page Down presses deeper, arrows move" : "The scene with its textured areas"}
@@ -67,9 +69,10 @@ export function FeelView(props: FeelViewProps) {
         view.current = made;
         marks.current = new ForceMarks();
         made.scene.add(marks.current.object);
+        setReady((count) => count + 1);
         const end = followPointer(made, {
           surface: () => surface.current,
-          active: () => feelStatus.value?.state === "running" && feelStatus.value.device === "mouse" && leaseIsMine.value,
+          active: () => feelStatus.value?.device === "mouse" && commandsRun(),
           depth_m: () => now.current.depth_m,
           setDepth: (depth_m) => now.current.onDepth(depth_m),
           limits: () => ({ hover_m: kHoverOfScene * radius_m.current, deepest_m: now.current.deepest_m }),
@@ -85,7 +88,24 @@ export function FeelView(props: FeelViewProps) {
       }}
     >
       <Legend />
+      <NoForce />
     </Viewport>
+  );
+}
+
+/** Says that a run goes on without force, and how to take it. */
+function NoForce() {
+  const status = feelStatus.value;
+  if (status?.state !== "running" || !status.may_command_forces || commandsRun()) return null;
+  return (
+    <div class="feel-no-force" role="status" data-testid="feel-no-force">
+      <p>{leaseIsOthers.value ? "Another window has the force. This one shows the run." : "This window does not have the force: the run goes on, and nothing is let through to the hand."}</p>
+      {!leaseIsOthers.value && (
+        <Button kind="primary" onClick={takeRun}>
+          Take the force
+        </Button>
+      )}
+    </div>
   );
 }
 
@@ -101,7 +121,7 @@ function Legend() {
             <path d="M1 5h13M13 1.500 20 5l-7 3.500z" style={{ stroke: seriesColour(colour, 0), fill: seriesColour(colour, 0), strokeWidth: 2 }} />
           </svg>
           <span>{label}</span>
-          <span class="numeric">{state ? fixed(length3(state[key]), 2) : "–"} N</span>
+          <span class="numeric">{state ? fixed(length3(state[key]), 2) : "–"}{"\u202f"}N</span>
         </li>
       ))}
     </ul>

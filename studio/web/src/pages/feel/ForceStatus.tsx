@@ -4,8 +4,8 @@ import { leaseIsMine } from "../../state/lease";
 import { attempt, Button } from "../../ui/Button";
 import { fixed } from "../../ui/format";
 import { useKeys } from "../../ui/keys";
-import { Lamp, type LampState } from "../../ui/Lamp";
-import { feelState, feelStatus, followFeel, isActive, length3, stopFeeling, watchdog } from "./feelStore";
+import { Lamp } from "../../ui/Lamp";
+import { feelState, feelStatus, followFeel, forceWords, isActive, length3, stopFeeling } from "./feelStore";
 import "./forceStatus.css";
 
 /** The state of the forces and their stop, in the header of all pages. Escape stops, also from within a dialog. */
@@ -23,31 +23,19 @@ export function ForceStatus() {
   const status = feelStatus.value;
   const state = feelState.value;
   const active = isActive(status);
-  const [lamp, word] = words();
+  const { lamp, word } = forceWords(status, state, link.value === "open", leaseIsMine.value);
   const out_N = state ? length3(state.out) : 0;
   return (
     <div class="force" role="group" aria-label="Force">
       <Lamp state={lamp} word={word} label="Force:" live testId="force-watchdog" />
       <span class="force-now" data-testid="force-now">
-        {fixed(out_N, 2)} of at most {status ? fixed(status.max_force_N, 1) : "–"} N
+        <span class="visually-hidden">on the hand </span>
+        {fixed(out_N, 2)} <span class="force-words">of at most</span>
+        <span class="force-slash" aria-hidden="true">/</span> {status ? fixed(status.max_force_N, 1) : "–"} N
       </span>
       <Button kind="danger" onClick={stopFeeling} disabled={!active || link.value !== "open"} hint="Ramps the force to zero and ends the run (Esc)" testId="force-stop">
         Stop
       </Button>
     </div>
   );
-}
-
-function words(): [LampState, string] {
-  const status = feelStatus.value;
-  const state = feelState.value;
-  if (link.value !== "open") return ["off", "ended"];
-  if (!status || status.state === "idle") return ["off", "off"];
-  if (status.state === "opening") return ["busy", "starting"];
-  if (status.state === "stopping") return ["busy", "stopping"];
-  if (!state) return ["busy", "running"];
-  if (!status.may_command_forces) return ["warn", "shown only"];
-  if (!leaseIsMine.value && state.limited.includes("not-permitted")) return ["warn", "nobody has it"];
-  const { lamp, word } = watchdog(state);
-  return [lamp, word];
 }

@@ -20,6 +20,7 @@ export function ScenePanel({ maps, onMaps }: { maps: boolean; onMaps(maps: boole
     <Panel title="What is felt" collapsible>
       <Select
         label="Kind"
+        wide
         value={maps ? "maps" : "scene"}
         options={[
           { value: "scene", label: "Scene or mesh" },

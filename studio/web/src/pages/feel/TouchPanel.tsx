@@ -1,28 +1,29 @@
-import { call } from "../../net/connection";
+import { call, link } from "../../net/connection";
+import { leaseIsMine } from "../../state/lease";
 import { Button } from "../../ui/Button";
 import { Figure } from "../../ui/Figure";
 import { Figures } from "../../ui/Figures";
 import { Lamp } from "../../ui/Lamp";
 import { Panel } from "../../ui/Panel";
 import { say } from "../../ui/toast";
-import { causeWords, feelState, feelStatus, length3, watchdog } from "./feelStore";
+import { causeWords, feelState, feelStatus, forceWords, length3 } from "./feelStore";
 
 /** What is felt now, and what limits it. */
 export function TouchPanel() {
   const state = feelState.value;
   const status = feelStatus.value;
-  const dog = state ? watchdog(state) : null;
+  const { lamp, word } = forceWords(status, state, link.value === "open", leaseIsMine.value);
   return (
     <Panel title="Touch">
       <Lamp state={!state ? "off" : state.touching ? "good" : "off"} word={!state ? "not running" : state.touching ? (state.sticking ? "in contact, sticking" : "in contact") : "in the air"} live testId="feel-contact" />
       <Figures>
-        <Figure label="Force on the hand" value={state && length3(state.out)} unit="N" digits={3} testId="feel-out" />
-        <Figure label="Texture height" value={state?.height_m} factor={1e6} unit="µm" digits={3} testId="feel-height" />
-        <Figure label="Speed" value={state?.speed_mps} factor={1e3} unit="mm/s" digits={3} />
-        <Figure label="Way over the surface" value={state?.way_m} factor={1e3} unit="mm" digits={4} />
+        <Figure label="Force on the hand" value={state && floored(length3(state.out), 1e-4)} unit="N" digits={3} testId="feel-out" />
+        <Figure label="Texture height" value={state && floored(state.height_m, 1e-9)} factor={1e6} unit="µm" digits={3} testId="feel-height" />
+        <Figure label="Speed" value={state && floored(state.speed_mps, 1e-5)} factor={1e3} unit="mm/s" digits={3} />
+        <Figure label="Way over the surface" value={state && floored(state.way_m, 1e-6)} factor={1e3} unit="mm" digits={4} />
       </Figures>
       <h3>Safety</h3>
-      <Lamp state={dog?.lamp ?? "off"} word={dog?.word ?? "off"} label="Watchdog:" testId="feel-watchdog" />
+      <Lamp state={lamp} word={word} label="Force:" testId="feel-watchdog" />
       {state && state.limited.length > 0 && <p class="field-hint">{state.limited.map(causeWords).join(", ")}</p>}
       <Figures>
         <Figure label="Largest force" value={status?.max_force_N} unit="N" digits={3} testId="feel-limit" />
@@ -42,6 +43,9 @@ export function TouchPanel() {
     </Panel>
   );
 }
+
+/** What is below what can be told apart is nothing. */
+const floored = (value: number, least: number): number => (Math.abs(value) < least ? 0 : value);
 
 function LastRun() {
   const run = feelStatus.value?.last_run;

@@ -2,7 +2,7 @@
 import { effect, signal, type ReadonlySignal } from "@preact/signals";
 import type { Block } from "../../net/block";
 import { call, link, onEvent, subscribe } from "../../net/connection";
-import { followLease, leaseIsMine, takeForce } from "../../state/lease";
+import { followLease, leaseIsMine, takeForce, thisClient } from "../../state/lease";
 
 export interface FeelStatus {
   state: "idle" | "opening" | "running" | "stopping";
@@ -11,6 +11,8 @@ export interface FeelStatus {
   device_model: string;
   rate_Hz: number;
   real_forces: boolean;
+  /** Whose run it is. */
+  owner: number | null;
   loading: boolean;
   revision: number | null;
   title: string;
@@ -79,6 +81,10 @@ export function stateOf(block: Block): FeelState {
   };
 }
 
+/** Whether this window's force is let through to the run. */
+export const commandsRun = (): boolean =>
+  newestStatus.value?.state === "running" && leaseIsMine.value && newestStatus.value.owner === thisClient.value;
+
 export const isActive = (status: FeelStatus | null): boolean => status !== null && status.state !== "idle";
 
 function take(status: FeelStatus): void {
@@ -109,6 +115,12 @@ export async function startFeeling(): Promise<void> {
   take(await call<FeelStatus>("feel.start"));
 }
 
+/** Takes the force, and with it a run that goes on without one. */
+export async function takeRun(): Promise<void> {
+  if (!(await takeForce())) throw new Error("Another window has the force. Let it go there first.");
+  if (newestStatus.value?.state === "running") await call("feel.take");
+}
+
 /** Any window may stop. */
 export const stopFeeling = (): Promise<unknown> => call("feel.stop");
 
@@ -133,6 +145,19 @@ export function watchdog(state: FeelState): { lamp: "good" | "warn" | "bad"; wor
   if (state.starts_inside) return { lamp: "warn", word: "inside: leave the object first" };
   const slight = state.limited[0];
   return slight ? { lamp: "warn", word: causeWords(slight) } : { lamp: "good", word: "all well" };
+}
+
+/** How the force stands, for the header and the panel alike. */
+export function forceWords(status: FeelStatus | null, state: FeelState | null, connected: boolean, mine: boolean): { lamp: "off" | "good" | "warn" | "bad" | "busy"; word: string } {
+  if (!connected) return { lamp: "off", word: "ended" };
+  if (!status || status.state === "idle") return { lamp: "off", word: "off" };
+  if (status.state === "opening") return { lamp: "busy", word: "starting" };
+  if (status.state === "stopping") return { lamp: "busy", word: "stopping" };
+  if (!state) return { lamp: "busy", word: "running" };
+  if (!status.may_command_forces) return { lamp: "warn", word: "shown only" };
+  const { lamp, word } = watchdog(state);
+  if (state.limited.includes("not-permitted") && lamp === "warn") return { lamp, word: mine ? "not this window's run" : "nobody has it" };
+  return { lamp, word };
 }
 
 export const length3 = ([x, y, z]: Vector): number => Math.hypot(x, y, z);

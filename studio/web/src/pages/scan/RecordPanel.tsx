@@ -23,7 +23,7 @@ export function RecordPanel() {
       <div class={`scan-big scan-big-${now?.recorder?.storing ? "on" : "off"}`}>
         <Lamp state={words.lamp} word={words.word} live testId="scan-record-state" />
         <span class="scan-time" data-testid="scan-recorded">
-          {fixed(now?.recorder?.recorded_s ?? null, 1)} s
+          {fixed(now?.recorder?.recorded_s ?? null, 1)}{"\u202f"}s
         </span>
       </div>
       <div class="scan-buttons">

@@ -35,7 +35,7 @@ export function ScanView() {
       <div class="scan-colours" aria-hidden="true">
         <span>0 N</span>
         <span class="scan-colours-bar" style={{ background: `linear-gradient(90deg, ${ramp()})` }} />
-        <span>{strongest_N} N</span>
+        <span>{strongest_N}{"\u202f"}N</span>
         <span class="scan-colours-air" style={{ background: cssColour(pathColour(0, 0, dark.value)) }} />
         <span>in the air</span>
       </div>

@@ -1,0 +1,228 @@
+#include "feel/feel_page.h"
+
+#include <mutex>
+#include <utility>
+
+#include "asperity/acquire/host_clock.h"
+#include "asperity/base/error.h"
+#include "asperity/device/write_flight_record.h"
+#include "feel/ended_logs.h"
+#include "feel/feel_json.h"
+#include "our_file.h"
+
+// The run's side of the page: its start and end, whose it is, its log.
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr const char* kFlightRecord = "asperity-feel.flight.csv";
+
+}  // namespace
+
+// What the job that opens a device hands over.
+struct FeelPage::Opening {
+  FeelSetup setup;
+  std::uint64_t revision = 0;  // of the choices
+  std::shared_ptr<const FeltWorld> world;
+  OpenedFeel opened;
+};
+
+void FeelPage::begin(const Request& request) {
+  if (state_ != State::kIdle) throw Advice("a scene is being felt already", "Stop it first.");
+  const FeelChoices chosen = choices();
+  const FeelDeviceKind& kind = feel_device_kind(chosen.device);
+  if (kind.felt && !shared_.may_command_forces) {
+    throw Advice("forces are not commanded from here",
+                 "The studio listens to other machines: start it with --remote-force, or look on with the mouse.");
+  }
+  const std::optional<ClientId> owner = shared_.lease.owner(host_now_ns());
+  if (owner && *owner != request.client()) {
+    throw Advice("another window has the force", "Let it go there, or stop the run there, first.");
+  }
+  auto opening = std::make_shared<Opening>();
+  opening->revision = revision_;
+  opening->setup = resolve_choices(chosen, start_, shared_.project);
+  opening->setup.config.feel.servo.safety.max_force_N = start_.feel.servo.safety.max_force_N;
+  state_ = State::kOpening;
+  run_owner_ = request.client();
+  stop_asked_ = false;
+  shared_.jobs.start_in(
+      "feel", "Starting " + std::string(kind.title), "",
+      [opening, chosen, before = world_, number = ++worlds_](const Observer& observer) {
+        observer.update("the scene", 0.0);
+        opening->world = make_felt_world(opening->setup, chosen, before, number);
+        opening->setup = opening->world->setup;
+        opening->opened = open_feel(opening->setup, *opening->world->scene, observer);
+      },
+      [this, request, opening](std::exception_ptr error) {
+        opened(*opening, error);
+        if (!error) return request.answer(status());
+        try {
+          std::rethrow_exception(error);
+        } catch (const std::exception& fault) {
+          request.refuse(fault);
+        }
+      });
+  tell();
+}
+
+void FeelPage::opened(Opening& opening, std::exception_ptr error) {
+  state_ = State::kIdle;
+  if (error || stop_asked_) return tell();
+  const bool newer = revision_ != opening.revision;
+  running_ = std::move(opening.opened);
+  FeelRunParts parts;
+  parts.device = std::move(running_.device);
+  parts.model = std::move(running_.model);
+  parts.servo = running_.config.feel.servo;
+  parts.targets = running_.targets;
+  parts.drive = std::move(running_.drive);
+  parts.felt = running_.kind.felt;
+  device_model_ = running_.info.model;
+  warnings_ = running_.warnings;
+  last_run_ = Json();
+  world_ = opening.world;
+  problem_.clear();
+  hint_.clear();
+  const std::uint64_t number = ++run_number_;
+  const auto log_ended = [this, logs = ended_logs_](EndedLog log) {
+    {
+      const std::lock_guard guard(logs->lock);
+      logs->logs.push_back(std::move(log));
+    }
+    shared_.post([this] { collect_logs(); });
+  };
+  const auto run_ended = [this, number] {
+    shared_.post([this, number] {
+      if (run_ && number == run_number_) ended();
+    });
+  };
+  run_ = std::make_unique<FeelRun>(std::move(parts), shared_.hub, number, log_ended, run_ended);
+  run_->permit().limit(largest_force_N());
+  state_ = State::kRunning;
+  permit(host_now_ns());
+  if (newer) load();
+  tell();
+}
+
+// Another window goes on with the run: by its own word, and with the lease.
+void FeelPage::take(const Request& request) {
+  if (state_ == State::kIdle) throw Advice("nothing is felt at the moment", "Start.");
+  if (shared_.lease.owner(host_now_ns()) != request.client()) {
+    throw Advice("another window has the force", "Let it go there first.");
+  }
+  run_owner_ = request.client();
+  request.done();
+  tell();
+}
+
+void FeelPage::permit(std::int64_t now_ns) {
+  if (!run_) return;
+  if (state_ == State::kRunning && shared_.may_command_forces && shared_.lease.owner(now_ns) == run_owner_) {
+    run_->permit().renew();
+  } else {
+    run_->permit().revoke();
+  }
+}
+
+void FeelPage::tick(std::int64_t now_ns) { permit(now_ns); }
+
+void FeelPage::pointed(ClientId client, const Pointer& pointer) {
+  if (!run_ || !belongs_to(client) || shared_.lease.owner(host_now_ns()) != client) return;
+  run_->point({pointer.p_world_m[0], pointer.p_world_m[1], pointer.p_world_m[2]});
+}
+
+void FeelPage::ended() {
+  FeelOutcome outcome = run_->take_outcome();
+  run_.reset();
+  state_ = State::kIdle;
+  last_run_ = outcome_json(outcome, running_.config.feel.servo);
+  if (outcome.failure) complain(outcome.failure);
+  if (outcome.servo.end == ServoEnd::kFault) keep_flight_record(outcome.servo);
+  running_ = {};
+  tell();
+}
+
+void FeelPage::keep_flight_record(ServoResult servo) {
+  const auto ticks = std::make_shared<const std::vector<ServoTick>>(std::move(servo.last_ticks));
+  shared_.jobs.start_in(
+      "feel", "Keeping what happened before the fault", "",
+      [ticks, file = shared_.project.folder() / kFlightRecord](const Observer&) {
+        app::refuse_stranger(file, format_flight_record({}));
+        write_flight_record(file, *ticks);
+      },
+      [this](std::exception_ptr error) {
+        if (error) return complain(error);
+        warnings_.push_back(std::string("what happened before the fault is in ") + kFlightRecord);
+        tell();
+      });
+}
+
+void FeelPage::set_log(const Request& request) {
+  if (!run_) throw Advice("nothing is felt at the moment", "Start, then log.");
+  if (!request.flag("on")) {
+    if (log_name_.empty()) throw Advice("no log is being written", "Begin one first.");
+    log_requests_.push_back(request);
+    return run_->log().end();
+  }
+  if (!log_name_.empty()) throw Advice("a log is being written already", "Finish it first.");
+  const std::string name = shared_.project.free_name("feel", ".csv");
+  run_->log().begin(std::make_unique<app::FeelLog>(shared_.project.writable(name), running_.config.feel.servo.timed));
+  log_name_ = name;
+  Json out;
+  out["log"] = name;
+  request.answer(out);
+  tell();
+}
+
+// Brings the logs that a run has done with to their files, which may take a while.
+void FeelPage::collect_logs() {
+  for (EndedLog& ended : ended_logs_->take()) {
+    if (!ended.log) {
+      log_is_whole(ended.fault);
+      continue;
+    }
+    shared_.jobs.start_in(
+        "feel", "Finishing the log", "", [log = ended.log](const Observer&) { log->commit(); },
+        [this](std::exception_ptr error) {
+          try {
+            if (error) std::rethrow_exception(error);
+            log_is_whole("");
+          } catch (const std::exception& fault) {
+            log_is_whole(fault.what());
+          }
+        });
+  }
+}
+
+void FeelPage::log_is_whole(const std::string& fault) {
+  Json out;
+  out["log"] = std::exchange(log_name_, {});
+  if (!fault.empty()) {
+    problem_ = "the log is lost: " + fault;
+    hint_ = "Free some space, or see whether the folder may be written; the run goes on.";
+  }
+  for (const Request& request : std::exchange(log_requests_, {})) {
+    fault.empty() ? request.answer(out) : request.refuse(Advice(problem_, hint_));
+  }
+  tell();
+}
+
+void FeelPage::stop() {
+  if (!run_) return;
+  run_->stop();
+  run_->take_outcome();
+  run_.reset();
+  state_ = State::kIdle;
+  // Nothing is brought to this thread any more.
+  for (const EndedLog& ended : ended_logs_->take()) {
+    try {
+      if (ended.log) ended.log->commit();
+    } catch (const std::exception&) {
+      continue;  // there is nobody left to be told
+    }
+  }
+}
+
+}  // namespace asperity::studio
