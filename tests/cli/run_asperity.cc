@@ -8,10 +8,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <string>
 #include <thread>
 
 extern char** environ;
@@ -46,6 +48,7 @@ class Process {
   }
 
   void send(int signal) const { ::kill(id_, signal); }
+  pid_t pid() const { return id_; }
 
   Outcome wait() {
     Outcome outcome;
@@ -78,12 +81,25 @@ class Process {
   std::array<int, 2> err_{};
 };
 
+// Until the process has a handler for the signal: on a busy machine it takes a second to load. 30 s at most.
+void wait_until_caught(pid_t process, int signal) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (std::chrono::steady_clock::now() < end) {
+    std::ifstream status("/proc/" + std::to_string(process) + "/status");
+    for (std::string line; std::getline(status, line);) {
+      if (line.starts_with("SigCgt:") && (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1U) != 0) return;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+}
+
 }  // namespace
 
 Outcome run(const std::vector<std::string>& arguments) { return Process(arguments, "").wait(); }
 
 Outcome run_and_signal(const std::vector<std::string>& arguments, int signal, std::chrono::milliseconds delay) {
   Process process(arguments, "");
+  if (signal != SIGKILL) wait_until_caught(process.pid(), signal);
   std::this_thread::sleep_for(delay);
   process.send(signal);
   return process.wait();

@@ -49,14 +49,15 @@ TEST(Spine, ARecordingBecomesATexture) {
   EXPECT_LT(std::abs(json["accuracy"]["length_error_percent"].get<double>()), 1.0);
   EXPECT_EQ(json["config"]["method"], "fused");
 
-  const auto files = contents(dir / "out");
-  Words names;
-  for (const auto& [name, text] : files) names.push_back(name);
-  EXPECT_THAT(names, ::testing::ElementsAre("profile.csv", "result.json", "texture.json", "trajectory.csv"));
-  EXPECT_EQ(files[1].second, outcome.out);
-  EXPECT_THAT(files[0].second, ::testing::StartsWith("s_m,height_m,sigma_m,texture_m,force_N,speed_mps\n"));
-  EXPECT_THAT(files[3].second, ::testing::StartsWith("t_ns,px_m,py_m,pz_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,sigma_m\n"));
-  EXPECT_EQ(nlohmann::json::parse(files[2].second)["model"], "fourier1d");
+  std::map<std::string, std::string> files;
+  for (auto& [name, text] : contents(dir / "out")) files[name] = text;
+  // The report needs the studio's app, which a machine without Node.js leaves out.
+  EXPECT_EQ(files.size(), files.contains("report.html") ? 5U : 4U);
+  EXPECT_EQ(files["result.json"], outcome.out);
+  EXPECT_THAT(files["profile.csv"], ::testing::StartsWith("s_m,height_m,sigma_m,texture_m,force_N,speed_mps\n"));
+  EXPECT_THAT(files["trajectory.csv"],
+              ::testing::StartsWith("t_ns,px_m,py_m,pz_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,sigma_m\n"));
+  EXPECT_EQ(nlohmann::json::parse(files["texture.json"])["model"], "fourier1d");
   EXPECT_EQ(run({"roughness", (dir / "out" / "profile.csv").string()}).code, 0);
 }
 
