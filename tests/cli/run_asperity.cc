@@ -81,13 +81,16 @@ class Process {
   std::array<int, 2> err_{};
 };
 
-// Until the process has a handler for the signal: on a busy machine it takes a second to load. 30 s at most.
+// Until the process has a handler for the signal, or waits for it: on a busy machine it takes a second to load. 30 s at
+// most.
 void wait_until_caught(pid_t process, int signal) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   while (std::chrono::steady_clock::now() < end) {
     std::ifstream status("/proc/" + std::to_string(process) + "/status");
     for (std::string line; std::getline(status, line);) {
-      if (line.starts_with("SigCgt:") && (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1U) != 0) return;
+      if ((line.starts_with("SigCgt:") || line.starts_with("SigBlk:")) &&
+          (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1U) != 0)
+        return;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
