@@ -56,10 +56,10 @@ export default async function feel({ page, browser, openPage, studio, step, fold
   });
 
   await step("dragged over the texture: a force, and heights that change", async () => {
-    await press(0.45, 0.5);
+    await press(0.45, 0.48);
     const heights = new Set();
     for (let i = 0; i < 40; ++i) {
-      await move(0.45 + 0.0025 * i, 0.5);
+      await move(0.45 + 0.0025 * i, 0.475);
       heights.add(await height_um());
     }
     ok(heights.size > 5, `heights change along the way: ${[...heights].join(" ")}`);
