@@ -2,6 +2,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "asperity/base/output.h"
@@ -9,12 +10,19 @@
 #include "asperity/studio/format_report.h"
 #include "asperity/studio/read_report_item.h"
 #include "commands.h"
+#include "our_file.h"
 
 namespace asperity::app {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+// What format_report writes first.
+bool begins_as_report(std::string_view begin) {
+  return begin.starts_with("<!doctype html>\n") &&
+         begin.find("<meta name=\"generator\" content=\"Asperity\">\n") != std::string_view::npos;
+}
 
 class ReportCommand : public Command {
  public:
@@ -29,6 +37,8 @@ class ReportCommand : public Command {
 
   int run(const Observer& observer) override {
     if (output_.empty() && folders_.size() > 1) throw UsageError("several folders need -o FILE.html");
+    const fs::path file = output_.empty() ? fs::path(folders_.front()) / "report.html" : fs::path(output_);
+    refuse_stranger(file, begins_as_report, folders_);
     std::vector<studio::ReportItem> items;
     for (const std::string& folder : folders_) {
       for (const fs::path& result : studio::find_results(folder)) {
@@ -40,7 +50,6 @@ class ReportCommand : public Command {
         }
       }
     }
-    const fs::path file = output_.empty() ? fs::path(folders_.front()) / "report.html" : fs::path(output_);
     const std::string page = studio::format_report(items);
     observer.update("writing", 1.0);
     write_file(file, page);

@@ -75,6 +75,28 @@ TEST_F(Report, IsMadeAnewFromTheFiles) {
   EXPECT_EQ(run({"process", (dir / "rec1").string(), "-o", (dir / "out/rec1").string(), "--quiet"}).code, 0);
 }
 
+TEST_F(Report, LeavesFilesOfOthersAlone) {
+  ASSERT_EQ(process("out").code, 0);
+  const auto report = [&](const fs::path& file) {
+    return run({"report", (dir / "out/rec1").string(), "-o", file.string()});
+  };
+  const std::string page = "<!doctype html>\n<title>My page</title>\n";
+  write_text(dir / "notes.html", page);
+  fs::create_symlink(dir / "notes.html", dir / "link.html");
+  for (const char* name : {"notes.html", "link.html", "out/rec1/result.json", "out"}) {
+    const Outcome outcome = report(dir / name);
+    EXPECT_EQ(outcome.code, 1) << name;
+    EXPECT_THAT(outcome.err, HasSubstr("nothing was changed")) << name;
+  }
+  EXPECT_EQ(text(dir / "notes.html"), page);
+  // The one that would be written without -o, too.
+  write_text(dir / "out/rec1/report.html", page);
+  EXPECT_EQ(run({"report", (dir / "out/rec1").string()}).code, 1);
+  EXPECT_EQ(text(dir / "out/rec1/report.html"), page);
+  if (!web::built()) return;
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(report(dir / "new.html").code, 0) << "its own is written anew";
+}
+
 TEST_F(Report, SaysWhatIsWrong) {
   ASSERT_EQ(process("out").code, 0);
   const Outcome no_file = run({"report", (dir / "out/rec1").string(), (dir / "out/rec2").string()});

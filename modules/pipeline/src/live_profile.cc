@@ -20,6 +20,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min() / 2;
 constexpr double kBandOverCutoff = 4.0;  // where the high-pass' group delay is stated
 
 CausalBaseConfig base_config(const LiveProfileConfig& config) {
@@ -62,7 +63,8 @@ struct LiveProfile::Impl {
   bool any = false;  // a sample has been in contact: the arc length runs
   bool in_run = false;
   Vector3d last_p_m = Vector3d::Zero();
-  std::int64_t last_tip_ns = std::numeric_limits<std::int64_t>::min();
+  std::int64_t last_tip_ns = kNever;
+  std::int64_t last_row_ns = kNever;
   std::int64_t moved_ns = 0;  // when the arc length last grew noticeably
   double moved_s_m = 0.0;
 
@@ -83,6 +85,7 @@ struct LiveProfile::Impl {
   void add(std::size_t i);
   void cut();
   void take_cells();
+  void clock_set_back();
 };
 
 void LiveProfile::Impl::begin_profile() {
@@ -110,6 +113,15 @@ void LiveProfile::Impl::take_cells() {
     ready.points.push_back(point);
   }
   cells.clear();
+}
+
+// What remembers times begins anew.
+void LiveProfile::Impl::clock_set_back() {
+  cut();
+  high_pass.cut();
+  contact.reset();
+  base.reset();
+  last_tip_ns = moved_ns = kNever;
 }
 
 void LiveProfile::Impl::cut() {
@@ -181,8 +193,7 @@ void LiveProfile::Impl::add(std::size_t i) {
     }
   }
   out.contact = touching;
-  if (broken || last_tip_ns == std::numeric_limits<std::int64_t>::min() ||
-      seconds(t_ns - last_tip_ns) >= config.tip_period_s) {
+  if (broken || last_tip_ns == kNever || seconds(t_ns - last_tip_ns) >= config.tip_period_s) {
     ready.tips.push_back(out);
     last_tip_ns = t_ns;
   }
@@ -206,6 +217,8 @@ void LiveProfile::push(const ProbeSample& row) {
   const std::uint64_t refused = self.tip.counts().rows_refused;
   self.tip.push(row);
   if (self.tip.counts().rows_refused == refused) {
+    if (row.t_ns <= self.last_row_ns) self.clock_set_back();
+    self.last_row_ns = row.t_ns;
     self.contact.push(row.t_ns, self.calibration.force.force_N(row.force_counts));
   }
   self.advance();
@@ -238,6 +251,7 @@ void LiveProfile::restart() { impl_->begin_profile(); }
 
 void LiveProfile::configure(const LiveProfileConfig& config) {
   Impl& self = *impl_;
+  Impl(self.calibration, self.info, config);  // throws what there is to be thrown, before anything has changed
   const LiveProfileConfig before = std::exchange(self.config, config);
   if (!same(before.tip, config.tip) || !same(before.fused, config.fused) ||
       before.heading_span_s != config.heading_span_s) {

@@ -24,7 +24,7 @@ void CausalGrid::fill_holes(std::int64_t up_to_cell, std::vector<Sample>& out) {
   if (any_cell_ && up_to_cell - next_cell_ < kMostHoles) {
     for (; next_cell_ < up_to_cell; ++next_cell_) {
       Sample hole;
-      hole.t_ns = out.empty() ? origin_ns_ : out.back().t_ns;
+      hole.t_ns = last_ns_;
       hole.s_m = static_cast<double>(next_cell_) * spacing_m_;
       hole.height_m = hole.sigma_m = hole.force_N = hole.speed_mps = kNan;
       out.push_back(hole);
@@ -53,6 +53,7 @@ void CausalGrid::add_part(std::int64_t number, const Knot& at, std::vector<Sampl
   const double w = 1.0 / kParts;
   Sample point;
   point.t_ns = origin_ns_ + std::llround(w * cell_sum_.t * 1e9);
+  last_ns_ = point.t_ns;
   point.s_m = static_cast<double>(cell) * spacing_m_;
   point.height_m = w * cell_sum_.height;
   point.sigma_m = w * cell_sum_.sigma;

@@ -108,18 +108,30 @@ void ClientTable::send(ClientId id, std::string bytes, bool is_text) {
   if (const auto found = clients_.find(id); found != clients_.end()) push(found->second, frame);
 }
 
-bool ClientTable::begin_call(ClientId id) {
+bool ClientTable::begin_call(ClientId id, std::uint64_t call, std::size_t bytes) {
   const std::lock_guard lock(mutex_);
   const auto found = clients_.find(id);
-  if (found == clients_.end() || found->second.unanswered >= kMostUnanswered) return false;
-  ++found->second.unanswered;
+  if (found == clients_.end() || found->second.unanswered.size() >= kMostUnanswered) return false;
+  found->second.unanswered.emplace(call, bytes);
+  found->second.unanswered_bytes += bytes;
   return true;
 }
 
-void ClientTable::end_call(ClientId id) {
+void ClientTable::end_call(ClientId id, std::uint64_t call) {
   const std::lock_guard lock(mutex_);
   const auto found = clients_.find(id);
-  if (found != clients_.end() && found->second.unanswered > 0) --found->second.unanswered;
+  if (found == clients_.end()) return;
+  Client& client = found->second;
+  const auto ended = client.unanswered.find(call);
+  if (ended == client.unanswered.end()) return;
+  client.unanswered_bytes -= ended->second;
+  client.unanswered.erase(ended);
+}
+
+bool ClientTable::is_full(ClientId id) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = clients_.find(id);
+  return found != clients_.end() && found->second.unanswered_bytes > kMostUnansweredBytes;
 }
 
 ClientTable::State ClientTable::next(ClientId id, OutFrame& frame) {

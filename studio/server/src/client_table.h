@@ -23,6 +23,7 @@ class ClientTable {
 
   static constexpr std::size_t kMostTopics = 64;
   static constexpr std::size_t kMostUnanswered = 1000;
+  static constexpr std::size_t kMostUnansweredBytes = 4U << 20U;
 
   explicit ClientTable(std::size_t most_clients) : most_clients_(most_clients) {}
 
@@ -40,9 +41,12 @@ class ClientTable {
   void send_all(std::string text);
   void send(ClientId client, std::string bytes, bool is_text);
 
-  // Counts the calls that a client waits for. begin_call is false if it would be one too many.
-  bool begin_call(ClientId client);
-  void end_call(ClientId client);
+  // Counts the calls that a client waits for, and the bytes of their messages. begin_call is false if it would be one
+  // too many. An answer to be sent comes after its end_call.
+  bool begin_call(ClientId client, std::uint64_t call, std::size_t bytes);
+  void end_call(ClientId client, std::uint64_t call);
+  // True if so many bytes of calls wait that no more should be read from it.
+  bool is_full(ClientId client) const;
 
   enum class State { kFrame, kNothing, kGone };
   // The next frame for a client. kNothing: it will be woken when there is one. kGone: it has left or is cut.
@@ -60,7 +64,8 @@ class ClientTable {
     Wake wake;
     Outbox outbox;
     std::set<std::string, std::less<>> topics;
-    std::size_t unanswered = 0;
+    std::multimap<std::uint64_t, std::size_t> unanswered;  // the bytes of each call, by its id
+    std::size_t unanswered_bytes = 0;
     bool awake = false;
     bool cut = false;
   };

@@ -18,15 +18,19 @@ namespace {
 constexpr std::uint64_t kLargestId = std::uint64_t{1} << 53;  // beyond it the browser's numbers skip
 constexpr std::size_t kPointerBytes = 32;
 
-// Everything that costs more than its length is bounded while it is read: depth, and the keys of an object, which an
-// ordered object searches one by one.
+// Everything that costs more than its length is bounded while it is read: depth, the keys of an object, which an
+// ordered object searches one by one, and values, of which each takes more room than its text.
 Json parse_bounded(std::string_view text) {
   std::vector<std::set<std::string>> open;
-  const auto watch = [&open](int depth, Json::parse_event_t event, Json& parsed) {
+  std::size_t values = 0;
+  const auto watch = [&open, &values](int depth, Json::parse_event_t event, Json& parsed) {
     using Event = Json::parse_event_t;
     const bool opens = event == Event::object_start || event == Event::array_start;
     if (opens && static_cast<std::size_t>(depth) >= kMaxMessageDepth) {
       throw Error(fmt::format("a message is nested more than {} deep", kMaxMessageDepth));
+    }
+    if ((opens || event == Event::value) && ++values > kMaxMessageValues) {
+      throw Error(fmt::format("a message has more than {} values", kMaxMessageValues));
     }
     if (event == Event::object_start) open.emplace_back();
     if (event == Event::object_end) open.pop_back();

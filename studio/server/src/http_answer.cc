@@ -1,7 +1,5 @@
 #include "http_answer.h"
 
-#include <algorithm>
-
 #include "asperity/base/text.h"
 #include "asperity/studio/block.h"
 #include "secret.h"
@@ -9,8 +7,6 @@
 namespace asperity::studio {
 
 namespace {
-
-constexpr std::string_view kDownload = "/download/";
 
 bool has_session(const HttpRequest& request, const Site& site) {
   if (!request.cookie) return false;
@@ -75,61 +71,6 @@ HttpAnswer answer_session(const HttpRequest& request, const Site& site) {
   return answer;
 }
 
-std::optional<int> hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return std::nullopt;
-}
-
-// The name of a file for download from what stands in the address; none for one that could lead elsewhere.
-std::optional<std::string> download_name(std::string_view written) {
-  std::string name;
-  for (std::size_t i = 0; i < written.size(); ++i) {
-    if (written[i] != '%') {
-      name += written[i];
-      continue;
-    }
-    const auto high = i + 2 < written.size() ? hex_digit(written[i + 1]) : std::nullopt;
-    const auto low = i + 2 < written.size() ? hex_digit(written[i + 2]) : std::nullopt;
-    if (!high || !low) return std::nullopt;
-    name += static_cast<char>(16 * *high + *low);
-    i += 2;
-  }
-  const auto bad = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F || c == '/' || c == '\\'; };
-  if (name.empty() || name.size() > 255 || name.front() == '.' || !is_utf8(name)) return std::nullopt;
-  if (std::any_of(name.begin(), name.end(), bad)) return std::nullopt;
-  return name;
-}
-
-std::string percent_encoded(const std::string& name) {
-  constexpr char kDigits[] = "0123456789ABCDEF";
-  std::string out;
-  for (const char c : name) {
-    const auto byte = static_cast<unsigned char>(c);
-    if ((c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '.' || c == '-' ||
-        c == '_') {
-      out += c;
-    } else {
-      out += {'%', kDigits[byte >> 4U], kDigits[byte & 15U]};
-    }
-  }
-  return out;
-}
-
-HttpAnswer answer_download(const HttpRequest& request, std::string_view written, const Site& site) {
-  if (!has_session(request, site)) return refusal(403, "open the address that the studio printed");
-  const auto name = download_name(written);
-  auto bytes = name ? site.download(*name) : std::nullopt;
-  if (!bytes) return refusal(404, "there is nothing here");
-  HttpAnswer answer;
-  answer.headers = safety_headers(request.host);
-  answer.headers.emplace_back("Content-Type", "application/octet-stream");
-  answer.headers.emplace_back("Content-Disposition", "attachment; filename*=UTF-8''" + percent_encoded(*name));
-  answer.body = std::move(*bytes);
-  return answer;
-}
-
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> safety_headers(const std::optional<std::string>& host) {
@@ -173,7 +114,6 @@ HttpAnswer answer_http(const HttpRequest& request, const Site& site) {
     answer.headers.emplace_back("Upgrade", "websocket");
     return answer;
   }
-  if (path.starts_with(kDownload)) return answer_download(request, path.substr(kDownload.size()), site);
   return answer_asset(request, path, site);
 }
 

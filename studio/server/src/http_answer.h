@@ -32,7 +32,6 @@ struct Site {
   std::string session;  // in the cookie that is given for it
   std::string cookie_name;
   std::function<std::optional<web::Asset>(std::string_view path)> asset;
-  std::function<std::optional<std::string>(const std::string& name)> download;
 };
 
 // The answer to a request that asks for no WebSocket (docs/studio-safety.md).

@@ -38,7 +38,8 @@ struct ServerState {
   const WebServerEvents events;
   const Site site;
   ClientTable clients;
-  int connections = 0;  // open ones, of either kind; the server's thread alone
+  int connections = 0;   // open ones, of either kind; the server's thread alone
+  bool is_over = false;  // after its thread's end: no event any more
 };
 
 inline std::chrono::nanoseconds seconds(double s) {
@@ -64,7 +65,18 @@ class Counted {
 // One browser's WebSocket. All functions are for the server's thread.
 class SocketConnection : public std::enable_shared_from_this<SocketConnection> {
  public:
-  SocketConnection(beast::tcp_stream stream, ServerState& server) : stream_(std::move(stream)), server_(server) {}
+  SocketConnection(beast::tcp_stream stream, ServerState& server)
+      : stream_(std::move(stream)), pause_(stream_.get_executor()), server_(server) {}
+  // Whatever ended it, an exception in a handler too, its place is free again.
+  ~SocketConnection() {
+    try {
+      if (!server_.is_over) leave();
+    } catch (const std::exception&) {
+      // Without memory for the event: the place is free all the same.
+    }
+  }
+  SocketConnection(const SocketConnection&) = delete;
+  SocketConnection& operator=(const SocketConnection&) = delete;
 
   void accept(const http::request<http::string_body>& request, Admission admission) {
     stream_.set_option(websocket::stream_base::timeout{seconds(server_.config.request_timeout_s),
@@ -94,9 +106,24 @@ class SocketConnection : public std::enable_shared_from_this<SocketConnection> {
   }
 
   void read() {
+    if (server_.clients.is_full(client_)) return wait_for_answers();
     stream_.async_read(buffer_, [self = shared_from_this()](const error_code& error, std::size_t) {
       if (error) return self->leave();
       self->take_message();
+    });
+  }
+
+  // What was sent waits in the system's buffers until calls are answered, which pump() hears of; not for ever, for a
+  // browser that has gone would not be noticed.
+  void wait_for_answers() {
+    waiting_ = true;
+    pause_.expires_after(seconds(server_.config.idle_timeout_s));
+    pause_.async_wait([self = shared_from_this()](const error_code&) {
+      self->waiting_ = false;
+      if (self->leaving_) return;
+      if (!self->server_.clients.is_full(self->client_)) return self->read();
+      beast::get_lowest_layer(self->stream_).close();
+      self->leave();
     });
   }
 
@@ -105,8 +132,9 @@ class SocketConnection : public std::enable_shared_from_this<SocketConnection> {
     try {
       const auto bytes = buffer_.cdata();
       Message message = decode_message({static_cast<const char*>(bytes.data()), bytes.size()}, stream_.got_text());
-      buffer_.consume(buffer_.size());
-      dispatch(std::move(message));
+      const std::size_t size = bytes.size();
+      buffer_.consume(size);
+      dispatch(std::move(message), size);
     } catch (const Error& error) {
       // A close frame holds 123 bytes of reason.
       return end({websocket::close_code::policy_error, printable(error.what(), 30)});
@@ -114,10 +142,12 @@ class SocketConnection : public std::enable_shared_from_this<SocketConnection> {
     read();
   }
 
-  void dispatch(Message message) {
+  void dispatch(Message message, std::size_t bytes) {
     if (const Call* call = std::get_if<Call>(&message)) {
       if (call->name == "subscribe" || call->name == "unsubscribe") return answer_subscription(*call);
-      if (!server_.clients.begin_call(client_)) return refuse(*call, "more than 1000 calls wait for their answers");
+      if (!server_.clients.begin_call(client_, call->id, bytes)) {
+        return refuse(*call, "more than 1000 calls wait for their answers");
+      }
     }
     if (std::holds_alternative<Pointer>(message) && !pointer_has_time()) return;
     if (server_.events.message) server_.events.message(client_, std::move(message));
@@ -163,6 +193,7 @@ class SocketConnection : public std::enable_shared_from_this<SocketConnection> {
       beast::get_lowest_layer(stream_).close();
       return leave();
     }
+    if (waiting_ && !server_.clients.is_full(client_)) pause_.cancel();
     if (writing_ || server_.clients.next(client_, frame_) != ClientTable::State::kFrame) return;
     writing_ = true;
     stream_.text(frame_.is_text);
@@ -189,10 +220,12 @@ class SocketConnection : public std::enable_shared_from_this<SocketConnection> {
 
   void leave() {
     leaving_ = true;
+    pause_.cancel();
     if (client_ != 0 && server_.clients.leave(client_) && server_.events.left) server_.events.left(client_);
   }
 
   websocket::stream<beast::tcp_stream> stream_;
+  asio::steady_timer pause_;
   ServerState& server_;
   const Counted counted_{server_};
   beast::flat_buffer buffer_;
@@ -200,7 +233,7 @@ class SocketConnection : public std::enable_shared_from_this<SocketConnection> {
   std::chrono::steady_clock::time_point pointer_time_;
   OutFrame frame_;
   websocket::close_reason reason_;
-  bool writing_ = false, closing_ = false, leaving_ = false;
+  bool waiting_ = false, writing_ = false, closing_ = false, leaving_ = false;
 };
 
 // One connection that speaks HTTP, until it becomes a WebSocket.

@@ -6,6 +6,8 @@
 
 #include "asperity/studio/web_server.h"
 
+#include <fcntl.h>
+
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
@@ -43,6 +45,9 @@ Error cannot_listen(const WebServerConfig& config, const error_code& error) {
   return Error("the studio cannot listen at " + place(config) + ": " + why);
 }
 
+// A program that is started, as the user's browser, must not hold the port or a connection after our end.
+void keep_from_children(int socket) { fcntl(socket, F_SETFD, FD_CLOEXEC); }
+
 tcp::acceptor listen(asio::io_context& context, const WebServerConfig& config) {
   error_code error;
   tcp::resolver resolver(context);
@@ -51,6 +56,7 @@ tcp::acceptor listen(asio::io_context& context, const WebServerConfig& config) {
   const tcp::endpoint endpoint = found.begin()->endpoint();
   tcp::acceptor acceptor(context);
   acceptor.open(endpoint.protocol(), error);
+  if (!error) keep_from_children(acceptor.native_handle());
   if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
   if (!error) acceptor.bind(endpoint, error);
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
@@ -58,14 +64,11 @@ tcp::acceptor listen(asio::io_context& context, const WebServerConfig& config) {
   return acceptor;
 }
 
-Site make_site(const WebServerConfig& config, int port, const WebServerEvents& events) {
-  Site site{OwnHosts(config.host, port), random_secret(), random_secret(), {}, {}, {}};
+Site make_site(const WebServerConfig& config, int port) {
+  Site site{OwnHosts(config.host, port), random_secret(), random_secret(), {}, {}};
   // Cookies know no ports: a second studio's would take this one's place.
   site.cookie_name = "asperity_" + std::to_string(port);
   site.asset = [](std::string_view path) { return web::find_asset(path); };
-  site.download = [download = events.download](const std::string& name) {
-    return download ? download(name) : std::nullopt;
-  };
   return site;
 }
 
@@ -73,7 +76,7 @@ class BeastServer : public WebServer {
  public:
   BeastServer(const WebServerConfig& config, const WebServerEvents& events)
       : acceptor_(listen(context_, config)), pause_(context_), port_(acceptor_.local_endpoint().port()) {
-    state_.emplace(config, events, make_site(config, port_, events));
+    state_.emplace(config, events, make_site(config, port_));
     accept();
     thread_ = std::thread([this] { run(); });
   }
@@ -86,6 +89,7 @@ class BeastServer : public WebServer {
   void stop() override {
     context_.stop();
     if (thread_.joinable()) thread_.join();
+    state_->is_over = true;
   }
 
   void publish(std::string_view topic, std::string frame, Delivery delivery) override {
@@ -99,19 +103,19 @@ class BeastServer : public WebServer {
     state_->clients.send(client, event_text(event, data), true);
   }
   void answer(ClientId client, std::uint64_t id, const Json& result) override {
-    end_call(client, answer_text(id, result), true);
+    end_call(client, id, answer_text(id, result), true);
   }
   void answer_block(ClientId client, std::uint64_t id, BlockWriter block) override {
     block.head()["id"] = id;
-    end_call(client, block.take(), false);
+    end_call(client, id, block.take(), false);
   }
   void refuse(ClientId client, std::uint64_t id, std::string_view message, std::string_view hint) override {
-    end_call(client, refusal_text(id, message, hint), true);
+    end_call(client, id, refusal_text(id, message, hint), true);
   }
 
  private:
-  void end_call(ClientId client, std::string bytes, bool is_text) {
-    state_->clients.end_call(client);
+  void end_call(ClientId client, std::uint64_t id, std::string bytes, bool is_text) {
+    state_->clients.end_call(client, id);
     state_->clients.send(client, std::move(bytes), is_text);
   }
 
@@ -119,6 +123,7 @@ class BeastServer : public WebServer {
   void run() {
     for (;;) {
       try {
+        if (!listening_) accept();
         context_.run();
         return;
       } catch (const std::exception&) {
@@ -129,22 +134,34 @@ class BeastServer : public WebServer {
 
   void accept() {
     acceptor_.async_accept([this](const error_code& error, tcp::socket socket) {
+      listening_ = false;
       // No file descriptor is free: one may be later.
       if (error) return accept_later();
-      if (state_->connections < state_->config.max_clients + kMostHttpConnections) {
-        error_code ignored;
-        socket.set_option(tcp::no_delay(true), ignored);
-        std::make_shared<HttpConnection>(std::move(socket), *state_)->read();
+      try {
+        take(std::move(socket));
+      } catch (const std::exception&) {
+        // No memory for this browser; there may be for the next.
       }
       accept();
     });
+    listening_ = true;
   }
 
   void accept_later() {
     pause_.expires_after(kAcceptPause);
     pause_.async_wait([this](const error_code& stopped) {
+      listening_ = false;
       if (!stopped) accept();
     });
+    listening_ = true;
+  }
+
+  void take(tcp::socket socket) {
+    keep_from_children(socket.native_handle());
+    if (state_->connections >= state_->config.max_clients + kMostHttpConnections) return;
+    error_code ignored;
+    socket.set_option(tcp::no_delay(true), ignored);
+    std::make_shared<HttpConnection>(std::move(socket), *state_)->read();
   }
 
   std::optional<ServerState> state_;  // outlives the connections, which go with the context
@@ -152,6 +169,7 @@ class BeastServer : public WebServer {
   tcp::acceptor acceptor_;
   asio::steady_timer pause_;
   const int port_;
+  bool listening_ = false;  // somebody is waited for, or the pause before that; its own thread alone, once that runs
   std::thread thread_;
 };
 

@@ -91,6 +91,14 @@ TEST(DecodeMessage, BoundsLengthDepthAndKeys) {
   };
   EXPECT_EQ(refused(keys(kMaxMessageKeys)), "taken");
   EXPECT_THAT(refused(keys(kMaxMessageKeys + 1)), HasSubstr("more than 1000 keys"));
+  // The message, its id and name, args and the array are five more.
+  const auto values = [](std::size_t count) {
+    return R"({"id":7,"call":"x","args":{"a":[0)" + repeated(",0", count - 6) + "]}}";
+  };
+  EXPECT_EQ(refused(values(kMaxMessageValues)), "taken");
+  EXPECT_THAT(refused(values(kMaxMessageValues + 1)), HasSubstr("more than 200000 values"));
+  EXPECT_THAT(refused(R"({"id":7,"call":"x","args":{"a":[[])" + repeated(",[]", kMaxMessageValues) + "]}}"),
+              HasSubstr("more than 200000 values"));
 }
 
 TEST(DecodeMessage, TakesPointersAlone) {

@@ -184,7 +184,8 @@ TEST_F(ProcessPageTest, WritesTheFilesOfTheCommandLine) {
   }
   // Again, over its own results; several, each in a folder; never over something else.
   choose({"one", "two"});
-  EXPECT_EQ(call("process.write", Json{{"name", "out"}}).result["files"], Json::parse(R"(["one","two"])"));
+  EXPECT_EQ(call("process.write", Json{{"name", "out"}, {"replace", true}}).result["files"],
+            Json::parse(R"(["one","two"])"));
   EXPECT_TRUE(fs::exists(folder_ / "out" / "two" / "result.json"));
   EXPECT_FALSE(fs::exists(folder_ / "out" / "result.json"));
   EXPECT_NE(call("process.write", Json{{"name", "one"}}).error, "");

@@ -140,6 +140,18 @@ TEST(ScanPage, WorksItOutAnewWhenASettingIsTuned) {
   EXPECT_FALSE(ReadBlock(bench.call("scan.profile").block).array<double>("s_m").empty());
 }
 
+TEST(ScanPage, RefusesSettingsThatContradictEachOther) {
+  ScanBench bench;
+  Json both;
+  both["process.profile.spacing_m"] = "0.001";
+  both["process.profile.cutoff_cycles_per_mm"] = "5";
+  EXPECT_THROW(bench.edit("/scan/settings", both), Error);
+  EXPECT_THROW(bench.set("hints.light_N", "50"), Error);
+  EXPECT_THROW(bench.set("process.base.contact.release_N", "50"), Error);
+  EXPECT_THROW(bench.set("recorder.contact.off_N", "50"), Error);
+  EXPECT_NO_THROW(bench.set("hints.light_N", "0.4"));
+}
+
 TEST(ScanPage, DiscardsAndScansAgainUnderTheSameName) {
   ScanBench bench;
   choose_replay(bench);

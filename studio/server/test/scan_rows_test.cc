@@ -176,6 +176,20 @@ TEST(ScanBook, GrowsByFramesThatFollowEachOther) {
   EXPECT_EQ(anew.head.at("first"), 0);
 }
 
+TEST(ScanBook, ThinsAPathThatIsFullAndKeepsLittleOfTheAir) {
+  ScanBook book;
+  LiveEstimate one;
+  one.tips.resize(ScanBook::kMostTips / 10);
+  for (int i = 0; i < 11; ++i) book.add(one, true);
+  const std::size_t stored = ReadBlock(book.path().take()).array<float>("force_N").size();
+  EXPECT_LE(stored, ScanBook::kMostTips);
+  EXPECT_GE(stored, ScanBook::kMostTips / 2);
+  for (int i = 0; i < 40; ++i) book.add(one, false);
+  const std::size_t all = ReadBlock(book.path().take()).array<float>("force_N").size();
+  EXPECT_GE(all, stored);
+  EXPECT_LE(all, stored + ScanBook::kMostTipsInTheAir);
+}
+
 TEST(ScanBook, HasAPathButNoProfileWhileNothingIsStored) {
   ScanBook book;
   book.add(grown({0.0, 1.0}), false);

@@ -169,6 +169,60 @@ TEST_F(WebServerAbuse, BoundsCallsThatAreNotAnswered) {
   EXPECT_THAT(client.next_frame()->payload, HasSubstr(R"({"id":2,"error":{"message":"more than 1000 calls)"));
 }
 
+// Almost a mebibyte: five are more than four mebibytes, four are not.
+std::string long_call(int id) {
+  return RawClient::frame(
+      1, R"({"id":)" + std::to_string(id) + R"(,"call":"never","args":{"a":")" + std::string(1'048'000, '.') + "\"}}");
+}
+
+TEST_F(WebServerAbuse, ReadsNoMoreWhileMebibytesOfCallsWait) {
+  RawClient client = browser();
+  while (newest_ == 0) ASSERT_TRUE(client.send(RawClient::frame(9, "")));
+  const ClientId id = newest_;
+  RawClient good = browser();
+  for (int i = 1; i <= 5; ++i) client.send(long_call(i));
+  client.send(RawClient::frame(1, R"({"id":6,"call":"echo","args":{}})"));
+  while (unanswered_ < 5) ASSERT_TRUE(answers(good));
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(answers(good));
+  // An answer to what is no call of its own makes no room.
+  server_->answer(id, 77, "none");
+  server_->answer(id, 3, "third");
+  const auto next_text = [&client] {
+    for (;;) {
+      const auto frame = client.next_frame();
+      if (!frame) return std::string();
+      if (frame->opcode == 1) return frame->payload;
+    }
+  };
+  EXPECT_EQ(next_text(), R"({"id":77,"result":"none"})");
+  EXPECT_EQ(next_text(), R"({"id":3,"result":"third"})");
+  EXPECT_EQ(next_text(), R"({"id":6,"result":{}})");
+}
+
+TEST_F(WebServerAbuse, EndsAConnectionWhoseCallsAreNeverAnswered) {
+  WebServerConfig config;
+  config.idle_timeout_s = 0.5;
+  start(config);
+  RawClient client = browser();
+  for (int i = 1; i <= 6; ++i) client.send(long_call(i));
+  EXPECT_TRUE(client.closes());
+  RawClient good = browser();
+  while (left_ < 1) ASSERT_TRUE(answers(good));
+  EXPECT_EQ(unanswered_, 5);
+}
+
+TEST_F(WebServerAbuse, AnExceptionFreesThePlaceOfItsConnection) {
+  WebServerConfig config;
+  config.max_clients = 1;
+  start(config);
+  joining_fails_ = true;
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(browser().closes());
+  joining_fails_ = false;
+  RawClient good = browser();
+  EXPECT_TRUE(answers(good));
+  EXPECT_EQ(left_, 3);
+}
+
 TEST_F(WebServerAbuse, BoundsTopics) {
   RawClient client = browser();
   const auto subscribe = [&client](const std::string& args) {

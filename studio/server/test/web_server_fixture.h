@@ -4,7 +4,7 @@
 
 #include <atomic>
 #include <memory>
-#include <optional>
+#include <new>
 #include <string>
 #include <variant>
 
@@ -20,7 +20,11 @@ class WebServerSocket : public testing::Test {
   void start(const WebServerConfig& config) {
     server_.reset();
     WebServerEvents events;
-    events.joined = [this](ClientId) { ++joined_; };
+    events.joined = [this](ClientId client) {
+      ++joined_;
+      newest_ = client;
+      if (joining_fails_) throw std::bad_alloc();
+    };
     events.left = [this](ClientId) { ++left_; };
     events.message = [this](ClientId client, const Message& message) {
       const Call* call = std::get_if<Call>(&message);
@@ -28,13 +32,11 @@ class WebServerSocket : public testing::Test {
         pointer_sequence_ = std::get<Pointer>(message).sequence;
       } else if (call->name == "big") {
         server_->answer(client, call->id, std::string(1U << 20U, 'b'));
-      } else if (call->name != "never") {
+      } else if (call->name == "never") {
+        ++unanswered_;
+      } else {
         server_->answer(client, call->id, call->args);
       }
-    };
-    events.download = [](const std::string& name) -> std::optional<std::string> {
-      if (name == "a b.csv") return "x,y\n";
-      return std::nullopt;
     };
     server_ = WebServer::start(config, events);
     port_ = server_->port();
@@ -60,7 +62,9 @@ class WebServerSocket : public testing::Test {
   std::unique_ptr<WebServer> server_;
   int port_ = 0;
   std::string host_, cookie_;
-  std::atomic<int> joined_{0}, left_{0};
+  std::atomic<int> joined_{0}, left_{0}, unanswered_{0};
+  std::atomic<ClientId> newest_{0};
+  std::atomic<bool> joining_fails_{false};
   std::atomic<std::uint32_t> pointer_sequence_{0};
 };
 

@@ -1,7 +1,11 @@
 // The server over plain sockets: who is let in, and what a browser that is let in gets.
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -101,14 +105,21 @@ TEST_F(WebServerSocket, GivesTheCookieForTheTokenAlone) {
   EXPECT_EQ(post(std::string(5000, ' '), own).status, 413);
 }
 
-TEST_F(WebServerSocket, GivesDownloadsForTheCookieAlone) {
-  EXPECT_EQ(get("/download/a%20b.csv").status, 403);
-  const std::string cookie = "Cookie: other=1; " + cookie_ + "\r\n";
-  const auto file = get("/download/a%20b.csv", cookie);
-  EXPECT_EQ(file.status, 200);
-  EXPECT_EQ(file.body, "x,y\n");
-  EXPECT_EQ(file.header("Content-Disposition"), "attachment; filename*=UTF-8''a%20b.csv");
-  EXPECT_EQ(get("/download/none", cookie).status, 404);
+TEST_F(WebServerSocket, KeepsItsSocketsFromChildren) {
+  RawClient client = browser();
+  ASSERT_TRUE(answers(client));
+  // The server's ends alone have its port: a client's has one of its own.
+  int own = 0;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    const int file = std::stoi(entry.path().filename().string());
+    sockaddr_in address{};
+    socklen_t size = sizeof address;
+    if (getsockname(file, reinterpret_cast<sockaddr*>(&address), &size) != 0 || address.sin_family != AF_INET) continue;
+    if (ntohs(address.sin_port) != port_) continue;
+    ++own;
+    EXPECT_NE(fcntl(file, F_GETFD) & FD_CLOEXEC, 0);
+  }
+  EXPECT_EQ(own, 2) << "the one that listens, and the browser's";
 }
 
 TEST_F(WebServerSocket, ServesTheAppAndNothingElse) {

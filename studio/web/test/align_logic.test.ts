@@ -75,7 +75,7 @@ describe("picking", () => {
     expect(nearestOnScreen(points, { x: 60, y: 1 }, 14)).toBe(-1);
   });
 
-  it("says where", () => expect(pointWords([0.0123, -0.004, 0])).toBe("12.3, \u22124.0, 0.0\u2009mm"));
+  it("says where", () => expect(pointWords([0.0123, -0.004, 0])).toBe("12.3, \u22124.0, 0.0\u202fmm"));
 });
 
 describe("calls that follow a drag", () => {

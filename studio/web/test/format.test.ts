@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { degrees, fixed, length, micrometres, millimetresPerSecond, newtons, number, quantity, withError } from "../src/ui/format";
 import { parseNumber, shownNumber } from "../src/ui/numbers";
 
-const T = "\u2009";
+const T = "\u202f";
 
 test.each([
   [0, "0"],
@@ -30,6 +30,16 @@ test("units stand after a thin space, a degree sign without", () => {
   expect(newtons(0.5)).toBe(`0.500${T}N`);
   expect(millimetresPerSecond(0.05)).toBe(`50.0${T}mm/s`);
   expect(micrometres(null)).toBe("–");
+});
+
+test("what is too little to mean anything is nothing", () => {
+  expect(millimetresPerSecond(1e-12)).toBe(`0${T}mm/s`);
+  expect(quantity(-5.6e-17, "mm")).toBe(`0${T}mm`);
+  expect(quantity(2e-5, "mm")).toBe(`2.000${T}×${T}10⁻⁵${T}mm`);
+  expect(length(1e-13)).toBe(`0${T}mm`);
+  expect(length(2e-9)).toBe(`0.002000${T}µm`);
+  expect(withError(1.5, 1e-16, "mm")).toBe(`1.500${T}mm`);
+  expect(quantity(5.6e-17, "m/N")).toBe(`5.600${T}×${T}10⁻¹⁷${T}m/N`);
 });
 
 test("a length is told in the unit that suits it", () => {

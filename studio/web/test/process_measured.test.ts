@@ -79,7 +79,7 @@ it("points are sorted by x", () => {
 
 it("says what was left out", () => {
   expect(thinnedWords({ samples: 10, every: 1 }, "samples")).toBe("");
-  expect(thinnedWords({ samples: 12345, every: 3 }, "samples")).toBe("One of every 3 of 12\u2009345 samples is shown.");
+  expect(thinnedWords({ samples: 12345, every: 3 }, "samples")).toBe("One of every 3 of 12\u202f345 samples is shown.");
 });
 
 describe("the power of the force", () => {

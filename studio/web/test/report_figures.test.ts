@@ -4,7 +4,7 @@ import { comparedRows } from "../src/report/compare";
 
 const shown = (json: Record<string, any>, title: string, label: string) => {
   const row = figureGroups(json).find((group) => group.title === title)?.rows.find((one) => one.label === label);
-  return row && shownFigure(row).replaceAll("\u2009", " ");
+  return row && shownFigure(row).replaceAll("\u202f", " ");
 };
 
 describe("figures", () => {
@@ -33,7 +33,7 @@ describe("figures", () => {
 
   it("of several results stand side by side, and a missing one is a dash", () => {
     const rows = comparedRows([{ length_m: 0.01 }, { length_m: 0.02, duration_s: 3 }]);
-    expect(rows.map((row) => [row.label, ...row.values.map((value) => value.replaceAll("\u2009", " "))])).toEqual([
+    expect(rows.map((row) => [row.label, ...row.values.map((value) => value.replaceAll("\u202f", " "))])).toEqual([
       ["Length of the path", "10.00 mm", "20.00 mm"],
       ["Duration", "–", "3.000 s"],
     ]);

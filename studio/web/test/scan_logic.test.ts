@@ -3,7 +3,7 @@ import type { Block, NumberArray } from "../src/net/block";
 import { band, Column, Growing, RowCounter } from "../src/pages/scan/growing";
 import { HostClock, Recent } from "../src/pages/scan/latency";
 import { pathColour, strongest_N } from "../src/pages/scan/pathColours";
-import { abilities, contactWords, recordWords, sensorWords, type RecorderState, type ScanState } from "../src/pages/scan/scanState";
+import { abilities, contactWords, dearSegment, isLiveUsable, recordWords, sensorWords, type RecorderState, type ScanState } from "../src/pages/scan/scanState";
 import { changed, processSettings, valueOf, waitsForOpening, withSettings } from "../src/pages/scan/settings";
 
 const block = (generation: number, first: number, s: number[], tips?: number[]): Block => {
@@ -107,16 +107,23 @@ const done = { name: "segment_1", duration_s: 1, open: false };
 describe("the recorder's state", () => {
   it("is said in words", () => {
     expect(recordWords(null).word).toBe("…");
-    expect(recordWords({ open: false }).word).toBe("No source open");
+    expect(recordWords({ open: false }).word).toBe("Nothing open");
     expect(recordWords({ open: false, opening: true }).word).toBe("Opening …");
     expect(recordWords(open({})).word).toBe("Ready");
-    expect(recordWords(open({ automatic: true })).word).toBe("Waiting for contact");
-    expect(recordWords(open({ storing: true, segment: "rim" })).word).toBe("Recording rim");
+    expect(recordWords(open({ automatic: true })).word).toBe("Waits for touch");
+    expect(recordWords(open({ storing: true, segment: "rim" })).word).toBe("Recording");
     expect(recordWords(open({ storing: true, failure: "full" })).lamp).toBe("bad");
     expect(contactWords(recorder({ touching: true })).word).toBe("in contact");
     expect(contactWords(recorder({ contact_ready: false })).lamp).toBe("busy");
     expect(sensorWords({ state: "running" } as never, true).word).toBe("waits for Start");
     expect(sensorWords({ state: "lost" } as never, true).lamp).toBe("bad");
+  });
+
+  it("knows what is dear, and which live profile is of use", () => {
+    expect(dearSegment(open({ segments: [{ ...done, duration_s: 0.5 }] }))).toBeNull();
+    expect(dearSegment(open({ segments: [done, { ...done, duration_s: 3 }] }))?.duration_s).toBe(3);
+    expect(dearSegment({ open: false })).toBeNull();
+    expect([isLiveUsable(null), isLiveUsable({ correlation: null }), isLiveUsable({ correlation: 0.9 })]).toEqual([false, false, true]);
   });
 
   it("allows what makes sense", () => {

@@ -11,6 +11,7 @@
 #include "asperity/registration/manual_alignment.h"
 #include "config_fields.h"
 #include "json_pose.h"
+#include "write_target.h"
 
 namespace asperity::studio {
 
@@ -198,6 +199,7 @@ void AlignPage::accept(const Request& request) {
 void AlignPage::write(const Request& request) {
   AlignChoice taken = choice();
   const std::string name = request.text("name");
+  write_target(shared_.project, request);
   answer_by_job(shared_.jobs, request, "Writing " + name, "align.write",
                 [taken = std::move(taken), name, project = shared_.project](const Observer& observer) {
                   return write_alignment(taken, project, name, observer);

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
 
 #include "asperity/base/error.h"
-#include "asperity/base/text.h"
 #include "asperity/registration/triangle_stretch.h"
 #include "asperity/scene/swap_texture.h"
 #include "asperity/texture/texture_file.h"
+#include "json_keys.h"
 #include "mesh_block.h"
 #include "paint_scene.h"
 
@@ -33,16 +32,8 @@ std::string text_of(const Json& value, const char* what) {
   return value.get<std::string>();
 }
 
-void refuse_unknown(const Json& object, std::initializer_list<std::string_view> known) {
-  for (const auto& [key, value] : object.items()) {
-    if (std::find(known.begin(), known.end(), key) == known.end()) {
-      throw Error("paint: there is no '" + printable(key) + "'");
-    }
-  }
-}
-
 Stroke stroke_of(const Json& json) {
-  refuse_unknown(json, {"picks_m", "texture", "index"});
+  refuse_unknown(json, {"picks_m", "texture", "index"}, "paint");
   Stroke out;
   out.texture = text_of(json.at("texture"), "a stroke's texture");
   out.index = static_cast<int>(number_of(json.at("index"), "a stroke's index", 0, 1e6));
@@ -100,7 +91,8 @@ Json first_painting() {
 
 Painting parse_painting(const Json& section) {
   try {
-    refuse_unknown(section, {"object", "unit_m", "rings", "half_width_mm", "strokes", "swaps", "current", "written"});
+    refuse_unknown(section, {"object", "unit_m", "rings", "half_width_mm", "strokes", "swaps", "current", "written"},
+                   "paint");
     Painting out;
     out.object = text_of(section.at("object"), "the object");
     out.unit_m = number_of(section.at("unit_m"), "the unit", 1e-9, 1e6);

@@ -1,6 +1,7 @@
 #include "process/process_choice.h"
 
 #include "asperity/base/error.h"
+#include "json_keys.h"
 
 namespace asperity::studio {
 
@@ -26,6 +27,7 @@ Json first_process_section() { return {{"scans", Json::array()}, {"current", 0},
 
 ScanName scan_name(const Json& json) {
   ScanName out;
+  if (json.is_object()) refuse_unknown(json, {"recording", "segment"}, "process");
   out.recording = text_of(member(json, "recording"), "recording");
   if (json.contains("segment")) out.segment = text_of(json.at("segment"), "segment");
   return out;
@@ -33,6 +35,7 @@ ScanName scan_name(const Json& json) {
 
 ProcessChoice process_choice(const Json& section) {
   ProcessChoice out;
+  refuse_unknown(section, {"scans", "current", "config"}, "process");
   const Json& scans = member(section, "scans");
   if (!scans.is_array() || scans.size() > kMostScans) {
     throw Error("process: at most " + std::to_string(kMostScans) + " recordings can be looked at together");

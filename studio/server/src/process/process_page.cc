@@ -1,5 +1,6 @@
 #include "process/process_page.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -11,6 +12,7 @@
 #include "process/repeatability_block.h"
 #include "process/scan_sessions.h"
 #include "process/write_results.h"
+#include "write_target.h"
 
 namespace asperity::studio {
 
@@ -22,6 +24,16 @@ constexpr const char* kSection = "process";
 
 std::string title_of(const ScanName& scan) {
   return scan.segment.empty() ? scan.recording : scan.recording + ", " + scan.segment;
+}
+
+// The recording's own name, or where that is another's too, all of its path and its segment.
+std::string result_name(const ScanName& scan, const std::vector<ScanName>& all) {
+  const auto leaf = [](const ScanName& one) { return fs::path(one.recording).filename().string(); };
+  const auto same = [&](const ScanName& one) { return leaf(one) == leaf(scan); };
+  if (std::count_if(all.begin(), all.end(), same) == 1) return leaf(scan);
+  std::string name = scan.recording + (scan.segment.empty() ? "" : "_" + scan.segment);
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
 }
 
 class ProcessPage : public Page {
@@ -88,11 +100,10 @@ class ProcessPage : public Page {
     const ProcessChoice chosen = choice();
     if (chosen.scans.empty()) throw Advice("there is nothing to write", "Choose a recording first.");
     const std::string name = request.text("name");
-    const fs::path target = shared_.project.writable(name);
+    const fs::path target = write_target(shared_.project, request);
     std::vector<NamedScan> scans;
     for (const ScanName& scan : chosen.scans) {
-      const fs::path recording = shared_.project.existing(scan.recording);
-      scans.push_back({recording.filename().string(), recording, scan.segment});
+      scans.push_back({result_name(scan, chosen.scans), shared_.project.existing(scan.recording), scan.segment});
     }
     answer_by_job(shared_.jobs, request, "Write " + name, "process.write",
                   [sessions = sessions_, scans, target, config = chosen.config, name](const Observer& observer) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "asperity/base/text.h"
@@ -106,6 +107,23 @@ BlockWriter image_block(const SeenImage& seen) {
   }
   out.add("pixels", std::span<const std::uint8_t>(small.image.pixels),
           {static_cast<std::size_t>(small.image.height), static_cast<std::size_t>(small.image.width)});
+  return out;
+}
+
+Json camera_json(const CameraCalibration& camera) {
+  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
+}
+
+Json hints_json(const std::vector<Hint>& hints) {
+  Json out = Json::array();
+  for (const Hint& hint : hints) {
+    Json each;
+    each["kind"] = kHintKindNames.at(static_cast<std::size_t>(hint.kind));
+    each["severity"] = kHintSeverityNames.at(static_cast<std::size_t>(hint.severity));
+    each["text"] = hint.text;
+    out.push_back(std::move(each));
+  }
   return out;
 }
 

@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "asperity/acquire/recorder_snapshot.h"
+#include "asperity/pipeline/scan_hints.h"
 #include "asperity/recording/calibration.h"
 #include "asperity/studio/block.h"
 #include "scan/row_tap.h"
@@ -23,5 +25,9 @@ BlockWriter image_block(const SeenImage& seen);
 
 // How a recording under way stands (docs/studio-scan.md).
 Json recorder_json(const RecorderSnapshot& now);
+// The camera's size and focal lengths, for its frustum.
+Json camera_json(const CameraCalibration& camera);
+// [{"kind","severity","text"}]
+Json hints_json(const std::vector<Hint>& hints);
 
 }  // namespace asperity::studio

@@ -1,5 +1,6 @@
 #include "scan/scan_book.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace asperity::studio {
@@ -26,63 +27,93 @@ std::span<const T> tail(const std::vector<T>& values, std::size_t first) {
 void ScanBook::begin_anew() {
   const ScanBook before = std::move(*this);
   *this = ScanBook();
-  generation_ = before.generation_ + 1;
+  profile_generation_ = before.profile_generation_ + 1;
+  path_generation_ = before.path_generation_ + 1;
   profile_sequence_ = before.profile_sequence_;
   path_sequence_ = before.path_sequence_;
+}
+
+void ScanBook::begin_path_anew() {
+  ++path_generation_;
+  told_tips_ = 0;
+}
+
+void ScanBook::add_tip(const LiveTip& tip, bool storing) {
+  if (++passed_over_ < stride_) return;
+  passed_over_ = 0;
+  if (!storing && path_.size() >= stored_tips_ + kMostTipsInTheAir) {
+    path_.resize(stored_tips_);
+    begin_path_anew();
+  }
+  if (path_.size() >= kMostTips) {
+    for (std::size_t i = 0; 2 * i < path_.size(); ++i) path_[i] = path_[2 * i];
+    path_.resize((path_.size() + 1) / 2);
+    stored_tips_ = std::min(stored_tips_, path_.size());
+    stride_ *= 2;
+    begin_path_anew();
+  }
+  Tip out{};
+  for (int axis = 0; axis < 3; ++axis) {
+    out.p_m[axis] = static_cast<float>(tip.p_world_tip_m[axis]);
+    out.axis[axis] = static_cast<float>(tip.probe_axis_world[axis]);
+  }
+  out.force_N = static_cast<float>(tip.force_N);
+  out.state = static_cast<std::uint8_t>(tip.usable ? 2 : tip.contact ? 1 : 0);
+  path_.push_back(out);
+  if (storing) stored_tips_ = path_.size();
 }
 
 void ScanBook::add(const LiveEstimate& estimate, bool storing) {
   base_ = estimate.base;
   motion_ns_ = estimate.motion_ns;
-  if (!storing && t_ns_.size() >= kMostTipsInTheAir && s_m_.empty()) begin_anew();
-  for (const LiveTip& tip : estimate.tips) {
-    if (t_ns_.size() >= kMostTips) break;
-    t_ns_.push_back(tip.t_ns);
-    for (int axis = 0; axis < 3; ++axis) {
-      tips_m_.push_back(static_cast<float>(tip.p_world_tip_m[axis]));
-      axes_.push_back(static_cast<float>(tip.probe_axis_world[axis]));
-    }
-    force_N_.push_back(static_cast<float>(tip.force_N));
-    state_.push_back(static_cast<std::uint8_t>(tip.usable ? 2 : tip.contact ? 1 : 0));
-  }
+  for (const LiveTip& tip : estimate.tips) add_tip(tip, storing);
   if (!storing) return;
   for (const LivePoint& point : estimate.points) {
     if (s_m_.size() >= kMostPoints) break;
     s_m_.push_back(point.s_m);
-    height_m_.push_back(point.height_m);
+    height_m_.push_back(static_cast<float>(point.height_m));
     sigma_m_.push_back(static_cast<float>(point.sigma_m));
     texture_m_.push_back(static_cast<float>(point.texture_m));
-    point_force_N_.push_back(static_cast<float>(point.force_N));
+    force_N_.push_back(static_cast<float>(point.force_N));
     speed_mps_.push_back(static_cast<float>(point.speed_mps));
   }
 }
 
 BlockWriter ScanBook::profile_from(std::size_t first) const {
   BlockWriter out("scan.profile");
-  out.head()["generation"] = generation_;
+  out.head()["generation"] = profile_generation_;
   out.head()["first"] = first;
   out.head()["motion_ns"] = motion_ns_;
   out.head()["base"] = base_json(base_);
   out.add("s_m", tail(s_m_, first));
-  const auto heights = tail(height_m_, first);
-  const std::vector<float> height_m(heights.begin(), heights.end());
-  out.add("height_m", std::span<const float>(height_m));
+  out.add("height_m", tail(height_m_, first));
   out.add("sigma_m", tail(sigma_m_, first));
   out.add("texture_m", tail(texture_m_, first));
-  out.add("force_N", tail(point_force_N_, first));
+  out.add("force_N", tail(force_N_, first));
   out.add("speed_mps", tail(speed_mps_, first));
   return out;
 }
 
 BlockWriter ScanBook::path_from(std::size_t first) const {
+  const std::size_t count = path_.size() - first;
+  std::vector<float> tips_m, axes, force_N;
+  std::vector<std::uint8_t> state;
+  tips_m.reserve(3 * count);
+  axes.reserve(3 * count);
+  for (const Tip& tip : tail(path_, first)) {
+    tips_m.insert(tips_m.end(), tip.p_m, tip.p_m + 3);
+    axes.insert(axes.end(), tip.axis, tip.axis + 3);
+    force_N.push_back(tip.force_N);
+    state.push_back(tip.state);
+  }
   BlockWriter out("scan.pose");
-  out.head()["generation"] = generation_;
+  out.head()["generation"] = path_generation_;
   out.head()["first"] = first;
   out.head()["motion_ns"] = motion_ns_;
-  out.add("tip_m", tail(tips_m_, 3 * first), {t_ns_.size() - first, 3});
-  out.add("axis", tail(axes_, 3 * first), {t_ns_.size() - first, 3});
-  out.add("force_N", tail(force_N_, first));
-  out.add("state", tail(state_, first));
+  out.add("tip_m", std::span<const float>(tips_m), {count, 3});
+  out.add("axis", std::span<const float>(axes), {count, 3});
+  out.add("force_N", std::span<const float>(force_N));
+  out.add("state", std::span<const std::uint8_t>(state));
   return out;
 }
 
@@ -96,7 +127,7 @@ BlockWriter ScanBook::take_growth() {
 BlockWriter ScanBook::take_motion() {
   BlockWriter out = path_from(told_tips_);
   out.head()["sequence"] = path_sequence_++;
-  told_tips_ = t_ns_.size();
+  told_tips_ = path_.size();
   return out;
 }
 

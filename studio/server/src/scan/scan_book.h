@@ -14,15 +14,16 @@ namespace asperity::studio {
 class ScanBook {
  public:
   static constexpr std::size_t kMostPoints = 1'000'000;
-  static constexpr std::size_t kMostTips = 100'000;
+  static constexpr std::size_t kMostTips = 100'000;  // then every other one goes
   static constexpr std::size_t kMostTipsInTheAir = 5'000;
 
   void begin_anew();
+  // While nothing is stored only the path grows; of that the newest tips are kept.
   void add(const LiveEstimate& estimate, bool storing);
 
   // What add() has brought since the last call, with "sequence", "generation" and "first"; empty: nothing.
   bool grown() const { return told_points_ < s_m_.size(); }
-  bool moved() const { return told_tips_ < t_ns_.size(); }
+  bool moved() const { return told_tips_ < path_.size(); }
   BlockWriter take_growth();
   BlockWriter take_motion();
   // All of it.
@@ -30,24 +31,30 @@ class ScanBook {
   BlockWriter path() const { return path_from(0); }
 
   std::span<const double> s_m() const { return s_m_; }
-  std::span<const double> height_m() const { return height_m_; }
+  std::span<const float> height_m() const { return height_m_; }
 
  private:
+  struct Tip {
+    float p_m[3], axis[3];
+    float force_N;
+    std::uint8_t state;  // 1: in contact, 2: enters the profile
+  };
   BlockWriter profile_from(std::size_t first) const;
   BlockWriter path_from(std::size_t first) const;
+  void add_tip(const LiveTip& tip, bool storing);
+  void begin_path_anew();
 
-  std::uint32_t generation_ = 0;
+  std::uint32_t profile_generation_ = 0, path_generation_ = 0;
   std::uint64_t profile_sequence_ = 0, path_sequence_ = 0;
   std::size_t told_points_ = 0, told_tips_ = 0;
   LiveBase base_;
   std::int64_t motion_ns_ = 0;
-  std::vector<double> s_m_, height_m_;
-  std::vector<float> sigma_m_, texture_m_, point_force_N_, speed_mps_;
-  std::vector<std::int64_t> t_ns_;
-  std::vector<float> tips_m_;  // three a tip
-  std::vector<float> axes_;    // of the probe, three a tip
-  std::vector<float> force_N_;
-  std::vector<std::uint8_t> state_;  // 1: in contact, 2: enters the profile
+  std::vector<double> s_m_;
+  std::vector<float> height_m_, sigma_m_, texture_m_, force_N_, speed_mps_;
+  std::vector<Tip> path_;
+  std::size_t stored_tips_ = 0;  // those after them were only shown
+  std::size_t stride_ = 1;       // of the tips that come, so many make one
+  std::size_t passed_over_ = 0;
 };
 
 }  // namespace asperity::studio

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <system_error>
 
 #include "asperity/acquire/open_camera.h"
 #include "asperity/acquire/open_pose_stream.h"
@@ -40,7 +41,7 @@ std::map<std::string, std::string> settings_of(const Json& value) {
   if (!value.is_object() || value.size() > kMostSettings) refuse("settings", "an object of settings is needed");
   std::map<std::string, std::string> out;
   for (const auto& [path, setting] : value.items()) out[path] = text_of("settings." + path, setting);
-  make_scan_config(out);  // throws for what is not allowed
+  check_scan_config(make_scan_config(out));  // throws for what is not allowed
   return out;
 }
 
@@ -90,10 +91,13 @@ std::string with_path(std::string address, const std::string& old_path, const st
   return address.replace(at, old_path.size(), path);
 }
 
-void check_device(const std::string& path) {
-  const std::filesystem::path clean = std::filesystem::path(path).lexically_normal();
-  if (!clean.string().starts_with("/dev/"))
+// The device behind `path`, all links followed.
+std::string device_of(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::path device = std::filesystem::weakly_canonical(path, error);
+  if (error || !path.starts_with('/') || !device.string().starts_with("/dev/"))
     throw Advice(printable(path, 200) + ": is no device", "Devices are in /dev, such as serial:/dev/ttyUSB0.");
+  return device.string();
 }
 
 }  // namespace
@@ -150,15 +154,20 @@ app::RecordInput resolve_hardware(const app::RecordInput& typed, const Project& 
   app::RecordInput out = typed;
   if (!typed.probe.empty()) {
     const ProbeAddress probe = parse_probe_address(typed.probe);
-    if (probe.kind == ProbeLinkKind::kSerial) check_device(probe.path);
-    if (probe.kind == ProbeLinkKind::kFile)
-      out.probe = with_path(typed.probe, probe.path, project.existing(probe.path).string());
+    if (probe.kind == ProbeLinkKind::kSerial) out.probe = with_path(typed.probe, probe.path, device_of(probe.path));
+    if (probe.kind == ProbeLinkKind::kFile) {
+      const std::string path = project.existing(probe.path).string();
+      if (path.find('@') != std::string::npos && probe.bytes_per_s == 0.0)
+        throw Advice(printable(path, 200) + ": a path with @ in it cannot be told from a rate",
+                     "Give the rate too, as in file:capture.bin@5000, or rename the folder.");
+      out.probe = with_path(typed.probe, probe.path, path);
+    }
   }
   if (!typed.camera.empty()) {
     const CameraAddress camera = parse_camera_address(typed.camera);
     if (camera.path == "-") throw Advice("y4m:- is no camera here", "Name a FIFO in the project's folder.");
     if (camera.kind == CameraKind::kV4l2) {
-      check_device(camera.path);
+      out.camera = with_path(typed.camera, camera.path, device_of(camera.path));
     } else {
       out.camera = with_path(typed.camera, camera.path, project.existing(camera.path).string());
     }

@@ -3,6 +3,11 @@
 #include <string_view>
 #include <utility>
 
+#include "asperity/acquire/contact_detector.h"
+#include "asperity/pipeline/live_profile.h"
+#include "asperity/pipeline/scan_hints.h"
+#include "asperity/recording/uncalibrated.h"
+
 namespace asperity::studio {
 
 namespace {
@@ -44,6 +49,16 @@ ScanConfig make_scan_config(const std::map<std::string, std::string>& settings) 
     if (path.starts_with("live.")) set_field(fields, path, value);
   }
   return out;
+}
+
+void check_scan_config(const ScanConfig& config) {
+  const Calibration any = make_uncalibrated(0.0, 0.0, 0.0);
+  RecordingInfo info;
+  info.probe_rate_Hz = 4000.0;
+  info.tracker_rate_Hz = 60.0;
+  LiveProfile(any, info, config.live);
+  ScanAdvisor(any, info, config.hints, true);
+  ContactDetector(config.recorder.contact, any.force);
 }
 
 bool is_tuned_live(std::string_view path) {

@@ -31,6 +31,9 @@ std::vector<ConfigField> scan_fields(ScanConfig& config);
 // value that is not allowed.
 ScanConfig make_scan_config(const std::map<std::string, std::string>& settings);
 
+// Throws Error for settings that contradict each other.
+void check_scan_config(const ScanConfig& config);
+
 // True for a path that takes effect while the sensors stay open.
 bool is_tuned_live(std::string_view path);
 

@@ -156,6 +156,11 @@ class ScanPage : public Page {
     ScanChoices chosen = choices();
     chosen.hardware = resolve_hardware(chosen.hardware, shared_.project);
     std::optional<fs::path> recording;
+    if (chosen.source == SourceKind::kHardware && !shared_.may_command_forces) {
+      throw Advice(
+          "sensors of this machine are not opened from here",
+          "The studio was started for other machines to look on: start it with --remote-force to change that.");
+    }
     if (chosen.source == SourceKind::kReplay) {
       if (chosen.recording.empty())
         throw Advice("no recording is chosen", "Choose one of the project's folder to be replayed.");
@@ -171,8 +176,8 @@ class ScanPage : public Page {
     busy_ = true;
     auto opened = std::make_shared<std::unique_ptr<ScanSession>>();
     auto waiting = std::make_shared<ScanSetup>(std::move(setup));
-    shared_.jobs.start(
-        "Opening the source", "",
+    shared_.jobs.start_in(
+        "scan", "Opening the source", "",
         [this, chosen, recording, waiting, opened](const Observer& observer) {
           waiting->source = open_source(chosen, waiting->config, recording, observer);
           *opened = std::make_unique<ScanSession>(shared_.hub, std::move(*waiting), events());
@@ -192,12 +197,13 @@ class ScanPage : public Page {
     if (busy_) throw Advice("a source is being opened or closed", "Wait until that is done.");
     if (!session_) return request.answer(Json{{"recording", nullptr}});
     busy_ = true;
-    auto ending = std::shared_ptr<ScanSession>(std::move(session_));
+    auto ending = std::exchange(session_, nullptr);
     auto kept = std::make_shared<bool>(false);
-    shared_.jobs.start(
-        "Finishing the recording", "", [ending, kept](const Observer&) { *kept = ending->finish(); },
+    shared_.jobs.start_in(
+        "scan", "Finishing the recording", "", [ending, kept](const Observer&) { *kept = ending->finish(); },
         [this, request, ending, kept](std::exception_ptr error) {
           busy_ = false;
+          if (error && is_cancelled(error)) session_ = ending;  // it did not begin; the recording goes on
           if (error) return refuse(request, error);
           request.answer(Json{{"recording", *kept ? Json(ending->name()) : Json()}});
         });
@@ -208,6 +214,16 @@ class ScanPage : public Page {
       std::rethrow_exception(error);
     } catch (const std::exception& fault) {
       request.refuse(fault);
+    }
+  }
+
+  static bool is_cancelled(const std::exception_ptr& error) {
+    try {
+      std::rethrow_exception(error);
+    } catch (const Cancelled&) {
+      return true;
+    } catch (...) {
+      return false;
     }
   }
 
@@ -224,7 +240,7 @@ class ScanPage : public Page {
       auto handed = std::make_shared<LiveHeights>(std::move(live));
       shared_.post([this, handed] { refine(std::move(*handed)); });
     };
-    out.discarded = [this] {
+    out.forgotten = [this] {
       shared_.post([this] {
         refiner_.reset();
         show_refined(BlockWriter("scan.refined"));
@@ -266,7 +282,7 @@ class ScanPage : public Page {
   }
 
   Shared& shared_;
-  std::unique_ptr<ScanSession> session_;
+  std::shared_ptr<ScanSession> session_;
   bool busy_ = false;  // opening or closing
   bool automatic_ = false;
   std::map<std::string, std::string> settings_;

@@ -41,7 +41,9 @@ ScanSession::ScanSession(Hub& hub, ScanSetup setup, ScanEvents events)
   recorder_ = std::make_unique<Recorder>(setup_.folder, info, setup_.source->calibration(),
                                          with_tap(setup_.source->sensors(config_.track, on_frame), tap_), recorder);
   try {
-    make_estimators(recorder_->snapshot());
+    const RecorderSnapshot now = recorder_->snapshot();
+    estimator_.emplace(calibration_, setup_.source->calibration().has_value(), info_of(now), config_);
+    gravity_used_ = now.gravity.measured;
     thread_ = std::thread([this] { run(); });
   } catch (...) {
     recorder_.reset();
@@ -110,11 +112,7 @@ Json ScanSession::description() const {
   out["calibrated"] = setup_.source->calibration().has_value();
   out["tip_in_marker_m"] = {calibration_.tip_in_marker_m.x(), calibration_.tip_in_marker_m.y(),
                             calibration_.tip_in_marker_m.z()};
-  if (calibration_.camera) {
-    const CameraCalibration& camera = *calibration_.camera;
-    out["camera"] = {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
-                     {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
-  }
+  if (calibration_.camera) out["camera"] = camera_json(*calibration_.camera);
   return out;
 }
 
@@ -167,66 +165,64 @@ RecordingInfo ScanSession::info_of(const RecorderSnapshot& now) const {
   return out;
 }
 
-void ScanSession::make_estimators(const RecorderSnapshot& now) {
-  const RecordingInfo info = info_of(now);
-  const bool calibrated = setup_.source->calibration().has_value();
-  live_.emplace(calibration_, info, config_.live);
-  advisor_.emplace(calibration_, info, config_.hints, calibrated);
-  gravity_used_ = now.gravity.measured;
-}
-
 void ScanSession::run() {
   for (bool last = false; !last;) {
     {
       std::unique_lock lock(mutex_);
       last = changed_.wait_for(lock, kRound, [this] { return end_; });
     }
-    const RecorderSnapshot now = recorder_->snapshot();
-    tap_.want_images(hub_.has_subscribers("scan.image"));
-    tap_.take(taken_);
-    watch(now);
-    retune(now);
-    take_rows(now.storing);
-    show(now, host_now_ns());
-    if (hand_over_at_ns_ && (last || host_now_ns() >= *hand_over_at_ns_)) hand_over(now);
+    try {
+      round(last);
+    } catch (const std::exception& error) {
+      tell(std::string("The live profile stops here: ") + error.what(),
+           "The recording goes on. Take the last change of the settings back, or stop and process the recording.");
+    }
   }
 }
 
+void ScanSession::round(bool last) {
+  const RecorderSnapshot now = recorder_->snapshot();
+  tap_.want_images(hub_.has_subscribers("scan.image"));
+  tap_.take(taken_);
+  show_rows();  // first: the estimate takes its time on a busy machine
+  watch(now);
+  retune(now);
+  take_rows(now.storing);
+  show(now, host_now_ns());
+  if (hand_over_at_ns_ && (last || host_now_ns() >= *hand_over_at_ns_)) hand_over(now);
+}
+
+// A fault that comes again each round is told once.
+void ScanSession::tell(const std::string& message, const std::string& hint) {
+  if (message == told_) return;
+  told_ = message;
+  hub_.broadcast("note", Json{{"message", message}, {"hint", hint}});
+}
+
 void ScanSession::take_rows(bool storing) {
-  for (const ProbeSample& row : taken_.rows) {
-    live_->push(row);
-    advisor_->push(row);
-  }
-  kept_.add(taken_.rows);
-  for (const TrackedPose& pose : taken_.poses) {
-    const TrackerSample sample = with_sigmas(pose);
-    live_->push(sample);
-    advisor_->push(sample);
-    kept_.add(sample);
-  }
   if (!taken_.rows.empty()) newest_row_ns_ = taken_.rows.back().t_ns;
-  const LiveEstimate estimate = live_->estimate();
-  advisor_->push(estimate);
+  const LiveEstimate estimate = estimator_->take(taken_.rows, taken_.poses);
   age_s_ = estimate.age_s;
   poses_late_ = estimate.counts.poses_late;
-  waiting_ = estimate.waiting;
   const std::lock_guard lock(mutex_);
   book_.add(estimate, storing);
 }
 
 // What has become of the segments since the last round.
 void ScanSession::watch(const RecorderSnapshot& now) {
-  const bool discarded = now.discarded > before_.discarded;
+  const Watched before = std::exchange(before_, {now.storing, now.discarded});
+  const bool discarded = now.discarded > before.discarded;
   if (discarded) {
     hand_over_at_ns_.reset();
     shown_.reset();
-    events_.discarded();
+    estimator_->kept().hold(now.storing);
+    events_.forgotten();
     const std::lock_guard lock(mutex_);
     book_.begin_anew();
   }
-  if (now.storing && (!before_.storing || discarded)) begin_scan(now);
+  if (now.storing && (!before.storing || discarded)) begin_scan(now);
   if (now.storing && !now.segment_list.empty()) shown_ = now.segment_list.back();
-  if (!now.storing && before_.storing && !discarded && !now.segment_list.empty()) {
+  if (!now.storing && before.storing && !discarded && !now.segment_list.empty()) {
     shown_ = now.segment_list.back();
     hand_over_at_ns_ = host_now_ns() + kPosesLate_ns;
   }
@@ -237,30 +233,39 @@ void ScanSession::watch(const RecorderSnapshot& now) {
     if (now.automatic) recorder_->set_mode(StoreMode::kAuto);
   }
   was_playing_ = setup_.source->playing();
-  if (!now.storing && now.gravity.measured && !gravity_used_) make_estimators(now);
-  before_ = {now.storing, now.discarded};
+  if (!now.storing && now.gravity.measured && !gravity_used_) {
+    estimator_->configure(info_of(now), config_);
+    gravity_used_ = true;
+  }
 }
 
 void ScanSession::begin_scan(const RecorderSnapshot& now) {
-  if (now.gravity.measured != gravity_used_) make_estimators(now);
-  live_->restart();
-  advisor_->restart();
-  kept_.hold(true);
+  if (now.gravity.measured != gravity_used_) estimator_->configure(info_of(now), config_);
+  gravity_used_ = now.gravity.measured;
+  estimator_->restart();
+  estimator_->kept().hold(true);
+  events_.forgotten();
   const std::lock_guard lock(mutex_);
   book_.begin_anew();
 }
 
 void ScanSession::hand_over(const RecorderSnapshot& now) {
   hand_over_at_ns_.reset();
-  kept_.hold(now.storing);
-  if (!shown_ || !kept_.covers(shown_->start_ns)) return;
+  KeptRows& kept = estimator_->kept();
+  kept.hold(now.storing);
+  if (!shown_) return;
+  if (!kept.covers(shown_->start_ns)) {
+    tell(shown_->name + " is too long to be refined here; the recording has all of it",
+         "Finish the recording, and open it on the Process page.");
+    return;
+  }
   FinishedScan out;
   out.recording = setup_.name;
   out.segment = *shown_;
   out.rows.info = info_of(now);
   out.rows.info.segments = {*shown_};
   out.rows.calibration = calibration_;
-  kept_.copy(shown_->start_ns, shown_->end_ns, now.description && now.description->has_gyro, out.rows);
+  kept.copy(shown_->start_ns, shown_->end_ns, now.description && now.description->has_gyro, out.rows);
   const TrackerStream& poses = out.rows.tracker;
   if (out.rows.info.tracker_rate_Hz <= 0.0 && poses.size() > 1) {
     const auto span_ns = static_cast<double>(poses.t_ns.back() - poses.t_ns.front());
@@ -277,33 +282,24 @@ LiveHeights ScanSession::live_heights() const {
 
 // With new settings the scan that is shown grows anew at once from the rows that were kept.
 void ScanSession::retune(const RecorderSnapshot& now) {
+  std::optional<ScanConfig> wanted;
   {
     const std::lock_guard lock(mutex_);
-    if (!wanted_) return;
-    config_ = *std::exchange(wanted_, std::nullopt);
+    wanted = std::exchange(wanted_, std::nullopt);
   }
-  try {
-    advisor_->configure(config_.hints);
-    live_->configure(config_.live);
-    if (!shown_ || !kept_.covers(shown_->start_ns)) return;
-    LiveProfile again(calibration_, info_of(now), config_.live);
-    kept_.replay(
-        shown_->start_ns, now.storing ? std::numeric_limits<std::int64_t>::max() : shown_->end_ns,
-        [&](const ProbeSample& row) { again.push(row); }, [&](const TrackerSample& pose) { again.push(pose); });
-    const LiveEstimate estimate = again.estimate();
-    if (now.storing) live_.emplace(std::move(again));
-    {
-      const std::lock_guard lock(mutex_);
-      book_.begin_anew();
-      book_.add(estimate, true);
-    }
-    if (!now.storing) events_.retuned(live_heights());
-  } catch (const Error& error) {
-    Json note;
-    note["message"] = std::string("The live profile cannot be worked out with these settings: ") + error.what();
-    note["hint"] = "Take the last change back.";
-    hub_.broadcast("note", note);
+  if (!wanted) return;
+  estimator_->configure(info_of(now), *wanted);
+  config_ = *wanted;
+  told_.clear();
+  if (!shown_ || !estimator_->kept().covers(shown_->start_ns)) return;
+  const std::int64_t end_ns = now.storing ? std::numeric_limits<std::int64_t>::max() : shown_->end_ns;
+  const LiveEstimate estimate = estimator_->again(shown_->start_ns, end_ns, now.storing);
+  {
+    const std::lock_guard lock(mutex_);
+    book_.begin_anew();
+    book_.add(estimate, true);
   }
+  if (!now.storing) events_.retuned(live_heights());
 }
 
 void ScanSession::publish(std::string_view topic, BlockWriter block, Delivery delivery) {
@@ -311,12 +307,16 @@ void ScanSession::publish(std::string_view topic, BlockWriter block, Delivery de
   hub_.publish(topic, block.take(), delivery);
 }
 
-void ScanSession::show(const RecorderSnapshot& now, std::int64_t now_ns) {
+void ScanSession::show_rows() {
   if (!taken_.rows.empty() && hub_.has_subscribers("scan.probe")) {
     publish("scan.probe",
             probe_block(taken_.rows, taken_.first_row, taken_.rows_dropped, origin_ns_, setup_.source->calibration()),
             Delivery::kSeries);
   }
+  if (taken_.image) publish("scan.image", image_block(*taken_.image), Delivery::kLatest);
+}
+
+void ScanSession::show(const RecorderSnapshot& now, std::int64_t now_ns) {
   {
     const std::lock_guard lock(mutex_);
     if (book_.grown() && hub_.has_subscribers("scan.profile"))
@@ -324,27 +324,27 @@ void ScanSession::show(const RecorderSnapshot& now, std::int64_t now_ns) {
     if (book_.moved() && hub_.has_subscribers("scan.pose"))
       publish("scan.pose", book_.take_motion(), Delivery::kSeries);
   }
-  if (taken_.image) publish("scan.image", image_block(*taken_.image), Delivery::kLatest);
   if (now_ns - stated_ns_ < kStatePeriod_ns) return;
   stated_ns_ = now_ns;
+  publish("scan.state", state_of(now, now_ns), Delivery::kLatest);
+}
+
+BlockWriter ScanSession::state_of(const RecorderSnapshot& now, std::int64_t now_ns) {
   BlockWriter state("scan.state");
   Json& head = state.head();
   head["open"] = true;
   head["t_ns"] = now_ns;
   head["source"] = description();
   head["recorder"] = recorder_json(now);
-  head["live"] = {{"waiting", waiting_}, {"age_s", age_s_}, {"poses_late", poses_late_}, {"highest_speed_mps", Json()}};
-  const double fastest_mps = advisor_->highest_speed_mps();
+  head["live"] = {{"waiting", estimator_->waiting()},
+                  {"age_s", age_s_},
+                  {"poses_late", poses_late_},
+                  {"highest_speed_mps", Json()}};
+  const double fastest_mps = estimator_->highest_speed_mps();
   if (std::isfinite(fastest_mps)) head["live"]["highest_speed_mps"] = fastest_mps;
-  head["hints"] = Json::array();
-  if (setup_.source->playing()) {
-    for (const Hint& hint : advisor_->hints(now_ns)) {
-      head["hints"].push_back({{"kind", kHintKindNames.at(static_cast<std::size_t>(hint.kind))},
-                               {"severity", kHintSeverityNames.at(static_cast<std::size_t>(hint.severity))},
-                               {"text", hint.text}});
-    }
-  }
-  publish("scan.state", std::move(state), Delivery::kLatest);
+  // A source that waits for its start is silent for no fault.
+  head["hints"] = setup_.source->playing() ? hints_json(estimator_->hints(now_ns)) : Json::array();
+  return state;
 }
 
 }  // namespace asperity::studio

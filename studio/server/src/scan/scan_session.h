@@ -13,13 +13,11 @@
 #include <vector>
 
 #include "asperity/acquire/recorder.h"
-#include "asperity/pipeline/live_profile.h"
-#include "asperity/pipeline/scan_hints.h"
 #include "asperity/studio/hub.h"
-#include "scan/kept_rows.h"
 #include "scan/row_tap.h"
 #include "scan/scan_book.h"
 #include "scan/scan_config.h"
+#include "scan/scan_estimator.h"
 #include "scan/scan_source.h"
 
 namespace asperity::studio {
@@ -51,7 +49,7 @@ struct FinishedScan {
 struct ScanEvents {
   std::function<void(FinishedScan)> ended;
   std::function<void(LiveHeights)> retuned;  // the finished scan's causal profile, with other settings
-  std::function<void()> discarded;           // there is none any more
+  std::function<void()> forgotten;           // it was discarded, or another has begun
 };
 
 // An open source with its recorder, and a thread that shows what comes from it: topics scan.probe, scan.state,
@@ -100,7 +98,10 @@ class ScanSession {
   void hand_over(const RecorderSnapshot& now);
   void retune(const RecorderSnapshot& now);
   LiveHeights live_heights() const;
-  void make_estimators(const RecorderSnapshot& now);
+  void round(bool last);
+  void tell(const std::string& message, const std::string& hint);
+  BlockWriter state_of(const RecorderSnapshot& now, std::int64_t now_ns);
+  void show_rows();
   void show(const RecorderSnapshot& now, std::int64_t now_ns);
   void publish(std::string_view topic, BlockWriter block, Delivery delivery);
 
@@ -115,9 +116,7 @@ class ScanSession {
 
   // The session's thread alone.
   RowTap::Taken taken_;
-  KeptRows kept_;
-  std::optional<LiveProfile> live_;
-  std::optional<ScanAdvisor> advisor_;
+  std::optional<ScanEstimator> estimator_;
   ScanConfig config_;
   bool gravity_used_ = false;
   Watched before_;
@@ -127,7 +126,7 @@ class ScanSession {
   std::int64_t newest_row_ns_ = 0;
   double age_s_ = 0.0;
   std::uint64_t poses_late_ = 0;
-  std::string waiting_;
+  std::string told_;  // the last fault that was told
   std::int64_t stated_ns_ = 0;
 
   mutable std::mutex mutex_;

@@ -36,7 +36,7 @@ async function paint({ page }) {
   await page.getByTestId("paint-object").selectOption("pebble.obj");
   await page.getByTestId("paint-unit").selectOption("0.001");
   await page.getByTestId("paint-texture").selectOption("measured/texture.json");
-  for (const point of [[-30, -8, 20], [0, 12, 24], [30, -4, 20]]) {
+  for (const point of [[-30, -8, 20], [0, -3, 24], [30, -4, 20]]) {
     for (const [at, axis] of ["x", "y", "z"].entries()) await type(page.getByTestId(`paint-${axis}`), point[at]);
     await page.getByTestId("paint-add").click();
   }
@@ -53,16 +53,16 @@ async function feel({ page }) {
   await page.getByTestId("feel-stop").waitFor();
   const box = await page.getByTestId("feel-view").locator("canvas").boundingBox();
   const to = (x, y, steps) => page.mouse.move(box.x + box.width * x, box.y + box.height * y, { steps });
-  await to(0.44, 0.46);
+  await to(0.44, 0.463);
   await page.mouse.down();
   await until(async () => {
     const take = page.getByTestId("feel-take");
-    if (await take.isVisible()) await take.click({ timeout: 1000 }).then(() => to(0.44, 0.46), () => {});
+    if (await take.isVisible()) await take.click({ timeout: 1000 }).then(() => to(0.44, 0.463), () => {});
     return numberIn((await page.getByTestId("feel-gain").locator("dd").textContent()).replace("–", "0")) === 100;
   }, "the force, ramped up");
-  await to(0.44, 0.46);
+  await to(0.44, 0.463);
   await page.mouse.down();
-  await to(0.53, 0.44, 60);
+  for (const [x, y] of [[0.53, 0.474], [0.44, 0.463], [0.53, 0.474]]) await to(x, y, 40);
   await until(async () => numberIn(await page.getByTestId("force-now").textContent()) > 0.05, "a force");
 }
 

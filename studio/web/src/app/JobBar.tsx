@@ -1,11 +1,12 @@
 import { IconButton } from "../ui/IconButton";
 import { cancelJob, jobs } from "../ui/job";
 
-/** What the server works on, how far it is, and cancel. */
+/** What the server works on, how far it is, and cancel; its place is kept so that nothing moves when work comes or goes. */
 export function JobBar() {
   const shown = jobs.value;
   return (
-    <section class={shown.length ? "jobs" : "jobs jobs-none"} aria-label="Work in progress" data-testid="jobs">
+    <section class="jobs" aria-label="Work in progress" data-testid="jobs">
+      {shown.length === 0 && <span class="job-stage">No work in progress</span>}
       {shown.map((job) => (
         <div key={job.id} class="job">
           <span class="job-title">{job.title}</span>

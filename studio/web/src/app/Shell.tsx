@@ -39,9 +39,7 @@ export function Shell() {
         Skip to the page
       </a>
       <header class="shell-header">
-        <span class="shell-name" title={about.value ? `Folder ${about.value.folder}, version ${about.value.version}` : undefined}>
-          Asperity
-        </span>
+        <span class="shell-name">Asperity</span>
         <nav aria-label="Pages" class="shell-nav">
           {routes.map(({ id, title }) => (
             <a key={id} href={`#/${id}`} aria-current={route.value.id === id ? "page" : undefined}>
@@ -70,7 +68,14 @@ export function Shell() {
       <main id="main" class="shell-main" tabIndex={-1} inert={link.value === "lost" || link.value === "refused"}>
         <PageFrame key={route.value.id} route={route.value} />
       </main>
-      <JobBar />
+      <footer class="shell-footer">
+        <JobBar />
+        {about.value && (
+          <span class="shell-folder">
+            Folder {about.value.folder}, version {about.value.version}
+          </span>
+        )}
+      </footer>
       <Toasts />
       <Help open={help} onClose={() => setHelp(false)} />
     </div>

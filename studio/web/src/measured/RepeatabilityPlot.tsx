@@ -49,7 +49,7 @@ export function RepeatabilityPlot({ block }: { block: Block }) {
       <div class="measured-bar">
         <Toggle label="One below the other" on={stacked} onChange={setStacked} testId="stacked" />
         <p class="measured-note">
-          Band {number(low, 2)} to {number(high, 3)}{"\u2009"}cycles/mm; each scan is shifted as a whole onto the first.
+          Band {number(low, 2)} to {number(high, 3)}{"\u202f"}cycles/mm; each scan is shifted as a whole onto the first.
         </p>
       </div>
       <Plot

@@ -13,7 +13,7 @@ export function SpectrumPlot({ measured }: { measured: Measured }) {
   const pitch_mm = measured.figures.find((figure) => figure.key === "periodicity.pitch_m")?.value;
   const periodic = measured.figures.some((figure) => figure.key === "periodicity.periodic" && figure.value === "yes");
   const marks = useMemo(
-    () => (periodic && typeof pitch_mm === "number" ? [{ x: 1 / pitch_mm, label: `pitch ${pitch_mm.toFixed(2)} mm` }] : []),
+    () => (periodic && typeof pitch_mm === "number" ? [{ x: 1 / pitch_mm, label: `pitch ${pitch_mm.toFixed(2)}\u202fmm` }] : []),
     [pitch_mm, periodic],
   );
   return (

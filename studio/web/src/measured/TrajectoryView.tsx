@@ -92,7 +92,7 @@ function ColourKey({ low, high, unit, words }: ColourKeyProps) {
     <div class="measured-key">
       <span>{words ? words[0] : number(low, 3)}</span>
       <span class="measured-key-bar" style={{ backgroundImage: `linear-gradient(to right, ${stops})` }} />
-      <span>{words ? words[1] : `${number(high, 3)}\u2009${unit}`}</span>
+      <span>{words ? words[1] : `${number(high, 3)}\u202f${unit}`}</span>
     </div>
   );
 }

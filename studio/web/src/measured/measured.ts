@@ -125,5 +125,5 @@ export function sortedByX(x: ArrayLike<number>, y: ArrayLike<number>): { x: Floa
 
 /** "every 3rd of 90 000 samples"; empty if all are there. */
 export function thinnedWords(what: { samples: number; every: number }, things: string): string {
-  return what.every <= 1 ? "" : `One of every ${what.every} of ${what.samples.toLocaleString("en").replaceAll(",", "\u2009")} ${things} is shown.`;
+  return what.every <= 1 ? "" : `One of every ${what.every} of ${what.samples.toLocaleString("en").replaceAll(",", "\u202f")} ${things} is shown.`;
 }

@@ -4,7 +4,7 @@ import { axis, uBands, uSeries } from "./options";
 import type { PlotProps } from "./Plot";
 import { readout } from "./readout";
 import { columnsBetween, extent, type Series } from "./series";
-import { zoomed, type Range } from "./zoom";
+import { isAllOf, rangeAfter, zoomed, type Range } from "./zoom";
 
 /** The uPlot of a <Plot>: it draws again from all the data whenever the range of x changes. */
 export class Drawing {
@@ -63,13 +63,11 @@ export class Drawing {
 
   /** New data, with the same looks. What is zoomed into stays so while it is there. */
   setSeries(series: readonly Series[]): void {
-    const shown = this.zoomedInto();
+    const before = this.all;
     this.series = series;
     this.all = this.range();
-    const isOut = shown && (shown.min >= this.all.max || shown.max <= this.all.min);
     this.drawnRange = "";
-    this.show(!shown || isOut ? this.all : shown);
-    this.rangeChanged();
+    this.show(rangeAfter(this.shown, before, this.all));
   }
 
   key(key: string): boolean {
@@ -80,19 +78,12 @@ export class Drawing {
 
   /** The range of x that is zoomed into; null if all is shown. */
   zoomedInto(): Range | null {
-    const { shown } = this;
-    return shown.min <= this.all.min && shown.max >= this.all.max ? null : shown;
+    return isAllOf(this.shown, this.all) ? null : this.shown;
   }
 
+  /** uPlot's own scale follows later where it is set outside of a batch: what is shown is kept here. */
   private show(range: Range): void {
     this.shown = range;
-    this.plot.setScale("x", range);
-  }
-
-  private rangeChanged(): void {
-    const { min, max } = this.plot.scales.x!;
-    if (min == null || max == null) return;
-    const range = (this.shown = { min, max });
     const name = `${range.min} ${range.max} ${this.plot.width}`;
     if (name === this.drawnRange) return;
     this.drawnRange = name;
@@ -101,6 +92,12 @@ export class Drawing {
       this.plot.setScale("x", range);
     });
     this.props().onRange?.(range.min, range.max);
+  }
+
+  /** After a drag of the user, or what show() has set itself. */
+  private rangeChanged(): void {
+    const { min, max } = this.plot.scales.x!;
+    if (min != null && max != null) this.show({ min, max });
   }
 
   private cursorMoved(): void {

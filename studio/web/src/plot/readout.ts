@@ -1,4 +1,4 @@
-import { number } from "../ui/format";
+import { floored, number, quantity, withUnit } from "../ui/format";
 import type { PlotProps } from "./Plot";
 import { nearest, type Series } from "./series";
 
@@ -8,8 +8,8 @@ export function readout({ x: common, xAxis, yAxis }: Pick<PlotProps, "x" | "xAxi
     .filter((one) => !one.hidden)
     .map((one) => {
       const own = one.x ?? common ?? [];
-      const value = number(one.y[nearest(own, x)], 4);
+      const value = number(floored(one.y[nearest(own, x)] ?? NaN, yAxis.unit ?? ""), 4);
       return series.length > 1 ? `${one.label} ${value}` : value;
     });
-  return `${number(x, 4)} ${xAxis.unit ?? ""}: ${values.join(", ")} ${yAxis.unit ?? ""}`.trim();
+  return withUnit(`${quantity(x, xAxis.unit ?? "")}: ${values.join(", ")}`, yAxis.unit ?? "");
 }

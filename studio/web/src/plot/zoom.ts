@@ -5,6 +5,14 @@ export interface Range {
   max: number;
 }
 
+export const isAllOf = (shown: Range, all: Range): boolean => shown.min <= all.min && shown.max >= all.max;
+
+/** What is shown of new data: what was zoomed into while it is there, else all, however far it has grown. */
+export function rangeAfter(shown: Range, before: Range, all: Range): Range {
+  const isOut = shown.min >= all.max || shown.max <= all.min;
+  return isOut || isAllOf(shown, before) ? all : shown;
+}
+
 /** The range after a key, or null where the key means nothing: + and − zoom, arrows move, 0 and Home show all. */
 export function zoomed(range: Range, all: Range, key: string, logarithmic: boolean): Range | null {
   const to = logarithmic ? Math.log : (value: number) => value;

@@ -1,5 +1,5 @@
 import type { ComponentChildren } from "preact";
-import { number } from "./format";
+import { floored, number } from "./format";
 
 export interface Column<Row> {
   key: string;
@@ -80,5 +80,5 @@ export function Table<Row>({ caption, columns, rows, rowKey, onChoose, chosen, e
 function content<Row>(column: Column<Row>, row: Row, index: number): ComponentChildren {
   if (column.cell) return column.cell(row, index);
   const value = (row as Record<string, unknown>)[column.key];
-  return typeof value === "number" ? number(value) : ((value ?? "–") as ComponentChildren);
+  return typeof value === "number" ? number(floored(value, column.unit ?? "")) : ((value ?? "–") as ComponentChildren);
 }

@@ -1,6 +1,6 @@
-// Numbers as people read them: few digits, a proper minus, a thin space before the unit.
+// Numbers as people read them: few digits, a proper minus, a narrow space before the unit, at which no line is broken.
 
-const THIN = "\u2009";
+const THIN = "\u202f";
 const MINUS = "\u2212";
 const NOTHING = "–";
 
@@ -21,23 +21,31 @@ export function fixed(value: number | null | undefined, decimals: number): strin
   return minus(Number(text) === 0 ? text.replace("-", "") : text);
 }
 
+/** Less than this is nothing in its unit: a length under a nanometre says how a computer rounds, not what a surface is like. */
+const FLOORS: Record<string, number> = { m: 1e-9, mm: 1e-6, µm: 1e-3, N: 1e-6, "m/s": 1e-9, "mm/s": 1e-6, "°": 1e-6, rad: 1e-8, s: 1e-9, ms: 1e-6, "%": 1e-6 };
+
+/** The value, or 0 for what is too little to mean anything in its unit. */
+export const floored = (value: number, unit: string): number => (Math.abs(value) < (FLOORS[unit] ?? 0) ? 0 : value);
+
+/** What is written, and its unit, on one line. */
+export const withUnit = (text: string, unit: string): string => (unit && text !== NOTHING ? `${text}${gap(unit)}${unit}` : text);
+
 /** A number and its unit. */
 export function quantity(value: number | null | undefined, unit: string, digits = 4): string {
-  const text = number(value, digits);
-  return unit && text !== NOTHING ? `${text}${gap(unit)}${unit}` : text;
+  return withUnit(number(value == null ? value : floored(value, unit), digits), unit);
 }
 
 /** "12.34 ± 0.05 mm": the error with two significant digits, the value with as many decimals. */
 export function withError(value: number | null | undefined, error: number | null | undefined, unit = ""): string {
   if (value == null || !Number.isFinite(value)) return NOTHING;
-  if (error == null || !Number.isFinite(error) || error <= 0) return quantity(value, unit);
+  if (error == null || !Number.isFinite(error) || floored(error, unit) <= 0) return quantity(value, unit);
   const exponent = Math.floor(Math.log10(Number(error.toPrecision(2))));
   const decimals = 1 - exponent;
   const both =
     decimals < 0 || decimals > 9
       ? `${number(value)} ± ${number(error, 2)}`
       : `${fixed(value, decimals)} ± ${fixed(error, decimals)}`;
-  return unit ? `${both}${gap(unit)}${unit}` : both;
+  return withUnit(both, unit);
 }
 
 export const millimetres = (value_m: number | null | undefined, digits = 4) => quantity(scaled(value_m, 1e3), "mm", digits);
@@ -51,7 +59,7 @@ export const percent = (fraction: number | null | undefined, digits = 3) => quan
 /** A length in the unit that suits its size: µm, mm or m. */
 export function length(value_m: number | null | undefined, digits = 4): string {
   const size = Math.abs(value_m ?? 0);
-  if (size > 0 && size < 1e-3) return micrometres(value_m, digits);
+  if (floored(size, "m") > 0 && size < 1e-3) return micrometres(value_m, digits);
   return size < 1 ? millimetres(value_m, digits) : quantity(value_m, "m", digits);
 }
 

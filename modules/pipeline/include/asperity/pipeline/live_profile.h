@@ -36,7 +36,8 @@ class LiveProfile {
   // Begins a new profile: s from 0, a new base. The filter goes on.
   void restart();
 
-  // New settings from here on; profile and base begin anew only if the spacing or the base's shape have changed.
+  // New settings from here on; profile and base begin anew only if the spacing or the base's shape have changed. Throws
+  // as the constructor does, and nothing has changed then.
   void configure(const LiveProfileConfig& config);
 
   const LiveProfileConfig& config() const;

@@ -43,6 +43,7 @@ class CausalGrid {
   double spacing_m_;
   double max_hole_m_;
   std::int64_t origin_ns_ = 0;
+  std::int64_t last_ns_ = 0;  // of the last point: those in a hole have it too
   bool any_ = false;
 
   std::int64_t quarter_ = 0;  // that is being averaged

@@ -31,11 +31,12 @@ using Message = std::variant<Call, Pointer>;
 
 inline constexpr std::size_t kMaxMessageBytes = 1U << 20U;
 inline constexpr std::size_t kMaxMessageDepth = 32;
-inline constexpr std::size_t kMaxMessageKeys = 1000;  // of one object
+inline constexpr std::size_t kMaxMessageKeys = 1000;       // of one object
+inline constexpr std::size_t kMaxMessageValues = 200'000;  // of all, arrays and objects among them
 
 // Takes a frame apart. Throws Error saying what is wrong with it: too long, no UTF-8, no JSON, nested too deeply, too
-// many keys in an object, a key twice or unknown or missing (`args` may be), a name that is none ([a-z0-9_.]{1,64}), an
-// id beyond 2^53, a number that is not finite.
+// many keys in an object or values in all, a key twice or unknown or missing (`args` may be), a name that is none
+// ([a-z0-9_.]{1,64}), an id beyond 2^53, a number that is not finite.
 Message decode_message(std::string_view frame, bool is_text);
 
 }  // namespace asperity::studio

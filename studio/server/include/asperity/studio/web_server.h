@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "asperity/studio/hub.h"
@@ -27,8 +26,6 @@ struct WebServerEvents {
   std::function<void(ClientId)> joined;
   std::function<void(ClientId)> left;
   std::function<void(ClientId, Message)> message;
-  // The bytes of a file that a page offers for download, by the name in /download/NAME; nullopt: there is none.
-  std::function<std::optional<std::string>(const std::string& name)> download;
 };
 
 // Serves the embedded app over HTTP and its messages over a WebSocket, from one thread of its own

@@ -87,7 +87,7 @@ export function AlignView() {
             <span class="align-ramp-ends">
               <span>0</span>
               <span>{fixed(limit_mm / 2, limit_mm < 0.1 ? 3 : 2)}</span>
-              <span>≥ {fixed(limit_mm, limit_mm < 0.1 ? 3 : 2)} mm</span>
+              <span>≥ {fixed(limit_mm, limit_mm < 0.1 ? 3 : 2)}{"\u202f"}mm</span>
             </span>
           </div>
         )}
@@ -142,7 +142,7 @@ function noticeWords(): string {
       if (poses.length === 0) return "Registering …";
       return [
         `Iteration ${scrub.value + 1} of ${poses.length}`,
-        `${phaseWords(phases[phase[scrub.value]!] ?? "")}, ${fixed(1e3 * (rms_m[scrub.value] ?? NaN), 3)} mm RMS`,
+        `${phaseWords(phases[phase[scrub.value]!] ?? "")}, ${fixed(1e3 * (rms_m[scrub.value] ?? NaN), 3)}\u202fmm RMS`,
       ].join(": ");
     case "placed":
       if (tool.value !== "pick") return "";

@@ -1,11 +1,12 @@
 import { useState } from "preact/hooks";
 import { go } from "../../app/routes";
 import { call } from "../../net/connection";
-import { edit } from "../../state/document";
 import { Button } from "../../ui/Button";
 import { readEntries } from "../../ui/entries";
 import { Panel } from "../../ui/Panel";
 import { TextField } from "../../ui/TextField";
+import { Toggle } from "../../ui/Toggle";
+import { chooseScene } from "../feel/feelChoices";
 import { align } from "./alignState";
 
 interface Written {
@@ -21,20 +22,23 @@ export function WritePanel() {
   const mesh = align.value?.mesh ?? "";
   const stem = (mesh.split("/").pop() ?? "").replace(/\.[^.]*$/, "");
   const [typed, setTyped] = useState("");
+  const [replace, setReplace] = useState(false);
   const [written, setWritten] = useState<Written | null>(null);
   const name = typed || `${stem || "mesh"}-aligned`;
   const write = async () => {
     setWritten(null);
-    setWritten(await call<Written>("align.write", { name }));
+    setWritten(await call<Written>("align.write", { name, replace }));
+    setReplace(false);
     await readEntries();
   };
   const feel = async () => {
-    await edit("/feel/scene", written!.scene, "feel the aligned scene");
+    await chooseScene(written!.scene);
     go("feel");
   };
   return (
     <Panel title="Write" testId="align-write">
       <TextField label="Folder" value={name} onChange={setTyped} hint="In the project; the registration is run to its end from the pose." />
+      <Toggle label="Replace what has this name" on={replace} onChange={setReplace} />
       <Button
         kind="primary"
         onClick={write}

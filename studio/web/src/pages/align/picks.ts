@@ -30,5 +30,5 @@ export function nearestOnScreen(points: readonly (Screen | null)[], at: Screen, 
 /** "12.3, 4.5, −6.0 mm". */
 export function pointWords(p_m: Point): string {
   const words = p_m.map((value) => (1e3 * value).toFixed(1).replace("-", "\u2212"));
-  return `${words.join(", ")}\u2009mm`;
+  return `${words.join(", ")}\u202fmm`;
 }

@@ -121,7 +121,7 @@ function Legend() {
             <path d="M1 5h13M13 1.500 20 5l-7 3.500z" style={{ stroke: seriesColour(colour, 0), fill: seriesColour(colour, 0), strokeWidth: 2 }} />
           </svg>
           <span>{label}</span>
-          <span class="numeric">{state ? fixed(length3(state[key]), 2) : "–"} N</span>
+          <span class="numeric">{state ? fixed(length3(state[key]), 2) : "–"}{"\u202f"}N</span>
         </li>
       ))}
     </ul>

@@ -68,7 +68,7 @@ function ForceLimit() {
       high={most_N}
       step={most_N / 50}
       unit="N"
-      hint={`Can be lowered; at most ${most_N} N, as the studio was started.`}
+      hint={`Can be lowered; at most ${most_N}\u202fN, as the studio was started.`}
       onInput={(next, gesture) => void attempt(() => edit("/feel/max_force_N", next, "largest force", gesture))}
       testId="feel-max-force"
     />

@@ -114,11 +114,13 @@ export default function PaintPage() {
       <div class="paint-main">
         <div class="paint-bar">
           <Select label="Show" value={show} options={SHOWS} onChange={(value) => setShow(value as Show)} testId="paint-show" />
-          <p class="paint-help" role="status" data-testid="paint-help">
-            {help(paint, busy)}
-          </p>
-          {stroke && <Button onClick={() => edit("/paint/current", -1, "finish the stroke")}>Finish stroke</Button>}
+          <Button disabled={!stroke} onClick={() => edit("/paint/current", -1, "finish the stroke")}>
+            Finish stroke
+          </Button>
         </div>
+        <p class="paint-help" role="status" data-testid="paint-help" title={help(paint, busy)}>
+          {help(paint, busy)}
+        </p>
         <PaintView block={block} strokes={paint.strokes} current={paint.current} show={show} cell_mm={cell_mm} drawing={stroke !== undefined}
           onPick={pick} onMove={move} onHover={setHover} />
         <p class="paint-legend" data-testid="paint-legend">
@@ -149,9 +151,9 @@ function legend(show: Show, cell_mm: number, hover: Hover | null): string {
   const what =
     show === "warp"
       ? "Blue: squeezed, red: stretched, full colour from 1.25 times on; fold colour: turned over."
-      : `One square of the chequer is ${cell_mm} mm of the texture.`;
+      : `One square of the chequer is ${cell_mm}\u202fmm of the texture.`;
   if (!hover) return what;
   if (hover.texture < 0) return `${what} Here: no texture.`;
-  const at = hover.xy_mm ? `, ${hover.xy_mm[0].toFixed(2)} mm along and ${hover.xy_mm[1].toFixed(2)} mm across` : "";
+  const at = hover.xy_mm ? `, ${hover.xy_mm[0].toFixed(2)}\u202fmm along and ${hover.xy_mm[1].toFixed(2)}\u202fmm across` : "";
   return `${what} Here: texture ${hover.texture}${at}, ${hover.folded ? "turned over" : warpWords(hover.stretch)}.`;
 }

@@ -23,7 +23,7 @@ export function TuningPanel({ fields }: { fields: readonly ConfigField[] }) {
   return (
     <>
       <Panel title="Tune" testId="tune">
-        <Select label="Method" value={method} options={METHODS} onChange={(value) => set("method", value)} testId="method" />
+        <Select label="Method" wide value={method} options={METHODS} onChange={(value) => set("method", value)} testId="method" />
         {knobs(method).map((knob) => (
           <KnobControl key={knob.path} knob={knob} field={fieldAt(fields, knob.path)} />
         ))}

@@ -24,7 +24,10 @@ export function HintsPanel() {
   const waiting = now?.open && now.source?.playing ? now.live?.waiting : "";
   return (
     <Panel title="Hints" testId="scan-hints">
-      <ul class="scan-hints" aria-live="polite" aria-relevant="additions text">
+      <p class="visually-hidden" role="status" data-testid="scan-hints-said">
+        {hints.map((hint) => TITLES[hint.kind] ?? hint.kind).join(". ")}
+      </p>
+      <ul class="scan-hints">
         {hints.map((hint) => (
           <li key={hint.kind} data-hint={hint.kind}>
             <Lamp state={hint.severity === "error" ? "bad" : "warn"} word={TITLES[hint.kind] ?? hint.kind} />

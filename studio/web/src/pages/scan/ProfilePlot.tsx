@@ -4,6 +4,7 @@ import type { Series } from "../../plot/series";
 import { Panel } from "../../ui/Panel";
 import { Select } from "../../ui/Select";
 import { band } from "./growing";
+import { isLiveUsable } from "./scanState";
 import { profile, profileVersion, refined } from "./stream";
 
 type Shown = "texture_m" | "height_m";
@@ -16,8 +17,11 @@ export function ProfilePlot() {
   const series = useMemo<Series[]>(() => {
     const live = profile.columns;
     const y = live[shown].values;
-    const out: Series[] = [{ label: "while scanning", x: live.s_m.values, y, ...band(y, live.sigma_m.values), colour: 2 }];
     const arrays = last?.arrays;
+    const out: Series[] = [];
+    // A live profile that had too little to go by is of no use beside the refined one.
+    if (!arrays?.s_m || isLiveUsable(last!.head.difference))
+      out.push({ label: "while scanning", x: live.s_m.values, y, ...band(y, live.sigma_m.values), colour: 2 });
     if (arrays?.s_m) {
       const shift_m: number = last!.head.difference?.shift_m ?? 0;
       const micrometres = (values: ArrayLike<number>) => Float64Array.from(values, (value) => value * 1e6);

@@ -1,13 +1,14 @@
 import { useState } from "preact/hooks";
 import { Button } from "../../ui/Button";
+import { Dialog } from "../../ui/Dialog";
 import { Icon } from "../../ui/Icon";
 import { Lamp } from "../../ui/Lamp";
 import { Panel } from "../../ui/Panel";
 import { TextField } from "../../ui/TextField";
 import { Toggle } from "../../ui/Toggle";
 import { fixed } from "../../ui/format";
-import { discard, rescan, segment, start, stop, toggleAuto } from "./commands";
-import { abilities, recordWords } from "./scanState";
+import { answer, asked, discard, rescan, segment, start, stop, toggleAuto } from "./commands";
+import { abilities, dearSegment, recordWords } from "./scanState";
 import { scan } from "./settings";
 import { state } from "./stream";
 
@@ -22,7 +23,7 @@ export function RecordPanel() {
       <div class={`scan-big scan-big-${now?.recorder?.storing ? "on" : "off"}`}>
         <Lamp state={words.lamp} word={words.word} live testId="scan-record-state" />
         <span class="scan-time" data-testid="scan-recorded">
-          {fixed(now?.recorder?.recorded_s ?? null, 1)} s
+          {fixed(now?.recorder?.recorded_s ?? null, 1)}{"\u202f"}s
         </span>
       </div>
       <div class="scan-buttons">
@@ -43,6 +44,23 @@ export function RecordPanel() {
         </Button>
       </div>
       <Toggle label="Auto: record while the probe touches (A)" on={scan.value.auto} onChange={toggleAuto} testId="scan-auto" />
+      <Dialog
+        title={asked.value === "rescan" ? "Scan it again?" : "Throw it away?"}
+        open={asked.value !== null}
+        onClose={() => answer(false)}
+        actions={
+          <>
+            <Button onClick={() => answer(false)}>Keep it</Button>
+            <Button kind="danger" onClick={() => answer(true)} testId="scan-throw-away">
+              {asked.value === "rescan" ? "Throw away and scan again" : "Throw away"}
+            </Button>
+          </>
+        }
+      >
+        <p>
+          {dearSegment(now)?.name}, {fixed(dearSegment(now)?.duration_s, 1)} s long, is deleted from the recording. That cannot be undone.
+        </p>
+      </Dialog>
       {can.segment && <TextField label="Next segment's name" value={name} onChange={setName} placeholder="segment_…" />}
     </Panel>
   );

@@ -4,6 +4,7 @@ import { Figures } from "../../ui/Figures";
 import { fixed } from "../../ui/format";
 import { Panel } from "../../ui/Panel";
 import { openInProcess } from "./commands";
+import { isLiveUsable } from "./scanState";
 import { refined, state } from "./stream";
 
 /** The last scan worked out in full, and how the live profile lies against it. */
@@ -22,8 +23,9 @@ export function ResultPanel() {
             <Figure label="Live against refined" value={head.difference ? `r = ${fixed(head.difference.correlation, 4)}` : "–"} testId="scan-correlation"
               hint="Correlation of the two in the band in which profiles are compared" />
             <Figure label="RMS difference" value={head.difference?.rms_um} unit="µm" digits={3} testId="scan-rms" />
-            <Figure label="Worked out in" value={`${Math.round(head.took_s * 1e3)}\u2009ms`} testId="scan-took" />
+            <Figure label="Worked out in" value={`${Math.round(head.took_s * 1e3)}\u202fms`} testId="scan-took" />
           </Figures>
+          {!isLiveUsable(head.difference) && <p class="field-hint">The live profile had too little to go by, and is not shown.</p>}
           {!head.trustworthy && <p class="field-error" role="status">Not to be trusted: {head.verdict}</p>}
           <Button onClick={openInProcess} testId="scan-to-process"
             hint={state.value?.open ? "Finishes the recording, closes the source and opens it on the Process page" : undefined}>

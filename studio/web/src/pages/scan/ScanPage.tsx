@@ -21,6 +21,9 @@ import { acceleration, figures, follow, force, state } from "./stream";
 import { TuningPanel } from "./TuningPanel";
 import "./scan.css";
 
+/** Not while a control has the focus: a key that throws away is not to be hit by chance. */
+const away = (run: () => unknown) => () => (document.activeElement?.matches("input, select, button, textarea") ? undefined : run());
+
 const kWindow_s = 6;
 const FORCE = [{ label: "force", colour: 1 as const }];
 const ACCELERATION = [
@@ -39,8 +42,8 @@ export default function ScanPage() {
   useKeys([
     { key: "space", label: "start or stop recording", run: startOrStop },
     { key: "s", label: "end the segment and begin the next", run: () => segment() },
-    { key: "d", label: "discard the last segment", run: discard },
-    { key: "r", label: "rescan: discard and record again", run: rescan },
+    { key: "d", label: "discard the last segment", run: away(discard) },
+    { key: "r", label: "rescan: discard and record again", run: away(rescan) },
     { key: "a", label: "record while the probe touches (Auto)", run: toggleAuto },
   ]);
   return (

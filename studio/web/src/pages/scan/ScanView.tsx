@@ -34,7 +34,7 @@ export function ScanView() {
       <div class="scan-colours" aria-hidden="true">
         <span>0 N</span>
         <span class="scan-colours-bar" style={{ background: `linear-gradient(90deg, ${ramp()})` }} />
-        <span>{strongest_N} N</span>
+        <span>{strongest_N}{"\u202f"}N</span>
         <span class="scan-colours-air" style={{ background: cssColour(pathColour(0, 0, dark.value)) }} />
         <span>in the air</span>
       </div>
@@ -94,6 +94,7 @@ class PathLine {
   private version = -1;
   private generation = -1;
   private wasDark = false;
+  private notUploaded = Infinity; // the first point that the card has not
 
   constructor() {
     const geometry = new BufferGeometry();
@@ -102,6 +103,7 @@ class PathLine {
     geometry.setDrawRange(0, 0);
     this.object = new Line(geometry, new LineBasicMaterial({ vertexColors: true }));
     this.object.frustumCulled = false;
+    this.object.onAfterRender = () => (this.notUploaded = Infinity);
   }
 
   /** Takes what is new; true if there was something. */
@@ -118,9 +120,10 @@ class PathLine {
       this.points.array.set(tip_m.values.subarray(3 * point, 3 * point + 3), 3 * point);
       this.colours.array.set(pathColour(force_N.values[point]!, how.values[point]!, isDark), 3 * point);
     }
+    this.notUploaded = Math.min(this.notUploaded, from);
     for (const part of [this.points, this.colours]) {
       part.clearUpdateRanges();
-      part.addUpdateRange(3 * from, 3 * (count - from));
+      part.addUpdateRange(3 * this.notUploaded, 3 * (count - this.notUploaded));
       part.needsUpdate = true;
     }
     this.drawn = count;

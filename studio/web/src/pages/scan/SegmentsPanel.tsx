@@ -15,7 +15,7 @@ export function SegmentsPanel() {
           {segments.map((segment, index) => (
             <li key={`${index} ${segment.name}`}>
               <span>{segment.name}</span>
-              <span>{segment.open ? "recording" : `${fixed(segment.duration_s, 1)} s`}</span>
+              <span>{segment.open ? "recording" : `${fixed(segment.duration_s, 1)}\u202fs`}</span>
             </li>
           ))}
         </ol>

@@ -33,12 +33,12 @@ export function SensorsPanel() {
         </p>
       )}
       <Figures>
-        <Figure label="Force" value={fixed(recorder?.force_N, recorder?.force_is_calibrated ? 2 : 0) + (recorder?.force_is_calibrated ? "\u2009N" : recorder ? " counts" : "")} testId="scan-force" />
+        <Figure label="Force" value={fixed(recorder?.force_N, recorder?.force_is_calibrated ? 2 : 0) + (recorder?.force_is_calibrated ? "\u202fN" : recorder ? " counts" : "")} testId="scan-force" />
         <Figure label="Probe" value={recorder ? `${Math.round(recorder.probe.rate_Hz)} rows/s` : null} testId="scan-probe-rate" />
         <Figure label="Tracker" value={recorder ? `${Math.round(recorder.poses.rate_Hz)} poses/s` : null} testId="scan-pose-rate" />
         <Figure label="Rows lost" value={recorder ? String(lostRows(recorder)) : "–"} hint="On the way from the probe to the recording." testId="scan-lost" />
         <Figure label="Written" value={recorder ? recorder.disk_bytes * 1e-6 : null} unit="MB" digits={3} />
-        <Figure label="To the screen" value={Number.isFinite(stream.median_ms) ? `${Math.round(stream.median_ms)}\u2009ms` : null} hint="From the sensor to the drawn frame: the median." testId="scan-latency" />
+        <Figure label="To the screen" value={Number.isFinite(stream.median_ms) ? `${Math.round(stream.median_ms)}\u202fms` : null} hint="From the sensor to the drawn frame: the median." testId="scan-latency" />
       </Figures>
     </Panel>
   );

@@ -4,7 +4,9 @@ import { edit } from "../../state/document";
 import { Button } from "../../ui/Button";
 import { ConfigControl } from "../../ui/ConfigControl";
 import type { ConfigField } from "../../ui/ConfigForm";
+import { fieldName } from "../../ui/configFields";
 import { FilePicker } from "../../ui/FilePicker";
+import { NumberField } from "../../ui/NumberField";
 import { Panel } from "../../ui/Panel";
 import { Select } from "../../ui/Select";
 import { TextField } from "../../ui/TextField";
@@ -32,6 +34,15 @@ export function SourcePanel({ fields }: { fields: readonly ConfigField[] }) {
     <Panel title="Source" collapsible testId="scan-source-panel">
       <Select label="Source" value={chosen.source} options={SOURCES} disabled={isOpen || busy} testId="scan-source"
         onChange={(source) => set("source", source, "choose the source")} />
+      {isOpen ? (
+        <Button onClick={close} disabled={busy} testId="scan-close">
+          Finish the recording and close
+        </Button>
+      ) : (
+        <Button kind="primary" onClick={open} disabled={busy} testId="scan-open">
+          {busy ? "Opening …" : "Open"}
+        </Button>
+      )}
       <fieldset class="scan-fields" disabled={isOpen || busy}>
         <legend class="visually-hidden">Settings of the source</legend>
         {chosen.source === "bench" && <Bench fields={fields} />}
@@ -47,15 +58,6 @@ export function SourcePanel({ fields }: { fields: readonly ConfigField[] }) {
         <TextField label="Recording's name" value={chosen.name} hint="A number is added where it is taken: nothing is overwritten." testId="scan-name"
           onChange={(text) => set("name", text, "name the recording")} />
       </fieldset>
-      {isOpen ? (
-        <Button onClick={close} disabled={busy} testId="scan-close">
-          Finish the recording and close
-        </Button>
-      ) : (
-        <Button kind="primary" onClick={open} disabled={busy} testId="scan-open">
-          {busy ? "Opening …" : "Open"}
-        </Button>
-      )}
     </Panel>
   );
 }
@@ -66,11 +68,20 @@ function Bench({ fields }: { fields: readonly ConfigField[] }) {
       {fields
         .filter((field) => field.path.startsWith("bench."))
         .map((field) => (
-          <ConfigControl key={field.path} field={{ ...field, description: undefined }}
-            onChange={(text) => setSettings({ [field.path]: text }, "change the bench").catch(complain)} />
+          <BenchControl key={field.path} field={field} onChange={(text) => setSettings({ [field.path]: text }, "change the bench").catch(complain)} />
         ))}
       <p class="field-hint">The bench waits for Start, then its hand scans once. It can be scanned again and again.</p>
     </>
+  );
+}
+
+/** Lengths and speeds of a bench are of millimetres. */
+function BenchControl({ field, onChange }: { field: ConfigField; onChange(text: string): void }) {
+  const { label, unit } = fieldName(field.path);
+  if (unit !== "m" && unit !== "m/s") return <ConfigControl field={{ ...field, description: undefined }} onChange={onChange} />;
+  return (
+    <NumberField label={label} value={Number(field.value)} low={field.low ?? undefined} high={field.high ?? undefined} factor={1e3} unit={`m${unit}`}
+      testId={`scan-${field.path}`} onChange={(value) => onChange(String(value))} />
   );
 }
 

@@ -18,7 +18,7 @@ export function TuningPanel({ fields }: { fields: readonly ConfigField[] }) {
   const set = (changes: Record<string, string | null>, label: string, gesture = "") => setSettings(changes, label, gesture).catch(complain);
   return (
     <Panel title="Tune" collapsible testId="scan-tune">
-      <Slider label="Cut-off of the texture" low={0} high={2} step={0.01} unit="1/mm" value={number("process.profile.cutoff_cycles_per_mm")} testId="scan-cutoff"
+      <Slider label="Cut-off of the texture" low={0} high={2} step={0.01} unit="cycles/mm" value={number("process.profile.cutoff_cycles_per_mm")} testId="scan-cutoff"
         onInput={(cutoff, gesture) =>
           set({ "process.profile.cutoff_cycles_per_mm": String(cutoff), "process.thesis.profile.cutoff_cycles_per_mm": String(cutoff) }, "change the cut-off", gesture)} />
       <Slider label="Velocity threshold" low={0} high={0.05} step={0.0005} factor={1e3} unit="mm/s" value={number("live.min_speed_mps")} testId="scan-min-speed"

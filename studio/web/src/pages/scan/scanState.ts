@@ -85,10 +85,10 @@ export function recordWords(state: ScanState | null): Words {
   if (!state) return { lamp: "off", word: "…" };
   if (state.opening) return { lamp: "busy", word: state.open ? "Closing …" : "Opening …" };
   const recorder = state.recorder;
-  if (!state.open || !recorder) return { lamp: "off", word: "No source open" };
-  if (recorder.failure) return { lamp: "bad", word: "Not recording: the disk has failed" };
-  if (recorder.storing) return { lamp: "good", word: `Recording ${recorder.segment}` };
-  if (recorder.automatic) return { lamp: "busy", word: "Waiting for contact" };
+  if (!state.open || !recorder) return { lamp: "off", word: "Nothing open" };
+  if (recorder.failure) return { lamp: "bad", word: "Disk failed" };
+  if (recorder.storing) return { lamp: "good", word: "Recording" };
+  if (recorder.automatic) return { lamp: "busy", word: "Waits for touch" };
   return { lamp: "off", word: "Ready" };
 }
 
@@ -117,7 +117,7 @@ export function gravityWords(recorder: RecorderState | undefined): Words {
   if (!recorder) return { lamp: "off", word: "–" };
   if (recorder.gravity.implausible) return { lamp: "warn", word: "measured, but not believed" };
   if (recorder.gravity.measured) return { lamp: "good", word: "measured" };
-  return { lamp: "warn", word: "assumed: hold the probe still" };
+  return { lamp: "warn", word: "assumed: hold still" };
 }
 
 /** Rows that are missing in the recording, for whatever reason. */
@@ -131,6 +131,15 @@ export interface Abilities {
   discard: boolean;
   rescan: boolean;
 }
+
+/** The segment that discard and rescan throw away, if that is more than a moment's work. */
+export function dearSegment(state: ScanState | null): SegmentInfo | null {
+  const last = state?.recorder?.segments.at(-1);
+  return last && last.duration_s > 1 ? last : null;
+}
+
+/** A live profile that tells something of the surface: it agrees with the refined one. */
+export const isLiveUsable = (difference: { correlation: number | null } | null | undefined): boolean => (difference?.correlation ?? 0) >= 0.5;
 
 /** Which commands make sense now. In Auto a source that plays is still started by hand. */
 export function abilities(state: ScanState | null): Abilities {

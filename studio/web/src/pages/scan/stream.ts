@@ -9,6 +9,8 @@ import type { ScanState } from "./scanState";
 
 const kPing_ms = 5000;
 const kFigures_ms = 250;
+const kSilent_ms = 2000;
+const kPause_s = 0.5;
 
 export const state = signal<ScanState | null>(null);
 /** The newest camera image, and the last scan worked out in full; null: there is none. */
@@ -41,6 +43,7 @@ const clock = new HostClock();
 const latencies = new Recent();
 let askedProfile = false;
 let askedPath = false;
+let heard_ms = 0;
 
 /** Begins to listen; the function that it returns ends it. */
 export function follow(): () => void {
@@ -56,6 +59,7 @@ export function follow(): () => void {
   const ping = setInterval(() => void measure(), kPing_ms);
   const tell = setInterval(() => {
     profileVersion.value = profile.version;
+    if (performance.now() - heard_ms > kSilent_ms) latencies.clear();
     figures.value = { median_ms: latencies.quantile(0.5), late_ms: latencies.quantile(0.95), rows: rows.rows, lost: rows.lost };
   }, kFigures_ms / 2);
   return () => {
@@ -100,9 +104,15 @@ async function askPath(): Promise<void> {
 }
 
 function takeRows(block: Block): void {
+  heard_ms = performance.now();
   const t_s = block.arrays.t_s!;
   rows.take(block.head.sequence, t_s.length);
   const forces = block.arrays.force_N!;
+  // After a pause the plots begin anew: no line goes across it.
+  if (t_s.length > 0 && acceleration.length > 0 && t_s[0]! - acceleration.newest_s > kPause_s) {
+    acceleration.clear();
+    force.clear();
+  }
   const when: number[] = [];
   const read: number[] = [];
   // A force sensor slower than the rows has nothing new in most of them.

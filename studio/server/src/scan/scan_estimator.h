@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "asperity/acquire/tracked_pose.h"
+#include "asperity/pipeline/live_profile.h"
+#include "asperity/pipeline/scan_hints.h"
+#include "scan/kept_rows.h"
+#include "scan/scan_config.h"
+
+namespace asperity::studio {
+
+// What is known of a scan while it is made: the live profile, the hints, and the rows to work it out anew. Where the
+// tracker has too little to say the live estimate is a guess: what is further from its poses than a hand could be is
+// left out, and no hint is made of it. Not thread-safe.
+class ScanEstimator {
+ public:
+  // Throws Error for settings or a calibration that the estimators do not take.
+  ScanEstimator(Calibration calibration, bool calibrated, RecordingInfo info, const ScanConfig& config);
+
+  // Rows and poses as they have arrived; what is new, without what cannot be trusted.
+  LiveEstimate take(std::span<const ProbeSample> rows, std::span<const TrackedPose> poses);
+  // A new stroke begins.
+  void restart();
+  // Other settings or another gravity from here on. Throws Error, and nothing has changed then.
+  void configure(const RecordingInfo& info, const ScanConfig& config);
+  // The profile of these rows with the settings as they are. With `goes_on` the estimate goes on from there.
+  LiveEstimate again(std::int64_t start_ns, std::int64_t end_ns, bool goes_on);
+
+  std::vector<Hint> hints(std::int64_t now_ns) { return advisor_.hints(now_ns); }
+  double highest_speed_mps() const { return advisor_.highest_speed_mps(); }
+  // Why there is no live profile now, for a person; empty: there is.
+  const std::string& waiting() const { return waiting_; }
+  KeptRows& kept() { return kept_; }
+
+ private:
+  struct TrackedTip {
+    std::int64_t t_ns;
+    Eigen::Vector3d p_world_m;
+  };
+  bool is_near_poses(const LiveTip& tip) const;
+  void keep_trusted(LiveEstimate& estimate);
+
+  Calibration calibration_;
+  bool calibrated_;
+  RecordingInfo info_;
+  ScanConfig config_;
+  LiveProfile live_;
+  ScanAdvisor advisor_;
+  KeptRows kept_;
+  std::deque<TrackedTip> tracked_;  // of the last seconds
+  double trusted_share_ = 1.0;      // of the tips of the last half second
+  std::string waiting_;
+};
+
+}  // namespace asperity::studio

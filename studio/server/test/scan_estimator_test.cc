@@ -1,0 +1,71 @@
+#include "scan/scan_estimator.h"
+
+#include <gmock/gmock.h>
+
+#include "asperity/base/error.h"
+#include "asperity/pipeline/replay_arrivals.h"
+#include "asperity/simulation/simulate_recording.h"
+
+namespace asperity::studio {
+namespace {
+
+Recording short_scan() {
+  SimulationConfig config = make_simulation_config("sine", "open");
+  config.hand.length_m = 0.03;
+  config.hand.speed_mps = 0.04;
+  config.hand.rest_s = 0.5;
+  return simulate_recording(config);
+}
+
+// All of the recording as it would have arrived; of the poses only each `stride`th.
+LiveEstimate feed(ScanEstimator& estimator, const Recording& scan, std::size_t stride = 1) {
+  LiveEstimate all;
+  for (const ScanArrival& arrival : list_arrivals(scan)) {
+    std::vector<ProbeSample> rows;
+    std::vector<TrackedPose> poses;
+    if (arrival.kind == ScanArrival::Kind::kRow) {
+      rows.push_back(probe_sample(scan.probe, arrival.index));
+    } else if (arrival.index % stride == 0) {
+      poses.resize(1);
+      poses[0].sample = tracker_sample(scan.tracker, arrival.index);
+    }
+    LiveEstimate part = estimator.take(rows, poses);
+    all.tips.insert(all.tips.end(), part.tips.begin(), part.tips.end());
+    all.points.insert(all.points.end(), part.points.begin(), part.points.end());
+  }
+  return all;
+}
+
+TEST(ScanEstimator, FollowsTheTrackedTip) {
+  const Recording scan = short_scan();
+  ScanEstimator estimator(scan.calibration, true, scan.info, ScanConfig{});
+  const LiveEstimate all = feed(estimator, scan);
+  EXPECT_GT(all.tips.size(), 150U);  // 1.75 s, every 4 ms, less the beginning
+  EXPECT_GT(all.points.size(), 700U);
+  EXPECT_EQ(estimator.waiting(), "");
+}
+
+TEST(ScanEstimator, TrustsNothingWhereThePosesAreTooFew) {
+  const Recording scan = short_scan();
+  ScanEstimator estimator(scan.calibration, true, scan.info, ScanConfig{});
+  const LiveEstimate all = feed(estimator, scan, 1000);
+  EXPECT_TRUE(all.tips.empty());
+  EXPECT_NE(estimator.waiting(), "");
+}
+
+TEST(ScanEstimator, KeepsItsSettingsWhenNewOnesContradict) {
+  const Recording scan = short_scan();
+  ScanEstimator estimator(scan.calibration, true, scan.info, ScanConfig{});
+  ScanConfig bad;
+  bad.live.profile.spacing_m = 1e-3;
+  bad.live.profile.cutoff_cycles_per_mm = 5.0;
+  EXPECT_THROW(estimator.configure(scan.info, bad), Error);
+  bad = {};
+  bad.hints.light_N = 50.0;
+  EXPECT_THROW(estimator.configure(scan.info, bad), Error);
+  estimator.restart();
+  EXPECT_GT(feed(estimator, scan).points.size(), 700U);
+}
+
+}  // namespace
+}  // namespace asperity::studio
