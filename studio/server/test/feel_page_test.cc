@@ -103,9 +103,9 @@ TEST(FeelPage, ChangesWhileTouchingDoNotStepTheForce) {
                                                            {"/feel/settings/render.stiffness_N_per_m", 900.0},
                                                            {"/feel/range_mm", 0.5}}};
   for (const auto& [path, value] : edits) {
-    const Json before = rig.status()["revision"];
+    const Json before = rig.status()["felt"];
     rig.document.edit(path, value, "change");
-    EXPECT_TRUE(rig.pump([&] { return rig.status()["revision"] != before; })) << path;
+    EXPECT_TRUE(rig.pump([&] { return rig.status()["felt"] != before; })) << path;
     const std::size_t ticks = rig.hub.ticks().size();
     EXPECT_TRUE(rig.pump([&] { return rig.hub.ticks().size() > ticks + 150 && rig.hub.newest().out_N > 0.2; }));
   }
@@ -125,7 +125,7 @@ TEST(FeelPage, ASceneThatCannotBeReadLeavesTheRunningOneAlone) {
   EXPECT_TRUE(rig.pump([&] { return rig.status()["problem"] != ""; }));
   EXPECT_THAT(rig.status()["problem"].get<std::string>(), HasSubstr("broken.pgm"));
   EXPECT_EQ(rig.status()["state"], "running");
-  EXPECT_EQ(rig.status()["revision"], before["revision"]);
+  EXPECT_EQ(rig.status()["felt"], before["felt"]);
   const std::size_t ticks = rig.hub.ticks().size();
   EXPECT_TRUE(rig.pump([&] { return rig.hub.ticks().size() > ticks + 100 && rig.hub.newest().out_N > 0.3; }));
   rig.document.undo();
@@ -297,7 +297,12 @@ TEST(FeelPage, ShowsTheSceneWithItsHeights) {
   const Json head = head_of(block);
   EXPECT_EQ(head["objects"], 1U);
   ASSERT_EQ(head["textures"].size(), 4U);
-  EXPECT_EQ(head["textures"][2]["model"], "normal-perturbation");
+  EXPECT_EQ(rig.status()["models"][2], "normal-perturbation");
+  // What only feels different is not drawn anew.
+  const Json drawn = rig.status()["revision"], felt = rig.status()["felt"];
+  rig.document.edit("/feel/settings/render.friction", 0.3, "friction");
+  EXPECT_TRUE(rig.pump([&] { return rig.status()["felt"] != felt; }));
+  EXPECT_EQ(rig.status()["revision"], drawn);
   EXPECT_EQ(array_of<float>(block, "height_0").size(), 256U * 256U);
   const auto texture = array_of<std::int32_t>(block, "texture_0");
   EXPECT_EQ(array_of<std::uint32_t>(block, "triangles_0").size(), 3 * texture.size());

@@ -5,7 +5,7 @@ import { pointerKey, settingValue } from "../src/pages/feel/feelChoices";
 import { WayTrace } from "../src/pages/feel/wayTrace";
 
 const head: TextureHead = {
-  name: "wave", kind: "fourier1d", model: "height", highest_m: 1e-4, x0_m: 0, y0_m: 0, width_m: 0.01, height_m: 0.02, kc: null, stiffness_N_per_m: null, friction: null,
+  name: "wave", kind: "fourier1d", highest_m: 1e-4, x0_m: 0, y0_m: 0, width_m: 0.01, height_m: 0.02, kc: null, stiffness_N_per_m: null, friction: null,
 };
 
 describe("textured areas", () => {

@@ -170,7 +170,9 @@ Json FeelPage::status() const {
   out["real_forces"] = run_ && running_.kind.felt;
   out["owner"] = state_ == State::kIdle ? Json() : Json(run_owner_);
   out["loading"] = loading_;
-  out["revision"] = world_ ? Json(world_->revision) : Json();
+  out["revision"] = world_ ? Json(world_->drawn) : Json();
+  out["felt"] = world_ ? Json(world_->number) : Json();
+  out["models"] = world_ ? Json(world_->models) : Json::array();
   out["title"] = world_ ? world_->title : "";
   out["problem"] = problem_;
   out["hint"] = hint_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -66,8 +67,7 @@ std::string title_of(const FeelChoices& choices) {
 }  // namespace
 
 std::shared_ptr<const FeltWorld> make_felt_world(FeelSetup setup, const FeelChoices& choices,
-                                                 const std::shared_ptr<const FeltWorld>& before,
-                                                 std::uint64_t revision) {
+                                                 const std::shared_ptr<const FeltWorld>& before, std::uint64_t number) {
   auto out = std::make_shared<FeltWorld>();
   out->source = source_of(setup);
   if (same_source(setup, out->source, before)) {
@@ -77,13 +77,18 @@ std::shared_ptr<const FeltWorld> make_felt_world(FeelSetup setup, const FeelChoi
     out->scene = std::make_shared<const Scene>(read_chosen_scene(setup));
     if (setup.input.height_maps.empty()) out->stamp = stamp_of(setup, *out->scene);
   }
-  out->block = make_scene_block(*out->scene, make_render_model(*out->scene, setup.config.feel.render_config()));
+  const RenderModel model = make_render_model(*out->scene, setup.config.feel.render_config());
+  out->block = make_scene_block(*out->scene, model);
+  for (const RenderTexture& texture : model.textures) out->models.push_back(name_of(texture.model));
   out->setup = std::move(setup);
-  out->revision = revision;
   out->title = title_of(choices);
-  out->block.head()["revision"] = revision;
   out->block.head()["title"] = out->title;
   out->block.head()["height_maps"] = !choices.height_maps.empty();
+  BlockWriter copy = out->block;
+  out->content = std::hash<std::string>()(copy.take());
+  // What only feels different need not be drawn anew.
+  out->number = number;
+  out->drawn = before && before->content == out->content ? before->drawn : number;
   return out;
 }
 

@@ -52,7 +52,6 @@ Json texture_head(const Texture& texture, const RenderTexture& render, const Dra
   Json out;
   out["name"] = texture.name;
   out["kind"] = texture.model_name();
-  out["model"] = name_of(render.model);
   out["highest_m"] = render.highest_m;
   out["lift_m"] = render.lift_m;
   out["x0_m"] = drawn.x0_m;
@@ -113,8 +112,6 @@ BlockWriter make_scene_block(const Scene& scene, const RenderModel& model) {
   }
   BlockWriter block("feel.scene");
   block.head()["objects"] = model.objects.size();
-  block.head()["stiffness_N_per_m"] = scene.stiffness_N_per_m ? Json(*scene.stiffness_N_per_m) : Json();
-  block.head()["friction"] = scene.friction ? Json(*scene.friction) : Json();
   Json textures = Json::array();
   for (std::size_t t = 0; t < model.textures.size(); ++t) {
     const Drawn drawn = drawn_of(model.textures[t].texture);

@@ -84,7 +84,7 @@ export function TexturesPanel({ textures, indices }: { textures: TextureHead[]; 
       {indices.map(({ index, file, texture, object }) => (
         <div key={`${object} ${index}`} class="feel-texture">
           <p>
-            <strong>{index}</strong> {textures[texture]?.name || file} <span class="field-hint">({textures[texture]?.model})</span>
+            <strong>{index}</strong> {textures[texture]?.name || file} <span class="field-hint">({feelStatus.value?.models[texture]})</span>
           </p>
           {object === 0 && (
             <FilePicker

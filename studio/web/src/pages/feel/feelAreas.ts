@@ -4,8 +4,6 @@ export interface TextureHead {
   name: string;
   /** Of the file: "fourier1d", "heightmap", … */
   kind: string;
-  /** How it becomes a force. */
-  model: string;
   highest_m: number;
   x0_m: number;
   y0_m: number;

@@ -33,7 +33,9 @@ export function followPointer(view: View, props: FeelPointerProps): () => void {
     // The left button feels; the view is turned by the right one meanwhile.
     view.controls.mouseButtons = active ? { LEFT: null, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.ROTATE } : usual;
     if (!active) {
-      if (target) take(null);
+      // Whoever takes the force again does not press at once.
+      if (target) target = { ...target, height_m: Math.max(target.height_m, props.limits().hover_m) };
+      props.onTarget(null);
       pressing = false;
       return;
     }
@@ -51,6 +53,7 @@ export function followPointer(view: View, props: FeelPointerProps): () => void {
     on({ kind, event, ray, hit }) {
       if (!props.active() || event.buttons > 1 || kind === "leave") return;
       if (kind === "down") pressing = event.button === 0;
+      if (kind === "move") pressing = (event.buttons & 1) === 1;
       if (kind === "up") pressing = false;
       const seen = { origin: ray.origin.toArray() as Point, direction: ray.direction.toArray() as Point };
       if (hit?.face) {

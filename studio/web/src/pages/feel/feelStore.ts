@@ -14,7 +14,10 @@ export interface FeelStatus {
   /** Whose run it is. */
   owner: number | null;
   loading: boolean;
+  /** Another number where the scene is drawn differently. */
   revision: number | null;
+  /** How each texture of the scene becomes a force. */
+  models: string[];
   title: string;
   problem: string;
   hint: string;
