@@ -51,7 +51,7 @@ TEST(FeelChoices, AreWhatTheSectionSays) {
 }
 
 TEST(FeelChoices, RefuseWhatIsNone) {
-  EXPECT_THAT(refusal(with("library", "/tmp/x.so")), HasSubstr("feel.library"));
+  EXPECT_THAT(refusal(with("library", "/opt/x.so")), HasSubstr("feel.library"));
   EXPECT_THAT(refusal(with("scene", 3)), HasSubstr("feel.scene"));
   EXPECT_THAT(refusal(with("scene", std::string(2000, 'a'))), HasSubstr("too long"));
   EXPECT_THAT(refusal(with("tile_mm", -1.0)), HasSubstr("feel.tile_mm"));
