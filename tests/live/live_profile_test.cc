@@ -252,8 +252,8 @@ TEST(ListArrivals, PosesComeAfterTheRowsOfTheirTime) {
   ASSERT_EQ(arrivals.size(), sine_scan().probe.size() + sine_scan().tracker.size());
   EXPECT_TRUE(std::is_sorted(arrivals.begin(), arrivals.end(),
                              [](const ScanArrival& a, const ScanArrival& b) { return a.arrival_ns < b.arrival_ns; }));
-  const auto pose =
-      std::find_if(arrivals.begin(), arrivals.end(), [](const ScanArrival& a) { return a.kind == ScanArrival::Kind::kPose; });
+  const auto pose = std::find_if(arrivals.begin(), arrivals.end(),
+                                 [](const ScanArrival& a) { return a.kind == ScanArrival::Kind::kPose; });
   EXPECT_EQ(pose->arrival_ns, sine_scan().tracker.t_ns[pose->index] + 10'000'000);
 }
 

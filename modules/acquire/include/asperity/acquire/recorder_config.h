@@ -3,8 +3,8 @@
 #include <array>
 #include <string_view>
 
-#include "asperity/acquire/touch_config.h"
 #include "asperity/acquire/gravity_estimator.h"
+#include "asperity/acquire/touch_config.h"
 
 namespace asperity {
 
