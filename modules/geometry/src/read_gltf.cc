@@ -9,6 +9,8 @@
 #include "asperity/base/text.h"
 #include "gltf_accessor.h"
 #include "gltf_document.h"
+#include "gltf_scene.h"
+#include "gltf_triangles.h"
 #include "load_gltf_model.h"
 #include "problem_counter.h"
 #include "tinygltf_config.h"
@@ -19,24 +21,6 @@ namespace asperity {
 namespace {
 
 constexpr Triangle kNoTriangle{kNoIndex, kNoIndex, kNoIndex};
-
-Eigen::Affine3d transform_of(const tinygltf::Node& node, const std::string& place) {
-  Eigen::Affine3d transform = Eigen::Affine3d::Identity();
-  if (node.matrix.size() == 16) {
-    transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());
-    if (transform.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1)) throw Error(place + ": its matrix is not affine");
-  } else {
-    if (node.translation.size() == 3) transform.translate(Eigen::Map<const Eigen::Vector3d>(node.translation.data()));
-    if (node.rotation.size() == 4) {
-      Eigen::Quaterniond q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-      if (!(q.norm() > 0.0)) throw Error(place + ": its rotation is zero");
-      transform.rotate(q.normalized());
-    }
-    if (node.scale.size() == 3) transform.scale(Eigen::Map<const Eigen::Vector3d>(node.scale.data()));
-  }
-  if (!transform.matrix().allFinite()) throw Error(place + ": its transform is not finite");
-  return transform;
-}
 
 // The number that an object of `extras` holds under a key.
 double extra_number(const tinygltf::Value& object, const char* key, double fallback) {
@@ -100,31 +84,10 @@ class GltfReader {
     }
   }
 
-  std::vector<int> roots() const {
-    if (!model_.scenes.empty()) {
-      const int scene = std::max(model_.defaultScene, 0);
-      if (static_cast<std::size_t>(scene) >= model_.scenes.size())
-        throw Error(name_ + ": scene " + std::to_string(scene) + " does not exist");
-      return model_.scenes[static_cast<std::size_t>(scene)].nodes;
-    }
-    std::vector<bool> is_child(model_.nodes.size(), false);
-    for (const tinygltf::Node& node : model_.nodes) {
-      for (const int child : node.children) {
-        if (child >= 0 && static_cast<std::size_t>(child) < is_child.size())
-          is_child[static_cast<std::size_t>(child)] = true;
-      }
-    }
-    std::vector<int> roots;
-    for (std::size_t i = 0; i < is_child.size(); ++i) {
-      if (!is_child[i]) roots.push_back(static_cast<int>(i));
-    }
-    return roots;
-  }
-
   void walk() {
     std::vector<Visit> open;
     std::vector<bool> seen(model_.nodes.size(), false);
-    const std::vector<int> first = roots();
+    const std::vector<int> first = gltf_roots(model_, name_);
     for (auto root = first.rbegin(); root != first.rend(); ++root) open.push_back({*root, Eigen::Affine3d::Identity()});
     while (!open.empty()) {
       const Visit visit = open.back();
@@ -136,7 +99,7 @@ class GltfReader {
       if (seen[index]) throw Error(place + " has two parents or is its own ancestor");
       seen[index] = true;
       const tinygltf::Node& node = model_.nodes[index];
-      const Eigen::Affine3d T_scene_node = visit.T_scene_parent * transform_of(node, place);
+      const Eigen::Affine3d T_scene_node = visit.T_scene_parent * gltf_transform(node, place);
       if (!T_scene_node.matrix().allFinite()) throw Error(place + ": its transform is not finite");
       if (node.mesh >= 0) instance(node, T_scene_node, place);
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
@@ -207,21 +170,7 @@ class GltfReader {
       order.resize(vertices);
       for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
     }
-    std::vector<Triangle> out;
-    if (primitive.mode == TINYGLTF_MODE_TRIANGLES) {
-      if (order.size() % 3 != 0) throw Error(what + ": " + std::to_string(order.size()) + " corners are no triangles");
-      for (std::size_t i = 0; i < order.size(); i += 3) out.push_back({order[i], order[i + 1], order[i + 2]});
-    }
-    for (std::size_t i = 2; primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP && i < order.size(); ++i) {
-      const bool odd = i % 2 == 1;
-      const Triangle t{order[i - 2], order[odd ? i : i - 1], order[odd ? i - 1 : i]};
-      // Strips are joined by triangles that have a corner twice.
-      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) out.push_back(t);
-    }
-    for (std::size_t i = 2; primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN && i < order.size(); ++i) {
-      out.push_back({order[0], order[i - 1], order[i]});
-    }
-    return out;
+    return gltf_triangles(primitive.mode, order, what);
   }
 
   // What one node places is counted each time that it is placed.

@@ -12,7 +12,8 @@
 #include "asperity/base/inner_path.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
-#include "little_endian.h"
+#include "gltf_buffer.h"
+#include "gltf_corner.h"
 #include "tinygltf_config.h"
 
 namespace asperity {
@@ -21,36 +22,9 @@ namespace {
 
 using tinygltf::Value;
 
-constexpr std::uint64_t kMaxBytes = 0xFFFFFFFFu;
-
 [[noreturn]] void fail(const std::string& message) { throw Error("glTF: " + message); }
 
 Value text(const std::string& value) { return Value(printable(value, 200)); }
-
-// What distinguishes a vertex of glTF: one of every attribute.
-struct Corner {
-  std::uint32_t vertex;
-  std::uint32_t texture;
-  std::uint32_t normal;
-  Eigen::Vector2d haptic;
-
-  bool operator==(const Corner&) const = default;
-};
-
-struct CornerHash {
-  std::size_t operator()(const Corner& c) const {
-    std::uint64_t h = 0;
-    const auto mix = [&](std::uint64_t value) {
-      h = (h ^ value) * 0x9E3779B97F4A7C15u;
-      h ^= h >> 32;
-    };
-    mix(c.vertex);
-    mix(std::uint64_t{c.texture} << 32 | c.normal);
-    mix(std::bit_cast<std::uint64_t>(c.haptic.x() + 0.0));
-    mix(std::bit_cast<std::uint64_t>(c.haptic.y() + 0.0));
-    return h;
-  }
-};
 
 // The triangles of one primitive: those of one haptic texture and one material.
 struct Group {
@@ -67,14 +41,11 @@ class GltfWriter {
     check();
     model_.asset.version = "2.0";
     model_.asset.generator = "Asperity";
-    model_.buffers.emplace_back();
     model_.scenes.emplace_back();
     model_.defaultScene = 0;
     textures();
     primitives();
-    std::vector<unsigned char>& data = model_.buffers[0].data;
-    if (bytes_.size() >= kMaxBytes / 2) fail("the file would have 4 GiB or more");
-    data.assign(bytes_.begin(), bytes_.end());
+    buffer_.close();
     std::ostringstream out;
     tinygltf::TinyGLTF writer;
     if (!writer.WriteGltfSceneToStream(&model_, out, true, form == GltfForm::kBinary)) fail("it cannot be written");
@@ -98,25 +69,6 @@ class GltfWriter {
     }
   }
 
-  int add_view(std::size_t begin, int target) {
-    tinygltf::BufferView& view = model_.bufferViews.emplace_back();
-    view.buffer = 0;
-    view.byteOffset = begin;
-    view.byteLength = bytes_.size() - begin;
-    view.target = target;
-    bytes_.resize((bytes_.size() + 3) / 4 * 4, '\0');
-    return static_cast<int>(model_.bufferViews.size()) - 1;
-  }
-
-  int add_accessor(int view, int component, int type, std::size_t count) {
-    tinygltf::Accessor& accessor = model_.accessors.emplace_back();
-    accessor.bufferView = view;
-    accessor.componentType = component;
-    accessor.type = type;
-    accessor.count = count;
-    return static_cast<int>(model_.accessors.size()) - 1;
-  }
-
   // The glTF texture that shows the image.
   int add_image(const GltfImage& image) {
     tinygltf::Image& out = model_.images.emplace_back();
@@ -126,9 +78,9 @@ class GltfWriter {
       if (!inner || !is_utf8(*inner)) fail("the image '" + printable(image.file) + "' is no file beside the export");
       out.uri = *inner;
     } else {
-      const std::size_t begin = bytes_.size();
-      bytes_ += image.png;
-      out.bufferView = add_view(begin, 0);
+      const std::size_t begin = buffer_.size();
+      buffer_.append(image.png);
+      out.bufferView = buffer_.add_view(begin, 0);
       out.mimeType = "image/png";
     }
     model_.textures.emplace_back().source = static_cast<int>(model_.images.size()) - 1;
@@ -247,12 +199,12 @@ class GltfWriter {
     model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()) - 1);
   }
 
-  Corner corner_of(const Group& group, std::uint32_t triangle, std::size_t k, bool haptic) const {
+  GltfCorner corner_of(const Group& group, std::uint32_t triangle, std::size_t k, bool haptic) const {
     const auto index = [](std::uint32_t value, std::size_t count, const char* what) {
       if (value >= count) fail(std::string(what) + " " + std::to_string(value) + " of " + std::to_string(count));
       return value;
     };
-    Corner c{};
+    GltfCorner c{};
     c.vertex = index(mesh_.triangles[triangle][k], mesh_.vertices.size(), "vertex");
     if (group.texture)
       c.texture = index(mesh_.texture_corners[triangle][k], mesh_.texture_coordinates.size(), "texture coordinate");
@@ -264,22 +216,21 @@ class GltfWriter {
   tinygltf::Primitive primitive(std::int32_t haptic, std::int32_t material, const Group& group) {
     const bool is_haptic = haptic >= 0;
     const int place = place_of(haptic);
-    std::vector<Corner> corners;
-    std::unordered_map<Corner, std::uint32_t, CornerHash> places;
-    const std::size_t begin = bytes_.size();
+    std::vector<GltfCorner> corners;
+    std::unordered_map<GltfCorner, std::uint32_t, GltfCornerHash> places;
+    const std::size_t begin = buffer_.size();
     for (const std::uint32_t triangle : group.triangles) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const Corner c = corner_of(group, triangle, k, is_haptic);
+        const GltfCorner c = corner_of(group, triangle, k, is_haptic);
         const auto [entry, is_new] = places.try_emplace(c, static_cast<std::uint32_t>(corners.size()));
         if (is_new) corners.push_back(c);
-        append_little(bytes_, entry->second);
+        buffer_.append(entry->second);
       }
     }
     tinygltf::Primitive out;
     out.mode = TINYGLTF_MODE_TRIANGLES;
     out.material = add_material(material, place);
-    out.indices = add_accessor(add_view(begin, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER),
-                               TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, 3 * group.triangles.size());
+    out.indices = buffer_.add_indices(begin, 3 * group.triangles.size());
     out.attributes["POSITION"] = positions(corners);
     if (group.normals) out.attributes["NORMAL"] = normals(corners);
     const Eigen::Vector2d size_mm =
@@ -299,68 +250,58 @@ class GltfWriter {
     return out;
   }
 
-  void append_float(double value, const char* what) {
-    const auto narrow = static_cast<float>(value);
-    if (!std::isfinite(narrow)) fail(std::string(what) + " cannot be written as float32: " + number_text(value));
-    append_little(bytes_, narrow);
-  }
-
-  int finish(std::size_t begin, int type, std::size_t count) {
-    return add_accessor(add_view(begin, TINYGLTF_TARGET_ARRAY_BUFFER), TINYGLTF_COMPONENT_TYPE_FLOAT, type, count);
-  }
-
-  int positions(const std::vector<Corner>& corners) {
-    const std::size_t begin = bytes_.size();
+  int positions(const std::vector<GltfCorner>& corners) {
+    const std::size_t begin = buffer_.size();
     std::array<float, 3> low, high;
     low.fill(std::numeric_limits<float>::infinity());
     high.fill(-std::numeric_limits<float>::infinity());
-    for (const Corner& c : corners) {
+    for (const GltfCorner& c : corners) {
       const Eigen::Vector3d p_m = mesh_.vertices[c.vertex] * scene_.unit_m;
       for (std::size_t k = 0; k < 3; ++k) {
-        append_float(p_m[static_cast<Eigen::Index>(k)], "a position");
+        buffer_.append_float(p_m[static_cast<Eigen::Index>(k)], "a position");
         low[k] = std::min(low[k], static_cast<float>(p_m[static_cast<Eigen::Index>(k)]));
         high[k] = std::max(high[k], static_cast<float>(p_m[static_cast<Eigen::Index>(k)]));
       }
     }
-    const int accessor = finish(begin, TINYGLTF_TYPE_VEC3, corners.size());
+    const int accessor = buffer_.add_floats(begin, TINYGLTF_TYPE_VEC3, corners.size());
     model_.accessors.back().minValues.assign(low.begin(), low.end());
     model_.accessors.back().maxValues.assign(high.begin(), high.end());
     return accessor;
   }
 
-  int normals(const std::vector<Corner>& corners) {
-    const std::size_t begin = bytes_.size();
-    for (const Corner& c : corners) {
+  int normals(const std::vector<GltfCorner>& corners) {
+    const std::size_t begin = buffer_.size();
+    for (const GltfCorner& c : corners) {
       Eigen::Vector3d n = mesh_.normals[c.normal].stableNormalized();
       if (!n.allFinite() || n.isZero(0.0))
         n = Eigen::Vector3d::UnitZ();  // glTF wants unit normals; one of length zero points nowhere
-      for (int k = 0; k < 3; ++k) append_float(n[k], "a normal");
+      for (int k = 0; k < 3; ++k) buffer_.append_float(n[k], "a normal");
     }
-    return finish(begin, TINYGLTF_TYPE_VEC3, corners.size());
+    return buffer_.add_floats(begin, TINYGLTF_TYPE_VEC3, corners.size());
   }
 
-  int texture_coordinates(const std::vector<Corner>& corners) {
-    const std::size_t begin = bytes_.size();
-    for (const Corner& c : corners) {
-      append_float(mesh_.texture_coordinates[c.texture].x(), "a texture coordinate");
-      append_float(1.0 - mesh_.texture_coordinates[c.texture].y(), "a texture coordinate");
+  int texture_coordinates(const std::vector<GltfCorner>& corners) {
+    const std::size_t begin = buffer_.size();
+    for (const GltfCorner& c : corners) {
+      buffer_.append_float(mesh_.texture_coordinates[c.texture].x(), "a texture coordinate");
+      buffer_.append_float(1.0 - mesh_.texture_coordinates[c.texture].y(), "a texture coordinate");
     }
-    return finish(begin, TINYGLTF_TYPE_VEC2, corners.size());
+    return buffer_.add_floats(begin, TINYGLTF_TYPE_VEC2, corners.size());
   }
 
-  int haptic_coordinates(const std::vector<Corner>& corners, const Eigen::Vector2d& size_mm) {
-    const std::size_t begin = bytes_.size();
-    for (const Corner& c : corners) {
-      append_float(c.haptic.x() / size_mm.x(), "a haptic coordinate");
-      append_float(c.haptic.y() / size_mm.y(), "a haptic coordinate");
+  int haptic_coordinates(const std::vector<GltfCorner>& corners, const Eigen::Vector2d& size_mm) {
+    const std::size_t begin = buffer_.size();
+    for (const GltfCorner& c : corners) {
+      buffer_.append_float(c.haptic.x() / size_mm.x(), "a haptic coordinate");
+      buffer_.append_float(c.haptic.y() / size_mm.y(), "a haptic coordinate");
     }
-    return finish(begin, TINYGLTF_TYPE_VEC2, corners.size());
+    return buffer_.add_floats(begin, TINYGLTF_TYPE_VEC2, corners.size());
   }
 
   const GltfExport& scene_;
   const MeshFile& mesh_;
   tinygltf::Model model_;
-  std::string bytes_;
+  GltfBuffer buffer_{model_};
   std::map<std::int32_t, std::size_t> haptic_;  // place in scene_.textures
   std::vector<int> normal_map_;                 // glTF texture, one a haptic texture; -1: none
   std::vector<Value::Object> extra_;

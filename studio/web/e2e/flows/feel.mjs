@@ -49,6 +49,23 @@ export default async function feel({ page, browser, openPage, studio, step, fold
       }
       return (await force_N()) > 0.05;
     }, what);
+  /** Drags along the places, there and back, until as many different heights were shown; gives them. */
+  const dragOver = async (places) => {
+    const heights = new Set();
+    await until(async () => {
+      await pushes("a force before the way");
+      for (const one of places) {
+        await move(...one);
+        heights.add(await height_um());
+      }
+      places.reverse();
+      return heights.size > 5;
+    }, "heights that change along the way").catch((error) => {
+      throw new Error(`${error.message}: ${[...heights].join(" ")} µm`);
+    });
+    return [...heights];
+  };
+  const along = (count, from, step) => Array.from({ length: count }, (_, i) => [from[0] + step[0] * i, from[1] + step[1] * i]);
   const start = async () => {
     await page.getByTestId("feel-start").click();
     await permitted();
@@ -66,13 +83,8 @@ export default async function feel({ page, browser, openPage, studio, step, fold
 
   await step("dragged over the texture: a force, and heights that change", async () => {
     await press(0.45, 0.472);
-    const heights = new Set();
-    for (let i = 0; i < 40; ++i) {
-      await move(0.45 + 0.0025 * i, 0.472);
-      heights.add(await height_um());
-    }
-    ok(heights.size > 5, `heights change along the way: ${[...heights].join(" ")}`);
-    ok(Math.max(...heights) > 50, `and are those of the board, µm: ${[...heights].join(" ")}`);
+    const heights = await dragOver(along(40, [0.45, 0.472], [0.0025, 0]));
+    ok(Math.max(...heights) > 50, `and are those of the board, µm: ${heights.join(" ")}`);
     await pushes("still a force");
     ok(numberIn(await page.getByTestId("force-now").textContent()) > 0.05, "the header has the force");
   });
@@ -145,12 +157,7 @@ export default async function feel({ page, browser, openPage, studio, step, fold
     await page.getByTestId("feel-view").getByRole("button", { name: "top" }).click();
     await start();
     await press(0.45, 0.45);
-    const heights = new Set();
-    for (let i = 0; i < 30; ++i) {
-      await move(0.45 + 0.003 * i, 0.45 + 0.003 * i);
-      heights.add(await height_um());
-    }
-    ok(heights.size > 5, `heights change along the way: ${[...heights].join(" ")}`);
+    await dragOver(along(30, [0.45, 0.45], [0.003, 0.003]));
     await page.keyboard.press("Escape");
     await stopped();
     await page.mouse.up();
