@@ -62,7 +62,12 @@ export default function FeelPage() {
       stripHeight="30%"
     >
       <FeelView block={block} {...depth} />
-      {!block && (
+      {status?.visited && (
+        <p class="feel-none" role="status">
+          A study is being felt on the Study page.
+        </p>
+      )}
+      {!block && !status?.visited && (
         <p class="feel-none" role="status">
           {status?.loading ? "Reading the scene …" : "Choose a scene, a mesh or height maps at the left."}
         </p>
