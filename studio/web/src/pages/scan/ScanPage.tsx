@@ -91,7 +91,8 @@ export default function ScanPage() {
 
 /** The stream's figures for tests and scripts. */
 function StreamLine() {
-  const { median_ms, late_ms, rows, lost } = figures.value;
+  const { median_ms, late_ms, rows, lost, profile_ms, profile_late_ms } = figures.value;
+  const told = (time_ms: number) => (Number.isFinite(time_ms) ? time_ms.toFixed(1) : "");
   return (
     <output
       class="visually-hidden"
@@ -100,8 +101,10 @@ function StreamLine() {
       data-open={String(state.value?.open ?? false)}
       data-rows={rows}
       data-rows-lost={lost}
-      data-latency-ms={Number.isFinite(median_ms) ? median_ms.toFixed(1) : ""}
-      data-latency-p95-ms={Number.isFinite(late_ms) ? late_ms.toFixed(1) : ""}
+      data-latency-ms={told(median_ms)}
+      data-latency-p95-ms={told(late_ms)}
+      data-profile-ms={told(profile_ms)}
+      data-profile-p95-ms={told(profile_late_ms)}
     />
   );
 }

@@ -39,6 +39,7 @@ export function SensorsPanel() {
         <Figure label="Rows lost" value={recorder ? String(lostRows(recorder)) : "–"} hint="On the way from the probe to the recording." testId="scan-lost" />
         <Figure label="Written" value={recorder ? recorder.disk_bytes * 1e-6 : null} unit="MB" digits={3} />
         <Figure label="To the screen" value={Number.isFinite(stream.median_ms) ? `${Math.round(stream.median_ms)}\u202fms` : null} hint="From the sensor to the drawn frame: the median." testId="scan-latency" />
+        <Figure label="Profile" value={Number.isFinite(stream.profile_ms) ? `${Math.round(stream.profile_ms)}\u202fms behind` : null} hint="From the tip's motion to the profile's newest point on the screen: the median." testId="scan-profile-latency" />
       </Figures>
     </Panel>
   );
