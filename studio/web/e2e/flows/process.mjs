@@ -46,7 +46,7 @@ export default async function process_({ page, step, folder, until, equal, near,
   });
 
   await step("the results are written as the command line writes them", async () => {
-    await page.getByTestId("write").getByLabel("Folder of the results").fill("by_studio");
+    await page.getByTestId("write").getByLabel("Folder", { exact: true }).fill("by_studio");
     await page.getByTestId("write-results").click();
     await page.getByTestId("written").filter({ hasText: "by_studio" }).waitFor();
     for (const name of ["board", "board_again"]) {

@@ -26,7 +26,7 @@ export function WritePanel({ section }: { section: ProcessSection }) {
   };
   return (
     <Panel title="Write" testId="write">
-      <TextField label="Folder of the results" value={name} onInput={setName} onChange={setName} />
+      <TextField label="Folder" value={name} onInput={setName} onChange={setName} />
       <Toggle label="Replace what has this name" on={replace} onChange={setReplace} />
       <Button onClick={write} disabled={section.scans.length === 0 || name === ""} testId="write-results">
         Write results
