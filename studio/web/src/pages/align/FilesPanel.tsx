@@ -7,6 +7,7 @@ import { MeshUnitField } from "../../ui/MeshUnitField";
 import { textOfLength, unitOfText } from "../../ui/meshUnits";
 import { Panel } from "../../ui/Panel";
 import { complain } from "../../ui/toast";
+import { Warning } from "../../ui/Warning";
 import { align, opened, type AlignSection } from "./alignState";
 
 interface PathEntry {
@@ -69,9 +70,7 @@ export function FilesPanel() {
         </p>
       )}
       {((opened.value?.head.problems ?? []) as string[]).map((problem) => (
-        <p key={problem} class="field-hint">
-          {problem}
-        </p>
+        <Warning key={problem} words={problem} />
       ))}
     </Panel>
   );
