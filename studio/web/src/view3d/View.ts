@@ -88,9 +88,9 @@ export class View {
     this.invalidate();
   }
 
-  /** Shows an object, or all of the content, from where the camera stands. */
-  fit(object: Object3D = this.content): void {
-    const box = new Box3().setFromObject(object);
+  /** Shows an object, a box, or all of the content, from where the camera stands. */
+  fit(what: Object3D | Box3 = this.content): void {
+    const box = "isBox3" in what ? what.clone() : new Box3().setFromObject(what);
     if (box.isEmpty()) box.setFromCenterAndSize(this.controls.target, new Vector3(0.1, 0.1, 0.1));
     const centre = box.getCenter(new Vector3());
     const radius = Math.max(box.getSize(new Vector3()).length() / 2, 1e-4);

@@ -69,12 +69,12 @@ export default function ScanPage() {
         <div class="scan-strip">
           <ProfilePlot />
           <div class="scan-live">
-            <Panel title="Force" grow>
-              <LivePlot label="Force" buffer={force} series={FORCE} yAxis={{ label: "force", unit: "N" }} window_s={kWindow_s} leastHeight={0.5} testId="scan-force-plot" />
+            <Panel title="Force / N" grow>
+              <LivePlot label="Force in newton" buffer={force} series={FORCE} yAxis={{ label: "" }} window_s={kWindow_s} leastHeight={0.5} testId="scan-force-plot" />
             </Panel>
-            <Panel title="Acceleration" grow>
-              <LivePlot label="Specific force of the accelerometer in the marker's frame" buffer={acceleration} series={ACCELERATION}
-                yAxis={{ label: "specific force", unit: "m/s²" }} window_s={kWindow_s} leastHeight={2} testId="scan-acceleration-plot" />
+            <Panel title="Acceleration / m/s²" grow>
+              <LivePlot label="Specific force of the accelerometer in the marker's frame, m/s²" buffer={acceleration} series={ACCELERATION}
+                yAxis={{ label: "" }} window_s={kWindow_s} leastHeight={2} testId="scan-acceleration-plot" />
             </Panel>
           </div>
         </div>
