@@ -23,7 +23,7 @@ export function MeshUnitField({ unit_m, onChange, disabled, testId }: MeshUnitFi
   return (
     <>
       <Select
-        label="Unit of the mesh"
+        label="Mesh unit"
         value={isOther ? OTHER : known.text}
         options={[...meshUnits.map(({ text, label }) => ({ value: text, label })), { value: OTHER, label: "Another length …" }]}
         disabled={disabled}

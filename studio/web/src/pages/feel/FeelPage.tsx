@@ -63,8 +63,8 @@ export default function FeelPage() {
     >
       <FeelView block={block} {...depth} />
       {!block && (
-        <p class="feel-none" role="status">
-          {status?.loading ? "Reading the scene …" : "Choose a scene, a mesh or height maps at the left."}
+        <p class="viewport-empty" role="status">
+          {status?.loading ? "Reading the scene …" : "Choose a scene, a mesh or height maps at the left. The Paint and Align pages write scenes."}
         </p>
       )}
     </PageLayout>
