@@ -12,6 +12,7 @@
 #include "asperity/pipeline/read_path.h"
 #include "asperity/profile/measure_spectrum.h"
 #include "asperity/studio/block.h"
+#include "asperity/studio/measured_figures.h"
 
 namespace asperity::studio {
 
@@ -151,7 +152,7 @@ ReportItem read_report_item(const fs::path& folder, const std::string& name) {
   block.head()["name"] = is_utf8(out.name) ? out.name : printable(out.name, 200);
   block.head()["result"] = result;
   block.head()["world"] = "camera";
-  block.head()["figures"] = Json::array();
+  block.head()["figures"] = measured_figures(result);
   block.head()["dropped"] = result.value("problems", Json::array());
   block.head()["gaps"] = Json::array();
   block.head()["gap_count"] = 0;

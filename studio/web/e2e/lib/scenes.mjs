@@ -34,7 +34,7 @@ async function align({ page }) {
 async function paint({ page }) {
   await open(page, "Paint");
   await page.getByTestId("paint-object").selectOption("pebble.obj");
-  await page.getByTestId("paint-unit").selectOption("0.001");
+  await page.getByTestId("paint-unit").selectOption("mm");
   await page.getByTestId("paint-texture").selectOption("measured/texture.json");
   for (const point of [[-30, -8, 20], [0, -3, 24], [30, -4, 20]]) {
     for (const [at, axis] of ["x", "y", "z"].entries()) await type(page.getByTestId(`paint-${axis}`), point[at]);
