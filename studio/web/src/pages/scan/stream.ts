@@ -147,8 +147,7 @@ async function drawProfile(): Promise<void> {
   profileVersion.value = profile.version;
   const oldest_ns = undrawn_ns;
   undrawn_ns = NaN;
-  // The plot is drawn after this frame, and handed on with the next.
-  await nextFrame();
+  // The plot is drawn in this frame; the task after it begins when the frame has been handed on.
   await pause(0);
   const now_ms = performance.now();
   if (Number.isFinite(oldest_ns) && clock.known && clock.doubt_ms < kDoubt_ms) profileLatencies.add(now_ms - clock.toHere_ms(oldest_ns));
