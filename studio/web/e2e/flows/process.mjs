@@ -54,4 +54,12 @@ export default async function process_({ page, step, folder, until, equal, near,
     }
     equal(readFileSync(join(folder, "by_studio", "board", "profile.csv"), "utf8"), readFileSync(join(folder, "measured", "profile.csv"), "utf8"), "profile.csv of studio and command line");
   });
+
+  await step("the report is saved as a page", async () => {
+    const saved = page.waitForEvent("download");
+    await page.getByTestId("save-report").click();
+    const download = await saved;
+    equal(download.suggestedFilename(), "by_studio_report.html", "name of the report");
+    equal(readFileSync(await download.path(), "utf8"), readFileSync(join(folder, "by_studio", "report.html"), "utf8"), "the report");
+  });
 }

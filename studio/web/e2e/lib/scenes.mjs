@@ -47,7 +47,7 @@ async function paint({ page }) {
   await page.getByTestId("paint-unit").selectOption("mm");
   await page.getByTestId("paint-texture").selectOption("measured/texture.json");
   await type(page.getByRole("spinbutton", { name: /Half the stroke's width/ }), 6);
-  for (const point of [[-34, -4, 17], [-12, -12, 22], [10, -4, 24], [32, -10, 17]]) {
+  for (const point of [[-33, -7, 17], [0, -11, 23], [33, -7, 17]]) {
     for (const [at, axis] of ["x", "y", "z"].entries()) await type(page.getByTestId(`paint-${axis}`), point[at]);
     await page.getByTestId("paint-add").click();
   }
@@ -57,7 +57,7 @@ async function paint({ page }) {
 
 const kPress_ms = 250;
 
-/** Over the stroke, pressing; held until the pictures are taken. The stroke lies across the middle of the view from above. */
+/** Over the stroke, pressing; held until the pictures are taken. */
 async function feel({ page }) {
   await open(page, "Feel");
   await page.getByTestId("feel-scene").selectOption("painted/scene.json");
@@ -76,21 +76,20 @@ async function feel({ page }) {
     await page.getByTestId("feel-view").getByRole("button", { name: "fit" }).click();
     return false;
   };
-  const isFelt = async () => {
-    const height = await page.getByTestId("feel-height").locator("dd").textContent();
-    const force = await page.getByTestId("force-now").textContent();
-    return /[1-9]/.test(height) && numberIn(force) > 0.2;
-  };
-  // Where on the pebble the stroke is seen depends on the window: from the top downwards until the texture is under the tip.
+  const hasTexture = async () => /[1-9]/.test(await page.getByTestId("feel-height").locator("dd").textContent());
+  const hasForce = async () => numberIn(await page.getByTestId("force-now").textContent()) > 0.2;
+  // Where the stroke is seen depends on the window: from the top downwards until the texture is under the tip.
+  let heights = Array.from({ length: 13 }, (_, index) => 0.36 + 0.02 * index);
   await until(async () => {
-    for (let y = 0.36; y < 0.62; y += 0.02) {
+    for (const y of heights) {
       if (!(await take())) return false;
       await to(0.5, y);
       await page.mouse.down();
       await page.waitForTimeout(kPress_ms);
-      if (await isFelt()) {
-        for (const x of [0.47, 0.53, 0.5]) await to(x, y, 30);
-        if (await isFelt()) return true;
+      if (await hasTexture()) {
+        heights = [y];
+        for (const x of [0.47, 0.53, 0.5]) await to(x, y, 15);
+        if ((await hasTexture()) && (await hasForce())) return true;
       }
       await page.mouse.up();
     }

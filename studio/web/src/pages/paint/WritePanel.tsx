@@ -36,7 +36,6 @@ export function WritePanel({ paint, figures }: { paint: PaintSection; figures: S
     setReplace(false);
     await edit("/paint/written", scene, `write ${scene}`);
     await readEntries();
-    say(`Written: ${scene}`);
   };
   const feel = async () => {
     await chooseScene(written);
