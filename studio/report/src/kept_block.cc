@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "base64.h"
