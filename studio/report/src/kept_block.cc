@@ -6,7 +6,6 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
-#include "asperity/base/output.h"
 #include "base64.h"
 
 namespace asperity::studio {
