@@ -4,8 +4,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "asperity/base/csv.h"
 #include "asperity/base/error.h"
-#include "asperity/base/output.h"
 #include "base64.h"
 
 namespace asperity::studio {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/csv.h"
 #include "asperity/base/error.h"
-#include "asperity/base/output.h"
 #include "asperity/studio/measured_block.h"
 #include "config_fields.h"
 #include "process/process_choice.h"
