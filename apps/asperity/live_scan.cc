@@ -55,6 +55,7 @@ Json live_json(const LiveReport& report, const std::string& recording) {
   out["probe_bytes_lost"] = report.probe_bytes_lost;
   out["frames"] = report.frames;
   out["frames_lost"] = report.frames_lost;
+  out["frames_dropped"] = report.frames_dropped;
   out["latest_probe_s"] = report.latest_probe_s;
   out["latest_frame_s"] = report.latest_frame_s;
   out["bytes_flipped"] = report.flipped;
@@ -69,6 +70,8 @@ std::string live_line(const LiveReport& report, const std::string& recording) {
                                  1e3 * report.latest_probe_s, 1e3 * report.latest_frame_s);
   if (report.probe_bytes_lost + report.frames_lost > 0)
     line += fmt::format("nobody read {} bytes and {} images\n", report.probe_bytes_lost, report.frames_lost);
+  if (report.frames_dropped > 0)
+    line += fmt::format("{} images were dropped: the machine was too slow for them\n", report.frames_dropped);
   return line;
 }
 

@@ -228,6 +228,7 @@ void Recorder::start_segment(std::string name) { parts_->ask(RecorderCommand::Ki
 void Recorder::stop_segment() { parts_->ask(RecorderCommand::Kind::kStop, ""); }
 void Recorder::discard_segment() { parts_->ask(RecorderCommand::Kind::kDiscard, ""); }
 void Recorder::rescan_segment() { parts_->ask(RecorderCommand::Kind::kRescan, ""); }
+void Recorder::restore_segment() { parts_->ask(RecorderCommand::Kind::kRestore, ""); }
 void Recorder::set_mode(StoreMode mode) {
   parts_->ask(mode == StoreMode::kAuto ? RecorderCommand::Kind::kByContact : RecorderCommand::Kind::kByHand, "");
 }

@@ -46,6 +46,13 @@ Json numbers(const Eigen::Vector3d& values) {
   return out;
 }
 
+Json discarded_json(const std::vector<Segment>& segments) {
+  Json out = Json::array();
+  for (const Segment& each : segments)
+    out.push_back({{"name", each.name}, {"start_ns", each.start_ns}, {"end_ns", each.end_ns}});
+  return out;
+}
+
 }  // namespace
 
 RecordingWriter::RecordingWriter(const std::filesystem::path& folder, RecordingInfo info,
@@ -119,6 +126,9 @@ void RecordingWriter::apply(const RecorderCommand& command) {
       if (by_hand && command.kind == RecorderCommand::Kind::kRescan) begin(*name, command.t_ns);
       return;
     }
+    case RecorderCommand::Kind::kRestore:
+      if (segments_.restore()) changed_ = true;
+      return;
     case RecorderCommand::Kind::kByHand:
       // Where the touch's end has set one, the segment would stop by itself.
       if (!by_hand) segments_.reopen();
@@ -167,6 +177,8 @@ RecordingInfo RecordingWriter::current_info(bool finished) const {
   recorder["last_segment_is_open"] = segments_.is_open();
   if (const auto until_ns = segments_.discarded_until_ns()) recorder["discarded_until_ns"] = *until_ns;
   recorder["discarded_segments"] = segments_.discarded();
+  // Whose rows are still in the files.
+  if (!finished && !segments_.trash().empty()) recorder["discarded"] = discarded_json(segments_.trash());
   recorder["gravity"] = {{"measured", gravity.measured},
                          {"windows_at_rest", gravity.windows},
                          {"scatter_mps2", numbers(gravity.scatter_mps2)}};
@@ -208,6 +220,8 @@ void RecordingWriter::describe(RecorderSnapshot& out) const {
   out.automatic = config_.mode == StoreMode::kAuto;
   out.segment = segments_.last_name();
   out.discarded = segments_.discarded();
+  out.restored = segments_.restored();
+  if (!segments_.trash().empty()) out.last_discarded = segments_.trash().back();
   out.recorded_s = segments_.recorded_s();
   out.probe_rows = segments_.probe_rows();
   out.tracker_rows = segments_.tracker_rows();

@@ -18,7 +18,7 @@
 namespace asperity {
 
 struct RecorderCommand {
-  enum class Kind { kStart, kStop, kDiscard, kRescan, kByHand, kByContact };
+  enum class Kind { kStart, kStop, kDiscard, kRescan, kRestore, kByHand, kByContact };
   Kind kind = Kind::kStart;
   std::string name;
   std::int64_t t_ns = 0;  // when it was asked for

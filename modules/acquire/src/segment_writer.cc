@@ -23,7 +23,15 @@ bool SegmentWriter::is_claimed(std::int64_t t_ns) const {
   for (auto segment = segments_.rbegin(); segment != segments_.rend() && t_ns <= segment->end_ns; ++segment) {
     if (t_ns >= segment->start_ns) return true;
   }
-  return false;
+  // What was discarded may be wanted again, with the rows that come after the decision.
+  return std::any_of(trash_.begin(), trash_.end(),
+                     [t_ns](const Segment& segment) { return t_ns >= segment.start_ns && t_ns <= segment.end_ns; });
+}
+
+std::optional<std::int64_t> SegmentWriter::discarded_until_ns() const {
+  std::int64_t until_ns = given_up_until_ns_;
+  for (const Segment& segment : trash_) until_ns = std::max(until_ns, segment.end_ns);
+  return until_ns == kNever ? std::nullopt : std::optional(until_ns);
 }
 
 template <class Sample>
@@ -69,7 +77,7 @@ void SegmentWriter::add(const TrackerSample& sample) { take(tracker_, sample); }
 bool SegmentWriter::start(std::string name, std::int64_t t_ns, std::int64_t pre_roll_ns) {
   if (open_ || segments_.size() >= kMostSegments) return false;
   t_ns = std::max(t_ns, kFromFirstRow);
-  const std::int64_t earliest_ns = std::max(first_ns_, discarded_until_ns_);
+  const std::int64_t earliest_ns = std::max(first_ns_, discarded_until_ns().value_or(kNever));
   const std::int64_t start_ns = std::min(t_ns, std::max(t_ns - pre_roll_ns, earliest_ns));
   segments_.push_back({std::move(name), start_ns, kNoEnd});
   open_ = true;
@@ -107,10 +115,39 @@ std::optional<std::string> SegmentWriter::discard(std::int64_t t_ns) {
   if (segments_.empty()) return std::nullopt;
   if (latest_ns_ != kNever) close(t_ns);
   open_ = false;
-  if (latest_ns_ != kNever) discarded_until_ns_ = std::max(discarded_until_ns_, segments_.back().end_ns);
-  std::string name = std::move(segments_.back().name);
+  const Segment gone = std::move(segments_.back());
   segments_.pop_back();
   ++discarded_;
+  if (latest_ns_ == kNever) return gone.name;  // it never had a row
+  trash_.push_back(gone);
+  if (trash_.size() > kMostDiscarded) {
+    given_up_until_ns_ = std::max(given_up_until_ns_, trash_.front().end_ns);
+    trash_.erase(trash_.begin());
+  }
+  return gone.name;
+}
+
+std::string SegmentWriter::free_name(const std::string& name) const {
+  const auto taken = [this](const std::string& wanted) {
+    return std::any_of(segments_.begin(), segments_.end(), [&](const Segment& each) { return each.name == wanted; });
+  };
+  std::string out = name;
+  for (int i = 1; taken(out); ++i) out = name + (i == 1 ? "_restored" : "_restored_" + std::to_string(i));
+  return out;
+}
+
+std::optional<std::string> SegmentWriter::restore() {
+  if (trash_.empty() || segments_.size() >= kMostSegments) return std::nullopt;
+  Segment back = std::move(trash_.back());
+  trash_.pop_back();
+  --discarded_;
+  ++restored_;
+  back.name = free_name(back.name);
+  std::string name = back.name;
+  // An open segment remains the last.
+  const auto place = std::upper_bound(segments_.begin(), open_ ? segments_.end() - 1 : segments_.end(), back.start_ns,
+                                      [](std::int64_t t_ns, const Segment& each) { return t_ns < each.start_ns; });
+  segments_.insert(place, std::move(back));
   return name;
 }
 

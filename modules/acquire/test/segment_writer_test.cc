@@ -149,6 +149,68 @@ TEST(SegmentWriter, DiscardedRowsAreTakenOutAtTheEnd) {
   EXPECT_EQ(recording.info.segments[1].start_ns, 4000 * kMs);
 }
 
+TEST(SegmentWriter, BringsBackWhatWasDiscardedWithItsLateRows) {
+  Rig rig;
+  rig.run_to(1000);
+  EXPECT_EQ(rig.writer.restore(), std::nullopt);
+  rig.writer.start("a", 1000 * kMs, 0);
+  rig.run_to(2000);
+  EXPECT_EQ(rig.writer.discard(2000 * kMs), "a");  // its last poses have not come yet
+  rig.run_to(3000);
+  ASSERT_EQ(rig.writer.trash().size(), 1u);
+  rig.writer.start("a", 3000 * kMs, 0);
+  rig.run_to(3500);
+  EXPECT_EQ(rig.writer.restore(), "a_restored");  // the name was given again
+  EXPECT_TRUE(rig.writer.is_open());              // the second goes on
+  EXPECT_EQ(rig.writer.last_name(), "a");
+  EXPECT_EQ(rig.writer.discarded(), 0u);
+  EXPECT_EQ(rig.writer.discarded_until_ns(), std::nullopt);
+  EXPECT_EQ(rig.writer.restore(), std::nullopt);
+  rig.run_to(4000);
+  const Recording recording = rig.finish(true);
+  std::vector<std::int64_t> kept = range(1000, 2000, 10);
+  for (const std::int64_t t : range(3000, 3990, 10)) kept.push_back(t);
+  EXPECT_EQ(in_ms(recording.probe.t_ns), kept);
+  // Poses at 10, 30, … ms; the last ones of the run come after its end.
+  std::vector<std::int64_t> poses = range(1000, 2000, 20);
+  for (const std::int64_t t : range(3000, 3940, 20)) poses.push_back(t);
+  EXPECT_EQ(in_ms(recording.tracker.t_ns), poses);
+  ASSERT_EQ(recording.info.segments.size(), 2u);
+  EXPECT_EQ(recording.info.segments[0].name, "a_restored");
+  EXPECT_EQ(recording.info.segments[0].end_ns, 2000 * kMs);
+}
+
+TEST(SegmentWriter, BringsBackTheLastFirst) {
+  Rig rig;
+  for (std::int64_t i = 0; i < 3; ++i) {
+    rig.run_to(1000 * (i + 1));
+    rig.writer.start(std::string(1, static_cast<char>('a' + i)), 1000 * (i + 1) * kMs, 0);
+    rig.run_to(1000 * (i + 1) + 500);
+    rig.writer.close((1000 * (i + 1) + 500) * kMs);
+  }
+  for (int i = 0; i < 3; ++i) rig.writer.discard(rig.writer.latest_ns());
+  EXPECT_EQ(rig.writer.count(), 0u);
+  EXPECT_EQ(rig.writer.restore(), "a");  // was discarded last
+  EXPECT_EQ(rig.writer.restore(), "b");
+  EXPECT_EQ(rig.writer.restored(), 2u);
+  const Recording recording = rig.finish(true);
+  ASSERT_EQ(recording.info.segments.size(), 2u);
+  EXPECT_EQ(recording.probe.t_ns.back() / kMs, 2500);
+}
+
+TEST(SegmentWriter, GivesTheOldestUpAtLast) {
+  Rig rig;
+  rig.run_to(100);
+  for (std::size_t i = 0; i < SegmentWriter::kMostDiscarded + 2; ++i) {
+    rig.writer.start("s" + std::to_string(i), rig.now_ms * kMs, 0);
+    rig.run_to(rig.now_ms + 20);
+    rig.writer.discard(rig.now_ms * kMs);
+  }
+  EXPECT_EQ(rig.writer.trash().size(), SegmentWriter::kMostDiscarded);
+  EXPECT_EQ(rig.writer.trash().front().name, "s2");
+  EXPECT_EQ(rig.writer.discarded(), SegmentWriter::kMostDiscarded + 2);
+}
+
 TEST(SegmentWriter, DropsRowsThatGoBackInTime) {
   Rig rig;
   rig.writer.start("a", 0, 0);

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -11,36 +9,21 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "asperity/device/latest_value.h"
 #include "check_config.h"
-#include "force_mailbox.h"
 #include "haply_protocol.h"
 #include "inverse_service_client.h"
-#include "stall_watch.h"
+#include "io_device.h"
 
 namespace asperity {
 
 namespace {
 
-using Clock = InverseServiceClient::Clock;
-
-Clock::duration seconds(double s) {
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
-}
-
-// What the I/O thread tells the servo thread, in the device's axes.
-struct News {
-  Eigen::Vector3d p_m = Eigen::Vector3d::Zero();
-  Eigen::Vector3d v_mps = Eigen::Vector3d::Zero();
-  std::uint64_t sequence = 0;
-};
-
-class HaplyDevice final : public HapticDevice {
+class HaplyDevice final : public IoDevice {
  public:
   explicit HaplyDevice(const HaplyConfig& config)
-      : config_(config),
+      : IoDevice(config.stall_after_s),
+        config_(config),
         R_device_service_(parse_haply_axes(config.axes)),
-        watch_(config.stall_after_s),
         client_(config.host, config.port) {
     const auto until = Clock::now() + seconds(config.open_timeout_s);
     force_key_ = parse_service_version(client_.get("/version", until));
@@ -53,38 +36,15 @@ class HaplyDevice final : public HapticDevice {
     send(Eigen::Vector3d::Zero(), true, until);
     await_state(until);
     pass_on();
-    thread_ = std::thread([this] { run(); });
+    thread_ = std::thread([this] { serve_and_leave(); });
   }
 
-  HaplyDevice(const HaplyDevice&) = delete;
-  HaplyDevice& operator=(const HaplyDevice&) = delete;
   ~HaplyDevice() override { close(); }
-
-  const DeviceInfo& info() const noexcept override { return info_; }
-
-  DeviceReading read(std::int64_t t_ns) noexcept override {
-    const News& news = news_.take();
-    DeviceReading reading;
-    reading.p_m = news.p_m;
-    reading.v_mps = news.v_mps;
-    reading.sequence = news.sequence;
-    if (watch_.stalled(t_ns, news.sequence)) reading.status = DeviceStatus::kStalled;
-    if (stop_.load(std::memory_order_relaxed)) reading.status = DeviceStatus::kEnded;
-    if (faulty_.load(std::memory_order_acquire)) reading.status = DeviceStatus::kFault;
-    return reading;
-  }
-
-  void write(const Eigen::Vector3d& force_N) noexcept override { forces_.publish(force_N); }
 
   void close() noexcept override {
     stop_.store(true);
     client_.wake();
     if (thread_.joinable()) thread_.join();
-  }
-
-  std::string fault() const override {
-    const std::lock_guard lock(fault_mutex_);
-    return fault_;
   }
 
  private:
@@ -111,14 +71,8 @@ class HaplyDevice final : public HapticDevice {
 
   void pass_on() { news_.publish({R_device_service_ * state_.p_m, R_device_service_ * state_.v_mps, ++sequence_}); }
 
-  void run() {
-    try {
-      serve();
-    } catch (const std::exception& error) {
-      const std::lock_guard lock(fault_mutex_);
-      fault_ = error.what();
-      faulty_.store(true, std::memory_order_release);
-    }
+  void serve_and_leave() {
+    run([this] { serve(); });
     try {
       say_goodbye();
     } catch (const std::exception&) {
@@ -167,17 +121,6 @@ class HaplyDevice final : public HapticDevice {
 
   HaplyConfig config_;
   Eigen::Matrix3d R_device_service_;
-  DeviceInfo info_;
-
-  // The servo thread's.
-  StallWatch watch_;
-
-  // Between the threads.
-  LatestValue<News> news_;
-  ForceMailbox forces_;
-  std::atomic<bool> stop_{false}, faulty_{false};
-  mutable std::mutex fault_mutex_;
-  std::string fault_;
 
   // The I/O thread's.
   InverseServiceClient client_;

@@ -1,11 +1,10 @@
 #include "asperity/device/open_two_diy.h"
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <mutex>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -14,20 +13,17 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "asperity/device/latest_value.h"
 #include "asperity/device/supervisor.h"
 #include "asperity/device/velocity_estimator.h"
 #include "check_config.h"
-#include "force_mailbox.h"
+#include "io_device.h"
 #include "pantograph.h"
 #include "serial_port.h"
-#include "stall_watch.h"
 
 namespace asperity {
 
 namespace {
 
-using Clock = SerialPort::Clock;
 using Bytes = std::vector<unsigned char>;
 
 constexpr unsigned char kReset = 0, kSetUp = 1, kTorques = 2;
@@ -40,10 +36,6 @@ constexpr double kFastest_deg_per_s = 3600.0, kLeastJump_deg = 5.0;
 
 static_assert(std::endian::native == std::endian::little, "the board's floats are little-endian");
 
-Clock::duration seconds(double s) {
-  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
-}
-
 void append_float(Bytes& bytes, double value) {
   const auto number = static_cast<float>(value);
   unsigned char raw[sizeof number];
@@ -51,15 +43,9 @@ void append_float(Bytes& bytes, double value) {
   bytes.insert(bytes.end(), raw, raw + sizeof number);
 }
 
-struct News {
-  Eigen::Vector3d p_m = Eigen::Vector3d::Zero();
-  Eigen::Vector3d v_mps = Eigen::Vector3d::Zero();
-  std::uint64_t sequence = 0;
-};
-
-class TwoDiy final : public HapticDevice {
+class TwoDiy final : public IoDevice {
  public:
-  explicit TwoDiy(const TwoDiyConfig& config) : config_(config), watch_(config.stall_after_s), port_(config.port) {
+  explicit TwoDiy(const TwoDiyConfig& config) : IoDevice(config.stall_after_s), config_(config), port_(config.port) {
     linkage_ = {config.proximal_m, config.distal_m, config.base_m};
     noise_m_ = 2.0 * std::numbers::pi / config.encoder_counts * (config.proximal_m + config.distal_m);
     const double side = config.mirror_x ? -1.0 : 1.0;
@@ -81,38 +67,15 @@ class TwoDiy final : public HapticDevice {
       }
     }
     supervisor_.emplace(port_.descriptor(), std::as_bytes(std::span(bytes_)));  // the last question had no torque
-    thread_ = std::thread([this] { run(); });
+    thread_ = std::thread([this] { serve_and_leave(); });
   }
 
-  TwoDiy(const TwoDiy&) = delete;
-  TwoDiy& operator=(const TwoDiy&) = delete;
   ~TwoDiy() override { close(); }
-
-  const DeviceInfo& info() const noexcept override { return info_; }
-
-  DeviceReading read(std::int64_t t_ns) noexcept override {
-    const News& news = news_.take();
-    DeviceReading reading;
-    reading.p_m = news.p_m;
-    reading.v_mps = news.v_mps;
-    reading.sequence = news.sequence;
-    if (watch_.stalled(t_ns, news.sequence)) reading.status = DeviceStatus::kStalled;
-    if (stop_.load(std::memory_order_relaxed)) reading.status = DeviceStatus::kEnded;
-    if (faulty_.load(std::memory_order_acquire)) reading.status = DeviceStatus::kFault;
-    return reading;
-  }
-
-  void write(const Eigen::Vector3d& force_N) noexcept override { forces_.publish(force_N); }
 
   void close() noexcept override {
     stop_.store(true);
     if (thread_.joinable()) thread_.join();
     supervisor_.reset();
-  }
-
-  std::string fault() const override {
-    const std::lock_guard lock(fault_mutex_);
-    return fault_;
   }
 
  private:
@@ -189,14 +152,8 @@ class TwoDiy final : public HapticDevice {
     return torque;
   }
 
-  void run() {
-    try {
-      serve();
-    } catch (const std::exception& error) {
-      const std::lock_guard lock(fault_mutex_);
-      fault_ = error.what();
-      faulty_.store(true, std::memory_order_release);
-    }
+  void serve_and_leave() {
+    run([this] { serve(); });
     try {
       const auto until = Clock::now() + std::chrono::milliseconds(100);
       ask(Eigen::Vector2d::Zero(), until);
@@ -230,19 +187,9 @@ class TwoDiy final : public HapticDevice {
   }
 
   TwoDiyConfig config_;
-  DeviceInfo info_;
   PantographConfig linkage_;
   Eigen::Matrix<double, 3, 2> axes_ = Eigen::Matrix<double, 3, 2>::Zero();  // its x and y in the device's axes
   double noise_m_ = 0.0;
-
-  StallWatch watch_;  // the servo thread's
-
-  // Between the threads.
-  LatestValue<News> news_;
-  ForceMailbox forces_;
-  std::atomic<bool> stop_{false}, faulty_{false};
-  mutable std::mutex fault_mutex_;
-  std::string fault_;
 
   // The thread's that opens, then the I/O thread's.
   SerialPort port_;

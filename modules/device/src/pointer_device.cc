@@ -5,27 +5,26 @@
 #include "asperity/base/error.h"
 #include "asperity/base/units.h"
 #include "check_config.h"
+#include "computed_device.h"
 #include "matrix_exponential.h"
 
 namespace asperity {
 
 namespace {
 
-class PointerDevice final : public HapticDevice {
+class PointerDevice final : public ComputedDevice {
  public:
   PointerDevice(const PointerDeviceConfig& config, const Eigen::Vector3d& start_m,
                 std::shared_ptr<PointerTargets> targets)
-      : config_(config), targets_(std::move(targets)), p_m_(start_m), end_m_(start_m), target_m_(start_m) {
+      : ComputedDevice(config),
+        config_(config),
+        targets_(std::move(targets)),
+        p_m_(start_m),
+        end_m_(start_m),
+        target_m_(start_m) {
     info_.name = "mouse";
     info_.model = "pointer on a spring";
-    info_.max_force_N = config.max_force_N;
-    info_.max_continuous_force_N = config.max_force_N;
-    info_.max_stiffness_N_per_m = config.max_stiffness_N_per_m;
-    info_.rate_Hz = config.rate_Hz;
-    info_.simulated = true;
   }
-
-  const DeviceInfo& info() const noexcept override { return info_; }
 
   DeviceReading read(std::int64_t t_ns) noexcept override {
     Eigen::Vector3d target_m;
@@ -48,20 +47,6 @@ class PointerDevice final : public HapticDevice {
     if (closed_) reading.status = DeviceStatus::kEnded;
     return reading;
   }
-
-  void write(const Eigen::Vector3d& force_N) noexcept override {
-    force_N_.setZero();
-    if (closed_ || !force_N.allFinite()) return;
-    const double magnitude_N = force_N.stableNorm();
-    force_N_ = magnitude_N > info_.max_force_N ? Eigen::Vector3d(force_N * (info_.max_force_N / magnitude_N)) : force_N;
-  }
-
-  void close() noexcept override {
-    closed_ = true;
-    force_N_.setZero();
-  }
-
-  std::string fault() const override { return {}; }
 
  private:
   // Of one axis: p, p′, g, and the constants u and f.
@@ -104,18 +89,15 @@ class PointerDevice final : public HapticDevice {
 
   PointerDeviceConfig config_;
   std::shared_ptr<PointerTargets> targets_;
-  DeviceInfo info_;
   Eigen::Vector3d p_m_;
   Eigen::Vector3d v_mps_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d end_m_;  // g
   Eigen::Vector3d target_m_;
-  Eigen::Vector3d force_N_ = Eigen::Vector3d::Zero();
   Step step_ = Step::Identity();
   std::int64_t step_ns_ = -1;
   std::int64_t newest_ns_ = -1;
   std::int64_t heard_ns_ = 0;
   std::uint64_t sequence_ = 0;
-  bool closed_ = false;
 };
 
 }  // namespace

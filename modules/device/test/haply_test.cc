@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <chrono>
-#include <functional>
 #include <thread>
 
 #include "asperity/base/error.h"
 #include "asperity/testkit/count_allocations.h"
 #include "fake_inverse_service.h"
+#include "serve_device.h"
 
 namespace asperity {
 namespace {
@@ -22,17 +22,6 @@ HaplyConfig config_for(const FakeInverseService& service) {
   config.host = "127.0.0.1";
   config.port = service.port();
   return config;
-}
-
-// Serves the device at 1 kHz for `ticks`; `force` makes the force from the reading.
-void serve(HapticDevice& device, int ticks, const std::function<Eigen::Vector3d(const DeviceReading&)>& force) {
-  static std::int64_t tick = 0;
-  auto due = Clock::now();
-  for (int i = 0; i < ticks; ++i) {
-    device.write(force(device.read(++tick * 1000000)));
-    due += milliseconds(1);
-    std::this_thread::sleep_until(due);
-  }
 }
 
 // The first reading of status `status` within two seconds of serving.

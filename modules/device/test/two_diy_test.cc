@@ -18,27 +18,17 @@
 #include "asperity/testkit/temp_dir.h"
 #include "conformance.h"
 #include "fake_two_diy_board.h"
+#include "serve_device.h"
 
 namespace asperity {
 namespace {
 
 using testing::HasSubstr;
-using Clock = std::chrono::steady_clock;
 
 TwoDiyConfig config_for(const FakeTwoDiyBoard& board) {
   TwoDiyConfig config;
   config.port = board.port();
   return config;
-}
-
-void serve(HapticDevice& device, int ticks, const std::function<Eigen::Vector3d(const DeviceReading&)>& force) {
-  static std::int64_t tick = 0;
-  auto due = Clock::now();
-  for (int i = 0; i < ticks; ++i) {
-    device.write(force(device.read(++tick * 1000000)));
-    due += std::chrono::milliseconds(1);
-    std::this_thread::sleep_until(due);
-  }
 }
 
 std::string message_of(const TwoDiyConfig& config) {

@@ -1,13 +1,16 @@
+#include <array>
 #include <charconv>
-#include <cmath>
 #include <limits>
 #include <span>
-#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/read_obj.h"
 #include "asperity/geometry/triangulate_polygon.h"
+#include "obj_parts.h"
+#include "obj_words.h"
 #include "problem_counter.h"
 #include "statement_lines.h"
 
@@ -18,31 +21,14 @@ namespace {
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr Triangle kNoTriangle{kNoIndex, kNoIndex, kNoIndex};
 
-// The place of a name in its table; a new name is added.
-class NameTable {
- public:
-  template <class Add>
-  std::int32_t find(std::string_view name, Add&& add) {
-    if (name.empty()) return -1;
-    const auto [entry, is_new] = places_.try_emplace(std::string(name), static_cast<std::int32_t>(places_.size()));
-    if (is_new) add(entry->first);
-    return entry->second;
-  }
-
- private:
-  std::unordered_map<std::string, std::int32_t> places_;
-};
-
-struct Corner {
-  std::uint32_t vertex = kNoIndex;
-  std::uint32_t texture = kNoIndex;
-  std::uint32_t normal = kNoIndex;
-};
-
 class ObjParser {
  public:
   ObjParser(std::string_view text, const std::string& name, const MeshLimits& limits)
-      : lines_(text, name, limits.line_bytes), name_(name), limits_(limits), problems_(mesh_.problems) {}
+      : lines_(text, name, limits.line_bytes),
+        name_(name),
+        limits_(limits),
+        problems_(mesh_.problems),
+        parts_(lines_, mesh_) {}
 
   MeshFile parse() {
     while (lines_.next()) statement();
@@ -58,26 +44,12 @@ class ObjParser {
     if (keyword == "vt") return texture_coordinate();
     if (keyword == "vn") return normal();
     if (keyword == "h") return haptic();
-    if (keyword == "g") return group();
-    if (keyword == "usemtl") return material();
-    if (keyword == "o") return object();
-    if (keyword == "s") return smoothing();
+    if (keyword == "g") return parts_.group();
+    if (keyword == "usemtl") return parts_.material();
+    if (keyword == "o") return parts_.object();
+    if (keyword == "s") return parts_.smoothing();
     if (keyword == "mtllib") return library();
     left_out(keyword);
-  }
-
-  // The finite number that a word spells; std::from_chars is exact but does not take a plus sign.
-  double number(std::string_view word) const {
-    std::string_view digits = word;
-    if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error == std::errc::result_out_of_range) lines_.fail("'" + printable(word) + "' is out of range of a double");
-    if (error != std::errc{} || end != digits.data() + digits.size()) {
-      lines_.fail("'" + printable(word) + "' is not a number");
-    }
-    if (!std::isfinite(value)) lines_.fail("'" + printable(word) + "' is not a finite number");
-    return value;
   }
 
   // The numbers of the line, at most `most`.
@@ -89,7 +61,7 @@ class ObjParser {
         lines_.fail("'" + printable(word) + "' after " + std::to_string(most) + " numbers of '" +
                     std::string(lines_.keyword()) + "'");
       }
-      numbers_[count++] = number(word);
+      numbers_[count++] = finite_number(lines_, word);
     }
     if (count < least) {
       lines_.fail("'" + std::string(lines_.keyword()) + "' has " + std::to_string(count) + " numbers, it needs " +
@@ -130,41 +102,6 @@ class ObjParser {
     mesh_.normals.emplace_back(n[0], n[1], n[2]);
   }
 
-  // The index that begins `text`, which loses it, resolved among `count` things read so far.
-  std::uint32_t index(std::string_view& text, std::string_view word, std::size_t count, const char* what) const {
-    std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || (end != text.data() + text.size() && *end != '/')) {
-      lines_.fail("'" + printable(word) + "' is not a corner of a face");
-    }
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-    if (value == 0) lines_.fail("'" + printable(word) + "' has index 0; indices begin at 1");
-    const auto known = static_cast<std::int64_t>(count);
-    if (value > known || value < -known) {
-      lines_.fail("'" + printable(word) + "' names " + what + " " + std::to_string(value) + ", " +
-                  std::to_string(known) + " are defined so far");
-    }
-    return static_cast<std::uint32_t>(value > 0 ? value - 1 : known + value);
-  }
-
-  Corner corner(std::string_view word) const {
-    Corner corner;
-    std::string_view rest = word;
-    corner.vertex = index(rest, word, mesh_.vertices.size(), "vertex");
-    if (rest.empty()) return corner;
-    rest.remove_prefix(1);
-    if (!rest.empty() && rest.front() != '/') {
-      corner.texture = index(rest, word, mesh_.texture_coordinates.size(), "texture coordinate");
-    }
-    if (rest.empty()) return corner;
-    rest.remove_prefix(1);
-    if (!rest.empty()) {
-      corner.normal = index(rest, word, mesh_.normals.size(), "normal");
-      if (!rest.empty()) lines_.fail("'" + printable(word) + "' is not a corner of a face");
-    }
-    return corner;
-  }
-
   void face() {
     if (!mesh_.haptic.empty()) lines_.fail("a face after the first 'h' line; they follow the faces");
     corners_.clear();
@@ -173,7 +110,7 @@ class ObjParser {
       if (corners_.size() == limits_.polygon_corners) {
         lines_.fail("a face of more than " + std::to_string(limits_.polygon_corners) + " corners");
       }
-      corners_.push_back(corner(word));
+      corners_.push_back(obj_corner(lines_, word, mesh_));
       if ((corners_.back().texture == kNoIndex) != (corners_.front().texture == kNoIndex)) {
         lines_.fail("'" + printable(word) + "': some corners of the face have a texture coordinate and some have none");
       }
@@ -185,7 +122,7 @@ class ObjParser {
     if (limits_.triangles - mesh_.triangles.size() < corners_.size() - 2) {
       lines_.fail("more than " + std::to_string(limits_.triangles) + " triangles");
     }
-    begin_part();
+    parts_.begin_triangle();
     if (corners_.size() == 3) {
       add_triangle({0, 1, 2});
     } else {
@@ -196,7 +133,7 @@ class ObjParser {
   void add_polygon() {
     if (polygon_line_ == 0) polygon_line_ = lines_.line();
     points_.clear();
-    for (const Corner& c : corners_) points_.push_back(mesh_.vertices[c.vertex]);
+    for (const ObjCorner& c : corners_) points_.push_back(mesh_.vertices[c.vertex]);
     pieces_.clear();
     const PolygonShape shape = triangulate_polygon(points_, pieces_);
     for (const Triangle& piece : pieces_) add_triangle(piece);
@@ -209,9 +146,9 @@ class ObjParser {
   }
 
   void add_triangle(const Triangle& piece) {
-    const Corner& a = corners_[piece[0]];
-    const Corner& b = corners_[piece[1]];
-    const Corner& c = corners_[piece[2]];
+    const ObjCorner& a = corners_[piece[0]];
+    const ObjCorner& b = corners_[piece[1]];
+    const ObjCorner& c = corners_[piece[2]];
     const std::size_t before = mesh_.triangles.size();
     mesh_.triangles.push_back({a.vertex, b.vertex, c.vertex});
     if (a.vertex == b.vertex || b.vertex == c.vertex || c.vertex == a.vertex) {
@@ -225,64 +162,6 @@ class ObjParser {
       mesh_.normal_corners.resize(before, kNoTriangle);
       mesh_.normal_corners.push_back({a.normal, b.normal, c.normal});
     }
-  }
-
-  void begin_part() {
-    if (!part_changed_) return;
-    part_changed_ = false;
-    part_.first_triangle = static_cast<std::uint32_t>(mesh_.triangles.size());
-    if (mesh_.parts.empty()) {
-      MeshPart unnamed;
-      unnamed.first_triangle = part_.first_triangle;
-      if (part_ == unnamed) return;
-      unnamed.first_triangle = 0;
-      if (part_.first_triangle > 0) mesh_.parts.push_back(unnamed);
-    } else {
-      MeshPart same = mesh_.parts.back();
-      same.first_triangle = part_.first_triangle;
-      if (part_ == same) return;
-    }
-    mesh_.parts.push_back(part_);
-  }
-
-  void object() {
-    part_.object = object_names_.find(lines_.rest(), [&](const std::string& name) { mesh_.objects.push_back(name); });
-    part_changed_ = true;
-  }
-
-  void group() {
-    std::string names;
-    std::string_view rest = lines_.rest();
-    while (!rest.empty()) {
-      std::size_t length = 0;
-      while (length < rest.size() && !is_blank(rest[length])) ++length;
-      if (length > 0) {
-        if (!names.empty()) names += ' ';
-        names += rest.substr(0, length);
-      }
-      rest.remove_prefix(std::min(length + 1, rest.size()));
-    }
-    part_.group = group_names_.find(names, [&](const std::string& name) { mesh_.groups.push_back(name); });
-    part_changed_ = true;
-  }
-
-  void material() {
-    part_.material = material_names_.find(lines_.rest(),
-                                          [&](const std::string& name) { mesh_.materials.emplace_back().name = name; });
-    part_changed_ = true;
-  }
-
-  void smoothing() {
-    const std::string_view value = lines_.rest();
-    std::uint32_t number = 0;
-    if (value != "off") {
-      const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-      if (error != std::errc{} || end != value.data() + value.size()) {
-        lines_.fail("smoothing group '" + printable(value) + "' is neither a number nor off");
-      }
-    }
-    part_.smoothing = number;
-    part_changed_ = true;
   }
 
   void library() {
@@ -309,7 +188,7 @@ class ObjParser {
     for (std::size_t i = 0; i < 6; ++i) {
       const std::string_view value = next_word(rest);
       if (value.empty()) lines_.fail("'h' has " + std::to_string(i) + " coordinates, it needs 6");
-      haptic.xy_mm[i / 2][static_cast<Eigen::Index>(i % 2)] = number(value);
+      haptic.xy_mm[i / 2][static_cast<Eigen::Index>(i % 2)] = finite_number(lines_, value);
     }
     if (const std::string_view word_more = next_word(rest); !word_more.empty()) {
       lines_.fail("'" + printable(word_more) + "' after the 6 coordinates of 'h'");
@@ -352,12 +231,11 @@ class ObjParser {
   const MeshLimits& limits_;
   MeshFile mesh_;
   ProblemCounter problems_;
-  NameTable object_names_, group_names_, material_names_, library_names_;
-  MeshPart part_;
-  bool part_changed_ = false;
+  ObjParts parts_;
+  NameTable library_names_;
   std::size_t polygon_line_ = 0;
   std::array<double, 6> numbers_{};
-  std::vector<Corner> corners_;
+  std::vector<ObjCorner> corners_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<Triangle> pieces_;
 };

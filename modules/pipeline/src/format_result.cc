@@ -132,6 +132,8 @@ std::string format_result(const ProcessResult& result, const Recording& recordin
   out["periodicity"] = periodicity_json(result.periodicity);
   out["compliance"] = {{"k_c", result.compliance.k_c},
                        {"sigma_r2", result.compliance.sigma_r2},
+                       {"force_exponent", result.compliance.exponent},
+                       {"force_exponent_stderr", result.compliance.exponent_error},
                        {"windows", result.compliance.windows.size()}};
   out["stiffness"] = stiffness_json(result.stiffness);
   if (result.fit) {

@@ -4,7 +4,10 @@
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
+
+#include "asperity/base/text.h"
 
 namespace asperity {
 
@@ -23,6 +26,20 @@ void add_unlisted(Recording& recording, const nlohmann::json& recorder, std::int
   recording.info.segments.push_back({"unfinished", *first, last_row_ns});
 }
 
+// The names of those whose rows are still there; "" if there are none.
+std::string discarded_names(const nlohmann::json& recorder) {
+  constexpr std::size_t kMostNamed = 5;
+  const auto discarded = recorder.find("discarded");
+  if (discarded == recorder.end() || !discarded->is_array()) return "";
+  std::string out;
+  std::size_t count = 0;
+  for (const auto& each : *discarded) {
+    if (!each.is_object() || !each.contains("name") || !each["name"].is_string()) continue;
+    if (count++ < kMostNamed) out += (out.empty() ? "" : ", ") + printable(each["name"].get<std::string>(), 100);
+  }
+  return count > kMostNamed ? out + ", …" : out;
+}
+
 }  // namespace
 
 void close_unfinished(Recording& recording) {
@@ -31,6 +48,10 @@ void close_unfinished(Recording& recording) {
   const auto& recorder = extra["recorder"];
   if (!recorder.contains("state") || recorder["state"] != "recording") return;
   recording.problems.push_back({"unfinished", "the recorder did not come to its end; what it had stored is there"});
+  if (const std::string names = discarded_names(recorder); !names.empty()) {
+    recording.problems.push_back({"discarded_rows", "rows of segments that were discarded are still in its files: " +
+                                                        names + " (recording.json, extra.recorder.discarded)"});
+  }
   std::int64_t last_row_ns = std::numeric_limits<std::int64_t>::min();
   if (recording.probe.size() > 0) last_row_ns = std::max(last_row_ns, recording.probe.t_ns.back());
   if (recording.tracker.size() > 0) last_row_ns = std::max(last_row_ns, recording.tracker.t_ns.back());

@@ -40,6 +40,25 @@ void append_tail(const std::filesystem::path& path, const std::string& tail) {
   std::ofstream(path, std::ios::binary | std::ios::app) << tail;
 }
 
+TEST(Append, WhatWasDiscardedBeforeACrashIsReported) {
+  const testkit::TempDir dir;
+  RecordingInfo info;
+  info.segments = {{"kept", 0, 50'000'000}};
+  info.extra_json =
+      R"({"recorder":{"state":"recording","discarded_until_ns":90000000,"discarded":[{"name":"spoilt","start_ns":60000000,"end_ns":90000000},7]}})";
+  {
+    RecordingAppender appender(dir / "rec", info, any_calibration(), {});
+    for (int i = 0; i < 400; ++i) appender.add(probe_sample(i));
+    for (int i = 0; i < 5; ++i) appender.add(tracker_sample(i));
+  }
+  const Recording recording = read_recording(dir / "rec");
+  EXPECT_EQ(recording.info.segments.size(), 1u);
+  EXPECT_THAT(recording.problems,
+              testing::Contains(
+                  testing::AllOf(testing::Field(&Problem::kind, "discarded_rows"),
+                                 testing::Field(&Problem::message, testing::HasSubstr("in its files: spoilt (")))));
+}
+
 TEST(Append, FinishedRecordingIsWhole) {
   const testkit::TempDir dir;
   RecordingInfo info;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "asperity/base/error.h"
+#include "asperity/base/rounded_text.h"
 #include "asperity/base/text.h"
 #include "fit_along_path.h"
 #include "measure_warp.h"
@@ -261,8 +262,8 @@ void report(const HapticWarp& warp, std::size_t jumps, std::size_t path, Problem
   add("path_jumps", jumps, "of its points lie further from the one before than its length allows");
   add("coordinates_fold", warp.folded.size(), "triangles where the texture folds over");
   add("coordinates_stretch", warp.stretched.size(),
-      "triangles where the texture is stretched or squeezed, from " + number_text(warp.stretch_min) + " to " +
-          number_text(warp.stretch_max));
+      "triangles where the texture is squeezed or stretched: " + rounded_text(warp.stretch_min) + " to " +
+          rounded_text(warp.stretch_max) + " times the surface's lengths");
   add("coordinates_overlap", warp.overlapping.size(), "triangles between two parts of the path");
 }
 

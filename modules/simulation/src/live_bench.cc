@@ -122,12 +122,17 @@ struct LiveBench::Impl {
     header.rate_numerator = std::llround(config.camera.rate_Hz * 1000.0);
     header.rate_denominator = 1000;
     constexpr int kPatience_ms = 50;
+    const std::int64_t drop_after_ns = std::llround(config.drop_after_s * 1e9);
     GrayImage image;
     std::string bytes;
     for (std::size_t frame = 0; frame < camera.frames(); ++frame) {
+      const std::int64_t stamp_ns = camera.time(frame).stamp_ns + shift_ns;
+      if (now_ns() - stamp_ns > drop_after_ns) {
+        ++report.frames_dropped;
+        continue;
+      }
       // Rendered before its time comes: a busy machine then delays it less.
       camera.render(frame, image);
-      const std::int64_t stamp_ns = camera.time(frame).stamp_ns + shift_ns;
       if (!sleep_until(stamp_ns)) return;
       bool is_new = false;
       if (!fifo.open(is_new)) {

@@ -159,6 +159,26 @@ TEST(LiveBench, TheOpenProbesFramesGoThroughALinkWithFaults) {
   EXPECT_NEAR(static_cast<double>(zeros), static_cast<double>(recording.probe.size()) / 16.0, 12.0);
 }
 
+// 2000 frames a second of 640 x 480 px are more than this machine, or the next, can draw and a pipe can carry.
+TEST(LiveBench, LateFramesAreDroppedAndTheOthersKeepTheirTime) {
+  const SimulationConfig config = short_config("what");
+  LiveBenchConfig live;
+  live.linger_s = 0.2;
+  live.camera.rate_Hz = 2000.0;
+  live.camera.exposure_s = 2e-4;
+  live.drop_after_s = 2e-3;
+  const Recording recording = shaken(config, live, 0.4);
+  const testkit::TempDir folder;
+  LiveBench bench(recording, config.probe, live, folder.path());
+  const Played played = play(bench);
+  EXPECT_GT(played.report.frames_dropped, 0U);
+  const std::vector<std::int64_t> all = bench.on_host_clock().tracker.t_ns;
+  EXPECT_EQ(played.report.frames + played.report.frames_dropped + played.report.frames_lost, all.size());
+  const Frames frames = split_y4m(played.camera);
+  EXPECT_EQ(frames.t_ns.size(), played.report.frames);
+  EXPECT_TRUE(std::includes(all.begin(), all.end(), frames.t_ns.begin(), frames.t_ns.end()));
+}
+
 TEST(LiveBench, WaitsForReadersAndLeavesNothingBehind) {
   const SimulationConfig config = short_config("what");
   LiveBenchConfig live;

@@ -9,6 +9,7 @@
 
 #include "areal_system.h"
 #include "asperity/base/error.h"
+#include "asperity/base/rounded_text.h"
 #include "asperity/base/text.h"
 #include "asperity/texture/evaluate_spline_grid.h"
 
@@ -137,7 +138,7 @@ ArealFit fit_areal(std::span<const ArealSample> samples, const FitArealConfig& c
   if (fit.relative_residual > 1e-4) {
     fit.problems.push_back({"not_converged",
                             "the surface's equations are solved to a relative residual of " +
-                                number_text(fit.relative_residual) + " only; more iterations, or a coarser grid",
+                                rounded_text(fit.relative_residual) + " only; more iterations, or a coarser grid",
                             1});
   }
   fit.lift_m = -lowest_height_m(fit.texture.surface);

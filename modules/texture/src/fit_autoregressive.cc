@@ -5,6 +5,7 @@
 #include <string>
 
 #include "asperity/base/error.h"
+#include "asperity/base/rounded_text.h"
 #include "asperity/base/text.h"
 #include "asperity/texture/autoregressive_filter.h"
 #include "burg.h"
@@ -83,8 +84,8 @@ AutoregressiveFit fit_once(const SeriesRecording& recording, const FitAutoregres
     fit.model_samples.push_back(g.samples);
     if (g.samples < 20 * static_cast<std::size_t>(config.max_order)) {
       fit.problems.push_back({"few_samples",
-                              "the model at " + number_text(g.speed_mps) + " m/s and " + number_text(g.force_N) +
-                                  " N rests on " + std::to_string(g.samples) + " samples",
+                              "the model at " + rounded_text(1e3 * g.speed_mps) + " mm/s and " +
+                                  rounded_text(g.force_N) + " N rests on " + std::to_string(g.samples) + " samples",
                               1});
     }
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/base/rounded_text.h"
 #include "asperity/base/text.h"
 #include "asperity/texture/evaluate_fourier1d.h"
 #include "window.h"
@@ -46,12 +47,12 @@ Window choose_window(const BridgedProfile& profile, double spacing_m, const FitF
   const Window longest = longest_stretch(profile);
   const double longest_mm = static_cast<double>(longest.count) * spacing_m * 1e3;
   if (longest.count < 3 || longest_mm < config.shortest_mm) {
-    throw Error("texture: the longest gap-free stretch is " + number_text(longest_mm) + " mm; at least " +
-                number_text(std::min(config.shortest_mm, config.length_mm)) + " mm is needed");
+    throw Error("texture: the longest gap-free stretch is " + rounded_text(longest_mm) + " mm; at least " +
+                rounded_text(std::min(config.shortest_mm, config.length_mm)) + " mm is needed");
   }
   problems.push_back({"short_texture",
-                      "no gap-free stretch of " + number_text(config.length_mm) + " mm: the texture is " +
-                          number_text(longest_mm) + " mm long",
+                      "no gap-free stretch of " + rounded_text(config.length_mm) + " mm: the texture is " +
+                          rounded_text(longest_mm) + " mm long",
                       1});
   return longest;
 }

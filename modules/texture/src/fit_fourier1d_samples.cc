@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/base/rounded_text.h"
 #include "asperity/base/text.h"
 #include "asperity/texture/evaluate_fourier1d.h"
 
@@ -219,8 +220,8 @@ FourierPathFit fit_fourier1d_path(std::span<const double> height_m, double spaci
   if (samples.coefficients < static_cast<int>(std::min(wanted, 1e9))) {
     result.problems.push_back({"coarse_texture",
                                "the path is held to " +
-                                   number_text(static_cast<double>(samples.coefficients) / (length_m * 1e3)) +
-                                   " cycles/mm instead of " + number_text(config.coefficients_per_mm),
+                                   rounded_text(static_cast<double>(samples.coefficients) / (length_m * 1e3)) +
+                                   " cycles/mm instead of " + rounded_text(config.coefficients_per_mm),
                                1});
   }
   result.fit = fit_fourier1d_samples(x_m, closed_m, length_m, samples);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -7,5 +8,8 @@ namespace asperity::studio {
 
 // RFC 4648, with padding, in one line.
 std::string base64(std::string_view bytes);
+
+// What it spells; nothing if it is not of that alphabet or its length is no multiple of four.
+std::optional<std::string> bytes_of_base64(std::string_view text);
 
 }  // namespace asperity::studio

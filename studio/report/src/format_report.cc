@@ -59,8 +59,10 @@ std::string inline_text(std::string_view text) {
   return out;
 }
 
+std::string shown_name(const ReportItem& item) { return is_utf8(item.name) ? item.name : printable(item.name, 200); }
+
 std::string title_of(const std::vector<ReportItem>& items) {
-  const std::string first = is_utf8(items[0].name) ? items[0].name : printable(items[0].name, 200);
+  const std::string first = shown_name(items[0]);
   return items.size() == 1 ? first : first + " and " + std::to_string(items.size() - 1) + " more";
 }
 
@@ -81,7 +83,8 @@ std::string format_report(const std::vector<ReportItem>& items) {
   out += "<style>" + inline_text(web::report_style()) + "</style>\n</head>\n<body>\n";
   out += "<div id=\"report\"><noscript>This report draws its plots with JavaScript, which is off.</noscript></div>\n";
   for (const ReportItem& item : items) {
-    out += "<script type=\"application/octet-stream\">" + base64(item.block) + "</script>\n";
+    out += "<script type=\"application/octet-stream\" data-name=\"" + escaped(shown_name(item)) + "\">" +
+           base64(item.block) + "</script>\n";
   }
   out += "<script>" + inline_text(web::report_script()) + "</script>\n</body>\n</html>\n";
   return out;

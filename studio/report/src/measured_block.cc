@@ -161,7 +161,7 @@ BlockWriter measured_block(const ProcessResult& result, const Recording& recordi
   BlockWriter block("measured");
   block.head()["result"] = Json::parse(format_result(result, recording, name));
   block.head()["world"] = recording.info.world;
-  block.head()["figures"] = measured_figures(result);
+  block.head()["figures"] = measured_figures(block.head()["result"]);
   add_dropped(result, config.max_gaps, block);
   add_trajectory(result, config.max_trajectory_points, block);
   add_profile(result.profile, config.max_profile_points, block);

@@ -12,6 +12,8 @@
 #include "asperity/pipeline/read_path.h"
 #include "asperity/profile/measure_spectrum.h"
 #include "asperity/studio/block.h"
+#include "asperity/studio/measured_figures.h"
+#include "kept_block.h"
 
 namespace asperity::studio {
 
@@ -142,16 +144,19 @@ std::vector<fs::path> find_results(const fs::path& folder) {
 }
 
 ReportItem read_report_item(const fs::path& folder, const std::string& name) {
-  BlockWriter block("measured");
   const Json result = read_result(folder / "result.json");
   ReportItem out;
   const auto recording = result.find("recording");
   out.name =
       !name.empty() || recording == result.end() || !recording->is_string() ? name : recording->get<std::string>();
-  block.head()["name"] = is_utf8(out.name) ? out.name : printable(out.name, 200);
+  if (auto kept = kept_block(folder / "report.html", result)) {
+    out.block = std::move(*kept);
+    return out;
+  }
+  BlockWriter block("measured");
   block.head()["result"] = result;
   block.head()["world"] = "camera";
-  block.head()["figures"] = Json::array();
+  block.head()["figures"] = measured_figures(result);
   block.head()["dropped"] = result.value("problems", Json::array());
   block.head()["gaps"] = Json::array();
   block.head()["gap_count"] = 0;

@@ -67,7 +67,7 @@ TEST(MeasuredBlock, HoldsTheResultPointByPoint) {
 TEST(MeasuredBlock, EveryFigureIsThatOfResultJson) {
   const ReadBlock block = block_of(process_recording(scan(), {}));
   const std::map<std::string, double> factors{{"mm", 1e3}, {"µm", 1e6},   {"mm/s", 1e3}, {"%", 100.0},
-                                              {"ms", 1e3}, {"µm/N", 1e3}, {"µs", 1e6}};
+                                              {"ms", 1e3}, {"µm/N", 1e3}, {"µs", 1e6},   {"mrad", 1e3}};
   std::size_t compared = 0;
   for (const Json& figure : block.head["figures"]) {
     const std::string key = figure["key"], unit = figure["unit"];

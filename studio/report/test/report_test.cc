@@ -4,6 +4,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
+#include "asperity/studio/block.h"
 #include "asperity/studio/format_report.h"
 #include "asperity/studio/read_report_item.h"
 #include "asperity/testkit/temp_dir.h"
@@ -50,6 +51,13 @@ TEST(Base64, IsThatOfTheStandard) {
   EXPECT_EQ(base64("\xFB\xFF"), "+/8=");
 }
 
+TEST(Base64, IsReadBack) {
+  for (const char* bytes : {"", "f", "fo", "foo", "foob", "\xFB\xFF"})
+    EXPECT_EQ(bytes_of_base64(base64(bytes)), std::string(bytes));
+  for (const char* bad : {"A", "AAA", "A===", "AB=C", "====", "AA\nA", "<b>="})
+    EXPECT_EQ(bytes_of_base64(bad), std::nullopt) << bad;
+}
+
 TEST(ReportItem, HoldsWhatTheFilesHold) {
   const testkit::TempDir dir;
   write_result(dir / "rec");
@@ -79,6 +87,30 @@ TEST(ReportItem, ThinsALongPath) {
   const ReportItem item = read_report_item(dir / "rec");
   EXPECT_THAT(head_of(item.block), HasSubstr(R"("samples":50001,"every":3)"));
   EXPECT_THAT(head_of(item.block), HasSubstr(R"("shape":[16667,3])"));  // every third
+}
+
+// What `process` has put into its report and into no other file is not lost when the report is made again.
+TEST(ReportItem, KeepsWhatTheReportOfTheSameResultHolds) {
+  if (!web::built()) return;
+  const testkit::TempDir dir;
+  write_result(dir / "rec");
+  BlockWriter fuller("measured");
+  fuller.head()["result"] = Json::parse(kResult);
+  fuller.add("compliance_ratio", std::vector<double>{1.0});
+  const std::string block = fuller.take();
+  write_file(dir / "rec" / "report.html", format_report({{"other", "no block"}, {"rec", block}}));
+  EXPECT_EQ(read_report_item(dir / "rec", "named").block, block);
+  EXPECT_EQ(read_report_item(dir / "rec", "named").name, "named");
+  // Another result, or a report that is damaged: from the files.
+  write_result(dir / "rec", R"({"format":"asperity-result","version":1,"recording":"rec","length_m":0.002})");
+  EXPECT_NE(read_report_item(dir / "rec").block, block);
+  write_result(dir / "rec");
+  for (const std::string& page :
+       {format_report({{"rec", block.substr(0, 40)}}), std::string("<script type=\"application/octet-stream\""),
+        "<script type=\"application/octet-stream\">" + base64("ASB1\xFF\xFF\xFF\xFF") + "</script>"}) {
+    write_file(dir / "rec" / "report.html", page);
+    EXPECT_NE(read_report_item(dir / "rec").block, block);
+  }
 }
 
 TEST(ReportItem, NamesWhatIsWrong) {
@@ -114,7 +146,8 @@ TEST(Report, IsOneFileThatLoadsNothing) {
   EXPECT_EQ(page, format_report(items));
   EXPECT_THAT(page, HasSubstr("<title>&lt;b&gt;&amp;&quot; and 1 more"));
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
-  EXPECT_THAT(page, HasSubstr("<script type=\"application/octet-stream\">" + base64("block") + "</script>"));
+  EXPECT_THAT(page, HasSubstr("<script type=\"application/octet-stream\" data-name=\"&lt;b&gt;&amp;&quot;\">" +
+                              base64("block") + "</script>"));
   EXPECT_THAT(page, Not(HasSubstr(" src=")));
   EXPECT_THAT(page, Not(HasSubstr("@import")));
   std::size_t ends = 0;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "asperity/base/output.h"
 #include "asperity/pipeline/measure_repeatability.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/write_result.h"
@@ -191,6 +192,16 @@ TEST_F(ProcessPageTest, WritesTheFilesOfTheCommandLine) {
   EXPECT_NE(call("process.write", Json{{"name", "one"}}).error, "");
   EXPECT_TRUE(fs::exists(folder_ / "one" / "recording.json"));
   EXPECT_NE(call("process.write", Json{{"name", "../out"}}).error, "");
+}
+
+TEST_F(ProcessPageTest, HandsOutTheReportOfAResult) {
+  fs::create_directories(folder_ / "out");
+  write_file(folder_ / "out" / "report.html", "<!doctype html>");
+  const ReadBlock block(call("process.report", Json{{"folder", "out"}}).block);
+  const auto page = block.array<std::uint8_t>("page");
+  EXPECT_EQ(std::string(page.begin(), page.end()), "<!doctype html>");
+  for (const char* folder : {"one", "..", "../out", "/etc", ""})
+    EXPECT_NE(call("process.report", Json{{"folder", folder}}).error, "") << folder;
 }
 
 TEST_F(ProcessPageTest, WhatCannotBeReadIsRefusedInWords) {

@@ -3,6 +3,7 @@ import type { Block } from "../src/net/block";
 import { mainLine, noIterations, seriesOf, withBlock } from "../src/pages/align/iterations";
 import { latest } from "../src/pages/align/latest";
 import { nearestOnScreen, pointWords } from "../src/pages/align/picks";
+import { verdictWords } from "../src/pages/align/verdict";
 import { colourLimit_m, histogram, rampColour, residualColours } from "../src/pages/align/residuals";
 
 const phases = ["search", "annealing", "fit", "restarts", "comparison", "guesses", "refinement"];
@@ -104,5 +105,17 @@ describe("calls that follow a drag", () => {
     await Promise.resolve();
     expect(follow.busy()).toBe(false);
     expect(idle).toBe(1);
+  });
+});
+
+describe("the verdict in few words", () => {
+  const found = { converged: true, trustworthy: true, ambiguous: false, rms_m: 2.7e-5, points: 388, outliers: 2, runner_up: null };
+
+  it("says what it rests on", () => expect(verdictWords(found).replaceAll("\u202f", " ")).toBe("386 of 388 points lie on the mesh, to 0.027 mm RMS."));
+
+  it("says what to do where it is not to be trusted", () => {
+    expect(verdictWords({ ...found, trustworthy: false, ambiguous: true })).toContain("by pairs");
+    expect(verdictWords({ ...found, trustworthy: false, converged: false })).toContain("no end");
+    expect(verdictWords({ ...found, trustworthy: false, outliers: 300 })).toContain("unit");
   });
 });

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { degrees, fixed, length, micrometres, millimetresPerSecond, newtons, number, quantity, withError } from "../src/ui/format";
+import { delay, degrees, fixed, length, micrometres, millimetresPerSecond, newtons, number, quantity, withError } from "../src/ui/format";
 import { parseNumber, shownNumber } from "../src/ui/numbers";
 
 const T = "\u202f";
@@ -42,6 +42,10 @@ test("what is too little to mean anything is nothing", () => {
   expect(quantity(5.6e-17, "m/N")).toBe(`5.600${T}×${T}10⁻¹⁷${T}m/N`);
 });
 
+test("a delay is told in ms or s", () => {
+  expect([delay(12.4), delay(12244), delay(NaN), delay(null)]).toEqual([`12${T}ms`, `12.2${T}s`, "–", "–"]);
+});
+
 test("a length is told in the unit that suits it", () => {
   expect(length(2e-6)).toBe(`2.000${T}µm`);
   expect(length(0.0123)).toBe(`12.30${T}mm`);
@@ -50,11 +54,11 @@ test("a length is told in the unit that suits it", () => {
 });
 
 test.each([
-  [12.3456, 0.0512, "mm", `12.346 ± 0.051${T}mm`],
-  [-3.2, 1.7, "µm", `−3.2 ± 1.7${T}µm`],
-  [1234, 56, "", "1234 ± 56"],
-  [1234, 560, "", "1234 ± 560"],
-  [1.5, 0.0999, "", "1.50 ± 0.10"],
+  [12.3456, 0.0512, "mm", `12.346${T}±${T}0.051${T}mm`],
+  [-3.2, 1.7, "µm", `−3.2${T}±${T}1.7${T}µm`],
+  [1234, 56, "", `1234${T}±${T}56`],
+  [1234, 560, "", `1234${T}±${T}560`],
+  [1.5, 0.0999, "", `1.50${T}±${T}0.10`],
   [1.5, null, "N", `1.500${T}N`],
   [NaN, 1, "N", "–"],
 ])("withError(%s, %s) is %s %s", (value, error, unit, words) => expect(withError(value, error, unit)).toBe(words));

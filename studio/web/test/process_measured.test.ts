@@ -2,6 +2,7 @@ import { describe, expect, it } from "vitest";
 import type { Block } from "../src/net/block";
 import { powerLine } from "../src/measured/ComplianceScatter";
 import { band, configRows, figureGroups, figureValue, measuredOf, positivePoints, profileX_mm, sortedByX, thinnedWords } from "../src/measured/measured";
+import { repeatedRows } from "../src/measured/repeated";
 import { colourAt, colourRange, pathColours } from "../src/measured/pathColours";
 
 const block = (head: object, arrays: Block["arrays"] = {}): Block => ({
@@ -114,5 +115,20 @@ describe("colours along a path", () => {
     const colours = pathColours([NaN, -5, 99], { low: 0, high: 1 });
     expect(Array.from(colours.subarray(0, 3))).toEqual([0.5, 0.5, 0.5]);
     expect(Array.from(colours.subarray(6))).toEqual(Array.from(Float32Array.from(colourAt(1))));
+  });
+});
+
+describe("the table of repeated scans", () => {
+  const scan = { name: "a", correlation: 1, rms_um: 0, shift_m: 0, pitch_m: 0.0025, depth_m: null };
+  const figure = { group: "", key: "pitch_m", label: "", value: 2.5006, error: 0.0019, unit: "mm" };
+
+  it("ends with the mean and its deviation", () => {
+    const rows = repeatedRows([scan, { ...scan, name: "b", correlation: 0.9581, rms_um: 140.2, shift_m: 5.3e-5 }], [figure]);
+    expect(rows.map(({ name, correlation, shift_mm, pitch_mm }) => [name, correlation, shift_mm, pitch_mm.replaceAll("\u202f", " ")])).toEqual([
+      ["a", "–", "–", "2.500"],
+      ["b", "0.9581", "0.0530", "2.500"],
+      ["Mean ± sd", "–", "–", "2.5006 ± 0.0019"],
+    ]);
+    expect(rows[0]!.depth_um).toBe("–");
   });
 });

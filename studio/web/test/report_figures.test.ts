@@ -1,41 +1,39 @@
 import { describe, expect, it } from "vitest";
-import { figureGroups, namedFigure, shownFigure } from "../src/report/figures";
+import { figureWords, type MeasuredFigure } from "../src/measured/measured";
 import { comparedRows } from "../src/report/compare";
 
-const shown = (json: Record<string, any>, title: string, label: string) => {
-  const row = figureGroups(json).find((group) => group.title === title)?.rows.find((one) => one.label === label);
-  return row && shownFigure(row).replaceAll("\u202f", " ");
-};
+const figure = (label: string, value: MeasuredFigure["value"], unit = "", more: Partial<MeasuredFigure> = {}): MeasuredFigure => ({ group: "Scan", key: "", label, value, unit, ...more });
+const plain = (text: string) => text.replaceAll("\u202f", " ");
 
-describe("figures", () => {
-  it("have the unit that suits them", () => {
-    const json = { length_m: 0.080078, roughness: { Rq_m: 0.00049236 }, periodicity: { periodic: true, pitch_m: 0.0025019, pitch_stderr_m: 1.14e-6 } };
-    expect(shown(json, "The scan", "Length of the path")).toBe("80.08 mm");
-    expect(shown(json, "The surface", "Rq")).toBe("492.4 µm");
-    expect(shown(json, "The surface", "Pitch")).toBe("2.5019 ± 0.0011 mm");
+describe("figures as text", () => {
+  it("have few digits and their unit", () => {
+    expect(plain(figureWords(figure("Path travelled", 80.078, "mm")))).toBe("80.08 mm");
+    expect(plain(figureWords(figure("Pitch", 2.5019, "mm", { error: 0.00114 })))).toBe("2.5019 ± 0.0011 mm");
+    expect(figureWords(figure("Periodic", "yes"))).toBe("yes");
   });
 
-  it("are left out where the data did not allow them", () => {
-    const json = { roughness: null, periodicity: { periodic: false, pitch_m: null }, stiffness: { measured: false, stiffness_N_per_mm: null, lower_bound_N_per_mm: 1.1 } };
-    expect(shown(json, "The surface", "Ra")).toBeUndefined();
-    expect(shown(json, "The surface", "Periodic")).toBe("no");
-    expect(shown(json, "The surface", "Pitch")).toBeUndefined();
-    expect(shown(json, "The contact", "Stiffness, at least")).toBe("1.100 N/mm");
-    expect(figureGroups(json).some((group) => group.title === "Against the truth")).toBe(false);
+  it("are whole where they count, and a dash where there is none", () => {
+    expect(figureWords(figure("Gaps", 1, "", { count: true }))).toBe("1");
+    expect(figureWords(figure("Gaps", null, "", { count: true }))).toBe("–");
+    expect(figureWords(figure("RSm", null, "mm"))).toBe("–");
   });
+});
 
-  it("of the trajectory take their unit from their name", () => {
-    expect(namedFigure("latency_s", 0.0117)).toMatchObject({ label: "Latency", unit: "ms", factor: 1e3 });
-    expect(namedFigure("probe_rate_Hz", 4000)).toMatchObject({ label: "Probe rate", unit: "Hz" });
-    expect(namedFigure("accel_noise_mps2", 0.02)).toMatchObject({ label: "Accel noise", unit: "m/s²" });
-    expect(namedFigure("latency_prior_sigmas", 0.4)).toMatchObject({ label: "Latency prior sigmas", unit: "" });
-  });
-
-  it("of several results stand side by side, and a missing one is a dash", () => {
-    const rows = comparedRows([{ length_m: 0.01 }, { length_m: 0.02, duration_s: 3 }]);
-    expect(rows.map((row) => [row.label, ...row.values.map((value) => value.replaceAll("\u202f", " "))])).toEqual([
-      ["Length of the path", "10.00 mm", "20.00 mm"],
+describe("figures of several results", () => {
+  it("stand side by side, and a missing one is a dash", () => {
+    const rows = comparedRows([[figure("Path travelled", 10, "mm")], [figure("Path travelled", 20, "mm"), figure("Duration", 3, "s")]]);
+    expect(rows.map((row) => [row.label, ...row.values.map(plain)])).toEqual([
+      ["Path travelled", "10.00 mm", "20.00 mm"],
       ["Duration", "–", "3.000 s"],
     ]);
+  });
+
+  it("are left out where they are sentences or nobody has them", () => {
+    expect(comparedRows([[figure("In words", "it is stiff, at least 3 N/mm"), figure("RSm", null, "mm")]])).toEqual([]);
+  });
+
+  it("of one name in two groups are two", () => {
+    const rows = comparedRows([[figure("Length", 1, "mm"), { ...figure("Length", 2, "mm"), group: "Texture" }]]);
+    expect(rows.map(({ group, values }) => [group, plain(values[0]!)])).toEqual([["Scan", "1.000 mm"], ["Texture", "2.000 mm"]]);
   });
 });

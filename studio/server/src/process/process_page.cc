@@ -5,7 +5,10 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "asperity/base/csv.h"
+#include "asperity/base/error.h"
 #include "asperity/studio/measured_block.h"
 #include "config_fields.h"
 #include "process/process_choice.h"
@@ -46,6 +49,7 @@ class ProcessPage : public Page {
     calls.add("process.run", [this](const Request& request) { run(request); });
     calls.add("process.compare", [this](const Request& request) { compare(request); });
     calls.add("process.write", [this](const Request& request) { write(request); });
+    calls.add("process.report", [this](const Request& request) { hand_out_report(request); });
   }
 
  private:
@@ -111,6 +115,21 @@ class ProcessPage : public Page {
                     out["folder"] = name;
                     return out;
                   });
+  }
+
+  // For the browser to keep and open by itself: it is shown outside of the studio's page and of what that may do.
+  void hand_out_report(const Request& request) const {
+    constexpr std::uint64_t kLargestReport_bytes = 32U << 20U;
+    const std::string folder = request.text("folder");
+    std::string page;
+    try {
+      page = read_file(shared_.project.existing(folder + "/report.html"), kLargestReport_bytes);
+    } catch (const Error& error) {
+      throw Advice(error.what(), "Write the results again: a report is written with them.");
+    }
+    BlockWriter block("report");
+    block.add("page", std::vector<std::uint8_t>(page.begin(), page.end()));
+    request.answer(std::move(block));
   }
 
   Shared& shared_;

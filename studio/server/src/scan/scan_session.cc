@@ -17,7 +17,7 @@ namespace asperity::studio {
 
 namespace {
 
-constexpr auto kRound = std::chrono::milliseconds(25);
+constexpr auto kRound = std::chrono::milliseconds(15);
 constexpr std::int64_t kStatePeriod_ns = 80'000'000;
 constexpr std::int64_t kPosesLate_ns = 250'000'000;  // behind the rows of their time, at most
 

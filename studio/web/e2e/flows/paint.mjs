@@ -9,7 +9,7 @@ export default async function paint({ page, step, folder, until, equal, near, ok
   await step("choose the pebble and its unit", async () => {
     await page.getByTestId("paint-object").selectOption("pebble.obj");
     await page.getByTestId("paint-size").filter({ hasText: "Is the unit right?" }).waitFor();
-    await page.getByTestId("paint-unit").selectOption("0.001");
+    await page.getByTestId("paint-unit").selectOption("mm");
     const size = page.getByTestId("paint-size").filter({ hasText: /mm/ });
     await size.waitFor();
     near(numberIn(await size.textContent()), 98, 8, "the pebble's length, mm");

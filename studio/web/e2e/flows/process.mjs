@@ -46,12 +46,20 @@ export default async function process_({ page, step, folder, until, equal, near,
   });
 
   await step("the results are written as the command line writes them", async () => {
-    await page.getByTestId("write").getByLabel("Folder of the results").fill("by_studio");
+    await page.getByTestId("write").getByLabel("Folder", { exact: true }).fill("by_studio");
     await page.getByTestId("write-results").click();
     await page.getByTestId("written").filter({ hasText: "by_studio" }).waitFor();
     for (const name of ["board", "board_again"]) {
       for (const file of ["trajectory.csv", "profile.csv", "texture.json", "result.json"]) ok(existsSync(join(folder, "by_studio", name, file)), `by_studio/${name}/${file}`);
     }
     equal(readFileSync(join(folder, "by_studio", "board", "profile.csv"), "utf8"), readFileSync(join(folder, "measured", "profile.csv"), "utf8"), "profile.csv of studio and command line");
+  });
+
+  await step("the report is saved as a page", async () => {
+    const saved = page.waitForEvent("download");
+    await page.getByTestId("save-report").click();
+    const download = await saved;
+    equal(download.suggestedFilename(), "by_studio_report.html", "name of the report");
+    equal(readFileSync(await download.path(), "utf8"), readFileSync(join(folder, "by_studio", "report.html"), "utf8"), "the report");
   });
 }

@@ -43,7 +43,7 @@ export class Projects {
     run("simulate", "--surface", "protoboard", "--probe", "open", "--speed", "25mm/s", "--seed", "2", "-o", "board_again", "--quiet");
     run("simulate", "--surface", "sandpaper", "--mesh", "pebble.obj", "--mesh-unit", "mm", "--through", kZigzag, "--seed", "1", "-o", "stroke", "--quiet");
     run("process", "board", "-o", "measured", "--quiet");
-    run("paint", "pebble.obj", "--mesh-unit", "mm", "--through", "-30,0,20;0,3,24;30,0,20", "--texture", "measured/texture.json", "-o", "painted", "--quiet");
+    run("paint", "pebble.obj", "--mesh-unit", "mm", "--through", "-30,0,20;0,3,24;30,0,20", "--texture", "measured/texture.json", "--width", "12mm", "-o", "painted", "--quiet");
   }
 
   /** A copy to work in. */

@@ -2,17 +2,26 @@
 import { numberIn, until } from "./check.mjs";
 import { open, type } from "./ui.mjs";
 
+/** Typing scrolls to where one types: the panels begin at their beginning again, and nothing has the focus. */
+const sideUp = (page) =>
+  page.evaluate(() => {
+    document.activeElement?.blur();
+    for (const column of document.querySelectorAll(".page-side, .page-results")) column.scrollTop = 0;
+  });
+
+/** One whole stroke of the bench: stopped when its hand is at the end, looked at when it is worked out in full. */
 async function scan({ page }) {
   await open(page, "Scan");
   await page.getByTestId("scan-source").selectOption("bench");
   await page.getByTestId("scan-open").click();
   await page.getByTestId("scan-close").waitFor();
   await page.getByTestId("scan-start").click();
-  await until(async () => numberIn(await page.getByTestId("scan-recorded").textContent()) > 4, "four seconds of scan");
-  // The bench's hand may have come to its end by then.
   const stop = page.getByTestId("scan-stop");
+  await until(async () => numberIn(await page.getByTestId("scan-recorded").textContent()) > 5 || !(await stop.isEnabled()), "five seconds of scan");
+  // The bench's hand may have come to its end by then.
   if (await stop.isEnabled()) await stop.click({ timeout: 5000 }).catch(() => {});
   await page.getByTestId("scan-ra").waitFor();
+  await sideUp(page);
 }
 
 async function process_({ page }) {
@@ -31,17 +40,22 @@ async function align({ page }) {
   await page.getByTestId("align-verdict").waitFor({ timeout: 120_000 });
 }
 
+/** A stroke over the pebble's top, as broad as a finger. */
 async function paint({ page }) {
   await open(page, "Paint");
   await page.getByTestId("paint-object").selectOption("pebble.obj");
-  await page.getByTestId("paint-unit").selectOption("0.001");
+  await page.getByTestId("paint-unit").selectOption("mm");
   await page.getByTestId("paint-texture").selectOption("measured/texture.json");
-  for (const point of [[-30, -8, 20], [0, -3, 24], [30, -4, 20]]) {
+  await type(page.getByRole("spinbutton", { name: /Half the stroke's width/ }), 6);
+  for (const point of [[-33, -7, 17], [0, -11, 23], [33, -7, 17]]) {
     for (const [at, axis] of ["x", "y", "z"].entries()) await type(page.getByTestId(`paint-${axis}`), point[at]);
     await page.getByTestId("paint-add").click();
   }
   await page.getByTestId("paint-result-1").waitFor();
+  await sideUp(page);
 }
+
+const kPress_ms = 250;
 
 /** Over the stroke, pressing; held until the pictures are taken. */
 async function feel({ page }) {
@@ -52,18 +66,35 @@ async function feel({ page }) {
   await page.getByTestId("feel-start").click();
   await page.getByTestId("feel-stop").waitFor();
   const box = await page.getByTestId("feel-view").locator("canvas").boundingBox();
-  const to = (x, y, steps) => page.mouse.move(box.x + box.width * x, box.y + box.height * y, { steps });
-  await to(0.44, 0.463);
-  await page.mouse.down();
+  const to = (x, y, steps = 4) => page.mouse.move(box.x + box.width * x, box.y + box.height * y, { steps });
+  // A browser that is held up loses the force; it is taken again as a user does. Without it a drag turns the view.
+  const take = async () => {
+    const button = page.getByTestId("feel-take");
+    if (!(await button.isVisible())) return true;
+    await page.mouse.up();
+    await button.click({ timeout: 1000 }).catch(() => {});
+    await page.getByTestId("feel-view").getByRole("button", { name: "fit" }).click();
+    return false;
+  };
+  const hasTexture = async () => /[1-9]/.test(await page.getByTestId("feel-height").locator("dd").textContent());
+  const hasForce = async () => numberIn(await page.getByTestId("force-now").textContent()) > 0.2;
+  // Where the stroke is seen depends on the window: from the top downwards until the texture is under the tip.
+  let heights = Array.from({ length: 13 }, (_, index) => 0.36 + 0.02 * index);
   await until(async () => {
-    const take = page.getByTestId("feel-take");
-    if (await take.isVisible()) await take.click({ timeout: 1000 }).then(() => to(0.44, 0.463), () => {});
-    return numberIn((await page.getByTestId("feel-gain").locator("dd").textContent()).replace("–", "0")) === 100;
-  }, "the force, ramped up");
-  await to(0.44, 0.463);
-  await page.mouse.down();
-  for (const [x, y] of [[0.53, 0.474], [0.44, 0.463], [0.53, 0.474]]) await to(x, y, 40);
-  await until(async () => numberIn(await page.getByTestId("force-now").textContent()) > 0.05, "a force");
+    for (const y of heights) {
+      if (!(await take())) return false;
+      await to(0.5, y);
+      await page.mouse.down();
+      await page.waitForTimeout(kPress_ms);
+      if (await hasTexture()) {
+        heights = [y];
+        for (const x of [0.47, 0.53, 0.5]) await to(x, y, 15);
+        if ((await hasTexture()) && (await hasForce())) return true;
+      }
+      await page.mouse.up();
+    }
+    return false;
+  }, "the texture under the tip");
 }
 
 async function study({ page, folder, asperity }) {

@@ -12,7 +12,7 @@ export function FiguresTable({ figures, groups }: { figures: readonly MeasuredFi
           <h3>{group.name}</h3>
           <Figures>
             {group.figures.map((figure) => (
-              <Figure key={figure.label} label={figure.label} value={figureValue(figure)} error={figure.error} unit={figure.unit} hint={figure.key || undefined} />
+              <Figure key={figure.label} label={figure.label} value={figureValue(figure)} error={figure.error} unit={figure.unit} hint={figure.hint || figure.key || undefined} />
             ))}
           </Figures>
         </section>

@@ -2,21 +2,12 @@ import { useMemo, useState } from "preact/hooks";
 import type { Block } from "../net/block";
 import { Plot } from "../plot/Plot";
 import type { Series, SeriesColour } from "../plot/series";
-import { fixed, micrometres, millimetres, number } from "../ui/format";
+import { number } from "../ui/format";
 import { Table } from "../ui/Table";
 import { Toggle } from "../ui/Toggle";
-import { FiguresTable } from "./FiguresTable";
-import { scaled } from "./measured";
+import { figureWords, scaled, type MeasuredFigure } from "./measured";
 import { colourRange } from "./pathColours";
-
-interface RepeatedScan {
-  name: string;
-  correlation: number | null;
-  rms_um: number | null;
-  shift_m: number;
-  pitch_m: number | null;
-  depth_m: number | null;
-}
+import { repeatedRows, type RepeatedScan } from "./repeated";
 
 /** Profiles of several scans over one another, each shifted once, and how far they agree (seed Fig. 30). */
 export function RepeatabilityPlot({ block }: { block: Block }) {
@@ -43,13 +34,14 @@ export function RepeatabilityPlot({ block }: { block: Block }) {
     };
     return [mean, ...each];
   }, [block, stacked]);
+  const spread = (block.head.figures as MeasuredFigure[]).find((one) => one.key === "spread_rms_m");
   const [low, high] = block.head.band_cycles_per_mm as [number, number];
   return (
     <div class="measured-column">
       <div class="measured-bar">
         <Toggle label="One below the other" on={stacked} onChange={setStacked} testId="stacked" />
         <p class="measured-note">
-          Band {number(low, 2)} to {number(high, 3)}{"\u202f"}cycles/mm; each scan is shifted as a whole onto the first.
+          Band {number(low, 2)} to {number(high, 3)}{"\u202f"}cycles/mm; each scan is shifted as a whole onto the first. {spread && `Spread of the heights: ${figureWords(spread)} RMS.`}
         </p>
       </div>
       <Plot
@@ -61,22 +53,19 @@ export function RepeatabilityPlot({ block }: { block: Block }) {
         empty="The profiles have no stretch in common."
         testId="plot-repeatability"
       />
-      <div class="measured-split">
-        <Table
-          caption="The scans and how they agree with the first"
-          columns={[
-            { key: "name", label: "Scan", cell: (row, index) => `${index + 1}\u00a0${row.name}` },
-            { key: "correlation", label: "Correlation", numeric: true, cell: (row) => fixed(row.correlation, 4) },
-            { key: "rms_um", label: "Difference, RMS", unit: "µm", numeric: true },
-            { key: "shift_m", label: "Shift", numeric: true, cell: (row) => millimetres(row.shift_m, 3) },
-            { key: "pitch_m", label: "Pitch", numeric: true, cell: (row) => millimetres(row.pitch_m) },
-            { key: "depth_m", label: "Depth", numeric: true, cell: (row) => micrometres(row.depth_m) },
-          ]}
-          rows={scans}
-          testId="repeated-scans"
-        />
-        <FiguresTable figures={block.head.figures} />
-      </div>
+      <Table
+        caption="The scans, how they agree with the first, and the mean of all with its standard deviation"
+        columns={[
+          { key: "name", label: "Scan", cell: (row, index) => (index < scans.length ? `${index + 1}\u00a0${row.name}` : <strong>{row.name}</strong>) },
+          { key: "correlation", label: "Correlation", numeric: true },
+          { key: "rms_um", label: "Difference", unit: "µm RMS", numeric: true },
+          { key: "shift_mm", label: "Shift", unit: "mm", numeric: true },
+          { key: "pitch_mm", label: "Pitch", unit: "mm", numeric: true },
+          { key: "depth_um", label: "Depth", unit: "µm", numeric: true },
+        ]}
+        rows={repeatedRows(scans, block.head.figures)}
+        testId="repeated-scans"
+      />
     </div>
   );
 }

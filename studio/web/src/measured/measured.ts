@@ -1,7 +1,9 @@
 // What the server has measured of one recording (block "measured"), as the components of this folder show it. None of
 // them needs a connection: the report shows the same.
 import type { Block, NumberArray } from "../net/block";
+import { quantity, withError } from "../ui/format";
 
+/** A figure as the server names it: name, unit and factor are its (studio/report/src/figure_rows.cc), digits are ours. */
 export interface MeasuredFigure {
   group: string;
   key: string;
@@ -11,6 +13,7 @@ export interface MeasuredFigure {
   unit: string;
   /** A whole number, shown without decimals. */
   count?: boolean;
+  hint?: string;
 }
 
 export interface Dropped {
@@ -96,7 +99,14 @@ export function band(y: ArrayLike<number>, sigma: ArrayLike<number>, k: number):
 }
 
 /** A figure's value as it is shown: counts without decimals. */
-export const figureValue = ({ value, count }: MeasuredFigure): number | string | null => (count ? String(value) : value);
+export const figureValue = ({ value, count }: MeasuredFigure): number | string | null => (count && value != null ? String(value) : value);
+
+/** A figure as text, for tables. */
+export function figureWords(figure: MeasuredFigure): string {
+  const value = figureValue(figure);
+  if (typeof value === "string") return value;
+  return figure.error == null ? quantity(value, figure.unit) : withError(value, figure.error, figure.unit);
+}
 
 /** The figures by their groups, in their order. */
 export function figureGroups(figures: readonly MeasuredFigure[]): { name: string; figures: MeasuredFigure[] }[] {

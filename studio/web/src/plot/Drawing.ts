@@ -6,6 +6,8 @@ import { readout } from "./readout";
 import { columnsBetween, extent, type Series } from "./series";
 import { isAllOf, rangeAfter, zoomed, type Range } from "./zoom";
 
+const kDotsEdge = 0.02;
+
 /** The uPlot of a <Plot>: it draws again from all the data whenever the range of x changes. */
 export class Drawing {
   private readonly plot: uPlot;
@@ -140,7 +142,10 @@ export class Drawing {
     const found = extent(this.props().x, this.series) ?? [0, 1];
     const [low, high] = found;
     if (this.props().logX) return { min: low > 0 ? low : high / 1e4, max: high };
-    return low === high ? { min: low - 0.5, max: high + 0.5 } : { min: low, max: high };
+    if (low === high) return { min: low - 0.5, max: high + 0.5 };
+    // Dots are seen whole.
+    const edge = this.series.some((one) => one.kind === "points") ? kDotsEdge * (high - low) : 0;
+    return { min: low - edge, max: high + edge };
   }
 
   private yRange(low: number | null, high: number | null): [number, number] {

@@ -1,5 +1,5 @@
 import "uplot/dist/uPlot.min.css";
-import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { dark } from "../app/settings";
 import type { AxisWords } from "./options";
 import { Legend } from "./Legend";
@@ -56,7 +56,8 @@ export function Plot(props: PlotProps) {
   const looks = [shape, props.logX, props.logY, props.syncKey, props.xAxis.label, props.xAxis.unit, props.yAxis.label, props.yAxis.unit].join("|");
   const shown = useMemo(() => series.map((one) => (hidden.has(one.label) ? { ...one, hidden: true } : one)), [series, hidden]);
 
-  useEffect(() => {
+  // Drawn with the same frame as the rest of the page.
+  useLayoutEffect(() => {
     if (isEmpty || !place.current) return;
     const made = new Drawing(place.current, () => newest.current, shown, (words) => (readout.current!.textContent = words), kept.current);
     drawing.current = made;
@@ -66,7 +67,7 @@ export function Plot(props: PlotProps) {
       made.destroy();
     };
   }, [looks, dark.value, isEmpty]);
-  useEffect(() => drawing.current?.setSeries(shown), [shown, props.x, props.yRange?.[0], props.yRange?.[1], props.marks]);
+  useLayoutEffect(() => drawing.current?.setSeries(shown), [shown, props.x, props.yRange?.[0], props.yRange?.[1], props.marks]);
 
   return (
     <div class="plot" data-testid={props.testId}>

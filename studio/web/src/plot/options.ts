@@ -4,6 +4,8 @@ import { fixed, number, superscript } from "../ui/format";
 import { faded, seriesColour, themeColour } from "./colours";
 import type { Series } from "./series";
 
+const kTall_px = 260;
+
 export interface AxisWords {
   label: string;
   unit?: string;
@@ -19,12 +21,12 @@ export function axis(words: AxisWords, logarithmic: boolean, side: "x" | "y", ro
     stroke: themeColour("--text-2"),
     font,
     labelFont: font,
-    label: axisWords(words),
-    labelSize: 16,
+    ...(words.label ? { label: axisWords(words) } : {}),
+    labelSize: words.label ? 16 : 0,
     labelGap: 0,
     gap: 4,
     size: side === "x" ? 22 : (room_px ?? ((_plot, words) => 12 + 6.2 * Math.max(2, ...(words ?? []).map((word) => word?.length ?? 0)))),
-    space: side === "x" ? 64 : 26,
+    space: side === "x" ? 64 : (_plot, _axis, _low, _high, room) => (room > kTall_px ? 44 : 26),
     grid: { stroke: line, width: 1, ...(logarithmic ? { filter: onlyDecades } : {}) },
     ticks: { stroke: line, width: 1, size: 4 },
     border: { show: true, stroke: themeColour("--line-strong"), width: 1 },

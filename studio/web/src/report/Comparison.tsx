@@ -4,13 +4,14 @@ import type { Result } from "./result";
 
 /** The figures of several results side by side. */
 export function Comparison({ results }: { results: Result[] }) {
-  const rows = comparedRows(results.map((result) => result.json));
+  const rows = comparedRows(results.map((result) => result.measured.figures));
   return (
     <section class="report-drawing report-compared" aria-label="Side by side">
       <h2>Side by side</h2>
       <Table<ComparedRow>
         caption="Figures of all results"
         columns={[
+          { key: "group", label: "Group", cell: (row: ComparedRow, index: number) => (rows[index - 1]?.group === row.group ? "" : row.group) },
           { key: "label", label: "Figure" },
           ...results.map((result, index) => ({ key: `${index}`, label: result.name, numeric: true, cell: (row: ComparedRow) => row.values[index] ?? "–" })),
         ]}

@@ -1,8 +1,8 @@
 import { ConfigTable } from "../measured/ConfigTable";
 import { DroppedTable } from "../measured/DroppedTable";
+import { figureGroups, figureValue, type MeasuredFigure } from "../measured/measured";
 import { Figure } from "../ui/Figure";
 import { Figures } from "../ui/Figures";
-import { figureGroups } from "./figures";
 import type { Result } from "./result";
 
 /** Figures (of several results they stand side by side elsewhere), what was dropped and why, and the settings of one result. */
@@ -10,7 +10,7 @@ export function ResultDetails({ result, named }: { result: Result; named: boolea
   return (
     <>
       {named && <h2 class="report-name">{result.name}</h2>}
-      {!named && <FigureGroups json={result.json} />}
+      {!named && <FigureGroups figures={result.measured.figures} />}
       <section class="report-drawing" aria-label="What was dropped and why">
         <h2>What was dropped and why</h2>
         <DroppedTable measured={result.measured} />
@@ -23,15 +23,16 @@ export function ResultDetails({ result, named }: { result: Result; named: boolea
   );
 }
 
-function FigureGroups({ json }: { json: Record<string, any> }) {
+/** What the data did not allow is left out. */
+function FigureGroups({ figures }: { figures: readonly MeasuredFigure[] }) {
   return (
     <section class="report-groups" aria-label="Figures">
-      {figureGroups(json).map((group) => (
-        <section key={group.title} class="report-group">
-          <h2>{group.title}</h2>
+      {figureGroups(figures.filter((figure) => figure.value !== null)).map((group) => (
+        <section key={group.name} class="report-group">
+          <h2>{group.name}</h2>
           <Figures>
-            {group.rows.map((row) => (
-              <Figure key={row.label} {...row} />
+            {group.figures.map((figure) => (
+              <Figure key={figure.label} label={figure.label} value={figureValue(figure)} error={figure.error} unit={figure.unit} hint={figure.hint} />
             ))}
           </Figures>
         </section>

@@ -1,23 +1,24 @@
-import { figureGroups, shownFigure } from "./figures";
+import { figureGroups, figureWords, type MeasuredFigure } from "../measured/measured";
 
 export interface ComparedRow {
+  group: string;
   label: string;
   values: string[];
 }
 
 const kLongestWords = 12; // sentences are for each result's own place
 
-/** One row for each figure that any of them has, in the order of the first that has it. */
-export function comparedRows(results: Record<string, any>[]): ComparedRow[] {
+/** One row for each figure that any result has, in the order of the first that has it. */
+export function comparedRows(results: readonly (readonly MeasuredFigure[])[]): ComparedRow[] {
   const rows = new Map<string, ComparedRow>();
-  results.forEach((json, index) => {
-    for (const group of figureGroups(json)) {
-      for (const figure of group.rows) {
-        if (typeof figure.value === "string" && figure.value.length > kLongestWords) continue;
-        const key = `${group.title}: ${figure.label}`;
-        const row = rows.get(key) ?? { label: figure.label, values: results.map(() => "–") };
+  results.forEach((figures, index) => {
+    for (const { name: group, figures: members } of figureGroups(figures)) {
+      for (const figure of members) {
+        if (figure.value === null || (typeof figure.value === "string" && figure.value.length > kLongestWords)) continue;
+        const key = `${group}: ${figure.label}`;
+        const row = rows.get(key) ?? { group, label: figure.label, values: results.map(() => "–") };
         rows.set(key, row);
-        row.values[index] = shownFigure(figure);
+        row.values[index] = figureWords(figure);
       }
     }
   });

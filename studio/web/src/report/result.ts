@@ -9,11 +9,11 @@ export interface Result {
   json: Record<string, any>;
 }
 
-/** Takes a block apart. Throws for one that is none. */
-export function decodeResult(frame: ArrayBuffer): Result {
+/** Takes a block apart. Throws for one that is none. `called`: its name in this report. */
+export function decodeResult(frame: ArrayBuffer, called?: string): Result {
   const block = decodeBlock(frame);
   const measured = measuredOf(block);
-  const name = String(block.head.name ?? measured.name);
+  const name = called || measured.name;
   return { measured: { ...measured, name }, name, json: block.head.result };
 }
 
@@ -25,6 +25,6 @@ export function bytesOfBase64(text: string): ArrayBuffer {
 }
 
 export function resultsOf(page: Document): Result[] {
-  const blocks = page.querySelectorAll('script[type="application/octet-stream"]');
-  return Array.from(blocks, (block) => decodeResult(bytesOfBase64(block.textContent ?? "")));
+  const blocks = page.querySelectorAll<HTMLScriptElement>('script[type="application/octet-stream"]');
+  return Array.from(blocks, (block) => decodeResult(bytesOfBase64(block.textContent ?? ""), block.dataset.name));
 }

@@ -43,8 +43,8 @@ export function withError(value: number | null | undefined, error: number | null
   const decimals = 1 - exponent;
   const both =
     decimals < 0 || decimals > 9
-      ? `${number(value)} ± ${number(error, 2)}`
-      : `${fixed(value, decimals)} ± ${fixed(error, decimals)}`;
+      ? `${number(value)}${THIN}±${THIN}${number(error, 2)}`
+      : `${fixed(value, decimals)}${THIN}±${THIN}${fixed(error, decimals)}`;
   return withUnit(both, unit);
 }
 
@@ -55,6 +55,10 @@ export const millimetresPerSecond = (value_m_s: number | null | undefined, digit
 export const degrees = (value_rad: number | null | undefined, digits = 3) => quantity(scaled(value_rad, 180 / Math.PI), "°", digits);
 export const seconds = (value_s: number | null | undefined, digits = 3) => quantity(value_s, "s", digits);
 export const percent = (fraction: number | null | undefined, digits = 3) => quantity(scaled(fraction, 100), "%", digits);
+
+/** A delay in ms, or in s where it is long; without decimals that nobody reads. */
+export const delay = (value_ms: number | null | undefined): string =>
+  (value_ms ?? NaN) < 1000 ? withUnit(fixed(value_ms, 0), "ms") : withUnit(fixed(scaled(value_ms, 1e-3), 1), "s");
 
 /** A length in the unit that suits its size: µm, mm or m. */
 export function length(value_m: number | null | undefined, digits = 4): string {

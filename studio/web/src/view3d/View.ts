@@ -16,6 +16,7 @@ import {
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { acceleratedRaycast } from "three-mesh-bvh";
 import { themeColour } from "../plot/colours";
+import { Ease } from "./ease";
 import { Ground } from "./Ground";
 import { dispose } from "./helpers";
 import { listenToPointer, type PointerListener } from "./pointer";
@@ -43,6 +44,7 @@ export class View {
   private readonly light = new DirectionalLight(0xffffff, 2.2);
   private readonly ground = new Ground();
   private readonly observer: ResizeObserver;
+  private readonly ease = new Ease();
   private frame = 0;
 
   /** Throws if the browser has no WebGL. */
@@ -88,9 +90,9 @@ export class View {
     this.invalidate();
   }
 
-  /** Shows an object, or all of the content, from where the camera stands. */
-  fit(object: Object3D = this.content): void {
-    const box = new Box3().setFromObject(object);
+  /** Shows an object, a box, or all of the content, from where the camera stands. */
+  fit(what: Object3D | Box3 = this.content): void {
+    const box = "isBox3" in what ? what.clone() : new Box3().setFromObject(what);
     if (box.isEmpty()) box.setFromCenterAndSize(this.controls.target, new Vector3(0.1, 0.1, 0.1));
     const centre = box.getCenter(new Vector3());
     const radius = Math.max(box.getSize(new Vector3()).length() / 2, 1e-4);
@@ -169,8 +171,12 @@ export class View {
 
   private readonly draw = (): void => {
     this.frame = 0;
+    const begun_ms = performance.now();
+    if (!this.ease.due(begun_ms)) return this.invalidate();
     for (const prepare of this.beforeDraw) prepare();
     this.renderer.render(this.scene, this.camera);
+    // The task after the frame: the page is free again.
+    setTimeout(() => this.ease.drew(begun_ms, performance.now()));
   };
 
   private readonly resize = (): void => {

@@ -50,6 +50,7 @@ class Recorder {
   void stop_segment();
   void discard_segment();  // the open one, or else the last
   void rescan_segment();   // discards, and starts one with the same name
+  void restore_segment();  // brings back what was discarded last
   // From now on. An open segment goes on: by hand it is then to be stopped, in `auto` it ends with the touch.
   void set_mode(StoreMode mode);
 

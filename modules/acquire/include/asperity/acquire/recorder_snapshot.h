@@ -60,7 +60,9 @@ struct RecorderSnapshot {
   std::size_t segments = 0;
   std::vector<Segment> segment_list;  // the open one too, which ends at the newest row
   bool automatic = false;             // segments start and stop by themselves
-  std::size_t discarded = 0;
+  std::size_t discarded = 0;          // less those that were brought back
+  std::size_t restored = 0;
+  std::optional<Segment> last_discarded;  // what restore_segment() brings back; nullopt: there is nothing
   double recorded_s = 0.0;
   std::uint64_t probe_rows = 0;  // written
   std::uint64_t tracker_rows = 0;

@@ -40,6 +40,9 @@ class SegmentWriter {
   // Takes the open segment out of the list, or else the last one, and gives its name; nullopt if there is none.
   // Its rows stay in the files until RecordingAppender::finish.
   std::optional<std::string> discard(std::int64_t t_ns);
+  // Puts what was discarded last back into its place, closed, and gives its name, which is another one if there is one
+  // of that name by now; nullopt if nothing is there to be brought back.
+  std::optional<std::string> restore();
 
   bool is_open() const { return open_; }
   bool is_ending() const { return open_ && segments_.back().end_ns != kNoEnd; }
@@ -47,11 +50,13 @@ class SegmentWriter {
   std::vector<Segment> segments() const;
   std::size_t count() const { return segments_.size(); }
   std::string last_name() const { return segments_.empty() ? "" : segments_.back().name; }
+  // Less those that were brought back.
   std::size_t discarded() const { return discarded_; }
-  // The latest end of what was discarded; nullopt: nothing was.
-  std::optional<std::int64_t> discarded_until_ns() const {
-    return discarded_until_ns_ == kNever ? std::nullopt : std::optional(discarded_until_ns_);
-  }
+  std::size_t restored() const { return restored_; }
+  // What can be brought back, the one discarded last at the end. Of more than kMostDiscarded the oldest are given up.
+  const std::vector<Segment>& trash() const { return trash_; }
+  // The latest end of what is discarded; nullopt: nothing is.
+  std::optional<std::int64_t> discarded_until_ns() const;
   std::uint64_t probe_rows() const { return probe_.written; }
   std::uint64_t tracker_rows() const { return tracker_.written; }
   std::uint64_t late_rows() const { return probe_.late + tracker_.late; }
@@ -63,6 +68,7 @@ class SegmentWriter {
   static constexpr std::int64_t kFromFirstRow = std::numeric_limits<std::int64_t>::min() / 4;
   static constexpr std::int64_t kNoEnd = std::numeric_limits<std::int64_t>::max();
   static constexpr std::size_t kMostSegments = 10'000;
+  static constexpr std::size_t kMostDiscarded = 100;
 
  private:
   static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min();
@@ -82,6 +88,7 @@ class SegmentWriter {
   template <class Sample>
   void claim(Stream<Sample>& stream, std::int64_t start_ns);
   bool is_claimed(std::int64_t t_ns) const;
+  std::string free_name(const std::string& name) const;
 
   RecordingAppender& appender_;
   std::int64_t keep_ns_;
@@ -89,8 +96,10 @@ class SegmentWriter {
   Stream<TrackerSample> tracker_;
   std::vector<Segment> segments_;
   bool open_ = false;  // the last one
+  std::vector<Segment> trash_;
   std::size_t discarded_ = 0;
-  std::int64_t discarded_until_ns_ = kNever;
+  std::size_t restored_ = 0;
+  std::int64_t given_up_until_ns_ = kNever;  // the latest end of what cannot be brought back any more
   std::int64_t first_ns_ = kNoEnd;
   std::int64_t latest_ns_ = kNever;
 };

@@ -18,6 +18,7 @@ struct LiveReport {
   std::uint64_t probe_bytes_lost = 0;  // nobody read them, or not in time
   std::uint64_t frames = 0;
   std::uint64_t frames_lost = 0;                         // nobody read them
+  std::uint64_t frames_dropped = 0;                      // later than drop_after_s
   double latest_frame_s = 0.0;                           // the most that a frame left after its time stamp
   double latest_probe_s = 0.0;                           // the most that the probe's bytes left late
   std::uint64_t flipped = 0, dropped = 0, inserted = 0;  // bytes, by the link

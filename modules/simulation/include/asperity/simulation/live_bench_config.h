@@ -24,9 +24,10 @@ struct LiveBenchConfig {
   double drop_chance = 0.0;  // that a byte of the probe is lost
   double insert_chance = 0.0;
   std::int64_t link_seed = 1;
-  double wait_s = 60.0;   // for the readers
-  double settle_s = 0.2;  // between the readers' coming and the first sample
-  double linger_s = 2.0;  // for the probe's reader to take the last bytes
+  double wait_s = 60.0;          // for the readers
+  double settle_s = 0.2;         // between the readers' coming and the first sample
+  double linger_s = 2.0;         // for the probe's reader to take the last bytes
+  double drop_after_s = 3600.0;  // a frame that is this late is dropped, as a camera drops what nobody fetches
 
   template <class V>
   void visit(V& v) {
@@ -42,6 +43,8 @@ struct LiveBenchConfig {
     v.field("wait_s", wait_s, "longest wait for the readers, s", {0.0, 3600.0});
     v.field("settle_s", settle_s, "between the readers' coming and the first sample, s", {0.0, 60.0});
     v.field("linger_s", linger_s, "for the probe's reader to take the last bytes, s", {0.0, 60.0});
+    v.field("drop_after_s", drop_after_s, "a frame that is later than this behind its time stamp is dropped, s",
+            {0.0, 3600.0});
   }
 };
 

@@ -3,12 +3,12 @@ import { call } from "../../net/connection";
 import { edit } from "../../state/document";
 import { entries } from "../../ui/entries";
 import { FilePicker } from "../../ui/FilePicker";
+import { MeshUnitField } from "../../ui/MeshUnitField";
+import { textOfLength, unitOfText } from "../../ui/meshUnits";
 import { Panel } from "../../ui/Panel";
-import { Select } from "../../ui/Select";
 import { complain } from "../../ui/toast";
+import { Warning } from "../../ui/Warning";
 import { align, opened, type AlignSection } from "./alignState";
-
-const UNITS = ["mm", "cm", "m"];
 
 interface PathEntry {
   kind: "recording" | "path";
@@ -23,7 +23,6 @@ export function FilesPanel() {
   if (!section) return null;
   const known = new Set(paths.map(({ name }) => name));
   const shown = [...paths, ...section.paths.filter((name) => !known.has(name)).map((name) => ({ kind: "gone" as const, name }))];
-  const units = UNITS.includes(section.mesh_unit) ? UNITS : [...UNITS, section.mesh_unit];
   const points = opened.value?.shapes.path_points?.[0];
   const triangles = opened.value?.shapes.indices?.[0];
   return (
@@ -35,11 +34,9 @@ export function FilesPanel() {
         onChange={(mesh) => change({ mesh }, "choose a mesh")}
         testId="align-mesh"
       />
-      <Select
-        label="Its unit"
-        value={section.mesh_unit}
-        options={units}
-        onChange={(mesh_unit) => change({ mesh_unit }, "choose the mesh's unit")}
+      <MeshUnitField
+        unit_m={unitOfText(section.mesh_unit) ?? 1}
+        onChange={(unit_m) => void change({ mesh_unit: textOfLength(unit_m) }, "change the mesh's unit").catch(complain)}
         testId="align-unit"
       />
       <fieldset class="align-paths">
@@ -73,9 +70,7 @@ export function FilesPanel() {
         </p>
       )}
       {((opened.value?.head.problems ?? []) as string[]).map((problem) => (
-        <p key={problem} class="field-hint">
-          {problem}
-        </p>
+        <Warning key={problem} words={problem} />
       ))}
     </Panel>
   );

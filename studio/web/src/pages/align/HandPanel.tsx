@@ -1,6 +1,7 @@
 import { Panel } from "../../ui/Panel";
 import { Slider } from "../../ui/Slider";
 import { Button } from "../../ui/Button";
+import { Select } from "../../ui/Select";
 import { edit } from "../../state/document";
 import { about, align, moveBySix, opened, shownSix, turnAbout, type Six } from "./alignState";
 
@@ -21,19 +22,18 @@ export function HandPanel() {
   };
   return (
     <Panel title="By hand" collapsible testId="align-hand">
-      <div class="align-about" role="group" aria-label="Turns are about">
-        <span>About</span>
-        <Button
-          pressed={about.value === "middle"}
-          onClick={() => turnAbout("middle")}
-          hint="x, y, z: where the path's middle lies in the mesh's frame"
-        >
-          path's middle
-        </Button>
-        <Button pressed={about.value === "origin"} onClick={() => turnAbout("origin")} hint="The six numbers of asperity register --align">
-          world's origin
-        </Button>
-      </div>
+      <Select
+        label="Turns are about"
+        value={about.value}
+        options={[
+          { value: "middle", label: "the path's middle" },
+          { value: "origin", label: "the world's origin" },
+        ]}
+        wide
+        hint={about.value === "middle" ? "x, y, z: where the path's middle lies in the mesh's frame" : "The six numbers of asperity register --align"}
+        onChange={(what) => turnAbout(what as "middle" | "origin")}
+        testId="align-about"
+      />
       {AXES.map((axis, index) => {
         const value = six?.shift_m[index] ?? 0;
         const [low, high] = range(head, index, value);

@@ -4,6 +4,8 @@ import { Figures } from "../../ui/Figures";
 import { cancelJob, jobs } from "../../ui/job";
 import { Panel } from "../../ui/Panel";
 import { Toggle } from "../../ui/Toggle";
+import { Warning } from "../../ui/Warning";
+import { verdictWords } from "./verdict";
 import { ghost, isRegistered, opened, register, result, running, showing, take, type RunResult, type Showing } from "./alignState";
 
 /** The registration: from here or from anywhere, what it says of itself, and its runner-up. */
@@ -44,22 +46,27 @@ function Verdict({ found }: { found: RunResult }) {
   const other = found.runner_up;
   return (
     <>
-      <p class={found.trustworthy ? "align-verdict align-good" : "align-verdict align-doubt"} data-testid="align-verdict">
+      <div class={found.trustworthy ? "align-verdict align-good" : "align-verdict align-doubt"} data-testid="align-verdict">
         <strong>{found.trustworthy ? "To be trusted. " : "Not to be trusted. "}</strong>
-        {found.verdict}
-      </p>
+        {verdictWords(found)}
+        <details open={!found.trustworthy}>
+          <summary>In full</summary>
+          {found.verdict}
+        </details>
+      </div>
       <p class="field-hint">{found.certainty}</p>
       {found.undetermined.length > 0 && (
-        <ul class="align-undetermined" aria-label="Motions that the scan does not determine">
-          {found.undetermined.map(({ description }) => (
-            <li key={description}>The path {description}.</li>
-          ))}
-        </ul>
+        <details>
+          <summary>{found.undetermined.length === 1 ? "One motion" : `${found.undetermined.length} motions`} the scan does not determine</summary>
+          <ul class="align-undetermined">
+            {found.undetermined.map(({ description }) => (
+              <li key={description}>The path {description}.</li>
+            ))}
+          </ul>
+        </details>
       )}
       {found.problems.map((problem) => (
-        <p key={problem} class="field-hint">
-          {problem}
-        </p>
+        <Warning key={problem} words={problem} />
       ))}
       <Figures>
         <Figure label="Residual, RMS" value={found.rms_m} factor={1e3} unit="mm" digits={3} testId="align-rms" />

@@ -63,13 +63,13 @@ export default function FeelPage() {
     >
       <FeelView block={block} {...depth} />
       {status?.visited && (
-        <p class="feel-none" role="status">
+        <p class="viewport-empty" role="status">
           A study is being felt on the Study page.
         </p>
       )}
       {!block && !status?.visited && (
-        <p class="feel-none" role="status">
-          {status?.loading ? "Reading the scene …" : "Choose a scene, a mesh or height maps at the left."}
+        <p class="viewport-empty" role="status">
+          {status?.loading ? "Reading the scene …" : "Choose a scene, a mesh or height maps at the left. The Paint and Align pages write scenes."}
         </p>
       )}
     </PageLayout>

@@ -3,7 +3,7 @@ import { Box3, type Group, Vector3 } from "three";
 import { dark } from "../../app/settings";
 import type { Block } from "../../net/block";
 import { seriesColour } from "../../plot/colours";
-import { fixed } from "../../ui/format";
+import { fixed, withUnit } from "../../ui/format";
 import { leaseIsOthers } from "../../state/lease";
 import { Button } from "../../ui/Button";
 import type { View } from "../../view3d/View";
@@ -127,7 +127,7 @@ function Legend() {
             <path d="M1 5h13M13 1.500 20 5l-7 3.500z" style={{ stroke: seriesColour(colour, 0), fill: seriesColour(colour, 0), strokeWidth: 2 }} />
           </svg>
           <span>{label}</span>
-          <span class="numeric">{state ? fixed(length3(state[key]), 2) : "–"}{"\u202f"}N</span>
+          <span class="numeric">{withUnit(state ? fixed(length3(state[key]), 2) : "–", "N")}</span>
         </li>
       ))}
     </ul>

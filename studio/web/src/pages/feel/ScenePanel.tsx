@@ -2,10 +2,11 @@ import { edit } from "../../state/document";
 import { attempt } from "../../ui/Button";
 import { entries } from "../../ui/entries";
 import { FilePicker } from "../../ui/FilePicker";
+import { MeshUnitField } from "../../ui/MeshUnitField";
+import { textOfLength, unitOfText } from "../../ui/meshUnits";
 import { NumberField } from "../../ui/NumberField";
 import { Panel } from "../../ui/Panel";
 import { Select } from "../../ui/Select";
-import { TextField } from "../../ui/TextField";
 import { chooseHeightMaps, chooseScene, feelSection } from "./feelChoices";
 import { feelStatus } from "./feelStore";
 
@@ -33,11 +34,10 @@ export function ScenePanel({ maps, onMaps }: { maps: boolean; onMaps(maps: boole
         <FilePicker label="Scene" kinds={["scene", "mesh"]} value={chosen.scene ?? ""} none="None" onChange={(name) => attempt(() => chooseScene(name))} testId="feel-scene" />
       )}
       {!maps && isMesh && (
-        <TextField
-          label="Unit of the mesh"
-          value={chosen.mesh_unit ?? ""}
-          hint="m, mm, or a length such as 0.06m; empty: m"
-          onChange={(unit) => attempt(() => edit("/feel/mesh_unit", unit, "unit of the mesh"))}
+        <MeshUnitField
+          unit_m={unitOfText(chosen.mesh_unit ?? "") ?? 1}
+          onChange={(unit_m) => void attempt(() => edit("/feel/mesh_unit", textOfLength(unit_m), "change the mesh's unit"))}
+          testId="feel-unit"
         />
       )}
       {maps && <Tiles />}

@@ -6,6 +6,7 @@ import { Button } from "../../ui/Button";
 import { FilePicker } from "../../ui/FilePicker";
 import { length } from "../../ui/format";
 import { useKeys } from "../../ui/keys";
+import { MeshUnitField } from "../../ui/MeshUnitField";
 import { PageLayout } from "../../ui/PageLayout";
 import { Panel } from "../../ui/Panel";
 import { Select } from "../../ui/Select";
@@ -25,12 +26,6 @@ const SHOWS: { value: Show; label: string }[] = [
   { value: "textures", label: "Textures" },
   { value: "coordinates", label: "Texture coordinates" },
   { value: "warp", label: "Warp" },
-];
-const UNITS = [
-  { value: "1", label: "metre" },
-  { value: "0.01", label: "centimetre" },
-  { value: "0.001", label: "millimetre" },
-  { value: "0.0254", label: "inch" },
 ];
 
 /** Draw textures onto a mesh (seed §5.4). */
@@ -87,8 +82,7 @@ export default function PaintPage() {
             <FilePicker label="Mesh or scene" kinds={["mesh", "scene"]} value={paint.object} testId="paint-object"
               onChange={(object) => edit("/paint", { ...paint, object, strokes: [], swaps: {}, current: -1, written: "" }, `open ${object}`).catch(complain)} />
             {paint.object && !paint.object.endsWith(".json") && (
-              <Select label="The mesh's unit" value={String(paint.unit_m)} options={UNITS} testId="paint-unit"
-                onChange={(unit) => edit("/paint/unit_m", Number(unit), "change the unit").catch(complain)} />
+              <MeshUnitField unit_m={paint.unit_m} testId="paint-unit" onChange={(unit_m) => edit("/paint/unit_m", unit_m, "change the mesh's unit").catch(complain)} />
             )}
             {block && <p class="field-hint" data-testid="paint-size">{sizeWords(block)}</p>}
           </Panel>

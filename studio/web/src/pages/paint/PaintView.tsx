@@ -94,7 +94,9 @@ export function PaintView(props: PaintViewProps) {
           object.current = "";
         };
       }}
-    />
+    >
+      {!block && <p class="viewport-empty">Choose a mesh or a scene at the left, then a texture: a stroke begins.</p>}
+    </Viewport>
   );
 }
 

@@ -67,10 +67,12 @@ export function StrokePanel({ paint, figures, onBegin }: { paint: PaintSection; 
           />
           <fieldset class="paint-typed">
             <legend>Add a point by numbers; the nearest point of the surface is taken</legend>
-            {AXES.map((axis, at) => (
-              <NumberField key={axis} label={axis} value={typed[at]!} factor={1e3} unit="mm" testId={`paint-${axis}`}
-                onChange={(value) => setTyped(typed.map((old, index) => (index === at ? value : old)) as Point)} />
-            ))}
+            <div>
+              {AXES.map((axis, at) => (
+                <NumberField key={axis} label={`${axis} / mm`} value={typed[at]!} factor={1e3} testId={`paint-${axis}`}
+                  onChange={(value) => setTyped(typed.map((old, index) => (index === at ? value : old)) as Point)} />
+              ))}
+            </div>
             <Button onClick={() => edit(picks, [...stroke.picks_m, typed], "add a point")} testId="paint-add">
               Add point
             </Button>

@@ -11,6 +11,7 @@ import { Select } from "../../ui/Select";
 import { TextField } from "../../ui/TextField";
 import { say } from "../../ui/toast";
 import { Toggle } from "../../ui/Toggle";
+import { Warning } from "../../ui/Warning";
 import { chooseScene } from "../feel/feelChoices";
 import { kWarpLimit, type PaintSection, type StrokeFigures } from "./painting";
 
@@ -35,7 +36,6 @@ export function WritePanel({ paint, figures }: { paint: PaintSection; figures: S
     setReplace(false);
     await edit("/paint/written", scene, `write ${scene}`);
     await readEntries();
-    say(`Written: ${scene}`);
   };
   const feel = async () => {
     await chooseScene(written);
@@ -51,7 +51,7 @@ export function WritePanel({ paint, figures }: { paint: PaintSection; figures: S
     <>
       {figures.map((one, index) => (one.warp ? <StrokeResult key={index} number={index + 1} figures={one} /> : null))}
       <Panel title="Write">
-        <TextField label="Name of the folder" value={name} onChange={setName} testId="paint-name" />
+        <TextField label="Folder" value={name} onChange={setName} testId="paint-name" />
         <Toggle label="Replace what has this name" on={replace} onChange={setReplace} testId="paint-replace" />
         <Button kind="primary" onClick={write} disabled={paint.strokes.length === 0 && Object.keys(paint.swaps).length === 0} testId="paint-write">
           Write scene
@@ -80,18 +80,16 @@ function StrokeResult({ number, figures }: { number: number; figures: StrokeFigu
       <Figures>
         <Figure label="Length over the surface" value={figures.path_length_m} factor={1e3} unit="mm" />
         <Figure label="Triangles" value={String(figures.triangles)} />
-        <Figure label="Lengths kept, RMS" value={warp.stretch_rms} factor={100} unit="%" digits={2} hint="Deviation of the singular values from 1, by area" />
+        <Figure label="Off in length, RMS" value={warp.stretch_rms} factor={100} unit="%" digits={2} hint="Deviation of the singular values from 1, by area" />
         <Figure label="Most squeezed" value={warp.stretch_min} digits={3} hint="Least singular value; 1 keeps lengths" />
         <Figure label="Most stretched" value={warp.stretch_max} digits={3} hint="Greatest singular value; 1 keeps lengths" />
         <Figure label={`Beyond ${kWarpLimit} times`} value={`${warp.stretched} triangles`} />
         <Figure label="Turned over" value={`${warp.folded} triangles`} />
         <Figure label="Overlapping" value={`${warp.overlapping} triangles`} />
-        <Figure label="Points from the mesh" value={Math.max(...(figures.pick_distance_m ?? [0]))} factor={1e3} unit="mm" digits={2} />
+        <Figure label="Points off the mesh, most" value={Math.max(...(figures.pick_distance_m ?? [0]))} factor={1e3} unit="mm" digits={2} />
       </Figures>
       {(figures.problems ?? []).map((problem) => (
-        <p key={problem.message} class="field-error">
-          {problem.message}
-        </p>
+        <Warning key={problem.message} words={problem.message.replace(/^path \d+: /, "")} />
       ))}
     </Panel>
   );

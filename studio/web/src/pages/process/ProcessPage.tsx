@@ -79,7 +79,7 @@ export default function ProcessPage() {
       }
       results={
         <>
-          <Panel title="Result" testId="result">
+          <Panel title="Result" testId="result" grow>
             {measured ? <Verdict measured={measured} /> : <p class="empty">{fault || (at < 0 ? "No recording yet." : "Working …")}</p>}
             {measured && <FiguresTable figures={measured.figures} />}
           </Panel>
@@ -154,7 +154,14 @@ function Shown({ tab, measured }: { tab: string; measured: Measured }) {
 
 function Waiting({ fault, chosen }: { fault: string; chosen: boolean }) {
   if (fault) return <p class="empty" role="alert">There is no result: {fault}</p>;
-  return <p class="empty">{chosen ? "Working …" : "Choose a recording at the left."}</p>;
+  if (chosen) return <p class="empty">Working …</p>;
+  return (
+    <div class="page-empty">
+      <h2>No recording is chosen</h2>
+      <p>Add one at the left: its profile, path, spectrum and figures are shown here, and follow every setting.</p>
+      <p>None there yet? The Scan page records one, from a probe or from the virtual bench.</p>
+    </div>
+  );
 }
 
 /** The chosen recordings over one another, worked out while they are looked at. */

@@ -1,9 +1,12 @@
 import { useState } from "preact/hooks";
+import type { Block } from "../../net/block";
 import { call } from "../../net/connection";
 import { Button } from "../../ui/Button";
+import { readEntries } from "../../ui/entries";
+import { FilePicker } from "../../ui/FilePicker";
 import { Panel } from "../../ui/Panel";
 import { TextField } from "../../ui/TextField";
-import { say } from "../../ui/toast";
+import { complain } from "../../ui/toast";
 import { Toggle } from "../../ui/Toggle";
 import type { ProcessSection } from "./processing";
 
@@ -13,36 +16,56 @@ interface Written {
   notes: string[];
 }
 
-/** Writes what `asperity process` writes, of all recordings that are chosen. */
+/** Writes what `asperity process` writes, of all recordings that are chosen, and hands out reports. */
 export function WritePanel({ section }: { section: ProcessSection }) {
   const [name, setName] = useState("results");
   const [replace, setReplace] = useState(false);
   const [written, setWritten] = useState<Written | null>(null);
+  const [report, setReport] = useState("");
   const write = async () => {
+    setWritten(null);
     const done = await call<Written>("process.write", { name, replace });
     setReplace(false);
     setWritten(done);
-    say(`The results are in ${done.folder}.`);
+    await readEntries();
   };
   return (
     <Panel title="Write" testId="write">
-      <TextField label="Folder of the results" value={name} onInput={setName} onChange={setName} />
+      <TextField label="Folder" value={name} onInput={setName} onChange={setName} />
       <Toggle label="Replace what has this name" on={replace} onChange={setReplace} />
-      <Button onClick={write} disabled={section.scans.length === 0 || name === ""} testId="write-results">
+      <Button kind="primary" onClick={write} disabled={section.scans.length === 0 || name === ""} testId="write-results"
+        hint="trajectory.csv, profile.csv, texture.json, result.json and report.html of each recording">
         Write results
       </Button>
       <div role="status" class="process-written" data-testid="written">
-        {written && (
-          <>
-            <p>
-              trajectory.csv, profile.csv, texture.json, result.json and report.html in {written.files.map((file) => `${written.folder}${file && "/"}${file}`).join(", ")}.
-            </p>
-            {written.notes.map((note) => (
-              <p key={note}>{note}</p>
-            ))}
-          </>
-        )}
+        {written && <p>Written to {written.files.map((file) => `${written.folder}${file && "/"}${file}`).join(", ")}.</p>}
+        {written?.notes.map((note) => (
+          <p key={note}>{note}</p>
+        ))}
       </div>
+      {written && (
+        <Button onClick={() => saveReport(written.folder)} testId="save-report" hint="One page that opens without the studio and without a network">
+          Save the report
+        </Button>
+      )}
+      <FilePicker label="Report of a result" kinds={["result"]} value={report} none="Choose one to save it …" testId="report-of"
+        onChange={(folder) => {
+          setReport("");
+          if (folder) void saveReport(folder).catch(complain);
+        }} />
     </Panel>
   );
 }
+
+/** The browser keeps it as a file: opened from there it is outside of this page. */
+async function saveReport(folder: string): Promise<void> {
+  const block = await call<Block>("process.report", { folder });
+  const address = URL.createObjectURL(new Blob([block.arrays.page! as Uint8Array<ArrayBuffer>], { type: "text/html" }));
+  const link = document.createElement("a");
+  link.href = address;
+  link.download = `${folder.replaceAll("/", "_")}_report.html`;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), kKept_ms);
+}
+
+const kKept_ms = 10_000;

@@ -1,8 +1,8 @@
 import { useMemo, useState } from "preact/hooks";
 import { Plot } from "../../plot/Plot";
 import type { Series } from "../../plot/series";
+import { Button } from "../../ui/Button";
 import { Panel } from "../../ui/Panel";
-import { Select } from "../../ui/Select";
 import { band } from "./growing";
 import { isLiveUsable } from "./scanState";
 import { profile, profileVersion, refined } from "./stream";
@@ -18,17 +18,18 @@ export function ProfilePlot() {
     const live = profile.columns;
     const y = live[shown].values;
     const arrays = last?.arrays;
+    // The refined way begins where the path does; the live one is laid onto it.
+    const shift_mm = 1e3 * (arrays?.s_m ? (last!.head.difference?.shift_m ?? 0) : 0);
     const out: Series[] = [];
     // A live profile that had too little to go by is of no use beside the refined one.
-    if (!arrays?.s_m || isLiveUsable(last!.head.difference))
-      out.push({ label: "while scanning", x: live.s_m.values, y, ...band(y, live.sigma_m.values), colour: 2 });
+    if (y.length > 0 && (!arrays?.s_m || isLiveUsable(last!.head.difference)))
+      out.push({ label: "while scanning", x: shift_mm === 0 ? live.s_m.values : live.s_m.values.map((s_mm) => s_mm + shift_mm), y, ...band(y, live.sigma_m.values), colour: 2 });
     if (arrays?.s_m) {
-      const shift_m: number = last!.head.difference?.shift_m ?? 0;
       const micrometres = (values: ArrayLike<number>) => Float64Array.from(values, (value) => value * 1e6);
       const heights = micrometres(arrays[shown]!);
       out.push({
         label: "refined",
-        x: Float64Array.from(arrays.s_m, (s_m) => (s_m - shift_m) * 1e3),
+        x: Float64Array.from(arrays.s_m, (s_m) => s_m * 1e3),
         y: heights,
         ...band(heights, micrometres(arrays.sigma_m!)),
         colour: 1,
@@ -42,8 +43,14 @@ export function ProfilePlot() {
       grow
       testId="scan-profile"
       actions={
-        <Select label="Shown" value={shown} testId="scan-shown" onChange={(value) => setShown(value as Shown)}
-          options={[{ value: "texture_m", label: "Texture" }, { value: "height_m", label: "Height" }]} />
+        <>
+          <Button kind="quiet" pressed={shown === "texture_m"} onClick={() => setShown("texture_m")} hint="The height after the high-pass" testId="scan-shown-texture">
+            texture
+          </Button>
+          <Button kind="quiet" pressed={shown === "height_m"} onClick={() => setShown("height_m")} hint="Only the base shape is removed" testId="scan-shown-height">
+            height
+          </Button>
+        </>
       }
     >
       <Plot label="Surface profile along the path" series={series} xAxis={{ label: "along the path", unit: "mm" }} yAxis={{ label: "height", unit: "µm" }}

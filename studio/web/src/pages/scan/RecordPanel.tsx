@@ -6,7 +6,7 @@ import { Lamp } from "../../ui/Lamp";
 import { Panel } from "../../ui/Panel";
 import { TextField } from "../../ui/TextField";
 import { Toggle } from "../../ui/Toggle";
-import { fixed } from "../../ui/format";
+import { fixed, withUnit } from "../../ui/format";
 import { answer, asked, discard, rescan, segment, start, stop, toggleAuto } from "./commands";
 import { abilities, dearSegment, recordWords } from "./scanState";
 import { scan } from "./settings";
@@ -23,7 +23,7 @@ export function RecordPanel() {
       <div class={`scan-big scan-big-${now?.recorder?.storing ? "on" : "off"}`}>
         <Lamp state={words.lamp} word={words.word} live testId="scan-record-state" />
         <span class="scan-time" data-testid="scan-recorded">
-          {fixed(now?.recorder?.recorded_s ?? null, 1)}{"\u202f"}s
+          {withUnit(fixed(now?.recorder?.recorded_s ?? null, 1), "s")}
         </span>
       </div>
       <div class="scan-buttons">

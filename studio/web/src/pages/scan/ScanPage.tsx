@@ -69,12 +69,12 @@ export default function ScanPage() {
         <div class="scan-strip">
           <ProfilePlot />
           <div class="scan-live">
-            <Panel title="Force" grow>
-              <LivePlot label="Force" buffer={force} series={FORCE} yAxis={{ label: "force", unit: "N" }} window_s={kWindow_s} leastHeight={0.5} testId="scan-force-plot" />
+            <Panel title="Force / N" grow>
+              <LivePlot label="Force in newton" buffer={force} series={FORCE} yAxis={{ label: "" }} window_s={kWindow_s} leastHeight={0.5} testId="scan-force-plot" />
             </Panel>
-            <Panel title="Acceleration" grow>
-              <LivePlot label="Specific force of the accelerometer in the marker's frame" buffer={acceleration} series={ACCELERATION}
-                yAxis={{ label: "specific force", unit: "m/s²" }} window_s={kWindow_s} leastHeight={2} testId="scan-acceleration-plot" />
+            <Panel title="Acceleration / m/s²" grow>
+              <LivePlot label="Specific force of the accelerometer in the marker's frame, m/s²" buffer={acceleration} series={ACCELERATION}
+                yAxis={{ label: "" }} window_s={kWindow_s} leastHeight={2} testId="scan-acceleration-plot" />
             </Panel>
           </div>
         </div>
@@ -91,7 +91,8 @@ export default function ScanPage() {
 
 /** The stream's figures for tests and scripts. */
 function StreamLine() {
-  const { median_ms, late_ms, rows, lost } = figures.value;
+  const { median_ms, late_ms, rows, lost, profile_ms, profile_late_ms } = figures.value;
+  const told = (time_ms: number) => (Number.isFinite(time_ms) ? time_ms.toFixed(1) : "");
   return (
     <output
       class="visually-hidden"
@@ -100,8 +101,10 @@ function StreamLine() {
       data-open={String(state.value?.open ?? false)}
       data-rows={rows}
       data-rows-lost={lost}
-      data-latency-ms={Number.isFinite(median_ms) ? median_ms.toFixed(1) : ""}
-      data-latency-p95-ms={Number.isFinite(late_ms) ? late_ms.toFixed(1) : ""}
+      data-latency-ms={told(median_ms)}
+      data-latency-p95-ms={told(late_ms)}
+      data-profile-ms={told(profile_ms)}
+      data-profile-p95-ms={told(profile_late_ms)}
     />
   );
 }

@@ -1,4 +1,5 @@
 import {
+  Box3,
   BufferAttribute,
   BufferGeometry,
   CylinderGeometry,
@@ -25,6 +26,7 @@ import { path, state } from "./stream";
 
 const kMostPoints = 101_000;
 const kMarker_m = 0.046;
+const kReach_m = 0.08;
 const kPicture_ms = 45;
 
 /** The probe, its tip's path and the camera in the tracker's world. */
@@ -63,9 +65,10 @@ function show(view: View): () => void {
     if (!changed && !posed) return;
     posed = false;
     pace.drew(now_ms);
-    if (!fitted && path.length > 0) {
+    const near = fitted ? null : probe.surroundings();
+    if (near) {
       fitted = true;
-      view.fit();
+      view.fit(near);
     }
     view.invalidate();
   });
@@ -131,9 +134,14 @@ class PathLine {
     }
     this.drawn = count;
     this.object.geometry.setDrawRange(0, count);
-    this.object.geometry.boundingBox = null;
+    this.object.geometry.boundingBox = boxOf(tip_m.values.subarray(0, 3 * count));
     return true;
   }
+}
+
+/** Of the points that are there: the room behind them is not part of the path. */
+function boxOf(points: Float64Array): Box3 {
+  return new Box3().setFromArray(points);
 }
 
 function attribute(): BufferAttribute {
@@ -175,6 +183,13 @@ class Probe {
     this.shaft.quaternion.setFromUnitVectors(new Vector3(0, -1, 0), tip.clone().divideScalar(length));
     this.tipAt = tip.applyQuaternion(this.body.quaternion).add(this.body.position);
     this.tip.position.copy(this.tipAt);
+  }
+
+  /** The probe and what its tip reaches in a stroke; null where no pose is known. */
+  surroundings(): Box3 | null {
+    if (!this.tipAt) return null;
+    const box = new Box3().setFromObject(this.body);
+    return box.union(new Box3().setFromCenterAndSize(this.tipAt, new Vector3(2, 1, 2).multiplyScalar(kReach_m)));
   }
 
   followTip(): void {

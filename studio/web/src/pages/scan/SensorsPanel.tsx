@@ -1,6 +1,6 @@
 import { Figure } from "../../ui/Figure";
 import { Figures } from "../../ui/Figures";
-import { fixed } from "../../ui/format";
+import { delay, fixed } from "../../ui/format";
 import { Lamp } from "../../ui/Lamp";
 import { Panel } from "../../ui/Panel";
 import { contactWords, gravityWords, lostRows, sensorWords, type Words } from "./scanState";
@@ -38,7 +38,8 @@ export function SensorsPanel() {
         <Figure label="Tracker" value={recorder ? `${Math.round(recorder.poses.rate_Hz)} poses/s` : null} testId="scan-pose-rate" />
         <Figure label="Rows lost" value={recorder ? String(lostRows(recorder)) : "–"} hint="On the way from the probe to the recording." testId="scan-lost" />
         <Figure label="Written" value={recorder ? recorder.disk_bytes * 1e-6 : null} unit="MB" digits={3} />
-        <Figure label="To the screen" value={Number.isFinite(stream.median_ms) ? `${Math.round(stream.median_ms)}\u202fms` : null} hint="From the sensor to the drawn frame: the median." testId="scan-latency" />
+        <Figure label="To the screen" value={delay(stream.median_ms)} hint="From the sensor to the drawn frame: the median." testId="scan-latency" />
+        <Figure label="Profile" value={Number.isFinite(stream.profile_ms) ? `${delay(stream.profile_ms)} behind` : null} hint="From the tip's motion to the profile's newest point on the screen: the median." testId="scan-profile-latency" />
       </Figures>
     </Panel>
   );

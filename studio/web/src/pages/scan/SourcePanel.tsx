@@ -32,7 +32,7 @@ export function SourcePanel({ fields }: { fields: readonly ConfigField[] }) {
   const chosen = scan.value;
   return (
     <Panel title="Source" collapsible testId="scan-source-panel">
-      <Select label="Source" value={chosen.source} options={SOURCES} disabled={isOpen || busy} testId="scan-source"
+      <Select label="Where the rows come from" wide value={chosen.source} options={SOURCES} disabled={isOpen || busy} testId="scan-source"
         onChange={(source) => set("source", source, "choose the source")} />
       {isOpen ? (
         <Button onClick={close} disabled={busy} testId="scan-close">

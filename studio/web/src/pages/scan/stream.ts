@@ -13,6 +13,8 @@ const kDoubt_ms = 25; // a clock that is less well known tells no delay
 const kFigures_ms = 250;
 const kSilent_ms = 2000;
 const kPause_s = 0.5;
+const kFewPoints = 200;
+const kLongestPause_ms = 200;
 
 export const state = signal<ScanState | null>(null);
 /** The newest camera image, and the last scan worked out in full; null: there is none. */
@@ -29,7 +31,7 @@ export const profile = new Growing(
   () => void askProfile(),
 );
 export const path = new Growing({ tip_m: 1, axis: 1, force_N: 1, state: 1 }, "tip_m", () => void askPath(), 3);
-/** Grow when the profile or the path has, at most ten times a second; the 3D view looks at `path` itself. */
+/** Grows when the profile has, as often as it can be drawn; the 3D view looks at `path` itself. */
 export const profileVersion = signal(0);
 
 /** From the sensor to the drawn frame, and how many rows have come and not come. */
@@ -38,11 +40,17 @@ export interface StreamFigures {
   late_ms: number;
   rows: number;
   lost: number;
+  /** From the tip's motion to the profile's newest point in the drawn frame. */
+  profile_ms: number;
+  profile_late_ms: number;
 }
-export const figures = signal<StreamFigures>({ median_ms: NaN, late_ms: NaN, rows: 0, lost: 0 });
+export const figures = signal<StreamFigures>({ median_ms: NaN, late_ms: NaN, rows: 0, lost: 0, profile_ms: NaN, profile_late_ms: NaN });
 
 const clock = new HostClock();
 const latencies = new Recent();
+const profileLatencies = new Recent();
+let undrawn_ns = NaN; // the motion of the first block that is not drawn yet
+let drawing = false;
 let askedProfile = false;
 let askedPath = false;
 let heard_ms = 0;
@@ -52,7 +60,7 @@ export function follow(): () => void {
   const ends = [
     subscribe("scan.state", (block) => (state.value = block.head as unknown as ScanState)),
     subscribe("scan.probe", takeRows),
-    subscribe("scan.profile", (block) => profile.take(block)),
+    subscribe("scan.profile", takeProfile),
     subscribe("scan.pose", (block) => path.take(block)),
     subscribe("scan.image", (block) => (image.value = block)),
     subscribe("scan.refined", (block) => (refined.value = block.arrays.s_m || block.head.failure ? block : null)),
@@ -60,10 +68,16 @@ export function follow(): () => void {
   ];
   const ping = setInterval(() => void measure(), kPing_ms);
   const tell = setInterval(() => {
-    profileVersion.value = profile.version;
     if (performance.now() - heard_ms > kSilent_ms) latencies.clear();
-    figures.value = { median_ms: latencies.quantile(0.5), late_ms: latencies.quantile(0.95), rows: rows.rows, lost: rows.lost };
-  }, kFigures_ms / 2);
+    figures.value = {
+      median_ms: latencies.quantile(0.5),
+      late_ms: latencies.quantile(0.95),
+      rows: rows.rows,
+      lost: rows.lost,
+      profile_ms: profileLatencies.quantile(0.5),
+      profile_late_ms: profileLatencies.quantile(0.95),
+    };
+  }, kFigures_ms);
   return () => {
     clearInterval(ping);
     clearInterval(tell);
@@ -75,6 +89,7 @@ export function follow(): () => void {
 async function begin(): Promise<void> {
   rows.clear();
   latencies.clear();
+  profileLatencies.clear();
   await measure();
   const status = await call<{ open: boolean; refined: boolean }>("scan.status").catch(() => null);
   if (!status) return;
@@ -97,7 +112,9 @@ async function askProfile(): Promise<void> {
   askedProfile = true;
   const all = await call<Block>("scan.profile").catch(() => null);
   askedProfile = false;
-  if (all) profile.take(all);
+  if (!all) return;
+  profile.take(all);
+  void drawProfile();
 }
 
 async function askPath(): Promise<void> {
@@ -107,6 +124,39 @@ async function askPath(): Promise<void> {
   askedPath = false;
   if (all) path.take(all);
 }
+
+function takeProfile(block: Block): void {
+  const anew = block.head.generation !== profile.generation;
+  const before = profile.length;
+  profile.take(block);
+  if (anew) profileLatencies.clear();
+  // A part of the past that comes at once, after a change of the settings, tells no delay.
+  const grown = profile.length - before;
+  if (!anew && grown > 0 && grown <= kFewPoints && Number.isNaN(undrawn_ns)) undrawn_ns = block.head.motion_ns as number;
+  void drawProfile();
+}
+
+const nextFrame = () => new Promise<void>((resolve) => requestAnimationFrame(() => resolve()));
+
+/** Shows what the profile has grown to; what grows meanwhile is shown next, and half of the time is left for others. */
+async function drawProfile(): Promise<void> {
+  if (drawing) return;
+  drawing = true;
+  const start_ms = performance.now();
+  await nextFrame();
+  profileVersion.value = profile.version;
+  const oldest_ns = undrawn_ns;
+  undrawn_ns = NaN;
+  // The plot is drawn in this frame; the task after it begins when the frame has been handed on.
+  await pause(0);
+  const now_ms = performance.now();
+  if (Number.isFinite(oldest_ns) && clock.known && clock.doubt_ms < kDoubt_ms) profileLatencies.add(now_ms - clock.toHere_ms(oldest_ns));
+  await pause(Math.min(now_ms - start_ms, kLongestPause_ms));
+  drawing = false;
+  if (profileVersion.value !== profile.version) void drawProfile();
+}
+
+const pause = (time_ms: number) => new Promise<void>((resolve) => setTimeout(resolve, time_ms));
 
 function takeRows(block: Block): void {
   heard_ms = performance.now();

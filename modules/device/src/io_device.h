@@ -1,0 +1,85 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <string>
+
+#include "asperity/device/haptic_device.h"
+#include "asperity/device/latest_value.h"
+#include "force_mailbox.h"
+#include "stall_watch.h"
+
+namespace asperity {
+
+// A slow device, which has an I/O thread of its own: news goes one way, forces the other. Who derives from it has the
+// thread, ends it in close(), and calls close() in its destructor.
+class IoDevice : public HapticDevice {
+ public:
+  IoDevice(const IoDevice&) = delete;
+  IoDevice& operator=(const IoDevice&) = delete;
+
+  const DeviceInfo& info() const noexcept override { return info_; }
+
+  DeviceReading read(std::int64_t t_ns) noexcept override {
+    const News& news = news_.take();
+    DeviceReading reading;
+    reading.p_m = news.p_m;
+    reading.v_mps = news.v_mps;
+    reading.sequence = news.sequence;
+    if (watch_.stalled(t_ns, news.sequence)) reading.status = DeviceStatus::kStalled;
+    if (stop_.load(std::memory_order_relaxed)) reading.status = DeviceStatus::kEnded;
+    if (faulty_.load(std::memory_order_acquire)) reading.status = DeviceStatus::kFault;
+    return reading;
+  }
+
+  void write(const Eigen::Vector3d& force_N) noexcept override { forces_.publish(force_N); }
+
+  std::string fault() const override {
+    const std::lock_guard lock(fault_mutex_);
+    return fault_;
+  }
+
+ protected:
+  using Clock = ForceMailbox::Clock;
+
+  // What the I/O thread tells the servo thread, in the device's axes.
+  struct News {
+    Eigen::Vector3d p_m = Eigen::Vector3d::Zero();
+    Eigen::Vector3d v_mps = Eigen::Vector3d::Zero();
+    std::uint64_t sequence = 0;
+  };
+
+  explicit IoDevice(double stall_after_s) : watch_(stall_after_s) {}
+
+  static Clock::duration seconds(double s) {
+    return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
+  }
+
+  // The I/O thread's: `serve` until it returns; what it throws is the device's fault.
+  template <class Serve>
+  void run(const Serve& serve) {
+    try {
+      serve();
+    } catch (const std::exception& error) {
+      const std::lock_guard lock(fault_mutex_);
+      fault_ = error.what();
+      faulty_.store(true, std::memory_order_release);
+    }
+  }
+
+  DeviceInfo info_;
+  LatestValue<News> news_;  // from the I/O thread
+  ForceMailbox forces_;     // to it
+  std::atomic<bool> stop_{false};
+
+ private:
+  StallWatch watch_;  // the servo thread's
+  std::atomic<bool> faulty_{false};
+  mutable std::mutex fault_mutex_;
+  std::string fault_;
+};
+
+}  // namespace asperity

@@ -1,0 +1,59 @@
+#include "kept_block.h"
+
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
+#include "asperity/base/csv.h"
+#include "asperity/base/error.h"
+#include "base64.h"
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr std::uint64_t kLargestReport_bytes = 64U << 20U;
+constexpr std::size_t kLargestHead_bytes = 16U << 20U;
+constexpr int kDeepestHead = 34;  // a result.json, and where it stands
+constexpr std::string_view kBegin = "<script type=\"application/octet-stream\"";
+constexpr std::string_view kEnd = "</script>";
+
+// The head of a block "measured"; null for anything else.
+Json head_of(const std::string& block) {
+  std::uint32_t bytes = 0;
+  if (block.size() < 8 || !block.starts_with("ASB1")) return nullptr;
+  std::memcpy(&bytes, block.data() + 4, sizeof bytes);
+  if (bytes > block.size() - 8 || bytes > kLargestHead_bytes) return nullptr;
+  bool too_deep = false;
+  const auto watch = [&](int depth, Json::parse_event_t, Json&) {
+    too_deep = too_deep || depth > kDeepestHead;
+    return !too_deep;
+  };
+  const auto begin = block.begin() + 8;
+  Json head = Json::parse(begin, begin + static_cast<std::ptrdiff_t>(bytes), watch, false);
+  const bool measured = !too_deep && head.is_object() && head.contains("kind") && head["kind"] == "measured";
+  return measured ? head : Json(nullptr);
+}
+
+}  // namespace
+
+std::optional<std::string> kept_block(const std::filesystem::path& report, const Json& result) {
+  if (!std::filesystem::is_regular_file(report)) return std::nullopt;
+  std::string page;
+  try {
+    page = read_file(report, kLargestReport_bytes);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+  for (std::size_t at = page.find(kBegin); at != std::string::npos; at = page.find(kBegin, at + 1)) {
+    const std::size_t begin = page.find('>', at);
+    const std::size_t end = page.find(kEnd, at);
+    if (begin == std::string::npos || end == std::string::npos || begin > end) return std::nullopt;
+    const auto block = bytes_of_base64(std::string_view(page).substr(begin + 1, end - begin - 1));
+    const Json head = block ? head_of(*block) : Json(nullptr);
+    if (head.is_object() && head.contains("result") && head["result"] == result) return block;
+  }
+  return std::nullopt;
+}
+
+}  // namespace asperity::studio
