@@ -92,6 +92,7 @@ export default async function study({ page, studio, step, restart, folder, asper
     await page.getByTestId("study-method").selectOption("staircase");
     await type(page.getByTestId("study-participant"), "p02");
     await page.getByTestId("study-begin").click();
+    await progress("Trial 1");
     await touch();
     for (let trial = 1; trial <= 3; ++trial) {
       await progress(`Trial ${trial}`);
