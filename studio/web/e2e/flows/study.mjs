@@ -23,6 +23,7 @@ export default async function study({ page, studio, step, restart, folder, asper
     }
     await page.keyboard.press("g");
     await page.keyboard.press("u");
+    await page.getByRole("navigation", { name: "Pages" }).locator('[aria-current="page"]', { hasText: "Study" }).waitFor();
     const list = page.getByTestId("study-stimuli");
     for (const name of ["tile_1.png", "tile_2.png"]) await list.getByRole("checkbox", { name }).check();
     await page.getByTestId("undo").click();

@@ -1,6 +1,6 @@
 // Keys of the page that is shown, and of the whole app; the help dialog lists them.
 import { signal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { complain } from "./toast";
 
 export interface Key {
@@ -29,7 +29,8 @@ export function useKeys(keys: Key[], title = "This page"): void {
   const newest = useRef(keys);
   newest.current = keys;
   const names = keys.map(({ key, label }) => `${key} ${label}`).join("\n");
-  useEffect(() => {
+  // Before the next picture: a key that is pressed as soon as something is seen is not lost.
+  useLayoutEffect(() => {
     const group: KeyGroup = {
       title,
       keys: newest.current.map((key, index) => ({ ...key, run: () => newest.current[index]?.run() })),
