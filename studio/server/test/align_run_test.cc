@@ -76,17 +76,17 @@ TEST_F(AlignRunTest, TakenItIsOneStepAndWrittenAsTheCommandLineWrites) {
               HasSubstr("asperity register 'path.csv' 'pebble.obj' --mesh-unit 'mm' --guess="));
 
   // The same through the functions of `asperity register`.
-  const std::filesystem::path other = bench_.folder.path() / "other";
+  const std::filesystem::path other = bench_.folder / "other";
   std::filesystem::create_directory(other);
-  const app::RegisterInput input = app::read_register_input({(bench_.folder.path() / "path.csv").string()},
-                                                            (bench_.folder.path() / "pebble.obj").string(), 1e-3, {});
+  const app::RegisterInput input = app::read_register_input({(bench_.folder / "path.csv").string()},
+                                                            (bench_.folder / "pebble.obj").string(), 1e-3, {});
   const Pose guess = pose_of_json(json_of_pose(pose_of_json(before["T_mesh_world"], "")), "");
   write_registration(other, app::register_input(input, guess, {}), input.scans, input.mesh, 1e-3);
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(other)) {
     if (entry.is_directory()) continue;
     const auto name = std::filesystem::relative(entry.path(), other);
-    EXPECT_EQ(read_file(entry.path(), 1U << 30U), read_file(bench_.folder.path() / "laid" / name, 1U << 30U)) << name;
+    EXPECT_EQ(read_file(entry.path(), 1U << 30U), read_file(bench_.folder / "laid" / name, 1U << 30U)) << name;
     ++files;
   }
   EXPECT_GE(files, 4U);
@@ -114,9 +114,9 @@ TEST_F(AlignRunTest, IsCancelledAndWritesNothingThen) {
   const std::uint64_t write = bench_.begin("align.write", args_of({{"name", "never"}}));
   bench_.call("job.cancel", args_of({{"job", 3}}));
   bench_.call("job.cancel", args_of({{"job", 2}}));
-  EXPECT_EQ(bench_.wait_for(run).error, "cancelled");
-  EXPECT_EQ(bench_.wait_for(write).error, "cancelled");
-  EXPECT_FALSE(std::filesystem::exists(bench_.folder.path() / "never"));
+  EXPECT_EQ(bench_.answer_to(run).error, "cancelled");
+  EXPECT_EQ(bench_.answer_to(write).error, "cancelled");
+  EXPECT_FALSE(std::filesystem::exists(bench_.folder / "never"));
   EXPECT_TRUE(bench_.call("align.result").result.is_null());
 }
 
