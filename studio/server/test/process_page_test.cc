@@ -165,13 +165,13 @@ TEST_F(ProcessPageTest, WritesTheFilesOfTheCommandLine) {
 }
 
 TEST_F(ProcessPageTest, HandsOutTheReportOfAResult) {
-  fs::create_directories(folder_ / "out");
-  write_file(folder_ / "out" / "report.html", "<!doctype html>");
+  fs::create_directories(folder / "out");
+  write_file(folder / "out" / "report.html", "<!doctype html>");
   const ReadBlock block(call("process.report", Json{{"folder", "out"}}).block);
-  const auto page = block.array<std::uint8_t>("page");
-  EXPECT_EQ(std::string(page.begin(), page.end()), "<!doctype html>");
-  for (const char* folder : {"one", "..", "../out", "/etc", ""})
-    EXPECT_NE(call("process.report", Json{{"folder", folder}}).error, "") << folder;
+  const auto html = block.array<std::uint8_t>("page");
+  EXPECT_EQ(std::string(html.begin(), html.end()), "<!doctype html>");
+  for (const char* other : {"one", "..", "../out", "/etc", ""})
+    EXPECT_NE(call("process.report", Json{{"folder", other}}).error, "") << other;
 }
 
 TEST_F(ProcessPageTest, WhatCannotBeReadIsRefusedInWords) {
