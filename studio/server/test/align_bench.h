@@ -48,6 +48,7 @@ class AlignBench {
     page->bind(document, calls);
     jobs->bind(calls);
     document.load();
+    document.on_change([this](const Edit& edit) { page->edited(edit); });
     document.edit("/align/paths", {"path.csv"}, "");
     document.edit("/align/mesh", "pebble.obj", "");
     document.edit("/align/T_mesh_world", json_of_pose(guess()), "");
@@ -72,6 +73,15 @@ class AlignBench {
       page->tick(0);
     }
     return hub.answer_to(id);
+  }
+  // Does what is posted until the event has been told so often.
+  std::vector<Json> wait_for_events(const std::string& name, std::size_t count) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+    while (hub.events(name).size() < count && std::chrono::steady_clock::now() < end) {
+      for (const auto& work : inbox.wait(std::chrono::steady_clock::now() + std::chrono::milliseconds(5))) work();
+      page->tick(0);
+    }
+    return hub.events(name);
   }
   Pose pose() const { return pose_of_json(document.section("align").at("T_mesh_world"), "pose"); }
 
