@@ -49,6 +49,11 @@ class AlignBench : public PageRig<> {
   // 5 mm and 5 degrees off.
   Pose guess() const { return random_motion(5e-3, 5.0 * std::numbers::pi / 180.0, p_mesh_m[0], 4) * T_mesh_world; }
 
+  // Does what is posted until the event has been told so often.
+  std::vector<Json> wait_for_events(const std::string& name, std::size_t count) {
+    wait([&] { return hub.events(name).size() >= count; });
+    return hub.events(name);
+  }
   Pose pose() const { return pose_of_json(document.section("align").at("T_mesh_world"), "pose"); }
 
   // Root mean square of how far the pose puts the path's points from where they belong.
