@@ -25,7 +25,7 @@ std::set<std::string> temporary_folders() {
   std::set<std::string> out;
   for (const auto& entry : fs::directory_iterator(fs::temp_directory_path())) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("asperity-scan-")) out.insert(name);
+    if (name.starts_with("asperity-studio-")) out.insert(name);
   }
   return out;
 }
@@ -166,6 +166,39 @@ TEST(ScanPage, DiscardsAndScansAgainUnderTheSameName) {
   ASSERT_TRUE(bench.wait([&] { return bench.segments() == 0; }));
   ASSERT_TRUE(bench.wait([&] { return ReadBlock(bench.refined()).array<double>("s_m").empty(); }));
   EXPECT_THAT(bench.call("scan.refined").error, HasSubstr("no finished scan"));
+}
+
+TEST(ScanPage, BringsBackWhatWasDiscarded) {
+  ScanBench bench;
+  choose_replay(bench);
+  bench.ask("scan.open");
+  EXPECT_THAT(bench.call("scan.restore").error, HasSubstr("nothing was discarded"));
+  scan_once(bench);
+  const ReadBlock before(bench.refined());
+  EXPECT_TRUE(bench.recorder().at("last_discarded").is_null());
+  bench.ask("scan.discard");
+  ASSERT_TRUE(bench.wait([&] { return bench.segments() == 0; }));
+  EXPECT_EQ(bench.recorder().at("last_discarded").at("name"), "segment_1");
+  ASSERT_TRUE(bench.wait([&] { return ReadBlock(bench.refined()).array<double>("s_m").empty(); }));
+  bench.ask("scan.restore");
+  ASSERT_TRUE(bench.wait([&] { return bench.segments() == 1; }));
+  ASSERT_TRUE(bench.wait([&] { return !ReadBlock(bench.refined()).array<double>("s_m").empty(); }));
+  EXPECT_EQ(bench.recorder().at("discarded"), 0);
+  // The same rows, worked out by the same rule.
+  const ReadBlock after(bench.refined());
+  EXPECT_EQ(after.array<double>("s_m"), before.array<double>("s_m"));
+  EXPECT_EQ(after.array<double>("height_m"), before.array<double>("height_m"));
+  EXPECT_FALSE(ReadBlock(bench.call("scan.profile").block).array<double>("s_m").empty());
+  // A take that was scanned again is there beside the new one.
+  scan_once(bench, "scan.rescan");
+  bench.ask("scan.restore");
+  ASSERT_TRUE(bench.wait([&] { return bench.segments() == 2; }));
+  bench.ask("scan.close");
+  const Recording kept = read_recording(bench.folder() / "scan");
+  ASSERT_EQ(kept.info.segments.size(), 2U);
+  EXPECT_EQ(kept.info.segments[0].name, "segment_1_restored");
+  EXPECT_EQ(kept.info.segments[1].name, "segment_1");
+  EXPECT_EQ(kept.probe.size(), 2 * read_recording(bench.folder() / "old").probe.size());
 }
 
 TEST(ScanPage, OverwritesNothingAndLeavesNothingEmptyBehind) {

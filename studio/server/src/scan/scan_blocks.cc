@@ -40,15 +40,19 @@ Json link_json(const LinkStatistics& link) {
   return out;
 }
 
+Json segment_json(const Segment& segment) {
+  Json out;
+  out["name"] = printable(segment.name, 100);
+  out["duration_s"] = 1e-9 * static_cast<double>(segment.end_ns - segment.start_ns);
+  return out;
+}
+
 Json segments_json(const RecorderSnapshot& now) {
   constexpr std::size_t kMostListed = 200;
   Json out = Json::array();
   const std::size_t count = now.segment_list.size();
   for (std::size_t i = count > kMostListed ? count - kMostListed : 0; i < count; ++i) {
-    const Segment& segment = now.segment_list[i];
-    Json each;
-    each["name"] = printable(segment.name, 100);
-    each["duration_s"] = 1e-9 * static_cast<double>(segment.end_ns - segment.start_ns);
+    Json each = segment_json(now.segment_list[i]);
     each["open"] = now.storing && i + 1 == count;
     out.push_back(std::move(each));
   }
@@ -146,6 +150,7 @@ Json recorder_json(const RecorderSnapshot& now) {
   out["segment"] = printable(now.segment, 100);
   out["segments"] = segments_json(now);
   out["discarded"] = now.discarded;
+  out["last_discarded"] = now.last_discarded ? segment_json(*now.last_discarded) : Json();
   out["recorded_s"] = now.recorded_s;
   out["probe_rows"] = now.probe_rows;
   out["tracker_rows"] = now.tracker_rows;
