@@ -194,11 +194,11 @@ TEST(ScanPage, BringsBackWhatWasDiscarded) {
   bench.ask("scan.restore");
   ASSERT_TRUE(bench.wait([&] { return bench.segments() == 2; }));
   bench.ask("scan.close");
-  const Recording kept = read_recording(bench.folder() / "scan");
+  const Recording kept = read_recording(bench.folder / "scan");
   ASSERT_EQ(kept.info.segments.size(), 2U);
   EXPECT_EQ(kept.info.segments[0].name, "segment_1_restored");
   EXPECT_EQ(kept.info.segments[1].name, "segment_1");
-  EXPECT_EQ(kept.probe.size(), 2 * read_recording(bench.folder() / "old").probe.size());
+  EXPECT_EQ(kept.probe.size(), 2 * read_recording(bench.folder / "old").probe.size());
 }
 
 TEST(ScanPage, OverwritesNothingAndLeavesNothingEmptyBehind) {
