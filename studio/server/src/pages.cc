@@ -6,6 +6,7 @@
 #include "paint/paint_page.h"
 #include "process/process_page.h"
 #include "scan/scan_page.h"
+#include "study/study_page.h"
 
 namespace asperity::studio {
 
@@ -16,7 +17,10 @@ std::vector<std::unique_ptr<Page>> make_pages(Shared& shared, const std::optiona
   pages.push_back(make_process_page(shared));
   pages.push_back(make_align_page(shared));
   pages.push_back(make_paint_page(shared));
-  pages.push_back(make_feel_page(shared));
+  auto feel = make_feel_page(shared);
+  FeelPage& host = *feel;
+  pages.push_back(std::move(feel));
+  pages.push_back(make_study_page(shared, host));
   return pages;
 }
 

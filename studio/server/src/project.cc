@@ -27,6 +27,8 @@ std::optional<EntryKind> kind_of_file(const fs::path& path) {
   const std::string name = path.filename().string();
   if (name.ends_with("scene.json")) return EntryKind::kScene;
   if (name.ends_with("texture.json")) return EntryKind::kTexture;
+  if (name.ends_with(".study.json")) return EntryKind::kStudy;
+  if (name.ends_with(".study.csv")) return EntryKind::kStudyLog;
   constexpr std::array<std::string_view, 5> meshes{".obj", ".ply", ".stl", ".gltf", ".glb"};
   constexpr std::array<std::string_view, 2> images{".png", ".pgm"};
   const std::string extension = path.extension().string();

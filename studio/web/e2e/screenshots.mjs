@@ -6,7 +6,7 @@ import { pathToFileURL } from "node:url";
 import { launch, openPage } from "./lib/browser.mjs";
 import { Projects } from "./lib/project.mjs";
 import { scenes } from "./lib/scenes.mjs";
-import { startStudio } from "./lib/studio.mjs";
+import { asperity, startStudio } from "./lib/studio.mjs";
 
 const [binary, docs, all, ...only] = process.argv.slice(2);
 if (!docs) {
@@ -67,7 +67,7 @@ try {
       const studio = await startStudio(binary, folder);
       await page.goto(studio.address);
       await page.getByTestId("link").filter({ hasText: "connected" }).waitFor();
-      await prepare({ page, folder });
+      await prepare({ page, folder, asperity: (...args) => asperity(binary, args, folder) });
       await looks(page, name, before);
       await context.close();
       await studio.stop();

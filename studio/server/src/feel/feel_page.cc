@@ -48,14 +48,8 @@ void FeelPage::bind(Document& document, Calls& calls) {
   });
   calls.add("feel.start", [this](const Request& request) { begin(request); });
   calls.add("feel.stop", [this](const Request& request) {
-    stop_asked_ = true;
-    if (run_) {
-      run_->permit().revoke();
-      run_->stop();
-      state_ = State::kStopping;
-    }
+    end_run();
     request.done();
-    tell();
   });
   calls.add("feel.take", [this](const Request& request) { take(request); });
   calls.add("feel.log", [this](const Request& request) { set_log(request); });
@@ -74,9 +68,10 @@ void FeelPage::edited(const Edit& edit) {
 
 // While a scene is felt, what is under the hand is changed by the one whose hand it is; others may make it safer.
 void FeelPage::check_edit(ClientId client, const Edit& edit) const {
-  if (state_ == State::kIdle || belongs_to(client) || !edit.path.starts_with("/feel")) return;
+  if (state_ == State::kIdle || !edit.path.starts_with("/feel") || (belongs_to(client) && !visited_)) return;
   const bool is_number = edit.path == "/feel/max_force_N" && edit.after.is_number();
   if (is_number && edit.after.get<double>() <= largest_force_N()) return;
+  if (visited_) throw Advice("a study is being felt", "It can be stopped, and its largest force lowered.");
   throw Advice("another window is feeling this scene",
                "It can be stopped, and its largest force lowered. To change it, stop it, or take the force when that "
                "window has let it go.");
@@ -115,7 +110,7 @@ void FeelPage::loaded(std::shared_ptr<const FeltWorld> world) {
   world_ = std::move(world);
   problem_.clear();
   hint_.clear();
-  if (run_ && state_ == State::kRunning) swap_model();
+  if (run_ && state_ == State::kRunning && !visited_) swap_model();
   tell();
 }
 
@@ -169,6 +164,8 @@ Json FeelPage::status() const {
   out["rate_Hz"] = run_ ? running_.config.feel.servo.rate_Hz : 0.0;
   out["real_forces"] = run_ && running_.kind.felt;
   out["owner"] = state_ == State::kIdle ? Json() : Json(run_owner_);
+  out["visited"] = visited_;
+  out["held"] = visited_ && (visit_key_ == 0 || held_until_ns_ != 0);
   out["loading"] = loading_;
   out["revision"] = world_ ? Json(world_->drawn) : Json();
   out["felt"] = world_ ? Json(world_->number) : Json();
@@ -191,9 +188,10 @@ void FeelPage::tell() {
   if (now == told_) return;
   told_ = now;
   shared_.hub.broadcast("feel", now);
+  if (visit_changed_) visit_changed_();
 }
 
-std::unique_ptr<Page> make_feel_page(Shared& shared) {
+std::unique_ptr<FeelPage> make_feel_page(Shared& shared) {
   return std::make_unique<FeelPage>(shared, shared.feel ? *shared.feel : FeelConfig());
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asperity/studio/page.h"
+#include "feel/feel_host.h"
 #include "feel/feel_run.h"
 #include "feel/felt_world.h"
 
@@ -14,7 +15,7 @@ namespace asperity::studio {
 struct EndedLogs;
 
 // The Feel page (docs/studio-feel.md): a scene, a device, and the loop between them.
-class FeelPage : public Page {
+class FeelPage : public Page, public FeelHost {
  public:
   // `start` is what the command line and the user's config say; a browser changes of it only settable_fields(), and
   // lowers the largest force.
@@ -29,6 +30,13 @@ class FeelPage : public Page {
   void pointed(ClientId client, const Pointer& pointer) override;
   void stop() override;
 
+  void visit(const Request& request, FeelVisit visit) override;
+  void change_visit(FeelVisit visit) override;
+  void leave() override;
+  bool is_visited() const override { return visited_; }
+  std::uint64_t visited_key() const override;
+  void on_visit(std::function<void()> changed) override { visit_changed_ = std::move(changed); }
+
  private:
   enum class State { kIdle, kOpening, kRunning, kStopping };
   struct Opening;
@@ -38,6 +46,10 @@ class FeelPage : public Page {
   void load();
   void loaded(std::shared_ptr<const FeltWorld> world);
   void begin(const Request& request);
+  void check_start(const FeelDeviceKind& kind, const Request& request) const;
+  void open_in_job(const Request& request, const std::shared_ptr<Opening>& opening, std::string_view title,
+                   std::function<void(const Observer&)> open);
+  void end_run();
   void opened(Opening& opening, std::exception_ptr error);
   void swap_model();
   void ended();
@@ -74,9 +86,14 @@ class FeelPage : public Page {
   std::vector<Request> log_requests_;
   std::shared_ptr<EndedLogs> ended_logs_;
   Json last_run_;
+
+  bool visited_ = false;            // what is felt, or being opened, is a visitor's
+  std::uint64_t visit_key_ = 0;     // of what is under the hand; 0: being changed
+  std::int64_t held_until_ns_ = 0;  // no force before, between two things of a visitor
+  std::function<void()> visit_changed_;
   Json told_;
 };
 
-std::unique_ptr<Page> make_feel_page(Shared& shared);
+std::unique_ptr<FeelPage> make_feel_page(Shared& shared);
 
 }  // namespace asperity::studio

@@ -23,15 +23,14 @@ constexpr const char* kFlightRecord = "asperity-feel.flight.csv";
 // What the job that opens a device hands over.
 struct FeelPage::Opening {
   FeelSetup setup;
-  std::uint64_t revision = 0;  // of the choices
-  std::shared_ptr<const FeltWorld> world;
+  std::uint64_t revision = 0;              // of the choices
+  std::shared_ptr<const FeltWorld> world;  // null: a visitor's scene
+  std::uint64_t visit = 0;                 // key of that
   OpenedFeel opened;
 };
 
-void FeelPage::begin(const Request& request) {
+void FeelPage::check_start(const FeelDeviceKind& kind, const Request& request) const {
   if (state_ != State::kIdle) throw Advice("a scene is being felt already", "Stop it first.");
-  const FeelChoices chosen = choices();
-  const FeelDeviceKind& kind = feel_device_kind(chosen.device);
   if (kind.felt && !shared_.may_command_forces) {
     throw Advice("forces are not commanded from here",
                  "The studio listens to other machines: start it with --remote-force, or look on with the mouse.");
@@ -40,36 +39,66 @@ void FeelPage::begin(const Request& request) {
   if (owner && *owner != request.client()) {
     throw Advice("another window has the force", "Let it go there, or stop the run there, first.");
   }
+}
+
+void FeelPage::begin(const Request& request) {
+  const FeelChoices chosen = choices();
+  const FeelDeviceKind& kind = feel_device_kind(chosen.device);
+  check_start(kind, request);
   auto opening = std::make_shared<Opening>();
   opening->revision = revision_;
   opening->setup = resolve_choices(chosen, start_, shared_.project);
   opening->setup.config.feel.servo.safety.max_force_N = start_.feel.servo.safety.max_force_N;
+  open_in_job(request, opening, kind.title,
+              [opening, chosen, before = world_, number = ++worlds_](const Observer& observer) {
+                observer.update("the scene", 0.0);
+                opening->world = make_felt_world(opening->setup, chosen, before, number);
+                opening->setup = opening->world->setup;
+                opening->opened = open_feel(opening->setup, *opening->world->scene, observer);
+              });
+}
+
+void FeelPage::visit(const Request& request, FeelVisit visit) {
+  const FeelDeviceKind& kind = feel_device_kind(visit.setup.device);
+  check_start(kind, request);
+  auto opening = std::make_shared<Opening>();
+  opening->revision = revision_;
+  opening->setup = std::move(visit.setup);
+  opening->setup.config.feel.servo.safety.max_force_N = start_.feel.servo.safety.max_force_N;
+  opening->visit = visit.key;
+  visited_ = true;
+  visit_key_ = 0;
+  open_in_job(request, opening, kind.title, [opening, make = std::move(visit.make)](const Observer& observer) {
+    observer.update("the scene", 0.0);
+    const Scene scene = make(opening->setup);
+    opening->opened = open_feel(opening->setup, scene, observer);
+  });
+}
+
+void FeelPage::open_in_job(const Request& request, const std::shared_ptr<Opening>& opening, std::string_view title,
+                           std::function<void(const Observer&)> open) {
   state_ = State::kOpening;
   run_owner_ = request.client();
   stop_asked_ = false;
-  shared_.jobs.start_in(
-      "feel", "Starting " + std::string(kind.title), "",
-      [opening, chosen, before = world_, number = ++worlds_](const Observer& observer) {
-        observer.update("the scene", 0.0);
-        opening->world = make_felt_world(opening->setup, chosen, before, number);
-        opening->setup = opening->world->setup;
-        opening->opened = open_feel(opening->setup, *opening->world->scene, observer);
-      },
-      [this, request, opening](std::exception_ptr error) {
-        opened(*opening, error);
-        if (!error) return request.answer(status());
-        try {
-          std::rethrow_exception(error);
-        } catch (const std::exception& fault) {
-          request.refuse(fault);
-        }
-      });
+  shared_.jobs.start_in("feel", "Starting " + std::string(title), "", std::move(open),
+                        [this, request, opening](std::exception_ptr error) {
+                          opened(*opening, error);
+                          if (!error) return request.answer(status());
+                          try {
+                            std::rethrow_exception(error);
+                          } catch (const std::exception& fault) {
+                            request.refuse(fault);
+                          }
+                        });
   tell();
 }
 
 void FeelPage::opened(Opening& opening, std::exception_ptr error) {
   state_ = State::kIdle;
-  if (error || stop_asked_) return tell();
+  if (error || stop_asked_) {
+    visited_ = false;
+    return tell();
+  }
   const bool newer = revision_ != opening.revision;
   running_ = std::move(opening.opened);
   FeelRunParts parts;
@@ -79,10 +108,13 @@ void FeelPage::opened(Opening& opening, std::exception_ptr error) {
   parts.targets = running_.targets;
   parts.drive = std::move(running_.drive);
   parts.felt = running_.kind.felt;
+  parts.blind = visited_;
   device_model_ = running_.info.model;
   warnings_ = running_.warnings;
   last_run_ = Json();
-  world_ = opening.world;
+  if (opening.world) world_ = opening.world;
+  visit_key_ = opening.visit;
+  held_until_ns_ = 0;
   problem_.clear();
   hint_.clear();
   const std::uint64_t number = ++run_number_;
@@ -119,14 +151,30 @@ void FeelPage::take(const Request& request) {
 
 void FeelPage::permit(std::int64_t now_ns) {
   if (!run_) return;
-  if (state_ == State::kRunning && shared_.may_command_forces && shared_.lease.owner(now_ns) == run_owner_) {
+  const bool held = visited_ && (visit_key_ == 0 || now_ns < held_until_ns_);
+  if (state_ == State::kRunning && !held && shared_.may_command_forces && shared_.lease.owner(now_ns) == run_owner_) {
     run_->permit().renew();
   } else {
     run_->permit().revoke();
   }
 }
 
-void FeelPage::tick(std::int64_t now_ns) { permit(now_ns); }
+void FeelPage::tick(std::int64_t now_ns) {
+  permit(now_ns);
+  if (held_until_ns_ == 0 || now_ns < held_until_ns_) return;
+  held_until_ns_ = 0;
+  tell();
+}
+
+void FeelPage::end_run() {
+  stop_asked_ = true;
+  if (run_) {
+    run_->permit().revoke();
+    run_->stop();
+    state_ = State::kStopping;
+  }
+  tell();
+}
 
 void FeelPage::pointed(ClientId client, const Pointer& pointer) {
   if (!run_ || !belongs_to(client) || shared_.lease.owner(host_now_ns()) != client) return;
@@ -141,6 +189,7 @@ void FeelPage::ended() {
   if (outcome.failure) complain(outcome.failure);
   if (outcome.servo.end == ServoEnd::kFault) keep_flight_record(outcome.servo);
   running_ = {};
+  visited_ = false;
   tell();
 }
 

@@ -31,7 +31,7 @@ void FeelRun::run(Hub& hub, std::uint64_t number) {
   try {
     std::optional<app::ForceHold> hold;
     if (parts_.felt) hold.emplace();
-    TickStream stream(hub, parts_.servo.rate_Hz, number);
+    TickStream stream(hub, parts_.servo.rate_Hz, number, parts_.blind);
     outcome_.servo = run_servo(
         *parts_.device, scene_, parts_.servo, stop_,
         [&](const ServoTick& tick) {

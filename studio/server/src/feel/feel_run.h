@@ -26,6 +26,7 @@ struct FeelRunParts {
   ServoConfig servo;
   std::shared_ptr<PointerTargets> targets;  // of the mouse, else null
   app::FeelDrive drive;                     // what moves the point, if no hand does
+  bool blind = false;                       // browsers see where the point is and what is let through, no more
   bool felt = false;                        // a hand is at it: a signal does not end the program before it is free
 };
 

@@ -29,10 +29,11 @@ void add_vector(BlockWriter& block, std::string_view name, const Eigen::Vector3d
 
 }  // namespace
 
-TickStream::TickStream(Hub& hub, double rate_Hz, std::uint64_t run)
+TickStream::TickStream(Hub& hub, double rate_Hz, std::uint64_t run, bool blind)
     : hub_(hub),
       rate_Hz_(rate_Hz),
       run_(run),
+      blind_(blind),
       frame_ticks_(static_cast<std::uint64_t>(std::max(1.0, std::round(rate_Hz / kFrames_Hz)))),
       late_(std::make_unique<DurationHistogram>()),
       late_until_(static_cast<std::uint64_t>(rate_Hz)),
@@ -41,7 +42,7 @@ TickStream::TickStream(Hub& hub, double rate_Hz, std::uint64_t run)
 void TickStream::add(const ServoTick& tick) {
   if (since_frame_ == 0) {
     wants_state_ = hub_.has_subscribers(kFeelStateTopic);
-    wants_ticks_ = hub_.has_subscribers(kFeelTicksTopic);
+    wants_ticks_ = !blind_ && hub_.has_subscribers(kFeelTicksTopic);
     const bool sound = hub_.has_subscribers(kFeelSoundTopic);
     if (!sound) sounding_ = false;
     wants_sound_ = sound;
@@ -123,7 +124,7 @@ void TickStream::send_state() {
   head["touching"] = output.contact.found();
   head["sticking"] = output.sticking;
   head["starts_inside"] = output.starts_inside;
-  head["height_m"] = output.texture_height_m;
+  head["height_m"] = blind_ ? 0.0 : output.texture_height_m;
   head["way_m"] = way_m_;
   head["speed_mps"] = v_world_mps_.norm();
   head["late_p99_us"] = late_p99_s_ * 1e6;
@@ -132,9 +133,10 @@ void TickStream::send_state() {
   add_vector(block, "p_world_m", last_.p_world_m);
   add_vector(block, "proxy_m", output.proxy_m);
   add_vector(block, "normal_world", output.contact.normal_world);
-  add_vector(block, "contact_N", output.contact_N);
-  add_vector(block, "texture_N", output.texture_N);
-  add_vector(block, "friction_N", output.friction_N);
+  const Eigen::Vector3d hidden_N = Eigen::Vector3d::Zero();
+  add_vector(block, "contact_N", blind_ ? hidden_N : output.contact_N);
+  add_vector(block, "texture_N", blind_ ? hidden_N : output.texture_N);
+  add_vector(block, "friction_N", blind_ ? hidden_N : output.friction_N);
   add_vector(block, "out_world_N", last_.out_world_N);
   hub_.publish(kFeelStateTopic, block.take(), Delivery::kLatest);
 }

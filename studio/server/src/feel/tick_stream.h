@@ -22,7 +22,8 @@ inline constexpr const char* kFeelSoundTopic = "feel.sound";
 // made. On one thread, not the servo's.
 class TickStream {
  public:
-  TickStream(Hub& hub, double rate_Hz, std::uint64_t run);
+  // A blind one has neither ticks nor what would tell one texture from another: the parts of the force, the height.
+  TickStream(Hub& hub, double rate_Hz, std::uint64_t run, bool blind = false);
 
   void add(const ServoTick& tick);
   // What has not been sent yet, at the end of a run.
@@ -38,6 +39,7 @@ class TickStream {
   Hub& hub_;
   double rate_Hz_;
   std::uint64_t run_;
+  bool blind_;
   std::uint64_t frame_ticks_;  // between two frames
   bool wants_state_ = false, wants_ticks_ = false, wants_sound_ = false;
 

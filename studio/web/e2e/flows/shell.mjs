@@ -1,5 +1,5 @@
 // What all pages have in common: going to and fro, keys, themes, a server that ends and comes back, strangers.
-const kPages = ["Scan", "Process", "Align", "Paint", "Feel"];
+const kPages = ["Scan", "Process", "Align", "Paint", "Feel", "Study"];
 
 export default async function shell({ page, step, restart, studio, expectComplaints, openPage, browser, equal, ok, until }) {
   const nav = page.getByRole("navigation", { name: "Pages" });

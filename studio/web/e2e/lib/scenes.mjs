@@ -103,11 +103,28 @@ async function touch({ page }) {
   }, "the texture under the tip");
 }
 
+async function study({ page, folder, asperity }) {
+  for (const [index, side] of ["5mm", "15mm"].entries()) {
+    asperity("texture", "synthesize", "measured/texture.json", "--length", side, "-o", `tile_${index + 1}.png`, "--quiet");
+  }
+  await open(page, "Study");
+  for (const name of ["tile_1.png", "tile_2.png"]) await page.getByTestId("study-stimuli").getByRole("checkbox", { name }).check();
+  await type(page.getByTestId("study-participant"), "p01");
+  await page.getByTestId("study-begin").click();
+  await page.getByTestId("study-touch").click();
+  await page.getByTestId("study-advice").filter({ hasText: "Touch both" }).waitFor();
+}
+
 export const scenes = [
   { name: "scan", prepare: scan },
   { name: "process", prepare: process_ },
   { name: "align", prepare: align },
   { name: "paint", prepare: paint },
+<<<<<<< HEAD
   { name: "feel", prepare: feel, before: touch },
+=======
+  { name: "feel", prepare: feel, holds: true },
+  { name: "study", prepare: study },
+>>>>>>> main
   { name: "report", file: "measured/report.html", prepare: ({ page }) => page.locator(".uplot").first().waitFor() },
 ];

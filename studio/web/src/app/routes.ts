@@ -50,6 +50,13 @@ export const routes: readonly Route[] = [
     key: "f",
     load: () => import("../pages/feel/FeelPage"),
   },
+  {
+    id: "study",
+    title: "Study",
+    purpose: "Let people compare and rate textures, blind and in random order, and log what they say.",
+    key: "u",
+    load: () => import("../pages/study/StudyPage"),
+  },
 ];
 
 const current = signal<Route>(routeOf(typeof location === "undefined" ? "" : location.hash));

@@ -62,7 +62,12 @@ export default function FeelPage() {
       stripHeight="30%"
     >
       <FeelView block={block} {...depth} />
-      {!block && (
+      {status?.visited && (
+        <p class="viewport-empty" role="status">
+          A study is being felt on the Study page.
+        </p>
+      )}
+      {!block && !status?.visited && (
         <p class="viewport-empty" role="status">
           {status?.loading ? "Reading the scene …" : "Choose a scene, a mesh or height maps at the left. The Paint and Align pages write scenes."}
         </p>

@@ -19,6 +19,8 @@ export interface FeelViewProps {
   depth_m: number;
   deepest_m: number;
   onDepth(depth_m: number): void;
+  /** A trial of a study: seen from above, without figures, and felt only while a study is. */
+  blind?: boolean;
 }
 
 const kHoverOfScene = 0.06;
@@ -34,7 +36,8 @@ export function FeelView(props: FeelViewProps) {
   const [ready, setReady] = useState(0);
   const now = useRef(props);
   now.current = props;
-  const { block } = props;
+  const { block, blind = false } = props;
+  const isOurs = () => feelStatus.value?.visited === blind;
 
   useEffect(() => {
     if (!view.current) return;
@@ -47,6 +50,7 @@ export function FeelView(props: FeelViewProps) {
     marks.current?.size(radius_m.current);
     const here = JSON.stringify([box.min, box.max]);
     if (here !== shape.current) view.current.fit(surface.current);
+    if (here !== shape.current && blind) view.current.setView("top");
     shape.current = here;
   }, [block, dark.value, ready]);
 
@@ -54,16 +58,18 @@ export function FeelView(props: FeelViewProps) {
   useEffect(() => {
     if (!view.current || !marks.current) return;
     const most_N = feelStatus.value?.max_force_N ?? 5;
-    if (state) marks.current.show(state, target.current && pointOf(target.current), most_N);
+    // With motors the hand feels the force; a drawn one would be a second answer.
+    if (state && isOurs() && !(blind && feelStatus.value?.real_forces)) marks.current.show(state, target.current && pointOf(target.current), most_N);
     else marks.current.hide();
     view.current.invalidate();
   }, [state, ready]);
 
-  const isMouse = feelStatus.value?.device === "mouse" && commandsRun();
+  const isMouse = feelStatus.value?.device === "mouse" && commandsRun() && isOurs();
   return (
     <Viewport
       label={isMouse ? "The scene. The pointer feels: press to touch, Page Down presses deeper, arrows move" : "The scene with its textured areas"}
       up="z"
+      views={!blind}
       testId="feel-view"
       onReady={(made) => {
         view.current = made;
@@ -72,7 +78,7 @@ export function FeelView(props: FeelViewProps) {
         setReady((count) => count + 1);
         const end = followPointer(made, {
           surface: () => surface.current,
-          active: () => feelStatus.value?.device === "mouse" && commandsRun(),
+          active: () => feelStatus.value?.device === "mouse" && commandsRun() && isOurs(),
           depth_m: () => now.current.depth_m,
           setDepth: (depth_m) => now.current.onDepth(depth_m),
           limits: () => ({ hover_m: kHoverOfScene * radius_m.current, deepest_m: now.current.deepest_m }),
@@ -87,7 +93,7 @@ export function FeelView(props: FeelViewProps) {
         };
       }}
     >
-      <Legend />
+      {!blind && <Legend />}
       <NoForce />
     </Viewport>
   );

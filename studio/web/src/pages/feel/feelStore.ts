@@ -13,6 +13,10 @@ export interface FeelStatus {
   real_forces: boolean;
   /** Whose run it is. */
   owner: number | null;
+  /** What is felt is a trial of a study, not what this page shows. */
+  visited: boolean;
+  /** Between two trials, without force. */
+  held: boolean;
   loading: boolean;
   /** Another number where the scene is drawn differently. */
   revision: number | null;
@@ -156,6 +160,7 @@ export function forceWords(status: FeelStatus | null, state: FeelState | null, c
   if (!status || status.state === "idle") return { lamp: "off", word: "off" };
   if (status.state === "opening") return { lamp: "busy", word: "starting" };
   if (status.state === "stopping") return { lamp: "busy", word: "stopping" };
+  if (status.held) return { lamp: "busy", word: "between trials" };
   if (!state) return { lamp: "busy", word: "running" };
   if (!status.may_command_forces) return { lamp: "warn", word: "shown only" };
   const { lamp, word } = watchdog(state);

@@ -1,0 +1,47 @@
+#include <utility>
+
+#include "asperity/acquire/host_clock.h"
+#include "feel/feel_page.h"
+
+// What is felt for another page.
+
+namespace asperity::studio {
+
+void FeelPage::change_visit(FeelVisit visit) {
+  if (!run_ || !visited_ || state_ != State::kRunning) return;
+  visit_key_ = 0;
+  permit(host_now_ns());
+  auto result = std::make_shared<app::FeltModel>();
+  shared_.jobs.start(
+      "", "feel.visit",
+      [result, visit, info = running_.info, kind = running_.kind, servo = running_.config.feel.servo](const Observer&) {
+        FeelSetup setup = visit.setup;
+        const Scene scene = visit.make(setup);
+        // Where the device stands, how fast it is served and how safely is settled for the run.
+        setup.config.feel.servo = servo;
+        *result = app::make_felt_model(scene, info, kind.driven || kind.name == "mouse", setup.config.feel);
+      },
+      [this, result, key = visit.key, number = run_number_](std::exception_ptr error) {
+        if (!run_ || number != run_number_) return;
+        if (error) {
+          complain(error);
+          return leave();
+        }
+        run_->swap(std::move(result->model));
+        warnings_ = std::move(result->warnings);
+        visit_key_ = key;
+        held_until_ns_ = host_now_ns() + kHold_ns;
+        tell();
+      });
+  tell();
+}
+
+void FeelPage::leave() {
+  if (visited_) end_run();
+}
+
+std::uint64_t FeelPage::visited_key() const {
+  return visited_ && state_ == State::kRunning && held_until_ns_ == 0 ? visit_key_ : 0;
+}
+
+}  // namespace asperity::studio

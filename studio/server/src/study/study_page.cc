@@ -1,0 +1,190 @@
+#include "study/study_page.h"
+
+#include <array>
+#include <utility>
+
+#include "asperity/base/csv.h"
+#include "asperity/base/error.h"
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
+#include "config_fields.h"
+#include "feel/feel_devices.h"
+#include "json_keys.h"
+#include "study/study_file.h"
+#include "study/study_results.h"
+#include "study/trial_scene.h"
+#include "write_target.h"
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr std::uint64_t kLargestLog = std::uint64_t{16} << 20U;
+
+struct Section {
+  Study study;
+  std::string participant;
+};
+
+Section read_section(const Json& section) {
+  if (!section.is_object()) throw Error("study: an object is needed");
+  refuse_unknown(section, {"study", "participant"}, "study");
+  Section out;
+  if (section.contains("study")) out.study = read_study(section["study"], "study");
+  feel_device_kind(out.study.presentation.device);
+  if (!section.contains("participant")) return out;
+  if (!section["participant"].is_string()) throw Error("study: participant: text is needed");
+  out.participant = section["participant"].get<std::string>();
+  if (!out.participant.empty()) check_participant(out.participant);
+  return out;
+}
+
+StudyLog read_log(const Project& project, const std::string& name) {
+  if (!name.ends_with(kStudyLogEnding)) throw Error(printable(name, 200) + ": is no log of a study");
+  return parse_study_log(read_file(project.existing(name), kLargestLog), name);
+}
+
+}  // namespace
+
+StudyPage::StudyPage(Shared& shared, FeelHost& host, FeelConfig start)
+    : shared_(shared), host_(host), start_(std::move(start)) {}
+
+Study StudyPage::study() const { return read_section(shared_.document.section("study")).study; }
+
+void StudyPage::bind(Document& document, Calls& calls) {
+  Json first;
+  first["study"] = study_json(Study());
+  first["participant"] = "";
+  document.add_section("study", std::move(first), [](const Json& section) { read_section(section); });
+  host_.on_visit([this] { follow_touch(); });
+  bind_setup(calls);
+  bind_logs(calls);
+  bind_session(calls);
+}
+
+void StudyPage::bind_setup(Calls& calls) {
+  calls.add("study.status", [this](const Request& request) { request.answer(status()); });
+  calls.add("study.fields", [this](const Request& request) {
+    Study chosen = study(), first;
+    std::vector<ConfigField> fields, defaults;
+    std::vector<ConfigField> all = list_fields("", chosen), all_defaults = list_fields("", first);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (all[k].path.find('.') == std::string::npos) continue;
+      fields.push_back(std::move(all[k]));
+      defaults.push_back(std::move(all_defaults[k]));
+    }
+    request.answer(fields_json(fields, defaults));
+  });
+  calls.add("study.read", [this](const Request& request) {
+    answer_by_job(shared_.jobs, request, "", "",
+                  [project = shared_.project, name = request.text("name")](const Observer&) {
+                    return study_json(read_study_file(project, name));
+                  });
+  });
+  calls.add("study.write", [this](const Request& request) {
+    if (!request.text("name").ends_with(kStudyEnding)) {
+      throw Advice(printable(request.text("name"), 200) + ": is no name of a study",
+                   "Give it the ending " + std::string(kStudyEnding) + ".");
+    }
+    answer_by_job(shared_.jobs, request, "", "",
+                  [target = write_target(shared_.project, request), content = format_study_file(study()),
+                   name = request.text("name")](const Observer&) {
+                    write_file(target, content);
+                    Json out;
+                    out["name"] = name;
+                    return out;
+                  });
+  });
+}
+
+void StudyPage::bind_logs(Calls& calls) {
+  const auto check_closed = [this](const Request& request) {
+    if (session_ && request.text("log") == log_name_) {
+      throw Advice("this log is being written",
+                   "Its results are shown when the session is over, so that nobody's answers depend on them.");
+    }
+  };
+  calls.add("study.results", [this, check_closed](const Request& request) {
+    check_closed(request);
+    answer_by_job(shared_.jobs, request, "", "",
+                  [project = shared_.project, name = request.text("log")](const Observer&) {
+                    const StudyLog log = read_log(project, name);
+                    Json out = study_results(log.session);
+                    out["log"] = name;
+                    out["problems"] = Json::array();
+                    for (const Problem& problem : log.problems) out["problems"].push_back(problem.message);
+                    return out;
+                  });
+  });
+  calls.add("study.export", [this, check_closed](const Request& request) {
+    check_closed(request);
+    answer_by_job(
+        shared_.jobs, request, "", "", [project = shared_.project, name = request.text("log")](const Observer&) {
+          const Json results = study_results(read_log(project, name).session);
+          const std::string file = std::filesystem::path(name).filename().string();
+          Json out;
+          out["name"] = project.free_name(file.substr(0, file.size() - kStudyLogEnding.size()), ".results.json");
+          write_file(project.writable(out["name"].get<std::string>()), results.dump(2) + '\n');
+          return out;
+        });
+  });
+}
+
+void StudyPage::complain(std::exception_ptr error) {
+  try {
+    std::rethrow_exception(error);
+  } catch (const Cancelled&) {
+    return;
+  } catch (const Advice& advice) {
+    problem_ = advice.what();
+    hint_ = advice.hint();
+  } catch (const std::exception& fault) {
+    problem_ = fault.what();
+    hint_ = "What was answered before is in the log.";
+  }
+  tell();
+}
+
+// Nothing of it says which texture lies where, or how the answers are.
+Json StudyPage::status() const {
+  static constexpr std::array<const char*, 5> kPhases{"none", "reading", "paused", "running", "finished"};
+  Json out;
+  out["phase"] = kPhases.at(static_cast<std::size_t>(phase_));
+  out["why"] = why_;
+  out["log"] = log_name_;
+  out["last_log"] = last_log_;
+  out["problem"] = problem_;
+  out["hint"] = hint_;
+  out["session"] = Json();
+  if (!session_) return out;
+  const Study& study = session_->study();
+  Json each;
+  each["name"] = study.name;
+  each["method"] = kStudyMethodNames.at(static_cast<std::size_t>(study.method));
+  each["question"] = study.question;
+  each["object"] = study.object;
+  each["participant"] = session_->participant();
+  each["device"] = study.presentation.device;
+  each["trial"] = session_->trial() ? Json(session_->trial()->number) : Json();
+  each["of"] = session_->planned() ? Json(*session_->planned()) : Json();
+  each["answers"] = session_->answers().size();
+  each["touching"] = host_.is_visited();
+  each["ready"] = touch_since_ns_ != 0;
+  each["touched"] = touched_;
+  each["may_take_back"] = session_->can_take_back();
+  out["session"] = std::move(each);
+  return out;
+}
+
+void StudyPage::tell() {
+  Json now = status();
+  if (now == told_) return;
+  told_ = now;
+  shared_.hub.broadcast("study", now);
+}
+
+std::unique_ptr<Page> make_study_page(Shared& shared, FeelHost& host) {
+  return std::make_unique<StudyPage>(shared, host, shared.feel ? *shared.feel : FeelConfig());
+}
+
+}  // namespace asperity::studio

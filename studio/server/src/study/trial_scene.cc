@@ -1,0 +1,169 @@
+#include "study/trial_scene.h"
+
+#include <array>
+#include <utility>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/scene/height_map_viewer.h"
+#include "asperity/studio/calls.h"
+#include "asperity/texture/read_height_image.h"
+#include "asperity/texture/texture_file.h"
+#include "feel/feel_devices.h"
+
+namespace asperity::studio {
+
+namespace {
+
+constexpr std::array<const char*, 2> kLabels{"A", "B"};
+// Nothing of it can be felt; it stays a texture, so that its own stiffness and friction stay.
+constexpr double kFlat = 1e-9;
+
+bool is_image(const std::string& name) { return name.ends_with(".png") || name.ends_with(".pgm"); }
+
+HeightMapViewerConfig viewer_of(const Study& study) {
+  HeightMapViewerConfig out;
+  out.tile_mm = study.presentation.tile_mm;
+  out.gap_mm = study.presentation.gap_mm;
+  out.columns = study.method == StudyMethod::kRating ? 1 : 2;
+  out.stiffness_N_per_m = study.presentation.stiffness_N_per_m;
+  out.friction = study.presentation.friction;
+  return out;
+}
+
+std::size_t tiles_of(const Study& study) { return study.method == StudyMethod::kRating ? 1 : 2; }
+
+void scale(std::vector<double>& values, double factor) {
+  for (double& value : values) value *= factor;
+}
+
+void scale(Fourier1d& series, double factor) {
+  scale(series.a_m, factor);
+  scale(series.b_m, factor);
+  series.mean_m *= factor;
+}
+
+struct Scale {
+  double factor;
+  void operator()(Fourier1d& model) const { scale(model, factor); }
+  void operator()(Fourier2d& model) const {
+    model.scale_per_m *= factor;
+    model.offset_m *= factor;
+    scale(model.isotropic.power_m2, factor * factor);
+    model.isotropic.mean_m *= factor;
+    scale(model.grid.coefficient_m, factor);
+  }
+  void operator()(HeightMap& model) const {
+    model.low_m *= factor;
+    model.high_m *= factor;
+  }
+  void operator()(ArealTexture& model) const { scale(model.surface.coefficient_m, factor); }
+  void operator()(StochasticTexture& model) const { model.sigma_m *= factor; }
+  void operator()(AutoregressiveTexture& model) const { model.mass_kg *= factor; }
+  void operator()(DecayingSinusoids& model) const { model.mass_kg *= factor; }
+};
+
+// One side of a staircase's trial.
+void change(Texture& texture, const Study& study, double level, bool comparison) {
+  const double more = comparison ? 1.0 + level : 1.0;
+  switch (study.parameter) {
+    case StudyParameter::kHeight:
+      return scale_texture(texture, comparison ? level : kFlat);
+    case StudyParameter::kHeightDifference:
+      return scale_texture(texture, more);
+    case StudyParameter::kStiffnessDifference:
+      texture.stiffness_N_per_m = more * texture.stiffness_N_per_m.value_or(study.presentation.stiffness_N_per_m);
+      return;
+    case StudyParameter::kFrictionDifference:
+      texture.friction = more * texture.friction.value_or(study.presentation.friction);
+      return;
+  }
+}
+
+}  // namespace
+
+void scale_texture(Texture& texture, double factor) {
+  std::visit(Scale{factor}, texture.model);
+  if (texture.lift_m) *texture.lift_m *= factor;
+}
+
+std::vector<Texture> read_stimuli(const Study& study, const Project& project) {
+  ReadHeightImageConfig image;
+  image.width_mm = study.presentation.tile_mm;
+  image.range_mm = study.presentation.range_mm;
+  std::vector<Texture> out;
+  for (const std::string& name : study.stimuli) {
+    const auto file = project.existing(name);
+    out.push_back(is_image(name) ? read_height_image(file, image) : read_texture(file));
+    const bool slippery = !(out.back().friction.value_or(study.presentation.friction) > 0.0);
+    if (study.method == StudyMethod::kStaircase && study.parameter == StudyParameter::kFrictionDifference && slippery) {
+      throw Advice(printable(name, 200) + ": has no friction that could be changed",
+                   "Set the study's friction, or choose another parameter.");
+    }
+  }
+  return out;
+}
+
+FeelSetup study_setup(const Study& study, const FeelConfig& start) {
+  FeelSetup out;
+  out.config = start;
+  out.device = feel_device_kind(study.presentation.device).name;
+  out.config.feel.render.stiffness_N_per_m = study.presentation.stiffness_N_per_m;
+  out.config.feel.render.friction = study.presentation.friction;
+  out.config.feel.texture_model = study.presentation.model;
+  bool images = !study.stimuli.empty();
+  for (const std::string& name : study.stimuli) images = images && is_image(name);
+  if (images && study.presentation.model == app::TextureModelChoice::kAuto) {
+    out.config.feel.texture_model = app::TextureModelChoice::kNormalPerturbation;
+  }
+  // The modelled hand, and what it drives, stroke over the tiles from left to right.
+  out.input.tile_stroke_m = viewer_stroke_m(tiles_of(study), viewer_of(study));
+  return out;
+}
+
+Scene make_trial_scene(const Study& study, const std::vector<Texture>& stimuli, const Trial& trial) {
+  std::vector<Texture> tiles{stimuli.at(static_cast<std::size_t>(trial.left))};
+  if (trial.right >= 0) tiles.push_back(stimuli.at(static_cast<std::size_t>(trial.right)));
+  for (std::size_t k = 0; k < tiles.size(); ++k) {
+    if (trial.level) change(tiles[k], study, *trial.level, trial.comparison_right == (k == 1));
+    tiles[k].name = kLabels.at(k);
+  }
+  return make_height_map_viewer(tiles, viewer_of(study));
+}
+
+BlockWriter make_trial_block(const Study& study) {
+  Texture blank;
+  Fourier1d flat;
+  flat.a_m = flat.b_m = {0.0};
+  blank.model = flat;
+  const std::vector<Texture> tiles(tiles_of(study), blank);
+  const Scene scene = make_height_map_viewer(tiles, viewer_of(study));
+  const MeshFile& mesh = scene.objects.front().mesh;
+  std::vector<float> vertices_m;
+  std::vector<std::uint32_t> triangles;
+  std::vector<std::int32_t> texture;
+  for (const Eigen::Vector3d& vertex_m : mesh.vertices) {
+    for (int axis = 0; axis < 3; ++axis) vertices_m.push_back(static_cast<float>(vertex_m[axis]));
+  }
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    for (const auto corner : mesh.triangles[k]) triangles.push_back(static_cast<std::uint32_t>(corner));
+    texture.push_back(mesh.haptic[k].texture > 0 ? mesh.haptic[k].texture - 1 : -1);
+  }
+  BlockWriter block("study.tiles");
+  block.head()["objects"] = 1;
+  block.head()["indices"] = Json::array();
+  Json heads = Json::array();
+  for (std::size_t k = 0; k < tiles.size(); ++k) {
+    Json head;
+    head["name"] = kLabels.at(k);
+    for (const char* nothing : {"highest_m", "x0_m", "y0_m", "width_m", "height_m"}) head[nothing] = 0.0;
+    heads.push_back(std::move(head));
+  }
+  block.head()["textures"] = std::move(heads);
+  block.add("vertices_0", std::span<const float>(vertices_m), {mesh.vertices.size(), 3});
+  block.add("triangles_0", std::span<const std::uint32_t>(triangles), {mesh.triangles.size(), 3});
+  block.add("texture_0", std::span<const std::int32_t>(texture));
+  return block;
+}
+
+}  // namespace asperity::studio

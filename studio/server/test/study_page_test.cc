@@ -1,0 +1,191 @@
+#include "study/study_page.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+#include "asperity/base/csv.h"
+#include "asperity/testkit/temp_dir.h"
+#include "read_block.h"
+#include "study/study_file.h"
+#include "study_rig.h"
+
+namespace asperity::studio {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class StudyPageTest : public testing::Test {
+ protected:
+  StudyPageTest() { write_height_maps(folder.path()); }
+  std::string log(const std::string& name = "study_p01.study.csv") { return read_file(folder / name, 1 << 20U); }
+  testkit::TempDir folder;
+};
+
+TEST_F(StudyPageTest, AsksAllPairsAndGivesTheResults) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 3);
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  EXPECT_EQ(rig.status()["phase"], "running");
+  EXPECT_EQ(rig.session()["of"], 6);
+  rig.touch();
+  for (int trial = 1; trial <= 6; ++trial) {
+    EXPECT_EQ(rig.session()["trial"], trial);
+    EXPECT_EQ(rig.answer(trial % 2).error, "");
+  }
+  EXPECT_EQ(rig.status()["phase"], "finished");
+  EXPECT_TRUE(rig.pump([&] { return rig.ask("feel.status").result["state"] == "idle"; }));
+  EXPECT_THAT(rig.ask("study.results", {{"log", "study_p01.study.csv"}}).error, HasSubstr("being written"));
+  EXPECT_EQ(rig.ask("study.end").error, "");
+  const Json results = rig.ask("study.results", {{"log", rig.status()["last_log"]}}).result;
+  double wins = 0.0;
+  for (const Json& row : results["wins"]) {
+    for (const Json& each : row) wins += each.is_null() ? 0.0 : each.get<double>();
+  }
+  EXPECT_EQ(wins, 6.0);
+  EXPECT_EQ(results["left"]["count"], 3.0);
+  EXPECT_TRUE(results["whole"].get<bool>());
+  EXPECT_EQ(rig.ask("study.export", {{"log", "study_p01.study.csv"}}).result["name"], "study_p01.results.json");
+  EXPECT_TRUE(std::filesystem::exists(folder / "study_p01.results.json"));
+  EXPECT_FALSE(std::filesystem::exists(folder / ".asperity-study.json"));
+}
+
+TEST_F(StudyPageTest, TellsTheBrowserNothingOfTheTextures) {
+  StudyRig rig(folder.path());
+  rig.set_up("staircase", 1);
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  rig.touch();
+  const std::string told = rig.status().dump() + rig.ask("feel.status").result.dump();
+  for (const char* word : {"tile0", "level", "comparison", "reversal"}) EXPECT_THAT(told, Not(HasSubstr(word)));
+  const ReadBlock block(rig.ask("study.open").block);
+  EXPECT_THAT(block.head.dump(), Not(HasSubstr("tile0")));
+  EXPECT_EQ(block.head["textures"].size(), 2U);
+  EXPECT_TRUE(block.array<float>("height_0").empty());
+  // Pressed into a tile: the hand feels it, and the browser sees neither height nor parts of the force.
+  rig.pointing = true;
+  rig.pointer_m = {0.019, 0.019, -0.004};
+  EXPECT_TRUE(rig.pump([&] { return rig.hub.state().is_object() && rig.hub.state()["touching"].get<bool>(); }));
+  EXPECT_EQ(rig.hub.state()["height_m"], 0.0);
+  EXPECT_TRUE(rig.hub.ticks().empty());
+}
+
+TEST_F(StudyPageTest, TheForceIsTheFeelPagesOwn) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  rig.touch();
+  EXPECT_TRUE(rig.ask("feel.status").result["visited"].get<bool>());
+  EXPECT_THAT(rig.ask("feel.start").error, HasSubstr("being felt already"));
+  // Nobody changes what is under the hand; anybody lowers the force, and stops.
+  Edit edit;
+  edit.path = "/feel/range_mm";
+  edit.after = 1.0;
+  EXPECT_THROW(rig.feel.check_edit(StudyRig::kOwner, edit), Advice);
+  edit.path = "/feel/max_force_N";
+  EXPECT_NO_THROW(rig.feel.check_edit(StudyRig::kOwner + 1, edit));
+  EXPECT_EQ(rig.ask("feel.stop", Json::object(), StudyRig::kOwner + 1).error, "");
+  EXPECT_TRUE(rig.pump([&] { return !rig.session()["touching"].get<bool>(); }));
+  EXPECT_FALSE(rig.session()["ready"].get<bool>());
+  // Between two trials there is none.
+  rig.touch();
+  EXPECT_EQ(rig.answer(0).error, "");
+  EXPECT_FALSE(rig.session()["ready"].get<bool>());
+  EXPECT_TRUE(rig.pump([&] { return rig.session()["ready"].get<bool>(); }));
+  // It ends with the window that began it.
+  rig.study.client_left(StudyRig::kOwner);
+  EXPECT_TRUE(rig.pump([&] { return rig.ask("feel.status").result["state"] == "idle"; }));
+}
+
+TEST_F(StudyPageTest, TakesNoAnswerThatIsNone) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 0}}).error, HasSubstr("no trial is open"));
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 0}}).error, HasSubstr("nothing was felt"));
+  rig.touch();
+  EXPECT_THAT(rig.ask("study.answer", {{"trial", 2}, {"answer", 0}}).error, HasSubstr("answered already"));
+  EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 2}}).error, HasSubstr("no answer"));
+  EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 1e15}}).error, HasSubstr("no answer"));
+  EXPECT_EQ(rig.session()["answers"], 0);
+}
+
+TEST_F(StudyPageTest, TakesTheLastAnswerBackAlsoAtTheEnd) {
+  StudyRig rig(folder.path());
+  rig.set_up("rating", 1);
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  rig.touch();
+  EXPECT_EQ(rig.answer(7).error, "");
+  EXPECT_EQ(rig.status()["phase"], "finished");
+  EXPECT_EQ(rig.ask("study.take_back").error, "");
+  EXPECT_EQ(rig.status()["phase"], "running");
+  EXPECT_THAT(rig.ask("study.take_back").error, HasSubstr("no answer can be taken back"));
+  EXPECT_TRUE(rig.pump([&] { return rig.ask("feel.status").result["state"] == "idle"; }));
+  rig.touch();
+  EXPECT_EQ(rig.answer(2).error, "");
+  EXPECT_EQ(rig.ask("study.end").error, "");
+  const Json results = rig.ask("study.results", {{"log", "study_p01.study.csv"}}).result;
+  EXPECT_EQ(results["ratings"][0]["counts"], Json({0, 1, 0, 0, 0, 0, 0}));
+  EXPECT_THAT(log(), HasSubstr("taken_back,1,"));
+}
+
+TEST_F(StudyPageTest, GoesOnAfterARestart) {
+  {
+    StudyRig rig(folder.path());
+    rig.set_up("pairs", 3);
+    ASSERT_EQ(rig.ask("study.begin").error, "");
+    rig.touch();
+    EXPECT_EQ(rig.answer(1).error, "");
+    EXPECT_EQ(rig.answer(0).error, "");
+  }
+  std::ofstream(folder / "study_p01.study.csv", std::ios::app) << "answer,3,1,";
+  StudyRig rig(folder.path());
+  EXPECT_TRUE(rig.pump([&] { return rig.status()["phase"] == "paused"; }));
+  EXPECT_EQ(rig.status()["why"], "restart");
+  EXPECT_THAT(rig.status()["problem"].get<std::string>(), HasSubstr("cut off"));
+  EXPECT_EQ(rig.session()["trial"], 3);
+  EXPECT_EQ(rig.ask("study.resume").error, "");
+  rig.touch();
+  for (int trial = 3; trial <= 6; ++trial) EXPECT_EQ(rig.answer(1).error, "");
+  EXPECT_EQ(rig.status()["phase"], "finished");
+  EXPECT_EQ(rig.ask("study.end").error, "");
+  EXPECT_EQ(rig.ask("study.results", {{"log", "study_p01.study.csv"}}).result["answers"], 6);
+}
+
+TEST_F(StudyPageTest, HasBreaksAndPausesAndRunsOfTheirOwn) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  rig.document.edit("/study/study/break_every", 1, "breaks");
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  rig.touch();
+  EXPECT_EQ(rig.answer(1).error, "");
+  EXPECT_EQ(rig.status()["why"], "break");
+  EXPECT_THAT(rig.ask("study.touch", {{"on", true}}).error, HasSubstr("no trial is open"));
+  EXPECT_EQ(rig.ask("study.resume").error, "");
+  EXPECT_EQ(rig.ask("study.pause").error, "");
+  EXPECT_EQ(rig.status()["why"], "pause");
+  EXPECT_EQ(rig.ask("study.end").error, "");
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  EXPECT_EQ(rig.status()["log"], "study_p01_2.study.csv");
+  EXPECT_EQ(rig.ask("study.end").error, "");
+  EXPECT_EQ(rig.ask("study.continue", {{"log", "study_p01.study.csv"}}).error, "");
+  EXPECT_EQ(rig.session()["trial"], 2);
+}
+
+TEST_F(StudyPageTest, KeepsStudiesInFiles) {
+  StudyRig rig(folder.path());
+  rig.set_up("rating", 4);
+  EXPECT_THAT(rig.ask("study.write", {{"name", "a.json"}}).error, HasSubstr("no name of a study"));
+  EXPECT_EQ(rig.ask("study.write", {{"name", "a.study.json"}}).error, "");
+  EXPECT_THAT(rig.ask("study.write", {{"name", "a.study.json"}}).error, HasSubstr("there already"));
+  EXPECT_EQ(rig.ask("study.write", {{"name", "a.study.json"}, {"replace", true}}).error, "");
+  EXPECT_EQ(rig.ask("study.read", {{"name", "a.study.json"}}).result, rig.document.section("study")["study"]);
+  EXPECT_THAT(rig.ask("study.read", {{"name", "../a.study.json"}}).error, HasSubstr("no name inside"));
+  EXPECT_THROW(rig.document.edit("/study/participant", "a b", "participant"), Error);
+  EXPECT_THROW(rig.document.edit("/study/study/presentation/device", "hammer", "device"), Error);
+  EXPECT_EQ(rig.ask("study.fields").result[0]["path"], "staircase.parameter");
+}
+
+}  // namespace
+}  // namespace asperity::studio

@@ -1,0 +1,117 @@
+// A study: two textures in both orders, blind, over a reload and a restart, an answer taken back; the log and its results; a staircase begun.
+import { existsSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { open, type } from "../lib/ui.mjs";
+
+const kColumns = "event,trial,repetition,track,left,right,comparison,level,answer,correct,reversal,response_s,since_begin_s,date";
+
+export default async function study({ page, studio, step, restart, folder, asperity, expectComplaints, until, equal, ok, numberIn }) {
+  // Where the processor draws, a small window has more pictures a second.
+  await page.setViewportSize({ width: 1024, height: 700 });
+  const rows = (name = "study_p01.study.csv") => readFileSync(join(folder, name), "utf8").trim().split("\n").slice(2);
+  const session = page.getByTestId("study-session");
+  const progress = (words) => page.getByTestId("study-progress").filter({ hasText: words }).waitFor();
+  const ready = () => page.getByTestId("study-advice").filter({ hasText: "then answer" }).waitFor();
+  const touch = async () => {
+    await page.keyboard.press("Space");
+    await ready();
+  };
+  const shownForce_N = async () => numberIn(await page.getByTestId("force-now").textContent());
+
+  await step("two textures are chosen, and undone and chosen again", async () => {
+    for (const [index, side] of ["5mm", "15mm"].entries()) {
+      asperity("texture", "synthesize", "measured/texture.json", "--length", side, "-o", `tile_${index + 1}.png`, "--quiet");
+    }
+    await page.keyboard.press("g");
+    await page.keyboard.press("u");
+    const list = page.getByTestId("study-stimuli");
+    for (const name of ["tile_1.png", "tile_2.png"]) await list.getByRole("checkbox", { name }).check();
+    await page.getByTestId("undo").click();
+    await until(async () => !(await list.getByRole("checkbox", { name: "tile_2.png" }).isChecked()), "the second texture undone");
+    await page.getByTestId("redo").click();
+    equal(await page.getByTestId("study-begin").isEnabled(), false, "begin without a participant");
+    await type(page.getByTestId("study-participant"), "p01");
+    await page.getByTestId("study-begin").click();
+    await progress("Trial 1 of 2");
+  });
+
+  await step("a trial is touched blind, and answered", async () => {
+    equal(await page.getByTestId("study-answer-a").isEnabled(), false, "an answer before the touch");
+    await touch();
+    const box = await page.getByTestId("feel-view").locator("canvas").boundingBox();
+    await until(async () => {
+      const take = page.getByRole("button", { name: "Take the force" });
+      if (await take.isVisible()) await take.click({ timeout: 1000 }).catch(() => {});
+      await page.mouse.up();
+      await page.mouse.move(box.x + box.width * 0.4, box.y + box.height * 0.45);
+      await page.mouse.down();
+      await page.mouse.move(box.x + box.width * 0.42, box.y + box.height * 0.5, { steps: 5 });
+      return (await shownForce_N()) > 0.05;
+    }, "a force on the hand");
+    await page.mouse.up();
+    ok(!(await page.content()).includes("tile_"), "the page knows no texture's name");
+    await page.keyboard.press("1");
+    await progress("Trial 2 of 2");
+    await until(() => rows().length === 1, "a row in the log");
+    ok(rows()[0].startsWith("answer,1,1,,tile_") && rows()[0].includes(",left,"), rows()[0]);
+  });
+
+  await step("a reload and a restart find the session where it was", async () => {
+    await page.reload();
+    await progress("Trial 2 of 2");
+    expectComplaints(/WebSocket connection/, /ERR_CONNECTION/, /40[13]/);
+    await restart();
+    await page.goto("about:blank");
+    await page.goto(studio().address);
+    await page.getByTestId("link").filter({ hasText: "connected" }).waitFor();
+    expectComplaints();
+    await open(page, "Study");
+    await session.getByText("The session goes on where it was").waitFor();
+    await page.keyboard.press("Space");
+    await progress("Trial 2 of 2");
+  });
+
+  await step("the last answer is taken back, and given again", async () => {
+    await touch();
+    await page.keyboard.press("1");
+    await session.getByText("That was the last one").waitFor();
+    await page.keyboard.press("Backspace");
+    await progress("Trial 2 of 2");
+    await touch();
+    await page.getByTestId("study-answer-b").click();
+    await page.getByTestId("study-show").click();
+    equal(rows().map((row) => row.split(",")[0]), ["answer", "answer", "taken_back", "answer"], "rows of the log");
+    equal(readFileSync(join(folder, "study_p01.study.csv"), "utf8").split("\n")[1], kColumns, "columns of the log");
+  });
+
+  await step("the results are shown and written", async () => {
+    await page.getByTestId("study-wins").waitFor();
+    // Left in one order, right in the other: the same texture both times.
+    const cells = await page.getByTestId("study-wins").locator("td").allTextContents();
+    equal(cells.filter((cell) => cell === "2").length, 1, "a texture that won twice");
+    await page.getByTestId("study-summary").filter({ hasText: "2 answers, all" }).waitFor();
+    await page.getByTestId("study-export").click();
+    await until(() => existsSync(join(folder, "study_p01.results.json")), "the results' file");
+    equal(JSON.parse(readFileSync(join(folder, "study_p01.results.json"), "utf8")).answers, 2, "answers in it");
+  });
+
+  await step("a staircase is begun and left, and its log shown", async () => {
+    await page.getByTestId("study-method").selectOption("staircase");
+    await type(page.getByTestId("study-participant"), "p02");
+    await page.getByTestId("study-begin").click();
+    await touch();
+    for (let trial = 1; trial <= 3; ++trial) {
+      await progress(`Trial ${trial}`);
+      await ready();
+      await page.keyboard.press("2");
+    }
+    await progress("Trial 4");
+    await page.getByTestId("study-end").click();
+    await page.getByTestId("study-thresholds").waitFor();
+    await page.getByTestId("study-continue").waitFor();
+    equal(rows("study_p02.study.csv").length, 3, "answers in the log");
+    await page.getByTestId("study-write").click();
+    await until(() => existsSync(join(folder, "study.study.json")), "the study's file");
+    equal(JSON.parse(readFileSync(join(folder, "study.study.json"), "utf8")).method, "staircase", "method in it");
+  });
+}
