@@ -74,6 +74,8 @@ export function FeelView(props: FeelViewProps) {
       onReady={(made) => {
         view.current = made;
         marks.current = new ForceMarks();
+        // A turned picture would have A at the right.
+        made.controls.enableRotate = made.controls.enablePan = !blind;
         made.scene.add(marks.current.object);
         setReady((count) => count + 1);
         const end = followPointer(made, {

@@ -3,6 +3,7 @@ import type { Block } from "../../net/block";
 import { call, link } from "../../net/connection";
 import { attempt, Button } from "../../ui/Button";
 import { useKeys, type Key } from "../../ui/keys";
+import { commandsRun } from "../feel/feelStore";
 import { FeelView } from "../feel/FeelView";
 import { adviceOf, answerOfKey, pauseWords, progressWords, RATINGS, type Session, type StudyStatus } from "./study";
 import { giveAnswer, toggleTouch } from "./studyStore";
@@ -60,15 +61,16 @@ function TrialView({ session }: { session: Session }) {
     ],
     "Study",
   );
-  // The picture has the digits for its views, and with a pointer the arrows for the touch.
+  // The picture has digits and arrows for its views, which stay as they are here; with a pointer, arrows for the touch.
   const beforeView = (event: KeyboardEvent) => {
     if (!(event.target instanceof HTMLCanvasElement) || event.ctrlKey || event.altKey || event.metaKey) return;
-    if (event.key.startsWith("Arrow") && session.device === "mouse") return;
-    const value = answerOfKey(session.method, event.key);
-    if (value === null) return;
+    const isArrow = event.key.startsWith("Arrow");
+    if (!isArrow && !/^[0-9]$/.test(event.key)) return;
+    if (isArrow && session.device === "mouse" && commandsRun()) return;
     event.preventDefault();
     event.stopPropagation();
-    void attempt(() => answer(value));
+    const value = answerOfKey(session.method, event.key);
+    if (value !== null) void attempt(() => answer(value));
   };
   return (
     <div class="study-trial" ref={place} tabIndex={-1} onKeyDownCapture={beforeView}>
