@@ -120,11 +120,7 @@ export const scenes = [
   { name: "process", prepare: process_ },
   { name: "align", prepare: align },
   { name: "paint", prepare: paint },
-<<<<<<< HEAD
   { name: "feel", prepare: feel, before: touch },
-=======
-  { name: "feel", prepare: feel, holds: true },
   { name: "study", prepare: study },
->>>>>>> main
   { name: "report", file: "measured/report.html", prepare: ({ page }) => page.locator(".uplot").first().waitFor() },
 ];
