@@ -40,7 +40,9 @@ TEST(Usage, TheStudioIsThereOrSaysWhyNot) {
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.err, HasSubstr(web::built() ? "none: no such file or folder" : "built without the studio. "));
   EXPECT_EQ(web::why_not_built().empty(), web::built());
-  if (!web::built()) EXPECT_THAT(outcome.err, HasSubstr(std::string(web::why_not_built()) + ", and build again"));
+  if (!web::built()) {
+    EXPECT_THAT(outcome.err, HasSubstr(std::string(web::why_not_built()) + ", and build again"));
+  }
 }
 
 TEST(Usage, NamesReachTheTerminalEscaped) {
