@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "asperity/base/csv.h"
@@ -27,13 +28,12 @@ namespace {
 
 constexpr std::uint64_t kLargestResult_bytes = 16U << 20U;
 constexpr std::uint64_t kLargestProfile_bytes = 256U << 20U;
+constexpr std::uint64_t kLargestTrajectory_bytes = 1U << 30U;
 constexpr int kDeepestResult = 32;
 constexpr std::size_t kMostPathPoints = 20'000;      // a screen has fewer pixels along a path
 constexpr std::size_t kMostProfilePoints = 400'000;  // 10 m at the usual spacing
 
-Json read_result(const fs::path& file) {
-  const std::string text = read_file(file, kLargestResult_bytes);
-  const std::string name = printable(file.string(), 200);
+Json parse_result(std::string_view text, const std::string& name) {
   const auto watch = [&](int depth, Json::parse_event_t, Json&) {
     if (depth > kDeepestResult) throw Error(name + ": nested more than " + std::to_string(kDeepestResult) + " deep");
     return true;
@@ -55,8 +55,7 @@ Json read_result(const fs::path& file) {
 }
 
 // A column that an older file does not have is nan.
-Profile read_profile(const fs::path& file) {
-  const std::string text = read_file(file, kLargestProfile_bytes), name = printable(file.string(), 200);
+Profile parse_profile(std::string_view text, const std::string& name) {
   CsvReader csv(text, name);
   csv.accept_unterminated();
   Profile out;
@@ -82,9 +81,9 @@ Profile read_profile(const fs::path& file) {
   return out;
 }
 
-void add_path(const fs::path& file, BlockWriter& block) {
+void add_path(const std::optional<std::string_view>& text, const std::string& name, BlockWriter& block) {
   TipMotion motion;
-  if (fs::is_regular_file(file)) motion = read_path(file).motion;
+  if (text) motion = parse_path(*text, name).motion;
   const std::size_t points = motion.size();
   const Chosen chosen = choose(points, kMostPathPoints);
   const double duration_s =
@@ -93,6 +92,11 @@ void add_path(const fs::path& file, BlockWriter& block) {
       {"samples", points}, {"every", chosen.every}, {"points", chosen.index.size()}, {"duration_s", duration_s}};
   const Eigen::Vector3d origin_m = points == 0 ? Eigen::Vector3d(0.0, 0.0, 0.0) : motion.p_world_tip_m[points / 2];
   add_points(block, "trajectory_p_m", chosen, motion.p_world_tip_m, origin_m);
+}
+
+std::string title_of(const Json& result, const std::string& name) {
+  const auto recording = result.find("recording");
+  return !name.empty() || recording == result.end() || !recording->is_string() ? name : recording->get<std::string>();
 }
 
 void find_in(const fs::path& folder, int deepest, std::vector<fs::path>& out) {
@@ -123,27 +127,32 @@ std::vector<fs::path> find_results(const fs::path& folder) {
 }
 
 ReportItem read_report_item(const fs::path& folder, const std::string& name) {
-  const Json result = read_result(folder / "result.json");
-  ReportItem out;
-  const auto recording = result.find("recording");
-  out.name =
-      !name.empty() || recording == result.end() || !recording->is_string() ? name : recording->get<std::string>();
-  if (auto kept = kept_block(folder / "report.html", result)) {
-    out.block = std::move(*kept);
-    return out;
-  }
+  const std::string result = read_file(folder / "result.json", kLargestResult_bytes);
+  const Json parsed = parse_result(result, printable((folder / "result.json").string(), 200));
+  if (auto kept = kept_block(folder / "report.html", parsed)) return {title_of(parsed, name), std::move(*kept)};
+  const std::string profile = read_file(folder / "profile.csv", kLargestProfile_bytes);
+  std::optional<std::string> trajectory;
+  if (fs::is_regular_file(folder / "trajectory.csv"))
+    trajectory = read_file(folder / "trajectory.csv", kLargestTrajectory_bytes);
+  return parse_report_item(result, profile, trajectory, folder, name);
+}
+
+ReportItem parse_report_item(std::string_view result, std::string_view profile,
+                             const std::optional<std::string_view>& trajectory, const fs::path& folder,
+                             const std::string& name) {
+  const auto called = [&](const char* file) { return printable((folder / file).string(), 200); };
+  const Json parsed = parse_result(result, called("result.json"));
   BlockWriter block("measured");
-  block.head()["result"] = result;
+  block.head()["result"] = parsed;
   block.head()["world"] = "camera";
-  block.head()["figures"] = measured_figures(result);
-  block.head()["dropped"] = result.value("problems", Json::array());
+  block.head()["figures"] = measured_figures(parsed);
+  block.head()["dropped"] = parsed.value("problems", Json::array());
   block.head()["gaps"] = Json::array();
   block.head()["gap_count"] = 0;
-  block.head()["compliance"] = result.value("compliance", Json::object());
-  add_profile(read_profile(folder / "profile.csv"), kMostProfilePoints, block);
-  add_path(folder / "trajectory.csv", block);
-  out.block = block.take();
-  return out;
+  block.head()["compliance"] = parsed.value("compliance", Json::object());
+  add_profile(parse_profile(profile, called("profile.csv")), kMostProfilePoints, block);
+  add_path(trajectory, called("trajectory.csv"), block);
+  return {title_of(parsed, name), block.take()};
 }
 
 }  // namespace asperity::studio
