@@ -98,6 +98,18 @@ TEST_F(StudyPageTest, TheForceIsTheFeelPagesOwn) {
   EXPECT_TRUE(rig.pump([&] { return rig.ask("feel.status").result["state"] == "idle"; }));
 }
 
+TEST_F(StudyPageTest, IsTouchedAgainAtOnceAfterTheLastTouchWasLeft) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  rig.touch();
+  // Without a turn of the loop between: the run that ends is still there.
+  EXPECT_EQ(rig.ask("study.touch", {{"on", false}}).error, "");
+  EXPECT_FALSE(rig.session()["touching"].get<bool>());
+  rig.touch();
+  EXPECT_EQ(rig.answer(0).error, "");
+}
+
 TEST_F(StudyPageTest, TakesNoAnswerThatIsNone) {
   StudyRig rig(folder.path());
   rig.set_up("pairs", 2);

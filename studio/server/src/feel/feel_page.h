@@ -33,7 +33,8 @@ class FeelPage : public Page, public FeelHost {
   void visit(const Request& request, FeelVisit visit) override;
   void change_visit(FeelVisit visit) override;
   void leave() override;
-  bool is_visited() const override { return visited_; }
+  bool is_visited() const override { return visited_ && !is_leaving(); }
+  bool is_leaving() const override;
   std::uint64_t visited_key() const override;
   void on_visit(std::function<void()> changed) override { visit_changed_ = std::move(changed); }
 

@@ -40,6 +40,10 @@ void FeelPage::leave() {
   if (visited_) end_run();
 }
 
+bool FeelPage::is_leaving() const {
+  return visited_ && (state_ == State::kStopping || (state_ == State::kOpening && stop_asked_));
+}
+
 std::uint64_t FeelPage::visited_key() const {
   return visited_ && state_ == State::kRunning && held_until_ns_ == 0 ? visit_key_ : 0;
 }

@@ -37,6 +37,7 @@ class StudyPage : public Page {
   void go_on(const std::string& log, const Request* request);
   void open(const std::shared_ptr<Opening>& opening, const Request* request, std::string_view why);
   void touch(const Request& request);
+  void start_touch();
   void answer(const Request& request);
   void take_back(const Request& request);
   void pause(std::string_view why);
@@ -66,10 +67,11 @@ class StudyPage : public Page {
   double before_s_ = 0.0;  // of the session, when it was opened
   std::int64_t opened_ns_ = 0;
 
-  std::uint64_t presented_ = 0;      // key of the trial that is presented
-  ClientId toucher_ = 0;             // who started the touch
-  std::int64_t touch_since_ns_ = 0;  // 0: it cannot be touched now
-  double touched_s_ = 0.0;           // before that
+  std::uint64_t presented_ = 0;         // key of the trial that is presented
+  std::optional<Request> touch_asked_;  // waits for the end of the touch before
+  ClientId toucher_ = 0;                // who started the touch
+  std::int64_t touch_since_ns_ = 0;     // 0: it cannot be touched now
+  double touched_s_ = 0.0;              // before that
   bool touched_ = false;
   std::string problem_, hint_;
   Json told_;

@@ -204,8 +204,22 @@ void StudyPage::touch(const Request& request) {
   }
   if (phase_ != Phase::kRunning) throw Advice("no trial is open", "Begin a session, or end the break.");
   if (host_.is_visited()) return request.done();
+  if (touch_asked_) touch_asked_->done();
+  touch_asked_ = request;
+  start_touch();
+}
+
+// The one before may still be leaving: a moment after an answer, a break or a stop.
+void StudyPage::start_touch() {
+  if (!touch_asked_ || host_.is_leaving()) return;
+  const Request request = *std::exchange(touch_asked_, std::nullopt);
+  if (phase_ != Phase::kRunning) return request.done();
   toucher_ = request.client();
-  host_.visit(request, visit());
+  try {
+    host_.visit(request, visit());
+  } catch (const std::exception& fault) {
+    request.refuse(fault);
+  }
 }
 
 // What can be felt has changed.
@@ -223,6 +237,7 @@ void StudyPage::follow_touch() {
     touch_since_ns_ = 0;
   }
   tell();
+  start_touch();
 }
 
 double StudyPage::response_s(std::int64_t now_ns) const {

@@ -93,6 +93,7 @@ function isTyping(event: KeyboardEvent, name: string): boolean {
     if (target.type === "checkbox") return name === "space";
     return target.type !== "range" || name.includes("arrow") || ["home", "end", "pageup", "pagedown"].includes(name);
   }
-  if (target instanceof HTMLButtonElement || target instanceof HTMLAnchorElement) return name === "space" || name === "enter";
+  if (target instanceof HTMLButtonElement) return name === "space" || name === "enter";
+  if (target instanceof HTMLAnchorElement) return name === "enter";
   return target.getAttribute("role") === "slider" && name.includes("arrow");
 }

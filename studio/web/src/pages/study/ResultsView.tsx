@@ -8,7 +8,7 @@ import { Panel } from "../../ui/Panel";
 import { Select } from "../../ui/Select";
 import { Table } from "../../ui/Table";
 import { say } from "../../ui/toast";
-import { parameterWords, shareWords, stimulusName, thresholdWords, trackSeries, worthWords, type PairShare, type Rating, type StudyResults, type Track } from "./study";
+import { answersWords, parameterWords, shareWords, stimulusName, thresholdWords, trackSeries, worthWords, type PairShare, type Rating, type StudyResults, type Track } from "./study";
 import { studyStatus } from "./studyStore";
 
 /** What the log of a session gives. */
@@ -54,7 +54,7 @@ function Results({ results }: { results: StudyResults }) {
   return (
     <>
       <p data-testid="study-summary">
-        {results.question} Participant {results.participant}, run {results.run}: {results.answers} answers, {results.whole ? "all" : "not at the end yet"}; half of them within{" "}
+        {results.question} Participant {results.participant}, run {results.run}: {answersWords(results.answers)}, {results.whole ? "all" : "not at the end yet"}; half of them within{" "}
         {seconds(results.median_response_s)} of touching. {results.left && `Answers “left”: ${shareWords(results.left)}.`}
       </p>
       {results.problems.map((problem) => (

@@ -5,7 +5,7 @@ import { attempt, Button } from "../../ui/Button";
 import { useKeys, type Key } from "../../ui/keys";
 import { commandsRun } from "../feel/feelStore";
 import { FeelView } from "../feel/FeelView";
-import { adviceOf, answerOfKey, pauseWords, progressWords, RATINGS, type Session, type StudyStatus } from "./study";
+import { adviceOf, answerOfKey, answersWords, pauseWords, progressWords, RATINGS, type Session, type StudyStatus } from "./study";
 import { giveAnswer, toggleTouch } from "./studyStore";
 
 const kDeepest_m = 0.02;
@@ -155,7 +155,7 @@ function Pause({ status, session }: { status: StudyStatus; session: Session }) {
     <div class="study-rest" role="status">
       <h2>{pauseWords(status.why)}</h2>
       <p>
-        {session.answers} answers given{session.of !== null && ` of ${session.of}`}. All of them are in {status.log}. Press Space when you are ready.
+        {answersWords(session.answers)} given{session.of !== null && ` of ${session.of}`}; the log is {status.log}. Press Space when you are ready.
       </p>
       <div class="buttons">
         <Button kind="primary" onClick={resume} testId="study-resume">
@@ -177,7 +177,7 @@ function Finish({ session }: { session: Session }) {
   return (
     <div class="study-rest" role="status">
       <h2>That was the last one. Thank you.</h2>
-      <p>{session.answers} answers given.</p>
+      <p>{answersWords(session.answers)} given.</p>
       <div class="buttons">
         <Button kind="primary" onClick={end} testId="study-show">
           End and show the results

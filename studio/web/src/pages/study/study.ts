@@ -153,8 +153,10 @@ export function answerOfKey(method: Method, key: string): number | null {
   return null;
 }
 
+export const answersWords = (count: number): string => (count === 1 ? "1 answer" : `${count} answers`);
+
 export function progressWords({ trial, of, answers }: Session): string {
-  if (trial === null) return `${answers} answers`;
+  if (trial === null) return answersWords(answers);
   return of === null ? `Trial ${trial}` : `Trial ${trial} of ${of}`;
 }
 
