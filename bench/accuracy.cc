@@ -17,7 +17,7 @@
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/signal/statistics.h"
 #include "asperity/simulation/simulate_recording.h"
-#include "split_list.h"
+#include "read_options.h"
 
 namespace {
 
@@ -34,30 +34,13 @@ struct Options {
 
 Options parse(int argc, char** argv) {
   Options out;
-  for (int i = 1; i < argc; i += 2) {
-    const std::string_view name = argv[i];
-    if (i + 1 >= argc) throw Error(std::string(name) + ": a value is missing");
-    const std::string_view value = argv[i + 1];
-    if (name == "--seeds") {
-      const auto seeds = asperity::parse_int64(value);
-      if (!seeds || *seeds < 1 || *seeds > 1000)
-        throw Error("--seeds: '" + std::string(value) + "' is not from 1 to 1000");
-      out.seeds = static_cast<int>(*seeds);
-    } else if (name == "--faults") {
-      if (value != "yes" && value != "no") throw Error("--faults: '" + std::string(value) + "' is not yes or no");
-      out.faults = value == "yes";
-    } else if (name == "--surfaces") {
-      out.surfaces = split_list(value);
-    } else if (name == "--probes") {
-      out.probes = split_list(value);
-    } else if (name == "--methods") {
-      out.methods = split_list(value);
-    } else if (name == "--speeds") {
-      out.speeds = split_list(value);
-    } else {
-      throw Error("unknown option " + std::string(name));
-    }
-  }
+  bench::read_options(argc, argv,
+                      {{"--seeds", [&](auto value) { out.seeds = bench::seed_count(value); }},
+                       {"--faults", [&](auto value) { out.faults = bench::is_first(value, "yes", "no"); }},
+                       {"--surfaces", [&](auto value) { out.surfaces = bench::split_list(value); }},
+                       {"--probes", [&](auto value) { out.probes = bench::split_list(value); }},
+                       {"--methods", [&](auto value) { out.methods = bench::split_list(value); }},
+                       {"--speeds", [&](auto value) { out.speeds = bench::split_list(value); }}});
   return out;
 }
 

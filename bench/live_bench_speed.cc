@@ -22,11 +22,9 @@
 #include "asperity/pipeline/replay_arrivals.h"
 #include "asperity/signal/statistics.h"
 #include "asperity/simulation/simulate_recording.h"
-#include "split_list.h"
+#include "read_options.h"
 
 namespace {
-
-using asperity::Error;
 
 struct Options {
   int seeds = 3;
@@ -39,32 +37,19 @@ struct Options {
 
 Options parse(int argc, char** argv) {
   Options out;
-  for (int i = 1; i < argc; i += 2) {
-    const std::string_view name = argv[i];
-    if (i + 1 >= argc) throw Error(std::string(name) + ": a value is missing");
-    const std::string_view value = argv[i + 1];
-    if (name == "--seeds") {
-      const auto seeds = asperity::parse_int64(value);
-      if (!seeds || *seeds < 1 || *seeds > 1000) throw Error("--seeds: not from 1 to 1000");
-      out.seeds = static_cast<int>(*seeds);
-    } else if (name == "--pose-delay-ms") {
-      const auto ms = asperity::parse_double(value);
-      if (!ms || !(*ms >= 0.0)) throw Error("--pose-delay-ms: not a time");
-      out.pose_delay_s = 1e-3 * *ms;
-    } else if (name == "--surfaces") {
-      out.surfaces = split_list(value);
-    } else if (name == "--probes") {
-      out.probes = split_list(value);
-    } else if (name == "--speeds") {
-      out.speeds = split_list(value);
-    } else if (name == "--set") {
-      const std::size_t equals = value.find('=');
-      if (equals == std::string_view::npos) throw Error("--set: no '='");
-      asperity::set_field(asperity::list_fields("", out.config), value.substr(0, equals), value.substr(equals + 1));
-    } else {
-      throw Error("unknown option " + std::string(name));
-    }
-  }
+  const auto set = [&](std::string_view value) {
+    const std::size_t equals = value.find('=');
+    if (equals == std::string_view::npos) throw asperity::Error("no '='");
+    asperity::set_field(asperity::list_fields("", out.config), value.substr(0, equals), value.substr(equals + 1));
+  };
+  bench::read_options(
+      argc, argv,
+      {{"--seeds", [&](auto value) { out.seeds = bench::seed_count(value); }},
+       {"--pose-delay-ms", [&](auto value) { out.pose_delay_s = 1e-3 * bench::number_within(value, 0.0, 1e4); }},
+       {"--surfaces", [&](auto value) { out.surfaces = bench::split_list(value); }},
+       {"--probes", [&](auto value) { out.probes = bench::split_list(value); }},
+       {"--speeds", [&](auto value) { out.speeds = bench::split_list(value); }},
+       {"--set", set}});
   return out;
 }
 

@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "asperity/base/error.h"
-#include "asperity/base/text.h"
 #include "asperity/geometry/read_mesh.h"
 #include "asperity/pipeline/register_scans.h"
 #include "asperity/pipeline/true_pose.h"
@@ -30,11 +29,9 @@
 #include "asperity/simulation/place_at_random.h"
 #include "asperity/simulation/random_motion.h"
 #include "asperity/simulation/simulate_recording.h"
-#include "split_list.h"
+#include "read_options.h"
 
 namespace {
-
-using asperity::Error;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr const char* kArc =
@@ -53,45 +50,20 @@ struct Options {
   bool each = false;
 };
 
-double number(std::string_view name, std::string_view text, double low, double high) {
-  const auto value = asperity::parse_double(text);
-  if (!value || !(*value >= low && *value <= high)) {
-    throw Error(std::string(name) + ": '" + std::string(text) + "' is no number in range");
-  }
-  return *value;
-}
-
 Options parse(int argc, char** argv) {
   Options out;
-  for (int i = 1; i < argc; i += 2) {
-    const std::string_view name = argv[i];
-    if (i + 1 >= argc) throw Error(std::string(name) + ": a value is missing");
-    const std::string_view value = argv[i + 1];
-    if (name == "--seeds") {
-      out.seeds = static_cast<int>(number(name, value, 1.0, 1000.0));
-    } else if (name == "--surfaces") {
-      out.surfaces = split_list(value);
-    } else if (name == "--mesh") {
-      out.mesh = value;
-    } else if (name == "--unit") {
-      out.unit_m = number(name, value, 1e-9, 1e3);
-    } else if (name == "--length") {
-      out.length_m = number(name, value, 1e-3, 10.0);
-    } else if (name == "--through") {
-      out.through = value;
-    } else if (name == "--off-mm") {
-      out.off_m = 1e-3 * number(name, value, 0.0, 1e3);
-    } else if (name == "--off-deg") {
-      out.off_rad = kDegree * number(name, value, 0.0, 180.0);
-    } else if (name == "--calibration") {
-      if (value != "stated" && value != "exact") throw Error("--calibration: stated or exact");
-      out.exact = value == "exact";
-    } else if (name == "--each") {
-      out.each = value == "yes";
-    } else {
-      throw Error("unknown option " + std::string(name));
-    }
-  }
+  bench::read_options(
+      argc, argv,
+      {{"--seeds", [&](auto value) { out.seeds = bench::seed_count(value); }},
+       {"--surfaces", [&](auto value) { out.surfaces = bench::split_list(value); }},
+       {"--mesh", [&](auto value) { out.mesh = value; }},
+       {"--unit", [&](auto value) { out.unit_m = bench::number_within(value, 1e-9, 1e3); }},
+       {"--length", [&](auto value) { out.length_m = bench::number_within(value, 1e-3, 10.0); }},
+       {"--through", [&](auto value) { out.through = value; }},
+       {"--off-mm", [&](auto value) { out.off_m = 1e-3 * bench::number_within(value, 0.0, 1e3); }},
+       {"--off-deg", [&](auto value) { out.off_rad = kDegree * bench::number_within(value, 0.0, 180.0); }},
+       {"--calibration", [&](auto value) { out.exact = bench::is_first(value, "exact", "stated"); }},
+       {"--each", [&](auto value) { out.each = bench::is_first(value, "yes", "no"); }}});
   return out;
 }
 

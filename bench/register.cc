@@ -24,6 +24,7 @@
 #include "asperity/registration/register_path.h"
 #include "asperity/registration/register_thesis.h"
 #include "peers/register_peer.h"
+#include "read_options.h"
 
 namespace {
 
@@ -41,26 +42,14 @@ struct Options {
 
 Options parse(int argc, char** argv) {
   Options out;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    const std::string_view name = argv[i];
-    if (name == "--mesh") {
-      out.mesh = argv[i + 1];
-      continue;
-    }
-    const auto value = asperity::parse_double(argv[i + 1]);
-    if (!value || !(*value >= 0.0)) throw asperity::Error(std::string(name) + ": '" + argv[i + 1] + "' is no number");
-    if (name == "--starts") {
-      out.starts = static_cast<int>(std::clamp(*value, 1.0, 1e5));
-    } else if (name == "--noise_mm") {
-      out.noise_m = 1e-3 * *value;
-    } else if (name == "--shift_mm") {
-      out.shift_m = 1e-3 * *value;
-    } else if (name == "--turn_deg") {
-      out.turn_rad = *value * std::numbers::pi / 180.0;
-    } else {
-      throw asperity::Error("unknown option " + std::string(name));
-    }
-  }
+  bench::read_options(
+      argc, argv,
+      {{"--mesh", [&](auto value) { out.mesh = value; }},
+       {"--starts", [&](auto value) { out.starts = static_cast<int>(bench::number_within(value, 1.0, 1e5)); }},
+       {"--noise_mm", [&](auto value) { out.noise_m = 1e-3 * bench::number_within(value, 0.0, 1e3); }},
+       {"--shift_mm", [&](auto value) { out.shift_m = 1e-3 * bench::number_within(value, 0.0, 1e3); }},
+       {"--turn_deg",
+        [&](auto value) { out.turn_rad = std::numbers::pi / 180.0 * bench::number_within(value, 0.0, 180.0); }}});
   return out;
 }
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -14,6 +13,7 @@
 #include "asperity/recording/read_recording.h"
 #include "calibrate_command.h"
 #include "commands.h"
+#include "json_of.h"
 #include "noise_figure.h"
 #include "our_file.h"
 
@@ -28,7 +28,7 @@ Json json_of_noise(const SeriesNoise& noise, const std::string& unit) {
           {"white_" + unit, noise.white},
           {"white_stderr_" + unit, noise.white_error},
           {"slow_" + unit, noise.slow},
-          {"slow_stderr_" + unit, std::isfinite(noise.slow_error) ? Json(noise.slow_error) : Json(nullptr)},
+          {"slow_stderr_" + unit, number_or_null(noise.slow_error)},
           {"slow_time_s", noise.slow_time_s},
           {"total_" + unit, noise.total},
           {"effective_samples", noise.effective_samples},
@@ -36,7 +36,7 @@ Json json_of_noise(const SeriesNoise& noise, const std::string& unit) {
           {"excess_kurtosis", noise.excess_kurtosis},
           {"anderson_darling", noise.anderson_darling},
           {"gaussian_probability",
-           std::isfinite(noise.gaussian_probability) ? Json(noise.gaussian_probability) : Json(nullptr)}};
+           number_or_null(noise.gaussian_probability)}};
 }
 
 Json json_of_axes(const std::array<SeriesNoise, 3>& axes, const std::string& unit) {

@@ -41,10 +41,8 @@ class StudioCommand : public Command {
 
   int run(const Observer&) override {
     if (!web::built()) {
-      throw Error(
-          "this asperity was built without the studio, because Node.js was not found; install it (scripts/bootstrap) "
-          "and "
-          "build again");
+      throw Error("this asperity was built without the studio. " + std::string(web::why_not_built()) +
+                  ", and build again");
     }
     choose_folder();
     config_.feel = std::make_shared<const studio::FeelConfig>(feel_);

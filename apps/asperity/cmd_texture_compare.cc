@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -15,6 +14,7 @@
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
+#include "json_of.h"
 #include "option_units.h"
 #include "texture_input.h"
 
@@ -44,12 +44,10 @@ constexpr const char* kNoticeable = "noticeable";
 
 const char* verdict(bool noticeable) { return noticeable ? kNoticeable : kSame; }
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json to_json(const Difference& d) {
-  return {{"a", number(d.a)},
-          {"b", number(d.b)},
-          {"percent", number(d.percent)},
+  return {{"a", number_or_null(d.a)},
+          {"b", number_or_null(d.b)},
+          {"percent", number_or_null(d.percent)},
           {"jnd_percent", d.jnd_percent},
           {"verdict", verdict(d.noticeable)}};
 }
@@ -96,7 +94,7 @@ class TextureCompareCommand : public Command {
       Json one = to_json(band.rms_m);
       one["low_cycles_per_mm"] = band.low_cycles_per_mm;
       one["high_cycles_per_mm"] = band.high_cycles_per_mm;
-      one["uncertainty_percent"] = number(band.uncertainty_percent);
+      one["uncertainty_percent"] = number_or_null(band.uncertainty_percent);
       one["felt"] = band.felt;
       out["bands"].push_back(one);
     }

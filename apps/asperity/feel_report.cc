@@ -5,20 +5,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "json_of.h"
+
 namespace asperity::app {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json spectrum_json(const SpectrumAgreement& spectrum, const char* unit) {
   Json out;
-  out[std::string("real_rms_") + unit] = number(spectrum.real_rms);
-  out[std::string("rendered_rms_") + unit] = number(spectrum.rendered_rms);
-  out["rms_ratio"] = number(spectrum.rms_ratio);
-  out["distance_dB"] = number(spectrum.distance_dB);
+  out[std::string("real_rms_") + unit] = number_or_null(spectrum.real_rms);
+  out[std::string("rendered_rms_") + unit] = number_or_null(spectrum.rendered_rms);
+  out["rms_ratio"] = number_or_null(spectrum.rms_ratio);
+  out["distance_dB"] = number_or_null(spectrum.distance_dB);
   out["octaves"] = Json::array();
   for (const BandAgreement& band : spectrum.bands) {
     out["octaves"].push_back({{"low_cycles_per_mm", band.low_cycles_per_mm},
@@ -72,7 +72,7 @@ Json FeelFigures::json() const {
                   {"peak_friction_N", peak_friction_N_},
                   {"peak_out_N", peak_out_N_},
                   {"rms_out_N", std::sqrt(square_out_N2_ / count)}};
-  out["texture_height"] = {{"lowest_m", number(lowest_m_)}, {"highest_m", number(highest_m_)}};
+  out["texture_height"] = {{"lowest_m", number_or_null(lowest_m_)}, {"highest_m", number_or_null(highest_m_)}};
   out["safety"] = Json::object();
   for (std::size_t k = 0; k < causes_.size(); ++k) {
     if (causes_[k] > 0) out["safety"][std::string(kSafetyCauseNames[k])] = causes_[k];
@@ -101,15 +101,15 @@ Json score_json(const RenderingScore& score) {
   out["trustworthy"] = score.trustworthy;
   out["band_cycles_per_mm"] = {score.low_cycles_per_mm, score.high_cycles_per_mm};
   out["speed_mps"] = score.speed_mps;
-  out["compared_m"] = number(score.compared_m);
+  out["compared_m"] = number_or_null(score.compared_m);
   out["ticks"] = score.ticks;
   out["touched"] = score.touched;
   out["phase_known"] = score.phase_known;
   if (!score.phase_known) out["phase_unknown"] = score.phase_unknown;
-  out["correlation"] = number(score.correlation);
-  out["gain"] = number(score.gain);
-  out["shift_m"] = number(score.shift_m);
-  out["distribution_distance"] = number(score.distribution_distance);
+  out["correlation"] = number_or_null(score.correlation);
+  out["gain"] = number_or_null(score.gain);
+  out["shift_m"] = number_or_null(score.shift_m);
+  out["distribution_distance"] = number_or_null(score.distribution_distance);
   out["height"] = spectrum_json(score.height, "m");
   out["force"] = spectrum_json(score.force, "N");
   out["measured_force"] = spectrum_json(score.measured_force, "N");

@@ -1,6 +1,6 @@
 #include "asperity/web/assets.h"
 
-// The program was built without Node.
+// The program was built without the app.
 namespace asperity::web {
 
 bool built() { return false; }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "asperity/testkit/temp_dir.h"
+#include "asperity/web/assets.h"
 #include "run_asperity.h"
 
 namespace asperity::cli {
@@ -30,6 +31,17 @@ TEST(Usage, VersionAndHelp) {
     for (const char* option : {"--json", "--config", "--set", "--print-config", "--quiet"}) {
       EXPECT_THAT(one.out, HasSubstr(option)) << command;
     }
+  }
+}
+
+TEST(Usage, TheStudioIsThereOrSaysWhyNot) {
+  const testkit::TempDir dir;
+  const Outcome outcome = run({"studio", (dir / "none").string(), "--no-open"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr(web::built() ? "none: no such file or folder" : "built without the studio. "));
+  EXPECT_EQ(web::why_not_built().empty(), web::built());
+  if (!web::built()) {
+    EXPECT_THAT(outcome.err, HasSubstr(std::string(web::why_not_built()) + ", and build again"));
   }
 }
 

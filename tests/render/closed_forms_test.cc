@@ -18,16 +18,8 @@ using Eigen::Vector3d;
 // Forces of 1 N agree to a micronewton where the shape is exact: the proxy's tolerance is relative to its size.
 constexpr double kForceTol_N = 1e-6;
 
-class Tips : public testing::TestWithParam<double> {
- protected:
-  double radius_m() const { return GetParam(); }
-  RenderConfig config() const {
-    RenderConfig config;
-    config.tip_radius_m = radius_m();
-    return config;
-  }
-};
-INSTANTIATE_TEST_SUITE_P(Radii, Tips, testing::Values(0.0, 0.5e-3, 2e-3));
+class Tips : public OfTipRadii {};
+INSTANTIATE_TEST_SUITE_P(Radii, Tips, kRadii_m);
 
 void expect_force(const ServoOutput& out, const Vector3d& force_N, double tolerance_N) {
   if (testing::Test::HasFailure()) return;  // one is enough: a path of thousands of steps fails as one

@@ -17,19 +17,17 @@ using Eigen::Vector3d;
 
 constexpr double kSliding = 0.5, kStaticRatio = 1.2, kDepth_m = 1e-3;
 
-class Friction : public testing::TestWithParam<double> {
+class Friction : public OfTipRadii {
  protected:
-  double radius_m() const { return GetParam(); }
   RenderConfig config() const {
-    RenderConfig config;
-    config.tip_radius_m = radius_m();
+    RenderConfig config = OfTipRadii::config();
     config.friction = kSliding;
     config.static_friction_ratio = kStaticRatio;
     return config;
   }
   Vector3d at(double x_m, double y_m) const { return {x_m, y_m, radius_m() - kDepth_m}; }
 };
-INSTANTIATE_TEST_SUITE_P(Radii, Friction, testing::Values(0.0, 0.5e-3, 2e-3));
+INSTANTIATE_TEST_SUITE_P(Radii, Friction, kRadii_m);
 
 TEST_P(Friction, HoldsBelowTheStaticLimitThenSlidesEvenly) {
   Rig rig(scene_of({sheet(60e-3, 37)}), config());

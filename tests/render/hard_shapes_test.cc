@@ -130,15 +130,8 @@ TEST(HardShapes, SliversAndGiantsInAPlaneAreAPlane) {
   }
 }
 
-class Tip : public testing::TestWithParam<double> {
- protected:
-  RenderConfig config() const {
-    RenderConfig config;
-    config.tip_radius_m = GetParam();
-    return config;
-  }
-};
-INSTANTIATE_TEST_SUITE_P(Radii, Tip, testing::Values(0.0, 0.5e-3, 2e-3));
+class Tip : public OfTipRadii {};
+INSTANTIATE_TEST_SUITE_P(Radii, Tip, kRadii_m);
 
 // A hand cannot do that, a replayed path or a device that lost its place can.
 TEST_P(Tip, JumpsOfCentimetresDoNotLeadInside) {

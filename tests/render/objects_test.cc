@@ -17,16 +17,8 @@ using Eigen::Vector3d;
 
 constexpr double kForceTol_N = 1e-6;
 
-class Objects : public testing::TestWithParam<double> {
- protected:
-  double radius_m() const { return GetParam(); }
-  RenderConfig config() const {
-    RenderConfig config;
-    config.tip_radius_m = radius_m();
-    return config;
-  }
-};
-INSTANTIATE_TEST_SUITE_P(Radii, Objects, testing::Values(0.0, 0.5e-3, 2e-3));
+class Objects : public OfTipRadii {};
+INSTANTIATE_TEST_SUITE_P(Radii, Objects, kRadii_m);
 
 TEST_P(Objects, AreFeltTogether) {
   TriangleMesh wall = sheet(40e-3, 8);

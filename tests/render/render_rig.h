@@ -3,6 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Core>
 
 #include "asperity/geometry/triangle_mesh.h"
@@ -30,6 +32,19 @@ TriangleMesh fold(double slope, double size_m, int cells);
 
 TriangleMesh moved(TriangleMesh mesh, const Eigen::Vector3d& by_m);
 TriangleMesh scaled(TriangleMesh mesh, double by);
+
+// A test for each radius of the tip, in metres.
+class OfTipRadii : public testing::TestWithParam<double> {
+ protected:
+  double radius_m() const { return GetParam(); }
+  RenderConfig config() const {
+    RenderConfig config;
+    config.tip_radius_m = radius_m();
+    return config;
+  }
+};
+// A point and two balls.
+inline const auto kRadii_m = testing::Values(0.0, 0.5e-3, 2e-3);
 
 // A model with one tip, stepped along straight lines.
 struct Rig {

@@ -76,15 +76,7 @@ Expected by_hand(const Fourier1d& texture, double lowest, double x_m, double z_m
   return {k_N_per_m * depth_m, kc * k_N_per_m * into_m, height_m};
 }
 
-class TextureForces : public testing::TestWithParam<double> {
- protected:
-  double radius_m() const { return GetParam(); }
-  RenderConfig config() const {
-    RenderConfig config;
-    config.tip_radius_m = radius_m();
-    return config;
-  }
-};
+class TextureForces : public OfTipRadii {};
 INSTANTIATE_TEST_SUITE_P(Radii, TextureForces, testing::Values(0.0, 0.5e-3));
 
 TEST_P(TextureForces, FollowTheFormulaAlongAStroke) {

@@ -115,10 +115,11 @@ std::optional<std::string> SegmentWriter::discard(std::int64_t t_ns) {
   if (segments_.empty()) return std::nullopt;
   if (latest_ns_ != kNever) close(t_ns);
   open_ = false;
-  const Segment gone = std::move(segments_.back());
+  Segment gone = std::move(segments_.back());
   segments_.pop_back();
   ++discarded_;
   if (latest_ns_ == kNever) return gone.name;  // it never had a row
+  gone.start_ns = std::max(gone.start_ns, first_ns_);
   trash_.push_back(gone);
   if (trash_.size() > kMostDiscarded) {
     given_up_until_ns_ = std::max(given_up_until_ns_, trash_.front().end_ns);

@@ -180,6 +180,16 @@ TEST(SegmentWriter, BringsBackWhatWasDiscardedWithItsLateRows) {
   EXPECT_EQ(recording.info.segments[0].end_ns, 2000 * kMs);
 }
 
+TEST(SegmentWriter, WhatWasDiscardedBeginsWithItsFirstRow) {
+  Rig rig;
+  rig.writer.start("a", SegmentWriter::kFromFirstRow, 0);
+  rig.run_to(1000);
+  rig.writer.discard(1000 * kMs);
+  EXPECT_EQ(rig.writer.trash().back().start_ns, 10 * kMs);
+  rig.writer.restore();
+  EXPECT_EQ(rig.writer.segments().back().start_ns, 10 * kMs);
+}
+
 TEST(SegmentWriter, BringsBackTheLastFirst) {
   Rig rig;
   for (std::int64_t i = 0; i < 3; ++i) {

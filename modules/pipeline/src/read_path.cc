@@ -44,8 +44,11 @@ Eigen::Quaterniond rotation_at(const CsvReader& csv, const std::array<std::size_
 }  // namespace
 
 PathFile read_path(const std::filesystem::path& file) {
-  const std::string text = read_file(file, kLargestFile_bytes);
-  CsvReader csv(text, printable(file.string()));
+  return parse_path(read_file(file, kLargestFile_bytes), printable(file.string()));
+}
+
+PathFile parse_path(std::string_view text, const std::string& name) {
+  CsvReader csv(text, name);
   csv.accept_unterminated();
   const std::array<std::size_t, 3> position{csv.require("px_m"), csv.require("py_m"), csv.require("pz_m")};
   const auto time = csv.find("t_ns");
@@ -82,7 +85,7 @@ PathFile read_path(const std::filesystem::path& file) {
       if (std::isinf(motion.force_N.back())) csv.fail(*force, "the force is not finite");
     }
   }
-  if (motion.size() == 0) throw Error(printable(file.string()) + ": no row with a position");
+  if (motion.size() == 0) throw Error(name + ": no row with a position");
   if (passed_over > 0) out.problems.push_back({"no_position", "rows without a position were passed over", passed_over});
   return out;
 }

@@ -71,9 +71,7 @@ std::string title_of(const std::vector<ReportItem>& items) {
 std::string format_report(const std::vector<ReportItem>& items) {
   if (items.empty()) throw Error("a report needs at least one result");
   if (!web::built()) {
-    throw Error(
-        "this asperity was built without reports, because Node.js was not found; install it (scripts/bootstrap) and "
-        "build again");
+    throw Error("this asperity was built without reports. " + std::string(web::why_not_built()) + ", and build again");
   }
   std::string out = "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n";
   out += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n";

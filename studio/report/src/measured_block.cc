@@ -7,45 +7,16 @@
 
 #include "asperity/base/units.h"
 #include "asperity/pipeline/write_result.h"
-#include "asperity/profile/measure_spectrum.h"
 #include "asperity/studio/measured_figures.h"
+#include "profile_block.h"
 #include "profile_gaps.h"
+#include "thinned.h"
 
 namespace asperity::studio {
 
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-
-// Every k-th of `count` indices.
-struct Chosen {
-  std::size_t every = 1;
-  std::vector<std::size_t> index;
-};
-
-Chosen choose(std::size_t count, std::size_t at_most) {
-  Chosen out;
-  out.every = std::max<std::size_t>(1, (count + at_most - 1) / at_most);
-  for (std::size_t i = 0; i < count; i += out.every) out.index.push_back(i);
-  return out;
-}
-
-template <class Value>
-std::vector<float> gather(const Chosen& chosen, Value value) {
-  std::vector<float> out;
-  out.reserve(chosen.index.size());
-  for (const std::size_t i : chosen.index) out.push_back(static_cast<float>(value(i)));
-  return out;
-}
-
-void add_points(BlockWriter& block, std::string_view name, const Chosen& chosen,
-                const std::vector<Eigen::Vector3d>& points_m, const Eigen::Vector3d& origin_m) {
-  std::vector<float> out;
-  for (const std::size_t i : chosen.index) {
-    for (int axis = 0; axis < 3; ++axis) out.push_back(static_cast<float>(points_m[i][axis] - origin_m[axis]));
-  }
-  block.add(name, out, {chosen.index.size(), 3});
-}
 
 // Force sensors are slower than the probe: each reading holds until the next.
 std::vector<double> held(const std::vector<double>& readings, std::size_t size) {
@@ -89,31 +60,6 @@ void add_trajectory(const ProcessResult& result, std::size_t max_points, BlockWr
   std::vector<std::uint8_t> contact;
   for (const std::size_t i : on_base.index) contact.push_back(result.base.contact[i] != 0 ? 1 : 0);
   block.add("trajectory_contact", contact);
-}
-
-void add_profile(const Profile& profile, std::size_t max_points, BlockWriter& block) {
-  const Chosen chosen = choose(profile.size(), max_points);
-  block.head()["profile"] = {{"samples", profile.size()},
-                             {"every", chosen.every},
-                             {"points", chosen.index.size()},
-                             {"first_m", profile.size() > 0 ? profile.s_m[0] : 0.0},
-                             {"spacing_m", profile.spacing_m * static_cast<double>(chosen.every)}};
-  const auto add = [&](std::string_view name, const std::vector<double>& values) {
-    block.add(name, gather(chosen, [&](std::size_t i) { return values.at(i); }));
-  };
-  add("profile_height_m", profile.height_m);
-  add("profile_sigma_m", profile.sigma_m);
-  add("profile_texture_m", profile.texture_m);
-  add("profile_force_N", profile.force_N);
-  add("profile_speed_mps", profile.speed_mps);
-}
-
-void add_spectrum(const Profile& profile, BlockWriter& block) {
-  const PowerSpectrum spectrum =
-      profile.size() > 0 ? measure_spectrum(profile.texture_m, profile.spacing_m) : PowerSpectrum{};
-  block.head()["spectrum"] = {{"segments", spectrum.segments}};
-  block.add("spectrum_cycles_per_mm", spectrum.frequency);
-  block.add("spectrum_density_m2_mm", spectrum.density);
 }
 
 void add_compliance(const Compliance& compliance, BlockWriter& block) {
@@ -165,7 +111,6 @@ BlockWriter measured_block(const ProcessResult& result, const Recording& recordi
   add_dropped(result, config.max_gaps, block);
   add_trajectory(result, config.max_trajectory_points, block);
   add_profile(result.profile, config.max_profile_points, block);
-  add_spectrum(result.profile, block);
   add_compliance(result.compliance, block);
   if (result.accuracy) add_compared(result.accuracy->heights, block);
   return block;

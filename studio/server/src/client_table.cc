@@ -79,10 +79,27 @@ void ClientTable::rouse(Client& client) {
 void ClientTable::push(Client& client, const OutFrame& frame) {
   if (client.cut) return;
   if (client.outbox.push_message(frame)) return rouse(client);
-  // Woken even though it is being written to: that will not come to an end.
+  cut(client);
+}
+
+void ClientTable::cut(Client& client) {
   client.cut = true;
   client.outbox = {};
+  // Woken even though it is being written to: that will not come to an end.
   client.wake();
+}
+
+void ClientTable::keep_within_memory() {
+  for (;;) {
+    std::size_t sum = 0;
+    Client* most = nullptr;
+    for (auto& [id, client] : clients_) {
+      sum += client.outbox.message_bytes();
+      if (most == nullptr || client.outbox.message_bytes() > most->outbox.message_bytes()) most = &client;
+    }
+    if (sum <= kMostMessageBytes) return;
+    cut(*most);
+  }
 }
 
 void ClientTable::publish(std::string_view topic, std::string bytes, Delivery delivery) {
@@ -100,12 +117,16 @@ void ClientTable::send_all(std::string text) {
   const OutFrame frame = shared_frame(std::move(text), true);
   const std::lock_guard lock(mutex_);
   for (auto& [id, client] : clients_) push(client, frame);
+  keep_within_memory();
 }
 
 void ClientTable::send(ClientId id, std::string bytes, bool is_text) {
   const OutFrame frame = shared_frame(std::move(bytes), is_text);
   const std::lock_guard lock(mutex_);
-  if (const auto found = clients_.find(id); found != clients_.end()) push(found->second, frame);
+  const auto found = clients_.find(id);
+  if (found == clients_.end()) return;
+  push(found->second, frame);
+  keep_within_memory();
 }
 
 bool ClientTable::begin_call(ClientId id, std::uint64_t call, std::size_t bytes) {
@@ -162,6 +183,13 @@ std::size_t ClientTable::most_waiting_bytes() const {
   std::size_t most = 0;
   for (const auto& [id, client] : clients_) most = std::max(most, client.outbox.bytes());
   return most;
+}
+
+std::size_t ClientTable::all_message_bytes() const {
+  const std::lock_guard lock(mutex_);
+  std::size_t sum = 0;
+  for (const auto& [id, client] : clients_) sum += client.outbox.message_bytes();
+  return sum;
 }
 
 }  // namespace asperity::studio

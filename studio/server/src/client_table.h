@@ -24,6 +24,9 @@ class ClientTable {
   static constexpr std::size_t kMostTopics = 64;
   static constexpr std::size_t kMostUnanswered = 1000;
   static constexpr std::size_t kMostUnansweredBytes = 4U << 20U;
+  // Answers and events that wait for all clients together: beyond them the one for whom most wait is cut off. Frames of
+  // topics are shared.
+  static constexpr std::size_t kMostMessageBytes = 512U << 20U;
 
   explicit ClientTable(std::size_t most_clients) : most_clients_(most_clients) {}
 
@@ -58,6 +61,8 @@ class ClientTable {
   std::uint64_t dropped() const;
   // The most bytes that wait for any client.
   std::size_t most_waiting_bytes() const;
+  // Those of answers and events for all of them.
+  std::size_t all_message_bytes() const;
 
  private:
   struct Client {
@@ -72,6 +77,8 @@ class ClientTable {
 
   static void rouse(Client& client);
   static void push(Client& client, const OutFrame& frame);
+  static void cut(Client& client);
+  void keep_within_memory();
   void drop_topic(const std::string& topic);
 
   const std::size_t most_clients_;

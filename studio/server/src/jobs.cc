@@ -138,6 +138,11 @@ class Lane {
     woken_.notify_all();
   }
 
+  std::size_t waiting() {
+    const std::lock_guard lock(mutex_);
+    return waiting_.size();
+  }
+
   void cancel(std::uint64_t id) {
     std::vector<std::shared_ptr<Job>> dropped;
     {
@@ -233,6 +238,13 @@ std::uint64_t Jobs::start_in(const std::string& lane, const std::string& title, 
 
 void Jobs::cancel(std::uint64_t id) {
   for (auto& [name, lane] : impl_->lanes) lane.cancel(id);
+}
+
+void Jobs::check_room() const {
+  std::size_t waiting = 0;
+  for (auto& [name, lane] : impl_->lanes) waiting += lane.waiting();
+  if (waiting >= kMostWaiting)
+    throw Advice("too much is waiting to be worked on", "Wait until some of it is done, or cancel it below.");
 }
 
 void Jobs::bind(Calls& calls) {

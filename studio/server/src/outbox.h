@@ -35,6 +35,8 @@ class Outbox {
   // A topic's frames that were not sent.
   void forget(std::string_view topic);
 
+  // Of answers and events, which no other browser shares.
+  std::size_t message_bytes() const { return message_bytes_; }
   std::size_t bytes() const { return message_bytes_ + series_bytes_ + latest_bytes_; }
 
  private:

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <chrono>
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -15,23 +13,21 @@
 #include "asperity/geometry/write_obj.h"
 #include "asperity/simulation/make_pebble.h"
 #include "asperity/simulation/random_motion.h"
-#include "asperity/testkit/temp_dir.h"
-#include "fake_hub.h"
-#include "inbox.h"
 #include "json_pose.h"
+#include "page_rig.h"
 #include "read_block.h"
 
 namespace asperity::studio {
 
 // A folder with a pebble in millimetres and a path that winds over its upper half with 10 µm of noise, seen from a
-// world of its own; and the page over it, the test being the studio's thread.
-class AlignBench {
+// world of its own; and the page over it.
+class AlignBench : public PageRig<> {
  public:
   AlignBench() {
     MeshFile file;
     file.triangles = pebble.triangles;
     for (const Eigen::Vector3d& vertex_m : pebble.vertices_m) file.vertices.push_back(1e3 * vertex_m);
-    write_obj(folder.path() / "pebble.obj", file);
+    write_obj(folder / "pebble.obj", file);
     Random random(3);
     std::string csv = "t_ns,px_m,py_m,pz_m\n";
     for (int i = 0; i < 500; ++i) {
@@ -43,11 +39,8 @@ class AlignBench {
       csv += std::to_string(10'000'000LL * i) + "," + number_text(p_m.x()) + "," + number_text(p_m.y()) + "," +
              number_text(p_m.z()) + "\n";
     }
-    write_file(folder.path() / "path.csv", csv);
-    page = make_align_page(shared);
-    page->bind(document, calls);
-    jobs->bind(calls);
-    document.load();
+    write_file(folder / "path.csv", csv);
+    open(make_align_page(shared));
     document.edit("/align/paths", {"path.csv"}, "");
     document.edit("/align/mesh", "pebble.obj", "");
     document.edit("/align/T_mesh_world", json_of_pose(guess()), "");
@@ -56,22 +49,10 @@ class AlignBench {
   // 5 mm and 5 degrees off.
   Pose guess() const { return random_motion(5e-3, 5.0 * std::numbers::pi / 180.0, p_mesh_m[0], 4) * T_mesh_world; }
 
-  FakeHub::Answer call(const std::string& name, const Json& args = Json::object()) {
-    const std::uint64_t id = begin(name, args);
-    return wait_for(id);
-  }
-  std::uint64_t begin(const std::string& name, const Json& args) {
-    calls.dispatch(Request(hub, 1, Call{++last_id_, name, args}));
-    return last_id_;
-  }
-  // Does what is posted until `id` is answered.
-  FakeHub::Answer wait_for(std::uint64_t id) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-    while (!hub.answered(id) && std::chrono::steady_clock::now() < end) {
-      for (const auto& work : inbox.wait(std::chrono::steady_clock::now() + std::chrono::milliseconds(5))) work();
-      page->tick(0);
-    }
-    return hub.answer_to(id);
+  // Does what is posted until the event has been told so often.
+  std::vector<Json> wait_for_events(const std::string& name, std::size_t count) {
+    wait([&] { return hub.events(name).size() >= count; });
+    return hub.events(name);
   }
   Pose pose() const { return pose_of_json(document.section("align").at("T_mesh_world"), "pose"); }
 
@@ -88,20 +69,6 @@ class AlignBench {
   const TriangleMesh pebble = make_pebble();
   const MeshBvh bvh{pebble};
   std::vector<Eigen::Vector3d> p_mesh_m;
-
-  testkit::TempDir folder;
-  FakeHub hub;
-  Inbox inbox;
-  Calls calls;
-  Project project{folder.path()};
-  Document document{folder.path() / ".asperity-studio.json"};
-  ForceLease lease;
-  std::unique_ptr<Jobs> jobs = std::make_unique<Jobs>(hub, [this](Inbox::Work work) { inbox.post(std::move(work)); });
-  Shared shared{hub, project, document, *jobs, lease, true, [this](Inbox::Work work) { inbox.post(std::move(work)); }};
-  std::unique_ptr<Page> page;
-
- private:
-  std::uint64_t last_id_ = 0;
 };
 
 inline Json args_of(std::initializer_list<std::pair<std::string, Json>> args) {

@@ -62,10 +62,11 @@ TEST_F(AlignRunTest, TakenItIsOneStepAndWrittenAsTheCommandLineWrites) {
   const Json before = bench_.document.section("align");
   EXPECT_THAT(bench_.call("align.accept", args_of({{"solution", "best"}})).hint, HasSubstr("Run one"));
   const Json result = bench_.call("align.run", args_of({{"guess", true}})).result;
+  const Json ran = bench_.document.section("align");
   bench_.call("align.accept", args_of({{"solution", "best"}}));
   EXPECT_EQ(bench_.document.section("align").at("T_mesh_world"), result["T_mesh_world"]);
   bench_.document.undo();
-  EXPECT_EQ(bench_.document.section("align"), before);
+  EXPECT_EQ(bench_.document.section("align"), ran);
   bench_.document.redo();
 
   const FakeHub::Answer written = bench_.call("align.write", args_of({{"name", "laid"}}));
@@ -76,17 +77,17 @@ TEST_F(AlignRunTest, TakenItIsOneStepAndWrittenAsTheCommandLineWrites) {
               HasSubstr("asperity register 'path.csv' 'pebble.obj' --mesh-unit 'mm' --guess="));
 
   // The same through the functions of `asperity register`.
-  const std::filesystem::path other = bench_.folder.path() / "other";
+  const std::filesystem::path other = bench_.folder / "other";
   std::filesystem::create_directory(other);
-  const app::RegisterInput input = app::read_register_input({(bench_.folder.path() / "path.csv").string()},
-                                                            (bench_.folder.path() / "pebble.obj").string(), 1e-3, {});
+  const app::RegisterInput input = app::read_register_input({(bench_.folder / "path.csv").string()},
+                                                            (bench_.folder / "pebble.obj").string(), 1e-3, {});
   const Pose guess = pose_of_json(json_of_pose(pose_of_json(before["T_mesh_world"], "")), "");
   write_registration(other, app::register_input(input, guess, {}), input.scans, input.mesh, 1e-3);
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(other)) {
     if (entry.is_directory()) continue;
     const auto name = std::filesystem::relative(entry.path(), other);
-    EXPECT_EQ(read_file(entry.path(), 1U << 30U), read_file(bench_.folder.path() / "laid" / name, 1U << 30U)) << name;
+    EXPECT_EQ(read_file(entry.path(), 1U << 30U), read_file(bench_.folder / "laid" / name, 1U << 30U)) << name;
     ++files;
   }
   EXPECT_GE(files, 4U);
@@ -114,10 +115,62 @@ TEST_F(AlignRunTest, IsCancelledAndWritesNothingThen) {
   const std::uint64_t write = bench_.begin("align.write", args_of({{"name", "never"}}));
   bench_.call("job.cancel", args_of({{"job", 3}}));
   bench_.call("job.cancel", args_of({{"job", 2}}));
-  EXPECT_EQ(bench_.wait_for(run).error, "cancelled");
-  EXPECT_EQ(bench_.wait_for(write).error, "cancelled");
-  EXPECT_FALSE(std::filesystem::exists(bench_.folder.path() / "never"));
+  EXPECT_EQ(bench_.answer_to(run).error, "cancelled");
+  EXPECT_EQ(bench_.answer_to(write).error, "cancelled");
+  EXPECT_FALSE(std::filesystem::exists(bench_.folder / "never"));
   EXPECT_TRUE(bench_.call("align.result").result.is_null());
+}
+
+TEST_F(AlignRunTest, AResultIsThereAgainAfterARestart) {
+  const Json first = bench_.call("align.run", args_of({{"guess", true}})).result;
+  ASSERT_TRUE(first.is_object());
+  // The document is all that a restart leaves.
+  write_file(bench_.folder.path() / "again.json", bench_.document.take_unsaved().value());
+  Calls calls;
+  Document document(bench_.folder.path() / "again.json");
+  Shared shared{bench_.hub, bench_.project, document, *bench_.jobs, bench_.lease, true, bench_.shared.post};
+  const std::unique_ptr<Page> page = make_align_page(shared);
+  page->bind(document, calls);
+  document.load();
+  EXPECT_THAT(document.problems(), testing::IsEmpty());
+  const std::size_t told = bench_.hub.events("align.result").size();
+  calls.dispatch(Request(bench_.hub, 1, Call{1000, "align.open", Json::object()}));
+  const std::vector<Json> events = bench_.wait_for_events("align.result", told + 1);
+  ASSERT_EQ(events.size(), told + 1);
+  EXPECT_EQ(events.back(), first);  // the same, to the last digit
+  calls.dispatch(Request(bench_.hub, 1, Call{1001, "align.iterations", Json::object()}));
+  EXPECT_FALSE(ReadBlock(bench_.hub.answer_to(1001).block).array<double>("rms_m").empty());
+}
+
+TEST_F(AlignRunTest, UndoTakesAResultBackAndRedoBringsIt) {
+  const Json first = bench_.call("align.run", args_of({{"guess", true}})).result;
+  EXPECT_EQ(bench_.document.undo_label(), "register");
+  bench_.document.undo();
+  EXPECT_TRUE(bench_.call("align.result").result.is_null());
+  EXPECT_TRUE(bench_.hub.events("align.result").back().is_null());
+  const std::size_t told = bench_.hub.events("align.result").size();
+  bench_.document.redo();
+  Json again = bench_.wait_for_events("align.result", told + 1).back();
+  EXPECT_EQ(again["T_mesh_world"], first["T_mesh_world"]);
+  EXPECT_EQ(again["verdict"], first["verdict"]);
+  EXPECT_NE(again["run"], first["run"]);
+}
+
+TEST_F(AlignRunTest, ACancelledOneIsNotBegunAgainByItself) {
+  bench_.call("align.run", args_of({{"guess", true}}));
+  bench_.document.undo();
+  const std::size_t told = bench_.hub.events("job").size();
+  bench_.document.redo();
+  ASSERT_GT(bench_.hub.events("job").size(), told);
+  const Json job = bench_.hub.events("job")[told];
+  EXPECT_THAT(job["title"].get<std::string>(), HasSubstr("again"));
+  bench_.call("job.cancel", args_of({{"job", job["id"]}}));
+  std::vector<Json> states = bench_.hub.events("job");
+  while (states.back()["state"] == "waiting" || states.back()["state"] == "running")
+    states = bench_.wait_for_events("job", states.size() + 1);
+  bench_.call("align.open");
+  states = bench_.hub.events("job");
+  for (std::size_t i = told; i < states.size(); ++i) EXPECT_EQ(states[i]["id"], job["id"]) << states[i].dump();
 }
 
 }  // namespace

@@ -38,40 +38,40 @@ TEST(FeelPage, IsFeltWithThePointerWhileItHasTheForce) {
   FeelRig rig;
   rig.choose_height_maps();
   rig.own_force();
-  EXPECT_EQ(rig.ask("feel.start").error, "");
+  EXPECT_EQ(rig.call("feel.start").error, "");
   EXPECT_EQ(rig.status()["state"], "running");
   rig.touch();
   EXPECT_LE(rig.hub.newest().out_N, 5.0);
-  EXPECT_TRUE(rig.pump([&] { return rig.hub.state()["touching"].get<bool>() && rig.hub.state()["height_m"] > 0.0; }));
+  EXPECT_TRUE(rig.wait([&] { return rig.hub.state()["touching"].get<bool>() && rig.hub.state()["height_m"] > 0.0; }));
 
   // Its heartbeats stop: nothing else is done.
   rig.beating.clear();
-  EXPECT_TRUE(rig.pump([&] { return rig.hub.newest().out_N == 0.0; }));
+  EXPECT_TRUE(rig.wait([&] { return rig.hub.newest().out_N == 0.0; }));
   const std::vector<FeelHub::Tick> ticks = rig.hub.ticks();
   // ramp_down_s is 20 ticks; ticks that came late count for more, none for less.
   EXPECT_LE(ramp_ticks(ticks), 22U);
   EXPECT_LE(beyond_rate_N(ticks), 1e-6);
   EXPECT_GT(ticks.back().rendered_N, 0.3);  // it is still shown what a hand would feel
-  EXPECT_TRUE(rig.pump([&] {
+  EXPECT_TRUE(rig.wait([&] {
     const Json state = rig.hub.state();
     return std::count(state["limited"].begin(), state["limited"].end(), "not-permitted") == 1;
   }));
 
   // And it comes back with the lease.
   rig.own_force();
-  EXPECT_TRUE(rig.pump([&] { return rig.hub.newest().out_N > 0.3; }));
+  EXPECT_TRUE(rig.wait([&] { return rig.hub.newest().out_N > 0.3; }));
 }
 
 TEST(FeelPage, OnlyTheOwnerOfTheForceMovesThePointer) {
   FeelRig rig;
   rig.choose_height_maps();
   rig.own_force();
-  ASSERT_EQ(rig.ask("feel.start").error, "");
+  ASSERT_EQ(rig.call("feel.start").error, "");
   rig.touch();
   const Pointer elsewhere{0, {0.5, 0.5, 0.5}};
   const std::size_t before = rig.hub.ticks().size();
-  EXPECT_TRUE(rig.pump([&] {
-    rig.page.pointed(FeelRig::kOwner + 1, elsewhere);
+  EXPECT_TRUE(rig.wait([&] {
+    rig.page->pointed(FeelRig::kOwner + 1, elsewhere);
     return rig.hub.ticks().size() > before + 200 && rig.hub.newest().out_N > 0.3;
   }));
 }
@@ -80,15 +80,15 @@ TEST(FeelPage, AnyoneMayStop) {
   FeelRig rig;
   rig.choose_height_maps();
   rig.own_force();
-  ASSERT_EQ(rig.ask("feel.start").error, "");
+  ASSERT_EQ(rig.call("feel.start").error, "");
   rig.touch();
-  EXPECT_EQ(rig.ask("feel.stop", Json::object(), FeelRig::kOwner + 1).error, "");
-  EXPECT_TRUE(rig.pump([&] { return rig.status()["state"] == "idle"; }));
+  EXPECT_EQ(rig.call("feel.stop", Json::object(), FeelRig::kOwner + 1).error, "");
+  EXPECT_TRUE(rig.wait([&] { return rig.status()["state"] == "idle"; }));
   EXPECT_EQ(rig.hub.newest().out_N, 0.0);
   EXPECT_LE(ramp_ticks(rig.hub.ticks()), 22U);
   EXPECT_EQ(rig.status()["last_run"]["end"], "stopped");
   // And again.
-  EXPECT_EQ(rig.ask("feel.start").error, "");
+  EXPECT_EQ(rig.call("feel.start").error, "");
   rig.touch();
 }
 
@@ -96,7 +96,7 @@ TEST(FeelPage, ChangesWhileTouchingDoNotStepTheForce) {
   FeelRig rig;
   rig.choose_height_maps();
   rig.own_force();
-  ASSERT_EQ(rig.ask("feel.start").error, "");
+  ASSERT_EQ(rig.call("feel.start").error, "");
   rig.touch();
   const std::array<std::pair<const char*, Json>, 4> edits{{{"/feel/settings/render.texture.model", "stochastic"},
                                                            {"/feel/settings/render.friction", 0.4},
@@ -105,9 +105,9 @@ TEST(FeelPage, ChangesWhileTouchingDoNotStepTheForce) {
   for (const auto& [path, value] : edits) {
     const Json before = rig.status()["felt"];
     rig.document.edit(path, value, "change");
-    EXPECT_TRUE(rig.pump([&] { return rig.status()["felt"] != before; })) << path;
+    EXPECT_TRUE(rig.wait([&] { return rig.status()["felt"] != before; })) << path;
     const std::size_t ticks = rig.hub.ticks().size();
-    EXPECT_TRUE(rig.pump([&] { return rig.hub.ticks().size() > ticks + 150 && rig.hub.newest().out_N > 0.2; }));
+    EXPECT_TRUE(rig.wait([&] { return rig.hub.ticks().size() > ticks + 150 && rig.hub.newest().out_N > 0.2; }));
   }
   EXPECT_LE(beyond_rate_N(rig.hub.ticks()), 1e-6);
   EXPECT_EQ(rig.status()["problem"], "");
@@ -117,29 +117,29 @@ TEST(FeelPage, ASceneThatCannotBeReadLeavesTheRunningOneAlone) {
   FeelRig rig;
   rig.choose_height_maps();
   rig.own_force();
-  ASSERT_EQ(rig.ask("feel.start").error, "");
+  ASSERT_EQ(rig.call("feel.start").error, "");
   rig.touch();
   const Json before = rig.status();
   std::ofstream(rig.folder / "broken.pgm") << "P5\nthis is no image";
   rig.document.edit("/feel/height_maps", {"broken.pgm"}, "choose");
-  EXPECT_TRUE(rig.pump([&] { return rig.status()["problem"] != ""; }));
+  EXPECT_TRUE(rig.wait([&] { return rig.status()["problem"] != ""; }));
   EXPECT_THAT(rig.status()["problem"].get<std::string>(), HasSubstr("broken.pgm"));
   EXPECT_EQ(rig.status()["state"], "running");
   EXPECT_EQ(rig.status()["felt"], before["felt"]);
   const std::size_t ticks = rig.hub.ticks().size();
-  EXPECT_TRUE(rig.pump([&] { return rig.hub.ticks().size() > ticks + 100 && rig.hub.newest().out_N > 0.3; }));
+  EXPECT_TRUE(rig.wait([&] { return rig.hub.ticks().size() > ticks + 100 && rig.hub.newest().out_N > 0.3; }));
   rig.document.undo();
-  EXPECT_TRUE(rig.pump([&] { return rig.status()["problem"] == ""; }));
+  EXPECT_TRUE(rig.wait([&] { return rig.status()["problem"] == ""; }));
 }
 
 TEST(FeelPage, TheLargestForceIsLoweredFromTheBrowserAndNotRaised) {
   FeelRig rig;
   rig.choose_height_maps();
   rig.own_force();
-  ASSERT_EQ(rig.ask("feel.start").error, "");
+  ASSERT_EQ(rig.call("feel.start").error, "");
   rig.touch();
   rig.document.edit("/feel/max_force_N", 0.1, "limit");
-  EXPECT_TRUE(rig.pump([&] { return rig.hub.newest().out_N <= 0.1 + 1e-6; }));
+  EXPECT_TRUE(rig.wait([&] { return rig.hub.newest().out_N <= 0.1 + 1e-6; }));
   rig.document.edit("/feel/max_force_N", 500.0, "limit");
   EXPECT_EQ(rig.status()["max_force_N"], SafetyConfig().max_force_N);
 }
@@ -148,13 +148,13 @@ TEST(FeelPage, WhoMayNotCommandForcesIsToldSo) {
   FeelRig rig(false);
   rig.choose_height_maps();
   rig.document.edit("/feel/device", "haply", "device");
-  const FakeHub::Answer answer = rig.ask("feel.start");
+  const FakeHub::Answer answer = rig.call("feel.start");
   EXPECT_THAT(answer.error, HasSubstr("not commanded from here"));
   EXPECT_THAT(answer.hint, HasSubstr("--remote-force"));
   // The modelled hand is shown; nothing is let through.
   rig.document.edit("/feel/device", "sim", "device");
-  EXPECT_EQ(rig.ask("feel.start").error, "");
-  EXPECT_TRUE(rig.pump([&] { return rig.hub.newest().rendered_N > 0.1; }));
+  EXPECT_EQ(rig.call("feel.start").error, "");
+  EXPECT_TRUE(rig.wait([&] { return rig.hub.newest().rendered_N > 0.1; }));
   for (const FeelHub::Tick& tick : rig.hub.ticks()) ASSERT_EQ(tick.out_N, 0.0);
 }
 
@@ -162,21 +162,21 @@ TEST(FeelPage, AnotherWindowThatHasTheForceKeepsIt) {
   FeelRig rig;
   rig.choose_height_maps();
   rig.own_force();
-  EXPECT_THAT(rig.ask("feel.start", Json::object(), FeelRig::kOwner + 1).error, HasSubstr("another window"));
-  EXPECT_EQ(rig.ask("feel.start").error, "");
-  EXPECT_THAT(rig.ask("feel.start").error, HasSubstr("already"));
+  EXPECT_THAT(rig.call("feel.start", Json::object(), FeelRig::kOwner + 1).error, HasSubstr("another window"));
+  EXPECT_EQ(rig.call("feel.start").error, "");
+  EXPECT_THAT(rig.call("feel.start").error, HasSubstr("already"));
 }
 
 TEST(FeelPage, WritesALog) {
   FeelRig rig;
   rig.choose_height_maps();
   rig.own_force();
-  EXPECT_NE(rig.ask("feel.log", {{"on", true}}).error, "");
-  ASSERT_EQ(rig.ask("feel.start").error, "");
-  EXPECT_EQ(rig.ask("feel.log", {{"on", true}}).result["log"], "feel.csv");
+  EXPECT_NE(rig.call("feel.log", {{"on", true}}).error, "");
+  ASSERT_EQ(rig.call("feel.start").error, "");
+  EXPECT_EQ(rig.call("feel.log", {{"on", true}}).result["log"], "feel.csv");
   const std::size_t ticks = rig.hub.ticks().size();
-  EXPECT_TRUE(rig.pump([&] { return rig.hub.ticks().size() > ticks + 100; }));
-  EXPECT_EQ(rig.ask("feel.log", {{"on", false}}).result["log"], "feel.csv");
+  EXPECT_TRUE(rig.wait([&] { return rig.hub.ticks().size() > ticks + 100; }));
+  EXPECT_EQ(rig.call("feel.log", {{"on", false}}).result["log"], "feel.csv");
   std::ifstream file(rig.folder / "feel.csv");
   std::string line;
   std::getline(file, line);
@@ -185,9 +185,9 @@ TEST(FeelPage, WritesALog) {
   while (std::getline(file, line)) ++rows;
   EXPECT_GT(rows, 50);
   // The next one is another file, and is whole when the run ends.
-  EXPECT_EQ(rig.ask("feel.log", {{"on", true}}).result["log"], "feel_2.csv");
-  rig.ask("feel.stop");
-  EXPECT_TRUE(rig.pump([&] { return rig.status()["state"] == "idle" && rig.status()["log"] == ""; }));
+  EXPECT_EQ(rig.call("feel.log", {{"on", true}}).result["log"], "feel_2.csv");
+  rig.call("feel.stop");
+  EXPECT_TRUE(rig.wait([&] { return rig.status()["state"] == "idle" && rig.status()["log"] == ""; }));
   EXPECT_TRUE(std::filesystem::exists(rig.folder / "feel_2.csv"));
 }
 
@@ -219,22 +219,22 @@ TEST(FeelPage, ARunBelongsToTheOneWhoStartedIt) {
   FeelRig rig;
   rig.choose_height_maps();
   rig.own_force();
-  ASSERT_EQ(rig.ask("feel.start").error, "");
+  ASSERT_EQ(rig.call("feel.start").error, "");
   rig.touch();
   constexpr ClientId kOther = FeelRig::kOwner + 1;
   rig.lease.release(FeelRig::kOwner);
   rig.beating = {kOther};
-  EXPECT_TRUE(rig.pump([&] { return rig.hub.newest().out_N == 0.0; }));
+  EXPECT_TRUE(rig.wait([&] { return rig.hub.newest().out_N == 0.0; }));
   const std::size_t ticks = rig.hub.ticks().size();
-  EXPECT_TRUE(rig.pump([&] { return rig.hub.ticks().size() > ticks + 300; }));
+  EXPECT_TRUE(rig.wait([&] { return rig.hub.ticks().size() > ticks + 300; }));
   const std::vector<FeelHub::Tick> silent = rig.hub.ticks();
   for (std::size_t k = ticks; k < silent.size(); ++k) ASSERT_EQ(silent[k].out_N, 0.0);
   // By its own word it may go on with it.
-  EXPECT_NE(rig.ask("feel.take", Json::object(), FeelRig::kOwner).error, "");
-  EXPECT_EQ(rig.ask("feel.take", Json::object(), kOther).error, "");
+  EXPECT_NE(rig.call("feel.take", Json::object(), FeelRig::kOwner).error, "");
+  EXPECT_EQ(rig.call("feel.take", Json::object(), kOther).error, "");
   EXPECT_EQ(rig.status()["owner"], kOther);
-  EXPECT_TRUE(rig.pump([&] {
-    rig.page.pointed(kOther, Pointer{0, {0.007, 0.017, -0.004}});
+  EXPECT_TRUE(rig.wait([&] {
+    rig.page->pointed(kOther, Pointer{0, {0.007, 0.017, -0.004}});
     return rig.hub.newest().out_N > 0.3;
   }));
 }
@@ -246,14 +246,14 @@ TEST(FeelPage, OthersChangeNothingUnderAHandButTheLargestForceDownwards) {
   constexpr ClientId kOther = FeelRig::kOwner + 1;
   const auto may = [&](ClientId client, const char* path, const Json& value) {
     try {
-      rig.page.check_edit(client, Edit{path, Json(), value, "", ""});
+      rig.page->check_edit(client, Edit{path, Json(), value, "", ""});
       return true;
     } catch (const Advice&) {
       return false;
     }
   };
   EXPECT_TRUE(may(kOther, "/feel/settings/render.friction", 0.4));
-  ASSERT_EQ(rig.ask("feel.start").error, "");
+  ASSERT_EQ(rig.call("feel.start").error, "");
   EXPECT_TRUE(may(FeelRig::kOwner, "/feel/settings/render.friction", 0.4));
   EXPECT_TRUE(may(FeelRig::kOwner, "/feel/max_force_N", 3.0));
   for (const char* path : {"/feel/settings/render.friction", "/feel/scene", "/feel", "/feel/device"}) {
@@ -269,11 +269,11 @@ TEST(FeelPage, OthersChangeNothingUnderAHandButTheLargestForceDownwards) {
 TEST(FeelPage, ASceneThatWasWrittenAnewIsReadAnew) {
   FeelRig rig;
   rig.document.edit("/feel/scene", "plate.obj", "choose");
-  EXPECT_TRUE(rig.pump([&] { return rig.status()["title"] == "plate.obj"; }));
-  EXPECT_EQ(array_of<std::uint32_t>(rig.ask("feel.open").block, "triangles_0").size(), 6U);
+  EXPECT_TRUE(rig.wait([&] { return rig.status()["title"] == "plate.obj"; }));
+  EXPECT_EQ(ReadBlock(rig.call("feel.open").block).array<std::uint32_t>("triangles_0").size(), 6U);
   std::ofstream(rig.folder / "plate.obj") << "v 0 0 0\nv 0.02 0 0\nv 0.02 0.02 0\nf 1 2 3\n";
-  ASSERT_EQ(rig.ask("feel.start").error, "");
-  EXPECT_EQ(array_of<std::uint32_t>(rig.ask("feel.open").block, "triangles_0").size(), 3U);
+  ASSERT_EQ(rig.call("feel.start").error, "");
+  EXPECT_EQ(ReadBlock(rig.call("feel.open").block).array<std::uint32_t>("triangles_0").size(), 3U);
 }
 
 TEST(FeelPage, WhatNobodySeesIsNotMade) {
@@ -283,36 +283,36 @@ TEST(FeelPage, WhatNobodySeesIsNotMade) {
   write_path(rig.folder / "path.csv");
   rig.document.edit("/feel/device", "replay", "device");
   rig.document.edit("/feel/replay", "path.csv", "path");
-  ASSERT_EQ(rig.ask("feel.start").error, "");
-  EXPECT_TRUE(rig.pump([&] { return rig.status()["state"] == "idle"; }));
+  ASSERT_EQ(rig.call("feel.start").error, "");
+  EXPECT_TRUE(rig.wait([&] { return rig.status()["state"] == "idle"; }));
   EXPECT_GT(rig.status()["last_run"]["figures"]["ticks"], 0);
   EXPECT_EQ(rig.hub.frames_of("feel.state") + rig.hub.frames_of("feel.ticks") + rig.hub.frames_of("feel.sound"), 0U);
 }
 
 TEST(FeelPage, ShowsTheSceneWithItsHeights) {
   FeelRig rig;
-  EXPECT_NE(rig.ask("feel.open").error, "");
+  EXPECT_NE(rig.call("feel.open").error, "");
   rig.choose_height_maps();
-  const std::string block = rig.ask("feel.open").block;
-  const Json head = head_of(block);
+  const ReadBlock block(rig.call("feel.open").block);
+  const Json& head = block.head;
   EXPECT_EQ(head["objects"], 1U);
   ASSERT_EQ(head["textures"].size(), 4U);
   EXPECT_EQ(rig.status()["models"][2], "normal-perturbation");
   // What only feels different is not drawn anew.
   const Json drawn = rig.status()["revision"], felt = rig.status()["felt"];
   rig.document.edit("/feel/settings/render.friction", 0.3, "friction");
-  EXPECT_TRUE(rig.pump([&] { return rig.status()["felt"] != felt; }));
+  EXPECT_TRUE(rig.wait([&] { return rig.status()["felt"] != felt; }));
   EXPECT_EQ(rig.status()["revision"], drawn);
-  EXPECT_EQ(array_of<float>(block, "height_0").size(), 256U * 256U);
-  const auto texture = array_of<std::int32_t>(block, "texture_0");
-  EXPECT_EQ(array_of<std::uint32_t>(block, "triangles_0").size(), 3 * texture.size());
+  EXPECT_EQ(block.array<float>("height_0").size(), 256U * 256U);
+  const auto texture = block.array<std::int32_t>("texture_0");
+  EXPECT_EQ(block.array<std::uint32_t>("triangles_0").size(), 3 * texture.size());
   EXPECT_EQ(*std::max_element(texture.begin(), texture.end()), 3);
   EXPECT_EQ(*std::min_element(texture.begin(), texture.end()), -1);  // the plane between the tiles
 
   rig.document.edit("/feel/height_maps", Json::array(), "choose");
   rig.document.edit("/feel/scene", "plate.obj", "choose");
-  EXPECT_TRUE(rig.pump([&] { return rig.status()["title"] == "plate.obj"; }));
-  EXPECT_EQ(head_of(rig.ask("feel.open").block)["textures"].size(), 0U);
+  EXPECT_TRUE(rig.wait([&] { return rig.status()["title"] == "plate.obj"; }));
+  EXPECT_EQ(ReadBlock(rig.call("feel.open").block).head["textures"].size(), 0U);
 }
 
 TEST(FeelPage, ARecordedPathAndTheModelledHandEndByThemselvesOrWhenStopped) {
@@ -320,11 +320,11 @@ TEST(FeelPage, ARecordedPathAndTheModelledHandEndByThemselvesOrWhenStopped) {
   rig.choose_height_maps();
   write_path(rig.folder / "path.csv");
   rig.document.edit("/feel/device", "replay", "device");
-  EXPECT_THAT(rig.ask("feel.start").error, HasSubstr("recorded path is missing"));
+  EXPECT_THAT(rig.call("feel.start").error, HasSubstr("recorded path is missing"));
   rig.document.edit("/feel/replay", "path.csv", "path");
   rig.own_force();
-  EXPECT_EQ(rig.ask("feel.start").error, "");
-  EXPECT_TRUE(rig.pump([&] { return rig.status()["state"] == "idle"; }));
+  EXPECT_EQ(rig.call("feel.start").error, "");
+  EXPECT_TRUE(rig.wait([&] { return rig.status()["state"] == "idle"; }));
   EXPECT_EQ(rig.status()["last_run"]["end"], "the way was at its end");
   EXPECT_GT(rig.status()["last_run"]["figures"]["force"]["peak_N"], 0.1);
 }

@@ -1,23 +1,18 @@
 #pragma once
 
-#include <chrono>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <gtest/gtest.h>
-
-#include "asperity/acquire/host_clock.h"
-#include "asperity/testkit/temp_dir.h"
-#include "fake_hub.h"
 #include "feel/feel_page.h"
-#include "inbox.h"
+#include "page_rig.h"
+#include "read_block.h"
 
 namespace asperity::studio {
 
@@ -49,26 +44,6 @@ inline void write_path(const std::filesystem::path& file) {
   }
 }
 
-inline Json head_of(const std::string& block) {
-  std::uint32_t length = 0;
-  std::memcpy(&length, block.data() + 4, 4);
-  return Json::parse(block.substr(8, length));
-}
-
-template <class T>
-std::vector<T> array_of(const std::string& block, const std::string& name) {
-  const Json head = head_of(block);
-  for (const Json& array : head.at("arrays")) {
-    if (array.at("name") != name) continue;
-    std::size_t count = 1;
-    for (const Json& size : array.at("shape")) count *= size.get<std::size_t>();
-    std::vector<T> out(count);
-    std::memcpy(out.data(), block.data() + array.at("offset").get<std::size_t>(), count * sizeof(T));
-    return out;
-  }
-  throw std::runtime_error("no array " + name);
-}
-
 // Keeps every tick of a run as the page would see it.
 class FeelHub : public FakeHub {
  public:
@@ -80,12 +55,13 @@ class FeelHub : public FakeHub {
   void publish(std::string_view topic, std::string frame, Delivery) override {
     const std::lock_guard lock(mutex_);
     ++frames_[std::string(topic)];
-    if (topic == "feel.state") state_ = head_of(frame);
-    if (topic == "feel.sound") sound_ += array_of<float>(frame, "force_N").size();
+    const ReadBlock block(std::move(frame));
+    if (topic == "feel.state") state_ = block.head;
+    if (topic == "feel.sound") sound_ += block.array<float>("force_N").size();
     if (topic != "feel.ticks") return;
-    const auto t_s = array_of<double>(frame, "t_s");
-    const auto contact = array_of<float>(frame, "contact_N"), texture = array_of<float>(frame, "texture_N"),
-               out = array_of<float>(frame, "out_N");
+    const auto t_s = block.array<double>("t_s");
+    const auto contact = block.array<float>("contact_N"), texture = block.array<float>("texture_N"),
+               out = block.array<float>("out_N");
     for (std::size_t k = 0; k < t_s.size(); ++k) {
       ticks_.push_back({t_s[k], static_cast<double>(contact[k]) + static_cast<double>(texture[k]), out[k]});
     }
@@ -120,22 +96,16 @@ class FeelHub : public FakeHub {
   Json state_;
 };
 
-// The page with all that it shares, on the test's thread instead of the studio's.
-class FeelRig {
+class FeelRig : public PageRig<FeelHub> {
  public:
+  static constexpr ClientId kOwner = kClient;
+
   explicit FeelRig(bool may_command_forces = true) {
     write_height_maps(folder.path());
     write_plate(folder / "plate.obj");
     shared.may_command_forces = may_command_forces;
-    page.bind(document, calls);
-    jobs.bind(calls);
-    document.load();
-    document.on_change([this](const Edit& edit) { page.edited(edit); });
-    page.start();
+    open(std::make_unique<FeelPage>(shared, config()));
   }
-  ~FeelRig() { page.stop(); }
-  FeelRig(const FeelRig&) = delete;
-  FeelRig& operator=(const FeelRig&) = delete;
 
   // What a loaded machine may take; the servo's own clock is not asked for anything here.
   static FeelConfig config() {
@@ -147,35 +117,11 @@ class FeelRig {
     return out;
   }
 
-  // Runs the studio's thread until `done`; false if that takes too long.
-  bool pump(const std::function<bool()>& done) {
-    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-    while (!done()) {
-      if (std::chrono::steady_clock::now() > until) return false;
-      for (const auto& work : inbox.wait(std::chrono::steady_clock::now() + std::chrono::milliseconds(2))) work();
-      page.tick(host_now_ns());
-      for (const ClientId client : beating)
-        lease.acquire(client, host_now_ns());  // also after a long sleep of the machine
-      if (pointing) page.pointed(kOwner, Pointer{0, {pointer_m.x(), pointer_m.y(), pointer_m.z()}});
-    }
-    return true;
-  }
-
-  // Calls and waits for the answer.
-  FakeHub::Answer ask(const std::string& name, Json args = Json::object(), ClientId client = kOwner) {
-    Call call;
-    call.id = ++id;
-    call.name = name;
-    call.args = std::move(args);
-    calls.dispatch(Request(hub, client, call));
-    EXPECT_TRUE(pump([&] { return hub.answered(call.id); })) << name;
-    return hub.answer_to(call.id);
-  }
-  Json status() { return ask("feel.status").result; }
+  Json status() { return call("feel.status").result; }
 
   void choose_height_maps() {
     document.edit("/feel/height_maps", {"tile0.pgm", "tile1.pgm", "tile2.pgm", "tile3.pgm"}, "choose");
-    EXPECT_TRUE(pump([&] { return !status()["revision"].is_null() && !status()["loading"].get<bool>(); }));
+    EXPECT_TRUE(wait([&] { return !status()["revision"].is_null() && !status()["loading"].get<bool>(); }));
   }
   void own_force() {
     EXPECT_TRUE(lease.acquire(kOwner, host_now_ns()));
@@ -186,26 +132,20 @@ class FeelRig {
     pointer_m = {0.007, 0.017, 0.004};
     pointing = true;
     const std::size_t before = hub.ticks().size();
-    EXPECT_TRUE(pump([&] { return hub.ticks().size() > before + 300; }));
+    EXPECT_TRUE(wait([&] { return hub.ticks().size() > before + 300; }));
     pointer_m.z() = -0.004;
-    EXPECT_TRUE(pump([&] { return hub.newest().out_N > 0.3; }));
+    EXPECT_TRUE(wait([&] { return hub.newest().out_N > 0.3; }));
   }
 
-  static constexpr ClientId kOwner = 7;
-  testkit::TempDir folder;
-  FeelHub hub;
-  Inbox inbox;
-  Project project{folder.path()};
-  Document document{folder / ".asperity-studio.json"};
-  ForceLease lease;
-  Calls calls;
-  Jobs jobs{hub, [this](Inbox::Work work) { inbox.post(std::move(work)); }};
-  Shared shared{hub, project, document, jobs, lease, true, [this](Inbox::Work work) { inbox.post(std::move(work)); }};
-  FeelPage page{shared, config()};
   std::vector<ClientId> beating;
   bool pointing = false;
   Eigen::Vector3d pointer_m = Eigen::Vector3d::Zero();
-  std::uint64_t id = 0;
+
+ private:
+  void turned() override {
+    for (const ClientId client : beating) lease.acquire(client, host_now_ns());  // also after a machine's long sleep
+    if (pointing) page->pointed(kOwner, Pointer{0, {pointer_m.x(), pointer_m.y(), pointer_m.z()}});
+  }
 };
 
 }  // namespace asperity::studio

@@ -33,7 +33,7 @@ class Sound : public FakeHub {
  public:
   void publish(std::string_view topic, std::string frame, Delivery) override {
     if (topic != kFeelSoundTopic) return;
-    for (const float x : array_of<float>(frame, "force_N")) samples.push_back(static_cast<double>(x));
+    for (const float x : ReadBlock(std::move(frame)).array<float>("force_N")) samples.push_back(static_cast<double>(x));
   }
   std::vector<double> samples;
 };

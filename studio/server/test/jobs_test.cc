@@ -90,5 +90,25 @@ TEST_F(JobsTest, IsCancelledByItsNumber) {
   EXPECT_EQ(hub_.events("job").back()["state"], "cancelled");
 }
 
+TEST_F(JobsTest, NoMoreThanSoManyWait) {
+  std::atomic<bool> go_on{false};
+  const auto work = [&](const Observer&) {
+    while (!go_on) std::this_thread::yield();
+    return Json(1);
+  };
+  std::uint64_t id = 0;
+  EXPECT_THROW(
+      {
+        for (; id < 2 * Jobs::kMostWaiting; ++id) answer_by_job(jobs_, request(id), "", "", work);
+      },
+      Advice);
+  EXPECT_GE(id, Jobs::kMostWaiting);
+  EXPECT_LE(id, Jobs::kMostWaiting + 2);  // one runs, and one may just have been taken
+  go_on = true;
+  EXPECT_EQ(wait_for(id - 1).result, 1);
+  answer_by_job(jobs_, request(id), "", "", work);
+  EXPECT_EQ(wait_for(id).result, 1);
+}
+
 }  // namespace
 }  // namespace asperity::studio

@@ -2,17 +2,15 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 
 #include "asperity/scene/read_scene.h"
-#include "asperity/studio/calls.h"
-#include "asperity/testkit/temp_dir.h"
 #include "asperity/texture/texture_file.h"
-#include "fake_hub.h"
-#include "inbox.h"
+#include "page_rig.h"
+#include "read_block.h"
 
 namespace asperity::studio {
 namespace {
@@ -42,26 +40,15 @@ void write_wave(const std::filesystem::path& file) {
   write_texture(file, texture);
 }
 
-class PaintPageTest : public ::testing::Test {
+class PaintPageTest : public ::testing::Test, protected PageRig<> {
  protected:
   PaintPageTest() {
-    write_plate(folder_ / "plate.obj");
-    write_wave(folder_ / "wave.texture.json");
-    page_->bind(document_, calls_);
-    document_.load();
-    document_.edit("/paint/object", "plate.obj", "open");
-    document_.edit("/paint/unit_m", 0.001, "unit");
-    document_.edit("/paint/half_width_mm", 3.0, "width");
-  }
-
-  FakeHub::Answer call(const std::string& name, Json args) {
-    const std::uint64_t id = ++last_id_;
-    calls_.dispatch(Request(hub_, 1, Call{id, name, std::move(args)}));
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (!hub_.answered(id) && std::chrono::steady_clock::now() < end) {
-      for (const auto& work : inbox_.wait(end)) work();
-    }
-    return hub_.answer_to(id);
+    write_plate(folder / "plate.obj");
+    write_wave(folder / "wave.texture.json");
+    open(make_paint_page(shared));
+    document.edit("/paint/object", "plate.obj", "open");
+    document.edit("/paint/unit_m", 0.001, "unit");
+    document.edit("/paint/half_width_mm", 3.0, "width");
   }
 
   void add_stroke(const char* picks) {
@@ -69,52 +56,20 @@ class PaintPageTest : public ::testing::Test {
     stroke["texture"] = "wave.texture.json";
     stroke["index"] = 1;
     stroke["picks_m"] = Json::parse(picks);
-    document_.edit("/paint/strokes/-", stroke, "stroke");
+    document.edit("/paint/strokes/-", stroke, "stroke");
   }
-
-  static Json head_of(const std::string& block) {
-    std::uint32_t length = 0;
-    std::memcpy(&length, block.data() + 4, 4);
-    return Json::parse(block.substr(8, length));
-  }
-  template <class T>
-  static std::vector<T> array_of(const std::string& block, const std::string& name) {
-    const Json head = head_of(block);
-    for (const Json& array : head.at("arrays")) {
-      if (array.at("name") != name) continue;
-      std::size_t count = 1;
-      for (const Json& size : array.at("shape")) count *= size.get<std::size_t>();
-      std::vector<T> out(count);
-      std::memcpy(out.data(), block.data() + array.at("offset").get<std::size_t>(), count * sizeof(T));
-      return out;
-    }
-    throw std::runtime_error("no array " + name);
-  }
-
-  testkit::TempDir folder_;
-  FakeHub hub_;
-  Inbox inbox_;
-  Project project_{folder_.path()};
-  Document document_{folder_ / ".asperity-studio.json"};
-  Calls calls_;
-  ForceLease lease_;
-  Jobs jobs_{hub_, [this](Inbox::Work work) { inbox_.post(std::move(work)); }};
-  Shared shared_{
-      hub_, project_, document_, jobs_, lease_, true, [this](Inbox::Work work) { inbox_.post(std::move(work)); }};
-  std::unique_ptr<Page> page_ = make_paint_page(shared_);
-  std::uint64_t last_id_ = 0;
 };
 
 TEST_F(PaintPageTest, ShowsCoordinatesThatKeepLengthsOnAPlane) {
   add_stroke("[[0.005,0.01,0],[0.035,0.01,0]]");
-  const FakeHub::Answer answer = call("paint.show", Json::object());
+  const FakeHub::Answer answer = call("paint.show");
   ASSERT_EQ(answer.error, "");
-  const Json head = head_of(answer.block);
+  const Json head = ReadBlock(answer.block).head;
   EXPECT_EQ(head["strokes"].size(), 1U);
   EXPECT_NEAR(head["strokes"][0]["path_length_m"].get<double>(), 0.030, 1e-9);
   EXPECT_EQ(head["textures"][0]["name"], "wave");
-  const auto texture = array_of<std::int32_t>(answer.block, "texture");
-  const auto stretch = array_of<float>(answer.block, "stretch");
+  const auto texture = ReadBlock(answer.block).array<std::int32_t>("texture");
+  const auto stretch = ReadBlock(answer.block).array<float>("stretch");
   ASSERT_EQ(texture.size(), 1600U);
   std::size_t painted = 0;
   for (std::size_t t = 0; t < texture.size(); ++t) {
@@ -131,10 +86,10 @@ TEST_F(PaintPageTest, WritesWhatIsReadAsAScene) {
   const FakeHub::Answer answer = call("paint.write", Json{{"name", "painted"}});
   ASSERT_EQ(answer.error, "");
   EXPECT_EQ(answer.result["scene"], "painted/scene.json");
-  const Scene scene = read_scene(folder_ / "painted/scene.json");
+  const Scene scene = read_scene(folder / "painted/scene.json");
   EXPECT_EQ(scene.objects.front().textures.front().texture.name, "wave");
   EXPECT_EQ(scene.objects.front().unit_m, 0.001);
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "painted/paint.json"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "painted/paint.json"));
   EXPECT_THAT(call("paint.write", Json{{"name", "painted"}}).error, ::testing::HasSubstr("there already"));
   EXPECT_EQ(call("paint.write", Json{{"name", "painted"}, {"replace", true}}).error, "");
   const FakeHub::Answer exported =
@@ -146,11 +101,11 @@ TEST_F(PaintPageTest, WritesWhatIsReadAsAScene) {
 TEST_F(PaintPageTest, AStrokeThatCannotBePaintedSaysWhyAndTheOthersStay) {
   add_stroke("[[0.005,0.01,0],[0.035,0.01,0]]");
   add_stroke("[[0.005,0.01,0]]");
-  const Json head = head_of(call("paint.show", Json::object()).block);
+  const Json head = ReadBlock(call("paint.show").block).head;
   EXPECT_TRUE(head["strokes"][0].contains("path_length_m"));
   EXPECT_THAT(head["strokes"][1]["fault"].get<std::string>(), ::testing::HasSubstr("at least two"));
   EXPECT_THAT(call("paint.write", Json{{"name", "painted"}}).error, ::testing::HasSubstr("at least two"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "painted"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "painted"));
 }
 
 TEST_F(PaintPageTest, RefusesNonsenseAndStrangersFolders) {
@@ -158,13 +113,13 @@ TEST_F(PaintPageTest, RefusesNonsenseAndStrangersFolders) {
        {"7", "\"x\"", "[1]", "[{}]", R"([{"texture":1,"index":1,"picks_m":[]}])",
         R"([{"texture":"w","index":-1,"picks_m":[]}])", R"([{"texture":"w","index":1,"picks_m":[[1,2]]}])",
         R"([{"texture":"w","index":1,"picks_m":[[1,2,"x"]]}])"}) {
-    EXPECT_THROW(document_.edit("/paint/strokes", Json::parse(value), "x"), Error) << value;
+    EXPECT_THROW(document.edit("/paint/strokes", Json::parse(value), "x"), Error) << value;
   }
   add_stroke("[[0.005,0.01,0],[0.035,0.01,0]]");
-  std::filesystem::create_directory(folder_ / "mine");
-  std::ofstream(folder_ / "mine/notes.txt") << "do not lose";
+  std::filesystem::create_directory(folder / "mine");
+  std::ofstream(folder / "mine/notes.txt") << "do not lose";
   EXPECT_NE(call("paint.write", Json{{"name", "mine"}, {"replace", true}}).error, "");
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "mine/notes.txt"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "mine/notes.txt"));
   EXPECT_NE(call("paint.write", Json{{"name", "../out"}}).error, "");
   EXPECT_NE(call("paint.texture", Json{{"file", "/etc/passwd"}}).error, "");
   EXPECT_NE(call("paint.export", Json{{"source", "plate.obj"}, {"format", "exe"}, {"name", "x"}}).error, "");
@@ -174,13 +129,13 @@ TEST_F(PaintPageTest, PreviewsAPath) {
   const FakeHub::Answer answer =
       call("paint.path", Json{{"picks_m", Json::parse("[[0.005,0.005,0],[0.005,0.015,0]]")}});
   ASSERT_EQ(answer.error, "");
-  EXPECT_NEAR(head_of(answer.block)["length_m"].get<double>(), 0.010, 1e-9);
+  EXPECT_NEAR(ReadBlock(answer.block).head["length_m"].get<double>(), 0.010, 1e-9);
 }
 
 TEST_F(PaintPageTest, ShowsATexture) {
   const FakeHub::Answer answer = call("paint.texture", Json{{"file", "wave.texture.json"}});
   ASSERT_EQ(answer.error, "");
-  const auto height_m = array_of<float>(answer.block, "height_m");
+  const auto height_m = ReadBlock(answer.block).array<float>("height_m");
   ASSERT_EQ(height_m.size(), 4096U);
   EXPECT_NEAR(*std::max_element(height_m.begin(), height_m.end()), 1e-5, 1e-8);
 }

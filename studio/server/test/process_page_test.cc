@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include <chrono>
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -15,10 +15,7 @@
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
 #include "asperity/simulation/simulate_recording.h"
-#include "asperity/studio/calls.h"
-#include "asperity/testkit/temp_dir.h"
-#include "fake_hub.h"
-#include "inbox.h"
+#include "page_rig.h"
 #include "process/process_choice.h"
 #include "process/scan_sessions.h"
 #include "read_block.h"
@@ -48,46 +45,19 @@ void store(const fs::path& folder, const Recording& recording) {
   write_recording(folder, recording);
 }
 
-class ProcessPageTest : public ::testing::Test {
+class ProcessPageTest : public ::testing::Test, protected PageRig<> {
  protected:
   ProcessPageTest() {
-    store(folder_ / "one", simulated(1));
-    store(folder_ / "two", simulated(2));
-    page_->bind(document_, calls_);
-    document_.load();
+    store(folder / "one", simulated(1));
+    store(folder / "two", simulated(2));
+    open(make_process_page(shared));
   }
-
-  std::uint64_t begin(const std::string& name, Json args) {
-    calls_.dispatch(Request(hub_, 1, Call{++last_id_, name, std::move(args)}));
-    return last_id_;
-  }
-  FakeHub::Answer answer_to(std::uint64_t id) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-    while (!hub_.answered(id) && std::chrono::steady_clock::now() < end) {
-      for (const auto& work : inbox_.wait(end)) work();
-    }
-    return hub_.answer_to(id);
-  }
-  FakeHub::Answer call(const std::string& name, Json args) { return answer_to(begin(name, std::move(args))); }
 
   void choose(std::initializer_list<const char*> recordings) {
     Json scans = Json::array();
     for (const char* recording : recordings) scans.push_back({{"recording", recording}, {"segment", ""}});
-    document_.edit("/process/scans", scans, "choose");
+    document.edit("/process/scans", scans, "choose");
   }
-
-  testkit::TempDir folder_;
-  FakeHub hub_;
-  Inbox inbox_;
-  Project project_{folder_.path()};
-  Document document_{folder_ / ".asperity-studio.json"};
-  Calls calls_;
-  ForceLease lease_;
-  Jobs jobs_{hub_, [this](Inbox::Work work) { inbox_.post(std::move(work)); }};
-  Shared shared_{
-      hub_, project_, document_, jobs_, lease_, true, [this](Inbox::Work work) { inbox_.post(std::move(work)); }};
-  std::unique_ptr<Page> page_ = make_process_page(shared_);
-  std::uint64_t last_id_ = 0;
 };
 
 TEST_F(ProcessPageTest, RunsWithTheSettingsOfTheDocument) {
@@ -98,19 +68,19 @@ TEST_F(ProcessPageTest, RunsWithTheSettingsOfTheDocument) {
   EXPECT_EQ(first["scan"]["recording"], "one");
   EXPECT_EQ(first["result"]["config"]["profile"]["cutoff_cycles_per_mm"], 0.1);
 
-  document_.edit("/process/config/profile.cutoff_cycles_per_mm", "0.3", "tune");
+  document.edit("/process/config/profile.cutoff_cycles_per_mm", "0.3", "tune");
   const Json second = ReadBlock(call("process.run", Json{{"recording", "one"}}).block).head;
   // The oracle is the command line's own way.
   ProcessConfig config;
   config.profile.cutoff_cycles_per_mm = 0.3;
-  const Recording recording = read_recording(folder_ / "one");
+  const Recording recording = read_recording(folder / "one");
   const Json expected = Json::parse(format_result(process_recording(recording, config), recording, "one"));
   EXPECT_EQ(second["result"], expected);
 }
 
 TEST_F(ProcessPageTest, TellsItsFieldsWithValuesAndDefaults) {
-  document_.edit("/process/config/method", "thesis", "method");
-  const Json fields = call("process.fields", Json::object()).result["fields"];
+  document.edit("/process/config/method", "thesis", "method");
+  const Json fields = call("process.fields").result["fields"];
   EXPECT_GT(fields.size(), 60U);
   const auto method = std::find_if(fields.begin(), fields.end(), [](const Json& f) { return f["path"] == "method"; });
   ASSERT_NE(method, fields.end());
@@ -120,25 +90,25 @@ TEST_F(ProcessPageTest, TellsItsFieldsWithValuesAndDefaults) {
 }
 
 TEST_F(ProcessPageTest, RefusesWhatIsNoSettingAndChangesNothing) {
-  const Json before = document_.section("process");
+  const Json before = document.section("process");
   for (const char* edit :
        {R"(["/process/config/profile.cutof", "0.3"])", R"(["/process/config/method", "magic"])",
         R"(["/process/config/profile.spacing_m", "-1"])", R"(["/process/config/profile.spacing_m", 1])",
         R"(["/process/config", []])", R"(["/process/current", -1])", R"(["/process/current", "a"])",
         R"(["/process/scans", {}])", R"(["/process/scans", [{"segment": ""}]])"}) {
     const Json json = Json::parse(edit);
-    EXPECT_THROW(document_.edit(json[0].get<std::string>(), json[1], "bad"), Error) << edit;
-    EXPECT_EQ(document_.section("process"), before) << edit;
+    EXPECT_THROW(document.edit(json[0].get<std::string>(), json[1], "bad"), Error) << edit;
+    EXPECT_EQ(document.section("process"), before) << edit;
   }
   Json many = Json::array();
   for (std::size_t i = 0; i <= kMostScans; ++i) many.push_back({{"recording", std::to_string(i)}, {"segment", ""}});
-  EXPECT_THROW(document_.edit("/process/scans", many, "too many"), Error);
+  EXPECT_THROW(document.edit("/process/scans", many, "too many"), Error);
 }
 
 TEST_F(ProcessPageTest, ANewerSettingTakesThePlaceOfOneThatWaits) {
   const std::uint64_t keeps_busy = begin("process.run", Json{{"recording", "two"}});
   const std::uint64_t older = begin("process.run", Json{{"recording", "one"}});
-  document_.edit("/process/config/profile.cutoff_cycles_per_mm", "0.2", "tune");
+  document.edit("/process/config/profile.cutoff_cycles_per_mm", "0.2", "tune");
   const std::uint64_t newer = begin("process.run", Json{{"recording", "one"}});
   EXPECT_EQ(answer_to(older).error, "cancelled");
   EXPECT_EQ(answer_to(keeps_busy).error, "");
@@ -146,16 +116,16 @@ TEST_F(ProcessPageTest, ANewerSettingTakesThePlaceOfOneThatWaits) {
 }
 
 TEST_F(ProcessPageTest, ComparesScansOfTheSameSurface) {
-  EXPECT_THAT(call("process.compare", Json::object()).error, ::testing::HasSubstr("nothing to compare"));
+  EXPECT_THAT(call("process.compare").error, ::testing::HasSubstr("nothing to compare"));
   choose({"one", "two"});
-  const FakeHub::Answer answer = call("process.compare", Json::object());
+  const FakeHub::Answer answer = call("process.compare");
   ASSERT_EQ(answer.error, "");
   const ReadBlock block(answer.block);
   ASSERT_EQ(block.head["scans"].size(), 2U);
   EXPECT_NEAR(block.head["scans"][0]["correlation"].get<double>(), 1.0, 1e-9);
   std::vector<RepeatedScan> scans;
   for (const char* name : {"one", "two"}) {
-    const Recording recording = read_recording(folder_ / name);
+    const Recording recording = read_recording(folder / name);
     scans.push_back(repeated_scan(process_recording(recording, {}), recording));
   }
   const Repeatability expected = measure_repeatability(scans, {});
@@ -169,48 +139,48 @@ TEST_F(ProcessPageTest, ComparesScansOfTheSameSurface) {
 
 TEST_F(ProcessPageTest, WritesTheFilesOfTheCommandLine) {
   choose({"one"});
-  document_.edit("/process/config/profile.cutoff_cycles_per_mm", "0.3", "tune");
+  document.edit("/process/config/profile.cutoff_cycles_per_mm", "0.3", "tune");
   const FakeHub::Answer answer = call("process.write", Json{{"name", "out"}});
   ASSERT_EQ(answer.error, "");
   EXPECT_EQ(answer.result["files"], Json::parse(R"([""])"));
   ProcessConfig config;
   config.profile.cutoff_cycles_per_mm = 0.3;
-  const Recording recording = read_recording(folder_ / "one");
+  const Recording recording = read_recording(folder / "one");
   const ProcessResult result = process_recording(recording, config);
-  fs::create_directories(folder_ / "expected");
-  write_result(folder_ / "expected", result, recording, "one");
+  fs::create_directories(folder / "expected");
+  write_result(folder / "expected", result, recording, "one");
   for (const char* file : {"result.json", "profile.csv", "trajectory.csv", "texture.json"}) {
-    ASSERT_FALSE(content(folder_ / "expected" / file).empty()) << file;
-    EXPECT_TRUE(content(folder_ / "out" / file) == content(folder_ / "expected" / file)) << file;
+    ASSERT_FALSE(content(folder / "expected" / file).empty()) << file;
+    EXPECT_TRUE(content(folder / "out" / file) == content(folder / "expected" / file)) << file;
   }
   // Again, over its own results; several, each in a folder; never over something else.
   choose({"one", "two"});
   EXPECT_EQ(call("process.write", Json{{"name", "out"}, {"replace", true}}).result["files"],
             Json::parse(R"(["one","two"])"));
-  EXPECT_TRUE(fs::exists(folder_ / "out" / "two" / "result.json"));
-  EXPECT_FALSE(fs::exists(folder_ / "out" / "result.json"));
+  EXPECT_TRUE(fs::exists(folder / "out" / "two" / "result.json"));
+  EXPECT_FALSE(fs::exists(folder / "out" / "result.json"));
   EXPECT_NE(call("process.write", Json{{"name", "one"}}).error, "");
-  EXPECT_TRUE(fs::exists(folder_ / "one" / "recording.json"));
+  EXPECT_TRUE(fs::exists(folder / "one" / "recording.json"));
   EXPECT_NE(call("process.write", Json{{"name", "../out"}}).error, "");
 }
 
 TEST_F(ProcessPageTest, HandsOutTheReportOfAResult) {
-  fs::create_directories(folder_ / "out");
-  write_file(folder_ / "out" / "report.html", "<!doctype html>");
+  fs::create_directories(folder / "out");
+  write_file(folder / "out" / "report.html", "<!doctype html>");
   const ReadBlock block(call("process.report", Json{{"folder", "out"}}).block);
-  const auto page = block.array<std::uint8_t>("page");
-  EXPECT_EQ(std::string(page.begin(), page.end()), "<!doctype html>");
-  for (const char* folder : {"one", "..", "../out", "/etc", ""})
-    EXPECT_NE(call("process.report", Json{{"folder", folder}}).error, "") << folder;
+  const auto html = block.array<std::uint8_t>("page");
+  EXPECT_EQ(std::string(html.begin(), html.end()), "<!doctype html>");
+  for (const char* other : {"one", "..", "../out", "/etc", ""})
+    EXPECT_NE(call("process.report", Json{{"folder", other}}).error, "") << other;
 }
 
 TEST_F(ProcessPageTest, WhatCannotBeReadIsRefusedInWords) {
   EXPECT_NE(call("process.run", Json{{"recording", "three"}}).error, "");
   EXPECT_NE(call("process.run", Json{{"recording", "../one"}}).error, "");
-  EXPECT_NE(call("process.run", Json::object()).error, "");
+  EXPECT_NE(call("process.run").error, "");
   EXPECT_THAT(call("process.run", Json{{"recording", "one"}, {"segment", "third"}}).error,
               ::testing::HasSubstr("no segment 'third'"));
-  std::ofstream(folder_ / "two" / "probe.csv") << "nonsense\n";
+  std::ofstream(folder / "two" / "probe.csv") << "nonsense\n";
   EXPECT_THAT(call("process.run", Json{{"recording", "two"}}).error, ::testing::HasSubstr("probe.csv"));
 }
 

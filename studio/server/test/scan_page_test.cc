@@ -25,7 +25,7 @@ std::set<std::string> temporary_folders() {
   std::set<std::string> out;
   for (const auto& entry : fs::directory_iterator(fs::temp_directory_path())) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("asperity-scan-")) out.insert(name);
+    if (name.starts_with("asperity-studio-")) out.insert(name);
   }
   return out;
 }
@@ -40,20 +40,20 @@ Recording short_scan() {
 }
 
 void choose_replay(ScanBench& bench) {
-  fs::create_directory(bench.folder() / "old");
-  write_recording(bench.folder() / "old", short_scan());
+  fs::create_directory(bench.folder / "old");
+  write_recording(bench.folder / "old", short_scan());
   bench.edit("/scan/source", "replay");
   bench.edit("/scan/recording", "old");
 }
 
 // Opens, scans once, and waits until the stroke has been worked out in full.
 void scan_once(ScanBench& bench, const std::string& command = "scan.start") {
-  const std::size_t before = bench.hub().frames("scan.refined").size();
+  const std::size_t before = bench.hub.frames("scan.refined").size();
   bench.ask(command);
   ASSERT_TRUE(bench.wait([&] { return bench.storing(); }));
   ASSERT_TRUE(bench.wait([&] { return !bench.storing() && bench.segments() > 0; }));
   ASSERT_TRUE(bench.wait([&] {
-    const auto frames = bench.hub().frames("scan.refined");
+    const auto frames = bench.hub.frames("scan.refined");
     return frames.size() > before && !ReadBlock(frames.back()).array<double>("s_m").empty();
   })) << (bench.refined().empty() ? "no refined profile" : ReadBlock(bench.refined()).head.dump());
 }
@@ -73,14 +73,14 @@ TEST(ScanPage, ScansTheBenchFromEndToEnd) {
     const ReadBlock refined(bench.refined());
     EXPECT_EQ(refined.head.at("recording"), "scan");
     EXPECT_NEAR(refined.head.at("length_m").get<double>(), 0.02, 0.004);
-    EXPECT_FALSE(bench.hub().frames("scan.image").empty());
-    EXPECT_FALSE(bench.hub().frames("scan.pose").empty());
-    EXPECT_FALSE(bench.hub().frames("scan.profile").empty());
+    EXPECT_FALSE(bench.hub.frames("scan.image").empty());
+    EXPECT_FALSE(bench.hub.frames("scan.pose").empty());
+    EXPECT_FALSE(bench.hub.frames("scan.profile").empty());
     // Once more, to another segment.
     scan_once(bench);
     EXPECT_EQ(bench.segments(), 2U);
     EXPECT_EQ(bench.ask("scan.close").at("recording"), "scan");
-    const Recording made = read_recording(bench.folder() / "scan");
+    const Recording made = read_recording(bench.folder / "scan");
     EXPECT_EQ(made.info.segments.size(), 2U);
     EXPECT_GT(made.probe.size(), 4000U);
     EXPECT_GT(made.tracker.size(), 10U);
@@ -91,13 +91,13 @@ TEST(ScanPage, ScansTheBenchFromEndToEnd) {
 TEST(ScanPage, ShowsEachRowOfAReplayOnceAndInOrder) {
   ScanBench bench;
   choose_replay(bench);
-  const Recording old = read_recording(bench.folder() / "old");
+  const Recording old = read_recording(bench.folder / "old");
   bench.ask("scan.open");
   scan_once(bench);
   std::uint64_t next = 0;
   std::vector<float> force;
   std::int64_t newest_ns = 0;
-  for (const std::string& frame : bench.hub().frames("scan.probe")) {
+  for (const std::string& frame : bench.hub.frames("scan.probe")) {
     const ReadBlock block(frame);
     EXPECT_EQ(block.head.at("sequence").get<std::uint64_t>(), next);
     EXPECT_EQ(block.head.at("dropped"), 0);
@@ -118,7 +118,7 @@ TEST(ScanPage, ShowsEachRowOfAReplayOnceAndInOrder) {
     }
   }
   bench.ask("scan.close");
-  EXPECT_EQ(read_recording(bench.folder() / "scan").probe.size(), old.probe.size());
+  EXPECT_EQ(read_recording(bench.folder / "scan").probe.size(), old.probe.size());
 }
 
 TEST(ScanPage, WorksItOutAnewWhenASettingIsTuned) {
@@ -128,10 +128,10 @@ TEST(ScanPage, WorksItOutAnewWhenASettingIsTuned) {
   scan_once(bench);
   const ReadBlock first(bench.refined());
   const auto generation = ReadBlock(bench.call("scan.profile").block).head.at("generation").get<int>();
-  const std::size_t refined = bench.hub().frames("scan.refined").size();
+  const std::size_t refined = bench.hub.frames("scan.refined").size();
   bench.set("process.profile.cutoff_cycles_per_mm", "0.4");
   ASSERT_TRUE(bench.wait([&] {
-    return bench.hub().frames("scan.refined").size() > refined &&
+    return bench.hub.frames("scan.refined").size() > refined &&
            ReadBlock(bench.call("scan.profile").block).head.at("generation").get<int>() > generation;
   }));
   const ReadBlock second(bench.refined());
@@ -168,17 +168,50 @@ TEST(ScanPage, DiscardsAndScansAgainUnderTheSameName) {
   EXPECT_THAT(bench.call("scan.refined").error, HasSubstr("no finished scan"));
 }
 
+TEST(ScanPage, BringsBackWhatWasDiscarded) {
+  ScanBench bench;
+  choose_replay(bench);
+  bench.ask("scan.open");
+  EXPECT_THAT(bench.call("scan.restore").error, HasSubstr("nothing was discarded"));
+  scan_once(bench);
+  const ReadBlock before(bench.refined());
+  EXPECT_TRUE(bench.recorder().at("last_discarded").is_null());
+  bench.ask("scan.discard");
+  ASSERT_TRUE(bench.wait([&] { return bench.segments() == 0; }));
+  EXPECT_EQ(bench.recorder().at("last_discarded").at("name"), "segment_1");
+  ASSERT_TRUE(bench.wait([&] { return ReadBlock(bench.refined()).array<double>("s_m").empty(); }));
+  bench.ask("scan.restore");
+  ASSERT_TRUE(bench.wait([&] { return bench.segments() == 1; }));
+  ASSERT_TRUE(bench.wait([&] { return !ReadBlock(bench.refined()).array<double>("s_m").empty(); }));
+  EXPECT_EQ(bench.recorder().at("discarded"), 0);
+  // The same rows, worked out by the same rule.
+  const ReadBlock after(bench.refined());
+  EXPECT_EQ(after.array<double>("s_m"), before.array<double>("s_m"));
+  EXPECT_EQ(after.array<double>("height_m"), before.array<double>("height_m"));
+  EXPECT_FALSE(ReadBlock(bench.call("scan.profile").block).array<double>("s_m").empty());
+  // A take that was scanned again is there beside the new one.
+  scan_once(bench, "scan.rescan");
+  bench.ask("scan.restore");
+  ASSERT_TRUE(bench.wait([&] { return bench.segments() == 2; }));
+  bench.ask("scan.close");
+  const Recording kept = read_recording(bench.folder / "scan");
+  ASSERT_EQ(kept.info.segments.size(), 2U);
+  EXPECT_EQ(kept.info.segments[0].name, "segment_1_restored");
+  EXPECT_EQ(kept.info.segments[1].name, "segment_1");
+  EXPECT_EQ(kept.probe.size(), 2 * read_recording(bench.folder / "old").probe.size());
+}
+
 TEST(ScanPage, OverwritesNothingAndLeavesNothingEmptyBehind) {
   ScanBench bench;
   choose_replay(bench);
-  fs::create_directory(bench.folder() / "scan");
-  std::ofstream(bench.folder() / "scan" / "mine.txt") << "mine";
+  fs::create_directory(bench.folder / "scan");
+  std::ofstream(bench.folder / "scan" / "mine.txt") << "mine";
   const std::string name = bench.ask("scan.open").at("recording");
   EXPECT_NE(name, "scan");
   EXPECT_THAT(bench.call("scan.open").error, HasSubstr("open already"));
   EXPECT_TRUE(bench.ask("scan.close").at("recording").is_null());
-  EXPECT_FALSE(fs::exists(bench.folder() / name));
-  EXPECT_TRUE(fs::exists(bench.folder() / "scan" / "mine.txt"));
+  EXPECT_FALSE(fs::exists(bench.folder / name));
+  EXPECT_TRUE(fs::exists(bench.folder / "scan" / "mine.txt"));
   EXPECT_THAT(bench.call("scan.start").error, HasSubstr("no source is open"));
 }
 

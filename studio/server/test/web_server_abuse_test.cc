@@ -88,6 +88,79 @@ TEST_F(WebServerAbuse, EndsConnectionsThatAreHalfOpen) {
   EXPECT_TRUE(stranger.closes());
 }
 
+TEST_F(WebServerAbuse, EndsConnectionsThatTrickle) {
+  WebServerConfig config;
+  config.request_timeout_s = 0.3;
+  start(config);
+  // A request that never ends, however steadily it comes.
+  RawClient slow(port_);
+  slow.send("GET / HTTP/1.1\r\nHost: " + host_ + "\r\nX: ");
+  RawClient good = browser();
+  int sent = 0;
+  while (slow.send("x")) {
+    ASSERT_LT(++sent, 8000) << "as long as a header may be";
+    for (int i = 0; i < 10; ++i) ASSERT_TRUE(answers(good));
+  }
+}
+
+TEST_F(WebServerAbuse, IsFullOfHalfOpenConnectionsForAWhileOnly) {
+  WebServerConfig config;
+  config.request_timeout_s = 0.5;
+  config.max_clients = 2;
+  start(config);
+  RawClient good = browser();
+  std::vector<RawClient> silent;
+  for (int i = 0; i < 100; ++i) silent.emplace_back(port_);
+  EXPECT_TRUE(answers(good));
+  for (RawClient& one : silent) EXPECT_TRUE(one.closes());
+  RawClient next = browser();
+  EXPECT_TRUE(answers(next));
+}
+
+TEST_F(WebServerAbuse, AgreesToNoCompression) {
+  const std::string headers = "Origin: http://" + host_ + "\r\nCookie: " + cookie_ +
+                              "\r\nSec-WebSocket-Extensions: permessage-deflate; client_max_window_bits\r\n";
+  RawClient client(port_);
+  client.send(upgrade_request(port_, headers));
+  const RawClient::Response response = client.response();
+  EXPECT_EQ(response.status, 101);
+  EXPECT_EQ(response.header("Sec-WebSocket-Extensions"), "");
+  // A thousand mebibytes of nothing would be a mebibyte of this.
+  std::string bomb = RawClient::frame(2, std::string(1000, '\0'));
+  bomb[0] = static_cast<char>(0xC2);  // the first reserved bit: compressed
+  client.send(bomb);
+  EXPECT_EQ(client.next_frame()->close_code(), 1002);
+}
+
+TEST_F(WebServerAbuse, AFloodOfContinuationsHoldsNobodyUp) {
+  RawClient good = browser(), bad = browser();
+  ASSERT_TRUE(bad.send(RawClient::frame(1, "", false)));
+  std::string flood;
+  for (int i = 0; i < 10'000; ++i) flood += RawClient::frame(0, "", false);
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(bad.send(flood));
+    ASSERT_TRUE(answers(good));
+  }
+  // With something in each of them they come to the end of a message's size.
+  std::string filled;
+  for (int i = 0; i < 1100; ++i) filled += RawClient::frame(0, std::string(1000, ' '), false);
+  bad.send(filled);
+  EXPECT_EQ(bad.next_frame()->close_code(), 1009);
+  EXPECT_TRUE(answers(good));
+}
+
+TEST_F(WebServerAbuse, AFloodOfPingsHoldsNobodyUp) {
+  RawClient good = browser(), bad = browser();
+  std::string flood;
+  for (int i = 0; i < 1000; ++i) flood += RawClient::frame(9, std::string(100, 'p'));
+  constexpr unsigned kPong = 10;
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(bad.send(flood));
+    ASSERT_TRUE(answers(good));
+    for (int j = 0; j < 1000; ++j) ASSERT_EQ(bad.next_frame()->opcode, kPong);
+  }
+}
+
 TEST_F(WebServerAbuse, ServesFiftyBrowsers) {
   std::vector<RawClient> clients;
   for (int i = 0; i < 50; ++i) {

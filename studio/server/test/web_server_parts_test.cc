@@ -1,8 +1,10 @@
 // The server's parts that need no socket.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "asperity/base/error.h"
 #include "asperity/studio/web_server.h"
@@ -91,6 +93,25 @@ TEST(WebServerClients, StayWithinTheirMemoryHoweverMuchIsPublished) {
   EXPECT_FALSE(clients.leave(slow));
   EXPECT_FALSE(clients.has_subscribers("series"));
   EXPECT_EQ(clients.next(slow, next), ClientTable::State::kGone);
+}
+
+TEST(WebServerClients, AreCutOffWhereAllTogetherAreTooMuch) {
+  ClientTable table(20);
+  std::vector<ClientId> clients;
+  for (int i = 0; i < 20; ++i) clients.push_back(*table.join([] {}));
+  // 50 MiB are less than one may have; twenty times are more than all may.
+  const std::string answer(10U << 20U, 'a');
+  for (int j = 0; j < 5; ++j) {
+    for (std::size_t i = 1; i < clients.size(); ++i) {
+      table.send(clients[i], answer, true);
+      EXPECT_LE(table.all_message_bytes(), ClientTable::kMostMessageBytes);
+    }
+  }
+  table.send(clients[0], "small", true);
+  EXPECT_FALSE(table.is_cut(clients[0]));  // not the one who has little
+  const auto cut = std::count_if(clients.begin(), clients.end(), [&](ClientId id) { return table.is_cut(id); });
+  EXPECT_GE(cut, 1);
+  EXPECT_LT(cut, 19);
 }
 
 TEST(WebServerClients, AreFullOfCallsUntilTheseAreAnswered) {

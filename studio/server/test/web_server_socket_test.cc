@@ -151,6 +151,15 @@ TEST_F(WebServerSocket, KnowsItsOwnHostsAlone) {
   EXPECT_EQ(status("Host: [::1]:" + port + "\r\n"), 404);
   EXPECT_EQ(status("Host: 127.0.0.1\r\n"), 403);
   EXPECT_EQ(status("Host: evil.example:" + port + "\r\n"), 403);
+  // Names that a stranger can have resolved to this machine, and those that only look like ours.
+  for (const std::string& name :
+       {"127.0.0.1.nip.io:" + port, "localhost.evil.example:" + port, "localhost.:" + port, "127.0.0.2:" + port,
+        "127.1:" + port, "2130706433:" + port, "0x7f000001:" + port, "0.0.0.0:" + port, "[::ffff:127.0.0.1]:" + port,
+        host_ + ".evil.example", host_ + "@evil.example", "evil.example@" + host_, "user:pass@" + host_,
+        "localhost:0" + port, "localhost:" + port + "0", "http://" + host_, host_ + "/", host_ + " evil.example",
+        host_ + ",evil.example"}) {
+    EXPECT_EQ(status("Host: " + name + "\r\n"), 403) << name;
+  }
   EXPECT_EQ(status(""), 403);
   EXPECT_EQ(status("Host: " + host_ + "\r\nHost: " + host_ + "\r\n"), 403);
 }

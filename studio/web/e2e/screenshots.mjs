@@ -18,30 +18,45 @@ const kSizes = [
   [1024, 700],
 ];
 
-async function picture(page, folder, name, holds) {
-  mkdirSync(folder, { recursive: true });
-  // The cursor and what is read out to the blind do not belong into pictures; two frames let plots and views follow.
-  if (!holds) await page.mouse.move(0, 0);
-  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
-  writeFileSync(join(folder, `${name}.png`), await page.screenshot());
+const kSettle_ms = 350;
+const kTries = 20;
+
+/** A page that moves is taken as it is; another when plots and views have followed: two pictures are the same. */
+async function taken(page, moves) {
+  // The cursor does not belong into pictures.
+  if (!moves) await page.mouse.move(0, 0);
+  await page.waitForTimeout(kSettle_ms);
+  let picture = await page.screenshot();
+  for (let attempt = 0; !moves && attempt < kTries; ++attempt) {
+    await page.waitForTimeout(kSettle_ms);
+    const next = await page.screenshot();
+    const settled = next.equals(picture);
+    picture = next;
+    if (settled) break;
+  }
+  return picture;
 }
 
-async function looks(page, name, holds = false) {
+/** `before`: what is to be done before each picture, of a page that moves. */
+async function looks(page, name, before) {
   for (const [width, height] of all ? kSizes : kSizes.slice(0, 1)) {
     for (const theme of all ? ["light", "dark"] : ["light"]) {
       await page.setViewportSize({ width, height });
       await page.emulateMedia({ colorScheme: theme });
-      if (all) await picture(page, all, `${name}-${width}-${theme}`, holds);
-      if (width === 1400 && theme === "light") await picture(page, docs, name, holds);
+      await before?.({ page });
+      const picture = await taken(page, before !== undefined);
+      if (all) writeFileSync(join(all, `${name}-${width}-${theme}.png`), picture);
+      if (width === 1400 && theme === "light") writeFileSync(join(docs, `${name}.png`), picture);
     }
   }
 }
 
+for (const folder of [docs, all]) if (folder) mkdirSync(folder, { recursive: true });
 const browser = await launch();
 const projects = new Projects(binary);
 try {
   projects.prepare();
-  for (const { name, prepare, file, holds } of scenes.filter((one) => only.length === 0 || only.includes(one.name))) {
+  for (const { name, prepare, file, before } of scenes.filter((one) => only.length === 0 || only.includes(one.name))) {
     const folder = projects.copy(name);
     const { context, page, complaints } = await openPage(browser);
     if (file) {
@@ -53,7 +68,7 @@ try {
       await page.goto(studio.address);
       await page.getByTestId("link").filter({ hasText: "connected" }).waitFor();
       await prepare({ page, folder, asperity: (...args) => asperity(binary, args, folder) });
-      await looks(page, name, holds);
+      await looks(page, name, before);
       await context.close();
       await studio.stop();
     }

@@ -3,7 +3,7 @@ import type { Block, NumberArray } from "../src/net/block";
 import { band, Column, Growing, RowCounter } from "../src/pages/scan/growing";
 import { HostClock, Recent } from "../src/pages/scan/latency";
 import { pathColour, strongest_N } from "../src/pages/scan/pathColours";
-import { abilities, contactWords, dearSegment, isLiveUsable, recordWords, sensorWords, type RecorderState, type ScanState } from "../src/pages/scan/scanState";
+import { abilities, contactWords, discardedWords, isLiveUsable, recordWords, sensorWords, type RecorderState, type ScanState } from "../src/pages/scan/scanState";
 import { changed, processSettings, valueOf, waitsForOpening, withSettings } from "../src/pages/scan/settings";
 
 const block = (generation: number, first: number, s: number[], tips?: number[]): Block => {
@@ -119,17 +119,24 @@ describe("the recorder's state", () => {
     expect(sensorWords({ state: "lost" } as never, true).lamp).toBe("bad");
   });
 
-  it("knows what is dear, and which live profile is of use", () => {
-    expect(dearSegment(open({ segments: [{ ...done, duration_s: 0.5 }] }))).toBeNull();
-    expect(dearSegment(open({ segments: [done, { ...done, duration_s: 3 }] }))?.duration_s).toBe(3);
-    expect(dearSegment({ open: false })).toBeNull();
+  it("says what was discarded", () => {
+    expect(discardedWords(null)).toBe("");
+    expect(discardedWords(open({ discarded: 0, last_discarded: null }))).toBe("");
+    const last = { name: "rim", duration_s: 3.21 };
+    expect(discardedWords(open({ discarded: 1, last_discarded: last }))).toContain("rim (3.2\u202fs) discarded");
+    expect(discardedWords(open({ discarded: 3, last_discarded: last }))).toContain("and 2 more");
+    expect(discardedWords({ ...open({ discarded: 1, last_discarded: last }), open: false })).toBe("");
+  });
+
+  it("knows which live profile is of use", () => {
     expect([isLiveUsable(null), isLiveUsable({ correlation: null }), isLiveUsable({ correlation: 0.9 })]).toEqual([false, false, true]);
   });
 
   it("allows what makes sense", () => {
-    expect(abilities({ open: false })).toEqual({ start: false, stop: false, segment: false, discard: false, rescan: false });
+    expect(abilities({ open: false })).toEqual({ start: false, stop: false, segment: false, discard: false, rescan: false, restore: false });
+    expect(abilities(open({ last_discarded: { name: "rim", duration_s: 3 } })).restore).toBe(true);
     expect(abilities(open({}))).toMatchObject({ start: true, stop: false, discard: false });
-    expect(abilities(open({ storing: true, segments: [{ ...done, open: true }] }))).toEqual({ start: false, stop: true, segment: true, discard: true, rescan: true });
+    expect(abilities(open({ storing: true, segments: [{ ...done, open: true }] }))).toEqual({ start: false, stop: true, segment: true, discard: true, rescan: true, restore: false });
     expect(abilities(open({ automatic: true, segments: [done] }))).toMatchObject({ start: false, stop: false, segment: false, discard: true, rescan: false });
     expect(abilities(open({ automatic: true }, { plays: true, playing: false }))).toMatchObject({ start: true, stop: false });
     expect(abilities(open({ storing: true }, { plays: true }))).toMatchObject({ segment: false, stop: true });

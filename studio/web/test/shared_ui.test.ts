@@ -1,9 +1,10 @@
-import { expect, test } from "vitest";
+import { Box3, PerspectiveCamera, Vector3 } from "three";
+import { describe, expect, test } from "vitest";
 import { fieldName, grouped, isChanged, type ConfigField } from "../src/ui/configFields";
 import { withJob, type Job } from "../src/ui/job";
 import { routeOf } from "../src/app/routes";
 import { roundStep } from "../src/view3d/Ground";
-import { directionOf, upOf, viewNames } from "../src/view3d/views";
+import { directionOf, fitDistance, upOf, viewNames } from "../src/view3d/views";
 
 const field = (path: string, value: ConfigField["value"], standard = value, description = ""): ConfigField => ({
   path,
@@ -71,4 +72,33 @@ test("the six sides are opposite in pairs, and top is up", () => {
 test("the tracker's camera sees its own world upright: it stands at −z, and x is to the right", () => {
   expect(directionOf("front", "-y").toArray()).toEqual([0, 0, -1]);
   expect(directionOf("right", "-y").x).toBeCloseTo(1, 12);
+});
+
+describe("what a view shows", () => {
+  const box = new Box3(new Vector3(1, 1, 1), new Vector3(5, 2, 3));
+  const right_angle = Math.PI / 2;
+
+  test("is as far away as its largest side wants", () => {
+    // From the front 4 wide and 1 tall, its near face 1 before the middle: half the width over tan 45°, or of twice the width a quarter.
+    expect(fitDistance(box, new Vector3(0, 0, 1), new Vector3(0, 1, 0), right_angle, 1)).toBeCloseTo(3, 12);
+    expect(fitDistance(box, new Vector3(0, 0, 1), new Vector3(0, 1, 0), right_angle, 4)).toBeCloseTo(1.5, 12);
+  });
+
+  test("has all corners in the picture, from everywhere", () => {
+    for (const name of [...viewNames, "home"] as const) {
+      const from = directionOf(name, "z").normalize();
+      const camera = new PerspectiveCamera(35, 1.6, 0.01, 100);
+      camera.up.copy(upOf("z"));
+      const centre = box.getCenter(new Vector3());
+      camera.position.copy(centre).addScaledVector(from, fitDistance(box, from, camera.up, (35 * Math.PI) / 180, 1.6));
+      camera.lookAt(centre);
+      camera.updateMatrixWorld();
+      let most = 0;
+      for (const x of [1, 5]) for (const y of [1, 2]) for (const z of [1, 3]) {
+        const seen = new Vector3(x, y, z).project(camera);
+        most = Math.max(most, Math.abs(seen.x), Math.abs(seen.y));
+      }
+      expect(most).toBeCloseTo(1, 9);
+    }
+  });
 });

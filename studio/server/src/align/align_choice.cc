@@ -17,8 +17,8 @@ constexpr std::size_t kMostPaths = 16;
 constexpr std::size_t kMostPicks = 1000;
 constexpr std::size_t kMostSettings = 200;
 constexpr std::size_t kLongestName = 1000;
-constexpr std::array<std::string_view, 8> kKeys{"paths",  "mesh",  "mesh_unit",    "textures",
-                                                "config", "picks", "T_mesh_world", "registered"};
+constexpr std::array<std::string_view, 9> kKeys{"paths", "mesh",         "mesh_unit",  "textures", "config",
+                                                "picks", "T_mesh_world", "registered", "ran"};
 
 std::string text_of(const Json& json, std::string_view what) {
   if (!json.is_string() || json.get_ref<const std::string&>().size() > kLongestName) {
@@ -51,10 +51,15 @@ std::vector<AlignChoice::Pick> picks_of(const Json& json) {
   return out;
 }
 
+std::optional<Pose> guess_of(const Json& json, std::string_view what) {
+  const Json& guess = part(json, "guess", what);
+  if (guess.is_null()) return std::nullopt;
+  return pose_of_json(guess, "align: the guess");
+}
+
 AlignChoice::Registered registered_of(const Json& json) {
   AlignChoice::Registered out;
-  const Json& guess = part(json, "guess", "registered");
-  if (!guess.is_null()) out.guess = pose_of_json(guess, "align: the guess");
+  out.guess = guess_of(json, "registered");
   const Json& near = part(json, "near", "registered");
   if (!near.is_boolean()) throw Error("align: registered.near is neither true nor false");
   out.near = near.get<bool>();
@@ -62,7 +67,25 @@ AlignChoice::Registered registered_of(const Json& json) {
   return out;
 }
 
+AlignChoice::Ran ran_of(const Json& json) {
+  AlignChoice::Ran out;
+  out.guess = guess_of(json, "ran");
+  out.paths = names_of(part(json, "paths", "ran"), "ran.paths");
+  out.mesh = text_of(part(json, "mesh", "ran"), "ran.mesh");
+  out.mesh_unit = text_of(part(json, "mesh_unit", "ran"), "ran.mesh_unit");
+  return out;
+}
+
 }  // namespace
+
+Json json_of_ran(const AlignChoice::Ran& ran) {
+  Json out;
+  out["guess"] = ran.guess ? json_of_pose(*ran.guess) : Json();
+  out["paths"] = ran.paths;
+  out["mesh"] = ran.mesh;
+  out["mesh_unit"] = ran.mesh_unit;
+  return out;
+}
 
 Json json_of_choice(const AlignChoice& choice) {
   Json out;
@@ -86,6 +109,7 @@ Json json_of_choice(const AlignChoice& choice) {
     registered["near"] = choice.registered->near;
     registered["T_mesh_world"] = json_of_pose(choice.registered->T_mesh_world);
   }
+  if (choice.ran) out["ran"] = json_of_ran(*choice.ran);
   return out;
 }
 
@@ -109,6 +133,7 @@ AlignChoice choice_of_json(const Json& section) {
   out.picks = picks_of(part(section, "picks", "the section"));
   if (section.contains("T_mesh_world")) out.T_mesh_world = pose_of_json(section.at("T_mesh_world"), "align: the pose");
   if (section.contains("registered")) out.registered = registered_of(section.at("registered"));
+  if (section.contains("ran")) out.ran = ran_of(section.at("ran"));
   return out;
 }
 

@@ -22,6 +22,7 @@ namespace asperity::studio {
 //   "picks"         [{"path":[x,y,z],"mesh":[x,y,z]}]: pairs of points, world and mesh frame, metres
 //   "T_mesh_world"  [x,y,z,qw,qx,qy,qz], where there is one
 //   "registered"    the registration that "T_mesh_world" was taken from, where it was
+//   "ran"           the registration whose result is shown, so that it can be worked out again
 struct AlignChoice {
   struct Pick {
     Eigen::Vector3d p_world_m, p_mesh_m;
@@ -33,6 +34,13 @@ struct AlignChoice {
     Pose T_mesh_world;          // where it ended
   };
 
+  // What was registered last, and from where.
+  struct Ran {
+    std::optional<Pose> guess;  // nullopt: from anywhere
+    std::vector<std::string> paths;
+    std::string mesh, mesh_unit;
+  };
+
   std::vector<std::string> paths;
   std::string mesh;
   std::string mesh_unit = "mm";
@@ -41,9 +49,11 @@ struct AlignChoice {
   std::vector<Pick> picks;
   std::optional<Pose> T_mesh_world;
   std::optional<Registered> registered;
+  std::optional<Ran> ran;
 };
 
 Json json_of_choice(const AlignChoice& choice);
+Json json_of_ran(const AlignChoice::Ran& ran);
 
 // Throws Error in words for anything that is not a choice: unknown keys, more than 16 paths or 1000 picks, numbers that
 // are not finite, a unit that is none, a setting that the registration does not know or take.

@@ -30,11 +30,24 @@ std::array<double, 3> three(const Request& request, std::string_view name) {
   return {v[0], v[1], v[2]};
 }
 
+BlockWriter residual_block(const AlignScene& scene, const Pose& pose, std::vector<ClosestPoint>& closest) {
+  const PathResiduals residuals = path_residuals(scene.p_world_m, scene.surface, pose, closest);
+  BlockWriter out("align.residuals");
+  out.head()["mean_m"] = residuals.mean_m;
+  out.head()["rms_m"] = residuals.rms_m;
+  out.head()["most_m"] = residuals.most_m;
+  out.add("distance_m", std::span<const float>(residuals.distance_m));
+  return out;
+}
+
 }  // namespace
 
 void AlignPage::bind(Document& document, Calls& calls) {
   document.add_section(kSection, json_of_choice({}), check_section);
-  calls.add("align.paths", [this](const Request& request) { request.answer(list_paths(shared_.project)); });
+  calls.add("align.paths", [this](const Request& request) {
+    answer_in_lane(shared_.jobs, "project", request, "", "",
+                   [project = shared_.project](const Observer&) { return list_paths(project); });
+  });
   calls.add("align.config", [this](const Request& request) {
     RegisterConfig config = config_of(choice()), first;
     request.answer(fields_json(list_fields("", config), list_fields("", first)));
@@ -58,6 +71,8 @@ void AlignPage::tick(std::int64_t) { tell_iterations(); }
 
 AlignChoice AlignPage::choice() const { return choice_of_json(shared_.document.section(kSection)); }
 
+Json AlignPage::ran() const { return shared_.document.section(kSection).value("ran", Json()); }
+
 Pose AlignPage::pose(const AlignScene& scene) const { return choice().T_mesh_world.value_or(start_pose(scene)); }
 
 std::shared_ptr<const AlignScene> AlignPage::scene() const {
@@ -69,19 +84,30 @@ std::shared_ptr<const AlignScene> AlignPage::scene() const {
 
 void AlignPage::open(const Request& request) {
   const AlignChoice wanted = choice();
-  if (scene_ && is_same_scene(scene_->of, wanted)) return request.answer(align_block(*scene_));
-  auto made = std::make_shared<std::shared_ptr<const AlignScene>>();
+  if (scene_ && is_same_scene(scene_->of, wanted)) {
+    request.answer(BlockWriter(*block_));
+    return follow_document();
+  }
+  struct Opened {
+    std::shared_ptr<const AlignScene> scene;
+    std::shared_ptr<const BlockWriter> block;
+  };
+  auto made = std::make_shared<Opened>();
   shared_.jobs.start(
       "Opening " + wanted.mesh, "align.open",
       [made, wanted, project = shared_.project](const Observer& observer) {
-        *made = load_align_scene(wanted, project, observer);
+        made->scene = load_align_scene(wanted, project, observer);
+        observer.update("drawing", 0.9);
+        made->block = std::make_shared<const BlockWriter>(align_block(*made->scene));
       },
       [this, made, request](std::exception_ptr error) {
         try {
           if (error) std::rethrow_exception(error);
-          scene_ = *made;
-          closest_.clear();
-          request.answer(align_block(*scene_));
+          scene_ = made->scene;
+          block_ = made->block;
+          closest_ = std::make_shared<std::vector<ClosestPoint>>();
+          request.answer(BlockWriter(*block_));
+          follow_document();
         } catch (const std::exception& fault) {
           request.refuse(fault);
         }
@@ -129,49 +155,86 @@ void AlignPage::pick(const Request& request) {
   request.answer(out);
 }
 
+// On a lane of its own, for the path is moved while a registration runs.
 void AlignPage::measure(const Request& request) {
-  const PathResiduals residuals =
-      path_residuals(scene()->p_world_m, scene_->surface, pose_argument(request, "pose"), closest_);
-  BlockWriter out("align.residuals");
-  out.head()["mean_m"] = residuals.mean_m;
-  out.head()["rms_m"] = residuals.rms_m;
-  out.head()["most_m"] = residuals.most_m;
-  out.add("distance_m", std::span<const float>(residuals.distance_m));
-  request.answer(std::move(out));
+  answer_in_lane(shared_.jobs, "align residuals", request, "", "",
+                 [scene = scene(), closest = closest_, pose = pose_argument(request, "pose")](const Observer&) {
+                   return residual_block(*scene, pose, *closest);
+                 });
 }
 
 void AlignPage::run(const Request& request) {
   const std::shared_ptr<const AlignScene> scene = this->scene();
-  const AlignChoice wanted = choice();
   const std::optional<Pose> guess = request.flag("guess") ? std::optional<Pose>(pose(*scene)) : std::nullopt;
+  register_from(guess, guess ? "Registering from the pose shown" : "Registering from anywhere",
+                [this, request, guess, scene](std::exception_ptr error) {
+                  try {
+                    if (error) std::rethrow_exception(error);
+                    const Json result = json_of_run(*last_);
+                    // Known before the document's change is heard, which then asks for no other result.
+                    const AlignChoice& of = scene->of;
+                    told_ran_ = json_of_ran({guess, of.paths, of.mesh, of.mesh_unit});
+                    if (ran() != told_ran_)
+                      shared_.document.edit("/align/ran", told_ran_, guess ? "register" : "register from anywhere");
+                    request.answer(result);
+                  } catch (const std::exception& fault) {
+                    request.refuse(fault);
+                  }
+                });
+}
+
+void AlignPage::register_from(const std::optional<Pose>& guess, const std::string& title,
+                              std::function<void(std::exception_ptr)> after) {
   const std::uint64_t number = ++runs_;
   tell_iterations();
   log_ = std::make_shared<IterationLog>(number);
+  running_ = true;
   auto made = std::make_shared<AlignRun>();
   shared_.jobs.start(
-      guess ? "Registering from the pose shown" : "Registering from anywhere", "align.run",
-      [made, scene, wanted, guess, number, log = log_](const Observer& observer) {
+      title, "align.run",
+      [made, scene = scene(), wanted = choice(), guess, number, log = log_](const Observer& observer) {
         RegistrationObserver watched(observer);
         watched.iterated = [log](const RegistrationIteration& iteration) { log->add(iteration); };
         *made = run_align(number, scene, wanted, guess, watched);
       },
-      [this, made, request](std::exception_ptr error) {
-        try {
-          if (error) std::rethrow_exception(error);
-          finish(request, std::move(*made));
-        } catch (const std::exception& fault) {
-          tell_iterations();
-          request.refuse(fault);
-        }
+      [this, made, number, after = std::move(after)](std::exception_ptr error) {
+        if (number == runs_) running_ = false;
+        tell_iterations();
+        if (!error) finish(std::move(*made));
+        after(error);
+        if (!running_) follow_document();
       });
 }
 
-void AlignPage::finish(const Request& request, AlignRun run) {
-  tell_iterations();
+void AlignPage::finish(AlignRun run) {
   last_ = std::move(run);
-  const Json result = json_of_run(*last_);
-  shared_.hub.broadcast("align.result", result);
-  request.answer(result);
+  shared_.hub.broadcast("align.result", json_of_run(*last_));
+}
+
+void AlignPage::forget_result() {
+  if (!last_) return;
+  last_.reset();
+  log_.reset();
+  shared_.hub.broadcast("align.result", Json());
+}
+
+void AlignPage::follow_document() {
+  const AlignChoice wanted = choice();
+  if (running_ || !scene_ || !is_same_scene(scene_->of, wanted)) return;
+  const auto& of = wanted.ran;
+  if (!of || of->paths != wanted.paths || of->mesh != wanted.mesh || of->mesh_unit != wanted.mesh_unit) {
+    told_ran_ = Json();
+    return forget_result();
+  }
+  if (ran() == told_ran_ && (!last_ || last_->scene == scene_)) return;
+  told_ran_ = ran();
+  forget_result();
+  register_from(of->guess, "Registering again, as before", [](std::exception_ptr) {});
+}
+
+void AlignPage::edited(const Edit& edit) {
+  // A change of the files is followed once they are open.
+  if (edit.path == "/align" || edit.path.starts_with("/align/ran")) follow_document();
 }
 
 void AlignPage::accept(const Request& request) {

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "align/align_run.h"
@@ -20,9 +23,11 @@ class AlignPage : public Page {
 
   void bind(Document& document, Calls& calls) override;
   void tick(std::int64_t now_ns) override;
+  void edited(const Edit& edit) override;
 
  private:
   AlignChoice choice() const;
+  Json ran() const;  // the document's, null if there is none
   // The pose that is shown: the document's, or where one begins.
   Pose pose(const AlignScene& scene) const;
   // The scene of the present choice. Throws Advice if it is not open.
@@ -33,17 +38,28 @@ class AlignPage : public Page {
   void pick(const Request& request);
   void measure(const Request& request);
   void run(const Request& request);
-  void finish(const Request& request, AlignRun run);
+  // Registers; `after` is called with what went wrong, or with nothing.
+  void register_from(const std::optional<Pose>& guess, const std::string& title,
+                     std::function<void(std::exception_ptr)> after);
+  void finish(AlignRun run);
+  void forget_result();
+  // Brings the result in line with the registration that the document names: nothing that was seen is lost by a
+  // restart, and an undo takes it back.
+  void follow_document();
   void accept(const Request& request);
   void write(const Request& request);
   void tell_iterations();
 
   Shared& shared_;
   std::shared_ptr<const AlignScene> scene_;
-  std::vector<ClosestPoint> closest_;  // of the last residuals
+  std::shared_ptr<const BlockWriter> block_;  // of scene_, as it is sent
+  // Of the last residuals, for the lane alone that takes them.
+  std::shared_ptr<std::vector<ClosestPoint>> closest_;
   std::uint64_t runs_ = 0;
   std::shared_ptr<IterationLog> log_;
   std::optional<AlignRun> last_;
+  bool running_ = false;
+  Json told_ran_;  // the document's "ran" that last_ is the result of, or that could not be worked out
 };
 
 std::unique_ptr<Page> make_align_page(Shared& shared);

@@ -8,14 +8,13 @@
 
 #include "asperity/pipeline/locate_scans.h"
 #include "json_pose.h"
+#include "number_or_null.h"
 
 namespace asperity::studio {
 
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 // Standard deviations of the middle's place and of the turn, from the covariance.
 std::string certainty_of(const RegistrationResult& result) {
@@ -62,8 +61,8 @@ Json json_of_run(const AlignRun& run) {
   out["run"] = run.number;
   out["guess"] = run.how.guess ? json_of_pose(*run.how.guess) : Json();
   out["T_mesh_world"] = json_of_pose(result.T_mesh_world);
-  out["rms_m"] = finite(result.rms_m);
-  out["mean_m"] = finite(result.mean_m);
+  out["rms_m"] = number_or_null(result.rms_m);
+  out["mean_m"] = number_or_null(result.mean_m);
   out["points"] = result.points;
   out["outliers"] = result.outliers;
   out["iterations"] = result.iterations;
@@ -76,16 +75,16 @@ Json json_of_run(const AlignRun& run) {
   for (const UndeterminedMotion& motion : result.undetermined) {
     Json each;
     each["description"] = motion.description;
-    each["sigma_m"] = finite(motion.sigma_m);
+    each["sigma_m"] = number_or_null(motion.sigma_m);
     out["undetermined"].push_back(std::move(each));
   }
   out["runner_up"] = nullptr;
   if (result.runner_up) {
     Json other;
     other["T_mesh_world"] = json_of_pose(result.runner_up->T_mesh_world);
-    other["rms_m"] = finite(result.runner_up->rms_m);
-    other["distance_m"] = finite(result.runner_up->distance_m);
-    other["turn_deg"] = finite(result.runner_up->turn_rad / kDegree);
+    other["rms_m"] = number_or_null(result.runner_up->rms_m);
+    other["distance_m"] = number_or_null(result.runner_up->distance_m);
+    other["turn_deg"] = number_or_null(result.runner_up->turn_rad / kDegree);
     out["runner_up"] = std::move(other);
   }
   out["problems"] = Json::array();

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "number_or_null.h"
+
 namespace asperity::studio {
 
 namespace {
@@ -10,7 +12,7 @@ std::vector<float> floats(const std::vector<double>& values) { return {values.be
 
 Json figure(const char* key, const char* label, double value, const char* unit, double deviation) {
   Json out{{"group", "Repeatability"}, {"key", key}, {"label", label}};
-  out["value"] = std::isfinite(value) ? Json(value) : Json();
+  out["value"] = number_or_null(value);
   if (std::isfinite(deviation)) out["error"] = deviation;
   out["unit"] = unit;
   return out;

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/profile/compare_profiles.h"
+#include "number_or_null.h"
 
 namespace asperity::studio {
 
 namespace {
-
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 // The causal profile against the refined one, where both can be compared.
 Json difference_json(const LiveHeights& live, const ProcessResult& result, double rate_Hz, ComparisonConfig config) {
@@ -23,11 +21,11 @@ Json difference_json(const LiveHeights& live, const ProcessResult& result, doubl
     const ProfileComparison found =
         compare_profiles(live.s_m, live.height_m, result.profile.s_m, result.profile.height_m, config);
     Json out;
-    out["correlation"] = finite(found.correlation);
-    out["rms_um"] = finite(found.rms_um);
-    out["gain"] = finite(found.gain);
-    out["shift_m"] = finite(found.shift_m);
-    out["compared_m"] = finite(found.compared_m);
+    out["correlation"] = number_or_null(found.correlation);
+    out["rms_um"] = number_or_null(found.rms_um);
+    out["gain"] = number_or_null(found.gain);
+    out["shift_m"] = number_or_null(found.shift_m);
+    out["compared_m"] = number_or_null(found.compared_m);
     return out;
   } catch (const Error&) {
     return nullptr;  // too short
@@ -60,7 +58,8 @@ BlockWriter ScanRefiner::refine(const ProcessConfig& config, const Observer& obs
   head["speed_mps"] = result.speed.mean_mps;
   head["roughness"] = nullptr;
   if (result.roughness) {
-    head["roughness"] = {{"Ra_m", finite(result.roughness->Ra_m)}, {"Rq_m", finite(result.roughness->Rq_m)}};
+    head["roughness"] = {{"Ra_m", number_or_null(result.roughness->Ra_m)},
+                         {"Rq_m", number_or_null(result.roughness->Rq_m)}};
   }
   head["difference"] = difference_json(live_, result, session_.recording().info.probe_rate_Hz, config.comparison);
   out.add("s_m", std::span<const double>(profile.s_m));

@@ -1,21 +1,19 @@
 #include "scan/scan_blocks.h"
 
 #include <array>
-#include <cmath>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "asperity/base/text.h"
 #include "json_pose.h"
+#include "number_or_null.h"
 
 namespace asperity::studio {
 
 namespace {
 
 constexpr std::array<std::string_view, 5> kStateNames{"absent", "running", "silent", "lost", "ended"};
-
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json sensor_json(const SensorSnapshot& sensor) {
   Json out;
@@ -42,15 +40,19 @@ Json link_json(const LinkStatistics& link) {
   return out;
 }
 
+Json segment_json(const Segment& segment) {
+  Json out;
+  out["name"] = printable(segment.name, 100);
+  out["duration_s"] = 1e-9 * static_cast<double>(segment.end_ns - segment.start_ns);
+  return out;
+}
+
 Json segments_json(const RecorderSnapshot& now) {
   constexpr std::size_t kMostListed = 200;
   Json out = Json::array();
   const std::size_t count = now.segment_list.size();
   for (std::size_t i = count > kMostListed ? count - kMostListed : 0; i < count; ++i) {
-    const Segment& segment = now.segment_list[i];
-    Json each;
-    each["name"] = printable(segment.name, 100);
-    each["duration_s"] = 1e-9 * static_cast<double>(segment.end_ns - segment.start_ns);
+    Json each = segment_json(now.segment_list[i]);
     each["open"] = now.storing && i + 1 == count;
     out.push_back(std::move(each));
   }
@@ -92,7 +94,7 @@ BlockWriter image_block(const SeenImage& seen) {
   out.head()["factor"] = small.factor;
   out.head()["tags"] = Json::array();
   if (const auto& pose = seen.pose) {
-    out.head()["reprojection_px"] = finite(pose->sample.reprojection_px);
+    out.head()["reprojection_px"] = number_or_null(pose->sample.reprojection_px);
     out.head()["ambiguous"] = pose->ambiguous;
     for (const TagDetection& tag : pose->tags) {
       Json each;
@@ -135,19 +137,20 @@ Json recorder_json(const RecorderSnapshot& now) {
   out["link"] = link_json(now.link);
   out["tracking"] = {
       {"frames", now.tracking.frames}, {"poses", now.tracking.poses}, {"skipped_frames", now.tracking.skipped_frames}};
-  out["force_N"] = finite(now.force_N);
+  out["force_N"] = number_or_null(now.force_N);
   out["force_is_calibrated"] = now.force_is_calibrated;
   out["touching"] = now.touching;
   out["contact_ready"] = now.contact_ready;
   out["touches"] = now.touches;
   out["markers"] = now.pose ? Json(now.pose->markers) : Json();
   out["pose"] = now.pose ? json_of_pose(now.pose->T_world_marker) : Json();
-  out["pose_age_s"] = finite(now.pose_age_s);
+  out["pose_age_s"] = number_or_null(now.pose_age_s);
   out["storing"] = now.storing;
   out["automatic"] = now.automatic;
   out["segment"] = printable(now.segment, 100);
   out["segments"] = segments_json(now);
   out["discarded"] = now.discarded;
+  out["last_discarded"] = now.last_discarded ? segment_json(*now.last_discarded) : Json();
   out["recorded_s"] = now.recorded_s;
   out["probe_rows"] = now.probe_rows;
   out["tracker_rows"] = now.tracker_rows;

@@ -19,6 +19,7 @@
 #include "scan/replay_source.h"
 #include "scan/scan_choices.h"
 #include "scan/scan_session.h"
+#include "scan/temporary_folder.h"
 #include "utc_now.h"
 
 namespace asperity::studio {
@@ -105,6 +106,10 @@ class ScanPage : public Page {
       session().rescan();
       request.done();
     });
+    calls.add("scan.restore", [this](const Request& request) {
+      session().restore();
+      request.done();
+    });
     calls.add("scan.profile", [this](const Request& request) { request.answer(session().profile()); });
     calls.add("scan.path", [this](const Request& request) { request.answer(session().path()); });
     calls.add("scan.refined", [this](const Request& request) {
@@ -138,6 +143,8 @@ class ScanPage : public Page {
   void start() override {
     settings_ = choices().settings;
     automatic_ = choices().automatic;
+    shared_.jobs.start_in(
+        "project", "", "", [](const Observer&) { remove_stale_temporary_folders(); }, nullptr);
   }
 
   void stop() override { session_.reset(); }

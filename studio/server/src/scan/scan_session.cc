@@ -1,5 +1,6 @@
 #include "scan/scan_session.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -11,6 +12,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/recording/uncalibrated.h"
+#include "asperity/studio/calls.h"
 #include "scan/scan_blocks.h"
 
 namespace asperity::studio {
@@ -18,7 +20,6 @@ namespace asperity::studio {
 namespace {
 
 constexpr auto kRound = std::chrono::milliseconds(15);
-constexpr std::int64_t kStatePeriod_ns = 80'000'000;
 constexpr std::int64_t kPosesLate_ns = 250'000'000;  // behind the rows of their time, at most
 
 }  // namespace
@@ -86,6 +87,13 @@ void ScanSession::rescan() {
   if (setup_.source->plays()) setup_.source->play();
   recorder_->rescan_segment();
   begin_in_contact();
+}
+
+void ScanSession::restore() {
+  if (!snapshot().last_discarded)
+    throw Advice("nothing was discarded that could be brought back",
+                 "Segments can be brought back until the recording is closed.");
+  recorder_->restore_segment();
 }
 
 // What plays may have ended in contact, and begins so: no touch then begins the segment.
@@ -210,12 +218,13 @@ void ScanSession::take_rows(bool storing) {
 
 // What has become of the segments since the last round.
 void ScanSession::watch(const RecorderSnapshot& now) {
-  const Watched before = std::exchange(before_, {now.storing, now.discarded});
-  const bool discarded = now.discarded > before.discarded;
+  const Watched before = std::exchange(before_, {now.storing, now.discarded, now.restored, now.last_discarded});
+  const bool restored = now.restored > before.restored;
+  const bool discarded = now.discarded + now.restored > before.discarded + before.restored;
   if (discarded) {
     hand_over_at_ns_.reset();
     shown_.reset();
-    estimator_->kept().hold(now.storing);
+    estimator_->kept().hold(true);  // it may be wanted again
     events_.forgotten();
     const std::lock_guard lock(mutex_);
     book_.begin_anew();
@@ -226,6 +235,7 @@ void ScanSession::watch(const RecorderSnapshot& now) {
     shown_ = now.segment_list.back();
     hand_over_at_ns_ = host_now_ns() + kPosesLate_ns;
   }
+  if (restored && before.last_discarded && !now.storing && !shown_) bring_back(*before.last_discarded, now);
   // A source that has played to its end has nothing more for the segment that is open.
   if (setup_.source->plays() && now.storing && was_playing_ && !setup_.source->playing()) {
     if (now.automatic) recorder_->set_mode(StoreMode::kSegments);
@@ -243,16 +253,35 @@ void ScanSession::begin_scan(const RecorderSnapshot& now) {
   if (now.gravity.measured != gravity_used_) estimator_->configure(info_of(now), config_);
   gravity_used_ = now.gravity.measured;
   estimator_->restart();
-  estimator_->kept().hold(true);
+  KeptRows& kept = estimator_->kept();
+  if (!now.segment_list.empty()) kept.forget_before(now.segment_list.back().start_ns - KeptRows::kTrail_ns);
+  kept.hold(true);
   events_.forgotten();
   const std::lock_guard lock(mutex_);
   book_.begin_anew();
 }
 
+// What was discarded is shown again, as if it had just ended.
+void ScanSession::bring_back(const Segment& segment, const RecorderSnapshot& now) {
+  const auto& list = now.segment_list;
+  const auto back = std::find_if(list.begin(), list.end(), [&](const Segment& each) {
+    return each.start_ns == segment.start_ns && each.end_ns == segment.end_ns;
+  });
+  if (back == list.end()) return;
+  if (!estimator_->kept().covers(back->start_ns)) {
+    tell(back->name + " is in the recording again; its rows are not in memory any more",
+         "Finish the recording, and open it on the Process page.");
+    return;
+  }
+  shown_ = *back;
+  grow_again(now);
+  hand_over_at_ns_ = host_now_ns();
+}
+
 void ScanSession::hand_over(const RecorderSnapshot& now) {
   hand_over_at_ns_.reset();
   KeptRows& kept = estimator_->kept();
-  kept.hold(now.storing);
+  kept.hold(true);  // until the next scan begins: it may be discarded, and be wanted again
   if (!shown_) return;
   if (!kept.covers(shown_->start_ns)) {
     tell(shown_->name + " is too long to be refined here; the recording has all of it",
@@ -292,59 +321,16 @@ void ScanSession::retune(const RecorderSnapshot& now) {
   config_ = *wanted;
   told_.clear();
   if (!shown_ || !estimator_->kept().covers(shown_->start_ns)) return;
-  const std::int64_t end_ns = now.storing ? std::numeric_limits<std::int64_t>::max() : shown_->end_ns;
-  const LiveEstimate estimate = estimator_->again(shown_->start_ns, end_ns, now.storing);
-  {
-    const std::lock_guard lock(mutex_);
-    book_.begin_anew();
-    book_.add(estimate, true);
-  }
+  grow_again(now);
   if (!now.storing) events_.retuned(live_heights());
 }
 
-void ScanSession::publish(std::string_view topic, BlockWriter block, Delivery delivery) {
-  block.head()["topic"] = topic;
-  hub_.publish(topic, block.take(), delivery);
-}
-
-void ScanSession::show_rows() {
-  if (!taken_.rows.empty() && hub_.has_subscribers("scan.probe")) {
-    publish("scan.probe",
-            probe_block(taken_.rows, taken_.first_row, taken_.rows_dropped, origin_ns_, setup_.source->calibration()),
-            Delivery::kSeries);
-  }
-  if (taken_.image) publish("scan.image", image_block(*taken_.image), Delivery::kLatest);
-}
-
-void ScanSession::show(const RecorderSnapshot& now, std::int64_t now_ns) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (book_.grown() && hub_.has_subscribers("scan.profile"))
-      publish("scan.profile", book_.take_growth(), Delivery::kSeries);
-    if (book_.moved() && hub_.has_subscribers("scan.pose"))
-      publish("scan.pose", book_.take_motion(), Delivery::kSeries);
-  }
-  if (now_ns - stated_ns_ < kStatePeriod_ns) return;
-  stated_ns_ = now_ns;
-  publish("scan.state", state_of(now, now_ns), Delivery::kLatest);
-}
-
-BlockWriter ScanSession::state_of(const RecorderSnapshot& now, std::int64_t now_ns) {
-  BlockWriter state("scan.state");
-  Json& head = state.head();
-  head["open"] = true;
-  head["t_ns"] = now_ns;
-  head["source"] = description();
-  head["recorder"] = recorder_json(now);
-  head["live"] = {{"waiting", estimator_->waiting()},
-                  {"age_s", age_s_},
-                  {"poses_late", poses_late_},
-                  {"highest_speed_mps", Json()}};
-  const double fastest_mps = estimator_->highest_speed_mps();
-  if (std::isfinite(fastest_mps)) head["live"]["highest_speed_mps"] = fastest_mps;
-  // A source that waits for its start is silent for no fault.
-  head["hints"] = setup_.source->playing() ? hints_json(estimator_->hints(now_ns)) : Json::array();
-  return state;
+void ScanSession::grow_again(const RecorderSnapshot& now) {
+  const std::int64_t end_ns = now.storing ? std::numeric_limits<std::int64_t>::max() : shown_->end_ns;
+  const LiveEstimate estimate = estimator_->again(shown_->start_ns, end_ns, now.storing);
+  const std::lock_guard lock(mutex_);
+  book_.begin_anew();
+  book_.add(estimate, true);
 }
 
 }  // namespace asperity::studio

@@ -69,6 +69,8 @@ class ScanSession {
   void next_segment(const std::string& name);
   void discard();
   void rescan();
+  // Brings back what was discarded last. Throws Advice if there is nothing.
+  void restore();
   void set_automatic(bool automatic);
   // New settings of the live estimate and of the hints; the scan so far is worked out anew with them.
   void tune(const ScanConfig& config);
@@ -86,7 +88,8 @@ class ScanSession {
  private:
   struct Watched {
     bool storing = false;
-    std::size_t discarded = 0;
+    std::size_t discarded = 0, restored = 0;
+    std::optional<Segment> last_discarded;
   };
 
   void begin_in_contact();
@@ -95,6 +98,8 @@ class ScanSession {
   void take_rows(bool storing);
   void watch(const RecorderSnapshot& now);
   void begin_scan(const RecorderSnapshot& now);
+  void bring_back(const Segment& segment, const RecorderSnapshot& now);
+  void grow_again(const RecorderSnapshot& now);
   void hand_over(const RecorderSnapshot& now);
   void retune(const RecorderSnapshot& now);
   LiveHeights live_heights() const;

@@ -1,26 +1,16 @@
 #pragma once
 
-#include <cstdlib>
 #include <filesystem>
-#include <string>
-#include <system_error>
-
-#include "asperity/base/error.h"
 
 namespace asperity::studio {
 
-// A folder of its own among the system's temporary ones, gone with all that is in it at the end.
+// A folder of its own among the system's temporary ones, gone with all that is in it at the end. While it is there it
+// is locked; the lock of a process that was killed is free.
 class TemporaryFolder {
  public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "asperity-scan-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw Error(name + ": a temporary folder cannot be made");
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
+  // Throws Error if none can be made in `where`.
+  explicit TemporaryFolder(const std::filesystem::path& where = std::filesystem::temp_directory_path());
+  ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
@@ -28,6 +18,12 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path path_;
+  int lock_ = -1;
 };
+
+// Removes what processes that were killed have left in `where`: folders with a TemporaryFolder's name and mark that
+// belong to this user and that nobody holds. Links are not followed. Never throws; what cannot be removed stays.
+void remove_stale_temporary_folders(
+    const std::filesystem::path& where = std::filesystem::temp_directory_path()) noexcept;
 
 }  // namespace asperity::studio

@@ -57,15 +57,21 @@ async function paint({ page }) {
 
 const kPress_ms = 250;
 
-/** Over the stroke, pressing; held until the pictures are taken. */
 async function feel({ page }) {
   await open(page, "Feel");
   await page.getByTestId("feel-scene").selectOption("painted/scene.json");
   await page.getByTestId("feel-texture-1").waitFor();
-  await page.getByTestId("feel-view").getByRole("button", { name: "fit" }).click();
   await page.getByTestId("feel-start").click();
   await page.getByTestId("feel-stop").waitFor();
-  const box = await page.getByTestId("feel-view").locator("canvas").boundingBox();
+}
+
+/** Over the stroke, pressing and stroking a little. Where the stroke is seen depends on the window: it is felt for. */
+async function touch({ page }) {
+  await page.mouse.up();
+  const view = page.getByTestId("feel-view");
+  const fit = () => view.getByRole("button", { name: "fit" }).click();
+  await fit();
+  const box = await view.locator("canvas").boundingBox();
   const to = (x, y, steps = 4) => page.mouse.move(box.x + box.width * x, box.y + box.height * y, { steps });
   // A browser that is held up loses the force; it is taken again as a user does. Without it a drag turns the view.
   const take = async () => {
@@ -73,12 +79,12 @@ async function feel({ page }) {
     if (!(await button.isVisible())) return true;
     await page.mouse.up();
     await button.click({ timeout: 1000 }).catch(() => {});
-    await page.getByTestId("feel-view").getByRole("button", { name: "fit" }).click();
+    await fit();
     return false;
   };
   const hasTexture = async () => /[1-9]/.test(await page.getByTestId("feel-height").locator("dd").textContent());
-  const hasForce = async () => numberIn(await page.getByTestId("force-now").textContent()) > 0.2;
-  // Where the stroke is seen depends on the window: from the top downwards until the texture is under the tip.
+  const gain = async () => numberIn((await page.getByTestId("feel-gain").locator("dd").textContent()).replace("–", "0"));
+  const hasForce = async () => (await gain()) === 100 && numberIn(await page.getByTestId("force-now").textContent()) > 0.2;
   let heights = Array.from({ length: 13 }, (_, index) => 0.36 + 0.02 * index);
   await until(async () => {
     for (const y of heights) {
@@ -114,7 +120,7 @@ export const scenes = [
   { name: "process", prepare: process_ },
   { name: "align", prepare: align },
   { name: "paint", prepare: paint },
-  { name: "feel", prepare: feel, holds: true },
+  { name: "feel", prepare: feel, before: touch },
   { name: "study", prepare: study },
   { name: "report", file: "measured/report.html", prepare: ({ page }) => page.locator(".uplot").first().waitFor() },
 ];

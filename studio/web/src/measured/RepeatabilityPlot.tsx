@@ -58,7 +58,7 @@ export function RepeatabilityPlot({ block }: { block: Block }) {
         columns={[
           { key: "name", label: "Scan", cell: (row, index) => (index < scans.length ? `${index + 1}\u00a0${row.name}` : <strong>{row.name}</strong>) },
           { key: "correlation", label: "Correlation", numeric: true },
-          { key: "rms_um", label: "Difference", unit: "µm RMS", numeric: true },
+          { key: "rms_um", label: "Diff.", unit: "µm RMS", numeric: true },
           { key: "shift_mm", label: "Shift", unit: "mm", numeric: true },
           { key: "pitch_mm", label: "Pitch", unit: "mm", numeric: true },
           { key: "depth_um", label: "Depth", unit: "µm", numeric: true },

@@ -20,9 +20,10 @@ import { Ease } from "./ease";
 import { Ground } from "./Ground";
 import { dispose } from "./helpers";
 import { listenToPointer, type PointerListener } from "./pointer";
-import { directionOf, upOf, type Upright, type ViewName } from "./views";
+import { directionOf, fitDistance, upOf, type Upright, type ViewName } from "./views";
 
 const kNear_px = 5;
+const kMargin = 1.15; // of what is shown, so that legends and buttons beside it cover little
 
 Mesh.prototype.raycast = acceleratedRaycast;
 
@@ -96,12 +97,13 @@ export class View {
     if (box.isEmpty()) box.setFromCenterAndSize(this.controls.target, new Vector3(0.1, 0.1, 0.1));
     const centre = box.getCenter(new Vector3());
     const radius = Math.max(box.getSize(new Vector3()).length() / 2, 1e-4);
-    const half = (this.camera.fov * Math.PI) / 360;
-    const distance = (1.08 * radius) / Math.sin(Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect)));
     const from = this.camera.position.clone().sub(this.controls.target);
     if (from.lengthSq() === 0) from.copy(directionOf("home", this.up));
+    from.normalize();
+    const fov_rad = (this.camera.fov * Math.PI) / 180;
+    const distance = kMargin * Math.max(fitDistance(box, from, upOf(this.up), fov_rad, this.camera.aspect), radius);
     this.controls.target.copy(centre);
-    this.camera.position.copy(centre).addScaledVector(from.normalize(), distance);
+    this.camera.position.copy(centre).addScaledVector(from, distance);
     this.camera.near = distance / 200;
     this.camera.far = distance * 50;
     this.camera.updateProjectionMatrix();

@@ -1,4 +1,4 @@
-import { Vector3 } from "three";
+import { type Box3, Vector3 } from "three";
 
 /** The direction that is up on the screen, in the frame of the data: "-y" in the tracker's world, "z" on meshes. */
 export type Upright = "-y" | "y" | "z";
@@ -33,4 +33,19 @@ export function directionOf(name: ViewName, up: Upright): Vector3 {
     case "home":
       return front.addScaledVector(right, 0.7).addScaledVector(above, 0.8);
   }
+}
+
+/** How far from the middle of a box a camera must stand that sees all of its corners; `from`: of unit length, towards it. */
+export function fitDistance(box: Box3, from: Vector3, up: Vector3, fov_rad: number, aspect: number): number {
+  const right = new Vector3().crossVectors(up, from).normalize();
+  const above = new Vector3().crossVectors(from, right);
+  const half = box.getSize(new Vector3()).multiplyScalar(0.5);
+  const tall = Math.tan(fov_rad / 2);
+  let distance = 0;
+  for (let corner = 0; corner < 8; ++corner) {
+    const at = new Vector3(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, corner & 4 ? half.z : -half.z);
+    const sideways = Math.max(Math.abs(at.dot(right)) / (tall * aspect), Math.abs(at.dot(above)) / tall);
+    distance = Math.max(distance, sideways + at.dot(from));
+  }
+  return distance;
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <string_view>
 
 #include "asperity/base/problem.h"
 #include "asperity/geometry/motion.h"
@@ -20,5 +22,7 @@ struct PathFile {
 // over and counted. Throws Error naming file, line and column for a missing column, a cell that is not a
 // number, times that do not rise, no row at all, or a file over 1 GiB.
 PathFile read_path(const std::filesystem::path& file);
+// The same from text; `name` is what messages call the file.
+PathFile parse_path(std::string_view text, const std::string& name);
 
 }  // namespace asperity

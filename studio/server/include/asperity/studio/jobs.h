@@ -37,6 +37,9 @@ class Jobs {
   std::uint64_t start_in(const std::string& lane, const std::string& title, const std::string& slot, Work work,
                          Done done);
   void cancel(std::uint64_t job);
+  // Throws Advice if kMostWaiting jobs are waiting: more are not begun for browsers, who may ask without end.
+  void check_room() const;
+  static constexpr std::size_t kMostWaiting = 200;
 
   void bind(Calls& calls);
 
@@ -45,16 +48,17 @@ class Jobs {
   std::unique_ptr<Impl> impl_;
 };
 
-// Answers `request` with what `work` gives: a Json or a BlockWriter. Its error is the request's refusal. The lane is
-// that of the call's page; a slot is the browser's own, so that one window does not cancel another's work.
+// Answers `request` with what `work` gives: a Json or a BlockWriter. Its error is the request's refusal. A slot is the
+// browser's own, so that one window does not cancel another's work. Throws Advice as Jobs::check_room.
 template <class Work>
-void answer_by_job(Jobs& jobs, const Request& request, const std::string& title, const std::string& slot, Work work) {
+void answer_in_lane(Jobs& jobs, const std::string& lane, const Request& request, const std::string& title,
+                    const std::string& slot, Work work) {
   using Result = std::invoke_result_t<Work, const Observer&>;
   auto result = std::make_shared<std::optional<Result>>();
-  const std::string& call = request.name();
+  jobs.check_room();
   const std::string own_slot = slot.empty() ? slot : slot + " " + std::to_string(request.client());
   jobs.start_in(
-      call.substr(0, call.find('.')), title, own_slot,
+      lane, title, own_slot,
       [result, work = std::move(work)](const Observer& observer) { result->emplace(work(observer)); },
       [result, request](std::exception_ptr error) {
         if (!error) return request.answer(std::move(**result));
@@ -64,6 +68,13 @@ void answer_by_job(Jobs& jobs, const Request& request, const std::string& title,
           request.refuse(fault);
         }
       });
+}
+
+// The same, in the lane of the call's page.
+template <class Work>
+void answer_by_job(Jobs& jobs, const Request& request, const std::string& title, const std::string& slot, Work work) {
+  const std::string& call = request.name();
+  answer_in_lane(jobs, call.substr(0, call.find('.')), request, title, slot, std::move(work));
 }
 
 }  // namespace asperity::studio

@@ -12,8 +12,10 @@ struct Asset {
   bool compressed = false;
 };
 
-// False if the program was built without Node: then there is no app and no report.
+// False if the program was built without the app, as without Node: then there is no app and no report.
 bool built();
+// What was missing and what to do about it, to be followed by "and build again"; empty if built().
+std::string_view why_not_built();
 
 // The file of the app at a path such as "/index.html".
 std::optional<Asset> find_asset(std::string_view path);

@@ -1,17 +1,18 @@
 import { Button } from "../../ui/Button";
 import { Figure } from "../../ui/Figure";
 import { Figures } from "../../ui/Figures";
-import { cancelJob, jobs } from "../../ui/job";
+import { cancelJob } from "../../ui/job";
 import { Panel } from "../../ui/Panel";
 import { Toggle } from "../../ui/Toggle";
 import { Warning } from "../../ui/Warning";
 import { verdictWords } from "./verdict";
-import { ghost, isRegistered, opened, register, result, running, showing, take, type RunResult, type Showing } from "./alignState";
+import { ghost, isRegistered, opened, register, result, running, runningJob, showing, take, type RunResult, type Showing } from "./alignState";
 
 /** The registration: from here or from anywhere, what it says of itself, and its runner-up. */
 export function RunPanel() {
   const found = result.value;
-  const job = jobs.value.find(({ title }) => title.startsWith("Registering"));
+  const job = runningJob.value;
+  const waits = job?.title.startsWith("Registering again") ? "What was found before is worked out again …" : "Registering …";
   return (
     <Panel title="Registration" testId="align-run">
       <div class="buttons">
@@ -35,7 +36,7 @@ export function RunPanel() {
         {running.value && job && <Button onClick={() => cancelJob(job.id)}>Cancel</Button>}
       </div>
       <div aria-live="polite">
-        {found ? <Verdict found={found} /> : <p class="field-hint">{running.value ? "Registering …" : "Not run yet."}</p>}
+        {found ? <Verdict found={found} /> : <p class="field-hint">{running.value ? waits : "Not run yet."}</p>}
       </div>
       {isRegistered.value && <p class="field-hint">The path lies where a registration has put it.</p>}
     </Panel>

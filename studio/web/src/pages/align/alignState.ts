@@ -3,6 +3,7 @@ import { batch, computed, effect, signal } from "@preact/signals";
 import { call, onEvent, subscribe } from "../../net/connection";
 import type { Block } from "../../net/block";
 import { documentIsRead, edit, section } from "../../state/document";
+import { jobs } from "../../ui/job";
 import { complain } from "../../ui/toast";
 import { noIterations, withBlock, type Iterations } from "./iterations";
 import { latest } from "./latest";
@@ -18,6 +19,7 @@ export interface AlignSection {
   picks: Pick[];
   T_mesh_world?: Pose;
   registered?: { guess: Pose | null; near: boolean; T_mesh_world: Pose };
+  ran?: { guess: Pose | null; paths: string[]; mesh: string; mesh_unit: string };
 }
 
 export interface Solution {
@@ -64,7 +66,10 @@ export const opening = signal(false);
 export const residuals = signal<Residuals | null>(null);
 export const iterations = signal<Iterations>(noIterations);
 export const result = signal<RunResult | null>(null);
-export const running = signal(false);
+const registering = signal(false);
+/** The registration under way, also one that another window or the studio itself has begun. */
+export const runningJob = computed(() => jobs.value.find(({ title }) => title.startsWith("Registering")));
+export const running = computed(() => registering.value || runningJob.value !== undefined);
 export const showing = signal<Showing>("placed");
 /** The iteration that is shown, from 0. */
 export const scrub = signal(0);
@@ -174,7 +179,8 @@ async function open(): Promise<void> {
 }
 
 export async function register(fromHere: boolean): Promise<void> {
-  running.value = true;
+  const before = { result: result.value, iterations: iterations.value };
+  registering.value = true;
   iterations.value = noIterations;
   result.value = null;
   scrub.value = 0;
@@ -183,10 +189,13 @@ export async function register(fromHere: boolean): Promise<void> {
     result.value = await call<RunResult>("align.run", { guess: fromHere });
     showing.value = "best";
   } catch (error) {
+    // What was found before is as good as it was.
+    result.value = before.result;
+    iterations.value = before.iterations;
     showing.value = "placed";
     quietly(error);
   } finally {
-    running.value = false;
+    registering.value = false;
   }
 }
 
@@ -247,7 +256,13 @@ export function followAlign(): () => void {
       timer ||= setTimeout(takeNews, kPicture_ms);
     }),
     () => clearTimeout(timer),
-    onEvent("align.result", (found: RunResult) => (result.value = found)),
+    onEvent("align.result", (found: RunResult | null) => {
+      result.value = found;
+      if (found) return;
+      // Undone, or of other files.
+      iterations.value = noIterations;
+      if (!running.value) showing.value = "placed";
+    }),
   ];
   return () => ends.forEach((end) => end());
 }

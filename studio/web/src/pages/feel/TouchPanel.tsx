@@ -4,6 +4,7 @@ import { Button } from "../../ui/Button";
 import { Figure } from "../../ui/Figure";
 import { Figures } from "../../ui/Figures";
 import { Lamp } from "../../ui/Lamp";
+import { fixed, withUnit } from "../../ui/format";
 import { Panel } from "../../ui/Panel";
 import { say } from "../../ui/toast";
 import { causeWords, feelState, feelStatus, forceWords, length3 } from "./feelStore";
@@ -29,8 +30,8 @@ export function TouchPanel() {
         <Figure label="Largest force" value={status?.max_force_N} unit="N" digits={3} testId="feel-limit" />
         <Figure label="Gain of the ramp" value={state && 100 * state.gain} unit="%" digits={3} testId="feel-gain" />
         <Figure label="Loop" value={state && status ? status.rate_Hz : null} unit="Hz" />
-        <Figure label="Late, 99 %" value={state?.late_p99_us} unit="µs" digits={3} hint="Start of a tick after it was due, over a second" />
-        <Figure label="Late, most" value={state?.late_max_us} unit="µs" digits={3} />
+        <Figure label="Late, 99 %" value={withUnit(fixed(state?.late_p99_us, 1), "µs")} hint="Start of a tick after it was due, over a second" />
+        <Figure label="Late, most" value={withUnit(fixed(state?.late_max_us, 1), "µs")} />
         <Figure label="Ticks left out" value={state && String(state.skipped)} hint="Due times of the loop that passed without a tick" />
       </Figures>
       {status?.warnings.map((warning) => (

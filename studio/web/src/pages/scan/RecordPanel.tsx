@@ -1,14 +1,13 @@
 import { useState } from "preact/hooks";
 import { Button } from "../../ui/Button";
-import { Dialog } from "../../ui/Dialog";
 import { Icon } from "../../ui/Icon";
 import { Lamp } from "../../ui/Lamp";
 import { Panel } from "../../ui/Panel";
 import { TextField } from "../../ui/TextField";
 import { Toggle } from "../../ui/Toggle";
 import { fixed, withUnit } from "../../ui/format";
-import { answer, asked, discard, rescan, segment, start, stop, toggleAuto } from "./commands";
-import { abilities, dearSegment, recordWords } from "./scanState";
+import { discard, rescan, restore, segment, start, stop, toggleAuto } from "./commands";
+import { abilities, discardedWords, recordWords } from "./scanState";
 import { scan } from "./settings";
 import { state } from "./stream";
 
@@ -36,31 +35,18 @@ export function RecordPanel() {
         <Button onClick={() => segment(name)} disabled={!can.segment} hint="S: ends this segment and begins the next" testId="scan-segment">
           <Icon name="plus" /> Segment
         </Button>
-        <Button onClick={rescan} disabled={!can.rescan} hint="R: throws the last segment away and records it again" testId="scan-rescan">
+        <Button onClick={rescan} disabled={!can.rescan} hint="R: discards the last segment and records it again" testId="scan-rescan">
           <Icon name="reset" /> Rescan
         </Button>
-        <Button kind="danger" onClick={discard} disabled={!can.discard} hint="D: throws the last segment away" testId="scan-discard">
+        <Button kind="danger" onClick={discard} disabled={!can.discard} hint="D: takes the last segment out" testId="scan-discard">
           <Icon name="trash" /> Discard
         </Button>
+        <Button onClick={restore} disabled={!can.restore} hint="U: brings back what was discarded last" testId="scan-restore">
+          <Icon name="undo" /> Undo discard
+        </Button>
       </div>
+      <p class="field-hint" role="status" data-testid="scan-discarded">{discardedWords(now)}</p>
       <Toggle label="Auto: record while the probe touches (A)" on={scan.value.auto} onChange={toggleAuto} testId="scan-auto" />
-      <Dialog
-        title={asked.value === "rescan" ? "Scan it again?" : "Throw it away?"}
-        open={asked.value !== null}
-        onClose={() => answer(false)}
-        actions={
-          <>
-            <Button onClick={() => answer(false)}>Keep it</Button>
-            <Button kind="danger" onClick={() => answer(true)} testId="scan-throw-away">
-              {asked.value === "rescan" ? "Throw away and scan again" : "Throw away"}
-            </Button>
-          </>
-        }
-      >
-        <p>
-          {dearSegment(now)?.name}, {fixed(dearSegment(now)?.duration_s, 1)} s long, is deleted from the recording. That cannot be undone.
-        </p>
-      </Dialog>
       {can.segment && <TextField label="Next segment's name" value={name} onChange={setName} placeholder="segment_…" />}
     </Panel>
   );

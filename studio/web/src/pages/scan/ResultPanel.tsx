@@ -20,7 +20,7 @@ export function ResultPanel() {
             <Figure label="Length" value={head.length_m} factor={1e3} unit="mm" />
             <Figure label="Mean speed" value={head.speed_mps} factor={1e3} unit="mm/s" digits={3} />
             <Figure label="Ra" value={head.roughness?.Ra_m} factor={1e6} unit="µm" digits={3} testId="scan-ra" />
-            <Figure label="Live against refined" value={head.difference ? `r = ${fixed(head.difference.correlation, 4)}` : "–"} testId="scan-correlation"
+            <Figure label="Live against refined" value={head.difference ? `r\u00a0=\u00a0${fixed(head.difference.correlation, 4)}` : "–"} testId="scan-correlation"
               hint="Correlation of the two in the band in which profiles are compared" />
             <Figure label="RMS difference" value={head.difference?.rms_um} unit="µm" digits={3} testId="scan-rms" />
             <Figure label="Worked out in" value={`${Math.round(head.took_s * 1e3)}\u202fms`} testId="scan-took" />

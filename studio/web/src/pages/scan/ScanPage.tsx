@@ -7,7 +7,7 @@ import { PageLayout } from "../../ui/PageLayout";
 import { Panel } from "../../ui/Panel";
 import { complain } from "../../ui/toast";
 import { CameraImage } from "./CameraImage";
-import { discard, rescan, segment, startOrStop, toggleAuto } from "./commands";
+import { discard, rescan, restore, segment, startOrStop, toggleAuto } from "./commands";
 import { HintsPanel } from "./HintsPanel";
 import { ProfilePlot } from "./ProfilePlot";
 import { RecordPanel } from "./RecordPanel";
@@ -21,7 +21,7 @@ import { acceleration, figures, follow, force, state } from "./stream";
 import { TuningPanel } from "./TuningPanel";
 import "./scan.css";
 
-/** Not while a control has the focus: a key that throws away is not to be hit by chance. */
+/** Not while a control has the focus: a key that takes out is not to be hit by chance. */
 const away = (run: () => unknown) => () => (document.activeElement?.matches("input, select, button, textarea") ? undefined : run());
 
 const kWindow_s = 6;
@@ -44,6 +44,7 @@ export default function ScanPage() {
     { key: "s", label: "end the segment and begin the next", run: () => segment() },
     { key: "d", label: "discard the last segment", run: away(discard) },
     { key: "r", label: "rescan: discard and record again", run: away(rescan) },
+    { key: "u", label: "undo discard: bring the last one back", run: restore },
     { key: "a", label: "record while the probe touches (Auto)", run: toggleAuto },
   ]);
   return (

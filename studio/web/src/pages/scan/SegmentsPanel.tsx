@@ -20,7 +20,6 @@ export function SegmentsPanel() {
           ))}
         </ol>
       )}
-      {recorder && recorder.discarded > 0 && <p class="field-hint">{recorder.discarded} discarded</p>}
     </Panel>
   );
 }

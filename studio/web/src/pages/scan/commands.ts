@@ -1,11 +1,10 @@
 // What the operator tells the recorder.
-import { signal } from "@preact/signals";
 import { call } from "../../net/connection";
 import { edit, valueAt } from "../../state/document";
 import { go } from "../../app/routes";
 import { say } from "../../ui/toast";
 import { type ProcessSection, withScan } from "../process/processing";
-import { abilities, dearSegment } from "./scanState";
+import { abilities } from "./scanState";
 import { processSettings, scan } from "./settings";
 import { refined, state } from "./stream";
 
@@ -26,23 +25,10 @@ export const stop = () => can().stop && call("scan.stop");
 export const startOrStop = () => (can().stop ? stop() : start());
 export const segment = (name = "") => can().segment && call("scan.segment", { name });
 
-/** What is asked before a segment is thrown away; null: nothing. */
-export const asked = signal<"discard" | "rescan" | null>(null);
-
-/** Throws the last segment away; for good, so what took longer than a second is asked about. */
-export const discard = () => can().discard && throwAway("discard");
-export const rescan = () => can().rescan && throwAway("rescan");
-
-function throwAway(how: "discard" | "rescan") {
-  if (!dearSegment(state.value)) return call(`scan.${how}`);
-  asked.value = how;
-}
-
-export function answer(yes: boolean) {
-  const how = asked.value;
-  asked.value = null;
-  return yes && how ? call(`scan.${how}`) : undefined;
-}
+/** Takes the last segment out; until the recording is closed it can be brought back. */
+export const discard = () => can().discard && call("scan.discard");
+export const rescan = () => can().rescan && call("scan.rescan");
+export const restore = () => can().restore && call("scan.restore");
 
 export const toggleAuto = () => edit("/scan/auto", !scan.value.auto, scan.value.auto ? "record by hand" : "record while in contact");
 

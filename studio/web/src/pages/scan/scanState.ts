@@ -1,4 +1,5 @@
 // What the server says of a scan (topic "scan.state"), and the words and lamps for it.
+import { fixed } from "../../ui/format";
 import type { LampState } from "../../ui/Lamp";
 
 export type SensorState = "absent" | "running" | "silent" | "lost" | "ended";
@@ -41,6 +42,8 @@ export interface RecorderState {
   segment: string;
   segments: SegmentInfo[];
   discarded: number;
+  /** What would be brought back. */
+  last_discarded: { name: string; duration_s: number } | null;
   recorded_s: number;
   probe_rows: number;
   tracker_rows: number;
@@ -130,12 +133,16 @@ export interface Abilities {
   segment: boolean;
   discard: boolean;
   rescan: boolean;
+  restore: boolean;
 }
 
-/** The segment that discard and rescan throw away, if that is more than a moment's work. */
-export function dearSegment(state: ScanState | null): SegmentInfo | null {
-  const last = state?.recorder?.segments.at(-1);
-  return last && last.duration_s > 1 ? last : null;
+/** What was discarded, and until when it can be brought back; "" if nothing was. */
+export function discardedWords(state: ScanState | null): string {
+  const recorder = state?.open ? state.recorder : undefined;
+  const last = recorder?.last_discarded;
+  if (!recorder || !last) return "";
+  const others = recorder.discarded > 1 ? ` and ${recorder.discarded - 1} more` : "";
+  return `${last.name} (${fixed(last.duration_s, 1)}\u202fs)${others} discarded; Undo brings it back until the recording is closed.`;
 }
 
 /** A live profile that tells something of the surface: it agrees with the refined one. */
@@ -144,7 +151,7 @@ export const isLiveUsable = (difference: { correlation: number | null } | null |
 /** Which commands make sense now. In Auto a source that plays is still started by hand. */
 export function abilities(state: ScanState | null): Abilities {
   const recorder = state?.open && !state.opening ? state.recorder : undefined;
-  if (!recorder) return { start: false, stop: false, segment: false, discard: false, rescan: false };
+  if (!recorder) return { start: false, stop: false, segment: false, discard: false, rescan: false, restore: false };
   const plays = state!.source?.plays ?? false;
   const playing = plays && (state!.source?.playing ?? false);
   const some = recorder.segments.length > 0;
@@ -154,5 +161,6 @@ export function abilities(state: ScanState | null): Abilities {
     segment: !recorder.automatic && recorder.storing && !plays,
     discard: some,
     rescan: some && !(recorder.automatic && !plays),
+    restore: recorder.last_discarded != null,
   };
 }
