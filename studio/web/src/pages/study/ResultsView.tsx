@@ -93,7 +93,7 @@ function Pairs({ results }: { results: StudyResults }) {
         rows={results.pairs!}
         columns={[
           { key: "pair", label: "Pair", cell: (row) => `${names[row.first]} over ${names[row.second]}` },
-          { key: "trials", label: "Trials", numeric: true },
+          { key: "trials", label: "Trials", numeric: true, cell: (row) => String(row.trials) },
           { key: "share", label: "Share (95 %)", numeric: true, cell: shareWords },
         ]}
       />
@@ -144,7 +144,7 @@ function Ratings({ results }: { results: StudyResults }) {
         { key: "name", label: "Texture", cell: (row) => names[row.stimulus] },
         { key: "mean", label: "Mean (95 %)", numeric: true, cell: (row) => (row.mean === undefined ? "–" : `${fixed(row.mean, 2)} (${fixed(row.low, 2)} to ${fixed(row.high, 2)})`) },
         { key: "deviation", label: "Deviation", numeric: true, cell: (row) => fixed(row.deviation, 2) },
-        { key: "count", label: "Ratings", numeric: true },
+        { key: "count", label: "Ratings", numeric: true, cell: (row) => String(row.count) },
         ...[0, 1, 2, 3, 4, 5, 6].map((index) => ({ key: `r${index}`, label: String(index + 1), numeric: true, cell: (row: Rating) => row.counts[index] })),
       ]}
     />
