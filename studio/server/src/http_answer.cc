@@ -15,7 +15,8 @@ bool has_session(const HttpRequest& request, const Site& site) {
 }
 
 bool takes_gzip(const HttpRequest& request) {
-  std::string_view rest = request.accept_encoding ? std::string_view(*request.accept_encoding) : std::string_view();
+  if (!request.accept_encoding) return true;  // who names none takes any (RFC 9110, 12.5.3)
+  std::string_view rest = *request.accept_encoding;
   while (!rest.empty()) {
     const std::size_t end = rest.find(',');
     const std::string_view one = trim(rest.substr(0, end));
@@ -35,12 +36,12 @@ HttpAnswer wrong_method(std::string_view allowed) {
 HttpAnswer answer_asset(const HttpRequest& request, std::string_view path, const Site& site) {
   const auto asset = site.asset(path == "/" ? "/index.html" : path);
   if (!asset) return refusal(404, "there is nothing here");
-  if (asset->compressed && !takes_gzip(request)) return refusal(406, "this server has its files as gzip alone");
+  const bool unpacked = asset->compressed && !takes_gzip(request);
   HttpAnswer answer;
   answer.headers = safety_headers(request.host);
   answer.headers.emplace_back("Content-Type", asset->content_type);
-  if (asset->compressed) answer.headers.emplace_back("Content-Encoding", "gzip");
-  answer.body = asset->content;
+  if (asset->compressed && !unpacked) answer.headers.emplace_back("Content-Encoding", "gzip");
+  answer.body = unpacked ? site.unpack(asset->content) : std::string(asset->content);
   return answer;
 }
 

@@ -32,6 +32,7 @@ struct Site {
   std::string session;  // in the cookie that is given for it
   std::string cookie_name;
   std::function<std::optional<web::Asset>(std::string_view path)> asset;
+  std::function<std::string(std::string_view gzip)> unpack;  // for who takes no gzip
 };
 
 // The answer to a request that asks for no WebSocket (docs/studio-safety.md).

@@ -15,6 +15,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
+#include <boost/beast/zlib/inflate_stream.hpp>
 #include <optional>
 #include <thread>
 
@@ -64,8 +65,27 @@ tcp::acceptor listen(asio::io_context& context, const WebServerConfig& config) {
   return acceptor;
 }
 
+// What this program was built with, so it is sound: ten bytes of head, deflate, a check sum and the length (RFC 1952).
+std::string unpack_gzip(std::string_view gzip) {
+  constexpr std::size_t kHead_bytes = 10, kTail_bytes = 8, kByte_bits = 8;
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < sizeof(std::uint32_t); ++i)
+    size |= std::size_t{static_cast<unsigned char>(gzip[gzip.size() - 4 + i])} << (kByte_bits * i);
+  std::string out(size, '\0');
+  beast::zlib::z_params step;
+  step.next_in = gzip.data() + kHead_bytes;
+  step.avail_in = gzip.size() - kHead_bytes - kTail_bytes;
+  step.next_out = out.data();
+  step.avail_out = out.size();
+  beast::zlib::inflate_stream stream;
+  error_code error;
+  stream.write(step, beast::zlib::Flush::finish, error);
+  out.resize(step.total_out);
+  return out;
+}
+
 Site make_site(const WebServerConfig& config, int port) {
-  Site site{OwnHosts(config.host, port), random_secret(), random_secret(), {}, {}};
+  Site site{OwnHosts(config.host, port), random_secret(), random_secret(), {}, {}, unpack_gzip};
   // Cookies know no ports: a second studio's would take this one's place.
   site.cookie_name = "asperity_" + std::to_string(port);
   site.asset = [](std::string_view path) { return web::find_asset(path); };

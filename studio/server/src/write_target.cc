@@ -1,5 +1,7 @@
 #include "write_target.h"
 
+#include <algorithm>
+
 #include "asperity/base/text.h"
 
 namespace asperity::studio {
@@ -10,8 +12,10 @@ std::filesystem::path write_target(const Project& project, const Request& reques
   const bool replace = request.has("replace") && request.flag("replace");
   std::error_code error;
   if (!replace && std::filesystem::exists(std::filesystem::symlink_status(target, error))) {
+    const std::size_t ending = std::min(name.find('.', 1), name.size());
     throw Advice(printable(name, 200) + ": is there already",
-                 "Choose another name, such as " + project.free_name(name) + ", or say that it is to be replaced.");
+                 "Choose another name, such as " + project.free_name(name.substr(0, ending), name.substr(ending)) +
+                     ", or say that it is to be replaced.");
   }
   return target;
 }

@@ -31,6 +31,7 @@ void ScanBook::begin_anew() {
   path_generation_ = before.path_generation_ + 1;
   profile_sequence_ = before.profile_sequence_;
   path_sequence_ = before.path_sequence_;
+  begun_anew_ = true;
 }
 
 void ScanBook::begin_path_anew() {
@@ -121,6 +122,7 @@ BlockWriter ScanBook::take_growth() {
   BlockWriter out = profile_from(told_points_);
   out.head()["sequence"] = profile_sequence_++;
   told_points_ = s_m_.size();
+  begun_anew_ = false;
   return out;
 }
 

@@ -22,6 +22,7 @@ export interface KeyGroup {
 export const keyGroups = signal<KeyGroup[]>([]);
 
 const kSequence_ms = 1500;
+const kRepeating = /arrow|page|^[+−-]$|^ctrl\+(shift\+)?z$/;
 let before = { key: "", at_ms: -Infinity };
 
 /** Makes keys work as long as the component is shown. */
@@ -77,6 +78,8 @@ function hear(event: KeyboardEvent): void {
   if (!key) return;
   before.key = "";
   event.preventDefault();
+  // A key that is held down starts, stops and answers once; what moves or undoes goes on.
+  if (event.repeat && !kRepeating.test(name)) return;
   try {
     const result = key.run();
     if (result instanceof Promise) result.catch(complain);

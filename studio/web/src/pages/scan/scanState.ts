@@ -142,7 +142,7 @@ export function discardedWords(state: ScanState | null): string {
   const last = recorder?.last_discarded;
   if (!recorder || !last) return "";
   const others = recorder.discarded > 1 ? ` and ${recorder.discarded - 1} more` : "";
-  return `${last.name} (${fixed(last.duration_s, 1)}\u202fs)${others} discarded; Undo brings it back until the recording is closed.`;
+  return `${last.name} (${fixed(last.duration_s, 1)}\u202fs)${others} discarded; “Undo discard” (U) brings it back until the recording is closed.`;
 }
 
 /** A live profile that tells something of the surface: it agrees with the refined one. */

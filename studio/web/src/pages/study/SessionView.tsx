@@ -70,7 +70,7 @@ function TrialView({ session }: { session: Session }) {
     event.preventDefault();
     event.stopPropagation();
     const value = answerOfKey(session.method, event.key);
-    if (value !== null) void attempt(() => answer(value));
+    if (value !== null && !event.repeat) void attempt(() => answer(value));
   };
   return (
     <div class="study-trial" ref={place} tabIndex={-1} onKeyDownCapture={beforeView}>
