@@ -45,9 +45,11 @@ std::optional<std::string> kept_block(const std::filesystem::path& report, const
   } catch (const Error&) {
     return std::nullopt;
   }
-  for (std::size_t at = page.find(kBegin); at != std::string::npos; at = page.find(kBegin, at + 1)) {
+  // Each search goes on where the last one ended: the page is read once, whatever is in it.
+  std::size_t end = 0;
+  for (std::size_t at = page.find(kBegin); at != std::string::npos; at = page.find(kBegin, end)) {
     const std::size_t begin = page.find('>', at);
-    const std::size_t end = page.find(kEnd, at);
+    end = page.find(kEnd, at);
     if (begin == std::string::npos || end == std::string::npos || begin > end) return std::nullopt;
     const auto block = bytes_of_base64(std::string_view(page).substr(begin + 1, end - begin - 1));
     const Json head = block ? head_of(*block) : Json(nullptr);

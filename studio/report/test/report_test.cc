@@ -111,6 +111,13 @@ TEST(ReportItem, KeepsWhatTheReportOfTheSameResultHolds) {
     write_file(dir / "rec" / "report.html", page);
     EXPECT_NE(read_report_item(dir / "rec").block, block);
   }
+  // Beginnings without end are passed over together, and what follows them is found.
+  const std::string begin = "<script type=\"application/octet-stream\"";
+  std::string page;
+  for (int i = 0; i < 20'000; ++i) page += begin;
+  page += ">no block</script>" + begin + ">" + base64(block) + "</script>";
+  write_file(dir / "rec" / "report.html", page);
+  EXPECT_EQ(read_report_item(dir / "rec").block, block);
 }
 
 TEST(ReportItem, NamesWhatIsWrong) {

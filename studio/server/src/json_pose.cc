@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "asperity/base/error.h"
@@ -47,7 +48,9 @@ Pose pose_of_json(const Json& json, std::string_view what) {
   if (!(std::abs(q.norm() - 1.0) <= kUnit)) {
     throw Error(std::string(what) + ": its quaternion has the length " + std::to_string(q.norm()) + ", not 1");
   }
-  Eigen::Quaterniond unit = q.normalized();
+  // What was made unit once stays as it is, to the last digit: poses are told from each other by their numbers.
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  Eigen::Quaterniond unit = std::abs(q.norm() - 1.0) < kRounding ? q : q.normalized();
   if (unit.w() < 0.0) unit.coeffs() = -unit.coeffs();
   return {unit, Eigen::Vector3d(v[0], v[1], v[2])};
 }

@@ -125,6 +125,14 @@ TEST_F(AlignPageTest, ResidualsAreThoseOfBruteForce) {
   }
 }
 
+TEST(JsonPose, WhatWasReadOnceStaysTheSameToTheLastDigit) {
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+    const Pose pose = random_motion(0.1, 3.0, Eigen::Vector3d::Zero(), seed);
+    const Json once = json_of_pose(pose_of_json(json_of_pose(pose), ""));
+    EXPECT_EQ(json_of_pose(pose_of_json(once, "")), once) << seed;
+  }
+}
+
 TEST_F(AlignPageTest, RefusesNonsenseAndKeepsWhatThereWas) {
   const Json before = bench_.document.section("align");
   const auto refuses = [&](const std::string& path, const Json& value) {
@@ -141,6 +149,7 @@ TEST_F(AlignPageTest, RefusesNonsenseAndKeepsWhatThereWas) {
   refuses("/align/config", Json::parse(R"({"search.rotations":"many"})"));
   refuses("/align/config", Json::parse(R"({"no.such.setting":"1"})"));
   refuses("/align/else", 1);
+  refuses("/align/ran", Json::parse(R"({"guess":null,"paths":[],"mesh":"","mesh_unit":"mm","config":{"no":"1"}})"));
   EXPECT_EQ(bench_.document.section("align"), before);
 
   EXPECT_THAT(bench_.call("align.residuals", args_of({{"pose", json_of_pose(bench_.guess())}})).error,

@@ -65,6 +65,8 @@ TEST_F(AlignRunTest, TakenItIsOneStepAndWrittenAsTheCommandLineWrites) {
   const Json ran = bench_.document.section("align");
   bench_.call("align.accept", args_of({{"solution", "best"}}));
   EXPECT_EQ(bench_.document.section("align").at("T_mesh_world"), result["T_mesh_world"]);
+  EXPECT_EQ(bench_.document.section("align").at("ran"), ran.at("ran"));
+  EXPECT_EQ(bench_.call("align.result").result, result);
   bench_.document.undo();
   EXPECT_EQ(bench_.document.section("align"), ran);
   bench_.document.redo();
@@ -154,6 +156,31 @@ TEST_F(AlignRunTest, UndoTakesAResultBackAndRedoBringsIt) {
   EXPECT_EQ(again["T_mesh_world"], first["T_mesh_world"]);
   EXPECT_EQ(again["verdict"], first["verdict"]);
   EXPECT_NE(again["run"], first["run"]);
+}
+
+TEST_F(AlignRunTest, AResultIsOfTheSettingsThatGaveIt) {
+  const Json first = bench_.call("align.run", args_of({{"guess", true}})).result;
+  bench_.document.edit("/align/config", Json::parse(R"({"search.registration.max_points":"100"})"), "a setting");
+  const Json second = bench_.call("align.run", args_of({{"guess", true}})).result;
+  EXPECT_NE(second["T_mesh_world"], first["T_mesh_world"]);
+  EXPECT_EQ(bench_.document.undo_label(), "register");
+  std::size_t told = bench_.hub.events("align.result").size();
+  bench_.document.undo();
+  // null for the one that was taken back, and what there was before it.
+  const Json before = bench_.wait_for_events("align.result", told + 2).back();
+  EXPECT_EQ(before["T_mesh_world"], first["T_mesh_world"]);
+  EXPECT_EQ(before["verdict"], first["verdict"]);
+  told = bench_.hub.events("align.result").size();
+  bench_.document.redo();
+  EXPECT_EQ(bench_.wait_for_events("align.result", told + 2).back()["T_mesh_world"], second["T_mesh_world"]);
+}
+
+TEST_F(AlignRunTest, FilesThatAreChangedMeanwhileHaveNoResult) {
+  const std::uint64_t run = bench_.begin("align.run", args_of({{"guess", true}}));
+  bench_.document.edit("/align/mesh_unit", "cm", "the unit");
+  EXPECT_THAT(bench_.answer_to(run).error, HasSubstr("were changed"));
+  EXPECT_THAT(bench_.hub.events("align.result"), testing::IsEmpty());
+  EXPECT_EQ(bench_.document.undo_label(), "the unit");
 }
 
 TEST_F(AlignRunTest, ACancelledOneIsNotBegunAgainByItself) {

@@ -67,12 +67,30 @@ AlignChoice::Registered registered_of(const Json& json) {
   return out;
 }
 
+// Throws Error for a setting that the registration does not know or take.
+std::map<std::string, std::string> settings_of(const Json& json, std::string_view what) {
+  if (!json.is_object() || json.size() > kMostSettings) {
+    throw Error("align: " + std::string(what) + " is no object of settings");
+  }
+  AlignChoice out;
+  for (const auto& [path, value] : json.items()) out.config[path] = text_of(value, path);
+  config_of(out);
+  return out.config;
+}
+
 AlignChoice::Ran ran_of(const Json& json) {
   AlignChoice::Ran out;
   out.guess = guess_of(json, "ran");
   out.paths = names_of(part(json, "paths", "ran"), "ran.paths");
   out.mesh = text_of(part(json, "mesh", "ran"), "ran.mesh");
   out.mesh_unit = text_of(part(json, "mesh_unit", "ran"), "ran.mesh_unit");
+  if (json.contains("config")) out.config = settings_of(json.at("config"), "ran.config");
+  return out;
+}
+
+Json json_of_settings(const std::map<std::string, std::string>& settings) {
+  Json out = Json::object();
+  for (const auto& [path, value] : settings) out[path] = value;
   return out;
 }
 
@@ -84,6 +102,7 @@ Json json_of_ran(const AlignChoice::Ran& ran) {
   out["paths"] = ran.paths;
   out["mesh"] = ran.mesh;
   out["mesh_unit"] = ran.mesh_unit;
+  out["config"] = json_of_settings(ran.config);
   return out;
 }
 
@@ -93,8 +112,7 @@ Json json_of_choice(const AlignChoice& choice) {
   out["mesh"] = choice.mesh;
   out["mesh_unit"] = choice.mesh_unit;
   out["textures"] = choice.textures;
-  out["config"] = Json::object();
-  for (const auto& [path, value] : choice.config) out["config"][path] = value;
+  out["config"] = json_of_settings(choice.config);
   out["picks"] = Json::array();
   for (const AlignChoice::Pick& pick : choice.picks) {
     Json pair;
@@ -126,10 +144,7 @@ AlignChoice choice_of_json(const Json& section) {
   out.mesh_unit = text_of(part(section, "mesh_unit", "the section"), "mesh_unit");
   unit_m(out);
   out.textures = names_of(part(section, "textures", "the section"), "textures");
-  const Json& config = part(section, "config", "the section");
-  if (!config.is_object() || config.size() > kMostSettings) throw Error("align: config is no object of settings");
-  for (const auto& [path, value] : config.items()) out.config[path] = text_of(value, path);
-  config_of(out);
+  out.config = settings_of(part(section, "config", "the section"), "config");
   out.picks = picks_of(part(section, "picks", "the section"));
   if (section.contains("T_mesh_world")) out.T_mesh_world = pose_of_json(section.at("T_mesh_world"), "align: the pose");
   if (section.contains("registered")) out.registered = registered_of(section.at("registered"));

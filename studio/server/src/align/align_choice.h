@@ -34,11 +34,12 @@ struct AlignChoice {
     Pose T_mesh_world;          // where it ended
   };
 
-  // What was registered last, and from where.
+  // What was registered last, from where, and by which settings.
   struct Ran {
     std::optional<Pose> guess;  // nullopt: from anywhere
     std::vector<std::string> paths;
     std::string mesh, mesh_unit;
+    std::map<std::string, std::string> config;
   };
 
   std::vector<std::string> paths;

@@ -166,16 +166,17 @@ void AlignPage::measure(const Request& request) {
 void AlignPage::run(const Request& request) {
   const std::shared_ptr<const AlignScene> scene = this->scene();
   const std::optional<Pose> guess = request.flag("guess") ? std::optional<Pose>(pose(*scene)) : std::nullopt;
-  register_from(guess, guess ? "Registering from the pose shown" : "Registering from anywhere",
-                [this, request, guess, scene](std::exception_ptr error) {
+  const AlignChoice by = choice();
+  const AlignChoice::Ran ran{guess, by.paths, by.mesh, by.mesh_unit, by.config};
+  register_from(guess, by.config, guess ? "Registering from the pose shown" : "Registering from anywhere",
+                [this, request, ran = json_of_ran(ran), from_here = guess.has_value()](std::exception_ptr error) {
                   try {
                     if (error) std::rethrow_exception(error);
                     const Json result = json_of_run(*last_);
                     // Known before the document's change is heard, which then asks for no other result.
-                    const AlignChoice& of = scene->of;
-                    told_ran_ = json_of_ran({guess, of.paths, of.mesh, of.mesh_unit});
-                    if (ran() != told_ran_)
-                      shared_.document.edit("/align/ran", told_ran_, guess ? "register" : "register from anywhere");
+                    told_ran_ = ran;
+                    if (this->ran() != ran)
+                      shared_.document.edit("/align/ran", ran, from_here ? "register" : "register from anywhere");
                     request.answer(result);
                   } catch (const std::exception& fault) {
                     request.refuse(fault);
@@ -183,8 +184,11 @@ void AlignPage::run(const Request& request) {
                 });
 }
 
-void AlignPage::register_from(const std::optional<Pose>& guess, const std::string& title,
-                              std::function<void(std::exception_ptr)> after) {
+void AlignPage::register_from(const std::optional<Pose>& guess, const std::map<std::string, std::string>& config,
+                              const std::string& title, std::function<void(std::exception_ptr)> after) {
+  const std::shared_ptr<const AlignScene> scene = this->scene();
+  AlignChoice wanted = choice();
+  wanted.config = config;
   const std::uint64_t number = ++runs_;
   tell_iterations();
   log_ = std::make_shared<IterationLog>(number);
@@ -192,14 +196,19 @@ void AlignPage::register_from(const std::optional<Pose>& guess, const std::strin
   auto made = std::make_shared<AlignRun>();
   shared_.jobs.start(
       title, "align.run",
-      [made, scene = scene(), wanted = choice(), guess, number, log = log_](const Observer& observer) {
+      [made, scene, wanted, guess, number, log = log_](const Observer& observer) {
         RegistrationObserver watched(observer);
         watched.iterated = [log](const RegistrationIteration& iteration) { log->add(iteration); };
         *made = run_align(number, scene, wanted, guess, watched);
       },
-      [this, made, number, after = std::move(after)](std::exception_ptr error) {
+      [this, made, scene, number, after = std::move(after)](std::exception_ptr error) {
         if (number == runs_) running_ = false;
         tell_iterations();
+        if (!error && !is_same_scene(scene->of, choice())) {
+          told_ran_ = Json();  // wanted again with those files
+          error = std::make_exception_ptr(
+              Advice("the scans or the mesh were changed while they were registered", "Register again."));
+        }
         if (!error) finish(std::move(*made));
         after(error);
         if (!running_) follow_document();
@@ -229,7 +238,7 @@ void AlignPage::follow_document() {
   if (ran() == told_ran_ && (!last_ || last_->scene == scene_)) return;
   told_ran_ = ran();
   forget_result();
-  register_from(of->guess, "Registering again, as before", [](std::exception_ptr) {});
+  register_from(of->guess, of->config, "Registering again, as before", [](std::exception_ptr) {});
 }
 
 void AlignPage::edited(const Edit& edit) {
@@ -254,8 +263,9 @@ void AlignPage::accept(const Request& request) {
     taken.registered = AlignChoice::Registered{other, true, other};
   }
   taken.T_mesh_world = taken.registered->T_mesh_world;
-  shared_.document.edit("/align", json_of_choice(taken),
-                        solution == "best" ? "take the registered pose" : "take the runner-up");
+  Json section = json_of_choice(taken);
+  if (!ran().is_null()) section["ran"] = ran();  // as it was told, to the last digit
+  shared_.document.edit("/align", section, solution == "best" ? "take the registered pose" : "take the runner-up");
   request.done();
 }
 

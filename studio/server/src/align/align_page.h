@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,9 +39,9 @@ class AlignPage : public Page {
   void pick(const Request& request);
   void measure(const Request& request);
   void run(const Request& request);
-  // Registers; `after` is called with what went wrong, or with nothing.
-  void register_from(const std::optional<Pose>& guess, const std::string& title,
-                     std::function<void(std::exception_ptr)> after);
+  // Registers the open scene; `after` is called with what went wrong, or with nothing.
+  void register_from(const std::optional<Pose>& guess, const std::map<std::string, std::string>& config,
+                     const std::string& title, std::function<void(std::exception_ptr)> after);
   void finish(AlignRun run);
   void forget_result();
   // Brings the result in line with the registration that the document names: nothing that was seen is lost by a

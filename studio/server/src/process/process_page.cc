@@ -39,6 +39,20 @@ std::string result_name(const ScanName& scan, const std::vector<ScanName>& all) 
   return name;
 }
 
+// Throws Advice where there is none.
+BlockWriter report_block(const Project& project, const std::string& folder) {
+  constexpr std::uint64_t kLargestReport_bytes = 32U << 20U;
+  std::string page;
+  try {
+    page = read_file(project.existing(folder + "/report.html"), kLargestReport_bytes);
+  } catch (const Error& error) {
+    throw Advice(error.what(), "Write the results again: a report is written with them.");
+  }
+  BlockWriter block("report");
+  block.add("page", std::vector<std::uint8_t>(page.begin(), page.end()));
+  return block;
+}
+
 class ProcessPage : public Page {
  public:
   explicit ProcessPage(Shared& shared) : shared_(shared), sessions_(std::make_shared<ScanSessions>()) {}
@@ -119,17 +133,10 @@ class ProcessPage : public Page {
 
   // For the browser to keep and open by itself: it is shown outside of the studio's page and of what that may do.
   void hand_out_report(const Request& request) const {
-    constexpr std::uint64_t kLargestReport_bytes = 32U << 20U;
-    const std::string folder = request.text("folder");
-    std::string page;
-    try {
-      page = read_file(shared_.project.existing(folder + "/report.html"), kLargestReport_bytes);
-    } catch (const Error& error) {
-      throw Advice(error.what(), "Write the results again: a report is written with them.");
-    }
-    BlockWriter block("report");
-    block.add("page", std::vector<std::uint8_t>(page.begin(), page.end()));
-    request.answer(std::move(block));
+    answer_in_lane(shared_.jobs, "project", request, "", "",
+                   [project = shared_.project, folder = request.text("folder")](const Observer&) {
+                     return report_block(project, folder);
+                   });
   }
 
   Shared& shared_;

@@ -52,6 +52,7 @@ TemporaryFolder::TemporaryFolder(const fs::path& where) {
     path_ = name;
     if (lock_ >= 0 && is_there(lock_) && std::ofstream(path_ / kMark)) return;
     if (lock_ >= 0) ::close(lock_);
+    ::rmdir(name.c_str());  // without its mark no sweep would take it away
   }
   throw Error(path_.string() + ": a temporary folder cannot be locked");
 }

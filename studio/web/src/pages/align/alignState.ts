@@ -19,7 +19,7 @@ export interface AlignSection {
   picks: Pick[];
   T_mesh_world?: Pose;
   registered?: { guess: Pose | null; near: boolean; T_mesh_world: Pose };
-  ran?: { guess: Pose | null; paths: string[]; mesh: string; mesh_unit: string };
+  ran?: { guess: Pose | null; paths: string[]; mesh: string; mesh_unit: string; config: Record<string, string> };
 }
 
 export interface Solution {
