@@ -110,6 +110,34 @@ TEST_F(StudyPageTest, IsTouchedAgainAtOnceAfterTheLastTouchWasLeft) {
   EXPECT_EQ(rig.answer(0).error, "");
 }
 
+TEST_F(StudyPageTest, IsNotTouchableWithoutAForce) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  rig.beating = false;
+  EXPECT_EQ(rig.ask("study.touch", {{"on", true}}).error, "");
+  EXPECT_TRUE(rig.pump([&] { return rig.ask("feel.status").result["state"] == "running"; }));
+  // Nobody holds the lease.
+  EXPECT_FALSE(rig.session()["ready"].get<bool>());
+  EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 0}}).error, HasSubstr("nothing was felt"));
+  rig.beating = true;
+  EXPECT_TRUE(rig.pump([&] { return rig.session()["ready"].get<bool>(); }));
+  // It lapses: the clock of the response stands.
+  rig.beating = false;
+  EXPECT_TRUE(rig.pump([&] { return !rig.session()["ready"].get<bool>(); }));
+  EXPECT_TRUE(rig.session()["touching"].get<bool>());
+  rig.beating = true;
+  EXPECT_EQ(rig.answer(0).error, "");
+}
+
+TEST_F(StudyPageTest, IsNotTouchedWhereNoForceIsCommanded) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  rig.shared.may_command_forces = false;
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  EXPECT_THAT(rig.ask("study.touch", {{"on", true}}).error, HasSubstr("not commanded from here"));
+}
+
 TEST_F(StudyPageTest, TakesNoAnswerThatIsNone) {
   StudyRig rig(folder.path());
   rig.set_up("pairs", 2);

@@ -90,6 +90,7 @@ class FeelPage : public Page, public FeelHost {
 
   bool visited_ = false;            // what is felt, or being opened, is a visitor's
   std::uint64_t visit_key_ = 0;     // of what is under the hand; 0: being changed
+  bool permitted_ = false;          // the force, at the last look
   std::int64_t held_until_ns_ = 0;  // no force before, between two things of a visitor
   std::function<void()> visit_changed_;
   Json told_;

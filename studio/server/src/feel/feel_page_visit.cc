@@ -45,7 +45,7 @@ bool FeelPage::is_leaving() const {
 }
 
 std::uint64_t FeelPage::visited_key() const {
-  return visited_ && state_ == State::kRunning && held_until_ns_ == 0 ? visit_key_ : 0;
+  return visited_ && permitted_ && state_ == State::kRunning && held_until_ns_ == 0 ? visit_key_ : 0;
 }
 
 }  // namespace asperity::studio
