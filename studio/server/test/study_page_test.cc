@@ -63,6 +63,7 @@ TEST_F(StudyPageTest, TellsTheBrowserNothingOfTheTextures) {
   EXPECT_THAT(block.head.dump(), Not(HasSubstr("tile0")));
   EXPECT_EQ(block.head["textures"].size(), 2U);
   EXPECT_TRUE(block.array<float>("height_0").empty());
+  EXPECT_TRUE(rig.ask("feel.status").result["warnings"].empty());
   // Pressed into a tile: the hand feels it, and the browser sees neither height nor parts of the force.
   rig.pointing = true;
   rig.pointer_m = {0.019, 0.019, -0.004};

@@ -114,7 +114,8 @@ void FeelPage::opened(Opening& opening, std::exception_ptr error) {
   parts.felt = running_.kind.felt;
   parts.blind = visited_;
   device_model_ = running_.info.model;
-  warnings_ = running_.warnings;
+  // Those of a visitor's scene would tell which texture is where.
+  warnings_ = visited_ ? std::vector<std::string>() : running_.warnings;
   last_run_ = Json();
   if (opening.world) world_ = opening.world;
   visit_key_ = opening.visit;

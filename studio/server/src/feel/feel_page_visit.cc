@@ -28,7 +28,6 @@ void FeelPage::change_visit(FeelVisit visit) {
           return leave();
         }
         run_->swap(std::move(result->model));
-        warnings_ = std::move(result->warnings);
         visit_key_ = key;
         held_until_ns_ = host_now_ns() + kHold_ns;
         tell();
