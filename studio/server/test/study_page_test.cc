@@ -38,6 +38,12 @@ TEST_F(StudyPageTest, AsksAllPairsAndGivesTheResults) {
   EXPECT_EQ(rig.status()["phase"], "finished");
   EXPECT_TRUE(rig.pump([&] { return rig.ask("feel.status").result["state"] == "idle"; }));
   EXPECT_THAT(rig.ask("study.results", {{"log", "study_p01.study.csv"}}).error, HasSubstr("being written"));
+  // By whatever name.
+  std::filesystem::create_symlink("study_p01.study.csv", folder / "other.study.csv");
+  for (const char* name : {"./study_p01.study.csv", ".//study_p01.study.csv", "other.study.csv"}) {
+    EXPECT_THAT(rig.ask("study.results", {{"log", name}}).error, HasSubstr("being written")) << name;
+    EXPECT_THAT(rig.ask("study.export", {{"log", name}}).error, HasSubstr("being written")) << name;
+  }
   EXPECT_EQ(rig.ask("study.end").error, "");
   const Json results = rig.ask("study.results", {{"log", rig.status()["last_log"]}}).result;
   double wins = 0.0;
@@ -210,8 +216,9 @@ TEST_F(StudyPageTest, HasBreaksAndPausesAndRunsOfTheirOwn) {
   ASSERT_EQ(rig.ask("study.begin").error, "");
   EXPECT_EQ(rig.status()["log"], "study_p01_2.study.csv");
   EXPECT_EQ(rig.ask("study.end").error, "");
-  EXPECT_EQ(rig.ask("study.continue", {{"log", "study_p01.study.csv"}}).error, "");
+  EXPECT_EQ(rig.ask("study.continue", {{"log", "./study_p01.study.csv"}}).error, "");
   EXPECT_EQ(rig.session()["trial"], 2);
+  EXPECT_EQ(rig.status()["log"], "study_p01.study.csv");
 }
 
 TEST_F(StudyPageTest, KeepsStudiesInFiles) {

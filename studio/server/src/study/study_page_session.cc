@@ -55,6 +55,7 @@ struct StudyPage::Opening {
   void open_old() {
     if (!name.ends_with(kStudyLogEnding)) throw Error(printable(name, 200) + ": is no log of a study");
     const fs::path file = project.existing(name);
+    name = file.lexically_relative(project.folder()).generic_string();
     StudyLog read = parse_study_log(read_file(file, kLargestLog), name);
     if (!read.session.trial()) throw Advice(name + ": all its trials are answered", "Look at its results.");
     stimuli = read_stimuli(read.session.study(), project);
