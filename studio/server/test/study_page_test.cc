@@ -232,6 +232,8 @@ TEST_F(StudyPageTest, KeepsStudiesInFiles) {
   EXPECT_THAT(rig.ask("study.read", {{"name", "../a.study.json"}}).error, HasSubstr("no name inside"));
   EXPECT_THROW(rig.document.edit("/study/participant", "a b", "participant"), Error);
   EXPECT_THROW(rig.document.edit("/study/study/presentation/device", "hammer", "device"), Error);
+  EXPECT_THROW(rig.document.edit("/study/study/stimuli", Json::array({" a.png"}), "textures"), Error);
+  EXPECT_THROW(rig.document.edit("/study/study/stimuli", Json::array({"a,b.png"}), "textures"), Error);
   EXPECT_EQ(rig.ask("study.fields").result[0]["path"], "staircase.parameter");
 }
 
