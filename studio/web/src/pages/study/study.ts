@@ -74,6 +74,7 @@ export interface Track {
   threshold: number | null;
   error_ln: number | null;
   pairs: number;
+  at_limit: boolean;
 }
 
 export interface Rating {
@@ -184,7 +185,8 @@ const PARAMETERS: Record<string, string> = {
 export const parameterWords = (parameter: string): string => PARAMETERS[parameter] ?? parameter;
 
 /** "0.31 (0.25 to 0.39)": a threshold with the ends of its standard error, which is a factor. */
-export function thresholdWords({ threshold, error_ln }: Pick<Track, "threshold" | "error_ln">): string {
+export function thresholdWords({ threshold, error_ln, at_limit }: Pick<Track, "threshold" | "error_ln" | "at_limit">): string {
+  if (at_limit) return "none: at a limit";
   if (threshold === null) return "–";
   if (error_ln === null) return number(threshold, 3);
   return `${number(threshold, 3)} (${number(threshold * Math.exp(-error_ln), 3)} to ${number(threshold * Math.exp(error_ln), 3)})`;
