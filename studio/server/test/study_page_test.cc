@@ -158,6 +158,26 @@ TEST_F(StudyPageTest, TakesNoAnswerThatIsNone) {
   EXPECT_EQ(rig.session()["answers"], 0);
 }
 
+TEST_F(StudyPageTest, IsFeltOnWhenAnAnswerIsTakenBackAtOnce) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  rig.touch();
+  // Two trials are laid without a turn of the loop between: the first is given up for the second.
+  Call answer, back;
+  answer.id = ++rig.id;
+  answer.name = "study.answer";
+  answer.args = {{"trial", 1}, {"answer", 0}};
+  back.id = ++rig.id;
+  back.name = "study.take_back";
+  back.args = Json::object();
+  for (const Call& call : {answer, back}) rig.calls.dispatch(Request(rig.hub, StudyRig::kOwner, call));
+  EXPECT_TRUE(rig.pump([&] { return rig.session()["ready"].get<bool>(); }));
+  EXPECT_EQ(rig.session()["trial"], 1);
+  EXPECT_TRUE(rig.session()["touching"].get<bool>());
+  EXPECT_EQ(rig.answer(0).error, "");
+}
+
 TEST_F(StudyPageTest, TakesTheLastAnswerBackAlsoAtTheEnd) {
   StudyRig rig(folder.path());
   rig.set_up("rating", 1);

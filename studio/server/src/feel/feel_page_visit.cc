@@ -21,8 +21,8 @@ void FeelPage::change_visit(FeelVisit visit) {
         setup.config.feel.servo = servo;
         *result = app::make_felt_model(scene, info, kind.driven || kind.name == "mouse", setup.config.feel);
       },
-      [this, result, key = visit.key, number = run_number_](std::exception_ptr error) {
-        if (!run_ || number != run_number_) return;
+      [this, result, key = visit.key, number = run_number_, change = ++visit_changes_](std::exception_ptr error) {
+        if (!run_ || number != run_number_ || change != visit_changes_) return;
         if (error) {
           complain(error);
           return leave();
