@@ -220,6 +220,17 @@ TEST_F(StudyPageTest, GoesOnAfterARestart) {
   EXPECT_EQ(rig.ask("study.results", {{"log", "study_p01.study.csv"}}).result["answers"], 6);
 }
 
+TEST_F(StudyPageTest, GoesOnWithNoLogThatHasNoWholeColumns) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  EXPECT_EQ(rig.ask("study.end").error, "");
+  const std::string head = log();
+  std::ofstream(folder / "study_p01.study.csv") << head.substr(0, head.size() - 1);
+  EXPECT_THAT(rig.ask("study.continue", {{"log", "study_p01.study.csv"}}).error, HasSubstr("cut off"));
+  EXPECT_EQ(log() + '\n', head);
+}
+
 TEST_F(StudyPageTest, HasBreaksAndPausesAndRunsOfTheirOwn) {
   StudyRig rig(folder.path());
   rig.set_up("pairs", 2);
