@@ -220,6 +220,16 @@ TEST_F(StudyPageTest, GoesOnAfterARestart) {
   EXPECT_EQ(rig.ask("study.results", {{"log", "study_p01.study.csv"}}).result["answers"], 6);
 }
 
+TEST_F(StudyPageTest, LeavesNoLogOfASessionThatCouldNotBegin) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  // A folder that is not empty lies where the log in hand would be named.
+  std::filesystem::create_directories(folder / ".asperity-study.json" / "inner");
+  EXPECT_NE(rig.ask("study.begin").error, "");
+  EXPECT_FALSE(std::filesystem::exists(folder / "study_p01.study.csv"));
+  EXPECT_EQ(rig.status()["phase"], "none");
+}
+
 TEST_F(StudyPageTest, GoesOnWithNoLogThatHasNoWholeColumns) {
   StudyRig rig(folder.path());
   rig.set_up("pairs", 2);

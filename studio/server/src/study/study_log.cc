@@ -155,7 +155,12 @@ StudyLogFile StudyLogFile::create(const std::filesystem::path& file, std::string
   StudyLogFile out(::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666), name,
                    0);
   if (out.file_ < 0) fail(name, "cannot be made");
-  out.append(head);
+  try {
+    out.append(head);
+  } catch (const Error&) {
+    ::unlink(file.c_str());
+    throw;
+  }
   return out;
 }
 

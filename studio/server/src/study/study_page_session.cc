@@ -52,6 +52,22 @@ struct StudyPage::Opening {
     log = std::make_shared<StudyLogFile>(StudyLogFile::create(project.writable(name), format_log_head(*session)));
   }
 
+  // Opens the log, and names it in `file` as the one that goes on; a new one is not left behind without that.
+  void open(const fs::path& file) {
+    const bool is_new = name.empty();
+    is_new ? open_new() : open_old();
+    try {
+      log->sync();
+      Json running;
+      running["log"] = name;
+      write_file(file, running.dump() + '\n');
+    } catch (...) {
+      std::error_code error;
+      if (is_new) fs::remove(project.folder() / name, error);
+      throw;
+    }
+  }
+
   void open_old() {
     if (!name.ends_with(kStudyLogEnding)) throw Error(printable(name, 200) + ": is no log of a study");
     const fs::path file = project.existing(name);
@@ -139,11 +155,7 @@ void StudyPage::open(const std::shared_ptr<Opening>& opening, const Request* req
       "study", "Reading the study's textures", "",
       [opening, file = shared_.project.folder() / kRunningFile](const Observer& observer) {
         observer.update("reading", 0.0);
-        opening->name.empty() ? opening->open_new() : opening->open_old();
-        opening->log->sync();
-        Json running;
-        running["log"] = opening->name;
-        write_file(file, running.dump() + '\n');
+        opening->open(file);
       },
       [this, opening, asked, why = std::string(why)](std::exception_ptr error) {
         phase_ = Phase::kNone;
