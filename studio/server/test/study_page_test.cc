@@ -117,6 +117,24 @@ TEST_F(StudyPageTest, IsTouchedAgainAtOnceAfterTheLastTouchWasLeft) {
   EXPECT_EQ(rig.answer(0).error, "");
 }
 
+TEST_F(StudyPageTest, IsNotTouchedAfterTheTouchWasCalledOff) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  rig.touch();
+  // On waits for the end of the touch before, and off comes while it does.
+  Call calls[3];
+  for (int k = 0; k < 3; ++k) {
+    calls[k].id = ++rig.id;
+    calls[k].name = "study.touch";
+    calls[k].args = {{"on", k == 1}};
+    rig.calls.dispatch(Request(rig.hub, StudyRig::kOwner, calls[k]));
+  }
+  EXPECT_TRUE(rig.pump([&] { return rig.ask("feel.status").result["state"] == "idle"; }));
+  EXPECT_FALSE(rig.session()["touching"].get<bool>());
+  for (const Call& call : calls) EXPECT_EQ(rig.hub.answer_to(call.id).error, "");
+}
+
 TEST_F(StudyPageTest, IsNotTouchableWithoutAForce) {
   StudyRig rig(folder.path());
   rig.set_up("pairs", 2);

@@ -212,6 +212,7 @@ FeelVisit StudyPage::visit() const {
 
 void StudyPage::touch(const Request& request) {
   if (!request.flag("on")) {
+    if (touch_asked_) std::exchange(touch_asked_, std::nullopt)->done();
     host_.leave();
     return request.done();
   }
@@ -226,7 +227,9 @@ void StudyPage::touch(const Request& request) {
 void StudyPage::start_touch() {
   if (!touch_asked_ || host_.is_leaving()) return;
   const Request request = *std::exchange(touch_asked_, std::nullopt);
-  if (phase_ != Phase::kRunning) return request.done();
+  if (phase_ != Phase::kRunning) {
+    return request.refuse(Advice("no trial is open any more", "Begin a session, or end the break."));
+  }
   toucher_ = request.client();
   try {
     host_.visit(request, visit());

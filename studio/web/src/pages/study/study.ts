@@ -162,9 +162,11 @@ export function progressWords({ trial, of, answers }: Session): string {
 }
 
 /** What is to be done now. */
-export function adviceOf(session: Session): string {
+/** What comes next; `held`: the force is at zero because the textures are being laid. */
+export function adviceOf(session: Session, held: boolean): string {
   const answer = session.method === "rating" ? "answer with 1 to 7" : "answer with 1 or 2";
   if (!session.touching) return session.touched ? `Press Space to touch again, or ${answer}.` : "Press Space to touch.";
+  if (!session.ready && !held) return "Nothing is felt: this window does not have the force. Take it, then go on.";
   if (!session.ready) return "One moment: the textures are being laid.";
   return session.method === "rating" ? `Touch the texture and the real object, then ${answer}.` : `Touch both, then ${answer}.`;
 }
