@@ -38,6 +38,14 @@ class Sound : public FakeHub {
   std::vector<double> samples;
 };
 
+class Frames : public FakeHub {
+ public:
+  void publish(std::string_view topic, std::string frame, Delivery) override {
+    frames.push_back(std::string(topic) + ' ' + std::move(frame));
+  }
+  std::vector<std::string> frames;
+};
+
 double rms_N(const std::vector<double>& samples, std::size_t from) {
   double sum = 0.0;
   for (std::size_t k = from; k < samples.size(); ++k) sum += samples[k] * samples[k];
@@ -62,6 +70,32 @@ TEST(TickStream, TellsEveryTickOnce) {
   EXPECT_EQ(state["touching"], true);
   EXPECT_NEAR(state["way_m"].get<double>(), 0.0999, 1e-9);
   EXPECT_NEAR(state["speed_mps"].get<double>(), 0.1, 1e-6);
+}
+
+// Two surfaces under the same point and with the same force on the hand are told alike.
+TEST(TickStream, TellsNothingOfTheSurfaceWhenBlind) {
+  const auto told = [](bool other) {
+    Frames hub;
+    TickStream stream(hub, kRate_Hz, 1, true);
+    for (int k = 0; k < 100; ++k) {
+      ServoTick tick = tick_at(k, 100.0);
+      if (other) {
+        tick.output.proxy_m += 1e-3 * k * Eigen::Vector3d::UnitY();
+        tick.output.contact.normal_world = Eigen::Vector3d(0.6, 0.0, 0.8);
+        tick.output.contact_N *= 0.5;
+        tick.output.texture_N *= 2.0;
+        tick.output.friction_N = 0.2 * Eigen::Vector3d::UnitX();
+        tick.output.texture_height_m = 1e-4;
+        tick.output.sticking = true;
+        tick.output.starts_inside = true;
+      }
+      stream.add(tick);
+    }
+    stream.flush();
+    return hub.frames;
+  };
+  EXPECT_FALSE(told(false).empty());
+  EXPECT_EQ(told(false), told(true));
 }
 
 TEST(TickStream, MakesNothingForNobody) {

@@ -38,6 +38,12 @@ TEST_F(StudyPageTest, AsksAllPairsAndGivesTheResults) {
   EXPECT_EQ(rig.status()["phase"], "finished");
   EXPECT_TRUE(rig.pump([&] { return rig.ask("feel.status").result["state"] == "idle"; }));
   EXPECT_THAT(rig.ask("study.results", {{"log", "study_p01.study.csv"}}).error, HasSubstr("being written"));
+  // By whatever name.
+  std::filesystem::create_symlink("study_p01.study.csv", folder / "other.study.csv");
+  for (const char* name : {"./study_p01.study.csv", ".//study_p01.study.csv", "other.study.csv"}) {
+    EXPECT_THAT(rig.ask("study.results", {{"log", name}}).error, HasSubstr("being written")) << name;
+    EXPECT_THAT(rig.ask("study.export", {{"log", name}}).error, HasSubstr("being written")) << name;
+  }
   EXPECT_EQ(rig.ask("study.end").error, "");
   const Json results = rig.ask("study.results", {{"log", rig.status()["last_log"]}}).result;
   double wins = 0.0;
@@ -55,6 +61,8 @@ TEST_F(StudyPageTest, AsksAllPairsAndGivesTheResults) {
 TEST_F(StudyPageTest, TellsTheBrowserNothingOfTheTextures) {
   StudyRig rig(folder.path());
   rig.set_up("staircase", 1);
+  // Stiffer than the device bears: on the Feel page the renderer would warn, naming the texture.
+  rig.document.edit("/study/study/presentation/stiffness_N_per_m", 1e6, "stiffness");
   ASSERT_EQ(rig.ask("study.begin").error, "");
   rig.touch();
   const std::string told = rig.status().dump() + rig.ask("feel.status").result.dump();
@@ -63,6 +71,7 @@ TEST_F(StudyPageTest, TellsTheBrowserNothingOfTheTextures) {
   EXPECT_THAT(block.head.dump(), Not(HasSubstr("tile0")));
   EXPECT_EQ(block.head["textures"].size(), 2U);
   EXPECT_TRUE(block.array<float>("height_0").empty());
+  EXPECT_TRUE(rig.ask("feel.status").result["warnings"].empty());
   // Pressed into a tile: the hand feels it, and the browser sees neither height nor parts of the force.
   rig.pointing = true;
   rig.pointer_m = {0.019, 0.019, -0.004};
@@ -110,6 +119,52 @@ TEST_F(StudyPageTest, IsTouchedAgainAtOnceAfterTheLastTouchWasLeft) {
   EXPECT_EQ(rig.answer(0).error, "");
 }
 
+TEST_F(StudyPageTest, IsNotTouchedAfterTheTouchWasCalledOff) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  rig.touch();
+  // On waits for the end of the touch before, and off comes while it does.
+  Call calls[3];
+  for (int k = 0; k < 3; ++k) {
+    calls[k].id = ++rig.id;
+    calls[k].name = "study.touch";
+    calls[k].args = {{"on", k == 1}};
+    rig.calls.dispatch(Request(rig.hub, StudyRig::kOwner, calls[k]));
+  }
+  EXPECT_TRUE(rig.pump([&] { return rig.ask("feel.status").result["state"] == "idle"; }));
+  EXPECT_FALSE(rig.session()["touching"].get<bool>());
+  for (const Call& call : calls) EXPECT_EQ(rig.hub.answer_to(call.id).error, "");
+}
+
+TEST_F(StudyPageTest, IsNotTouchableWithoutAForce) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  rig.beating = false;
+  EXPECT_EQ(rig.ask("study.touch", {{"on", true}}).error, "");
+  EXPECT_TRUE(rig.pump([&] { return rig.ask("feel.status").result["state"] == "running"; }));
+  // Nobody holds the lease.
+  EXPECT_FALSE(rig.session()["ready"].get<bool>());
+  EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 0}}).error, HasSubstr("nothing was felt"));
+  rig.beating = true;
+  EXPECT_TRUE(rig.pump([&] { return rig.session()["ready"].get<bool>(); }));
+  // It lapses: the clock of the response stands.
+  rig.beating = false;
+  EXPECT_TRUE(rig.pump([&] { return !rig.session()["ready"].get<bool>(); }));
+  EXPECT_TRUE(rig.session()["touching"].get<bool>());
+  rig.beating = true;
+  EXPECT_EQ(rig.answer(0).error, "");
+}
+
+TEST_F(StudyPageTest, IsNotTouchedWhereNoForceIsCommanded) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  rig.shared.may_command_forces = false;
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  EXPECT_THAT(rig.ask("study.touch", {{"on", true}}).error, HasSubstr("not commanded from here"));
+}
+
 TEST_F(StudyPageTest, TakesNoAnswerThatIsNone) {
   StudyRig rig(folder.path());
   rig.set_up("pairs", 2);
@@ -121,6 +176,26 @@ TEST_F(StudyPageTest, TakesNoAnswerThatIsNone) {
   EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 2}}).error, HasSubstr("no answer"));
   EXPECT_THAT(rig.ask("study.answer", {{"trial", 1}, {"answer", 1e15}}).error, HasSubstr("no answer"));
   EXPECT_EQ(rig.session()["answers"], 0);
+}
+
+TEST_F(StudyPageTest, IsFeltOnWhenAnAnswerIsTakenBackAtOnce) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  rig.touch();
+  // Two trials are laid without a turn of the loop between: the first is given up for the second.
+  Call answer, back;
+  answer.id = ++rig.id;
+  answer.name = "study.answer";
+  answer.args = {{"trial", 1}, {"answer", 0}};
+  back.id = ++rig.id;
+  back.name = "study.take_back";
+  back.args = Json::object();
+  for (const Call& call : {answer, back}) rig.calls.dispatch(Request(rig.hub, StudyRig::kOwner, call));
+  EXPECT_TRUE(rig.pump([&] { return rig.session()["ready"].get<bool>(); }));
+  EXPECT_EQ(rig.session()["trial"], 1);
+  EXPECT_TRUE(rig.session()["touching"].get<bool>());
+  EXPECT_EQ(rig.answer(0).error, "");
 }
 
 TEST_F(StudyPageTest, TakesTheLastAnswerBackAlsoAtTheEnd) {
@@ -165,6 +240,27 @@ TEST_F(StudyPageTest, GoesOnAfterARestart) {
   EXPECT_EQ(rig.ask("study.results", {{"log", "study_p01.study.csv"}}).result["answers"], 6);
 }
 
+TEST_F(StudyPageTest, LeavesNoLogOfASessionThatCouldNotBegin) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  // A folder that is not empty lies where the log in hand would be named.
+  std::filesystem::create_directories(folder / ".asperity-study.json" / "inner");
+  EXPECT_NE(rig.ask("study.begin").error, "");
+  EXPECT_FALSE(std::filesystem::exists(folder / "study_p01.study.csv"));
+  EXPECT_EQ(rig.status()["phase"], "none");
+}
+
+TEST_F(StudyPageTest, GoesOnWithNoLogThatHasNoWholeColumns) {
+  StudyRig rig(folder.path());
+  rig.set_up("pairs", 2);
+  ASSERT_EQ(rig.ask("study.begin").error, "");
+  EXPECT_EQ(rig.ask("study.end").error, "");
+  const std::string head = log();
+  std::ofstream(folder / "study_p01.study.csv") << head.substr(0, head.size() - 1);
+  EXPECT_THAT(rig.ask("study.continue", {{"log", "study_p01.study.csv"}}).error, HasSubstr("cut off"));
+  EXPECT_EQ(log() + '\n', head);
+}
+
 TEST_F(StudyPageTest, HasBreaksAndPausesAndRunsOfTheirOwn) {
   StudyRig rig(folder.path());
   rig.set_up("pairs", 2);
@@ -181,8 +277,9 @@ TEST_F(StudyPageTest, HasBreaksAndPausesAndRunsOfTheirOwn) {
   ASSERT_EQ(rig.ask("study.begin").error, "");
   EXPECT_EQ(rig.status()["log"], "study_p01_2.study.csv");
   EXPECT_EQ(rig.ask("study.end").error, "");
-  EXPECT_EQ(rig.ask("study.continue", {{"log", "study_p01.study.csv"}}).error, "");
+  EXPECT_EQ(rig.ask("study.continue", {{"log", "./study_p01.study.csv"}}).error, "");
   EXPECT_EQ(rig.session()["trial"], 2);
+  EXPECT_EQ(rig.status()["log"], "study_p01.study.csv");
 }
 
 TEST_F(StudyPageTest, KeepsStudiesInFiles) {
@@ -196,6 +293,8 @@ TEST_F(StudyPageTest, KeepsStudiesInFiles) {
   EXPECT_THAT(rig.ask("study.read", {{"name", "../a.study.json"}}).error, HasSubstr("no name inside"));
   EXPECT_THROW(rig.document.edit("/study/participant", "a b", "participant"), Error);
   EXPECT_THROW(rig.document.edit("/study/study/presentation/device", "hammer", "device"), Error);
+  EXPECT_THROW(rig.document.edit("/study/study/stimuli", Json::array({" a.png"}), "textures"), Error);
+  EXPECT_THROW(rig.document.edit("/study/study/stimuli", Json::array({"a,b.png"}), "textures"), Error);
   EXPECT_EQ(rig.ask("study.fields").result[0]["path"], "staircase.parameter");
 }
 

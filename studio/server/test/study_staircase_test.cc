@@ -60,6 +60,24 @@ TEST(Staircase, StaysWithinItsLimitsAndEnds) {
   EXPECT_THROW(StaircaseTrack{config}, Error);
 }
 
+// Who guesses is driven to the highest level, and turns there by chance: no threshold.
+TEST(Staircase, HasNoThresholdAtItsLimits) {
+  const StaircaseConfig config;
+  StaircaseTrack guesser(config);
+  Random random(5);
+  while (!guesser.done()) guesser.push(random.chance(0.5));
+  EXPECT_EQ(guesser.reversal_trials().size(), 10U);
+  EXPECT_TRUE(staircase_threshold(guesser, config).at_limit);
+  EXPECT_FALSE(staircase_threshold(guesser, config).level);
+  // Always right but where the level is the lowest.
+  StaircaseConfig low;
+  low.lowest_level = 0.5;
+  StaircaseTrack sharp(low);
+  while (!sharp.done()) sharp.push(sharp.level() > low.lowest_level);
+  EXPECT_TRUE(staircase_threshold(sharp, low).at_limit);
+  EXPECT_FALSE(staircase_threshold(sharp, low).level);
+}
+
 TEST(Staircase, KnowsWhereItSettles) {
   StaircaseConfig config;
   EXPECT_NEAR(staircase_target(config), 0.7071, 1e-4);  // Levitt 1971, table I

@@ -93,10 +93,11 @@ describe("a session", () => {
   });
 
   it("says what is to be done", () => {
-    expect(adviceOf(session())).toBe("Press Space to touch.");
-    expect(adviceOf(session({ touching: true }))).toMatch(/being laid/);
-    expect(adviceOf(session({ touching: true, ready: true, touched: true }))).toBe("Touch both, then answer with 1 or 2.");
-    expect(adviceOf(session({ touched: true, method: "rating" }))).toMatch(/again, or answer with 1 to 7/);
+    expect(adviceOf(session(), false)).toBe("Press Space to touch.");
+    expect(adviceOf(session({ touching: true }), true)).toMatch(/being laid/);
+    expect(adviceOf(session({ touching: true }), false)).toMatch(/does not have the force/);
+    expect(adviceOf(session({ touching: true, ready: true, touched: true }), false)).toBe("Touch both, then answer with 1 or 2.");
+    expect(adviceOf(session({ touched: true, method: "rating" }), false)).toMatch(/again, or answer with 1 to 7/);
   });
 
   it("has no force between two trials, and says so", () => {
@@ -107,9 +108,10 @@ describe("a session", () => {
 
 describe("results", () => {
   it("have thresholds whose error is a factor", () => {
-    expect(thresholdWords({ threshold: 0.5, error_ln: Math.log(2) })).toBe("0.500 (0.250 to 1.00)");
-    expect(thresholdWords({ threshold: 0.5, error_ln: null })).toBe("0.500");
-    expect(thresholdWords({ threshold: null, error_ln: null })).toBe("–");
+    expect(thresholdWords({ threshold: 0.5, error_ln: Math.log(2), at_limit: false })).toBe("0.500 (0.250 to 1.00)");
+    expect(thresholdWords({ threshold: 0.5, error_ln: null, at_limit: false })).toBe("0.500");
+    expect(thresholdWords({ threshold: null, error_ln: null, at_limit: false })).toBe("–");
+    expect(thresholdWords({ threshold: null, error_ln: null, at_limit: true })).toBe("none: at a limit");
   });
 
   it("have shares with their interval", () => {
@@ -118,7 +120,7 @@ describe("results", () => {
   });
 
   it("show a track with its reversals and threshold", () => {
-    const track = { stimulus: 0, repetition: 1, levels: [1, 1, 0.5, 0.7], correct: [true, true, false, true], reversals: [2], done: false, threshold: 0.6, error_ln: 0.1, pairs: 1 };
+    const track = { stimulus: 0, repetition: 1, levels: [1, 1, 0.5, 0.7], correct: [true, true, false, true], reversals: [2], done: false, threshold: 0.6, error_ln: 0.1, pairs: 1, at_limit: false };
     const [level, reversals, threshold] = trackSeries(track);
     expect(level!.x).toEqual([1, 2, 3, 4]);
     expect([reversals!.x, reversals!.y]).toEqual([[3], [0.5]]);

@@ -30,7 +30,8 @@ class FeelHost {
   virtual void change_visit(FeelVisit visit) = 0;
   // Ends the visit, if there is one.
   virtual void leave() = 0;
-  // Whether a visit goes on and is not leaving, and the key of what can be felt at this moment; 0: nothing.
+  // Whether a visit goes on and is not leaving, and the key of what can be felt at this moment; 0: nothing, or no force
+  // is permitted.
   virtual bool is_visited() const = 0;
   // Whether one is at its end, the force going to zero; another can begin after.
   virtual bool is_leaving() const = 0;

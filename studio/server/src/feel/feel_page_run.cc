@@ -61,6 +61,10 @@ void FeelPage::begin(const Request& request) {
 void FeelPage::visit(const Request& request, FeelVisit visit) {
   const FeelDeviceKind& kind = feel_device_kind(visit.setup.device);
   check_start(kind, request);
+  if (!shared_.may_command_forces) {
+    throw Advice("nothing could be felt: forces are not commanded from here",
+                 "The studio listens to other machines: start it with --remote-force.");
+  }
   auto opening = std::make_shared<Opening>();
   opening->revision = revision_;
   opening->setup = std::move(visit.setup);
@@ -110,7 +114,8 @@ void FeelPage::opened(Opening& opening, std::exception_ptr error) {
   parts.felt = running_.kind.felt;
   parts.blind = visited_;
   device_model_ = running_.info.model;
-  warnings_ = running_.warnings;
+  // Those of a visitor's scene would tell which texture is where.
+  warnings_ = visited_ ? std::vector<std::string>() : running_.warnings;
   last_run_ = Json();
   if (opening.world) world_ = opening.world;
   visit_key_ = opening.visit;
@@ -150,20 +155,22 @@ void FeelPage::take(const Request& request) {
 }
 
 void FeelPage::permit(std::int64_t now_ns) {
+  permitted_ = false;
   if (!run_) return;
   const bool held = visited_ && (visit_key_ == 0 || now_ns < held_until_ns_);
-  if (state_ == State::kRunning && !held && shared_.may_command_forces && shared_.lease.owner(now_ns) == run_owner_) {
-    run_->permit().renew();
-  } else {
-    run_->permit().revoke();
-  }
+  permitted_ =
+      state_ == State::kRunning && !held && shared_.may_command_forces && shared_.lease.owner(now_ns) == run_owner_;
+  permitted_ ? run_->permit().renew() : run_->permit().revoke();
 }
 
 void FeelPage::tick(std::int64_t now_ns) {
+  const bool before = permitted_;
   permit(now_ns);
-  if (held_until_ns_ == 0 || now_ns < held_until_ns_) return;
-  held_until_ns_ = 0;
-  tell();
+  if (held_until_ns_ != 0 && now_ns >= held_until_ns_) {
+    held_until_ns_ = 0;
+    tell();
+  }
+  if (visited_ && permitted_ != before && visit_changed_) visit_changed_();
 }
 
 void FeelPage::end_run() {

@@ -21,14 +21,13 @@ void FeelPage::change_visit(FeelVisit visit) {
         setup.config.feel.servo = servo;
         *result = app::make_felt_model(scene, info, kind.driven || kind.name == "mouse", setup.config.feel);
       },
-      [this, result, key = visit.key, number = run_number_](std::exception_ptr error) {
-        if (!run_ || number != run_number_) return;
+      [this, result, key = visit.key, number = run_number_, change = ++visit_changes_](std::exception_ptr error) {
+        if (!run_ || number != run_number_ || change != visit_changes_) return;
         if (error) {
           complain(error);
           return leave();
         }
         run_->swap(std::move(result->model));
-        warnings_ = std::move(result->warnings);
         visit_key_ = key;
         held_until_ns_ = host_now_ns() + kHold_ns;
         tell();
@@ -45,7 +44,7 @@ bool FeelPage::is_leaving() const {
 }
 
 std::uint64_t FeelPage::visited_key() const {
-  return visited_ && state_ == State::kRunning && held_until_ns_ == 0 ? visit_key_ : 0;
+  return visited_ && permitted_ && state_ == State::kRunning && held_until_ns_ == 0 ? visit_key_ : 0;
 }
 
 }  // namespace asperity::studio

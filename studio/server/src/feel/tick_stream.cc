@@ -122,21 +122,22 @@ void TickStream::send_state() {
   }
   limited_by_ = 0;
   head["touching"] = output.contact.found();
-  head["sticking"] = output.sticking;
-  head["starts_inside"] = output.starts_inside;
+  // Of what is felt blind: where the point is and what it feels altogether, nothing of the surface.
+  const Eigen::Vector3d hidden = Eigen::Vector3d::Zero();
+  head["sticking"] = !blind_ && output.sticking;
+  head["starts_inside"] = !blind_ && output.starts_inside;
   head["height_m"] = blind_ ? 0.0 : output.texture_height_m;
-  head["way_m"] = way_m_;
+  head["way_m"] = blind_ ? 0.0 : way_m_;
   head["speed_mps"] = v_world_mps_.norm();
   head["late_p99_us"] = late_p99_s_ * 1e6;
   head["late_max_us"] = late_max_s_ * 1e6;
   head["skipped"] = skipped_;
   add_vector(block, "p_world_m", last_.p_world_m);
-  add_vector(block, "proxy_m", output.proxy_m);
-  add_vector(block, "normal_world", output.contact.normal_world);
-  const Eigen::Vector3d hidden_N = Eigen::Vector3d::Zero();
-  add_vector(block, "contact_N", blind_ ? hidden_N : output.contact_N);
-  add_vector(block, "texture_N", blind_ ? hidden_N : output.texture_N);
-  add_vector(block, "friction_N", blind_ ? hidden_N : output.friction_N);
+  add_vector(block, "proxy_m", blind_ ? last_.p_world_m : output.proxy_m);
+  add_vector(block, "normal_world", blind_ ? hidden : output.contact.normal_world);
+  add_vector(block, "contact_N", blind_ ? hidden : output.contact_N);
+  add_vector(block, "texture_N", blind_ ? hidden : output.texture_N);
+  add_vector(block, "friction_N", blind_ ? hidden : output.friction_N);
   add_vector(block, "out_world_N", last_.out_world_N);
   hub_.publish(kFeelStateTopic, block.take(), Delivery::kLatest);
 }

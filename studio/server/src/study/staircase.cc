@@ -60,8 +60,12 @@ StaircaseThreshold staircase_threshold(const StaircaseTrack& track, const Stairc
   if (at.size() < halvings + 2) return out;
   out.pairs = (at.size() - halvings) / 2;
   double sum_ln = 0.0;
-  for (std::size_t k = at.size() - 2 * out.pairs; k < at.size(); ++k) sum_ln += std::log(track.levels()[at[k]]);
-  out.level = std::exp(sum_ln / static_cast<double>(2 * out.pairs));
+  for (std::size_t k = at.size() - 2 * out.pairs; k < at.size(); ++k) {
+    const double level = track.levels()[at[k]];
+    out.at_limit = out.at_limit || level <= config.lowest_level || level >= config.highest_level;
+    sum_ln += std::log(level);
+  }
+  if (!out.at_limit) out.level = std::exp(sum_ln / static_cast<double>(2 * out.pairs));
   return out;
 }
 

@@ -67,11 +67,13 @@ class StaircaseTrack {
 };
 
 struct StaircaseThreshold {
-  std::optional<double> level;  // none: too few reversals
+  std::optional<double> level;  // none: too few reversals, or at_limit
   std::size_t pairs = 0;        // of reversals that were taken
+  bool at_limit = false;        // one of them lies on the lowest or the highest level
 };
 
-// The threshold of a track: the geometric mean of the last even number of the reversals after the halvings.
+// The threshold of a track: the geometric mean of the last even number of the reversals after the halvings. At a limit
+// the track was held rather than turned by the answers: there is none.
 StaircaseThreshold staircase_threshold(const StaircaseTrack& track, const StaircaseConfig& config);
 
 // The probability of a right answer at which the rule settles: (w / (1 + w))^(1/n).

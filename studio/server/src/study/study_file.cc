@@ -65,6 +65,10 @@ std::vector<std::string> stimuli_of(const std::string& where, const Json& value)
     if (out.back().find(',') != std::string::npos) {
       refuse(where, "stimuli", "'" + printable(out.back()) + "' has a comma, which the log cannot hold; rename it");
     }
+    if (trim(out.back()) != out.back()) {
+      refuse(where, "stimuli",
+             "'" + printable(out.back()) + "' begins or ends with a blank, which the log cannot hold; rename it");
+    }
     if (std::count(out.begin(), out.end(), out.back()) > 1) {
       refuse(where, "stimuli", "'" + printable(out.back()) + "' is there twice");
     }

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -135,6 +136,8 @@ std::string format_taken_back_row(int trial, double since_begin_s, std::string_v
 
 StudyLog parse_study_log(std::string_view text, const std::string& name) {
   StudyLog out{session_of(text, name), 0.0, 0, {}};
+  // Rows would be appended to half a line.
+  if (std::count(text.begin(), text.end(), '\n') < 2) throw Error(name + ":2: is cut off before its columns end");
   CsvReader rows(text, name);
   std::string columns;
   for (const std::string& column : rows.columns()) columns += (columns.empty() ? "" : ",") + column;
@@ -152,7 +155,12 @@ StudyLogFile StudyLogFile::create(const std::filesystem::path& file, std::string
   StudyLogFile out(::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666), name,
                    0);
   if (out.file_ < 0) fail(name, "cannot be made");
-  out.append(head);
+  try {
+    out.append(head);
+  } catch (const Error&) {
+    ::unlink(file.c_str());
+    throw;
+  }
   return out;
 }
 

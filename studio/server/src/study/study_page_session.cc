@@ -52,9 +52,26 @@ struct StudyPage::Opening {
     log = std::make_shared<StudyLogFile>(StudyLogFile::create(project.writable(name), format_log_head(*session)));
   }
 
+  // Opens the log, and names it in `file` as the one that goes on; a new one is not left behind without that.
+  void open(const fs::path& file) {
+    const bool is_new = name.empty();
+    is_new ? open_new() : open_old();
+    try {
+      log->sync();
+      Json running;
+      running["log"] = name;
+      write_file(file, running.dump() + '\n');
+    } catch (...) {
+      std::error_code error;
+      if (is_new) fs::remove(project.folder() / name, error);
+      throw;
+    }
+  }
+
   void open_old() {
     if (!name.ends_with(kStudyLogEnding)) throw Error(printable(name, 200) + ": is no log of a study");
     const fs::path file = project.existing(name);
+    name = file.lexically_relative(project.folder()).generic_string();
     StudyLog read = parse_study_log(read_file(file, kLargestLog), name);
     if (!read.session.trial()) throw Advice(name + ": all its trials are answered", "Look at its results.");
     stimuli = read_stimuli(read.session.study(), project);
@@ -138,11 +155,7 @@ void StudyPage::open(const std::shared_ptr<Opening>& opening, const Request* req
       "study", "Reading the study's textures", "",
       [opening, file = shared_.project.folder() / kRunningFile](const Observer& observer) {
         observer.update("reading", 0.0);
-        opening->name.empty() ? opening->open_new() : opening->open_old();
-        opening->log->sync();
-        Json running;
-        running["log"] = opening->name;
-        write_file(file, running.dump() + '\n');
+        opening->open(file);
       },
       [this, opening, asked, why = std::string(why)](std::exception_ptr error) {
         phase_ = Phase::kNone;
@@ -199,6 +212,7 @@ FeelVisit StudyPage::visit() const {
 
 void StudyPage::touch(const Request& request) {
   if (!request.flag("on")) {
+    if (touch_asked_) std::exchange(touch_asked_, std::nullopt)->done();
     host_.leave();
     return request.done();
   }
@@ -213,7 +227,9 @@ void StudyPage::touch(const Request& request) {
 void StudyPage::start_touch() {
   if (!touch_asked_ || host_.is_leaving()) return;
   const Request request = *std::exchange(touch_asked_, std::nullopt);
-  if (phase_ != Phase::kRunning) return request.done();
+  if (phase_ != Phase::kRunning) {
+    return request.refuse(Advice("no trial is open any more", "Begin a session, or end the break."));
+  }
   toucher_ = request.client();
   try {
     host_.visit(request, visit());

@@ -76,6 +76,7 @@ void add_tracks(Json& out, const StudySession& session) {
         threshold.level ? staircase_error_ln(track, *threshold.level, session.study().staircase) : std::nullopt;
     each["error_ln"] = error_ln ? Json(*error_ln) : Json();
     each["pairs"] = threshold.pairs;
+    each["at_limit"] = threshold.at_limit;
     tracks.push_back(std::move(each));
   }
   out["target"] = staircase_target(session.study().staircase);

@@ -11,7 +11,13 @@ export default async function study({ page, studio, step, restart, folder, asper
   const rows = (name = "study_p01.study.csv") => readFileSync(join(folder, name), "utf8").trim().split("\n").slice(2);
   const session = page.getByTestId("study-session");
   const progress = (words) => page.getByTestId("study-progress").filter({ hasText: words }).waitFor();
-  const ready = () => page.getByTestId("study-advice").filter({ hasText: "then answer" }).waitFor();
+  const takeForce = page.getByRole("button", { name: "Take the force" });
+  // On a busy machine a heartbeat comes late, the force is lost, and nothing can be touched until a hand takes it again.
+  const ready = () =>
+    until(async () => {
+      if (await takeForce.isVisible()) await takeForce.click({ timeout: 1000 }).catch(() => {});
+      return page.getByTestId("study-advice").filter({ hasText: "then answer" }).isVisible();
+    }, "a trial that can be touched");
   const touch = async () => {
     await page.keyboard.press("Space");
     await ready();
@@ -45,12 +51,10 @@ export default async function study({ page, studio, step, restart, folder, asper
       await page.mouse.move(box.x + box.width * 0.37, box.y + box.height * 0.5, { steps: 5 });
     };
     await press();
-    // On a busy machine a heartbeat comes late, the force is lost, and a hand takes it again.
     await until(async () => {
-      const take = page.getByRole("button", { name: "Take the force" });
-      if (await take.isVisible()) {
+      if (await takeForce.isVisible()) {
         await page.mouse.up();
-        await take.click({ timeout: 1000 }).then(press, () => {});
+        await takeForce.click({ timeout: 1000 }).then(press, () => {});
       }
       return numberIn(await page.getByTestId("force-now").textContent().then((words) => words.replace("on the hand", ""))) > 0.05;
     }, "a force on the hand");

@@ -123,6 +123,11 @@ function Tracks({ results }: { results: StudyResults }) {
           { key: "done", label: "At its end", cell: (row) => (row.done ? "yes" : "no") },
         ]}
       />
+      {tracks.some((each) => each.at_limit) && (
+        <p class="field-hint" data-testid="study-at-limit">
+          A track that turned at the lowest or highest level has no threshold: what is felt lies beyond it, or it was guessed. Widen the levels.
+        </p>
+      )}
       {tracks.length > 1 && (
         <Select label="Track" value={String(at)} options={tracks.map((_, index) => ({ value: String(index), label: words(index) }))} onChange={(value) => setAt(Number(value))} />
       )}

@@ -3,7 +3,7 @@ import type { Block } from "../../net/block";
 import { call, link } from "../../net/connection";
 import { attempt, Button } from "../../ui/Button";
 import { useKeys, type Key } from "../../ui/keys";
-import { commandsRun } from "../feel/feelStore";
+import { commandsRun, feelStatus } from "../feel/feelStore";
 import { FeelView } from "../feel/FeelView";
 import { adviceOf, answerOfKey, answersWords, pauseWords, progressWords, RATINGS, type Session, type StudyStatus } from "./study";
 import { giveAnswer, toggleTouch } from "./studyStore";
@@ -89,7 +89,7 @@ function TrialView({ session }: { session: Session }) {
         </div>
       </div>
       <p class="study-advice" role="status" data-testid="study-advice">
-        {adviceOf(session)}
+        {adviceOf(session, feelStatus.value?.held ?? true)}
       </p>
       <div class={isRating ? "study-answers study-ratings" : "study-answers"} role="group" aria-label={session.question}>
         {isRating ? (

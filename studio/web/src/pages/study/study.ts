@@ -74,6 +74,7 @@ export interface Track {
   threshold: number | null;
   error_ln: number | null;
   pairs: number;
+  at_limit: boolean;
 }
 
 export interface Rating {
@@ -161,9 +162,11 @@ export function progressWords({ trial, of, answers }: Session): string {
 }
 
 /** What is to be done now. */
-export function adviceOf(session: Session): string {
+/** What comes next; `held`: the force is at zero because the textures are being laid. */
+export function adviceOf(session: Session, held: boolean): string {
   const answer = session.method === "rating" ? "answer with 1 to 7" : "answer with 1 or 2";
   if (!session.touching) return session.touched ? `Press Space to touch again, or ${answer}.` : "Press Space to touch.";
+  if (!session.ready && !held) return "Nothing is felt: this window does not have the force. Take it, then go on.";
   if (!session.ready) return "One moment: the textures are being laid.";
   return session.method === "rating" ? `Touch the texture and the real object, then ${answer}.` : `Touch both, then ${answer}.`;
 }
@@ -184,7 +187,8 @@ const PARAMETERS: Record<string, string> = {
 export const parameterWords = (parameter: string): string => PARAMETERS[parameter] ?? parameter;
 
 /** "0.31 (0.25 to 0.39)": a threshold with the ends of its standard error, which is a factor. */
-export function thresholdWords({ threshold, error_ln }: Pick<Track, "threshold" | "error_ln">): string {
+export function thresholdWords({ threshold, error_ln, at_limit }: Pick<Track, "threshold" | "error_ln" | "at_limit">): string {
+  if (at_limit) return "none: at a limit";
   if (threshold === null) return "–";
   if (error_ln === null) return number(threshold, 3);
   return `${number(threshold, 3)} (${number(threshold * Math.exp(-error_ln), 3)} to ${number(threshold * Math.exp(error_ln), 3)})`;
