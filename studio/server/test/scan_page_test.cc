@@ -30,10 +30,10 @@ std::set<std::string> temporary_folders() {
   return out;
 }
 
-// A stroke of 15 mm over a sine, 0.8 s long.
-Recording short_scan() {
+// A stroke over a sine; of 15 mm it is 0.8 s long.
+Recording short_scan(double length_m = 0.015) {
   SimulationConfig config = make_simulation_config("sine", "open");
-  config.hand.length_m = 0.015;
+  config.hand.length_m = length_m;
   config.hand.speed_mps = 0.05;
   config.hand.rest_s = 0.2;
   return simulate_recording(config);
@@ -199,6 +199,38 @@ TEST(ScanPage, BringsBackWhatWasDiscarded) {
   EXPECT_EQ(kept.info.segments[0].name, "segment_1_restored");
   EXPECT_EQ(kept.info.segments[1].name, "segment_1");
   EXPECT_EQ(kept.probe.size(), 2 * read_recording(bench.folder / "old").probe.size());
+}
+
+TEST(ScanPage, RefinesTheSegmentThatAnotherFollowsAtOnce) {
+  ScanBench bench;
+  fs::create_directory(bench.folder / "old");
+  write_recording(bench.folder / "old", short_scan(0.04));  // 1.3 s
+  bench.edit("/scan/source", "replay");
+  bench.edit("/scan/recording", "old");
+  bench.ask("scan.open");
+  bench.ask("scan.start");
+  const auto recorded_s = [&] {
+    return bench.recorder().is_object() ? bench.recorder().at("recorded_s").get<double>() : 0.0;
+  };
+  ASSERT_TRUE(bench.wait([&] { return bench.storing() && recorded_s() > 0.8; }));
+  const auto generation = ReadBlock(bench.call("scan.profile").block).head.at("generation").get<int>();
+  bench.ask("scan.segment", Json{{"name", "second"}});
+  const auto is_refined = [&](const std::string& segment) {
+    for (const std::string& frame : bench.hub.frames("scan.refined")) {
+      const ReadBlock block(frame);
+      if (block.head.value("segment", "") == segment && !block.array<double>("s_m").empty()) return true;
+    }
+    return false;
+  };
+  ASSERT_TRUE(bench.wait([&] { return bench.segments() == 2; }));
+  EXPECT_TRUE(bench.wait([&] { return is_refined("segment_1"); }));
+  ASSERT_TRUE(bench.wait([&] { return !bench.storing(); }));
+  EXPECT_TRUE(bench.wait([&] { return is_refined("second"); }));
+  // The live profile has begun anew with the second.
+  const ReadBlock live(bench.call("scan.profile").block);
+  EXPECT_GT(live.head.at("generation").get<int>(), generation);
+  ASSERT_FALSE(live.array<double>("s_m").empty());
+  EXPECT_LT(live.array<double>("s_m").front(), 0.001);
 }
 
 TEST(ScanPage, OverwritesNothingAndLeavesNothingEmptyBehind) {

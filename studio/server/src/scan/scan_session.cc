@@ -197,7 +197,7 @@ void ScanSession::round(bool last) {
   retune(now);
   take_rows(now.storing);
   show(now, host_now_ns());
-  if (hand_over_at_ns_ && (last || host_now_ns() >= *hand_over_at_ns_)) hand_over(now);
+  if (ended_ && (last || host_now_ns() >= ended_->hand_over_at_ns)) hand_over(now);
 }
 
 // A fault that comes again each round is told once.
@@ -218,22 +218,27 @@ void ScanSession::take_rows(bool storing) {
 
 // What has become of the segments since the last round.
 void ScanSession::watch(const RecorderSnapshot& now) {
-  const Watched before = std::exchange(before_, {now.storing, now.discarded, now.restored, now.last_discarded});
+  const auto& list = now.segment_list;
+  const Watched before = std::exchange(
+      before_, {now.storing, now.segments + now.discarded, now.discarded, now.restored, now.last_discarded});
   const bool restored = now.restored > before.restored;
   const bool discarded = now.discarded + now.restored > before.discarded + before.restored;
   if (discarded) {
-    hand_over_at_ns_.reset();
+    ended_.reset();
     shown_.reset();
     estimator_->kept().hold(true);  // it may be wanted again
     events_.forgotten();
     const std::lock_guard lock(mutex_);
     book_.begin_anew();
   }
-  if (now.storing && (!before.storing || discarded)) begin_scan(now);
-  if (now.storing && !now.segment_list.empty()) shown_ = now.segment_list.back();
-  if (!now.storing && before.storing && !discarded && !now.segment_list.empty()) {
-    shown_ = now.segment_list.back();
-    hand_over_at_ns_ = host_now_ns() + kPosesLate_ns;
+  // One may have ended and the next begun between two rounds.
+  const std::size_t next = before.storing && !discarded ? before_.begun - std::min(before_.begun, before.begun) : 0;
+  if (next > 0 && next < list.size()) keep_ended({list[list.size() - 1 - next], live_heights(), 0}, now);
+  if (next > 0 || (now.storing && (!before.storing || discarded))) begin_scan(now);
+  if ((now.storing || (before.storing && !discarded)) && !list.empty()) shown_ = list.back();
+  if (!now.storing && before.storing && !discarded && !list.empty()) {
+    keep_ended({list.back(), std::nullopt, 0}, now);
+    events_.forgotten();  // what is refined is another's
   }
   if (restored && before.last_discarded && !now.storing && !shown_) bring_back(*before.last_discarded, now);
   // A source that has played to its end has nothing more for the segment that is open.
@@ -254,11 +259,21 @@ void ScanSession::begin_scan(const RecorderSnapshot& now) {
   gravity_used_ = now.gravity.measured;
   estimator_->restart();
   KeptRows& kept = estimator_->kept();
-  if (!now.segment_list.empty()) kept.forget_before(now.segment_list.back().start_ns - KeptRows::kTrail_ns);
+  if (!now.segment_list.empty()) {
+    const std::int64_t trail_ns = now.segment_list.back().start_ns - KeptRows::kTrail_ns;
+    kept.forget_before(ended_ ? std::min(trail_ns, ended_->segment.start_ns) : trail_ns);
+  }
   kept.hold(true);
   events_.forgotten();
+  if (ended_ && !ended_->live) ended_->live = live_heights();
   const std::lock_guard lock(mutex_);
   book_.begin_anew();
+}
+
+void ScanSession::keep_ended(Ended ended, const RecorderSnapshot& now) {
+  if (ended_) hand_over(now);
+  ended_ = std::move(ended);
+  ended_->hand_over_at_ns = host_now_ns() + kPosesLate_ns;
 }
 
 // What was discarded is shown again, as if it had just ended.
@@ -275,32 +290,31 @@ void ScanSession::bring_back(const Segment& segment, const RecorderSnapshot& now
   }
   shown_ = *back;
   grow_again(now);
-  hand_over_at_ns_ = host_now_ns();
+  ended_ = Ended{*back, std::nullopt, host_now_ns()};
 }
 
 void ScanSession::hand_over(const RecorderSnapshot& now) {
-  hand_over_at_ns_.reset();
+  const auto [segment, live, due_ns] = *std::exchange(ended_, std::nullopt);
   KeptRows& kept = estimator_->kept();
   kept.hold(true);  // until the next scan begins: it may be discarded, and be wanted again
-  if (!shown_) return;
-  if (!kept.covers(shown_->start_ns)) {
-    tell(shown_->name + " is too long to be refined here; the recording has all of it",
+  if (!kept.covers(segment.start_ns)) {
+    tell(segment.name + " is too long to be refined here; the recording has all of it",
          "Finish the recording, and open it on the Process page.");
     return;
   }
   FinishedScan out;
   out.recording = setup_.name;
-  out.segment = *shown_;
+  out.segment = segment;
   out.rows.info = info_of(now);
-  out.rows.info.segments = {*shown_};
+  out.rows.info.segments = {segment};
   out.rows.calibration = calibration_;
-  kept.copy(shown_->start_ns, shown_->end_ns, now.description && now.description->has_gyro, out.rows);
+  kept.copy(segment.start_ns, segment.end_ns, now.description && now.description->has_gyro, out.rows);
   const TrackerStream& poses = out.rows.tracker;
   if (out.rows.info.tracker_rate_Hz <= 0.0 && poses.size() > 1) {
     const auto span_ns = static_cast<double>(poses.t_ns.back() - poses.t_ns.front());
     out.rows.info.tracker_rate_Hz = 1e9 * static_cast<double>(poses.size() - 1) / span_ns;
   }
-  out.live = live_heights();
+  out.live = live ? *live : live_heights();
   events_.ended(std::move(out));
 }
 

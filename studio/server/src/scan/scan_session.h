@@ -88,8 +88,16 @@ class ScanSession {
  private:
   struct Watched {
     bool storing = false;
+    std::size_t begun = 0;  // segments, also those that were discarded
     std::size_t discarded = 0, restored = 0;
     std::optional<Segment> last_discarded;
+  };
+
+  // A segment that waits for the poses of its end.
+  struct Ended {
+    Segment segment;
+    std::optional<LiveHeights> live;  // nullopt: the book has them
+    std::int64_t hand_over_at_ns = 0;
   };
 
   void begin_in_contact();
@@ -98,6 +106,7 @@ class ScanSession {
   void take_rows(bool storing);
   void watch(const RecorderSnapshot& now);
   void begin_scan(const RecorderSnapshot& now);
+  void keep_ended(Ended ended, const RecorderSnapshot& now);
   void bring_back(const Segment& segment, const RecorderSnapshot& now);
   void grow_again(const RecorderSnapshot& now);
   void hand_over(const RecorderSnapshot& now);
@@ -127,7 +136,7 @@ class ScanSession {
   Watched before_;
   bool was_playing_ = false;
   std::optional<Segment> shown_;  // the scan that the book tells of
-  std::optional<std::int64_t> hand_over_at_ns_;
+  std::optional<Ended> ended_;
   std::int64_t newest_row_ns_ = 0;
   double age_s_ = 0.0;
   std::uint64_t poses_late_ = 0;

@@ -1,3 +1,4 @@
+import { computed } from "@preact/signals";
 import { useMemo, useState } from "preact/hooks";
 import { Plot } from "../../plot/Plot";
 import type { Series } from "../../plot/series";
@@ -5,7 +6,10 @@ import { Button } from "../../ui/Button";
 import { Panel } from "../../ui/Panel";
 import { band } from "./growing";
 import { isLiveUsable } from "./scanState";
-import { profile, profileVersion, refined } from "./stream";
+import { profile, profileVersion, refined, state } from "./stream";
+
+// While the next segment is made, the refined one is another's.
+const storing = computed(() => state.value?.recorder?.storing ?? false);
 
 type Shown = "texture_m" | "height_m";
 
@@ -13,7 +17,7 @@ type Shown = "texture_m" | "height_m";
 export function ProfilePlot() {
   const [shown, setShown] = useState<Shown>("texture_m");
   const version = profileVersion.value;
-  const last = refined.value;
+  const last = storing.value ? null : refined.value;
   const series = useMemo<Series[]>(() => {
     const live = profile.columns;
     const y = live[shown].values;
