@@ -95,7 +95,7 @@ export default async function feel({ page, browser, openPage, studio, step, fold
     ok(models.length >= 3, `models to choose from: ${models.join(" ")}`);
     for (const name of [...models.filter((one) => one !== "auto"), "auto"]) {
       await model.selectOption(name);
-      equal(await model.inputValue(), name, "the model chosen");
+      await until(async () => (await model.inputValue()) === name, `the model ${name} chosen`);
       await pushes(`a force with ${name}`);
     }
     await lamp("in contact");

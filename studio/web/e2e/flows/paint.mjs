@@ -56,7 +56,7 @@ export default async function paint({ page, step, folder, until, equal, near, ok
     await page.getByTestId("paint-result-2").waitFor();
     await page.reload();
     await page.getByTestId("paint-result-2").waitFor();
-    equal(await page.getByTestId("paint-strokes").locator("tbody tr").count(), 2, "strokes after a reload");
+    await until(async () => (await page.getByTestId("paint-strokes").locator("tbody tr").count()) === 2, "strokes after a reload");
   });
 
   await step("written, and exported as glTF", async () => {

@@ -26,7 +26,7 @@ export default async function process_({ page, step, folder, until, equal, near,
     await page.locator("#main").focus();
     await page.keyboard.press("Control+z");
     await until(async () => (await rq()) === before, "the Rq of before");
-    equal(await cutoff.inputValue(), was, "the cut-off of before");
+    await until(async () => (await cutoff.inputValue()) === was, "the cut-off of before");
   });
 
   await step("every view is drawn", async () => {
