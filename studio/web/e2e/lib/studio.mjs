@@ -1,16 +1,17 @@
 // The program under test.
 import { spawn, spawnSync } from "node:child_process";
+import { resolve } from "node:path";
 
 /** Runs a command to its end; throws with what it said if it fails. */
 export function asperity(binary, args, folder) {
-  const run = spawnSync(binary, args, { cwd: folder, encoding: "utf8" });
+  const run = spawnSync(resolve(binary), args, { cwd: folder, encoding: "utf8" });
   if (run.status !== 0) throw new Error(`asperity ${args.join(" ")} ended with ${run.status ?? run.error}:\n${run.stderr}`);
   return run.stdout;
 }
 
 /** A running studio in a folder: its address with the token, and its end. */
 export async function startStudio(binary, folder, args = []) {
-  const child = spawn(binary, ["studio", "--no-open", ...args], { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
+  const child = spawn(resolve(binary), ["studio", "--no-open", ...args], { cwd: folder, stdio: ["ignore", "pipe", "pipe"] });
   let said = "";
   let faults = "";
   child.stderr.on("data", (chunk) => (faults += chunk));
