@@ -35,8 +35,7 @@ Json json_of_noise(const SeriesNoise& noise, const std::string& unit) {
           {"skewness", noise.skewness},
           {"excess_kurtosis", noise.excess_kurtosis},
           {"anderson_darling", noise.anderson_darling},
-          {"gaussian_probability",
-           number_or_null(noise.gaussian_probability)}};
+          {"gaussian_probability", number_or_null(noise.gaussian_probability)}};
 }
 
 Json json_of_axes(const std::array<SeriesNoise, 3>& axes, const std::string& unit) {

@@ -175,8 +175,8 @@ UndeterminedMotion describe_motion(const Vector6& motion, const Eigen::Vector3d&
   }
   const Eigen::Vector3d axis = out.turn / turn;
   const Eigen::Vector3d through_m = centre_m + axis.cross(out.shift) / turn;
-  out.description = fmt::format("turns about the axis through ({:.1f}, {:.1f}, {:.1f}) mm along {}", 1e3 * through_m.x(),
-                                1e3 * through_m.y(), 1e3 * through_m.z(), direction(axis));
+  out.description = fmt::format("turns about the axis through ({:.1f}, {:.1f}, {:.1f}) mm along {}",
+                                1e3 * through_m.x(), 1e3 * through_m.y(), 1e3 * through_m.z(), direction(axis));
   const double along_m = axis.dot(out.shift);
   if (std::abs(along_m) > 0.1 * turn * radius_m) out.description += ", sliding along it";
   return out;
