@@ -108,6 +108,23 @@ void find_in(const fs::path& folder, int deepest, std::vector<fs::path>& out) {
   }
 }
 
+std::string called(const fs::path& folder, const char* file) { return printable((folder / file).string(), 200); }
+
+ReportItem make_item(const Json& result, std::string_view profile, const std::optional<std::string_view>& trajectory,
+                     const fs::path& folder, const std::string& name) {
+  BlockWriter block("measured");
+  block.head()["result"] = result;
+  block.head()["world"] = "camera";
+  block.head()["figures"] = measured_figures(result);
+  block.head()["dropped"] = result.value("problems", Json::array());
+  block.head()["gaps"] = Json::array();
+  block.head()["gap_count"] = 0;
+  block.head()["compliance"] = result.value("compliance", Json::object());
+  add_profile(parse_profile(profile, called(folder, "profile.csv")), kMostProfilePoints, block);
+  add_path(trajectory, called(folder, "trajectory.csv"), block);
+  return {title_of(result, name), block.take()};
+}
+
 }  // namespace
 
 std::vector<fs::path> find_results(const fs::path& folder) {
@@ -127,32 +144,20 @@ std::vector<fs::path> find_results(const fs::path& folder) {
 }
 
 ReportItem read_report_item(const fs::path& folder, const std::string& name) {
-  const std::string result = read_file(folder / "result.json", kLargestResult_bytes);
-  const Json parsed = parse_result(result, printable((folder / "result.json").string(), 200));
-  if (auto kept = kept_block(folder / "report.html", parsed)) return {title_of(parsed, name), std::move(*kept)};
+  const Json result =
+      parse_result(read_file(folder / "result.json", kLargestResult_bytes), called(folder, "result.json"));
+  if (auto kept = kept_block(folder / "report.html", result)) return {title_of(result, name), std::move(*kept)};
   const std::string profile = read_file(folder / "profile.csv", kLargestProfile_bytes);
   std::optional<std::string> trajectory;
   if (fs::is_regular_file(folder / "trajectory.csv"))
     trajectory = read_file(folder / "trajectory.csv", kLargestTrajectory_bytes);
-  return parse_report_item(result, profile, trajectory, folder, name);
+  return make_item(result, profile, trajectory, folder, name);
 }
 
 ReportItem parse_report_item(std::string_view result, std::string_view profile,
                              const std::optional<std::string_view>& trajectory, const fs::path& folder,
                              const std::string& name) {
-  const auto called = [&](const char* file) { return printable((folder / file).string(), 200); };
-  const Json parsed = parse_result(result, called("result.json"));
-  BlockWriter block("measured");
-  block.head()["result"] = parsed;
-  block.head()["world"] = "camera";
-  block.head()["figures"] = measured_figures(parsed);
-  block.head()["dropped"] = parsed.value("problems", Json::array());
-  block.head()["gaps"] = Json::array();
-  block.head()["gap_count"] = 0;
-  block.head()["compliance"] = parsed.value("compliance", Json::object());
-  add_profile(parse_profile(profile, called("profile.csv")), kMostProfilePoints, block);
-  add_path(trajectory, called("trajectory.csv"), block);
-  return {title_of(parsed, name), block.take()};
+  return make_item(parse_result(result, called(folder, "result.json")), profile, trajectory, folder, name);
 }
 
 }  // namespace asperity::studio

@@ -5,6 +5,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "complaint.h"
 #include "config_fields.h"
 #include "feel/ended_logs.h"
 
@@ -133,17 +134,11 @@ void FeelPage::swap_model() {
 
 // A scene that cannot be read leaves the one before as it is.
 void FeelPage::complain(std::exception_ptr error) {
-  try {
-    std::rethrow_exception(error);
-  } catch (const Cancelled&) {
-    return;
-  } catch (const Advice& advice) {
-    problem_ = advice.what();
-    hint_ = advice.hint();
-  } catch (const std::exception& fault) {
-    problem_ = fault.what();
-    hint_ = world_ ? "What was felt before is as it was; change the choice, or undo it." : "Choose something else.";
-  }
+  auto complaint = complaint_of(
+      error, world_ ? "What was felt before is as it was; change the choice, or undo it." : "Choose something else.");
+  if (!complaint) return;
+  problem_ = std::move(complaint->problem);
+  hint_ = std::move(complaint->hint);
   tell();
 }
 

@@ -7,6 +7,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "complaint.h"
 #include "config_fields.h"
 #include "feel/feel_devices.h"
 #include "json_keys.h"
@@ -133,17 +134,10 @@ void StudyPage::bind_logs(Calls& calls) {
 }
 
 void StudyPage::complain(std::exception_ptr error) {
-  try {
-    std::rethrow_exception(error);
-  } catch (const Cancelled&) {
-    return;
-  } catch (const Advice& advice) {
-    problem_ = advice.what();
-    hint_ = advice.hint();
-  } catch (const std::exception& fault) {
-    problem_ = fault.what();
-    hint_ = "What was answered before is in the log.";
-  }
+  auto complaint = complaint_of(error, "What was answered before is in the log.");
+  if (!complaint) return;
+  problem_ = std::move(complaint->problem);
+  hint_ = std::move(complaint->hint);
   tell();
 }
 
