@@ -4,6 +4,7 @@
 //
 //   live_bench_speed [--seeds N] [--speeds 10,25,45] [--probes open,what] [--surfaces …] [--pose-delay-ms 5]
 //                    [--set field=value]…
+//   live_bench_speed --recordings FOLDER,… : these instead of simulated ones, beside the batch's profile
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,7 @@
 #include "asperity/pipeline/measure_accuracy.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/replay_arrivals.h"
+#include "asperity/recording/read_recording.h"
 #include "asperity/signal/statistics.h"
 #include "asperity/simulation/simulate_recording.h"
 #include "read_options.h"
@@ -32,6 +34,7 @@ struct Options {
   std::vector<std::string> surfaces{"sine", "protoboard", "sandpaper", "cable_tie", "clay_pot"};
   std::vector<std::string> probes{"open", "what"};
   std::vector<std::string> speeds{"10", "25", "45"};
+  std::vector<std::string> recordings;
   asperity::LiveProfileConfig config;
 };
 
@@ -49,6 +52,7 @@ Options parse(int argc, char** argv) {
        {"--surfaces", [&](auto value) { out.surfaces = bench::split_list(value); }},
        {"--probes", [&](auto value) { out.probes = bench::split_list(value); }},
        {"--speeds", [&](auto value) { out.speeds = bench::split_list(value); }},
+       {"--recordings", [&](auto value) { out.recordings = bench::split_list(value); }},
        {"--set", set}});
   return out;
 }
@@ -178,11 +182,30 @@ void run(const Options& options) {
   }
 }
 
+// Recordings of a real or rendered tracker have no truth: live beside batch.
+void run_recordings(const Options& options) {
+  std::printf(
+      "| recording | live:batch r | gain | RMS of the difference, µm | motion behind, ms | point behind, ms |\n");
+  std::printf("|---|---|---|---|---|---|\n");
+  for (const std::string& folder : options.recordings) {
+    const asperity::Recording recording = asperity::read_recording(folder);
+    const asperity::ProcessConfig process;
+    const asperity::ProcessResult batch = asperity::process_recording(recording, process);
+    const Run live = play(recording, options);
+    const auto difference = asperity::compare_profiles(live.profile.s_m, live.profile.height_m, batch.profile.s_m,
+                                                       batch.profile.height_m, process.comparison);
+    std::printf("| %s | %.3f | %.3f | %.0f | %.0f | %.0f |\n", folder.c_str(), difference.correlation, difference.gain,
+                difference.rms_um, 1e3 * live.highest_age_s, 1e3 * live.highest_point_age_s);
+    std::fflush(stdout);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    run(parse(argc, argv));
+    const Options options = parse(argc, argv);
+    options.recordings.empty() ? run(options) : run_recordings(options);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "live_bench_speed: %s\n", error.what());

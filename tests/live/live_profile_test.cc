@@ -40,11 +40,11 @@ using SpoilRow = std::function<bool(ProbeSample&, LiveProfile&)>;
 using SpoilPose = std::function<bool(TrackerSample&, LiveProfile&)>;
 
 Played play(const Recording& recording, const SpoilRow& spoil_row = {}, const SpoilPose& spoil_pose = {},
-            const LiveProfileConfig& config = {}) {
+            const LiveProfileConfig& config = {}, const ArrivalConfig& delays = {}) {
   Played out;
   LiveProfile live(recording.calibration, recording.info, config);
   std::size_t count = 0;
-  for (const ScanArrival& arrival : list_arrivals(recording)) {
+  for (const ScanArrival& arrival : list_arrivals(recording, delays)) {
     if (arrival.kind == ScanArrival::Kind::kRow) {
       ProbeSample row = probe_sample(recording.probe, arrival.index);
       if (!spoil_row || spoil_row(row, live)) live.push(row);
@@ -102,6 +102,23 @@ TEST(LiveProfile, FollowsTheTruthWithin200Milliseconds) {
   EXPECT_TRUE(played.last.base.known);
   EXPECT_EQ(played.last.counts.restarts, 0u);
   EXPECT_EQ(played.last.waiting, "");
+}
+
+// A slow machine tracks late: the profile waits for the poses, and is as good as with a fast one.
+TEST(LiveProfile, PosesThatComeLateDelayItButDoNotSpoilIt) {
+  for (const double late_s : {0.1, 0.2, 0.25}) {
+    const Played played = play(sine_scan(), {}, {}, {}, {0.0, late_s});
+    const Accuracy accuracy = accuracy_of(sine_scan(), played);
+    EXPECT_GT(accuracy.profile->correlation, 0.95) << late_s;
+    EXPECT_NEAR(accuracy.profile->gain, 1.0, 0.06) << late_s;
+    // How late the poses come (the stamp's latency, 12 ms, and its faults with it), 80 ms and a hop.
+    EXPECT_LT(played.highest_age_s, late_s + 0.015 + 0.08 + 0.03) << late_s;
+  }
+  // But no longer than the longest lag (and a hop).
+  LiveProfileConfig config;
+  config.tip.longest_lag_s = 0.2;
+  const Played played = play(sine_scan(), {}, {}, config, {0.0, 0.25});
+  EXPECT_LT(played.highest_age_s, 0.2 + 0.03);
 }
 
 TEST(LiveProfile, PointsAreAnEvenSpacingApartAndNeverChange) {

@@ -28,6 +28,7 @@ using WindowProblem = inertial_smoother::Problem;
 using Eigen::Vector3d;
 
 constexpr double kLongestWindow_s = 0.5;  // a pose later than this is not waited for
+constexpr double kForget_s = 1.0;         // how late poses were
 constexpr double kLongestBlind_s = 1.0;   // without a pose: dead reckoning is lost
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 std::int64_t nanoseconds(double s) { return std::llround(s * 1e9); }
@@ -63,6 +64,7 @@ struct CausalTip::Impl {
   double accel_floor_mps2 = std::numeric_limits<double>::infinity();
   double gyro_floor_radps = std::numeric_limits<double>::infinity();
   Samples ready;
+  double poses_late_s = 0.0;  // behind the rows when they came: the most of late
   std::uint64_t outlying = 0;
   std::uint64_t restarts = 0;
   CausalTipCounts counts;
@@ -77,6 +79,8 @@ struct CausalTip::Impl {
     if (f.process_noise_scale > 0.0) rate_scale = f.process_noise_scale;
   }
 
+  double lag_s() const;
+  void add(const TrackerSample& pose);
   void run();
   void begin();
   void step(bool last);
@@ -84,7 +88,7 @@ struct CausalTip::Impl {
   void keep_needed();
   InertialStream inertial();
   void configure(bool has_gyro, WindowProblem& problem) const;
-  void collect(const InertialStream& inertial, const Smoothed& smoothed, bool last);
+  void collect(const InertialStream& inertial, const Smoothed& smoothed, double final_s);
 };
 
 // The window's rows in SI units, with the quietest noise of all windows so far.
@@ -114,6 +118,20 @@ void CausalTip::Impl::configure(bool has_gyro, WindowProblem& problem) const {
   problem.rate_scale = rate_scale;
   problem.gyro_turns_too = gyro_turns_too;
   problem.gate_innovations = true;
+}
+
+// A sample waits for the poses shortly after it as long as poses have been on their way of late.
+double CausalTip::Impl::lag_s() const {
+  return std::max(config.lag_s, std::min(poses_late_s + config.poses_after_s, config.longest_lag_s));
+}
+
+void CausalTip::Impl::add(const TrackerSample& pose) {
+  const std::int64_t before_ns = intake.newest_pose_ns();
+  intake.add(pose);
+  const std::int64_t now_ns = intake.newest_pose_ns();
+  if (now_ns <= before_ns || intake.recording().probe.size() == 0) return;
+  const double passed_s = std::min(seconds(now_ns - std::max(before_ns, now_ns - nanoseconds(1.0))), 1.0);
+  poses_late_s = std::max(seconds(intake.newest_row_ns() - now_ns), poses_late_s * std::exp(-passed_s / kForget_s));
 }
 
 // Everything that the filter knows is given up; rows and poses that are still in hand stay.
@@ -151,16 +169,16 @@ void CausalTip::Impl::begin() {
   intake.set_begin(begin_ns);
 }
 
-// Takes the window's samples that are older than the lag: they are final.
-void CausalTip::Impl::collect(const InertialStream& stream, const Smoothed& smoothed, bool last) {
+// Takes the window's samples up to `final_s` after its first row: they are final.
+void CausalTip::Impl::collect(const InertialStream& stream, const Smoothed& smoothed, double final_s) {
   const TipMotion motion = inertial_smoother::make_tip_motion(stream, smoothed, calibration.tip_in_marker_m);
   const std::vector<std::int64_t>& stamps = intake.recording().probe.t_ns;
-  const std::int64_t newest_ns = stream.t_ns.back();
+  const std::int64_t origin_ns = stream.t_ns.front();
   std::size_t ahead = 0;
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const std::int64_t stamp = stamps[static_cast<std::size_t>(smoothed.sample[i])];
     if (stamp <= final_row_ns) continue;
-    if (!last && seconds(newest_ns - motion.t_ns[i]) < config.lag_s) {
+    if (seconds(motion.t_ns[i] - origin_ns) > final_s) {
       seam = Seam{stamp, motion.p_world_tip_m[i], motion.v_world_tip_mps[i]};
       return;
     }
@@ -206,12 +224,13 @@ void CausalTip::Impl::step(bool last) {
   problem.start_covariance = checkpoint->P;
   problem.refused_in_a_row = checkpoint->refused_in_a_row;
 
-  // Poses that are still on their way must find the window's start before them.
   double newest_pose_s = -std::numeric_limits<double>::infinity();
   for (const double t : pose_s) {
     if (t <= end_s) newest_pose_s = t;
   }
-  const double want_s = std::max(std::min(end_s - config.lag_s, newest_pose_s), end_s - kLongestWindow_s);
+  // Poses that are still on their way must find the window's start before them.
+  const double final_s = end_s - lag_s();
+  const double want_s = std::max(std::min(final_s, newest_pose_s), end_s - kLongestWindow_s);
   for (std::size_t e = 0; e < problem.epochs.size(); ++e) {
     if (problem.knots[problem.epochs[e].knot].t <= want_s) problem.checkpoint_epoch = e;
   }
@@ -221,7 +240,7 @@ void CausalTip::Impl::step(bool last) {
     forget();
     return;
   }
-  collect(stream, smoothed, last);
+  collect(stream, smoothed, last ? std::numeric_limits<double>::infinity() : final_s);
   const double moved_s = problem.knots[problem.epochs[problem.checkpoint_epoch].knot].t;
   for (std::size_t e = 1; e <= problem.checkpoint_epoch; ++e) {
     const std::int64_t pose = problem.epochs[e].pose;
@@ -279,7 +298,7 @@ void CausalTip::push(const ProbeSample& row) {
   self.run();
 }
 
-void CausalTip::push(const TrackerSample& pose) { impl_->intake.add(pose); }
+void CausalTip::push(const TrackerSample& pose) { impl_->add(pose); }
 
 void CausalTip::take(Samples& out) {
   const auto append = [](auto& to, auto& from) {

@@ -53,6 +53,27 @@ TEST(ScanEstimator, TrustsNothingWhereThePosesAreTooFew) {
   EXPECT_NE(estimator.waiting(), "");
 }
 
+// The probe says its rate and its converter's range only after it was opened.
+TEST(ScanEstimator, TakesWhatTheProbeSaysOfItselfLater) {
+  SimulationConfig config =
+      make_simulation_config("protoboard", "open");  // its edges drive the converter to its limits
+  config.hand.length_m = 0.03;
+  config.hand.rest_s = 0.5;
+  const Recording scan = simulate_recording(config);
+  ScanEstimator told(scan.calibration, true, scan.info, ScanConfig{});
+  RecordingInfo bare = scan.info;
+  bare.probe_rate_Hz = bare.adc_min = bare.adc_max = 0.0;
+  ScanEstimator later(scan.calibration, true, bare, ScanConfig{});
+  later.configure(scan.info, ScanConfig{});
+  const LiveEstimate expected = feed(told, scan), found = feed(later, scan);
+  ASSERT_GT(expected.points.size(), 700U);
+  ASSERT_EQ(found.points.size(), expected.points.size());
+  for (std::size_t i = 0; i < found.points.size(); ++i) {
+    const double a = found.points[i].height_m, b = expected.points[i].height_m;
+    ASSERT_TRUE(a == b || (a != a && b != b)) << i << ": " << a << " and " << b;
+  }
+}
+
 TEST(ScanEstimator, KeepsItsSettingsWhenNewOnesContradict) {
   const Recording scan = short_scan();
   ScanEstimator estimator(scan.calibration, true, scan.info, ScanConfig{});

@@ -19,6 +19,12 @@ constexpr double kCertain_deg = 10.0;  // of the base's normal, for a hint about
 constexpr double kShareOfTip = 0.01;   // a tip comes every 4 ms
 constexpr double kEnough = 0.5;
 
+// What the estimators know of the probe and its place.
+bool measures_alike(const RecordingInfo& a, const RecordingInfo& b) {
+  return a.gravity_world_mps2 == b.gravity_world_mps2 && a.probe_rate_Hz == b.probe_rate_Hz && a.adc_min == b.adc_min &&
+         a.adc_max == b.adc_max;
+}
+
 }  // namespace
 
 ScanEstimator::ScanEstimator(Calibration calibration, bool calibrated, RecordingInfo info, const ScanConfig& config)
@@ -88,9 +94,8 @@ void ScanEstimator::restart() {
 }
 
 void ScanEstimator::configure(const RecordingInfo& info, const ScanConfig& config) {
-  const bool same_info = info.gravity_world_mps2 == info_.gravity_world_mps2;
   ScanAdvisor advisor(calibration_, info, config.hints, calibrated_);
-  if (same_info) {
+  if (measures_alike(info, info_)) {
     live_.configure(config.live);
     advisor_.configure(config.hints);
   } else {

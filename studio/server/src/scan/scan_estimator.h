@@ -27,7 +27,8 @@ class ScanEstimator {
   LiveEstimate take(std::span<const ProbeSample> rows, std::span<const TrackedPose> poses);
   // A new stroke begins.
   void restart();
-  // Other settings or another gravity from here on. Throws Error, and nothing has changed then.
+  // Other settings, or more that is known of the probe (its rate and range, the gravity), from here on: the latter
+  // begins the estimate anew. Throws Error, and nothing has changed then.
   void configure(const RecordingInfo& info, const ScanConfig& config);
   // The profile of these rows with the settings as they are. With `goes_on` the estimate goes on from there.
   LiveEstimate again(std::int64_t start_ns, std::int64_t end_ns, bool goes_on);

@@ -44,7 +44,7 @@ ScanSession::ScanSession(Hub& hub, ScanSetup setup, ScanEvents events)
   try {
     const RecorderSnapshot now = recorder_->snapshot();
     estimator_.emplace(calibration_, setup_.source->calibration().has_value(), info_of(now), config_);
-    gravity_used_ = now.gravity.measured;
+    used_ = {now.description.has_value(), now.gravity.measured};
     thread_ = std::thread([this] { run(); });
   } catch (...) {
     recorder_.reset();
@@ -248,15 +248,22 @@ void ScanSession::watch(const RecorderSnapshot& now) {
     if (now.automatic) recorder_->set_mode(StoreMode::kAuto);
   }
   was_playing_ = setup_.source->playing();
-  if (!now.storing && now.gravity.measured && !gravity_used_) {
-    estimator_->configure(info_of(now), config_);
-    gravity_used_ = true;
-  }
+  // While rows are stored gravity waits: the estimate would begin anew in the middle.
+  if (now.storing && (!now.description || used_.description)) return;
+  if (use_what_is_known(now) && now.storing && shown_ && estimator_->kept().covers(shown_->start_ns)) grow_again(now);
+}
+
+// True if the probe has described itself, or gravity was measured, since the estimator was told last: it begins anew.
+bool ScanSession::use_what_is_known(const RecorderSnapshot& now) {
+  const Known known{now.description.has_value(), now.gravity.measured};
+  if (known == used_) return false;
+  estimator_->configure(info_of(now), config_);
+  used_ = known;
+  return true;
 }
 
 void ScanSession::begin_scan(const RecorderSnapshot& now) {
-  if (now.gravity.measured != gravity_used_) estimator_->configure(info_of(now), config_);
-  gravity_used_ = now.gravity.measured;
+  use_what_is_known(now);
   estimator_->restart();
   KeptRows& kept = estimator_->kept();
   if (!now.segment_list.empty()) {

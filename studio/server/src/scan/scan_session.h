@@ -93,6 +93,12 @@ class ScanSession {
     std::optional<Segment> last_discarded;
   };
 
+  // Of the probe and its place, beside what the source says.
+  struct Known {
+    bool description = false, gravity = false;
+    bool operator==(const Known&) const = default;
+  };
+
   // A segment that waits for the poses of its end.
   struct Ended {
     Segment segment;
@@ -105,6 +111,7 @@ class ScanSession {
   void run();
   void take_rows(bool storing);
   void watch(const RecorderSnapshot& now);
+  bool use_what_is_known(const RecorderSnapshot& now);
   void begin_scan(const RecorderSnapshot& now);
   void keep_ended(Ended ended, const RecorderSnapshot& now);
   void bring_back(const Segment& segment, const RecorderSnapshot& now);
@@ -132,7 +139,7 @@ class ScanSession {
   RowTap::Taken taken_;
   std::optional<ScanEstimator> estimator_;
   ScanConfig config_;
-  bool gravity_used_ = false;
+  Known used_;  // what the estimator was told
   Watched before_;
   bool was_playing_ = false;
   std::optional<Segment> shown_;  // the scan that the book tells of

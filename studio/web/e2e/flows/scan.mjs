@@ -31,6 +31,7 @@ export default async function scan({ page, step, folder, until, equal, near, ok,
     await page.getByTestId("scan-stop").click();
     await page.getByTestId("scan-ra").waitFor();
     ok(numberIn(await page.getByTestId("scan-ra").locator("dd").textContent()) > 50, "Ra of the protoboard, µm");
+    ok(numberIn((await page.getByTestId("scan-correlation").locator("dd").textContent()).replace("r", "")) > 0.6, "what was shown live agrees with it");
   });
 
   await step("the cut-off is tuned on the scan that is there", async () => {

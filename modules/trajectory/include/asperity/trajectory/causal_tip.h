@@ -17,6 +17,8 @@ namespace asperity {
 
 struct CausalTipConfig {
   double lag_s = 0.13;
+  double poses_after_s = 0.08;
+  double longest_lag_s = 0.4;
   double correction_Hz = 0.8;
   double hop_s = 0.02;
   double start_s = 0.25;
@@ -28,6 +30,10 @@ struct CausalTipConfig {
   template <class V>
   void visit(V& v) {
     v.field("lag_s", lag_s, "a sample is final this long after it was taken, s", {0.01, 10.0});
+    v.field("poses_after_s", poses_after_s, "or, if that is longer, this much more than poses have come late, s",
+            {0.0, 10.0});
+    v.field("longest_lag_s", longest_lag_s, "poses that come later do not make the lag longer than this, s",
+            {0.01, 10.0});
     v.field("correction_Hz", correction_Hz, "corner of what the tracker corrects in the steady path, Hz",
             {0.01, 100.0});
     v.field("hop_s", hop_s, "between two estimates of the window, s", {0.001, 1.0});
