@@ -67,6 +67,7 @@ TEST(ScanPage, ScansTheBenchFromEndToEnd) {
     bench.set("bench.speed_mps", "0.04");
     bench.set("bench.rest_s", "0.4");
     bench.set("bench.camera_rate_Hz", "30");
+    bench.set("bench.drop_after_s", "3600");  // a slow machine is late, but loses nothing
     bench.set("bench.background", "false");
     EXPECT_EQ(bench.ask("scan.open").at("recording"), "scan");
     scan_once(bench);

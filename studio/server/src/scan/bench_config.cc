@@ -21,7 +21,7 @@ LiveBenchConfig live_bench_of(const BenchConfig& config) {
   out.camera.rate_Hz = config.camera_rate_Hz;
   out.camera.clutter = config.background;
   out.link_seed = config.seed;
-  out.drop_after_s = 0.1;  // what is shown is of now
+  out.drop_after_s = config.drop_after_s;
   out.settle_s = 0.1;
   out.linger_s = 0.3;
   return out;

@@ -27,6 +27,7 @@ struct BenchConfig {
   double force_N = 0.8;
   double rest_s = 0.8;
   double camera_rate_Hz = 60.0;
+  double drop_after_s = 0.1;
   bool background = true;
   std::int64_t seed = 1;
 
@@ -41,6 +42,8 @@ struct BenchConfig {
     v.field("rest_s", rest_s, "before and after the stroke; the probe is set down and lifted off in it, s",
             {0.3, 10.0});
     v.field("camera_rate_Hz", camera_rate_Hz, "frames a second, Hz", {5.0, 240.0});
+    v.field("drop_after_s", drop_after_s,
+            "a frame that is later on a slow machine is dropped, s: what is shown is of now", {0.01, 3600.0});
     v.field("background", background, "a cluttered background behind the probe");
     v.field("seed", seed, "of all randomness; the same seed gives the same scan", {0.0, 9e15});
   }

@@ -40,7 +40,7 @@ export interface StreamFigures {
   late_ms: number;
   rows: number;
   lost: number;
-  /** From the tip's motion to the profile's newest point in the drawn frame. */
+  /** From the tip's motion to the frame in which the profile has it. */
   profile_ms: number;
   profile_late_ms: number;
 }
@@ -49,7 +49,7 @@ export const figures = signal<StreamFigures>({ median_ms: NaN, late_ms: NaN, row
 const clock = new HostClock();
 const latencies = new Recent();
 const profileLatencies = new Recent();
-let undrawn_ns = NaN; // the motion of the first block that is not drawn yet
+const undrawn_ns: number[] = []; // the motion of each block that is not drawn yet
 let drawing = false;
 let askedProfile = false;
 let askedPath = false;
@@ -129,10 +129,13 @@ function takeProfile(block: Block): void {
   const anew = block.head.generation !== profile.generation;
   const before = profile.length;
   profile.take(block);
-  if (anew) profileLatencies.clear();
+  if (anew) {
+    profileLatencies.clear();
+    undrawn_ns.length = 0;
+  }
   // A part of the past that comes at once, after a change of the settings, tells no delay.
   const grown = profile.length - before;
-  if (!anew && grown > 0 && grown <= kFewPoints && Number.isNaN(undrawn_ns)) undrawn_ns = block.head.motion_ns as number;
+  if (!anew && grown > 0 && grown <= kFewPoints) undrawn_ns.push(block.head.motion_ns as number);
   void drawProfile();
 }
 
@@ -145,12 +148,11 @@ async function drawProfile(): Promise<void> {
   const start_ms = performance.now();
   await nextFrame();
   profileVersion.value = profile.version;
-  const oldest_ns = undrawn_ns;
-  undrawn_ns = NaN;
+  const drawn_ns = undrawn_ns.splice(0);
   // The plot is drawn in this frame; the task after it begins when the frame has been handed on.
   await pause(0);
   const now_ms = performance.now();
-  if (Number.isFinite(oldest_ns) && clock.known && clock.doubt_ms < kDoubt_ms) profileLatencies.add(now_ms - clock.toHere_ms(oldest_ns));
+  if (clock.known && clock.doubt_ms < kDoubt_ms) drawn_ns.forEach((motion_ns) => profileLatencies.add(now_ms - clock.toHere_ms(motion_ns)));
   await pause(Math.min(now_ms - start_ms, kLongestPause_ms));
   drawing = false;
   if (profileVersion.value !== profile.version) void drawProfile();
