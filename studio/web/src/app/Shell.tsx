@@ -12,6 +12,7 @@ import { JobBar } from "./JobBar";
 import { PageFrame } from "./PageFrame";
 import { go, route, routes } from "./routes";
 import { nextTheme, theme } from "./settings";
+import { WaitingKey } from "./WaitingKey";
 
 const LINKS: Record<string, [LampState, string]> = {
   connecting: ["busy", "connecting"],
@@ -77,6 +78,7 @@ export function Shell() {
         )}
       </footer>
       <Toasts />
+      <WaitingKey />
       <Help open={help} onClose={() => setHelp(false)} />
     </div>
   );
