@@ -168,6 +168,35 @@ TEST(ScanPage, DiscardsAndScansAgainUnderTheSameName) {
   EXPECT_THAT(bench.call("scan.refined").error, HasSubstr("no finished scan"));
 }
 
+TEST(ScanPage, TMP) {
+  using C = std::chrono::steady_clock;
+  for (double length : {0.015, 0.1, 0.25}) for (bool early : {false, true}) {
+  ScanBench bench;
+  fs::create_directory(bench.folder / "old");
+  write_recording(bench.folder / "old", short_scan(length));
+  bench.edit("/scan/source", "replay");
+  bench.edit("/scan/recording", "old");
+  bench.ask("scan.open");
+  if (!early) scan_once(bench);
+  else {
+    bench.ask("scan.start");
+    ASSERT_TRUE(bench.wait([&] { return bench.storing() && bench.recorder().at("recorded_s").get<double>() > 0.5 * length / 0.05; }));
+  }
+  bench.ask("scan.discard");
+  ASSERT_TRUE(bench.wait([&] { return bench.segments() == 0; }));
+  [[maybe_unused]] const std::size_t n = bench.hub.frames("scan.refined").size();
+  auto t0 = C::now();
+  bench.ask("scan.restore");
+  const auto until = C::now() + std::chrono::seconds(20);
+  bool ok = bench.wait([&] { return C::now() > until || !ReadBlock(bench.hub.frames("scan.refined").empty() ? BlockWriter("x").take() : bench.refined()).array<double>("s_m").empty(); });
+  (void)ok; (void)n;
+  const ReadBlock r(bench.refined());
+  printf("length %g early %d: %.3f s %zu %s\n", length, early, std::chrono::duration<double>(C::now() - t0).count(), r.array<double>("s_m").size(), r.head.dump().c_str());
+  for (auto& e : bench.hub.events("note")) printf("note %s\n", e.dump().c_str());
+  printf("%s\n", bench.recorder().at("segments").dump().c_str());
+  }
+}
+
 TEST(ScanPage, BringsBackWhatWasDiscarded) {
   ScanBench bench;
   choose_replay(bench);
