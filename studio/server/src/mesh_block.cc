@@ -31,7 +31,8 @@ BlockWriter mesh_block(std::string_view kind, const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) throw Advice("the mesh has no triangles", "Choose another mesh.");
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p_m : mesh.vertices_m) {
-    if (!p_m.allFinite()) throw Advice("the mesh has a vertex that is not finite", "Repair the file, or choose another mesh.");
+    if (!p_m.allFinite())
+      throw Advice("the mesh has a vertex that is not finite", "Repair the file, or choose another mesh.");
     box.extend(p_m);
   }
   const Eigen::Vector3d origin_m = box.center();

@@ -79,7 +79,8 @@ std::vector<Entry> Project::entries() const {
 fs::path Project::existing(const std::string& name) const {
   std::error_code error;
   const fs::path path = writable(name);
-  if (!fs::exists(path, error)) throw Advice(printable(name, 200) + ": is not in the project's folder",
+  if (!fs::exists(path, error))
+    throw Advice(printable(name, 200) + ": is not in the project's folder",
                  "Choose something that is there, or copy it into the folder.");
   return path;
 }

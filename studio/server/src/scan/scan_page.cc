@@ -250,8 +250,8 @@ class ScanPage : public Page {
       auto handed = std::make_shared<FinishedScan>(std::move(scan));
       shared_.post([this, handed] {
         const Segment segment = handed->segment;
-        const bool is_back = shelved_ && shelved_->segment.start_ns == segment.start_ns &&
-                             shelved_->segment.end_ns == segment.end_ns;
+        const bool is_back =
+            shelved_ && shelved_->segment.start_ns == segment.start_ns && shelved_->segment.end_ns == segment.end_ns;
         if (is_back) return bring_back(segment, std::move(handed->live));
         finished_ = segment;
         refiner_ = std::make_shared<ScanRefiner>(std::move(*handed));

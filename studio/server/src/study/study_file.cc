@@ -155,7 +155,8 @@ Json parse_study_text(std::string_view text, const std::string& where) {
 
 Study read_study_file(const Project& project, const std::string& name) {
   if (!name.ends_with(kStudyEnding)) {
-    throw Advice(printable(name, 200) + ": is no *" + std::string(kStudyEnding), "Choose a study that this page has written.");
+    throw Advice(printable(name, 200) + ": is no *" + std::string(kStudyEnding),
+                 "Choose a study that this page has written.");
   }
   Json value = parse_study_text(read_file(project.existing(name), kLargestFile), name);
   if (!value.is_object() || value.value("format", Json()) != Json(kStudyFormat)) {

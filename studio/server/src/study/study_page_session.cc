@@ -71,9 +71,9 @@ struct StudyPage::Opening {
 
   void open_old() {
     if (!name.ends_with(kStudyLogEnding)) {
-    throw Advice(printable(name, 200) + ": is no log of a study",
-                 "Choose a file that ends with " + std::string(kStudyLogEnding) + ".");
-  }
+      throw Advice(printable(name, 200) + ": is no log of a study",
+                   "Choose a file that ends with " + std::string(kStudyLogEnding) + ".");
+    }
     const fs::path file = project.existing(name);
     name = file.lexically_relative(project.folder()).generic_string();
     StudyLog read = parse_study_log(read_file(file, kLargestLog), name);
