@@ -180,7 +180,8 @@ void report(const InertialStream& inertial, const SmootherProblem& problem, cons
 TrajectoryResult estimate_trajectory_fused(const Recording& recording, const FusedConfig& config,
                                            const Observer& observer) {
   if (recording.tracker.size() < 4) {
-    throw Error("tracker.csv: " + std::to_string(recording.tracker.size()) + " poses; at least 4 are needed");
+    throw Error("tracker.csv: " + std::to_string(recording.tracker.size()) +
+                " poses; at least 4 are needed: scan again with the markers in the camera's view");
   }
   const Calibration& calibration = recording.calibration;
   observer.update("calibrate", 0.0);

@@ -78,7 +78,8 @@ Problem make_problem(const Recording& recording, const InertialStream& inertial,
   }
   if (inside < 4) {
     throw Error("tracker.csv: only " + std::to_string(inside) +
-                " poses lie within the probe's time span; at least 4 are needed");
+                " poses lie within the probe's time span; at least 4 are needed: record both at once, "
+                "or correct the calibration's latency");
   }
   problem.poses = tracker.T_world_marker;
   problem.position_weight.assign(tracker.size(), 1.0);

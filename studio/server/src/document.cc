@@ -5,6 +5,7 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/studio/calls.h"
 
 namespace asperity::studio {
 
@@ -187,7 +188,9 @@ Json Document::changed_section(const Edit& edit) const {
   } else {
     put(holder, pointer_of(edit.path), edit.after, edit.path);
   }
-  if (dump(holder[name]).size() > kLargestSection) throw Error("the page '" + name + "' would hold too much");
+  if (dump(holder[name]).size() > kLargestSection) {
+    throw Advice("the page '" + name + "' would hold too much", "Take something out of it before you add more.");
+  }
   validators_.at(name)(holder[name]);
   return std::move(holder[name]);
 }

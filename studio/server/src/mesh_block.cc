@@ -9,6 +9,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/geometry/mesh_normals.h"
+#include "asperity/studio/calls.h"
 #include "json_pose.h"
 
 namespace asperity::studio {
@@ -27,10 +28,11 @@ std::vector<float> floats_about(const std::vector<Eigen::Vector3d>& points, cons
 }  // namespace
 
 BlockWriter mesh_block(std::string_view kind, const TriangleMesh& mesh) {
-  if (mesh.triangles.empty()) throw Error("the mesh has no triangles");
+  if (mesh.triangles.empty()) throw Advice("the mesh has no triangles", "Choose another mesh.");
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p_m : mesh.vertices_m) {
-    if (!p_m.allFinite()) throw Error("the mesh has a vertex that is not finite");
+    if (!p_m.allFinite())
+      throw Advice("the mesh has a vertex that is not finite", "Repair the file, or choose another mesh.");
     box.extend(p_m);
   }
   const Eigen::Vector3d origin_m = box.center();

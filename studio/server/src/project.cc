@@ -7,6 +7,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/inner_path.h"
 #include "asperity/base/text.h"
+#include "asperity/studio/calls.h"
 
 namespace asperity::studio {
 
@@ -78,19 +79,26 @@ std::vector<Entry> Project::entries() const {
 fs::path Project::existing(const std::string& name) const {
   std::error_code error;
   const fs::path path = writable(name);
-  if (!fs::exists(path, error)) throw Error(printable(name, 200) + ": is not in the project's folder");
+  if (!fs::exists(path, error))
+    throw Advice(printable(name, 200) + ": is not in the project's folder",
+                 "Choose something that is there, or copy it into the folder.");
   return path;
 }
 
 fs::path Project::writable(const std::string& name) const {
   const std::optional<fs::path> path = is_utf8(name) ? inner_file(folder_, name) : std::nullopt;
-  if (!path || *path == folder_) throw Error(printable(name, 200) + ": is no name inside the project's folder");
+  if (!path || *path == folder_) {
+    throw Advice(printable(name, 200) + ": is no name inside the project's folder",
+                 "Give a name such as \"first\", without .. and without a / at its beginning.");
+  }
   for (const fs::path& part : path->lexically_relative(folder_)) {
-    if (part.string().starts_with('.')) throw Error(printable(name, 200) + ": is a hidden file");
+    if (part.string().starts_with('.'))
+      throw Advice(printable(name, 200) + ": is a hidden file", "Give a name that does not begin with a dot.");
   }
   std::error_code error;
   if (!fs::is_directory(path->parent_path(), error)) {
-    throw Error(printable(name, 200) + ": the folder that it would lie in does not exist");
+    throw Advice(printable(name, 200) + ": the folder that it would lie in does not exist",
+                 "Give a name without /, or make that folder first.");
   }
   return *path;
 }

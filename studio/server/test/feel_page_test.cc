@@ -132,6 +132,25 @@ TEST(FeelPage, ASceneThatCannotBeReadLeavesTheRunningOneAlone) {
   EXPECT_TRUE(rig.wait([&] { return rig.status()["problem"] == ""; }));
 }
 
+TEST(FeelPage, WhatIsFeltStaysShownWhenNothingIsChosenAnyMore) {
+  FeelRig rig;
+  rig.choose_height_maps();
+  rig.own_force();
+  ASSERT_EQ(rig.call("feel.start").error, "");
+  rig.touch();
+  const Json shown = rig.status()["revision"];
+  rig.document.edit("/feel/height_maps", Json::array(), "none");
+  EXPECT_EQ(rig.status()["revision"], shown);
+  EXPECT_EQ(rig.status()["problem"], "nothing is chosen");
+  EXPECT_THAT(rig.status()["hint"].get<std::string>(), HasSubstr("4 height maps until you stop"));
+  EXPECT_EQ(rig.call("feel.open").error, "");
+  EXPECT_GT(rig.hub.newest().out_N, 0.0);
+  EXPECT_EQ(rig.call("feel.stop").error, "");
+  ASSERT_TRUE(rig.wait([&] { return rig.status()["state"] == "idle"; }));
+  EXPECT_TRUE(rig.status()["revision"].is_null());
+  EXPECT_EQ(rig.status()["problem"], "");
+}
+
 TEST(FeelPage, TheLargestForceIsLoweredFromTheBrowserAndNotRaised) {
   FeelRig rig;
   rig.choose_height_maps();

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "asperity/base/error.h"
+#include "asperity/studio/calls.h"
 #include "asperity/testkit/temp_dir.h"
 
 namespace asperity::studio {
@@ -38,10 +38,15 @@ TEST(Project, NamesNothingOutside) {
   EXPECT_EQ(project.existing("in/file.obj"), fs::canonical(folder / "in/file.obj"));
   for (const char* name : {"/etc/passwd", "../x", "in/../../x", "in/link/passwd", "", ".", "in/none.obj",
                            "in\\..\\..\\x", "C:/x", ".git/config", "in/.x", "\xff"}) {
-    EXPECT_THROW(project.existing(name), Error) << name;
+    try {
+      project.existing(name);
+      ADD_FAILURE() << name << " is taken";
+    } catch (const Advice& refused) {
+      EXPECT_NE(refused.hint(), "") << name;
+    }
   }
   EXPECT_EQ(project.writable("in/new.obj"), fs::canonical(folder.path()) / "in/new.obj");
-  EXPECT_THROW(project.writable("none/new.obj"), Error);
+  EXPECT_THROW(project.writable("none/new.obj"), Advice);
   EXPECT_THROW(project.writable("in/link/new"), Error);
 }
 

@@ -176,6 +176,7 @@ TEST(ScanPage, BringsBackWhatWasDiscarded) {
   EXPECT_THAT(bench.call("scan.restore").error, HasSubstr("nothing was discarded"));
   scan_once(bench);
   const ReadBlock before(bench.refined());
+  const auto live_before = ReadBlock(bench.call("scan.profile").block).array<double>("s_m");
   EXPECT_TRUE(bench.recorder().at("last_discarded").is_null());
   bench.ask("scan.discard");
   ASSERT_TRUE(bench.wait([&] { return bench.segments() == 0; }));
@@ -189,17 +190,42 @@ TEST(ScanPage, BringsBackWhatWasDiscarded) {
   const ReadBlock after(bench.refined());
   EXPECT_EQ(after.array<double>("s_m"), before.array<double>("s_m"));
   EXPECT_EQ(after.array<double>("height_m"), before.array<double>("height_m"));
-  EXPECT_FALSE(ReadBlock(bench.call("scan.profile").block).array<double>("s_m").empty());
-  // A take that was scanned again is there beside the new one.
+  // It was not worked out again, which takes as long as the first time: so long did that take.
+  EXPECT_EQ(after.head.at("took_s"), before.head.at("took_s"));
+  EXPECT_EQ(after.head.at("difference"), before.head.at("difference"));
+  EXPECT_EQ(ReadBlock(bench.call("scan.profile").block).array<double>("s_m"), live_before);
+  // A take that was scanned again is there beside the new one, and is what is shown.
   scan_once(bench, "scan.rescan");
+  EXPECT_EQ(ReadBlock(bench.refined()).head.at("segment"), "segment_1");
   bench.ask("scan.restore");
   ASSERT_TRUE(bench.wait([&] { return bench.segments() == 2; }));
+  ASSERT_TRUE(bench.wait([&] { return ReadBlock(bench.refined()).head.value("segment", "") == "segment_1_restored"; }));
+  EXPECT_EQ(ReadBlock(bench.refined()).array<double>("height_m"), before.array<double>("height_m"));
+  EXPECT_EQ(ReadBlock(bench.call("scan.profile").block).array<double>("s_m"), live_before);
   bench.ask("scan.close");
   const Recording kept = read_recording(bench.folder / "scan");
   ASSERT_EQ(kept.info.segments.size(), 2U);
   EXPECT_EQ(kept.info.segments[0].name, "segment_1_restored");
   EXPECT_EQ(kept.info.segments[1].name, "segment_1");
   EXPECT_EQ(kept.probe.size(), 2 * read_recording(bench.folder / "old").probe.size());
+}
+
+TEST(ScanPage, WhatIsBroughtBackFollowsTheSettingsOfNow) {
+  ScanBench bench;
+  choose_replay(bench);
+  bench.ask("scan.open");
+  scan_once(bench);
+  const ReadBlock before(bench.refined());
+  bench.ask("scan.discard");
+  ASSERT_TRUE(bench.wait([&] { return bench.segments() == 0; }));
+  ASSERT_TRUE(bench.wait([&] { return ReadBlock(bench.refined()).array<double>("s_m").empty(); }));
+  bench.set("process.profile.cutoff_cycles_per_mm", "0.4");
+  bench.ask("scan.restore");
+  ASSERT_TRUE(bench.wait([&] { return !ReadBlock(bench.refined()).array<double>("s_m").empty(); }));
+  const ReadBlock after(bench.refined());
+  EXPECT_EQ(after.array<double>("height_m").size(), before.array<double>("height_m").size());
+  EXPECT_NE(after.array<double>("texture_m"), before.array<double>("texture_m"));
+  EXPECT_FALSE(ReadBlock(bench.call("scan.profile").block).array<double>("s_m").empty());
 }
 
 TEST(ScanPage, RefinesTheSegmentThatAnotherFollowsAtOnce) {

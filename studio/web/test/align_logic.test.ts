@@ -2,6 +2,7 @@ import { describe, expect, it } from "vitest";
 import type { Block } from "../src/net/block";
 import { mainLine, noIterations, seriesOf, withBlock } from "../src/pages/align/iterations";
 import { latest } from "../src/pages/align/latest";
+import { missingWords } from "../src/pages/align/missing";
 import { nearestOnScreen, pointWords } from "../src/pages/align/picks";
 import { verdictWords } from "../src/pages/align/verdict";
 import { colourLimit_m, histogram, rampColour, residualColours } from "../src/pages/align/residuals";
@@ -24,6 +25,15 @@ function block(run: number, first: number, rms_m: number[], phase: number[], sta
     },
   };
 }
+
+it("says what is missing before scan and mesh can be worked on", () => {
+  expect(missingWords({ paths: [], mesh: "" }, false, false)).toBe("Choose a scan and a mesh first.");
+  expect(missingWords({ paths: [], mesh: "a.obj" }, true, false)).toBe("Choose a scan first.");
+  expect(missingWords({ paths: ["scan"], mesh: "" }, true, true)).toBe("Choose a mesh first.");
+  expect(missingWords({ paths: ["scan"], mesh: "a.obj" }, true, true)).toMatch(/being opened/);
+  expect(missingWords({ paths: ["scan"], mesh: "a.obj" }, false, false)).toMatch(/choose/);
+  expect(missingWords({ paths: ["scan"], mesh: "a.obj" }, true, false)).toBe("");
+});
 
 describe("iterations", () => {
   const one = withBlock(noIterations, block(1, 0, [4e-3, 2e-3], [1, 1], [0, 0]));

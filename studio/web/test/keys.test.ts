@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { findKey, keyName, type KeyGroup } from "../src/ui/keys";
+import { findKey, keyName, meaningOf, type KeyGroup } from "../src/ui/keys";
 
 const pressed = (key: string, more: Partial<KeyboardEvent> = {}) =>
   keyName({ key, ctrlKey: false, metaKey: false, altKey: false, shiftKey: false, ...more });
@@ -38,4 +38,22 @@ test("keys rest while one types, but for those that never rest", () => {
   groups[0]!.keys[1]!.always = true;
   expect(findKey(groups, "s", "", true)).toBeUndefined();
   expect(findKey(groups, "escape", "", true)?.label).toBe("page escape");
+});
+
+test("the first of two keys waits for the second, however long that takes", () => {
+  const groups = [group("page", "a", "escape"), group("app", "g a", "ctrl+z")];
+  expect(meaningOf(groups, "g", "", false)).toEqual({ leader: "g", taken: true });
+  expect(meaningOf(groups, "a", "g", false)).toMatchObject({ key: { label: "app g a" }, leader: "" });
+  // Held down, it goes on waiting; a field takes it as a letter.
+  expect(meaningOf(groups, "g", "g", false)).toEqual({ leader: "g", taken: true });
+  expect(meaningOf(groups, "g", "", true)).toEqual({ leader: "", taken: false });
+});
+
+test("a second key that leads nowhere does nothing, and ends the wait", () => {
+  const groups = [group("page", "a", "d", "escape"), group("app", "g s", "ctrl+z")];
+  for (const name of ["a", "d", "escape"]) expect(meaningOf(groups, name, "g", false)).toEqual({ leader: "", taken: true });
+  // What no key of ours is goes its own way: Tab, F5.
+  expect(meaningOf(groups, "tab", "g", false)).toEqual({ leader: "", taken: false });
+  expect(meaningOf(groups, "ctrl+z", "g", false).key?.label).toBe("app ctrl+z");
+  expect(meaningOf(groups, "a", "", false).key?.label).toBe("page a");
 });

@@ -81,9 +81,11 @@ void FeelPage::check_edit(ClientId client, const Edit& edit) const {
 void FeelPage::load() {
   const FeelChoices chosen = choices();
   if (chosen.empty()) {
-    world_.reset();
-    problem_.clear();
-    hint_.clear();
+    // What is under the hand stays there, and is shown, until it is stopped.
+    const bool is_felt = run_ && !visited_ && world_;
+    if (!is_felt) world_.reset();
+    problem_ = is_felt ? "nothing is chosen" : "";
+    hint_ = is_felt ? "It goes on with " + world_->title + " until you stop. Choose something else, or undo it." : "";
     return tell();
   }
   auto result = std::make_shared<std::shared_ptr<const FeltWorld>>();
@@ -98,6 +100,7 @@ void FeelPage::load() {
         },
         [this, result, revision = revision_](std::exception_ptr error) {
           if (revision == revision_ || !error) loading_ = false;
+          if (choices().empty()) return tell();  // nothing is chosen any more
           if (error) return complain(error);
           loaded(*result);
         });

@@ -197,6 +197,7 @@ void FeelPage::ended() {
   if (outcome.servo.end == ServoEnd::kFault) keep_flight_record(outcome.servo);
   running_ = {};
   visited_ = false;
+  if (choices().empty()) load();
   tell();
 }
 

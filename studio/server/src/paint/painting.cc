@@ -10,6 +10,7 @@
 #include "asperity/base/error.h"
 #include "asperity/registration/triangle_stretch.h"
 #include "asperity/scene/swap_texture.h"
+#include "asperity/studio/calls.h"
 #include "asperity/texture/texture_file.h"
 #include "json_keys.h"
 #include "mesh_block.h"
@@ -38,7 +39,8 @@ Stroke stroke_of(const Json& json) {
   out.texture = text_of(json.at("texture"), "a stroke's texture");
   out.index = static_cast<int>(number_of(json.at("index"), "a stroke's index", 0, 1e6));
   if (!json.at("picks_m").is_array() || json.at("picks_m").size() > kMostPicks) {
-    throw Error("paint: a stroke has more than " + std::to_string(kMostPicks) + " points");
+    throw Advice("a stroke has " + std::to_string(kMostPicks) + " points at most",
+                 "Finish this one, and begin another where it ends.");
   }
   for (const Json& pick : json.at("picks_m")) {
     if (!pick.is_array() || pick.size() != 3) throw Error("paint: a point is not three numbers");
@@ -99,7 +101,8 @@ Painting parse_painting(const Json& section) {
     out.coordinates.rings = static_cast<int>(number_of(section.at("rings"), "the number of rings", 0, 1000));
     out.coordinates.half_width_mm = number_of(section.at("half_width_mm"), "half the width", 0.0, 1e6);
     if (!section.at("strokes").is_array() || section.at("strokes").size() > kMostStrokes) {
-      throw Error("paint: there are more than " + std::to_string(kMostStrokes) + " strokes");
+      throw Advice("a scene has " + std::to_string(kMostStrokes) + " strokes at most",
+                   "Write the scene, and go on painting on that.");
     }
     for (const Json& stroke : section.at("strokes")) out.strokes.push_back(stroke_of(stroke));
     text_of(section.at("written"), "the scene that was written");

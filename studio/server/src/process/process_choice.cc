@@ -1,6 +1,7 @@
 #include "process/process_choice.h"
 
 #include "asperity/base/error.h"
+#include "asperity/studio/calls.h"
 #include "json_keys.h"
 
 namespace asperity::studio {
@@ -38,7 +39,8 @@ ProcessChoice process_choice(const Json& section) {
   refuse_unknown(section, {"scans", "current", "config"}, "process");
   const Json& scans = member(section, "scans");
   if (!scans.is_array() || scans.size() > kMostScans) {
-    throw Error("process: at most " + std::to_string(kMostScans) + " recordings can be looked at together");
+    throw Advice("at most " + std::to_string(kMostScans) + " recordings can be looked at together",
+                 "Take one out before you add another.");
   }
   for (const Json& scan : scans) out.scans.push_back(scan_name(scan));
   const Json& current = member(section, "current");

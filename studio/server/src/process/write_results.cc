@@ -1,5 +1,6 @@
 #include "process/write_results.h"
 
+#include <exception>
 #include <set>
 
 #include "asperity/base/error.h"
@@ -51,7 +52,7 @@ Json write_results(const fs::path& target, const std::vector<NamedScan>& scans, 
   OutputFolder folder(target, is_result_folder);
   Json files = Json::array(), notes = Json::array();
   std::vector<ReportItem> items;
-  std::string first_fault;
+  std::exception_ptr first_fault;
   for (const NamedScan& scan : scans) {
     for (const Piece& piece : pieces_of(scan, scans.size() == 1, sessions)) {
       try {
@@ -67,12 +68,12 @@ Json write_results(const fs::path& target, const std::vector<NamedScan>& scans, 
         throw;
       } catch (const Error& fault) {
         if (piece.segment.empty() || !scan.segment.empty()) throw;
-        if (first_fault.empty()) first_fault = fault.what();
+        if (!first_fault) first_fault = std::current_exception();
         notes.push_back(piece.name + ": " + fault.what() + "; left out");
       }
     }
   }
-  if (files.empty()) throw Error(first_fault);
+  if (files.empty() && first_fault) std::rethrow_exception(first_fault);
   observer.update("writing", 1.0);
   if (items.size() > 1) write_report(folder.path(), items);
   folder.commit();

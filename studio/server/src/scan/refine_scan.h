@@ -22,6 +22,9 @@ class ScanRefiner {
   // lies against it. Throws Error where the recording or a setting allows no profile, and Cancelled.
   BlockWriter refine(const ProcessConfig& config, const Observer& observer);
 
+  // It has another name in the recording since it was brought back.
+  void rename(std::string segment) { segment_ = std::move(segment); }
+
   // What the causal profile has become by a tuning.
   void set_live(LiveHeights live) {
     live_ = std::move(live);

@@ -9,6 +9,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/recording/uncalibrated.h"
+#include "asperity/studio/calls.h"
 #include "scan/episodes.h"
 
 namespace asperity::studio {
@@ -144,7 +145,10 @@ class ReplayedPoses : public PoseSource {
 class ReplaySource : public ScanSource {
  public:
   explicit ReplaySource(Recording recording) : stage_(std::make_shared<Stage>()) {
-    if (recording.probe.size() == 0) throw Error("the recording has no rows of the probe: there is nothing to play");
+    if (recording.probe.size() == 0) {
+      throw Advice("the recording has no rows of the probe: there is nothing to play",
+                   "Choose another recording, or all of it in the place of a segment.");
+    }
     if (!is_uncalibrated(recording.calibration)) calibration_ = recording.calibration;
     stage_->recording = std::move(recording);
     const auto span = [this](const std::vector<std::int64_t>& t_ns) {

@@ -24,14 +24,26 @@ std::span<const T> tail(const std::vector<T>& values, std::size_t first) {
 
 }  // namespace
 
-void ScanBook::begin_anew() {
-  const ScanBook before = std::move(*this);
+ScanBook ScanBook::begin_anew() {
+  ScanBook before = std::move(*this);
   *this = ScanBook();
   profile_generation_ = before.profile_generation_ + 1;
   path_generation_ = before.path_generation_ + 1;
   profile_sequence_ = before.profile_sequence_;
   path_sequence_ = before.path_sequence_;
   begun_anew_ = true;
+  return before;
+}
+
+void ScanBook::begin_with(ScanBook kept) {
+  begin_anew();
+  kept.profile_generation_ = profile_generation_;
+  kept.path_generation_ = path_generation_;
+  kept.profile_sequence_ = profile_sequence_;
+  kept.path_sequence_ = path_sequence_;
+  kept.told_points_ = kept.told_tips_ = 0;
+  kept.begun_anew_ = true;
+  *this = std::move(kept);
 }
 
 void ScanBook::begin_path_anew() {

@@ -17,7 +17,10 @@ class ScanBook {
   static constexpr std::size_t kMostTips = 100'000;  // then every other one goes
   static constexpr std::size_t kMostTipsInTheAir = 5'000;
 
-  void begin_anew();
+  // Gives what there was.
+  ScanBook begin_anew();
+  // Begins anew with what there was once.
+  void begin_with(ScanBook kept);
   // While nothing is stored only the path grows; of that the newest tips are kept.
   void add(const LiveEstimate& estimate, bool storing);
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "asperity/acquire/host_clock.h"
+#include "asperity/base/text.h"
 #include "asperity/recording/cut_recording.h"
 #include "asperity/recording/read_recording.h"
 #include "config_fields.h"
@@ -150,6 +151,14 @@ class ScanPage : public Page {
   void stop() override { session_.reset(); }
 
  private:
+  // What was discarded last, and what had been made of it.
+  struct Shelved {
+    Segment segment;
+    std::shared_ptr<ScanRefiner> refiner;
+    std::optional<BlockWriter> refined;
+    std::map<std::string, std::string> refined_by;
+  };
+
   ScanChoices choices() const { return read_scan_choices(shared_.document.section("scan")); }
 
   ScanSession& session() {
@@ -212,6 +221,7 @@ class ScanPage : public Page {
           busy_ = false;
           if (error && is_cancelled(error)) session_ = ending;  // it did not begin; the recording goes on
           if (error) return refuse(request, error);
+          shelved_.reset();
           request.answer(Json{{"recording", *kept ? Json(ending->name()) : Json()}});
         });
   }
@@ -239,6 +249,11 @@ class ScanPage : public Page {
     out.ended = [this](FinishedScan scan) {
       auto handed = std::make_shared<FinishedScan>(std::move(scan));
       shared_.post([this, handed] {
+        const Segment segment = handed->segment;
+        const bool is_back =
+            shelved_ && shelved_->segment.start_ns == segment.start_ns && shelved_->segment.end_ns == segment.end_ns;
+        if (is_back) return bring_back(segment, std::move(handed->live));
+        finished_ = segment;
         refiner_ = std::make_shared<ScanRefiner>(std::move(*handed));
         refine();
       });
@@ -247,14 +262,31 @@ class ScanPage : public Page {
       auto handed = std::make_shared<LiveHeights>(std::move(live));
       shared_.post([this, handed] { refine(std::move(*handed)); });
     };
-    out.forgotten = [this] {
+    out.discarded = [this] {
       shared_.post([this] {
-        refiner_.reset();
-        show_refined(BlockWriter("scan.refined"));
-        refined_.reset();
+        if (refiner_) shelved_ = Shelved{finished_, refiner_, refined_, refined_by_};
+        forget();
       });
     };
+    out.forgotten = [this] { shared_.post([this] { forget(); }); };
     return out;
+  }
+
+  void forget() {
+    refiner_.reset();
+    show_refined(BlockWriter("scan.refined"));
+    refined_.reset();
+  }
+
+  // What was discarded last is as it was; it may have another name.
+  void bring_back(const Segment& segment, LiveHeights live) {
+    Shelved back = *std::exchange(shelved_, std::nullopt);
+    refiner_ = std::move(back.refiner);
+    finished_ = segment;
+    if (!back.refined || back.refined_by != settings_) return refine(std::move(live));
+    back.refined->head()["segment"] = printable(segment.name, 100);
+    refined_by_ = std::move(back.refined_by);
+    show_refined(std::move(*back.refined));
   }
 
   // The finished scan in full, with the newest settings and against the newest causal profile.
@@ -263,12 +295,15 @@ class ScanPage : public Page {
     auto refined = std::make_shared<std::optional<BlockWriter>>();
     shared_.jobs.start(
         "Refining the profile", "scan.refine",
-        [refiner = refiner_, process = make_scan_config(settings_).process, live, refined](const Observer& observer) {
+        [refiner = refiner_, segment = finished_.name, process = make_scan_config(settings_).process, live,
+         refined](const Observer& observer) {
+          refiner->rename(segment);
           if (live) refiner->set_live(*live);
           refined->emplace(refiner->refine(process, observer));
         },
-        [this, refiner = refiner_, refined](std::exception_ptr error) {
+        [this, refiner = refiner_, by = settings_, refined](std::exception_ptr error) {
           if (refiner != refiner_) return;
+          refined_by_ = by;
           if (!error) return show_refined(std::move(**refined));
           try {
             std::rethrow_exception(error);
@@ -293,8 +328,11 @@ class ScanPage : public Page {
   bool busy_ = false;  // opening or closing
   bool automatic_ = false;
   std::map<std::string, std::string> settings_;
-  std::shared_ptr<ScanRefiner> refiner_;  // of the last finished scan; used by the jobs' thread
+  Segment finished_;                      // the last finished scan
+  std::shared_ptr<ScanRefiner> refiner_;  // of it; used by the jobs' thread
   std::optional<BlockWriter> refined_;
+  std::map<std::string, std::string> refined_by_;  // settings
+  std::optional<Shelved> shelved_;
   std::int64_t stated_ns_ = 0;
 };
 

@@ -224,12 +224,9 @@ void ScanSession::watch(const RecorderSnapshot& now) {
   const bool restored = now.restored > before.restored;
   const bool discarded = now.discarded + now.restored > before.discarded + before.restored;
   if (discarded) {
-    ended_.reset();
-    shown_.reset();
     estimator_->kept().hold(true);  // it may be wanted again
-    events_.forgotten();
-    const std::lock_guard lock(mutex_);
-    book_.begin_anew();
+    shelve(now);
+    events_.discarded();
   }
   // One may have ended and the next begun between two rounds.
   const std::size_t next = before.storing && !discarded ? before_.begun - std::min(before_.begun, before.begun) : 0;
@@ -240,7 +237,7 @@ void ScanSession::watch(const RecorderSnapshot& now) {
     keep_ended({list.back(), std::nullopt, 0}, now);
     events_.forgotten();  // what is refined is another's
   }
-  if (restored && before.last_discarded && !now.storing && !shown_) bring_back(*before.last_discarded, now);
+  if (restored && before.last_discarded && !now.storing) bring_back(*before.last_discarded, now);
   // A source that has played to its end has nothing more for the segment that is open.
   if (setup_.source->plays() && now.storing && was_playing_ && !setup_.source->playing()) {
     if (now.automatic) recorder_->set_mode(StoreMode::kSegments);
@@ -268,7 +265,10 @@ void ScanSession::begin_scan(const RecorderSnapshot& now) {
   KeptRows& kept = estimator_->kept();
   if (!now.segment_list.empty()) {
     const std::int64_t trail_ns = now.segment_list.back().start_ns - KeptRows::kTrail_ns;
-    kept.forget_before(ended_ ? std::min(trail_ns, ended_->segment.start_ns) : trail_ns);
+    std::int64_t wanted_ns = trail_ns;
+    if (ended_) wanted_ns = std::min(wanted_ns, ended_->segment.start_ns);
+    if (shelved_) wanted_ns = std::min(wanted_ns, shelved_->segment.start_ns);
+    kept.forget_before(wanted_ns);
   }
   kept.hold(true);
   events_.forgotten();
@@ -283,6 +283,15 @@ void ScanSession::keep_ended(Ended ended, const RecorderSnapshot& now) {
   ended_->hand_over_at_ns = host_now_ns() + kPosesLate_ns;
 }
 
+void ScanSession::shelve(const RecorderSnapshot& now) {
+  const std::optional<Segment> shown = std::exchange(shown_, std::nullopt);
+  ended_.reset();
+  const std::lock_guard lock(mutex_);
+  ScanBook book = book_.begin_anew();
+  const bool is_shown = shown && now.last_discarded && shown->start_ns == now.last_discarded->start_ns;
+  if (is_shown) shelved_ = Shelved{*now.last_discarded, std::move(book)};
+}
+
 // What was discarded is shown again, as if it had just ended.
 void ScanSession::bring_back(const Segment& segment, const RecorderSnapshot& now) {
   const auto& list = now.segment_list;
@@ -295,8 +304,16 @@ void ScanSession::bring_back(const Segment& segment, const RecorderSnapshot& now
          "Finish the recording, and open it on the Process page.");
     return;
   }
+  if (ended_) hand_over(now);
+  events_.forgotten();
   shown_ = *back;
-  grow_again(now);
+  const std::optional<Shelved> shelved = std::exchange(shelved_, std::nullopt);
+  if (shelved && shelved->segment.start_ns == back->start_ns) {
+    const std::lock_guard lock(mutex_);
+    book_.begin_with(shelved->book);
+  } else {
+    grow_again(now);
+  }
   ended_ = Ended{*back, std::nullopt, host_now_ns()};
 }
 
@@ -340,6 +357,7 @@ void ScanSession::retune(const RecorderSnapshot& now) {
   if (!wanted) return;
   estimator_->configure(info_of(now), *wanted);
   config_ = *wanted;
+  shelved_.reset();  // of other settings
   told_.clear();
   if (!shown_ || !estimator_->kept().covers(shown_->start_ns)) return;
   grow_again(now);

@@ -49,7 +49,8 @@ struct FinishedScan {
 struct ScanEvents {
   std::function<void(FinishedScan)> ended;
   std::function<void(LiveHeights)> retuned;  // the finished scan's causal profile, with other settings
-  std::function<void()> forgotten;           // it was discarded, or another has begun
+  std::function<void()> discarded;           // it may be brought back: ended() again, with the same times
+  std::function<void()> forgotten;           // another has taken its place
 };
 
 // An open source with its recorder, and a thread that shows what comes from it: topics scan.probe, scan.state,
@@ -106,6 +107,12 @@ class ScanSession {
     std::int64_t hand_over_at_ns = 0;
   };
 
+  // What was discarded last, as it was shown.
+  struct Shelved {
+    Segment segment;
+    ScanBook book;
+  };
+
   void begin_in_contact();
   RecordingInfo info_of(const RecorderSnapshot& now) const;
   void run();
@@ -114,6 +121,7 @@ class ScanSession {
   bool use_what_is_known(const RecorderSnapshot& now);
   void begin_scan(const RecorderSnapshot& now);
   void keep_ended(Ended ended, const RecorderSnapshot& now);
+  void shelve(const RecorderSnapshot& now);
   void bring_back(const Segment& segment, const RecorderSnapshot& now);
   void grow_again(const RecorderSnapshot& now);
   void hand_over(const RecorderSnapshot& now);
@@ -144,6 +152,7 @@ class ScanSession {
   bool was_playing_ = false;
   std::optional<Segment> shown_;  // the scan that the book tells of
   std::optional<Ended> ended_;
+  std::optional<Shelved> shelved_;
   std::int64_t newest_row_ns_ = 0;
   double age_s_ = 0.0;
   std::uint64_t poses_late_ = 0;

@@ -4,6 +4,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
+#include "asperity/studio/calls.h"
 
 namespace asperity::studio {
 
@@ -43,11 +44,13 @@ std::size_t trials_of(const Study& study) {
 void check_plan(const Study& study) {
   const std::size_t least = study.method == StudyMethod::kPairs ? 2 : 1;
   if (study.stimuli.size() < least) {
-    throw Error(least == 2 ? "pairs need two textures at least" : "the study has no textures");
+    throw Advice(least == 2 ? "pairs need two textures at least" : "the study has no textures",
+                 "Choose more textures or images of the folder.");
   }
   const std::size_t trials = trials_of(study);
   if (trials > kMostTrials) {
-    throw Error("the study may take " + std::to_string(trials) + " trials, more than " + std::to_string(kMostTrials));
+    throw Advice("the study may take " + std::to_string(trials) + " trials, more than " + std::to_string(kMostTrials),
+                 "Take fewer textures or fewer repetitions.");
   }
   if (study.method == StudyMethod::kStaircase) check_staircase(study.staircase);
 }

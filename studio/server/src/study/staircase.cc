@@ -5,17 +5,20 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/studio/calls.h"
 
 namespace asperity::studio {
 
 void check_staircase(const StaircaseConfig& config) {
   if (!(config.lowest_level <= config.start_level && config.start_level <= config.highest_level)) {
-    throw Error("staircase: the start level " + number_text(config.start_level) + " is not between the lowest " +
-                number_text(config.lowest_level) + " and the highest " + number_text(config.highest_level));
+    throw Advice("staircase: the start level " + number_text(config.start_level) + " is not between the lowest " +
+                     number_text(config.lowest_level) + " and the highest " + number_text(config.highest_level),
+                 "Change one of the three.");
   }
   if (config.reversals < config.halvings + 2) {
-    throw Error("staircase: " + std::to_string(config.reversals) + " reversals leave no two after " +
-                std::to_string(config.halvings) + " halvings");
+    throw Advice("staircase: " + std::to_string(config.reversals) + " reversals leave no two after " +
+                     std::to_string(config.halvings) + " halvings",
+                 "Ask for two reversals more than halvings, or more.");
   }
 }
 

@@ -6,6 +6,7 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/studio/calls.h"
 
 namespace asperity::studio {
 
@@ -153,13 +154,18 @@ Json parse_study_text(std::string_view text, const std::string& where) {
 }
 
 Study read_study_file(const Project& project, const std::string& name) {
-  if (!name.ends_with(kStudyEnding)) throw Error(printable(name, 200) + ": is no *" + std::string(kStudyEnding));
+  if (!name.ends_with(kStudyEnding)) {
+    throw Advice(printable(name, 200) + ": is no *" + std::string(kStudyEnding),
+                 "Choose a study that this page has written.");
+  }
   Json value = parse_study_text(read_file(project.existing(name), kLargestFile), name);
   if (!value.is_object() || value.value("format", Json()) != Json(kStudyFormat)) {
-    throw Error(name + ": is no study: its format is not '" + std::string(kStudyFormat) + "'");
+    throw Advice(name + ": is no study: its format is not '" + std::string(kStudyFormat) + "'",
+                 "Choose a study that this page has written.");
   }
   if (value.value("version", Json()) != Json(kStudyVersion)) {
-    throw Error(name + ": has a version that this program does not know; it knows " + std::to_string(kStudyVersion));
+    throw Advice(name + ": has a version that this program does not know; it knows " + std::to_string(kStudyVersion),
+                 "Open it with the program that has written it, or a newer one.");
   }
   value.erase("format");
   value.erase("version");
@@ -177,7 +183,8 @@ std::string format_study_file(const Study& study) {
 
 void check_participant(const std::string& code) {
   if (!is_plain(code, kLongestCode)) {
-    throw Error("the participant's code '" + printable(code) + "' is not 1 to 40 letters, digits, _ and -");
+    throw Advice("the participant's code '" + printable(code) + "' is not 1 to 40 letters, digits, _ and -",
+                 "Give one such as p01; no names.");
   }
 }
 

@@ -7,6 +7,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/studio/calls.h"
 #include "complaint.h"
 #include "config_fields.h"
 #include "feel/feel_devices.h"
@@ -41,7 +42,10 @@ Section read_section(const Json& section) {
 }
 
 StudyLog read_log(const Project& project, const std::string& name) {
-  if (!name.ends_with(kStudyLogEnding)) throw Error(printable(name, 200) + ": is no log of a study");
+  if (!name.ends_with(kStudyLogEnding)) {
+    throw Advice(printable(name, 200) + ": is no log of a study",
+                 "Choose a file that ends with " + std::string(kStudyLogEnding) + ".");
+  }
   return parse_study_log(read_file(project.existing(name), kLargestLog), name);
 }
 

@@ -5,6 +5,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/studio/calls.h"
 #include "study/plan_trials.h"
 #include "study/study_file.h"
 #include "study/study_page.h"
@@ -69,7 +70,10 @@ struct StudyPage::Opening {
   }
 
   void open_old() {
-    if (!name.ends_with(kStudyLogEnding)) throw Error(printable(name, 200) + ": is no log of a study");
+    if (!name.ends_with(kStudyLogEnding)) {
+      throw Advice(printable(name, 200) + ": is no log of a study",
+                   "Choose a file that ends with " + std::string(kStudyLogEnding) + ".");
+    }
     const fs::path file = project.existing(name);
     name = file.lexically_relative(project.folder()).generic_string();
     StudyLog read = parse_study_log(read_file(file, kLargestLog), name);

@@ -1,4 +1,4 @@
-import { useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { link } from "../net/connection";
 import { ForceStatus } from "../pages/feel/ForceStatus";
 import { about } from "../state/about";
@@ -12,6 +12,7 @@ import { JobBar } from "./JobBar";
 import { PageFrame } from "./PageFrame";
 import { go, route, routes } from "./routes";
 import { nextTheme, theme } from "./settings";
+import { WaitingKey } from "./WaitingKey";
 
 const LINKS: Record<string, [LampState, string]> = {
   connecting: ["busy", "connecting"],
@@ -32,6 +33,7 @@ export function Shell() {
     ],
     "Everywhere",
   );
+  useFocusOnPage();
   const [lamp, word] = LINKS[link.value]!;
   return (
     <div class="shell">
@@ -77,6 +79,7 @@ export function Shell() {
         )}
       </footer>
       <Toasts />
+      <WaitingKey />
       <Help open={help} onClose={() => setHelp(false)} />
     </div>
   );
@@ -85,6 +88,15 @@ export function Shell() {
 function UndoButton({ icon, word, of, onClick }: { icon: "undo" | "redo"; word: string; of: string; onClick(): unknown }) {
   const label = of ? `${word}: ${of}` : `Nothing to ${icon}`;
   return <IconButton icon={icon} label={label} disabled={!of || link.value !== "open"} onClick={onClick} testId={icon} />;
+}
+
+/** Where the page's change has taken the focus away, the next Tab goes into the new page. */
+function useFocusOnPage(): void {
+  const first = useRef(true);
+  useEffect(() => {
+    if (!first.current && document.activeElement === document.body) document.getElementById("main")?.focus();
+    first.current = false;
+  }, [route.value.id]);
 }
 
 function skipToPage(event: Event): void {

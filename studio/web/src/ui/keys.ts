@@ -21,9 +21,10 @@ export interface KeyGroup {
 /** All keys that work now, the newest group first. */
 export const keyGroups = signal<KeyGroup[]>([]);
 
-const kSequence_ms = 1500;
+/** The first key of two that was pressed; "" while none waits for its second. */
+export const leader = signal("");
+
 const kRepeating = /arrow|page|^[+−-]$|^ctrl\+(shift\+)?z$/;
-let before = { key: "", at_ms: -Infinity };
 
 /** Makes keys work as long as the component is shown. */
 export function useKeys(keys: Key[], title = "This page"): void {
@@ -44,8 +45,15 @@ export function useKeys(keys: Key[], title = "This page"): void {
 /** Begins to listen. Called once; the function that it returns ends it. */
 export function followKeys(target: EventTarget): () => void {
   const listener = (event: Event) => hear(event as KeyboardEvent);
+  const leave = () => (leader.value = "");
   target.addEventListener("keydown", listener);
-  return () => target.removeEventListener("keydown", listener);
+  target.addEventListener("pointerdown", leave);
+  target.addEventListener("blur", leave);
+  return () => {
+    target.removeEventListener("keydown", listener);
+    target.removeEventListener("pointerdown", leave);
+    target.removeEventListener("blur", leave);
+  };
 }
 
 /** The name of a pressed key, as in Key.key. Shift is left out where it only makes the sign, as in "?". */
@@ -68,16 +76,30 @@ export function findKey(groups: KeyGroup[], name: string, previous: string, typi
   return keys.find(({ key }) => previous !== "" && key === `${previous} ${name}`) ?? keys.find(({ key }) => key === name);
 }
 
+/**
+ * What the key `name` does after the key `first`: runs a key, begins two in a row, or nothing. A second key that goes on
+ * with nothing does not do what it does alone: one who is late or slips starts, discards and switches nothing.
+ */
+export function meaningOf(groups: KeyGroup[], name: string, first: string, typing: boolean): { key?: Key; leader: string; taken: boolean } {
+  const key = findKey(groups, name, first, typing);
+  const slipped = first !== "" && key?.key === name && !key.always && !/^(ctrl|alt)\+/.test(name);
+  if (slipped) return { leader: "", taken: true };
+  if (key) return { key, leader: "", taken: true };
+  const begins = !typing && groups.some((group) => group.keys.some((other) => other.key.startsWith(`${name} `)));
+  return { leader: begins ? name : "", taken: begins };
+}
+
 function hear(event: KeyboardEvent): void {
   if (event.defaultPrevented || ["Shift", "Control", "Alt", "Meta"].includes(event.key)) return;
   const name = keyName(event);
-  const previous = event.timeStamp - before.at_ms < kSequence_ms ? before.key : "";
-  before = { key: name, at_ms: event.timeStamp };
+  if (event.repeat && name === leader.value) return;
+  const first = leader.value;
+  leader.value = "";
   if (document.querySelector("dialog[open]")) return;
-  const key = findKey(keyGroups.value, name, previous, isTyping(event, name));
+  const { key, leader: next, taken } = meaningOf(keyGroups.value, name, first, isTyping(event, name));
+  leader.value = next;
+  if (taken) event.preventDefault();
   if (!key) return;
-  before.key = "";
-  event.preventDefault();
   // A key that is held down starts, stops and answers once; what moves or undoes goes on.
   if (event.repeat && !kRepeating.test(name)) return;
   try {

@@ -8,7 +8,7 @@ import type { View } from "../../view3d/View";
 import { viewNames } from "../../view3d/views";
 import { Viewport } from "../../view3d/Viewport";
 import { AlignScene } from "./AlignScene";
-import { align, ghostPose, half, iterations, move, opened, opening, residuals, scrub, showing, shown, take, tool } from "./alignState";
+import { align, ghostPose, half, iterations, missing, move, opened, residuals, scrub, showing, shown, take, tool } from "./alignState";
 import type { Tool } from "./alignState";
 import { colourLimit_m, rampStops } from "./residuals";
 import { phaseWords } from "./iterations";
@@ -98,6 +98,7 @@ export function AlignView() {
 }
 
 function choose(next: Tool): void {
+  if (missing.value && next !== "look") return;
   tool.value = next;
   if (next !== "pick") half.value = null;
   if (next !== "look") showing.value = "placed";
@@ -105,7 +106,7 @@ function choose(next: Tool): void {
 
 function ToolButton({ name, words, hint }: { name: Tool; words: string; hint: string }) {
   return (
-    <Button pressed={tool.value === name} onClick={() => choose(name)} hint={hint} disabled={!opened.value} testId={`align-tool-${name}`}>
+    <Button pressed={tool.value === name} onClick={() => choose(name)} hint={missing.value || hint} disabled={missing.value !== ""} testId={`align-tool-${name}`}>
       {words}
     </Button>
   );
@@ -130,8 +131,7 @@ function Notice() {
 }
 
 function noticeWords(): string {
-  if (opening.value) return "Opening the mesh and the scan …";
-  if (!opened.value) return "Choose a scan and a mesh at the left.";
+  if (missing.value) return missing.value;
   const { phases, phase, poses, rms_m } = iterations.value;
   switch (showing.value) {
     case "best":

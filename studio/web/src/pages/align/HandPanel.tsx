@@ -3,7 +3,7 @@ import { Slider } from "../../ui/Slider";
 import { Button } from "../../ui/Button";
 import { Select } from "../../ui/Select";
 import { edit } from "../../state/document";
-import { about, align, moveBySix, opened, shownSix, turnAbout, type Six } from "./alignState";
+import { about, align, missing, moveBySix, opened, shownSix, turnAbout, type Six } from "./alignState";
 
 const AXES = ["x", "y", "z"] as const;
 // Turns about x, the turned y and the twice turned z; the middle one within a quarter turn, so that the six are one pose.
@@ -47,7 +47,7 @@ export function HandPanel() {
             step={1e-4}
             factor={1e3}
             unit="mm"
-            disabled={!six || !head}
+            disabled={!six || missing.value !== ""}
             onInput={(next, gesture) => set("shift_m", index, next, gesture)}
             testId={`align-shift-${axis}`}
           />
@@ -62,15 +62,15 @@ export function HandPanel() {
           high={TURN_LIMITS_deg[index]!}
           step={0.1}
           unit="°"
-          disabled={!six || !head}
+          disabled={!six || missing.value !== ""}
           onInput={(next, gesture) => set("turn_deg", index, next, gesture)}
           testId={`align-turn-${axis}`}
         />
       ))}
       <Button
         onClick={() => edit("/align/T_mesh_world", null, "begin anew")}
-        disabled={!align.value?.T_mesh_world}
-        hint="The path's middle on the mesh's, unturned"
+        disabled={missing.value !== "" || !align.value?.T_mesh_world}
+        hint={missing.value || "The path's middle on the mesh's, unturned"}
       >
         Begin anew
       </Button>

@@ -8,7 +8,7 @@ import { NumberField } from "../../ui/NumberField";
 import { Panel } from "../../ui/Panel";
 import { Table } from "../../ui/Table";
 import { say } from "../../ui/toast";
-import { align, half, placed, showing } from "./alignState";
+import { align, half, missing, placed, showing } from "./alignState";
 import { toMesh, type Point } from "./pose";
 import { pointWords } from "./picks";
 
@@ -21,6 +21,7 @@ export function PicksPanel() {
     const there = toMesh(pose, path);
     return length(Math.hypot(...there.map((value, axis) => value - mesh[axis]!)), 3);
   };
+  const lacks = missing.value || (picks.length < 3 ? "Needs three pairs or more." : "");
   const lay = async () => {
     const { rms_m } = await call("align.pick");
     showing.value = "placed";
@@ -50,7 +51,7 @@ export function PicksPanel() {
         empty="Press Pick, click a point of the path, then where it belongs."
       />
       <div class="buttons">
-        <Button kind="primary" onClick={lay} disabled={picks.length < 3} hint="Needs three pairs or more" testId="align-lay">
+        <Button kind="primary" onClick={lay} disabled={lacks !== ""} hint={lacks || undefined} testId="align-lay">
           Lay them on each other
         </Button>
         <Button onClick={() => edit("/align/picks", [], "remove all pairs")} disabled={picks.length === 0}>
@@ -86,7 +87,9 @@ function Coordinates() {
       <summary>A pair by its coordinates</summary>
       {field("Path", path, setPath)}
       {field("Mesh", mesh, setMesh)}
-      <Button onClick={add}>Add the pair</Button>
+      <Button onClick={add} disabled={missing.value !== ""} hint={missing.value || undefined}>
+        Add the pair
+      </Button>
     </details>
   );
 }

@@ -6,7 +6,7 @@ import { Panel } from "../../ui/Panel";
 import { Toggle } from "../../ui/Toggle";
 import { Warning } from "../../ui/Warning";
 import { verdictWords } from "./verdict";
-import { ghost, isRegistered, opened, register, result, running, runningJob, showing, take, type RunResult, type Showing } from "./alignState";
+import { ghost, isRegistered, missing, register, result, running, runningJob, showing, take, type RunResult, type Showing } from "./alignState";
 
 /** The registration: from here or from anywhere, what it says of itself, and its runner-up. */
 export function RunPanel() {
@@ -19,16 +19,16 @@ export function RunPanel() {
         <Button
           kind="primary"
           onClick={() => register(true)}
-          disabled={!opened.value || running.value}
-          hint="ICP from where the path lies now"
+          disabled={missing.value !== "" || running.value}
+          hint={missing.value || "ICP from where the path lies now"}
           testId="align-run-here"
         >
           From here
         </Button>
         <Button
           onClick={() => register(false)}
-          disabled={!opened.value || running.value}
-          hint="Searches the whole mesh, without a guess"
+          disabled={missing.value !== "" || running.value}
+          hint={missing.value || "Searches the whole mesh, without a guess"}
           testId="align-run-anywhere"
         >
           From anywhere
@@ -36,7 +36,7 @@ export function RunPanel() {
         {running.value && job && <Button onClick={() => cancelJob(job.id)}>Cancel</Button>}
       </div>
       <div aria-live="polite">
-        {found ? <Verdict found={found} /> : <p class="field-hint">{running.value ? waits : "Not run yet."}</p>}
+        {found ? <Verdict found={found} /> : <p class="field-hint">{running.value ? waits : missing.value || "Not run yet."}</p>}
       </div>
       {isRegistered.value && <p class="field-hint">The path lies where a registration has put it.</p>}
     </Panel>
@@ -83,11 +83,11 @@ function Verdict({ found }: { found: RunResult }) {
       </fieldset>
       {other && <Toggle label="With the other one as a ghost" on={ghost.value} onChange={(on) => (ghost.value = on)} />}
       <div class="buttons">
-        <Button onClick={() => take("best")} testId="align-take">
+        <Button onClick={() => take("best")} disabled={missing.value !== ""} hint={missing.value || undefined} testId="align-take">
           Take the pose
         </Button>
         {other && (
-          <Button onClick={() => take("runner_up")} testId="align-take-other">
+          <Button onClick={() => take("runner_up")} disabled={missing.value !== ""} hint={missing.value || undefined} testId="align-take-other">
             Take the runner-up
           </Button>
         )}

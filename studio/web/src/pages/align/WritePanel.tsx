@@ -7,7 +7,7 @@ import { Panel } from "../../ui/Panel";
 import { TextField } from "../../ui/TextField";
 import { Toggle } from "../../ui/Toggle";
 import { chooseScene } from "../feel/feelChoices";
-import { align } from "./alignState";
+import { align, missing } from "./alignState";
 
 interface Written {
   name: string;
@@ -25,6 +25,7 @@ export function WritePanel() {
   const [replace, setReplace] = useState(false);
   const [written, setWritten] = useState<Written | null>(null);
   const name = typed || `${stem || "mesh"}-aligned`;
+  const lacks = missing.value || (align.value?.T_mesh_world ? "" : "Lay the path on the mesh first: by hand, by points or by a registration.");
   const write = async () => {
     setWritten(null);
     setWritten(await call<Written>("align.write", { name, replace }));
@@ -42,8 +43,8 @@ export function WritePanel() {
       <Button
         kind="primary"
         onClick={write}
-        disabled={!align.value?.T_mesh_world}
-        hint="Needs a pose that was set or taken"
+        disabled={lacks !== ""}
+        hint={lacks || undefined}
         testId="align-write-button"
       >
         Write result

@@ -7,6 +7,7 @@ import { jobs } from "../../ui/job";
 import { complain } from "../../ui/toast";
 import { noIterations, withBlock, type Iterations } from "./iterations";
 import { latest } from "./latest";
+import { missingWords } from "./missing";
 import type { Pick } from "./picks";
 import { samePose, type Frame, type Point, type Pose } from "./pose";
 
@@ -62,7 +63,8 @@ export type Tool = "look" | "translate" | "rotate" | "pick";
 export const align = section<AlignSection | undefined>("align");
 
 export const opened = signal<Block | null>(null);
-export const opening = signal(false);
+/** Also before the page has begun to. */
+export const opening = signal(true);
 export const residuals = signal<Residuals | null>(null);
 export const iterations = signal<Iterations>(noIterations);
 export const result = signal<RunResult | null>(null);
@@ -83,6 +85,9 @@ export const six = signal<Six | null>(null);
 
 const draft = signal<Pose | null>(null);
 const draftSix = signal<Six | null>(null);
+
+/** Why scan and mesh cannot be worked on yet; "" if they can. */
+export const missing = computed(() => missingWords(align.value, opened.value !== null, opening.value));
 
 export const frame = computed<Frame | null>(() => {
   const head = opened.value?.head;
@@ -161,21 +166,44 @@ const quietly = (error: unknown): void => {
   if (!(error instanceof Error && error.message === "cancelled")) complain(error);
 };
 
+let openings = 0;
+
 /** Opens what the document names, again when that changes. */
 async function open(): Promise<void> {
+  const number = ++openings;
+  const isNewest = () => number === openings;
   opening.value = true;
   try {
-    opened.value = await call<Block>("align.open");
+    const block = await call<Block>("align.open");
+    if (!isNewest()) return;
+    opened.value = block;
     const last = await call<RunResult | null>("align.result");
+    const all = last ? withBlock(noIterations, await call<Block>("align.iterations")) : noIterations;
+    if (!isNewest()) return;
     result.value = last;
-    iterations.value = last ? withBlock(noIterations, await call<Block>("align.iterations")) : noIterations;
+    iterations.value = all;
   } catch (error) {
-    opened.value = null;
-    result.value = null;
+    if (!isNewest()) return;
+    forget();
     quietly(error);
   } finally {
-    opening.value = false;
+    if (isNewest()) opening.value = false;
   }
+}
+
+/** Nothing is open, and nothing is known of it. */
+function forget(): void {
+  opened.value = null;
+  result.value = null;
+  iterations.value = noIterations;
+  half.value = null;
+}
+
+/** The document names nothing that could be opened; what was asked for before comes too late. */
+function close(): void {
+  ++openings;
+  opening.value = false;
+  forget();
 }
 
 export async function register(fromHere: boolean): Promise<void> {
@@ -240,7 +268,7 @@ export function followAlign(): () => void {
       showing.value = "placed";
       // The edit that this follows is sent first: it is under way in the caller.
       if (what.value) queueMicrotask(() => void open());
-      else opened.value = null;
+      else close();
     }),
     effect(() => {
       if (opened.value && shown.value) measurer(shown.value);

@@ -55,7 +55,7 @@ export function DevicePanel({ depth_m, deepest_m, onDepth }: { depth_m: number; 
           step={1e-4}
           factor={1e3}
           unit="mm"
-          hint="Hold the left button or Shift to press; the wheel changes this meanwhile."
+          hint="Hold the left button or Shift to press; the wheel changes this meanwhile. By keys, in the view: Page Down presses, Page Up lifts, arrows move."
           onInput={onDepth}
           testId="feel-depth"
         />

@@ -137,7 +137,7 @@ function help(paint: PaintSection, busy: boolean): string {
   if (busy) return "Painting …";
   const stroke = paint.strokes[paint.current];
   if (!stroke) return paint.strokes.length > 0 ? "Choose a stroke to change it, or begin another." : "Choose a texture to begin a stroke.";
-  if (stroke.picks_m.length < 2) return `Click on the mesh: ${2 - stroke.picks_m.length} more ${stroke.picks_m.length === 1 ? "point" : "points"} at least.`;
+  if (stroke.picks_m.length < 2) return `Click on the mesh, or add numbers at the left: ${2 - stroke.picks_m.length} more ${stroke.picks_m.length === 1 ? "point" : "points"} at least.`;
   return "Click to go on, drag a point to move it, Enter to finish.";
 }
 

@@ -37,7 +37,7 @@ export function StrokePanel({ paint, figures, onBegin }: { paint: PaintSection; 
         onChoose={(_, index) => edit("/paint/current", index, `choose stroke ${index + 1}`).catch(complain)}
         columns={[
           { key: "number", label: "Nr.", cell: (_, index) => index + 1, numeric: true },
-          { key: "texture", label: "Texture", cell: (row) => row.texture.replace(/^.*\//, "").replace(/\.texture\.json$/, "") },
+          { key: "texture", label: "Texture", cell: (row) => row.texture.replace(/[./]texture\.json$/, "").replace(/^.*\//, "") },
           { key: "length", label: "Length", numeric: true, cell: (row, index) => (row.picks_m.length < 2 ? "–" : figures[index]?.fault ? "fault" : length(figures[index]?.path_length_m, 3)) },
           { key: "drop", label: "", cell: (_, index) => <IconButton icon="trash" label={`Take out stroke ${index + 1}`} onClick={() => take(index)} /> },
         ]}

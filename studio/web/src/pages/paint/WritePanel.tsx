@@ -31,6 +31,7 @@ export function WritePanel({ paint, figures }: { paint: PaintSection; figures: S
   const [replace, setReplace] = useState(false);
   const { written } = paint;
 
+  const nothing = paint.strokes.length === 0 && Object.keys(paint.swaps).length === 0;
   const write = async () => {
     const { scene } = await call("paint.write", { name, replace });
     setReplace(false);
@@ -53,13 +54,13 @@ export function WritePanel({ paint, figures }: { paint: PaintSection; figures: S
       <Panel title="Write">
         <TextField label="Folder" value={name} onChange={setName} testId="paint-name" />
         <Toggle label="Replace what has this name" on={replace} onChange={setReplace} testId="paint-replace" />
-        <Button kind="primary" onClick={write} disabled={paint.strokes.length === 0 && Object.keys(paint.swaps).length === 0} testId="paint-write">
+        <Button kind="primary" onClick={write} disabled={nothing} hint={nothing ? "Paint a stroke or swap a texture first." : undefined} testId="paint-write">
           Write scene
         </Button>
         {written && (
           <>
             <Button onClick={feel}>Open in Feel</Button>
-            <Select label="Export as" value={format} options={FORMATS} onChange={setFormat} testId="paint-format" />
+            <Select label="Export as" value={format} options={FORMATS} wide onChange={setFormat} testId="paint-format" />
             <Button onClick={exportTo} testId="paint-export">
               Export
             </Button>

@@ -37,7 +37,7 @@ const TABS = [
   { id: "accuracy", label: "Accuracy" },
   { id: "repeatability", label: "Repeatability" },
   { id: "dropped", label: "Dropped" },
-  { id: "settings", label: "Settings used" },
+  { id: "settings", label: "Settings" },
 ];
 const kPatience_ms = 1500;
 
