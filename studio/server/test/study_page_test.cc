@@ -354,6 +354,7 @@ TEST_F(StudyPageTest, NamesResultsAfterTheRun) {
   EXPECT_EQ(results("study_p01_2.results.json")["run"], 2);
   // Others of the same run stand beside the first, which stay.
   EXPECT_EQ(rig.ask("study.continue", {{"log", "study_p01.study.csv"}}).error, "");
+  EXPECT_EQ(rig.ask("study.resume").error, "");
   rig.touch();
   EXPECT_EQ(rig.answer(1).error, "");
   EXPECT_EQ(rig.ask("study.end").error, "");

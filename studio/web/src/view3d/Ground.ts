@@ -69,6 +69,10 @@ export class Ground {
     });
   }
 
+  showAxes(shown: boolean): void {
+    for (const { line, letter } of this.axes) line.visible = letter.visible = shown;
+  }
+
   takeColours(): void {
     this.grid.material.color = new Color(themeColour("--view-grid"));
     for (const { name, line, letter } of this.axes) {

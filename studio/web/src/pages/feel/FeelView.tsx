@@ -81,6 +81,8 @@ export function FeelView(props: FeelViewProps) {
         marks.current = new ForceMarks();
         // A turned picture would have A at the right.
         made.controls.enableRotate = made.controls.enablePan = !blind;
+        // A participant has left and right alone.
+        made.showAxes(!blind);
         made.scene.add(marks.current.object);
         made.beforeDraw.add(() => placeLetters(letters.current, made, tops_m.current));
         setReady((count) => count + 1);
