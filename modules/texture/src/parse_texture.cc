@@ -110,14 +110,19 @@ Texture parse_texture(std::string_view content, const std::string& name, const P
   return texture;
 }
 
-Texture read_texture(const std::filesystem::path& path) {
+Texture read_texture(const std::filesystem::path& path, const std::function<void(std::string_view)>& seen) {
+  const auto read = [&](const std::filesystem::path& file, std::uint64_t limit_bytes) {
+    std::string content = read_file(file, limit_bytes);
+    if (seen) seen(content);
+    return content;
+  };
   const PayloadReader payload = [&](const std::string& file) {
     const auto payload_path = path.parent_path() / file;
     // A link could lead out of the folder.
     if (std::filesystem::is_symlink(payload_path)) throw Error(payload_path.string() + ": is a symbolic link");
-    return read_file(payload_path, kLargestPayload_bytes);
+    return read(payload_path, kLargestPayload_bytes);
   };
-  return parse_texture(read_file(path, kLargestFile_bytes), path.string(), payload);
+  return parse_texture(read(path, kLargestFile_bytes), path.string(), payload);
 }
 
 }  // namespace asperity

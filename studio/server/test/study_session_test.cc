@@ -6,6 +6,8 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <numeric>
+#include <regex>
 #include <set>
 
 #include <gmock/gmock.h>
@@ -40,9 +42,16 @@ std::string fault_of(const std::function<void()>& work) {
   return "";
 }
 
+// Made-up check sums, as many as there are stimuli.
+std::vector<std::uint32_t> crcs_of(const StudySession& session) {
+  std::vector<std::uint32_t> out(session.study().stimuli.size(), 0xABCU);
+  std::iota(out.begin(), out.end(), 0xABCU);
+  return out;
+}
+
 // Answers by a rule until the end; the log as it would be written.
 std::string answered_log(StudySession session, const std::function<int(const Trial&)>& rule) {
-  std::string out = format_log_head(session);
+  std::string out = format_log_head(session, crcs_of(session));
   while (session.trial()) {
     out += format_answer_row(session, session.give(rule(*session.trial()), 1.5, 2.0 * session.trial()->number), "");
   }
@@ -172,6 +181,7 @@ TEST(StudyLog, GivesTheSessionBack) {
     EXPECT_FALSE(log.session.trial());
     EXPECT_EQ(log.session.participant(), "p01");
     EXPECT_EQ(log.session.run(), 2);
+    EXPECT_EQ(log.textures_crc32, crcs_of(session));
     EXPECT_EQ(study_json(log.session.study()), study_json(session.study()));
     EXPECT_EQ(answered_log(StudySession(log.session.study(), "p01", 2), rule), text);
     EXPECT_EQ(log.whole_bytes, text.size());
@@ -181,7 +191,7 @@ TEST(StudyLog, GivesTheSessionBack) {
 
 TEST(StudyLog, GoesOnAfterEachRowAndACutOne) {
   StudySession session(study_of(StudyMethod::kPairs, 3, 1), "p01", 1);
-  std::string text = format_log_head(session);
+  std::string text = format_log_head(session, crcs_of(session));
   std::vector<std::size_t> ends{text.size()};
   while (session.trial()) {
     text += format_answer_row(session, session.give(session.trial()->number % 2, 0.25, session.trial()->number), "");
@@ -198,7 +208,7 @@ TEST(StudyLog, GoesOnAfterEachRowAndACutOne) {
 
 TEST(StudyLog, KnowsWhatWasTakenBack) {
   StudySession session(study_of(StudyMethod::kPairs, 2, 2), "p01", 1);
-  std::string text = format_log_head(session);
+  std::string text = format_log_head(session, crcs_of(session));
   text += format_answer_row(session, session.give(0, 1.0, 1.0), "2026-01-02T03:04:05Z");
   session.take_back();
   text += format_taken_back_row(1, 2.0, "");
@@ -207,6 +217,34 @@ TEST(StudyLog, KnowsWhatWasTakenBack) {
   ASSERT_EQ(log.session.answers().size(), 1U);
   EXPECT_EQ(log.session.answers()[0].value, 1);
   EXPECT_THAT(fault_of([&] { parse_study_log(text + format_taken_back_row(2, 2.0, ""), "log"); }), HasSubstr("log:6"));
+}
+
+TEST(StudyLog, WritesTimesInWholeMilliseconds) {
+  StudySession session(study_of(StudyMethod::kPairs, 32, 1), "p01", 1);
+  const std::regex milliseconds(R"(answer,.*,,,([0-9]+(\.[0-9]{1,3})?),([0-9]+(\.[0-9]{1,3})?),\n)");
+  while (session.trial()) {
+    const int k = session.trial()->number;
+    const std::string row = format_answer_row(session, session.give(0, 1.0 / k, 12.3456 * k), "");
+    std::smatch parts;
+    ASSERT_TRUE(std::regex_match(row, parts, milliseconds)) << row;
+    // Half a millisecond, and what decimals are off as binary numbers.
+    EXPECT_NEAR(std::stod(parts[1]), 1.0 / k, 0.5001e-3);
+    EXPECT_NEAR(std::stod(parts[3]), 12.3456 * k, 0.5001e-3);
+  }
+  EXPECT_EQ(format_taken_back_row(1, 1.3939999, ""), "taken_back,1,,,,,,,,,,,1.394,\n");
+}
+
+// Written before times were rounded and textures had check sums.
+TEST(StudyLog, ReadsThoseOfBefore) {
+  const StudySession session(study_of(StudyMethod::kPairs, 2, 1), "p01", 1);
+  std::string text = answered_log(session, [](const Trial&) { return 0; });
+  const std::string crcs = R"(,"textures_crc32":{"t0.texture.json":"00000abc","t1.texture.json":"00000abd"})";
+  ASSERT_NE(text.find(crcs), std::string::npos) << text;
+  text.erase(text.find(crcs), crcs.size());
+  text.replace(text.find(",1.5,"), 5, ",1.3940000000000001,");
+  const StudyLog log = parse_study_log(text, "log");
+  EXPECT_TRUE(log.textures_crc32.empty());
+  EXPECT_EQ(log.session.answers().front().response_s, 1.3940000000000001);
 }
 
 TEST(StudyLog, RefusesWhatItIsNot) {
@@ -224,6 +262,10 @@ TEST(StudyLog, RefusesWhatItIsNot) {
   EXPECT_THAT(with(",,,left,", ",,,both,"), HasSubstr("neither left nor right"));
   EXPECT_THAT(with("\"participant\":\"p01\"", "\"participant\":\"../p\""), HasSubstr("participant"));
   EXPECT_THAT(with("\"seed\":1", "\"seed\":2"), HasSubstr("is not the trial"));
+  EXPECT_THAT(with("\"00000abc\"", "\"0000abc\""), HasSubstr("log:1: textures_crc32"));
+  EXPECT_THAT(with("\"00000abc\"", "\"0000xabc\""), HasSubstr("log:1: textures_crc32"));
+  EXPECT_THAT(with("\"00000abc\"", "2748"), HasSubstr("log:1: textures_crc32"));
+  EXPECT_THAT(with("{\"t0.texture.json\":\"", "{\"t9.texture.json\":\""), HasSubstr("log:1: textures_crc32"));
   EXPECT_THAT(fault(text + text.substr(text.rfind("answer"))), HasSubstr("all trials are answered"));
   EXPECT_THAT(with(",1.5,", ",-1,"), HasSubstr("no time"));
 }

@@ -192,7 +192,8 @@ void FeelPage::ended() {
   FeelOutcome outcome = run_->take_outcome();
   run_.reset();
   state_ = State::kIdle;
-  last_run_ = outcome_json(outcome, running_.config.feel.servo);
+  // Its heights and parts of the force would tell which texture was touched.
+  last_run_ = visited_ ? Json() : outcome_json(outcome, running_.config.feel.servo);
   if (outcome.failure) complain(outcome.failure);
   if (outcome.servo.end == ServoEnd::kFault) keep_flight_record(outcome.servo);
   running_ = {};

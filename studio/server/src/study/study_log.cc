@@ -1,10 +1,12 @@
 #include "study/study_log.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -24,7 +26,8 @@ constexpr std::string_view kColumns =
 constexpr double kSameLevel = 1e-9;  // of itself: another machine's exp and log
 constexpr int kMostRuns = 1'000'000;
 
-std::string seconds_text(double seconds) { return number_text(1e-3 * std::round(1e3 * seconds)); }
+// Whole milliseconds: the quotient is the number nearest to its three decimals, so no more are written.
+std::string seconds_text(double seconds) { return number_text(std::round(1e3 * seconds) / 1e3); }
 
 std::string answer_text(const Study& study, int value) {
   if (study.method == StudyMethod::kRating) return std::to_string(value);
@@ -43,17 +46,49 @@ std::string trial_cells(const StudySession& session, const Trial& trial) {
   return out;
 }
 
-StudySession session_of(std::string_view text, const std::string& name) {
+constexpr const char* kCrcs = "textures_crc32";
+
+Json crcs_json(const Study& study, const std::vector<std::uint32_t>& crcs) {
+  Json out = Json::object();
+  for (std::size_t k = 0; k < crcs.size(); ++k) out[study.stimuli.at(k)] = fmt::format("{:08x}", crcs[k]);
+  return out;
+}
+
+std::vector<std::uint32_t> crcs_of(const Json& value, const Study& study, const std::string& name) {
+  const auto refuse = [&] {
+    throw Error(name + ":1: " + kCrcs + ": eight hexadecimal digits are needed for each texture");
+  };
+  if (!value.is_object() || value.size() != study.stimuli.size()) refuse();
+  std::vector<std::uint32_t> out;
+  for (const std::string& stimulus : study.stimuli) {
+    if (!value.contains(stimulus) || !value[stimulus].is_string()) refuse();
+    const auto text = value[stimulus].get<std::string>();
+    std::uint32_t crc = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), crc, 16);
+    if (text.size() != 8 || error != std::errc() || end != text.data() + text.size()) refuse();
+    out.push_back(crc);
+  }
+  return out;
+}
+
+// The session before its first row, and the check sums of its textures.
+StudyLog log_of(std::string_view text, const std::string& name) {
   if (!text.starts_with(kMagic)) throw Error(name + ":1: is no log of a study of version 1");
   const Json head = parse_study_text(text.substr(kMagic.size(), text.find('\n') - kMagic.size()), name + ":1");
-  if (!head.is_object() || head.size() != 3 || !head.contains("study") || !head.contains("participant") ||
-      !head.contains("run") || !head["participant"].is_string() || !head["run"].is_number_unsigned() ||
-      head["run"].get<std::uint64_t>() > kMostRuns) {
+  const bool has_crcs = head.is_object() && head.contains(kCrcs);
+  if (!head.is_object() || head.size() != (has_crcs ? 4 : 3) || !head.contains("study") ||
+      !head.contains("participant") || !head.contains("run") || !head["participant"].is_string() ||
+      !head["run"].is_number_unsigned() || head["run"].get<std::uint64_t>() > kMostRuns) {
     throw Error(name + ":1: study, participant and run are needed");
   }
   const auto participant = head["participant"].get<std::string>();
   check_participant(participant);
-  return {read_study(head["study"], name + ":1"), participant, head["run"].get<int>()};
+  const Study study = read_study(head["study"], name + ":1");
+  return {StudySession(study, participant, head["run"].get<int>()),
+          has_crcs ? crcs_of(head[kCrcs], study, name) : std::vector<std::uint32_t>(),
+          0.0,
+          0,
+          {}};
 }
 
 double time_of(const CsvReader& rows, std::size_t column) {
@@ -107,11 +142,12 @@ void follow(StudyLog& log, CsvReader& rows, const std::string& name) {
 
 }  // namespace
 
-std::string format_log_head(const StudySession& session) {
+std::string format_log_head(const StudySession& session, const std::vector<std::uint32_t>& textures_crc32) {
   Json head;
   head["study"] = study_json(session.study());
   head["participant"] = session.participant();
   head["run"] = session.run();
+  head[kCrcs] = crcs_json(session.study(), textures_crc32);
   return std::string(kMagic) + head.dump() + '\n' + std::string(kColumns);
 }
 
@@ -135,7 +171,7 @@ std::string format_taken_back_row(int trial, double since_begin_s, std::string_v
 }
 
 StudyLog parse_study_log(std::string_view text, const std::string& name) {
-  StudyLog out{session_of(text, name), 0.0, 0, {}};
+  StudyLog out = log_of(text, name);
   // Rows would be appended to half a line.
   if (std::count(text.begin(), text.end(), '\n') < 2) throw Error(name + ":2: is cut off before its columns end");
   CsvReader rows(text, name);

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "asperity/base/problem.h"
 #include "study/study_session.h"
@@ -11,14 +13,16 @@ namespace asperity::studio {
 
 inline constexpr std::string_view kStudyLogEnding = ".study.csv";
 
-// The text of a log (docs/studio-study.md): its beginning, with the session's study in a comment; and its rows, each
-// with its newline.
-std::string format_log_head(const StudySession& session);
+// The text of a log (docs/studio-study.md): its beginning, with the session's study and its textures' check sums in a
+// comment; and its rows, each with its newline.
+std::string format_log_head(const StudySession& session, const std::vector<std::uint32_t>& textures_crc32);
 std::string format_answer_row(const StudySession& session, const StudyAnswer& answer, std::string_view date);
 std::string format_taken_back_row(int trial, double since_begin_s, std::string_view date);
 
 struct StudyLog {
-  StudySession session;         // after all rows
+  StudySession session;  // after all rows
+  // Of the stimuli, in their order (stimuli.h); empty: the log is of a time before they were written.
+  std::vector<std::uint32_t> textures_crc32;
   double since_begin_s = 0.0;   // of the last row
   std::size_t whole_bytes = 0;  // without a last row that was cut off
   Problems problems;

@@ -21,6 +21,8 @@ namespace asperity::studio {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::uint64_t kLargestLog = std::uint64_t{16} << 20U;
 
 struct Section {
@@ -47,6 +49,22 @@ StudyLog read_log(const Project& project, const std::string& name) {
                  "Choose a file that ends with " + std::string(kStudyLogEnding) + ".");
   }
   return parse_study_log(read_file(project.existing(name), kLargestLog), name);
+}
+
+// Writes the results of a log beside it, under its name, which tells the run: x_2.results.json of x_2.study.csv. Others
+// that are there stay, and these become x_2.results_2.json; the same ones are not written again. Gives the name.
+std::string keep_results(const Project& project, const std::string& log, const std::string& content) {
+  const std::string file = project.existing(log).lexically_relative(project.folder()).generic_string();
+  const std::string stem = file.substr(0, file.size() - kStudyLogEnding.size()) + ".results";
+  std::string name = stem + ".json";
+  std::error_code error;
+  for (int k = 2; fs::exists(fs::symlink_status(project.folder() / name, error)); ++k) {
+    const fs::path there = project.folder() / name;
+    if (fs::file_size(there, error) == content.size() && read_file(there, content.size()) == content) return name;
+    name = stem + '_' + std::to_string(k) + ".json";
+  }
+  write_file(project.writable(name), content);
+  return name;
 }
 
 }  // namespace
@@ -125,15 +143,13 @@ void StudyPage::bind_logs(Calls& calls) {
   });
   calls.add("study.export", [this, check_closed](const Request& request) {
     check_closed(request);
-    answer_by_job(
-        shared_.jobs, request, "", "", [project = shared_.project, name = request.text("log")](const Observer&) {
-          const Json results = study_results(read_log(project, name).session);
-          const std::string file = std::filesystem::path(name).filename().string();
-          Json out;
-          out["name"] = project.free_name(file.substr(0, file.size() - kStudyLogEnding.size()), ".results.json");
-          write_file(project.writable(out["name"].get<std::string>()), results.dump(2) + '\n');
-          return out;
-        });
+    answer_by_job(shared_.jobs, request, "", "",
+                  [project = shared_.project, name = request.text("log")](const Observer&) {
+                    const Json results = study_results(read_log(project, name).session);
+                    Json out;
+                    out["name"] = keep_results(project, name, results.dump(2) + '\n');
+                    return out;
+                  });
   });
 }
 

@@ -7,6 +7,7 @@
 #include "asperity/base/text.h"
 #include "asperity/studio/calls.h"
 #include "study/plan_trials.h"
+#include "study/stimuli.h"
 #include "study/study_file.h"
 #include "study/study_page.h"
 #include "study/trial_scene.h"
@@ -35,7 +36,7 @@ struct StudyPage::Opening {
   std::string participant;
   std::optional<StudySession> session;
   std::shared_ptr<StudyLogFile> log;
-  std::vector<Texture> stimuli;
+  Stimuli stimuli;
   double before_s = 0.0;
   std::string problem;
 
@@ -50,7 +51,8 @@ struct StudyPage::Opening {
       name = stem + '_' + std::to_string(++run) + std::string(kStudyLogEnding);
     }
     session.emplace(study, participant, run);
-    log = std::make_shared<StudyLogFile>(StudyLogFile::create(project.writable(name), format_log_head(*session)));
+    log = std::make_shared<StudyLogFile>(
+        StudyLogFile::create(project.writable(name), format_log_head(*session, stimuli.crc32)));
   }
 
   // Opens the log, and names it in `file` as the one that goes on; a new one is not left behind without that.
@@ -79,6 +81,7 @@ struct StudyPage::Opening {
     StudyLog read = parse_study_log(read_file(file, kLargestLog), name);
     if (!read.session.trial()) throw Advice(name + ": all its trials are answered", "Look at its results.");
     stimuli = read_stimuli(read.session.study(), project);
+    check_unchanged(read.session.study(), stimuli, read.textures_crc32);
     log = std::make_shared<StudyLogFile>(StudyLogFile::open(file, read.whole_bytes));
     before_s = read.since_begin_s;
     if (!read.problems.empty()) problem = read.problems.front().message;
@@ -173,7 +176,7 @@ void StudyPage::open(const std::shared_ptr<Opening>& opening, const Request* req
           }
         }
         session_ = std::move(opening->session);
-        stimuli_ = std::make_shared<const std::vector<Texture>>(std::move(opening->stimuli));
+        stimuli_ = std::make_shared<const std::vector<Texture>>(std::move(opening->stimuli.textures));
         log_ = std::move(opening->log);
         log_name_ = opening->name;
         before_s_ = opening->before_s;

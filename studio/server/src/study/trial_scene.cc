@@ -6,10 +6,8 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/scene/height_map_viewer.h"
-#include "asperity/studio/calls.h"
-#include "asperity/texture/read_height_image.h"
-#include "asperity/texture/texture_file.h"
 #include "feel/feel_devices.h"
+#include "study/stimuli.h"
 
 namespace asperity::studio {
 
@@ -18,8 +16,6 @@ namespace {
 constexpr std::array<const char*, 2> kLabels{"A", "B"};
 // Nothing of it can be felt; it stays a texture, so that its own stiffness and friction stay.
 constexpr double kFlat = 1e-9;
-
-bool is_image(const std::string& name) { return name.ends_with(".png") || name.ends_with(".pgm"); }
 
 HeightMapViewerConfig viewer_of(const Study& study) {
   HeightMapViewerConfig out;
@@ -85,23 +81,6 @@ void change(Texture& texture, const Study& study, double level, bool comparison)
 void scale_texture(Texture& texture, double factor) {
   std::visit(Scale{factor}, texture.model);
   if (texture.lift_m) *texture.lift_m *= factor;
-}
-
-std::vector<Texture> read_stimuli(const Study& study, const Project& project) {
-  ReadHeightImageConfig image;
-  image.width_mm = study.presentation.tile_mm;
-  image.range_mm = study.presentation.range_mm;
-  std::vector<Texture> out;
-  for (const std::string& name : study.stimuli) {
-    const auto file = project.existing(name);
-    out.push_back(is_image(name) ? read_height_image(file, image) : read_texture(file));
-    const bool slippery = !(out.back().friction.value_or(study.presentation.friction) > 0.0);
-    if (study.method == StudyMethod::kStaircase && study.parameter == StudyParameter::kFrictionDifference && slippery) {
-      throw Advice(printable(name, 200) + ": has no friction that could be changed",
-                   "Set the study's friction, or choose another parameter.");
-    }
-  }
-  return out;
 }
 
 FeelSetup study_setup(const Study& study, const FeelConfig& start) {

@@ -11,14 +11,11 @@
 
 namespace asperity::studio {
 
-// The textures of a study, in the order of its stimuli: *.texture.json, or images. Not for the studio's thread. Throws
-// Error naming the file, and for a staircase of friction on a texture without any.
-std::vector<Texture> read_stimuli(const Study& study, const Project& project);
-
 // Device and settings of a study, upon those of the start. Throws Error for a device that there is none of.
 FeelSetup study_setup(const Study& study, const FeelConfig& start);
 
-// What is felt in a trial: its tiles side by side on a plane, called A and B.
+// What is felt in a trial, of the textures in the order of the stimuli: its tiles side by side on a plane, called A and
+// B.
 Scene make_trial_scene(const Study& study, const std::vector<Texture>& stimuli, const Trial& trial);
 
 // What the browser draws of any trial of a study, and all that it is told: the tiles, without heights.

@@ -44,6 +44,15 @@ export default async function study({ page, studio, step, restart, folder, asper
   await step("a trial is touched blind, and answered", async () => {
     equal(await page.getByTestId("study-answer-a").isEnabled(), false, "an answer before the touch");
     await touch();
+    // The scale bar tells where the letters have to be: each over the middle of its tile of 30 mm, with 4 mm between.
+    const scale = page.locator(".viewport-scale");
+    const perPixel_mm = numberIn(await scale.textContent()) / (await scale.boundingBox()).width;
+    const places = await page.getByTestId("feel-letters").locator("span").evaluateAll((all) => all.map((one) => one.getBoundingClientRect()).map(({ left, right }) => (left + right) / 2));
+    const middle = await page.getByTestId("feel-view").boundingBox().then(({ x, width }) => x + width / 2);
+    for (const [index, place] of places.entries()) {
+      const off_mm = (place - middle) * perPixel_mm - (index === 0 ? -17 : 17);
+      ok(Math.abs(off_mm) < 1, `letter ${index + 1} is ${off_mm} mm off its tile`);
+    }
     const box = await page.getByTestId("feel-view").locator("canvas").boundingBox();
     const press = async () => {
       await page.mouse.move(box.x + box.width * 0.35, box.y + box.height * 0.45);
@@ -103,6 +112,13 @@ export default async function study({ page, studio, step, restart, folder, asper
     await page.getByTestId("study-export").click();
     await until(() => existsSync(join(folder, "study_p01.results.json")), "the results' file");
     equal(JSON.parse(readFileSync(join(folder, "study_p01.results.json"), "utf8")).answers, 2, "answers in it");
+    const note = await page.getByTestId("toast-note").boundingBox();
+    for (const control of await page.locator("main").locator("button, input, select").all()) {
+      const place = await control.boundingBox();
+      const column = await control.evaluate((one) => one.closest(".page-side, .page-results")?.getBoundingClientRect().bottom ?? Infinity);
+      const covers = place && place.x < note.x + note.width && note.x < place.x + place.width && place.y < note.y + note.height && note.y < Math.min(place.y + place.height, column);
+      ok(!covers, `the message covers ${await control.textContent()}`);
+    }
   });
 
   await step("a staircase is begun and left, and its log shown", async () => {

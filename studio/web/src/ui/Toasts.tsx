@@ -1,10 +1,17 @@
+import { useEffect, useRef } from "preact/hooks";
 import { Icon } from "./Icon";
 import { dismiss, toasts } from "./toast";
 
-/** The messages of say() and complain(). In the page once. */
+/** The messages of say() and complain(), at the foot of a column of the page, which makes room. In the page once. */
 export function Toasts() {
+  const place = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    const observer = new ResizeObserver(() => makeRoom(place.current?.offsetHeight ?? 0));
+    observer.observe(place.current!);
+    return () => observer.disconnect();
+  }, []);
   return (
-    <div class="toasts" role="status" aria-live="polite">
+    <div ref={place} class="toasts" role="status" aria-live="polite">
       {toasts.value.map((toast) => (
         <div key={toast.id} class={`toast toast-${toast.kind}`} data-testid={`toast-${toast.kind}`}>
           <div>
@@ -21,4 +28,8 @@ export function Toasts() {
       ))}
     </div>
   );
+}
+
+function makeRoom(height_px: number): void {
+  document.documentElement.style.setProperty("--toasts-height", height_px > 0 ? `calc(${height_px}px + var(--space-2))` : "0px");
 }

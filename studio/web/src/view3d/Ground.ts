@@ -16,6 +16,7 @@ import { upOf, type Upright } from "./views";
 
 const kCells = 10;
 const kBelow = 0.03;
+const kInMargin = 0.075; // half of what View.fit() leaves
 
 /** A grid below the content, its cells a round number of millimetres, and the three axes beside the content. */
 export class Ground {
@@ -53,11 +54,12 @@ export class Ground {
     this.grid.geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
     this.grid.geometry.computeBoundingSphere();
     const size = box.getSize(new Vector3());
-    const beside = 0.55;
+    // Beside the content, and within the margin that a fitted picture has.
+    const beside = (extent: number) => extent / 2 + Math.max(0.2 * cell, kInMargin * extent - 0.3 * cell);
     const origin = centre
       .clone()
-      .addScaledVector(along, -beside * size.x - cell / 2)
-      .addScaledVector(across, -beside * Math.abs(size.dot(across)) - cell / 2);
+      .addScaledVector(along, -beside(size.x))
+      .addScaledVector(across, -beside(Math.abs(size.dot(across))));
     this.axes.forEach(({ line, letter }, index) => {
       const tip = origin.clone().setComponent(index, origin.getComponent(index) + cell);
       letter.position.copy(origin).setComponent(index, origin.getComponent(index) + 1.3 * cell);
@@ -65,6 +67,10 @@ export class Ground {
       line.geometry.setAttribute("position", new Float32BufferAttribute([...origin.toArray(), ...tip.toArray()], 3));
       line.geometry.computeBoundingSphere();
     });
+  }
+
+  showAxes(shown: boolean): void {
+    for (const { line, letter } of this.axes) line.visible = letter.visible = shown;
   }
 
   takeColours(): void {

@@ -154,6 +154,11 @@ export class View {
     return (2 * distance * Math.tan((this.camera.fov * Math.PI) / 360)) / Math.max(1, this.canvas.clientHeight);
   }
 
+  showAxes(shown: boolean): void {
+    this.ground.showAxes(shown);
+    this.invalidate();
+  }
+
   /** Reads the colours of the theme again. */
   takeColours(): void {
     this.scene.background = new Color(themeColour("--view-back"));

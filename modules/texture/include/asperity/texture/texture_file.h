@@ -38,8 +38,9 @@ void write_texture(const std::filesystem::path& path, const Texture& texture);
 // broken, nested deeper than 32 or with a key twice; for a key that the format does not have (outside
 // `extra`), a wrong type or a number out of range; for an ω that is not 2π / L within 1e-4; for a model
 // or version that this program does not know; for more than 65536 coefficients or 16 MiB; for a payload
-// that is not in the same folder or not what the block says.
-Texture read_texture(const std::filesystem::path& path);
+// that is not in the same folder or not what the block says. `seen` is given all that is read: the file's bytes, then
+// its payload's.
+Texture read_texture(const std::filesystem::path& path, const std::function<void(std::string_view)>& seen = {});
 
 // Gives the content of a payload by the name that the block has for it: a plain file name.
 using PayloadReader = std::function<std::string(const std::string& file)>;

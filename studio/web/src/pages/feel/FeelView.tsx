@@ -9,10 +9,12 @@ import { Button } from "../../ui/Button";
 import type { View } from "../../view3d/View";
 import { Viewport } from "../../view3d/Viewport";
 import { pointOf, type Target } from "./drag";
+import type { TextureHead } from "./feelAreas";
 import { followPointer } from "./feelPointer";
 import { makeFeelScene } from "./feelScene";
 import { commandsRun, feelState, feelStatus, length3, takeRun } from "./feelStore";
 import { FORCES, ForceMarks } from "./ForceMarks";
+import { placeLetters, tileTops } from "./tileLetters";
 
 export interface FeelViewProps {
   block: Block | null;
@@ -33,6 +35,8 @@ export function FeelView(props: FeelViewProps) {
   const target = useRef<Target | null>(null);
   const radius_m = useRef(0.02);
   const shape = useRef("");
+  const letters = useRef<HTMLDivElement>(null);
+  const tops_m = useRef<Vector3[]>([]);
   const [ready, setReady] = useState(0);
   const now = useRef(props);
   now.current = props;
@@ -43,6 +47,7 @@ export function FeelView(props: FeelViewProps) {
     if (!view.current) return;
     view.current.remove(surface.current);
     surface.current = block ? view.current.add(makeFeelScene(block)) : null;
+    tops_m.current = block && blind ? tileTops(block) : [];
     marks.current?.takeColours();
     if (!surface.current) return;
     const box = new Box3().setFromObject(surface.current);
@@ -76,7 +81,10 @@ export function FeelView(props: FeelViewProps) {
         marks.current = new ForceMarks();
         // A turned picture would have A at the right.
         made.controls.enableRotate = made.controls.enablePan = !blind;
+        // A participant has left and right alone.
+        made.showAxes(!blind);
         made.scene.add(marks.current.object);
+        made.beforeDraw.add(() => placeLetters(letters.current, made, tops_m.current));
         setReady((count) => count + 1);
         const end = followPointer(made, {
           surface: () => surface.current,
@@ -96,6 +104,13 @@ export function FeelView(props: FeelViewProps) {
       }}
     >
       {!blind && <Legend />}
+      {blind && block && (
+        <div ref={letters} class="feel-letters" aria-hidden="true" data-testid="feel-letters">
+          {(block.head.textures as TextureHead[]).map(({ name }) => (
+            <span key={name}>{name}</span>
+          ))}
+        </div>
+      )}
       <NoForce />
     </Viewport>
   );

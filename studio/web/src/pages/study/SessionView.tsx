@@ -83,10 +83,6 @@ function TrialView({ session }: { session: Session }) {
       {isRating && session.object && <p>The real one: {session.object}</p>}
       <div class="study-view">
         <FeelView block={block} depth_m={depth_m} deepest_m={kDeepest_m} onDepth={setDepth} blind />
-        <div class="study-letters" aria-hidden="true">
-          <span>A</span>
-          {!isRating && <span>B</span>}
-        </div>
       </div>
       <p class="study-advice" role="status" data-testid="study-advice">
         {adviceOf(session, feelStatus.value?.held ?? true)}

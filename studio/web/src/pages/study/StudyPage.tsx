@@ -16,7 +16,7 @@ export default function StudyPage() {
   const status = studyStatus.value;
   if (status?.session) {
     return (
-      <PageLayout title="Study" results={status.session.device === "mouse" && <SoundPanel />}>
+      <PageLayout title="Study" results={<>{status.session.device === "mouse" && <SoundPanel />}</>}>
         <SessionView status={status} session={status.session} />
       </PageLayout>
     );
