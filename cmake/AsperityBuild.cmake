@@ -28,13 +28,6 @@ endif()
 if(ASPERITY_SANITIZE)
   add_compile_options(-fsanitize=${ASPERITY_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${ASPERITY_SANITIZE})
-  if(ASPERITY_SANITIZE MATCHES "thread")
-    # This sanitizer knows no fences (g++ warns of each). Asio's only order what its locks order too.
-    add_compile_definitions(BOOST_ASIO_DISABLE_FENCED_BLOCK)
-    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-      add_compile_options(-Wno-tsan)
-    endif()
-  endif()
 endif()
 if(ASPERITY_FUZZ)
   # The libraries are instrumented too: coverage of the code under test guides the fuzzer.
