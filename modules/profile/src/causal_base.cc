@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kCell_ns = 5'000'000;  // of the history: what find_base_path looks at
 constexpr std::size_t kFewest = 60;           // samples of a fit
-constexpr double kShortest_m = 4e-3;          // way in contact before the first fit
+constexpr double kShortest_m = 15e-3;         // way in contact before the first fit: a shorter one is fitted to texture
 constexpr std::size_t kMostCells = 12'000;
 
 template <class T>
@@ -47,6 +47,7 @@ void CausalBase::refit(const Eigen::Vector3d& here_m) {
   const double before_m = height_m(here_m);
   try {
     const BasePathResult base = find_base_path(history_, tip_in_marker_m_, config_.base);
+    if (base.normal_sigma_deg > config_.base.probe_axis_sigma_deg) return;  // how the probe is held says more
     if (base.shape == PathShape::kCurve || base.shape == PathShape::kMesh) {
       // A curve has no closed form: its tangent plane where the tip is stands in until the next fit.
       shape_ = PathShape::kCurve;

@@ -19,7 +19,8 @@ struct CausalBaseConfig {
 };
 
 // The base shape under a path that is still growing: find_base_path over the last seconds, again and again. Until the
-// path is long enough for that the plane lies across the probe's axis. Where a new fit differs from the one before,
+// path is long enough for that, and its normal known better than by how a probe is held, the plane lies across the
+// probe's axis. Where a new fit differs from the one before,
 // the height goes over to it within the distance settle_m, without a step. Thread-safe: no.
 class CausalBase {
  public:
