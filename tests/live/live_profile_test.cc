@@ -121,6 +121,43 @@ TEST(LiveProfile, PosesThatComeLateDelayItButDoNotSpoilIt) {
   EXPECT_LT(played.highest_age_s, 0.2 + 0.03);
 }
 
+double greatest_step_m(const Played& played) {
+  double before_m = kNan, out_m = 0.0;
+  for (const LivePoint& point : played.points) {
+    if (std::isfinite(before_m) && std::isfinite(point.height_m))
+      out_m = std::max(out_m, std::abs(point.height_m - before_m));
+    before_m = point.height_m;
+  }
+  return out_m;
+}
+
+// The lag grows and shrinks: what was corrected meanwhile goes in slowly, not as a step.
+TEST(LiveProfile, ALagThatChangesMakesNoStep) {
+  const Recording& scan = sine_scan();
+  const auto played_with = [&](std::int64_t later_ns) {
+    std::vector<ScanArrival> arrivals = list_arrivals(scan, {0.0, 0.025});
+    for (ScanArrival& arrival : arrivals) {
+      const double t_s = after_start_s(scan, arrival.arrival_ns);
+      if (arrival.kind == ScanArrival::Kind::kPose && t_s > 1.5 && t_s < 2.3) arrival.arrival_ns += later_ns;
+    }
+    std::stable_sort(arrivals.begin(), arrivals.end(),
+                     [](const ScanArrival& a, const ScanArrival& b) { return a.arrival_ns < b.arrival_ns; });
+    LiveProfile live(scan.calibration, scan.info, {});
+    for (const ScanArrival& arrival : arrivals) {
+      arrival.kind == ScanArrival::Kind::kRow ? live.push(probe_sample(scan.probe, arrival.index))
+                                              : live.push(tracker_sample(scan.tracker, arrival.index));
+    }
+    Played out;
+    out.last = live.estimate();
+    out.points = out.last.points;
+    out.tips = out.last.tips;
+    return out;
+  };
+  const Played even = played_with(0), uneven = played_with(225'000'000);
+  EXPECT_GT(accuracy_of(scan, uneven).profile->correlation, 0.95);
+  EXPECT_LT(greatest_step_m(uneven), greatest_step_m(even) + 20e-6) << "points are 25 um apart";
+}
+
 // Holes at the stroke's begin, longer and deeper than the way so far: no base shape is to be made of them.
 TEST(LiveProfile, HolesAtTheBeginAreNotTakenForTheBase) {
   for (const std::int64_t seed : {1, 2, 3}) {

@@ -120,9 +120,11 @@ void CausalTip::Impl::configure(bool has_gyro, WindowProblem& problem) const {
   problem.gate_innovations = true;
 }
 
-// A sample waits for the poses shortly after it as long as poses have been on their way of late.
+// A sample waits for the poses shortly after it as long as poses have been on their way of late. The window reaches no
+// further back.
 double CausalTip::Impl::lag_s() const {
-  return std::max(config.lag_s, std::min(poses_late_s + config.poses_after_s, config.longest_lag_s));
+  const double late_s = std::min(poses_late_s + config.poses_after_s, config.longest_lag_s);
+  return std::min(std::max(config.lag_s, late_s), kLongestWindow_s - std::min(config.hop_s, 0.5 * kLongestWindow_s));
 }
 
 void CausalTip::Impl::add(const TrackerSample& pose) {
@@ -179,12 +181,14 @@ void CausalTip::Impl::collect(const InertialStream& stream, const Smoothed& smoo
     const std::int64_t stamp = stamps[static_cast<std::size_t>(smoothed.sample[i])];
     if (stamp <= final_row_ns) continue;
     if (seconds(motion.t_ns[i] - origin_ns) > final_s) {
-      seam = Seam{stamp, motion.p_world_tip_m[i], motion.v_world_tip_mps[i]};
+      // While the lag grows nothing becomes final, and what the sample was estimated first counts.
+      if (!seam || seam->row_ns != stamp) seam = Seam{stamp, motion.p_world_tip_m[i], motion.v_world_tip_mps[i]};
       return;
     }
     const std::int64_t t_ns = std::max(motion.t_ns[i], final_ns + 1);
-    if (broken) steady.reset();
-    if (seam && seam->row_ns == stamp) {
+    if (broken) {
+      steady.reset();  // nothing is before it that it could depart from
+    } else if (seam && seam->row_ns == stamp) {
       steady.jump(motion.p_world_tip_m[i] - seam->p_m, motion.v_world_tip_mps[i] - seam->v_mps);
     }
     seam.reset();

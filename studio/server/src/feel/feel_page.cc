@@ -82,6 +82,7 @@ void FeelPage::load() {
   const FeelChoices chosen = choices();
   if (chosen.empty()) {
     // What is under the hand stays there, and is shown, until it is stopped.
+    loading_ = false;
     const bool is_felt = run_ && !visited_ && world_;
     if (!is_felt) world_.reset();
     problem_ = is_felt ? "nothing is chosen" : "";

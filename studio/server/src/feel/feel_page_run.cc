@@ -194,11 +194,11 @@ void FeelPage::ended() {
   state_ = State::kIdle;
   // Its heights and parts of the force would tell which texture was touched.
   last_run_ = visited_ ? Json() : outcome_json(outcome, running_.config.feel.servo);
-  if (outcome.failure) complain(outcome.failure);
   if (outcome.servo.end == ServoEnd::kFault) keep_flight_record(outcome.servo);
   running_ = {};
   visited_ = false;
   if (choices().empty()) load();
+  if (outcome.failure) complain(outcome.failure);
   tell();
 }
 

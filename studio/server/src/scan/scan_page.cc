@@ -303,8 +303,11 @@ class ScanPage : public Page {
         },
         [this, refiner = refiner_, by = settings_, refined](std::exception_ptr error) {
           if (refiner != refiner_) return;
-          refined_by_ = by;
-          if (!error) return show_refined(std::move(**refined));
+          const auto show = [this, &by](BlockWriter block) {
+            refined_by_ = by;
+            show_refined(std::move(block));
+          };
+          if (!error) return show(std::move(**refined));
           try {
             std::rethrow_exception(error);
           } catch (const Cancelled&) {
@@ -312,7 +315,7 @@ class ScanPage : public Page {
           } catch (const std::exception& fault) {
             BlockWriter failed("scan.refined");
             failed.head()["failure"] = fault.what();
-            show_refined(std::move(failed));
+            show(std::move(failed));
           }
         });
   }

@@ -225,8 +225,12 @@ void ScanSession::watch(const RecorderSnapshot& now) {
   const bool discarded = now.discarded + now.restored > before.discarded + before.restored;
   if (discarded) {
     estimator_->kept().hold(true);  // it may be wanted again
-    shelve(now);
-    events_.discarded();
+    // After a restored one is shown, the recording's last may be another.
+    const bool is_another = shown_ && now.last_discarded && shown_->start_ns != now.last_discarded->start_ns;
+    if (!is_another) {
+      shelve(now);
+      events_.discarded();
+    }
   }
   // One may have ended and the next begun between two rounds.
   const std::size_t next = before.storing && !discarded ? before_.begun - std::min(before_.begun, before.begun) : 0;
@@ -304,13 +308,12 @@ void ScanSession::bring_back(const Segment& segment, const RecorderSnapshot& now
          "Finish the recording, and open it on the Process page.");
     return;
   }
-  if (ended_) hand_over(now);
   events_.forgotten();
   shown_ = *back;
-  const std::optional<Shelved> shelved = std::exchange(shelved_, std::nullopt);
-  if (shelved && shelved->segment.start_ns == back->start_ns) {
+  if (shelved_ && shelved_->segment.start_ns == back->start_ns) {
+    Shelved shelved = *std::exchange(shelved_, std::nullopt);
     const std::lock_guard lock(mutex_);
-    book_.begin_with(shelved->book);
+    book_.begin_with(std::move(shelved.book));
   } else {
     grow_again(now);
   }

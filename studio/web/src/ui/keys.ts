@@ -81,6 +81,7 @@ export function findKey(groups: KeyGroup[], name: string, previous: string, typi
  * with nothing does not do what it does alone: one who is late or slips starts, discards and switches nothing.
  */
 export function meaningOf(groups: KeyGroup[], name: string, first: string, typing: boolean): { key?: Key; leader: string; taken: boolean } {
+  if (first !== "" && (name === "space" || name === "enter")) return { leader: "", taken: true };
   const key = findKey(groups, name, first, typing);
   const slipped = first !== "" && key?.key === name && !key.always && !/^(ctrl|alt)\+/.test(name);
   if (slipped) return { leader: "", taken: true };

@@ -90,6 +90,7 @@ async function begin(): Promise<void> {
   rows.clear();
   latencies.clear();
   profileLatencies.clear();
+  undrawn_ns.length = 0;
   await measure();
   const status = await call<{ open: boolean; refined: boolean }>("scan.status").catch(() => null);
   if (!status) return;
@@ -135,7 +136,7 @@ function takeProfile(block: Block): void {
   }
   // A part of the past that comes at once, after a change of the settings, tells no delay.
   const grown = profile.length - before;
-  if (!anew && grown > 0 && grown <= kFewPoints) undrawn_ns.push(block.head.motion_ns as number);
+  if (!anew && grown > 0 && grown <= kFewPoints && !document.hidden) undrawn_ns.push(block.head.motion_ns as number);
   void drawProfile();
 }
 
