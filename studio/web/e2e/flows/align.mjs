@@ -30,7 +30,9 @@ export default async function align({ page, step, folder, until, equal, near, ok
     await page.getByTestId("align-run-anywhere").click();
     await page.getByTestId("align-verdict").waitFor({ timeout: 120_000 });
     ok(numberIn(await page.getByTestId("align-rms").locator("dd").textContent()) < 0.3, "residual below 0.3 mm");
-    ok(numberIn((await page.getByTestId("align-count").textContent()).split("of")[1]) > 3, "iterations are shown");
+    const count = page.getByTestId("align-count").filter({ hasText: /of \d/ });
+    await count.waitFor();
+    ok(numberIn((await count.textContent()).split("of")[1]) > 3, "iterations are shown");
   });
 
   await step("its iterations can be gone through", async () => {
