@@ -1,8 +1,6 @@
 #include "scan/scan_session.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <exception>
 #include <limits>
 #include <system_error>
@@ -20,7 +18,6 @@ namespace asperity::studio {
 namespace {
 
 constexpr auto kRound = std::chrono::milliseconds(15);
-constexpr std::int64_t kPosesLate_ns = 250'000'000;  // behind the rows of their time, at most
 
 }  // namespace
 
@@ -214,135 +211,6 @@ void ScanSession::take_rows(bool storing) {
   poses_late_ = estimate.counts.poses_late;
   const std::lock_guard lock(mutex_);
   book_.add(estimate, storing);
-}
-
-// What has become of the segments since the last round.
-void ScanSession::watch(const RecorderSnapshot& now) {
-  const auto& list = now.segment_list;
-  const Watched before = std::exchange(
-      before_, {now.storing, now.segments + now.discarded, now.discarded, now.restored, now.last_discarded});
-  const bool restored = now.restored > before.restored;
-  const bool discarded = now.discarded + now.restored > before.discarded + before.restored;
-  if (discarded) {
-    estimator_->kept().hold(true);  // it may be wanted again
-    // After a restored one is shown, the recording's last may be another.
-    const bool is_another = shown_ && now.last_discarded && shown_->start_ns != now.last_discarded->start_ns;
-    if (!is_another) {
-      shelve(now);
-      events_.discarded();
-    }
-  }
-  // One may have ended and the next begun between two rounds.
-  const std::size_t next = before.storing && !discarded ? before_.begun - std::min(before_.begun, before.begun) : 0;
-  if (next > 0 && next < list.size()) keep_ended({list[list.size() - 1 - next], live_heights(), 0}, now);
-  if (next > 0 || (now.storing && (!before.storing || discarded))) begin_scan(now);
-  if ((now.storing || (before.storing && !discarded)) && !list.empty()) shown_ = list.back();
-  if (!now.storing && before.storing && !discarded && !list.empty()) {
-    keep_ended({list.back(), std::nullopt, 0}, now);
-    events_.forgotten();  // what is refined is another's
-  }
-  if (restored && before.last_discarded && !now.storing) bring_back(*before.last_discarded, now);
-  // A source that has played to its end has nothing more for the segment that is open.
-  if (setup_.source->plays() && now.storing && was_playing_ && !setup_.source->playing()) {
-    if (now.automatic) recorder_->set_mode(StoreMode::kSegments);
-    recorder_->stop_segment();
-    if (now.automatic) recorder_->set_mode(StoreMode::kAuto);
-  }
-  was_playing_ = setup_.source->playing();
-  // While rows are stored gravity waits: the estimate would begin anew in the middle.
-  if (now.storing && (!now.description || used_.description)) return;
-  if (use_what_is_known(now) && now.storing && shown_ && estimator_->kept().covers(shown_->start_ns)) grow_again(now);
-}
-
-// True if the probe has described itself, or gravity was measured, since the estimator was told last: it begins anew.
-bool ScanSession::use_what_is_known(const RecorderSnapshot& now) {
-  const Known known{now.description.has_value(), now.gravity.measured};
-  if (known == used_) return false;
-  estimator_->configure(info_of(now), config_);
-  used_ = known;
-  return true;
-}
-
-void ScanSession::begin_scan(const RecorderSnapshot& now) {
-  use_what_is_known(now);
-  estimator_->restart();
-  KeptRows& kept = estimator_->kept();
-  if (!now.segment_list.empty()) {
-    const std::int64_t trail_ns = now.segment_list.back().start_ns - KeptRows::kTrail_ns;
-    std::int64_t wanted_ns = trail_ns;
-    if (ended_) wanted_ns = std::min(wanted_ns, ended_->segment.start_ns);
-    if (shelved_) wanted_ns = std::min(wanted_ns, shelved_->segment.start_ns);
-    kept.forget_before(wanted_ns);
-  }
-  kept.hold(true);
-  events_.forgotten();
-  if (ended_ && !ended_->live) ended_->live = live_heights();
-  const std::lock_guard lock(mutex_);
-  book_.begin_anew();
-}
-
-void ScanSession::keep_ended(Ended ended, const RecorderSnapshot& now) {
-  if (ended_) hand_over(now);
-  ended_ = std::move(ended);
-  ended_->hand_over_at_ns = host_now_ns() + kPosesLate_ns;
-}
-
-void ScanSession::shelve(const RecorderSnapshot& now) {
-  const std::optional<Segment> shown = std::exchange(shown_, std::nullopt);
-  ended_.reset();
-  const std::lock_guard lock(mutex_);
-  ScanBook book = book_.begin_anew();
-  const bool is_shown = shown && now.last_discarded && shown->start_ns == now.last_discarded->start_ns;
-  if (is_shown) shelved_ = Shelved{*now.last_discarded, std::move(book)};
-}
-
-// What was discarded is shown again, as if it had just ended.
-void ScanSession::bring_back(const Segment& segment, const RecorderSnapshot& now) {
-  const auto& list = now.segment_list;
-  const auto back = std::find_if(list.begin(), list.end(), [&](const Segment& each) {
-    return each.start_ns == segment.start_ns && each.end_ns == segment.end_ns;
-  });
-  if (back == list.end()) return;
-  if (!estimator_->kept().covers(back->start_ns)) {
-    tell(back->name + " is in the recording again; its rows are not in memory any more",
-         "Finish the recording, and open it on the Process page.");
-    return;
-  }
-  events_.forgotten();
-  shown_ = *back;
-  if (shelved_ && shelved_->segment.start_ns == back->start_ns) {
-    Shelved shelved = *std::exchange(shelved_, std::nullopt);
-    const std::lock_guard lock(mutex_);
-    book_.begin_with(std::move(shelved.book));
-  } else {
-    grow_again(now);
-  }
-  ended_ = Ended{*back, std::nullopt, host_now_ns()};
-}
-
-void ScanSession::hand_over(const RecorderSnapshot& now) {
-  const auto [segment, live, due_ns] = *std::exchange(ended_, std::nullopt);
-  KeptRows& kept = estimator_->kept();
-  kept.hold(true);  // until the next scan begins: it may be discarded, and be wanted again
-  if (!kept.covers(segment.start_ns)) {
-    tell(segment.name + " is too long to be refined here; the recording has all of it",
-         "Finish the recording, and open it on the Process page.");
-    return;
-  }
-  FinishedScan out;
-  out.recording = setup_.name;
-  out.segment = segment;
-  out.rows.info = info_of(now);
-  out.rows.info.segments = {segment};
-  out.rows.calibration = calibration_;
-  kept.copy(segment.start_ns, segment.end_ns, now.description && now.description->has_gyro, out.rows);
-  const TrackerStream& poses = out.rows.tracker;
-  if (out.rows.info.tracker_rate_Hz <= 0.0 && poses.size() > 1) {
-    const auto span_ns = static_cast<double>(poses.t_ns.back() - poses.t_ns.front());
-    out.rows.info.tracker_rate_Hz = 1e9 * static_cast<double>(poses.size() - 1) / span_ns;
-  }
-  out.live = live ? *live : live_heights();
-  events_.ended(std::move(out));
 }
 
 LiveHeights ScanSession::live_heights() const {
