@@ -1,5 +1,5 @@
-#include "asperity/acquire/read_gray_image.h"
 #include "asperity/base/error.h"
+#include "asperity/image/read_gray_image.h"
 #include "fuzz_input.h"
 
 using namespace asperity;

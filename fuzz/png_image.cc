@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "asperity/base/error.h"
-#include "asperity/texture/png_image.h"
+#include "asperity/image/png_image.h"
 #include "fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "asperity/acquire/frame_writer.h"
-#include "asperity/acquire/recorder.h"
 #include "asperity/base/text.h"
+#include "asperity/camera/frame_writer.h"
 #include "asperity/pipeline/config_json.h"
+#include "asperity/recorder/recorder.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "option_units.h"

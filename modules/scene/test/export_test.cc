@@ -11,6 +11,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/geometry/mesh_adjacency.h"
+#include "asperity/image/png_image.h"
 #include "asperity/scene/displace_mesh.h"
 #include "asperity/scene/export_scene.h"
 #include "asperity/scene/format_wav.h"
@@ -18,7 +19,6 @@
 #include "asperity/scene/paint.h"
 #include "asperity/scene/texture_maps.h"
 #include "asperity/testkit/shape_meshes.h"
-#include "asperity/texture/png_image.h"
 
 namespace asperity {
 namespace {

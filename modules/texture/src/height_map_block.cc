@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "asperity/base/error.h"
-#include "asperity/texture/png_image.h"
+#include "asperity/image/png_image.h"
 #include "block_json.h"
 #include "model_block.h"
 

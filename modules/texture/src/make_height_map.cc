@@ -7,9 +7,9 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/image/png_image.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/evaluate_height_map.h"
-#include "asperity/texture/png_image.h"
 
 namespace asperity {
 namespace {

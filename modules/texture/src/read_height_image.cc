@@ -7,8 +7,8 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "asperity/texture/pgm_image.h"
-#include "asperity/texture/png_image.h"
+#include "asperity/image/pgm_image.h"
+#include "asperity/image/png_image.h"
 
 namespace asperity {
 namespace {

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "asperity/base/error.h"
+#include "asperity/image/pgm_image.h"
+#include "asperity/image/png_image.h"
 #include "asperity/texture/evaluate_height.h"
-#include "asperity/texture/pgm_image.h"
-#include "asperity/texture/png_image.h"
 #include "asperity/texture/read_height_image.h"
 
 namespace asperity {

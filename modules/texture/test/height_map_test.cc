@@ -9,10 +9,10 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
+#include "asperity/image/png_image.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/evaluate_height_map.h"
 #include "asperity/texture/fit_fourier2d.h"
-#include "asperity/texture/png_image.h"
 
 namespace asperity {
 namespace {
