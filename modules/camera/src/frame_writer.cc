@@ -1,14 +1,11 @@
 #include "asperity/camera/frame_writer.h"
 
-#include <cstring>
 #include <exception>
 #include <fstream>
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <utility>
-#include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/image/png_image.h"
 
 namespace asperity {
 
@@ -71,16 +68,13 @@ void FrameWriter::run() {
 void FrameWriter::write(const CameraFrame& frame) const {
   const std::size_t size = static_cast<std::size_t>(frame.image.width) * static_cast<std::size_t>(frame.image.height);
   if (size == 0 || frame.image.pixels.size() != size) throw Error("frames: an image of no size");
-  cv::Mat image(frame.image.height, frame.image.width, CV_8UC1);
-  std::memcpy(image.data, frame.image.pixels.data(), size);
-  std::vector<unsigned char> png;
-  if (!cv::imencode(".png", image, png, {cv::IMWRITE_PNG_COMPRESSION, 1})) throw Error("frames: cannot be made a PNG");
+  const std::string png = format_png(frame.image);
   std::filesystem::create_directories(folder_);
   // First under another name: whoever dies in between leaves no half an image.
   const std::filesystem::path path = folder_ / (std::to_string(frame.t_ns) + ".png");
   const std::filesystem::path temporary = folder_ / ".png.new";
   std::ofstream out(temporary, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  out.write(png.data(), static_cast<std::streamsize>(png.size()));
   out.close();
   if (!out) throw Error(path.string() + ": cannot be written");
   std::filesystem::rename(temporary, path);

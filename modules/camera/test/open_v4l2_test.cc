@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 
+#include "asperity/testkit/encode_jpeg.h"
 #include "asperity/transport/byte_source.h"
 #include "asperity/transport/host_clock.h"
 #include "fake_v4l2.h"
@@ -133,8 +133,7 @@ TEST(OpenV4l2, MotionJpeg) {
   FakeCamera camera = small(V4L2_PIX_FMT_MJPEG);
   camera.modes[0].width = 64;
   camera.modes[0].height = 48;
-  std::vector<unsigned char> jpeg;
-  cv::imencode(".jpg", cv::Mat(48, 64, CV_8UC1, cv::Scalar(90.0)), jpeg);
+  const std::vector<unsigned char> jpeg = testkit::encode_jpeg(64, 48, std::vector<std::uint8_t>(64 * 48, 90));
   std::vector<unsigned char> cut(jpeg.begin(), jpeg.begin() + static_cast<std::ptrdiff_t>(jpeg.size() / 2));
   camera.frames = {frame_of(jpeg, 1), frame_of(cut, 2), frame_of({}, 3), frame_of(jpeg, 4)};
   const auto source = open(camera);

@@ -1,5 +1,6 @@
 #include "asperity/image/pgm_image.h"
 
+#include <array>
 #include <cctype>
 #include <cstddef>
 #include <cstdint>
@@ -9,9 +10,11 @@
 namespace asperity {
 namespace {
 
-class Reader {
+constexpr auto kMostSide = static_cast<std::size_t>(kLargestImageSide_px);
+
+class PnmReader {
  public:
-  Reader(std::string_view data, const std::string& name) : data_(data), name_(name) {}
+  PnmReader(std::string_view data, const std::string& name) : data_(data), name_(name) {}
 
   [[noreturn]] void fail(const std::string& what) const { throw Error(name_ + ": a PGM image that " + what); }
 
@@ -54,18 +57,17 @@ class Reader {
 
 }  // namespace
 
-GreyImage parse_pgm(std::string_view data, const std::string& name) {
-  Reader in(data, name);
+DeepGrayImage parse_pgm(std::string_view data, const std::string& name) {
+  PnmReader in(data, name);
   if (data.size() < 2 || data[0] != 'P' || (data[1] != '5' && data[1] != '2')) in.fail("does not begin with P5 or P2");
   const bool binary = data[1] == '5';
   in.skip(2);
-  GreyImage image;
-  image.columns = in.number("width", kMostPixelsASide);
-  image.rows = in.number("height", kMostPixelsASide);
+  DeepGrayImage image;
+  image.width = static_cast<int>(in.number("width", kMostSide));
+  image.height = static_cast<int>(in.number("height", kMostSide));
   const std::size_t most = in.number("maximum", 65535);
-  if (image.columns == 0 || image.rows == 0 || most == 0) in.fail("is empty");
-  const std::size_t pixels = image.columns * image.rows;
-  if (pixels > kMostPixels) in.fail("has more than " + std::to_string(kMostPixels) + " pixels");
+  if (image.width == 0 || image.height == 0 || most == 0) in.fail("is empty");
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   const std::size_t bytes = most > 255 ? 2 : 1;
   if (binary) {
     if (in.at_end() || std::isspace(static_cast<int>(in.byte())) == 0) in.fail("has no blank before its pixels");
@@ -78,7 +80,7 @@ GreyImage parse_pgm(std::string_view data, const std::string& name) {
   }
   image.bits = bytes == 1 ? 8 : 16;
   const std::size_t full = bytes == 1 ? 255 : 65535;
-  image.level.reserve(pixels);
+  image.pixels.reserve(pixels);
   for (std::size_t i = 0; i < pixels; ++i) {
     std::size_t level = 0;
     if (binary) {
@@ -88,11 +90,39 @@ GreyImage parse_pgm(std::string_view data, const std::string& name) {
     } else {
       level = in.number("level", most);
     }
-    image.level.push_back(static_cast<std::uint16_t>((level * full + most / 2) / most));
+    image.pixels.push_back(static_cast<std::uint16_t>((level * full + most / 2) / most));
   }
   if (!binary) {
     in.skip_blanks();
     if (!in.at_end()) in.fail("goes on after its last pixel");
+  }
+  return image;
+}
+
+GrayImage decode_pnm(std::string_view data, const std::string& name) {
+  PnmReader in(data, name);
+  if (data.size() < 2 || data[0] != 'P' || (data[1] != '5' && data[1] != '6')) in.fail("does not begin with P5 or P6");
+  const std::size_t colours = data[1] == '6' ? 3 : 1;
+  in.skip(2);
+  GrayImage image;
+  image.width = static_cast<int>(in.number("width", kMostSide));
+  image.height = static_cast<int>(in.number("height", kMostSide));
+  const std::size_t most = in.number("maximum", 65535);
+  const std::size_t pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  if (pixels == 0 || most == 0) in.fail("is empty");
+  const std::size_t bytes = most > 255 ? 2 : 1;  // of a sample, the upper first
+  if (in.left() < 1 + pixels * colours * bytes) in.fail("is cut off");
+  in.skip(1);
+  image.pixels.reserve(pixels);
+  std::array<std::size_t, 3> level{};
+  for (std::size_t i = 0; i < pixels; ++i) {
+    for (std::size_t c = 0; c < colours; ++c) {
+      level[c] = in.byte();
+      in.skip(bytes - 1);
+    }
+    // The weights of ITU-R BT.601 in 14 bits.
+    if (colours == 3) level[0] = (4899 * level[0] + 9617 * level[1] + 1868 * level[2] + 8192) >> 14;
+    image.pixels.push_back(static_cast<std::uint8_t>(level[0]));
   }
   return image;
 }

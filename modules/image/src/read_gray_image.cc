@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <string_view>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/image/jpeg_image.h"
+#include "asperity/image/pgm_image.h"
+#include "asperity/image/png_image.h"
 
 namespace asperity {
 
@@ -93,7 +95,7 @@ std::optional<Size> pnm_size(Bytes bytes) {
   return Size{*width, *height};
 }
 
-// libjpeg fills up what is missing with gray and says nothing that a program could hear.
+// libjpeg fills up what is missing with gray and only warns, as it does of many a camera's frames.
 bool jpeg_is_whole(Bytes bytes) {
   std::size_t end = bytes.size();
   while (end > 0 && bytes[end - 1] == 0) --end;
@@ -126,18 +128,15 @@ std::pair<int, int> encoded_image_size(Bytes bytes, const std::string& name) {
 
 GrayImage decode_gray_image(Bytes bytes, const std::string& name) {
   const auto [width, height] = encoded_image_size(bytes, name);
-  if (is_jpeg(bytes) && !jpeg_is_whole(bytes)) throw Error(name + ": the image is damaged: it is cut off");
-  cv::Mat gray;
-  try {
-    // imdecode only reads what this Mat points to.
-    const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<unsigned char*>(bytes.data()));
-    gray = cv::imdecode(encoded, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception&) {
-    gray.release();
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  GrayImage out;
+  if (is_jpeg(bytes)) {
+    if (!jpeg_is_whole(bytes)) throw Error(name + ": the image is damaged: it is cut off");
+    out = decode_jpeg(bytes, name);
+  } else {
+    out = is_pnm(bytes) ? decode_pnm(text, name) : decode_png(text, name);
   }
-  if (gray.cols != width || gray.rows != height || gray.type() != CV_8UC1) throw Error(name + ": the image is damaged");
-  GrayImage out{width, height, {}};
-  out.pixels.assign(gray.begin<unsigned char>(), gray.end<unsigned char>());
+  if (out.width != width || out.height != height) throw Error(name + ": the image is damaged");
   return out;
 }
 

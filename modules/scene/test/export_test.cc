@@ -43,13 +43,13 @@ std::uint32_t number_at(const std::string& data, std::size_t at, int bytes) {
 TEST(TextureMaps, AreTheTexturesHeightsAndSlopes) {
   const TextureMaps maps = make_texture_maps(cosine());
   EXPECT_NEAR(maps.size_mm.x(), 10.0, 1e-12);
-  const GreyImage image = parse_png(maps.height_png, "heights");
+  const DeepGrayImage image = parse_png(maps.height_png, "heights");
   EXPECT_EQ(image.bits, 16);
-  ASSERT_EQ(image.columns, maps.heights.columns);
+  ASSERT_EQ(static_cast<std::size_t>(image.width), maps.heights.columns);
   const double range_m = maps.heights.high_m - maps.heights.low_m;
-  for (std::size_t c = 0; c < image.columns; ++c) {
-    const double x_mm = 10.0 * static_cast<double>(c) / static_cast<double>(image.columns);
-    const double height_m = maps.heights.low_m + image.level[c] / 65535.0 * range_m;
+  for (int c = 0; c < image.width; ++c) {
+    const double x_mm = 10.0 * c / image.width;
+    const double height_m = maps.heights.low_m + image.at(c, 0) / 65535.0 * range_m;
     EXPECT_NEAR(height_m, 1e-4 * std::cos(2.0 * M_PI * x_mm / 2.5), range_m / 65535.0);
   }
   EXPECT_EQ(maps.normal_png.substr(1, 3), "PNG");
