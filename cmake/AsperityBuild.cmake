@@ -77,6 +77,20 @@ function(add_module name)
   endif()
 endfunction()
 
+# add_own_library(name USED_BY target SOURCES … LIBRARIES target…)
+#   libasperity_<name>.so, which own_library_paths() (base/load_library.h) finds beside the programs of the build and in
+#   lib/asperity of what is installed. It is built before whatever is linked with USED_BY, which loads it.
+function(add_own_library name)
+  cmake_parse_arguments(L "" "USED_BY" "SOURCES;LIBRARIES" ${ARGN})
+  set(target asperity_${name}_library)
+  add_library(${target} MODULE ${L_SOURCES})
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME asperity_${name}
+                        LIBRARY_OUTPUT_DIRECTORY "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  target_link_libraries(${target} PRIVATE ${L_LIBRARIES} asperity_flags)
+  add_dependencies(${L_USED_BY} ${target})
+  install(TARGETS ${target} LIBRARY DESTINATION lib/asperity)
+endfunction()
+
 # add_asperity_fuzzer(name SOURCE target…): SOURCE defines LLVMFuzzerTestOneInput. With clang and
 # ASPERITY_FUZZ a libFuzzer binary; otherwise a program that replays its corpus, fuzz/corpus/<name>/,
 # and is a test.

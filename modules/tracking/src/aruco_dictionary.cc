@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bitset>
-#include <opencv2/aruco.hpp>
 #include <optional>
 #include <set>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/vision/predefined_dictionary.h"
 
 namespace asperity {
 
@@ -20,30 +20,6 @@ constexpr std::uint64_t kLargestFile_bytes = 1 << 20;
 constexpr int kMostMarkers = 2000;
 constexpr int kMostBits = 16;
 using Cells = std::bitset<kMostBits * kMostBits>;
-
-constexpr std::array<std::pair<std::string_view, cv::aruco::PREDEFINED_DICTIONARY_NAME>, 21> kPredefined{{
-    {"DICT_4X4_50", cv::aruco::DICT_4X4_50},
-    {"DICT_4X4_100", cv::aruco::DICT_4X4_100},
-    {"DICT_4X4_250", cv::aruco::DICT_4X4_250},
-    {"DICT_4X4_1000", cv::aruco::DICT_4X4_1000},
-    {"DICT_5X5_50", cv::aruco::DICT_5X5_50},
-    {"DICT_5X5_100", cv::aruco::DICT_5X5_100},
-    {"DICT_5X5_250", cv::aruco::DICT_5X5_250},
-    {"DICT_5X5_1000", cv::aruco::DICT_5X5_1000},
-    {"DICT_6X6_50", cv::aruco::DICT_6X6_50},
-    {"DICT_6X6_100", cv::aruco::DICT_6X6_100},
-    {"DICT_6X6_250", cv::aruco::DICT_6X6_250},
-    {"DICT_6X6_1000", cv::aruco::DICT_6X6_1000},
-    {"DICT_7X7_50", cv::aruco::DICT_7X7_50},
-    {"DICT_7X7_100", cv::aruco::DICT_7X7_100},
-    {"DICT_7X7_250", cv::aruco::DICT_7X7_250},
-    {"DICT_7X7_1000", cv::aruco::DICT_7X7_1000},
-    {"DICT_ARUCO_ORIGINAL", cv::aruco::DICT_ARUCO_ORIGINAL},
-    {"DICT_APRILTAG_16h5", cv::aruco::DICT_APRILTAG_16h5},
-    {"DICT_APRILTAG_25h9", cv::aruco::DICT_APRILTAG_25h9},
-    {"DICT_APRILTAG_36h10", cv::aruco::DICT_APRILTAG_36h10},
-    {"DICT_APRILTAG_36h11", cv::aruco::DICT_APRILTAG_36h11},
-}};
 
 // The cells of `marker` after a quarter turn against the clock.
 std::vector<std::uint8_t> turned(const std::vector<std::uint8_t>& marker, int bits) {
@@ -179,22 +155,11 @@ class Parser {
 }  // namespace
 
 ArucoDictionary predefined_aruco_dictionary(std::string_view name) {
-  const auto found =
-      std::find_if(kPredefined.begin(), kPredefined.end(), [&](const auto& entry) { return entry.first == name; });
-  if (found == kPredefined.end()) {
-    std::string all;
-    for (const auto& [known, number] : kPredefined) all += (all.empty() ? "" : ", ") + std::string(known);
-    throw Error("aruco: no dictionary '" + printable(name) + "'; there are " + all);
+  const auto found = find_predefined_dictionary(name);
+  if (!found) {
+    throw Error("aruco: no dictionary '" + printable(name) + "'; there are " + predefined_dictionary_names());
   }
-  const cv::Ptr<cv::aruco::Dictionary> theirs = cv::aruco::getPredefinedDictionary(found->second);
-  ArucoDictionary out;
-  out.bits = theirs->markerSize;
-  out.correctable_bits = theirs->maxCorrectionBits;
-  for (int id = 0; id < theirs->bytesList.rows; ++id) {
-    const cv::Mat cells = cv::aruco::Dictionary::getBitsFromByteList(theirs->bytesList.rowRange(id, id + 1), out.bits);
-    out.markers.emplace_back(cells.begin<unsigned char>(), cells.end<unsigned char>());
-  }
-  return out;
+  return vision().predefined_dictionary(found->opencv_id);
 }
 
 ArucoDictionary parse_aruco_dictionary(std::string_view text, const std::string& name) {

@@ -1,7 +1,10 @@
 #include "grey_band.h"
 
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "asperity/vision/vision.h"
 
 namespace asperity {
 
@@ -17,15 +20,12 @@ GrayImage stretch_band(const GrayImage& image, const ImageRegion& region, const 
   GrayImage out;
   out.width = region.width();
   out.height = region.height();
-  out.pixels.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
   if (region.empty()) return out;
-  const cv::Mat all(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data()));
-  const cv::Mat part = all(cv::Rect(region.left, region.top, region.width(), region.height()));
-  cv::Mat smooth;
-  cv::GaussianBlur(part, smooth, cv::Size(), kSmooth_px);
-  cv::Mat view(out.height, out.width, CV_8U, out.pixels.data());
+  out = vision().blur(image, {region.left, region.top, out.width, out.height}, kSmooth_px);
   const double gain = 255.0 / band.width;
-  smooth.convertTo(view, CV_8U, gain, -gain * band.low);
+  for (std::uint8_t& level : out.pixels) {
+    level = static_cast<std::uint8_t>(std::clamp(std::nearbyint(gain * (level - band.low)), 0.0, 255.0));
+  }
   return out;
 }
 

@@ -1,8 +1,10 @@
 #include "square_poses.h"
 
-#include <opencv2/calib3d.hpp>
+#include <array>
+#include <cstddef>
 
 #include "asperity/recording/camera_model.h"
+#include "asperity/vision/vision.h"
 
 namespace asperity {
 
@@ -10,29 +12,22 @@ std::vector<Pose> square_poses(const CameraCalibration& camera, const MarkerPlac
                                const Eigen::Matrix<double, 2, 4>& corners_px) {
   // OpenCV's order for this method begins at (−, +) with y up, so it is that of our corners; its frame is turned about
   // x.
-  const double half_m = 0.5 * marker.size_m;
-  const std::vector<cv::Point3d> square{
-      {-half_m, half_m, 0.0}, {half_m, half_m, 0.0}, {half_m, -half_m, 0.0}, {-half_m, -half_m, 0.0}};
-  std::vector<cv::Point2d> rays;
+  std::array<Eigen::Vector2d, 4> rays;
   for (int i = 0; i < 4; ++i) {
     const auto ray = unproject(camera, corners_px.col(i));
     if (!ray) return {};
-    rays.emplace_back(ray->x(), ray->y());
+    rays[static_cast<std::size_t>(i)] = {ray->x(), ray->y()};
   }
-  std::vector<cv::Mat> rotations, translations;
+  std::vector<PlanePose> poses;
   try {
-    cv::solvePnPGeneric(square, rays, cv::Matx33d::eye(), cv::noArray(), rotations, translations, false,
-                        cv::SOLVEPNP_IPPE_SQUARE);
-  } catch (const cv::Exception&) {
+    poses = vision().square_poses(0.5 * marker.size_m, rays);
+  } catch (const VisionError&) {
     return {};
   }
   const Pose T_up_tag{Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), Eigen::Vector3d::Zero()};
   const Pose T_tag_marker = marker.T_marker_tag.inverse();
   std::vector<Pose> out;
-  for (std::size_t i = 0; i < rotations.size(); ++i) {
-    const Eigen::Vector3d turn(rotations[i].at<double>(0), rotations[i].at<double>(1), rotations[i].at<double>(2));
-    const Eigen::Vector3d shift(translations[i].at<double>(0), translations[i].at<double>(1),
-                                translations[i].at<double>(2));
+  for (const auto& [turn, shift] : poses) {
     if (!turn.allFinite() || !shift.allFinite() || !(shift.z() > 0.0)) continue;
     out.push_back(Pose{exp_rotation(turn), shift} * T_up_tag * T_tag_marker);
   }

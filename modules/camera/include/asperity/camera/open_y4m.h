@@ -7,7 +7,7 @@
 
 namespace asperity {
 
-// A YUV4MPEG2 stream (recording/y4m.h) from a file, a FIFO, a character device or "-", standard input: the way for
+// A YUV4MPEG2 stream (image/y4m.h) from a file, a FIFO, a character device or "-", standard input: the way for
 // any camera that another program can read, and for the virtual bench.
 //
 // A frame's t_ns is its Xt_ns; without one the time at which its last byte had come, or in a file its index over the

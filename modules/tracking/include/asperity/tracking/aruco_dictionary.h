@@ -1,19 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "asperity/vision/vision.h"
 
 namespace asperity {
-
-// The square markers of ArUco (Garrido-Jurado et al., 2014): `bits` by `bits` cells within a black border of one cell.
-struct ArucoDictionary {
-  int bits = 0;                                    // cells a side, without the border
-  std::vector<std::vector<std::uint8_t>> markers;  // by id: bits·bits cells, row by row, 1 for white
-  int correctable_bits = 0;                        // wrong cells with which a marker is still told from all others
-};
 
 // One of OpenCV's, by its name there: DICT_4X4_50 … DICT_7X7_1000, DICT_ARUCO_ORIGINAL, DICT_APRILTAG_16h5 …
 // DICT_APRILTAG_36h11 (those in OpenCV's turn). Throws Error naming what there is.
