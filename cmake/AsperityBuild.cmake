@@ -25,6 +25,15 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 reports these inside Eigen and the standard library after inlining.
   target_compile_options(asperity_flags INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)
 endif()
+# Hardening; what it costs the servo is in docs/performance.md. --as-needed: a library that nothing uses is not loaded.
+include(CheckPIESupported)
+check_pie_supported()
+add_library(asperity_hardening INTERFACE)
+target_compile_options(asperity_hardening INTERFACE
+  -fstack-protector-strong $<$<CONFIG:Release>:-U_FORTIFY_SOURCE> $<$<CONFIG:Release>:-D_FORTIFY_SOURCE=2>)
+target_link_options(asperity_hardening INTERFACE -Wl,-z,relro,-z,now,-z,noexecstack -Wl,--as-needed -Wl,-O1)
+target_link_libraries(asperity_flags INTERFACE asperity_hardening)
+
 if(ASPERITY_SANITIZE)
   add_compile_options(-fsanitize=${ASPERITY_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${ASPERITY_SANITIZE})

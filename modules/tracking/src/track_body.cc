@@ -10,6 +10,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/units.h"
 #include "asperity/recording/camera_model.h"
+#include "asperity/vision/vision.h"
 #include "tag_search.h"
 
 namespace asperity {
@@ -28,7 +29,9 @@ double turn_between_rad(const Pose& a, const Pose& b) {
 
 struct BodyTracker::Impl {
   Impl(CameraCalibration of, std::vector<MarkerPlacement> tags, const TrackConfig& settings)
-      : camera(std::move(of)), body(std::move(tags)), config(settings), search(camera, body, config) {}
+      : camera(std::move(of)), body(std::move(tags)), config(settings), search(camera, body, config) {
+    vision();  // a missing library is told of now, and no frame waits for its loading
+  }
 
   CameraCalibration camera;
   std::vector<MarkerPlacement> body;

@@ -7,7 +7,10 @@
 #include <cstring>
 #include <optional>
 
-#include "asio_run.h"
+// Asio of Boost 1.74 uses std::exchange without its header.
+#include <utility>
+
+#include <boost/asio/io_context.hpp>
 
 #include <fmt/format.h>
 #include <boost/asio/buffer.hpp>
@@ -22,6 +25,20 @@ namespace asio = boost::asio;
 using asio::ip::udp;
 
 namespace {
+
+// Runs `context` until `done`, which a handler of it sets, or `timeout` is over; then `cancel()` must make the handler
+// run, so that nothing of the operation is left when this returns.
+template <class Cancel>
+void run_within(asio::io_context& context, const bool& done, std::chrono::milliseconds timeout, const Cancel& cancel) {
+  context.restart();
+  context.poll();
+  if (!done) context.restart();
+  if (!done) context.run_for(timeout);
+  if (done) return;
+  cancel();
+  context.restart();
+  context.run();
+}
 
 constexpr std::size_t kLargestDatagram_bytes = 65536;
 constexpr int kReceiveBuffer_bytes = 1 << 20;

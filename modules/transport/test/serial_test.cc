@@ -138,7 +138,7 @@ TEST(Serial, OnlyOneMayHaveIt) {
 TEST(Serial, WhatIsNoPortIsRefused) {
   const testkit::TempDir dir;
   std::ofstream(dir / "file") << "x";
-  EXPECT_THAT([&] { open_serial((dir / "file").string(), 115200); }, ThrowsMessage<Error>(HasSubstr("no serial port")));
+  EXPECT_THAT([&] { open_serial((dir / "file").string(), 115200); }, ThrowsMessage<Error>(HasSubstr("is not a serial port")));
   EXPECT_THAT([&] { open_serial((dir / "absent").string(), 115200); }, ThrowsMessage<Error>(HasSubstr("plugged in")));
   const Pty pty;
   EXPECT_THAT([&] { open_serial(pty.path(), 123456); }, ThrowsMessage<Error>(HasSubstr("123456 is no baud rate")));

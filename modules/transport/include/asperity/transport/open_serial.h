@@ -7,11 +7,7 @@
 
 namespace asperity {
 
-// Opens the serial port (or pseudo-terminal) at `path`, raw, 8 data bits, no parity, 1 stop bit, no flow control, at
-// `baud` bits per second. Nobody else may have it meanwhile: it is locked (flock) and marked exclusive (TIOCEXCL). Its
-// settings are not touched before it is ours. Reading throws LinkLost when the port is unplugged or the other side of a
-// pseudo-terminal is closed. Throws Error naming the port and what to do: absent, not permitted (dialout), in use (by
-// whom), not a terminal, a baud rate that there is not.
+// The serial port (serial_port.h) at `path`, a probe's, at `baud` bits per second. Throws as SerialPort does.
 std::unique_ptr<ByteSource> open_serial(const std::string& path, int baud);
 
 }  // namespace asperity
