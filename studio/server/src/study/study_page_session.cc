@@ -1,11 +1,11 @@
 #include <utility>
 
-#include "asperity/acquire/host_clock.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/studio/calls.h"
+#include "asperity/transport/host_clock.h"
 #include "study/plan_trials.h"
 #include "study/stimuli.h"
 #include "study/study_file.h"
