@@ -17,18 +17,20 @@
 #include "asperity/device/write_flight_record.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/pipeline/score_rendering.h"
+#include "asperity/session/feel_device.h"
+#include "asperity/session/feel_drive.h"
+#include "asperity/session/feel_log.h"
+#include "asperity/session/feel_report.h"
+#include "asperity/session/feel_scene.h"
+#include "asperity/session/feel_settings.h"
+#include "asperity/session/feel_verdict.h"
+#include "asperity/session/interrupt.h"
+#include "asperity/session/mesh_unit.h"
+#include "asperity/session/our_file.h"
+#include "asperity/session/our_folder.h"
 #include "commands.h"
-#include "feel_device.h"
-#include "feel_drive.h"
-#include "feel_log.h"
-#include "feel_report.h"
-#include "feel_scene.h"
-#include "feel_settings.h"
-#include "feel_verdict.h"
-#include "interrupt.h"
 #include "option_units.h"
-#include "our_file.h"
-#include "our_folder.h"
+#include "scene_options.h"
 
 namespace asperity::app {
 
@@ -43,13 +45,13 @@ class FeelCommand : public Command {
  public:
   explicit FeelCommand(CLI::App& root)
       : Command(root, "feel", "Feel a scene with a haptic device, or log what it would") {
-    parser().add_option("SCENE", input_.scene, "A scene.json, a folder that has one, or a mesh without textures");
+    parser().add_option("SCENE", options_.scene, "A scene.json, a folder that has one, or a mesh without textures");
     parser()
-        .add_option("--height-maps", input_.height_map_list,
+        .add_option("--height-maps", options_.height_maps,
                     "Instead of SCENE: images side by side on a plane, a.png,b.png,…")
         ->type_name("FILES");
-    parser().add_option("--tile", input_.tile, "Side of a height map's tile; 10mm")->type_name("LENGTH");
-    parser().add_option("--height-range", input_.height_range, "From black to white; 2.5mm")->type_name("LENGTH");
+    parser().add_option("--tile", options_.tile, "Side of a height map's tile; 10mm")->type_name("LENGTH");
+    parser().add_option("--height-range", options_.height_range, "From black to white; 2.5mm")->type_name("LENGTH");
     parser()
         .add_option("--device", device_,
                     "sim (the default: a modelled hand), replay (the default with --replay), haply, openhaptics, dhd, "
@@ -69,7 +71,7 @@ class FeelCommand : public Command {
     parser().add_flag("--timing", timing_, "Time each step: a column step_ns in the log");
     parser().add_flag("--realtime", realtime_, "By the clock also where nobody is there to feel it (sim, replay)");
     parser()
-        .add_option("--mesh-unit", input_.mesh_unit, "Of a mesh given alone: m (the default), mm, or such as 0.06m")
+        .add_option("--mesh-unit", options_.mesh_unit, "Of a mesh given alone: m (the default), mm, or such as 0.06m")
         ->type_name("LENGTH");
     parser().add_option("--tip", tip_, "Radius of the tip; a point")->type_name("LENGTH");
     parser()
@@ -108,7 +110,7 @@ class FeelCommand : public Command {
   }
 
   int run(const Observer& observer) override {
-    check_scene_input(input_);
+    input_ = scene_input_of(options_);
     if (parser().count("--log") > 0 && (log_.empty() || log_ == "-"))
       throw UsageError("--log: a file's name is needed");
     std::vector<std::string> inputs = input_.height_maps;
@@ -118,7 +120,7 @@ class FeelCommand : public Command {
     std::optional<OutputFolder> folder;
     if (!output_.empty()) folder.emplace(output_, is_our_folder);
     observer.update("reading", 0.0);
-    const Scene scene = read_felt_scene(input_, settings_);
+    const Scene scene = read_scene_input();
     FeelDrive drive;
     if (!replay_.empty()) {
       drive = read_drive(replay_, mapped_, scene, settings_, observer);
@@ -163,6 +165,14 @@ class FeelCommand : public Command {
   }
 
  private:
+  Scene read_scene_input() {
+    try {
+      return read_felt_scene(input_, settings_);
+    } catch (const WrongUnit& error) {
+      throw UsageError(std::string("--mesh-unit: ") + error.what());
+    }
+  }
+
   // An option's value into the setting that it stands for, within that one's range.
   void set_text(const std::string& option, const std::string& setting, const std::string& value) {
     try {
@@ -290,6 +300,7 @@ class FeelCommand : public Command {
   std::string device_, replay_, rate_, log_, duration_, tip_, model_, stiffness_, friction_;
   std::string from_, to_, press_, speed_, output_;
   bool mapped_ = false, timing_ = false, realtime_ = false;
+  SceneOptions options_;
   SceneInput input_;
   DeviceKind kind_;
   FeelSettings settings_;

@@ -9,8 +9,8 @@
 #include "asperity/acquire/read_gray_image.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/session/our_file.h"
 #include "commands.h"
-#include "our_file.h"
 
 namespace asperity::app {
 

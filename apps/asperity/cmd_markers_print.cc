@@ -12,10 +12,10 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/recording/format.h"
+#include "asperity/session/our_file.h"
 #include "commands.h"
 #include "marker_family.h"
 #include "option_units.h"
-#include "our_file.h"
 
 namespace asperity::app {
 

@@ -18,8 +18,8 @@
 #include "asperity/base/version.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/recording/read_markers.h"
+#include "asperity/session/our_file.h"
 #include "commands.h"
-#include "our_file.h"
 
 namespace asperity::app {
 

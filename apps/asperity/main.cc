@@ -8,9 +8,9 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/session/interrupt.h"
 #include "command.h"
 #include "commands.h"
-#include "interrupt.h"
 #include "parser_pages.h"
 #include "progress_line.h"
 
@@ -129,6 +129,6 @@ int run(int argc, char** argv) {
 }  // namespace asperity::app
 
 int main(int argc, char** argv) {
-  asperity::app::watch_interrupts();
+  asperity::watch_interrupts(asperity::app::complain);
   return asperity::app::run(argc, argv);
 }

@@ -7,8 +7,8 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/session/feel_device.h"
 #include "asperity/studio/calls.h"
-#include "feel_device.h"
 
 namespace asperity::studio {
 
@@ -19,7 +19,7 @@ constexpr double kAbove = 0.1;  // of the scene's size: where the pointer's poin
 
 // What the command line knows of it, and its name for people. The mouse is the studio's alone.
 FeelDeviceKind kind_of(std::string_view name, std::string_view title) {
-  const std::optional<app::DeviceKind> known = app::device_kind(name);
+  const std::optional<DeviceKind> known = device_kind(name);
   return {name, title, known && known->driven, known && known->felt};
 }
 
@@ -56,23 +56,22 @@ Eigen::Vector3d above_scene_m(const RenderModel& model) {
   return out_m;
 }
 
-app::FeelDrive drive_of(const FeelSetup& setup, const FeelDeviceKind& kind, const Scene& scene,
-                        const Observer& observer) {
+FeelDrive drive_of(const FeelSetup& setup, const FeelDeviceKind& kind, const Scene& scene, const Observer& observer) {
   if (!kind.driven) return {};
   FeelConfig config = setup.config;
   config.feel.servo.duration_s = kHandGoesOn_s;
-  app::FeelDrive drive;
+  FeelDrive drive;
   if (kind.name == "replay" || !setup.replay.empty()) {
     if (setup.replay.empty()) {
       throw Advice("the recorded path is missing", "Choose a recording or a table of positions to replay.");
     }
-    drive = app::read_drive(setup.replay, setup.mapped, scene, config.feel, observer);
+    drive = read_drive(setup.replay, setup.mapped, scene, config.feel, observer);
   } else if (setup.input.tile_stroke_m) {
-    drive = app::make_drive(scene, setup.input.tile_stroke_m->front(), setup.input.tile_stroke_m->back(), config.feel);
+    drive = make_drive(scene, setup.input.tile_stroke_m->front(), setup.input.tile_stroke_m->back(), config.feel);
   } else {
-    drive = app::make_drive(scene, std::nullopt, std::nullopt, config.feel);
+    drive = make_drive(scene, std::nullopt, std::nullopt, config.feel);
   }
-  app::check_length(drive);
+  check_length(drive);
   return drive;
 }
 
@@ -122,12 +121,12 @@ OpenedFeel open_feel(const FeelSetup& setup, const Scene& scene, const Observer&
   const bool mouse = out.kind.name == "mouse";
   observer.update("the device", 0.3);
   if (!mouse) {
-    out.device = app::open_device(setup.device, out.drive, out.config.feel);
+    out.device = open_device(setup.device, out.drive, out.config.feel);
     out.info = out.device->info();
   }
   observer.update("the scene", 0.6);
   // Nobody's motors are at the pointer's end: the scene is left as it is.
-  app::FeltModel felt = app::make_felt_model(scene, out.info, mouse || out.kind.driven, out.config.feel);
+  FeltModel felt = make_felt_model(scene, out.info, mouse || out.kind.driven, out.config.feel);
   if (mouse) {
     const Eigen::Vector3d start_m = above_scene_m(*felt.model);
     out.targets = std::make_shared<PointerTargets>(start_m);

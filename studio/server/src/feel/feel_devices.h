@@ -9,8 +9,8 @@
 #include "asperity/base/progress.h"
 #include "asperity/device/pointer_device.h"
 #include "asperity/render/render_model.h"
+#include "asperity/session/feel_drive.h"
 #include "feel/feel_setup.h"
-#include "feel_drive.h"
 
 namespace asperity::studio {
 
@@ -35,7 +35,7 @@ struct OpenedFeel {
   std::unique_ptr<HapticDevice> device;
   DeviceInfo info;
   std::shared_ptr<PointerTargets> targets;  // of the mouse, else null
-  app::FeelDrive drive;
+  FeelDrive drive;
   FeelConfig config;  // with the device placed in the scene
   std::unique_ptr<const RenderModel> model;
   std::vector<std::string> warnings;

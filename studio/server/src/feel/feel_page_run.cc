@@ -6,9 +6,9 @@
 #include "asperity/acquire/host_clock.h"
 #include "asperity/base/error.h"
 #include "asperity/device/write_flight_record.h"
+#include "asperity/session/our_file.h"
 #include "feel/ended_logs.h"
 #include "feel/feel_json.h"
-#include "our_file.h"
 
 // The run's side of the page: its start and end, whose it is, its log.
 
@@ -207,7 +207,7 @@ void FeelPage::keep_flight_record(ServoResult servo) {
   shared_.jobs.start_in(
       "feel", "Keeping what happened before the fault", "",
       [ticks, file = shared_.project.folder() / kFlightRecord](const Observer&) {
-        app::refuse_stranger(file, format_flight_record({}));
+        refuse_stranger(file, format_flight_record({}));
         write_flight_record(file, *ticks);
       },
       [this](std::exception_ptr error) {
@@ -226,7 +226,7 @@ void FeelPage::set_log(const Request& request) {
   }
   if (!log_name_.empty()) throw Advice("a log is being written already", "Finish it first.");
   const std::string name = shared_.project.free_name("feel", ".csv");
-  run_->log().begin(std::make_unique<app::FeelLog>(shared_.project.writable(name), running_.config.feel.servo.timed));
+  run_->log().begin(std::make_unique<FeelLog>(shared_.project.writable(name), running_.config.feel.servo.timed));
   log_name_ = name;
   Json out;
   out["log"] = name;

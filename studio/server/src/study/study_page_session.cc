@@ -5,13 +5,13 @@
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/session/utc_now.h"
 #include "asperity/studio/calls.h"
 #include "study/plan_trials.h"
 #include "study/stimuli.h"
 #include "study/study_file.h"
 #include "study/study_page.h"
 #include "study/trial_scene.h"
-#include "utc_now.h"
 
 // The session: its beginning and end, its trials, what is felt in them.
 
@@ -269,7 +269,7 @@ double StudyPage::response_s(std::int64_t now_ns) const {
 
 double StudyPage::since_begin_s() const { return before_s_ + 1e-9 * static_cast<double>(host_now_ns() - opened_ns_); }
 
-std::string StudyPage::date() const { return session_->study().dates ? app::utc_now() : std::string(); }
+std::string StudyPage::date() const { return session_->study().dates ? utc_now() : std::string(); }
 
 void StudyPage::answer(const Request& request) {
   if (phase_ != Phase::kRunning) throw Advice("no trial is open", "Begin a session, or end the break.");
