@@ -1,4 +1,4 @@
-#include "study/staircase.h"
+#include "asperity/study/staircase.h"
 
 #include <cmath>
 #include <string>
@@ -8,9 +8,9 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
-#include "study/staircase_error.h"
+#include "asperity/study/staircase_error.h"
 
-namespace asperity::studio {
+namespace asperity {
 namespace {
 
 using testing::ElementsAre;
@@ -147,4 +147,4 @@ TEST_P(StaircaseRule, FindsTheThresholdOfSimulatedObserversWithinItsError) {
 INSTANTIATE_TEST_SUITE_P(Rules, StaircaseRule, testing::Values(Rule{2, 1.0}, Rule{3, 1.0}, Rule{1, 3.0}));
 
 }  // namespace
-}  // namespace asperity::studio
+}  // namespace asperity

@@ -1,15 +1,18 @@
-#include "study/study_results.h"
+#include "asperity/study/study_results.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <vector>
 
-#include "study/bradley_terry.h"
-#include "study/interval.h"
-#include "study/staircase_error.h"
+#include "asperity/study/bradley_terry.h"
+#include "asperity/study/interval.h"
+#include "asperity/study/staircase_error.h"
 
-namespace asperity::studio {
+namespace asperity {
+
+using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -150,4 +153,4 @@ Json study_results(const StudySession& session) {
   return out;
 }
 
-}  // namespace asperity::studio
+}  // namespace asperity

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "study/staircase.h"
+#include "asperity/study/staircase.h"
 
-namespace asperity::studio {
+namespace asperity {
 
 // The standard error of ln(threshold) of a track, `level` being its staircase_threshold(). Reversals follow one another
 // too closely for their scatter to tell it; it is the scatter of thresholds over simulated tracks by the same rule
@@ -13,4 +13,4 @@ namespace asperity::studio {
 // if most of the simulated tracks have no threshold.
 std::optional<double> staircase_error_ln(const StaircaseTrack& track, double level, const StaircaseConfig& config);
 
-}  // namespace asperity::studio
+}  // namespace asperity

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-namespace asperity::studio {
+namespace asperity {
 
 // One question: which textures lie where.
 struct Trial {
@@ -17,4 +17,4 @@ struct Trial {
   bool operator==(const Trial&) const = default;
 };
 
-}  // namespace asperity::studio
+}  // namespace asperity

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "asperity/base/problem.h"
-#include "study/study_session.h"
+#include "asperity/study/study_session.h"
 
-namespace asperity::studio {
+namespace asperity {
 
 inline constexpr std::string_view kStudyLogEnding = ".study.csv";
+inline constexpr std::uint64_t kLargestStudyLog_bytes = std::uint64_t{16} << 20U;
 
 // The text of a log (docs/studio-study.md): its beginning, with the session's study and its textures' check sums in a
 // comment; and its rows, each with its newline.
@@ -56,4 +57,4 @@ class StudyLogFile {
   std::size_t bytes_ = 0;
 };
 
-}  // namespace asperity::studio
+}  // namespace asperity

@@ -1,11 +1,11 @@
-#include "study/staircase_error.h"
+#include "asperity/study/staircase_error.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "asperity/base/random.h"
 
-namespace asperity::studio {
+namespace asperity {
 
 namespace {
 
@@ -84,4 +84,4 @@ std::optional<double> staircase_error_ln(const StaircaseTrack& track, double lev
   return std::sqrt(std::max(0.0, squares - sum * sum / count) / (count - 1));
 }
 
-}  // namespace asperity::studio
+}  // namespace asperity

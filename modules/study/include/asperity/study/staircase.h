@@ -5,7 +5,7 @@
 
 #include "asperity/base/config.h"
 
-namespace asperity::studio {
+namespace asperity {
 
 // A weighted, transformed up-down staircase (Levitt 1971; Kaernbach 1991) over a positive level, in steps of its
 // logarithm.
@@ -79,4 +79,4 @@ StaircaseThreshold staircase_threshold(const StaircaseTrack& track, const Stairc
 // The probability of a right answer at which the rule settles: (w / (1 + w))^(1/n).
 double staircase_target(const StaircaseConfig& config);
 
-}  // namespace asperity::studio
+}  // namespace asperity

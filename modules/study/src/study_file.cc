@@ -1,19 +1,20 @@
-#include "study/study_file.h"
+#include "asperity/study/study_file.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
 
-#include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "asperity/studio/calls.h"
+#include "asperity/study/study_error.h"
 
-namespace asperity::studio {
+namespace asperity {
+
+using Json = nlohmann::ordered_json;
 
 namespace {
 
 constexpr std::size_t kLongestText = 500, kLongestName = 60, kLongestCode = 40, kLongestFile = 300, kMostStimuli = 32;
-constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 20U;
 constexpr int kDeepest = 4;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& key, const std::string& why) {
@@ -153,19 +154,15 @@ Json parse_study_text(std::string_view text, const std::string& where) {
   }
 }
 
-Study read_study_file(const Project& project, const std::string& name) {
-  if (!name.ends_with(kStudyEnding)) {
-    throw Advice(printable(name, 200) + ": is no *" + std::string(kStudyEnding),
-                 "Choose a study that this page has written.");
-  }
-  Json value = parse_study_text(read_file(project.existing(name), kLargestFile), name);
+Study parse_study_file(std::string_view text, const std::string& name) {
+  Json value = parse_study_text(text, name);
   if (!value.is_object() || value.value("format", Json()) != Json(kStudyFormat)) {
-    throw Advice(name + ": is no study: its format is not '" + std::string(kStudyFormat) + "'",
-                 "Choose a study that this page has written.");
+    throw StudyError(StudyFault::kForeignFile,
+                     name + ": is no study: its format is not '" + std::string(kStudyFormat) + "'");
   }
   if (value.value("version", Json()) != Json(kStudyVersion)) {
-    throw Advice(name + ": has a version that this program does not know; it knows " + std::to_string(kStudyVersion),
-                 "Open it with the program that has written it, or a newer one.");
+    throw StudyError(StudyFault::kUnknownVersion, name + ": has a version that this program does not know; it knows " +
+                                                      std::to_string(kStudyVersion));
   }
   value.erase("format");
   value.erase("version");
@@ -183,9 +180,9 @@ std::string format_study_file(const Study& study) {
 
 void check_participant(const std::string& code) {
   if (!is_plain(code, kLongestCode)) {
-    throw Advice("the participant's code '" + printable(code) + "' is not 1 to 40 letters, digits, _ and -",
-                 "Give one such as p01; no names.");
+    throw StudyError(StudyFault::kParticipant,
+                     "the participant's code '" + printable(code) + "' is not 1 to 40 letters, digits, _ and -");
   }
 }
 
-}  // namespace asperity::studio
+}  // namespace asperity

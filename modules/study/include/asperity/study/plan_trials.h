@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "study/study.h"
-#include "study/trial.h"
+#include "asperity/study/study.h"
+#include "asperity/study/trial.h"
 
-namespace asperity::studio {
+namespace asperity {
 
 inline constexpr std::size_t kMostTrials = 5000;
 
@@ -29,4 +29,4 @@ std::vector<bool> plan_sides(const Study& study, std::string_view participant, i
 // Which of the `open` tracks the trial of this number is of.
 int choose_track(const Study& study, std::string_view participant, int run, int trial, const std::vector<int>& open);
 
-}  // namespace asperity::studio
+}  // namespace asperity

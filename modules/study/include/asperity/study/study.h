@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "asperity/base/config.h"
-#include "asperity/session/feel_settings.h"
-#include "study/staircase.h"
+#include "asperity/render/texture_model_choice.h"
+#include "asperity/study/staircase.h"
 
-namespace asperity::studio {
+namespace asperity {
 
 enum class StudyMethod { kPairs, kStaircase, kRating };
 inline constexpr std::array<std::string_view, 3> kStudyMethodNames{"pairs", "staircase", "rating"};
@@ -24,7 +24,7 @@ inline constexpr int kLowestRating = 1, kHighestRating = 7;
 
 // How textures are presented.
 struct StudyPresentation {
-  std::string device = "mouse";  // as on the Feel page
+  std::string device = "mouse";  // by its name, as of `asperity feel`
   double tile_mm = 30.0;
   double gap_mm = 4.0;
   double range_mm = 2.5;
@@ -72,4 +72,4 @@ struct Study {
   }
 };
 
-}  // namespace asperity::studio
+}  // namespace asperity

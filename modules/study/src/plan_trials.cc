@@ -1,12 +1,11 @@
-#include "study/plan_trials.h"
+#include "asperity/study/plan_trials.h"
 
 #include <utility>
 
-#include "asperity/base/error.h"
 #include "asperity/base/random.h"
-#include "asperity/studio/calls.h"
+#include "asperity/study/study_error.h"
 
-namespace asperity::studio {
+namespace asperity {
 
 namespace {
 
@@ -44,13 +43,13 @@ std::size_t trials_of(const Study& study) {
 void check_plan(const Study& study) {
   const std::size_t least = study.method == StudyMethod::kPairs ? 2 : 1;
   if (study.stimuli.size() < least) {
-    throw Advice(least == 2 ? "pairs need two textures at least" : "the study has no textures",
-                 "Choose more textures or images of the folder.");
+    throw StudyError(StudyFault::kTooFewTextures,
+                     least == 2 ? "pairs need two textures at least" : "the study has no textures");
   }
   const std::size_t trials = trials_of(study);
   if (trials > kMostTrials) {
-    throw Advice("the study may take " + std::to_string(trials) + " trials, more than " + std::to_string(kMostTrials),
-                 "Take fewer textures or fewer repetitions.");
+    throw StudyError(StudyFault::kTooManyTrials, "the study may take " + std::to_string(trials) +
+                                                     " trials, more than " + std::to_string(kMostTrials));
   }
   if (study.method == StudyMethod::kStaircase) check_staircase(study.staircase);
 }
@@ -107,4 +106,4 @@ int choose_track(const Study& study, std::string_view participant, int run, int 
   return open.at(below(random, open.size()));
 }
 
-}  // namespace asperity::studio
+}  // namespace asperity

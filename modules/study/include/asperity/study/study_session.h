@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "study/staircase.h"
-#include "study/study.h"
-#include "study/trial.h"
+#include "asperity/study/staircase.h"
+#include "asperity/study/study.h"
+#include "asperity/study/trial.h"
 
-namespace asperity::studio {
+namespace asperity {
 
 // An answer to a trial.
 struct StudyAnswer {
@@ -59,4 +59,4 @@ class StudySession {
   bool may_take_back_ = false;
 };
 
-}  // namespace asperity::studio
+}  // namespace asperity

@@ -1,4 +1,4 @@
-#include "study/study_log.h"
+#include "asperity/study/study_log.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -9,14 +9,17 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "study/study_file.h"
+#include "asperity/study/study_file.h"
 
-namespace asperity::studio {
+namespace asperity {
+
+using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -243,4 +246,4 @@ void StudyLogFile::sync() const {
   if (::fdatasync(file_) != 0) fail(name_, "cannot be brought to the disk");
 }
 
-}  // namespace asperity::studio
+}  // namespace asperity

@@ -2,7 +2,7 @@
 
 #include <span>
 
-namespace asperity::studio {
+namespace asperity {
 
 struct Interval {
   double low = 0.0;
@@ -21,4 +21,4 @@ struct MeanOfRatings {
 // `values` is not empty. The interval is cut off at the ends of the scale.
 MeanOfRatings mean_of_ratings(std::span<const int> values, Interval scale);
 
-}  // namespace asperity::studio
+}  // namespace asperity

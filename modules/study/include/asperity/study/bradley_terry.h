@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace asperity::studio {
+namespace asperity {
 
 // Worths of things that were compared in pairs (Bradley and Terry 1952).
 struct BradleyTerry {
@@ -17,4 +17,4 @@ struct BradleyTerry {
 // is not square or has numbers that are negative or not finite.
 BradleyTerry fit_bradley_terry(const Eigen::MatrixXd& wins);
 
-}  // namespace asperity::studio
+}  // namespace asperity

@@ -1,10 +1,10 @@
-#include "study/interval.h"
+#include "asperity/study/interval.h"
 
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
-namespace asperity::studio {
+namespace asperity {
 
 namespace {
 
@@ -40,4 +40,4 @@ MeanOfRatings mean_of_ratings(std::span<const int> values, Interval scale) {
   return out;
 }
 
-}  // namespace asperity::studio
+}  // namespace asperity

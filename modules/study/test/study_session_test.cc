@@ -1,4 +1,4 @@
-#include "study/study_session.h"
+#include "asperity/study/study_session.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,7 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <regex>
 #include <set>
@@ -14,15 +15,16 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/study/plan_trials.h"
+#include "asperity/study/study_file.h"
+#include "asperity/study/study_log.h"
+#include "asperity/study/study_results.h"
 #include "asperity/testkit/temp_dir.h"
-#include "study/plan_trials.h"
-#include "study/study_file.h"
-#include "study/study_log.h"
-#include "study/study_results.h"
 
-namespace asperity::studio {
+namespace asperity {
 namespace {
 
+using Json = nlohmann::ordered_json;
 using testing::HasSubstr;
 
 Study study_of(StudyMethod method, int stimuli, int repetitions) {
@@ -285,27 +287,19 @@ TEST(StudyLogFile, IsNewAndGrows) {
 }
 
 TEST(StudyFile, ReadsWhatItWrites) {
-  const testkit::TempDir folder;
-  const Project project(folder.path());
   Study study = study_of(StudyMethod::kStaircase, 3, 4);
   study.question = "Which \"one\" — A or B?";
   study.parameter = StudyParameter::kFrictionDifference;
   study.staircase.up_weight = 1.0 / 3.0;
   study.presentation.device = "haply";
-  std::ofstream(folder / "a.study.json") << format_study_file(study);
-  const Study read = read_study_file(project, "a.study.json");
+  const Study read = parse_study_file(format_study_file(study), "a.study.json");
   EXPECT_EQ(format_study_file(read), format_study_file(study));
   EXPECT_EQ(read.question, study.question);
   EXPECT_EQ(read.staircase.up_weight, study.staircase.up_weight);
 }
 
 TEST(StudyFile, SaysWhatIsWrong) {
-  const testkit::TempDir folder;
-  const Project project(folder.path());
-  const auto fault = [&](const std::string& text) {
-    std::ofstream(folder / "a.study.json") << text;
-    return fault_of([&] { read_study_file(project, "a.study.json"); });
-  };
+  const auto fault = [&](const std::string& text) { return fault_of([&] { parse_study_file(text, "a.study.json"); }); };
   const auto with = [&](const std::string& rest) { return fault(R"({"format":"asperity.study","version":1,)" + rest); };
   EXPECT_THAT(fault("{"), HasSubstr("a.study.json: is not JSON"));
   EXPECT_THAT(fault("[]"), HasSubstr("is no study"));
@@ -322,4 +316,4 @@ TEST(StudyFile, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace asperity::studio
+}  // namespace asperity

@@ -5,10 +5,10 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
-#include "study/bradley_terry.h"
-#include "study/interval.h"
+#include "asperity/study/bradley_terry.h"
+#include "asperity/study/interval.h"
 
-namespace asperity::studio {
+namespace asperity {
 namespace {
 
 // Two things: ln(wins / losses) between them, its variance 1/wins + 1/losses.
@@ -115,4 +115,4 @@ TEST(MeanOfRatings, HasTheIntervalOfStudent) {
 }
 
 }  // namespace
-}  // namespace asperity::studio
+}  // namespace asperity

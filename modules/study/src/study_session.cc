@@ -1,11 +1,11 @@
-#include "study/study_session.h"
+#include "asperity/study/study_session.h"
 
 #include <utility>
 
 #include "asperity/base/error.h"
-#include "study/plan_trials.h"
+#include "asperity/study/plan_trials.h"
 
-namespace asperity::studio {
+namespace asperity {
 
 StudySession::StudySession(Study study, std::string participant, int run)
     : study_(std::move(study)), participant_(std::move(participant)), run_(run) {
@@ -82,4 +82,4 @@ void StudySession::take_back() {
   go_on();
 }
 
-}  // namespace asperity::studio
+}  // namespace asperity

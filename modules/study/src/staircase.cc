@@ -1,24 +1,23 @@
-#include "study/staircase.h"
+#include "asperity/study/staircase.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "asperity/studio/calls.h"
+#include "asperity/study/study_error.h"
 
-namespace asperity::studio {
+namespace asperity {
 
 void check_staircase(const StaircaseConfig& config) {
   if (!(config.lowest_level <= config.start_level && config.start_level <= config.highest_level)) {
-    throw Advice("staircase: the start level " + number_text(config.start_level) + " is not between the lowest " +
-                     number_text(config.lowest_level) + " and the highest " + number_text(config.highest_level),
-                 "Change one of the three.");
+    throw StudyError(StudyFault::kStaircaseLevels,
+                     "staircase: the start level " + number_text(config.start_level) + " is not between the lowest " +
+                         number_text(config.lowest_level) + " and the highest " + number_text(config.highest_level));
   }
   if (config.reversals < config.halvings + 2) {
-    throw Advice("staircase: " + std::to_string(config.reversals) + " reversals leave no two after " +
-                     std::to_string(config.halvings) + " halvings",
-                 "Ask for two reversals more than halvings, or more.");
+    throw StudyError(StudyFault::kStaircaseReversals, "staircase: " + std::to_string(config.reversals) +
+                                                          " reversals leave no two after " +
+                                                          std::to_string(config.halvings) + " halvings");
   }
 }
 
@@ -76,4 +75,4 @@ double staircase_target(const StaircaseConfig& config) {
   return std::pow(config.up_weight / (1.0 + config.up_weight), 1.0 / config.down);
 }
 
-}  // namespace asperity::studio
+}  // namespace asperity

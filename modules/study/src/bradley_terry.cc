@@ -1,4 +1,4 @@
-#include "study/bradley_terry.h"
+#include "asperity/study/bradley_terry.h"
 
 #include <cmath>
 #include <vector>
@@ -7,7 +7,7 @@
 
 #include "asperity/base/error.h"
 
-namespace asperity::studio {
+namespace asperity {
 
 namespace {
 
@@ -77,4 +77,4 @@ BradleyTerry fit_bradley_terry(const Eigen::MatrixXd& wins) {
   return out;
 }
 
-}  // namespace asperity::studio
+}  // namespace asperity
