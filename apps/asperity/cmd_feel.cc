@@ -3,16 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/device/device_registry.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/write_flight_record.h"
 #include "asperity/pipeline/config_json.h"
@@ -41,6 +45,18 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 4> kEndNames{"duration", "device_ended", "stopped", "fault"};
 
+// "sim (the default), replay or haply": all devices, with remarks on some.
+std::string device_list(std::string_view last, const std::map<std::string_view, std::string_view>& remarks) {
+  std::string out;
+  const std::span<const DeviceKind> kinds = device_kinds();
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    if (k > 0) out += k + 1 < kinds.size() ? ", " : fmt::format(" {} ", last);
+    out += kinds[k].name;
+    if (remarks.contains(kinds[k].name)) out += fmt::format(" ({})", remarks.at(kinds[k].name));
+  }
+  return out;
+}
+
 class FeelCommand : public Command {
  public:
   explicit FeelCommand(CLI::App& root)
@@ -53,9 +69,9 @@ class FeelCommand : public Command {
     parser().add_option("--tile", options_.tile, "Side of a height map's tile; 10mm")->type_name("LENGTH");
     parser().add_option("--height-range", options_.height_range, "From black to white; 2.5mm")->type_name("LENGTH");
     parser()
-        .add_option("--device", device_,
-                    "sim (the default: a modelled hand), replay (the default with --replay), haply, openhaptics, dhd, "
-                    "2diy, audio or gamepad")
+        .add_option(
+            "--device", device_,
+            device_list("or", {{"sim", "the default: a modelled hand"}, {"replay", "the default with --replay"}}))
         ->type_name("NAME");
     parser()
         .add_option("--replay", replay_,
@@ -124,9 +140,9 @@ class FeelCommand : public Command {
     FeelDrive drive;
     if (!replay_.empty()) {
       drive = read_drive(replay_, mapped_, scene, settings_, observer);
-    } else if (kind_.driven && from_.empty() && input_.tile_stroke_m) {
+    } else if (kind_.driven() && from_.empty() && input_.tile_stroke_m) {
       drive = make_drive(scene, input_.tile_stroke_m->front(), input_.tile_stroke_m->back(), settings_);
-    } else if (kind_.driven) {
+    } else if (kind_.driven()) {
       drive = make_drive(scene, point("--from", from_), point("--to", to_), settings_);
     }
     if (settings_.servo.duration_s > 0.0) cut_drive(drive, settings_.servo.duration_s, settings_.servo.rate_Hz);
@@ -135,7 +151,7 @@ class FeelCommand : public Command {
     warn_of(drive.problems);
     const std::unique_ptr<HapticDevice> device = open_device(device_, drive, settings_);
     observer.update("scene", 0.0);
-    FeltModel felt = make_felt_model(scene, device->info(), kind_.driven, settings_);
+    FeltModel felt = make_felt_model(scene, device->info(), kind_.driven(), settings_);
     warnings_ = felt.warnings;
     SnapshotExchange<const RenderModel> model(std::move(felt.model));
     const fs::path log = !log_.empty() ? fs::path(log_) : folder ? folder->path() / "log.csv" : fs::path();
@@ -188,20 +204,19 @@ class FeelCommand : public Command {
   void choose_device() {
     if (device_.empty()) device_ = replay_.empty() ? "sim" : "replay";
     if (device_ == "mouse") throw UsageError("--device mouse: the mouse feels in the studio's page alone");
-    const std::optional<DeviceKind> kind = device_kind(device_);
-    if (!kind) {
-      throw UsageError("--device: '" + printable(device_) +
-                       "' is none of sim, replay, haply, openhaptics, dhd, 2diy, audio and gamepad");
-    }
+    const DeviceKind* kind = find_device_kind(device_);
+    if (!kind) throw UsageError("--device: '" + printable(device_) + "' is none of " + device_list("and", {}));
     kind_ = *kind;
-    if (device_ == "2diy" && settings_.two_diy.port.empty()) {
-      throw UsageError("--device 2diy: its serial port is missing, --set 2diy.port=/dev/ttyACM0 or such");
+    if (const auto needed = settings_.devices.missing(device_)) {
+      throw UsageError(fmt::format("--device {}: its {} is missing, --set {}={} or such", device_, needed->what,
+                                   needed->setting, needed->example));
     }
-    if (device_ == "replay" && replay_.empty()) throw UsageError("--device replay needs --replay");
-    if (!kind_.driven && !replay_.empty()) throw UsageError("--replay: " + device_ + " is moved by a hand");
+    if (kind_.mover == DeviceMover::kPath && replay_.empty())
+      throw UsageError("--device " + device_ + " needs --replay");
+    if (!kind_.driven() && !replay_.empty()) throw UsageError("--replay: " + device_ + " is moved by a hand");
     if (mapped_ && replay_.empty()) throw UsageError("--mapped needs --replay");
     if (from_.empty() != to_.empty()) throw UsageError("--from and --to belong together");
-    if (!from_.empty() && (!kind_.driven || !replay_.empty())) throw UsageError("--from: no hand is modelled");
+    if (!from_.empty() && (!kind_.driven() || !replay_.empty())) throw UsageError("--from: no hand is modelled");
     if (kind_.felt) settings_.servo.paced = true;
   }
 
@@ -216,7 +231,7 @@ class FeelCommand : public Command {
     std::optional<FeelLog> rows;
     if (!log.empty()) rows.emplace(log, settings_.servo.timed);
     ServoConfig config = settings_.servo;
-    if (kind_.driven) config.duration_s = 0.0;  // the path has it: no ramp follows
+    if (kind_.driven()) config.duration_s = 0.0;  // the path has it: no ramp follows
     const double whole_s = settings_.servo.duration_s;
     std::optional<ForceHold> hold;
     if (kind_.felt) hold.emplace();
@@ -229,7 +244,7 @@ class FeelCommand : public Command {
     });
     device.close();  // before anything that takes time
     hold.reset();
-    if (servo.end == ServoEnd::kStopped && kind_.driven) throw Cancelled();
+    if (servo.end == ServoEnd::kStopped && kind_.driven()) throw Cancelled();
     if (rows) rows->commit();
     if (servo.end == ServoEnd::kFault) keep_flight_record(log, servo);
     return servo;

@@ -125,7 +125,7 @@ void FeelPage::swap_model() {
   shared_.jobs.start(
       "Bringing the change to the device", kSwapSlot,
       [result, world = world_, info = running_.info, kind = running_.kind, config = running_.config](const Observer&) {
-        *result = make_swapped_model(*world, info, kind.driven || kind.name == "mouse", config);
+        *result = make_swapped_model(*world, info, kind.driven() || kind.name == "mouse", config);
       },
       [this, result, number = run_number_](std::exception_ptr error) {
         if (error) return complain(error);

@@ -29,7 +29,7 @@ struct FeelPage::Opening {
   OpenedFeel opened;
 };
 
-void FeelPage::check_start(const FeelDeviceKind& kind, const Request& request) const {
+void FeelPage::check_start(const DeviceKind& kind, const Request& request) const {
   if (state_ != State::kIdle) throw Advice("a scene is being felt already", "Stop it first.");
   if (kind.felt && !shared_.may_command_forces) {
     throw Advice("forces are not commanded from here",
@@ -43,7 +43,7 @@ void FeelPage::check_start(const FeelDeviceKind& kind, const Request& request) c
 
 void FeelPage::begin(const Request& request) {
   const FeelChoices chosen = choices();
-  const FeelDeviceKind& kind = feel_device_kind(chosen.device);
+  const DeviceKind& kind = feel_device_kind(chosen.device);
   check_start(kind, request);
   auto opening = std::make_shared<Opening>();
   opening->revision = revision_;
@@ -59,7 +59,7 @@ void FeelPage::begin(const Request& request) {
 }
 
 void FeelPage::visit(const Request& request, FeelVisit visit) {
-  const FeelDeviceKind& kind = feel_device_kind(visit.setup.device);
+  const DeviceKind& kind = feel_device_kind(visit.setup.device);
   check_start(kind, request);
   if (!shared_.may_command_forces) {
     throw Advice("nothing could be felt: forces are not commanded from here",

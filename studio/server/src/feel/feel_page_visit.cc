@@ -19,7 +19,7 @@ void FeelPage::change_visit(FeelVisit visit) {
         const Scene scene = visit.make(setup);
         // Where the device stands, how fast it is served and how safely is settled for the run.
         setup.config.feel.servo = servo;
-        *result = make_felt_model(scene, info, kind.driven || kind.name == "mouse", setup.config.feel);
+        *result = make_felt_model(scene, info, kind.driven() || kind.name == "mouse", setup.config.feel);
       },
       [this, result, key = visit.key, number = run_number_, change = ++visit_changes_](std::exception_ptr error) {
         if (!run_ || number != run_number_ || change != visit_changes_) return;

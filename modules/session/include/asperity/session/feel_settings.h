@@ -6,13 +6,8 @@
 
 #include "asperity/base/config.h"
 #include "asperity/device/device_caps.h"
-#include "asperity/device/dhd_device.h"
+#include "asperity/device/device_registry.h"
 #include "asperity/device/hand_model_config.h"
-#include "asperity/device/open_audio_sink.h"
-#include "asperity/device/open_haply.h"
-#include "asperity/device/open_rumble_sink.h"
-#include "asperity/device/open_two_diy.h"
-#include "asperity/device/openhaptics_device.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/pipeline/process_config.h"
 #include "asperity/pipeline/score_rendering.h"
@@ -30,12 +25,7 @@ struct FeelSettings {
   ServoConfig servo;
   SurfaceStrokeConfig stroke;
   HandModelConfig hand;
-  HaplyConfig haply;
-  OpenHapticsConfig openhaptics;
-  DhdConfig dhd;
-  TwoDiyConfig two_diy;
-  AudioSinkConfig audio;
-  RumbleSinkConfig gamepad;
+  DeviceConfigs devices;
   DeviceCapsConfig caps;
   ScoreConfig score;
   ProcessConfig process;
@@ -70,12 +60,7 @@ struct FeelSettings {
     v.group("servo", servo);
     v.group("stroke", stroke);
     v.group("hand", hand);
-    v.group("haply", haply);
-    v.group("openhaptics", openhaptics);
-    v.group("dhd", dhd);
-    v.group("2diy", two_diy);
-    v.group("audio", audio);
-    v.group("gamepad", gamepad);
+    devices.visit(v);
     v.group("caps", caps);
     v.group("score", score);
     v.group("process", process);
