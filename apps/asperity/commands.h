@@ -24,6 +24,9 @@ std::unique_ptr<Command> make_roughness(CLI::App& root);
 std::unique_ptr<Command> make_studio(CLI::App& root);
 std::unique_ptr<Command> make_track(CLI::App& root);
 
+// The commands below `asperity study`.
+std::unique_ptr<Command> make_study_summarize(CLI::App& study);
+
 // The commands below `asperity texture`.
 std::unique_ptr<Command> make_texture_fit(CLI::App& texture);
 std::unique_ptr<Command> make_texture_info(CLI::App& texture);

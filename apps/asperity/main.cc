@@ -41,6 +41,9 @@ struct Program {
          {make_texture_fit, make_texture_info, make_texture_synthesize, make_texture_swap, make_texture_compare}) {
       commands.push_back(make(*texture));
     }
+    CLI::App* study = parser.add_subcommand("study", "Work out what people answered in a study of the studio");
+    study->require_subcommand(1);
+    commands.push_back(make_study_summarize(*study));
     CLI::App* markers =
         parser.add_subcommand("markers", "Print tags and boards at true scale, and find them in images");
     markers->require_subcommand(1);

@@ -76,6 +76,7 @@ std::vector<std::uint32_t> crcs_of(const Json& value, const Study& study, const 
 
 // The session before its first row, and the check sums of its textures.
 StudyLog log_of(std::string_view text, const std::string& name) {
+  if (text.empty()) throw Error(name + ": is empty");
   if (!text.starts_with(kMagic)) throw Error(name + ":1: is no log of a study of version 1");
   const Json head = parse_study_text(text.substr(kMagic.size(), text.find('\n') - kMagic.size()), name + ":1");
   const bool has_crcs = head.is_object() && head.contains(kCrcs);

@@ -1,116 +1,99 @@
 #include "asperity/study/study_results.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <nlohmann/json.hpp>
-#include <vector>
+#include <fmt/format.h>
 
-#include "asperity/study/bradley_terry.h"
-#include "asperity/study/interval.h"
+#include <algorithm>
+
+#include "asperity/base/text.h"
 #include "asperity/study/staircase_error.h"
 
 namespace asperity {
 
-using Json = nlohmann::ordered_json;
-
 namespace {
 
-Json share_json(double successes, double trials) {
-  const Interval interval = wilson_interval(successes, trials);
-  Json out;
-  out["count"] = successes;
-  out["trials"] = trials;
-  out["share"] = trials > 0.0 ? Json(successes / trials) : Json();
-  out["low"] = interval.low;
-  out["high"] = interval.high;
+ShareOfTrials share_of(double count, double trials) { return {count, trials, wilson_interval(count, trials)}; }
+
+ShareOfTrials share_of_left(const StudySession& session) {
+  const auto left = std::count_if(session.answers().begin(), session.answers().end(),
+                                  [](const StudyAnswer& answer) { return answer.value == 0; });
+  return share_of(static_cast<double>(left), static_cast<double>(session.answers().size()));
+}
+
+std::optional<double> median_response_s(const StudySession& session) {
+  std::vector<double> responses_s;
+  for (const StudyAnswer& answer : session.answers()) responses_s.push_back(answer.response_s);
+  if (responses_s.empty()) return std::nullopt;
+  std::sort(responses_s.begin(), responses_s.end());
+  const std::size_t middle = responses_s.size() / 2;
+  return responses_s.size() % 2 == 1 ? responses_s[middle] : 0.5 * (responses_s[middle - 1] + responses_s[middle]);
+}
+
+PairsResults pairs_of(const StudySession& session) {
+  PairsResults out;
+  out.wins = count_wins(session);
+  out.fit = fit_bradley_terry(out.wins);
+  const Eigen::MatrixXd& wins = out.wins;
+  for (int i = 0; i < wins.rows(); ++i) {
+    for (int j = i + 1; j < wins.cols(); ++j) {
+      out.pairs.push_back({i, j, share_of(wins(i, j), wins(i, j) + wins(j, i))});
+    }
+  }
   return out;
 }
 
-Json left_json(const StudySession& session) {
-  const auto left = std::count_if(session.answers().begin(), session.answers().end(),
-                                  [](const StudyAnswer& answer) { return answer.value == 0; });
-  return share_json(static_cast<double>(left), static_cast<double>(session.answers().size()));
-}
-
-void add_pairs(Json& out, const StudySession& session) {
-  const Eigen::MatrixXd wins = count_wins(session);
-  const BradleyTerry fit = fit_bradley_terry(wins);
-  Json table = Json::array(), pairs = Json::array(), worths = Json::array();
-  for (Eigen::Index i = 0; i < wins.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < wins.cols(); ++j) {
-      row.push_back(i == j ? Json() : Json(wins(i, j)));
-      if (j <= i) continue;
-      Json pair = share_json(wins(i, j), wins(i, j) + wins(j, i));
-      pair["first"] = i;
-      pair["second"] = j;
-      pairs.push_back(std::move(pair));
-    }
-    table.push_back(std::move(row));
-    if (!fit.exists) continue;
-    Json worth;
-    worth["worth_ln"] = fit.worth_ln(i);
-    worth["error_ln"] = std::sqrt(std::max(0.0, fit.covariance(i, i)));
-    worths.push_back(std::move(worth));
-  }
-  out["wins"] = std::move(table);
-  out["pairs"] = std::move(pairs);
-  out["worths_exist"] = fit.exists;
-  out["worths_converged"] = fit.converged;
-  out["worths"] = std::move(worths);
-  out["left"] = left_json(session);
-}
-
-void add_tracks(Json& out, const StudySession& session) {
-  Json tracks = Json::array();
+StaircaseResults tracks_of(const StudySession& session) {
+  const StaircaseConfig& config = session.study().staircase;
+  StaircaseResults out;
+  out.target = staircase_target(config);
   for (std::size_t k = 0; k < session.tracks().size(); ++k) {
     const StaircaseTrack& track = session.tracks()[k];
-    const StaircaseThreshold threshold = staircase_threshold(track, session.study().staircase);
-    Json each;
-    each["stimulus"] = session.stimulus_of(k);
-    each["repetition"] = k / session.study().stimuli.size() + 1;
-    each["levels"] = track.levels();
-    each["correct"] = track.correct();
-    each["reversals"] = track.reversal_trials();
-    each["done"] = track.done();
-    each["threshold"] = threshold.level ? Json(*threshold.level) : Json();
-    const auto error_ln =
-        threshold.level ? staircase_error_ln(track, *threshold.level, session.study().staircase) : std::nullopt;
-    each["error_ln"] = error_ln ? Json(*error_ln) : Json();
-    each["pairs"] = threshold.pairs;
-    each["at_limit"] = threshold.at_limit;
-    tracks.push_back(std::move(each));
+    TrackResults each{
+        session.stimulus_of(k), k / session.study().stimuli.size() + 1, track, staircase_threshold(track, config), {}};
+    if (each.threshold.level) each.error_ln = staircase_error_ln(track, *each.threshold.level, config);
+    out.tracks.push_back(std::move(each));
   }
-  out["target"] = staircase_target(session.study().staircase);
-  out["tracks"] = std::move(tracks);
-  out["left"] = left_json(session);
+  return out;
 }
 
-void add_ratings(Json& out, const StudySession& session) {
-  Json ratings = Json::array();
-  for (std::size_t k = 0; k < session.study().stimuli.size(); ++k) {
-    std::vector<int> values;
-    std::array<int, kHighestRating - kLowestRating + 1> counts{};
-    for (const StudyAnswer& answer : session.answers()) {
-      if (answer.trial.left != static_cast<int>(k)) continue;
-      values.push_back(answer.value);
-      ++counts.at(static_cast<std::size_t>(answer.value - kLowestRating));
-    }
-    Json each;
-    each["stimulus"] = k;
-    each["count"] = values.size();
-    each["counts"] = counts;
-    if (!values.empty()) {
-      const MeanOfRatings mean = mean_of_ratings(values, {kLowestRating, kHighestRating});
-      each["mean"] = mean.mean;
-      each["deviation"] = values.size() > 1 ? Json(mean.deviation) : Json();
-      each["low"] = mean.interval.low;
-      each["high"] = mean.interval.high;
-    }
-    ratings.push_back(std::move(each));
+std::vector<TextureRatings> ratings_of(const StudySession& session) {
+  std::vector<TextureRatings> out(session.study().stimuli.size());
+  for (const StudyAnswer& answer : session.answers()) {
+    TextureRatings& each = out.at(static_cast<std::size_t>(answer.trial.left));
+    each.values.push_back(answer.value);
+    ++each.counts.at(static_cast<std::size_t>(answer.value - kLowestRating));
   }
-  out["ratings"] = std::move(ratings);
+  for (TextureRatings& each : out) {
+    if (!each.values.empty()) each.mean = mean_of_ratings(each.values, {kLowestRating, kHighestRating});
+  }
+  return out;
+}
+
+std::string why_no_threshold(const StaircaseThreshold& threshold) {
+  return threshold.at_limit ? "a reversal is at the lowest or the highest level"
+                            : "fewer than two reversals count after the halvings";
+}
+
+void add_undetermined_tracks(const StudyResults& results, std::vector<std::string>& out) {
+  for (const TrackResults& each : results.staircase->tracks) {
+    const std::string name =
+        fmt::format("{}, repetition {}",
+                    printable(results.study.stimuli.at(static_cast<std::size_t>(each.stimulus)), 200), each.repetition);
+    if (!each.threshold.level) {
+      out.push_back(fmt::format("threshold of {}: {}", name, why_no_threshold(each.threshold)));
+    } else if (!each.error_ln) {
+      out.push_back(
+          fmt::format("standard error of the threshold of {}: most simulated tracks have no threshold", name));
+    }
+  }
+}
+
+void add_undetermined_ratings(const StudyResults& results, std::vector<std::string>& out) {
+  for (std::size_t k = 0; k < results.ratings.size(); ++k) {
+    const std::size_t count = results.ratings[k].values.size();
+    const std::string name = printable(results.study.stimuli.at(k), 200);
+    if (count == 0) out.push_back(fmt::format("mean rating of {}: it has no rating", name));
+    if (count == 1) out.push_back(fmt::format("interval of the mean rating of {}: it has one rating", name));
+  }
 }
 
 }  // namespace
@@ -126,30 +109,35 @@ Eigen::MatrixXd count_wins(const StudySession& session) {
   return wins;
 }
 
-Json study_results(const StudySession& session) {
-  const Study& study = session.study();
-  Json out;
-  out["name"] = study.name;
-  out["method"] = kStudyMethodNames.at(static_cast<std::size_t>(study.method));
-  out["parameter"] = kStudyParameterNames.at(static_cast<std::size_t>(study.parameter));
-  out["question"] = study.question;
-  out["object"] = study.object;
-  out["participant"] = session.participant();
-  out["run"] = session.run();
-  out["stimuli"] = study.stimuli;
-  out["answers"] = session.answers().size();
-  out["whole"] = !session.trial();
-  std::vector<double> responses_s;
-  for (const StudyAnswer& answer : session.answers()) responses_s.push_back(answer.response_s);
-  std::sort(responses_s.begin(), responses_s.end());
-  const std::size_t middle = responses_s.size() / 2;
-  out["median_response_s"] = responses_s.empty() ? Json()
-                             : responses_s.size() % 2 == 1
-                                 ? Json(responses_s[middle])
-                                 : Json(0.5 * (responses_s[middle - 1] + responses_s[middle]));
-  if (study.method == StudyMethod::kPairs) add_pairs(out, session);
-  if (study.method == StudyMethod::kStaircase) add_tracks(out, session);
-  if (study.method == StudyMethod::kRating) add_ratings(out, session);
+StudyResults study_results(const StudySession& session) {
+  StudyResults out;
+  out.study = session.study();
+  out.participant = session.participant();
+  out.run = session.run();
+  out.answers = session.answers().size();
+  out.whole = !session.trial();
+  out.median_response_s = median_response_s(session);
+  if (out.study.method == StudyMethod::kPairs) out.pairs = pairs_of(session);
+  if (out.study.method == StudyMethod::kStaircase) out.staircase = tracks_of(session);
+  if (out.study.method == StudyMethod::kRating) {
+    out.ratings = ratings_of(session);
+  } else {
+    out.left = share_of_left(session);
+  }
+  return out;
+}
+
+std::vector<std::string> undetermined(const StudyResults& results) {
+  std::vector<std::string> out;
+  if (results.answers == 0) return {"all results: no trial is answered"};
+  if (results.pairs && !results.pairs->fit.exists) {
+    out.emplace_back(
+        "worths: some textures won all trials against the others, lost all, or were not compared with them");
+  } else if (results.pairs && !results.pairs->fit.converged) {
+    out.emplace_back("worths: the iteration did not converge");
+  }
+  if (results.staircase) add_undetermined_tracks(results, out);
+  add_undetermined_ratings(results, out);
   return out;
 }
 

@@ -15,10 +15,10 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/study/format_study_results.h"
 #include "asperity/study/plan_trials.h"
 #include "asperity/study/study_file.h"
 #include "asperity/study/study_log.h"
-#include "asperity/study/study_results.h"
 #include "asperity/testkit/temp_dir.h"
 
 namespace asperity {
@@ -126,7 +126,7 @@ TEST(StudySession, RatesEachTextureAloneOnceARepetition) {
     session.give(2 + session.trial()->left, 1.0, 1.0);
   }
   for (int k = 0; k < 4; ++k) EXPECT_EQ(seen[k], 2);
-  const Json results = study_results(session);
+  const Json results = study_results_json(study_results(session));
   EXPECT_EQ(results["ratings"][3]["mean"], 5.0);
   EXPECT_EQ(results["ratings"][3]["counts"], Json({0, 0, 0, 0, 2, 0, 0}));
   EXPECT_THROW(session.give(4, 1.0, 1.0), Error);
@@ -147,7 +147,7 @@ TEST(StudySession, AStaircaseHidesAmongItsTracksAndEnds) {
     session.give(finds == trial.comparison_right ? 1 : 0, 1.0, 1.0);
   }
   EXPECT_GE(early.size(), 3U);
-  const Json results = study_results(session);
+  const Json results = study_results_json(study_results(session));
   ASSERT_EQ(results["tracks"].size(), 4U);
   for (const Json& track : results["tracks"]) {
     // Between the steps to each side of 0.3.

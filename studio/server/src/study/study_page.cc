@@ -8,8 +8,8 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/studio/calls.h"
+#include "asperity/study/format_study_results.h"
 #include "asperity/study/study_file.h"
-#include "asperity/study/study_results.h"
 #include "complaint.h"
 #include "config_fields.h"
 #include "feel/feel_devices.h"
@@ -141,7 +141,7 @@ void StudyPage::bind_logs(Calls& calls) {
     answer_by_job(shared_.jobs, request, "", "",
                   [project = shared_.project, name = request.text("log")](const Observer&) {
                     const StudyLog log = read_log(project, name);
-                    Json out = study_results(log.session);
+                    Json out = study_results_json(study_results(log.session));
                     out["log"] = name;
                     out["problems"] = Json::array();
                     for (const Problem& problem : log.problems) out["problems"].push_back(problem.message);
@@ -152,7 +152,7 @@ void StudyPage::bind_logs(Calls& calls) {
     check_closed(request);
     answer_by_job(shared_.jobs, request, "", "",
                   [project = shared_.project, name = request.text("log")](const Observer&) {
-                    const Json results = study_results(read_log(project, name).session);
+                    const Json results = study_results_json(study_results(read_log(project, name).session));
                     Json out;
                     out["name"] = keep_results(project, name, results.dump(2) + '\n');
                     return out;
