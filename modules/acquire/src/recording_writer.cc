@@ -1,20 +1,18 @@
 #include "recording_writer.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/recording/uncalibrated.h"
 #include "asperity/recording/write_recording.h"
 
 namespace asperity {
 
 namespace {
-
-using Json = nlohmann::json;
 
 std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(time_s / kNanosecond_s)); }
 
@@ -42,7 +40,7 @@ std::optional<ForceCalibration> force_of(const Calibration& calibration) {
 
 Json numbers(const Eigen::Vector3d& values) {
   Json out = Json::array();
-  for (const double value : values) out.push_back(std::isfinite(value) ? Json(value) : Json());
+  for (const double value : values) out.push_back(number_or_null(value));
   return out;
 }
 
@@ -169,7 +167,7 @@ RecordingInfo RecordingWriter::current_info(bool finished) const {
   problem("gravity_implausible", gravity.implausible ? 1 : 0);
   problem("columns_missing", columns_missing_ ? 1 : 0);
 
-  Json extra = Json::parse(info_.extra_json.empty() ? "{}" : info_.extra_json, nullptr, false);
+  Json extra = parse_json_or_null(info_.extra_json.empty() ? "{}" : info_.extra_json);
   if (!extra.is_object()) throw Error("recorder: extra_json is not a JSON object: " + printable(info_.extra_json));
   Json recorder;
   recorder["state"] = finished ? "finished" : "recording";
@@ -187,7 +185,7 @@ RecordingInfo RecordingWriter::current_info(bool finished) const {
     recorder["probe_firmware"] = printable(description_->firmware);
   }
   extra["recorder"] = std::move(recorder);
-  out.extra_json = extra.dump();
+  out.extra_json = extra.dump_sorted();
   return out;
 }
 

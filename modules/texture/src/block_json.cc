@@ -28,7 +28,7 @@ double read_number(const LocatedJson& json, const Json& value, const std::string
 
 std::string read_text(const LocatedJson& json, const Json& value, const std::string& path) {
   if (!value.is_string()) json.fail(path, "is not a text");
-  const auto& result = value.get_ref<const std::string&>();
+  const std::string& result = value.text();
   if (result.size() > kLongestText_bytes)
     json.fail(path, "is longer than " + std::to_string(kLongestText_bytes) + " bytes");
   return result;

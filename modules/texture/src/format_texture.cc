@@ -1,11 +1,10 @@
 #include <utility>
 #include <variant>
 
-#include <nlohmann/json.hpp>
-
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/texture/texture_file.h"
 #include "block_json.h"
 #include "model_block.h"
@@ -13,13 +12,13 @@
 namespace asperity {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 // One line, whatever layout the text had.
 std::string json(const std::string& value, const char* key) {
-  const Json parsed = Json::parse(value, nullptr, false);
-  if (parsed.is_discarded()) throw Error(std::string("texture: '") + key + "' is not JSON: " + printable(value));
-  return parsed.dump();
+  try {
+    return parse_json(value).dump();
+  } catch (const Error&) {
+    throw Error(std::string("texture: '") + key + "' is not JSON: " + printable(value));
+  }
 }
 
 }  // namespace

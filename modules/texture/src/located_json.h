@@ -1,18 +1,17 @@
 #pragma once
 
 #include <initializer_list>
-#include <map>
 #include <string>
 #include <string_view>
 
-#include <nlohmann/json.hpp>
+#include "asperity/json/json.h"
 
 namespace asperity {
 
 // A JSON document that knows on which line each key stands, for messages.
 class LocatedJson {
  public:
-  using Json = nlohmann::ordered_json;
+  using Json = asperity::Json;
 
   // Throws Error for text that is not one JSON object, is nested deeper than 32, or has a key twice.
   LocatedJson(std::string_view text, std::string name);
@@ -33,7 +32,6 @@ class LocatedJson {
 
   std::string name_;
   Json root_;
-  std::map<std::string, std::size_t> line_;  // of keys, by dotted path
 };
 
 }  // namespace asperity

@@ -5,13 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include <Eigen/Core>
-
 namespace asperity {
-
-// A number as it is written in our text files: whole numbers without exponent or point, others as the
-// shortest text that reads back exactly.
-void append_exact(std::string& out, double value);
 
 // Writes JSON with one key a line and arrays of numbers on one line. Throws Error for nan and inf.
 class JsonWriter {
@@ -23,8 +17,8 @@ class JsonWriter {
   void text(std::string_view key, std::string_view value);
   void boolean(std::string_view key, bool value);
   void numbers(std::string_view key, const double* values, std::size_t count);
-  void vector(std::string_view key, const Eigen::Vector3d& value) { numbers(key, value.data(), 3); }
-  void matrix(std::string_view key, const Eigen::Matrix<double, 3, Eigen::Dynamic>& value);
+  // `rows` lists of `columns` numbers, which are kept column by column.
+  void matrix(std::string_view key, const double* values, std::size_t rows, std::size_t columns);
   void raw(std::string_view key, std::string_view json);
 
   void begin_object(std::string_view key);
@@ -39,7 +33,7 @@ class JsonWriter {
   void close(char bracket);
   void next(std::string_view key);
   void value(double number, std::string_view key);
-  void row(const double* values, std::size_t count, std::ptrdiff_t stride, std::string_view key);
+  void row(const double* values, std::size_t count, std::size_t stride, std::string_view key);
 
   std::string out_;
   int depth_ = 0;
