@@ -4,7 +4,6 @@
 #include <array>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "asperity/base/version.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/write_flight_record.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/pipeline/score_rendering.h"
 #include "commands.h"
@@ -35,8 +35,6 @@ namespace asperity::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 constexpr std::array<const char*, 4> kEndNames{"duration", "device_ended", "stopped", "fault"};
 
 class FeelCommand : public Command {
@@ -150,7 +148,7 @@ class FeelCommand : public Command {
                               settings_.score, observer);
       if (!score->trustworthy) distrust("real against rendered: " + score->verdict);
     }
-    const std::string json = to_json(servo, *device, score).dump(2, ' ', false, Json::error_handler_t::replace);
+    const std::string json = to_json(servo, *device, score).dump_repaired(2);
     if (folder) {
       write_file(folder->path() / "result.json", json + "\n");
       write_listing(folder->path());
@@ -266,7 +264,7 @@ class FeelCommand : public Command {
     out["trustworthy"] = verdict_.empty();
     out["verdict"] = verdict_;
     out["warnings"] = warnings_;
-    out["config"] = Json::parse(config_json(fields()));
+    out["config"] = parse_json(config_json(fields()));
     out["asperity"] = kVersion;
     return out;
   }

@@ -12,8 +12,6 @@
 namespace asperity::app {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 Scene read_export_source(const fs::path& path) {
   const auto texture_alone = [](const fs::path& file) {
     Scene scene;

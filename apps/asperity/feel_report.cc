@@ -11,8 +11,6 @@ namespace asperity::app {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 Json spectrum_json(const SpectrumAgreement& spectrum, const char* unit) {
   Json out;
   out[std::string("real_rms_") + unit] = number_or_null(spectrum.real_rms);

@@ -13,8 +13,6 @@ namespace asperity::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 int next_index(const SceneObject& object) {
   int index = 0;
   for (const SceneTexture& texture : object.textures) index = std::max(index, texture.index);

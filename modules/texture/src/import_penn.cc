@@ -22,8 +22,8 @@ std::size_t line_at(std::string_view text, std::size_t offset) {
                  text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text.size())), '\n'));
 }
 
-// Before anything is built from it: no declared entities, no deep nesting. Goes over the text once; a quoted value of an
-// attribute may hold what ends a tag elsewhere.
+// Before anything is built from it: no declared entities, no deep nesting. Goes over the text once; a quoted value of
+// an attribute may hold what ends a tag elsewhere.
 class ShapeCheck {
  public:
   ShapeCheck(std::string_view text, const std::string& name) : text_(text), name_(name) {}

@@ -127,8 +127,8 @@ class PaintPage : public Page {
   void preview(const Request& request) {
     const Painting painting = this->painting();
     const fs::path file = shared_.project.existing(painting.object);
-    const auto picks = request.args().find("picks_m");
-    Json stroke{{"texture", ""}, {"index", 1}, {"picks_m", picks == request.args().end() ? Json() : *picks}};
+    const Json* picks = request.args().find("picks_m");
+    Json stroke{{"texture", ""}, {"index", 1}, {"picks_m", picks == nullptr ? Json() : *picks}};
     Json section = first_painting();
     section["strokes"].push_back(std::move(stroke));
     const Stroke drawn = parse_painting(section).strokes.front();
@@ -162,22 +162,21 @@ class PaintPage : public Page {
     const fs::path file = shared_.project.existing(painting.object);
     const std::string name = request.text("name");
     const fs::path target = write_target(shared_.project, request);
-    answer_by_job(
-        shared_.jobs, request, "Writing " + name, "paint.write",
-        [cache = cache_, project = &shared_.project, painting, file, target, name](const Observer& observer) {
-          OutputFolder folder(target, app::is_our_folder);
-          const PaintedScene painted = paint_all(cache->read(file, painting.unit_m), painting, *project, observer);
-          for (const PaintedStroke& stroke : painted.strokes) {
-            if (!stroke.fault.empty()) throw Advice(stroke.fault, "Take the stroke out, or draw it anew.");
-          }
-          observer.update("writing", 0.9);
-          write_scene(folder.path() / "scene.json", painted.scene);
-          write_file(folder.path() / "paint.json",
-                     painting_json(painted, painting).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-          app::write_listing(folder.path());
-          folder.commit();
-          return Json{{"scene", name + "/scene.json"}};
-        });
+    answer_by_job(shared_.jobs, request, "Writing " + name, "paint.write",
+                  [cache = cache_, project = &shared_.project, painting, file, target, name](const Observer& observer) {
+                    OutputFolder folder(target, app::is_our_folder);
+                    const PaintedScene painted =
+                        paint_all(cache->read(file, painting.unit_m), painting, *project, observer);
+                    for (const PaintedStroke& stroke : painted.strokes) {
+                      if (!stroke.fault.empty()) throw Advice(stroke.fault, "Take the stroke out, or draw it anew.");
+                    }
+                    observer.update("writing", 0.9);
+                    write_scene(folder.path() / "scene.json", painted.scene);
+                    write_file(folder.path() / "paint.json", painting_json(painted, painting).dump_repaired(2) + "\n");
+                    app::write_listing(folder.path());
+                    folder.commit();
+                    return Json{{"scene", name + "/scene.json"}};
+                  });
   }
 
   void export_to(const Request& request) {
