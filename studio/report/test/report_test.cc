@@ -123,7 +123,7 @@ TEST(ReportItem, KeepsWhatTheReportOfTheSameResultHolds) {
 
 TEST(ReportItem, NamesWhatIsWrong) {
   const testkit::TempDir dir;
-  EXPECT_THAT(error_of(write_result(dir / "a", "{")), HasSubstr("result.json: is not JSON"));
+  EXPECT_THAT(error_of(write_result(dir / "a", "{")), HasSubstr("result.json:1:1: not JSON"));
   EXPECT_THAT(error_of(write_result(dir / "b", "[1]")), HasSubstr("is not a result of asperity process"));
   EXPECT_THAT(error_of(write_result(dir / "c", R"({"format":"asperity-result","version":2})")), HasSubstr("version 2"));
   EXPECT_THAT(error_of(write_result(dir / "d", std::string(50'000, '['))), HasSubstr("nested more than 32 deep"));

@@ -307,7 +307,7 @@ TEST(StudyFile, SaysWhatIsWrong) {
     return fault_of([&] { read_study_file(project, "a.study.json"); });
   };
   const auto with = [&](const std::string& rest) { return fault(R"({"format":"asperity.study","version":1,)" + rest); };
-  EXPECT_THAT(fault("{"), HasSubstr("a.study.json: is not JSON"));
+  EXPECT_THAT(fault("{"), HasSubstr("a.study.json:1:1: not JSON"));
   EXPECT_THAT(fault("[]"), HasSubstr("is no study"));
   EXPECT_THAT(fault(R"({"format":"asperity.study","version":2})"), HasSubstr("version"));
   EXPECT_THAT(with(R"("speed":1})"), HasSubstr("speed"));
