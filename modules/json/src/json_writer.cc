@@ -16,18 +16,22 @@ void JsonWriter::open(char bracket) {
 
 void JsonWriter::close(char bracket) {
   --depth_;
-  if (!first_) {
+  if (!first_ && !inline_) {
     out_ += '\n';
-    out_.append(static_cast<std::size_t>(depth_), ' ');
+    out_.append(static_cast<std::size_t>(depth_ * style_.indent), ' ');
   }
   out_ += bracket;
-  first_ = false;
+  first_ = inline_ = false;
 }
 
 void JsonWriter::next(std::string_view key) {
-  out_ += first_ ? "\n" : ",\n";
+  if (inline_) {
+    out_ += first_ ? "" : ", ";
+  } else {
+    out_ += first_ ? "\n" : ",\n";
+    out_.append(static_cast<std::size_t>(depth_ * style_.indent), ' ');
+  }
   first_ = false;
-  out_.append(static_cast<std::size_t>(depth_), ' ');
   if (key.empty()) return;
   append_json_text(out_, key, false);
   out_ += ": ";
@@ -37,7 +41,9 @@ void JsonWriter::value(double number, std::string_view key) {
   if (!std::isfinite(number)) {
     throw Error(std::string(key) + ": " + number_text(number) + " cannot be written to a file");
   }
-  if (number == 0.0 && std::signbit(number)) {
+  if (!style_.plain_whole_numbers) {
+    append_number(out_, number);
+  } else if (number == 0.0 && std::signbit(number)) {
     out_ += "-0.0";  // JSON readers take -0 for the integer 0
   } else {
     append_exact(out_, number);
@@ -99,6 +105,11 @@ void JsonWriter::begin_object(std::string_view key) {
   open('{');
 }
 
+void JsonWriter::begin_inline(std::string_view key) {
+  begin_object(key);
+  inline_ = true;
+}
+
 void JsonWriter::begin_array(std::string_view key) {
   next(key);
   open('[');
@@ -109,9 +120,8 @@ void JsonWriter::begin_element() {
   open('{');
 }
 
-std::string JsonWriter::finish() {
+std::string JsonWriter::take() {
   close('}');
-  out_ += '\n';
   return std::move(out_);
 }
 

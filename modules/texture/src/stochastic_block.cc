@@ -21,17 +21,15 @@ void list(Model& t, const Field& field) {
 }  // namespace
 
 void read_block(const BlockInput& input, StochasticTexture& t) {
-  input.json.only(input.path,
-                  {"sigma_m", "grain_m", "tangential_ratio", "lift_sigma", "stiffness_N_per_m", "mass_kg",
-                   "reference_speed_mps", "speed_exponent", "reference_force_N", "force_exponent", "fade_speed_mps"});
-  input.json.require(input.path, "sigma_m");
+  input.block.required("sigma_m");
   list(t, FlatReader{input});
+  input.block.finish();
 }
 
 std::string write_block(const StochasticTexture& t, BlockOutput&) {
-  BlockText block;
+  JsonWriter block = block_writer();
   list(t, FlatWriter{block});
-  return block.str();
+  return block.take();
 }
 
 }  // namespace asperity
