@@ -21,7 +21,7 @@ namespace asperity {
 
 namespace {
 
-constexpr std::chrono::hours kLongestWait{1};
+constexpr std::chrono::hours kLongestFrameWait{1};
 
 class Y4mSource final : public CameraSource {
  public:
@@ -51,7 +51,8 @@ class Y4mSource final : public CameraSource {
   bool read(CameraFrame& frame, std::chrono::milliseconds timeout) override {
     if (failed_) throw LinkLost(name() + ": was given up after a fault");
     const std::int64_t deadline_ns =
-        host_now_ns() + std::chrono::nanoseconds(std::min<std::chrono::milliseconds>(timeout, kLongestWait)).count();
+        host_now_ns() +
+        std::chrono::nanoseconds(std::min<std::chrono::milliseconds>(timeout, kLongestFrameWait)).count();
     try {
       if (!wait_for_frame(deadline_ns)) return false;
     } catch (const LinkLost&) {

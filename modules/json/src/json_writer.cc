@@ -95,9 +95,9 @@ void JsonWriter::matrix(std::string_view key, const double* values, std::size_t 
   out_ += ']';
 }
 
-void JsonWriter::raw(std::string_view key, std::string_view json) {
+void JsonWriter::raw(std::string_view key, std::string_view value_json) {
   next(key);
-  out_ += json;
+  out_ += value_json;
 }
 
 void JsonWriter::begin_object(std::string_view key) {

@@ -8,7 +8,7 @@ namespace asperity {
 namespace {
 
 template <class Model, class Field>
-void list(Model& t, const Field& field) {
+void list_autoregressive(Model& t, const Field& field) {
   field("rate_Hz", t.rate_Hz, 1.0, 1e6);
   field("mass_kg", t.mass_kg, 0.0, 1e3);
   field("tangential_ratio", t.tangential_ratio, -1e3, 1e3);
@@ -47,7 +47,7 @@ void read_triangles(const JsonItem& in, AutoregressiveTexture& t) {
 void read_block(const BlockInput& in, AutoregressiveTexture& t) {
   JsonObject& block = in.block;
   block.required("rate_Hz");
-  list(t, FlatReader{in});
+  list_autoregressive(t, FlatReader{in});
   const auto speed = block.required("speed_mps").numbers(kMaxSeriesModels, {-1e3, 1e3});
   const std::size_t models = speed.size();
   if (models == 0) block.fail("speed_mps", "is empty");
@@ -84,7 +84,7 @@ std::string write_block(const AutoregressiveTexture& texture, BlockOutput&) {
   AutoregressiveTexture t = texture;
   prepare_autoregressive(t, "texture");
   JsonWriter block = block_writer();
-  list(t, FlatWriter{block});
+  list_autoregressive(t, FlatWriter{block});
   std::vector<double> speed, force, gain, variance, ar, ma, triangles;
   for (const auto& m : t.models) {
     speed.push_back(m.speed_mps);

@@ -9,9 +9,9 @@
 namespace asperity {
 namespace {
 
-class Reader {
+class PgmReader {
  public:
-  Reader(std::string_view data, const std::string& name) : data_(data), name_(name) {}
+  PgmReader(std::string_view data, const std::string& name) : data_(data), name_(name) {}
 
   [[noreturn]] void fail(const std::string& what) const { throw Error(name_ + ": a PGM image that " + what); }
 
@@ -55,7 +55,7 @@ class Reader {
 }  // namespace
 
 GreyImage parse_pgm(std::string_view data, const std::string& name) {
-  Reader in(data, name);
+  PgmReader in(data, name);
   if (data.size() < 2 || data[0] != 'P' || (data[1] != '5' && data[1] != '2')) in.fail("does not begin with P5 or P2");
   const bool binary = data[1] == '5';
   in.skip(2);

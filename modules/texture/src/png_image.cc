@@ -87,11 +87,11 @@ std::vector<png_bytep> row_pointers(std::vector<png_byte>& bytes, std::size_t ro
   return pointers;
 }
 
-struct Reader {
+struct PngReader {
   Fault fault;
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &fault, on_error, on_warning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
-  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+  ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
 struct Writer {
@@ -107,7 +107,7 @@ GreyImage parse_png(std::string_view data, const std::string& name) {
   const auto fail = [&name](const std::string& message) { throw Error(name + ": " + message); };
   if (data.size() < 8 || png_sig_cmp(reinterpret_cast<png_const_bytep>(data.data()), 0, 8) != 0)
     fail("is not a PNG image");
-  Reader reader;
+  PngReader reader;
   if (!reader.info) fail("libpng cannot be started");
   Source source{data};
   png_set_read_fn(reader.png, &source, read_bytes);

@@ -4,7 +4,7 @@ namespace asperity {
 namespace {
 
 template <class Model, class Field>
-void list(Model& t, const Field& field) {
+void list_stochastic(Model& t, const Field& field) {
   field("sigma_m", t.sigma_m, 0.0, kLargestHeight_m);
   field("grain_m", t.grain_m, 0.0, kLargestHeight_m);
   field("tangential_ratio", t.tangential_ratio, -100.0, 100.0);
@@ -22,13 +22,13 @@ void list(Model& t, const Field& field) {
 
 void read_block(const BlockInput& input, StochasticTexture& t) {
   input.block.required("sigma_m");
-  list(t, FlatReader{input});
+  list_stochastic(t, FlatReader{input});
   input.block.finish();
 }
 
 std::string write_block(const StochasticTexture& t, BlockOutput&) {
   JsonWriter block = block_writer();
-  list(t, FlatWriter{block});
+  list_stochastic(t, FlatWriter{block});
   return block.take();
 }
 
