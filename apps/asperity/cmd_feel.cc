@@ -59,7 +59,7 @@ std::string device_list(std::string_view last, const std::map<std::string_view, 
 
 class FeelCommand : public Command {
  public:
-  explicit FeelCommand(CLI::App& root)
+  explicit FeelCommand(Parser& root)
       : Command(root, "feel", "Feel a scene with a haptic device, or log what it would") {
     parser().add_option("SCENE", options_.scene, "A scene.json, a folder that has one, or a mesh without textures");
     parser()
@@ -326,6 +326,6 @@ class FeelCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_feel(CLI::App& root) { return std::make_unique<FeelCommand>(root); }
+std::unique_ptr<Command> make_feel(Parser& root) { return std::make_unique<FeelCommand>(root); }
 
 }  // namespace asperity::app

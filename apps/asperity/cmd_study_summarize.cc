@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 class StudySummarizeCommand : public Command {
  public:
-  explicit StudySummarizeCommand(CLI::App& study)
+  explicit StudySummarizeCommand(Parser& study)
       : Command(study, "summarize", "Worths, thresholds or ratings from the log of one participant") {
     require(parser().add_option("LOG", log_, "The log of a session, NAME_CODE.study.csv"));
   }
@@ -60,7 +60,7 @@ class StudySummarizeCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_study_summarize(CLI::App& study) {
+std::unique_ptr<Command> make_study_summarize(Parser& study) {
   return std::make_unique<StudySummarizeCommand>(study);
 }
 

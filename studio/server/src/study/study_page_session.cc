@@ -1,6 +1,5 @@
 #include <utility>
 
-#include "asperity/acquire/host_clock.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
@@ -9,6 +8,7 @@
 #include "asperity/studio/calls.h"
 #include "asperity/study/plan_trials.h"
 #include "asperity/study/study_file.h"
+#include "asperity/transport/host_clock.h"
 #include "study/stimuli.h"
 #include "study/study_advice.h"
 #include "study/study_page.h"
