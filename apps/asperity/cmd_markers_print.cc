@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "asperity/acquire/format_pdf.h"
-#include "asperity/acquire/marker_sheets.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/json/json.h"
+#include "asperity/printing/format_pdf.h"
+#include "asperity/printing/marker_sheets.h"
 #include "asperity/recording/format.h"
+#include "asperity/session/our_file.h"
 #include "commands.h"
 #include "marker_family.h"
 #include "option_units.h"
-#include "our_file.h"
 
 namespace asperity::app {
 

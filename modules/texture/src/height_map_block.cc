@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "asperity/base/error.h"
-#include "asperity/texture/png_image.h"
+#include "asperity/image/png_image.h"
+#include "asperity/texture/format_height_image.h"
 #include "block_json.h"
 #include "model_block.h"
 
@@ -17,7 +18,7 @@ constexpr std::int64_t kFewestPixels = 4;
 
 void read_block(const BlockInput& input, HeightMap& map) {
   JsonObject& block = input.block;
-  const auto most = static_cast<std::int64_t>(kMostPixelsASide);
+  const auto most = std::int64_t{kLargestImageSide_px};
   map.columns = static_cast<std::size_t>(block.required("columns").integer(kFewestPixels, most));
   map.rows = static_cast<std::size_t>(block.required("rows").integer(kFewestPixels, most));
   map.bits = static_cast<int>(block.required("bits").integer(8, 16));
@@ -33,23 +34,24 @@ void read_block(const BlockInput& input, HeightMap& map) {
   const JsonItem file = block.required("file");
   block.finish();
   const std::string content = input.read_payload(".png");
-  GreyImage image;
+  DeepGrayImage image;
   try {
     image = parse_png(content, file.text());
   } catch (const Error& error) {
     file.fail(error.what());
   }
-  if (image.columns != map.columns || image.rows != map.rows || image.bits != map.bits) {
-    file.fail("the image has " + std::to_string(image.columns) + " x " + std::to_string(image.rows) + " pixels of " +
+  if (static_cast<std::size_t>(image.width) != map.columns || static_cast<std::size_t>(image.height) != map.rows ||
+      image.bits != map.bits) {
+    file.fail("the image has " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels of " +
               std::to_string(image.bits) + " bits, the block says " + std::to_string(map.columns) + " x " +
               std::to_string(map.rows) + " of " + std::to_string(map.bits));
   }
-  map.level = std::move(image.level);
+  map.level = std::move(image.pixels);
 }
 
 std::string write_block(const HeightMap& map, BlockOutput& output) {
   if (!(map.high_m >= map.low_m)) throw Error("texture: a height map whose highest height is below its lowest");
-  const std::string file = output.add_payload(".heights.png", format_png({map.columns, map.rows, map.bits, map.level}));
+  const std::string file = output.add_payload(".heights.png", format_height_image(map));
   JsonWriter block = block_writer();
   block.text("file", file);
   block.integer("columns", static_cast<std::int64_t>(map.columns));
