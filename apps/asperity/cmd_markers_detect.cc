@@ -7,7 +7,7 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/image/read_gray_image.h"
-#include "asperity/tracking/detect_tags.h"
+#include "asperity/json/json.h"
 #include "asperity/session/our_file.h"
 #include "asperity/json/json.h"
 #include "commands.h"

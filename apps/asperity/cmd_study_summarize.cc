@@ -58,8 +58,6 @@ class StudySummarizeCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_study_summarize(Parser& study) {
-  return std::make_unique<StudySummarizeCommand>(study);
-}
+std::unique_ptr<Command> make_study_summarize(Parser& study) { return std::make_unique<StudySummarizeCommand>(study); }
 
 }  // namespace asperity::app

@@ -17,8 +17,8 @@
 #include "asperity/json/parse_json.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/recording/read_markers.h"
-#include "asperity/tracking/track_images.h"
 #include "asperity/session/our_file.h"
+#include "asperity/tracking/track_images.h"
 #include "commands.h"
 
 namespace asperity::app {

@@ -10,6 +10,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/camera/open_camera.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/link/capture_to_file.h"
 #include "asperity/link/probe_address.h"
 #include "asperity/link/probe_link.h"
