@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "asperity/acquire/host_clock.h"
 #include "asperity/base/csv.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 #include "capture_format.h"
 

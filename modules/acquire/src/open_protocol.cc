@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "asperity/acquire/cobs.h"
-#include "asperity/acquire/crc32.h"
+#include "asperity/base/crc32.h"
 #include "asperity/base/error.h"
-#include "little_endian.h"
+#include "asperity/base/little_endian.h"
 
 namespace asperity {
 

@@ -17,7 +17,7 @@
 #include <boost/asio/error.hpp>
 #include <boost/asio/serial_port.hpp>
 
-#include "asperity/acquire/host_clock.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 #include "file_holders.h"
 

@@ -13,7 +13,7 @@
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/ip/udp.hpp>
 
-#include "asperity/acquire/host_clock.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 
 namespace asperity {

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "asperity/acquire/byte_source.h"
-#include "asperity/acquire/host_clock.h"
 #include "asperity/acquire/read_gray_image.h"
+#include "asperity/base/host_clock.h"
 #include "v4l2_controls.h"
 #include "v4l2_formats.h"
 #include "v4l2_system.h"

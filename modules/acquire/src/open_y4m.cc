@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "asperity/acquire/byte_source.h"
-#include "asperity/acquire/host_clock.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/recording/y4m.h"
 
 namespace asperity {

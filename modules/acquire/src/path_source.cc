@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "asperity/acquire/host_clock.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 
 namespace asperity {

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "asperity/acquire/host_clock.h"
 #include "asperity/acquire/open_protocol.h"
+#include "asperity/base/host_clock.h"
 
 namespace asperity {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "asperity/acquire/host_clock.h"
 #include "asperity/base/error.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
 #include "asperity/recording/uncalibrated.h"

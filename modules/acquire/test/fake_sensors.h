@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "asperity/acquire/host_clock.h"
 #include "asperity/acquire/pose_source.h"
 #include "asperity/acquire/probe_source.h"
+#include "asperity/base/host_clock.h"
 
 namespace asperity {
 

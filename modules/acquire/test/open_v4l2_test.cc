@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "asperity/acquire/byte_source.h"
-#include "asperity/acquire/host_clock.h"
+#include "asperity/base/host_clock.h"
 #include "fake_v4l2.h"
 
 namespace asperity {

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "asperity/acquire/byte_source.h"
-#include "asperity/acquire/host_clock.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/recording/y4m.h"
 #include "asperity/testkit/temp_dir.h"
 

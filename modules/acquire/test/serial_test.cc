@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "asperity/acquire/find_usb_serial.h"
-#include "asperity/acquire/host_clock.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/testkit/temp_dir.h"
 
 namespace asperity {

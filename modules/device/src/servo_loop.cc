@@ -7,11 +7,12 @@
 
 #include "asperity/base/config.h"
 #include "asperity/base/error.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 #include "asperity/device/spsc_ring.h"
-#include "monotonic_clock.h"
 #include "real_time.h"
 #include "servo_core.h"
+#include "wait_until.h"
 
 namespace asperity {
 namespace {
@@ -83,7 +84,7 @@ std::uint64_t last_due(std::uint64_t k, std::int64_t elapsed_ns, double rate_Hz)
 // The servo thread. What was missed is skipped: the tick that runs late is the last one that is due.
 void run_schedule(ServoCore& core, const ServoConfig& config, const std::atomic<bool>& stop,
                   const std::atomic<bool>& abandon, TickSink& sink) {
-  const std::int64_t start_ns = monotonic_ns() + kLead_ns;
+  const std::int64_t start_ns = host_now_ns() + kLead_ns;
   const auto spin_ns = static_cast<std::int64_t>(config.spin_s * 1e9);
   std::uint64_t done = 0;  // ticks of the schedule that are past
   for (std::uint64_t last = 0;;) {
@@ -96,7 +97,7 @@ void run_schedule(ServoCore& core, const ServoConfig& config, const std::atomic<
     if (!core.tick(k, since, begin_ns - expected_ns, stop_asked, sink)) return;
     last = k;
     done = k + 1;
-    if (monotonic_ns() > start_ns + due_ns(done, config.rate_Hz)) core.count_overrun();
+    if (host_now_ns() > start_ns + due_ns(done, config.rate_Hz)) core.count_overrun();
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "asperity/base/smoothstep.h"
 #include "soft_limit.h"
 
 namespace asperity {
@@ -49,8 +50,7 @@ void VibrationVoice::begin() noexcept {
 }
 
 double VibrationVoice::next_sample() noexcept {
-  const double smooth = ramp_ * ramp_ * (3.0 - 2.0 * ramp_);
-  const double level = smooth * soft_limit(level_per_N_ * high_pass_(reader_.at(fraction_)), ceiling_);
+  const double level = smoothstep(ramp_) * soft_limit(level_per_N_ * high_pass_(reader_.at(fraction_)), ceiling_);
   ramp_ = std::clamp(ramp_ + (fading_out_ ? -gain_step_ : gain_step_), 0.0, 1.0);
   for (fraction_ += step_ * correction_; fraction_ >= 1.0; fraction_ -= 1.0) {
     // Without a next force the last one is held: what is already on its way is heard while fading out.

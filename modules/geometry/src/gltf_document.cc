@@ -7,8 +7,8 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/inner_path.h"
+#include "asperity/base/little_endian.h"
 #include "asperity/base/text.h"
-#include "little_endian.h"
 
 namespace asperity {
 
@@ -58,7 +58,9 @@ class Checker {
     return found == document_.end() ? nothing : *found;
   }
 
-  std::uint32_t word(std::size_t at) const { return load<std::uint32_t>(bytes_.data() + at, std::endian::little); }
+  std::uint32_t word(std::size_t at) const {
+    return load_number<std::uint32_t>(bytes_.data() + at, std::endian::little);
+  }
 
   // The JSON text; the binary chunk of a .glb is kept aside.
   std::string_view split() {

@@ -5,9 +5,9 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/base/little_endian.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/triangulate_polygon.h"
-#include "little_endian.h"
 #include "ply_header.h"
 #include "ply_numbers.h"
 #include "problem_counter.h"

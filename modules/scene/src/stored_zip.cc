@@ -1,43 +1,28 @@
 #include "stored_zip.h"
 
-#include <array>
 #include <cstdint>
 
+#include "asperity/base/crc32.h"
 #include "asperity/base/error.h"
-#include "little_endian.h"
+#include "asperity/base/little_endian.h"
 
 namespace asperity {
 namespace {
 
-std::uint32_t crc32(const std::string& data) {
-  static const std::array<std::uint32_t, 256> table = [] {
-    std::array<std::uint32_t, 256> t;
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      std::uint32_t c = i;
-      for (int bit = 0; bit < 8; ++bit) c = (c & 1) != 0 ? 0xEDB88320u ^ (c >> 1) : c >> 1;
-      t[i] = c;
-    }
-    return t;
-  }();
-  std::uint32_t crc = 0xFFFFFFFFu;
-  for (const char byte : data) crc = table[(crc ^ static_cast<unsigned char>(byte)) & 0xFF] ^ (crc >> 8);
-  return ~crc;
-}
-
 // What a member's header and its entry in the directory have in common.
 void append_description(std::string& out, const ZipMember& member) {
-  constexpr std::uint32_t kVersion = 20;
-  constexpr std::uint32_t kFirstDay = 1 << 5 | 1;  // 1980-01-01
-  append_little_endian(out, kVersion, 2);
-  append_little_endian(out, 0, 2);  // flags
-  append_little_endian(out, 0, 2);  // stored
-  append_little_endian(out, 0, 2);  // midnight
-  append_little_endian(out, kFirstDay, 2);
-  append_little_endian(out, crc32(member.content), 4);
-  append_little_endian(out, member.content.size(), 4);
-  append_little_endian(out, member.content.size(), 4);
-  append_little_endian(out, member.name.size(), 2);
-  append_little_endian(out, 0, 2);  // extra fields
+  constexpr std::uint16_t kVersion = 20;
+  constexpr std::uint16_t kFirstDay = 1 << 5 | 1;  // 1980-01-01
+  append_little_endian<std::uint16_t>(out, kVersion);
+  append_little_endian<std::uint16_t>(out, 0);  // flags
+  append_little_endian<std::uint16_t>(out, 0);  // stored
+  append_little_endian<std::uint16_t>(out, 0);  // midnight
+  append_little_endian<std::uint16_t>(out, kFirstDay);
+  append_little_endian<std::uint32_t>(out, crc32(member.content));
+  append_little_endian(out, static_cast<std::uint32_t>(member.content.size()));
+  append_little_endian(out, static_cast<std::uint32_t>(member.content.size()));
+  append_little_endian(out, static_cast<std::uint16_t>(member.name.size()));
+  append_little_endian<std::uint16_t>(out, 0);  // extra fields
 }
 
 }  // namespace
@@ -52,23 +37,23 @@ std::string format_stored_zip(const std::vector<ZipMember>& members) {
     append_description(out, member);
     out += member.name + member.content;
     directory += "PK\x01\x02";
-    append_little_endian(directory, 20, 2);  // made by
+    append_little_endian<std::uint16_t>(directory, 20);  // made by
     append_description(directory, member);
-    append_little_endian(directory, 0, 2);  // comment
-    append_little_endian(directory, 0, 2);  // disk
-    append_little_endian(directory, 0, 2);  // attributes
-    append_little_endian(directory, 0, 4);
-    append_little_endian(directory, offset, 4);
+    append_little_endian<std::uint16_t>(directory, 0);  // comment
+    append_little_endian<std::uint16_t>(directory, 0);  // disk
+    append_little_endian<std::uint16_t>(directory, 0);  // attributes
+    append_little_endian<std::uint32_t>(directory, 0);
+    append_little_endian(directory, static_cast<std::uint32_t>(offset));
     directory += member.name;
   }
   const std::size_t offset = out.size();
   out += directory + "PK\x05\x06";
-  append_little_endian(out, 0, 4);  // disks
-  append_little_endian(out, members.size(), 2);
-  append_little_endian(out, members.size(), 2);
-  append_little_endian(out, directory.size(), 4);
-  append_little_endian(out, offset, 4);
-  append_little_endian(out, 0, 2);
+  append_little_endian<std::uint32_t>(out, 0);  // disks
+  append_little_endian(out, static_cast<std::uint16_t>(members.size()));
+  append_little_endian(out, static_cast<std::uint16_t>(members.size()));
+  append_little_endian(out, static_cast<std::uint32_t>(directory.size()));
+  append_little_endian(out, static_cast<std::uint32_t>(offset));
+  append_little_endian<std::uint16_t>(out, 0);
   return out;
 }
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-#include "asperity/acquire/host_clock.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/version.h"
 
 namespace asperity::studio {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "asperity/acquire/host_clock.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/studio/calls.h"
 #include "file_saver.h"
 #include "folder_lock.h"

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "asperity/acquire/host_clock.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/studio/page.h"
 #include "asperity/testkit/temp_dir.h"
 #include "fake_hub.h"

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "asperity/acquire/host_clock.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/testkit/temp_dir.h"
 #include "feel_rig.h"
 #include "study/study_page.h"

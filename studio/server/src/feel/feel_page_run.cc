@@ -3,8 +3,8 @@
 #include <mutex>
 #include <utility>
 
-#include "asperity/acquire/host_clock.h"
 #include "asperity/base/error.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/device/write_flight_record.h"
 #include "feel/ended_logs.h"
 #include "feel/feel_json.h"

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "asperity/acquire/host_clock.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 #include "asperity/recording/cut_recording.h"
 #include "asperity/recording/read_recording.h"

@@ -6,8 +6,8 @@
 #include <system_error>
 #include <utility>
 
-#include "asperity/acquire/host_clock.h"
 #include "asperity/base/error.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 #include "asperity/recording/uncalibrated.h"
 #include "asperity/studio/calls.h"

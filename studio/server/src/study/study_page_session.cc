@@ -1,8 +1,8 @@
 #include <utility>
 
-#include "asperity/acquire/host_clock.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/studio/calls.h"

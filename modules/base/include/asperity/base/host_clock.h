@@ -5,7 +5,7 @@
 namespace asperity {
 
 // The one clock of all time stamps: CLOCK_MONOTONIC, ns, the same in all processes of this machine; V4L2's
-// drivers stamp their frames with it too.
+// drivers stamp their frames with it too. Realtime-safe: yes.
 std::int64_t host_now_ns() noexcept;
 
 }  // namespace asperity

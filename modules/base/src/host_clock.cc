@@ -1,4 +1,4 @@
-#include "asperity/acquire/host_clock.h"
+#include "asperity/base/host_clock.h"
 
 #include <ctime>
 
