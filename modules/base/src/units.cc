@@ -45,4 +45,13 @@ double parse_duration_s(std::string_view text, std::string_view what) {
   return parse(text, what, kDurations, "10s or 250ms");
 }
 
+std::optional<NamedLength> split_length_name(std::string_view column) {
+  const auto end = column.rfind('_');
+  if (end == std::string_view::npos) return std::nullopt;
+  for (const auto& [unit, metres] : kLengths) {
+    if (column.substr(end + 1) == unit) return NamedLength{column.substr(0, end), metres};
+  }
+  return std::nullopt;
+}
+
 }  // namespace asperity

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 namespace asperity {
@@ -8,6 +9,13 @@ namespace asperity {
 double parse_length_m(std::string_view text, std::string_view what);    // 5mm 0.3m 2.5cm 0.5um 0.5µm 120nm
 double parse_speed_mps(std::string_view text, std::string_view what);   // 25mm/s 0.02m/s
 double parse_duration_s(std::string_view text, std::string_view what);  // 10s 250ms 2min
+
+// A column's name that ends in its unit of length (_nm, _um, _µm, _mm, _cm, _m), as "height_um".
+struct NamedLength {
+  std::string_view quantity;  // the name before it
+  double unit_m = 1.0;
+};
+std::optional<NamedLength> split_length_name(std::string_view column);  // nullopt if it has none
 
 inline constexpr double kStandardGravity_mps2 = 9.80665;
 inline constexpr double kNanosecond_s = 1e-9;

@@ -1,4 +1,4 @@
-#include "areal_grid.h"
+#include "asperity/base/read_areal_map.h"
 
 #include <cmath>
 #include <string>
@@ -29,11 +29,11 @@ ArealMap transposed(const ArealMap& map) {
 
 }  // namespace
 
-ArealMap read_areal_grid(NumberTable& table, const std::array<double, 3>& unit_m) {
+ArealMap read_areal_map(CsvReader& table, const std::array<double, 3>& unit_m) {
   bool y_runs_fastest = false;
   const auto read = [&](Point& p) {
     if (!table.next()) return false;
-    p = {table.number(0, unit_m[0]), table.number(1, unit_m[1]), table.number(2, unit_m[2])};
+    p = {table.finite_or_nan(0) * unit_m[0], table.finite_or_nan(1) * unit_m[1], table.finite_or_nan(2) * unit_m[2]};
     if (std::isnan(p.x_m) || std::isnan(p.y_m)) table.fail("the position is not a number");
     if (y_runs_fastest) std::swap(p.x_m, p.y_m);
     return true;
