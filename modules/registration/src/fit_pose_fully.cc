@@ -1,4 +1,4 @@
-#include "settle.h"
+#include "fit_pose_fully.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@ double robust_cost(double d_m, double width_m) {
   return std::isnan(d_m) ? 1.0 : -std::expm1(-d_m * d_m / (width_m * width_m));
 }
 
-void evaluate(Settled& out, Matcher& matcher, const RegistrationConfig& config) {
+void evaluate(ConvergedPose& out, Matcher& matcher, const RegistrationConfig& config) {
   if (!out.fit.matched) matcher.match(out.pose);
   const double limit_m = config.outlier_sigmas * matcher.scale_m();
   double square = 0.0;
@@ -40,23 +40,24 @@ void evaluate(Settled& out, Matcher& matcher, const RegistrationConfig& config) 
 
 }  // namespace
 
-Settled settle(const RegistrationSurface& surface, const PointSet& points, const MatchRules& rules, Matcher& matcher,
-               const CentredPose& start, FitOptions options, const RegistrationConfig& config) {
+ConvergedPose fit_pose_fully(const RegistrationSurface& surface, const PointSet& points, const MatchRules& rules,
+                             Matcher& matcher, const CentredPose& start, FitOptions options,
+                             const RegistrationConfig& config) {
   constexpr int kRounds = 3;
-  Settled out;
+  ConvergedPose out;
   out.fit = fit_pose(matcher, points, start, options);
   out.pose = out.fit.pose;
   int iterations = out.fit.iterations;
   for (int round = 0; round < kRounds; ++round) {
     evaluate(out, matcher, config);
-    out.freedom = judge_freedom(surface, points, rules, matcher, out.pose, out.sigma_m, config);
-    if (out.freedom.held.empty() || !out.fit.enough) break;
+    out.observability = find_unobservable_dofs(surface, points, rules, matcher, out.pose, out.sigma_m, config);
+    if (out.observability.held.empty() || !out.fit.enough) break;
     const Vector6 from_guess = motion_between(options.reference, out.pose);
     CentredPose back = out.pose;
     double strayed_m = 0.0;
     options.holds.clear();
-    for (const Vector6& v : out.freedom.held) {
-      const Vector6 row = out.freedom.metric * v;
+    for (const Vector6& v : out.observability.held) {
+      const Vector6 row = out.observability.metric * v;
       const double along_m = row.dot(from_guess);
       back = moved(back, -along_m * v);
       strayed_m = std::hypot(strayed_m, along_m);

@@ -1,11 +1,13 @@
-#include "judge_freedom.h"
+#include "find_unobservable_dofs.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 
 #include "choose_points.h"
@@ -24,7 +26,7 @@ constexpr std::size_t kSlidePoints = 500;
 constexpr int kSlideIterations = 4;
 constexpr double kChance = 10.0;
 
-// Standard deviation along `v` by making the motion forth and back while the others follow.
+// Standard deviation along `v` by making the motion back and forth while the others follow.
 class SlideTest {
  public:
   SlideTest(const RegistrationSurface& surface, const PointSet& points, const MatchRules& rules,
@@ -49,9 +51,9 @@ class SlideTest {
     options_.holds.push_back({metric * v, 0.0});
     const double still_m2 = cost_m2(pose_);
     double growth_m2 = std::numeric_limits<double>::infinity();
-    for (const double way_m : {slide_m_, -slide_m_}) {
-      options_.holds.back().target = way_m;
-      growth_m2 = std::min(growth_m2, total_ * (cost_m2(moved(pose_, way_m * v)) - still_m2));
+    for (const double step_m : {slide_m_, -slide_m_}) {
+      options_.holds.back().target = step_m;
+      growth_m2 = std::min(growth_m2, total_ * (cost_m2(moved(pose_, step_m * v)) - still_m2));
     }
     // Chance alone makes the two fits of so few points differ by this much.
     growth_m2 -= kChance * sigma_m_ * sigma_m_ * total_ / static_cast<double>(matcher_.size());
@@ -73,14 +75,14 @@ class SlideTest {
   double sigma_m_;
 };
 
-// The same span with its slides first and its turns after them, without the slides in them.
-std::vector<Vector6> slides_then_turns(const std::vector<Vector6>& motions, double radius_m) {
+// The same span with its translations first and its rotations after them, without the translations in them.
+std::vector<Vector6> translations_then_rotations(const std::vector<Vector6>& motions, double radius_m) {
   if (motions.size() < 2) return motions;
   const auto k = static_cast<Eigen::Index>(motions.size());
   Eigen::Matrix<double, 6, Eigen::Dynamic> span(6, k);
   for (Eigen::Index i = 0; i < k; ++i) span.col(i) = motions[static_cast<std::size_t>(i)];
-  const Eigen::MatrixXd turns = radius_m * span.topRows<3>();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(turns, Eigen::ComputeFullV);
+  const Eigen::MatrixXd rotations = radius_m * span.topRows<3>();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rotations, Eigen::ComputeFullV);
   std::vector<Vector6> out;
   for (Eigen::Index i = k - 1; i >= 0; --i) out.emplace_back(span * svd.matrixV().col(i));
   return out;
@@ -110,10 +112,10 @@ double facet_sag_m(const RegistrationSurface& surface, const Matcher& matcher) {
   return count == 0 ? 0.0 : std::sqrt(square / static_cast<double>(count));
 }
 
-Freedom judge_freedom(const RegistrationSurface& surface, const PointSet& points, const MatchRules& rules,
-                      const Matcher& matcher, const CentredPose& pose, double sigma_m,
-                      const RegistrationConfig& config) {
-  Freedom out;
+Observability find_unobservable_dofs(const RegistrationSurface& surface, const PointSet& points,
+                                     const MatchRules& rules, const Matcher& matcher, const CentredPose& pose,
+                                     double sigma_m, const RegistrationConfig& config) {
+  Observability out;
   out.metric = motion_metric(points, pose);
   const double limit_m = std::max(config.outlier_sigmas * sigma_m, 1e-6 * points.radius_m);
   // Every point counts once, however many of them the fit used.
@@ -132,25 +134,57 @@ Freedom judge_freedom(const RegistrationSurface& surface, const PointSet& points
   for (int k = 0; k < 6; ++k) {
     const Vector6 v = solver.eigenvectors().col(k);
     const double lambda = std::max(solver.eigenvalues()(k), 0.0);
-    bool free = false;
+    bool unobservable = false;
     double along_m = lambda > 0.0 ? sigma_m / std::sqrt(lambda) : std::numeric_limits<double>::infinity();
     if (std::sqrt(lambda / n) < clear || along_m > config.undetermined_m) {
-      const double slid_m = test.sigma_m(v, out.metric, out.free, noise_m);
+      const double slid_m = test.sigma_m(v, out.metric, out.unobservable, noise_m);
       along_m = std::max(along_m, slid_m);
       if (slid_m > config.undetermined_m) {
-        free = true;
-        out.free.push_back(v);
-        out.free_sigma_m = std::max(out.free_sigma_m, slid_m);
+        unobservable = true;
+        out.unobservable.push_back(v);
+        out.unobservable_sigma_m = std::max(out.unobservable_sigma_m, slid_m);
         if (slid_m > kWorthless * config.guess_sigma_m) out.held.push_back(v);
       }
     }
     const double variance_m2 = 1.0 / (1.0 / (along_m * along_m) + 1.0 / (prior * prior));
     out.covariance += variance_m2 * v * v.transpose();
-    if (!free) out.determined_rms_m += variance_m2;
+    if (!unobservable) out.determined_rms_m += variance_m2;
   }
   out.determined_rms_m = std::sqrt(out.determined_rms_m);
-  out.free = slides_then_turns(out.free, points.radius_m);
+  out.unobservable = translations_then_rotations(out.unobservable, points.radius_m);
   return out;
+}
+
+void append_uncertain_rotations(const PathChain& chain, double limit_rad, RegistrationResult& result) {
+  const Eigen::Matrix3d rotation_covariance = result.covariance.topLeftCorner<3, 3>();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(rotation_covariance);
+  for (int k = 0; k < 3; ++k) {
+    const double sigma_rad = std::sqrt(std::max(0.0, solver.eigenvalues()[k]));
+    if (!(sigma_rad > limit_rad)) continue;
+    const Eigen::Vector3d axis = solver.eigenvectors().col(k);
+    const bool listed = std::any_of(result.undetermined.begin(), result.undetermined.end(), [&](const auto& other) {
+      return other.turn.norm() > 0.0 && std::abs(other.turn.normalized().dot(axis)) > 0.9;
+    });
+    if (listed) continue;
+    // The shift that goes with the rotation in the data.
+    const Eigen::Vector3d shift = result.covariance.bottomLeftCorner<3, 3>() * axis / (sigma_rad * sigma_rad);
+    double moved_m2 = 0.0;
+    for (const Eigen::Vector3d& p_m : chain.p_world_m) {
+      if (!p_m.allFinite()) continue;
+      const Eigen::Vector3d arm = result.T_mesh_world * p_m - result.centre_mesh_m;
+      moved_m2 += (axis.cross(arm) + shift).squaredNorm() / static_cast<double>(chain.p_world_m.size());
+    }
+    const double scale = 1.0 / std::sqrt(moved_m2);
+    if (!std::isfinite(scale)) continue;
+    UndeterminedMotion motion;
+    motion.turn = scale * axis;
+    motion.shift = scale * shift;
+    motion.centre_mesh_m = result.centre_mesh_m;
+    motion.sigma_m = sigma_rad / scale;
+    motion.description = fmt::format("turns about ({:.2f}, {:.2f}, {:.2f}) are known to {:.1f} degrees only", axis.x(),
+                                     axis.y(), axis.z(), sigma_rad * 180.0 / std::numbers::pi);
+    result.undetermined.push_back(motion);
+  }
 }
 
 UndeterminedMotion describe_motion(const Vector6& motion, const Eigen::Vector3d& centre_m, double sigma_m,

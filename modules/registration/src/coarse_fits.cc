@@ -1,4 +1,4 @@
-#include "other_starts.h"
+#include "coarse_fits.h"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@ Eigen::Vector3d in_ball(double u, double v, double w) {
 
 }  // namespace
 
-std::vector<CentredPose> starts_about(const CentredPose& guess, int count, double radius_m, double turn_deg) {
+std::vector<CentredPose> sample_starts_around(const CentredPose& guess, int count, double radius_m, double turn_deg) {
   // Roberts' sequence (2018): multiples of the powers of 1/g, with g the root of g^7 = g + 1.
   constexpr double kRoot = 1.1127756842787055;
   std::vector<CentredPose> out;
@@ -38,9 +38,9 @@ std::vector<CentredPose> starts_about(const CentredPose& guess, int count, doubl
   return out;
 }
 
-std::vector<CoarseRun> run_coarsely(Matcher& matcher, const PointSet& points, const std::vector<CentredPose>& starts,
-                                    const FitOptions& options, double least_width_m, std::size_t keep,
-                                    IterationWatch& watch) {
+std::vector<CoarseRun> run_coarse_fits(Matcher& matcher, const PointSet& points, const std::vector<CentredPose>& starts,
+                                       const FitOptions& options, double least_width_m, std::size_t keep,
+                                       IterationWatch& watch) {
   std::vector<CoarseRun> runs;
   runs.reserve(starts.size());
   double least_scale_m = std::numeric_limits<double>::infinity();

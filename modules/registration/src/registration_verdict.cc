@@ -1,4 +1,4 @@
-#include "verdict.h"
+#include "registration_verdict.h"
 
 #include <cmath>
 #include <numbers>
@@ -27,9 +27,9 @@ std::string_view stop_words(StopRule rule) {
 
 }  // namespace
 
-void write_verdict(const Findings& findings, const PointSet& points, std::size_t used, const RegistrationConfig& config,
-                   RegistrationResult& out) {
-  const Settled& best = findings.best;
+void write_registration_verdict(const RegistrationFindings& findings, const PointSet& points, std::size_t used,
+                                const RegistrationConfig& config, RegistrationResult& out) {
+  const ConvergedPose& best = findings.best;
   out.T_mesh_world = uncentred(best.pose, points);
   out.centre_mesh_m = best.pose.centre_m;
   out.rms_m = best.rms_m;
@@ -38,9 +38,10 @@ void write_verdict(const Findings& findings, const PointSet& points, std::size_t
   out.outliers = best.outliers;
   out.stopped_by = best.fit.stopped_by;
   out.converged = best.fit.enough && out.stopped_by != StopRule::kIterationLimit;
-  out.covariance = best.freedom.covariance;
-  for (const Vector6& motion : best.freedom.free) {
-    out.undetermined.push_back(describe_motion(motion, best.pose.centre_m, best.freedom.free_sigma_m, points.radius_m));
+  out.covariance = best.observability.covariance;
+  for (const Vector6& motion : best.observability.unobservable) {
+    out.undetermined.push_back(
+        describe_motion(motion, best.pose.centre_m, best.observability.unobservable_sigma_m, points.radius_m));
   }
 
   const double inliers = 1.0 - static_cast<double>(out.outliers) / static_cast<double>(used);
@@ -58,7 +59,8 @@ void write_verdict(const Findings& findings, const PointSet& points, std::size_t
     out.verdict += fmt::format(" Only {:.0f} % of the points lie on the mesh.", 100.0 * inliers);
   }
   if (out.undetermined.empty()) {
-    out.verdict += fmt::format(" Every motion is determined, to {:.4f} mm RMS.", 1e3 * best.freedom.determined_rms_m);
+    out.verdict +=
+        fmt::format(" Every motion is determined, to {:.4f} mm RMS.", 1e3 * best.observability.determined_rms_m);
   } else {
     out.verdict += " Not determined: the path ";
     for (std::size_t i = 0; i < out.undetermined.size(); ++i) {
