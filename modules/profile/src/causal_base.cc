@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kCell_ns = 5'000'000;  // of the history: what find_base_path looks at
 constexpr std::size_t kFewest = 60;           // samples of a fit
-constexpr double kShortest_m = 15e-3;         // way in contact before the first fit: a shorter one is fitted to texture
+constexpr double kShortest_m = 15e-3;  // travel in contact before the first fit: a shorter one is fitted to texture
 constexpr std::size_t kMostCells = 12'000;
 
 template <class T>
