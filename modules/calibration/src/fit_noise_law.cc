@@ -1,4 +1,4 @@
-#include "asperity/calibration/fit_noise_law.h"
+#include "fit_noise_law.h"
 
 #include <fmt/format.h>
 
@@ -31,14 +31,14 @@ LinearLogs solve(const Eigen::MatrixXd& rows, const Eigen::VectorXd& right) {
 
 }  // namespace
 
-NoiseLaw fit_noise_law(std::span<const NoiseAtPlace> places, double power, double least_tilt_ratio) {
+NoiseLaw fit_noise_law(std::span<const NoiseAtPosition> places, double power, double least_tilt_ratio) {
   constexpr std::size_t kFewest = 3;
   if (places.size() < kFewest)
     throw Error(fmt::format("noise law: {} places, at least {} are needed", places.size(), kFewest));
   const auto n = static_cast<Eigen::Index>(places.size());
   Eigen::VectorXd distance(n), tilt(n), sigma(n), weight(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const NoiseAtPlace& place = places[static_cast<std::size_t>(i)];
+    const NoiseAtPosition& place = places[static_cast<std::size_t>(i)];
     distance[i] = std::log(place.distance_m);
     tilt[i] = -std::log(std::cos(place.tilt_rad));
     sigma[i] = std::log(place.sigma);

@@ -107,7 +107,7 @@ class RumbleSink final : public VibrationSink {
   bool listen(bool after_gap) noexcept {
     bool any = false;
     for (double force_N = 0.0; ring_.pop(force_N); any = ever_ = true) {
-      if (after_gap && !any) bands_.settle(force_N);
+      if (after_gap && !any) bands_.start_at(force_N);
       bands_.add(force_N);
     }
     return any;

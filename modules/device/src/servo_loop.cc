@@ -12,7 +12,6 @@
 #include "asperity/device/spsc_ring.h"
 #include "real_time.h"
 #include "servo_core.h"
-#include "wait_until.h"
 
 namespace asperity {
 namespace {

@@ -41,7 +41,7 @@ void VibrationVoice::begin() noexcept {
   before_N = 0.0;
   if (ever_played_) ring_.pop(before_N);
   reader_.fill(before_N);
-  high_pass_.settle_high_pass(before_N);
+  high_pass_.start_high_pass_at(before_N);
   last_force_ = before_N;
   fraction_ = excess_ = ramp_ = 0.0;
   correction_ = 1.0;

@@ -277,7 +277,7 @@ CircleCandidate fit_circle_candidate(const PathEvidence& evidence, const BasePat
   out.radius_m = fit.radius_m;
   out.centre_m = plane.centroid_m + fit.centre_m.x() * e1 + fit.centre_m.y() * e2;
   if (!fit.converged || !(fit.radius_m > 0.0)) return out;
-  // A nearly straight path has no cylinder to derivative.
+  // A nearly straight path has no cylinder to rotate.
   const double extent_m = std::sqrt(plane.scatter_m2.x());
   if (fit.radius_m < 50.0 * extent_m) refine_cylinder(out, evidence, config);
 

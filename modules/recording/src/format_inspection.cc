@@ -30,7 +30,7 @@ json timing_json(const StreamTiming& timing) {
           {"duplicates", timing.duplicates}};
 }
 
-json quiet_json(const QuietStretch& quiet) {
+json quiet_json(const QuietInterval& quiet) {
   return {{"start_s", number(quiet.start_s)},
           {"duration_s", number(quiet.duration_s)},
           {"at_rest", quiet.at_rest},
@@ -93,7 +93,7 @@ std::string inspection_text(const Inspection& inspection) {
                        channel.highest, channel.quiet_mean, channel.quiet_noise, saturated);
   }
   if (inspection.quiet) {
-    const QuietStretch& quiet = *inspection.quiet;
+    const QuietInterval& quiet = *inspection.quiet;
     out += fmt::format("\nquietest {:.2f} s from {:.2f} s: {}\n", quiet.duration_s, quiet.start_s,
                        quiet.at_rest ? "at rest" : "not at rest");
     out += fmt::format("  specific force {:.4f} m/s², noise ({:.4f}, {:.4f}, {:.4f}) m/s², force {:.3f} N\n",

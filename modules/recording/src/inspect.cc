@@ -5,7 +5,7 @@
 
 #include "asperity/base/units.h"
 #include "find_findings.h"
-#include "quiet_stretch.h"
+#include "quiet_interval.h"
 #include "stream_timing.h"
 
 namespace asperity {
@@ -127,8 +127,8 @@ Inspection inspect_recording(const Recording& recording, const InspectConfig& co
   const std::int64_t overlap_ns =
       std::min(out.probe.end_ns, out.tracker.end_ns) - std::max(out.probe.start_ns, out.tracker.start_ns);
   out.overlap_s = static_cast<double>(std::max<std::int64_t>(overlap_ns, 0)) * kNanosecond_s;
-  const std::optional<RowRange> quiet = find_quiet_rows(recording.probe, out.probe, config);
-  if (quiet) out.quiet = describe_quiet(recording, *quiet, config);
+  const std::optional<RowRange> quiet = find_quiet_interval(recording.probe, out.probe, config);
+  if (quiet) out.quiet = describe_quiet_interval(recording, *quiet, config);
   out.channels = all_channels(recording, quiet);
   measure_force(recording, out);
   out.flips = count_flips(recording.tracker, out.tracker.period_s, config);

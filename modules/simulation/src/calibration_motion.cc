@@ -64,7 +64,7 @@ Eigen::Vector3d random_direction(Random& random) {
 
 }  // namespace
 
-MotionFunction resting_motion(const Pose& T_world_marker, const Eigen::Vector3d& tip_in_marker_m) {
+MotionFunction static_motion(const Pose& T_world_marker, const Eigen::Vector3d& tip_in_marker_m) {
   const MotionState state = state_of(T_world_marker, tip_in_marker_m);
   return [state](double) { return state; };
 }
@@ -116,7 +116,7 @@ MotionFunction static_poses_motion(const StaticPosesMotion& poses, const Eigen::
   };
 }
 
-std::vector<Eigen::Vector3d> resting_force_mps2(const Recording& bench, const std::vector<std::int64_t>& t_ns) {
+std::vector<Eigen::Vector3d> static_specific_force_mps2(const Recording& bench, const std::vector<std::int64_t>& t_ns) {
   const TrueMotion motion(bench);
   std::vector<Eigen::Vector3d> out;
   out.reserve(t_ns.size());

@@ -20,11 +20,11 @@
 #include "asperity/base/host_clock.h"
 #include "asperity/recording/y4m.h"
 #include "asperity/simulation/bench_camera.h"
-#include "asperity/simulation/link_faults.h"
 #include "asperity/simulation/probe_device.h"
 #include "asperity/simulation/simulate_motion.h"
 #include "asperity/simulation/simulate_recording.h"
 #include "asperity/simulation/tag_body.h"
+#include "link_faults.h"
 #include "pseudo_terminal.h"
 #include "stream_fifo.h"
 
@@ -76,16 +76,16 @@ struct LiveBench::Impl {
     constexpr std::int64_t kAfterwards_ns = 50'000'000;  // the last frame is not full
     constexpr std::size_t kMostWaiting = std::size_t{1} << 18;
     const std::int64_t end_ns = recording.truth->t_ns.back() + kAfterwards_ns;
-    std::vector<std::uint8_t> sent, waiting, heard;
+    std::vector<std::uint8_t> sent, waiting, received;
     std::int64_t due_ns = host_start_ns;
     for (bool more = true; more && sleep_until(due_ns);) {
       const std::int64_t host_ns = host_now_ns();
       const std::int64_t t_ns = std::min(host_ns - shift_ns, end_ns);
       report.latest_probe_s = std::max(report.latest_probe_s, 1e-9 * static_cast<double>(host_ns - due_ns));
       more = t_ns < end_ns;
-      heard.clear();
-      terminal.read(heard);
-      device->hear(heard);
+      received.clear();
+      terminal.read(received);
+      device->receive(received);
       sent.clear();
       device->advance(t_ns, sent);
       const std::size_t before = waiting.size();

@@ -1,4 +1,4 @@
-#include "asperity/simulation/load_surface.h"
+#include "load_surface.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

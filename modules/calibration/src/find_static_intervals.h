@@ -14,7 +14,7 @@ struct PoseRange {
 
 // The stretches, in order and apart, in which the mean poses over blocks stay together; the first and last block of
 // each stretch, where the motion may begin, is left away. Those too short for the config are not among them.
-std::vector<PoseRange> find_rests(const TrackerStream& tracker, const TrackerNoiseConfig& config);
+std::vector<PoseRange> find_static_intervals(const TrackerStream& tracker, const TrackerNoiseConfig& config);
 
 // The chordal mean of rotations that are near each other.
 Eigen::Quaterniond mean_rotation(const TrackerStream& tracker, PoseRange range);

@@ -1,4 +1,4 @@
-#include "quiet_stretch.h"
+#include "quiet_interval.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,8 +58,8 @@ double angle_to_up_rad(const Recording& recording, const Eigen::Vector3d& f_mark
 
 }  // namespace
 
-std::optional<RowRange> find_quiet_rows(const ProbeStream& probe, const StreamTiming& timing,
-                                        const InspectConfig& config) {
+std::optional<RowRange> find_quiet_interval(const ProbeStream& probe, const StreamTiming& timing,
+                                            const InspectConfig& config) {
   constexpr std::size_t kFewest = 20;
   if (probe.size() < kFewest || !(config.quiet_s <= timing.duration_s)) return std::nullopt;
   const double rows_wanted = std::max(config.quiet_s / timing.period_s, static_cast<double>(kFewest));
@@ -94,9 +94,9 @@ std::optional<RowRange> find_quiet_rows(const ProbeStream& probe, const StreamTi
   return best;
 }
 
-QuietStretch describe_quiet(const Recording& recording, const RowRange& rows, const InspectConfig& config) {
+QuietInterval describe_quiet_interval(const Recording& recording, const RowRange& rows, const InspectConfig& config) {
   const ProbeStream& probe = recording.probe;
-  QuietStretch out;
+  QuietInterval out;
   out.start_s = static_cast<double>(probe.t_ns[rows.first] - probe.t_ns.front()) * kNanosecond_s;
   out.duration_s = static_cast<double>(probe.t_ns[rows.last - 1] - probe.t_ns[rows.first]) * kNanosecond_s;
 

@@ -1,4 +1,4 @@
-#include "bvh_turned_box.h"
+#include "bvh_oriented_box.h"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 namespace asperity::bvh {
 
-void set_turned_box(std::span<const std::array<Eigen::Vector3d, 3>> triangles, LeafHead& head) {
+void set_oriented_box(std::span<const std::array<Eigen::Vector3d, 3>> triangles, LeafHead& head) {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero(), middle = normal;
   for (const auto& [a, b, c] : triangles) {
     const Eigen::Vector3d area = (b - a).cross(c - a);

@@ -1,4 +1,4 @@
-#include "find_rests.h"
+#include "find_static_intervals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,7 +97,7 @@ Eigen::Quaterniond mean_rotation(const TrackerStream& tracker, PoseRange range) 
   return Eigen::Quaterniond(sum).normalized();
 }
 
-std::vector<PoseRange> find_rests(const TrackerStream& tracker, const TrackerNoiseConfig& config) {
+std::vector<PoseRange> find_static_intervals(const TrackerStream& tracker, const TrackerNoiseConfig& config) {
   const std::vector<Block> blocks = make_blocks(tracker, config);
   std::vector<PoseRange> rests;
   std::size_t first = 0;

@@ -9,6 +9,6 @@ namespace asperity {
 // Puts an object somewhere else before the tracker: the middle of the stroke within 30 mm of where it was, along each
 // axis of the world, the normal there turned by up to 20 degrees, the stroke turned about it by up to 60. The same
 // seed gives the same place.
-void place_at_random(std::uint64_t seed, SimulatedShapeConfig& shape);
+void randomise_pose(std::uint64_t seed, SimulatedShapeConfig& shape);
 
 }  // namespace asperity

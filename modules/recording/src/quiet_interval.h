@@ -14,9 +14,9 @@ struct RowRange {
 };
 
 // The gap-free rows of `config.quiet_s` in which the accelerometer varies least; nullopt if none are.
-std::optional<RowRange> find_quiet_rows(const ProbeStream& probe, const StreamTiming& timing,
-                                        const InspectConfig& config);
+std::optional<RowRange> find_quiet_interval(const ProbeStream& probe, const StreamTiming& timing,
+                                            const InspectConfig& config);
 
-QuietStretch describe_quiet(const Recording& recording, const RowRange& rows, const InspectConfig& config);
+QuietInterval describe_quiet_interval(const Recording& recording, const RowRange& rows, const InspectConfig& config);
 
 }  // namespace asperity

@@ -1,4 +1,4 @@
-#include "asperity/simulation/place_at_random.h"
+#include "asperity/simulation/randomise_pose.h"
 
 #include <numbers>
 
@@ -9,7 +9,7 @@
 
 namespace asperity {
 
-void place_at_random(std::uint64_t seed, SimulatedShapeConfig& shape) {
+void randomise_pose(std::uint64_t seed, SimulatedShapeConfig& shape) {
   constexpr double kFarthest_m = 0.03;
   constexpr double kTilt_rad = 20.0 * std::numbers::pi / 180.0;
   constexpr double kTurn_rad = 60.0 * std::numbers::pi / 180.0;

@@ -7,7 +7,7 @@
 namespace asperity {
 
 // One measured standard deviation.
-struct NoiseAtPlace {
+struct NoiseAtPosition {
   double distance_m = 0.0;
   double tilt_rad = 0.0;
   double sigma = 0.0;
@@ -18,6 +18,6 @@ struct NoiseAtPlace {
 // standard errors of σ, which are believed (the errors of the result do not come from its residuals). `power` is held,
 // and in a second fit free. The tilt's term is fitted where the places' largest cosine is `least_tilt_ratio` times the
 // smallest. Throws Error for fewer than three places, or figures that are not positive and finite.
-NoiseLaw fit_noise_law(std::span<const NoiseAtPlace> places, double power, double least_tilt_ratio);
+NoiseLaw fit_noise_law(std::span<const NoiseAtPosition> places, double power, double least_tilt_ratio);
 
 }  // namespace asperity
