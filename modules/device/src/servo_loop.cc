@@ -9,9 +9,9 @@
 #include "asperity/base/error.h"
 #include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
-#include "asperity/device/spsc_ring.h"
 #include "real_time.h"
 #include "servo_core.h"
+#include "spsc_queue.h"
 
 namespace asperity {
 namespace {
@@ -58,12 +58,12 @@ class DirectSink final : public TickSink {
 
 class QueueSink final : public TickSink {
  public:
-  explicit QueueSink(std::size_t ticks) : ring_(ticks) {}
-  bool take(const ServoTick& tick) override { return ring_.push(tick); }
-  SpscRing<ServoTick>& ring() { return ring_; }
+  explicit QueueSink(std::size_t ticks) : queue_(ticks) {}
+  bool take(const ServoTick& tick) override { return queue_.push(tick); }
+  SpscQueue<ServoTick>& queue() { return queue_; }
 
  private:
-  SpscRing<ServoTick> ring_;
+  SpscQueue<ServoTick> queue_;
 };
 
 void run_unpaced(ServoCore& core, const std::atomic<bool>& stop, const std::function<void(const ServoTick&)>& on_tick) {
@@ -118,7 +118,7 @@ void run_paced(ServoCore& core, const ServoConfig& config, const std::atomic<boo
   std::exception_ptr failure;
   const auto drain = [&] {
     ServoTick tick;
-    while (sink.ring().pop(tick)) {
+    while (sink.queue().pop(tick)) {
       if (on_tick && !failure) on_tick(tick);
     }
   };

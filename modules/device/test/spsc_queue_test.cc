@@ -1,4 +1,4 @@
-#include "asperity/device/spsc_ring.h"
+#include "spsc_queue.h"
 
 #include <array>
 #include <cstdint>
@@ -11,29 +11,29 @@ namespace {
 
 using Item = std::array<std::uint64_t, 16>;
 
-TEST(SpscRing, RefusesWhenFullAndKeepsOrder) {
-  SpscRing<int> ring(3);
-  ASSERT_EQ(ring.capacity(), 4U);
+TEST(SpscQueue, RefusesWhenFullAndKeepsOrder) {
+  SpscQueue<int> queue(4);
+  EXPECT_EQ(queue.read_available(), 0U);
   for (int round = 0; round < 5; ++round) {
-    for (int k = 0; k < 4; ++k) EXPECT_TRUE(ring.push(k));
-    EXPECT_FALSE(ring.push(99));
+    for (int k = 0; k < 4; ++k) EXPECT_TRUE(queue.push(k));
+    EXPECT_FALSE(queue.push(99));
     int item = -1;
     for (int k = 0; k < 4; ++k) {
-      ASSERT_TRUE(ring.pop(item));
+      ASSERT_TRUE(queue.pop(item));
       EXPECT_EQ(item, k);
     }
-    EXPECT_FALSE(ring.pop(item));
+    EXPECT_FALSE(queue.pop(item));
   }
 }
 
-TEST(SpscRing, PassesEveryItemWholeBetweenThreads) {
+TEST(SpscQueue, PassesEveryItemWholeBetweenThreads) {
   constexpr std::uint64_t kItems = 100'000;
-  SpscRing<Item> ring(64);
+  SpscQueue<Item> queue(64);
   std::thread producer([&] {
     for (std::uint64_t k = 0; k < kItems;) {
       Item item;
       item.fill(k);
-      if (ring.push(item)) {
+      if (queue.push(item)) {
         ++k;
       } else {
         std::this_thread::yield();
@@ -43,7 +43,7 @@ TEST(SpscRing, PassesEveryItemWholeBetweenThreads) {
   bool right = true;
   for (std::uint64_t k = 0; k < kItems;) {
     Item item{};
-    if (!ring.pop(item)) {
+    if (!queue.pop(item)) {
       std::this_thread::yield();
       continue;
     }
