@@ -11,7 +11,7 @@
 #include "asperity/acquire/marker_sheets.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
-#include "asperity/recording/format.h"
+#include "asperity/recording/format_recording.h"
 #include "commands.h"
 #include "marker_family.h"
 #include "option_units.h"

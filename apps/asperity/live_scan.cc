@@ -5,7 +5,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
-#include "asperity/recording/format.h"
+#include "asperity/recording/format_recording.h"
 #include "asperity/recording/write_recording.h"
 
 namespace asperity::app {

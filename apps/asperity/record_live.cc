@@ -16,7 +16,7 @@
 #include "asperity/acquire/recorder.h"
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
-#include "asperity/recording/format.h"
+#include "asperity/recording/format_recording.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/simulation/probe_device.h"
 #include "asperity/simulation/stamp_delay.h"

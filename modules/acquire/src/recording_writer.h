@@ -13,7 +13,7 @@
 #include "asperity/acquire/recorder_config.h"
 #include "asperity/acquire/recorder_snapshot.h"
 #include "asperity/acquire/segment_writer.h"
-#include "asperity/recording/append.h"
+#include "asperity/recording/recording_appender.h"
 
 namespace asperity {
 

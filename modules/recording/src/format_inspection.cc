@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "asperity/recording/inspect.h"
+#include "asperity/recording/inspect_recording.h"
 
 namespace asperity {
 

@@ -2,7 +2,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "asperity/recording/format.h"
+#include "asperity/recording/format_recording.h"
 #include "json_writer.h"
 
 namespace asperity {

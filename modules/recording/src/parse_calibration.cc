@@ -4,7 +4,7 @@
 #include <Eigen/SVD>
 #include <nlohmann/json.hpp>
 
-#include "asperity/recording/parse.h"
+#include "asperity/recording/parse_recording.h"
 #include "calibration_parts.h"
 #include "json_reader.h"
 

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "asperity/recording/parse.h"
+#include "asperity/recording/parse_recording.h"
 #include "csv_rows.h"
 #include "pose_rows.h"
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "asperity/recording/inspect.h"
+#include "asperity/recording/inspect_recording.h"
 
 namespace asperity {
 

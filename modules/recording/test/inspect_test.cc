@@ -1,10 +1,10 @@
-#include "asperity/recording/inspect.h"
+#include "asperity/recording/inspect_recording.h"
 
 #include <gmock/gmock.h>
 #include <cmath>
 
 #include "asperity/base/random.h"
-#include "asperity/recording/validate.h"
+#include "asperity/recording/validate_recording.h"
 
 namespace asperity {
 namespace {

@@ -9,7 +9,7 @@
 #include "asperity/acquire/link_statistics.h"
 #include "asperity/acquire/probe_description.h"
 #include "asperity/acquire/probe_link.h"
-#include "asperity/recording/append.h"
+#include "asperity/recording/recording_appender.h"
 
 namespace asperity {
 

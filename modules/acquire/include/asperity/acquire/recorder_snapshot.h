@@ -10,7 +10,7 @@
 #include "asperity/acquire/link_statistics.h"
 #include "asperity/acquire/pose_source.h"
 #include "asperity/acquire/probe_description.h"
-#include "asperity/recording/append.h"
+#include "asperity/recording/recording_appender.h"
 
 namespace asperity {
 

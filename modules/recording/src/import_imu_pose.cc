@@ -1,4 +1,4 @@
-#include "asperity/recording/import.h"
+#include "asperity/recording/import_imu_pose.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "asperity/recording/append.h"
+#include "asperity/recording/recording_appender.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "asperity/base/error.h"
-#include "asperity/recording/format.h"
+#include "asperity/recording/format_recording.h"
 #include "asperity/recording/write_recording.h"
 #include "csv_line.h"
 #include "keep_rows.h"

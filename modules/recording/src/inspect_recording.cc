@@ -1,4 +1,4 @@
-#include "asperity/recording/inspect.h"
+#include "asperity/recording/inspect_recording.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "asperity/recording/validate.h"
+#include "asperity/recording/validate_recording.h"
 
 #include <cmath>
 

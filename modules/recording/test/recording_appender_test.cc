@@ -1,4 +1,4 @@
-#include "asperity/recording/append.h"
+#include "asperity/recording/recording_appender.h"
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>
