@@ -18,10 +18,10 @@
 #include <thread>
 #include <vector>
 
-#include "asperity/acquire/open_protocol.h"
-#include "asperity/acquire/recorder.h"
 #include "asperity/base/error.h"
 #include "asperity/base/host_clock.h"
+#include "asperity/link/open_protocol.h"
+#include "asperity/recorder/recorder.h"
 #include "asperity/recording/read_recording.h"
 
 namespace {

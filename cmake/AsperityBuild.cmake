@@ -25,6 +25,15 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 reports these inside Eigen and the standard library after inlining.
   target_compile_options(asperity_flags INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)
 endif()
+# Hardening; what it costs the servo is in docs/performance.md. --as-needed: a library that nothing uses is not loaded.
+include(CheckPIESupported)
+check_pie_supported()
+add_library(asperity_hardening INTERFACE)
+target_compile_options(asperity_hardening INTERFACE
+  -fstack-protector-strong $<$<CONFIG:Release>:-U_FORTIFY_SOURCE> $<$<CONFIG:Release>:-D_FORTIFY_SOURCE=2>)
+target_link_options(asperity_hardening INTERFACE -Wl,-z,relro,-z,now,-z,noexecstack -Wl,--as-needed -Wl,-O1)
+target_link_libraries(asperity_flags INTERFACE asperity_hardening)
+
 if(ASPERITY_SANITIZE)
   add_compile_options(-fsanitize=${ASPERITY_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${ASPERITY_SANITIZE})
@@ -75,6 +84,20 @@ function(add_module name)
     target_compile_definitions(${name}_test PRIVATE ASPERITY_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
     gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 300)
   endif()
+endfunction()
+
+# add_own_library(name USED_BY target SOURCES … LIBRARIES target…)
+#   libasperity_<name>.so, which own_library_paths() (base/load_library.h) finds beside the programs of the build and in
+#   lib/asperity of what is installed. It is built before whatever is linked with USED_BY, which loads it.
+function(add_own_library name)
+  cmake_parse_arguments(L "" "USED_BY" "SOURCES;LIBRARIES" ${ARGN})
+  set(target asperity_${name}_library)
+  add_library(${target} MODULE ${L_SOURCES})
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME asperity_${name}
+                        LIBRARY_OUTPUT_DIRECTORY "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  target_link_libraries(${target} PRIVATE ${L_LIBRARIES} asperity_flags)
+  add_dependencies(${L_USED_BY} ${target})
+  install(TARGETS ${target} LIBRARY DESTINATION lib/asperity)
 endfunction()
 
 # add_asperity_fuzzer(name SOURCE target…): SOURCE defines LLVMFuzzerTestOneInput. With clang and

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "asperity/acquire/read_gray_image.h"
 #include "asperity/base/text.h"
 #include "asperity/calibration/calibrate_camera.h"
 #include "asperity/calibration/find_board.h"
+#include "asperity/image/read_gray_image.h"
 #include "calibrate_command.h"
 #include "commands.h"
 #include "image_files.h"

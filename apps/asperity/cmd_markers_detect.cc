@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "asperity/acquire/detect_tags.h"
-#include "asperity/acquire/read_gray_image.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/image/read_gray_image.h"
+#include "asperity/tracking/detect_tags.h"
 #include "commands.h"
 #include "our_file.h"
 

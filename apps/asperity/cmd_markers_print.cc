@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "asperity/acquire/format_pdf.h"
-#include "asperity/acquire/marker_sheets.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/printing/format_pdf.h"
+#include "asperity/printing/marker_sheets.h"
 #include "asperity/recording/format_recording.h"
 #include "commands.h"
 #include "marker_family.h"

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "asperity/acquire/frame_writer.h"
-#include "asperity/acquire/recorder.h"
 #include "asperity/base/text.h"
+#include "asperity/camera/frame_writer.h"
 #include "asperity/pipeline/config_json.h"
+#include "asperity/recorder/recorder.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "option_units.h"
@@ -54,7 +54,8 @@ class RecordCommand : public Command {
         .add_option("--capture", input_.capture, "Keep the probe's bytes too, in a new file for --probe file:CAPTURE")
         ->type_name("FILE");
     parser()
-        .add_option("--camera", input_.camera, "v4l2:/dev/video0[?rate=120&…], y4m:PATH, images:FOLDER or video:FILE")
+        .add_option("--camera", input_.camera,
+                    "v4l2:/dev/video0[?rate=120&…], y4m:PATH, images:FOLDER or video:FILE (by ffmpeg)")
         ->type_name("ADDRESS");
     parser()
         .add_option("--markers", input_.markers, "The tags on the probe; else those of the calibration")

@@ -12,8 +12,8 @@
 #include "asperity/base/version.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/texture/evaluate_height.h"
+#include "asperity/texture/format_height_image.h"
 #include "asperity/texture/make_height_map.h"
-#include "asperity/texture/png_image.h"
 #include "asperity/texture/sample_heights.h"
 #include "asperity/texture/synthesize_isotropic.h"
 #include "asperity/texture/synthesize_stroke.h"
@@ -137,7 +137,7 @@ class TextureSynthesizeCommand : public Command {
   void write_tile(const Texture& texture, Json& out) {
     const HeightMapFit fit = make_height_map(texture.model, settings_.tile);
     const HeightMap& map = fit.texture;
-    write_file(output_, signed_png(format_png({map.columns, map.rows, map.bits, map.level})));
+    write_file(output_, signed_png(format_height_image(map)));
     out["columns"] = map.columns;
     out["rows"] = map.rows;
     out["bits"] = map.bits;

@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "asperity/acquire/open_image_folder.h"
-#include "asperity/acquire/track_images.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/camera/open_image_folder.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/recording/read_markers.h"
+#include "asperity/tracking/track_images.h"
 #include "commands.h"
 #include "our_file.h"
 

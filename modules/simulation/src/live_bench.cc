@@ -18,7 +18,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/host_clock.h"
-#include "asperity/recording/y4m.h"
+#include "asperity/image/y4m.h"
 #include "asperity/simulation/bench_camera.h"
 #include "asperity/simulation/probe_device.h"
 #include "asperity/simulation/simulate_motion.h"

@@ -10,14 +10,14 @@
 #include <thread>
 #include <utility>
 
-#include "asperity/acquire/byte_source.h"
-#include "asperity/acquire/camera_pose_source.h"
-#include "asperity/acquire/open_serial.h"
-#include "asperity/acquire/open_y4m.h"
-#include "asperity/acquire/probe_link.h"
 #include "asperity/base/error.h"
+#include "asperity/camera/open_y4m.h"
+#include "asperity/link/probe_link.h"
 #include "asperity/recording/cut_recording.h"
 #include "asperity/simulation/live_bench.h"
+#include "asperity/tracking/camera_pose_source.h"
+#include "asperity/transport/byte_source.h"
+#include "asperity/transport/open_serial.h"
 #include "scan/episodes.h"
 #include "scan/temporary_folder.h"
 
