@@ -142,19 +142,19 @@ void pool(const std::vector<StaticInterval>& rests, Channel StaticInterval::*cha
 }
 
 // Two axes of which neither is special: their mean variance.
-NoiseAtPosition noise_across(const StaticInterval& rest, const Channel& channel) {
+NoiseAtPose noise_across(const StaticInterval& rest, const Channel& channel) {
   const double a = channel[0].white, b = channel[1].white;
-  NoiseAtPosition place{rest.distance_m, rest.tilt_rad, std::sqrt(0.5 * (a * a + b * b)), 0.0};
+  NoiseAtPose place{rest.distance_m, rest.tilt_rad, std::sqrt(0.5 * (a * a + b * b)), 0.0};
   place.sigma_error = std::hypot(a * channel[0].white_error, b * channel[1].white_error) / (2.0 * place.sigma);
   return place;
 }
 
-NoiseAtPosition noise_along(const StaticInterval& rest, const Channel& channel) {
+NoiseAtPose noise_along(const StaticInterval& rest, const Channel& channel) {
   return {rest.distance_m, rest.tilt_rad, channel[2].white, channel[2].white_error};
 }
 
 void fit_model(const TrackerNoiseConfig& config, TrackerNoise& out) {
-  std::vector<NoiseAtPosition> across, along, about, tilt;
+  std::vector<NoiseAtPose> across, along, about, tilt;
   TrackerNoiseModel model;
   for (const StaticInterval& rest : out.rests) {
     const auto measured = [](const SeriesNoise& noise) {

@@ -80,7 +80,7 @@ void CausalBase::push(std::int64_t t_ns, const Eigen::Vector3d& p_world_tip_m, c
   }
   if (contact) {
     travelled_m_ += std::abs(travelled_m);
-    remainder_m_ *= std::exp(-std::abs(travelled_m) / config_.settle_m);
+    remainder_m_ *= std::exp(-std::abs(travelled_m) / config_.blend_m);
   }
   if (!history_.t_ns.empty() && t_ns < history_.t_ns.back() + kCell_ns) return;
   history_.t_ns.push_back(t_ns);

@@ -13,9 +13,9 @@ namespace asperity {
 namespace {
 
 template <class ValueOf>
-ChannelFigures channel_figures(std::string name, const RecordingInfo& info, std::size_t rows,
-                               const std::optional<RowRange>& quiet, ValueOf value_of) {
-  ChannelFigures out;
+ChannelStatistics channel_statistics(std::string name, const RecordingInfo& info, std::size_t rows,
+                                     const std::optional<RowRange>& quiet, ValueOf value_of) {
+  ChannelStatistics out;
   out.name = std::move(name);
   const bool range_known = info.adc_max > info.adc_min;
   std::size_t saturated = 0;
@@ -50,21 +50,21 @@ ChannelFigures channel_figures(std::string name, const RecordingInfo& info, std:
   return out;
 }
 
-std::vector<ChannelFigures> all_channels(const Recording& recording, const std::optional<RowRange>& quiet) {
+std::vector<ChannelStatistics> all_channels(const Recording& recording, const std::optional<RowRange>& quiet) {
   const ProbeStream& probe = recording.probe;
-  std::vector<ChannelFigures> out;
+  std::vector<ChannelStatistics> out;
   const auto add3 = [&](std::initializer_list<const char*> names, const std::vector<Eigen::Vector3d>& values) {
     if (values.empty()) return;
     Eigen::Index axis = 0;
     for (const char* name : names) {
-      out.push_back(channel_figures(name, recording.info, values.size(), quiet,
-                                    [&values, axis](std::size_t i) { return values[i][axis]; }));
+      out.push_back(channel_statistics(name, recording.info, values.size(), quiet,
+                                       [&values, axis](std::size_t i) { return values[i][axis]; }));
       ++axis;
     }
   };
   add3({"accel_i", "accel_j", "accel_k"}, probe.accel_counts);
-  out.push_back(channel_figures("force", recording.info, probe.size(), quiet,
-                                [&](std::size_t i) { return probe.force_counts[i]; }));
+  out.push_back(channel_statistics("force", recording.info, probe.size(), quiet,
+                                   [&](std::size_t i) { return probe.force_counts[i]; }));
   add3({"gyro_i", "gyro_j", "gyro_k"}, probe.gyro_counts);
   add3({"force_x", "force_y", "force_z"}, probe.force3_counts);
   return out;

@@ -19,7 +19,7 @@ struct MeshBasePath {
 };
 
 // Throws Error where the path leaves the mesh.
-MeshBasePath project_on_mesh(const MeshBase& base, const ScanPath& path);
+MeshBasePath place_on_mesh(const MeshBase& base, const ScanPath& path);
 
 // Puts into `truth` what holds over the mesh itself, from the tip's positions alone: the height h along the
 // interpolated normal n of the mesh's point b under the tip, p = b + h n(b) (mesh_surface.h), and the arc length at

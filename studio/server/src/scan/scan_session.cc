@@ -239,7 +239,7 @@ void ScanSession::grow_again(const RecorderSnapshot& now) {
   const std::int64_t end_ns = now.storing ? std::numeric_limits<std::int64_t>::max() : shown_->end_ns;
   const LiveEstimate estimate = estimator_->again(shown_->start_ns, end_ns, now.storing);
   const std::lock_guard lock(mutex_);
-  book_.begin_anew();
+  book_.restart();
   book_.add(estimate, true);
 }
 

@@ -30,7 +30,7 @@ struct StreamTiming {
 };
 
 // One column of the probe, in counts.
-struct ChannelFigures {
+struct ChannelStatistics {
   std::string name;
   std::size_t samples = 0;  // rows with a value
   double lowest = std::numeric_limits<double>::quiet_NaN();
@@ -62,7 +62,7 @@ struct Inspection {
   StreamTiming probe;
   StreamTiming tracker;
   double overlap_s = 0.0;
-  std::vector<ChannelFigures> channels;
+  std::vector<ChannelStatistics> channels;
   std::optional<QuietInterval> quiet;  // nullopt: too short a recording
   double force_lowest_N = std::numeric_limits<double>::quiet_NaN();
   double force_highest_N = std::numeric_limits<double>::quiet_NaN();

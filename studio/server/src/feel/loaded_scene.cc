@@ -1,4 +1,4 @@
-#include "feel/felt_world.h"
+#include "feel/loaded_scene.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -47,7 +47,7 @@ std::string stamp_of(const FeelSetup& setup, const Scene& scene) {
 }
 
 // Images become a scene with the settings' stiffness and model in it, and are small: they are read each time.
-bool same_source(const FeelSetup& setup, const std::string& source, const std::shared_ptr<const FeltWorld>& before) {
+bool same_source(const FeelSetup& setup, const std::string& source, const std::shared_ptr<const LoadedScene>& before) {
   return before && setup.input.height_maps.empty() && before->source == source &&
          before->stamp == stamp_of(setup, *before->scene);
 }
@@ -66,9 +66,9 @@ std::string title_of(const FeelChoices& choices) {
 
 }  // namespace
 
-std::shared_ptr<const FeltWorld> make_felt_world(FeelSetup setup, const FeelChoices& choices,
-                                                 const std::shared_ptr<const FeltWorld>& before, std::uint64_t number) {
-  auto out = std::make_shared<FeltWorld>();
+std::shared_ptr<const LoadedScene> load_scene(FeelSetup setup, const FeelChoices& choices,
+                                              const std::shared_ptr<const LoadedScene>& before, std::uint64_t number) {
+  auto out = std::make_shared<LoadedScene>();
   out->source = source_of(setup);
   if (same_source(setup, out->source, before)) {
     out->scene = before->scene;
@@ -92,8 +92,8 @@ std::shared_ptr<const FeltWorld> make_felt_world(FeelSetup setup, const FeelChoi
   return out;
 }
 
-app::FeltModel make_swapped_model(const FeltWorld& world, const DeviceInfo& device, bool as_it_is,
-                                  const FeelConfig& running) {
+app::FeltModel prepare_swapped_model(const LoadedScene& world, const DeviceInfo& device, bool as_it_is,
+                                     const FeelConfig& running) {
   app::FeelSettings settings = world.setup.config.feel;
   // Where the device stands, how fast it is served and how safely is settled for the run.
   settings.servo = running.feel.servo;

@@ -1,4 +1,4 @@
-#include "recording_clerk.h"
+#include "recording_info_writer.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,10 +10,10 @@
 
 namespace asperity {
 
-RecordingClerk::RecordingClerk(std::filesystem::path folder, double sync_s)
+RecordingInfoWriter::RecordingInfoWriter(std::filesystem::path folder, double sync_s)
     : folder_(std::move(folder)), sync_s_(sync_s), thread_([this] { run(); }) {}
 
-RecordingClerk::~RecordingClerk() {
+RecordingInfoWriter::~RecordingInfoWriter() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -22,7 +22,7 @@ RecordingClerk::~RecordingClerk() {
   thread_.join();
 }
 
-void RecordingClerk::put(const RecordingInfo& info) {
+void RecordingInfoWriter::put(const RecordingInfo& info) {
   {
     const std::lock_guard lock(mutex_);
     waiting_ = info;
@@ -30,7 +30,7 @@ void RecordingClerk::put(const RecordingInfo& info) {
   changed_.notify_all();
 }
 
-void RecordingClerk::run() {
+void RecordingInfoWriter::run() {
   using Clock = std::chrono::steady_clock;
   const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(sync_s_));
   Clock::time_point next_sync = Clock::now() + period;
@@ -58,7 +58,7 @@ void RecordingClerk::run() {
   }
 }
 
-void RecordingClerk::sync() const {
+void RecordingInfoWriter::sync() const {
   for (const char* name : {"recording.json", "probe.csv", "tracker.csv", "."}) {
     const int file = ::open((folder_ / name).c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) continue;

@@ -12,7 +12,7 @@
 namespace asperity::studio {
 
 // What is felt and shown, as the choices say. Immutable, and kept until a newer one is whole.
-struct FeltWorld {
+struct LoadedScene {
   FeelSetup setup;
   std::string source;                    // what of the choices the scene was read from
   std::string stamp;                     // of all files that were read: another one if any has changed
@@ -27,11 +27,11 @@ struct FeltWorld {
 
 // Reads the scene, unless `before` was read from the same, and makes its block. Not for the studio's thread. Throws
 // Error in words for what cannot be read or rendered.
-std::shared_ptr<const FeltWorld> make_felt_world(FeelSetup setup, const FeelChoices& choices,
-                                                 const std::shared_ptr<const FeltWorld>& before, std::uint64_t number);
+std::shared_ptr<const LoadedScene> load_scene(FeelSetup setup, const FeelChoices& choices,
+                                              const std::shared_ptr<const LoadedScene>& before, std::uint64_t number);
 
 // The model of a world for a device that runs already, within what it can render. Not for the studio's thread.
-app::FeltModel make_swapped_model(const FeltWorld& world, const DeviceInfo& device, bool as_it_is,
-                                  const FeelConfig& running);
+app::FeltModel prepare_swapped_model(const LoadedScene& world, const DeviceInfo& device, bool as_it_is,
+                                     const FeelConfig& running);
 
 }  // namespace asperity::studio

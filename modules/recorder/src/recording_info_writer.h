@@ -12,13 +12,13 @@ namespace asperity {
 
 // Does in a thread of its own what may wait for the disk while rows are written: replaces recording.json, and forces
 // the files to the disk every `sync_s`.
-class RecordingClerk {
+class RecordingInfoWriter {
  public:
-  RecordingClerk(std::filesystem::path folder, double sync_s);  // 0: never
+  RecordingInfoWriter(std::filesystem::path folder, double sync_s);  // 0: never
   // Ends; an info that is not yet written is left.
-  ~RecordingClerk();
-  RecordingClerk(const RecordingClerk&) = delete;
-  RecordingClerk& operator=(const RecordingClerk&) = delete;
+  ~RecordingInfoWriter();
+  RecordingInfoWriter(const RecordingInfoWriter&) = delete;
+  RecordingInfoWriter& operator=(const RecordingInfoWriter&) = delete;
 
   // To be written soon; a newer one takes its place.
   void put(const RecordingInfo& info);

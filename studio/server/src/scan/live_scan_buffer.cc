@@ -1,4 +1,4 @@
-#include "scan/scan_book.h"
+#include "scan/live_scan_buffer.h"
 
 #include <algorithm>
 #include <utility>
@@ -24,9 +24,9 @@ std::span<const T> tail(const std::vector<T>& values, std::size_t first) {
 
 }  // namespace
 
-ScanBook ScanBook::begin_anew() {
-  ScanBook before = std::move(*this);
-  *this = ScanBook();
+LiveScanBuffer LiveScanBuffer::restart() {
+  LiveScanBuffer before = std::move(*this);
+  *this = LiveScanBuffer();
   profile_generation_ = before.profile_generation_ + 1;
   path_generation_ = before.path_generation_ + 1;
   profile_sequence_ = before.profile_sequence_;
@@ -35,8 +35,8 @@ ScanBook ScanBook::begin_anew() {
   return before;
 }
 
-void ScanBook::begin_with(ScanBook kept) {
-  begin_anew();
+void LiveScanBuffer::begin_with(LiveScanBuffer kept) {
+  restart();
   kept.profile_generation_ = profile_generation_;
   kept.path_generation_ = path_generation_;
   kept.profile_sequence_ = profile_sequence_;
@@ -46,24 +46,24 @@ void ScanBook::begin_with(ScanBook kept) {
   *this = std::move(kept);
 }
 
-void ScanBook::begin_path_anew() {
+void LiveScanBuffer::restart_path() {
   ++path_generation_;
   told_tips_ = 0;
 }
 
-void ScanBook::add_tip(const LiveTip& tip, bool storing) {
+void LiveScanBuffer::add_tip(const LiveTip& tip, bool storing) {
   if (++passed_over_ < stride_) return;
   passed_over_ = 0;
   if (!storing && path_.size() >= stored_tips_ + kMostTipsInTheAir) {
     path_.resize(stored_tips_);
-    begin_path_anew();
+    restart_path();
   }
   if (path_.size() >= kMostTips) {
     for (std::size_t i = 0; 2 * i < path_.size(); ++i) path_[i] = path_[2 * i];
     path_.resize((path_.size() + 1) / 2);
     stored_tips_ = std::min(stored_tips_, path_.size());
     stride_ *= 2;
-    begin_path_anew();
+    restart_path();
   }
   Tip out{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -76,7 +76,7 @@ void ScanBook::add_tip(const LiveTip& tip, bool storing) {
   if (storing) stored_tips_ = path_.size();
 }
 
-void ScanBook::add(const LiveEstimate& estimate, bool storing) {
+void LiveScanBuffer::add(const LiveEstimate& estimate, bool storing) {
   base_ = estimate.base;
   motion_ns_ = estimate.motion_ns;
   for (const LiveTip& tip : estimate.tips) add_tip(tip, storing);
@@ -92,7 +92,7 @@ void ScanBook::add(const LiveEstimate& estimate, bool storing) {
   }
 }
 
-BlockWriter ScanBook::profile_from(std::size_t first) const {
+BlockWriter LiveScanBuffer::profile_from(std::size_t first) const {
   BlockWriter out("scan.profile");
   out.head()["generation"] = profile_generation_;
   out.head()["first"] = first;
@@ -107,7 +107,7 @@ BlockWriter ScanBook::profile_from(std::size_t first) const {
   return out;
 }
 
-BlockWriter ScanBook::path_from(std::size_t first) const {
+BlockWriter LiveScanBuffer::path_from(std::size_t first) const {
   const std::size_t count = path_.size() - first;
   std::vector<float> tips_m, axes, force_N;
   std::vector<std::uint8_t> state;
@@ -130,7 +130,7 @@ BlockWriter ScanBook::path_from(std::size_t first) const {
   return out;
 }
 
-BlockWriter ScanBook::take_growth() {
+BlockWriter LiveScanBuffer::take_growth() {
   BlockWriter out = profile_from(told_points_);
   out.head()["sequence"] = profile_sequence_++;
   told_points_ = s_m_.size();
@@ -138,7 +138,7 @@ BlockWriter ScanBook::take_growth() {
   return out;
 }
 
-BlockWriter ScanBook::take_motion() {
+BlockWriter LiveScanBuffer::take_motion() {
   BlockWriter out = path_from(told_tips_);
   out.head()["sequence"] = path_sequence_++;
   told_tips_ = path_.size();

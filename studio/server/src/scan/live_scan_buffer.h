@@ -11,16 +11,16 @@ namespace asperity::studio {
 
 // The profile and the tip's path as they have grown so far, and the frames by which they grow in a browser. A new
 // generation begins from nothing: a browser that sees one it does not know, or a gap, asks for the whole.
-class ScanBook {
+class LiveScanBuffer {
  public:
   static constexpr std::size_t kMostPoints = 1'000'000;
   static constexpr std::size_t kMostTips = 100'000;  // then every other one goes
   static constexpr std::size_t kMostTipsInTheAir = 5'000;
 
   // Gives what there was.
-  ScanBook begin_anew();
+  LiveScanBuffer restart();
   // Begins anew with what there was once.
-  void begin_with(ScanBook kept);
+  void begin_with(LiveScanBuffer kept);
   // While nothing is stored only the path grows; of that the newest tips are kept.
   void add(const LiveEstimate& estimate, bool storing);
 
@@ -46,7 +46,7 @@ class ScanBook {
   BlockWriter profile_from(std::size_t first) const;
   BlockWriter path_from(std::size_t first) const;
   void add_tip(const LiveTip& tip, bool storing);
-  void begin_path_anew();
+  void restart_path();
 
   std::uint32_t profile_generation_ = 0, path_generation_ = 0;
   std::uint64_t profile_sequence_ = 0, path_sequence_ = 0;
