@@ -44,7 +44,7 @@ struct RecordSettings {
 
 class RecordCommand : public Command {
  public:
-  explicit RecordCommand(CLI::App& root) : Command(root, "record", "Record a probe and its pose while a hand scans") {
+  explicit RecordCommand(Parser& root) : Command(root, "record", "Record a probe and its pose while a hand scans") {
     settings_.recorder.start_at_once = true;
     require(parser().add_option("--probe", input_.probe,
                                 "serial:/dev/ttyUSB0[@BAUD], usb:VID:PID[:SERIAL], udp:PORT or file:CAPTURE"))
@@ -168,6 +168,6 @@ class RecordCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_record(CLI::App& root) { return std::make_unique<RecordCommand>(root); }
+std::unique_ptr<Command> make_record(Parser& root) { return std::make_unique<RecordCommand>(root); }
 
 }  // namespace asperity::app

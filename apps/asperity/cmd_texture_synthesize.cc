@@ -46,7 +46,7 @@ struct SynthesizeSettings {
 
 class TextureSynthesizeCommand : public Command {
  public:
-  explicit TextureSynthesizeCommand(CLI::App& root)
+  explicit TextureSynthesizeCommand(Parser& root)
       : Command(root, "synthesize",
                 "Heights of a texture along a line, or a force model's accelerations (*.csv); a tile (*.png)") {
     require(parser().add_option("TEXTURE", file_, "A *.texture.json"));
@@ -155,13 +155,13 @@ class TextureSynthesizeCommand : public Command {
   std::string length_;
   std::string spacing_;
   std::int64_t seed_ = 0;
-  CLI::Option* seed_option_ = nullptr;
+  Option* seed_option_ = nullptr;
   SynthesizeSettings settings_;
 };
 
 }  // namespace
 
-std::unique_ptr<Command> make_texture_synthesize(CLI::App& root) {
+std::unique_ptr<Command> make_texture_synthesize(Parser& root) {
   return std::make_unique<TextureSynthesizeCommand>(root);
 }
 

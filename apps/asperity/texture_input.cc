@@ -11,6 +11,7 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
 #include "asperity/profile/measure_roughness.h"
@@ -21,7 +22,6 @@ namespace asperity::app {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t kLargestFile_bytes = 512ULL << 20;
 
 struct Column {

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostFiles = 1'000'000;
-constexpr double kLargestRate_Hz = 1e5;
+constexpr double kLargestFolderRate_Hz = 1e5;
 constexpr std::int64_t kShortestInterval_ns = 100'000;
 
 struct TimedFile {
@@ -96,7 +96,7 @@ class ImageListSource final : public CameraSource {
  public:
   ImageListSource(std::vector<fs::path> files, std::string name, const ImageFolderConfig& config)
       : name_(std::move(name)), rate_Hz_(config.rate_Hz) {
-    if (!(rate_Hz_ >= 0.0) || rate_Hz_ > kLargestRate_Hz) {
+    if (!(rate_Hz_ >= 0.0) || rate_Hz_ > kLargestFolderRate_Hz) {
       throw Error(name_ + ": the rate " + number_text(rate_Hz_) + " Hz is not within 0 to 100000");
     }
     if (files.empty()) throw Error(name_ + ": there is no image (*.png, *.jpg, *.jpeg, *.pgm)");

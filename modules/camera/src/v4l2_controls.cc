@@ -47,8 +47,8 @@ bool set(const V4l2Device& device, std::uint32_t id, int value) {
 }
 
 // The control's present value if it is set and stays; nullopt with a warning if not.
-std::optional<int> lock(const V4l2Device& device, const Property& property, std::optional<int> wanted,
-                        std::vector<std::string>& warnings) {
+std::optional<int> lock_property(const V4l2Device& device, const Property& property, std::optional<int> wanted,
+                                 std::vector<std::string>& warnings) {
   const auto warn = [&](const std::string& why) {
     warnings.push_back(std::string(property.name) + " is not locked: " + why);
     return std::nullopt;
@@ -104,7 +104,7 @@ void lock_exposure(const V4l2Device& device, const V4l2Config& config, const V4l
     }
     exposure.value = V4L2_CID_EXPOSURE;
   }
-  const auto now = lock(device, exposure, wanted, warnings);
+  const auto now = lock_property(device, exposure, wanted, warnings);
   if (!now || exposure.value != V4L2_CID_EXPOSURE_ABSOLUTE || image.rate_Hz <= 0.0) return;
   const double exposure_s = *now * kExposureUnit_s;
   if (exposure_s * image.rate_Hz > 1.0) {
@@ -118,12 +118,12 @@ void lock_exposure(const V4l2Device& device, const V4l2Config& config, const V4l
 void lock_controls(const V4l2Device& device, const V4l2Config& config, const V4l2Image& image,
                    std::vector<std::string>& warnings) {
   lock_exposure(device, config, image, warnings);
-  lock(device, {"gain", V4L2_CID_AUTOGAIN, {0}, V4L2_CID_GAIN}, config.gain, warnings);
+  lock_property(device, {"gain", V4L2_CID_AUTOGAIN, {0}, V4L2_CID_GAIN}, config.gain, warnings);
   if (image.format != V4l2Format::kGrey || config.white_balance_K) {
-    lock(device, {"white balance", V4L2_CID_AUTO_WHITE_BALANCE, {0}, V4L2_CID_WHITE_BALANCE_TEMPERATURE},
-         config.white_balance_K, warnings);
+    lock_property(device, {"white balance", V4L2_CID_AUTO_WHITE_BALANCE, {0}, V4L2_CID_WHITE_BALANCE_TEMPERATURE},
+                  config.white_balance_K, warnings);
   }
-  lock(device, {"focus", V4L2_CID_FOCUS_AUTO, {0}, V4L2_CID_FOCUS_ABSOLUTE}, config.focus, warnings);
+  lock_property(device, {"focus", V4L2_CID_FOCUS_AUTO, {0}, V4L2_CID_FOCUS_ABSOLUTE}, config.focus, warnings);
 }
 
 }  // namespace asperity

@@ -118,13 +118,13 @@ void append_open_request(std::vector<std::uint8_t>& out) {
   append_open_frame(payload, out);
 }
 
-void append_open_description(std::string_view json, std::vector<std::uint8_t>& out) {
-  if (json.size() > kOpenMaxDescription_bytes) {
+void append_open_description(std::string_view description, std::vector<std::uint8_t>& out) {
+  if (description.size() > kOpenMaxDescription_bytes) {
     throw Error(fmt::format("open protocol: a description has at most {} bytes, not {}", kOpenMaxDescription_bytes,
-                            json.size()));
+                            description.size()));
   }
   std::vector<std::uint8_t> payload{kOpenVersion, kOpenDescriptionType};
-  payload.insert(payload.end(), json.begin(), json.end());
+  payload.insert(payload.end(), description.begin(), description.end());
   append_open_frame(payload, out);
 }
 

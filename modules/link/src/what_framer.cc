@@ -8,8 +8,8 @@ namespace asperity {
 namespace {
 
 constexpr std::uint8_t kStartByte = 0xFF;
-constexpr std::size_t kFrame_bytes = 5;
-constexpr std::size_t kWindow_bytes = 5 * kFrame_bytes;
+constexpr std::size_t kWhatFrame_bytes = 5;
+constexpr std::size_t kWindow_bytes = 5 * kWhatFrame_bytes;
 constexpr double kLead = 6.0;
 constexpr double kForget = 1.0 / 32.0;
 constexpr double kLeastRate = 0.02;
@@ -31,9 +31,9 @@ void WhatFramer::push(std::span<const std::uint8_t> bytes, std::vector<WhatFrame
 
 // False if more bytes are needed.
 bool WhatFramer::step(std::vector<WhatFrame>& out) {
-  const auto starts = [this](std::size_t frame) { return bytes_[cursor_ + frame * kFrame_bytes] == kStartByte; };
+  const auto starts = [this](std::size_t frame) { return bytes_[cursor_ + frame * kWhatFrame_bytes] == kStartByte; };
   const std::size_t there = bytes_.size() - cursor_;
-  if (there <= kFrame_bytes) return false;
+  if (there <= kWhatFrame_bytes) return false;
   if (starts(1)) {
     if (looks_odd()) {
       if (there <= kWindow_bytes) return false;
@@ -46,10 +46,10 @@ bool WhatFramer::step(std::vector<WhatFrame>& out) {
     take(out);
     return true;
   }
-  if (there <= 3 * kFrame_bytes) return false;
+  if (there <= 3 * kWhatFrame_bytes) return false;
   if (starts(2) && starts(3)) {
     take(out);
-    cursor_ += kFrame_bytes;
+    cursor_ += kWhatFrame_bytes;
   } else {
     in_step_ = false;
   }
@@ -60,20 +60,20 @@ void WhatFramer::take(std::vector<WhatFrame>& out) {
   WhatFrame frame;
   const std::uint64_t start = base_ + cursor_;
   frame.skipped = start - taken_;
-  frame.end = start + kFrame_bytes;
+  frame.end = start + kWhatFrame_bytes;
   for (std::size_t i = 0; i < frame.data.size(); ++i) {
     frame.data[i] = bytes_[cursor_ + 1 + i];
     double& rate = start_rate_[1 + i];
     rate += kForget * ((frame.data[i] == kStartByte ? 1.0 : 0.0) - rate);
   }
   taken_ = frame.end;
-  cursor_ += kFrame_bytes;
+  cursor_ += kWhatFrame_bytes;
   out.push_back(frame);
 }
 
 // True if a place that has mostly been FFh of late is not: a slip may have brought it under the start byte.
 bool WhatFramer::looks_odd() const {
-  for (std::size_t place = 1; place < kFrame_bytes; ++place) {
+  for (std::size_t place = 1; place < kWhatFrame_bytes; ++place) {
     if (start_rate_[place] > kOftenFull && bytes_[cursor_ + place] != kStartByte) return true;
   }
   return false;
@@ -81,22 +81,23 @@ bool WhatFramer::looks_odd() const {
 
 // The likelihoods of the phases over the window at the cursor.
 std::array<double, 5> WhatFramer::scores() const {
-  std::array<double, kFrame_bytes> if_start{};
-  std::array<double, kFrame_bytes> if_not{};
-  for (std::size_t place = 0; place < kFrame_bytes; ++place) {
+  std::array<double, kWhatFrame_bytes> if_start{};
+  std::array<double, kWhatFrame_bytes> if_not{};
+  for (std::size_t place = 0; place < kWhatFrame_bytes; ++place) {
     const double rate = place == 0 ? start_rate_[0] : std::clamp(start_rate_[place], kLeastRate, kMostRate);
     if_start[place] = std::log(rate);
     if_not[place] = std::log(1.0 - rate);
   }
-  std::array<int, kFrame_bytes> seen{};  // start bytes, by place from the cursor
+  std::array<int, kWhatFrame_bytes> seen{};  // start bytes, by place from the cursor
   for (std::size_t i = 0; i < kWindow_bytes; ++i) {
-    if (bytes_[cursor_ + i] == kStartByte) ++seen[i % kFrame_bytes];
+    if (bytes_[cursor_ + i] == kStartByte) ++seen[i % kWhatFrame_bytes];
   }
-  std::array<double, kFrame_bytes> score{};
-  for (std::size_t phase = 0; phase < kFrame_bytes; ++phase) {
-    for (std::size_t place = 0; place < kFrame_bytes; ++place) {
-      const int hits = seen[(phase + place) % kFrame_bytes];
-      score[phase] += hits * if_start[place] + (static_cast<int>(kWindow_bytes / kFrame_bytes) - hits) * if_not[place];
+  std::array<double, kWhatFrame_bytes> score{};
+  for (std::size_t phase = 0; phase < kWhatFrame_bytes; ++phase) {
+    for (std::size_t place = 0; place < kWhatFrame_bytes; ++place) {
+      const int hits = seen[(phase + place) % kWhatFrame_bytes];
+      score[phase] +=
+          hits * if_start[place] + (static_cast<int>(kWindow_bytes / kWhatFrame_bytes) - hits) * if_not[place];
     }
   }
   return score;
@@ -107,11 +108,11 @@ bool WhatFramer::find_phase() {
   const auto score = scores();
   const auto best = static_cast<std::size_t>(std::max_element(score.begin(), score.end()) - score.begin());
   bool leads = true;
-  for (std::size_t phase = 0; phase < kFrame_bytes; ++phase) {
+  for (std::size_t phase = 0; phase < kWhatFrame_bytes; ++phase) {
     leads = leads && (phase == best || score[best] - score[phase] >= kLead);
   }
-  for (std::size_t at = best; leads && at + kFrame_bytes < kWindow_bytes; at += kFrame_bytes) {
-    if (bytes_[cursor_ + at] != kStartByte || bytes_[cursor_ + at + kFrame_bytes] != kStartByte) continue;
+  for (std::size_t at = best; leads && at + kWhatFrame_bytes < kWindow_bytes; at += kWhatFrame_bytes) {
+    if (bytes_[cursor_ + at] != kStartByte || bytes_[cursor_ + at + kWhatFrame_bytes] != kStartByte) continue;
     cursor_ += at;
     in_step_ = true;
     if (was_in_step_) {

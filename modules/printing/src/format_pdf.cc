@@ -25,7 +25,7 @@ std::string number(double value, int digits = 6) {
 }
 
 // A text of PDF in parentheses.
-std::string quoted(std::string_view text) {
+std::string pdf_string(std::string_view text) {
   std::string out = "(";
   for (const char c : text) {
     if (c == '(' || c == ')' || c == '\\') out += '\\';
@@ -53,7 +53,7 @@ std::string content_of(const PrintPage& page) {
   }
   for (const PrintText& text : page.texts) {
     out += fmt::format("BT /F1 {} Tf 1 0 0 -1 {} {} Tm {} Tj ET\n", number(text.height_mm), number(text.left_mm),
-                       number(text.baseline_mm), quoted(text.text));
+                       number(text.baseline_mm), pdf_string(text.text));
   }
   return out;
 }
@@ -104,7 +104,7 @@ std::string format_pdf(std::span<const PrintPage> pages, std::string_view title)
     const std::string content = content_of(page);
     out.add(fmt::format("<< /Length {} >>\nstream\n{}endstream", content.size(), content));
   }
-  out.add(fmt::format("<< /Title {} /Producer (asperity) >>", quoted(title)));
+  out.add(fmt::format("<< /Title {} /Producer (asperity) >>", pdf_string(title)));
   return out.finish(4 + 2 * pages.size());
 }
 

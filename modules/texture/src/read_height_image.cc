@@ -14,7 +14,7 @@
 namespace asperity {
 namespace {
 
-constexpr std::uint64_t kLargestFile_bytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t kLargestImageFile_bytes = std::uint64_t{1} << 30;
 constexpr int kFewestPixels = 4;
 
 }  // namespace
@@ -46,7 +46,7 @@ Texture parse_height_image(std::string_view data, const std::string& name, const
 }
 
 Texture read_height_image(const std::filesystem::path& path, const ReadHeightImageConfig& config) {
-  Texture texture = parse_height_image(read_file(path, kLargestFile_bytes), path.string(), config);
+  Texture texture = parse_height_image(read_file(path, kLargestImageFile_bytes), path.string(), config);
   texture.name = path.stem().string();
   return texture;
 }

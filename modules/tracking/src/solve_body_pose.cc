@@ -16,10 +16,6 @@ namespace {
 constexpr std::size_t kMostTagsToBeginAt = 6;
 constexpr std::size_t kMostPolished = 4;
 
-double turn_between_rad(const Pose& a, const Pose& b) {
-  return log_rotation(a.rotation.conjugate() * b.rotation).norm();
-}
-
 double side_px(const SeenTag& tag) { return (tag.corners_px.col(0) - tag.corners_px.col(2)).norm() / std::sqrt(2.0); }
 
 struct Start {
@@ -57,7 +53,7 @@ std::vector<Start> find_starts(const CameraCalibration& camera, const std::vecto
 // Minima that differ by less are one.
 bool is_same(const LeastSquaresPose& a, const LeastSquaresPose& b) {
   constexpr double kSame_rad = 0.01;
-  return turn_between_rad(a.pose, b.pose) < kSame_rad;
+  return rotation_between_rad(a.pose, b.pose) < kSame_rad;
 }
 
 std::vector<LeastSquaresPose> find_minima(const std::vector<Start>& starts, const BodyLeastSquares& problem) {
@@ -68,7 +64,7 @@ std::vector<LeastSquaresPose> find_minima(const std::vector<Start>& starts, cons
     if (polished == kMostPolished) break;
     constexpr double kNear_rad = 0.1;
     const bool near = std::any_of(tried.begin(), tried.end(),
-                                  [&](const Pose& pose) { return turn_between_rad(pose, start.pose) < kNear_rad; });
+                                  [&](const Pose& pose) { return rotation_between_rad(pose, start.pose) < kNear_rad; });
     if (near) continue;
     tried.push_back(start.pose);
     ++polished;
@@ -105,7 +101,7 @@ std::optional<BodyPose> solve_body_pose(const CameraCalibration& camera, const s
     ambiguous = minima[1].reprojection_px < config.ambiguous_ratio * minima[0].reprojection_px &&
                 minima[1].corners_used >= minima[0].corners_used;
     if (ambiguous && predicted &&
-        turn_between_rad(minima[1].pose, *predicted) < turn_between_rad(minima[0].pose, *predicted)) {
+        rotation_between_rad(minima[1].pose, *predicted) < rotation_between_rad(minima[0].pose, *predicted)) {
       std::swap(minima[0], minima[1]);
     }
   }

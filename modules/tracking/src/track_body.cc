@@ -21,10 +21,6 @@ struct TimedPose {
   Pose pose;
 };
 
-double turn_between_rad(const Pose& a, const Pose& b) {
-  return log_rotation(a.rotation.conjugate() * b.rotation).norm();
-}
-
 }  // namespace
 
 struct BodyTracker::Impl {
@@ -148,7 +144,7 @@ bool BodyTracker::Impl::is_leap(const Pose& pose, std::int64_t t_ns) const {
   const double gap_s = static_cast<double>(t_ns - last.back().t_ns) * kNanosecond_s;
   if (gap_s < 0.0 || gap_s > config.longest_gap_s) return false;
   return (pose.translation_m - last.back().pose.translation_m).norm() > config.fastest_mps * gap_s ||
-         turn_between_rad(pose, last.back().pose) > config.fastest_radps * gap_s;
+         rotation_between_rad(pose, last.back().pose) > config.fastest_radps * gap_s;
 }
 
 std::optional<TrackedPose> BodyTracker::Impl::solve(const std::vector<FoundTag>& found,

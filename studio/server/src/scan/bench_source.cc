@@ -31,14 +31,14 @@ constexpr int kBaud = 921'600;  // a pseudo-terminal does not mind
 struct Ports {
   std::string probe, camera;
 };
-using Stage = Episodes<Ports>;
+using BenchStage = Episodes<Ports>;
 
 // A sensor of the bench: there while it plays, silent in between. `Source` is ProbeSource or PoseSource.
 template <class Source>
 class BenchLink {
  public:
   using Open = std::function<std::unique_ptr<Source>(const Ports&)>;
-  BenchLink(std::shared_ptr<Stage> stage, Open open) : stage_(std::move(stage)), open_(std::move(open)) {}
+  BenchLink(std::shared_ptr<BenchStage> stage, Open open) : stage_(std::move(stage)), open_(std::move(open)) {}
 
   // The source of the episode that plays; null if none began within `timeout`.
   Source* wait(std::chrono::milliseconds timeout) {
@@ -57,7 +57,7 @@ class BenchLink {
   void close() { source_.reset(); }
 
  private:
-  std::shared_ptr<Stage> stage_;
+  std::shared_ptr<BenchStage> stage_;
   Open open_;
   std::uint64_t number_ = 0;
   std::unique_ptr<Source> source_;
@@ -236,7 +236,7 @@ class BenchSource : public ScanSource {
   std::optional<Calibration> calibration_;
   Recording hello_;
   TemporaryFolder folder_;
-  std::shared_ptr<Stage> stage_ = std::make_shared<Stage>();
+  std::shared_ptr<BenchStage> stage_ = std::make_shared<BenchStage>();
   std::atomic<bool> stop_{false};
   mutable std::mutex mutex_;
   std::condition_variable changed_;
