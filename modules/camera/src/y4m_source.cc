@@ -15,7 +15,7 @@ namespace asperity {
 
 namespace {
 
-constexpr std::chrono::hours kLongestWait{1};
+constexpr std::chrono::hours kLongestFrameWait{1};
 
 }  // namespace
 
@@ -34,7 +34,7 @@ bool Y4mSource::wait_for_header(std::int64_t deadline_ns) {
 bool Y4mSource::read(CameraFrame& frame, std::chrono::milliseconds timeout) {
   if (failed_) throw LinkLost(name_ + ": was given up after a fault");
   const std::int64_t deadline_ns =
-      host_now_ns() + std::chrono::nanoseconds(std::min<std::chrono::milliseconds>(timeout, kLongestWait)).count();
+      host_now_ns() + std::chrono::nanoseconds(std::min<std::chrono::milliseconds>(timeout, kLongestFrameWait)).count();
   try {
     if (!wait_for_frame(deadline_ns)) return false;
   } catch (const LinkLost&) {

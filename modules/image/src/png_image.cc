@@ -12,41 +12,41 @@ namespace asperity {
 namespace {
 
 // libpng reports errors by a function that must not return; the text is kept for the Error.
-struct Fault {
+struct PngFault {
   char text[200] = "";
 };
 
-[[noreturn]] void on_error(png_structp png, png_const_charp message) {
-  auto* fault = static_cast<Fault*>(png_get_error_ptr(png));
+[[noreturn]] void on_png_error(png_structp png, png_const_charp message) {
+  auto* fault = static_cast<PngFault*>(png_get_error_ptr(png));
   std::strncpy(fault->text, message, sizeof fault->text - 1);
   png_longjmp(png, 1);
 }
 
-void on_warning(png_structp, png_const_charp) {}
+void on_png_warning(png_structp, png_const_charp) {}
 
-struct Source {
+struct PngBytes {
   std::string_view rest;
 };
 
-void read_bytes(png_structp png, png_bytep to, png_size_t count) {
-  auto* source = static_cast<Source*>(png_get_io_ptr(png));
+void take_png_bytes(png_structp png, png_bytep to, png_size_t count) {
+  auto* source = static_cast<PngBytes*>(png_get_io_ptr(png));
   if (count > source->rest.size()) png_error(png, "the file is cut off");
   std::memcpy(to, source->rest.data(), count);
   source->rest.remove_prefix(count);
 }
 
-void write_bytes(png_structp png, png_bytep from, png_size_t count) {
+void give_png_bytes(png_structp png, png_bytep from, png_size_t count) {
   static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(from), count);
 }
 
 void flush_nothing(png_structp) {}
 
-std::string size_text(std::size_t width, std::size_t height) {
+std::string image_size_text(std::size_t width, std::size_t height) {
   return std::to_string(width) + " x " + std::to_string(height) + " pixels";
 }
 
 template <class Size>
-bool size_fits(Size width, Size height) {
+bool image_size_fits(Size width, Size height) {
   constexpr auto kMost = static_cast<Size>(kLargestImageSide_px);
   return width > 0 && height > 0 && width <= kMost && height <= kMost;
 }
@@ -57,7 +57,7 @@ struct PngHeader {
 };
 
 // Nothing that has a destructor is made between setjmp and the calls that may jump.
-bool read_header(png_structp png, png_infop info, PngHeader& header) {
+bool read_png_header(png_structp png, png_infop info, PngHeader& header) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_user_limits(png, kLargestImageSide_px, kLargestImageSide_px);
   png_set_chunk_cache_max(png, 64);
@@ -79,7 +79,7 @@ bool convert_to_gray(png_structp png, const PngHeader& header) {
   return true;
 }
 
-bool read_rows(png_structp png, png_infop info, std::size_t row_bytes, png_bytepp rows) {
+bool read_png_rows(png_structp png, png_infop info, std::size_t row_bytes, png_bytepp rows) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_interlace_handling(png);
   png_read_update_info(png, info);
@@ -91,7 +91,7 @@ bool read_rows(png_structp png, png_infop info, std::size_t row_bytes, png_bytep
 
 enum class PngEffort { kSmall, kFast };
 
-bool write_all(png_structp png, png_infop info, const PngHeader& header, PngEffort effort, png_bytepp data) {
+bool write_png_parts(png_structp png, png_infop info, const PngHeader& header, PngEffort effort, png_bytepp data) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_compression_level(png, effort == PngEffort::kFast ? 1 : 6);
   constexpr int kDefaultStrategy = 0;  // zlib's
@@ -110,18 +110,18 @@ std::vector<png_bytep> row_pointers(std::vector<png_byte>& bytes, std::size_t ro
   return pointers;
 }
 
-struct Reader {
-  Fault fault;
-  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &fault, on_error, on_warning);
+struct PngReader {
+  PngFault fault;
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &fault, on_png_error, on_png_warning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
-  ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
+  ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
-struct Writer {
-  Fault fault;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault, on_error, on_warning);
+struct PngWriter {
+  PngFault fault;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &fault, on_png_error, on_png_warning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
-  ~Writer() { png_destroy_write_struct(&png, &info); }
+  ~PngWriter() { png_destroy_write_struct(&png, &info); }
 };
 
 // A file whose header was read and may be believed.
@@ -133,9 +133,10 @@ class PngSource {
     if (data.size() < 8 || png_sig_cmp(reinterpret_cast<png_const_bytep>(data.data()), 0, 8) != 0)
       fail("is not a PNG image");
     if (!reader_.info) fail("libpng cannot be started");
-    png_set_read_fn(reader_.png, &source_, read_bytes);
-    if (!read_header(reader_.png, reader_.info, header_)) broken();
-    if (!size_fits(header_.width, header_.height)) fail(size_text(header_.width, header_.height) + " are too many");
+    png_set_read_fn(reader_.png, &source_, take_png_bytes);
+    if (!read_png_header(reader_.png, reader_.info, header_)) broken();
+    if (!image_size_fits(header_.width, header_.height))
+      fail(image_size_text(header_.width, header_.height) + " are too many");
     // Deflate makes at most 1032 bytes of one: what cannot be there takes no memory.
     constexpr std::size_t kMostBytesOfOne = 1032;
     const std::size_t row_bytes = png_get_rowbytes(reader_.png, reader_.info);
@@ -151,10 +152,10 @@ class PngSource {
 
   // Rows of `row_bytes` after what conversion was asked for.
   std::vector<png_byte> read(std::size_t row_bytes) {
-    if (cut_off_) fail("is cut off: " + size_text(header_.width, header_.height) + " do not fit");
+    if (cut_off_) fail("is cut off: " + image_size_text(header_.width, header_.height) + " do not fit");
     std::vector<png_byte> bytes(row_bytes * header_.height);
     auto pointers = row_pointers(bytes, header_.height, row_bytes);
-    if (!read_rows(reader_.png, reader_.info, row_bytes, pointers.data())) broken();
+    if (!read_png_rows(reader_.png, reader_.info, row_bytes, pointers.data())) broken();
     return bytes;
   }
 
@@ -163,8 +164,8 @@ class PngSource {
 
   const std::string& name_;
   std::string damaged_;
-  Source source_;
-  Reader reader_;
+  PngBytes source_;
+  PngReader reader_;
   PngHeader header_;
   bool cut_off_ = false;
 };
@@ -172,10 +173,10 @@ class PngSource {
 std::string write_png(std::vector<png_byte>& bytes, const PngHeader& header, PngEffort effort) {
   auto pointers = row_pointers(bytes, header.height, bytes.size() / header.height);
   std::string out;
-  Writer writer;
+  PngWriter writer;
   if (!writer.info) throw Error("image: libpng cannot be started");
-  png_set_write_fn(writer.png, &out, write_bytes, flush_nothing);
-  if (!write_all(writer.png, writer.info, header, effort, pointers.data())) {
+  png_set_write_fn(writer.png, &out, give_png_bytes, flush_nothing);
+  if (!write_png_parts(writer.png, writer.info, header, effort, pointers.data())) {
     throw Error("image: a PNG cannot be written: " + printable(writer.fault.text, 200));
   }
   return out;
@@ -183,7 +184,7 @@ std::string write_png(std::vector<png_byte>& bytes, const PngHeader& header, Png
 
 template <class Sample>
 PngHeader checked_header(const BasicGrayImage<Sample>& image) {
-  if (!size_fits(image.width, image.height) ||
+  if (!image_size_fits(image.width, image.height) ||
       image.pixels.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
     throw Error("image: " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels with " +
                 std::to_string(image.pixels.size()) + " samples cannot be written");
@@ -246,7 +247,7 @@ std::string format_png(const GrayImage& image) {
 }
 
 std::string format_rgb_png(int width, int height, std::span<const std::uint16_t> samples) {
-  if (!size_fits(width, height) ||
+  if (!image_size_fits(width, height) ||
       samples.size() != 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
     throw Error("image: " + std::to_string(width) + " x " + std::to_string(height) + " pixels with " +
                 std::to_string(samples.size()) + " samples cannot be written in colours");

@@ -31,7 +31,7 @@ std::shared_ptr<const LoadedScene> load_scene(FeelSetup setup, const FeelChoices
                                               const std::shared_ptr<const LoadedScene>& before, std::uint64_t number);
 
 // The model of a world for a device that runs already, within what it can render. Not for the studio's thread.
-app::FeltModel prepare_swapped_model(const LoadedScene& world, const DeviceInfo& device, bool as_it_is,
-                                     const FeelConfig& running);
+FeltModel prepare_swapped_model(const LoadedScene& world, const DeviceInfo& device, bool as_it_is,
+                                const FeelConfig& running);
 
 }  // namespace asperity::studio
