@@ -34,8 +34,8 @@ Scene read_height_maps(SceneInput& input, FeelSettings& settings) {
       input.height_range.empty() ? kHeightRange_mm : 1e3 * length_option_m("--height-range", input.height_range);
   viewer.stiffness_N_per_m = settings.render.stiffness_N_per_m;
   viewer.friction = settings.render.friction;
-  if (settings.texture_model == TextureModelChoice::kAuto) {
-    settings.texture_model = TextureModelChoice::kNormalPerturbation;
+  if (settings.render.texture.model == TextureForceModel::kAuto) {
+    settings.render.texture.model = TextureForceModel::kNormalPerturbation;
   }
   input.tile_stroke_m = viewer_stroke_m(input.height_maps.size(), viewer);
   std::vector<Texture> tiles;

@@ -9,7 +9,6 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/texture/evaluate_height.h"
-#include "texture_window.h"
 
 namespace asperity {
 namespace {
@@ -30,8 +29,8 @@ void check_known(const char* what, double value) {
 // The largest slope and change of slope over all of the texture, along rows, seen at two points a cell; at 4096 points
 // a side where there are more than 2048 cells.
 void measure(const RenderTexture& texture, TextureFit& fit) {
-  const TextureWindow window = texture_window(texture.texture.model, std::numeric_limits<std::size_t>::max());
-  const bool line = std::holds_alternative<Fourier1d>(texture.texture.model);
+  const HeightWindow window = height_window(texture.texture.model, std::numeric_limits<std::size_t>::max()).value();
+  const bool line = line_length_mm(texture.texture.model).has_value();
   const std::size_t columns = line ? 16384 : std::clamp<std::size_t>(2 * window.columns, 512, 4096);
   const std::size_t rows = line ? 1 : std::clamp<std::size_t>(2 * window.rows, 512, 4096);
   const double step_x_m = window.length_m / static_cast<double>(columns);
@@ -90,15 +89,13 @@ TextureFit fit_texture_to_device(const RenderTexture& texture, double stiffness_
   check("a stiffness", stiffness_N_per_m);
   const double cutoff = reconstruction_cutoff_cycles_per_mm(device);
   TextureFit fit;
-  const bool heights = is_height_field(texture.texture.model) && texture.model != TextureForceModel::kStochastic;
+  const bool heights = is_height_field(texture.texture.model) && !is_series(texture.model);
   if (heights) measure(texture, fit);
   const double most_N = std::isfinite(device.max_force_N) ? device.max_force_N : 0.0;
   fit.loop_gain = loop_gain(texture, fit, texture.highest_m + most_N / stiffness_N_per_m);
   fit.highest_stiffness_N_per_m = 2.0 * device.damping_N_s_per_m * device.rate_Hz / fit.loop_gain;
   const double own_N_per_m =
-      compliance_kc * (texture.model == TextureForceModel::kStochastic && texture.grain_stiffness_N_per_m >= 0.0
-                           ? texture.grain_stiffness_N_per_m
-                           : stiffness_N_per_m);
+      compliance_kc * (texture.own_stiffness_N_per_m >= 0.0 ? texture.own_stiffness_N_per_m : stiffness_N_per_m);
   fit.most_force_N = own_N_per_m * texture.highest_m;
 
   if (own_N_per_m > kNoisyStiffness_N_per_m && texture.highest_m > 0.0) {
@@ -121,8 +118,8 @@ TextureFit fit_texture_to_device(const RenderTexture& texture, double stiffness_
                                 rounded(device.max_force_N) + " N",
                             1});
   }
-  if (const auto* f = std::get_if<Fourier1d>(&texture.texture.model); f != nullptr) {
-    const double finest = static_cast<double>(f->a_m.size()) / f->length_mm;
+  if (line_length_mm(texture.texture.model)) {
+    const double finest = highest_cycles_per_mm(texture.texture.model);
     if (finest > cutoff) {
       fit.problems.push_back({"texture_bandwidth",
                               "the texture has waves of " + rounded(finest) + " cycles/mm; at " +

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "asperity/base/smoothstep.h"
 #include "asperity/geometry/mesh_adjacency.h"
 #include "texture_tear.h"
 
@@ -51,8 +52,7 @@ double border_fade(const RenderObject& object, const Vector3d& p_mesh_m, double 
   if (!object.border.edges) return 1.0;
   const ClosestPoint nearest = object.border.edges->closest_point(p_mesh_m, fade_m);
   if (!nearest.found()) return 1.0;
-  const double t = std::min(nearest.distance_m / fade_m, 1.0);
-  return t * t * (3.0 - 2.0 * t);
+  return smoothstep(nearest.distance_m / fade_m);
 }
 
 }  // namespace asperity

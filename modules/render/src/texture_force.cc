@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
+#include "asperity/base/smoothstep.h"
 #include "asperity/texture/series_state.h"
 #include "height_forces.h"
-#include "left_of_fade.h"
-#include "series_forces.h"
 
 namespace asperity {
 namespace {
@@ -17,6 +17,38 @@ bool is_finite(const TextureTouch& t) noexcept {
          t.x_gradient.allFinite() && t.y_gradient.allFinite() && t.normal.allFinite() && t.v_tangential_mps.allFinite();
 }
 
+// Below it the direction of motion is taken back with the speed: at rest there is none.
+constexpr double kDirectionSpeed_mps = 1e-3;
+
+// One step of a series. The tangential part opposes the motion while the normal one pushes the tip out, as friction
+// does (erratum 19).
+TextureForce series_force(const RenderTexture& texture, SeriesState& state, const TextureTouch& touch,
+                          bool is_new_contact) noexcept {
+  const double speed_mps = touch.v_tangential_mps.norm();
+  const SeriesContact contact{speed_mps,
+                              std::max(touch.contact_N, 0.0),
+                              touch.approach_mps,
+                              touch.z_m,
+                              touch.stiffness_N_per_m,
+                              touch.compliance_kc,
+                              touch.fade,
+                              touch.dt_s};
+  return std::visit(
+      [&]<class Model>(const Model& model) -> TextureForce {
+        if constexpr (SeriesModel<Model>) {
+          using Traits = TextureModelTraits<Model>;
+          if constexpr (requires { Traits::start_contact(model, state, contact); }) {
+            if (is_new_contact) return Traits::start_contact(model, state, contact), TextureForce{};
+          }
+          const SeriesContactForce f = Traits::contact_force(model, state, contact);
+          const Eigen::Vector3d direction = touch.v_tangential_mps / std::max(speed_mps, kDirectionSpeed_mps);
+          return {f.normal_N * touch.normal - f.tangential_N * direction, f.height_m, f.depth_m};
+        }
+        return {};
+      },
+      texture.series_of_heights ? *texture.series_of_heights : texture.texture.model);
+}
+
 TextureForce force_of(const RenderTexture& texture, TextureState& state, const TextureTouch& touch) noexcept {
   switch (texture.model) {
     case TextureForceModel::kHeight:
@@ -25,14 +57,9 @@ TextureForce force_of(const RenderTexture& texture, TextureState& state, const T
       return normal_perturbation_force(texture, touch);
     case TextureForceModel::kLateralGradient:
       return lateral_gradient_force(texture, touch);
-    case TextureForceModel::kStochastic:
-      return stochastic_force(texture, state.series, touch);
-    case TextureForceModel::kAutoregressive:
-      return autoregressive_force(texture, state.series, touch);
-    case TextureForceModel::kDecayingSinusoids:
-      return ringing_force(texture, state.series, touch, touch.contact_N > 0.0 && !state.loaded);
+    default:
+      return series_force(texture, state.series, touch, touch.contact_N > 0.0 && !state.loaded);
   }
-  return {};
 }
 
 // At a change the force stays what it was; the difference to what it should be begins to fade.
@@ -48,7 +75,7 @@ Eigen::Vector3d faded(TextureState& state, const Eigen::Vector3d& wanted_N, doub
   if (state.fading) {
     state.fading_s += std::max(dt_s, 0.0);
     state.fading = state.fading_s < state.cross_fade_s;
-    if (state.fading) state.last_force_N += left_of_fade(state.fading_s / state.cross_fade_s) * state.fading_N;
+    if (state.fading) state.last_force_N += (1.0 - smoothstep(state.fading_s / state.cross_fade_s)) * state.fading_N;
   }
   return state.last_force_N;
 }

@@ -40,7 +40,7 @@ std::vector<RenderTexture> all_models() {
   std::vector<RenderTexture> textures{make_render_texture(height, {}),
                                       make_render_texture(height, {.model = TextureForceModel::kNormalPerturbation}),
                                       make_render_texture(height, {.model = TextureForceModel::kLateralGradient}),
-                                      make_render_texture(height, {.model = TextureForceModel::kStochastic}),
+                                      make_render_texture(height, {.model = kForceModelOf<StochasticTexture>}),
                                       make_render_texture(rough(8e-5, 2), {}),
                                       make_render_texture(vibration(), {})};
   Texture taps;

@@ -23,6 +23,23 @@ struct PeriodicTable {
   std::vector<TableCell> cells;  // empty: no table
 };
 
+// Reciprocals and units of an image or a spline grid, so that the servo thread does not divide.
+struct GridScale {
+  double cells_x_per_m = 0.0;
+  double cells_y_per_m = 0.0;
+  double origin_x_m = 0.0;
+  double origin_y_m = 0.0;
+  double unit_m = 1.0;  // height of a value of 1
+  double low_m = 0.0;   // height of a value of 0
+};
+
+// What a height field is evaluated by on the servo thread, made beforehand; each model fills what it uses.
+struct ServoTables {
+  PeriodicTable x_table;  // of a series, or of the factors of a product; empty: evaluated exactly
+  PeriodicTable y_table;
+  GridScale grid;  // of an image or a spline
+};
+
 inline constexpr std::size_t kMostTableCells = 1 << 17;  // 8 MiB
 
 // The smallest table whose bounds are within half of the tolerances; the other half is for rounding. Empty if that

@@ -5,11 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "asperity/render/grid_scale.h"
-#include "asperity/render/periodic_table.h"
 #include "asperity/texture/evaluate_fourier1d.h"
 #include "asperity/texture/height_and_gradient.h"
 #include "asperity/texture/height_map.h"
+#include "asperity/texture/servo_tables.h"
 #include "asperity/texture/spline_grid.h"
 
 namespace asperity {

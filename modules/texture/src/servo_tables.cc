@@ -1,4 +1,4 @@
-#include "asperity/render/periodic_table.h"
+#include "asperity/texture/servo_tables.h"
 
 #include <cmath>
 #include <complex>

@@ -1,4 +1,4 @@
-#include "field_height.h"
+#include "servo_height.h"
 
 #include <cmath>
 #include <cstring>
