@@ -6,7 +6,6 @@
 
 #include "asperity/base/smoothstep.h"
 #include "asperity/texture/series_state.h"
-#include "height_forces.h"
 
 namespace asperity {
 namespace {
@@ -15,6 +14,46 @@ bool is_finite(const TextureTouch& t) noexcept {
   return std::isfinite(t.x_m + t.y_m + t.z_m + t.contact_N + t.approach_mps + t.stiffness_N_per_m + t.compliance_kc +
                        t.fade + t.dt_s) &&
          t.x_gradient.allFinite() && t.y_gradient.allFinite() && t.normal.allFinite() && t.v_tangential_mps.allFinite();
+}
+
+// The forces of a height field H(x, y) on a tip z above the geometric surface. All vanish continuously at z = H.
+struct Indentation {
+  double height_m = 0.0;
+  double depth_m = 0.0;
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  // of H over the surface
+};
+
+Indentation indentation(const RenderTexture& texture, const TextureTouch& touch) noexcept {
+  const HeightAndGradient h = render_height(texture, touch.x_m, touch.y_m);
+  Indentation i;
+  i.height_m = touch.fade * h.height_m;
+  i.depth_m = std::clamp(i.height_m - touch.z_m, 0.0, std::max(i.height_m, 0.0));
+  i.gradient = touch.fade * (h.slope_x * touch.x_gradient + h.slope_y * touch.y_gradient);
+  return i;
+}
+
+double stiffness_N_per_m(const TextureTouch& touch) noexcept { return touch.compliance_kc * touch.stiffness_N_per_m; }
+
+// k_c k_s Δh n, Δh = clamp(H − z, 0, H): seed §6.5 (5), errata 19 and 20.
+TextureForce height_force(const RenderTexture& texture, const TextureTouch& touch) noexcept {
+  const Indentation i = indentation(texture, touch);
+  return {stiffness_N_per_m(touch) * i.depth_m * touch.normal, i.height_m, i.depth_m};
+}
+
+// k_c k_s Δh m, m the unit normal of the height field: n − ∇H, normalised (Ho, Basdogan and Srinivasan 1999).
+TextureForce normal_perturbation_force(const RenderTexture& texture, const TextureTouch& touch) noexcept {
+  const Indentation i = indentation(texture, touch);
+  // The gradient lies within the surface, so that (∇H·n) n of the printed formula is zero.
+  const Eigen::Vector3d m = touch.normal - i.gradient;
+  return {stiffness_N_per_m(touch) * i.depth_m / m.norm() * m, i.height_m, i.depth_m};
+}
+
+// −k ∇H within the surface (Minsky 1995), k the load on the place: k_c (k_s d + k_s Δh), in newtons. That is minus the
+// gradient of the elastic energy ½ k_s (H − z)² over the surface, times k_c.
+TextureForce lateral_gradient_force(const RenderTexture& texture, const TextureTouch& touch) noexcept {
+  const Indentation i = indentation(texture, touch);
+  const double load_N = touch.compliance_kc * touch.contact_N + stiffness_N_per_m(touch) * i.depth_m;
+  return {-load_N * i.gradient, i.height_m, i.depth_m};
 }
 
 // Below it the direction of motion is taken back with the speed: at rest there is none.

@@ -1,4 +1,4 @@
-#include "hop_over_nook.h"
+#include "escape_local_minimum.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,12 +40,12 @@ bool is_clear(const NearTriangles& near, const Vector3d& from_m, const Vector3d&
   return true;
 }
 
-// Straight, or over a place above the nook.
-bool can_hop(const NearTriangles& near, const Vector3d& from_m, const Vector3d& away, double radius_m,
-             const Vector3d& to_m) {
+// Straight, or over a point above the local minimum.
+bool is_reachable(const NearTriangles& near, const Vector3d& from_m, const Vector3d& away, double radius_m,
+                  const Vector3d& to_m) {
   if (is_clear(near, from_m, to_m)) return true;
-  for (const double lift : {4.0, 32.0}) {
-    const Vector3d above_m = from_m + (lift * radius_m) * away;
+  for (const double height : {4.0, 32.0}) {
+    const Vector3d above_m = from_m + (height * radius_m) * away;
     if (is_clear(near, from_m, above_m) && is_clear(near, above_m, to_m)) return true;
   }
   return false;
@@ -53,7 +53,8 @@ bool can_hop(const NearTriangles& near, const Vector3d& from_m, const Vector3d& 
 
 }  // namespace
 
-bool hop_over_nook(ProxyState& proxy, const ProxyBall& ball, const Vector3d& goal_m, std::int64_t& work) noexcept {
+bool escape_local_minimum(ProxyState& proxy, const ProxyBall& ball, const Vector3d& goal_m,
+                          std::int64_t& work) noexcept {
   const NearTriangles& near = proxy.near;
   const Vector3d from_m = proxy.p_world_m;
   const double left_m = (goal_m - from_m).norm();
@@ -72,8 +73,8 @@ bool hop_over_nook(ProxyState& proxy, const ProxyBall& ball, const Vector3d& goa
     const Vector3d along_m = goal_m - best.from_m - foot_m;
     const double length_m = along_m.norm();
     const double reach_m = std::min(length_m, 0.5 * room_m);
-    for (double hop_m = 8.0 * ball.radius_m; hop_m < 4.0 * reach_m; hop_m *= 4.0) {
-      const double way_m = std::min(hop_m, reach_m);
+    for (double step_m = 8.0 * ball.radius_m; step_m < 4.0 * reach_m; step_m *= 4.0) {
+      const double way_m = std::min(step_m, reach_m);
       const Vector3d place_m = foot_m + (way_m / length_m) * along_m;
       for (const double height : kHeights) {
         if (height * ball.radius_m > way_m) break;
@@ -84,7 +85,7 @@ bool hop_over_nook(ProxyState& proxy, const ProxyBall& ball, const Vector3d& goa
           work -= near.count;
           if (!(nearest_m(near, to_m) >= ball.radius_m - ball.slack_m)) continue;
           work -= 4 * std::int64_t{near.count};
-          if (!can_hop(near, from_m, away, ball.radius_m, to_m)) continue;
+          if (!is_reachable(near, from_m, away, ball.radius_m, to_m)) continue;
           proxy.p_world_m = to_m;
           proxy.touch_count = 0;
           return true;

@@ -1,4 +1,4 @@
-#include "carry_proxy.h"
+#include "follow_moving_objects.h"
 
 namespace asperity {
 namespace {
@@ -26,7 +26,7 @@ void sweep(const RenderModel& model, const ProxyBall& ball, const Vector3d& goal
 
 }  // namespace
 
-void carry_proxy(const RenderModel& model, const ProxyBall& ball, ProxyState& proxy) noexcept {
+void follow_moving_objects(const RenderModel& model, const ProxyBall& ball, ProxyState& proxy) noexcept {
   ObjectSet moving = 0, all = 0;
   for (std::size_t o = 0; o < model.objects.size(); ++o) {
     all |= ObjectSet{1} << o;

@@ -1,4 +1,4 @@
-#include "gather.h"
+#include "gather_triangles.h"
 
 #include <array>
 #include <span>
@@ -29,8 +29,8 @@ NearTriangle in_world(const RenderObject& object, bool turned, std::uint32_t ind
 
 }  // namespace
 
-bool gather(const RenderModel& model, const Vector3d& centre_m, double radius_m, ObjectSet objects,
-            NearTriangles& near) noexcept {
+bool gather_triangles(const RenderModel& model, const Vector3d& centre_m, double radius_m, ObjectSet objects,
+                      NearTriangles& near) noexcept {
   near.centre_m = centre_m;
   near.radius_m = radius_m;
   near.count = 0;

@@ -11,6 +11,6 @@ namespace asperity {
 // pushes it, which is found in the frame of the object, where the surface rests and the proxy moves. It never
 // passes through what has moved, but what rests stops it: a proxy that is pinched between two objects stays clear of
 // the one that rests or was moved first, and the other closes over it.
-void carry_proxy(const RenderModel& model, const ProxyBall& ball, ProxyState& proxy) noexcept;
+void follow_moving_objects(const RenderModel& model, const ProxyBall& ball, ProxyState& proxy) noexcept;
 
 }  // namespace asperity
