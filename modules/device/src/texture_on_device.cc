@@ -1,4 +1,4 @@
-#include "asperity/render/reconstruction_filter.h"
+#include "asperity/device/texture_on_device.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,22 +13,9 @@
 namespace asperity {
 namespace {
 
-constexpr double kRateOverHighest = 4.0;
-constexpr double kStepsAWave = 4.0;
-constexpr double kNoisyStiffness_N_per_m = 450.0;
-
-void check(const char* what, double value) {
-  if (!(value > 0.0) || !std::isfinite(value))
-    throw Error(std::string("render: ") + what + " of " + number_text(value) + " is not a positive number");
-}
-
-void check_known(const char* what, double value) {
-  if (!std::isnan(value)) check(what, value);
-}
-
 // The largest slope and change of slope over all of the texture, along rows, seen at two points a cell; at 4096 points
 // a side where there are more than 2048 cells.
-void measure(const RenderTexture& texture, TextureFit& fit) {
+void measure_slopes(const RenderTexture& texture, TextureOnDevice& fit) {
   const HeightWindow window = height_window(texture.texture.model, std::numeric_limits<std::size_t>::max()).value();
   const bool line = line_length_mm(texture.texture.model).has_value();
   const std::size_t columns = line ? 16384 : std::clamp<std::size_t>(2 * window.columns, 512, 4096);
@@ -55,7 +42,7 @@ void measure(const RenderTexture& texture, TextureFit& fit) {
 //   height               ∂(k (H − z) n) = k (∇H, −1): √(1 + s²)
 //   normal perturbation  that times m, and the depth times ∂m, which is at most c: √(1 + s²) + H c
 //   lateral gradient     ∂(−k (H − z) ∇H) = −k (∇H∇Hᵀ + (H − z) ∂∇H, −∇H), beside the flat wall's k: 1 + s + s² + D c
-double loop_gain(const RenderTexture& texture, const TextureFit& fit, double depth_m) {
+double loop_gain(const RenderTexture& texture, const TextureOnDevice& fit, double depth_m) {
   const double s = fit.steepest;
   switch (texture.model) {
     case TextureForceModel::kHeight:
@@ -73,60 +60,46 @@ std::string rounded(double value) { return number_text(std::round(100.0 * value)
 
 }  // namespace
 
-double reconstruction_cutoff_cycles_per_mm(const TextureDevice& device) {
-  check("a rate", device.rate_Hz);
-  check("a speed", device.highest_speed_mps);
-  check_known("a bandwidth", device.bandwidth_Hz);
-  check_known("a resolution", device.position_resolution_m);
-  // fmin takes the other where one is nan.
-  const double highest_Hz = std::fmin(device.bandwidth_Hz, device.rate_Hz / kRateOverHighest);
-  const double by_time = 1e-3 * highest_Hz / device.highest_speed_mps;
-  return std::fmin(by_time, 1e-3 / (kStepsAWave * device.position_resolution_m));
-}
-
-TextureFit fit_texture_to_device(const RenderTexture& texture, double stiffness_N_per_m, double compliance_kc,
-                                 const TextureDevice& device) {
-  check("a stiffness", stiffness_N_per_m);
-  const double cutoff = reconstruction_cutoff_cycles_per_mm(device);
-  TextureFit fit;
+TextureOnDevice check_texture_on_device(const RenderTexture& texture, double stiffness_N_per_m, double compliance_kc,
+                                        const DeviceCaps& caps) {
+  if (!(stiffness_N_per_m > 0.0) || !std::isfinite(stiffness_N_per_m))
+    throw Error("render: a stiffness of " + number_text(stiffness_N_per_m) + " is not a positive number");
+  TextureOnDevice fit;
   const bool heights = is_height_field(texture.texture.model) && !is_series(texture.model);
-  if (heights) measure(texture, fit);
-  const double most_N = std::isfinite(device.max_force_N) ? device.max_force_N : 0.0;
+  if (heights) measure_slopes(texture, fit);
+  const double most_N = std::isfinite(caps.force_N) ? caps.force_N : 0.0;
   fit.loop_gain = loop_gain(texture, fit, texture.highest_m + most_N / stiffness_N_per_m);
-  fit.highest_stiffness_N_per_m = 2.0 * device.damping_N_s_per_m * device.rate_Hz / fit.loop_gain;
+  fit.highest_stiffness_N_per_m = caps.stiffness_N_per_m / fit.loop_gain;
   const double own_N_per_m =
       compliance_kc * (texture.own_stiffness_N_per_m >= 0.0 ? texture.own_stiffness_N_per_m : stiffness_N_per_m);
   fit.most_force_N = own_N_per_m * texture.highest_m;
 
-  if (own_N_per_m > kNoisyStiffness_N_per_m && texture.highest_m > 0.0) {
+  if (own_N_per_m > caps.texture_stiffness_N_per_m && texture.highest_m > 0.0) {
     fit.problems.push_back({"texture_stiffness",
-                            "the texture's stiffness k_c k_s is " + rounded(1e-3 * own_N_per_m) +
-                                " N/mm; above 0.45 N/mm what is felt may be the loop's own noise (Choi and Tan)",
+                            "the texture's stiffness k_c k_s is " + rounded(1e-3 * own_N_per_m) + " N/mm, above " +
+                                rounded(1e-3 * caps.texture_stiffness_N_per_m) +
+                                " N/mm: " + caps.texture_stiffness_reason,
                             1});
   }
   if (fit.highest_stiffness_N_per_m < stiffness_N_per_m) {
-    fit.problems.push_back({"texture_damping",
-                            "the device's damping bears a stiffness of " +
-                                rounded(1e-3 * fit.highest_stiffness_N_per_m) +
-                                " N/mm under this texture, which makes the loop " + rounded(fit.loop_gain) +
-                                " times as stiff as a flat wall; it is " + rounded(1e-3 * stiffness_N_per_m) + " N/mm",
+    fit.problems.push_back({"texture_loop_gain",
+                            "the texture makes the loop " + rounded(fit.loop_gain) +
+                                " times as stiff as a flat wall, so that the device renders at most " +
+                                rounded(1e-3 * fit.highest_stiffness_N_per_m) + " N/mm under it; it is " +
+                                rounded(1e-3 * stiffness_N_per_m) + " N/mm",
                             1});
   }
-  if (fit.most_force_N > device.max_force_N) {
+  if (fit.most_force_N > caps.force_N) {
     fit.problems.push_back({"texture_force",
                             "the texture alone gives up to " + rounded(fit.most_force_N) + " N; the device has " +
-                                rounded(device.max_force_N) + " N",
+                                rounded(caps.force_N) + " N",
                             1});
   }
-  if (line_length_mm(texture.texture.model)) {
-    const double finest = highest_cycles_per_mm(texture.texture.model);
-    if (finest > cutoff) {
-      fit.problems.push_back({"texture_bandwidth",
-                              "the texture has waves of " + rounded(finest) + " cycles/mm; at " +
-                                  rounded(1e3 * device.highest_speed_mps) + " mm/s the device renders " +
-                                  rounded(cutoff),
-                              1});
-    }
+  if (heights && highest_cycles_per_mm(texture.texture) > caps.texture_cycles_per_mm) {
+    fit.problems.push_back({"texture_bandwidth",
+                            "the texture may hold waves of " + rounded(highest_cycles_per_mm(texture.texture)) +
+                                " cycles/mm; " + caps.texture_bandwidth_reason,
+                            1});
   }
   return fit;
 }
