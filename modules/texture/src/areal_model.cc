@@ -7,7 +7,6 @@
 #include "asperity/texture/sample_heights.h"
 #include "asperity/texture/texture_fit.h"
 #include "low_pass_grid.h"
-#include "servo_height.h"
 #include "spline_grid_model.h"
 
 namespace asperity {
@@ -82,11 +81,6 @@ MeasuredArea ArealTraits::measured_area(const ArealTexture& t) {
 }
 
 void ArealTraits::make_tables(const ArealTexture& t, ServoTables& tables) { tables.grid = grid_scale(t.surface); }
-
-HeightAndGradient ArealTraits::servo_height(const ArealTexture& t, const ServoTables& tables, double x_m,
-                                            double y_m) noexcept {
-  return spline_height(t.surface, tables.grid, x_m, y_m);
-}
 
 void ArealTraits::fit(const TextureFitInput& input, const TextureFitOptions& options, FittedTexture& out) {
   const auto samples = input.read_areal_samples(input.files);

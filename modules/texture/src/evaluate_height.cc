@@ -128,18 +128,4 @@ ServoTables make_servo_tables(const TextureModel& model) {
   return tables;
 }
 
-HeightAndGradient servo_height(const TextureModel& model, const ServoTables& tables, double x_m, double y_m) noexcept {
-  return std::visit(
-      [&]<class Model>(const Model& m) -> HeightAndGradient {
-        constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-        if constexpr (requires { Traits<Model>::servo_height(m, tables, x_m, y_m); })
-          return Traits<Model>::servo_height(m, tables, x_m, y_m);
-        else if constexpr (HeightField<Model>)
-          return Traits<Model>::height(m, x_m, y_m);
-        else
-          return {kNan, kNan, kNan};
-      },
-      model);
-}
-
 }  // namespace asperity

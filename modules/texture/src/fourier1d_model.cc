@@ -11,7 +11,6 @@
 #include "asperity/texture/texture_hash.h"
 #include "fourier1d_extremes.h"
 #include "fourier_tables.h"
-#include "servo_height.h"
 
 namespace asperity {
 
@@ -65,13 +64,6 @@ double Traits1d::highest_cycles_per_mm(const Fourier1d& f) { return static_cast<
 void Traits1d::make_tables(const Fourier1d& f, ServoTables& tables) {
   const SeriesSize size = size_of(f);
   tables.x_table = make_periodic_table(f, kTableHeightError * size.rms_m, kTableSlopeError * size.rms_slope);
-}
-
-HeightAndGradient Traits1d::servo_height(const Fourier1d& f, const ServoTables& tables, double x_m,
-                                         double y_m) noexcept {
-  if (tables.x_table.cells.empty()) return height(f, x_m, y_m);
-  const HeightAndSlope h = table_height(tables.x_table, x_m);
-  return {h.height_m, h.slope, 0.0};
 }
 
 Fourier1d fit_series(const TextureFitInput& input, const std::vector<std::string>& files,

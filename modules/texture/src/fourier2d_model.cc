@@ -12,7 +12,6 @@
 #include "asperity/texture/texture_fit.h"
 #include "asperity/texture/texture_hash.h"
 #include "fourier_tables.h"
-#include "servo_height.h"
 #include "spline_grid_model.h"
 
 namespace asperity {
@@ -136,18 +135,6 @@ void Traits2d::make_tables(const Fourier2d& t, ServoTables& tables) {
   tables.x_table = table(t.x, y, rms_slope_x, rms_slope_y);
   tables.y_table = table(t.y, x, rms_slope_y, rms_slope_x);
   if (tables.x_table.cells.empty() || tables.y_table.cells.empty()) tables.x_table = tables.y_table = {};
-}
-
-HeightAndGradient Traits2d::servo_height(const Fourier2d& t, const ServoTables& tables, double x_m,
-                                         double y_m) noexcept {
-  if (!tables.x_table.cells.empty()) {
-    const HeightAndSlope x = table_height(tables.x_table, x_m);
-    const HeightAndSlope y = table_height(tables.y_table, y_m);
-    return {t.offset_m + t.scale_per_m * (x.height_m * y.height_m), t.scale_per_m * (x.slope * y.height_m),
-            t.scale_per_m * (x.height_m * y.slope)};
-  }
-  if (t.kind == Fourier2dKind::kIsotropic) return spline_height(t.grid, tables.grid, x_m, y_m);
-  return evaluate(t, x_m, y_m);
 }
 
 void Traits2d::fit(const TextureFitInput& input, const TextureFitOptions& options, FittedTexture& out) {

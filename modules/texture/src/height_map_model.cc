@@ -13,7 +13,6 @@
 #include "asperity/texture/texture_fit.h"
 #include "asperity/texture/texture_hash.h"
 #include "low_pass_grid.h"
-#include "servo_height.h"
 
 namespace asperity {
 
@@ -99,11 +98,6 @@ double MapTraits::highest_cycles_per_mm(const HeightMap& map) {
 
 void MapTraits::make_tables(const HeightMap& map, ServoTables& tables) {
   tables.grid = {1e3 / map.mm_per_px_x, 1e3 / map.mm_per_px_y, 0.0, 0.0, map.metres_per_level(), map.low_m};
-}
-
-HeightAndGradient MapTraits::servo_height(const HeightMap& map, const ServoTables& tables, double x_m,
-                                          double y_m) noexcept {
-  return map_height(map, tables.grid, x_m, y_m);
 }
 
 void MapTraits::fit(const TextureFitInput& input, const TextureFitOptions& options, FittedTexture& out) {

@@ -1,4 +1,4 @@
-#include "servo_height.h"
+#include "asperity/texture/servo_tables.h"
 
 #include <cmath>
 #include <cstring>

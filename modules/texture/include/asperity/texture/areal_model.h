@@ -39,4 +39,11 @@ struct TextureModelTraits<ArealTexture> {
   static void fit(const TextureFitInput& input, const TextureFitOptions& options, FittedTexture& out);
 };
 
+// In the header, so that a servo step has no calls but those that it needs.
+inline HeightAndGradient TextureModelTraits<ArealTexture>::servo_height(const ArealTexture& t,
+                                                                        const ServoTables& tables, double x_m,
+                                                                        double y_m) noexcept {
+  return spline_height(t.surface, tables.grid, x_m, y_m);
+}
+
 }  // namespace asperity

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <limits>
 #include <optional>
+#include <variant>
 
 #include "asperity/texture/height_and_gradient.h"
 #include "asperity/texture/texture.h"
@@ -49,6 +51,19 @@ ServoTables make_servo_tables(const TextureModel& model);
 
 // evaluate_height() by means of its tables: a Fourier series is within 1e-6 of its RMS height and 1e-4 of its RMS slope
 // of the exact sum, a product of two likewise; images and splines are the same to rounding. Realtime-safe: yes.
-HeightAndGradient servo_height(const TextureModel& model, const ServoTables& tables, double x_m, double y_m) noexcept;
+inline HeightAndGradient servo_height(const TextureModel& model, const ServoTables& tables, double x_m,
+                                      double y_m) noexcept {
+  return std::visit(
+      [&]<class Model>(const Model& m) -> HeightAndGradient {
+        constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+        if constexpr (requires { TextureModelTraits<Model>::servo_height(m, tables, x_m, y_m); })
+          return TextureModelTraits<Model>::servo_height(m, tables, x_m, y_m);
+        else if constexpr (HeightField<Model>)
+          return TextureModelTraits<Model>::height(m, x_m, y_m);
+        else
+          return {kNan, kNan, kNan};
+      },
+      model);
+}
 
 }  // namespace asperity

@@ -40,6 +40,14 @@ struct TextureModelTraits<Fourier1d> {
   static void fit(const TextureFitInput& input, const TextureFitOptions& options, FittedTexture& out);
 };
 
+// In the header, so that a servo step has no calls but those that it needs.
+inline HeightAndGradient TextureModelTraits<Fourier1d>::servo_height(const Fourier1d& f, const ServoTables& tables,
+                                                                     double x_m, double y_m) noexcept {
+  if (tables.x_table.cells.empty()) return height(f, x_m, y_m);
+  const HeightAndSlope h = table_height(tables.x_table, x_m);
+  return {h.height_m, h.slope, 0.0};
+}
+
 // A profile or several as a series, as `texture fit` makes it: of the best window, or of the whole path.
 Fourier1d fit_series(const TextureFitInput& input, const std::vector<std::string>& files,
                      const TextureFitOptions& options, FittedTexture& out);

@@ -38,4 +38,17 @@ struct TextureModelTraits<Fourier2d> {
   static void fit(const TextureFitInput& input, const TextureFitOptions& options, FittedTexture& out);
 };
 
+// In the header, so that a servo step has no calls but those that it needs.
+inline HeightAndGradient TextureModelTraits<Fourier2d>::servo_height(const Fourier2d& t, const ServoTables& tables,
+                                                                     double x_m, double y_m) noexcept {
+  if (!tables.x_table.cells.empty()) {
+    const HeightAndSlope x = table_height(tables.x_table, x_m);
+    const HeightAndSlope y = table_height(tables.y_table, y_m);
+    return {t.offset_m + t.scale_per_m * (x.height_m * y.height_m), t.scale_per_m * (x.slope * y.height_m),
+            t.scale_per_m * (x.height_m * y.slope)};
+  }
+  if (t.kind == Fourier2dKind::kIsotropic) return spline_height(t.grid, tables.grid, x_m, y_m);
+  return height(t, x_m, y_m);
+}
+
 }  // namespace asperity

@@ -60,4 +60,10 @@ struct TextureModelTraits<HeightMap> {
   static void fit(const TextureFitInput& input, const TextureFitOptions& options, FittedTexture& out);
 };
 
+// In the header, so that a servo step has no calls but those that it needs.
+inline HeightAndGradient TextureModelTraits<HeightMap>::servo_height(const HeightMap& map, const ServoTables& tables,
+                                                                     double x_m, double y_m) noexcept {
+  return map_height(map, tables.grid, x_m, y_m);
+}
+
 }  // namespace asperity
