@@ -41,7 +41,7 @@ constexpr std::array<const char*, 4> kEndNames{"duration", "device_ended", "stop
 
 class FeelCommand : public Command {
  public:
-  explicit FeelCommand(CLI::App& root)
+  explicit FeelCommand(Parser& root)
       : Command(root, "feel", "Feel a scene with a haptic device, or log what it would") {
     parser().add_option("SCENE", input_.scene, "A scene.json, a folder that has one, or a mesh without textures");
     parser()
@@ -300,6 +300,6 @@ class FeelCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_feel(CLI::App& root) { return std::make_unique<FeelCommand>(root); }
+std::unique_ptr<Command> make_feel(Parser& root) { return std::make_unique<FeelCommand>(root); }
 
 }  // namespace asperity::app

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "asperity/acquire/frame_writer.h"
-#include "asperity/acquire/recorder.h"
 #include "asperity/base/text.h"
+#include "asperity/camera/frame_writer.h"
 #include "asperity/pipeline/config_json.h"
+#include "asperity/recorder/recorder.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "option_units.h"
@@ -44,7 +44,7 @@ struct RecordSettings {
 
 class RecordCommand : public Command {
  public:
-  explicit RecordCommand(CLI::App& root) : Command(root, "record", "Record a probe and its pose while a hand scans") {
+  explicit RecordCommand(Parser& root) : Command(root, "record", "Record a probe and its pose while a hand scans") {
     settings_.recorder.start_at_once = true;
     require(parser().add_option("--probe", input_.probe,
                                 "serial:/dev/ttyUSB0[@BAUD], usb:VID:PID[:SERIAL], udp:PORT or file:CAPTURE"))
@@ -54,7 +54,8 @@ class RecordCommand : public Command {
         .add_option("--capture", input_.capture, "Keep the probe's bytes too, in a new file for --probe file:CAPTURE")
         ->type_name("FILE");
     parser()
-        .add_option("--camera", input_.camera, "v4l2:/dev/video0[?rate=120&…], y4m:PATH, images:FOLDER or video:FILE")
+        .add_option("--camera", input_.camera,
+                    "v4l2:/dev/video0[?rate=120&…], y4m:PATH, images:FOLDER or video:FILE (by ffmpeg)")
         ->type_name("ADDRESS");
     parser()
         .add_option("--markers", input_.markers, "The tags on the probe; else those of the calibration")
@@ -167,6 +168,6 @@ class RecordCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_record(CLI::App& root) { return std::make_unique<RecordCommand>(root); }
+std::unique_ptr<Command> make_record(Parser& root) { return std::make_unique<RecordCommand>(root); }
 
 }  // namespace asperity::app

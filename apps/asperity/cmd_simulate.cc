@@ -26,7 +26,7 @@ namespace {
 
 class SimulateCommand : public Command {
  public:
-  explicit SimulateCommand(CLI::App& root)
+  explicit SimulateCommand(Parser& root)
       : Command(root, "simulate", "Simulate a recording: a hand scans a surface with a probe in front of a tracker") {
     std::string names;
     for (const auto name : kSurfaceNames) {
@@ -155,6 +155,6 @@ class SimulateCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_simulate(CLI::App& root) { return std::make_unique<SimulateCommand>(root); }
+std::unique_ptr<Command> make_simulate(Parser& root) { return std::make_unique<SimulateCommand>(root); }
 
 }  // namespace asperity::app

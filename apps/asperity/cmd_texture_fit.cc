@@ -57,7 +57,7 @@ SeriesTable series_of_recording(const std::string& folder) {
 
 class TextureFitCommand : public Command {
  public:
-  explicit TextureFitCommand(CLI::App& root)
+  explicit TextureFitCommand(Parser& root)
       : Command(root, "fit", "A haptic texture from profiles, strokes, an areal map or another texture") {
     require(parser().add_option("PROFILE", files_,
                                 "profile.csv, heights, x,y,z or t_s,acceleration_mps2,speed_mps,force_N tables, a "
@@ -200,6 +200,6 @@ class TextureFitCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_texture_fit(CLI::App& root) { return std::make_unique<TextureFitCommand>(root); }
+std::unique_ptr<Command> make_texture_fit(Parser& root) { return std::make_unique<TextureFitCommand>(root); }
 
 }  // namespace asperity::app

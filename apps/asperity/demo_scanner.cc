@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "asperity/acquire/track_body.h"
 #include "asperity/base/output.h"
 #include "asperity/calibration/calibrate_accelerometer_field.h"
 #include "asperity/calibration/calibrate_camera.h"
@@ -27,6 +26,7 @@
 #include "asperity/simulation/live_bench.h"
 #include "asperity/simulation/render_board.h"
 #include "asperity/simulation/stamp_delay.h"
+#include "asperity/tracking/track_body.h"
 #include "demo_figure.h"
 #include "record_live.h"
 

@@ -8,15 +8,15 @@
 #include <utility>
 #include <vector>
 
-#include "asperity/acquire/camera_pose_source.h"
-#include "asperity/acquire/capture_to_file.h"
-#include "asperity/acquire/open_camera.h"
-#include "asperity/acquire/open_pose_stream.h"
-#include "asperity/acquire/probe_address.h"
-#include "asperity/acquire/probe_link.h"
 #include "asperity/base/text.h"
+#include "asperity/camera/open_camera.h"
+#include "asperity/link/capture_to_file.h"
+#include "asperity/link/probe_address.h"
+#include "asperity/link/probe_link.h"
 #include "asperity/recording/read_markers.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/tracking/camera_pose_source.h"
+#include "asperity/tracking/open_pose_stream.h"
 #include "command.h"
 
 namespace asperity::app {

@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "asperity/acquire/camera_source.h"
-#include "asperity/acquire/recorder.h"
-#include "asperity/acquire/track_body.h"
+#include "asperity/camera/camera_source.h"
+#include "asperity/recorder/recorder.h"
 #include "asperity/recording/calibration.h"
+#include "asperity/tracking/track_body.h"
 
 namespace asperity::app {
 

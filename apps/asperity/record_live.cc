@@ -9,17 +9,17 @@
 #include <thread>
 #include <utility>
 
-#include "asperity/acquire/camera_pose_source.h"
-#include "asperity/acquire/open_serial.h"
-#include "asperity/acquire/open_y4m.h"
-#include "asperity/acquire/probe_source.h"
-#include "asperity/acquire/recorder.h"
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
+#include "asperity/camera/open_y4m.h"
+#include "asperity/link/probe_source.h"
+#include "asperity/recorder/recorder.h"
 #include "asperity/recording/format.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/simulation/probe_device.h"
 #include "asperity/simulation/stamp_delay.h"
+#include "asperity/tracking/camera_pose_source.h"
+#include "asperity/transport/open_serial.h"
 #include "live_scan.h"
 
 namespace asperity::app {

@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <vector>
 
-#include "asperity/acquire/probe_decoder.h"
-#include "asperity/acquire/recorder_snapshot.h"
-#include "asperity/acquire/track_body.h"
 #include "asperity/base/progress.h"
+#include "asperity/link/probe_decoder.h"
+#include "asperity/recorder/recorder_snapshot.h"
 #include "asperity/recording/recording.h"
 #include "asperity/simulation/bench_camera.h"
 #include "asperity/simulation/live_bench.h"
+#include "asperity/tracking/track_body.h"
 
 namespace asperity::app {
 

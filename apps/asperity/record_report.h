@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "asperity/acquire/frame_writer.h"
-#include "asperity/acquire/recorder_snapshot.h"
+#include "asperity/camera/frame_writer.h"
+#include "asperity/recorder/recorder_snapshot.h"
 #include "record_verdict.h"
 
 namespace asperity::app {

@@ -47,7 +47,7 @@ std::string toml_number(double value) {
 }
 
 // A basic string of TOML, which is one of JSON too.
-std::string quoted(std::string_view text) {
+std::string toml_string(std::string_view text) {
   constexpr char kHex[] = "0123456789abcdef";
   std::string out = "\"";
   for (const char c : text) {
@@ -128,7 +128,7 @@ void ConfigLister::field(std::string_view name, double& value, std::string_view 
 
 void ConfigLister::field(std::string_view name, std::string& value, std::string_view description) {
   ConfigField& field = add(name, FieldType::kText, description, {});
-  field.get = [&value] { return quoted(value); };
+  field.get = [&value] { return toml_string(value); };
   field.set = [&value, path = field.path](std::string_view text) {
     if (!is_utf8(text)) refuse(path, text, "UTF-8 text");
     value = unquoted(text);
@@ -162,7 +162,7 @@ void ConfigLister::add_choice(std::string_view name, std::vector<std::string> na
                               std::function<std::size_t()> get, std::function<void(std::size_t)> set) {
   ConfigField& field = add(name, FieldType::kChoice, description, {});
   field.choices = names;
-  field.get = [names, get = std::move(get)] { return quoted(names[get()]); };
+  field.get = [names, get = std::move(get)] { return toml_string(names[get()]); };
   field.set = [names = std::move(names), set = std::move(set), path = field.path](std::string_view text) {
     const auto found = std::find(names.begin(), names.end(), unquoted(text));
     if (found == names.end()) {

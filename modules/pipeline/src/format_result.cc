@@ -9,7 +9,7 @@ namespace asperity {
 
 namespace {
 
-double span_s(const std::vector<std::int64_t>& t_ns) {
+double stream_span_s(const std::vector<std::int64_t>& t_ns) {
   return t_ns.size() < 2 ? 0.0 : static_cast<double>(t_ns.back() - t_ns.front()) * kNanosecond_s;
 }
 
@@ -113,7 +113,7 @@ std::string format_result(const ProcessResult& result, const Recording& recordin
   out["method"] = config.at("method");
   out["trustworthy"] = result.trustworthy;
   out["verdict"] = result.verdict;
-  out["duration_s"] = span_s(result.trajectory.motion.t_ns);
+  out["duration_s"] = stream_span_s(result.trajectory.motion.t_ns);
   out["samples"] = {{"probe", recording.probe.size()},
                     {"tracker", recording.tracker.size()},
                     {"motion", result.trajectory.motion.size()},

@@ -38,7 +38,7 @@ bool is_made_by_recorder(const RecordingInfo& info) {
   return extra.is_object() && extra.contains("recorder");
 }
 
-std::vector<Segment> joined(std::vector<Segment> segments) {
+std::vector<Segment> join_near_segments(std::vector<Segment> segments) {
   std::stable_sort(segments.begin(), segments.end(),
                    [](const Segment& a, const Segment& b) { return a.start_ns < b.start_ns; });
   std::vector<Segment> out;
@@ -101,7 +101,7 @@ Recording cut_recording(const Recording& recording, std::int64_t start_ns, std::
 
 std::vector<Segment> separate_segments(const Recording& recording) {
   if (is_made_by_recorder(recording.info)) return recording.info.segments;
-  std::vector<Segment> out = joined(recording.info.segments);
+  std::vector<Segment> out = join_near_segments(recording.info.segments);
   if (out.size() < 2) out.clear();
   return out;
 }

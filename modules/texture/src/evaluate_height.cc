@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 
 namespace asperity {
 namespace {
@@ -26,7 +27,6 @@ bool is_height_field(const TextureModel& model) noexcept {
 HeightAndGradient evaluate_height(const TextureModel& model, double x_m, double y_m) noexcept {
   return std::visit(
       [&]<class Model>(const Model& m) -> HeightAndGradient {
-        constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
         if constexpr (HeightField<Model>) return Traits<Model>::height(m, x_m, y_m);
         return {kNan, kNan, kNan};
       },

@@ -31,7 +31,7 @@ Start start_of(const AlignChoice& choice) {
   return unmoved ? Start{registered->guess, registered->near} : Start{choice.T_mesh_world, false};
 }
 
-std::string quoted(const std::string& word) {
+std::string shell_quoted(const std::string& word) {
   std::string out = "'";
   for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
@@ -39,8 +39,8 @@ std::string quoted(const std::string& word) {
 
 std::string command_of(const AlignChoice& choice, const Start& start, const std::string& name) {
   std::string out = "asperity register";
-  for (const std::string& path : choice.paths) out += " " + quoted(path);
-  out += " " + quoted(choice.mesh) + " --mesh-unit " + quoted(choice.mesh_unit);
+  for (const std::string& path : choice.paths) out += " " + shell_quoted(path);
+  out += " " + shell_quoted(choice.mesh) + " --mesh-unit " + shell_quoted(choice.mesh_unit);
   if (start.guess) {
     std::string numbers;
     for (const Json& number : json_of_pose(*start.guess)) {
@@ -49,12 +49,12 @@ std::string command_of(const AlignChoice& choice, const Start& start, const std:
     }
     out += " --guess=" + numbers;
   }
-  for (const std::string& texture : choice.textures) out += " --texture " + quoted(texture);
-  for (const auto& [path, value] : choice.config) out += " --set " + quoted(path + "=" + value);
+  for (const std::string& texture : choice.textures) out += " --texture " + shell_quoted(texture);
+  for (const auto& [path, value] : choice.config) out += " --set " + shell_quoted(path + "=" + value);
   if (start.near) {
     out += " --set search.registration.starts.when=never --set refinement.other_starts=0";
   }
-  return out + " -o " + quoted(name);
+  return out + " -o " + shell_quoted(name);
 }
 
 }  // namespace

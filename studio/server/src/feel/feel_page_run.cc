@@ -3,9 +3,9 @@
 #include <mutex>
 #include <utility>
 
-#include "asperity/acquire/host_clock.h"
 #include "asperity/base/error.h"
 #include "asperity/device/write_flight_record.h"
+#include "asperity/transport/host_clock.h"
 #include "feel/ended_logs.h"
 #include "feel/feel_json.h"
 #include "our_file.h"

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <system_error>
 
-#include "asperity/acquire/open_camera.h"
-#include "asperity/acquire/open_pose_stream.h"
-#include "asperity/acquire/probe_address.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/camera/open_camera.h"
+#include "asperity/link/probe_address.h"
 #include "asperity/studio/calls.h"
+#include "asperity/tracking/open_pose_stream.h"
 #include "scan/scan_config.h"
 
 namespace asperity::studio {

@@ -18,9 +18,9 @@ constexpr double kLapse = 1e-3;  // a wrong answer to what is plain must not rul
 
 // The probability of a right answer to a level: 1/2 + 1/2 (1 - exp(-(level/scale)^slope)), `hardness` being
 // (level/scale)^slope where it is the target.
-class Observer {
+class ModelledObserver {
  public:
-  Observer(double threshold, double target, double slope)
+  ModelledObserver(double threshold, double target, double slope)
       : threshold_(threshold), hardness_(-std::log(2.0 * (1.0 - target))), slope_(slope) {}
   double right(double level) const {
     const double p = 1.0 - 0.5 * std::exp(-hardness_ * std::pow(level / threshold_, slope_));
@@ -31,7 +31,7 @@ class Observer {
   double threshold_, hardness_, slope_;
 };
 
-double log_likelihood(const StaircaseTrack& track, const Observer& observer) {
+double log_likelihood(const StaircaseTrack& track, const ModelledObserver& observer) {
   double out = 0.0;
   for (std::size_t k = 0; k < track.levels().size(); ++k) {
     const double p = observer.right(track.levels()[k]);
@@ -48,7 +48,8 @@ double likely_slope(const StaircaseTrack& track, double level, double target) {
       const double slope_ln =
           std::log(kFlattest) + std::log(kSteepest / kFlattest) * static_cast<double>(k) / (kSlopes - 1);
       const double off = (slope_ln - std::log(kUsualSlope)) / kUsualSpread_ln;
-      const double log_weight = log_likelihood(track, Observer(level, target, std::exp(slope_ln))) - 0.5 * off * off;
+      const double log_weight =
+          log_likelihood(track, ModelledObserver(level, target, std::exp(slope_ln))) - 0.5 * off * off;
       if (!summing) {
         best = std::max(best, log_weight);
         continue;
@@ -66,7 +67,7 @@ std::optional<double> staircase_error_ln(const StaircaseTrack& track, double lev
   const double target = staircase_target(config);
   // Half of the answers are right by chance: a rule that settles there or below has no such observer.
   if (!(target > 0.5)) return std::nullopt;
-  const Observer observer(level, target, likely_slope(track, level, target));
+  const ModelledObserver observer(level, target, likely_slope(track, level, target));
   Random random(1);
   double sum = 0.0, squares = 0.0;
   int count = 0;

@@ -29,7 +29,7 @@ constexpr int kMostRuns = 1'000'000;
 // Whole milliseconds: the quotient is the number nearest to its three decimals, so no more are written.
 std::string seconds_text(double seconds) { return number_text(std::round(1e3 * seconds) / 1e3); }
 
-std::string answer_text(const Study& study, int value) {
+std::string answer_field(const Study& study, int value) {
   if (study.method == StudyMethod::kRating) return std::to_string(value);
   return value == 1 ? "right" : "left";
 }
@@ -154,7 +154,7 @@ std::string format_log_head(const StudySession& session, const std::vector<std::
 std::string format_answer_row(const StudySession& session, const StudyAnswer& answer, std::string_view date) {
   std::string out = "answer," + trial_cells(session, answer.trial) + ',';
   if (answer.trial.level) out += number_text(*answer.trial.level);
-  out += ',' + answer_text(session.study(), answer.value) + ',';
+  out += ',' + answer_field(session.study(), answer.value) + ',';
   if (answer.trial.level) {
     out += std::string(answer.correct ? "1" : "0") + ',' + (answer.reversal ? "1" : "0");
   } else {

@@ -1,11 +1,11 @@
 #include <utility>
 
-#include "asperity/acquire/host_clock.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/studio/calls.h"
+#include "asperity/transport/host_clock.h"
 #include "study/plan_trials.h"
 #include "study/stimuli.h"
 #include "study/study_file.h"
@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kRunningFile = ".asperity-study.json";  // names the log that is being written
-constexpr std::uint64_t kLargestRunningFile = 4096, kLargestLog = std::uint64_t{16} << 20U;
+constexpr std::uint64_t kLargestRunningFile = 4096, kLargestRunningLog = std::uint64_t{16} << 20U;
 
 }  // namespace
 
@@ -78,7 +78,7 @@ struct StudyPage::Opening {
     }
     const fs::path file = project.existing(name);
     name = file.lexically_relative(project.folder()).generic_string();
-    StudyLog read = parse_study_log(read_file(file, kLargestLog), name);
+    StudyLog read = parse_study_log(read_file(file, kLargestRunningLog), name);
     if (!read.session.trial()) throw Advice(name + ": all its trials are answered", "Look at its results.");
     stimuli = read_stimuli(read.session.study(), project);
     check_unchanged(read.session.study(), stimuli, read.textures_crc32);

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <variant>
 
+#include "asperity/base/nan.h"
 #include "asperity/texture/height_and_gradient.h"
 #include "asperity/texture/texture.h"
 
@@ -55,7 +55,6 @@ inline HeightAndGradient servo_height(const TextureModel& model, const ServoTabl
                                       double y_m) noexcept {
   return std::visit(
       [&]<class Model>(const Model& m) -> HeightAndGradient {
-        constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
         if constexpr (requires { TextureModelTraits<Model>::servo_height(m, tables, x_m, y_m); })
           return TextureModelTraits<Model>::servo_height(m, tables, x_m, y_m);
         else if constexpr (HeightField<Model>)
