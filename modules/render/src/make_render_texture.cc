@@ -19,11 +19,11 @@ std::string called(const Texture& texture) {
 }
 
 template <class Model>
-using Traits = TextureModelTraits<Model>;
+using ModelTraits = TextureModelTraits<Model>;
 
 template <class Model>
 concept TakesHeights = SeriesModel<Model> && requires(Model& model, const Texture& heights) {
-  Traits<Model>::take_heights(model, heights);
+  ModelTraits<Model>::take_heights(model, heights);
 };
 
 TextureForceModel own_force_model(const TextureModel& model) {
@@ -44,7 +44,7 @@ std::optional<TextureModel> series_of_heights(const Texture& heights, TextureFor
     if constexpr (TakesHeights<Model>) {
       if (kForceModelOf<Model> != model) return;
       Model made;
-      Traits<Model>::take_heights(made, heights);
+      ModelTraits<Model>::take_heights(made, heights);
       series = std::move(made);
     }
   });
@@ -54,7 +54,8 @@ std::optional<TextureModel> series_of_heights(const Texture& heights, TextureFor
 void prepare_series(TextureModel& series, double rate_Hz) {
   std::visit(
       [&]<class Model>(Model& model) {
-        if constexpr (requires { Traits<Model>::prepare(model, rate_Hz); }) Traits<Model>::prepare(model, rate_Hz);
+        if constexpr (requires { ModelTraits<Model>::prepare(model, rate_Hz); })
+          ModelTraits<Model>::prepare(model, rate_Hz);
       },
       series);
 }
@@ -62,7 +63,7 @@ void prepare_series(TextureModel& series, double rate_Hz) {
 SeriesHeights heights_of_series(const TextureModel& series) {
   return std::visit(
       []<class Model>(const Model& model) -> SeriesHeights {
-        if constexpr (requires { Traits<Model>::heights(model); }) return Traits<Model>::heights(model);
+        if constexpr (requires { ModelTraits<Model>::heights(model); }) return ModelTraits<Model>::heights(model);
         return {};
       },
       series);
@@ -72,7 +73,7 @@ std::uint64_t texture_id(const RenderTexture& texture) {
   TextureHash hash;
   hash.add(static_cast<std::uint64_t>(texture.texture.model.index()), static_cast<std::uint64_t>(texture.model),
            texture.seed, texture.lift_m);
-  std::visit([&]<class Model>(const Model& model) { Traits<Model>::add_to(hash, model); }, texture.texture.model);
+  std::visit([&]<class Model>(const Model& model) { ModelTraits<Model>::add_to(hash, model); }, texture.texture.model);
   return hash.value() == 0 ? 1 : hash.value();
 }
 

@@ -12,7 +12,7 @@ namespace asperity {
 namespace {
 
 template <class Model>
-using Traits = TextureModelTraits<Model>;
+using ModelTraits = TextureModelTraits<Model>;
 
 [[noreturn]] void no_heights(const TextureModel& model) {
   throw Error("texture: the model " + std::string(kTextureModelNames[model.index()]) + " has no heights");
@@ -27,7 +27,7 @@ bool is_height_field(const TextureModel& model) noexcept {
 HeightAndGradient evaluate_height(const TextureModel& model, double x_m, double y_m) noexcept {
   return std::visit(
       [&]<class Model>(const Model& m) -> HeightAndGradient {
-        if constexpr (HeightField<Model>) return Traits<Model>::height(m, x_m, y_m);
+        if constexpr (HeightField<Model>) return ModelTraits<Model>::height(m, x_m, y_m);
         return {kNan, kNan, kNan};
       },
       model);
@@ -36,7 +36,7 @@ HeightAndGradient evaluate_height(const TextureModel& model, double x_m, double 
 double lowest_height_m(const TextureModel& model) {
   return std::visit(
       [&]<class Model>(const Model& m) -> double {
-        if constexpr (HeightField<Model>) return Traits<Model>::lowest_m(m);
+        if constexpr (HeightField<Model>) return ModelTraits<Model>::lowest_m(m);
         no_heights(model);
       },
       model);
@@ -45,7 +45,7 @@ double lowest_height_m(const TextureModel& model) {
 double highest_height_m(const TextureModel& model) {
   return std::visit(
       [&]<class Model>(const Model& m) -> double {
-        if constexpr (HeightField<Model>) return Traits<Model>::highest_m(m);
+        if constexpr (HeightField<Model>) return ModelTraits<Model>::highest_m(m);
         no_heights(model);
       },
       model);
@@ -56,7 +56,7 @@ double lift_m(const TextureModel& model) { return -lowest_height_m(model); }
 HeightPeriods height_periods_m(const TextureModel& model) {
   return std::visit(
       []<class Model>(const Model& m) -> HeightPeriods {
-        if constexpr (HeightField<Model>) return Traits<Model>::periods_m(m);
+        if constexpr (HeightField<Model>) return ModelTraits<Model>::periods_m(m);
         return {};
       },
       model);
@@ -70,7 +70,7 @@ std::optional<double> period_m(const TextureModel& model) {
 std::optional<double> line_length_mm(const TextureModel& model) {
   return std::visit(
       []<class Model>(const Model& m) -> std::optional<double> {
-        if constexpr (LineModel<Model>) return Traits<Model>::length_mm(m);
+        if constexpr (LineModel<Model>) return ModelTraits<Model>::length_mm(m);
         return std::nullopt;
       },
       model);
@@ -79,7 +79,7 @@ std::optional<double> line_length_mm(const TextureModel& model) {
 std::optional<HeightWindow> height_window(const TextureModel& model, std::size_t most_cells) {
   return std::visit(
       [&]<class Model>(const Model& m) -> std::optional<HeightWindow> {
-        if constexpr (HeightField<Model>) return Traits<Model>::window(m, most_cells);
+        if constexpr (HeightField<Model>) return ModelTraits<Model>::window(m, most_cells);
         return std::nullopt;
       },
       model);
@@ -88,7 +88,7 @@ std::optional<HeightWindow> height_window(const TextureModel& model, std::size_t
 MeasuredArea measured_area(const TextureModel& model) {
   return std::visit(
       [&]<class Model>(const Model& m) -> MeasuredArea {
-        if constexpr (requires { Traits<Model>::measured_area(m); }) return Traits<Model>::measured_area(m);
+        if constexpr (requires { ModelTraits<Model>::measured_area(m); }) return ModelTraits<Model>::measured_area(m);
         return {0.0, 0.0, LineModel<Model> ? 0.0 : period_m(model).value_or(0.01)};
       },
       model);
@@ -97,8 +97,8 @@ MeasuredArea measured_area(const TextureModel& model) {
 bool is_synthetic(const TextureModel& model) noexcept {
   return std::visit(
       []<class Model>(const Model&) {
-        if constexpr (requires { Traits<Model>::kIsSynthetic; })
-          return Traits<Model>::kIsSynthetic;
+        if constexpr (requires { ModelTraits<Model>::kIsSynthetic; })
+          return ModelTraits<Model>::kIsSynthetic;
         else
           return false;
       },
@@ -108,7 +108,7 @@ bool is_synthetic(const TextureModel& model) noexcept {
 double highest_cycles_per_mm(const TextureModel& model) {
   return std::visit(
       []<class Model>(const Model& m) -> double {
-        if constexpr (HeightField<Model>) return Traits<Model>::highest_cycles_per_mm(m);
+        if constexpr (HeightField<Model>) return ModelTraits<Model>::highest_cycles_per_mm(m);
         return std::numeric_limits<double>::infinity();
       },
       model);
@@ -122,7 +122,8 @@ ServoTables make_servo_tables(const TextureModel& model) {
   ServoTables tables;
   std::visit(
       [&]<class Model>(const Model& m) {
-        if constexpr (requires { Traits<Model>::make_tables(m, tables); }) Traits<Model>::make_tables(m, tables);
+        if constexpr (requires { ModelTraits<Model>::make_tables(m, tables); })
+          ModelTraits<Model>::make_tables(m, tables);
       },
       model);
   return tables;
