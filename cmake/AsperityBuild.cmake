@@ -98,6 +98,7 @@ function(asperity_optimise_fully target)
 endfunction()
 
 set_property(GLOBAL PROPERTY ASPERITY_MODULES "")
+set_property(GLOBAL PROPERTY ASPERITY_PLACES "")
 
 # add_module(name DEPENDS module… [PUBLIC target…] [PRIVATE target…])
 #   One static library asperity_<name> from modules/<name>/src/*.cc, its headers in
@@ -153,6 +154,17 @@ function(add_own_library name)
   target_link_libraries(${target} PRIVATE ${L_LIBRARIES} asperity_flags)
   add_dependencies(${L_USED_BY} ${target})
   install(TARGETS ${target} LIBRARY DESTINATION lib/asperity)
+endfunction()
+
+# declare_includes(place DEPENDS name…)
+#   What a place outside modules/ may include: a folder with its own headers (apps/asperity), its tests
+#   (studio/server/test), or one file of it that may include more (apps/asperity/cmd_studio.cc). Names are those of modules
+#   and of such folders. Compared with the #include lines by the test `include_check`; a folder's tests may use what the
+#   folder may, and testkit.
+function(declare_includes place)
+  cmake_parse_arguments(D "" "" "DEPENDS" ${ARGN})
+  set_property(GLOBAL APPEND PROPERTY ASPERITY_PLACES ${place})
+  set_property(GLOBAL PROPERTY ASPERITY_INCLUDES_${place} "${D_DEPENDS}")
 endfunction()
 
 # add_asperity_fuzzer(name SOURCE target…): SOURCE defines LLVMFuzzerTestOneInput. With clang and

@@ -11,7 +11,7 @@
 #include "asperity/pipeline/config_json.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
-#include "our_file.h"
+#include "asperity/session/our_file.h"
 
 namespace asperity::app {
 

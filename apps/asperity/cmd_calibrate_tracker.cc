@@ -11,11 +11,11 @@
 #include "asperity/base/units.h"
 #include "asperity/calibration/calibrate_tracker_noise.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/session/our_file.h"
 #include "calibrate_command.h"
 #include "commands.h"
 #include "json_of.h"
 #include "noise_figure.h"
-#include "our_file.h"
 
 namespace asperity::app {
 

@@ -10,9 +10,9 @@
 #include "asperity/pipeline/check_rig.h"
 #include "asperity/recording/cut_recording.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/session/our_file.h"
 #include "commands.h"
 #include "option_units.h"
-#include "our_file.h"
 
 namespace asperity::app {
 

@@ -12,10 +12,10 @@
 #include "asperity/base/version.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/scene/export_scene.h"
+#include "asperity/session/export_files.h"
+#include "asperity/session/our_folder.h"
 #include "commands.h"
-#include "export_files.h"
 #include "option_units.h"
-#include "our_folder.h"
 
 namespace asperity::app {
 

@@ -9,8 +9,8 @@
 #include "asperity/base/text.h"
 #include "asperity/image/read_gray_image.h"
 #include "asperity/tracking/detect_tags.h"
+#include "asperity/session/our_file.h"
 #include "commands.h"
-#include "our_file.h"
 
 namespace asperity::app {
 

@@ -12,10 +12,10 @@
 #include "asperity/printing/format_pdf.h"
 #include "asperity/printing/marker_sheets.h"
 #include "asperity/recording/format.h"
+#include "asperity/session/our_file.h"
 #include "commands.h"
 #include "marker_family.h"
 #include "option_units.h"
-#include "our_file.h"
 
 namespace asperity::app {
 

@@ -16,10 +16,11 @@
 #include "asperity/pipeline/config_json.h"
 #include "asperity/scene/paint.h"
 #include "asperity/scene/write_scene.h"
+#include "asperity/session/mesh_unit.h"
+#include "asperity/session/our_folder.h"
+#include "asperity/session/paint_scene.h"
 #include "commands.h"
 #include "option_units.h"
-#include "our_folder.h"
-#include "paint_scene.h"
 
 namespace asperity::app {
 

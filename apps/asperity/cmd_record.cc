@@ -13,15 +13,15 @@
 #include "asperity/camera/frame_writer.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/recorder/recorder.h"
+#include "asperity/session/interrupt.h"
+#include "asperity/session/record_input.h"
+#include "asperity/session/utc_now.h"
 #include "commands.h"
-#include "interrupt.h"
 #include "option_units.h"
-#include "record_input.h"
 #include "record_report.h"
 #include "record_status.h"
 #include "record_verdict.h"
 #include "terminal_keys.h"
-#include "utc_now.h"
 
 namespace asperity::app {
 
@@ -85,7 +85,7 @@ class RecordCommand : public Command {
   }
 
   int run(const Observer&) override {
-    check_record_input(input_);
+    check_sensors();
     if (info_.world != "camera" && info_.world != "z_up")
       throw UsageError("--world: '" + printable(info_.world) + "' is neither camera nor z_up");
     if (!is_utf8(info_.object)) throw UsageError("--object: is not UTF-8");
@@ -117,6 +117,23 @@ class RecordCommand : public Command {
   }
 
  private:
+  void check_sensors() const {
+    if (input_.probe.empty()) throw UsageError("--probe: an address is needed");
+    if (!input_.camera.empty() && !input_.poses.empty()) throw UsageError("--camera and --poses exclude each other");
+    if (input_.calibration.empty() && !input_.uncalibrated)
+      throw UsageError("--calibration is missing; without one, --uncalibrated records what is to be calibrated");
+    if (!input_.calibration.empty() && input_.uncalibrated)
+      throw UsageError("--calibration and --uncalibrated exclude each other");
+    if (!input_.camera.empty() && input_.uncalibrated)
+      throw UsageError("--camera needs the camera's --calibration to find poses");
+    if (!input_.markers.empty() && input_.camera.empty()) throw UsageError("--markers needs --camera");
+    try {
+      check_record_addresses(input_);
+    } catch (const Error& error) {
+      throw UsageError(error.what());
+    }
+  }
+
   // Shows how it goes and hears the keys, until there is a reason to end.
   std::string watch(Recorder& recorder) {
     using namespace std::chrono_literals;

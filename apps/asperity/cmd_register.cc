@@ -15,9 +15,9 @@
 #include "asperity/pipeline/register_scans.h"
 #include "asperity/pipeline/write_registration.h"
 #include "asperity/registration/manual_alignment.h"
+#include "asperity/session/register_input.h"
 #include "commands.h"
 #include "option_units.h"
-#include "register_input.h"
 
 namespace asperity::app {
 
@@ -67,6 +67,7 @@ class RegisterCommand : public Command {
     files_.pop_back();
     const double unit_m = mesh_unit_.empty() ? 1.0 : unit_option_m("--mesh-unit", mesh_unit_);
     const std::optional<Pose> guess = first_pose(unit_m);
+    check_paths();
 
     OutputFolder folder(output_, is_registration_folder);
     observer.update("reading", 0.0);
@@ -83,6 +84,14 @@ class RegisterCommand : public Command {
   }
 
  private:
+  void check_paths() const {
+    try {
+      check_register_input(files_, textures_);
+    } catch (const Error& error) {
+      throw UsageError(error.what());
+    }
+  }
+
   // Where to begin, however it was said.
   std::optional<Pose> first_pose(double unit_m) const {
     if (!guess_.empty()) return pose_option("--guess", guess_);

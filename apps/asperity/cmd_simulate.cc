@@ -14,10 +14,10 @@
 #include "asperity/pipeline/config_json.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
+#include "asperity/session/live_scan.h"
 #include "asperity/simulation/mesh_stroke.h"
 #include "asperity/simulation/simulate_recording.h"
 #include "commands.h"
-#include "live_scan.h"
 #include "option_units.h"
 
 namespace asperity::app {

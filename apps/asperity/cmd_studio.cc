@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "asperity/base/text.h"
+#include "asperity/session/interrupt.h"
 #include "asperity/studio/feel_config.h"
+#include "asperity/studio/open_browser.h"
 #include "asperity/studio/studio.h"
 #include "asperity/studio/web_server.h"
 #include "asperity/web/assets.h"
 #include "commands.h"
-#include "interrupt.h"
-#include "open_browser.h"
 
 namespace asperity::app {
 
@@ -46,7 +46,7 @@ class StudioCommand : public Command {
     choose_folder();
     config_.feel = std::make_shared<const studio::FeelConfig>(feel_);
     const bool is_open_to_others = !studio::is_this_machine_only(config_.server.host);
-    std::optional<OpenedBrowser> browser;
+    std::optional<studio::OpenedBrowser> browser;
     // A signal waits until no hand has force on it and everything is saved.
     const ForceHold force;
     const FinishHold finish;

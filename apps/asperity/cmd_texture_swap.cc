@@ -16,9 +16,9 @@
 #include "asperity/scene/read_scene.h"
 #include "asperity/scene/swap_texture.h"
 #include "asperity/scene/write_scene.h"
+#include "asperity/session/our_file.h"
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
-#include "our_file.h"
 
 namespace asperity::app {
 

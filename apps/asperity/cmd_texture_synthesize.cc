@@ -10,6 +10,7 @@
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/pipeline/config_json.h"
+#include "asperity/session/our_file.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/format_height_image.h"
 #include "asperity/texture/make_height_map.h"
@@ -19,7 +20,6 @@
 #include "asperity/texture/texture_operations.h"
 #include "commands.h"
 #include "option_units.h"
-#include "our_file.h"
 
 namespace asperity::app {
 

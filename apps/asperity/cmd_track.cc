@@ -18,8 +18,8 @@
 #include "asperity/pipeline/config_json.h"
 #include "asperity/recording/read_markers.h"
 #include "asperity/tracking/track_images.h"
+#include "asperity/session/our_file.h"
 #include "commands.h"
-#include "our_file.h"
 
 namespace asperity::app {
 

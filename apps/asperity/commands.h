@@ -23,6 +23,9 @@ std::unique_ptr<Command> make_roughness(Parser& root);
 std::unique_ptr<Command> make_studio(Parser& root);
 std::unique_ptr<Command> make_track(Parser& root);
 
+// The commands below `asperity study`.
+std::unique_ptr<Command> make_study_summarize(Parser& study);
+
 // The commands below `asperity texture`.
 std::unique_ptr<Command> make_texture_fit(Parser& texture);
 std::unique_ptr<Command> make_texture_info(Parser& texture);

@@ -18,13 +18,13 @@
 #include "asperity/registration/pose_error.h"
 #include "asperity/scene/paint.h"
 #include "asperity/scene/write_scene.h"
+#include "asperity/session/our_folder.h"
 #include "asperity/simulation/make_pebble.h"
 #include "asperity/simulation/make_surface.h"
 #include "asperity/simulation/place_at_random.h"
 #include "asperity/simulation/random_motion.h"
 #include "asperity/simulation/simulate_recording.h"
 #include "demo_figure.h"
-#include "our_folder.h"
 
 namespace asperity::app {
 

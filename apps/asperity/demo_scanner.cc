@@ -20,6 +20,7 @@
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/write_result.h"
 #include "asperity/recording/write_recording.h"
+#include "asperity/session/record_live.h"
 #include "asperity/simulation/board_poses.h"
 #include "asperity/simulation/calibration_motion.h"
 #include "asperity/simulation/force_steps.h"
@@ -28,7 +29,6 @@
 #include "asperity/simulation/stamp_delay.h"
 #include "asperity/tracking/track_body.h"
 #include "demo_figure.h"
-#include "record_live.h"
 
 namespace asperity::app {
 

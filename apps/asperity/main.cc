@@ -7,9 +7,9 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/session/interrupt.h"
 #include "command.h"
 #include "commands.h"
-#include "interrupt.h"
 #include "parser_pages.h"
 #include "progress_line.h"
 
@@ -39,6 +39,9 @@ struct Program {
          {make_texture_fit, make_texture_info, make_texture_synthesize, make_texture_swap, make_texture_compare}) {
       commands.push_back(make(texture));
     }
+    Parser& study = parser.add_subcommand("study", "Work out what people answered in a study of the studio");
+    study.require_subcommand(1, 0);
+    commands.push_back(make_study_summarize(study));
     Parser& markers = parser.add_subcommand("markers", "Print tags and boards at true scale, and find them in images");
     markers.require_subcommand(1, 0);
     for (const auto make :
@@ -111,6 +114,6 @@ int run(int argc, char** argv) {
 }  // namespace asperity::app
 
 int main(int argc, char** argv) {
-  asperity::app::watch_interrupts();
+  asperity::watch_interrupts(asperity::app::complain);
   return asperity::app::run(argc, argv);
 }

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "asperity/pipeline/process_recording.h"
+#include "asperity/session/record_live.h"
 #include "asperity/simulation/calibration_motion.h"
 #include "asperity/testkit/temp_dir.h"
-#include "record_live.h"
 
-namespace asperity::app {
+namespace asperity {
 namespace {
 
 LiveBenchConfig slow_camera() {
@@ -103,4 +103,4 @@ TEST(LiveScan, TheFirmwaresBytesDecodeToTheSamples) {
 }
 
 }  // namespace
-}  // namespace asperity::app
+}  // namespace asperity

@@ -8,9 +8,9 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/pipeline/write_registration.h"
+#include "asperity/session/register_input.h"
 #include "asperity/studio/calls.h"
 #include "json_pose.h"
-#include "register_input.h"
 
 namespace asperity::studio {
 
@@ -67,9 +67,9 @@ Json write_alignment(const AlignChoice& choice, const Project& project, const st
   std::vector<std::string> scans, textures;
   for (const std::string& path : choice.paths) scans.push_back(project.existing(path).string());
   for (const std::string& texture : choice.textures) textures.push_back(project.existing(texture).string());
-  const app::RegisterInput input =
-      app::read_register_input(scans, project.existing(choice.mesh).string(), unit_m(choice), textures);
-  const ScansOnMesh result = app::register_input(input, start.guess, run_config(choice, start.near), observer);
+  const RegisterInput input =
+      read_register_input(scans, project.existing(choice.mesh).string(), unit_m(choice), textures);
+  const ScansOnMesh result = register_input(input, start.guess, run_config(choice, start.near), observer);
   observer.update("writing", 1.0);
   write_registration(folder.path(), result, input.scans, input.mesh, input.unit_m);
   folder.commit();

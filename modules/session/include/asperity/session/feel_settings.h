@@ -1,0 +1,67 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "asperity/base/config.h"
+#include "asperity/device/device_caps.h"
+#include "asperity/device/device_registry.h"
+#include "asperity/device/hand_model_config.h"
+#include "asperity/device/servo_loop.h"
+#include "asperity/pipeline/process_config.h"
+#include "asperity/pipeline/score_rendering.h"
+#include "asperity/pipeline/surface_stroke.h"
+#include "asperity/render/render_model.h"
+
+namespace asperity {
+
+// The settings of `feel`.
+struct FeelSettings {
+  RenderConfig render;
+  ServoConfig servo;
+  SurfaceStrokeConfig stroke;
+  HandModelConfig hand;
+  DeviceConfigs devices;
+  DeviceCapsConfig caps;
+  ScoreConfig score;
+  ProcessConfig process;
+
+  FeelSettings() { servo.paced = false; }
+
+  // What the renderer is to do, at the servo's rate.
+  RenderConfig render_config() const {
+    RenderConfig out = render;
+    out.texture.rate_Hz = servo.rate_Hz;
+    return out;
+  }
+
+  template <class V>
+  void visit(V& v) {
+    v.group("render", render);
+    v.group("servo", servo);
+    v.group("stroke", stroke);
+    v.group("hand", hand);
+    devices.visit(v);
+    v.group("caps", caps);
+    v.group("score", score);
+    v.group("process", process);
+  }
+};
+
+// All settings; those of the safety layer stand in a group of their own.
+inline std::vector<ConfigField> feel_fields(FeelSettings& settings) {
+  std::vector<ConfigField> out;
+  bool placed = false;
+  for (ConfigField& field : list_fields("", settings)) {
+    if (!field.path.starts_with("servo.safety.")) {
+      out.push_back(std::move(field));
+      continue;
+    }
+    if (placed) continue;
+    for (ConfigField& own : list_fields("safety", settings.servo.safety)) out.push_back(std::move(own));
+    placed = true;
+  }
+  return out;
+}
+
+}  // namespace asperity
