@@ -19,13 +19,12 @@ std::optional<double> optional_number(JsonObject& in, const char* key, Range ran
   return value ? std::optional(value->number(range)) : std::nullopt;
 }
 
-// Reads the block of the model whose name stands at `index` of the variant.
-template <std::size_t index = 0>
+// Reads the block of the model that is called as its key.
 void read_model(const BlockInput& input, TextureModel& model) {
-  if constexpr (index < std::variant_size_v<TextureModel>) {
-    if (input.path == kTextureModelNames[index]) return read_block(input, model.emplace<index>());
-    read_model<index + 1>(input, model);
-  }
+  for_each_texture_model([&]<class Model>() {
+    using Traits = TextureModelTraits<Model>;
+    if (input.path == Traits::kName) Traits::read_block(input, model.emplace<Model>());
+  });
 }
 
 void parse_model(JsonObject& root, const PayloadReader& payload, Texture& texture) {
