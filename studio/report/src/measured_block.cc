@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "asperity/base/units.h"
-#include "asperity/pipeline/write_result.h"
+#include "asperity/pipeline/result_json.h"
 #include "asperity/studio/measured_figures.h"
 #include "profile_block.h"
 #include "profile_gaps.h"
@@ -105,7 +105,7 @@ void add_dropped(const ProcessResult& result, std::size_t max_gaps, BlockWriter&
 BlockWriter measured_block(const ProcessResult& result, const Recording& recording, const std::string& name,
                            const MeasuredBlockConfig& config) {
   BlockWriter block("measured");
-  block.head()["result"] = Json::parse(format_result(result, recording, name));
+  block.head()["result"] = result_json(result, recording, name);
   block.head()["world"] = recording.info.world;
   block.head()["figures"] = measured_figures(block.head()["result"]);
   add_dropped(result, config.max_gaps, block);
