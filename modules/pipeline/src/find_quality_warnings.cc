@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "asperity/base/units.h"
-#include "asperity/recording/uncalibrated.h"
 
 namespace asperity {
 
@@ -74,8 +73,7 @@ std::vector<std::string> find_quality_warnings(const Recording& recording, const
     return found == trajectory.figures.end() ? 0.0 : found->second;
   };
 
-  if (is_uncalibrated(recording.calibration))
-    warnings.push_back("it was recorded without a calibration: calibrate first");
+  if (recording.calibration.uncalibrated) warnings.push_back("it was recorded without a calibration: calibrate first");
   const double gravity_mps2 = recording.info.gravity_world_mps2.norm();
   const double force_mps2 = usual_specific_force_mps2(recording);
   if (!(std::abs(force_mps2 - gravity_mps2) <= kGravityTolerance * gravity_mps2)) {

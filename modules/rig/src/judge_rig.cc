@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
 #include <string_view>
@@ -12,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "asperity/base/text.h"
-#include "asperity/recording/uncalibrated.h"
 
 namespace asperity {
 
@@ -55,21 +53,19 @@ class RigJudge {
 
   void judge_calibration() {
     const Calibration& calibration = strokes_.front().recording.calibration;
-    if (is_uncalibrated(calibration)) {
+    if (calibration.uncalibrated) {
       fault("calibration", "The strokes were recorded without a calibration.",
             "Calibrate first: accel, tip, force, camera, tracker, latency.");
       return;
     }
-    const nlohmann::json extra = nlohmann::json::parse(calibration.extra_json, nullptr, false);
-    const bool told = extra.is_object() && extra.contains("calibrated") && extra["calibrated"].is_object();
     std::string missing;
     for (const char* kind : {"camera", "tracker", "force", "accel", "tip", "latency"}) {
-      if (!told || !extra["calibrated"].contains(kind)) {
+      const auto found = calibration.calibrated.find(kind);
+      if (found == calibration.calibrated.end()) {
         missing += (missing.empty() ? "" : ", ") + std::string(kind);
         continue;
       }
-      const nlohmann::json& entry = extra["calibrated"][kind];
-      if (entry.is_object() && entry.contains("trustworthy") && entry["trustworthy"] == false) {
+      if (found->second.trustworthy == false) {
         fault("calibration", fmt::format("The calibration of {} was not to be trusted when it was made.", kind),
               fmt::format("Repeat asperity calibrate {}.", kind));
       }
