@@ -35,6 +35,16 @@ struct MethodTable : Methods... {
     (this->Methods::visit_method(v), ...);
   }
 
+  // The methods' names and what they are: "fused (ours) or thesis (the baseline)".
+  static std::string describe() {
+    std::string out;
+    for (std::size_t i = 0; i < kNames.size(); ++i) {
+      out.append(i == 0 ? "" : i + 1 < kNames.size() ? ", " : " or ");
+      out.append(kNames[i]).append(" (").append(kTitles[i]).append(")");
+    }
+    return out;
+  }
+
   static const ProcessMethod& get(Method method) {
     static const std::array<ProcessMethod, sizeof...(Methods)> all{Methods::make_method()...};
     return all.at(static_cast<std::size_t>(method));
@@ -47,8 +57,5 @@ using ProcessMethods = MethodTable<  //
     ThesisMethod>;
 
 inline constexpr auto kMethodNames = ProcessMethods::kNames;
-
-// A method's name and what it is, "fused (ours) or thesis (the baseline)".
-std::string describe_methods();
 
 }  // namespace asperity
