@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/version.h"
 #include "asperity/json/parse_json.h"
-#include "asperity/pipeline/config_json.h"
 #include "asperity/profile/read_heights.h"
 #include "asperity/texture/compare_textures.h"
 #include "asperity/texture/evaluate_height.h"
@@ -96,7 +96,7 @@ class TextureCompareCommand : public Command {
       one["felt"] = band.felt;
       out["bands"].push_back(one);
     }
-    out["config"] = parse_json(config_json(fields()));
+    out["config"] = config_tree<Json>(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
     say_table(c);

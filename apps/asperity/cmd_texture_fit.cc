@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -163,7 +164,7 @@ class TextureFitCommand : public Command {
     if (texture.lift_m) out["lift_m"] = *texture.lift_m;
     out["fit"] = report;
     out["roughness"] = texture.roughness;
-    out["config"] = parse_json(config_json(fields()));
+    out["config"] = config_tree<Json>(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
     std::string text = fmt::format("{}: {}", output_, texture.model_name());

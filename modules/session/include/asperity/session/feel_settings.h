@@ -8,9 +8,9 @@
 #include "asperity/device/device_registry.h"
 #include "asperity/device/hand_model_config.h"
 #include "asperity/device/servo_loop.h"
+#include "asperity/fidelity/score_rendering.h"
+#include "asperity/fidelity/surface_stroke.h"
 #include "asperity/pipeline/process_config.h"
-#include "asperity/pipeline/score_rendering.h"
-#include "asperity/pipeline/surface_stroke.h"
 #include "asperity/render/render_model.h"
 
 namespace asperity {
