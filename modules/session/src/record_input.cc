@@ -14,7 +14,6 @@
 #include "asperity/link/capture_to_file.h"
 #include "asperity/link/probe_address.h"
 #include "asperity/link/probe_link.h"
-#include "asperity/json/parse_json.h"
 #include "asperity/recording/read_markers.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/tracking/camera_pose_source.h"
