@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/recorded_series.h"
@@ -29,8 +29,6 @@
 namespace asperity::app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // A texture and what its fit says of it.
 struct Fitted {
@@ -294,7 +292,7 @@ class TextureFitCommand : public Command {
     for (const auto& problem : fitted.problems)
       problems.push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
     fitted.report["problems"] = problems;
-    Json extra = Json::parse(texture.extra_json);
+    Json extra = parse_json(texture.extra_json);
     extra["fit"] = fitted.report;
     texture.extra_json = extra.dump();
     refuse_other_payloads(texture);
@@ -308,9 +306,9 @@ class TextureFitCommand : public Command {
     if (texture.lift_m) out["lift_m"] = *texture.lift_m;
     out["fit"] = fitted.report;
     out["roughness"] = texture.roughness;
-    out["config"] = Json::parse(config_json(fields()));
+    out["config"] = parse_json(config_json(fields()));
     out["asperity"] = kVersion;
-    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
     std::string text = fmt::format("{}: {}", output_, texture.model_name());
     for (const auto& [key, what] : {std::pair{"rms_height_m", "RMS height"},
                                     {"rms_error_m", "error"},

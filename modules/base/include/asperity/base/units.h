@@ -1,6 +1,7 @@
 #pragma once
 
-#include <optional>
+#include <cmath>
+#include <cstdint>
 #include <string_view>
 
 namespace asperity {
@@ -22,5 +23,8 @@ std::optional<NamedLength> split_length_name(std::string_view column);  // nullo
 
 inline constexpr double kStandardGravity_mps2 = 9.80665;
 inline constexpr double kNanosecond_s = 1e-9;
+
+// To the nearest nanosecond.
+inline std::int64_t nanoseconds(double time_s) { return std::llround(time_s / kNanosecond_s); }
 
 }  // namespace asperity
