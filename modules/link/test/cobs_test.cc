@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <string_view>
 
-#include "asperity/link/cobs.h"
 #include "asperity/base/random.h"
+#include "asperity/link/cobs.h"
 
 namespace asperity {
 namespace {

@@ -6,7 +6,6 @@
 #include "asperity/base/error.h"
 #include "asperity/base/host_clock.h"
 #include "asperity/device/write_flight_record.h"
-#include "asperity/base/host_clock.h"
 #include "asperity/session/our_file.h"
 #include "feel/ended_logs.h"
 #include "feel/feel_json.h"

@@ -13,7 +13,6 @@
 #include "asperity/base/text.h"
 #include "asperity/recording/cut_recording.h"
 #include "asperity/recording/read_recording.h"
-#include "asperity/base/host_clock.h"
 #include "asperity/session/utc_now.h"
 #include "config_fields.h"
 #include "scan/bench_source.h"

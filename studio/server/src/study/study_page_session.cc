@@ -9,7 +9,6 @@
 #include "asperity/studio/calls.h"
 #include "asperity/study/plan_trials.h"
 #include "asperity/study/study_file.h"
-#include "asperity/base/host_clock.h"
 #include "study/stimuli.h"
 #include "study/study_advice.h"
 #include "study/study_page.h"

@@ -2,6 +2,10 @@
 
 #include <cmath>
 #include <cstdint>
+<<<<<<< HEAD
+=======
+#include <optional>
+>>>>>>> main
 #include <string_view>
 
 namespace asperity {
