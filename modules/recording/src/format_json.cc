@@ -3,10 +3,7 @@
 #include "asperity/json/json_writer.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/recording/format_recording.h"
-<<<<<<< HEAD
-=======
 #include "known_extra.h"
->>>>>>> main
 
 namespace asperity {
 

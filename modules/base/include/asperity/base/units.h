@@ -2,10 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
-<<<<<<< HEAD
-=======
 #include <optional>
->>>>>>> main
 #include <string_view>
 
 namespace asperity {
