@@ -24,7 +24,7 @@ TrajectoryResult trajectory_of_poses(const Recording& recording, const TrackerMe
   if (static_cast<double>(recording.tracker.size()) < config.min_poses) throw Error("tracker: too few poses");
   const Calibration& calibration = recording.calibration;
   const SynchronisedStreams streams =
-      synchronise(recording.probe, Outliers{std::vector<char>(recording.probe.size()), 0}, recording.tracker,
+      synchronise(recording.probe, Outliers{std::vector<bool>(recording.probe.size()), 0}, recording.tracker,
                   calibration.tracker.latency_s, std::llround(kPeriod_s / kNanosecond_s), true);
   TrajectoryResult result;
   TipMotion& motion = result.motion;

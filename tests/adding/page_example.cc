@@ -24,7 +24,7 @@ class NotesPage : public Page {
         throw Error("notes: 'text' is not a text");
       }
     });
-    calls.add("notes.count", [this](const Request& request) { request.answer({{"words", count()}}); });
+    calls.add("notes.count", [this](const Request& request) { request.answer(Json({{"words", count()}})); });
   }
 
  private:
