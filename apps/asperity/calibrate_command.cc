@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
-#include "asperity/pipeline/config_json.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
 #include "our_file.h"
@@ -76,7 +76,7 @@ void CalibrateCommand::write(const Calibration& before, const CalibrateOutcome& 
       {"residuals", outcome.residuals},
       {"trustworthy", outcome.verdict.trustworthy},
       {"verdict", outcome.verdict.text},
-      {"config", Json::parse(config_json(fields()))},
+      {"config", config_tree<Json>(fields())},
       {"asperity", kVersion},
   };
   calibration.extra_json = extra.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -96,7 +96,7 @@ Json CalibrateCommand::report(const CalibrateOutcome& outcome) {
   out["notes"] = outcome.notes;
   for (const auto& [key, value] : outcome.details.items()) out[key] = value;
   if (!output_.empty()) out["file"] = output_;
-  out["config"] = Json::parse(config_json(fields()));
+  out["config"] = config_tree<Json>(fields());
   out["asperity"] = kVersion;
   return out;
 }

@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
-#include "asperity/pipeline/config_json.h"
 #include "asperity/scene/export_scene.h"
 #include "commands.h"
 #include "export_files.h"
@@ -77,7 +77,7 @@ class ExportCommand : public Command {
     for (const ExportedFile& file : result.files)
       text += fmt::format("{:>12} bytes  {}\n", file.content.size(), printable(file.name, 200));
     for (const Problem& problem : result.problems) text += "problem: " + printable(problem.message, 300) + "\n";
-    out["config"] = Json::parse(config_json(fields()));
+    out["config"] = config_tree<Json>(fields());
     out["asperity"] = kVersion;
     folder.commit();
     print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));

@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/write_flight_record.h"
-#include "asperity/pipeline/config_json.h"
 #include "asperity/pipeline/score_rendering.h"
 #include "commands.h"
 #include "feel_device.h"
@@ -266,7 +266,7 @@ class FeelCommand : public Command {
     out["trustworthy"] = verdict_.empty();
     out["verdict"] = verdict_;
     out["warnings"] = warnings_;
-    out["config"] = Json::parse(config_json(fields()));
+    out["config"] = config_tree<Json>(fields());
     out["asperity"] = kVersion;
     return out;
   }

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
-#include "asperity/pipeline/config_json.h"
 #include "asperity/recording/import.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
@@ -71,7 +71,7 @@ class ImportCommand : public Command {
       out["problems"].push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
       text += problem.message + "\n";
     }
-    out["config"] = nlohmann::ordered_json::parse(config_json(fields()));
+    out["config"] = config_tree<nlohmann::ordered_json>(fields());
     out["asperity"] = kVersion;
     print_json(out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     say(text);

@@ -12,7 +12,6 @@
 #include "asperity/acquire/frame_writer.h"
 #include "asperity/acquire/recorder.h"
 #include "asperity/base/text.h"
-#include "asperity/pipeline/config_json.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "option_units.h"
@@ -147,7 +146,7 @@ class RecordCommand : public Command {
     else if (outcome.frames.dropped > 0)
       outcome.verdict.warnings.push_back(
           fmt::format("{} images were not kept: the disk or PNG is too slow", outcome.frames.dropped));
-    print_json(record_json(outcome, config_json(fields())));
+    print_json(record_json(outcome, fields()));
     say(record_text(outcome));
     if (!quiet()) {
       for (const std::string& warning : outcome.verdict.warnings) complain(warning);

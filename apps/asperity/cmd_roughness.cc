@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/version.h"
-#include "asperity/pipeline/config_json.h"
 #include "asperity/profile/measure_areal_roughness.h"
 #include "asperity/profile/measure_roughness.h"
 #include "asperity/profile/read_heights.h"
@@ -135,7 +135,7 @@ class RoughnessCommand : public Command {
   }
 
   void finish(Json& out) {
-    out["config"] = Json::parse(config_json(fields()));
+    out["config"] = config_tree<Json>(fields());
     out["asperity"] = kVersion;
     print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
   }

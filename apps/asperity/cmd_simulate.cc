@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
-#include "asperity/pipeline/config_json.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
 #include "asperity/simulation/mesh_stroke.h"
@@ -132,7 +132,7 @@ class SimulateCommand : public Command {
     out["duration_s"] = duration_s;
     out["probe_rows"] = probe.size();
     out["tracker_rows"] = recording.tracker.size();
-    out["config"] = nlohmann::ordered_json::parse(config_json(fields()));
+    out["config"] = config_tree<nlohmann::ordered_json>(fields());
     out["asperity"] = kVersion;
     print_json(out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     say(fmt::format("{}: {:.1f} s, {} probe rows, {} poses, with truth\n", printable(output_, 200), duration_s,

@@ -7,8 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/version.h"
-#include "asperity/pipeline/config_json.h"
 #include "asperity/profile/read_heights.h"
 #include "asperity/texture/compare_textures.h"
 #include "asperity/texture/evaluate_height.h"
@@ -98,7 +98,7 @@ class TextureCompareCommand : public Command {
       one["felt"] = band.felt;
       out["bands"].push_back(one);
     }
-    out["config"] = Json::parse(config_json(fields()));
+    out["config"] = config_tree<Json>(fields());
     out["asperity"] = kVersion;
     print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
     say_table(c);

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -308,7 +309,7 @@ class TextureFitCommand : public Command {
     if (texture.lift_m) out["lift_m"] = *texture.lift_m;
     out["fit"] = fitted.report;
     out["roughness"] = texture.roughness;
-    out["config"] = Json::parse(config_json(fields()));
+    out["config"] = config_tree<Json>(fields());
     out["asperity"] = kVersion;
     print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
     std::string text = fmt::format("{}: {}", output_, texture.model_name());

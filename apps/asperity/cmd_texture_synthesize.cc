@@ -7,10 +7,10 @@
 #include <variant>
 #include <vector>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
-#include "asperity/pipeline/config_json.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/make_height_map.h"
 #include "asperity/texture/png_image.h"
@@ -88,7 +88,7 @@ class TextureSynthesizeCommand : public Command {
     } else {
       throw UsageError("-o: heights along a line are called *.csv, a tile *.png");
     }
-    out["config"] = Json::parse(config_json(fields()));
+    out["config"] = config_tree<Json>(fields());
     out["asperity"] = kVersion;
     print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
     return kDone;

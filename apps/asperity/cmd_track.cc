@@ -13,10 +13,10 @@
 
 #include "asperity/acquire/open_image_folder.h"
 #include "asperity/acquire/track_images.h"
+#include "asperity/base/config_tree.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
-#include "asperity/pipeline/config_json.h"
 #include "asperity/recording/read_markers.h"
 #include "commands.h"
 #include "our_file.h"
@@ -138,7 +138,7 @@ class TrackCommand : public Command {
     }
     out["trustworthy"] = tracked.trustworthy;
     out["verdict"] = tracked.verdict;
-    out["config"] = nlohmann::ordered_json::parse(config_json(fields()));
+    out["config"] = config_tree<nlohmann::ordered_json>(fields());
     out["asperity"] = kVersion;
     print_json(out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "json_of.h"
@@ -49,7 +50,7 @@ std::string joined(const std::vector<std::string>& texts) {
 
 }  // namespace
 
-std::string record_json(const RecordOutcome& outcome, const std::string& config_json) {
+std::string record_json(const RecordOutcome& outcome, const std::vector<ConfigField>& config) {
   const RecorderSnapshot& f = outcome.figures;
   Json out;
   out["format"] = "asperity-recorded";
@@ -81,7 +82,7 @@ std::string record_json(const RecordOutcome& outcome, const std::string& config_
   out["trustworthy"] = outcome.verdict.doubts.empty();
   out["verdict"] = joined(outcome.verdict.doubts);
   out["warnings"] = outcome.verdict.warnings;
-  out["config"] = Json::parse(config_json);
+  out["config"] = config_tree<Json>(config);
   out["asperity"] = kVersion;
   return out.dump(2, ' ', false, Json::error_handler_t::replace);
 }

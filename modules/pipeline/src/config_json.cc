@@ -1,27 +1,10 @@
 #include "asperity/pipeline/config_json.h"
 
+#include "asperity/base/config_tree.h"
 #include "json.h"
 
 namespace asperity {
 
-Json config_object(const std::vector<ConfigField>& fields) {
-  Json out = Json::object();
-  for (const ConfigField& field : fields) {
-    Json* place = &out;
-    std::size_t start = 0;
-    for (std::size_t dot = field.path.find('.'); dot != std::string::npos; dot = field.path.find('.', start)) {
-      place = &(*place)[field.path.substr(start, dot - start)];
-      start = dot + 1;
-    }
-    // TOML and JSON write booleans, numbers, lists and simple strings alike; what they do not share
-    // (inf, nan) stays text.
-    const std::string text = field.get();
-    const Json value = Json::parse(text, nullptr, false);
-    (*place)[field.path.substr(start)] = value.is_discarded() ? Json(text) : value;
-  }
-  return out;
-}
-
-std::string config_json(const std::vector<ConfigField>& fields) { return config_object(fields).dump(2); }
+std::string config_json(const std::vector<ConfigField>& fields) { return config_tree<Json>(fields).dump(2); }
 
 }  // namespace asperity

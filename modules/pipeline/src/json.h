@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include "asperity/base/config.h"
 #include "asperity/base/problem.h"
 #include "asperity/geometry/pose.h"
 
@@ -22,6 +21,5 @@ Json vector_json(const Eigen::Vector3d& v);
 // [x, y, z, qw, qx, qy, qz]
 Json pose_json(const Pose& pose);
 Json problems_json(const Problems& problems);
-Json config_object(const std::vector<ConfigField>& fields);
 
 }  // namespace asperity

@@ -35,13 +35,6 @@ CausalTipConfig tip_config(const LiveProfileConfig& config) {
 
 double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
-template <class Config>
-bool same(Config a, Config b) {
-  const std::vector<ConfigField> fields_a = list_fields("", a), fields_b = list_fields("", b);
-  return std::equal(fields_a.begin(), fields_a.end(), fields_b.begin(), fields_b.end(),
-                    [](const ConfigField& x, const ConfigField& y) { return x.get() == y.get(); });
-}
-
 }  // namespace
 
 struct LiveProfile::Impl {
@@ -253,18 +246,18 @@ void LiveProfile::configure(const LiveProfileConfig& config) {
   Impl& self = *impl_;
   Impl(self.calibration, self.info, config);  // throws what there is to be thrown, before anything has changed
   const LiveProfileConfig before = std::exchange(self.config, config);
-  if (!same(before.tip, config.tip) || !same(before.fused, config.fused) ||
+  if (!is_same_config(before.tip, config.tip) || !is_same_config(before.fused, config.fused) ||
       before.heading_span_s != config.heading_span_s) {
     self.tip = CausalTip(self.calibration, self.info, config.fused, tip_config(config));
     self.heading =
         LiveHeading(config.heading_span_s, config.base.arc_length.rest_speed_mps, config.base.arc_length.rest_fraction);
   }
-  if (!same(before.base.contact, config.base.contact)) self.contact = CausalContact(config.base.contact);
-  if (before.profile.spacing_m != config.profile.spacing_m || !same(before.base, config.base)) {
+  if (!is_same_config(before.base.contact, config.base.contact)) self.contact = CausalContact(config.base.contact);
+  if (before.profile.spacing_m != config.profile.spacing_m || !is_same_config(before.base, config.base)) {
     self.begin_profile();
     return;
   }
-  if (!same(before.profile, config.profile)) {
+  if (!is_same_config(before.profile, config.profile)) {
     self.cut();
     self.high_pass =
         CausalHighPass(config.profile.spacing_m, config.profile.cutoff_cycles_per_mm, config.profile.bridge_m);

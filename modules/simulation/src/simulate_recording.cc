@@ -66,7 +66,7 @@ std::string config_json(const SimulationConfig& config) {
   std::string json = "{\"simulation\":{";
   const char* separator = "";
   for (const ConfigField& field : list_fields("", copy)) {
-    json += fmt::format("{}\"{}\":{}", separator, field.path, field.get());
+    json += fmt::format("{}\"{}\":{}", separator, field.path, toml_text(field.get()));
     separator = ",";
   }
   return json + "}";
