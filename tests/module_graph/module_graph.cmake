@@ -3,7 +3,8 @@
 # The drawings are between the lines `<!-- module graph: … -->` and `<!-- end of the module graph -->` of
 # docs/architecture.md (each module with what it depends on) and CONTRIBUTING.md (the levels alone). With CHECK nothing is
 # written, and a document that differs is an error. DEPENDS is what CMake evaluated (build/…/module_depends.txt): another
-# answer than that of the text is an error too. Every module must have its row in docs/architecture.md.
+# answer than that of the text is an error too. The table of modules
+# above the drawing in docs/architecture.md must have a row for each and no other.
 cmake_minimum_required(VERSION 3.22)
 
 # The arguments of the calls of `command` in `file`, as lists: <out>_count, <out>_0, <out>_1, …
@@ -252,10 +253,21 @@ endfunction()
 draw(docs/architecture.md "${full}")
 draw(CONTRIBUTING.md "${short}")
 
-file(READ "${ROOT}/docs/architecture.md" text)
+# The table of modules, above the drawing: one row a module.
+file(STRINGS "${ROOT}/docs/architecture.md" lines REGEX "^(\\| `[a-z0-9_]+` \\||<!-- module graph:)")
+set(rows "")
+foreach(line IN LISTS lines)
+  if(line MATCHES "^<!--")
+    break()
+  endif()
+  string(REGEX REPLACE "^\\| `([a-z0-9_]+)`.*" "\\1" row "${line}")
+  list(APPEND rows "${row}")
+  if(NOT row IN_LIST modules)
+    message(FATAL_ERROR "docs/architecture.md: the table of modules has '${row}', which is no module")
+  endif()
+endforeach()
 foreach(module IN LISTS modules)
-  string(FIND "${text}" "\n| `${module}` |" place)
-  if(place EQUAL -1)
+  if(NOT module IN_LIST rows)
     message(FATAL_ERROR "docs/architecture.md: the table of modules has no row '| `${module}` | …'")
   endif()
 endforeach()
