@@ -68,18 +68,13 @@ int CalibrateCommand::run(const Observer& observer) {
 void CalibrateCommand::write(const Calibration& before, const CalibrateOutcome& outcome) {
   Calibration calibration = before;
   outcome.store(calibration);
-  Json extra = Json::parse(calibration.extra_json.empty() ? "{}" : calibration.extra_json);
-  if (!extra["calibrated"].is_object()) extra["calibrated"] = Json::object();
-  extra["calibrated"][kind_] = {
-      {"values", outcome.values},
-      {"stderr", outcome.standard_errors},
-      {"residuals", outcome.residuals},
-      {"trustworthy", outcome.verdict.trustworthy},
-      {"verdict", outcome.verdict.text},
-      {"config", config_tree<Json>(fields())},
+  const Json details = {
+      {"values", outcome.values},       {"stderr", outcome.standard_errors},
+      {"residuals", outcome.residuals}, {"config", config_tree<Json>(fields())},
       {"asperity", kVersion},
   };
-  calibration.extra_json = extra.dump(-1, ' ', false, Json::error_handler_t::replace);
+  calibration.calibrated[kind_] = {outcome.verdict.trustworthy, outcome.verdict.text,
+                                   details.dump(-1, ' ', false, Json::error_handler_t::replace)};
   write_calibration(output_, calibration);
 }
 

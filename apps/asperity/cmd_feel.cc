@@ -16,7 +16,7 @@
 #include "asperity/base/version.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/write_flight_record.h"
-#include "asperity/pipeline/score_rendering.h"
+#include "asperity/fidelity/score_rendering.h"
 #include "commands.h"
 #include "feel_device.h"
 #include "feel_drive.h"

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "asperity/base/text.h"
+#include "asperity/fidelity/press_in_scan.h"
+#include "asperity/fidelity/score_rendering.h"
 #include "asperity/geometry/write_obj.h"
-#include "asperity/pipeline/press_in_scan.h"
 #include "asperity/pipeline/register_scans.h"
-#include "asperity/pipeline/score_rendering.h"
 #include "asperity/pipeline/true_pose.h"
 #include "asperity/pipeline/true_profile.h"
 #include "asperity/pipeline/write_registration.h"

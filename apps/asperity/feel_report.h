@@ -11,7 +11,7 @@
 #include "asperity/device/safety_cause.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/servo_tick.h"
-#include "asperity/pipeline/rendering_score.h"
+#include "asperity/fidelity/rendering_score.h"
 
 namespace asperity::app {
 

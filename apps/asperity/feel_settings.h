@@ -17,9 +17,9 @@
 #include "asperity/device/open_two_diy.h"
 #include "asperity/device/openhaptics_device.h"
 #include "asperity/device/servo_loop.h"
+#include "asperity/fidelity/score_rendering.h"
+#include "asperity/fidelity/surface_stroke.h"
 #include "asperity/pipeline/process_config.h"
-#include "asperity/pipeline/score_rendering.h"
-#include "asperity/pipeline/surface_stroke.h"
 #include "asperity/render/render_model.h"
 
 namespace asperity::app {

@@ -125,7 +125,7 @@ TEST(CalibrateOptics, TheTrackersNoiseAtRest) {
   const json extra = json::parse(after.extra_json);
   EXPECT_EQ(extra["mine"], 1);
   EXPECT_FALSE(extra.contains("tracker_noise_model"));
-  EXPECT_TRUE(extra["calibrated"]["tracker"]["trustworthy"].get<bool>());
+  EXPECT_EQ(after.calibrated.at("tracker").trustworthy, true);
 
   write_to(dir / "short", at_rest(3.0, sigma_m, 2e-3));
   const Outcome refused = run({"calibrate", "tracker", (dir / "short").string()});

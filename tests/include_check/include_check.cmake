@@ -4,7 +4,7 @@
 # also use testkit and what testkit hands on; public headers must not drag in heavy libraries.
 cmake_minimum_required(VERSION 3.22)
 
-set(heavy "nlohmann/|toml\\+\\+/|CLI/|fmt/|opencv2/|boost/|SDL2/|embree")
+set(heavy "nlohmann/json\\.hpp|toml\\+\\+/|CLI/|fmt/|opencv2/|boost/|SDL2/|embree")
 set(testkit_depends base geometry recording)
 set(faults "")
 

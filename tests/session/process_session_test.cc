@@ -87,7 +87,7 @@ void change(const ConfigField& field, double factor) {
 TEST(ProcessSession, EveryFieldChangedAloneGivesWhatAFreshRunGives) {
   const Recording& recording = short_scan();
   ProcessSession session(recording);
-  for (const Method method : {Method::kFused, Method::kThesis}) {
+  for (const Method method : {ProcessMethods::method<FusedMethod>(), ProcessMethods::method<ThesisMethod>()}) {
     ProcessConfig config;
     config.method = method;
     const std::string before = fresh(recording, config);

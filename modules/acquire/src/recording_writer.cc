@@ -1,20 +1,16 @@
 #include "recording_writer.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
-#include "asperity/recording/uncalibrated.h"
 #include "asperity/recording/write_recording.h"
 
 namespace asperity {
 
 namespace {
-
-using Json = nlohmann::json;
 
 std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(time_s / kNanosecond_s)); }
 
@@ -36,21 +32,8 @@ AppendColumns columns_of(const std::optional<ProbeDescription>& description, boo
 }
 
 std::optional<ForceCalibration> force_of(const Calibration& calibration) {
-  if (is_uncalibrated(calibration)) return std::nullopt;
+  if (calibration.uncalibrated) return std::nullopt;
   return calibration.force;
-}
-
-Json numbers(const Eigen::Vector3d& values) {
-  Json out = Json::array();
-  for (const double value : values) out.push_back(std::isfinite(value) ? Json(value) : Json());
-  return out;
-}
-
-Json discarded_json(const std::vector<Segment>& segments) {
-  Json out = Json::array();
-  for (const Segment& each : segments)
-    out.push_back({{"name", each.name}, {"start_ns", each.start_ns}, {"end_ns", each.end_ns}});
-  return out;
 }
 
 }  // namespace
@@ -169,25 +152,18 @@ RecordingInfo RecordingWriter::current_info(bool finished) const {
   problem("gravity_implausible", gravity.implausible ? 1 : 0);
   problem("columns_missing", columns_missing_ ? 1 : 0);
 
-  Json extra = Json::parse(info_.extra_json.empty() ? "{}" : info_.extra_json, nullptr, false);
-  if (!extra.is_object()) throw Error("recorder: extra_json is not a JSON object: " + printable(info_.extra_json));
-  Json recorder;
-  recorder["state"] = finished ? "finished" : "recording";
-  recorder["mode"] = kStoreModeNames.at(static_cast<std::size_t>(config_.mode));
-  recorder["last_segment_is_open"] = segments_.is_open();
-  if (const auto until_ns = segments_.discarded_until_ns()) recorder["discarded_until_ns"] = *until_ns;
-  recorder["discarded_segments"] = segments_.discarded();
-  // Whose rows are still in the files.
-  if (!finished && !segments_.trash().empty()) recorder["discarded"] = discarded_json(segments_.trash());
-  recorder["gravity"] = {{"measured", gravity.measured},
-                         {"windows_at_rest", gravity.windows},
-                         {"scatter_mps2", numbers(gravity.scatter_mps2)}};
+  RecorderState& recorder = out.recorder.emplace();
+  recorder.state = finished ? "finished" : "recording";
+  recorder.mode = kStoreModeNames.at(static_cast<std::size_t>(config_.mode));
+  recorder.last_segment_is_open = segments_.is_open();
+  recorder.discarded_until_ns = segments_.discarded_until_ns();
+  recorder.discarded_segments = static_cast<std::int64_t>(segments_.discarded());
+  if (!finished) recorder.discarded = segments_.trash();
+  recorder.gravity = GravityAtRest{gravity.measured, gravity.windows, gravity.scatter_mps2};
   if (description_) {
-    recorder["probe_name"] = printable(description_->name);
-    recorder["probe_firmware"] = printable(description_->firmware);
+    recorder.probe_name = printable(description_->name);
+    recorder.probe_firmware = printable(description_->firmware);
   }
-  extra["recorder"] = std::move(recorder);
-  out.extra_json = extra.dump();
   return out;
 }
 

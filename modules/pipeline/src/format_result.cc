@@ -1,7 +1,9 @@
 #include <cmath>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/units.h"
 #include "asperity/base/version.h"
+#include "asperity/pipeline/result_json.h"
 #include "asperity/pipeline/write_result.h"
 #include "json.h"
 
@@ -98,19 +100,25 @@ Json accuracy_json(const Accuracy& accuracy) {
   return out;
 }
 
+// JSON has no nan: null stands for it, and for infinities.
+void replace_nan_by_null(Json& value) {
+  if (value.is_number_float() && !std::isfinite(value.get<double>())) value = nullptr;
+  if (value.is_structured()) {
+    for (Json& each : value) replace_nan_by_null(each);
+  }
+}
+
 }  // namespace
 
-std::string format_result(const ProcessResult& result, const Recording& recording, const std::string& name) {
-  const Json config = Json::parse(result.config_json);
-  const Json& profile_config =
-      config.at("method") == "fused" ? config.at("profile") : config.at("thesis").at("profile");
+Json result_json(const ProcessResult& result, const Recording& recording, const std::string& name) {
+  ProcessConfig config = result.config;
   Json out;
   out["format"] = "asperity-result";
   out["version"] = 1;
   out["recording"] = name;
   out["object"] = recording.info.object;
   out["probe"] = recording.info.probe_model;
-  out["method"] = config.at("method");
+  out["method"] = kMethodNames.at(static_cast<std::size_t>(config.method));
   out["trustworthy"] = result.trustworthy;
   out["verdict"] = result.verdict;
   out["duration_s"] = span_s(result.trajectory.motion.t_ns);
@@ -123,7 +131,7 @@ std::string format_result(const ProcessResult& result, const Recording& recordin
                     {"covered", result.coverage.covered},
                     {"gaps", result.coverage.gaps},
                     {"spacing_m", result.profile.spacing_m},
-                    {"high_pass_cycles_per_mm", profile_config.at("cutoff_cycles_per_mm")}};
+                    {"high_pass_cycles_per_mm", ProcessMethods::get(config.method).high_pass_cycles_per_mm(config)}};
   out["speed_mps"] = {
       {"mean", result.speed.mean_mps}, {"lowest", result.speed.lowest_mps}, {"highest", result.speed.highest_mps}};
   out["base"] = base_json(result.base);
@@ -148,8 +156,14 @@ std::string format_result(const ProcessResult& result, const Recording& recordin
   }
   if (result.accuracy) out["accuracy"] = accuracy_json(*result.accuracy);
   out["problems"] = problems_json(result.problems);
-  out["config"] = config;
+  out["config"] = config_tree<Json>(list_fields("", config));
   out["asperity"] = kVersion;
+  replace_nan_by_null(out);
+  return out;
+}
+
+std::string format_result(const ProcessResult& result, const Recording& recording, const std::string& name) {
+  const Json out = result_json(result, recording, name);
   // Names come from files; what is not UTF-8 in them must not stop the writing.
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -1,7 +1,6 @@
 #include "asperity/recording/cut_recording.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
@@ -31,11 +30,6 @@ std::vector<T> cut(const std::vector<T>& column, const Rows& rows) {
   if (column.empty()) return {};
   return {column.begin() + static_cast<std::ptrdiff_t>(rows.first),
           column.begin() + static_cast<std::ptrdiff_t>(rows.last)};
-}
-
-bool is_made_by_recorder(const RecordingInfo& info) {
-  const auto extra = nlohmann::json::parse(info.extra_json, nullptr, false);
-  return extra.is_object() && extra.contains("recorder");
 }
 
 std::vector<Segment> joined(std::vector<Segment> segments) {
@@ -100,7 +94,7 @@ Recording cut_recording(const Recording& recording, std::int64_t start_ns, std::
 }
 
 std::vector<Segment> separate_segments(const Recording& recording) {
-  if (is_made_by_recorder(recording.info)) return recording.info.segments;
+  if (recording.info.recorder) return recording.info.segments;
   std::vector<Segment> out = joined(recording.info.segments);
   if (out.size() < 2) out.clear();
   return out;

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace asperity {
 
@@ -43,18 +42,10 @@ void judge_overlap(const Inspection& inspection, Findings& out) {
   }
 }
 
-// Imported motion has no force sensor, and says so.
-bool has_force_sensor(const Recording& recording) {
-  const auto extra = nlohmann::json::parse(recording.info.extra_json, nullptr, false);
-  if (!extra.is_object()) return true;
-  const auto found = extra.find("force_sensor");
-  return found == extra.end() || *found != false;
-}
-
 void judge_channels(const Recording& recording, const Inspection& inspection, const InspectConfig& config,
                     Findings& out) {
   for (const auto& channel : inspection.channels) {
-    if (channel.name == "force" && !has_force_sensor(recording)) continue;
+    if (channel.name == "force" && !recording.info.has_force_sensor) continue;
     if (channel.samples == 0) {
       out.push_back(fmt::format("{} has no samples.", channel.name));
     } else if (channel.samples > 1 && channel.lowest == channel.highest) {

@@ -4,6 +4,7 @@
 #include "asperity/base/text.h"
 #include "asperity/recording/format.h"
 #include "json_writer.h"
+#include "known_extra.h"
 
 namespace asperity {
 
@@ -107,7 +108,8 @@ std::string format_calibration(const Calibration& calibration) {
   give("accelerometer_rotation_sigma_rad", calibration.accelerometer.rotation_sigma_rad);
   give("probe_latency_s", calibration.probe_latency_s);
   give("probe_latency_sigma_s", calibration.probe_latency_sigma_s);
-  out.raw("extra", extra.dump());
+  add_known_extra(calibration, extra);
+  out.raw("extra", extra.dump(-1, ' ', false, json::error_handler_t::replace));
   return out.finish();
 }
 
@@ -151,7 +153,9 @@ std::string format_recording_info(const RecordingInfo& info) {
   out.begin_object("problems");
   for (const auto& [name, count] : info.problems) out.integer(name, count);
   out.end_object();
-  out.raw("extra", extra_object(info.extra_json, "recording").dump());
+  json extra = extra_object(info.extra_json, "recording");
+  add_known_extra(info, extra);
+  out.raw("extra", extra.dump(-1, ' ', false, json::error_handler_t::replace));
   return out.finish();
 }
 

@@ -154,11 +154,11 @@ Recording import_imu_pose(const ImportInput& input, const ImportConfig& config) 
   for (const auto& problem : input.problems)
     out.info.problems[problem.kind] += static_cast<std::int64_t>(problem.count);
   const nlohmann::json extra = {{"imported", true},
-                                {"force_sensor", false},
                                 {"pose_rate_hz", config.pose_rate_Hz},
                                 {"pose_noise_m", config.pose_noise_m},
                                 {"rotation_noise_rad", config.rotation_noise_rad},
                                 {"seed", config.seed}};
+  out.info.has_force_sensor = false;
   out.info.extra_json = extra.dump();
   return out;
 }

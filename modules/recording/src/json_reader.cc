@@ -182,11 +182,11 @@ void JsonObject::read_matrix(const std::string& key, Eigen::Matrix<double, 3, Ei
   }
 }
 
-void JsonObject::read_extra(std::string& out) {
+json JsonObject::read_extra() {
   const json* value = find("extra");
-  if (value == nullptr) return;
+  if (value == nullptr) return json::object();
   if (!value->is_object()) fail("extra", "must be an object, found " + shown(*value));
-  out = value->dump();
+  return *value;
 }
 
 void JsonObject::require_format(std::string_view format) {

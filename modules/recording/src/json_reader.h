@@ -41,8 +41,8 @@ class JsonObject {
   void read_vector(const std::string& key, Eigen::Vector3d& out, Range range = {});
   // 3 rows of equal length, of which `columns` lists the lengths allowed.
   void read_matrix(const std::string& key, Eigen::Matrix<double, 3, Eigen::Dynamic>& out, const std::set<int>& columns);
-  // Must be an object; its text with sorted keys.
-  void read_extra(std::string& out);
+  // Must be an object; empty if there is none.
+  nlohmann::json read_extra();
 
   // Throws Error unless `format` is `format` and `version` is 1.
   void require_format(std::string_view format);

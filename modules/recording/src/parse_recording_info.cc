@@ -5,6 +5,7 @@
 #include "asperity/base/units.h"
 #include "asperity/recording/parse.h"
 #include "json_reader.h"
+#include "known_extra.h"
 #include "time_order.h"
 
 namespace asperity {
@@ -69,7 +70,9 @@ RecordingInfo parse_recording_info(std::string_view text, const std::string& nam
       problems->read_integer(item.key(), out.problems[item.key()], 0, INT64_MAX);
     }
   }
-  object.read_extra(out.extra_json);
+  json extra = object.read_extra();
+  take_known_extra(extra, out);
+  out.extra_json = extra.dump();
   object.finish();
   return out;
 }

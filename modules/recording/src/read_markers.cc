@@ -62,8 +62,7 @@ MarkerFile parse_markers(std::string_view text, const std::string& name, const R
   } else {
     out.declared = read_tag_frame(object);
     if (object.find("format") != nullptr) object.require_format("asperity-markers");
-    std::string extra;
-    object.read_extra(extra);
+    object.read_extra();
   }
   const json& markers = object.require("markers");
   if (!markers.is_array() || markers.empty() || markers.size() > kMostMarkers) {

@@ -1,8 +1,5 @@
 #include "asperity/recording/uncalibrated.h"
 
-#include <exception>
-#include <nlohmann/json.hpp>
-
 namespace asperity {
 
 namespace {
@@ -21,17 +18,8 @@ Calibration make_uncalibrated(double accel_counts_per_mps2, double gyro_counts_p
   }
   out.force.newton_per_count = or_one(newton_per_count);
   out.force.axis_in_marker = Eigen::Vector3d::UnitZ();
-  out.extra_json = R"({"uncalibrated":true})";
+  out.uncalibrated = true;
   return out;
-}
-
-bool is_uncalibrated(const Calibration& calibration) noexcept {
-  try {
-    const auto extra = nlohmann::json::parse(calibration.extra_json, nullptr, false);
-    return extra.is_object() && extra.contains("uncalibrated") && extra["uncalibrated"] == true;
-  } catch (const std::exception&) {
-    return false;
-  }
 }
 
 }  // namespace asperity

@@ -74,11 +74,7 @@ std::string config_json(const SimulationConfig& config) {
 
 std::string extra_json(const SimulationConfig& config, const MeshBase* base, double length_m) {
   if (base == nullptr) return config_json(config) + "}";
-  const Pose T_mesh_world = base->T_world_mesh().inverse();
-  const Eigen::Vector3d& p = T_mesh_world.translation_m;
-  const Eigen::Quaterniond& q = T_mesh_world.rotation;
-  return fmt::format("{},\"T_mesh_world\":[{},{},{},{},{},{},{}],\"path_length_m\":{}}}", config_json(config), p.x(),
-                     p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), length_m);
+  return fmt::format("{},\"path_length_m\":{}}}", config_json(config), length_m);
 }
 
 std::vector<Segment> segments(const Hand& hand) {
@@ -137,6 +133,7 @@ Recording simulate_on(const SimulationConfig& config, const Surface& surface,
   }
   info.gravity_world_mps2 = exp_rotation(turn_rad) * Eigen::Vector3d(config.gravity_world_mps2.data());
   info.segments = segments(motion.hand());
+  if (base) info.T_mesh_world = base->T_world_mesh().inverse();
   info.extra_json = extra_json(config, base.get(), mesh_path.length_m);
   observer.update("simulate", 1.0);
   return recording;

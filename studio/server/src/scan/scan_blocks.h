@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "asperity/acquire/recorder_snapshot.h"
-#include "asperity/pipeline/scan_hints.h"
+#include "asperity/live/scan_hints.h"
 #include "asperity/recording/calibration.h"
 #include "asperity/studio/block.h"
 #include "scan/row_tap.h"

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "asperity/pipeline/live_estimate.h"
+#include "asperity/live/live_estimate.h"
 #include "asperity/studio/block.h"
 
 namespace asperity::studio {

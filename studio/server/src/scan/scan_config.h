@@ -7,9 +7,9 @@
 #include "asperity/acquire/recorder_config.h"
 #include "asperity/acquire/track_body.h"
 #include "asperity/base/config.h"
-#include "asperity/pipeline/live_config.h"
+#include "asperity/live/live_config.h"
+#include "asperity/live/scan_hints_config.h"
 #include "asperity/pipeline/process_config.h"
-#include "asperity/pipeline/scan_hints_config.h"
 #include "scan/bench_config.h"
 
 namespace asperity::studio {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "asperity/acquire/tracked_pose.h"
-#include "asperity/pipeline/live_profile.h"
-#include "asperity/pipeline/scan_hints.h"
+#include "asperity/live/live_profile.h"
+#include "asperity/live/scan_hints.h"
 #include "scan/kept_rows.h"
 #include "scan/scan_config.h"
 

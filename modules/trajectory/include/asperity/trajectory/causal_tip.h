@@ -11,7 +11,7 @@
 #include "asperity/recording/append.h"
 #include "asperity/recording/calibration.h"
 #include "asperity/recording/recording.h"
-#include "asperity/trajectory/fused.h"
+#include "asperity/trajectory/estimate_trajectory_fused.h"
 
 namespace asperity {
 
