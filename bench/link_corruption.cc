@@ -13,9 +13,9 @@
 #include <exception>
 #include <vector>
 
-#include "asperity/acquire/probe_decoder.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/link/probe_decoder.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/simulation/simulate_recording.h"
 #include "asperity/testkit/corrupt_bytes.h"

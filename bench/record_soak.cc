@@ -18,11 +18,11 @@
 #include <thread>
 #include <vector>
 
-#include "asperity/acquire/host_clock.h"
-#include "asperity/acquire/open_protocol.h"
-#include "asperity/acquire/recorder.h"
 #include "asperity/base/error.h"
+#include "asperity/link/open_protocol.h"
+#include "asperity/recorder/recorder.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/transport/host_clock.h"
 
 namespace {
 

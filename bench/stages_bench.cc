@@ -15,7 +15,7 @@ namespace {
 
 SimulationConfig one_minute() {
   SimulationConfig config = make_simulation_config("sandpaper", "open");
-  config.hand.path = HandPath::kBackAndForth;
+  config.hand.path = HandPathShape::kBackAndForth;
   config.hand.strokes = 15;
   config.hand.length_m = 0.1;
   return config;

@@ -18,8 +18,8 @@
 #include <opencv2/core.hpp>
 
 #include "../tests/tracking/tag_scene.h"
-#include "asperity/acquire/track_body.h"
 #include "asperity/base/random.h"
+#include "asperity/tracking/track_body.h"
 
 namespace {
 

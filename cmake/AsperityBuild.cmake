@@ -9,10 +9,15 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release)
 endif()
+# Only the modules that gain by -O3 are compiled with it (asperity_optimise_fully).
+string(REPLACE "-O3" "-O2" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
+string(REPLACE "-O3" "-O2" CMAKE_C_FLAGS_RELEASE "${CMAKE_C_FLAGS_RELEASE}")
 
+# Another checkout hits the cache: its paths are seen from the source tree. A precompiled header is part of what is hashed.
 find_program(ASPERITY_CCACHE ccache)
 if(ASPERITY_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${ASPERITY_CCACHE}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env "CCACHE_BASEDIR=${CMAKE_SOURCE_DIR}" CCACHE_NOHASHDIR=1
+      "CCACHE_SLOPPINESS=pch_defines,time_macros" "${ASPERITY_CCACHE}")
 endif()
 
 add_library(asperity_flags INTERFACE)
@@ -24,7 +29,20 @@ target_compile_options(asperity_flags INTERFACE
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 reports these inside Eigen and the standard library after inlining.
   target_compile_options(asperity_flags INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)
+  if(CMAKE_UNITY_BUILD)
+    # A type of the unnamed namespace in a .cc file that another one includes: it is still local to one translation unit.
+    target_compile_options(asperity_flags INTERFACE -Wno-subobject-linkage)
+  endif()
 endif()
+# Hardening; what it costs the servo is in docs/performance.md. --as-needed: a library that nothing uses is not loaded.
+include(CheckPIESupported)
+check_pie_supported()
+add_library(asperity_hardening INTERFACE)
+target_compile_options(asperity_hardening INTERFACE
+  -fstack-protector-strong $<$<CONFIG:Release>:-U_FORTIFY_SOURCE> $<$<CONFIG:Release>:-D_FORTIFY_SOURCE=2>)
+target_link_options(asperity_hardening INTERFACE -Wl,-z,relro,-z,now,-z,noexecstack -Wl,--as-needed -Wl,-O1)
+target_link_libraries(asperity_flags INTERFACE asperity_hardening)
+
 if(ASPERITY_SANITIZE)
   add_compile_options(-fsanitize=${ASPERITY_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${ASPERITY_SANITIZE})
@@ -35,7 +53,52 @@ if(ASPERITY_FUZZ)
 endif()
 add_custom_target(fuzzers COMMENT "All fuzz targets")
 
+# What nearly every file includes is parsed once: the standard library and Eigen for the program, GoogleTest for the tests.
+# The debug preset does without, and without unity builds, so that each file is known to include what it needs.
+set(ASPERITY_STANDARD_HEADERS <algorithm> <array> <atomic> <chrono> <cmath> <condition_variable> <cstdint> <deque> <exception>
+    <filesystem> <fstream> <functional> <iterator> <limits> <map> <memory> <mutex> <numbers> <numeric> <optional> <random>
+    <set> <span> <sstream> <stdexcept> <string> <string_view> <system_error> <thread> <tuple> <unordered_map> <utility>
+    <variant> <vector> <Eigen/Core> <Eigen/Geometry>)
+
+# asperity_precompile(target): the common headers of a library or program, compiled once for all that use the same flags.
+function(asperity_precompile target)
+  if(NOT TARGET asperity_precompiled)
+    file(WRITE "${CMAKE_BINARY_DIR}/precompiled.cc" "")
+    add_library(asperity_precompiled OBJECT "${CMAKE_BINARY_DIR}/precompiled.cc")
+    target_link_libraries(asperity_precompiled PRIVATE asperity_flags Eigen3::Eigen)
+    target_compile_features(asperity_precompiled PRIVATE cxx_std_20)
+    target_precompile_headers(asperity_precompiled PRIVATE ${ASPERITY_STANDARD_HEADERS})
+  endif()
+  target_precompile_headers(${target} REUSE_FROM asperity_precompiled)
+endfunction()
+
+# asperity_test_program(target): flags, GoogleTest and the precompiled headers of a test program. Tests are compiled with -O1:
+# what they call is not.
+function(asperity_test_program target)
+  if(NOT TARGET asperity_test_precompiled)
+    file(WRITE "${CMAKE_BINARY_DIR}/test_precompiled.cc" "")
+    add_library(asperity_test_precompiled OBJECT "${CMAKE_BINARY_DIR}/test_precompiled.cc")
+    target_link_libraries(asperity_test_precompiled PRIVATE asperity_flags Eigen3::Eigen GTest::gmock GTest::gtest)
+    target_compile_features(asperity_test_precompiled PRIVATE cxx_std_20)
+    target_compile_options(asperity_test_precompiled PRIVATE $<$<CONFIG:Release>:-O1>)
+    set_target_properties(asperity_test_precompiled PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_precompile_headers(asperity_test_precompiled PRIVATE ${ASPERITY_STANDARD_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
+  endif()
+  target_link_libraries(${target} PRIVATE asperity_flags GTest::gmock GTest::gtest_main)
+  target_compile_features(${target} PRIVATE cxx_std_20)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  # The precompiled headers are of an object library; a program's flags for position-independent code differ from a library's.
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF UNITY_BUILD OFF)
+  target_precompile_headers(${target} REUSE_FROM asperity_test_precompiled)
+endfunction()
+
+# asperity_optimise_fully(target): -O3 in release builds, where a measurement shows that it pays (docs/performance.md).
+function(asperity_optimise_fully target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O3>)
+endfunction()
+
 set_property(GLOBAL PROPERTY ASPERITY_MODULES "")
+set_property(GLOBAL PROPERTY ASPERITY_PLACES "")
 
 # add_module(name DEPENDS module… [PUBLIC target…] [PRIVATE target…])
 #   One static library asperity_<name> from modules/<name>/src/*.cc, its headers in
@@ -65,16 +128,43 @@ function(add_module name)
   endif()
   install(TARGETS ${target} EXPORT asperityTargets ARCHIVE DESTINATION lib)
   install(DIRECTORY include/ DESTINATION include)
+  asperity_precompile(${target})
   set_property(GLOBAL APPEND PROPERTY ASPERITY_MODULES ${name})
   set_property(GLOBAL PROPERTY ASPERITY_DEPENDS_${name} "${M_DEPENDS}")
 
   file(GLOB tests CONFIGURE_DEPENDS test/*_test.cc)
   if(ASPERITY_TESTS AND tests)
     add_executable(${name}_test ${tests})
-    target_link_libraries(${name}_test PRIVATE ${target} asperity_testkit ${M_PRIVATE} asperity_flags GTest::gmock GTest::gtest_main)
+    target_link_libraries(${name}_test PRIVATE ${target} asperity_testkit ${M_PRIVATE})
+    asperity_test_program(${name}_test)
     target_compile_definitions(${name}_test PRIVATE ASPERITY_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
     gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 300)
   endif()
+endfunction()
+
+# add_own_library(name USED_BY target SOURCES … LIBRARIES target…)
+#   libasperity_<name>.so, which own_library_paths() (base/load_library.h) finds beside the programs of the build and in
+#   lib/asperity of what is installed. It is built before whatever is linked with USED_BY, which loads it.
+function(add_own_library name)
+  cmake_parse_arguments(L "" "USED_BY" "SOURCES;LIBRARIES" ${ARGN})
+  set(target asperity_${name}_library)
+  add_library(${target} MODULE ${L_SOURCES})
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME asperity_${name}
+                        LIBRARY_OUTPUT_DIRECTORY "${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  target_link_libraries(${target} PRIVATE ${L_LIBRARIES} asperity_flags)
+  add_dependencies(${L_USED_BY} ${target})
+  install(TARGETS ${target} LIBRARY DESTINATION lib/asperity)
+endfunction()
+
+# declare_includes(place DEPENDS name…)
+#   What a place outside modules/ may include: a folder with its own headers (apps/asperity), its tests
+#   (studio/server/test), or one file of it that may include more (apps/asperity/cmd_studio.cc). Names are those of modules
+#   and of such folders. Compared with the #include lines by the test `include_check`; a folder's tests may use what the
+#   folder may, and testkit.
+function(declare_includes place)
+  cmake_parse_arguments(D "" "" "DEPENDS" ${ARGN})
+  set_property(GLOBAL APPEND PROPERTY ASPERITY_PLACES ${place})
+  set_property(GLOBAL PROPERTY ASPERITY_INCLUDES_${place} "${D_DEPENDS}")
 endfunction()
 
 # add_asperity_fuzzer(name SOURCE target…): SOURCE defines LLVMFuzzerTestOneInput. With clang and
@@ -88,7 +178,12 @@ function(add_asperity_fuzzer name source)
     target_link_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
     target_compile_options(fuzz_${name} PRIVATE -fsanitize=fuzzer)
   else()
-    target_sources(fuzz_${name} PRIVATE ${CMAKE_SOURCE_DIR}/testkit/replay_corpus.cc)
+    if(NOT TARGET asperity_replay_corpus)
+      add_library(asperity_replay_corpus OBJECT ${CMAKE_SOURCE_DIR}/testkit/replay_corpus.cc)
+      target_link_libraries(asperity_replay_corpus PRIVATE asperity_flags)
+      target_compile_features(asperity_replay_corpus PRIVATE cxx_std_20)
+    endif()
+    target_link_libraries(fuzz_${name} PRIVATE asperity_replay_corpus)
     add_test(NAME fuzz_replay.${name}
              COMMAND fuzz_${name} ${CMAKE_CURRENT_SOURCE_DIR}/corpus/${name})
     set_tests_properties(fuzz_replay.${name} PROPERTIES TIMEOUT 120)

@@ -1,4 +1,4 @@
-#include "asperity/acquire/aruco_dictionary.h"
+#include "asperity/tracking/aruco_dictionary.h"
 #include "asperity/base/error.h"
 #include "fuzz_input.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "asperity/acquire/probe_decoder.h"
+#include "asperity/link/probe_decoder.h"
 #include "fuzz_input.h"
 
 namespace asperity {

@@ -1,6 +1,6 @@
 // A description is refused, or has figures in their ranges and, written and read again, is the same.
-#include "asperity/acquire/open_protocol.h"
 #include "asperity/base/error.h"
+#include "asperity/link/open_protocol.h"
 #include "fuzz_input.h"
 
 using namespace asperity;

@@ -2,8 +2,8 @@
 // block is read past its end.
 #include <algorithm>
 
-#include "asperity/acquire/cobs.h"
-#include "asperity/acquire/open_protocol.h"
+#include "asperity/link/cobs.h"
+#include "asperity/link/open_protocol.h"
 #include "fuzz_input.h"
 
 using namespace asperity;

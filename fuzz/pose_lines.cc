@@ -1,4 +1,4 @@
-#include "asperity/acquire/pose_lines.h"
+#include "asperity/tracking/pose_lines.h"
 
 #include <algorithm>
 #include <cmath>

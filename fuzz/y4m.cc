@@ -1,4 +1,4 @@
-#include "asperity/recording/y4m.h"
+#include "asperity/image/y4m.h"
 #include "asperity/base/error.h"
 #include "fuzz_input.h"
 

@@ -11,7 +11,7 @@
 #include "asperity/base/version.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
-#include "our_file.h"
+#include "asperity/session/our_file.h"
 
 namespace asperity::app {
 
@@ -43,7 +43,7 @@ Calibration calibration_before(const fs::path& file) {
 
 }  // namespace
 
-CalibrateCommand::CalibrateCommand(CLI::App& calibrate, const std::string& kind, const std::string& description)
+CalibrateCommand::CalibrateCommand(Parser& calibrate, const std::string& kind, const std::string& description)
     : Command(calibrate, kind, description), kind_(kind) {
   parser()
       .add_option("-o,--output", output_, "Where to put the values; what other kinds have calibrated is kept")

@@ -40,7 +40,7 @@ struct CalibrateOutcome {
 // cannot determine the values are refused there by an Error that says what to record instead; nothing is written then.
 class CalibrateCommand : public Command {
  public:
-  CalibrateCommand(CLI::App& calibrate, const std::string& kind, const std::string& description);
+  CalibrateCommand(Parser& calibrate, const std::string& kind, const std::string& description);
 
   int run(const Observer& observer) final;
 

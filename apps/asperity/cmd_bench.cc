@@ -59,11 +59,11 @@ SurfacePoint random_point(const TriangleMesh& mesh, Random& random) {
 
 class BenchCommand : public Command {
  public:
-  explicit BenchCommand(CLI::App& root)
+  explicit BenchCommand(Parser& root)
       : Command(root, "bench", "Time this machine: closest points, registration, processing, rendering") {
     require(parser().add_option("WHAT", what_, "closest-point, register, process or render"))
         ->type_name("NAME")
-        ->check(CLI::IsMember({"closest-point", "register", "process", "render"}));
+        ->one_of({"closest-point", "register", "process", "render"});
     parser()
         .add_option("MESH,--mesh", mesh_,
                     "The mesh, or for render a scene; else a generated one of some 70,000 triangles")
@@ -259,6 +259,6 @@ class BenchCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_bench(CLI::App& root) { return std::make_unique<BenchCommand>(root); }
+std::unique_ptr<Command> make_bench(Parser& root) { return std::make_unique<BenchCommand>(root); }
 
 }  // namespace asperity::app

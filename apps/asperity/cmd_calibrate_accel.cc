@@ -48,7 +48,7 @@ void describe_model(CalibrateOutcome& out, const AccelerometerCalibration& accel
 
 class CalibrateAccelCommand : public CalibrateCommand {
  public:
-  explicit CalibrateAccelCommand(CLI::App& calibrate)
+  explicit CalibrateAccelCommand(Parser& calibrate)
       : CalibrateCommand(calibrate, "accel", "The accelerometer, from gravity in static poses or a known force") {
     require(parser().add_option(
         "FILE", file_,
@@ -218,7 +218,7 @@ class CalibrateAccelCommand : public CalibrateCommand {
 
 }  // namespace
 
-std::unique_ptr<Command> make_calibrate_accel(CLI::App& calibrate) {
+std::unique_ptr<Command> make_calibrate_accel(Parser& calibrate) {
   return std::make_unique<CalibrateAccelCommand>(calibrate);
 }
 

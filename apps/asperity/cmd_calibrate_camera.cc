@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "asperity/acquire/read_gray_image.h"
 #include "asperity/base/text.h"
 #include "asperity/calibration/calibrate_camera.h"
 #include "asperity/calibration/find_board.h"
+#include "asperity/image/read_gray_image.h"
 #include "calibrate_command.h"
 #include "commands.h"
 #include "image_files.h"
@@ -59,7 +59,7 @@ CalibrationBoard counted_otherwise(CalibrationBoard board) {
 
 class CalibrateCameraCommand : public CalibrateCommand {
  public:
-  explicit CalibrateCameraCommand(CLI::App& calibrate)
+  explicit CalibrateCameraCommand(Parser& calibrate)
       : CalibrateCommand(calibrate, "camera",
                          "The camera's focal length, centre and distortion from images of a board") {
     require(parser().add_option("IMAGES", paths_, "Images of the board, or folders of them"));
@@ -70,9 +70,7 @@ class CalibrateCameraCommand : public CalibrateCommand {
     require(parser().add_option("--square", square_, "A square's edge")->type_name("LENGTH"));
     parser().add_flag("--charuco", charuco_, "A ChArUco board");
     parser().add_option("--marker", marker_, "ChArUco: a marker's edge")->type_name("LENGTH");
-    parser()
-        .add_option("--dictionary", dictionary_, "ChArUco: DICT_4X4_50 or another of OpenCV's")
-        ->capture_default_str();
+    parser().add_option("--dictionary", dictionary_, "ChArUco: DICT_4X4_50 or another of OpenCV's")->show_default();
   }
 
   std::vector<ConfigField> fields() override { return list_fields("calibration", settings_); }
@@ -204,7 +202,7 @@ class CalibrateCameraCommand : public CalibrateCommand {
 
 }  // namespace
 
-std::unique_ptr<Command> make_calibrate_camera(CLI::App& calibrate) {
+std::unique_ptr<Command> make_calibrate_camera(Parser& calibrate) {
   return std::make_unique<CalibrateCameraCommand>(calibrate);
 }
 

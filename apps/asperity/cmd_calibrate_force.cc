@@ -13,7 +13,7 @@ namespace {
 
 class CalibrateForceCommand : public CalibrateCommand {
  public:
-  explicit CalibrateForceCommand(CLI::App& calibrate)
+  explicit CalibrateForceCommand(Parser& calibrate)
       : CalibrateCommand(calibrate, "force", "The force sensor's line from readings under known forces") {
     require(parser().add_option("CSV", file_, "A table counts,force_N"));
   }
@@ -59,7 +59,7 @@ class CalibrateForceCommand : public CalibrateCommand {
 
 }  // namespace
 
-std::unique_ptr<Command> make_calibrate_force(CLI::App& calibrate) {
+std::unique_ptr<Command> make_calibrate_force(Parser& calibrate) {
   return std::make_unique<CalibrateForceCommand>(calibrate);
 }
 

@@ -27,7 +27,7 @@ GyroscopeCalibration turned(const GyroscopeCalibration& sensor, const LatencyFit
 
 class CalibrateLatencyCommand : public CalibrateCommand {
  public:
-  explicit CalibrateLatencyCommand(CLI::App& calibrate)
+  explicit CalibrateLatencyCommand(Parser& calibrate)
       : CalibrateCommand(calibrate, "latency", "The tracker's latency against the probe, from a recording of shaking") {
     require(parser().add_option("REC", folder_, "A recording in which the probe is shaken in front of the camera"));
     parser().add_option("--calibration", calibration_, "Instead of the recording's own")->type_name("calibration.json");
@@ -104,7 +104,7 @@ class CalibrateLatencyCommand : public CalibrateCommand {
 
 }  // namespace
 
-std::unique_ptr<Command> make_calibrate_latency(CLI::App& calibrate) {
+std::unique_ptr<Command> make_calibrate_latency(Parser& calibrate) {
   return std::make_unique<CalibrateLatencyCommand>(calibrate);
 }
 

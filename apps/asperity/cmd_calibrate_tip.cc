@@ -13,7 +13,7 @@ namespace {
 
 class CalibrateTipCommand : public CalibrateCommand {
  public:
-  explicit CalibrateTipCommand(CLI::App& calibrate)
+  explicit CalibrateTipCommand(Parser& calibrate)
       : CalibrateCommand(calibrate, "tip", "Where the tip is on the probe, from swings with the tip in a dimple") {
     require(parser().add_option("REC", recording_, "The recording's folder"));
   }
@@ -64,7 +64,7 @@ class CalibrateTipCommand : public CalibrateCommand {
 
 }  // namespace
 
-std::unique_ptr<Command> make_calibrate_tip(CLI::App& calibrate) {
+std::unique_ptr<Command> make_calibrate_tip(Parser& calibrate) {
   return std::make_unique<CalibrateTipCommand>(calibrate);
 }
 

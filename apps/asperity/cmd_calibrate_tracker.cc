@@ -11,11 +11,11 @@
 #include "asperity/base/units.h"
 #include "asperity/calibration/calibrate_tracker_noise.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/session/our_file.h"
 #include "calibrate_command.h"
 #include "commands.h"
 #include "json_of.h"
 #include "noise_figure.h"
-#include "our_file.h"
 
 namespace asperity::app {
 
@@ -80,7 +80,7 @@ Json json_of_model(const TrackerNoiseModel& model) {
 
 class CalibrateTrackerCommand : public CalibrateCommand {
  public:
-  explicit CalibrateTrackerCommand(CLI::App& calibrate)
+  explicit CalibrateTrackerCommand(Parser& calibrate)
       : CalibrateCommand(calibrate, "tracker", "The tracker's noise from recordings in which the probe rests") {
     require(parser().add_option("REC", folders_, "Recordings; the rests in them are found"));
     parser().add_option("--figure", figure_, "Histograms of the longest rest")->type_name("FILE.svg");
@@ -174,7 +174,7 @@ class CalibrateTrackerCommand : public CalibrateCommand {
 
 }  // namespace
 
-std::unique_ptr<Command> make_calibrate_tracker(CLI::App& calibrate) {
+std::unique_ptr<Command> make_calibrate_tracker(Parser& calibrate) {
   return std::make_unique<CalibrateTrackerCommand>(calibrate);
 }
 

@@ -10,9 +10,9 @@
 #include "asperity/recording/cut_recording.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/rig/check_rig.h"
+#include "asperity/session/our_file.h"
 #include "commands.h"
 #include "option_units.h"
-#include "our_file.h"
 
 namespace asperity::app {
 
@@ -26,7 +26,7 @@ bool begins_as_rig_check(std::string_view begin) {
 
 class CheckRigCommand : public Command {
  public:
-  explicit CheckRigCommand(CLI::App& root)
+  explicit CheckRigCommand(Parser& root)
       : Command(root, "check-rig", "Says by strokes over a known grating whether the scanner is right") {
     parser().add_option("REC", recordings_, "Recordings of strokes over the grating; each segment is one stroke");
     parser().add_option("--pitch", pitch_, "Period of the grating, as measured; 2mm unless given")->type_name("LENGTH");
@@ -111,6 +111,6 @@ class CheckRigCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_check_rig(CLI::App& root) { return std::make_unique<CheckRigCommand>(root); }
+std::unique_ptr<Command> make_check_rig(Parser& root) { return std::make_unique<CheckRigCommand>(root); }
 
 }  // namespace asperity::app

@@ -102,7 +102,7 @@ std::vector<DemoFigure> compare(const Scan& scan, const Recording& recording, co
 
 class DemoCommand : public Command {
  public:
-  explicit DemoCommand(CLI::App& root)
+  explicit DemoCommand(Parser& root)
       : Command(root, "demo",
                 "Simulate scans of two surfaces and of a mesh, process and register them, feel them, print measured "
                 "against "
@@ -185,6 +185,6 @@ class DemoCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_demo(CLI::App& root) { return std::make_unique<DemoCommand>(root); }
+std::unique_ptr<Command> make_demo(Parser& root) { return std::make_unique<DemoCommand>(root); }
 
 }  // namespace asperity::app

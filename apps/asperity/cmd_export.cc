@@ -12,10 +12,10 @@
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/scene/export_scene.h"
+#include "asperity/session/export_files.h"
+#include "asperity/session/our_folder.h"
 #include "commands.h"
-#include "export_files.h"
 #include "option_units.h"
-#include "our_folder.h"
 
 namespace asperity::app {
 
@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 
 class ExportCommand : public Command {
  public:
-  explicit ExportCommand(CLI::App& root)
+  explicit ExportCommand(Parser& root)
       : Command(root, "export", "Write a textured scene in the files of other programs") {
     require(parser().add_option("OUT", source_,
                                 "What register, paint or process wrote, a scene.json, a mesh or a *.texture.json"));
@@ -96,6 +96,6 @@ class ExportCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_export(CLI::App& root) { return std::make_unique<ExportCommand>(root); }
+std::unique_ptr<Command> make_export(Parser& root) { return std::make_unique<ExportCommand>(root); }
 
 }  // namespace asperity::app

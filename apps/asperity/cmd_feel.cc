@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,21 +17,24 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/device/device_registry.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/write_flight_record.h"
 #include "asperity/fidelity/score_rendering.h"
+#include "asperity/session/feel_device.h"
+#include "asperity/session/feel_drive.h"
+#include "asperity/session/feel_log.h"
+#include "asperity/session/feel_report.h"
+#include "asperity/session/feel_scene.h"
+#include "asperity/session/feel_settings.h"
+#include "asperity/session/feel_verdict.h"
+#include "asperity/session/interrupt.h"
+#include "asperity/session/mesh_unit.h"
+#include "asperity/session/our_file.h"
+#include "asperity/session/our_folder.h"
 #include "commands.h"
-#include "feel_device.h"
-#include "feel_drive.h"
-#include "feel_log.h"
-#include "feel_report.h"
-#include "feel_scene.h"
-#include "feel_settings.h"
-#include "feel_verdict.h"
-#include "interrupt.h"
 #include "option_units.h"
-#include "our_file.h"
-#include "our_folder.h"
+#include "scene_options.h"
 
 namespace asperity::app {
 
@@ -39,21 +45,33 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<const char*, 4> kEndNames{"duration", "device_ended", "stopped", "fault"};
 
+// "sim (the default), replay or haply": all devices, with remarks on some.
+std::string device_list(std::string_view last, const std::map<std::string_view, std::string_view>& remarks) {
+  std::string out;
+  const std::span<const DeviceKind> kinds = device_kinds();
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    if (k > 0) out += k + 1 < kinds.size() ? ", " : fmt::format(" {} ", last);
+    out += kinds[k].name;
+    if (remarks.contains(kinds[k].name)) out += fmt::format(" ({})", remarks.at(kinds[k].name));
+  }
+  return out;
+}
+
 class FeelCommand : public Command {
  public:
-  explicit FeelCommand(CLI::App& root)
+  explicit FeelCommand(Parser& root)
       : Command(root, "feel", "Feel a scene with a haptic device, or log what it would") {
-    parser().add_option("SCENE", input_.scene, "A scene.json, a folder that has one, or a mesh without textures");
+    parser().add_option("SCENE", options_.scene, "A scene.json, a folder that has one, or a mesh without textures");
     parser()
-        .add_option("--height-maps", input_.height_map_list,
+        .add_option("--height-maps", options_.height_maps,
                     "Instead of SCENE: images side by side on a plane, a.png,b.png,…")
         ->type_name("FILES");
-    parser().add_option("--tile", input_.tile, "Side of a height map's tile; 10mm")->type_name("LENGTH");
-    parser().add_option("--height-range", input_.height_range, "From black to white; 2.5mm")->type_name("LENGTH");
+    parser().add_option("--tile", options_.tile, "Side of a height map's tile; 10mm")->type_name("LENGTH");
+    parser().add_option("--height-range", options_.height_range, "From black to white; 2.5mm")->type_name("LENGTH");
     parser()
-        .add_option("--device", device_,
-                    "sim (the default: a modelled hand), replay (the default with --replay), haply, openhaptics, dhd, "
-                    "2diy, audio or gamepad")
+        .add_option(
+            "--device", device_,
+            device_list("or", {{"sim", "the default: a modelled hand"}, {"replay", "the default with --replay"}}))
         ->type_name("NAME");
     parser()
         .add_option("--replay", replay_,
@@ -69,7 +87,7 @@ class FeelCommand : public Command {
     parser().add_flag("--timing", timing_, "Time each step: a column step_ns in the log");
     parser().add_flag("--realtime", realtime_, "By the clock also where nobody is there to feel it (sim, replay)");
     parser()
-        .add_option("--mesh-unit", input_.mesh_unit, "Of a mesh given alone: m (the default), mm, or such as 0.06m")
+        .add_option("--mesh-unit", options_.mesh_unit, "Of a mesh given alone: m (the default), mm, or such as 0.06m")
         ->type_name("LENGTH");
     parser().add_option("--tip", tip_, "Radius of the tip; a point")->type_name("LENGTH");
     parser()
@@ -108,7 +126,7 @@ class FeelCommand : public Command {
   }
 
   int run(const Observer& observer) override {
-    check_scene_input(input_);
+    input_ = scene_input_of(options_);
     if (parser().count("--log") > 0 && (log_.empty() || log_ == "-"))
       throw UsageError("--log: a file's name is needed");
     std::vector<std::string> inputs = input_.height_maps;
@@ -118,13 +136,13 @@ class FeelCommand : public Command {
     std::optional<OutputFolder> folder;
     if (!output_.empty()) folder.emplace(output_, is_our_folder);
     observer.update("reading", 0.0);
-    const Scene scene = read_felt_scene(input_, settings_);
+    const Scene scene = read_scene_input();
     FeelDrive drive;
     if (!replay_.empty()) {
       drive = read_drive(replay_, mapped_, scene, settings_, observer);
-    } else if (kind_.driven && from_.empty() && input_.tile_stroke_m) {
+    } else if (kind_.driven() && from_.empty() && input_.tile_stroke_m) {
       drive = make_drive(scene, input_.tile_stroke_m->front(), input_.tile_stroke_m->back(), settings_);
-    } else if (kind_.driven) {
+    } else if (kind_.driven()) {
       drive = make_drive(scene, point("--from", from_), point("--to", to_), settings_);
     }
     if (settings_.servo.duration_s > 0.0) cut_drive(drive, settings_.servo.duration_s, settings_.servo.rate_Hz);
@@ -133,7 +151,7 @@ class FeelCommand : public Command {
     warn_of(drive.problems);
     const std::unique_ptr<HapticDevice> device = open_device(device_, drive, settings_);
     observer.update("scene", 0.0);
-    FeltModel felt = make_felt_model(scene, device->info(), kind_.driven, settings_);
+    FeltModel felt = make_felt_model(scene, device->info(), kind_.driven(), settings_);
     warnings_ = felt.warnings;
     SnapshotExchange<const RenderModel> model(std::move(felt.model));
     const fs::path log = !log_.empty() ? fs::path(log_) : folder ? folder->path() / "log.csv" : fs::path();
@@ -163,6 +181,14 @@ class FeelCommand : public Command {
   }
 
  private:
+  Scene read_scene_input() {
+    try {
+      return read_felt_scene(input_, settings_);
+    } catch (const WrongUnit& error) {
+      throw UsageError(std::string("--mesh-unit: ") + error.what());
+    }
+  }
+
   // An option's value into the setting that it stands for, within that one's range.
   void set_text(const std::string& option, const std::string& setting, const std::string& value) {
     try {
@@ -178,20 +204,19 @@ class FeelCommand : public Command {
   void choose_device() {
     if (device_.empty()) device_ = replay_.empty() ? "sim" : "replay";
     if (device_ == "mouse") throw UsageError("--device mouse: the mouse feels in the studio's page alone");
-    const std::optional<DeviceKind> kind = device_kind(device_);
-    if (!kind) {
-      throw UsageError("--device: '" + printable(device_) +
-                       "' is none of sim, replay, haply, openhaptics, dhd, 2diy, audio and gamepad");
-    }
+    const DeviceKind* kind = find_device_kind(device_);
+    if (!kind) throw UsageError("--device: '" + printable(device_) + "' is none of " + device_list("and", {}));
     kind_ = *kind;
-    if (device_ == "2diy" && settings_.two_diy.port.empty()) {
-      throw UsageError("--device 2diy: its serial port is missing, --set 2diy.port=/dev/ttyACM0 or such");
+    if (const auto needed = settings_.devices.missing(device_)) {
+      throw UsageError(fmt::format("--device {}: its {} is missing, --set {}={} or such", device_, needed->what,
+                                   needed->setting, needed->example));
     }
-    if (device_ == "replay" && replay_.empty()) throw UsageError("--device replay needs --replay");
-    if (!kind_.driven && !replay_.empty()) throw UsageError("--replay: " + device_ + " is moved by a hand");
+    if (kind_.mover == DeviceMover::kPath && replay_.empty())
+      throw UsageError("--device " + device_ + " needs --replay");
+    if (!kind_.driven() && !replay_.empty()) throw UsageError("--replay: " + device_ + " is moved by a hand");
     if (mapped_ && replay_.empty()) throw UsageError("--mapped needs --replay");
     if (from_.empty() != to_.empty()) throw UsageError("--from and --to belong together");
-    if (!from_.empty() && (!kind_.driven || !replay_.empty())) throw UsageError("--from: no hand is modelled");
+    if (!from_.empty() && (!kind_.driven() || !replay_.empty())) throw UsageError("--from: no hand is modelled");
     if (kind_.felt) settings_.servo.paced = true;
   }
 
@@ -206,7 +231,7 @@ class FeelCommand : public Command {
     std::optional<FeelLog> rows;
     if (!log.empty()) rows.emplace(log, settings_.servo.timed);
     ServoConfig config = settings_.servo;
-    if (kind_.driven) config.duration_s = 0.0;  // the path has it: no ramp follows
+    if (kind_.driven()) config.duration_s = 0.0;  // the path has it: no ramp follows
     const double whole_s = settings_.servo.duration_s;
     std::optional<ForceHold> hold;
     if (kind_.felt) hold.emplace();
@@ -219,7 +244,7 @@ class FeelCommand : public Command {
     });
     device.close();  // before anything that takes time
     hold.reset();
-    if (servo.end == ServoEnd::kStopped && kind_.driven) throw Cancelled();
+    if (servo.end == ServoEnd::kStopped && kind_.driven()) throw Cancelled();
     if (rows) rows->commit();
     if (servo.end == ServoEnd::kFault) keep_flight_record(log, servo);
     return servo;
@@ -290,6 +315,7 @@ class FeelCommand : public Command {
   std::string device_, replay_, rate_, log_, duration_, tip_, model_, stiffness_, friction_;
   std::string from_, to_, press_, speed_, output_;
   bool mapped_ = false, timing_ = false, realtime_ = false;
+  SceneOptions options_;
   SceneInput input_;
   DeviceKind kind_;
   FeelSettings settings_;
@@ -300,6 +326,6 @@ class FeelCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_feel(CLI::App& root) { return std::make_unique<FeelCommand>(root); }
+std::unique_ptr<Command> make_feel(Parser& root) { return std::make_unique<FeelCommand>(root); }
 
 }  // namespace asperity::app

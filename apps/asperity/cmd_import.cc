@@ -21,7 +21,7 @@ namespace {
 
 class ImportCommand : public Command {
  public:
-  explicit ImportCommand(CLI::App& root)
+  explicit ImportCommand(Parser& root)
       : Command(root, "import", "Make a recording of an inertial sensor's and a motion capture's files") {
     require(parser().add_option("--imu", imu_, "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps"))
         ->type_name("FILE.csv");
@@ -88,6 +88,6 @@ class ImportCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_import(CLI::App& root) { return std::make_unique<ImportCommand>(root); }
+std::unique_ptr<Command> make_import(Parser& root) { return std::make_unique<ImportCommand>(root); }
 
 }  // namespace asperity::app

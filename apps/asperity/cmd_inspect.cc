@@ -12,7 +12,7 @@ namespace {
 
 class InspectCommand : public Command {
  public:
-  explicit InspectCommand(CLI::App& root)
+  explicit InspectCommand(Parser& root)
       : Command(root, "inspect", "Rates, gaps, losses, saturation and noise of a recording, and what looks wrong") {
     require(parser().add_option("REC", recording_, "The recording's folder"));
   }
@@ -35,6 +35,6 @@ class InspectCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_inspect(CLI::App& root) { return std::make_unique<InspectCommand>(root); }
+std::unique_ptr<Command> make_inspect(Parser& root) { return std::make_unique<InspectCommand>(root); }
 
 }  // namespace asperity::app

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "asperity/acquire/detect_tags.h"
-#include "asperity/acquire/read_gray_image.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/image/read_gray_image.h"
+#include "asperity/tracking/detect_tags.h"
+#include "asperity/session/our_file.h"
 #include "commands.h"
-#include "our_file.h"
 
 namespace asperity::app {
 
@@ -22,12 +22,12 @@ constexpr std::string_view kHeader = "image,id,x0_px,y0_px,x1_px,y1_px,x2_px,y2_
 
 class MarkersDetectCommand : public Command {
  public:
-  explicit MarkersDetectCommand(CLI::App& markers)
+  explicit MarkersDetectCommand(Parser& markers)
       : Command(markers, "detect", "The tags in images and where their corners are") {
     require(parser().add_option("IMAGE", images_, "PNG, JPEG or PGM"));
     parser()
         .add_option("--family", family_, "tag36h11, tag25h9, tag16h5, tagStandard41h12, aruco:NAME or aruco:FILE.yml")
-        ->capture_default_str();
+        ->show_default();
     parser().add_option("-o,--output", output_, "Write a table of the corners")->type_name("FILE.csv");
   }
 
@@ -85,7 +85,7 @@ class MarkersDetectCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_markers_detect(CLI::App& markers) {
+std::unique_ptr<Command> make_markers_detect(Parser& markers) {
   return std::make_unique<MarkersDetectCommand>(markers);
 }
 

@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "asperity/acquire/format_pdf.h"
-#include "asperity/acquire/marker_sheets.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/printing/format_pdf.h"
+#include "asperity/printing/marker_sheets.h"
 #include "asperity/recording/format.h"
+#include "asperity/session/our_file.h"
 #include "commands.h"
 #include "marker_family.h"
 #include "option_units.h"
-#include "our_file.h"
 
 namespace asperity::app {
 
@@ -64,13 +64,10 @@ std::pair<int, int> board_option(const std::string& text) {
 // What all commands that print share: paper, the PDF, and the markers.json of what they print.
 class PrintCommand : public Command {
  public:
-  PrintCommand(CLI::App& markers, const std::string& name, const std::string& description)
+  PrintCommand(Parser& markers, const std::string& name, const std::string& description)
       : Command(markers, name, description) {
     require(parser().add_option("-o,--output", output_, "Where to put the pages")->type_name("FILE.pdf"));
-    parser()
-        .add_option("--paper", paper_, "a4 or letter")
-        ->check(CLI::IsMember({"a4", "letter"}))
-        ->capture_default_str();
+    parser().add_option("--paper", paper_, "a4 or letter")->one_of({"a4", "letter"})->show_default();
   }
 
   int run(const Observer&) override {
@@ -103,7 +100,7 @@ class PrintCommand : public Command {
     family_ = default_family;
     parser()
         .add_option("--family", family_, "tag36h11, tag25h9, tag16h5, tagStandard41h12, aruco:NAME or aruco:FILE.yml")
-        ->capture_default_str();
+        ->show_default();
   }
   void add_markers() {
     parser().add_option("--markers", markers_, "Write the body too: where its tags are")->type_name("markers.json");
@@ -117,11 +114,11 @@ class PrintCommand : public Command {
 
 class SheetCommand : public PrintCommand {
  public:
-  explicit SheetCommand(CLI::App& markers) : PrintCommand(markers, "sheet", "Flat tags to print and cut out") {
+  explicit SheetCommand(Parser& markers) : PrintCommand(markers, "sheet", "Flat tags to print and cut out") {
     add_family("tag36h11");
     add_markers();
-    parser().add_option("--size", size_, "The black border's outer edge")->capture_default_str();
-    parser().add_option("--ids", ids_, "Ids, such as 0,1,4-7")->capture_default_str();
+    parser().add_option("--size", size_, "The black border's outer edge")->show_default();
+    parser().add_option("--ids", ids_, "Ids, such as 0,1,4-7")->show_default();
   }
 
  private:
@@ -133,13 +130,13 @@ class SheetCommand : public PrintCommand {
 
 class RingCommand : public PrintCommand {
  public:
-  explicit RingCommand(CLI::App& markers)
+  explicit RingCommand(Parser& markers)
       : PrintCommand(markers, "ring", "A prism of tags to print and fold, seen from all around") {
     add_family("tag36h11");
     add_markers();
-    parser().add_option("--size", size_, "The black border's outer edge")->capture_default_str();
-    parser().add_option("--sides", config_.sides, "Faces, 3 to 36")->capture_default_str();
-    parser().add_option("--first-id", config_.first_id, "The id of face 0")->capture_default_str();
+    parser().add_option("--size", size_, "The black border's outer edge")->show_default();
+    parser().add_option("--sides", config_.sides, "Faces, 3 to 36")->show_default();
+    parser().add_option("--first-id", config_.first_id, "The id of face 0")->show_default();
     parser().add_option("--face", face_, "Width of a face; as narrow as a tag with its white margin without");
   }
 
@@ -155,10 +152,10 @@ class RingCommand : public PrintCommand {
 
 class BoardCommand : public PrintCommand {
  public:
-  explicit BoardCommand(CLI::App& markers)
+  explicit BoardCommand(Parser& markers)
       : PrintCommand(markers, "board", "A checkerboard to calibrate the camera with") {
-    parser().add_option("--board", board_, "Inner corners, COLUMNSxROWS")->capture_default_str();
-    parser().add_option("--square", square_, "Width of a square")->capture_default_str();
+    parser().add_option("--board", board_, "Inner corners, COLUMNSxROWS")->show_default();
+    parser().add_option("--square", square_, "Width of a square")->show_default();
   }
 
  private:
@@ -171,12 +168,12 @@ class BoardCommand : public PrintCommand {
 
 class CharucoCommand : public PrintCommand {
  public:
-  explicit CharucoCommand(CLI::App& markers)
+  explicit CharucoCommand(Parser& markers)
       : PrintCommand(markers, "charuco", "A ChArUco board to calibrate the camera with, as OpenCV 4.6 numbers it") {
     add_family("aruco:DICT_4X4_50");
-    parser().add_option("--board", board_, "Squares, COLUMNSxROWS")->capture_default_str();
-    parser().add_option("--square", square_, "Width of a square")->capture_default_str();
-    parser().add_option("--marker", marker_, "Width of a marker")->capture_default_str();
+    parser().add_option("--board", board_, "Squares, COLUMNSxROWS")->show_default();
+    parser().add_option("--square", square_, "Width of a square")->show_default();
+    parser().add_option("--marker", marker_, "Width of a marker")->show_default();
   }
 
  private:
@@ -191,9 +188,9 @@ class CharucoCommand : public PrintCommand {
 
 }  // namespace
 
-std::unique_ptr<Command> make_markers_sheet(CLI::App& markers) { return std::make_unique<SheetCommand>(markers); }
-std::unique_ptr<Command> make_markers_ring(CLI::App& markers) { return std::make_unique<RingCommand>(markers); }
-std::unique_ptr<Command> make_markers_board(CLI::App& markers) { return std::make_unique<BoardCommand>(markers); }
-std::unique_ptr<Command> make_markers_charuco(CLI::App& markers) { return std::make_unique<CharucoCommand>(markers); }
+std::unique_ptr<Command> make_markers_sheet(Parser& markers) { return std::make_unique<SheetCommand>(markers); }
+std::unique_ptr<Command> make_markers_ring(Parser& markers) { return std::make_unique<RingCommand>(markers); }
+std::unique_ptr<Command> make_markers_board(Parser& markers) { return std::make_unique<BoardCommand>(markers); }
+std::unique_ptr<Command> make_markers_charuco(Parser& markers) { return std::make_unique<CharucoCommand>(markers); }
 
 }  // namespace asperity::app

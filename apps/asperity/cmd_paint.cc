@@ -16,10 +16,11 @@
 #include "asperity/base/version.h"
 #include "asperity/scene/paint.h"
 #include "asperity/scene/write_scene.h"
+#include "asperity/session/mesh_unit.h"
+#include "asperity/session/our_folder.h"
+#include "asperity/session/paint_scene.h"
 #include "commands.h"
 #include "option_units.h"
-#include "our_folder.h"
-#include "paint_scene.h"
 
 namespace asperity::app {
 
@@ -39,7 +40,7 @@ struct PaintSettings {
 
 class PaintCommand : public Command {
  public:
-  explicit PaintCommand(CLI::App& root)
+  explicit PaintCommand(Parser& root)
       : Command(root, "paint", "Lay a texture on a mesh along a path through picked points") {
     require(parser().add_option("MESH", mesh_, "A mesh (.obj .ply .stl .gltf .glb) or a scene.json to paint on"));
     require(parser().add_option(
@@ -131,6 +132,6 @@ class PaintCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_paint(CLI::App& root) { return std::make_unique<PaintCommand>(root); }
+std::unique_ptr<Command> make_paint(Parser& root) { return std::make_unique<PaintCommand>(root); }
 
 }  // namespace asperity::app

@@ -35,7 +35,7 @@ std::string folder_name(const std::string& path) {
 
 class ProcessCommand : public Command {
  public:
-  explicit ProcessCommand(CLI::App& root)
+  explicit ProcessCommand(Parser& root)
       : Command(root, "process", "From recordings to surface profiles, roughness and haptic textures") {
     require(parser().add_option("REC", recordings_,
                                 "Recordings; several give OUT/NAME/ each, and several segments with gaps between them "
@@ -170,6 +170,6 @@ class ProcessCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_process(CLI::App& root) { return std::make_unique<ProcessCommand>(root); }
+std::unique_ptr<Command> make_process(Parser& root) { return std::make_unique<ProcessCommand>(root); }
 
 }  // namespace asperity::app

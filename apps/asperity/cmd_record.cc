@@ -9,18 +9,18 @@
 #include <utility>
 #include <vector>
 
-#include "asperity/acquire/frame_writer.h"
-#include "asperity/acquire/recorder.h"
 #include "asperity/base/text.h"
+#include "asperity/camera/frame_writer.h"
+#include "asperity/recorder/recorder.h"
+#include "asperity/session/interrupt.h"
+#include "asperity/session/record_input.h"
+#include "asperity/session/utc_now.h"
 #include "commands.h"
-#include "interrupt.h"
 #include "option_units.h"
-#include "record_input.h"
 #include "record_report.h"
 #include "record_status.h"
 #include "record_verdict.h"
 #include "terminal_keys.h"
-#include "utc_now.h"
 
 namespace asperity::app {
 
@@ -43,7 +43,7 @@ struct RecordSettings {
 
 class RecordCommand : public Command {
  public:
-  explicit RecordCommand(CLI::App& root) : Command(root, "record", "Record a probe and its pose while a hand scans") {
+  explicit RecordCommand(Parser& root) : Command(root, "record", "Record a probe and its pose while a hand scans") {
     settings_.recorder.start_at_once = true;
     require(parser().add_option("--probe", input_.probe,
                                 "serial:/dev/ttyUSB0[@BAUD], usb:VID:PID[:SERIAL], udp:PORT or file:CAPTURE"))
@@ -53,7 +53,8 @@ class RecordCommand : public Command {
         .add_option("--capture", input_.capture, "Keep the probe's bytes too, in a new file for --probe file:CAPTURE")
         ->type_name("FILE");
     parser()
-        .add_option("--camera", input_.camera, "v4l2:/dev/video0[?rate=120&…], y4m:PATH, images:FOLDER or video:FILE")
+        .add_option("--camera", input_.camera,
+                    "v4l2:/dev/video0[?rate=120&…], y4m:PATH, images:FOLDER or video:FILE (by ffmpeg)")
         ->type_name("ADDRESS");
     parser()
         .add_option("--markers", input_.markers, "The tags on the probe; else those of the calibration")
@@ -83,7 +84,7 @@ class RecordCommand : public Command {
   }
 
   int run(const Observer&) override {
-    check_record_input(input_);
+    check_sensors();
     if (info_.world != "camera" && info_.world != "z_up")
       throw UsageError("--world: '" + printable(info_.world) + "' is neither camera nor z_up");
     if (!is_utf8(info_.object)) throw UsageError("--object: is not UTF-8");
@@ -115,6 +116,23 @@ class RecordCommand : public Command {
   }
 
  private:
+  void check_sensors() const {
+    if (input_.probe.empty()) throw UsageError("--probe: an address is needed");
+    if (!input_.camera.empty() && !input_.poses.empty()) throw UsageError("--camera and --poses exclude each other");
+    if (input_.calibration.empty() && !input_.uncalibrated)
+      throw UsageError("--calibration is missing; without one, --uncalibrated records what is to be calibrated");
+    if (!input_.calibration.empty() && input_.uncalibrated)
+      throw UsageError("--calibration and --uncalibrated exclude each other");
+    if (!input_.camera.empty() && input_.uncalibrated)
+      throw UsageError("--camera needs the camera's --calibration to find poses");
+    if (!input_.markers.empty() && input_.camera.empty()) throw UsageError("--markers needs --camera");
+    try {
+      check_record_addresses(input_);
+    } catch (const Error& error) {
+      throw UsageError(error.what());
+    }
+  }
+
   // Shows how it goes and hears the keys, until there is a reason to end.
   std::string watch(Recorder& recorder) {
     using namespace std::chrono_literals;
@@ -166,6 +184,6 @@ class RecordCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_record(CLI::App& root) { return std::make_unique<RecordCommand>(root); }
+std::unique_ptr<Command> make_record(Parser& root) { return std::make_unique<RecordCommand>(root); }
 
 }  // namespace asperity::app

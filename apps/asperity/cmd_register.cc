@@ -15,9 +15,9 @@
 #include "asperity/pipeline/register_scans.h"
 #include "asperity/pipeline/write_registration.h"
 #include "asperity/registration/manual_alignment.h"
+#include "asperity/session/register_input.h"
 #include "commands.h"
 #include "option_units.h"
-#include "register_input.h"
 
 namespace asperity::app {
 
@@ -25,7 +25,7 @@ namespace {
 
 class RegisterCommand : public Command {
  public:
-  explicit RegisterCommand(CLI::App& root)
+  explicit RegisterCommand(Parser& root)
       : Command(root, "register", "Lay scans on a 3D mesh and give it their textures") {
     require(parser().add_option("PATH... MESH", files_,
                                 "Recordings, trajectory.csv files or any CSV with px_m,py_m,pz_m; then the mesh "
@@ -33,18 +33,18 @@ class RegisterCommand : public Command {
     parser()
         .add_option("--mesh-unit", mesh_unit_, "Length of the mesh's unit: m (the default), mm, cm, or such as 0.06m")
         ->type_name("LENGTH");
-    CLI::Option* guess =
+    Option* guess =
         parser()
             .add_option("--guess", guess_,
                         "x,y,z,qw,qx,qy,qz of T_mesh_world in metres, near which to begin; without any guess the whole "
                         "mesh is searched")
             ->type_name("POSE");
-    CLI::Option* align = parser()
-                             .add_option("--align", align_,
-                                         "The guess as x,y,z,rx,ry,rz: metres, and degrees about x, the turned y and "
-                                         "the twice turned z")
-                             ->type_name("SIX")
-                             ->excludes(guess);
+    Option* align = parser()
+                        .add_option("--align", align_,
+                                    "The guess as x,y,z,rx,ry,rz: metres, and degrees about x, the turned y and "
+                                    "the twice turned z")
+                        ->type_name("SIX")
+                        ->excludes(guess);
     parser()
         .add_option("--picks", picks_,
                     "The guess as three or more pairs x,y,z=x,y,z;… of the path's points (m) and the mesh's (in its "
@@ -67,6 +67,7 @@ class RegisterCommand : public Command {
     files_.pop_back();
     const double unit_m = mesh_unit_.empty() ? 1.0 : unit_option_m("--mesh-unit", mesh_unit_);
     const std::optional<Pose> guess = first_pose(unit_m);
+    check_paths();
 
     OutputFolder folder(output_, is_registration_folder);
     observer.update("reading", 0.0);
@@ -83,6 +84,14 @@ class RegisterCommand : public Command {
   }
 
  private:
+  void check_paths() const {
+    try {
+      check_register_input(files_, textures_);
+    } catch (const Error& error) {
+      throw UsageError(error.what());
+    }
+  }
+
   // Where to begin, however it was said.
   std::optional<Pose> first_pose(double unit_m) const {
     if (!guess_.empty()) return pose_option("--guess", guess_);
@@ -146,6 +155,6 @@ class RegisterCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_register(CLI::App& root) { return std::make_unique<RegisterCommand>(root); }
+std::unique_ptr<Command> make_register(Parser& root) { return std::make_unique<RegisterCommand>(root); }
 
 }  // namespace asperity::app

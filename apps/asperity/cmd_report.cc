@@ -7,10 +7,10 @@
 
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/session/our_file.h"
 #include "asperity/studio/format_report.h"
 #include "asperity/studio/read_report_item.h"
 #include "commands.h"
-#include "our_file.h"
 
 namespace asperity::app {
 
@@ -26,7 +26,7 @@ bool begins_as_report(std::string_view begin) {
 
 class ReportCommand : public Command {
  public:
-  explicit ReportCommand(CLI::App& root) : Command(root, "report", "From results to one page for the browser") {
+  explicit ReportCommand(Parser& root) : Command(root, "report", "From results to one page for the browser") {
     require(parser().add_option(
         "OUT", folders_,
         "Folders that asperity process or register has written; several results are laid over each other"));
@@ -80,6 +80,6 @@ class ReportCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_report(CLI::App& root) { return std::make_unique<ReportCommand>(root); }
+std::unique_ptr<Command> make_report(Parser& root) { return std::make_unique<ReportCommand>(root); }
 
 }  // namespace asperity::app

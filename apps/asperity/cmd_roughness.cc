@@ -59,7 +59,7 @@ std::string to_table(const std::vector<Parameter>& parameters) {
 
 class RoughnessCommand : public Command {
  public:
-  explicit RoughnessCommand(CLI::App& root)
+  explicit RoughnessCommand(Parser& root)
       : Command(root, "roughness", "Roughness of a profile (ISO 21920-2) or an areal map (ISO 25178-2)") {
     require(parser().add_option("FILE", file_, "profile.csv, heights one a line, or x_mm,y_mm,z_um"));
     parser()
@@ -147,6 +147,6 @@ class RoughnessCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_roughness(CLI::App& root) { return std::make_unique<RoughnessCommand>(root); }
+std::unique_ptr<Command> make_roughness(Parser& root) { return std::make_unique<RoughnessCommand>(root); }
 
 }  // namespace asperity::app

@@ -14,10 +14,10 @@
 #include "asperity/base/version.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
+#include "asperity/session/live_scan.h"
 #include "asperity/simulation/mesh_stroke.h"
 #include "asperity/simulation/simulate_recording.h"
 #include "commands.h"
-#include "live_scan.h"
 #include "option_units.h"
 
 namespace asperity::app {
@@ -26,7 +26,7 @@ namespace {
 
 class SimulateCommand : public Command {
  public:
-  explicit SimulateCommand(CLI::App& root)
+  explicit SimulateCommand(Parser& root)
       : Command(root, "simulate", "Simulate a recording: a hand scans a surface with a probe in front of a tracker") {
     std::string names;
     for (const auto name : kSurfaceNames) {
@@ -155,6 +155,6 @@ class SimulateCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_simulate(CLI::App& root) { return std::make_unique<SimulateCommand>(root); }
+std::unique_ptr<Command> make_simulate(Parser& root) { return std::make_unique<SimulateCommand>(root); }
 
 }  // namespace asperity::app

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "asperity/base/text.h"
+#include "asperity/session/interrupt.h"
 #include "asperity/studio/feel_config.h"
+#include "asperity/studio/open_browser.h"
 #include "asperity/studio/studio.h"
 #include "asperity/studio/web_server.h"
 #include "asperity/web/assets.h"
 #include "commands.h"
-#include "interrupt.h"
-#include "open_browser.h"
 
 namespace asperity::app {
 
@@ -22,13 +22,12 @@ namespace fs = std::filesystem;
 
 class StudioCommand : public Command {
  public:
-  explicit StudioCommand(CLI::App& root)
-      : Command(root, "studio", "Scan, process, align, paint and feel in a browser") {
+  explicit StudioCommand(Parser& root) : Command(root, "studio", "Scan, process, align, paint and feel in a browser") {
     parser().add_option("WHAT", what_,
                         "A recording, scene or mesh, whose folder is worked in, or a folder; the current one");
     parser()
         .add_option("--port", config_.server.port, "0 (the default): a free one")
-        ->check(CLI::Range(0, 65535))
+        ->in_range(0, 65535)
         ->type_name("N");
     parser().add_option("--host", config_.server.host, "Address to listen at; 127.0.0.1")->type_name("ADDRESS");
     parser().add_flag("--remote-force", config_.remote_force,
@@ -47,7 +46,7 @@ class StudioCommand : public Command {
     choose_folder();
     config_.feel = std::make_shared<const studio::FeelConfig>(feel_);
     const bool is_open_to_others = !studio::is_this_machine_only(config_.server.host);
-    std::optional<OpenedBrowser> browser;
+    std::optional<studio::OpenedBrowser> browser;
     // A signal waits until no hand has force on it and everything is saved.
     const ForceHold force;
     const FinishHold finish;
@@ -96,6 +95,6 @@ class StudioCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_studio(CLI::App& root) { return std::make_unique<StudioCommand>(root); }
+std::unique_ptr<Command> make_studio(Parser& root) { return std::make_unique<StudioCommand>(root); }
 
 }  // namespace asperity::app

@@ -59,7 +59,7 @@ std::string row(const std::string& name, const Difference& d, double unit, const
 
 class TextureCompareCommand : public Command {
  public:
-  explicit TextureCompareCommand(CLI::App& root)
+  explicit TextureCompareCommand(Parser& root)
       : Command(root, "compare", "What a hand would notice between two textures or profiles (seed §2.1)") {
     require(parser().add_option("A", a_, "A *.texture.json, a profile.csv or heights"));
     require(parser().add_option("B", b_, "The other"));
@@ -158,6 +158,6 @@ class TextureCompareCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_texture_compare(CLI::App& root) { return std::make_unique<TextureCompareCommand>(root); }
+std::unique_ptr<Command> make_texture_compare(Parser& root) { return std::make_unique<TextureCompareCommand>(root); }
 
 }  // namespace asperity::app

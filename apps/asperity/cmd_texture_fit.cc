@@ -18,11 +18,11 @@
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/recorded_series.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/session/our_file.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
 #include "option_units.h"
-#include "our_file.h"
 #include "read_series.h"
 #include "texture_fit_settings.h"
 #include "texture_input.h"
@@ -44,7 +44,7 @@ struct Fitted {
 
 class TextureFitCommand : public Command {
  public:
-  explicit TextureFitCommand(CLI::App& root)
+  explicit TextureFitCommand(Parser& root)
       : Command(root, "fit", "A haptic texture from profiles, strokes, an areal map or another texture") {
     require(parser().add_option("PROFILE", files_,
                                 "profile.csv, heights, x,y,z or t_s,acceleration_mps2,speed_mps,force_N tables, a "
@@ -346,6 +346,6 @@ class TextureFitCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_texture_fit(CLI::App& root) { return std::make_unique<TextureFitCommand>(root); }
+std::unique_ptr<Command> make_texture_fit(Parser& root) { return std::make_unique<TextureFitCommand>(root); }
 
 }  // namespace asperity::app

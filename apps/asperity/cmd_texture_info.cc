@@ -85,7 +85,7 @@ std::string value_text(const Json& value) { return value.is_string() ? value.get
 
 class TextureInfoCommand : public Command {
  public:
-  explicit TextureInfoCommand(CLI::App& root) : Command(root, "info", "What a texture is and how rough") {
+  explicit TextureInfoCommand(Parser& root) : Command(root, "info", "What a texture is and how rough") {
     require(parser().add_option("TEXTURE", file_, "A *.texture.json"));
   }
 
@@ -143,6 +143,6 @@ class TextureInfoCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_texture_info(CLI::App& root) { return std::make_unique<TextureInfoCommand>(root); }
+std::unique_ptr<Command> make_texture_info(Parser& root) { return std::make_unique<TextureInfoCommand>(root); }
 
 }  // namespace asperity::app

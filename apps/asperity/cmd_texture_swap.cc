@@ -16,9 +16,9 @@
 #include "asperity/scene/read_scene.h"
 #include "asperity/scene/swap_texture.h"
 #include "asperity/scene/write_scene.h"
+#include "asperity/session/our_file.h"
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
-#include "our_file.h"
 
 namespace asperity::app {
 
@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 
 class TextureSwapCommand : public Command {
  public:
-  explicit TextureSwapCommand(CLI::App& root)
+  explicit TextureSwapCommand(Parser& root)
       : Command(root, "swap", "Lay another texture in the place of one of a scene's") {
     require(parser().add_option("SCENE", scene_, "A *.scene.json"));
     require(parser().add_option("INDEX", index_, "The texture's number in the mesh's h lines"));
@@ -107,6 +107,6 @@ class TextureSwapCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_texture_swap(CLI::App& root) { return std::make_unique<TextureSwapCommand>(root); }
+std::unique_ptr<Command> make_texture_swap(Parser& root) { return std::make_unique<TextureSwapCommand>(root); }
 
 }  // namespace asperity::app

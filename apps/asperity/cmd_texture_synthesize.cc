@@ -11,16 +11,16 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/session/our_file.h"
 #include "asperity/texture/evaluate_height.h"
+#include "asperity/texture/format_height_image.h"
 #include "asperity/texture/make_height_map.h"
-#include "asperity/texture/png_image.h"
 #include "asperity/texture/sample_heights.h"
 #include "asperity/texture/synthesize_isotropic.h"
 #include "asperity/texture/synthesize_stroke.h"
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
 #include "option_units.h"
-#include "our_file.h"
 
 namespace asperity::app {
 
@@ -46,7 +46,7 @@ struct SynthesizeSettings {
 
 class TextureSynthesizeCommand : public Command {
  public:
-  explicit TextureSynthesizeCommand(CLI::App& root)
+  explicit TextureSynthesizeCommand(Parser& root)
       : Command(root, "synthesize",
                 "Heights of a texture along a line, or a force model's accelerations (*.csv); a tile (*.png)") {
     require(parser().add_option("TEXTURE", file_, "A *.texture.json"));
@@ -137,7 +137,7 @@ class TextureSynthesizeCommand : public Command {
   void write_tile(const Texture& texture, Json& out) {
     const HeightMapFit fit = make_height_map(texture.model, settings_.tile);
     const HeightMap& map = fit.texture;
-    write_file(output_, signed_png(format_png({map.columns, map.rows, map.bits, map.level})));
+    write_file(output_, signed_png(format_height_image(map)));
     out["columns"] = map.columns;
     out["rows"] = map.rows;
     out["bits"] = map.bits;
@@ -155,13 +155,13 @@ class TextureSynthesizeCommand : public Command {
   std::string length_;
   std::string spacing_;
   std::int64_t seed_ = 0;
-  CLI::Option* seed_option_ = nullptr;
+  Option* seed_option_ = nullptr;
   SynthesizeSettings settings_;
 };
 
 }  // namespace
 
-std::unique_ptr<Command> make_texture_synthesize(CLI::App& root) {
+std::unique_ptr<Command> make_texture_synthesize(Parser& root) {
   return std::make_unique<TextureSynthesizeCommand>(root);
 }
 

@@ -11,15 +11,15 @@
 #include <string>
 #include <vector>
 
-#include "asperity/acquire/open_image_folder.h"
-#include "asperity/acquire/track_images.h"
 #include "asperity/base/config_tree.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/camera/open_image_folder.h"
 #include "asperity/recording/read_markers.h"
+#include "asperity/tracking/track_images.h"
+#include "asperity/session/our_file.h"
 #include "commands.h"
-#include "our_file.h"
 
 namespace asperity::app {
 
@@ -63,7 +63,7 @@ double processor_s() {
 
 class TrackCommand : public Command {
  public:
-  explicit TrackCommand(CLI::App& root) : Command(root, "track", "The poses of a body of tags in a camera's images") {
+  explicit TrackCommand(Parser& root) : Command(root, "track", "The poses of a body of tags in a camera's images") {
     require(parser().add_option("IMAGES", images_,
                                 "Images (PNG, JPEG, PGM), or folders of them, named by their time in ns"));
     require(parser().add_option("--camera", camera_, "A calibration.json with the camera"))->type_name("FILE.json");
@@ -164,6 +164,6 @@ class TrackCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_track(CLI::App& root) { return std::make_unique<TrackCommand>(root); }
+std::unique_ptr<Command> make_track(Parser& root) { return std::make_unique<TrackCommand>(root); }
 
 }  // namespace asperity::app

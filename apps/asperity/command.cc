@@ -10,27 +10,26 @@
 
 namespace asperity::app {
 
-Command::Command(CLI::App& root, const std::string& name, const std::string& description)
-    : parser_(root.add_subcommand(name, description)) {
+Command::Command(Parser& root, const std::string& name, const std::string& description)
+    : parser_(&root.add_subcommand(name, description)) {
   parser_->add_flag("--json", json_, "Print one JSON object on standard output");
   parser_->add_option("--config", config_file_, "Read settings from a TOML file")->type_name("FILE.toml");
   parser_->add_option("--set", settings_, "Change one setting; may be repeated")
       ->type_name("STAGE.FIELD=VALUE")
-      ->allow_extra_args(false);
+      ->one_value_each();
   parser_->add_flag("--print-config", print_config_, "Print all settings with their meaning, and stop");
   parser_->add_flag("--quiet", quiet_, "Print no progress and no summary");
 }
 
-CLI::Option* Command::require(CLI::Option* option) {
-  option->description(option->get_description() + " (required)");
+Option* Command::require(Option* option) {
   required_.push_back(option);
-  return option;
+  return option->describe(option->description() + " (required)");
 }
 
 bool Command::resolve() {
   if (!print_config_) {
-    for (const CLI::Option* option : required_) {
-      if (option->count() == 0) throw UsageError(option->get_name(option->get_positional()) + " is missing");
+    for (const Option* option : required_) {
+      if (option->count() == 0) throw UsageError(option->name() + " is missing");
     }
   }
   const std::vector<ConfigField> all = fields();

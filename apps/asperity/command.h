@@ -1,6 +1,5 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "asperity/base/config.h"
 #include "asperity/base/error.h"
 #include "asperity/base/progress.h"
+#include "parser.h"
 
 namespace asperity::app {
 
@@ -32,7 +32,7 @@ inline constexpr int kClosedPipe = 141;  // 128 + SIGPIPE, as a shell reports it
 // One subcommand: its options are bound in the constructor, its settings listed by fields().
 class Command {
  public:
-  Command(CLI::App& root, const std::string& name, const std::string& description);
+  Command(Parser& root, const std::string& name, const std::string& description);
   virtual ~Command() = default;
   Command(const Command&) = delete;
   Command& operator=(const Command&) = delete;
@@ -44,15 +44,15 @@ class Command {
   // Returns the exit code.
   virtual int run(const Observer& observer) = 0;
 
-  CLI::App& parser() { return *parser_; }
+  Parser& parser() { return *parser_; }
   // Brings the settings to what the command line says; true if the command is then to be run,
   // false if --print-config has printed them. Throws UsageError for a missing required option.
   bool resolve();
   bool quiet() const { return quiet_; }
 
  protected:
-  // Required unless --print-config is given, which CLI11's own `required` cannot express.
-  CLI::Option* require(CLI::Option* option);
+  // Required unless --print-config is given.
+  Option* require(Option* option);
   bool json() const { return json_; }
   // For a person: prints unless --json or --quiet.
   void say(std::string_view text) const;
@@ -60,8 +60,8 @@ class Command {
   void print_json(std::string_view object) const;
 
  private:
-  CLI::App* parser_;
-  std::vector<CLI::Option*> required_;
+  Parser* parser_;
+  std::vector<Option*> required_;
   bool json_ = false;
   bool quiet_ = false;
   bool print_config_ = false;

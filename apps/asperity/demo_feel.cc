@@ -18,13 +18,13 @@
 #include "asperity/profile/resample_over_path.h"
 #include "asperity/scene/paint.h"
 #include "asperity/scene/write_scene.h"
+#include "asperity/session/feel_device.h"
+#include "asperity/session/feel_drive.h"
+#include "asperity/session/feel_log.h"
+#include "asperity/session/feel_settings.h"
+#include "asperity/session/our_folder.h"
 #include "demo_figure.h"
-#include "feel_device.h"
-#include "feel_drive.h"
-#include "feel_log.h"
 #include "feel_plot.h"
-#include "feel_settings.h"
-#include "our_folder.h"
 
 namespace asperity::app {
 

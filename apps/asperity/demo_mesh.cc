@@ -18,13 +18,13 @@
 #include "asperity/registration/pose_error.h"
 #include "asperity/scene/paint.h"
 #include "asperity/scene/write_scene.h"
+#include "asperity/session/our_folder.h"
 #include "asperity/simulation/make_pebble.h"
 #include "asperity/simulation/make_surface.h"
 #include "asperity/simulation/place_at_random.h"
 #include "asperity/simulation/random_motion.h"
 #include "asperity/simulation/simulate_recording.h"
 #include "demo_figure.h"
-#include "our_folder.h"
 
 namespace asperity::app {
 
@@ -33,7 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr double kUnit_m = 1e-3;
+constexpr double kMeshUnit_m = 1e-3;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::uint64_t kSeed = 1;
 constexpr const char* kScanned =
@@ -43,7 +43,7 @@ MeshFile pebble_in_millimetres() {
   const TriangleMesh pebble = make_pebble();
   MeshFile out;
   out.triangles = pebble.triangles;
-  for (const Eigen::Vector3d& vertex_m : pebble.vertices_m) out.vertices.push_back(vertex_m / kUnit_m);
+  for (const Eigen::Vector3d& vertex_m : pebble.vertices_m) out.vertices.push_back(vertex_m / kMeshUnit_m);
   return out;
 }
 
@@ -117,7 +117,7 @@ RenderingScore repeat(const ScansOnMesh& result, const Scene& scene, const Obser
 MeshDemo demonstrate_mesh(const fs::path& folder, const ProcessConfig& process, const Texture& other,
                           const Observer& observer) {
   const MeshFile file = pebble_in_millimetres();
-  const TriangleMesh mesh = to_metres(file, kUnit_m);
+  const TriangleMesh mesh = to_metres(file, kMeshUnit_m);
   write_obj(folder / "pebble.obj", file);
   SimulationConfig simulation;
   const Scan scan = scan_over(mesh, simulation, observer);
@@ -134,7 +134,7 @@ MeshDemo demonstrate_mesh(const fs::path& folder, const ProcessConfig& process, 
   RegisterConfig config;
   config.process = process;
   const ScansOnMesh result = register_scans({scan}, mesh, guess, config, observer);
-  write_registration(result_folder, result, {scan}, file, kUnit_m);
+  write_registration(result_folder, result, {scan}, file, kMeshUnit_m);
 
   MeshDemo out;
   const std::vector<DemoFigure> figures = compare(*scan.recording, result, truth, process);
@@ -149,7 +149,7 @@ MeshDemo demonstrate_mesh(const fs::path& folder, const ProcessConfig& process, 
   out.trustworthy = result.trustworthy;
   out.verdict = result.verdict;
 
-  const Scene scene = make_scene(result, file, kUnit_m);
+  const Scene scene = make_scene(result, file, kMeshUnit_m);
   const RenderingScore score = repeat(result, scene, observer);
   const std::vector<DemoFigure> repeated{
       {"correlation", "rendered, correlation", "", 1.0, score.correlation, DemoFigure::kNone, DemoFigure::kNone, 1.0},

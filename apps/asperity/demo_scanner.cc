@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "asperity/acquire/track_body.h"
 #include "asperity/base/output.h"
 #include "asperity/calibration/calibrate_accelerometer_field.h"
 #include "asperity/calibration/calibrate_camera.h"
@@ -21,14 +20,15 @@
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/write_result.h"
 #include "asperity/recording/write_recording.h"
+#include "asperity/session/record_live.h"
 #include "asperity/simulation/board_poses.h"
 #include "asperity/simulation/calibration_motion.h"
 #include "asperity/simulation/force_steps.h"
 #include "asperity/simulation/live_bench.h"
 #include "asperity/simulation/render_board.h"
 #include "asperity/simulation/stamp_delay.h"
+#include "asperity/tracking/track_body.h"
 #include "demo_figure.h"
-#include "record_live.h"
 
 namespace asperity::app {
 

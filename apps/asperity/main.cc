@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <exception>
 #include <memory>
 #include <string>
@@ -8,9 +7,9 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/session/interrupt.h"
 #include "command.h"
 #include "commands.h"
-#include "interrupt.h"
 #include "parser_pages.h"
 #include "progress_line.h"
 
@@ -19,41 +18,42 @@ namespace asperity::app {
 namespace {
 
 struct Program {
-  CLI::App parser{"measures the fine surface of real objects, to be felt again"};
+  Parser parser{"asperity", "measures the fine surface of real objects, to be felt again"};
   bool manual = false;
   std::string completion;
   std::vector<std::unique_ptr<Command>> commands;
 
   Program() {
-    parser.name("asperity");
     parser.set_version_flag("--version", std::string("asperity ") + kVersion);
     parser.add_flag("--man", manual, "Print the manual page");
-    parser.add_option("--completion", completion, "Print completions for a shell")->check(CLI::IsMember({"bash"}));
+    parser.add_option("--completion", completion, "Print completions for a shell")->one_of({"bash"});
     parser.require_subcommand(0, 1);
     for (const auto make : {make_demo, make_simulate, make_export, make_feel, make_import, make_inspect, make_paint,
                             make_process, make_record, make_register, make_report, make_bench, make_roughness,
                             make_studio, make_track, make_check_rig}) {
       commands.push_back(make(parser));
     }
-    CLI::App* texture = parser.add_subcommand("texture", "Fit, describe, synthesize, swap and compare textures");
-    texture->require_subcommand(1);
+    Parser& texture = parser.add_subcommand("texture", "Fit, describe, synthesize, swap and compare textures");
+    texture.require_subcommand(1, 0);
     for (const auto make :
          {make_texture_fit, make_texture_info, make_texture_synthesize, make_texture_swap, make_texture_compare}) {
-      commands.push_back(make(*texture));
+      commands.push_back(make(texture));
     }
-    CLI::App* markers =
-        parser.add_subcommand("markers", "Print tags and boards at true scale, and find them in images");
-    markers->require_subcommand(1);
+    Parser& study = parser.add_subcommand("study", "Work out what people answered in a study of the studio");
+    study.require_subcommand(1, 0);
+    commands.push_back(make_study_summarize(study));
+    Parser& markers = parser.add_subcommand("markers", "Print tags and boards at true scale, and find them in images");
+    markers.require_subcommand(1, 0);
     for (const auto make :
          {make_markers_sheet, make_markers_ring, make_markers_board, make_markers_charuco, make_markers_detect}) {
-      commands.push_back(make(*markers));
+      commands.push_back(make(markers));
     }
-    CLI::App* calibrate = parser.add_subcommand(
+    Parser& calibrate = parser.add_subcommand(
         "calibrate", "Find a calibration's values, their standard errors and whether to trust them");
-    calibrate->require_subcommand(1);
+    calibrate.require_subcommand(1, 0);
     for (const auto make : {make_calibrate_camera, make_calibrate_tracker, make_calibrate_force, make_calibrate_accel,
                             make_calibrate_tip, make_calibrate_latency}) {
-      commands.push_back(make(*calibrate));
+      commands.push_back(make(calibrate));
     }
   }
 };
@@ -64,14 +64,8 @@ int usage(const std::string& message, const std::string& command) {
   return kUsage;
 }
 
-// "process", "texture fit": as it is typed.
-std::string full_name(const CLI::App& parser) {
-  const CLI::App* parent = parser.get_parent();
-  return parent && parent->get_parent() ? full_name(*parent) + " " + parser.get_name() : parser.get_name();
-}
-
 int run_command(Command& command) {
-  const std::string name = full_name(command.parser());
+  const std::string name = command.parser().full_name();
   try {
     if (!command.resolve()) return kDone;
     ProgressLine line(command.quiet());
@@ -92,24 +86,15 @@ int run_command(Command& command) {
 }
 
 int parse_and_run(Program& program, int argc, char** argv) {
-  try {
-    program.parser.parse(argc, argv);
-    if (program.manual) return print(manual_page(program.parser)), kDone;
-    if (!program.completion.empty()) return print(bash_completion(program.parser)), kDone;
-    for (const auto& command : program.commands) {
-      if (command->parser().parsed()) return run_command(*command);
-    }
-    return usage("which command?", "");
-  } catch (const CLI::CallForHelp&) {
-    print(program.parser.help());
-    return kDone;
-  } catch (const CLI::CallForVersion& version) {
-    return print(std::string(version.what()) + "\n"), kDone;
-  } catch (const CLI::ParseError& error) {
-    const CLI::App* chosen = &program.parser;
-    while (!chosen->get_subcommands().empty()) chosen = chosen->get_subcommands().front();
-    return usage(printable(error.what(), 300), chosen == &program.parser ? "" : full_name(*chosen));
+  const ParsedLine line = program.parser.parse(argc, argv);
+  if (line.kind == ParsedLine::Kind::kFault) return usage(line.text, line.command);
+  if (line.kind == ParsedLine::Kind::kText) return print(line.text), kDone;
+  if (program.manual) return print(manual_page(program.parser)), kDone;
+  if (!program.completion.empty()) return print(bash_completion(program.parser)), kDone;
+  for (const auto& command : program.commands) {
+    if (command->parser().is_parsed()) return run_command(*command);
   }
+  return usage("which command?", "");
 }
 
 int run(int argc, char** argv) {
@@ -129,6 +114,6 @@ int run(int argc, char** argv) {
 }  // namespace asperity::app
 
 int main(int argc, char** argv) {
-  asperity::app::watch_interrupts();
+  asperity::watch_interrupts(asperity::app::complain);
   return asperity::app::run(argc, argv);
 }

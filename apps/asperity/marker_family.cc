@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "asperity/acquire/aruco_dictionary.h"
-#include "asperity/acquire/detect_tags.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/tracking/aruco_dictionary.h"
+#include "asperity/tracking/detect_tags.h"
 
 namespace asperity::app {
 

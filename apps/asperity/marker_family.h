@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <string>
 
-#include "asperity/acquire/marker_sheets.h"
+#include "asperity/printing/marker_sheets.h"
 
 namespace asperity::app {
 
-// The pictures of a family by its name (asperity/acquire/detect_tags.h). Throws Error for one that is not known.
+// The pictures of a family by its name (asperity/tracking/detect_tags.h). Throws Error for one that is not known.
 TagFamily open_family(const std::string& name);
 
 // The name of `family` in a markers.json in `folder`: a dictionary's file is named from there. Throws Error if it does

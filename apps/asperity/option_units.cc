@@ -28,13 +28,7 @@ double length_option_m(const std::string& option, const std::string& text) {
 }
 
 double unit_option_m(const std::string& option, const std::string& text) {
-  const bool a_name = !text.empty() && text.find_first_of("0123456789+-.") == std::string::npos;
-  const double unit_m = length_option_m(option, a_name ? "1" + text : text);
-  constexpr double kLeast_m = 1e-9, kMost_m = 1e3;
-  if (!(unit_m >= kLeast_m && unit_m <= kMost_m)) {
-    throw UsageError(option + ": '" + printable(text) + "' is not between 1 nm and 1000 m");
-  }
-  return unit_m;
+  return parsed(parse_length_unit_m, option, text);
 }
 
 double speed_option_mps(const std::string& option, const std::string& text) {

@@ -28,43 +28,41 @@ std::string roff(const std::string& text) {
   return out;
 }
 
-std::vector<const CLI::Option*> options_of(const CLI::App& app) { return app.get_options(); }
-
-std::string option_heading(const CLI::Option& option) {
-  if (option.get_positional()) return "\\fI" + roff(option.get_name(true)) + "\\fR";
-  std::string out = "\\fB" + roff(option.get_name(false, true)) + "\\fR";
-  if (option.get_items_expected_max() > 0) out += " \\fI" + roff(option.get_type_name()) + "\\fR";
+std::string option_heading(const Option& option) {
+  if (option.is_positional()) return "\\fI" + roff(option.names()) + "\\fR";
+  std::string out = "\\fB" + roff(option.names()) + "\\fR";
+  if (option.takes_value()) out += " \\fI" + roff(option.value_name()) + "\\fR";
   return out;
 }
 
-std::string option_list(const CLI::App& app) {
+std::string option_list(const Parser& app) {
   std::string out;
-  for (const CLI::Option* option : options_of(app)) {
-    out += ".TP\n" + option_heading(*option) + "\n" + roff(option->get_description()) + "\n";
+  for (const Option& option : app.options()) {
+    out += ".TP\n" + option_heading(option) + "\n" + roff(option.description()) + "\n";
   }
   return out;
 }
 
-std::string words(const CLI::App& app) {
+std::string words(const Parser& app) {
   std::string out;
-  for (const CLI::Option* option : options_of(app)) {
-    for (const std::string& name : option->get_lnames()) out += (out.empty() ? "--" : " --") + name;
-    for (const std::string& name : option->get_snames()) out += (out.empty() ? "-" : " -") + name;
+  for (const Option& option : app.options()) {
+    for (const std::string& name : option.long_names()) out += (out.empty() ? "--" : " --") + name;
+    for (const std::string& name : option.short_names()) out += (out.empty() ? "-" : " -") + name;
   }
   return out;
 }
 
 // "fit info …": what follows a command that has commands below it.
-std::string names_below(const CLI::App& app) {
+std::string names_below(const Parser& app) {
   std::string out;
-  for (const CLI::App* below : app.get_subcommands({})) out += below->get_name() + " ";
+  for (const Parser* below : app.subcommands()) out += below->name() + " ";
   return out;
 }
 
-std::string command_section(const CLI::App& command, const std::string& name) {
-  std::string out = ".SS asperity " + roff(name) + "\n" + roff(command.get_description()) + "\n" + option_list(command);
-  for (const CLI::App* below : command.get_subcommands({})) {
-    out += command_section(*below, name + " " + below->get_name());
+std::string command_section(const Parser& command, const std::string& name) {
+  std::string out = ".SS asperity " + roff(name) + "\n" + roff(command.description()) + "\n" + option_list(command);
+  for (const Parser* below : command.subcommands()) {
+    out += command_section(*below, name + " " + below->name());
   }
   return out;
 }
@@ -81,12 +79,12 @@ std::string value_case(const std::string& option, const Names& names) {
 
 }  // namespace
 
-std::string manual_page(const CLI::App& root) {
+std::string manual_page(const Parser& root) {
   std::string out = ".TH ASPERITY 1 \"\" \"asperity " + std::string(kVersion) + "\" \"User Commands\"\n";
-  out += ".SH NAME\nasperity \\- " + roff(root.get_description()) + "\n";
+  out += ".SH NAME\nasperity \\- " + roff(root.description()) + "\n";
   out += ".SH SYNOPSIS\n.B asperity\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR]\n.SH OPTIONS\n" + option_list(root);
   out += ".SH COMMANDS\n";
-  for (const CLI::App* command : root.get_subcommands({})) out += command_section(*command, command->get_name());
+  for (const Parser* command : root.subcommands()) out += command_section(*command, command->name());
   out +=
       ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\nthe input is bad; standard error says where\n.TP\n2\nthe command line is "
       "wrong\n";
@@ -96,16 +94,15 @@ std::string manual_page(const CLI::App& root) {
   return out;
 }
 
-std::string bash_completion(const CLI::App& root) {
+std::string bash_completion(const Parser& root) {
   std::string cases;
   std::string cases_below;
-  for (const CLI::App* command : root.get_subcommands({})) {
+  for (const Parser* command : root.subcommands()) {
     const std::string names = names_below(*command);
-    cases += "    " + command->get_name() + ") words=\"" + names + words(*command) + "\"" +
+    cases += "    " + command->name() + ") words=\"" + names + words(*command) + "\"" +
              (names.empty() ? "" : " names=2") + " ;;\n";
-    for (const CLI::App* below : command->get_subcommands({})) {
-      cases_below +=
-          "    \"" + command->get_name() + " " + below->get_name() + "\") words=\"" + words(*below) + "\" ;;\n";
+    for (const Parser* below : command->subcommands()) {
+      cases_below += "    \"" + command->name() + " " + below->name() + "\") words=\"" + words(*below) + "\" ;;\n";
     }
   }
   const std::string values = value_case("--method", kMethodNames) + value_case("--probe", kProbeModelNames) +

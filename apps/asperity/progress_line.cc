@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "interrupt.h"
+#include "asperity/session/interrupt.h"
 
 namespace asperity::app {
 

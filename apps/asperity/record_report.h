@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "asperity/acquire/frame_writer.h"
-#include "asperity/acquire/recorder_snapshot.h"
 #include "asperity/base/config.h"
+#include "asperity/camera/frame_writer.h"
+#include "asperity/recorder/recorder_snapshot.h"
 #include "record_verdict.h"
 
 namespace asperity::app {

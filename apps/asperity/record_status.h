@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "asperity/acquire/recorder_snapshot.h"
+#include "asperity/recorder/recorder_snapshot.h"
 
 namespace asperity::app {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "asperity/acquire/recorder_snapshot.h"
+#include "asperity/recorder/recorder_snapshot.h"
 
 namespace asperity::app {
 

@@ -10,6 +10,7 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 #include "asperity/profile/measure_roughness.h"
 #include "asperity/texture/evaluate_height.h"
@@ -19,7 +20,6 @@ namespace asperity::app {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t kLargestFile_bytes = 512ULL << 20;
 
 std::optional<double> unit_m(const std::string& name, const std::vector<std::string>& quantities) {

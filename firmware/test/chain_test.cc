@@ -6,7 +6,7 @@
 #include <deque>
 #include <memory>
 
-#include "asperity/acquire/probe_decoder.h"
+#include "asperity/link/probe_decoder.h"
 #include "asperity_firmware/icm42688.h"
 #include "asperity_firmware/probe.h"
 #include "fake_board.h"

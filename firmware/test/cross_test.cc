@@ -5,8 +5,8 @@
 #include <cmath>
 #include <memory>
 
-#include "asperity/acquire/open_protocol.h"
-#include "asperity/acquire/probe_decoder.h"
+#include "asperity/link/open_protocol.h"
+#include "asperity/link/probe_decoder.h"
 #include "asperity_firmware/probe.h"
 #include "fake_board.h"
 #include "reference_decoder.h"

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "asperity/acquire/open_protocol.h"
+#include "asperity/link/open_protocol.h"
 #include "run_asperity.h"
 
 namespace asperity::cli {

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "asperity/acquire/link_statistics.h"
+#include "asperity/link/link_statistics.h"
 #include "asperity/recording/recording.h"
 #include "asperity/simulation/simulation_config.h"
 #include "asperity/testkit/what_line.h"

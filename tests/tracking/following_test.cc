@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "asperity/acquire/detect_tags.h"
-#include "asperity/acquire/track_body.h"
 #include "asperity/recording/camera_model.h"
+#include "asperity/tracking/detect_tags.h"
+#include "asperity/tracking/track_body.h"
 #include "tag_scene.h"
 
 namespace asperity {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "asperity/geometry/pose.h"
+#include "asperity/image/gray_image.h"
 #include "asperity/recording/calibration.h"
-#include "asperity/recording/gray_image.h"
 
 namespace asperity {
 

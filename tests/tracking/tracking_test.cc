@@ -9,13 +9,13 @@
 #include <numbers>
 #include <vector>
 
-#include "asperity/acquire/track_body.h"
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
 #include "asperity/recording/camera_model.h"
 #include "asperity/recording/read_markers.h"
 #include "asperity/simulation/render_tags.h"
 #include "asperity/simulation/tag_body.h"
+#include "asperity/tracking/track_body.h"
 #include "tag_scene.h"
 
 namespace asperity {

@@ -64,7 +64,7 @@ std::string toml_number(double value) {
 }
 
 // A basic string of TOML, which is one of JSON too.
-std::string quoted(std::string_view text) {
+std::string toml_string(std::string_view text) {
   constexpr char kHex[] = "0123456789abcdef";
   std::string out = "\"";
   for (const char c : text) {
@@ -247,7 +247,7 @@ std::string toml_text(const ConfigValue& value) {
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
   if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
   if (const auto* number = std::get_if<double>(&value)) return toml_number(*number);
-  if (const auto* text = std::get_if<std::string>(&value)) return quoted(*text);
+  if (const auto* text = std::get_if<std::string>(&value)) return toml_string(*text);
   std::string out = "[";
   for (const double each : std::get<std::vector<double>>(value)) {
     out += (out.size() > 1 ? ", " : "") + toml_number(each);

@@ -45,4 +45,14 @@ double parse_duration_s(std::string_view text, std::string_view what) {
   return parse(text, what, kDurations, "10s or 250ms");
 }
 
+double parse_length_unit_m(std::string_view text, std::string_view what) {
+  constexpr double kLeast_m = 1e-9, kMost_m = 1e3;
+  const bool is_name = !text.empty() && text.find_first_of("0123456789+-.") == std::string_view::npos;
+  const double unit_m = parse_length_m(is_name ? "1" + std::string(text) : std::string(text), what);
+  if (!(unit_m >= kLeast_m && unit_m <= kMost_m)) {
+    throw Error(std::string(what) + ": '" + printable(text) + "' is not between 1 nm and 1000 m");
+  }
+  return unit_m;
+}
+
 }  // namespace asperity

@@ -6,7 +6,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "charuco_dictionary.h"
+#include "asperity/vision/predefined_dictionary.h"
 
 namespace asperity {
 
@@ -26,7 +26,7 @@ void check_board(const CalibrationBoard& board) {
     throw Error(
         fmt::format("board: marker_m {} must be above 0 and below the square's {}", board.marker_m, board.square_m));
   }
-  const auto dictionary = find_charuco_dictionary(board.dictionary);
+  const auto dictionary = find_predefined_dictionary(board.dictionary);
   if (!dictionary) {
     throw Error(
         fmt::format("board: dictionary '{}' is not known: DICT_4X4_50 to DICT_7X7_1000, DICT_ARUCO_ORIGINAL or "

@@ -19,7 +19,7 @@ constexpr int kLinearParameters = 4;
 // A pose nearer to an axis than this (cosine) covers that direction.
 constexpr double kNear = 0.7;
 
-void check(const AccelerometerSamples& samples) {
+void check_samples(const AccelerometerSamples& samples) {
   if (samples.counts.size() != samples.size() || samples.specific_force_mps2.size() != samples.size()) {
     throw Error(fmt::format("accelerometer: {} times, {} readings, {} specific forces", samples.size(),
                             samples.counts.size(), samples.specific_force_mps2.size()));
@@ -197,7 +197,7 @@ void judge(AccelerometerFit& fit, double force_mps2, bool correlated, const FitA
 }  // namespace
 
 AccelerometerFit fit_accelerometer(const AccelerometerSamples& samples, const FitAccelerometerConfig& config) {
-  check(samples);
+  check_samples(samples);
   ForcePoses poses = group_by_force(samples, config.same_pose_mps2);
   AccelerometerFit out;
   out.rows = samples.size();

@@ -19,7 +19,7 @@ struct LinearLogs {
 };
 
 // Least squares with rows already divided by their errors.
-LinearLogs solve(const Eigen::MatrixXd& rows, const Eigen::VectorXd& right) {
+LinearLogs solve_noise_law(const Eigen::MatrixXd& rows, const Eigen::VectorXd& right) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows);
   LinearLogs out;
   out.values = qr.solve(right);
@@ -56,7 +56,7 @@ NoiseLaw fit_noise_law(std::span<const NoiseAtPlace> places, double power, doubl
   Eigen::MatrixXd rows(n, columns);
   rows.col(0) = weight;
   if (law.tilt_fitted) rows.col(1) = weight.cwiseProduct(tilt);
-  const LinearLogs held = solve(rows, weight.cwiseProduct(sigma - power * distance));
+  const LinearLogs held = solve_noise_law(rows, weight.cwiseProduct(sigma - power * distance));
   law.scale = std::exp(held.values[0]);
   law.scale_error = law.scale * held.errors[0];
   if (law.tilt_fitted) {
@@ -70,7 +70,7 @@ NoiseLaw fit_noise_law(std::span<const NoiseAtPlace> places, double power, doubl
   free.leftCols(columns) = rows;
   // About the mean, so that the column of ones is not nearly this one.
   free.col(columns) = weight.cwiseProduct(Eigen::VectorXd(distance.array() - distance.mean()));
-  const LinearLogs measured = solve(free, weight.cwiseProduct(sigma));
+  const LinearLogs measured = solve_noise_law(free, weight.cwiseProduct(sigma));
   law.measured_power = measured.values[columns];
   law.measured_power_error = measured.errors[columns];
   return law;

@@ -10,14 +10,14 @@ namespace asperity {
 
 namespace {
 
-constexpr std::uint64_t kLargestFile_bytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t kLargestPointsFile_bytes = std::uint64_t{64} << 20;
 constexpr std::size_t kMostPoints = 1'000'000;
 
 }  // namespace
 
 ForcePoints read_force_points(const std::filesystem::path& file) {
   const std::string name = printable(file.string(), 200);
-  const std::string text = read_file(file, kLargestFile_bytes);
+  const std::string text = read_file(file, kLargestPointsFile_bytes);
   CsvReader reader(text, name);
   reader.accept_unterminated();
   const std::size_t counts = reader.require("counts");

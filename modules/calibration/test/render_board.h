@@ -7,8 +7,8 @@
 #include "asperity/base/random.h"
 #include "asperity/calibration/calibration_board.h"
 #include "asperity/geometry/pose.h"
+#include "asperity/image/gray_image.h"
 #include "asperity/recording/camera_model.h"
-#include "asperity/recording/gray_image.h"
 
 namespace asperity::test {
 

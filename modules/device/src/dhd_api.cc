@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "driver_library.h"
+#include "asperity/base/load_library.h"
 
 namespace asperity::dhd {
 
@@ -24,13 +24,13 @@ std::vector<std::string> candidates(const std::string& library) {
 
 Api load_api(const std::string& library) {
   Api api{};
-  load_driver(
-      "dhd", candidates(library),
-      {driver_symbol("dhdOpen", api.open), driver_symbol("dhdClose", api.close),
-       driver_symbol("dhdEnableForce", api.enable_force), driver_symbol("dhdGetPosition", api.get_position),
-       driver_symbol("dhdGetLinearVelocity", api.get_linear_velocity), driver_symbol("dhdSetForce", api.set_force),
-       driver_symbol("dhdGetButtonMask", api.get_button_mask), driver_symbol("dhdErrorGetLastStr", api.last_error),
-       driver_symbol("dhdGetSystemName", api.system_name, false)});
+  load_library(
+      "dhd: its driver", candidates(library),
+      {library_symbol("dhdOpen", api.open), library_symbol("dhdClose", api.close),
+       library_symbol("dhdEnableForce", api.enable_force), library_symbol("dhdGetPosition", api.get_position),
+       library_symbol("dhdGetLinearVelocity", api.get_linear_velocity), library_symbol("dhdSetForce", api.set_force),
+       library_symbol("dhdGetButtonMask", api.get_button_mask), library_symbol("dhdErrorGetLastStr", api.last_error),
+       library_symbol("dhdGetSystemName", api.system_name, false)});
   return api;
 }
 

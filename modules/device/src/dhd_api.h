@@ -22,7 +22,7 @@ struct Api {
 };
 
 // The driver from `library`, or, if that is empty, the first of libdrd.so.3, libdrd.so, libdhd.so.3 and libdhd.so,
-// by the system's search and then in $FDSDK/lib/release/lin-x86_64-gcc/. Throws Error as load_driver does.
+// by the system's search and then in $FDSDK/lib/release/lin-x86_64-gcc/. Throws Error as load_library does.
 Api load_api(const std::string& library);
 
 }  // namespace asperity::dhd

@@ -2,23 +2,23 @@
 
 #include <fmt/format.h>
 
-#include "driver_library.h"
+#include "asperity/base/load_library.h"
 
 namespace asperity::hd {
 
 Api load_api(const std::string& library) {
   Api api{};
-  load_driver(
-      "openhaptics", {library.empty() ? "libHD.so" : library},
-      {driver_symbol("hdInitDevice", api.init_device), driver_symbol("hdDisableDevice", api.disable_device),
-       driver_symbol("hdBeginFrame", api.begin_frame), driver_symbol("hdEndFrame", api.end_frame),
-       driver_symbol("hdGetError", api.get_error), driver_symbol("hdEnable", api.enable),
-       driver_symbol("hdDisable", api.disable), driver_symbol("hdGetDoublev", api.get_doubles),
-       driver_symbol("hdSetDoublev", api.set_doubles), driver_symbol("hdGetIntegerv", api.get_integers),
-       driver_symbol("hdScheduleAsynchronous", api.schedule_asynchronous),
-       driver_symbol("hdStartScheduler", api.start_scheduler), driver_symbol("hdStopScheduler", api.stop_scheduler),
-       driver_symbol("hdUnschedule", api.unschedule), driver_symbol("hdSetSchedulerRate", api.set_scheduler_rate),
-       driver_symbol("hdGetString", api.get_string, false)});
+  load_library(
+      "openhaptics: its driver", {library.empty() ? "libHD.so" : library},
+      {library_symbol("hdInitDevice", api.init_device), library_symbol("hdDisableDevice", api.disable_device),
+       library_symbol("hdBeginFrame", api.begin_frame), library_symbol("hdEndFrame", api.end_frame),
+       library_symbol("hdGetError", api.get_error), library_symbol("hdEnable", api.enable),
+       library_symbol("hdDisable", api.disable), library_symbol("hdGetDoublev", api.get_doubles),
+       library_symbol("hdSetDoublev", api.set_doubles), library_symbol("hdGetIntegerv", api.get_integers),
+       library_symbol("hdScheduleAsynchronous", api.schedule_asynchronous),
+       library_symbol("hdStartScheduler", api.start_scheduler), library_symbol("hdStopScheduler", api.stop_scheduler),
+       library_symbol("hdUnschedule", api.unschedule), library_symbol("hdSetSchedulerRate", api.set_scheduler_rate),
+       library_symbol("hdGetString", api.get_string, false)});
   return api;
 }
 

@@ -59,7 +59,7 @@ struct Api {
   const char* (*get_string)(unsigned);  // null in drivers without it
 };
 
-// The driver from `library`, or, if that is empty, the system's libHD.so. Throws Error as load_driver does.
+// The driver from `library`, or, if that is empty, the system's libHD.so. Throws Error as load_library does.
 Api load_api(const std::string& library);
 
 // An error code in words.

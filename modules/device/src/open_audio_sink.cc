@@ -8,6 +8,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "check_config.h"
+#include "sdl_functions.h"
 #include "sdl_subsystem.h"
 #include "vibration_voice.h"
 
@@ -31,15 +32,15 @@ class AudioSink final : public VibrationSink {
           {reinterpret_cast<float*>(bytes), static_cast<std::size_t>(count) / sizeof(float)});
     };
     // No change is allowed: what the hardware cannot do SDL converts.
-    device_ = SDL_OpenAudioDevice(config.device.empty() ? nullptr : config.device.c_str(), 0, &wanted, nullptr, 0);
+    device_ = sdl().OpenAudioDevice(config.device.empty() ? nullptr : config.device.c_str(), 0, &wanted, nullptr, 0);
     if (device_ == 0) {
       throw Error("audio: output '" + printable(config.device.empty() ? "default" : config.device) +
                   "' cannot be opened: " + sdl_error());
     }
     info_.name = "audio";
     info_.model = printable(config.device.empty() ? "default output" : config.device) + std::string(" by SDL ") +
-                  SDL_GetCurrentAudioDriver();
-    SDL_PauseAudioDevice(device_, 0);
+                  sdl().GetCurrentAudioDriver();
+    sdl().PauseAudioDevice(device_, 0);
   }
 
   AudioSink(const AudioSink&) = delete;
@@ -51,7 +52,7 @@ class AudioSink final : public VibrationSink {
     if (!closed_) voice_.push(force_N);
   }
 
-  bool working() const noexcept override { return closed_ || SDL_GetAudioDeviceStatus(device_) != SDL_AUDIO_STOPPED; }
+  bool working() const noexcept override { return closed_ || sdl().GetAudioDeviceStatus(device_) != SDL_AUDIO_STOPPED; }
 
   void close() noexcept override {
     if (closed_) return;
@@ -62,7 +63,7 @@ class AudioSink final : public VibrationSink {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     closed_ = true;
-    SDL_CloseAudioDevice(device_);
+    sdl().CloseAudioDevice(device_);
   }
 
   std::string fault() const override { return working() ? "" : "audio: " + info_.model + " is gone"; }

@@ -12,6 +12,7 @@
 #include "asperity/device/spsc_ring.h"
 #include "check_config.h"
 #include "rumble_bands.h"
+#include "sdl_functions.h"
 #include "sdl_subsystem.h"
 #include "soft_limit.h"
 
@@ -26,18 +27,18 @@ class RumbleSink final : public VibrationSink {
   explicit RumbleSink(const RumbleSinkConfig& config)
       : config_(config), sdl_(SDL_INIT_JOYSTICK), bands_(config.high_pass_Hz, config.split_Hz, config.servo_rate_Hz) {
     std::string seen;
-    for (int i = 0; i < SDL_NumJoysticks() && pad_ == nullptr; ++i) {
-      const char* name = SDL_JoystickNameForIndex(i);
+    for (int i = 0; i < sdl().NumJoysticks() && pad_ == nullptr; ++i) {
+      const char* name = sdl().JoystickNameForIndex(i);
       const std::string known = name == nullptr ? "" : name;
       seen += (seen.empty() ? "" : ", ") + printable(known);
       if (known.find(config.device) == std::string::npos) continue;
-      SDL_Joystick* pad = SDL_JoystickOpen(i);
+      SDL_Joystick* pad = sdl().JoystickOpen(i);
       if (pad == nullptr) continue;
-      if (SDL_JoystickHasRumble(pad) == SDL_TRUE) {
+      if (sdl().JoystickHasRumble(pad) == SDL_TRUE) {
         pad_ = pad;
         info_.model = printable(known);
       } else {
-        SDL_JoystickClose(pad);
+        sdl().JoystickClose(pad);
       }
     }
     if (pad_ == nullptr) {
@@ -52,7 +53,7 @@ class RumbleSink final : public VibrationSink {
   RumbleSink& operator=(const RumbleSink&) = delete;
   ~RumbleSink() override {
     close();
-    SDL_JoystickClose(pad_);
+    sdl().JoystickClose(pad_);
   }
 
   const VibrationInfo& info() const noexcept override { return info_; }
@@ -87,8 +88,8 @@ class RumbleSink final : public VibrationSink {
       const auto now = Clock::now();
       if (listen(now - last_force > stale_after && ever_)) last_force = now;
       const bool stale = now - last_force > stale_after;
-      SDL_JoystickUpdate();
-      if (SDL_JoystickGetAttached(pad_) != SDL_TRUE) gone_.store(true, std::memory_order_relaxed);
+      sdl().JoystickUpdate();
+      if (sdl().JoystickGetAttached(pad_) != SDL_TRUE) gone_.store(true, std::memory_order_relaxed);
       // Updates that brought no force leave the motors as they are until that is stale.
       if (stale) {
         drive({});
@@ -100,7 +101,7 @@ class RumbleSink final : public VibrationSink {
       wake_.wait_until(lock, due, [this] { return stop_; });
     }
     drive({});
-    SDL_TLSCleanup();  // what SDL keeps for a thread that it has not made
+    sdl().TLSCleanup();  // what SDL keeps for a thread that it has not made
   }
 
   // Takes what was pushed; true if something was. After a gap nobody felt the step to the first force.
@@ -122,7 +123,7 @@ class RumbleSink final : public VibrationSink {
     const Uint16 low = strength(amplitudes.slow_N), high = strength(amplitudes.fast_N);
     if (low == 0 && high == 0 && resting_) return;
     resting_ = low == 0 && high == 0;
-    SDL_JoystickRumble(pad_, low, high, resting_ ? 0 : kRumble_ms);
+    sdl().JoystickRumble(pad_, low, high, resting_ ? 0 : kRumble_ms);
   }
 
   RumbleSinkConfig config_;

@@ -15,10 +15,10 @@
 #include "asperity/base/text.h"
 #include "asperity/device/supervisor.h"
 #include "asperity/device/velocity_estimator.h"
+#include "asperity/transport/serial_port.h"
 #include "check_config.h"
 #include "io_device.h"
 #include "pantograph.h"
-#include "serial_port.h"
 
 namespace asperity {
 
@@ -45,7 +45,10 @@ void append_float(Bytes& bytes, double value) {
 
 class TwoDiy final : public IoDevice {
  public:
-  explicit TwoDiy(const TwoDiyConfig& config) : IoDevice(config.stall_after_s), config_(config), port_(config.port) {
+  explicit TwoDiy(const TwoDiyConfig& config)
+      : IoDevice(config.stall_after_s),
+        config_(config),
+        port_({config.port, 115200, "2diy: " + printable(config.port, 200), "the board"}) {
     linkage_ = {config.proximal_m, config.distal_m, config.base_m};
     noise_m_ = 2.0 * std::numbers::pi / config.encoder_counts * (config.proximal_m + config.distal_m);
     const double side = config.mirror_x ? -1.0 : 1.0;

@@ -185,7 +185,7 @@ TEST(TwoDiy, RefusalsAreInWords) {
   EXPECT_THAT(message_of({}), HasSubstr("2diy.port"));
   TwoDiyConfig config;
   config.port = "/nowhere/ttyACM0";
-  EXPECT_THAT(message_of(config), HasSubstr("/nowhere/ttyACM0: cannot be opened: No such file"));
+  EXPECT_THAT(message_of(config), HasSubstr("/nowhere/ttyACM0: there is no such port; is the board plugged in?"));
   config.port = "/dev/null";
   EXPECT_THAT(message_of(config), HasSubstr("is not a serial port"));
   FakeTwoDiyBoard board;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 #include "asperity/base/units.h"
 #include "asperity/profile/resample_over_path.h"
 #include "asperity/render/render_step.h"
@@ -20,8 +21,6 @@ namespace asperity {
 using Eigen::Vector3d;
 
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // What was real and what was rendered, one entry a tick in which the scan was in contact.
 struct Ticks {

@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-std::size_t corner_of(const Triangle& tri, std::uint32_t vertex) {
+std::size_t corner_at(const Triangle& tri, std::uint32_t vertex) {
   return tri[0] == vertex ? 0 : tri[1] == vertex ? 1 : 2;
 }
 
@@ -57,14 +57,14 @@ FlatTriangle flatten_over(const TriangleMesh& mesh, std::uint32_t triangle, cons
                           const std::array<std::uint32_t, 2>& edge, std::uint32_t next) {
   const Triangle& old_tri = mesh.triangles[triangle];
   const Triangle& new_tri = mesh.triangles[next];
-  const Vector2d& a = flat.corner[corner_of(old_tri, edge[0])];
-  const Vector2d& b = flat.corner[corner_of(old_tri, edge[1])];
+  const Vector2d& a = flat.corner[corner_at(old_tri, edge[0])];
+  const Vector2d& b = flat.corner[corner_at(old_tri, edge[1])];
   const Vector2d& old_apex = flat.corner[apex_of(old_tri, edge)];
   const double side = cross(b - a, old_apex - a) > 0.0 ? -1.0 : 1.0;
   const std::size_t apex = apex_of(new_tri, edge);
   FlatTriangle out;
-  out.corner[corner_of(new_tri, edge[0])] = a;
-  out.corner[corner_of(new_tri, edge[1])] = b;
+  out.corner[corner_at(new_tri, edge[0])] = a;
+  out.corner[corner_at(new_tri, edge[1])] = b;
   out.corner[apex] =
       lay_beside(mesh.vertices_m[new_tri[apex]], mesh.vertices_m[edge[0]], mesh.vertices_m[edge[1]], a, b, side);
   return out;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/read_obj.h"
 #include "asperity/geometry/triangulate_polygon.h"
@@ -18,7 +19,6 @@ namespace asperity {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr Triangle kNoTriangle{kNoIndex, kNoIndex, kNoIndex};
 
 class ObjParser {

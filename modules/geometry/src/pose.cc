@@ -22,6 +22,10 @@ Eigen::Vector3d log_rotation(const Eigen::Quaterniond& q) {
   return sign * scale * q.vec();
 }
 
+double rotation_between_rad(const Pose& a, const Pose& b) {
+  return log_rotation(a.rotation.conjugate() * b.rotation).norm();
+}
+
 Eigen::Matrix3d skew(const Eigen::Vector3d& a) {
   Eigen::Matrix3d m;
   m << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;

@@ -20,7 +20,7 @@ namespace asperity {
 
 namespace {
 
-constexpr Triangle kNoTriangle{kNoIndex, kNoIndex, kNoIndex};
+constexpr Triangle kNoCorners{kNoIndex, kNoIndex, kNoIndex};
 
 // The number that an object of `extras` holds under a key.
 double extra_number(const tinygltf::Value& object, const char* key, double fallback) {
@@ -46,8 +46,8 @@ class GltfReader {
     materials();
     walk();
     if (mesh_.triangles.empty()) throw Error(name_ + ": holds no triangles");
-    if (!mesh_.texture_corners.empty()) mesh_.texture_corners.resize(mesh_.triangles.size(), kNoTriangle);
-    if (!mesh_.normal_corners.empty()) mesh_.normal_corners.resize(mesh_.triangles.size(), kNoTriangle);
+    if (!mesh_.texture_corners.empty()) mesh_.texture_corners.resize(mesh_.triangles.size(), kNoCorners);
+    if (!mesh_.normal_corners.empty()) mesh_.normal_corners.resize(mesh_.triangles.size(), kNoCorners);
     if (!mesh_.haptic.empty()) mesh_.haptic.resize(mesh_.triangles.size());
     return std::move(mesh_);
   }
@@ -258,7 +258,7 @@ class GltfReader {
 
   static void add_corners(const std::vector<Triangle>& triangles, std::size_t before, std::size_t offset,
                           std::vector<Triangle>& corners) {
-    corners.resize(before, kNoTriangle);
+    corners.resize(before, kNoCorners);
     const auto shift = static_cast<std::uint32_t>(offset);
     for (const Triangle& t : triangles) corners.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
   }

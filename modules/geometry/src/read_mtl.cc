@@ -14,7 +14,7 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t kMaxLine = 64 * 1024;
+constexpr std::size_t kMaxMaterialLine = 64 * 1024;
 
 bool is_number(std::string_view word) { return parse_double(word).has_value(); }
 
@@ -34,7 +34,7 @@ std::size_t option_words(std::string_view option, std::string_view rest) {
 class MtlParser {
  public:
   MtlParser(std::string_view text, const std::string& name)
-      : lines_(text, name, kMaxLine), problems_(library_.problems) {}
+      : lines_(text, name, kMaxMaterialLine), problems_(library_.problems) {}
 
   MaterialLibrary parse() {
     while (lines_.next()) statement();

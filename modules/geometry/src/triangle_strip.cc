@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::uint32_t kPointsPerEdge = 3;
-constexpr std::uint32_t kNone = MeshAdjacency::kNone;
+constexpr std::uint32_t kNoNode = MeshAdjacency::kNone;
 
 Vector3d edge_point(const TriangleMesh& mesh, const MeshAdjacency& adjacency, std::uint32_t node) {
   const auto [a, b] = adjacency.edge_vertices[node / kPointsPerEdge];
@@ -30,8 +30,8 @@ TriangleStrip find_strip(const TriangleMesh& mesh, const MeshAdjacency& adjacenc
   if (from.triangle == to.triangle) return {{from.triangle}, {}};
   struct Reached {
     double length_m = std::numeric_limits<double>::infinity();
-    std::uint32_t before = kNone;
-    std::uint32_t through = kNone;  // the triangle by which the node was reached
+    std::uint32_t before = kNoNode;
+    std::uint32_t through = kNoNode;  // the triangle by which the node was reached
     bool done = false;
   };
   std::unordered_map<std::uint32_t, Reached> nodes;
@@ -48,7 +48,7 @@ TriangleStrip find_strip(const TriangleMesh& mesh, const MeshAdjacency& adjacenc
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   const auto reach_edges_of = [&](std::uint32_t triangle, std::uint32_t last, const Vector3d& p, double so_far_m) {
     for (const std::uint32_t edge : adjacency.edge_of_triangle[triangle]) {
-      if (edge == kNone || (last != kNone && edge == last / kPointsPerEdge)) continue;
+      if (edge == kNoNode || (last != kNoNode && edge == last / kPointsPerEdge)) continue;
       for (std::uint32_t node = edge * kPointsPerEdge; node < (edge + 1) * kPointsPerEdge; ++node) {
         const Vector3d q = edge_point(mesh, adjacency, node);
         const double reached_m = so_far_m + (q - p).norm();
@@ -61,9 +61,9 @@ TriangleStrip find_strip(const TriangleMesh& mesh, const MeshAdjacency& adjacenc
       }
     }
   };
-  reach_edges_of(from.triangle, kNone, start, 0.0);
+  reach_edges_of(from.triangle, kNoNode, start, 0.0);
   double best_m = std::numeric_limits<double>::infinity();
-  std::uint32_t last = kNone;
+  std::uint32_t last = kNoNode;
   while (!queue.empty() && queue.top().least_m < best_m) {
     const std::uint32_t node = queue.top().node;
     queue.pop();
@@ -80,12 +80,12 @@ TriangleStrip find_strip(const TriangleMesh& mesh, const MeshAdjacency& adjacenc
       if (triangle != came_through) reach_edges_of(triangle, node, p, so_far_m);
     }
   }
-  if (last == kNone) {
+  if (last == kNoNode) {
     throw Error("mesh: no triangles connect triangle " + std::to_string(from.triangle) + " with triangle " +
                 std::to_string(to.triangle));
   }
   TriangleStrip strip{{to.triangle}, {}};
-  for (std::uint32_t node = last; node != kNone; node = nodes[node].before) {
+  for (std::uint32_t node = last; node != kNoNode; node = nodes[node].before) {
     strip.edges.push_back(node / kPointsPerEdge);
     strip.faces.push_back(nodes[node].through);
   }

@@ -11,10 +11,10 @@ namespace asperity {
 
 namespace {
 
-[[noreturn]] void fail(const std::string& message) { throw Error("OBJ: " + message); }
+[[noreturn]] void refuse_obj(const std::string& message) { throw Error("OBJ: " + message); }
 
 void append_finite(std::string& out, double value, const char* what) {
-  if (!std::isfinite(value)) fail(std::string(what) + " is not finite: " + number_text(value));
+  if (!std::isfinite(value)) refuse_obj(std::string(what) + " is not finite: " + number_text(value));
   append_number(out, value);
 }
 
@@ -25,7 +25,7 @@ void append_decimal(std::string& out, double value) {
   if (out.find_first_of(".e", begin) == std::string::npos) out += ".0";
 }
 
-void append_vector(std::string& out, const Eigen::Vector3d& vector, const char* what) {
+void append_numbers(std::string& out, const Eigen::Vector3d& vector, const char* what) {
   for (int i = 0; i < 3; ++i) {
     out += ' ';
     append_finite(out, vector[i], what);
@@ -36,15 +36,15 @@ void append_vertices(std::string& out, const MeshFile& mesh) {
   out += "## vertices\n";
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     out += 'v';
-    append_vector(out, mesh.vertices[i], "a vertex");
+    append_numbers(out, mesh.vertices[i], "a vertex");
     const bool has_w = !mesh.vertex_w.empty() && !std::isnan(mesh.vertex_w[i]);
     const bool has_colour = !mesh.vertex_colours.empty() && !std::isnan(mesh.vertex_colours[i][0]);
-    if (has_w && has_colour) fail("vertex " + std::to_string(i) + " has a fourth number and a colour");
+    if (has_w && has_colour) refuse_obj("vertex " + std::to_string(i) + " has a fourth number and a colour");
     if (has_w) {
       out += ' ';
       append_finite(out, mesh.vertex_w[i], "a vertex's fourth number");
     }
-    if (has_colour) append_vector(out, mesh.vertex_colours[i], "a vertex's colour");
+    if (has_colour) append_numbers(out, mesh.vertex_colours[i], "a vertex's colour");
     out += '\n';
   }
 }
@@ -70,7 +70,7 @@ void append_normals(std::string& out, const MeshFile& mesh) {
   out += "## normals\n";
   for (const Eigen::Vector3d& normal : mesh.normals) {
     out += "vn";
-    append_vector(out, normal, "a normal");
+    append_numbers(out, normal, "a normal");
     out += '\n';
   }
 }
@@ -78,7 +78,7 @@ void append_normals(std::string& out, const MeshFile& mesh) {
 void append_name(std::string& out, const char* keyword, std::string_view name) {
   const bool fits = name.find_first_of(std::string_view("\n\r\0", 3)) == std::string_view::npos && trim(name) == name &&
                     !name.ends_with('\\');
-  if (!fits) fail("a name cannot be written: '" + printable(name) + "'");
+  if (!fits) refuse_obj("a name cannot be written: '" + printable(name) + "'");
   out += keyword;
   if (!name.empty()) out += ' ';
   out += name;
@@ -89,7 +89,7 @@ template <class Table>
 std::string_view name_of(const Table& names, std::int32_t index) {
   if (index < 0) return {};
   if (static_cast<std::size_t>(index) >= names.size())
-    fail("a part names entry " + std::to_string(index) + " of " + std::to_string(names.size()));
+    refuse_obj("a part names entry " + std::to_string(index) + " of " + std::to_string(names.size()));
   if constexpr (std::is_same_v<typename Table::value_type, MeshMaterial>) {
     return names[static_cast<std::size_t>(index)].name;
   } else {
@@ -108,7 +108,7 @@ void append_part(std::string& out, const MeshFile& mesh, const MeshPart& before,
 }
 
 void append_index(std::string& out, std::uint32_t index, std::size_t count, const char* what) {
-  if (index >= count) fail(std::string(what) + " " + std::to_string(index) + " of " + std::to_string(count));
+  if (index >= count) refuse_obj(std::string(what) + " " + std::to_string(index) + " of " + std::to_string(count));
   append_number(out, static_cast<std::int64_t>(index) + 1);
 }
 
@@ -116,7 +116,8 @@ bool has_corners(const std::vector<Triangle>& corners, std::size_t triangle) {
   if (corners.empty()) return false;
   const Triangle& c = corners[triangle];
   const auto none = std::count(c.begin(), c.end(), kNoIndex);
-  if (none != 0 && none != 3) fail("triangle " + std::to_string(triangle) + " has an attribute at some corners only");
+  if (none != 0 && none != 3)
+    refuse_obj("triangle " + std::to_string(triangle) + " has an attribute at some corners only");
   return none == 0;
 }
 
@@ -154,7 +155,7 @@ void append_haptic(std::string& out, const MeshFile& mesh) {
   if (mesh.haptic.empty()) return;
   out += "## haptic texture coordinates\n";
   for (const HapticTriangle& triangle : mesh.haptic) {
-    if (triangle.texture < -1) fail("texture index " + std::to_string(triangle.texture));
+    if (triangle.texture < -1) refuse_obj("texture index " + std::to_string(triangle.texture));
     out += "h ";
     append_number(out, static_cast<std::int64_t>(triangle.texture));
     for (const Eigen::Vector2d& xy : triangle.xy_mm) {
@@ -169,7 +170,7 @@ void append_haptic(std::string& out, const MeshFile& mesh) {
 
 void require_length(std::size_t length, std::size_t expected, const char* what) {
   if (length != 0 && length != expected) {
-    fail(std::to_string(length) + " " + what + " where " + std::to_string(expected) + " are needed");
+    refuse_obj(std::to_string(length) + " " + what + " where " + std::to_string(expected) + " are needed");
   }
 }
 

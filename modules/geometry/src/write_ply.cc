@@ -10,7 +10,7 @@ namespace asperity {
 
 namespace {
 
-void append_vector(std::string& out, const Eigen::Vector3d& vector) {
+void append_ply_vector(std::string& out, const Eigen::Vector3d& vector) {
   if (!vector.allFinite()) throw Error("PLY: a number of a vertex is not finite");
   for (int i = 0; i < 3; ++i) append_little(out, vector[i]);
 }
@@ -28,8 +28,8 @@ std::string format_ply(const MeshFile& mesh) {
          "\nproperty list uchar uint vertex_indices\nend_header\n";
   out.reserve(out.size() + (colours ? 48 : 24) * mesh.vertices.size() + 13 * mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    append_vector(out, mesh.vertices[i]);
-    if (colours) append_vector(out, mesh.vertex_colours[i]);
+    append_ply_vector(out, mesh.vertices[i]);
+    if (colours) append_ply_vector(out, mesh.vertex_colours[i]);
   }
   for (const Triangle& triangle : mesh.triangles) {
     out += '\3';

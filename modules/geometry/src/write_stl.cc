@@ -13,7 +13,7 @@ namespace asperity {
 
 namespace {
 
-void append_vector(std::string& out, const Eigen::Vector3d& vector) {
+void append_stl_vector(std::string& out, const Eigen::Vector3d& vector) {
   for (int i = 0; i < 3; ++i) {
     const auto value = static_cast<float>(vector[i]);
     if (!std::isfinite(value)) throw Error("STL: " + number_text(vector[i]) + " cannot be written as float32");
@@ -37,8 +37,8 @@ std::string format_stl(const MeshFile& mesh) {
     }
     const Eigen::Vector3d normal =
         (corners[1] - corners[0]).stableNormalized().cross((corners[2] - corners[0]).stableNormalized());
-    append_vector(out, normal.stableNormalized());
-    for (const Eigen::Vector3d& corner : corners) append_vector(out, corner);
+    append_stl_vector(out, normal.stableNormalized());
+    for (const Eigen::Vector3d& corner : corners) append_stl_vector(out, corner);
     append_little(out, std::uint16_t{0});
   }
   return out;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "asperity/base/nan.h"
 #include "asperity/profile/causal_base.h"
 #include "asperity/profile/causal_contact.h"
 #include "asperity/profile/causal_grid.h"
@@ -19,7 +20,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min() / 2;
 constexpr double kBandOverCutoff = 4.0;  // where the high-pass' group delay is stated
 

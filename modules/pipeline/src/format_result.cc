@@ -11,7 +11,7 @@ namespace asperity {
 
 namespace {
 
-double span_s(const std::vector<std::int64_t>& t_ns) {
+double stream_span_s(const std::vector<std::int64_t>& t_ns) {
   return t_ns.size() < 2 ? 0.0 : static_cast<double>(t_ns.back() - t_ns.front()) * kNanosecond_s;
 }
 
@@ -121,7 +121,7 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
   out["method"] = kMethodNames.at(static_cast<std::size_t>(config.method));
   out["trustworthy"] = result.trustworthy;
   out["verdict"] = result.verdict;
-  out["duration_s"] = span_s(result.trajectory.motion.t_ns);
+  out["duration_s"] = stream_span_s(result.trajectory.motion.t_ns);
   out["samples"] = {{"probe", recording.probe.size()},
                     {"tracker", recording.tracker.size()},
                     {"motion", result.trajectory.motion.size()},

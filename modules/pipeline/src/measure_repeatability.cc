@@ -5,13 +5,12 @@
 #include <string>
 
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 #include "asperity/base/units.h"
 
 namespace asperity {
 
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 MeanAndSpread mean_and_spread(std::span<const double> values) {
   MeanAndSpread out;

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "asperity/base/csv.h"
+#include "asperity/base/nan.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/texture/texture_file.h"
@@ -18,7 +19,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kCell_bytes = 22;  // most shortest doubles with their comma; only reserves memory
 
 void append_cells(std::string& out, std::initializer_list<double> cells) {

@@ -5,13 +5,13 @@
 #include <limits>
 
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 
 namespace asperity {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kMostHoles = 400'000;  // points; a wider hole begins the numbering anew there
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 #include "asperity/base/units.h"
 #include "asperity/profile/extract_texture.h"
 #include "asperity/profile/resample_over_path.h"
@@ -16,7 +17,6 @@ namespace asperity {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kStopWander_m = 0.3e-3;   // s moves by its slow error even when the tip rests
 constexpr double kStopEdge_s = 0.25;       // of a long stop, what still belongs to the stroke beside it
 constexpr std::ptrdiff_t kSpeedReach = 4;  // cells to either side over which the speed is taken

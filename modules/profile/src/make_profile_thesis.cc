@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 #include "asperity/base/units.h"
 #include "asperity/profile/blend_acceleration.h"
 #include "asperity/profile/force_scale.h"
@@ -19,8 +20,6 @@
 
 namespace asperity {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double uniform_period_s(const TipMotion& motion) {
   if (motion.size() < 2) throw Error(fmt::format("the motion has {} samples; a profile needs two", motion.size()));

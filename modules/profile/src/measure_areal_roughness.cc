@@ -9,6 +9,7 @@
 #include <Eigen/QR>
 
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 
 namespace asperity {
@@ -101,7 +102,6 @@ ArealRoughnessResult measure_areal_roughness(const ArealMap& map, const ArealRou
   result.Sv_m = -low;
   result.Sz_m = high - low;
   const bool flat = result.Sq_m == 0.0;
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   result.Ssk = flat ? kNan : sum3 / count / (result.Sq_m * result.Sq_m * result.Sq_m);
   result.Sku = flat ? kNan : sum4 / count / (result.Sq_m * result.Sq_m * result.Sq_m * result.Sq_m);
   return result;

@@ -8,14 +8,13 @@
 #include <string>
 
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 #include "asperity/profile/gaussian_filter.h"
 #include "profile_features.h"
 
 namespace asperity {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t count_missing(std::span<const double> z) {
   return static_cast<std::size_t>(std::count_if(z.begin(), z.end(), [](double v) { return std::isnan(v); }));

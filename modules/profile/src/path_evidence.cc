@@ -10,9 +10,9 @@ namespace asperity {
 
 namespace {
 
-constexpr double kPathRate_hz = 200.0;
+constexpr double kEvidenceRate_hz = 200.0;
 constexpr double kWindow_m = 10e-3;  // four periods of a 2.5 mm texture
-constexpr double kSpeedCutoff_hz = 3.0;
+constexpr double kEvidenceSpeedCutoff_hz = 3.0;
 constexpr double kFineCutoff_hz = 15.0;    // above the hand's tremor
 constexpr double kSlowBandwidth_hz = 1.0;  // of the tracker's error after smoothing
 
@@ -21,9 +21,9 @@ constexpr double kSlowBandwidth_hz = 1.0;  // of the tracker's error after smoot
 PathEvidence gather_evidence(const TipMotion& motion, std::span<const double> t_s, std::span<const char> contact,
                              const Eigen::Vector3d& tip_in_marker_m, const BasePathConfig& config) {
   PathEvidence out;
-  out.path = space_evenly<3>(t_s, std::span<const Eigen::Vector3d>(motion.p_world_tip_m), kPathRate_hz);
+  out.path = space_evenly<3>(t_s, std::span<const Eigen::Vector3d>(motion.p_world_tip_m), kEvidenceRate_hz);
   const std::size_t cells = out.path.size();
-  const EvenPath<3> smooth = low_pass(out.path, kSpeedCutoff_hz);
+  const EvenPath<3> smooth = low_pass(out.path, kEvidenceSpeedCutoff_hz);
   const EvenPath<3> slow = low_pass(out.path, kFineCutoff_hz);
 
   out.force_measured =

@@ -9,13 +9,13 @@
 #include <string>
 
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 
 namespace asperity {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMostPoints = 10'000'000;
 constexpr int kFiner = 4;
 constexpr int kHalfTaps = 32;  // eight cells of the profile to either side

@@ -32,7 +32,7 @@ std::vector<T> cut(const std::vector<T>& column, const Rows& rows) {
           column.begin() + static_cast<std::ptrdiff_t>(rows.last)};
 }
 
-std::vector<Segment> joined(std::vector<Segment> segments) {
+std::vector<Segment> join_near_segments(std::vector<Segment> segments) {
   std::stable_sort(segments.begin(), segments.end(),
                    [](const Segment& a, const Segment& b) { return a.start_ns < b.start_ns; });
   std::vector<Segment> out;
@@ -95,7 +95,7 @@ Recording cut_recording(const Recording& recording, std::int64_t start_ns, std::
 
 std::vector<Segment> separate_segments(const Recording& recording) {
   if (recording.info.recorder) return recording.info.segments;
-  std::vector<Segment> out = joined(recording.info.segments);
+  std::vector<Segment> out = join_near_segments(recording.info.segments);
   if (out.size() < 2) out.clear();
   return out;
 }

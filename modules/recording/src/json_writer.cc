@@ -98,9 +98,9 @@ void JsonWriter::matrix(std::string_view key, const Eigen::Matrix<double, 3, Eig
   out_ += ']';
 }
 
-void JsonWriter::raw(std::string_view key, std::string_view json) {
+void JsonWriter::raw(std::string_view key, std::string_view value_json) {
   next(key);
-  out_ += json;
+  out_ += value_json;
 }
 
 void JsonWriter::begin_object(std::string_view key) {

@@ -15,7 +15,7 @@ namespace asperity {
 namespace {
 
 // The segments as spans that rise and do not touch.
-std::vector<Segment> joined(std::vector<Segment> segments) {
+std::vector<Segment> merge_overlapping(std::vector<Segment> segments) {
   std::sort(segments.begin(), segments.end(),
             [](const Segment& a, const Segment& b) { return a.start_ns < b.start_ns; });
   std::vector<Segment> out;
@@ -59,7 +59,7 @@ bool pass_rows(const std::filesystem::path& path, const std::vector<Segment>& sp
 }  // namespace
 
 void keep_rows(const std::filesystem::path& path, const std::vector<Segment>& segments) {
-  const std::vector<Segment> spans = joined(segments);
+  const std::vector<Segment> spans = merge_overlapping(segments);
   if (!pass_rows(path, spans, [](const std::string&) {})) return;
   constexpr std::size_t kBatch_bytes = std::size_t{1} << 20;
   OutputFile out(path);

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "asperity/base/nan.h"
 #include "asperity/recording/parse.h"
 #include "csv_rows.h"
 #include "pose_rows.h"
@@ -7,8 +8,6 @@
 namespace asperity {
 
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // A sensor slower than the rows may have no sample here, but not half of one.
 Eigen::Vector3d slow_sample(const CsvReader& csv, const Columns3& columns, double limit, RowProblems& problems) {

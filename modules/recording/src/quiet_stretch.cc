@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "asperity/base/nan.h"
 #include "asperity/base/units.h"
 
 namespace asperity {
 
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 struct Moments {
   Eigen::Vector3d mean = Eigen::Vector3d::Constant(kNan);

@@ -9,7 +9,7 @@ namespace asperity::registration {
 namespace {
 
 // Relative to the points' radius: the direction of a shorter offset is rounding.
-constexpr double kRounding = 1e-10;
+constexpr double kMatchRounding = 1e-10;
 // An offset from the closest point that leans farther than this (as a cosine) from the normal means that the closest
 // point lies on an edge: the distance then grows along the offset.
 constexpr double kEdgeCos = 0.95;
@@ -33,7 +33,7 @@ Matcher::Matcher(const RegistrationSurface& surface, const PointSet& points, std
       chosen_(chosen.begin(), chosen.end()),
       closest_(chosen.size()),
       matches_(chosen.size()) {
-  rounding_m_ = kRounding * (points.radius_m + points.mean_world_m.norm());
+  rounding_m_ = kMatchRounding * (points.radius_m + points.mean_world_m.norm());
   x_m_.reserve(chosen.size());
   outward_.reserve(chosen.size());
   scratch_.reserve(chosen.size());

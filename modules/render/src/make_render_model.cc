@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/corner_normals.h"
 #include "asperity/geometry/mesh_adjacency.h"
@@ -21,8 +22,6 @@ namespace asperity {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 void require(bool good, const char* what, double value) {
   if (!good) throw Error(std::string("rendering: ") + what + ": " + number_text(value));

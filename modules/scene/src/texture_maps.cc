@@ -1,18 +1,17 @@
 #include "asperity/scene/texture_maps.h"
 
-#include <png.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <vector>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/image/png_image.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/evaluate_height_map.h"
+#include "asperity/texture/format_height_image.h"
 #include "asperity/texture/make_height_map.h"
-#include "asperity/texture/png_image.h"
 
 namespace asperity {
 namespace {
@@ -37,10 +36,10 @@ HeightMap heights_of(const Texture& texture, const TextureMapsConfig& config) {
 }  // namespace
 
 std::string format_normal_png(const HeightMap& heights) {
-  std::vector<png_uint_16> samples;
+  std::vector<std::uint16_t> samples;
   samples.reserve(3 * heights.columns * heights.rows);
   const auto encode = [&samples](double component) {
-    samples.push_back(static_cast<png_uint_16>(std::lround((component * 0.5 + 0.5) * 65535.0)));
+    samples.push_back(static_cast<std::uint16_t>(std::lround((component * 0.5 + 0.5) * 65535.0)));
   };
   for (std::size_t row = 0; row < heights.rows; ++row) {
     for (std::size_t column = 0; column < heights.columns; ++column) {
@@ -52,28 +51,13 @@ std::string format_normal_png(const HeightMap& heights) {
       encode(scale);
     }
   }
-  png_image image;
-  std::memset(&image, 0, sizeof image);
-  image.version = PNG_IMAGE_VERSION;
-  image.width = static_cast<png_uint_32>(heights.columns);
-  image.height = static_cast<png_uint_32>(heights.rows);
-  image.format = PNG_FORMAT_LINEAR_RGB;
-  png_alloc_size_t size = 0;
-  std::string out;
-  if (png_image_write_to_memory(&image, nullptr, &size, 0, samples.data(), 0, nullptr) != 0) {
-    out.resize(size);
-    if (png_image_write_to_memory(&image, out.data(), &size, 0, samples.data(), 0, nullptr) != 0) {
-      out.resize(size);
-      return out;
-    }
-  }
-  throw Error(std::string("images: libpng: ") + image.message);
+  return format_rgb_png(static_cast<int>(heights.columns), static_cast<int>(heights.rows), samples);
 }
 
 TextureMaps make_texture_maps(const Texture& texture, const TextureMapsConfig& config) {
   TextureMaps out;
   out.heights = heights_of(texture, config);
-  out.height_png = format_png({out.heights.columns, out.heights.rows, out.heights.bits, out.heights.level});
+  out.height_png = format_height_image(out.heights);
   out.normal_png = format_normal_png(out.heights);
   out.size_mm = {out.heights.mm_per_px_x * static_cast<double>(out.heights.columns),
                  out.heights.mm_per_px_y * static_cast<double>(out.heights.rows)};

@@ -11,6 +11,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/geometry/mesh_adjacency.h"
+#include "asperity/image/png_image.h"
 #include "asperity/scene/displace_mesh.h"
 #include "asperity/scene/export_scene.h"
 #include "asperity/scene/format_wav.h"
@@ -18,7 +19,6 @@
 #include "asperity/scene/paint.h"
 #include "asperity/scene/texture_maps.h"
 #include "asperity/testkit/shape_meshes.h"
-#include "asperity/texture/png_image.h"
 
 namespace asperity {
 namespace {
@@ -43,13 +43,13 @@ std::uint32_t number_at(const std::string& data, std::size_t at, int bytes) {
 TEST(TextureMaps, AreTheTexturesHeightsAndSlopes) {
   const TextureMaps maps = make_texture_maps(cosine());
   EXPECT_NEAR(maps.size_mm.x(), 10.0, 1e-12);
-  const GreyImage image = parse_png(maps.height_png, "heights");
+  const DeepGrayImage image = parse_png(maps.height_png, "heights");
   EXPECT_EQ(image.bits, 16);
-  ASSERT_EQ(image.columns, maps.heights.columns);
+  ASSERT_EQ(static_cast<std::size_t>(image.width), maps.heights.columns);
   const double range_m = maps.heights.high_m - maps.heights.low_m;
-  for (std::size_t c = 0; c < image.columns; ++c) {
-    const double x_mm = 10.0 * static_cast<double>(c) / static_cast<double>(image.columns);
-    const double height_m = maps.heights.low_m + image.level[c] / 65535.0 * range_m;
+  for (int c = 0; c < image.width; ++c) {
+    const double x_mm = 10.0 * c / image.width;
+    const double height_m = maps.heights.low_m + image.at(c, 0) / 65535.0 * range_m;
     EXPECT_NEAR(height_m, 1e-4 * std::cos(2.0 * M_PI * x_mm / 2.5), range_m / 65535.0);
   }
   EXPECT_EQ(maps.normal_png.substr(1, 3), "PNG");

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 
 namespace asperity {
@@ -26,7 +27,6 @@ void check_samples(std::span<const double> t, std::span<const double> x) {
 template <class At>
 std::vector<double> interpolate_rising(std::span<const double> t, std::span<const double> x, std::size_t count,
                                        double max_step, At at) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> out(count, kNan);
   std::size_t k = 0;  // t[k] <= point < t[k+1]
   for (std::size_t i = 0; i < count; ++i) {

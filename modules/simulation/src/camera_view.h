@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "asperity/geometry/pose.h"
-#include "asperity/recording/gray_image.h"
+#include "asperity/image/gray_image.h"
 #include "asperity/simulation/render_tags.h"
 #include "asperity/simulation/simulated_camera_config.h"
 #include "coverage_raster.h"

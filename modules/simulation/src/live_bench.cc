@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "asperity/base/error.h"
-#include "asperity/recording/y4m.h"
+#include "asperity/image/y4m.h"
 #include "asperity/simulation/bench_camera.h"
 #include "asperity/simulation/link_faults.h"
 #include "asperity/simulation/probe_device.h"

@@ -13,16 +13,16 @@ namespace asperity {
 
 namespace {
 
-constexpr double kSpacing_m = 25e-6;
-constexpr double kMargin_m = 3e-3;
+constexpr double kTruthSpacing_m = 25e-6;
+constexpr double kTruthMargin_m = 3e-3;
 constexpr double kWindow_m = 1e-3;  // the foot is no further from its place on the path than a lateral deviation
 
 }  // namespace
 
 MeshBasePath lay_on_mesh(const MeshBase& base, const ScanPath& path) {
   MeshBasePath out;
-  const auto margin = static_cast<std::ptrdiff_t>(kMargin_m / kSpacing_m);
-  const auto count = static_cast<std::ptrdiff_t>(std::ceil(path.length_m() / kSpacing_m));
+  const auto margin = static_cast<std::ptrdiff_t>(kTruthMargin_m / kTruthSpacing_m);
+  const auto count = static_cast<std::ptrdiff_t>(std::ceil(path.length_m() / kTruthSpacing_m));
   const double step_m = path.length_m() / static_cast<double>(count);
   const Pose T_mesh_world = base.T_world_mesh().inverse();
   out.p_mesh_m.reserve(static_cast<std::size_t>(count + 2 * margin + 1));

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "noise_bandwidth.h"
+#include "normal_vector.h"
 #include "streams.h"
 
 namespace asperity {
@@ -13,12 +14,6 @@ namespace {
 constexpr double kFirstSample_s = 1e-3;
 
 std::uint64_t seed_of(const SimulationConfig& config) { return static_cast<std::uint64_t>(config.seed); }
-
-Eigen::Vector3d normal3(Random& random) {
-  const double x = random.normal();
-  const double y = random.normal();
-  return {x, y, random.normal()};
-}
 
 // The length of a burst with the given mean, at least 1, geometric.
 std::int64_t burst(double mean, Random& random) {
@@ -110,13 +105,13 @@ void ProbeSampler::take(const Signal& signal, const MotionState& before, const M
 
   const double accel_sigma = config_.accel_noise_mps2_per_rtHz *
                              std::sqrt(noise_bandwidth_Hz(config_.accel_bandwidth_Hz, config_.accel_poles, rate_Hz));
-  const Eigen::Vector3d f_mps2 = signal.specific_force_mps2 + accel_sigma * normal3(accel_noise_);
+  const Eigen::Vector3d f_mps2 = signal.specific_force_mps2 + accel_sigma * normal_vector(accel_noise_);
   Eigen::Vector3d accel = calibration_.accelerometer.B * f_mps2 + calibration_.accelerometer.C;
   Eigen::Vector3d gyro = Eigen::Vector3d::Zero();
   if (calibration_.gyroscope) {
     const double gyro_sigma = config_.gyro_noise_radps_per_rtHz *
                               std::sqrt(noise_bandwidth_Hz(config_.gyro_bandwidth_Hz, config_.accel_poles, rate_Hz));
-    const Eigen::Vector3d omega_radps = signal.omega_radps + gyro_sigma * normal3(gyro_noise_);
+    const Eigen::Vector3d omega_radps = signal.omega_radps + gyro_sigma * normal_vector(gyro_noise_);
     gyro = calibration_.gyroscope->B * omega_radps + calibration_.gyroscope->C;
   }
   double force = std::numeric_limits<double>::quiet_NaN();

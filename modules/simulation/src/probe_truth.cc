@@ -7,6 +7,7 @@
 #include "asperity/base/random.h"
 #include "asperity/base/units.h"
 #include "noise_bandwidth.h"
+#include "normal_vector.h"
 #include "streams.h"
 
 namespace asperity {
@@ -22,12 +23,6 @@ constexpr double kGyroOffset_dps = 0.5;
 constexpr double kForceOffset_N = 0.2;
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kRounding_counts = 0.28867513459481287;  // 1/√12
-
-Eigen::Vector3d normal3(Random& random) {
-  const double x = random.normal();
-  const double y = random.normal();
-  return {x, y, random.normal()};
-}
 
 Eigen::Matrix3d near_identity(Random& random) {
   Eigen::Matrix3d m;
@@ -62,7 +57,7 @@ Calibration make_probe_truth(const SimulatedProbeConfig& probe, const SimulatedT
   } else {
     const double scale = kAccelCountsPerG / kStandardGravity_mps2;
     B = scale * near_identity(random);
-    truth.accelerometer.C = scale * kAccelOffset_mps2 * normal3(random);
+    truth.accelerometer.C = scale * kAccelOffset_mps2 * normal_vector(random);
     truth.force.newton_per_count = kForceNewtonPerCount;
     truth.force.offset_newton = kForceOffset_N * random.normal();
   }
@@ -70,7 +65,7 @@ Calibration make_probe_truth(const SimulatedProbeConfig& probe, const SimulatedT
   if (probe.gyroscope) {
     GyroscopeCalibration gyroscope;
     gyroscope.B = kGyroCountsPerDps / kDegree_rad * near_identity(random);
-    gyroscope.C = kGyroCountsPerDps * kGyroOffset_dps * normal3(random);
+    gyroscope.C = kGyroCountsPerDps * kGyroOffset_dps * normal_vector(random);
     truth.gyroscope = gyroscope;
   }
   const double rounding = probe.quantise ? kRounding_counts : 0.0;
@@ -109,8 +104,8 @@ Calibration make_stated_calibration(const Calibration& truth, const SimulatedPro
   }
   stated.force.newton_per_count *= 1.0 + factor * config.force_scale * random.normal();
   stated.force.offset_newton += factor * config.force_offset_N * random.normal();
-  const Eigen::Vector3d tip_error_m = factor * config.tip_m * normal3(random);
-  const Eigen::Vector3d sensor_error_m = factor * config.sensor_m * normal3(random);
+  const Eigen::Vector3d tip_error_m = factor * config.tip_m * normal_vector(random);
+  const Eigen::Vector3d sensor_error_m = factor * config.sensor_m * normal_vector(random);
   const bool at_tip = probe.sensor_in_marker_m == probe.tip_in_marker_m;
   stated.tip_in_marker_m += tip_error_m;
   if (at_tip) {

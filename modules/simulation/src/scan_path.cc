@@ -9,7 +9,7 @@ namespace asperity {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kSpacing_m = 0.05e-3;
+constexpr double kPathSpacing_m = 0.05e-3;
 constexpr int kWaves = 3;
 constexpr double kShortestWander_m = 0.04;  // a hand's slow deviation, longer than any relief
 constexpr double kLongestWander_m = 0.25;
@@ -41,11 +41,11 @@ double arc_angle(double length_m, double sagitta_m) {
 }  // namespace
 
 ScanPath::ScanPath(const HandConfig& config, Random& random) {
-  const bool to_and_fro = config.path == HandPath::kBackAndForth;
+  const bool to_and_fro = config.path == HandPathShape::kBackAndForth;
   const int strokes = to_and_fro ? config.strokes : 1;
   const double turn_m = to_and_fro ? config.row_spacing_m / turn_width_per_length() : 0.0;
   length_m_ = strokes * config.length_m + (strokes - 1) * turn_m;
-  const double arc = config.path == HandPath::kCurved ? arc_angle(config.length_m, config.curve_sagitta_m) : 0.0;
+  const double arc = config.path == HandPathShape::kCurved ? arc_angle(config.length_m, config.curve_sagitta_m) : 0.0;
 
   std::array<double, kWaves> per_m{}, slope{}, phase{};
   for (std::size_t k = 0; k < kWaves; ++k) {
@@ -56,7 +56,7 @@ ScanPath::ScanPath(const HandConfig& config, Random& random) {
   const auto angle = [&](double s_m) {
     double sum = 0.0;
     for (std::size_t k = 0; k < kWaves; ++k) sum += slope[k] * std::cos(per_m[k] * s_m + phase[k]);
-    if (config.path == HandPath::kCurved) return sum + arc * (0.5 - s_m / length_m_);
+    if (config.path == HandPathShape::kCurved) return sum + arc * (0.5 - s_m / length_m_);
     if (!to_and_fro) return sum;
     const double period_m = config.length_m + turn_m;
     const int row = std::min(static_cast<int>(s_m / period_m), strokes - 1);
@@ -69,18 +69,18 @@ ScanPath::ScanPath(const HandConfig& config, Random& random) {
     return sum + turned;
   };
 
-  const auto count = static_cast<std::size_t>(std::ceil(length_m_ / kSpacing_m)) + 1;
+  const auto count = static_cast<std::size_t>(std::ceil(length_m_ / kPathSpacing_m)) + 1;
   nodes_.reserve(count);
   ScanPoint point;
   point.angle_rad = angle(0.0);
   nodes_.push_back(point);
   for (std::size_t i = 1; i < count; ++i) {
-    const double s_m = kSpacing_m * static_cast<double>(i);
-    const double middle = angle(std::min(s_m - 0.5 * kSpacing_m, length_m_));
+    const double s_m = kPathSpacing_m * static_cast<double>(i);
+    const double middle = angle(std::min(s_m - 0.5 * kPathSpacing_m, length_m_));
     const double end = angle(std::min(s_m, length_m_));
     // Simpson's rule.
-    point.a_m += kSpacing_m / 6.0 * (std::cos(point.angle_rad) + 4.0 * std::cos(middle) + std::cos(end));
-    point.v_m += kSpacing_m / 6.0 * (std::sin(point.angle_rad) + 4.0 * std::sin(middle) + std::sin(end));
+    point.a_m += kPathSpacing_m / 6.0 * (std::cos(point.angle_rad) + 4.0 * std::cos(middle) + std::cos(end));
+    point.v_m += kPathSpacing_m / 6.0 * (std::sin(point.angle_rad) + 4.0 * std::sin(middle) + std::sin(end));
     point.angle_rad = end;
     nodes_.push_back(point);
   }
@@ -89,7 +89,7 @@ ScanPath::ScanPath(const HandConfig& config, Random& random) {
   // about the row, not away from it.
   double a_sum = 0.0;
   double v_sum = 0.0;
-  const auto first_row = static_cast<std::size_t>(config.length_m / kSpacing_m);
+  const auto first_row = static_cast<std::size_t>(config.length_m / kPathSpacing_m);
   const std::size_t used = std::min(first_row + 1, nodes_.size());
   for (std::size_t i = 0; i < used; ++i) {
     a_sum += nodes_[i].a_m;
@@ -102,13 +102,13 @@ ScanPath::ScanPath(const HandConfig& config, Random& random) {
 }
 
 ScanPoint ScanPath::at(double s_m) const {
-  const double last_m = kSpacing_m * static_cast<double>(nodes_.size() - 1);
+  const double last_m = kPathSpacing_m * static_cast<double>(nodes_.size() - 1);
   if (s_m <= 0.0 || s_m >= last_m) {
     const ScanPoint& end = s_m <= 0.0 ? nodes_.front() : nodes_.back();
     const double beyond_m = s_m <= 0.0 ? s_m : s_m - last_m;
     return {end.a_m + beyond_m * std::cos(end.angle_rad), end.v_m + beyond_m * std::sin(end.angle_rad), end.angle_rad};
   }
-  const double place = s_m / kSpacing_m;
+  const double place = s_m / kPathSpacing_m;
   const auto i = std::min(static_cast<std::size_t>(place), nodes_.size() - 2);
   const double u = place - static_cast<double>(i);
   const ScanPoint& from = nodes_[i];
@@ -116,8 +116,8 @@ ScanPoint ScanPath::at(double s_m) const {
   // Cubic Hermite with the directions as derivatives.
   const double w = 1.0 - u;
   const double h_to = u * u * (3.0 - 2.0 * u);
-  const double d_from = u * w * w * kSpacing_m;
-  const double d_to = -u * u * w * kSpacing_m;
+  const double d_from = u * w * w * kPathSpacing_m;
+  const double d_to = -u * u * w * kPathSpacing_m;
   return {from.a_m + h_to * (to.a_m - from.a_m) + d_from * std::cos(from.angle_rad) + d_to * std::cos(to.angle_rad),
           from.v_m + h_to * (to.v_m - from.v_m) + d_from * std::sin(from.angle_rad) + d_to * std::sin(to.angle_rad),
           from.angle_rad + u * (to.angle_rad - from.angle_rad)};

@@ -43,7 +43,7 @@ void validate(const SimulationConfig& config) {
   constexpr double kLongestPath_m = 20.0;
   constexpr double kLongest_s = 1800.0;
   const HandConfig& hand = config.hand;
-  const double strokes = hand.path == HandPath::kBackAndForth ? hand.strokes : 1.0;
+  const double strokes = hand.path == HandPathShape::kBackAndForth ? hand.strokes : 1.0;
   const double path_m = strokes * (hand.length_m + hand.row_spacing_m);
   const double duration_s = path_m / hand.speed_mps + 2.0 * hand.rest_s;
   if (path_m > kLongestPath_m || duration_s > kLongest_s) {

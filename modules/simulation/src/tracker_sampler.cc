@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "normal_vector.h"
 #include "streams.h"
 
 namespace asperity {
@@ -13,12 +14,6 @@ std::uint64_t seed_of(const SimulationConfig& config) { return static_cast<std::
 std::int64_t run_length(double mean, Random& random) {
   if (mean <= 1.0) return 1;
   return 1 + static_cast<std::int64_t>(std::log(1.0 - random.uniform()) / std::log(1.0 - 1.0 / mean));
-}
-
-Eigen::Vector3d normal3(Random& random) {
-  const double x = random.normal();
-  const double y = random.normal();
-  return {x, y, random.normal()};
 }
 
 Eigen::Vector3d ray(const Pose& T_world_marker) { return T_world_marker.translation_m.normalized(); }
@@ -78,8 +73,8 @@ void TrackerSampler::push(const MotionState& state) {
 void TrackerSampler::take(const Pose& T_world_marker, double t_s) {
   ++frames_;
   const SimulatedTrackerNoise noise = simulated_tracker_noise(config_, T_world_marker);
-  const Eigen::Vector3d position_m = noise.world_from_ray * noise.position_m.cwiseProduct(normal3(noise_));
-  const Eigen::Vector3d rotation_rad = noise.world_from_ray * noise.rotation_rad.cwiseProduct(normal3(noise_));
+  const Eigen::Vector3d position_m = noise.world_from_ray * noise.position_m.cwiseProduct(normal_vector(noise_));
+  const Eigen::Vector3d rotation_rad = noise.world_from_ray * noise.rotation_rad.cwiseProduct(normal_vector(noise_));
   const double flip_shift_m = config_.flip_depth_m * noise_.normal();
   sum_position_m2_ += (noise.world_from_ray.cwiseAbs2() * noise.position_m.cwiseAbs2());
   sum_rotation_rad2_ += (noise.world_from_ray.cwiseAbs2() * noise.rotation_rad.cwiseAbs2());

@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "asperity/base/error.h"
-#include "asperity/recording/y4m.h"
+#include "asperity/image/y4m.h"
 #include "asperity/simulation/bench_camera.h"
 #include "asperity/simulation/calibration_motion.h"
 #include "asperity/simulation/probe_device.h"

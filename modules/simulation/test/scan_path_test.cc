@@ -17,7 +17,7 @@ ScanPath make(HandConfig config) {
 }
 
 TEST(ScanPath, ItsParameterIsItsArcLength) {
-  for (const HandPath kind : {HandPath::kStraight, HandPath::kCurved, HandPath::kBackAndForth}) {
+  for (const HandPathShape kind : {HandPathShape::kStraight, HandPathShape::kCurved, HandPathShape::kBackAndForth}) {
     HandConfig config;
     config.path = kind;
     const ScanPath path = make(config);
@@ -43,7 +43,7 @@ TEST(ScanPath, StraightOneIsCentred) {
 
 TEST(ScanPath, ArcHasItsSagitta) {
   HandConfig config;
-  config.path = HandPath::kCurved;
+  config.path = HandPathShape::kCurved;
   config.lateral_wander_m = 0.0;
   const ScanPath path = make(config);
   EXPECT_NEAR(path.at(0.04).v_m - path.at(0.0).v_m, 8e-3, 1e-8);
@@ -52,7 +52,7 @@ TEST(ScanPath, ArcHasItsSagitta) {
 
 TEST(ScanPath, StrokesRunToAndFroOnNeighbouringRows) {
   HandConfig config;
-  config.path = HandPath::kBackAndForth;
+  config.path = HandPathShape::kBackAndForth;
   config.lateral_wander_m = 0.0;
   const ScanPath path = make(config);
   const double turn_m = (path.length_m() - 3 * 0.08) / 2;

@@ -184,7 +184,7 @@ TEST(SimulateRecording, OpenProbeIsSampledAsItClaims) {
 
 TEST(SimulateRecording, WhatIsCoarseLossyAndSpiky) {
   SimulationConfig config = make_simulation_config("protoboard", "what");
-  config.hand.path = HandPath::kBackAndForth;
+  config.hand.path = HandPathShape::kBackAndForth;
   const Recording recording = simulate_recording(config);
   const ProbeStream& probe = recording.probe;
   EXPECT_EQ(recording.info.probe_rate_Hz, 500.0);

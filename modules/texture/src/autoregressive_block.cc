@@ -8,7 +8,7 @@ namespace asperity {
 namespace {
 
 template <class Model, class Field>
-void list(Model& t, const Field& field) {
+void list_autoregressive(Model& t, const Field& field) {
   field("rate_Hz", t.rate_Hz, 1.0, 1e6);
   field("mass_kg", t.mass_kg, 0.0, 1e3);
   field("tangential_ratio", t.tangential_ratio, -1e3, 1e3);
@@ -51,7 +51,7 @@ void read_block(const BlockInput& in, AutoregressiveTexture& t) {
                          "max_speed_mps", "max_force_N", "speed_mps", "force_N", "gain", "variance_m2_per_s4",
                          "ar_lsf_rad", "ma_lsf_rad", "triangles"});
   in.json.require(in.path, "rate_Hz");
-  list(t, FlatReader{in});
+  list_autoregressive(t, FlatReader{in});
   const auto speed = required_numbers(in.json, in.path, "speed_mps", 1e3, kMaxSeriesModels);
   const std::size_t models = speed.size();
   if (models == 0) in.json.fail(in.path + ".speed_mps", "is empty");
@@ -87,7 +87,7 @@ std::string write_block(const AutoregressiveTexture& texture, BlockOutput&) {
   AutoregressiveTexture t = texture;
   prepare_autoregressive(t, "texture");
   BlockText block;
-  list(t, FlatWriter{block});
+  list_autoregressive(t, FlatWriter{block});
   std::vector<double> speed, force, gain, variance, ar, ma, triangles;
   for (const auto& m : t.models) {
     speed.push_back(m.speed_mps);

@@ -4,7 +4,7 @@ namespace asperity {
 namespace {
 
 template <class Model, class Field>
-void list(Model& t, const Field& field) {
+void list_decaying_sinusoids(Model& t, const Field& field) {
   field("a_per_s", t.a_per_s, -1e9, 1e9);
   field("b_per_kg", t.b_per_kg, -1e9, 1e9);
   field("decay_per_s", t.decay_per_s, 0.0, 1e7);
@@ -20,12 +20,12 @@ void read_block(const BlockInput& input, DecayingSinusoids& t) {
   input.json.only(input.path,
                   {"a_per_s", "b_per_kg", "decay_per_s", "omega_rad_per_s", "mass_kg", "tangential_ratio", "pitch_m"});
   for (const char* key : {"a_per_s", "b_per_kg", "decay_per_s", "omega_rad_per_s"}) input.json.require(input.path, key);
-  list(t, FlatReader{input});
+  list_decaying_sinusoids(t, FlatReader{input});
 }
 
 std::string write_block(const DecayingSinusoids& t, BlockOutput&) {
   BlockText block;
-  list(t, FlatWriter{block});
+  list_decaying_sinusoids(t, FlatWriter{block});
   return block.str();
 }
 

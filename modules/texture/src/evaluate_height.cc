@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 #include "asperity/texture/evaluate_fourier1d.h"
 #include "asperity/texture/evaluate_fourier2d.h"
 #include "asperity/texture/evaluate_height_map.h"
@@ -56,7 +57,6 @@ bool is_height_field(const TextureModel& model) noexcept {
 HeightAndGradient evaluate_height(const TextureModel& model, double x_m, double y_m) noexcept {
   return std::visit(
       [&]<class Model>(const Model& m) -> HeightAndGradient {
-        constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
         if constexpr (HeightField<Model>) return height_at(m, x_m, y_m);
         return {kNan, kNan, kNan};
       },

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "asperity/base/nan.h"
 #include "grid_patch.h"
 #include "lowest_point.h"
 
 namespace asperity {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 void cubic_weights(double t, std::array<double, 4>& weight, std::array<double, 4>& slope) noexcept {
   const double s = 1.0 - t;

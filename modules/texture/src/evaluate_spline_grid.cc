@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "asperity/base/nan.h"
 #include "grid_patch.h"
 #include "lowest_point.h"
 
 namespace asperity {
 namespace {
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // The four cubic B-splines over a cell at t in [0, 1], and their derivatives.
 void spline_weights(double t, std::array<double, 4>& weight, std::array<double, 4>& slope) noexcept {
@@ -20,7 +19,7 @@ void spline_weights(double t, std::array<double, 4>& weight, std::array<double, 
   slope = {-0.5 * s * s, -2.0 * t + 1.5 * t * t, 2.0 * s - 1.5 * s * s, 0.5 * t * t};
 }
 
-PatchAxis along(double u, std::size_t count, Border border) noexcept {
+PatchAxis patch_axis(double u, std::size_t count, Border border) noexcept {
   const bool periodic = border == Border::kPeriodic;
   const double low = periodic ? 0.0 : 1.0;
   const double high = static_cast<double>(count) - (periodic ? 0.0 : 2.0);
@@ -35,8 +34,8 @@ PatchAxis along(double u, std::size_t count, Border border) noexcept {
 
 // At grid coordinates; slopes a cell.
 HeightAndGradient evaluate_at(const SplineGrid& grid, double u, double v) noexcept {
-  return sum_patch(along(u, grid.columns, grid.border), along(v, grid.rows, grid.border), grid.coefficient_m.data(),
-                   grid.columns);
+  return sum_patch(patch_axis(u, grid.columns, grid.border), patch_axis(v, grid.rows, grid.border),
+                   grid.coefficient_m.data(), grid.columns);
 }
 
 }  // namespace

@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "asperity/base/error.h"
-#include "asperity/texture/png_image.h"
+#include "asperity/image/png_image.h"
+#include "asperity/texture/format_height_image.h"
 #include "block_json.h"
 #include "model_block.h"
 
@@ -19,7 +20,7 @@ void read_block(const BlockInput& input, HeightMap& map) {
   const LocatedJson& json = input.json;
   const std::string& path = input.path;
   json.only(path, {"file", "columns", "rows", "bits", "mm_per_px", "low_m", "high_m", "border"});
-  const auto most = static_cast<std::int64_t>(kMostPixelsASide);
+  const auto most = std::int64_t{kLargestImageSide_px};
   map.columns = static_cast<std::size_t>(required_integer(json, path, "columns", kFewestPixels, most));
   map.rows = static_cast<std::size_t>(required_integer(json, path, "rows", kFewestPixels, most));
   map.bits = static_cast<int>(required_integer(json, path, "bits", 8, 16));
@@ -33,24 +34,25 @@ void read_block(const BlockInput& input, HeightMap& map) {
   map.high_m = required_number(json, path, "high_m", map.low_m, kLargestHeight_m);
   map.border = static_cast<Border>(required_choice(json, path, "border", {kBorderNames.begin(), kBorderNames.end()}));
   const std::string content = input.read_payload(".png");
-  GreyImage image;
+  DeepGrayImage image;
   try {
     image = parse_png(content, json.find(path, "file")->get<std::string>());
   } catch (const Error& error) {
     json.fail(path + ".file", error.what());
   }
-  if (image.columns != map.columns || image.rows != map.rows || image.bits != map.bits) {
-    json.fail(path + ".file", "the image has " + std::to_string(image.columns) + " x " + std::to_string(image.rows) +
+  if (static_cast<std::size_t>(image.width) != map.columns || static_cast<std::size_t>(image.height) != map.rows ||
+      image.bits != map.bits) {
+    json.fail(path + ".file", "the image has " + std::to_string(image.width) + " x " + std::to_string(image.height) +
                                   " pixels of " + std::to_string(image.bits) + " bits, the block says " +
                                   std::to_string(map.columns) + " x " + std::to_string(map.rows) + " of " +
                                   std::to_string(map.bits));
   }
-  map.level = std::move(image.level);
+  map.level = std::move(image.pixels);
 }
 
 std::string write_block(const HeightMap& map, BlockOutput& output) {
   if (!(map.high_m >= map.low_m)) throw Error("texture: a height map whose highest height is below its lowest");
-  const std::string file = output.add_payload(".heights.png", format_png({map.columns, map.rows, map.bits, map.level}));
+  const std::string file = output.add_payload(".heights.png", format_height_image(map));
   return BlockText()
       .add("file", text_json(file, "file"))
       .add("columns", std::to_string(map.columns))

@@ -12,7 +12,7 @@
 namespace asperity {
 namespace {
 
-constexpr std::size_t kDeepest = 32;
+constexpr std::size_t kDeepestJson = 32;
 
 // Reads bytes and counts lines on the way, so that the parser's callback knows where it is.
 struct CountingIterator {
@@ -70,7 +70,7 @@ LocatedJson::LocatedJson(std::string_view text, std::string name) : name_(std::m
   using Event = Json::parse_event_t;
   const auto on_event = [&](int, Event event, Json& value) {
     if (event == Event::object_start || event == Event::array_start) {
-      if (levels.size() == kDeepest) throw Error(here() + "nested deeper than " + std::to_string(kDeepest));
+      if (levels.size() == kDeepestJson) throw Error(here() + "nested deeper than " + std::to_string(kDeepestJson));
       levels.push_back({levels.empty() ? "" : levels.back().member, "", {}});
       levels.back().member = levels.back().path;
     } else if (event == Event::object_end || event == Event::array_end) {

@@ -7,9 +7,9 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/image/gray_image.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/evaluate_height_map.h"
-#include "asperity/texture/png_image.h"
 
 namespace asperity {
 namespace {
@@ -60,6 +60,8 @@ bool repeats(const TextureModel& model, double dx_m, double dy_m, double length_
   }
   return worst <= 1e-6 * (high - low);
 }
+
+constexpr std::size_t kMostPixels = std::size_t{kLargestImageSide_px} * kLargestImageSide_px;
 
 }  // namespace
 

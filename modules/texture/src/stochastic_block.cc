@@ -4,7 +4,7 @@ namespace asperity {
 namespace {
 
 template <class Model, class Field>
-void list(Model& t, const Field& field) {
+void x(Model& t, const Field& field) {
   field("sigma_m", t.sigma_m, 0.0, kLargestHeight_m);
   field("grain_m", t.grain_m, 0.0, kLargestHeight_m);
   field("tangential_ratio", t.tangential_ratio, -100.0, 100.0);
@@ -25,12 +25,12 @@ void read_block(const BlockInput& input, StochasticTexture& t) {
                   {"sigma_m", "grain_m", "tangential_ratio", "lift_sigma", "stiffness_N_per_m", "mass_kg",
                    "reference_speed_mps", "speed_exponent", "reference_force_N", "force_exponent", "fade_speed_mps"});
   input.json.require(input.path, "sigma_m");
-  list(t, FlatReader{input});
+  x(t, FlatReader{input});
 }
 
 std::string write_block(const StochasticTexture& t, BlockOutput&) {
   BlockText block;
-  list(t, FlatWriter{block});
+  x(t, FlatWriter{block});
   return block.str();
 }
 

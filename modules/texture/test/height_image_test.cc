@@ -5,24 +5,24 @@
 #include <gtest/gtest.h>
 
 #include "asperity/base/error.h"
+#include "asperity/image/pgm_image.h"
+#include "asperity/image/png_image.h"
 #include "asperity/texture/evaluate_height.h"
-#include "asperity/texture/pgm_image.h"
-#include "asperity/texture/png_image.h"
 #include "asperity/texture/read_height_image.h"
 
 namespace asperity {
 namespace {
 
-GreyImage ramp(int bits) {
-  GreyImage image{8, 4, bits, {}};
-  for (std::uint16_t i = 0; i < 32; ++i) image.level.push_back(static_cast<std::uint16_t>(bits == 8 ? i : 100 * i));
+DeepGrayImage ramp(int bits) {
+  DeepGrayImage image{8, 4, {}, bits};
+  for (std::uint16_t i = 0; i < 32; ++i) image.pixels.push_back(static_cast<std::uint16_t>(bits == 8 ? i : 100 * i));
   return image;
 }
 
-std::string pgm(const GreyImage& image) {
-  std::string out = "P5\n# a comment\n" + std::to_string(image.columns) + " " + std::to_string(image.rows) + "\n" +
+std::string pgm(const DeepGrayImage& image) {
+  std::string out = "P5\n# a comment\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n" +
                     (image.bits == 8 ? "255" : "65535") + "\n";
-  for (const std::uint16_t level : image.level) {
+  for (const std::uint16_t level : image.pixels) {
     if (image.bits == 16) out += static_cast<char>(level >> 8);
     out += static_cast<char>(level & 255);
   }
@@ -31,11 +31,11 @@ std::string pgm(const GreyImage& image) {
 
 TEST(HeightImage, PgmAndPngOfOneImageAreTheSame) {
   for (const int bits : {8, 16}) {
-    const GreyImage image = ramp(bits);
-    const GreyImage read = parse_pgm(pgm(image), "test");
-    EXPECT_EQ(read.level, image.level);
+    const DeepGrayImage image = ramp(bits);
+    const DeepGrayImage read = parse_pgm(pgm(image), "test");
+    EXPECT_EQ(read.pixels, image.pixels);
     EXPECT_EQ(read.bits, bits);
-    EXPECT_EQ(read.columns, 8u);
+    EXPECT_EQ(read.width, 8);
     const auto a = std::get<HeightMap>(parse_height_image(pgm(image), "a").model);
     const auto b = std::get<HeightMap>(parse_height_image(format_png(image), "b").model);
     EXPECT_EQ(a.level, b.level);
@@ -43,13 +43,13 @@ TEST(HeightImage, PgmAndPngOfOneImageAreTheSame) {
 }
 
 TEST(HeightImage, TextIsReadAndOtherMaximaAreScaled) {
-  const GreyImage image = parse_pgm("P2 2 2 15\n0 15 # white\n1 8\n", "test");
-  EXPECT_EQ(image.level, (std::vector<std::uint16_t>{0, 255, 17, 136}));
+  const DeepGrayImage image = parse_pgm("P2 2 2 15\n0 15 # white\n1 8\n", "test");
+  EXPECT_EQ(image.pixels, (std::vector<std::uint16_t>{0, 255, 17, 136}));
 }
 
 // Fig. 38: 256 levels over 2.5 mm, 10 mm wide.
 TEST(HeightImage, HasTheSizeAndRangeAskedFor) {
-  GreyImage image{256, 256, 8, std::vector<std::uint16_t>(256 * 256, 51)};
+  DeepGrayImage image{256, 256, std::vector<std::uint16_t>(256 * 256, 51), 8};
   const Texture texture = parse_height_image(format_png(image), "test");
   EXPECT_NEAR(evaluate_height(texture.model, 3e-3, 4e-3).height_m, 0.5e-3, 1e-12);
   EXPECT_DOUBLE_EQ(std::get<HeightMap>(texture.model).mm_per_px_x, 10.0 / 256);

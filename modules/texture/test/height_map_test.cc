@@ -9,10 +9,10 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
+#include "asperity/image/png_image.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/evaluate_height_map.h"
 #include "asperity/texture/fit_fourier2d.h"
-#include "asperity/texture/png_image.h"
 
 namespace asperity {
 namespace {
@@ -21,22 +21,22 @@ using std::numbers::pi;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-GreyImage noise(std::size_t columns, std::size_t rows, int bits) {
+DeepGrayImage noise(int columns, int rows, int bits) {
   Random random(1);
-  GreyImage image{columns, rows, bits, {}};
-  for (std::size_t i = 0; i < columns * rows; ++i)
-    image.level.push_back(static_cast<std::uint16_t>(random.bits() & (bits == 8 ? 0xFF : 0xFFFF)));
+  DeepGrayImage image{columns, rows, {}, bits};
+  for (int i = 0; i < columns * rows; ++i)
+    image.pixels.push_back(static_cast<std::uint16_t>(random.bits() & (bits == 8 ? 0xFF : 0xFFFF)));
   return image;
 }
 
 TEST(Png, ComesBackBitForBit) {
   for (const int bits : {8, 16}) {
-    const GreyImage image = noise(37, 11, bits);
-    const GreyImage back = parse_png(format_png(image), "x.png");
-    EXPECT_EQ(back.columns, 37u);
-    EXPECT_EQ(back.rows, 11u);
+    const DeepGrayImage image = noise(37, 11, bits);
+    const DeepGrayImage back = parse_png(format_png(image), "x.png");
+    EXPECT_EQ(back.width, 37);
+    EXPECT_EQ(back.height, 11);
     EXPECT_EQ(back.bits, bits);
-    EXPECT_EQ(back.level, image.level);
+    EXPECT_EQ(back.pixels, image.pixels);
     EXPECT_EQ(format_png(image), format_png(back));
   }
 }
@@ -49,9 +49,9 @@ constexpr unsigned char kForeign[] = {
     0xda, 0xe7, 0xa3, 0x7f, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
 
 TEST(Png, ReadsAnotherProgramsImage) {
-  const GreyImage image = parse_png({reinterpret_cast<const char*>(kForeign), sizeof kForeign}, "x.png");
+  const DeepGrayImage image = parse_png({reinterpret_cast<const char*>(kForeign), sizeof kForeign}, "x.png");
   EXPECT_EQ(image.bits, 16);
-  EXPECT_THAT(image.level, testing::ElementsAre(0, 1, 256, 65535));
+  EXPECT_THAT(image.pixels, testing::ElementsAre(0, 1, 256, 65535));
 }
 
 TEST(Png, RefusesWhatIsDamagedOrNotGrey) {
@@ -69,13 +69,13 @@ TEST(Png, RefusesWhatIsDamagedOrNotGrey) {
   std::string huge = good;
   for (const std::size_t at : {18u, 19u, 22u, 23u}) huge[at] = '\xFF';
   EXPECT_THROW(parse_png(huge, "x.png"), Error);
-  EXPECT_THROW(format_png({3, 3, 8, {1, 2}}), Error);
-  EXPECT_THROW(format_png({1, 1, 8, {300}}), Error);
+  EXPECT_THROW(format_png(DeepGrayImage{3, 3, {1, 2}, 8}), Error);
+  EXPECT_THROW(format_png(DeepGrayImage{1, 1, {300}, 8}), Error);
 }
 
 HeightMap map_of(std::size_t columns, std::size_t rows, Border border) {
-  const GreyImage image = noise(columns, rows, 16);
-  return {columns, rows, 0.04, 0.05, -1e-5, 2e-5, 16, border, image.level};
+  const DeepGrayImage image = noise(static_cast<int>(columns), static_cast<int>(rows), 16);
+  return {columns, rows, 0.04, 0.05, -1e-5, 2e-5, 16, border, image.pixels};
 }
 
 TEST(EvaluateHeightMap, PassesThroughItsPixels) {

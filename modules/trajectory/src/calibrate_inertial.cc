@@ -8,12 +8,12 @@
 #include <Eigen/LU>
 
 #include "asperity/base/error.h"
+#include "asperity/base/nan.h"
 
 namespace asperity {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 const double kQuantisation_counts = 1.0 / std::sqrt(12.0);  // standard deviation of rounding to a count
 
 // Noise of one sample, per channel, from the second difference in the quietest tenth of short windows:

@@ -19,7 +19,7 @@ constexpr std::size_t kLongestPath = 1000;
 constexpr std::size_t kMostParts = 32;
 constexpr std::size_t kLongestLabel = 200;
 // A message and a path are 32 deep at most; a file has two levels about a section.
-constexpr int kDeepest = 80;
+constexpr int kDeepestValue = 80;
 
 std::string dump(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -117,7 +117,7 @@ Edit reversed(Edit edit) {
 
 Json parse_bounded(const std::string& text) {
   return Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
-    if (depth > kDeepest) throw Error("is nested too deeply");
+    if (depth > kDeepestValue) throw Error("is nested too deeply");
     return true;
   });
 }

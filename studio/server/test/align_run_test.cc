@@ -8,7 +8,7 @@
 #include "align_bench.h"
 #include "asperity/base/csv.h"
 #include "asperity/pipeline/write_registration.h"
-#include "register_input.h"
+#include "asperity/session/register_input.h"
 
 namespace asperity::studio {
 namespace {
@@ -81,10 +81,10 @@ TEST_F(AlignRunTest, TakenItIsOneStepAndWrittenAsTheCommandLineWrites) {
   // The same through the functions of `asperity register`.
   const std::filesystem::path other = bench_.folder / "other";
   std::filesystem::create_directory(other);
-  const app::RegisterInput input = app::read_register_input({(bench_.folder / "path.csv").string()},
-                                                            (bench_.folder / "pebble.obj").string(), 1e-3, {});
+  const RegisterInput input =
+      read_register_input({(bench_.folder / "path.csv").string()}, (bench_.folder / "pebble.obj").string(), 1e-3, {});
   const Pose guess = pose_of_json(json_of_pose(pose_of_json(before["T_mesh_world"], "")), "");
-  write_registration(other, app::register_input(input, guess, {}), input.scans, input.mesh, 1e-3);
+  write_registration(other, register_input(input, guess, {}), input.scans, input.mesh, 1e-3);
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(other)) {
     if (entry.is_directory()) continue;

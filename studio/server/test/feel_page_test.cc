@@ -199,7 +199,7 @@ TEST(FeelPage, WritesALog) {
   std::ifstream file(rig.folder / "feel.csv");
   std::string line;
   std::getline(file, line);
-  EXPECT_EQ(line, app::kFeelLogColumns);
+  EXPECT_EQ(line, kFeelLogColumns);
   int rows = 0;
   while (std::getline(file, line)) ++rows;
   EXPECT_GT(rows, 50);
@@ -217,7 +217,7 @@ TEST(RunLog, IsHandedOverWhenAskedForAndAtTheEnd) {
   RunLog log([&](EndedLog one) { ended.push_back(std::move(one)); });
   const ServoTick tick;
   log.add(tick);
-  log.begin(std::make_unique<app::FeelLog>(folder / "whole.csv", false));
+  log.begin(std::make_unique<FeelLog>(folder / "whole.csv", false));
   log.add(tick);
   log.end();
   log.add(tick);
@@ -226,7 +226,7 @@ TEST(RunLog, IsHandedOverWhenAskedForAndAtTheEnd) {
   ended[0].log->commit();
   EXPECT_TRUE(std::filesystem::exists(folder / "whole.csv"));
   // Not asked for, it ends with the run.
-  log.begin(std::make_unique<app::FeelLog>(folder / "second.csv", false));
+  log.begin(std::make_unique<FeelLog>(folder / "second.csv", false));
   log.add(tick);
   log.finish();
   ASSERT_EQ(ended.size(), 2U);

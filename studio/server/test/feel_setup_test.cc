@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "asperity/base/error.h"
+#include "asperity/device/open_two_diy.h"
 #include "asperity/testkit/temp_dir.h"
 #include "feel/feel_devices.h"
 
@@ -125,7 +126,7 @@ TEST(FeelDevices, SayWhatTheyLack) {
   EXPECT_EQ(of("mouse")["available"], true);
   EXPECT_EQ(of("2diy")["available"], false);
   EXPECT_THAT(of("2diy")["words"].get<std::string>(), HasSubstr("port"));
-  start.feel.two_diy.port = "/dev/ttyACM0";
+  start.feel.devices.get<TwoDiyConfig>("2diy").port = "/dev/ttyACM0";
   EXPECT_EQ(of("2diy")["available"], true);
   EXPECT_THROW(feel_device_kind("parrot"), Error);
 }

@@ -1,4 +1,4 @@
-#include "open_browser.h"
+#include "asperity/studio/open_browser.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@
 
 #include "asperity/testkit/temp_dir.h"
 
-namespace asperity::app {
+namespace asperity::studio {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,4 +76,4 @@ TEST(OpenBrowser, GivesItNothingOfOurs) {
 }
 
 }  // namespace
-}  // namespace asperity::app
+}  // namespace asperity::studio

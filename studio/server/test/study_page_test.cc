@@ -8,11 +8,11 @@
 #include <gmock/gmock.h>
 
 #include "asperity/base/csv.h"
+#include "asperity/study/study_file.h"
 #include "asperity/testkit/temp_dir.h"
 #include "asperity/texture/read_height_image.h"
 #include "asperity/texture/texture_file.h"
 #include "read_block.h"
-#include "study/study_file.h"
 #include "study_rig.h"
 
 namespace asperity::studio {

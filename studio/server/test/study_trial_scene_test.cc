@@ -110,11 +110,11 @@ TEST(TrialScene, ScalesEveryModel) {
 
 TEST(TrialScene, UsesTheViewersModelForImagesAlone) {
   Study study = study_of(StudyMethod::kPairs);
-  EXPECT_EQ(study_setup(study, {}).config.feel.texture_model, app::TextureModelChoice::kAuto);
+  EXPECT_EQ(study_setup(study, {}).config.feel.texture_model, TextureModelChoice::kAuto);
   study.stimuli = {"a.png", "b.pgm"};
-  EXPECT_EQ(study_setup(study, {}).config.feel.texture_model, app::TextureModelChoice::kNormalPerturbation);
-  study.presentation.model = app::TextureModelChoice::kHeight;
-  EXPECT_EQ(study_setup(study, {}).config.feel.texture_model, app::TextureModelChoice::kHeight);
+  EXPECT_EQ(study_setup(study, {}).config.feel.texture_model, TextureModelChoice::kNormalPerturbation);
+  study.presentation.model = TextureModelChoice::kHeight;
+  EXPECT_EQ(study_setup(study, {}).config.feel.texture_model, TextureModelChoice::kHeight);
   study.presentation.device = "hammer";
   EXPECT_THROW(study_setup(study, {}), Error);
 }

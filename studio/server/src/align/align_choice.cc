@@ -6,8 +6,8 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/base/units.h"
 #include "json_pose.h"
-#include "option_units.h"
 
 namespace asperity::studio {
 
@@ -152,7 +152,7 @@ AlignChoice choice_of_json(const Json& section) {
   return out;
 }
 
-double unit_m(const AlignChoice& choice) { return app::unit_option_m("the mesh's unit", choice.mesh_unit); }
+double unit_m(const AlignChoice& choice) { return parse_length_unit_m(choice.mesh_unit, "the mesh's unit"); }
 
 RegisterConfig config_of(const AlignChoice& choice) {
   RegisterConfig out;

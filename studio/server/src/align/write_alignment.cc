@@ -8,9 +8,9 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/pipeline/write_registration.h"
+#include "asperity/session/register_input.h"
 #include "asperity/studio/calls.h"
 #include "json_pose.h"
-#include "register_input.h"
 
 namespace asperity::studio {
 
@@ -31,7 +31,7 @@ Start start_of(const AlignChoice& choice) {
   return unmoved ? Start{registered->guess, registered->near} : Start{choice.T_mesh_world, false};
 }
 
-std::string quoted(const std::string& word) {
+std::string shell_quoted(const std::string& word) {
   std::string out = "'";
   for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
@@ -39,8 +39,8 @@ std::string quoted(const std::string& word) {
 
 std::string command_of(const AlignChoice& choice, const Start& start, const std::string& name) {
   std::string out = "asperity register";
-  for (const std::string& path : choice.paths) out += " " + quoted(path);
-  out += " " + quoted(choice.mesh) + " --mesh-unit " + quoted(choice.mesh_unit);
+  for (const std::string& path : choice.paths) out += " " + shell_quoted(path);
+  out += " " + shell_quoted(choice.mesh) + " --mesh-unit " + shell_quoted(choice.mesh_unit);
   if (start.guess) {
     std::string numbers;
     for (const Json& number : json_of_pose(*start.guess)) {
@@ -49,12 +49,12 @@ std::string command_of(const AlignChoice& choice, const Start& start, const std:
     }
     out += " --guess=" + numbers;
   }
-  for (const std::string& texture : choice.textures) out += " --texture " + quoted(texture);
-  for (const auto& [path, value] : choice.config) out += " --set " + quoted(path + "=" + value);
+  for (const std::string& texture : choice.textures) out += " --texture " + shell_quoted(texture);
+  for (const auto& [path, value] : choice.config) out += " --set " + shell_quoted(path + "=" + value);
   if (start.near) {
     out += " --set search.registration.starts.when=never --set refinement.other_starts=0";
   }
-  return out + " -o " + quoted(name);
+  return out + " -o " + shell_quoted(name);
 }
 
 }  // namespace
@@ -67,9 +67,9 @@ Json write_alignment(const AlignChoice& choice, const Project& project, const st
   std::vector<std::string> scans, textures;
   for (const std::string& path : choice.paths) scans.push_back(project.existing(path).string());
   for (const std::string& texture : choice.textures) textures.push_back(project.existing(texture).string());
-  const app::RegisterInput input =
-      app::read_register_input(scans, project.existing(choice.mesh).string(), unit_m(choice), textures);
-  const ScansOnMesh result = app::register_input(input, start.guess, run_config(choice, start.near), observer);
+  const RegisterInput input =
+      read_register_input(scans, project.existing(choice.mesh).string(), unit_m(choice), textures);
+  const ScansOnMesh result = register_input(input, start.guess, run_config(choice, start.near), observer);
   observer.update("writing", 1.0);
   write_registration(folder.path(), result, input.scans, input.mesh, input.unit_m);
   folder.commit();

@@ -1,14 +1,13 @@
 #include "feel/feel_devices.h"
 
-#include <array>
 #include <utility>
 
 #include <Eigen/Geometry>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/session/feel_device.h"
 #include "asperity/studio/calls.h"
-#include "feel_device.h"
 
 namespace asperity::studio {
 
@@ -17,32 +16,32 @@ namespace {
 constexpr double kHandGoesOn_s = 600.0;
 constexpr double kAbove = 0.1;  // of the scene's size: where the pointer's point begins
 
-// What the command line knows of it, and its name for people. The mouse is the studio's alone.
-FeelDeviceKind kind_of(std::string_view name, std::string_view title) {
-  const std::optional<app::DeviceKind> known = app::device_kind(name);
-  return {name, title, known && known->driven, known && known->felt};
-}
+constexpr std::string_view kMouse = "mouse";
 
-const std::array<FeelDeviceKind, 9>& kinds() {
-  static const std::array<FeelDeviceKind, 9> all{
-      kind_of("mouse", "Mouse or pen"),   kind_of("sim", "Modelled hand"),       kind_of("replay", "Recorded path"),
-      kind_of("haply", "Haply Inverse3"), kind_of("openhaptics", "OpenHaptics"), kind_of("dhd", "Force Dimension"),
-      kind_of("2diy", "Haply 2diy"),      kind_of("audio", "Voice coil"),        kind_of("gamepad", "Gamepad")};
+// The mouse is the studio's alone: its pointer comes from the browser, and no force reaches a person.
+const std::vector<DeviceKind>& kinds() {
+  static const std::vector<DeviceKind> all = [] {
+    std::vector<DeviceKind> out{{.name = kMouse, .title = "Mouse or pen", .felt = false}};
+    out.insert(out.end(), device_kinds().begin(), device_kinds().end());
+    return out;
+  }();
   return all;
 }
 
 // What is needed that can be told without a try.
-std::string missing(std::string_view name, const FeelConfig& start) {
-  if (name == "2diy" && start.feel.two_diy.port.empty())
-    return "Its serial port is not set: asperity studio --set 2diy.port=/dev/ttyACM0 or such.";
-  return "";
+std::string missing(const DeviceKind& kind, const FeelConfig& start) {
+  if (kind.name == kMouse) return "";
+  const std::optional<NeededSetting> needed = start.feel.devices.missing(kind.name);
+  if (!needed) return "";
+  return "Its " + std::string(needed->what) + " is not set: asperity studio --set " + std::string(needed->setting) +
+         "=" + std::string(needed->example) + " or such.";
 }
 
-std::string_view words_of(std::string_view name) {
-  if (name == "mouse") return "The pointer pulls the point; what a hand would feel is drawn and heard.";
-  if (name == "sim") return "A modelled hand strokes the scene for ten minutes.";
-  if (name == "replay") return "A recording or a table of positions moves the point.";
-  if (name == "audio" || name == "gamepad") return "The modelled hand moves the point; its vibration is put out.";
+std::string_view words_of(const DeviceKind& kind) {
+  if (kind.name == kMouse) return "The pointer pulls the point; what a hand would feel is drawn and heard.";
+  if (kind.vibrotactile) return "The modelled hand moves the point; its vibration is put out.";
+  if (kind.mover == DeviceMover::kModelledHand) return "A modelled hand strokes the scene for ten minutes.";
+  if (kind.mover == DeviceMover::kPath) return "A recording or a table of positions moves the point.";
   return "It is looked for when you start.";
 }
 
@@ -56,37 +55,36 @@ Eigen::Vector3d above_scene_m(const RenderModel& model) {
   return out_m;
 }
 
-app::FeelDrive drive_of(const FeelSetup& setup, const FeelDeviceKind& kind, const Scene& scene,
-                        const Observer& observer) {
-  if (!kind.driven) return {};
+FeelDrive drive_of(const FeelSetup& setup, const DeviceKind& kind, const Scene& scene, const Observer& observer) {
+  if (!kind.driven()) return {};
   FeelConfig config = setup.config;
   config.feel.servo.duration_s = kHandGoesOn_s;
-  app::FeelDrive drive;
-  if (kind.name == "replay" || !setup.replay.empty()) {
+  FeelDrive drive;
+  if (kind.mover == DeviceMover::kPath || !setup.replay.empty()) {
     if (setup.replay.empty()) {
       throw Advice("the recorded path is missing", "Choose a recording or a table of positions to replay.");
     }
-    drive = app::read_drive(setup.replay, setup.mapped, scene, config.feel, observer);
+    drive = read_drive(setup.replay, setup.mapped, scene, config.feel, observer);
   } else if (setup.input.tile_stroke_m) {
-    drive = app::make_drive(scene, setup.input.tile_stroke_m->front(), setup.input.tile_stroke_m->back(), config.feel);
+    drive = make_drive(scene, setup.input.tile_stroke_m->front(), setup.input.tile_stroke_m->back(), config.feel);
   } else {
-    drive = app::make_drive(scene, std::nullopt, std::nullopt, config.feel);
+    drive = make_drive(scene, std::nullopt, std::nullopt, config.feel);
   }
-  app::check_length(drive);
+  check_length(drive);
   return drive;
 }
 
 }  // namespace
 
 bool is_feel_device(std::string_view name) {
-  for (const FeelDeviceKind& kind : kinds()) {
+  for (const DeviceKind& kind : kinds()) {
     if (kind.name == name) return true;
   }
   return false;
 }
 
-const FeelDeviceKind& feel_device_kind(std::string_view name) {
-  for (const FeelDeviceKind& kind : kinds()) {
+const DeviceKind& feel_device_kind(std::string_view name) {
+  for (const DeviceKind& kind : kinds()) {
     if (kind.name == name) return kind;
   }
   throw Error("there is no device '" + printable(std::string(name), 100) + "'");
@@ -94,14 +92,14 @@ const FeelDeviceKind& feel_device_kind(std::string_view name) {
 
 Json feel_devices_json(const FeelConfig& start) {
   Json out = Json::array();
-  for (const FeelDeviceKind& kind : kinds()) {
-    const std::string lack = missing(kind.name, start);
+  for (const DeviceKind& kind : kinds()) {
+    const std::string lack = missing(kind, start);
     Json each;
     each["name"] = kind.name;
     each["title"] = kind.title;
     each["available"] = lack.empty();
-    each["words"] = lack.empty() ? std::string(words_of(kind.name)) : lack;
-    each["driven"] = kind.driven;
+    each["words"] = lack.empty() ? std::string(words_of(kind)) : lack;
+    each["driven"] = kind.driven();
     each["felt"] = kind.felt;
     out.push_back(std::move(each));
   }
@@ -111,7 +109,7 @@ Json feel_devices_json(const FeelConfig& start) {
 OpenedFeel open_feel(const FeelSetup& setup, const Scene& scene, const Observer& observer) {
   OpenedFeel out;
   out.kind = feel_device_kind(setup.device);
-  const std::string lack = missing(out.kind.name, setup.config);
+  const std::string lack = missing(out.kind, setup.config);
   if (!lack.empty()) throw Advice(std::string(out.kind.title) + " cannot be opened", lack);
   out.config = setup.config;
   out.config.feel.servo.paced = true;
@@ -119,15 +117,15 @@ OpenedFeel open_feel(const FeelSetup& setup, const Scene& scene, const Observer&
   out.config.pointer.rate_Hz = out.config.feel.servo.rate_Hz;
   observer.update("the way", 0.0);
   out.drive = drive_of(setup, out.kind, scene, observer);
-  const bool mouse = out.kind.name == "mouse";
+  const bool mouse = out.kind.name == kMouse;
   observer.update("the device", 0.3);
   if (!mouse) {
-    out.device = app::open_device(setup.device, out.drive, out.config.feel);
+    out.device = open_device(setup.device, out.drive, out.config.feel);
     out.info = out.device->info();
   }
   observer.update("the scene", 0.6);
   // Nobody's motors are at the pointer's end: the scene is left as it is.
-  app::FeltModel felt = app::make_felt_model(scene, out.info, mouse || out.kind.driven, out.config.feel);
+  FeltModel felt = make_felt_model(scene, out.info, mouse || out.kind.driven(), out.config.feel);
   if (mouse) {
     const Eigen::Vector3d start_m = above_scene_m(*felt.model);
     out.targets = std::make_shared<PointerTargets>(start_m);
@@ -136,7 +134,7 @@ OpenedFeel open_feel(const FeelSetup& setup, const Scene& scene, const Observer&
     out.device = open_pointer(out.config.pointer, start_m, out.targets);
     out.info = out.device->info();
   }
-  if (out.kind.driven) out.config.feel.servo.frame = DeviceFrame();
+  if (out.kind.driven()) out.config.feel.servo.frame = DeviceFrame();
   out.model = std::move(felt.model);
   out.warnings = std::move(felt.warnings);
   for (const Problem& problem : out.drive.problems) out.warnings.push_back(problem.message);

@@ -7,35 +7,29 @@
 #include <vector>
 
 #include "asperity/base/progress.h"
+#include "asperity/device/device_registry.h"
 #include "asperity/device/pointer_device.h"
 #include "asperity/render/render_model.h"
+#include "asperity/session/feel_drive.h"
 #include "feel/feel_setup.h"
-#include "feel_drive.h"
 
 namespace asperity::studio {
 
-// What is known of a device before it is opened.
-struct FeelDeviceKind {
-  std::string_view name;   // as of `asperity feel --device`, and "mouse"
-  std::string_view title;  // for people
-  bool driven = false;     // its point is moved by a path or the modelled hand
-  bool felt = true;        // forces reach a person
-};
-
+// Devices are those of the registry, and "mouse", the pointer of a browser.
 bool is_feel_device(std::string_view name);
 // Throws Error for a name that is none.
-const FeelDeviceKind& feel_device_kind(std::string_view name);
+const DeviceKind& feel_device_kind(std::string_view name);
 
 // All devices: [{"name","title","available","words"}]. Nothing is opened for it: what only a try can tell is said so.
 Json feel_devices_json(const FeelConfig& start);
 
 // A device that is open, and what it is to feel.
 struct OpenedFeel {
-  FeelDeviceKind kind;
+  DeviceKind kind;
   std::unique_ptr<HapticDevice> device;
   DeviceInfo info;
   std::shared_ptr<PointerTargets> targets;  // of the mouse, else null
-  app::FeelDrive drive;
+  FeelDrive drive;
   FeelConfig config;  // with the device placed in the scene
   std::unique_ptr<const RenderModel> model;
   std::vector<std::string> warnings;

@@ -16,7 +16,7 @@ Json outcome_json(const FeelOutcome& outcome, const ServoConfig& servo) {
   out["warnings"] = outcome.verdict.warnings;
   out["duration_s"] = static_cast<double>(outcome.figures.ticks()) / servo.rate_Hz;
   out["figures"] = outcome.figures.json();
-  out["timing"] = app::timing_json(outcome.servo.statistics, servo);
+  out["timing"] = timing_json(outcome.servo.statistics, servo);
   out["text"] = outcome.figures.text();
   return out;
 }

@@ -121,11 +121,11 @@ void FeelPage::loaded(std::shared_ptr<const FeltWorld> world) {
 
 // The model for the running device is built beside the loop and taken between two of its ticks.
 void FeelPage::swap_model() {
-  auto result = std::make_shared<app::FeltModel>();
+  auto result = std::make_shared<FeltModel>();
   shared_.jobs.start(
       "Bringing the change to the device", kSwapSlot,
       [result, world = world_, info = running_.info, kind = running_.kind, config = running_.config](const Observer&) {
-        *result = make_swapped_model(*world, info, kind.driven || kind.name == "mouse", config);
+        *result = make_swapped_model(*world, info, kind.driven() || kind.name == "mouse", config);
       },
       [this, result, number = run_number_](std::exception_ptr error) {
         if (error) return complain(error);

@@ -47,7 +47,7 @@ class FeelPage : public Page, public FeelHost {
   void load();
   void loaded(std::shared_ptr<const FeltWorld> world);
   void begin(const Request& request);
-  void check_start(const FeelDeviceKind& kind, const Request& request) const;
+  void check_start(const DeviceKind& kind, const Request& request) const;
   void open_in_job(const Request& request, const std::shared_ptr<Opening>& opening, std::string_view title,
                    std::function<void(const Observer&)> open);
   void end_run();

@@ -3,12 +3,12 @@
 #include <mutex>
 #include <utility>
 
-#include "asperity/acquire/host_clock.h"
 #include "asperity/base/error.h"
 #include "asperity/device/write_flight_record.h"
+#include "asperity/transport/host_clock.h"
+#include "asperity/session/our_file.h"
 #include "feel/ended_logs.h"
 #include "feel/feel_json.h"
-#include "our_file.h"
 
 // The run's side of the page: its start and end, whose it is, its log.
 
@@ -29,7 +29,7 @@ struct FeelPage::Opening {
   OpenedFeel opened;
 };
 
-void FeelPage::check_start(const FeelDeviceKind& kind, const Request& request) const {
+void FeelPage::check_start(const DeviceKind& kind, const Request& request) const {
   if (state_ != State::kIdle) throw Advice("a scene is being felt already", "Stop it first.");
   if (kind.felt && !shared_.may_command_forces) {
     throw Advice("forces are not commanded from here",
@@ -43,7 +43,7 @@ void FeelPage::check_start(const FeelDeviceKind& kind, const Request& request) c
 
 void FeelPage::begin(const Request& request) {
   const FeelChoices chosen = choices();
-  const FeelDeviceKind& kind = feel_device_kind(chosen.device);
+  const DeviceKind& kind = feel_device_kind(chosen.device);
   check_start(kind, request);
   auto opening = std::make_shared<Opening>();
   opening->revision = revision_;
@@ -59,7 +59,7 @@ void FeelPage::begin(const Request& request) {
 }
 
 void FeelPage::visit(const Request& request, FeelVisit visit) {
-  const FeelDeviceKind& kind = feel_device_kind(visit.setup.device);
+  const DeviceKind& kind = feel_device_kind(visit.setup.device);
   check_start(kind, request);
   if (!shared_.may_command_forces) {
     throw Advice("nothing could be felt: forces are not commanded from here",
@@ -207,7 +207,7 @@ void FeelPage::keep_flight_record(ServoResult servo) {
   shared_.jobs.start_in(
       "feel", "Keeping what happened before the fault", "",
       [ticks, file = shared_.project.folder() / kFlightRecord](const Observer&) {
-        app::refuse_stranger(file, format_flight_record({}));
+        refuse_stranger(file, format_flight_record({}));
         write_flight_record(file, *ticks);
       },
       [this](std::exception_ptr error) {
@@ -226,7 +226,7 @@ void FeelPage::set_log(const Request& request) {
   }
   if (!log_name_.empty()) throw Advice("a log is being written already", "Finish it first.");
   const std::string name = shared_.project.free_name("feel", ".csv");
-  run_->log().begin(std::make_unique<app::FeelLog>(shared_.project.writable(name), running_.config.feel.servo.timed));
+  run_->log().begin(std::make_unique<FeelLog>(shared_.project.writable(name), running_.config.feel.servo.timed));
   log_name_ = name;
   Json out;
   out["log"] = name;

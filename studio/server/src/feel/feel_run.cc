@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "asperity/session/interrupt.h"
 #include "feel/tick_stream.h"
-#include "interrupt.h"
 
 namespace asperity::studio {
 
@@ -29,7 +29,7 @@ FeelOutcome FeelRun::take_outcome() {
 
 void FeelRun::run(Hub& hub, std::uint64_t number) {
   try {
-    std::optional<app::ForceHold> hold;
+    std::optional<ForceHold> hold;
     if (parts_.felt) hold.emplace();
     TickStream stream(hub, parts_.servo.rate_Hz, number, parts_.blind);
     outcome_.servo = run_servo(
@@ -43,8 +43,8 @@ void FeelRun::run(Hub& hub, std::uint64_t number) {
     parts_.device->close();
     hold.reset();
     stream.flush();
-    outcome_.verdict = app::judge_run(outcome_.figures, outcome_.servo, *parts_.device, parts_.drive, *scene_.acquire(),
-                                      parts_.servo.safety);
+    outcome_.verdict = judge_run(outcome_.figures, outcome_.servo, *parts_.device, parts_.drive, *scene_.acquire(),
+                                 parts_.servo.safety);
   } catch (...) {
     outcome_.failure = std::current_exception();
   }

@@ -12,10 +12,10 @@
 #include "asperity/device/pointer_device.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/snapshot_exchange.h"
+#include "asperity/session/feel_report.h"
+#include "asperity/session/feel_verdict.h"
 #include "asperity/studio/hub.h"
 #include "feel/run_log.h"
-#include "feel_report.h"
-#include "feel_verdict.h"
 
 namespace asperity::studio {
 
@@ -25,7 +25,7 @@ struct FeelRunParts {
   std::unique_ptr<const RenderModel> model;
   ServoConfig servo;
   std::shared_ptr<PointerTargets> targets;  // of the mouse, else null
-  app::FeelDrive drive;                     // what moves the point, if no hand does
+  FeelDrive drive;                          // what moves the point, if no hand does
   bool blind = false;                       // browsers see where the point is and what is let through, no more
   bool felt = false;                        // a hand is at it: a signal does not end the program before it is free
 };
@@ -33,8 +33,8 @@ struct FeelRunParts {
 // How a run ended.
 struct FeelOutcome {
   ServoResult servo;
-  app::FeelFigures figures;
-  app::RunVerdict verdict;
+  FeelFigures figures;
+  RunVerdict verdict;
   std::exception_ptr failure;  // what the loop or the log threw, with zero force
 };
 

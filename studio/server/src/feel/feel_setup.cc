@@ -5,6 +5,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/base/units.h"
 #include "asperity/scene/swap_texture.h"
 #include "asperity/studio/calls.h"
 #include "asperity/texture/texture_file.h"
@@ -56,21 +57,23 @@ FeelSetup resolve_choices(const FeelChoices& choices, const FeelConfig& start, c
   out.mapped = choices.mapped;
   if (!choices.scene.empty()) {
     out.input.scene = project.existing(choices.scene).string();
-    out.input.mesh_unit = choices.mesh_unit;
+    if (!choices.mesh_unit.empty()) {
+      out.input.mesh_unit_m = parse_length_unit_m(choices.mesh_unit, "the mesh's unit");
+    }
   }
   for (const std::string& image : choices.height_maps) {
     out.input.height_maps.push_back(project.existing(image).string());
   }
   if (!choices.height_maps.empty()) {
-    out.input.tile = number_text(choices.tile_mm) + "mm";
-    out.input.height_range = number_text(choices.range_mm) + "mm";
+    out.input.tile_mm = choices.tile_mm;
+    out.input.height_range_mm = choices.range_mm;
   }
   for (const auto& [index, file] : choices.textures) out.textures.emplace(index, project.existing(file));
   return out;
 }
 
 Scene read_chosen_scene(FeelSetup& setup) {
-  Scene scene = app::read_felt_scene(setup.input, setup.config.feel);
+  Scene scene = read_felt_scene(setup.input, setup.config.feel);
   for (const auto& [index, file] : setup.textures) {
     swap_texture(scene, index, read_texture(file), file.filename().string());
   }

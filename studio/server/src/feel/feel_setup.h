@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "asperity/base/config.h"
+#include "asperity/session/feel_scene.h"
 #include "asperity/studio/feel_config.h"
 #include "asperity/studio/project.h"
 #include "feel/feel_choices.h"
-#include "feel_scene.h"
 
 namespace asperity::studio {
 
@@ -24,7 +24,7 @@ bool is_live(std::string_view path);
 // What a user chose, with files found and settings applied to those of the start.
 struct FeelSetup {
   FeelConfig config;
-  app::SceneInput input;
+  SceneInput input;
   std::map<int, std::filesystem::path> textures;
   std::string device;
   std::string replay;

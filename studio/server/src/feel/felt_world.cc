@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/text.h"
 #include "feel/scene_block.h"
 
 namespace asperity::studio {
@@ -53,7 +54,7 @@ bool same_source(const FeelSetup& setup, const std::string& source, const std::s
 }
 
 std::string source_of(const FeelSetup& setup) {
-  std::string out = setup.input.scene + '\n' + setup.input.mesh_unit;
+  std::string out = setup.input.scene + '\n' + number_text(setup.input.mesh_unit_m.value_or(0.0));
   for (const auto& [index, file] : setup.textures) out += '\n' + std::to_string(index) + ' ' + file.string();
   return out;
 }
@@ -92,12 +93,12 @@ std::shared_ptr<const FeltWorld> make_felt_world(FeelSetup setup, const FeelChoi
   return out;
 }
 
-app::FeltModel make_swapped_model(const FeltWorld& world, const DeviceInfo& device, bool as_it_is,
-                                  const FeelConfig& running) {
-  app::FeelSettings settings = world.setup.config.feel;
+FeltModel make_swapped_model(const FeltWorld& world, const DeviceInfo& device, bool as_it_is,
+                             const FeelConfig& running) {
+  FeelSettings settings = world.setup.config.feel;
   // Where the device stands, how fast it is served and how safely is settled for the run.
   settings.servo = running.feel.servo;
-  return app::make_felt_model(*world.scene, device, as_it_is, settings);
+  return make_felt_model(*world.scene, device, as_it_is, settings);
 }
 
 }  // namespace asperity::studio

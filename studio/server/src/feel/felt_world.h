@@ -31,7 +31,7 @@ std::shared_ptr<const FeltWorld> make_felt_world(FeelSetup setup, const FeelChoi
                                                  const std::shared_ptr<const FeltWorld>& before, std::uint64_t number);
 
 // The model of a world for a device that runs already, within what it can render. Not for the studio's thread.
-app::FeltModel make_swapped_model(const FeltWorld& world, const DeviceInfo& device, bool as_it_is,
-                                  const FeelConfig& running);
+FeltModel make_swapped_model(const FeltWorld& world, const DeviceInfo& device, bool as_it_is,
+                             const FeelConfig& running);
 
 }  // namespace asperity::studio

@@ -5,7 +5,7 @@
 
 namespace asperity::studio {
 
-void RunLog::begin(std::unique_ptr<app::FeelLog> log) {
+void RunLog::begin(std::unique_ptr<FeelLog> log) {
   const std::lock_guard lock(lock_);
   next_ = std::move(log);
   ordered_.store(true);
@@ -18,7 +18,7 @@ void RunLog::end() {
 }
 
 void RunLog::take_orders() {
-  std::shared_ptr<app::FeelLog> next;
+  std::shared_ptr<FeelLog> next;
   bool end = false;
   {
     const std::lock_guard lock(lock_);

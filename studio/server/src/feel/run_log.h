@@ -8,13 +8,13 @@
 #include <string>
 
 #include "asperity/device/servo_tick.h"
-#include "feel_log.h"
+#include "asperity/session/feel_log.h"
 
 namespace asperity::studio {
 
 // How a log ended: whole but for its commit(), or with a fault, without a log.
 struct EndedLog {
-  std::shared_ptr<app::FeelLog> log;
+  std::shared_ptr<FeelLog> log;
   std::string fault;
 };
 
@@ -25,7 +25,7 @@ class RunLog {
   // `ended` is called on the run's thread, once for each log.
   explicit RunLog(std::function<void(EndedLog)> ended) : ended_(std::move(ended)) {}
 
-  void begin(std::unique_ptr<app::FeelLog> log);
+  void begin(std::unique_ptr<FeelLog> log);
   void end();
 
   // A fault of the disk ends the log, not the run. So does kMostRows.
@@ -40,9 +40,9 @@ class RunLog {
   std::function<void(EndedLog)> ended_;
   std::atomic<bool> ordered_{false};
   std::mutex lock_;  // of the two below
-  std::shared_ptr<app::FeelLog> next_;
+  std::shared_ptr<FeelLog> next_;
   bool end_ = false;
-  std::shared_ptr<app::FeelLog> log_;  // the run's thread alone
+  std::shared_ptr<FeelLog> log_;  // the run's thread alone
   std::uint64_t rows_ = 0;
 };
 

@@ -12,11 +12,11 @@
 #include "asperity/base/version.h"
 #include "asperity/scene/export_scene.h"
 #include "asperity/scene/write_scene.h"
+#include "asperity/session/export_files.h"
+#include "asperity/session/our_folder.h"
+#include "asperity/session/paint_scene.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/texture_file.h"
-#include "export_files.h"
-#include "our_folder.h"
-#include "paint_scene.h"
 #include "painting.h"
 #include "write_target.h"
 
@@ -38,7 +38,7 @@ struct SceneCache {
     if (!scene || file != wanted || unit_m != wanted_unit_m || written != now) {
       scene.reset();
       const bool is_scene = wanted.extension() == ".json";
-      scene = app::read_painted_scene(wanted, is_scene ? std::nullopt : std::optional(wanted_unit_m));
+      scene = read_painted_scene(wanted, is_scene ? std::nullopt : std::optional(wanted_unit_m));
       file = wanted;
       unit_m = wanted_unit_m;
       written = now;
@@ -54,7 +54,7 @@ Json painting_json(const PaintedScene& painted, const Painting& painting) {
   out["strokes"] = Json::array();
   for (std::size_t i = 0; i < painted.strokes.size(); ++i) {
     const PaintedStroke& stroke = painted.strokes[i];
-    Json one = app::stroke_json(stroke.result, painted.scene.objects.front(), stroke.texture);
+    Json one = stroke_json(stroke.result, painted.scene.objects.front(), stroke.texture);
     Json picks = Json::array();
     for (const Eigen::Vector3d& pick : painting.strokes[i].picks_m) picks.push_back({pick.x(), pick.y(), pick.z()});
     one["through_m"] = std::move(picks);
@@ -165,7 +165,7 @@ class PaintPage : public Page {
     answer_by_job(
         shared_.jobs, request, "Writing " + name, "paint.write",
         [cache = cache_, project = &shared_.project, painting, file, target, name](const Observer& observer) {
-          OutputFolder folder(target, app::is_our_folder);
+          OutputFolder folder(target, is_our_folder);
           const PaintedScene painted = paint_all(cache->read(file, painting.unit_m), painting, *project, observer);
           for (const PaintedStroke& stroke : painted.strokes) {
             if (!stroke.fault.empty()) throw Advice(stroke.fault, "Take the stroke out, or draw it anew.");
@@ -174,7 +174,7 @@ class PaintPage : public Page {
           write_scene(folder.path() / "scene.json", painted.scene);
           write_file(folder.path() / "paint.json",
                      painting_json(painted, painting).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-          app::write_listing(folder.path());
+          write_listing(folder.path());
           folder.commit();
           return Json{{"scene", name + "/scene.json"}};
         });
@@ -190,11 +190,11 @@ class PaintPage : public Page {
     const fs::path target = write_target(shared_.project, request);
     answer_by_job(shared_.jobs, request, "Exporting " + name, "paint.export",
                   [source, format, target, name](const Observer& observer) {
-                    OutputFolder folder(target, app::is_our_folder);
+                    OutputFolder folder(target, is_our_folder);
                     observer.update("reading", 0.0);
-                    const Scene scene = app::read_export_source(source);
+                    const Scene scene = read_export_source(source);
                     observer.update("exporting", 0.3);
-                    Json out = app::write_export(folder.path(), export_scene(scene, format, {}));
+                    Json out = write_export(folder.path(), export_scene(scene, format, {}));
                     folder.commit();
                     out["folder"] = name;
                     return out;

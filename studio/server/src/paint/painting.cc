@@ -10,11 +10,11 @@
 #include "asperity/base/error.h"
 #include "asperity/registration/triangle_stretch.h"
 #include "asperity/scene/swap_texture.h"
+#include "asperity/session/paint_scene.h"
 #include "asperity/studio/calls.h"
 #include "asperity/texture/texture_file.h"
 #include "json_keys.h"
 #include "mesh_block.h"
-#include "paint_scene.h"
 
 namespace asperity::studio {
 
@@ -54,7 +54,7 @@ Stroke stroke_of(const Json& json) {
 PaintedStroke paint_one(Scene& scene, const Stroke& stroke, const Project& project,
                         const HapticCoordinatesConfig& coordinates) {
   PaintedStroke out;
-  out.texture = app::choose_texture(scene, project.existing(stroke.texture), stroke.index);
+  out.texture = choose_texture(scene, project.existing(stroke.texture), stroke.index);
   try {
     out.result = paint(scene.objects.front(), stroke.picks_m, out.texture, coordinates);
   } catch (const Cancelled&) {
@@ -126,7 +126,7 @@ PaintedScene paint_all(Scene scene, const Painting& painting, const Project& pro
     out.strokes.push_back(paint_one(out.scene, painting.strokes[i], project, painting.coordinates));
   }
   for (const auto& [index, texture] : painting.swaps) {
-    const SceneTexture chosen = app::choose_texture(out.scene, project.existing(texture), index);
+    const SceneTexture chosen = choose_texture(out.scene, project.existing(texture), index);
     swap_texture(out.scene, index, chosen.texture, chosen.file);
   }
   return out;
@@ -166,7 +166,7 @@ BlockWriter painted_block(const PaintedScene& painted) {
       strokes.push_back(Json{{"fault", stroke.fault}});
       continue;
     }
-    strokes.push_back(app::stroke_json(stroke.result, object, stroke.texture));
+    strokes.push_back(stroke_json(stroke.result, object, stroke.texture));
     std::vector<double> path;
     for (const Eigen::Vector3d& p_m : stroke.result.path.path.p_mesh_m) path.insert(path.end(), p_m.begin(), p_m.end());
     out.add("path_" + std::to_string(i), std::span<const double>(path), {path.size() / 3, 3});

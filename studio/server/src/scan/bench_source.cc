@@ -10,14 +10,14 @@
 #include <thread>
 #include <utility>
 
-#include "asperity/acquire/byte_source.h"
-#include "asperity/acquire/camera_pose_source.h"
-#include "asperity/acquire/open_serial.h"
-#include "asperity/acquire/open_y4m.h"
-#include "asperity/acquire/probe_link.h"
 #include "asperity/base/error.h"
+#include "asperity/camera/open_y4m.h"
+#include "asperity/link/probe_link.h"
 #include "asperity/recording/cut_recording.h"
 #include "asperity/simulation/live_bench.h"
+#include "asperity/tracking/camera_pose_source.h"
+#include "asperity/transport/byte_source.h"
+#include "asperity/transport/open_serial.h"
 #include "scan/episodes.h"
 #include "scan/temporary_folder.h"
 
@@ -31,14 +31,14 @@ constexpr int kBaud = 921'600;  // a pseudo-terminal does not mind
 struct Ports {
   std::string probe, camera;
 };
-using Stage = Episodes<Ports>;
+using BenchStage = Episodes<Ports>;
 
 // A sensor of the bench: there while it plays, silent in between. `Source` is ProbeSource or PoseSource.
 template <class Source>
 class BenchLink {
  public:
   using Open = std::function<std::unique_ptr<Source>(const Ports&)>;
-  BenchLink(std::shared_ptr<Stage> stage, Open open) : stage_(std::move(stage)), open_(std::move(open)) {}
+  BenchLink(std::shared_ptr<BenchStage> stage, Open open) : stage_(std::move(stage)), open_(std::move(open)) {}
 
   // The source of the episode that plays; null if none began within `timeout`.
   Source* wait(std::chrono::milliseconds timeout) {
@@ -57,7 +57,7 @@ class BenchLink {
   void close() { source_.reset(); }
 
  private:
-  std::shared_ptr<Stage> stage_;
+  std::shared_ptr<BenchStage> stage_;
   Open open_;
   std::uint64_t number_ = 0;
   std::unique_ptr<Source> source_;
@@ -236,7 +236,7 @@ class BenchSource : public ScanSource {
   std::optional<Calibration> calibration_;
   Recording hello_;
   TemporaryFolder folder_;
-  std::shared_ptr<Stage> stage_ = std::make_shared<Stage>();
+  std::shared_ptr<BenchStage> stage_ = std::make_shared<BenchStage>();
   std::atomic<bool> stop_{false};
   mutable std::mutex mutex_;
   std::condition_variable changed_;

@@ -8,7 +8,7 @@ namespace asperity::studio {
 
 namespace {
 
-void check(const app::RecordInput& input) {
+void check(const RecordInput& input) {
   if (input.probe.empty())
     throw Advice("no probe is named", "Give its address, such as serial:/dev/ttyUSB0 or udp:5005.");
   if (!input.camera.empty() && !input.poses.empty())
@@ -27,13 +27,13 @@ void check(const app::RecordInput& input) {
 
 class HardwareSource : public ScanSource {
  public:
-  HardwareSource(app::RecordInput input, std::string world) : input_(std::move(input)), world_(std::move(world)) {
+  HardwareSource(RecordInput input, std::string world) : input_(std::move(input)), world_(std::move(world)) {
     check(input_);
-    calibration_ = app::read_record_calibration(input_);
+    calibration_ = read_record_calibration(input_);
   }
 
   RecorderSensors sensors(const TrackConfig& track, const std::function<void(const CameraFrame&)>& on_frame) override {
-    return app::make_record_sensors(input_, calibration_, track, on_frame);
+    return make_record_sensors(input_, calibration_, track, on_frame);
   }
   const std::optional<Calibration>& calibration() const override { return calibration_; }
 
@@ -45,14 +45,14 @@ class HardwareSource : public ScanSource {
   }
 
  private:
-  app::RecordInput input_;
+  RecordInput input_;
   std::string world_;
   std::optional<Calibration> calibration_;
 };
 
 }  // namespace
 
-std::unique_ptr<ScanSource> make_hardware_source(const app::RecordInput& input, const std::string& world) {
+std::unique_ptr<ScanSource> make_hardware_source(const RecordInput& input, const std::string& world) {
   return std::make_unique<HardwareSource>(input, world);
 }
 

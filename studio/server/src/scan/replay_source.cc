@@ -5,10 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "asperity/acquire/host_clock.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/studio/calls.h"
+#include "asperity/transport/host_clock.h"
 #include "scan/episodes.h"
 
 namespace asperity::studio {
@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kTogether = std::chrono::milliseconds(2);  // as a link's packets come
 
 // The recording, and by how much its times are moved while it plays.
-struct Stage {
+struct ReplayStage {
   Recording recording;
   Episodes<std::int64_t> shifts_ns;
   std::int64_t first_ns = 0;
@@ -33,7 +33,8 @@ Clock::time_point as_time_point(std::int64_t host_ns) {
 // How far one of the recording's streams has been read in the episode that plays.
 class Cursor {
  public:
-  Cursor(std::shared_ptr<Stage> stage, const std::vector<std::int64_t>& t_ns) : stage_(std::move(stage)), t_ns_(t_ns) {}
+  Cursor(std::shared_ptr<ReplayStage> stage, const std::vector<std::int64_t>& t_ns)
+      : stage_(std::move(stage)), t_ns_(t_ns) {}
 
   // The rows that are due, as soon as there are any; an empty range after `timeout`.
   struct Due {
@@ -60,7 +61,7 @@ class Cursor {
   }
 
  private:
-  std::shared_ptr<Stage> stage_;
+  std::shared_ptr<ReplayStage> stage_;
   const std::vector<std::int64_t>& t_ns_;
   std::uint64_t number_ = 0;
   std::size_t next_ = 0;
@@ -68,7 +69,8 @@ class Cursor {
 
 class ReplayedProbe : public ProbeSource {
  public:
-  explicit ReplayedProbe(std::shared_ptr<Stage> stage) : stage_(stage), cursor_(stage, stage->recording.probe.t_ns) {}
+  explicit ReplayedProbe(std::shared_ptr<ReplayStage> stage)
+      : stage_(stage), cursor_(stage, stage->recording.probe.t_ns) {}
 
   void read(std::vector<ProbeSample>& out, std::chrono::milliseconds timeout) override {
     const Cursor::Due due = cursor_.wait(timeout);
@@ -102,14 +104,15 @@ class ReplayedProbe : public ProbeSource {
   std::string name() const override { return "a recording"; }
 
  private:
-  std::shared_ptr<Stage> stage_;
+  std::shared_ptr<ReplayStage> stage_;
   Cursor cursor_;
   LinkStatistics statistics_;
 };
 
 class ReplayedPoses : public PoseSource {
  public:
-  explicit ReplayedPoses(std::shared_ptr<Stage> stage) : stage_(stage), cursor_(stage, stage->recording.tracker.t_ns) {}
+  explicit ReplayedPoses(std::shared_ptr<ReplayStage> stage)
+      : stage_(stage), cursor_(stage, stage->recording.tracker.t_ns) {}
 
   std::optional<TrackedPose> read(std::chrono::milliseconds timeout) override {
     if (next_ == due_.end) {
@@ -134,7 +137,7 @@ class ReplayedPoses : public PoseSource {
   std::string name() const override { return "a recording"; }
 
  private:
-  std::shared_ptr<Stage> stage_;
+  std::shared_ptr<ReplayStage> stage_;
   Cursor cursor_;
   Cursor::Due due_;
   std::size_t next_ = 0;
@@ -143,7 +146,7 @@ class ReplayedPoses : public PoseSource {
 
 class ReplaySource : public ScanSource {
  public:
-  explicit ReplaySource(Recording recording) : stage_(std::make_shared<Stage>()) {
+  explicit ReplaySource(Recording recording) : stage_(std::make_shared<ReplayStage>()) {
     if (recording.probe.size() == 0) {
       throw Advice("the recording has no rows of the probe: there is nothing to play",
                    "Choose another recording, or all of it in the place of a segment.");
@@ -196,7 +199,7 @@ class ReplaySource : public ScanSource {
   }
 
  private:
-  std::shared_ptr<Stage> stage_;
+  std::shared_ptr<ReplayStage> stage_;
   std::optional<Calibration> calibration_;
 };
 

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "asperity/acquire/camera_source.h"
-#include "asperity/acquire/recorder.h"
-#include "asperity/acquire/tracked_pose.h"
+#include "asperity/camera/camera_source.h"
+#include "asperity/recorder/recorder.h"
+#include "asperity/tracking/tracked_pose.h"
 
 namespace asperity::studio {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "asperity/acquire/recorder_snapshot.h"
 #include "asperity/live/scan_hints.h"
+#include "asperity/recorder/recorder_snapshot.h"
 #include "asperity/recording/calibration.h"
 #include "asperity/studio/block.h"
 #include "scan/row_tap.h"

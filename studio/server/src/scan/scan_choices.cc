@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <system_error>
 
-#include "asperity/acquire/open_camera.h"
-#include "asperity/acquire/open_pose_stream.h"
-#include "asperity/acquire/probe_address.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/camera/open_camera.h"
+#include "asperity/link/probe_address.h"
 #include "asperity/studio/calls.h"
+#include "asperity/tracking/open_pose_stream.h"
 #include "scan/scan_config.h"
 
 namespace asperity::studio {
@@ -60,7 +60,7 @@ void read_hardware(const Json& value, ScanChoices& out) {
   if (!value.is_object()) refuse("hardware", "an object is needed");
   for (const auto& [name, choice] : value.items()) {
     const std::string key = "hardware." + name;
-    app::RecordInput& input = out.hardware;
+    RecordInput& input = out.hardware;
     if (name == "probe") {
       input.probe = text_of(key, choice);
     } else if (name == "protocol") {
@@ -150,8 +150,8 @@ ScanChoices read_scan_choices(const Json& section) {
   return out;
 }
 
-app::RecordInput resolve_hardware(const app::RecordInput& typed, const Project& project) {
-  app::RecordInput out = typed;
+RecordInput resolve_hardware(const RecordInput& typed, const Project& project) {
+  RecordInput out = typed;
   if (!typed.probe.empty()) {
     const ProbeAddress probe = parse_probe_address(typed.probe);
     if (probe.kind == ProbeLinkKind::kSerial) out.probe = with_path(typed.probe, probe.path, device_of(probe.path));

@@ -3,9 +3,9 @@
 #include <map>
 #include <string>
 
+#include "asperity/session/record_input.h"
 #include "asperity/studio/block.h"
 #include "asperity/studio/project.h"
-#include "record_input.h"
 
 namespace asperity::studio {
 
@@ -14,7 +14,7 @@ enum class SourceKind { kBench, kHardware, kReplay };
 // What a user has decided on the Scan page: the document's section "scan".
 struct ScanChoices {
   SourceKind source = SourceKind::kBench;
-  app::RecordInput hardware;  // as typed; files are names in the project's folder
+  RecordInput hardware;  // as typed; files are names in the project's folder
   std::string world = "camera";
   std::string recording;                        // that is replayed
   std::string segment;                          // of it; empty: all
@@ -32,6 +32,6 @@ ScanChoices read_scan_choices(const Json& section);
 
 // The hardware's addresses and files with the project's files as paths: what is no device must lie in the project's
 // folder, and a device in /dev. Throws Error naming the choice.
-app::RecordInput resolve_hardware(const app::RecordInput& typed, const Project& project);
+RecordInput resolve_hardware(const RecordInput& typed, const Project& project);
 
 }  // namespace asperity::studio

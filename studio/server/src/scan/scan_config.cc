@@ -3,9 +3,9 @@
 #include <string_view>
 #include <utility>
 
-#include "asperity/acquire/contact_detector.h"
 #include "asperity/live/live_profile.h"
 #include "asperity/live/scan_hints.h"
+#include "asperity/recorder/contact_detector.h"
 #include "asperity/recording/uncalibrated.h"
 
 namespace asperity::studio {

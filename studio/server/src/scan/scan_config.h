@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "asperity/acquire/recorder_config.h"
-#include "asperity/acquire/track_body.h"
 #include "asperity/base/config.h"
 #include "asperity/live/live_config.h"
 #include "asperity/live/scan_hints_config.h"
 #include "asperity/pipeline/process_config.h"
+#include "asperity/recorder/recorder_config.h"
+#include "asperity/tracking/track_body.h"
 #include "scan/bench_config.h"
 
 namespace asperity::studio {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "asperity/acquire/tracked_pose.h"
 #include "asperity/live/live_profile.h"
 #include "asperity/live/scan_hints.h"
+#include "asperity/tracking/tracked_pose.h"
 #include "scan/kept_rows.h"
 #include "scan/scan_config.h"
 

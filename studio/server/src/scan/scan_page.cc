@@ -9,10 +9,11 @@
 #include <system_error>
 #include <utility>
 
-#include "asperity/acquire/host_clock.h"
 #include "asperity/base/text.h"
 #include "asperity/recording/cut_recording.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/transport/host_clock.h"
+#include "asperity/session/utc_now.h"
 #include "config_fields.h"
 #include "scan/bench_source.h"
 #include "scan/hardware_source.h"
@@ -21,7 +22,6 @@
 #include "scan/scan_choices.h"
 #include "scan/scan_session.h"
 #include "scan/temporary_folder.h"
-#include "utc_now.h"
 
 namespace asperity::studio {
 
@@ -188,7 +188,7 @@ class ScanPage : public Page {
     setup.name = shared_.project.free_name(chosen.name);
     setup.folder = shared_.project.writable(setup.name);
     setup.object = chosen.object;
-    setup.created = app::utc_now();
+    setup.created = utc_now();
     busy_ = true;
     auto opened = std::make_shared<std::unique_ptr<ScanSession>>();
     auto waiting = std::make_shared<ScanSetup>(std::move(setup));

@@ -6,11 +6,11 @@
 #include <system_error>
 #include <utility>
 
-#include "asperity/acquire/host_clock.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/recording/uncalibrated.h"
 #include "asperity/studio/calls.h"
+#include "asperity/transport/host_clock.h"
 #include "scan/scan_blocks.h"
 
 namespace asperity::studio {

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "asperity/acquire/recorder.h"
+#include "asperity/recorder/recorder.h"
 #include "asperity/studio/hub.h"
 #include "scan/row_tap.h"
 #include "scan/scan_book.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "asperity/acquire/host_clock.h"
+#include "asperity/transport/host_clock.h"
 #include "scan/scan_session.h"
 
 namespace asperity::studio {

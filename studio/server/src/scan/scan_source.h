@@ -4,11 +4,11 @@
 #include <memory>
 #include <optional>
 
-#include "asperity/acquire/camera_source.h"
-#include "asperity/acquire/recorder.h"
-#include "asperity/acquire/track_body.h"
+#include "asperity/camera/camera_source.h"
+#include "asperity/recorder/recorder.h"
 #include "asperity/recording/calibration.h"
 #include "asperity/recording/recording.h"
+#include "asperity/tracking/track_body.h"
 
 namespace asperity::studio {
 

@@ -3,9 +3,9 @@
 #include <string_view>
 #include <utility>
 
-#include "asperity/acquire/crc32.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/text.h"
+#include "asperity/link/crc32.h"
 #include "asperity/studio/calls.h"
 #include "asperity/texture/read_height_image.h"
 #include "asperity/texture/texture_file.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "asperity/studio/project.h"
+#include "asperity/study/study.h"
 #include "asperity/texture/texture.h"
-#include "study/study.h"
 
 namespace asperity::studio {
 

@@ -8,12 +8,13 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/studio/calls.h"
+#include "asperity/study/format_study_results.h"
+#include "asperity/study/study_file.h"
 #include "complaint.h"
 #include "config_fields.h"
 #include "feel/feel_devices.h"
 #include "json_keys.h"
-#include "study/study_file.h"
-#include "study/study_results.h"
+#include "study/study_advice.h"
 #include "study/trial_scene.h"
 #include "write_target.h"
 
@@ -22,8 +23,6 @@ namespace asperity::studio {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uint64_t kLargestLog = std::uint64_t{16} << 20U;
 
 struct Section {
   Study study;
@@ -39,8 +38,16 @@ Section read_section(const Json& section) {
   if (!section.contains("participant")) return out;
   if (!section["participant"].is_string()) throw Error("study: participant: text is needed");
   out.participant = section["participant"].get<std::string>();
-  if (!out.participant.empty()) check_participant(out.participant);
+  if (!out.participant.empty()) advised([&] { check_participant(out.participant); });
   return out;
+}
+
+Study read_study_file(const Project& project, const std::string& name) {
+  if (!name.ends_with(kStudyEnding)) {
+    throw Advice(printable(name, 200) + ": is no *" + std::string(kStudyEnding),
+                 "Choose a study that this page has written.");
+  }
+  return advised([&] { return parse_study_file(read_file(project.existing(name), kLargestStudy_bytes), name); });
 }
 
 StudyLog read_log(const Project& project, const std::string& name) {
@@ -48,7 +55,7 @@ StudyLog read_log(const Project& project, const std::string& name) {
     throw Advice(printable(name, 200) + ": is no log of a study",
                  "Choose a file that ends with " + std::string(kStudyLogEnding) + ".");
   }
-  return parse_study_log(read_file(project.existing(name), kLargestLog), name);
+  return advised([&] { return parse_study_log(read_file(project.existing(name), kLargestStudyLog_bytes), name); });
 }
 
 // Writes the results of a log beside it, under its name, which tells the run: x_2.results.json of x_2.study.csv. Others
@@ -134,7 +141,7 @@ void StudyPage::bind_logs(Calls& calls) {
     answer_by_job(shared_.jobs, request, "", "",
                   [project = shared_.project, name = request.text("log")](const Observer&) {
                     const StudyLog log = read_log(project, name);
-                    Json out = study_results(log.session);
+                    Json out = study_results_json(study_results(log.session));
                     out["log"] = name;
                     out["problems"] = Json::array();
                     for (const Problem& problem : log.problems) out["problems"].push_back(problem.message);
@@ -145,7 +152,7 @@ void StudyPage::bind_logs(Calls& calls) {
     check_closed(request);
     answer_by_job(shared_.jobs, request, "", "",
                   [project = shared_.project, name = request.text("log")](const Observer&) {
-                    const Json results = study_results(read_log(project, name).session);
+                    const Json results = study_results_json(study_results(read_log(project, name).session));
                     Json out;
                     out["name"] = keep_results(project, name, results.dump(2) + '\n');
                     return out;

@@ -8,9 +8,9 @@
 #include "asperity/scene/scene.h"
 #include "asperity/studio/feel_config.h"
 #include "asperity/studio/page.h"
+#include "asperity/study/study_log.h"
+#include "asperity/study/study_session.h"
 #include "feel/feel_host.h"
-#include "study/study_log.h"
-#include "study/study_session.h"
 
 namespace asperity::studio {
 

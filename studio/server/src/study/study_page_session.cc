@@ -1,17 +1,18 @@
 #include <utility>
 
-#include "asperity/acquire/host_clock.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/session/utc_now.h"
 #include "asperity/studio/calls.h"
-#include "study/plan_trials.h"
+#include "asperity/study/plan_trials.h"
+#include "asperity/study/study_file.h"
+#include "asperity/transport/host_clock.h"
 #include "study/stimuli.h"
-#include "study/study_file.h"
+#include "study/study_advice.h"
 #include "study/study_page.h"
 #include "study/trial_scene.h"
-#include "utc_now.h"
 
 // The session: its beginning and end, its trials, what is felt in them.
 
@@ -22,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kRunningFile = ".asperity-study.json";  // names the log that is being written
-constexpr std::uint64_t kLargestRunningFile = 4096, kLargestLog = std::uint64_t{16} << 20U;
+constexpr std::uint64_t kLargestRunningFile = 4096;
 
 }  // namespace
 
@@ -58,7 +59,7 @@ struct StudyPage::Opening {
   // Opens the log, and names it in `file` as the one that goes on; a new one is not left behind without that.
   void open(const fs::path& file) {
     const bool is_new = name.empty();
-    is_new ? open_new() : open_old();
+    advised([&] { is_new ? open_new() : open_old(); });
     try {
       log->sync();
       Json running;
@@ -78,7 +79,7 @@ struct StudyPage::Opening {
     }
     const fs::path file = project.existing(name);
     name = file.lexically_relative(project.folder()).generic_string();
-    StudyLog read = parse_study_log(read_file(file, kLargestLog), name);
+    StudyLog read = parse_study_log(read_file(file, kLargestStudyLog_bytes), name);
     if (!read.session.trial()) throw Advice(name + ": all its trials are answered", "Look at its results.");
     stimuli = read_stimuli(read.session.study(), project);
     check_unchanged(read.session.study(), stimuli, read.textures_crc32);
@@ -141,7 +142,7 @@ void StudyPage::begin(const Request& request) {
   if (opening->participant.empty()) {
     throw Advice("the participant has no code", "Give one, such as p01; no names.");
   }
-  check_plan(opening->study);
+  advised([&] { check_plan(opening->study); });
   open(opening, &request, "");
 }
 
@@ -269,7 +270,7 @@ double StudyPage::response_s(std::int64_t now_ns) const {
 
 double StudyPage::since_begin_s() const { return before_s_ + 1e-9 * static_cast<double>(host_now_ns() - opened_ns_); }
 
-std::string StudyPage::date() const { return session_->study().dates ? app::utc_now() : std::string(); }
+std::string StudyPage::date() const { return session_->study().dates ? utc_now() : std::string(); }
 
 void StudyPage::answer(const Request& request) {
   if (phase_ != Phase::kRunning) throw Advice("no trial is open", "Begin a session, or end the break.");

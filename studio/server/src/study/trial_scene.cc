@@ -92,8 +92,8 @@ FeelSetup study_setup(const Study& study, const FeelConfig& start) {
   out.config.feel.texture_model = study.presentation.model;
   bool images = !study.stimuli.empty();
   for (const std::string& name : study.stimuli) images = images && is_image(name);
-  if (images && study.presentation.model == app::TextureModelChoice::kAuto) {
-    out.config.feel.texture_model = app::TextureModelChoice::kNormalPerturbation;
+  if (images && study.presentation.model == TextureModelChoice::kAuto) {
+    out.config.feel.texture_model = TextureModelChoice::kNormalPerturbation;
   }
   // The modelled hand, and what it drives, stroke over the tiles from left to right.
   out.input.tile_stroke_m = viewer_stroke_m(tiles_of(study), viewer_of(study));

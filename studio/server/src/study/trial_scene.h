@@ -5,9 +5,9 @@
 
 #include "asperity/scene/scene.h"
 #include "asperity/studio/block.h"
+#include "asperity/study/study.h"
+#include "asperity/study/trial.h"
 #include "feel/feel_setup.h"
-#include "study/study.h"
-#include "study/trial.h"
 
 namespace asperity::studio {
 

@@ -9,6 +9,9 @@ double parse_length_m(std::string_view text, std::string_view what);    // 5mm 0
 double parse_speed_mps(std::string_view text, std::string_view what);   // 25mm/s 0.02m/s
 double parse_duration_s(std::string_view text, std::string_view what);  // 10s 250ms 2min
 
+// A unit of length: its name (m, mm, …) or how long it is (0.06m). From 1 nm to 1000 m, else it throws in the same way.
+double parse_length_unit_m(std::string_view text, std::string_view what);
+
 inline constexpr double kStandardGravity_mps2 = 9.80665;
 inline constexpr double kNanosecond_s = 1e-9;
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "asperity/calibration/calibration_board.h"
-#include "asperity/recording/gray_image.h"
+#include "asperity/image/gray_image.h"
 
 namespace asperity {
 

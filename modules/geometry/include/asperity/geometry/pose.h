@@ -26,6 +26,9 @@ Eigen::Quaterniond exp_rotation(const Eigen::Vector3d& phi);
 // The rotation vector of `q`, its angle in [0, π].
 Eigen::Vector3d log_rotation(const Eigen::Quaterniond& q);
 
+// The angle of the rotation that turns `a` into `b`, rad, in [0, π].
+double rotation_between_rad(const Pose& a, const Pose& b);
+
 // The matrix with skew(a) b = a × b.
 Eigen::Matrix3d skew(const Eigen::Vector3d& a);
 

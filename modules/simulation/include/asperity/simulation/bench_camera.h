@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "asperity/recording/gray_image.h"
+#include "asperity/image/gray_image.h"
 #include "asperity/recording/recording.h"
 #include "asperity/simulation/render_tags.h"
 #include "asperity/simulation/simulated_camera_config.h"

@@ -5,15 +5,15 @@
 
 namespace asperity {
 
-enum class HandPath { kStraight, kCurved, kBackAndForth };
-inline constexpr std::array<std::string_view, 3> kHandPathNames = {"straight", "curved", "back_and_forth"};
+enum class HandPathShape { kStraight, kCurved, kBackAndForth };
+inline constexpr std::array<std::string_view, 3> kHandPathShapeNames = {"straight", "curved", "back_and_forth"};
 
 enum class HandForce { kSteady, kRamp };
 inline constexpr std::array<std::string_view, 2> kHandForceNames = {"steady", "ramp"};
 
 // How the probe is moved. Root mean square values unless said otherwise; sources in docs/virtual-bench.md.
 struct HandConfig {
-  HandPath path = HandPath::kStraight;
+  HandPathShape path = HandPathShape::kStraight;
   double length_m = 0.08;         // of one stroke
   double speed_mps = 0.025;       // mean, without the ramps
   double speed_variation = 0.12;  // relative
@@ -54,7 +54,7 @@ struct HandConfig {
 
   template <class V>
   void visit(V& v) {
-    v.choice("path", path, kHandPathNames, "shape of the path on the base shape");
+    v.choice("path", path, kHandPathShapeNames, "shape of the path on the base shape");
     v.field("length_m", length_m, "length of one stroke, m", {1e-3, 10.0});
     v.field("speed_mps", speed_mps, "mean speed, m/s", {1e-3, 1.0});
     v.field("speed_variation", speed_variation, "slow relative variation of the speed", {0.0, 0.3});

@@ -26,7 +26,7 @@ struct LiveReport {
 
 // Plays a simulated scan in real time as a probe and a camera would send it (docs/live-bench.md): the probe's bytes
 // over a pseudo-terminal, paced by the probe's own clock, and the camera's view of its tags as a YUV4MPEG2 stream
-// (recording/y4m.h) over a FIFO, each from a thread of its own. Linux. Thread-safe: no.
+// (image/y4m.h) over a FIFO, each from a thread of its own. Linux. Thread-safe: no.
 class LiveBench {
  public:
   // `recording` has its truth and all of its samples (simulate_live_recording). Makes `folder`/camera.y4m, a FIFO, and

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "asperity/geometry/pose.h"
-#include "asperity/recording/gray_image.h"
+#include "asperity/image/gray_image.h"
 #include "asperity/simulation/render_tags.h"
 #include "asperity/simulation/simulated_camera_config.h"
 

@@ -5,14 +5,14 @@
 
 #include "asperity/base/config.h"
 #include "asperity/device/pointer_device.h"
-#include "feel_settings.h"
+#include "asperity/session/feel_settings.h"
 
 namespace asperity::studio {
 
 // With what the Feel page starts: the settings of `asperity feel`, and those of the pointer. From the command line and
 // the user's config alone.
 struct FeelConfig {
-  app::FeelSettings feel;
+  FeelSettings feel;
   PointerDeviceConfig pointer;
 
   FeelConfig() { feel.servo.paced = true; }
@@ -20,7 +20,7 @@ struct FeelConfig {
 
 // All of them, for --config, --set and --print-config.
 inline std::vector<ConfigField> feel_config_fields(FeelConfig& config) {
-  std::vector<ConfigField> out = app::feel_fields(config.feel);
+  std::vector<ConfigField> out = feel_fields(config.feel);
   for (ConfigField& field : list_fields("pointer", config.pointer)) out.push_back(std::move(field));
   return out;
 }

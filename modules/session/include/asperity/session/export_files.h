@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+
+#include "asperity/scene/export_scene.h"
+#include "asperity/scene/scene.h"
+
+namespace asperity {
+
+// What is to be exported: a scene, a mesh, a texture alone, or a folder that holds one of them. Throws Error naming it.
+Scene read_export_source(const std::filesystem::path& path);
+
+// Writes the files into `folder`, with the listing by which it is known for ours. Returns what `asperity export --json`
+// says of files and problems.
+nlohmann::ordered_json write_export(const std::filesystem::path& folder, const ExportResult& result);
+
+}  // namespace asperity

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "asperity/device/haptic_device.h"
+#include "asperity/device/servo_loop.h"
+#include "asperity/render/render_model.h"
+#include "asperity/session/feel_drive.h"
+#include "asperity/session/feel_report.h"
+
+namespace asperity {
+
+// What is to be said of a run, in words.
+struct RunVerdict {
+  std::vector<std::string> warnings;
+  std::vector<std::string> doubts;  // why it is not to be trusted; empty if nothing speaks against it
+};
+
+RunVerdict judge_run(const FeelFigures& figures, const ServoResult& servo, const HapticDevice& device,
+                     const FeelDrive& drive, const RenderModel& model, const SafetyConfig& safety);
+
+}  // namespace asperity

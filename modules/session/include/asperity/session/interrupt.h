@@ -1,0 +1,42 @@
+#pragma once
+
+#include <atomic>
+#include <string_view>
+
+namespace asperity {
+
+inline constexpr const char* kInterrupted = "interrupted; nothing was written";
+
+// From now on SIGINT, SIGTERM and SIGHUP ask the program to stop: interrupted() turns true, and if the
+// program has not ended within a second, unfinished output is removed, `say` is given kInterrupted, and the process
+// ends with 128 + signal. Call once, before any other thread exists.
+void watch_interrupts(void (*say)(std::string_view));
+
+bool interrupted();
+
+// While one lives, a hand may have force on it: the program is not ended by a signal, a second one either, before it
+// is gone, for two seconds more at most.
+class ForceHold {
+ public:
+  ForceHold();
+  ~ForceHold();
+  ForceHold(const ForceHold&) = delete;
+  ForceHold& operator=(const ForceHold&) = delete;
+};
+
+// While one lives, something is being brought to its end: after the signal the program has a minute for that. A second
+// signal ends it all the same.
+class FinishHold {
+ public:
+  FinishHold();
+  ~FinishHold();
+  FinishHold(const FinishHold&) = delete;
+  FinishHold& operator=(const FinishHold&) = delete;
+};
+
+// The same for those that watch a flag: turns true with interrupted(), and stays true.
+const std::atomic<bool>& interrupt_flag();
+// 128 + the signal that came, 130 for Ctrl-C.
+int interrupt_exit_code();
+
+}  // namespace asperity

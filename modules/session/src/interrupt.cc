@@ -1,0 +1,73 @@
+#include "asperity/session/interrupt.h"
+
+#include <pthread.h>
+#include <unistd.h>
+#include <csignal>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "asperity/base/output.h"
+
+namespace asperity {
+
+namespace {
+
+std::atomic<int> signal_seen{0};
+std::atomic<bool> stop_asked{false};
+std::atomic<int> forces_held{0};
+std::atomic<int> finishes_held{0};
+
+void wait_for_zero_force() {
+  constexpr auto kStep = std::chrono::milliseconds(2);
+  constexpr auto kLongest = std::chrono::seconds(2);
+  for (auto waited = std::chrono::milliseconds(0); forces_held > 0 && waited < kLongest; waited += kStep) {
+    std::this_thread::sleep_for(kStep);
+  }
+}
+
+}  // namespace
+
+void watch_interrupts(void (*say)(std::string_view)) {
+  // A reader that closes the pipe shows up as a failed write, not as a death with output half-written.
+  std::signal(SIGPIPE, SIG_IGN);
+  sigset_t set;
+  sigemptyset(&set);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+    // A shell's background job has SIGINT ignored, nohup SIGHUP: that stays so.
+    struct sigaction current {};
+    sigaction(number, nullptr, &current);
+    if (current.sa_handler != SIG_IGN) sigaddset(&set, number);
+  }
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  std::thread([set, say] {
+    int number = 0;
+    if (sigwait(&set, &number) != 0) return;
+    signal_seen = number;
+    stop_asked = true;
+    const timespec patience{1, 0};
+    constexpr int kMostFinish_s = 60;
+    for (int waited_s = 0; waited_s == 0 || (finishes_held > 0 && waited_s < kMostFinish_s); ++waited_s) {
+      if (sigtimedwait(&set, nullptr, &patience) > 0) break;
+    }
+    wait_for_zero_force();
+    remove_unfinished_output();
+    say(kInterrupted);
+    ::_exit(128 + number);
+  }).detach();
+}
+
+ForceHold::ForceHold() { ++forces_held; }
+ForceHold::~ForceHold() { --forces_held; }
+
+FinishHold::FinishHold() { ++finishes_held; }
+FinishHold::~FinishHold() { --finishes_held; }
+
+bool interrupted() { return signal_seen != 0; }
+
+const std::atomic<bool>& interrupt_flag() { return stop_asked; }
+
+int interrupt_exit_code() { return 128 + signal_seen; }
+
+}  // namespace asperity

@@ -1,0 +1,84 @@
+#include "asperity/session/our_file.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+
+namespace asperity {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kBegin_bytes = 4096;
+constexpr std::size_t kPngHeader_bytes = 8 + 25;  // the signature and IHDR
+
+std::string big_endian(std::uint32_t value) {
+  std::string out;
+  for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>((value >> shift) & 0xffU);
+  return out;
+}
+
+// The check sum of a PNG's chunk (ISO 15948, annex D).
+std::uint32_t crc32(std::string_view bytes) {
+  std::uint32_t crc = 0xffffffffU;
+  for (const char byte : bytes) {
+    crc ^= static_cast<unsigned char>(byte);
+    for (int k = 0; k < 8; ++k) crc = (crc & 1U) != 0 ? (crc >> 1) ^ 0xedb88320U : crc >> 1;
+  }
+  return ~crc;
+}
+
+std::string png_note() {
+  using namespace std::string_view_literals;
+  const std::string text{"tEXtSoftware\0asperity"sv};
+  return big_endian(static_cast<std::uint32_t>(text.size() - 4)) + text + big_endian(crc32(text));
+}
+
+}  // namespace
+
+void refuse_stranger(const fs::path& file, const IsOurs& is_ours, const std::vector<std::string>& inputs) {
+  std::error_code ignored;
+  const fs::file_status status = fs::symlink_status(file, ignored);
+  if (!fs::exists(status)) return;
+  const auto refuse = [&](const char* why) {
+    throw Error(printable(file.string(), 200) + ": exists and " + why + "; nothing was changed");
+  };
+  if (!fs::is_regular_file(status)) refuse("is no file that could be replaced");
+  for (const std::string& input : inputs) {
+    if (fs::equivalent(file, input, ignored)) refuse("is read by this command");
+  }
+  std::ifstream in(file, std::ios::binary);
+  if (!in) refuse("cannot be read");
+  std::string begin(kBegin_bytes, '\0');
+  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(in.gcount()));
+  if (!begin.empty() && !is_ours(begin)) refuse("was not written by this command");
+}
+
+void refuse_stranger(const fs::path& file, std::string_view header, const std::vector<std::string>& inputs) {
+  refuse_stranger(
+      file, [header](std::string_view begin) { return begin.starts_with(header); }, inputs);
+}
+
+bool begins_as_texture(std::string_view begin) {
+  std::string dense;
+  std::copy_if(begin.begin(), begin.end(), std::back_inserter(dense),
+               [](char c) { return c != ' ' && c != '\n' && c != '\r' && c != '\t'; });
+  return dense.starts_with(R"({"format":"asperity-texture",)");
+}
+
+std::string signed_png(std::string png) {
+  png.insert(kPngHeader_bytes, png_note());
+  return png;
+}
+
+bool begins_as_signed_png(std::string_view begin) {
+  return begin.size() > kPngHeader_bytes && begin.substr(kPngHeader_bytes).starts_with(png_note());
+}
+
+}  // namespace asperity

@@ -1,0 +1,52 @@
+#include "asperity/session/our_folder.h"
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "asperity/base/csv.h"
+#include "asperity/base/output.h"
+
+namespace asperity {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char* kListing = "files.json";
+
+std::set<std::string> files_in(const fs::path& folder) {
+  std::set<std::string> out;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_directory()) out.insert(fs::relative(entry.path(), folder).generic_string());
+  }
+  return out;
+}
+
+}  // namespace
+
+void write_listing(const fs::path& folder) {
+  Json out;
+  out["format"] = "asperity-files";
+  out["version"] = 1;
+  out["files"] = files_in(folder);
+  write_file(folder / kListing, out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+bool is_our_folder(const fs::path& folder) {
+  try {
+    const Json listing = Json::parse(read_file(folder / kListing, std::uint64_t{1} << 20));
+    if (listing.at("format") != "asperity-files") return false;
+    std::set<std::string> ours{kListing};
+    for (const Json& name : listing.at("files")) ours.insert(name.get<std::string>());
+    for (const std::string& name : files_in(folder)) {
+      if (!ours.contains(name)) return false;
+    }
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+}  // namespace asperity

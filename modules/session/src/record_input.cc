@@ -1,0 +1,116 @@
+#include "asperity/session/record_input.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/camera/open_camera.h"
+#include "asperity/link/capture_to_file.h"
+#include "asperity/link/probe_address.h"
+#include "asperity/link/probe_link.h"
+#include "asperity/recording/read_markers.h"
+#include "asperity/recording/read_recording.h"
+#include "asperity/tracking/camera_pose_source.h"
+#include "asperity/tracking/open_pose_stream.h"
+
+namespace asperity {
+
+namespace {
+
+ProbeProtocol protocol_of(const std::string& name) {
+  const auto found = std::find(kProbeProtocolNames.begin(), kProbeProtocolNames.end(), name);
+  if (found == kProbeProtocolNames.end()) throw Error("--protocol: '" + printable(name) + "' is neither what nor open");
+  return static_cast<ProbeProtocol>(found - kProbeProtocolNames.begin());
+}
+
+template <class Parse>
+auto address_of(const char* option, const Parse& parse, const std::string& text) {
+  try {
+    return parse(text);
+  } catch (const Error& error) {
+    throw Error(std::string(option) + ": " + error.what());
+  }
+}
+
+// A device may come back; a file's end is the end.
+bool is_live(const CameraAddress& address) {
+  return address.kind == CameraKind::kV4l2 ||
+         (address.kind == CameraKind::kY4m && (address.path == "-" || std::filesystem::is_fifo(address.path)));
+}
+
+void add_camera(RecorderSensors& sensors, const RecordInput& input, const Calibration& calibration,
+                const TrackConfig& track, const std::function<void(const CameraFrame&)>& on_frame) {
+  const CameraAddress address = address_of("--camera", parse_camera_address, input.camera);
+  const std::string file = printable(input.calibration, 200);
+  if (!calibration.camera) throw Error(file + ": camera is missing; see asperity calibrate camera");
+  if (calibration.markers.empty()) throw Error(file + ": markers are missing; give --markers");
+  const CameraCalibration camera = *calibration.camera;
+  const std::vector<MarkerPlacement> body = calibration.markers;
+  CameraPoseConfig config;
+  config.newest = is_live(address);
+  config.nominal_rate_Hz = address.kind == CameraKind::kV4l2 ? address.v4l2.rate_Hz : address.images.rate_Hz;
+  BodyTracker(camera, body, track);                             // throws now, not in a thread
+  sensors.reopen_poses = config.newest && address.path != "-";  // standard input does not come back
+  sensors.reopen_silent_poses = address.kind == CameraKind::kV4l2;
+  sensors.open_poses = [=] {
+    return make_camera_pose_source(open_camera(address), BodyTracker(camera, body, track), config, on_frame);
+  };
+}
+
+}  // namespace
+
+void check_record_addresses(const RecordInput& input) {
+  protocol_of(input.protocol);
+  address_of("--probe", parse_probe_address, input.probe);
+  if (!input.camera.empty()) address_of("--camera", parse_camera_address, input.camera);
+  if (!input.poses.empty()) address_of("--poses", parse_pose_address, input.poses);
+}
+
+std::optional<Calibration> read_record_calibration(const RecordInput& input) {
+  if (input.uncalibrated) return std::nullopt;
+  Calibration out = read_calibration(input.calibration);
+  const std::string& markers = input.markers.empty() ? input.calibration : input.markers;
+  if (input.markers.empty() && out.markers.empty()) return out;
+  out.markers = read_markers(markers).markers;
+  // They are now in terms of our tag frame, whatever the file had declared.
+  auto extra = nlohmann::json::parse(out.extra_json, nullptr, false);
+  if (extra.is_object() && extra.erase("tag_frame") > 0) out.extra_json = extra.dump();
+  return out;
+}
+
+RecorderSensors make_record_sensors(const RecordInput& input, const std::optional<Calibration>& calibration,
+                                    const TrackConfig& track, const std::function<void(const CameraFrame&)>& on_frame) {
+  RecorderSensors out;
+  const ProbeProtocol protocol = protocol_of(input.protocol);
+  const ProbeAddress probe = address_of("--probe", parse_probe_address, input.probe);
+  out.probe_describes_itself = protocol == ProbeProtocol::kOpen;
+  out.reopen_probe = probe.kind != ProbeLinkKind::kFile;
+  out.reopen_silent_probe = probe.kind != ProbeLinkKind::kUdp;
+  out.replayed = !out.reopen_probe;
+  // A link that is lost and comes back goes on in a file of its own: a capture is one run of a decoder.
+  const auto captures = std::make_shared<int>(0);
+  out.open_probe = [=, capture = input.capture] {
+    auto source = open_probe_source(probe, protocol);
+    if (!capture.empty()) {
+      ++*captures;
+      source = capture_to_file(std::move(source), *captures == 1 ? capture : capture + "." + std::to_string(*captures));
+    }
+    return make_probe_source(ProbeLink(std::move(source), protocol));
+  };
+  if (!input.camera.empty()) add_camera(out, input, *calibration, track, on_frame);
+  if (!input.poses.empty()) {
+    const PoseAddress poses = address_of("--poses", parse_pose_address, input.poses);
+    out.reopen_poses = poses.kind != PoseAddress::Kind::kFile;
+    out.reopen_silent_poses = false;
+    out.open_poses = [=] { return open_pose_stream(poses); };
+  }
+  return out;
+}
+
+}  // namespace asperity

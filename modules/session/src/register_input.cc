@@ -1,0 +1,88 @@
+#include "asperity/session/register_input.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <set>
+
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/geometry/read_mesh.h"
+#include "asperity/recording/read_recording.h"
+#include "asperity/scene/read_scene.h"
+#include "asperity/texture/texture_file.h"
+
+namespace asperity {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The last part of a path without the ending of a file.
+std::string scan_name(const std::string& path) {
+  fs::path whole = fs::absolute(path).lexically_normal();
+  if (!whole.has_filename()) whole = whole.parent_path();
+  return fs::is_directory(path) ? whole.filename().string() : whole.stem().string();
+}
+
+Scan read_scan(const std::string& path) {
+  Scan scan;
+  scan.name = scan_name(path);
+  if (fs::is_directory(path)) {
+    scan.recording = read_recording(path);
+  } else {
+    scan.path = read_path(path);
+  }
+  return scan;
+}
+
+// Nothing that a hand scans is as large as a house: the unit was forgotten.
+void warn_of_size(const MeshFile& mesh, double unit_m, ScansOnMesh& result) {
+  constexpr double kLarge_m = 5.0;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) box.extend(vertex);
+  const double size_m = box.isEmpty() ? 0.0 : box.diagonal().norm() * unit_m;
+  if (size_m > kLarge_m) {
+    result.problems.push_back(
+        {"large_mesh", fmt::format("the mesh is {:.0f} m large; is --mesh-unit right?", size_m), 1});
+  }
+}
+
+}  // namespace
+
+void check_register_input(const std::vector<std::string>& scans, const std::vector<std::string>& textures) {
+  if (!textures.empty() && textures.size() != 1 && textures.size() != scans.size()) {
+    throw Error(fmt::format("--texture: {} textures for {} paths", textures.size(), scans.size()));
+  }
+  std::set<std::string> names;
+  for (const std::string& scan : scans) {
+    const std::string name = scan_name(scan);
+    if (!names.insert(name).second) throw Error("two paths are called '" + printable(name) + "'");
+    if (scans.size() > 1 && !stays_inside(name)) {
+      throw Error("'" + printable(name) + "' cannot be the name of a scan's folder");
+    }
+  }
+}
+
+RegisterInput read_register_input(const std::vector<std::string>& scans, const std::string& mesh, double unit_m,
+                                  const std::vector<std::string>& textures) {
+  check_register_input(scans, textures);
+  RegisterInput out;
+  out.mesh = read_mesh(mesh);
+  out.unit_m = unit_m;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    Scan& scan = out.scans.emplace_back(read_scan(scans[i]));
+    if (!textures.empty()) scan.texture = read_texture(textures[textures.size() == 1 ? 0 : i]);
+  }
+  return out;
+}
+
+ScansOnMesh register_input(const RegisterInput& input, const std::optional<Pose>& guess, const RegisterConfig& config,
+                           const RegistrationObserver& observer) {
+  ScansOnMesh result = register_scans(input.scans, to_metres(input.mesh, input.unit_m), guess, config, observer);
+  result.problems.insert(result.problems.begin(), input.mesh.problems.begin(), input.mesh.problems.end());
+  warn_of_size(input.mesh, input.unit_m, result);
+  return result;
+}
+
+}  // namespace asperity

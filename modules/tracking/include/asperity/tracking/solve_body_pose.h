@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "asperity/geometry/pose.h"
+#include "asperity/recording/calibration.h"
+#include "asperity/tracking/seen_tag.h"
+
+namespace asperity {
+
+struct BodyPoseConfig {
+  double corner_sigma_px = 0.1;    // error of a coordinate of a corner that brings no covariance
+  double placement_sigma_m = 0.0;  // of each tag's place on the body, in each direction
+  double prior_dof = 4.0;          // how many residuals the corners' own covariances are worth against the frame's
+  double outlier_sigmas = 6.0;     // a corner farther off than this has no weight
+  double ambiguous_ratio = 3.0;    // of the residuals of the runner-up and the best: below, they are not told apart
+  int most_iterations = 30;
+
+  template <class V>
+  void visit(V& v) {
+    v.field("corner_sigma_px", corner_sigma_px, "error of a coordinate of a corner that brings no covariance",
+            {1e-4, 10.0});
+    v.field("placement_sigma_m", placement_sigma_m, "of each tag's place on the body, in each direction", {0.0, 0.1});
+    v.field("prior_dof", prior_dof, "how many residuals the corners' own covariances are worth against the frame's",
+            {0.0, 1e6});
+    v.field("outlier_sigmas", outlier_sigmas, "a corner farther off than this has no weight", {2.0, 100.0});
+    v.field("ambiguous_ratio", ambiguous_ratio,
+            "of the residuals of the runner-up and the best: below, they are not told apart", {1.0, 100.0});
+    v.field("most_iterations", most_iterations, "of the least squares", {1, 1000});
+  }
+};
+
+struct BodyPose {
+  Pose T_camera_marker;
+  // Of (position, m; rotation vector, rad) along the camera's axes: (exp(δφ) R, t + δt).
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  double reprojection_px = 0.0;  // RMS over the corners used, of their distance
+  double scale = 1.0;            // of the corners' errors against their covariances, as the residual shows it
+  bool converged = false;
+  std::vector<bool> used;  // which of the tags seen: at least two corners have weight
+  int tags_used = 0;
+  int corners_used = 0;
+
+  // The other way in which a plane can lie: a pose that is a minimum too.
+  std::optional<Pose> runner_up;
+  double runner_up_px = std::numeric_limits<double>::quiet_NaN();
+  bool ambiguous = false;  // the runner-up's residual is close; `predicted` has chosen where it was given
+};
+
+// The pose of a rigid body of one or more tags that explains all the corners seen best, in the metric of their
+// covariances, by Levenberg–Marquardt on SE(3) through the camera's distortion. It begins at each tag's two poses
+// (Collins and Bartoli, 2014), and at `predicted`. Corners that don't fit the others (occluded, wrongly decoded, a
+// second copy of a tag) lose their weight (one up to half of outlier_sigmas, then falling to nothing; the scale from
+// the median). The covariance is that of the least squares times a variance factor that the residual shows, a scaled
+// inverse χ² estimate with `prior_dof` at 1:
+//   s² = (ν₀ + Σ w r²) / (ν₀ + 2 n − 6).
+// It is the error of one frame against the next ones: what is wrong with all of them alike (the camera's calibration,
+// a printed size, a tag's place on the body) is in it only as far as the residual shows it, or `placement_sigma_m`
+// says. nullopt if no tag was seen or no pose puts the body in front of the camera. Throws Error for a tag that the
+// body does not have.
+std::optional<BodyPose> solve_body_pose(const CameraCalibration& camera, const std::vector<MarkerPlacement>& body,
+                                        std::span<const SeenTag> seen, const std::optional<Pose>& predicted = {},
+                                        const BodyPoseConfig& config = {});
+
+}  // namespace asperity

@@ -1,0 +1,268 @@
+#include "asperity/tracking/solve_body_pose.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include <Eigen/LU>
+
+#include "asperity/base/error.h"
+#include "asperity/base/random.h"
+#include "asperity/recording/camera_model.h"
+
+namespace asperity {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+CameraCalibration camera_640() {
+  CameraCalibration camera;
+  camera.width = 640;
+  camera.height = 480;
+  camera.fx = 603.0;
+  camera.fy = 601.5;
+  camera.cx = 322.7;
+  camera.cy = 236.1;
+  camera.distortion = {-0.24, 0.09, 0.0006, -0.0008, 0.0};
+  return camera;
+}
+
+MarkerPlacement tag_at(int id, const Pose& T_marker_tag) { return {id, "tag36h11", 0.046, T_marker_tag}; }
+
+std::vector<MarkerPlacement> flat_pair() {
+  return {tag_at(0, {Eigen::Quaterniond::Identity(), {0.0, -0.029, 0.0}}),
+          tag_at(1, {Eigen::Quaterniond::Identity(), {0.0, 0.029, 0.0}})};
+}
+
+// Tags on neighbouring sides of a sleeve about y.
+std::vector<MarkerPlacement> sleeve(int sides) {
+  std::vector<MarkerPlacement> out;
+  for (int i = 0; i < sides; ++i) {
+    const Eigen::Quaterniond turn = exp_rotation({0.0, (i - 0.5 * (sides - 1)) * 40.0 * kDegree, 0.0});
+    out.push_back(tag_at(i, {turn, turn * Eigen::Vector3d(0.0, 0.0, -0.06)}));
+  }
+  return out;
+}
+
+std::vector<SeenTag> see(const CameraCalibration& camera, const std::vector<MarkerPlacement>& body, const Pose& truth,
+                         double sigma_px = 0.0, Random* random = nullptr) {
+  std::vector<SeenTag> out;
+  for (std::size_t t = 0; t < body.size(); ++t) {
+    SeenTag tag;
+    tag.tag = t;
+    const Eigen::Matrix<double, 3, 4> corners_m = tag_corners_m(body[t]);
+    for (int i = 0; i < 4; ++i) {
+      tag.corners_px.col(i) = *project(camera, truth * corners_m.col(i));
+      if (random) tag.corners_px.col(i) += sigma_px * Eigen::Vector2d(random->normal(), random->normal());
+    }
+    out.push_back(tag);
+  }
+  return out;
+}
+
+Pose tilted(double x_deg, double y_deg, double z_deg, const Eigen::Vector3d& at_m) {
+  return {exp_rotation({x_deg * kDegree, 0, 0}) * exp_rotation({0, y_deg * kDegree, 0}) *
+              exp_rotation({0, 0, z_deg * kDegree}),
+          at_m};
+}
+
+Vector6 error_of(const Pose& found, const Pose& truth) {
+  Vector6 e;
+  e << found.translation_m - truth.translation_m, log_rotation(found.rotation * truth.rotation.conjugate());
+  return e;
+}
+
+TEST(SolveBodyPose, ExactCornersGiveTheExactPose) {
+  const CameraCalibration camera = camera_640();
+  for (const auto& body : {flat_pair(), sleeve(2), sleeve(3), std::vector<MarkerPlacement>{flat_pair()[0]}}) {
+    for (const double turn_deg : {0.0, 77.0, 180.0, -130.0}) {
+      const Pose truth = tilted(25.0, -18.0, turn_deg, {0.03, -0.02, 0.35});
+      const auto found = solve_body_pose(camera, body, see(camera, body, truth));
+      ASSERT_TRUE(found);
+      EXPECT_TRUE(found->converged);
+      EXPECT_EQ(found->tags_used, static_cast<int>(body.size()));
+      EXPECT_LT(error_of(found->T_camera_marker, truth).norm(), 1e-8);  // m and rad
+      EXPECT_LT(found->reprojection_px, 1e-5);
+    }
+  }
+}
+
+TEST(SolveBodyPose, TheCovarianceIsThatOfTheErrors) {
+  const CameraCalibration camera = camera_640();
+  const auto body = sleeve(2);
+  constexpr int kTrials = 200;
+  constexpr double kSigma_px = 0.1;  // as BodyPoseConfig assumes
+  Random random(11);
+  int within = 0;
+  double sum = 0.0;
+  Vector6 mean = Vector6::Zero(), covered = Vector6::Zero();
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const Pose truth = tilted(random.uniform(-30, 30), random.uniform(-20, 20), random.uniform(-180, 180),
+                              {random.uniform(-0.05, 0.05), random.uniform(-0.05, 0.05), random.uniform(0.25, 0.6)});
+    const auto found = solve_body_pose(camera, body, see(camera, body, truth, kSigma_px, &random));
+    ASSERT_TRUE(found);
+    const Vector6 e = error_of(found->T_camera_marker, truth);
+    const double d2 = e.dot(found->covariance.ldlt().solve(e));
+    sum += d2;
+    within += d2 < 17.1 ? 1 : 0;  // 95 % of six times F(6, 14): the variance is estimated from 10 + 4 residuals
+    for (int i = 0; i < 6; ++i) {
+      const double sigma = std::sqrt(found->covariance(i, i));
+      mean[i] += e[i] / sigma / kTrials;
+      covered[i] += std::abs(e[i]) < 3.0 * sigma ? 1.0 / kTrials : 0.0;
+    }
+  }
+  std::printf(
+      "Mahalanobis² mean %.2f (6), %d of %d within 95 %%; bias/sigma %.2f %.2f %.2f %.2f %.2f %.2f; within 3 sigma "
+      "%.3f "
+      "%.3f %.3f %.3f %.3f %.3f\n",
+      sum / kTrials, within, kTrials, mean[0], mean[1], mean[2], mean[3], mean[4], mean[5], covered[0], covered[1],
+      covered[2], covered[3], covered[4], covered[5]);
+  // The mean of 200 has a standard deviation of 0.25, more by the estimated variance's tails; a wrong scale of the
+  // covariance by 1.3 would show.
+  EXPECT_GT(sum / kTrials, 5.0);
+  EXPECT_LT(sum / kTrials, 7.8);
+  EXPECT_GE(within, 184);
+  EXPECT_GE(covered.minCoeff(), 0.97);
+  EXPECT_LT(mean.cwiseAbs().maxCoeff(), 0.25);
+}
+
+TEST(SolveBodyPose, LargerErrorsThanPromisedShowInTheCovariance) {
+  const CameraCalibration camera = camera_640();
+  const auto body = sleeve(3);
+  Random random(12);
+  double sum = 0.0;
+  constexpr int kTrials = 100;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const Pose truth = tilted(random.uniform(-30, 30), random.uniform(-20, 20), 20.0, {0.0, 0.0, 0.4});
+    // Five times the corners' own sigma.
+    const auto found = solve_body_pose(camera, body, see(camera, body, truth, 0.5, &random));
+    ASSERT_TRUE(found);
+    const Vector6 e = error_of(found->T_camera_marker, truth);
+    sum += e.dot(found->covariance.ldlt().solve(e)) / kTrials;
+  }
+  // Unscaled it would be 150.
+  EXPECT_LT(sum, 12.0);
+  EXPECT_GT(sum, 4.0);
+}
+
+TEST(SolveBodyPose, AnOccludedCornerDoesNotDragThePose) {
+  const CameraCalibration camera = camera_640();
+  const auto body = sleeve(2);
+  const Pose truth = tilted(20.0, 10.0, 30.0, {0.01, 0.02, 0.3});
+  Random random(13);
+  auto seen = see(camera, body, truth, 0.05, &random);
+  seen[0].corners_px.col(2) += Eigen::Vector2d(9.0, -6.0);
+  const auto found = solve_body_pose(camera, body, seen);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->corners_used, 7);
+  const Vector6 e = error_of(found->T_camera_marker, truth);
+  EXPECT_LT(e.head<3>().norm(), 0.3e-3);
+  EXPECT_LT(e.tail<3>().norm(), 0.3 * kDegree);
+}
+
+TEST(SolveBodyPose, AWronglyReadTagIsLeftOut) {
+  const CameraCalibration camera = camera_640();
+  const auto body = sleeve(3);
+  const Pose truth = tilted(-15.0, 12.0, 100.0, {0.0, -0.02, 0.4});
+  Random random(14);
+  auto seen = see(camera, body, truth, 0.05, &random);
+  // The third tag's number is read from a square elsewhere in the image, and it is the largest.
+  seen[2].corners_px << 40.0, 190.0, 185.0, 35.0, 300.0, 305.0, 440.0, 445.0;
+  const auto found = solve_body_pose(camera, body, seen);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->used, (std::vector<bool>{true, true, false}));
+  EXPECT_LT(error_of(found->T_camera_marker, truth).head<3>().norm(), 0.5e-3);
+}
+
+TEST(SolveBodyPose, ASecondCopyOfATagIsLeftOut) {
+  const CameraCalibration camera = camera_640();
+  const auto body = sleeve(2);
+  const Pose truth = tilted(10.0, 5.0, 0.0, {0.02, 0.0, 0.35});
+  auto seen = see(camera, body, truth);
+  SeenTag copy = seen[1];
+  copy.corners_px.colwise() += Eigen::Vector2d(-180.0, 60.0);
+  seen.push_back(copy);
+  const auto found = solve_body_pose(camera, body, seen);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->used, (std::vector<bool>{true, true, false}));
+  EXPECT_LT(error_of(found->T_camera_marker, truth).norm(), 1e-6);
+}
+
+TEST(SolveBodyPose, ThePredictionTellsTheTwoWaysOfAPlaneApart) {
+  const CameraCalibration camera = camera_640();
+  const std::vector<MarkerPlacement> body{flat_pair()[0]};
+  Random random(15);
+  int ambiguous = 0, wrong = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    // Far off and slightly turned away: here the two poses explain the noisy corners alike.
+    const Pose truth = tilted(random.uniform(-12, 12), random.uniform(-12, 12), 20.0, {0.0, 0.0, 0.6});
+    const auto seen = see(camera, body, truth, 0.15, &random);
+    const auto found = solve_body_pose(camera, body, seen, truth);
+    ASSERT_TRUE(found);
+    ambiguous += found->ambiguous ? 1 : 0;
+    if (found->runner_up) {
+      const double best = error_of(found->T_camera_marker, truth).tail<3>().norm();
+      wrong += found->ambiguous && best > error_of(*found->runner_up, truth).tail<3>().norm() + 1e-9 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(ambiguous, 10);
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(SolveBodyPose, TagsInTwoPlanesAreNotAmbiguous) {
+  const CameraCalibration camera = camera_640();
+  const auto body = sleeve(2);
+  Random random(16);
+  for (int trial = 0; trial < 40; ++trial) {
+    const Pose truth = tilted(random.uniform(-25, 25), random.uniform(-15, 15), 20.0, {0.0, 0.0, 0.5});
+    const auto found = solve_body_pose(camera, body, see(camera, body, truth, 0.1, &random));
+    ASSERT_TRUE(found);
+    EXPECT_FALSE(found->ambiguous);
+    EXPECT_LT(error_of(found->T_camera_marker, truth).tail<3>().norm(), 3.0 * kDegree);
+  }
+}
+
+TEST(SolveBodyPose, ABodyScaledByAPowerOfTwoGivesThePoseScaled) {
+  const CameraCalibration camera = camera_640();
+  auto body = sleeve(2);
+  const Pose truth = tilted(20.0, 10.0, 30.0, {0.01, 0.02, 0.3});
+  Random random(17);
+  const auto seen = see(camera, body, truth, 0.1, &random);
+  const auto small = solve_body_pose(camera, body, seen);
+  for (MarkerPlacement& tag : body) {
+    tag.size_m *= 1024.0;
+    tag.T_marker_tag.translation_m *= 1024.0;
+  }
+  const auto large = solve_body_pose(camera, body, seen);
+  ASSERT_TRUE(small && large);
+  // Both end within a thousandth of a standard error of the same minimum.
+  const double sigma_m = std::sqrt(small->covariance.topLeftCorner<3, 3>().trace());
+  EXPECT_LT((large->T_camera_marker.translation_m / 1024.0 - small->T_camera_marker.translation_m).norm(),
+            1e-2 * sigma_m);
+}
+
+TEST(SolveBodyPose, WhatCannotBeSolvedIsSaid) {
+  const CameraCalibration camera = camera_640();
+  const auto body = flat_pair();
+  EXPECT_FALSE(solve_body_pose(camera, body, {}));
+  std::vector<SeenTag> seen = see(camera, body, tilted(0, 0, 0, {0, 0, 0.4}));
+  seen[0].tag = 2;
+  EXPECT_THROW(solve_body_pose(camera, body, seen), Error);
+  seen[0].tag = 0;
+  seen[0].corners_px(0, 0) = std::nan("");
+  EXPECT_THROW(solve_body_pose(camera, body, seen), Error);
+  // Four corners on a line are no square.
+  SeenTag line;
+  line.corners_px << 100, 110, 120, 130, 50, 50, 50, 50;
+  const auto degenerate = solve_body_pose(camera, {body[0]}, std::vector<SeenTag>{line});
+  if (degenerate) {
+    EXPECT_TRUE(degenerate->covariance.allFinite());
+  }
+}
+
+}  // namespace
+}  // namespace asperity

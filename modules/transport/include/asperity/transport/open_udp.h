@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "asperity/transport/byte_source.h"
+
+namespace asperity {
+
+struct UdpConfig {
+  std::string address = "0.0.0.0";  // of this host, IPv4 or IPv6
+  std::uint16_t port = 0;           // 0: any free one, see name()
+  bool any_sender = false;          // else the first sender is the probe; others are passed over
+  double silence_s = 2.0;           // after which the probe may come back from another port of its address
+};
+
+// Waits for datagrams. What is written goes to the sender heard last; false before there is one. Never throws LinkLost:
+// silence is all that a socket can tell. Throws Error naming the address if it cannot be bound.
+std::unique_ptr<ByteSource> open_udp(const UdpConfig& config);
+
+}  // namespace asperity

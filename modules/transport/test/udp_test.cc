@@ -1,0 +1,144 @@
+#include "asperity/transport/open_udp.h"
+
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "asperity/transport/host_clock.h"
+
+namespace asperity {
+namespace {
+
+using namespace std::chrono_literals;
+using Bytes = std::vector<std::uint8_t>;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr auto kLong = 20s;
+
+// A sender on the loopback.
+class Sender {
+ public:
+  Sender() : file_(::socket(AF_INET, SOCK_DGRAM, 0)) {
+    sockaddr_in any{};
+    any.sin_family = AF_INET;
+    any.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (::bind(file_, reinterpret_cast<const sockaddr*>(&any), sizeof(any)) != 0) throw Error("no socket");
+  }
+  ~Sender() { ::close(file_); }
+  Sender(const Sender&) = delete;
+  Sender& operator=(const Sender&) = delete;
+
+  void send(int port, const Bytes& bytes) const {
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_port = htons(static_cast<std::uint16_t>(port));
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    ASSERT_EQ(::sendto(file_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof(to)),
+              static_cast<ssize_t>(bytes.size()));
+  }
+  Bytes receive() const {
+    Bytes out(100);
+    out.resize(static_cast<std::size_t>(::recv(file_, out.data(), out.size(), 0)));
+    return out;
+  }
+
+ private:
+  int file_;
+};
+
+int port_of(const ByteSource& source) {
+  const std::string name = source.name();
+  return std::stoi(name.substr(name.rfind(':') + 1));
+}
+
+Bytes read_once(ByteSource& source, std::size_t room = 2000) {
+  Bytes buffer(room);
+  const Arrival arrival = source.read(buffer, kLong);
+  EXPECT_LE(arrival.arrival_ns, host_now_ns());
+  buffer.resize(arrival.count);
+  return buffer;
+}
+
+TEST(Udp, DatagramsComeAndAnswersGoBack) {
+  const auto source = open_udp({.address = "127.0.0.1"});
+  EXPECT_THAT(source->name(), testing::StartsWith("udp:127.0.0.1:"));
+  EXPECT_FALSE(source->write(Bytes{1}));
+  const Sender sender;
+  sender.send(port_of(*source), {1, 0, 255});
+  sender.send(port_of(*source), Bytes(1400, 7));
+  EXPECT_EQ(read_once(*source), Bytes({1, 0, 255}));
+  EXPECT_EQ(read_once(*source, 1000), Bytes(1000, 7));
+  EXPECT_EQ(read_once(*source, 1000), Bytes(400, 7));
+  EXPECT_TRUE(source->write(Bytes{9, 8}));
+  EXPECT_EQ(sender.receive(), Bytes({9, 8}));
+}
+
+TEST(Udp, NothingComesInTime) {
+  const auto source = open_udp({.address = "127.0.0.1"});
+  Bytes buffer(10);
+  EXPECT_EQ(source->read(buffer, 5ms).count, 0u);
+  EXPECT_EQ(source->read(buffer, 0ms).count, 0u);
+  const Sender sender;
+  sender.send(port_of(*source), {5});
+  EXPECT_EQ(read_once(*source), Bytes({5}));
+}
+
+TEST(Udp, OtherSendersArePassedOver) {
+  const auto source = open_udp({.address = "127.0.0.1", .silence_s = 1e6});
+  const Sender probe;
+  const Sender stranger;
+  probe.send(port_of(*source), {1});
+  EXPECT_EQ(read_once(*source), Bytes({1}));
+  stranger.send(port_of(*source), {66});
+  probe.send(port_of(*source), {2});
+  EXPECT_EQ(read_once(*source), Bytes({2}));
+  EXPECT_TRUE(source->write(Bytes{3}));
+  EXPECT_EQ(probe.receive(), Bytes({3}));
+
+  const auto open_to_all = open_udp({.address = "127.0.0.1", .any_sender = true});
+  probe.send(port_of(*open_to_all), {1});
+  EXPECT_EQ(read_once(*open_to_all), Bytes({1}));
+  stranger.send(port_of(*open_to_all), {66});
+  EXPECT_EQ(read_once(*open_to_all), Bytes({66}));
+}
+
+TEST(Udp, AfterASilenceTheProbeMayComeFromAnotherPort) {
+  const auto source = open_udp({.address = "127.0.0.1", .silence_s = 0.0});
+  const Sender before;
+  const Sender after;
+  before.send(port_of(*source), {1});
+  EXPECT_EQ(read_once(*source), Bytes({1}));
+  after.send(port_of(*source), {2});
+  EXPECT_EQ(read_once(*source), Bytes({2}));
+  EXPECT_TRUE(source->write(Bytes{3}));
+  EXPECT_EQ(after.receive(), Bytes({3}));
+}
+
+TEST(Udp, AnAnswerThatNobodyHearsIsNoError) {
+  const auto source = open_udp({.address = "127.0.0.1"});
+  {
+    const Sender gone;
+    gone.send(port_of(*source), {1});
+    EXPECT_EQ(read_once(*source), Bytes({1}));
+  }
+  for (int i = 0; i < 3; ++i) {
+    source->write(Bytes{1});
+    Bytes buffer(10);
+    EXPECT_EQ(source->read(buffer, 2ms).count, 0u);
+  }
+}
+
+TEST(Udp, WhatCannotBeBoundIsRefused) {
+  const auto source = open_udp({.address = "127.0.0.1"});
+  const auto port = static_cast<std::uint16_t>(port_of(*source));
+  EXPECT_THAT([&] { open_udp({.address = "127.0.0.1", .port = port}); },
+              ThrowsMessage<Error>(HasSubstr(source->name() + ": is in use")));
+  EXPECT_THAT([] { open_udp({.address = "nonsense"}); }, ThrowsMessage<Error>(HasSubstr("not an IP address")));
+  EXPECT_THAT([] { open_udp({.address = "203.0.113.77"}); }, ThrowsMessage<Error>(HasSubstr("cannot be bound")));
+}
+
+}  // namespace
+}  // namespace asperity
