@@ -4,7 +4,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "asperity/base/config_tree.h"
@@ -12,6 +11,7 @@
 #include "asperity/profile/read_heights.h"
 #include "asperity/texture/compare_textures.h"
 #include "asperity/texture/evaluate_height.h"
+#include "asperity/texture/sample_heights.h"
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
 #include "json_of.h"
@@ -113,7 +113,7 @@ class TextureCompareCommand : public Command {
       const Texture texture = read_texture(file);
       surface.spacing_m = 1e-3 * settings_.spacing_mm;
       if (!is_height_field(texture.model)) throw Error(file + ": a force in time, which has no spectrum over lengths");
-      lines = lines_through(texture.model, 1e-3 * settings_.length_mm, surface.spacing_m);
+      lines = sample_lines(texture.model, 1e-3 * settings_.length_mm, surface.spacing_m);
     } else {
       const Heights heights = read_heights(file, settings_.input);
       if (const auto* profile = std::get_if<HeightProfile>(&heights)) {

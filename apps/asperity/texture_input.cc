@@ -6,15 +6,12 @@
 #include <limits>
 #include <optional>
 #include <utility>
-#include <variant>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 #include "asperity/profile/measure_roughness.h"
-#include "asperity/texture/evaluate_height.h"
-#include "asperity/texture/sample_heights.h"
 
 namespace asperity::app {
 
@@ -144,29 +141,6 @@ std::map<std::string, double> roughness_of(const std::vector<std::vector<double>
   for (auto& [name, value] : sum) value /= count[name];
   if (sum.contains("Rq_m")) sum["Rq_m"] = std::sqrt(sum["Rq_m"]);
   return sum;
-}
-
-std::vector<std::vector<double>> lines_through(const TextureModel& model, double length_m, double spacing_m) {
-  SampleHeightsConfig line;
-  line.length_mm = length_m * 1e3;
-  line.spacing_mm = spacing_m * 1e3;
-  double width_m = 0.0;
-  if (const auto* t = std::get_if<ArealTexture>(&model)) {
-    const SplineGrid& g = t->surface;
-    line.x_mm = 1e3 * (g.origin_x_m + 2.0 * g.spacing_x_m);
-    line.y_mm = 1e3 * (g.origin_y_m + 2.0 * g.spacing_y_m);
-    width_m = std::max(0.0, static_cast<double>(g.rows) - 4.0) * g.spacing_y_m;
-  } else if (!std::holds_alternative<Fourier1d>(model)) {
-    width_m = period_m(model).value_or(0.01);
-  }
-  const std::size_t count = width_m > 0.0 ? 16 : 1;
-  const double first_mm = line.y_mm;
-  std::vector<std::vector<double>> lines;
-  for (std::size_t i = 0; i < count; ++i) {
-    line.y_mm = first_mm + 1e3 * width_m * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-    lines.push_back(sample_heights(model, line));
-  }
-  return lines;
 }
 
 }  // namespace asperity::app

@@ -15,6 +15,7 @@
 #include "asperity/render/render_step.h"
 #include "asperity/signal/statistics.h"
 #include "asperity/texture/compare_textures.h"
+#include "asperity/texture/evaluate_height.h"
 
 namespace asperity {
 
@@ -29,24 +30,13 @@ struct Ticks {
   const Texture* texture = nullptr;  // that was touched most
 };
 
-// How far a texture goes on along x with places of its own; 0 for one that has none.
-double length_along_m(const Texture& texture) {
-  if (const auto* series = std::get_if<Fourier1d>(&texture.model)) return 1e-3 * series->length_mm;
-  if (const auto* map = std::get_if<HeightMap>(&texture.model)) {
-    return 1e-3 * map->mm_per_px_x * static_cast<double>(map->columns);
-  }
-  if (const auto* areal = std::get_if<ArealTexture>(&texture.model)) {
-    return areal->surface.spacing_x_m * static_cast<double>(areal->surface.columns);
-  }
-  return 0.0;
-}
-
 // Why a texture cannot have the phase of a scan of this length, in words; empty if it can.
 std::string why_no_phase(const Texture* texture, double path_m) {
   if (texture == nullptr) return "the scan lies where the scene has no texture";
-  if (std::holds_alternative<Fourier2d>(texture->model)) return "the texture is made up from a spectrum";
-  const double length_m = length_along_m(*texture);
-  if (length_m == 0.0) return "the texture has no heights of its own";
+  if (is_synthetic(texture->model)) return "the texture is made up from a spectrum";
+  const auto window = height_window(texture->model, std::numeric_limits<std::size_t>::max());
+  if (!window) return "the texture has no heights of its own";
+  const double length_m = window->length_m;
   return length_m > path_m ? "" : fmt::format("the texture repeats after {:.1f} mm", 1e3 * length_m);
 }
 

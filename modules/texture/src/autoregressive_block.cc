@@ -46,7 +46,7 @@ void read_triangles(const BlockInput& in, AutoregressiveTexture& t) {
 
 }  // namespace
 
-void read_block(const BlockInput& in, AutoregressiveTexture& t) {
+void TextureModelTraits<AutoregressiveTexture>::read_block(const BlockInput& in, AutoregressiveTexture& t) {
   in.json.only(in.path, {"rate_Hz", "mass_kg", "tangential_ratio", "lift_sigma", "fade_speed_mps", "fade_force_N",
                          "max_speed_mps", "max_force_N", "speed_mps", "force_N", "gain", "variance_m2_per_s4",
                          "ar_lsf_rad", "ma_lsf_rad", "triangles"});
@@ -83,7 +83,7 @@ void read_block(const BlockInput& in, AutoregressiveTexture& t) {
   }
 }
 
-std::string write_block(const AutoregressiveTexture& texture, BlockOutput&) {
+std::string TextureModelTraits<AutoregressiveTexture>::write_block(const AutoregressiveTexture& texture, BlockOutput&) {
   AutoregressiveTexture t = texture;
   prepare_autoregressive(t, "texture");
   BlockText block;

@@ -37,9 +37,11 @@ void check_fourier1d(const Fourier1d& f) {
   }
 }
 
-void read_block(const BlockInput& input, Fourier1d& model) { model = read_fourier1d(input.json, input.path); }
+void TextureModelTraits<Fourier1d>::read_block(const BlockInput& input, Fourier1d& model) {
+  model = read_fourier1d(input.json, input.path);
+}
 
-std::string write_block(const Fourier1d& f, BlockOutput&) {
+std::string TextureModelTraits<Fourier1d>::write_block(const Fourier1d& f, BlockOutput&) {
   check_fourier1d(f);
   return BlockText()
       .add("length_mm", f.length_mm)

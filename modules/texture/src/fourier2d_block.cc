@@ -19,7 +19,7 @@ std::string series_json(const Fourier1d& f) {
 
 }  // namespace
 
-void read_block(const BlockInput& input, Fourier2d& t) {
+void TextureModelTraits<Fourier2d>::read_block(const BlockInput& input, Fourier2d& t) {
   const LocatedJson& json = input.json;
   const std::string& path = input.path;
   t.kind = static_cast<Fourier2dKind>(
@@ -46,7 +46,7 @@ void read_block(const BlockInput& input, Fourier2d& t) {
   t.grid = synthesize_isotropic(t.isotropic);
 }
 
-std::string write_block(const Fourier2d& t, BlockOutput&) {
+std::string TextureModelTraits<Fourier2d>::write_block(const Fourier2d& t, BlockOutput&) {
   BlockText block;
   block.add("kind", "\"" + std::string(kFourier2dKindNames.at(static_cast<std::size_t>(t.kind))) + "\"");
   if (t.kind != Fourier2dKind::kIsotropic) {

@@ -16,7 +16,7 @@ constexpr std::int64_t kFewestPixels = 4;
 
 }  // namespace
 
-void read_block(const BlockInput& input, HeightMap& map) {
+void TextureModelTraits<HeightMap>::read_block(const BlockInput& input, HeightMap& map) {
   const LocatedJson& json = input.json;
   const std::string& path = input.path;
   json.only(path, {"file", "columns", "rows", "bits", "mm_per_px", "low_m", "high_m", "border"});
@@ -50,7 +50,7 @@ void read_block(const BlockInput& input, HeightMap& map) {
   map.level = std::move(image.pixels);
 }
 
-std::string write_block(const HeightMap& map, BlockOutput& output) {
+std::string TextureModelTraits<HeightMap>::write_block(const HeightMap& map, BlockOutput& output) {
   if (!(map.high_m >= map.low_m)) throw Error("texture: a height map whose highest height is below its lowest");
   const std::string file = output.add_payload(".heights.png", format_height_image(map));
   return BlockText()

@@ -27,13 +27,12 @@ std::string optional_text(const LocatedJson& json, const std::string& path, cons
   return value ? read_text(json, *value, path.empty() ? key : path + "." + key) : std::string();
 }
 
-// Reads the block of the model whose name stands at `index` of the variant.
-template <std::size_t index = 0>
+// Reads the block of the model that is called as its key.
 void read_model(const BlockInput& input, TextureModel& model) {
-  if constexpr (index < std::variant_size_v<TextureModel>) {
-    if (input.path == kTextureModelNames[index]) return read_block(input, model.emplace<index>());
-    read_model<index + 1>(input, model);
-  }
+  for_each_texture_model([&]<class Model>() {
+    using Traits = TextureModelTraits<Model>;
+    if (input.path == Traits::kName) Traits::read_block(input, model.emplace<Model>());
+  });
 }
 
 void parse_model(const LocatedJson& json, const PayloadReader& payload, Texture& texture) {

@@ -20,7 +20,7 @@ void x(Model& t, const Field& field) {
 
 }  // namespace
 
-void read_block(const BlockInput& input, StochasticTexture& t) {
+void TextureModelTraits<StochasticTexture>::read_block(const BlockInput& input, StochasticTexture& t) {
   input.json.only(input.path,
                   {"sigma_m", "grain_m", "tangential_ratio", "lift_sigma", "stiffness_N_per_m", "mass_kg",
                    "reference_speed_mps", "speed_exponent", "reference_force_N", "force_exponent", "fade_speed_mps"});
@@ -28,7 +28,7 @@ void read_block(const BlockInput& input, StochasticTexture& t) {
   x(t, FlatReader{input});
 }
 
-std::string write_block(const StochasticTexture& t, BlockOutput&) {
+std::string TextureModelTraits<StochasticTexture>::write_block(const StochasticTexture& t, BlockOutput&) {
   BlockText block;
   x(t, FlatWriter{block});
   return block.str();
