@@ -6,7 +6,7 @@ namespace {
 template <class Model, class Field>
 void x(Model& t, const Field& field) {
   field("sigma_m", t.sigma_m, 0.0, kLargestHeight_m);
-  field("grain_m", t.grain_m, 0.0, kLargestHeight_m);
+  field("correlation_length_m", t.correlation_length_m, 0.0, kLargestHeight_m);
   field("tangential_ratio", t.tangential_ratio, -100.0, 100.0);
   field("lift_sigma", t.lift_sigma, 0.0, 10.0);
   field("stiffness_N_per_m", t.stiffness_N_per_m, 0.0, 1e6);
@@ -21,9 +21,9 @@ void x(Model& t, const Field& field) {
 }  // namespace
 
 void TextureModelTraits<StochasticTexture>::read_block(const BlockInput& input, StochasticTexture& t) {
-  input.json.only(input.path,
-                  {"sigma_m", "grain_m", "tangential_ratio", "lift_sigma", "stiffness_N_per_m", "mass_kg",
-                   "reference_speed_mps", "speed_exponent", "reference_force_N", "force_exponent", "fade_speed_mps"});
+  input.json.only(input.path, {"sigma_m", "correlation_length_m", "grain_m", "tangential_ratio", "lift_sigma",
+                               "stiffness_N_per_m", "mass_kg", "reference_speed_mps", "speed_exponent",
+                               "reference_force_N", "force_exponent", "fade_speed_mps"});
   input.json.require(input.path, "sigma_m");
   x(t, FlatReader{input});
 }
