@@ -9,6 +9,7 @@
 #include "asperity/base/config_tree.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
 #include "asperity/session/our_file.h"
@@ -16,8 +17,6 @@
 namespace asperity::app {
 
 namespace fs = std::filesystem;
-using Json = CalibrateOutcome::Json;
-
 namespace {
 
 bool begins_as_calibration(std::string_view begin) {
@@ -58,7 +57,7 @@ int CalibrateCommand::run(const Observer& observer) {
   }
   const CalibrateOutcome outcome = calibrate(observer);
   if (!output_.empty()) write(before, outcome);
-  print_json(report(outcome).dump(2, ' ', false, Json::error_handler_t::replace));
+  print_json(report(outcome).dump_repaired(2));
   say(text(outcome));
   if (outcome.verdict.trustworthy) return kDone;
   complain(kind_ + ": " + outcome.verdict.text);
@@ -73,8 +72,7 @@ void CalibrateCommand::write(const Calibration& before, const CalibrateOutcome& 
       {"residuals", outcome.residuals}, {"config", config_tree<Json>(fields())},
       {"asperity", kVersion},
   };
-  calibration.calibrated[kind_] = {outcome.verdict.trustworthy, outcome.verdict.text,
-                                   details.dump(-1, ' ', false, Json::error_handler_t::replace)};
+  calibration.calibrated[kind_] = {outcome.verdict.trustworthy, outcome.verdict.text, details.dump_repaired()};
   write_calibration(output_, calibration);
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/scene/export_scene.h"
 #include "asperity/session/export_files.h"
 #include "asperity/session/our_folder.h"
@@ -22,8 +22,6 @@ namespace asperity::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 class ExportCommand : public Command {
  public:
   explicit ExportCommand(Parser& root)
@@ -80,7 +78,7 @@ class ExportCommand : public Command {
     out["config"] = config_tree<Json>(fields());
     out["asperity"] = kVersion;
     folder.commit();
-    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
     say(text + "in " + printable(target.string(), 200) + "\n");
     return kDone;
   }

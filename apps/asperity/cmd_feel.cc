@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,6 +20,7 @@
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/write_flight_record.h"
 #include "asperity/fidelity/score_rendering.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/session/feel_device.h"
 #include "asperity/session/feel_drive.h"
 #include "asperity/session/feel_log.h"
@@ -41,8 +41,6 @@ namespace asperity::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 constexpr std::array<const char*, 4> kEndNames{"duration", "device_ended", "stopped", "fault"};
 
 // "sim (the default), replay or haply": all devices, with remarks on some.
@@ -168,7 +166,7 @@ class FeelCommand : public Command {
                               settings_.score, observer);
       if (!score->trustworthy) distrust("real against rendered: " + score->verdict);
     }
-    const std::string json = to_json(servo, *device, score).dump(2, ' ', false, Json::error_handler_t::replace);
+    const std::string json = to_json(servo, *device, score).dump_repaired(2);
     if (folder) {
       write_file(folder->path() / "result.json", json + "\n");
       write_listing(folder->path());

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <variant>
@@ -9,6 +8,7 @@
 
 #include "asperity/base/config_tree.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/profile/measure_areal_roughness.h"
 #include "asperity/profile/measure_roughness.h"
 #include "asperity/profile/read_heights.h"
@@ -18,8 +18,6 @@
 namespace asperity::app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct RoughnessSettings {
   ReadHeightsConfig input;
@@ -137,7 +135,7 @@ class RoughnessCommand : public Command {
   void finish(Json& out) {
     out["config"] = config_tree<Json>(fields());
     out["asperity"] = kVersion;
-    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
   }
 
   std::string file_;

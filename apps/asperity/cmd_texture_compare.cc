@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "asperity/base/config_tree.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/profile/read_heights.h"
 #include "asperity/texture/compare_textures.h"
 #include "asperity/texture/evaluate_height.h"
@@ -21,8 +21,6 @@
 namespace asperity::app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct CompareSettings {
   ReadHeightsConfig input;
@@ -100,7 +98,7 @@ class TextureCompareCommand : public Command {
     }
     out["config"] = config_tree<Json>(fields());
     out["asperity"] = kVersion;
-    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
     say_table(c);
     return kDone;
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/recorded_series.h"
@@ -30,8 +30,6 @@
 namespace asperity::app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // "a (the default), b, c or d".
 std::string model_names() {
@@ -152,7 +150,7 @@ class TextureFitCommand : public Command {
     for (const auto& problem : fitted.problems)
       problems.push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
     report["problems"] = problems;
-    Json extra = Json::parse(texture.extra_json);
+    Json extra = parse_json(texture.extra_json);
     extra["fit"] = report;
     texture.extra_json = extra.dump();
     refuse_other_payloads(texture);
@@ -168,7 +166,7 @@ class TextureFitCommand : public Command {
     out["roughness"] = texture.roughness;
     out["config"] = config_tree<Json>(fields());
     out["asperity"] = kVersion;
-    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
     std::string text = fmt::format("{}: {}", output_, texture.model_name());
     for (const auto& [key, what] : {std::pair{"rms_height_m", "RMS height"},
                                     {"rms_error_m", "error"},

@@ -2,12 +2,12 @@
 
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/sample_heights.h"
 #include "asperity/texture/texture_file.h"
@@ -19,8 +19,6 @@
 namespace asperity::app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double kLine_m = 0.04;
 constexpr double kSpacing_m = 25e-6;
@@ -54,10 +52,10 @@ class TextureInfoCommand : public Command {
     if (texture.stiffness_N_per_m) out["stiffness_N_per_m"] = *texture.stiffness_N_per_m;
     if (texture.friction) out["friction"] = *texture.friction;
     out["source_roughness"] = texture.roughness;
-    const Json extra = Json::parse(texture.extra_json);
+    const Json extra = parse_json(texture.extra_json);
     if (extra.contains("fit")) out["fit"] = extra["fit"];
     out["asperity"] = kVersion;
-    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
     say_summary(out);
     return kDone;
   }

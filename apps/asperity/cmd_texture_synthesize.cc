@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/session/our_file.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/format_height_image.h"
@@ -24,8 +24,6 @@
 namespace asperity::app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kLineColumns = "s_m,height_m\n";
 constexpr const char* kStrokeColumns = "t_s,acceleration_mps2\n";
@@ -89,7 +87,7 @@ class TextureSynthesizeCommand : public Command {
     }
     out["config"] = config_tree<Json>(fields());
     out["asperity"] = kVersion;
-    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
     return kDone;
   }
 

@@ -5,8 +5,8 @@
 
 namespace asperity::app {
 
-nlohmann::ordered_json json_of(const NamedValues& values) {
-  auto out = nlohmann::ordered_json::object();
+Json json_of(const NamedValues& values) {
+  auto out = Json::object();
   for (const NamedValue& one : values.all()) {
     std::visit(
         [&]<class T>(const T& value) {

@@ -3,18 +3,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "asperity/base/config_tree.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "json_of.h"
 
 namespace asperity::app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json sensor_json(const SensorSnapshot& sensor) {
   Json out;
@@ -84,7 +82,7 @@ std::string record_json(const RecordOutcome& outcome, const std::vector<ConfigFi
   out["warnings"] = outcome.verdict.warnings;
   out["config"] = config_tree<Json>(config);
   out["asperity"] = kVersion;
-  return out.dump(2, ' ', false, Json::error_handler_t::replace);
+  return out.dump_repaired(2);
 }
 
 std::string record_text(const RecordOutcome& outcome) {

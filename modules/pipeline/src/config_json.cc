@@ -1,6 +1,7 @@
 #include "asperity/pipeline/config_json.h"
 
 #include "asperity/base/config_tree.h"
+#include "asperity/json/parse_json.h"
 #include "json.h"
 
 namespace asperity {

@@ -3,6 +3,7 @@
 #include "asperity/base/config_tree.h"
 #include "asperity/base/units.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/result_json.h"
 #include "asperity/pipeline/write_result.h"
 #include "json.h"
@@ -100,14 +101,6 @@ Json accuracy_json(const Accuracy& accuracy) {
   return out;
 }
 
-// JSON has no nan: null stands for it, and for infinities.
-void replace_nan_by_null(Json& value) {
-  if (value.is_number_float() && !std::isfinite(value.get<double>())) value = nullptr;
-  if (value.is_structured()) {
-    for (Json& each : value) replace_nan_by_null(each);
-  }
-}
-
 }  // namespace
 
 Json result_json(const ProcessResult& result, const Recording& recording, const std::string& name) {
@@ -158,14 +151,13 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
   out["problems"] = problems_json(result.problems);
   out["config"] = config_tree<Json>(list_fields("", config));
   out["asperity"] = kVersion;
-  replace_nan_by_null(out);
   return out;
 }
 
 std::string format_result(const ProcessResult& result, const Recording& recording, const std::string& name) {
   const Json out = result_json(result, recording, name);
   // Names come from files; what is not UTF-8 in them must not stop the writing.
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return out.dump_repaired(2) + "\n";
 }
 
 }  // namespace asperity

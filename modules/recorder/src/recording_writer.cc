@@ -6,13 +6,12 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/recording/write_recording.h"
 
 namespace asperity {
 
 namespace {
-
-std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(time_s / kNanosecond_s)); }
 
 RecordingInfo with_description(RecordingInfo info, const std::optional<ProbeDescription>& description) {
   if (!description) return info;
@@ -48,7 +47,7 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& folder, RecordingI
       contact_(config.contact, force_),
       gravity_(config.rest, calibration),
       appender_(folder, info_, calibration, columns_of(description, has_poses)),
-      segments_(appender_, ns(config.pre_roll_s)) {
+      segments_(appender_, nanoseconds(config.pre_roll_s)) {
   if (config.mode == StoreMode::kSegments && config.start_at_once) begin("segment_", SegmentWriter::kFromFirstRow);
   replace_recording_info(folder / "recording.json", current_info(false));
 }
@@ -80,13 +79,13 @@ void RecordingWriter::touch(const ContactChange& change) {
     // Touching again before the post-roll is over goes on with the same segment.
     if (!segments_.reopen()) begin("contact_", change.t_ns);
   } else if (segments_.is_open()) {
-    segments_.end_at(change.t_ns + ns(config_.post_roll_s));
+    segments_.end_at(change.t_ns + nanoseconds(config_.post_roll_s));
   }
 }
 
 void RecordingWriter::begin(std::string name, std::int64_t t_ns) {
   if (name.ends_with('_')) name += std::to_string(segments_.count() + 1);
-  if (!segments_.start(std::move(name), t_ns, ns(config_.pre_roll_s))) ++refused_;
+  if (!segments_.start(std::move(name), t_ns, nanoseconds(config_.pre_roll_s))) ++refused_;
   changed_ = true;
 }
 
@@ -158,7 +157,7 @@ RecordingInfo RecordingWriter::current_info(bool finished) const {
   recorder.last_segment_is_open = segments_.is_open();
   recorder.discarded_until_ns = segments_.discarded_until_ns();
   recorder.discarded_segments = static_cast<std::int64_t>(segments_.discarded());
-  if (!finished) recorder.discarded = segments_.trash();
+  if (!finished) recorder.discarded = segments_.discarded_rows();
   recorder.gravity = GravityAtRest{gravity.measured, gravity.windows, gravity.scatter_mps2};
   if (description_) {
     recorder.probe_name = printable(description_->name);
@@ -197,7 +196,7 @@ void RecordingWriter::describe(RecorderSnapshot& out) const {
   out.segment = segments_.last_name();
   out.discarded = segments_.discarded();
   out.restored = segments_.restored();
-  if (!segments_.trash().empty()) out.last_discarded = segments_.trash().back();
+  if (!segments_.discarded_rows().empty()) out.last_discarded = segments_.discarded_rows().back();
   out.recorded_s = segments_.recorded_s();
   out.probe_rows = segments_.probe_rows();
   out.tracker_rows = segments_.tracker_rows();

@@ -1,5 +1,7 @@
 #include "asperity/recording/uncalibrated.h"
 
+#include <exception>
+#include "asperity/json/parse_json.h"
 namespace asperity {
 
 namespace {

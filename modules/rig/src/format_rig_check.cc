@@ -1,6 +1,5 @@
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include <fmt/format.h>
@@ -8,13 +7,12 @@
 #include "asperity/base/config_tree.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/rig/check_rig.h"
 
 namespace asperity {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // JSON has no nan and no infinity.
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -54,7 +52,7 @@ Json stroke_json(const RigStroke& stroke, const RigCheck& check) {
   out["poses_outlying_share"] = number_or_null(stroke.outlying_share);
   out["gravity_share"] = number_or_null(stroke.gravity_share);
   out["gravity_angle_rad"] = number_or_null(stroke.gravity_angle_rad);
-  out["inspection"] = Json::parse(inspection_json(stroke.inspection));
+  out["inspection"] = parse_json(inspection_json(stroke.inspection));
   return out;
 }
 
@@ -102,7 +100,7 @@ std::string rig_check_json(const RigCheck& check, const CheckRigConfig& config) 
   CheckRigConfig resolved = config;
   out["config"] = config_tree<Json>(list_fields("", resolved));
   out["asperity"] = kVersion;
-  return out.dump(2, ' ', false, Json::error_handler_t::replace);
+  return out.dump_repaired(2);
 }
 
 std::string rig_check_text(const RigCheck& check, const CheckRigConfig& config) {

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "asperity/base/text.h"
+#include "asperity/json/parse_json.h"
 
 namespace asperity {
 

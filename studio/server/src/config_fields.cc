@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "asperity/base/config_tree.h"
+#include "asperity/json/parse_json.h"
 
 namespace asperity::studio {
 

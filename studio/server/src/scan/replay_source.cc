@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "asperity/base/error.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 #include "asperity/studio/calls.h"
-#include "asperity/transport/host_clock.h"
 #include "scan/episodes.h"
 
 namespace asperity::studio {

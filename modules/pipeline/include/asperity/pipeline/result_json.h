@@ -1,8 +1,8 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "asperity/json/json.h"
 #include "asperity/pipeline/process_result.h"
 #include "asperity/recording/recording.h"
 
@@ -10,6 +10,6 @@ namespace asperity {
 
 // What result.json says: everything measured, what was dropped and why, the settings, the version. `name` is the
 // recording's. nan is null. The same result gives the same bytes.
-nlohmann::ordered_json result_json(const ProcessResult& result, const Recording& recording, const std::string& name);
+Json result_json(const ProcessResult& result, const Recording& recording, const std::string& name);
 
 }  // namespace asperity

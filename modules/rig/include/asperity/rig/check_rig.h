@@ -6,7 +6,7 @@
 
 #include "asperity/base/progress.h"
 #include "asperity/pipeline/process_config.h"
-#include "asperity/recording/inspect.h"
+#include "asperity/recording/inspect_recording.h"
 #include "asperity/recording/recording.h"
 #include "asperity/rig/rig_check.h"
 #include "asperity/rig/sine_grating.h"
