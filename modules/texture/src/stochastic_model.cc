@@ -28,19 +28,19 @@ constexpr double kOfThePlace = -1.0;
 NamedValues StochasticTraits::describe(const StochasticTexture& t) {
   return NamedValues()
       .add("sigma_m", t.sigma_m)
-      .add("grain_m", t.grain_m)
+      .add("correlation_length_m", t.correlation_length_m)
       .add("stiffness_N_per_m", t.stiffness_N_per_m);
 }
 
 void StochasticTraits::scale(StochasticTexture& t, double factor) { t.sigma_m *= factor; }
 
 void StochasticTraits::add_to(TextureHash& hash, const StochasticTexture& t) {
-  hash.add(t.sigma_m, t.grain_m, t.tangential_ratio, t.lift_sigma, t.stiffness_N_per_m, t.reference_speed_mps,
-           t.speed_exponent, t.reference_force_N, t.force_exponent, t.fade_speed_mps);
+  hash.add(t.sigma_m, t.correlation_length_m, t.tangential_ratio, t.lift_sigma, t.stiffness_N_per_m,
+           t.reference_speed_mps, t.speed_exponent, t.reference_force_N, t.force_exponent, t.fade_speed_mps);
 }
 
 void StochasticTraits::low_pass(StochasticTexture& t, double cutoff_cycles_per_mm) {
-  t.grain_m = std::max(t.grain_m, 0.5e-3 / cutoff_cycles_per_mm);
+  t.correlation_length_m = std::max(t.correlation_length_m, 0.5e-3 / cutoff_cycles_per_mm);
 }
 
 SeriesContactForce StochasticTraits::contact_force(const StochasticTexture& t, SeriesState& state,
@@ -72,7 +72,7 @@ void StochasticTraits::stroke(const StochasticTexture& t, const StrokeConfig& c,
 }
 
 void StochasticTraits::prepare(StochasticTexture& t, double) {
-  if (!(t.grain_m > 0.0)) t.grain_m = t.reference_speed_mps / kOriginalRate_Hz;
+  if (!(t.correlation_length_m > 0.0)) t.correlation_length_m = t.reference_speed_mps / kOriginalRate_Hz;
 }
 
 SeriesHeights StochasticTraits::heights(const StochasticTexture& t) {
@@ -99,7 +99,7 @@ void StochasticTraits::take_heights(StochasticTexture& t, const Texture& height_
     height_m.push_back(std::numeric_limits<double>::quiet_NaN());
   }
   t = StochasticTexture{};
-  t.grain_m = spacing_m;
+  t.correlation_length_m = spacing_m;
   const bool flat =
       std::all_of(height_m.begin(), height_m.end(), [&](double h) { return std::isnan(h) || h == height_m.front(); });
   if (!flat) t = fit_stochastic(height_m, spacing_m, {.lift_sigma = kOffsetSigma}).texture;
