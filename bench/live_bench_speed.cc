@@ -17,10 +17,10 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "asperity/pipeline/live_profile.h"
+#include "asperity/live/live_profile.h"
+#include "asperity/live/replay_arrivals.h"
 #include "asperity/pipeline/measure_accuracy.h"
 #include "asperity/pipeline/process_recording.h"
-#include "asperity/pipeline/replay_arrivals.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/signal/statistics.h"
 #include "asperity/simulation/simulate_recording.h"

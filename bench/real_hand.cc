@@ -14,7 +14,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/pipeline/process_recording.h"
-#include "asperity/recording/import.h"
+#include "asperity/recording/import_imu_pose.h"
 #include "asperity/signal/statistics.h"
 
 namespace {
@@ -39,11 +39,14 @@ void run(const char* imu, const char* poses, int seeds) {
     config.pose_noise_m = {0.15e-3, 0.13e-3, 0.54e-3};
     config.seed = seed;
     const asperity::Recording recording = asperity::import_imu_pose(input, config);
-    const asperity::Accuracy theirs = accuracy_of(recording, asperity::Method::kThesis);
-    const asperity::Accuracy ours = accuracy_of(recording, asperity::Method::kFused);
+    const asperity::Accuracy theirs =
+        accuracy_of(recording, asperity::ProcessMethods::method<asperity::ThesisMethod>());
+    const asperity::Accuracy ours = accuracy_of(recording, asperity::ProcessMethods::method<asperity::FusedMethod>());
     double best_m = std::numeric_limits<double>::infinity();
     for (const double white_mps2 : {1.0, 3.0, 10.0, 30.0, 100.0}) {
-      best_m = std::min(best_m, accuracy_of(recording, asperity::Method::kThesis, white_mps2).position_rms_m);
+      best_m = std::min(best_m,
+                        accuracy_of(recording, asperity::ProcessMethods::method<asperity::ThesisMethod>(), white_mps2)
+                            .position_rms_m);
     }
     tuned.push_back(1e3 * best_m);
     raw.push_back(1e3 * ours.tracker_rms_m);

@@ -6,8 +6,8 @@
 #include "asperity/profile/make_profile.h"
 #include "asperity/profile/make_profile_thesis.h"
 #include "asperity/simulation/simulate_recording.h"
+#include "asperity/trajectory/estimate_trajectory_fused.h"
 #include "asperity/trajectory/estimate_trajectory_thesis.h"
-#include "asperity/trajectory/fused.h"
 
 namespace asperity {
 

@@ -107,10 +107,11 @@ void print_series(const Texture& texture, const Fourier1d& f) {
     slope_rms += std::pow(static_cast<double>(e.slope), 2) / places;
   }
   std::printf("%-28s %7zu kB  height %.1e  slope %.1e of RMS\n", texture.name.c_str(),
-              t.x_table.cells.size() * sizeof(TableCell) / 1024, height / std::sqrt(rms), slope / std::sqrt(slope_rms));
+              t.tables.x_table.cells.size() * sizeof(TableCell) / 1024, height / std::sqrt(rms),
+              slope / std::sqrt(slope_rms));
 }
 
-void print_step(const Texture& source, std::optional<TextureForceModel> model) {
+void print_step(const Texture& source, TextureForceModel model) {
   RenderTextureConfig config;
   config.model = model;
   const RenderTexture texture = make_render_texture(source, config);
@@ -191,7 +192,7 @@ int main() {
   print_step(of(white, "normal perturbation"), TextureForceModel::kNormalPerturbation);
   print_step(of(white, "lateral gradient"), TextureForceModel::kLateralGradient);
   print_step(of(map, "normal perturbation, image"), TextureForceModel::kNormalPerturbation);
-  print_step(of(white, "stochastic"), TextureForceModel::kStochastic);
+  print_step(of(white, "stochastic"), kForceModelOf<StochasticTexture>);
   print_step(of(vibration, "autoregressive, order 16"), {});
   print_step(of(DecayingSinusoids{.a_per_s = 100.0, .pitch_m = 1e-3}, "decaying sinusoids"), {});
   return 0;

@@ -13,7 +13,7 @@
 
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/sim_device.h"
-#include "asperity/pipeline/surface_stroke.h"
+#include "asperity/fidelity/surface_stroke.h"
 #include "asperity/render/render_model.h"
 #include "asperity/scene/paint.h"
 #include "asperity/scene/read_scene.h"

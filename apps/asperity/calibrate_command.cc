@@ -6,10 +6,10 @@
 #include <cmath>
 #include <filesystem>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/parse_json.h"
-#include "asperity/pipeline/config_json.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
 #include "asperity/session/our_file.h"
@@ -67,18 +67,12 @@ int CalibrateCommand::run(const Observer& observer) {
 void CalibrateCommand::write(const Calibration& before, const CalibrateOutcome& outcome) {
   Calibration calibration = before;
   outcome.store(calibration);
-  Json extra = parse_json(calibration.extra_json.empty() ? "{}" : calibration.extra_json);
-  if (!extra["calibrated"].is_object()) extra["calibrated"] = Json::object();
-  extra["calibrated"][kind_] = {
-      {"values", outcome.values},
-      {"stderr", outcome.standard_errors},
-      {"residuals", outcome.residuals},
-      {"trustworthy", outcome.verdict.trustworthy},
-      {"verdict", outcome.verdict.text},
-      {"config", parse_json(config_json(fields()))},
+  const Json details = {
+      {"values", outcome.values},       {"stderr", outcome.standard_errors},
+      {"residuals", outcome.residuals}, {"config", config_tree<Json>(fields())},
       {"asperity", kVersion},
   };
-  calibration.extra_json = extra.dump_repaired();
+  calibration.calibrated[kind_] = {outcome.verdict.trustworthy, outcome.verdict.text, details.dump_repaired()};
   write_calibration(output_, calibration);
 }
 
@@ -95,7 +89,7 @@ Json CalibrateCommand::report(const CalibrateOutcome& outcome) {
   out["notes"] = outcome.notes;
   for (const auto& [key, value] : outcome.details.items()) out[key] = value;
   if (!output_.empty()) out["file"] = output_;
-  out["config"] = parse_json(config_json(fields()));
+  out["config"] = config_tree<Json>(fields());
   out["asperity"] = kVersion;
   return out;
 }

@@ -237,7 +237,7 @@ class BenchCommand : public Command {
         {"stiffness", [](ProcessConfig& c) { c.stiffness.significance *= 1.01; }},
         {"texture", [](ProcessConfig& c) { c.texture.length_mm *= 0.99; }},
         {"accuracy", [](ProcessConfig& c) { c.comparison.low_cycles_per_mm *= 1.01; }},
-        {"method_thesis", [](ProcessConfig& c) { c.method = Method::kThesis; }},
+        {"method_thesis", [](ProcessConfig& c) { c.method = ProcessMethods::method<ThesisMethod>(); }},
         {"nothing", [](ProcessConfig&) {}},
     };
     ProcessSession session(recording);

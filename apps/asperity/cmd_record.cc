@@ -11,7 +11,6 @@
 
 #include "asperity/base/text.h"
 #include "asperity/camera/frame_writer.h"
-#include "asperity/pipeline/config_json.h"
 #include "asperity/recorder/recorder.h"
 #include "asperity/session/interrupt.h"
 #include "asperity/session/record_input.h"
@@ -165,7 +164,7 @@ class RecordCommand : public Command {
     else if (outcome.frames.dropped > 0)
       outcome.verdict.warnings.push_back(
           fmt::format("{} images were not kept: the disk or PNG is too slow", outcome.frames.dropped));
-    print_json(record_json(outcome, config_json(fields())));
+    print_json(record_json(outcome, fields()));
     say(record_text(outcome));
     if (!quiet()) {
       for (const std::string& warning : outcome.verdict.warnings) complain(warning);

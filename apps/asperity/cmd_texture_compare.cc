@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <memory>
 #include <string>
-#include <variant>
 #include <vector>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/version.h"
 #include "asperity/json/parse_json.h"
-#include "asperity/pipeline/config_json.h"
 #include "asperity/profile/read_heights.h"
 #include "asperity/texture/compare_textures.h"
 #include "asperity/texture/evaluate_height.h"
+#include "asperity/texture/sample_heights.h"
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
 #include "json_of.h"
@@ -96,7 +96,7 @@ class TextureCompareCommand : public Command {
       one["felt"] = band.felt;
       out["bands"].push_back(one);
     }
-    out["config"] = parse_json(config_json(fields()));
+    out["config"] = config_tree<Json>(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
     say_table(c);
@@ -111,7 +111,7 @@ class TextureCompareCommand : public Command {
       const Texture texture = read_texture(file);
       surface.spacing_m = 1e-3 * settings_.spacing_mm;
       if (!is_height_field(texture.model)) throw Error(file + ": a force in time, which has no spectrum over lengths");
-      lines = lines_through(texture.model, 1e-3 * settings_.length_mm, surface.spacing_m);
+      lines = sample_lines(texture.model, 1e-3 * settings_.length_mm, surface.spacing_m);
     } else {
       const Heights heights = read_heights(file, settings_.input);
       if (const auto* profile = std::get_if<HeightProfile>(&heights)) {

@@ -4,14 +4,16 @@
 #include <memory>
 #include <string>
 #include <utility>
-#include <variant>
 
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/texture/evaluate_height.h"
+#include "asperity/texture/sample_heights.h"
 #include "asperity/texture/texture_file.h"
+#include "asperity/texture/texture_operations.h"
 #include "commands.h"
+#include "named_values_json.h"
 #include "texture_input.h"
 
 namespace asperity::app {
@@ -20,64 +22,6 @@ namespace {
 
 constexpr double kLine_m = 0.04;
 constexpr double kSpacing_m = 25e-6;
-
-Json describe(const Fourier1d& f) {
-  return {{"length_mm", f.length_mm}, {"harmonics", f.a_m.size()}, {"mean_m", f.mean_m}};
-}
-
-Json describe(const Fourier2d& f) {
-  Json out{{"kind", kFourier2dKindNames.at(static_cast<std::size_t>(f.kind))}};
-  if (f.kind == Fourier2dKind::kIsotropic) {
-    out["length_mm"] = f.isotropic.length_mm;
-    out["harmonics"] = f.isotropic.power_m2.size();
-    out["seed"] = f.isotropic.seed;
-  } else {
-    out["x"] = describe(f.x);
-    out["y"] = describe(f.y);
-  }
-  return out;
-}
-
-Json describe(const HeightMap& map) {
-  return {{"columns", map.columns},
-          {"rows", map.rows},
-          {"bits", map.bits},
-          {"mm_per_px", {map.mm_per_px_x, map.mm_per_px_y}},
-          {"low_m", map.low_m},
-          {"high_m", map.high_m},
-          {"quantisation_m", map.metres_per_level()},
-          {"border", kBorderNames.at(static_cast<std::size_t>(map.border))}};
-}
-
-Json describe(const ArealTexture& t) {
-  std::size_t supported = 0;
-  for (const auto flag : t.supported) supported += flag;
-  return {{"columns", t.surface.columns},
-          {"rows", t.surface.rows},
-          {"spacing_m", {t.surface.spacing_x_m, t.surface.spacing_y_m}},
-          {"supported_part", static_cast<double>(supported) / static_cast<double>(t.supported.size())},
-          {"border", kBorderNames.at(static_cast<std::size_t>(t.surface.border))}};
-}
-
-Json describe(const StochasticTexture& t) {
-  return {{"sigma_m", t.sigma_m}, {"grain_m", t.grain_m}, {"stiffness_N_per_m", t.stiffness_N_per_m}};
-}
-
-Json describe(const AutoregressiveTexture& t) {
-  return {{"rate_Hz", t.rate_Hz},
-          {"models", t.models.size()},
-          {"order", t.models.empty() ? 0 : t.models.front().ar_lsf_rad.size()},
-          {"triangles", t.triangles.size()},
-          {"mass_kg", t.mass_kg}};
-}
-
-Json describe(const DecayingSinusoids& t) {
-  return {{"a_per_s", t.a_per_s},
-          {"b_per_kg", t.b_per_kg},
-          {"decay_per_s", t.decay_per_s},
-          {"omega_rad_per_s", t.omega_rad_per_s},
-          {"pitch_m", t.pitch_m}};
-}
 
 std::string value_text(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
@@ -95,12 +39,12 @@ class TextureInfoCommand : public Command {
     out["file"] = file_;
     out["name"] = texture.name;
     out["model"] = texture.model_name();
-    out["describe"] = std::visit([](const auto& model) { return describe(model); }, texture.model);
+    out["describe"] = json_of(describe_texture_model(texture.model));
     if (is_height_field(texture.model)) {
       const auto period = period_m(texture.model);
       out["period_m"] = period ? Json(*period) : Json(nullptr);
       out["lowest_m"] = lowest_height_m(texture.model);
-      out["measured"] = roughness_of(lines_through(texture.model, kLine_m, kSpacing_m), kSpacing_m);
+      out["measured"] = roughness_of(sample_lines(texture.model, kLine_m, kSpacing_m), kSpacing_m);
     }
     if (texture.lift_m) out["lift_m"] = *texture.lift_m;
     if (texture.band_cycles_per_mm) out["band_cycles_per_mm"] = *texture.band_cycles_per_mm;

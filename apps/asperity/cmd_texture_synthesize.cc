@@ -3,22 +3,21 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/parse_json.h"
-#include "asperity/pipeline/config_json.h"
 #include "asperity/session/our_file.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/format_height_image.h"
 #include "asperity/texture/make_height_map.h"
 #include "asperity/texture/sample_heights.h"
-#include "asperity/texture/synthesize_isotropic.h"
 #include "asperity/texture/synthesize_stroke.h"
 #include "asperity/texture/texture_file.h"
+#include "asperity/texture/texture_operations.h"
 #include "commands.h"
 #include "option_units.h"
 
@@ -86,7 +85,7 @@ class TextureSynthesizeCommand : public Command {
     } else {
       throw UsageError("-o: heights along a line are called *.csv, a tile *.png");
     }
-    out["config"] = parse_json(config_json(fields()));
+    out["config"] = config_tree<Json>(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
     return kDone;
@@ -96,11 +95,7 @@ class TextureSynthesizeCommand : public Command {
   void reseed(Texture& texture) {
     if (seed_ < 0) throw UsageError("--seed: is not negative");
     settings_.stroke.seed = seed_;
-    if (!is_height_field(texture.model)) return;
-    auto* surface = std::get_if<Fourier2d>(&texture.model);
-    if (!surface || surface->kind != Fourier2dKind::kIsotropic) throw UsageError("--seed: the texture is not random");
-    surface->isotropic.seed = seed_;
-    surface->grid = synthesize_isotropic(surface->isotropic);
+    if (!reseed_texture_model(texture.model, seed_)) throw UsageError("--seed: the texture is not random");
   }
 
   void write_line(const Texture& texture, Json& out) {

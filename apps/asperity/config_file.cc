@@ -17,23 +17,19 @@ constexpr std::uint64_t kLargestFile_bytes = 1 << 20;
   throw Error(file + ":" + std::to_string(where.begin.line) + ": " + std::string(message));
 }
 
-// `node` in the notation that ConfigField::set takes: strings quoted, so that a number field refuses "5".
-std::string field_text(const std::string& file, const toml::node& node) {
-  if (const auto* text = node.as_string()) return '"' + text->get() + '"';
-  if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
-  if (const auto* number = node.as_floating_point()) {
-    // A field of whole numbers must see that 5.0 is none.
-    const std::string digits = number_text(number->get());
-    return digits.find_first_of(".en") == std::string::npos ? digits + ".0" : digits;
-  }
-  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+ConfigValue value_of(const std::string& file, const toml::node& node) {
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto* integer = node.as_integer()) return integer->get();
+  if (const auto* number = node.as_floating_point()) return number->get();
+  if (const auto* flag = node.as_boolean()) return flag->get();
   if (const auto* list = node.as_array()) {
-    std::string out = "[";
+    std::vector<double> out;
     for (const toml::node& element : *list) {
-      if (element.is_array()) fail(file, element.source(), "lists inside lists are not used here");
-      out += (out.size() > 1 ? ", " : "") + field_text(file, element);
+      const auto number = element.value<double>();
+      if (!number) fail(file, element.source(), "only lists of numbers are used here");
+      out.push_back(*number);
     }
-    return out + "]";
+    return out;
   }
   fail(file, node.source(), "dates and times are not used here");
 }
@@ -46,9 +42,9 @@ void set_table(const std::string& file, const toml::table& table, const std::str
       set_table(file, *inner, path + ".", fields);
       continue;
     }
-    const std::string text = field_text(file, node);
+    const ConfigValue value = value_of(file, node);
     try {
-      set_field(fields, path, text);
+      find_field(fields, path).set(value);
     } catch (const Error& error) {
       fail(file, node.source(), error.what());
     }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/parse_json.h"
@@ -47,7 +48,7 @@ std::string joined(const std::vector<std::string>& texts) {
 
 }  // namespace
 
-std::string record_json(const RecordOutcome& outcome, const std::string& config_json) {
+std::string record_json(const RecordOutcome& outcome, const std::vector<ConfigField>& config) {
   const RecorderSnapshot& f = outcome.figures;
   Json out;
   out["format"] = "asperity-recorded";
@@ -79,7 +80,7 @@ std::string record_json(const RecordOutcome& outcome, const std::string& config_
   out["trustworthy"] = outcome.verdict.doubts.empty();
   out["verdict"] = joined(outcome.verdict.doubts);
   out["warnings"] = outcome.verdict.warnings;
-  out["config"] = parse_json(config_json);
+  out["config"] = config_tree<Json>(config);
   out["asperity"] = kVersion;
   return out.dump_repaired(2);
 }

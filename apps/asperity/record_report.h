@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "asperity/base/config.h"
 #include "asperity/camera/frame_writer.h"
 #include "asperity/recorder/recorder_snapshot.h"
 #include "record_verdict.h"
@@ -16,8 +18,8 @@ struct RecordOutcome {
   RecordVerdict verdict;
 };
 
-// The outcome as one JSON object; `config_json`: the settings.
-std::string record_json(const RecordOutcome& outcome, const std::string& config_json);
+// The outcome as one JSON object, with the settings.
+std::string record_json(const RecordOutcome& outcome, const std::vector<ConfigField>& config);
 // And in a few lines for a person.
 std::string record_text(const RecordOutcome& outcome);
 

@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <utility>
-#include <variant>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
+#include "asperity/base/units.h"
 #include "asperity/profile/measure_roughness.h"
-#include "asperity/texture/evaluate_height.h"
-#include "asperity/texture/sample_heights.h"
 
 namespace asperity::app {
 
@@ -22,24 +21,17 @@ namespace {
 
 constexpr std::uint64_t kLargestFile_bytes = 512ULL << 20;
 
-std::optional<double> unit_m(const std::string& name, const std::vector<std::string>& quantities) {
-  for (const auto& quantity : quantities) {
-    for (const auto& [ending, metres] : std::vector<std::pair<std::string, double>>{
-             {"_m", 1.0}, {"_mm", 1e-3}, {"_um", 1e-6}, {"_µm", 1e-6}, {"_nm", 1e-9}}) {
-      if (name == quantity + ending) return metres;
-    }
-  }
-  return std::nullopt;
-}
-
 struct Column {
   std::size_t index = 0;
   double unit_m = 1.0;
 };
 
-std::optional<Column> find_column(const CsvReader& csv, const std::vector<std::string>& quantities) {
+std::optional<Column> find_column(const CsvReader& csv, std::initializer_list<std::string_view> quantities) {
   for (std::size_t i = 0; i < csv.columns().size(); ++i) {
-    if (const auto unit = unit_m(csv.columns()[i], quantities)) return Column{i, *unit};
+    const auto named = split_length_name(csv.columns()[i]);
+    if (named && std::find(quantities.begin(), quantities.end(), named->quantity) != quantities.end()) {
+      return Column{i, named->unit_m};
+    }
   }
   return std::nullopt;
 }
@@ -144,29 +136,6 @@ std::map<std::string, double> roughness_of(const std::vector<std::vector<double>
   for (auto& [name, value] : sum) value /= count[name];
   if (sum.contains("Rq_m")) sum["Rq_m"] = std::sqrt(sum["Rq_m"]);
   return sum;
-}
-
-std::vector<std::vector<double>> lines_through(const TextureModel& model, double length_m, double spacing_m) {
-  SampleHeightsConfig line;
-  line.length_mm = length_m * 1e3;
-  line.spacing_mm = spacing_m * 1e3;
-  double width_m = 0.0;
-  if (const auto* t = std::get_if<ArealTexture>(&model)) {
-    const SplineGrid& g = t->surface;
-    line.x_mm = 1e3 * (g.origin_x_m + 2.0 * g.spacing_x_m);
-    line.y_mm = 1e3 * (g.origin_y_m + 2.0 * g.spacing_y_m);
-    width_m = std::max(0.0, static_cast<double>(g.rows) - 4.0) * g.spacing_y_m;
-  } else if (!std::holds_alternative<Fourier1d>(model)) {
-    width_m = period_m(model).value_or(0.01);
-  }
-  const std::size_t count = width_m > 0.0 ? 16 : 1;
-  const double first_mm = line.y_mm;
-  std::vector<std::vector<double>> lines;
-  for (std::size_t i = 0; i < count; ++i) {
-    line.y_mm = first_mm + 1e3 * width_m * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-    lines.push_back(sample_heights(model, line));
-  }
-  return lines;
 }
 
 }  // namespace asperity::app

@@ -26,7 +26,4 @@ std::vector<ArealSample> read_areal_samples(const std::vector<std::string>& file
 // square); values that are not defined are left out.
 std::map<std::string, double> roughness_of(const std::vector<std::vector<double>>& lines_m, double spacing_m);
 
-// Lines along x through a height field: one if it is the same for every y, else sixteen across its width.
-std::vector<std::vector<double>> lines_through(const TextureModel& model, double length_m, double spacing_m);
-
 }  // namespace asperity::app

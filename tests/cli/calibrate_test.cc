@@ -117,11 +117,10 @@ TEST(Calibrate, EachKindReplacesItsOwnPartAlone) {
   EXPECT_NEAR(all.accelerometer.B(0, 0), 400.0, 1.0);
   EXPECT_FALSE(all.accelerometer.rotation_known);
   EXPECT_LT((all.tip_in_marker_m - Eigen::Vector3d(0.001, 0.002, -0.11)).norm(), 2e-4);
-  const json made = json::parse(all.extra_json)["calibrated"];
   for (const char* kind : {"force", "accel", "tip"}) {
-    ASSERT_TRUE(made.contains(kind)) << kind;
-    EXPECT_TRUE(made[kind]["trustworthy"].get<bool>());
-    EXPECT_TRUE(made[kind].contains("stderr"));
+    ASSERT_TRUE(all.calibrated.contains(kind)) << kind;
+    EXPECT_EQ(all.calibrated.at(kind).trustworthy, true);
+    EXPECT_TRUE(json::parse(all.calibrated.at(kind).details_json).contains("stderr"));
   }
   const std::string before = read_file(to, 1 << 20);
   ASSERT_EQ(run({"calibrate", "force", force, "-o", to}).code, 0);
@@ -175,7 +174,9 @@ TEST(Calibrate, WhatIsNotToBeTrustedEndsWith3AndSaysSoInTheFile) {
   const Outcome few = run({"calibrate", "force", force, "-o", to});
   EXPECT_EQ(few.code, 3);
   EXPECT_THAT(few.out, HasSubstr("NOT TO BE TRUSTED"));
-  EXPECT_FALSE(json::parse(read_calibration(to).extra_json)["calibrated"]["force"]["trustworthy"].get<bool>());
+  EXPECT_EQ(read_calibration(to).calibrated.at("force").trustworthy, false);
+  const json written = json::parse(read_file(to, 1 << 20))["extra"]["calibrated"]["force"];
+  EXPECT_EQ(written["trustworthy"], false);
 }
 
 TEST(Calibrate, KindsAreNamedInHelp) {

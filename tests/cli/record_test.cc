@@ -70,7 +70,7 @@ TEST(Record, FromASerialPortAndAPoseStream) {
   EXPECT_EQ(json["probe_rows"], recording.probe.size());
   EXPECT_GT(recording.probe.size(), 1000u);
   EXPECT_GT(recording.tracker.size(), 50u);
-  EXPECT_EQ(nlohmann::json::parse(recording.info.extra_json)["recorder"]["state"], "finished");
+  EXPECT_EQ(recording.info.recorder.value().state, "finished");
 
   const auto before = contents(rig.dir / "rec");
   const Outcome again = run(rig.words({"--duration", "1s"}));
@@ -100,7 +100,7 @@ TEST(Record, CtrlCEndsWithAWholeRecording) {
   EXPECT_THAT(outcome.err, HasSubstr("probe "));
   EXPECT_THAT(outcome.out, HasSubstr("1 segment"));
   const Recording recording = read_recording(rig.dir / "rec");
-  EXPECT_EQ(nlohmann::json::parse(recording.info.extra_json)["recorder"]["state"], "finished");
+  EXPECT_EQ(recording.info.recorder.value().state, "finished");
   EXPECT_THAT(recording.problems, testing::IsEmpty());
 }
 

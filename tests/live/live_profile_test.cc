@@ -1,4 +1,4 @@
-#include "asperity/pipeline/live_profile.h"
+#include "asperity/live/live_profile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "asperity/live/replay_arrivals.h"
 #include "asperity/pipeline/measure_accuracy.h"
-#include "asperity/pipeline/replay_arrivals.h"
 #include "asperity/simulation/simulate_recording.h"
 
 namespace asperity {

@@ -1,4 +1,4 @@
-#include "asperity/pipeline/scan_hints.h"
+#include "asperity/live/scan_hints.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "asperity/base/error.h"
-#include "asperity/pipeline/live_profile.h"
-#include "asperity/pipeline/replay_arrivals.h"
+#include "asperity/live/live_profile.h"
+#include "asperity/live/replay_arrivals.h"
 #include "asperity/simulation/simulate_recording.h"
 
 namespace asperity {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "asperity/geometry/write_stl.h"
-#include "asperity/pipeline/sine_grating.h"
+#include "asperity/rig/sine_grating.h"
 
 namespace asperity {
 namespace {

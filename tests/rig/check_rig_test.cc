@@ -1,4 +1,4 @@
-#include "asperity/pipeline/check_rig.h"
+#include "asperity/rig/check_rig.h"
 
 #include <gmock/gmock.h>
 

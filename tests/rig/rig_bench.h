@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "asperity/pipeline/check_rig.h"
+#include "asperity/rig/check_rig.h"
 #include "asperity/simulation/simulation_config.h"
 
 namespace asperity {

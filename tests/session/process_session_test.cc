@@ -60,17 +60,20 @@ std::string kept(ProcessSession& session, const ProcessConfig& config) {
 
 // Gives a field another value that it takes; the factor is for numbers.
 void change(const ConfigField& field, double factor) {
-  const std::string before = field.get();
-  std::vector<std::string> candidates{before == "true" ? "false" : "true"};
+  const ConfigValue before = field.get();
+  std::vector<ConfigValue> candidates{true, false};
   for (const std::string& choice : field.choices) candidates.push_back(choice);
   if (field.type == FieldType::kInteger || field.type == FieldType::kNumber) {
-    const double value = std::stod(before);
+    const double value = std::stod(toml_text(before));
     for (const double other : {value * factor, value / factor, value + 1.0, value - 1.0}) {
-      candidates.push_back(field.type == FieldType::kInteger ? std::to_string(static_cast<int>(other))
-                                                             : number_text(other));
+      if (field.type == FieldType::kInteger) {
+        candidates.push_back(static_cast<std::int64_t>(other));
+      } else {
+        candidates.push_back(other);
+      }
     }
   }
-  for (const std::string& candidate : candidates) {
+  for (const ConfigValue& candidate : candidates) {
     try {
       field.set(candidate);
     } catch (const Error&) {
@@ -78,26 +81,24 @@ void change(const ConfigField& field, double factor) {
     }
     if (field.get() != before) return;
   }
-  FAIL() << field.path << " = " << before << " could not be changed";
+  FAIL() << field.path << " = " << toml_text(before) << " could not be changed";
 }
 
 TEST(ProcessSession, EveryFieldChangedAloneGivesWhatAFreshRunGives) {
   const Recording& recording = short_scan();
   ProcessSession session(recording);
-  for (const Method method : {Method::kFused, Method::kThesis}) {
+  for (const Method method : {ProcessMethods::method<FusedMethod>(), ProcessMethods::method<ThesisMethod>()}) {
     ProcessConfig config;
     config.method = method;
     const std::string before = fresh(recording, config);
     const std::vector<ConfigField> fields = list_fields("", config);
     ASSERT_GT(fields.size(), 60U);
     for (const ConfigField& field : fields) {
-      const std::string value = field.get();
+      const ConfigValue value = field.get();
       change(field, 1.25);
-      EXPECT_TRUE(kept(session, config) == fresh(recording, config)) << field.path << " from " << value;
-      field.set(field.type == FieldType::kChoice || field.type == FieldType::kText
-                    ? value.substr(1, value.size() - 2)  // written in quotes
-                    : value);
-      EXPECT_TRUE(kept(session, config) == before) << field.path << " back at " << value;
+      EXPECT_TRUE(kept(session, config) == fresh(recording, config)) << field.path << " from " << toml_text(value);
+      field.set(value);
+      EXPECT_TRUE(kept(session, config) == before) << field.path << " back at " << toml_text(value);
     }
   }
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
@@ -23,21 +25,36 @@ std::string range_text(const Range& range) {
   return "";
 }
 
-double checked_number(const std::string& path, std::string_view text, const Range& range) {
-  const auto value = parse_double(text);
-  if (!value || !std::isfinite(*value) || *value < range.low || *value > range.high) {
-    refuse(path, text, "a number" + range_text(range));
-  }
-  return *value;
+bool is_in(const Range& range, double value) {
+  return std::isfinite(value) && value >= range.low && value <= range.high;
 }
 
-template <class Integer>
-Integer checked_integer(const std::string& path, std::string_view text, const Range& range) {
-  const auto value = parse_int64(text);
-  const bool fits = value && std::in_range<Integer>(*value) && static_cast<double>(*value) >= range.low &&
-                    static_cast<double>(*value) <= range.high;
-  if (!fits) refuse(path, text, "a whole number" + range_text(range));
-  return static_cast<Integer>(*value);
+// What the field takes, for a message.
+std::string allowed_text(const ConfigField& field) {
+  switch (field.type) {
+    case FieldType::kBool:
+      return "true or false";
+    case FieldType::kInteger:
+      return "a whole number" + range_text(field.range);
+    case FieldType::kNumber:
+      return "a number" + range_text(field.range);
+    case FieldType::kText:
+      return "UTF-8 text";
+    case FieldType::kNumbers:
+      return "a list of " + std::to_string(std::get<std::vector<double>>(field.get()).size()) + " numbers" +
+             range_text(field.range);
+    case FieldType::kChoice:
+      break;
+  }
+  std::string all;
+  for (const auto& one : field.choices) all += (all.empty() ? "" : ", ") + one;
+  return "one of " + all;
+}
+
+std::optional<double> number_of(const ConfigValue& value) {
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return static_cast<double>(*integer);
+  return std::nullopt;
 }
 
 std::string toml_number(double value) {
@@ -69,6 +86,47 @@ std::string_view unquoted(std::string_view text) {
   return text;
 }
 
+// A text as it is, anything else as TOML writes it.
+std::string plain_text(const ConfigValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  return text != nullptr ? *text : toml_text(value);
+}
+
+// In a message a text stands in quotes, so that "5" is seen to be no number.
+std::string message_text(const ConfigValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  return text != nullptr ? '"' + *text + '"' : toml_text(value);
+}
+
+// What `text` is for a field of that type; nullopt for what it cannot be.
+std::optional<ConfigValue> parse_value(FieldType type, std::string_view text) {
+  switch (type) {
+    case FieldType::kBool:
+      if (text != "true" && text != "false") return std::nullopt;
+      return text == "true";
+    case FieldType::kInteger:
+      return parse_int64(text);
+    case FieldType::kNumber:
+      return parse_double(text);
+    case FieldType::kText:
+    case FieldType::kChoice:
+      return std::string(unquoted(text));
+    case FieldType::kNumbers:
+      break;
+  }
+  std::string_view rest = trim(text);
+  if (rest.size() >= 2 && rest.front() == '[' && rest.back() == ']') rest = rest.substr(1, rest.size() - 2);
+  std::vector<double> numbers;
+  while (true) {
+    const auto comma = rest.find(',');
+    const auto number = parse_double(rest.substr(0, comma));
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+    if (comma == std::string_view::npos) return numbers;
+    rest.remove_prefix(comma + 1);
+  }
+}
+
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -97,64 +155,67 @@ ConfigField& ConfigLister::add(std::string_view name, FieldType type, std::strin
 
 void ConfigLister::field(std::string_view name, bool& value, std::string_view description) {
   ConfigField& field = add(name, FieldType::kBool, description, {});
-  field.get = [&value] { return std::string(value ? "true" : "false"); };
-  field.set = [&value, path = field.path](std::string_view text) {
-    if (text != "true" && text != "false") refuse(path, text, "true or false");
-    value = text == "true";
+  field.read = [&value] { return ConfigValue(value); };
+  field.write = [&value](const ConfigValue& wanted) {
+    const auto* flag = std::get_if<bool>(&wanted);
+    if (flag != nullptr) value = *flag;
+    return flag != nullptr;
+  };
+}
+
+template <class Integer>
+void ConfigLister::add_integer(std::string_view name, Integer& value, std::string_view description, Range range) {
+  ConfigField& field = add(name, FieldType::kInteger, description, range);
+  field.read = [&value] { return ConfigValue(std::int64_t{value}); };
+  field.write = [&value, range](const ConfigValue& wanted) {
+    const auto* integer = std::get_if<std::int64_t>(&wanted);
+    if (integer == nullptr || !std::in_range<Integer>(*integer)) return false;
+    if (!is_in(range, static_cast<double>(*integer))) return false;
+    value = static_cast<Integer>(*integer);
+    return true;
   };
 }
 
 void ConfigLister::field(std::string_view name, int& value, std::string_view description, Range range) {
-  ConfigField& field = add(name, FieldType::kInteger, description, range);
-  field.get = [&value] { return std::to_string(value); };
-  field.set = [&value, path = field.path, range](std::string_view text) {
-    value = checked_integer<int>(path, text, range);
-  };
+  add_integer(name, value, description, range);
 }
 
 void ConfigLister::field(std::string_view name, std::int64_t& value, std::string_view description, Range range) {
-  ConfigField& field = add(name, FieldType::kInteger, description, range);
-  field.get = [&value] { return std::to_string(value); };
-  field.set = [&value, path = field.path, range](std::string_view text) {
-    value = checked_integer<std::int64_t>(path, text, range);
-  };
+  add_integer(name, value, description, range);
 }
 
 void ConfigLister::field(std::string_view name, double& value, std::string_view description, Range range) {
   ConfigField& field = add(name, FieldType::kNumber, description, range);
-  field.get = [&value] { return toml_number(value); };
-  field.set = [&value, path = field.path, range](std::string_view text) { value = checked_number(path, text, range); };
+  field.read = [&value] { return ConfigValue(value); };
+  field.write = [&value, range](const ConfigValue& wanted) {
+    const auto number = number_of(wanted);
+    if (!number || !is_in(range, *number)) return false;
+    value = *number;
+    return true;
+  };
 }
 
 void ConfigLister::field(std::string_view name, std::string& value, std::string_view description) {
   ConfigField& field = add(name, FieldType::kText, description, {});
-  field.get = [&value] { return toml_string(value); };
-  field.set = [&value, path = field.path](std::string_view text) {
-    if (!is_utf8(text)) refuse(path, text, "UTF-8 text");
-    value = unquoted(text);
+  field.read = [&value] { return ConfigValue(value); };
+  field.write = [&value](const ConfigValue& wanted) {
+    std::string text = plain_text(wanted);
+    if (!is_utf8(text)) return false;
+    value = std::move(text);
+    return true;
   };
 }
 
 void ConfigLister::numbers(std::string_view name, double* values, std::size_t count, std::string_view description,
                            Range range) {
   ConfigField& field = add(name, FieldType::kNumbers, description, range);
-  field.get = [values, count] {
-    std::string out = "[";
-    for (std::size_t i = 0; i < count; ++i) out += (i ? ", " : "") + toml_number(values[i]);
-    return out + "]";
-  };
-  field.set = [values, count, path = field.path, range](std::string_view text) {
-    std::string_view rest = trim(text);
-    if (rest.size() >= 2 && rest.front() == '[' && rest.back() == ']') rest = rest.substr(1, rest.size() - 2);
-    std::vector<double> parsed;
-    while (true) {
-      const auto comma = rest.find(',');
-      parsed.push_back(checked_number(path, rest.substr(0, comma), range));
-      if (comma == std::string_view::npos) break;
-      rest.remove_prefix(comma + 1);
-    }
-    if (parsed.size() != count) refuse(path, text, "a list of " + std::to_string(count) + " numbers");
-    std::copy(parsed.begin(), parsed.end(), values);
+  field.read = [values, count] { return ConfigValue(std::vector<double>(values, values + count)); };
+  field.write = [values, count, range](const ConfigValue& wanted) {
+    const auto* list = std::get_if<std::vector<double>>(&wanted);
+    if (list == nullptr || list->size() != count) return false;
+    if (!std::all_of(list->begin(), list->end(), [&](double each) { return is_in(range, each); })) return false;
+    std::copy(list->begin(), list->end(), values);
+    return true;
   };
 }
 
@@ -162,32 +223,51 @@ void ConfigLister::add_choice(std::string_view name, std::vector<std::string> na
                               std::function<std::size_t()> get, std::function<void(std::size_t)> set) {
   ConfigField& field = add(name, FieldType::kChoice, description, {});
   field.choices = names;
-  field.get = [names, get = std::move(get)] { return toml_string(names[get()]); };
-  field.set = [names = std::move(names), set = std::move(set), path = field.path](std::string_view text) {
-    const auto found = std::find(names.begin(), names.end(), unquoted(text));
-    if (found == names.end()) {
-      std::string all;
-      for (const auto& one : names) all += (all.empty() ? "" : ", ") + one;
-      refuse(path, text, "one of " + all);
-    }
+  field.read = [names, get = std::move(get)] { return ConfigValue(names[get()]); };
+  field.write = [names = std::move(names), set = std::move(set)](const ConfigValue& wanted) {
+    const auto found = std::find(names.begin(), names.end(), plain_text(wanted));
+    if (found == names.end()) return false;
     set(static_cast<std::size_t>(found - names.begin()));
+    return true;
   };
 }
 
-void set_field(const std::vector<ConfigField>& fields, std::string_view path, std::string_view value) {
+void ConfigField::set(const ConfigValue& value) const {
+  if (!write(value)) refuse(path, message_text(value), allowed_text(*this));
+}
+
+void ConfigField::set_text(std::string_view text) const {
+  const std::optional<ConfigValue> value = parse_value(type, text);
+  if (!value || !write(*value)) refuse(path, text, allowed_text(*this));
+}
+
+std::string toml_text(const ConfigValue& value) {
+  if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return std::to_string(*integer);
+  if (const auto* number = std::get_if<double>(&value)) return toml_number(*number);
+  if (const auto* text = std::get_if<std::string>(&value)) return toml_string(*text);
+  std::string out = "[";
+  for (const double each : std::get<std::vector<double>>(value)) {
+    out += (out.size() > 1 ? ", " : "") + toml_number(each);
+  }
+  return out + "]";
+}
+
+const ConfigField& find_field(const std::vector<ConfigField>& fields, std::string_view path) {
   const ConfigField* nearest = nullptr;
   std::size_t nearest_distance = std::numeric_limits<std::size_t>::max();
   for (const auto& field : fields) {
-    if (field.path == path) {
-      field.set(value);
-      return;
-    }
+    if (field.path == path) return field;
     const std::size_t distance = edit_distance(path.substr(0, 200), field.path);
     if (distance < nearest_distance) nearest_distance = distance, nearest = &field;
   }
   std::string message = "unknown setting '" + printable(path) + "'";
   if (nearest != nullptr) message += "; did you mean '" + nearest->path + "'?";
   throw Error(message);
+}
+
+void set_field(const std::vector<ConfigField>& fields, std::string_view path, std::string_view text) {
+  find_field(fields, path).set_text(text);
 }
 
 std::string to_toml(const std::vector<ConfigField>& fields, bool with_descriptions) {
@@ -209,7 +289,7 @@ std::string to_toml(const std::vector<ConfigField>& fields, bool with_descriptio
     for (const auto& field : fields) {
       if (table_of(field.path) != table) continue;
       if (with_descriptions && !field.description.empty()) out += "# " + field.description + "\n";
-      out += field.path.substr(table.empty() ? 0 : table.size() + 1) + " = " + field.get() + "\n";
+      out += field.path.substr(table.empty() ? 0 : table.size() + 1) + " = " + toml_text(field.get()) + "\n";
     }
   }
   return out;

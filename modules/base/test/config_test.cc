@@ -63,7 +63,37 @@ TEST(Config, TextsAreStringsOfTomlAndOfJson) {
     std::string file = "a\tb\n\"c\"\\\x7F";
     void visit(ConfigLister& v) { v.field("file", file, "any"); }
   } config;
-  EXPECT_EQ(list_fields("", config).front().get(), R"("a\u0009b\u000a\"c\"\\\u007f")");
+  EXPECT_EQ(toml_text(list_fields("", config).front().get()), R"("a\u0009b\u000a\"c\"\\\u007f")");
+}
+
+TEST(Config, HoldsTypedValues) {
+  Outer config;
+  const auto fields = list_fields("", config);
+  EXPECT_EQ(find_field(fields, "cutoff_Hz").get(), ConfigValue(0.5));
+  EXPECT_EQ(find_field(fields, "colour").get(), ConfigValue("red"));
+  EXPECT_EQ(find_field(fields, "sigma_m").get(), ConfigValue(std::vector<double>{1.0, 2.0, 3.0}));
+  EXPECT_EQ(find_field(fields, "inner.count").get(), ConfigValue(std::int64_t{3}));
+  find_field(fields, "cutoff_Hz").set(std::int64_t{12});
+  find_field(fields, "colour").set("blue");
+  find_field(fields, "sigma_m").set(std::vector<double>{4.0, 5.0, 6.0});
+  find_field(fields, "inner.count").set(std::int64_t{7});
+  EXPECT_EQ(config.cutoff_Hz, 12.0);
+  EXPECT_EQ(config.colour, Colour::kBlue);
+  EXPECT_EQ(config.sigma_m[1], 5.0);
+  EXPECT_EQ(config.inner.count, 7);
+}
+
+TEST(Config, RefusesValuesOfAnotherType) {
+  Outer config;
+  const auto fields = list_fields("", config);
+  EXPECT_THAT([&] { find_field(fields, "cutoff_Hz").set("5"); },
+              testing::ThrowsMessage<Error>("cutoff_Hz: '\"5\"' is not a number from 0 to 100"));
+  EXPECT_THAT([&] { find_field(fields, "inner.count").set(5.0); },
+              testing::ThrowsMessage<Error>("inner.count: '5.0' is not a whole number from 0 to 10"));
+  EXPECT_THROW(find_field(fields, "inner.count").set(true), Error);
+  EXPECT_THROW(find_field(fields, "sigma_m").set(1.0), Error);
+  EXPECT_THROW(find_field(fields, "colour").set("green"), Error);
+  EXPECT_TRUE(is_same_config(config, Outer()));
 }
 
 TEST(Config, WritesToml) {

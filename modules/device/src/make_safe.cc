@@ -2,10 +2,9 @@
 
 #include <algorithm>
 
-#include "asperity/device/force_gain.h"
-#include "asperity/device/limit_force.h"
 #include "asperity/device/safety_cause.h"
-#include "asperity/device/stale_watch.h"
+#include "asperity/device/staleness.h"
+#include "limit_force.h"
 
 namespace asperity {
 namespace {
@@ -32,7 +31,7 @@ Eigen::Vector3d damping(const SafetyConfig& config, SafetyState& state, const Sa
   // A growing or falling gain is a spring whose stiffness changes: it creates energy by intent.
   observed.forgive = input.scene_changed || state.gain < 1.0;
   observed.dt_s = input.dt_s;
-  return damp_created_energy(config, state.passivity, observed);
+  return dissipate_created_energy(config, state.passivity, observed);
 }
 
 }  // namespace
@@ -50,8 +49,8 @@ SafeForce make_safe(const SafetyConfig& config, SafetyState& state, const Safety
   const bool finite = input.force_N.allFinite() && input.hand_m.allFinite() && input.hand_mps.allFinite() &&
                       input.spring_N.allFinite() && input.stretch_m.allFinite();
   const double dt_s = std::min(input.dt_s, kMostTicks * input.tick_s);
-  const bool stood_still = input.dt_s > config.stale_after_s && state.watch.heard;
-  const bool silent = is_stale(state.watch, input.sequence, input.status, config.stale_after_s, input.dt_s);
+  const bool stood_still = input.dt_s > config.stale_after_s && state.staleness.heard;
+  const bool silent = is_stale(state.staleness, input.sequence, input.status, config.stale_after_s, input.dt_s);
   const bool stale = silent || stood_still;
   if (!finite) safe.limited_by |= flag(SafetyCause::kNonFinite);
   if (stale) safe.limited_by |= flag(SafetyCause::kStale);

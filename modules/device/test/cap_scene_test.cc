@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "asperity/device/device_caps.h"
+#include "asperity/texture/evaluate_height.h"
 
 namespace asperity {
 namespace {

@@ -6,11 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "asperity/base/random.h"
-#include "asperity/device/force_gain.h"
-#include "asperity/device/limit_force.h"
 #include "asperity/device/make_safe.h"
 #include "asperity/device/safety_cause.h"
-#include "asperity/device/stale_watch.h"
+#include "asperity/device/staleness.h"
+#include "limit_force.h"
 
 namespace asperity {
 namespace {
@@ -65,16 +64,16 @@ TEST(ForceGain, GrowsAndFallsLinearly) {
   EXPECT_EQ(gain, 1.0);
 }
 
-TEST(StaleWatch, CountsFromTheLastNews) {
-  StaleWatch watch;
-  EXPECT_FALSE(is_stale(watch, 7, DeviceStatus::kReady, 0.02, kTick_s));
-  for (int k = 1; k < 20; ++k) EXPECT_FALSE(is_stale(watch, 7, DeviceStatus::kReady, 0.02, kTick_s)) << k;
-  EXPECT_TRUE(is_stale(watch, 7, DeviceStatus::kReady, 0.02, kTick_s));
-  EXPECT_TRUE(is_stale(watch, 8, DeviceStatus::kStalled, 0.02, kTick_s));
-  EXPECT_FALSE(is_stale(watch, 8, DeviceStatus::kReady, 0.02, kTick_s));
+TEST(Staleness, CountsFromTheLastNews) {
+  Staleness staleness;
+  EXPECT_FALSE(is_stale(staleness, 7, DeviceStatus::kReady, 0.02, kTick_s));
+  for (int k = 1; k < 20; ++k) EXPECT_FALSE(is_stale(staleness, 7, DeviceStatus::kReady, 0.02, kTick_s)) << k;
+  EXPECT_TRUE(is_stale(staleness, 7, DeviceStatus::kReady, 0.02, kTick_s));
+  EXPECT_TRUE(is_stale(staleness, 8, DeviceStatus::kStalled, 0.02, kTick_s));
+  EXPECT_FALSE(is_stale(staleness, 8, DeviceStatus::kReady, 0.02, kTick_s));
   // A device that is served at 1 kHz and has news at 100 Hz is not stale.
   for (std::uint64_t k = 0; k < 100; ++k)
-    EXPECT_FALSE(is_stale(watch, 9 + k / 10, DeviceStatus::kReady, 0.02, kTick_s));
+    EXPECT_FALSE(is_stale(staleness, 9 + k / 10, DeviceStatus::kReady, 0.02, kTick_s));
 }
 
 TEST(MakeSafe, PassesWhatIsSafe) {

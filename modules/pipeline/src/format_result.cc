@@ -1,8 +1,10 @@
 #include <cmath>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/units.h"
 #include "asperity/base/version.h"
 #include "asperity/json/parse_json.h"
+#include "asperity/pipeline/result_json.h"
 #include "asperity/pipeline/write_result.h"
 #include "json.h"
 
@@ -101,17 +103,15 @@ Json accuracy_json(const Accuracy& accuracy) {
 
 }  // namespace
 
-std::string format_result(const ProcessResult& result, const Recording& recording, const std::string& name) {
-  const Json config = parse_json(result.config_json);
-  const Json& profile_config =
-      config.at("method") == "fused" ? config.at("profile") : config.at("thesis").at("profile");
+Json result_json(const ProcessResult& result, const Recording& recording, const std::string& name) {
+  ProcessConfig config = result.config;
   Json out;
   out["format"] = "asperity-result";
   out["version"] = 1;
   out["recording"] = name;
   out["object"] = recording.info.object;
   out["probe"] = recording.info.probe_model;
-  out["method"] = config.at("method");
+  out["method"] = kMethodNames.at(static_cast<std::size_t>(config.method));
   out["trustworthy"] = result.trustworthy;
   out["verdict"] = result.verdict;
   out["duration_s"] = stream_span_s(result.trajectory.motion.t_ns);
@@ -124,7 +124,7 @@ std::string format_result(const ProcessResult& result, const Recording& recordin
                     {"covered", result.coverage.covered},
                     {"gaps", result.coverage.gaps},
                     {"spacing_m", result.profile.spacing_m},
-                    {"high_pass_cycles_per_mm", profile_config.at("cutoff_cycles_per_mm")}};
+                    {"high_pass_cycles_per_mm", ProcessMethods::get(config.method).high_pass_cycles_per_mm(config)}};
   out["speed_mps"] = {
       {"mean", result.speed.mean_mps}, {"lowest", result.speed.lowest_mps}, {"highest", result.speed.highest_mps}};
   out["base"] = base_json(result.base);
@@ -149,8 +149,13 @@ std::string format_result(const ProcessResult& result, const Recording& recordin
   }
   if (result.accuracy) out["accuracy"] = accuracy_json(*result.accuracy);
   out["problems"] = problems_json(result.problems);
-  out["config"] = config;
+  out["config"] = config_tree<Json>(list_fields("", config));
   out["asperity"] = kVersion;
+  return out;
+}
+
+std::string format_result(const ProcessResult& result, const Recording& recording, const std::string& name) {
+  const Json out = result_json(result, recording, name);
   // Names come from files; what is not UTF-8 in them must not stop the writing.
   return out.dump_repaired(2) + "\n";
 }

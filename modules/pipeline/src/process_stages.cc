@@ -6,40 +6,25 @@
 #include <utility>
 
 #include "asperity/base/error.h"
-#include "asperity/base/version.h"
-#include "asperity/pipeline/find_doubts.h"
-#include "asperity/trajectory/reject_outliers.h"
-#include "asperity/trajectory/sample_at_probe.h"
+#include "asperity/pipeline/find_quality_warnings.h"
 
 namespace asperity::stage {
 
 namespace {
 
-// The notes of a step that may not succeed.
-template <class Step>
-StageNotes attempt(const char* kind, const char* what, Step step) {
-  StageNotes notes;
+// The outcome of a step that may not succeed.
+template <class T, class Step>
+Outcome<T> attempt(const char* kind, const char* what, Step step) {
+  Outcome<T> out;
   try {
-    step(notes);
+    out.value = step();
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {
-    notes.problems.push_back({kind, std::string("no ") + what + ": " + error.what(), 1});
-    notes.doubts.push_back(std::string("no ") + what);
-    notes.failed = true;
+    out.problems.push_back({kind, std::string("no ") + what + ": " + error.what(), 1});
+    out.quality_warnings.push_back(std::string("no ") + what);
   }
-  return notes;
-}
-
-TrajectoryResult estimate_trajectory(const Recording& recording, const ProcessConfig& config,
-                                     const Observer& observer) {
-  if (config.method == Method::kFused) return estimate_trajectory_fused(recording, config.fused, observer);
-  return estimate_trajectory_thesis(recording, config.thesis.trajectory);
-}
-
-Profile make_profile_by(const ProcessConfig& config, const TipMotion& motion, const BasePathResult& base) {
-  if (config.method == Method::kFused) return make_profile(motion, base.path, base.contact, config.profile);
-  return make_profile_thesis(motion, base.path, config.thesis.profile).profile;
+  return out;
 }
 
 Coverage measure_coverage(const Profile& profile) {
@@ -79,131 +64,94 @@ SpeedFigures measure_speed(const Profile& profile) {
 
 }  // namespace
 
-bool has_force(const ProbeStream& probe) {
-  double first = std::numeric_limits<double>::quiet_NaN();
-  for (const double counts : probe.force_counts) {
-    if (!std::isfinite(counts)) continue;
-    if (std::isfinite(first) && counts != first) return true;
-    first = counts;
-  }
-  return false;
-}
-
-StageNotes find_trajectory(const Recording& recording, const ProcessConfig& config, ProcessResult& result,
-                           const Observer& observer) {
-  result.trajectory = estimate_trajectory(recording, config, observer);
-  TipMotion& motion = result.trajectory.motion;
-  StageNotes notes;
-  notes.problems = result.trajectory.problems;
-  if (!result.trajectory.trustworthy) notes.doubts.push_back(result.trajectory.verdict);
-  for (std::string& doubt : find_doubts(recording, result.trajectory)) notes.doubts.push_back(std::move(doubt));
+Outcome<TrajectoryResult> find_trajectory(const Recording& recording, const ProcessConfig& config,
+                                          const ProcessMethod& method, const Observer& observer) {
+  Outcome<TrajectoryResult> out;
+  TrajectoryResult& trajectory = out.value.emplace(method.estimate_trajectory(recording, config, observer));
+  out.problems = trajectory.problems;
+  if (!trajectory.trustworthy) out.quality_warnings.push_back(trajectory.verdict);
+  for (std::string& warning : find_quality_warnings(recording, trajectory))
+    out.quality_warnings.push_back(std::move(warning));
 
   // Without a force sensor a motion need not be a scan.
   if (!has_force(recording.probe)) {
-    std::fill(motion.force_N.begin(), motion.force_N.end(), std::numeric_limits<double>::quiet_NaN());
-    notes.problems.push_back({"no_force", "the force never changes: all of the path counts as scanned", 1});
+    std::vector<double>& force_N = trajectory.motion.force_N;
+    std::fill(force_N.begin(), force_N.end(), std::numeric_limits<double>::quiet_NaN());
+    out.problems.push_back({"no_force", "the force never changes: all of the path counts as scanned", 1});
   }
-  return notes;
+  return out;
 }
 
-StageNotes find_base_path(const FindBase& find_base, ProcessResult& result) {
-  return attempt("no_profile", "profile", [&](StageNotes& notes) {
-    result.base = {};
-    result.base = find_base(result.trajectory.motion);
-    notes.problems = result.base.problems;
+Outcome<BasePathResult> find_base_path(const Recording& recording, const ProcessConfig& config,
+                                       const ProcessMethod& method, const ProcessStages& before) {
+  const TipMotion& motion = before.trajectory.value->motion;
+  Outcome<BasePathResult> out = attempt<BasePathResult>("no_profile", "profile", [&] {
+    return method.find_base_path ? method.find_base_path(recording, config, motion)
+                                 : asperity::find_base_path(motion, recording.calibration.tip_in_marker_m, config.base);
+  });
+  if (out.value) out.problems = out.value->problems;
+  return out;
+}
+
+Outcome<MeasuredProfile> find_profile(const ProcessConfig& config, const ProcessMethod& method,
+                                      const ProcessStages& before) {
+  if (!before.base.value) return {};
+  return attempt<MeasuredProfile>("no_profile", "profile", [&] {
+    MeasuredProfile out;
+    out.profile = method.make_profile(config, before.trajectory.value->motion, *before.base.value);
+    out.coverage = measure_coverage(out.profile);
+    out.speed = measure_speed(out.profile);
+    return out;
   });
 }
 
-StageNotes find_profile(const ProcessConfig& config, ProcessResult& result) {
-  return attempt("no_profile", "profile", [&](StageNotes&) {
-    result.profile = {};
-    result.coverage = {};
-    result.speed = {};
-    result.profile = make_profile_by(config, result.trajectory.motion, result.base);
-    result.coverage = measure_coverage(result.profile);
-    result.speed = measure_speed(result.profile);
+Outcome<RoughnessResult> measure_roughness(const ProcessConfig& config, const ProcessStages& before) {
+  if (!before.profile.value) return {};
+  const Profile& profile = before.profile.value->profile;
+  return attempt<RoughnessResult>("no_roughness", "roughness", [&] {
+    return asperity::measure_roughness(profile.texture_m, profile.spacing_m, config.roughness);
   });
 }
 
-StageNotes measure_roughness(const RoughnessConfig& config, ProcessResult& result) {
-  return attempt("no_roughness", "roughness", [&](StageNotes&) {
-    result.roughness.reset();
-    result.roughness = asperity::measure_roughness(result.profile.texture_m, result.profile.spacing_m, config);
-  });
+Outcome<Periodicity> find_periodicity(const ProcessConfig& config, const ProcessStages& before) {
+  if (!before.profile.value) return {};
+  const Profile& profile = before.profile.value->profile;
+  return {asperity::find_periodicity(profile.texture_m, profile.spacing_m, config.periodicity), {}, {}};
 }
 
-StageNotes find_periodicity(const PeriodicityConfig& config, ProcessResult& result) {
-  result.periodicity = asperity::find_periodicity(result.profile.texture_m, result.profile.spacing_m, config);
-  return {};
+Outcome<Compliance> estimate_compliance(const Recording& recording, const ProcessConfig& config,
+                                        const ProcessMethod& method, const ProcessStages& before) {
+  if (!before.profile.value) return {};
+  return {method.estimate_compliance(recording, config, before.trajectory.value->motion, *before.base.value), {}, {}};
 }
 
-StageNotes estimate_compliance(const Recording& recording, const ProcessConfig& config, ProcessResult& result) {
-  const TipMotion& motion = result.trajectory.motion;
-  const std::vector<Eigen::Vector3d>& n_world = result.base.path.n_world;
-  if (config.method == Method::kFused) {
-    result.compliance = asperity::estimate_compliance(motion, motion.t_ns, n_world, config.compliance);
-    return {};
-  }
-  // It wants accelerations at the probe's own rate, which the seed's motion has thinned.
-  const Outliers outliers = reject_outliers(recording.probe, recording.calibration, config.thesis.trajectory.outliers);
-  const TipMotion samples =
-      sample_at_probe(recording.probe, outliers, recording.calibration, recording.info.gravity_world_mps2, motion);
-  result.compliance = asperity::estimate_compliance(samples, motion.t_ns, n_world, config.compliance);
-  return {};
+Outcome<StiffnessEstimate> estimate_stiffness(const ProcessConfig& config, const ProcessStages& before) {
+  if (!before.profile.value) return {};
+  const BasePathResult& base = *before.base.value;
+  return {
+      asperity::estimate_stiffness(before.trajectory.value->motion, base.path, base.contact, config.stiffness), {}, {}};
 }
 
-StageNotes estimate_stiffness(const StiffnessConfig& config, ProcessResult& result) {
-  result.stiffness =
-      asperity::estimate_stiffness(result.trajectory.motion, result.base.path, result.base.contact, config);
-  return {};
+Outcome<FourierFit> fit_texture(const ProcessConfig& config, const ProcessStages& before) {
+  if (!before.profile.value) return {};
+  const Profile& profile = before.profile.value->profile;
+  Outcome<FourierFit> out = attempt<FourierFit>(
+      "no_texture", "texture", [&] { return fit_fourier1d(profile.texture_m, profile.spacing_m, config.texture); });
+  if (out.value) out.problems = out.value->problems;
+  return out;
 }
 
-StageNotes fit_texture(const FitFourier1dConfig& config, ProcessResult& result) {
-  return attempt("no_texture", "texture", [&](StageNotes& notes) {
-    result.fit.reset();
-    result.fit = fit_fourier1d(result.profile.texture_m, result.profile.spacing_m, config);
-    notes.problems = result.fit->problems;
-  });
-}
-
-Texture join_texture(const Recording& recording, const ProcessConfig& config, const ProcessResult& result) {
-  Texture texture;
-  texture.name = recording.info.object;
-  texture.model = result.fit->texture;
-  texture.lift_m = result.fit->lift_m;
-  if (std::isfinite(result.compliance.k_c)) texture.compliance_kc = result.compliance.k_c;
-  if (result.stiffness.measured) texture.stiffness_N_per_m = 1e3 * result.stiffness.stiffness_N_per_mm;
-  if (result.roughness) {
-    const RoughnessResult& r = *result.roughness;
-    for (const auto& [key, value] : {std::pair{"Ra_m", r.Ra_m},
-                                     {"Rq_m", r.Rq_m},
-                                     {"Rz_m", r.Rz_m},
-                                     {"Rt_m", r.Rt_m},
-                                     {"Rsk", r.Rsk},
-                                     {"Rku", r.Rku},
-                                     {"RSm_m", r.RSm_m}}) {
-      if (std::isfinite(value)) texture.roughness[key] = value;
-    }
-  }
-  const bool fused = config.method == Method::kFused;
-  const double low = fused ? config.profile.cutoff_cycles_per_mm : config.thesis.profile.cutoff_cycles_per_mm;
-  const double fit_high = static_cast<double>(result.fit->texture.a_m.size()) / result.fit->texture.length_mm;
-  const double nyquist = 0.5 / (result.profile.spacing_m * 1e3);
-  texture.band_cycles_per_mm = {low, std::min(fit_high, nyquist)};
-  texture.source.config_json = result.config_json;
-  texture.source.version = kVersion;
-  return texture;
-}
-
-StageNotes compare_with_truth(const Recording& recording, const ComparisonConfig& config, ProcessResult& result) {
-  StageNotes notes;
-  result.accuracy.reset();
+Outcome<Accuracy> compare_with_truth(const Recording& recording, const ProcessConfig& config,
+                                     const ProcessStages& before) {
+  Outcome<Accuracy> out;
+  if (!recording.truth) return out;
+  const Profile profile = before.profile.value ? before.profile.value->profile : Profile{};
   try {
-    result.accuracy = measure_accuracy(recording, result.trajectory.motion, result.profile, config);
+    out.value = measure_accuracy(recording, before.trajectory.value->motion, profile, config.comparison);
   } catch (const Error& error) {
-    notes.problems.push_back({"no_accuracy", std::string("not compared with the truth: ") + error.what(), 1});
+    out.problems.push_back({"no_accuracy", std::string("not compared with the truth: ") + error.what(), 1});
   }
-  return notes;
+  return out;
 }
 
 }  // namespace asperity::stage

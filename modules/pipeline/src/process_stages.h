@@ -1,40 +1,72 @@
 #pragma once
 
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "asperity/base/progress.h"
 #include "asperity/pipeline/process_config.h"
-#include "asperity/pipeline/process_motion.h"
 #include "asperity/pipeline/process_result.h"
 #include "asperity/recording/recording.h"
-#include "kept_stages.h"
 
-// The stages between a recording and its texture. Each makes its own part of the result from the recording and from the
-// parts that the ones before it have made, and knows no other settings than those it is given. What a usable recording
-// may not allow, such as roughness of too short a profile, leaves the part empty and is in the notes.
-namespace asperity::stage {
+namespace asperity {
+
+// What a stage gives: its value, unless the data did not allow one, and what it has to say beside it.
+template <class T>
+struct Outcome {
+  std::optional<T> value;
+  Problems problems;
+  std::vector<std::string> quality_warnings;  // why the result is not to be trusted
+};
+
+struct MeasuredProfile {
+  Profile profile;
+  Coverage coverage;
+  SpeedFigures speed;
+};
+
+// The outcomes of all stages between a recording and its texture. Without a base path or a profile those that need it
+// have no value and nothing to say.
+struct ProcessStages {
+  Outcome<TrajectoryResult> trajectory;  // has a value
+  Outcome<BasePathResult> base;
+  Outcome<MeasuredProfile> profile;
+  Outcome<RoughnessResult> roughness;
+  Outcome<Periodicity> periodicity;
+  Outcome<Compliance> compliance;
+  Outcome<StiffnessEstimate> stiffness;
+  Outcome<FourierFit> fit;
+  Outcome<Accuracy> accuracy;
+};
 
 // A force sensor that never changes is none: whether the tip touched is then not known.
 bool has_force(const ProbeStream& probe);
 
-// trajectory. Throws Error if the streams do not allow one, and Cancelled.
-StageNotes find_trajectory(const Recording& recording, const ProcessConfig& config, ProcessResult& result,
-                           const Observer& observer);
+// The stages: pure functions of the recording, of the outcomes before them and of their own settings. What a usable
+// recording may not allow, such as roughness of too short a profile, is in the outcome.
+namespace stage {
 
-// base.
-StageNotes find_base_path(const FindBase& find_base, ProcessResult& result);
+// Throws Error if the streams do not allow one, and Cancelled.
+Outcome<TrajectoryResult> find_trajectory(const Recording& recording, const ProcessConfig& config,
+                                          const ProcessMethod& method, const Observer& observer);
+Outcome<BasePathResult> find_base_path(const Recording& recording, const ProcessConfig& config,
+                                       const ProcessMethod& method, const ProcessStages& before);
+Outcome<MeasuredProfile> find_profile(const ProcessConfig& config, const ProcessMethod& method,
+                                      const ProcessStages& before);
+Outcome<RoughnessResult> measure_roughness(const ProcessConfig& config, const ProcessStages& before);
+Outcome<Periodicity> find_periodicity(const ProcessConfig& config, const ProcessStages& before);
+Outcome<Compliance> estimate_compliance(const Recording& recording, const ProcessConfig& config,
+                                        const ProcessMethod& method, const ProcessStages& before);
+Outcome<StiffnessEstimate> estimate_stiffness(const ProcessConfig& config, const ProcessStages& before);
+Outcome<FourierFit> fit_texture(const ProcessConfig& config, const ProcessStages& before);
+// No value without a truth. One that does not fit says nothing against the measurement.
+Outcome<Accuracy> compare_with_truth(const Recording& recording, const ProcessConfig& config,
+                                     const ProcessStages& before);
 
-// profile, coverage, speed.
-StageNotes find_profile(const ProcessConfig& config, ProcessResult& result);
+}  // namespace stage
 
-StageNotes measure_roughness(const RoughnessConfig& config, ProcessResult& result);
-StageNotes find_periodicity(const PeriodicityConfig& config, ProcessResult& result);
-StageNotes estimate_compliance(const Recording& recording, const ProcessConfig& config, ProcessResult& result);
-StageNotes estimate_stiffness(const StiffnessConfig& config, ProcessResult& result);
+// The result of the stages' outcomes: their values, the texture made from them, and the verdict over all.
+ProcessResult join_stages(const Recording& recording, const ProcessConfig& config, const ProcessMethod& method,
+                          ProcessStages stages);
 
-// fit; the texture is joined from it and others by join_texture().
-StageNotes fit_texture(const FitFourier1dConfig& config, ProcessResult& result);
-Texture join_texture(const Recording& recording, const ProcessConfig& config, const ProcessResult& result);
-
-// accuracy. A truth that does not fit says nothing against the measurement.
-StageNotes compare_with_truth(const Recording& recording, const ComparisonConfig& config, ProcessResult& result);
-
-}  // namespace asperity::stage
+}  // namespace asperity

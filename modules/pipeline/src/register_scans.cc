@@ -8,7 +8,6 @@
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/geometry/mesh_surface.h"
-#include "asperity/pipeline/config_json.h"
 #include "asperity/pipeline/locate_scans.h"
 #include "asperity/pipeline/process_motion.h"
 #include "asperity/pipeline/scan_points.h"
@@ -19,9 +18,9 @@ namespace asperity {
 
 namespace {
 
-void append(Problems& to, const Problems& from) { to.insert(to.end(), from.begin(), from.end()); }
+void append_problems(Problems& to, const Problems& from) { to.insert(to.end(), from.begin(), from.end()); }
 
-void distrust(ScansOnMesh& result, const std::string& why) {
+void mark_untrusted(ScansOnMesh& result, const std::string& why) {
   result.trustworthy = false;
   result.verdict += (result.verdict.empty() ? "" : "; ") + why;
 }
@@ -43,7 +42,7 @@ void measure_path(const RegisterConfig& config, const FindBase& find_base, Regis
   ProcessResult& result = scan.process;
   try {
     result.base = find_base(result.trajectory.motion);
-    append(result.problems, result.base.problems);
+    append_problems(result.problems, result.base.problems);
     result.profile =
         make_profile(result.trajectory.motion, result.base.path, result.base.contact, config.process.profile);
   } catch (const Cancelled&) {
@@ -66,7 +65,7 @@ void make_own_texture(const RegisterConfig& config, RegisteredScan& scan) {
   if (texture.name.empty()) texture.name = scan.name;
   texture.model = scan.path_texture->series.fit.texture;
   texture.lift_m = scan.path_texture->series.lift_m;
-  append(result.problems, scan.path_texture->series.problems);
+  append_problems(result.problems, scan.path_texture->series.problems);
   const double nyquist = 0.5 / (result.profile.spacing_m * 1e3);
   texture.band_cycles_per_mm = {config.process.profile.cutoff_cycles_per_mm,
                                 std::min(config.texture.coefficients_per_mm, nyquist)};
@@ -122,8 +121,7 @@ void measure_scan(const Scan& scan, const MeshSurface& surface, const Pose& T_me
 ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& mesh, const std::optional<Pose>& guess,
                            const RegisterConfig& config, const RegistrationObserver& observer) {
   ScansOnMesh out;
-  RegisterConfig resolved = config;
-  out.config_json = config_json(list_fields("", resolved));
+  out.config = config;
 
   // Where the tips were.
   ScanPoints begun = find_scan_points(scans, config, observer);
@@ -139,11 +137,11 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
   const MeshSurface surface(mesh);
   LocatedScans located = locate_scans(begun, surface, guess, config, observer);
   out.registration = std::move(located.registration);
-  append(out.problems, out.registration.problems);
-  if (!out.registration.trustworthy) distrust(out, out.registration.verdict);
+  append_problems(out.problems, out.registration.problems);
+  if (!out.registration.trustworthy) mark_untrusted(out, out.registration.verdict);
   // Where the scans say nothing the guess counts; without one the place is arbitrary.
   if (!guess && is_arbitrary(out.registration)) {
-    distrust(out, "without a guess, where the scans lie along undetermined motions is arbitrary");
+    mark_untrusted(out, "without a guess, where the scans lie along undetermined motions is arbitrary");
   }
 
   // What they met there.
@@ -155,9 +153,9 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
                    located.slow_error_world_m[i], scan, observer);
       return 0;
     });
-    if (!scan.process.trustworthy) distrust(out, printable(scan.name, 200) + ": " + scan.process.verdict);
+    if (!scan.process.trustworthy) mark_untrusted(out, printable(scan.name, 200) + ": " + scan.process.verdict);
     if (scan.path.size() < 2) {
-      distrust(out, printable(scan.name, 200) + ": no path on the mesh");
+      mark_untrusted(out, printable(scan.name, 200) + ": no path on the mesh");
       scan.path = {};
     }
     mesh_paths.push_back(scan.path);
@@ -174,9 +172,9 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
     out.coordinates = {};
     out.coordinates.triangles.resize(surface.mesh.triangles.size());
     out.coordinates.warps.resize(mesh_paths.size());
-    distrust(out, std::string("no haptic coordinates: ") + error.what());
+    mark_untrusted(out, std::string("no haptic coordinates: ") + error.what());
   }
-  append(out.problems, out.coordinates.problems);
+  append_problems(out.problems, out.coordinates.problems);
   observer.update("coordinates", 1.0);
   return out;
 }

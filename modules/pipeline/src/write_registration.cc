@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
@@ -172,7 +173,8 @@ std::string format_registration(const ScansOnMesh& result, std::span<const std::
   out["coordinates"] = coordinates_json(result.coordinates);
   out["problems"] = problems_json(result.problems);
   out["files"] = files;
-  out["config"] = parse_json(result.config_json);
+  RegisterConfig config = result.config;
+  out["config"] = config_tree<Json>(list_fields("", config));
   out["asperity"] = kVersion;
   // Names come from files; what is not UTF-8 in them must not stop the writing.
   return out.dump_repaired(2) + "\n";

@@ -71,7 +71,7 @@ TEST(WriteResult, KnowsItsOwnFolders) {
 }
 
 TEST(ProcessRecording, RefusesAnEmptyRecording) {
-  for (const Method method : {Method::kFused, Method::kThesis}) {
+  for (const Method method : {ProcessMethods::method<FusedMethod>(), ProcessMethods::method<ThesisMethod>()}) {
     ProcessConfig config;
     config.method = method;
     EXPECT_THROW(process_recording({}, config), Error);

@@ -7,7 +7,6 @@
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
 #include "asperity/json/parse_json.h"
-#include "asperity/recording/uncalibrated.h"
 #include "asperity/recording/write_recording.h"
 
 namespace asperity {
@@ -32,21 +31,8 @@ AppendColumns columns_of(const std::optional<ProbeDescription>& description, boo
 }
 
 std::optional<ForceCalibration> force_of(const Calibration& calibration) {
-  if (is_uncalibrated(calibration)) return std::nullopt;
+  if (calibration.uncalibrated) return std::nullopt;
   return calibration.force;
-}
-
-Json numbers(const Eigen::Vector3d& values) {
-  Json out = Json::array();
-  for (const double value : values) out.push_back(number_or_null(value));
-  return out;
-}
-
-Json discarded_json(const std::vector<Segment>& segments) {
-  Json out = Json::array();
-  for (const Segment& each : segments)
-    out.push_back({{"name", each.name}, {"start_ns", each.start_ns}, {"end_ns", each.end_ns}});
-  return out;
 }
 
 }  // namespace
@@ -165,25 +151,18 @@ RecordingInfo RecordingWriter::current_info(bool finished) const {
   problem("gravity_implausible", gravity.implausible ? 1 : 0);
   problem("columns_missing", columns_missing_ ? 1 : 0);
 
-  Json extra = parse_json_or_null(info_.extra_json.empty() ? "{}" : info_.extra_json);
-  if (!extra.is_object()) throw Error("recorder: extra_json is not a JSON object: " + printable(info_.extra_json));
-  Json recorder;
-  recorder["state"] = finished ? "finished" : "recording";
-  recorder["mode"] = kStoreModeNames.at(static_cast<std::size_t>(config_.mode));
-  recorder["last_segment_is_open"] = segments_.is_open();
-  if (const auto until_ns = segments_.discarded_until_ns()) recorder["discarded_until_ns"] = *until_ns;
-  recorder["discarded_segments"] = segments_.discarded();
-  // Whose rows are still in the files.
-  if (!finished && !segments_.trash().empty()) recorder["discarded"] = discarded_json(segments_.trash());
-  recorder["gravity"] = {{"measured", gravity.measured},
-                         {"windows_at_rest", gravity.windows},
-                         {"scatter_mps2", numbers(gravity.scatter_mps2)}};
+  RecorderState& recorder = out.recorder.emplace();
+  recorder.state = finished ? "finished" : "recording";
+  recorder.mode = kStoreModeNames.at(static_cast<std::size_t>(config_.mode));
+  recorder.last_segment_is_open = segments_.is_open();
+  recorder.discarded_until_ns = segments_.discarded_until_ns();
+  recorder.discarded_segments = static_cast<std::int64_t>(segments_.discarded());
+  if (!finished) recorder.discarded = segments_.discarded_rows();
+  recorder.gravity = GravityAtRest{gravity.measured, gravity.windows, gravity.scatter_mps2};
   if (description_) {
-    recorder["probe_name"] = printable(description_->name);
-    recorder["probe_firmware"] = printable(description_->firmware);
+    recorder.probe_name = printable(description_->name);
+    recorder.probe_firmware = printable(description_->firmware);
   }
-  extra["recorder"] = std::move(recorder);
-  out.extra_json = extra.dump_sorted();
   return out;
 }
 
@@ -217,7 +196,7 @@ void RecordingWriter::describe(RecorderSnapshot& out) const {
   out.segment = segments_.last_name();
   out.discarded = segments_.discarded();
   out.restored = segments_.restored();
-  if (!segments_.trash().empty()) out.last_discarded = segments_.trash().back();
+  if (!segments_.discarded_rows().empty()) out.last_discarded = segments_.discarded_rows().back();
   out.recorded_s = segments_.recorded_s();
   out.probe_rows = segments_.probe_rows();
   out.tracker_rows = segments_.tracker_rows();

@@ -10,7 +10,6 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/recording/read_recording.h"
-#include "asperity/recording/uncalibrated.h"
 #include "recorder_rig.h"
 
 namespace asperity {
@@ -70,9 +69,9 @@ TEST(Recorder, MeasuresGravityAtRest) {
   recorder->finish();
   const Recording recording = read_recording(rig.folder());
   EXPECT_LT((recording.info.gravity_world_mps2 - Eigen::Vector3d(0.0, 9.80665, 0.0)).norm(), 1e-3);
-  const auto gravity = nlohmann::json::parse(recording.info.extra_json).at("recorder").at("gravity");
-  EXPECT_EQ(gravity.at("measured"), true);
-  EXPECT_GE(gravity.at("windows_at_rest"), 2);
+  ASSERT_TRUE(recording.info.recorder && recording.info.recorder->gravity);
+  EXPECT_TRUE(recording.info.recorder->gravity->measured);
+  EXPECT_GE(recording.info.recorder->gravity->windows_at_rest, 2);
 }
 
 TEST(Recorder, ALostSensorIsReportedAndTakenBack) {
@@ -147,7 +146,7 @@ TEST(Recorder, WithoutCalibrationItSaysSo) {
   ASSERT_TRUE(wait_for(*recorder, [](const RecorderSnapshot& now) { return now.tracker_rows > 5; }));
   EXPECT_FALSE(recorder->snapshot().force_is_calibrated);
   recorder->finish();
-  EXPECT_TRUE(is_uncalibrated(read_recording(rig.folder()).calibration));
+  EXPECT_TRUE(read_recording(rig.folder()).calibration.uncalibrated);
 }
 
 TEST(Recorder, RefusesAnExistingFolderAndAMissingProbe) {

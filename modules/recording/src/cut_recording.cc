@@ -33,11 +33,6 @@ std::vector<T> cut(const std::vector<T>& column, const Rows& rows) {
           column.begin() + static_cast<std::ptrdiff_t>(rows.last)};
 }
 
-bool is_made_by_recorder(const RecordingInfo& info) {
-  const auto extra = parse_json_or_null(info.extra_json);
-  return extra.is_object() && extra.contains("recorder");
-}
-
 std::vector<Segment> join_near_segments(std::vector<Segment> segments) {
   std::stable_sort(segments.begin(), segments.end(),
                    [](const Segment& a, const Segment& b) { return a.start_ns < b.start_ns; });
@@ -100,7 +95,7 @@ Recording cut_recording(const Recording& recording, std::int64_t start_ns, std::
 }
 
 std::vector<Segment> separate_segments(const Recording& recording) {
-  if (is_made_by_recorder(recording.info)) return recording.info.segments;
+  if (recording.info.recorder) return recording.info.segments;
   std::vector<Segment> out = join_near_segments(recording.info.segments);
   if (out.size() < 2) out.clear();
   return out;

@@ -2,7 +2,8 @@
 #include "asperity/base/text.h"
 #include "asperity/json/json_writer.h"
 #include "asperity/json/parse_json.h"
-#include "asperity/recording/format.h"
+#include "asperity/recording/format_recording.h"
+#include "known_extra.h"
 
 namespace asperity {
 
@@ -112,6 +113,7 @@ std::string format_calibration(const Calibration& calibration) {
   give("accelerometer_rotation_sigma_rad", calibration.accelerometer.rotation_sigma_rad);
   give("probe_latency_s", calibration.probe_latency_s);
   give("probe_latency_sigma_s", calibration.probe_latency_sigma_s);
+  add_known_extra(calibration, extra);
   out.raw("extra", extra.dump_sorted());
   return out.finish();
 }
@@ -156,7 +158,9 @@ std::string format_recording_info(const RecordingInfo& info) {
   out.begin_object("problems");
   for (const auto& [name, count] : info.problems) out.integer(name, count);
   out.end_object();
-  out.raw("extra", extra_object(info.extra_json, "recording").dump_sorted());
+  Json extra = extra_object(info.extra_json, "recording");
+  add_known_extra(info, extra);
+  out.raw("extra", extra.dump_sorted());
   return out.finish();
 }
 

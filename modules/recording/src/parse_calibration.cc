@@ -4,10 +4,11 @@
 #include <Eigen/SVD>
 
 #include "asperity/json/parse_json.h"
-#include "asperity/recording/parse.h"
+#include "asperity/recording/parse_recording.h"
 #include "calibration_parts.h"
 #include "json_eigen.h"
 #include "json_limits.h"
+#include "known_extra.h"
 
 namespace asperity {
 
@@ -120,6 +121,7 @@ Calibration parse_calibration(std::string_view text, const std::string& name, co
     take("accelerometer_rotation_sigma_rad", out.accelerometer.rotation_sigma_rad, {0.0, 4.0});
     take("probe_latency_s", out.probe_latency_s, {-10.0, 10.0});
     take("probe_latency_sigma_s", out.probe_latency_sigma_s, {0.0, 10.0});
+    take_known_extra(rest, out);
     out.extra_json = rest.dump_sorted();
   }
   object.finish();

@@ -3,9 +3,10 @@
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
 #include "asperity/json/parse_json.h"
-#include "asperity/recording/parse.h"
+#include "asperity/recording/parse_recording.h"
 #include "json_eigen.h"
 #include "json_limits.h"
+#include "known_extra.h"
 #include "time_order.h"
 
 namespace asperity {
@@ -66,7 +67,9 @@ RecordingInfo parse_recording_info(std::string_view text, const std::string& nam
       problems->read_integer(key, out.problems[key], 0, INT64_MAX);
     }
   }
-  out.extra_json = read_extra(object);
+  Json extra = object.extra();
+  take_known_extra(extra, out);
+  out.extra_json = extra.dump_sorted();
   object.finish();
   return out;
 }

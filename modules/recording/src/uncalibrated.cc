@@ -1,9 +1,7 @@
 #include "asperity/recording/uncalibrated.h"
 
 #include <exception>
-
 #include "asperity/json/parse_json.h"
-
 namespace asperity {
 
 namespace {
@@ -22,17 +20,8 @@ Calibration make_uncalibrated(double accel_counts_per_mps2, double gyro_counts_p
   }
   out.force.newton_per_count = or_one(newton_per_count);
   out.force.axis_in_marker = Eigen::Vector3d::UnitZ();
-  out.extra_json = R"({"uncalibrated":true})";
+  out.uncalibrated = true;
   return out;
-}
-
-bool is_uncalibrated(const Calibration& calibration) noexcept {
-  try {
-    const auto extra = parse_json_or_null(calibration.extra_json);
-    return extra.is_object() && extra.contains("uncalibrated") && extra["uncalibrated"] == true;
-  } catch (const std::exception&) {
-    return false;
-  }
 }
 
 }  // namespace asperity

@@ -14,12 +14,11 @@ namespace asperity {
 namespace {
 
 // A segment may have begun that recording.json did not yet know of.
-void add_unlisted(Recording& recording, const Json& recorder, std::int64_t last_row_ns) {
+void add_unlisted(Recording& recording, const RecorderState& recorder, std::int64_t last_row_ns) {
   constexpr std::int64_t kOverhang_ns = 200'000'000;  // rows that a segment may have behind its end
   std::int64_t known_ns = std::numeric_limits<std::int64_t>::min();
   for (const Segment& segment : recording.info.segments) known_ns = std::max(known_ns, segment.end_ns);
-  if (recorder.contains("discarded_until_ns") && recorder["discarded_until_ns"].is_number_integer())
-    known_ns = std::max(known_ns, recorder["discarded_until_ns"].get<std::int64_t>());
+  if (recorder.discarded_until_ns) known_ns = std::max(known_ns, *recorder.discarded_until_ns);
   const auto& t_ns = recording.probe.t_ns;
   const auto first = std::upper_bound(t_ns.begin(), t_ns.end(), known_ns);
   if (first == t_ns.end() || last_row_ns - *first < kOverhang_ns) return;
@@ -27,15 +26,12 @@ void add_unlisted(Recording& recording, const Json& recorder, std::int64_t last_
 }
 
 // The names of those whose rows are still there; "" if there are none.
-std::string discarded_names(const Json& recorder) {
+std::string discarded_names(const RecorderState& recorder) {
   constexpr std::size_t kMostNamed = 5;
-  const Json* discarded = recorder.find("discarded");
-  if (discarded == nullptr || !discarded->is_array()) return "";
   std::string out;
   std::size_t count = 0;
-  for (const auto& each : *discarded) {
-    if (!each.is_object() || !each.contains("name") || !each["name"].is_string()) continue;
-    if (count++ < kMostNamed) out += (out.empty() ? "" : ", ") + printable(each["name"].get<std::string>(), 100);
+  for (const Segment& each : recorder.discarded) {
+    if (count++ < kMostNamed) out += (out.empty() ? "" : ", ") + printable(each.name, 100);
   }
   return count > kMostNamed ? out + ", …" : out;
 }
@@ -43,10 +39,8 @@ std::string discarded_names(const Json& recorder) {
 }  // namespace
 
 void close_unfinished(Recording& recording) {
-  const auto extra = parse_json_or_null(recording.info.extra_json);
-  if (!extra.is_object() || !extra.contains("recorder") || !extra["recorder"].is_object()) return;
-  const auto& recorder = extra["recorder"];
-  if (!recorder.contains("state") || recorder["state"] != "recording") return;
+  if (!recording.info.recorder || recording.info.recorder->state != "recording") return;
+  const RecorderState& recorder = *recording.info.recorder;
   recording.problems.push_back({"unfinished", "the recorder did not come to its end; what it had stored is there"});
   if (const std::string names = discarded_names(recorder); !names.empty()) {
     recording.problems.push_back({"discarded_rows", "rows of segments that were discarded are still in its files: " +
@@ -56,8 +50,7 @@ void close_unfinished(Recording& recording) {
   if (recording.probe.size() > 0) last_row_ns = std::max(last_row_ns, recording.probe.t_ns.back());
   if (recording.tracker.size() > 0) last_row_ns = std::max(last_row_ns, recording.tracker.t_ns.back());
   std::vector<Segment>& segments = recording.info.segments;
-  const bool open = recorder.contains("last_segment_is_open") && recorder["last_segment_is_open"] == true;
-  if (open && !segments.empty()) {
+  if (recorder.last_segment_is_open.value_or(false) && !segments.empty()) {
     segments.back().end_ns = std::max(segments.back().end_ns, last_row_ns);
     return;
   }

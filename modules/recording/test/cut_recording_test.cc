@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "asperity/base/error.h"
-#include "asperity/recording/validate.h"
+#include "asperity/recording/validate_recording.h"
 #include "random_recording.h"
 
 namespace asperity {
@@ -80,7 +80,7 @@ TEST(SeparateSegments, GapsSeparate) {
 
 TEST(SeparateSegments, ARecordersSegmentsStandAlone) {
   Recording recording;
-  recording.info.extra_json = R"({"recorder":{"state":"finished"}})";
+  recording.info.recorder.emplace().state = "finished";
   recording.info.segments = {{"contact_1", 0, 1'000'000'000}, {"contact_2", 900'000'000, 2'000'000'000}};
   EXPECT_THAT(names(separate_segments(recording)), ElementsAre("contact_1", "contact_2"));
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "left_of_fade.h"
+#include "asperity/base/smoothstep.h"
 
 namespace asperity {
 
@@ -18,7 +18,7 @@ void ease_material(const RenderModel& model, double dt_s, EasedMaterial& eased) 
     eased.left = 1.0;
   } else if (eased.left > 0.0) {
     eased.since_s += std::max(dt_s, 0.0);
-    eased.left = left_of_fade(eased.since_s / over_s);
+    eased.left = 1.0 - smoothstep(eased.since_s / over_s);
   }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "asperity/render/eased_material.h"
+#include "asperity/render/proxy_state.h"
 #include "asperity/render/render_model.h"
 
 namespace asperity {

@@ -15,7 +15,7 @@
 #include "asperity/render/proxy_state.h"
 #include "asperity/render/render_model.h"
 #include "material_id.h"
-#include "proxy_ball.h"
+#include "move_proxy.h"
 #include "texture_border.h"
 
 namespace asperity {

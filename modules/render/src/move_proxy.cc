@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "convex_step.h"
-#include "hop_over_nook.h"
+#include "escape_local_minimum.h"
 
 namespace asperity {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kMostIterations = 48;
-constexpr int kMostHops = 8;
+constexpr int kMostEscapes = 8;
 // A ball that falls off a ridge would fly over the next valleys if it were let go all the way to its goal at once; of
 // so many strides of the hand it cannot miss much.
 constexpr double kLeap = 1.5;
@@ -59,7 +59,8 @@ void gather_around(const RenderModel& model, const ProxyBall& ball, double wante
   if (!(proxy.reach_m > 0.0)) proxy.reach_m = ball.coarse_m;
   double reach_m = std::max(proxy.reach_m, std::min(wanted_m, kFarther * proxy.reach_m));
   const double enough_m = std::max(kStrides * ball.stride_m, least_m);
-  for (int tries = 0; !gather(model, proxy.p_world_m, ball.radius_m + reach_m, objects, proxy.near); ++tries) {
+  for (int tries = 0; !gather_triangles(model, proxy.p_world_m, ball.radius_m + reach_m, objects, proxy.near);
+       ++tries) {
     proxy.work += kMetPerTry;
     if (tries == kMostTries) {
       proxy.near.radius_m = ball.radius_m + std::max(reach_m, std::min(enough_m, proxy.reach_m));
@@ -129,8 +130,8 @@ void note_touches(const ConvexStep& step, ProxyState& proxy) {
 
 }  // namespace
 
-void look_around(const RenderModel& model, const ProxyBall& ball, double distance_m, ObjectSet objects,
-                 ProxyState& proxy) noexcept {
+void ensure_triangles_within(const RenderModel& model, const ProxyBall& ball, double distance_m, ObjectSet objects,
+                             ProxyState& proxy) noexcept {
   if (room_m(proxy, distance_m) >= 0.0) return;
   gather_around(model, ball, 2.0 * std::max(distance_m - ball.radius_m, 0.0), objects, proxy);
 }
@@ -138,9 +139,9 @@ void look_around(const RenderModel& model, const ProxyBall& ball, double distanc
 bool move_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d& goal_m, ObjectSet objects,
                 ProxyState& proxy) noexcept {
   double wanted_m = ball.stride_m;
-  const bool may_hop = ball.radius_m <= kPointLike * ball.skin_m;
+  const bool may_escape = ball.radius_m <= kPointLike * ball.skin_m;
   double leap_m = std::max(kLeap * ball.stride_m, 0x1p-4 * ball.coarse_m);
-  int hops = 0;
+  int escapes = 0;
   int added = 0;
   const std::int64_t most_work = proxy.work + kMostWork;
   for (int iteration = 0; iteration < kMostIterations && proxy.work < most_work; ++iteration) {
@@ -194,12 +195,12 @@ bool move_proxy(const RenderModel& model, const ProxyBall& ball, const Vector3d&
     }
     proxy.p_world_m = step.centre_m;
     if (!step.exact && length_m > 0x1p-40 * left_m) continue;
-    if (!may_hop || hops == kMostHops || !proxy.near.complete || proxy.touch_count < 2) return true;
-    ++hops;
+    if (!may_escape || escapes == kMostEscapes || !proxy.near.complete || proxy.touch_count < 2) return true;
+    ++escapes;
     std::int64_t work = most_work - proxy.work;
-    const bool hopped = hop_over_nook(proxy, ball, goal_m, work);
+    const bool escaped = escape_local_minimum(proxy, ball, goal_m, work);
     proxy.work = most_work - work;
-    if (!hopped) return true;
+    if (!escaped) return true;
   }
   return false;
 }

@@ -4,13 +4,12 @@
 #include <cmath>
 
 #include "asperity/render/texture_force.h"
-#include "carry_proxy.h"
 #include "ease_material.h"
-#include "feel_touches.h"
+#include "evaluate_contacts.h"
+#include "follow_moving_objects.h"
 #include "friction.h"
 #include "move_proxy.h"
 #include "start_proxy.h"
-#include "surface_place.h"
 #include "touch_texture.h"
 
 namespace asperity {
@@ -22,40 +21,40 @@ bool is_finite(const DeviceState& device) {
   return device.p_world_m.allFinite() && device.v_world_mps.allFinite() && std::isfinite(device.dt_s);
 }
 
-Friction friction_of(const RenderModel& model, const Feel& feel, double texture_N) {
-  return {std::max(feel.contact_N.norm() + texture_N, 0.0), feel.friction,
-          feel.friction * model.config.static_friction_ratio, feel.stiffness_N_per_m};
+Friction friction_of(const RenderModel& model, const ContactState& contact, double texture_N) {
+  return {std::max(contact.contact_N.norm() + texture_N, 0.0), contact.friction,
+          contact.friction * model.config.static_friction_ratio, contact.stiffness_N_per_m};
 }
 
 // Along which forces act: the contacts' own normal, or the interpolated one (Morgenbesser and Srinivasan 1996).
-Vector3d shaded_normal(const RenderModel& model, const ProxyState& proxy, const Feel& feel) {
-  if (!model.config.force_shading) return feel.normal;
+Vector3d shaded_normal(const RenderModel& model, const ProxyState& proxy, const ContactState& contact) {
+  if (!model.config.force_shading) return contact.normal;
   Vector3d sum = Vector3d::Zero();
   for (std::size_t k = 0; k < proxy.touch_count; ++k) {
     const ProxyTouch& touch = proxy.touches[k];
     const RenderObject& object = model.objects[touch.object];
-    if (object.corner_normals.empty()) return feel.normal;
+    if (object.corner_normals.empty()) return contact.normal;
     const auto& corners = object.corner_normals[touch.triangle];
     const Vector3d normal =
         object.T_world_mesh.rotation * Vector3d(touch.barycentric[0] * corners[0] + touch.barycentric[1] * corners[1] +
                                                 touch.barycentric[2] * corners[2]);
     const double length = normal.norm();
-    if (!(length > 0.0)) return feel.normal;
-    sum += (feel.weights[k] * (normal.dot(touch.normal_world) < 0.0 ? -1.0 : 1.0) / length) * normal;
+    if (!(length > 0.0)) return contact.normal;
+    sum += (contact.weights[k] * (normal.dot(touch.normal_world) < 0.0 ? -1.0 : 1.0) / length) * normal;
   }
   const double length = sum.norm();
-  return length > 0.0 ? Vector3d(sum / length) : feel.normal;
+  return length > 0.0 ? Vector3d(sum / length) : contact.normal;
 }
 
-SurfaceContact strongest_contact(const RenderModel& model, const ProxyState& proxy, const Feel& feel) {
+SurfaceContact strongest_contact(const RenderModel& model, const ProxyState& proxy, const ContactState& contact) {
   if (proxy.touch_count == 0) return {};
   std::size_t k = 0;
   for (std::size_t i = 1; i < proxy.touch_count; ++i)
-    if (feel.weights[i] > feel.weights[k]) k = i;
+    if (contact.weights[i] > contact.weights[k]) k = i;
   const ProxyTouch& touch = proxy.touches[k];
   return {touch.object,       touch.triangle,
           touch.barycentric,  place_world_m(model.objects[touch.object], touch.triangle, touch.barycentric),
-          touch.normal_world, feel.weights[k]};
+          touch.normal_world, contact.weights[k]};
 }
 
 }  // namespace
@@ -79,12 +78,12 @@ ServoOutput render_step(const RenderModel& model, ServoState& state, const Devic
     out.starts_inside = true;
     return out;
   }
-  carry_proxy(model, ball, proxy);
+  follow_moving_objects(model, ball, proxy);
   ease_material(model, device.dt_s, proxy.material);
 
   // Friction holds the proxy back: its goal is not the device but a point that it lags behind by what friction bears.
   const Vector3d before_m = proxy.p_world_m;
-  const Feel held = feel_touches(model, proxy, skin_m, p_m);
+  const ContactState held = evaluate_contacts(model, proxy, skin_m, p_m);
   const Friction holding = friction_of(model, held, proxy.texture_load_N);
   proxy.sticking = sticks(holding, proxy.sticking, held.rest_m);
   const bool rests = proxy.sticking && held.depth_m() > 0.0;
@@ -93,34 +92,34 @@ ServoOutput render_step(const RenderModel& model, ServoState& state, const Devic
     const Vector3d lag_m = proxy.sticking ? held.rest_m : sliding_lag_m(holding, held.rest_m);
     arrived = move_proxy(model, ball, p_m + lag_m, kAllObjects, proxy);
   }
-  Feel feel = feel_touches(model, proxy, skin_m, p_m);
-  if (!rests && !proxy.sticking && proxy.touch_count > 0 && !(feel.depth_m() > 0.0)) {
+  ContactState contact = evaluate_contacts(model, proxy, skin_m, p_m);
+  if (!rests && !proxy.sticking && proxy.touch_count > 0 && !(contact.depth_m() > 0.0)) {
     // It has slid to where nothing presses it: nothing holds it back either.
     arrived = move_proxy(model, ball, p_m, kAllObjects, proxy);
-    feel = feel_touches(model, proxy, skin_m, p_m);
+    contact = evaluate_contacts(model, proxy, skin_m, p_m);
   }
   const bool is_free = proxy.touch_count == 0 && arrived;
   if (proxy.touch_count == 0) {
     find_texture_below(model, ball, proxy);
-    if (proxy.over_texture) feel = feel_touches(model, proxy, skin_m, p_m);
+    if (proxy.over_texture) contact = evaluate_contacts(model, proxy, skin_m, p_m);
   }
-  const Vector3d normal = shaded_normal(model, proxy, feel);
-  out.contact_N = model.config.force_shading ? Vector3d(feel.contact_N.norm() * normal) : feel.contact_N;
+  const Vector3d normal = shaded_normal(model, proxy, contact);
+  out.contact_N = model.config.force_shading ? Vector3d(contact.contact_N.norm() * normal) : contact.contact_N;
   const Vector3d v_proxy_mps =
       device.dt_s > 0.0 ? Vector3d((proxy.p_world_m - before_m) / device.dt_s) : Vector3d::Zero();
-  const TextureForce texture = touch_texture(model, proxy, feel, normal, v_proxy_mps, device, state.texture);
+  const TextureForce texture = touch_texture(model, proxy, contact, normal, v_proxy_mps, device, state.texture);
   out.texture_N = texture.force_N;
   out.texture_height_m = texture.height_m;
   proxy.texture_load_N = normal.dot(texture.force_N);
-  out.friction_N =
-      friction_force_N(friction_of(model, feel, proxy.texture_load_N), proxy.sticking, feel.rest_m, holding.load_N);
+  out.friction_N = friction_force_N(friction_of(model, contact, proxy.texture_load_N), proxy.sticking, contact.rest_m,
+                                    holding.load_N);
   out.force_N = out.contact_N + out.texture_N + out.friction_N;
   // Over a texture friction holds the proxy back as well.
-  out.proxy_m = is_free && !(proxy.over_texture && holding.load_N > 0.0) ? p_m : feel.proxy_m;
-  out.contact = strongest_contact(model, proxy, feel);
+  out.proxy_m = is_free && !(proxy.over_texture && holding.load_N > 0.0) ? p_m : contact.proxy_m;
+  out.contact = strongest_contact(model, proxy, contact);
   out.sticking = proxy.sticking;
   proxy.material.felt = proxy.touch_count > 0;
-  proxy.material.last = {feel.stiffness_N_per_m, feel.compliance_kc, feel.friction};
+  proxy.material.last = {contact.stiffness_N_per_m, contact.compliance_kc, contact.friction};
   proxy.device_world_m = p_m;
   return out;
 }

@@ -9,7 +9,7 @@
 namespace asperity {
 
 // The edges of an object, vertices at one place taken as one, whose triangles have different textures or none, or
-// one texture with coordinates that tear there (texture_tear.h). Where a surface ends (an edge of one triangle) no
+// one texture with coordinates that have a seam there. Where a surface ends (an edge of one triangle) no
 // texture ends: there is nothing beside it. Time grows as that of a tree over the edges, whatever `fade_m` is.
 TextureBorder make_texture_border(const RenderObject& object, const std::vector<RenderTexture>& textures,
                                   double fade_m);

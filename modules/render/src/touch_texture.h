@@ -7,7 +7,7 @@
 #include "asperity/render/render_model.h"
 #include "asperity/render/texture_force.h"
 #include "asperity/render/texture_state.h"
-#include "feel_touches.h"
+#include "evaluate_contacts.h"
 #include "move_proxy.h"
 
 namespace asperity {
@@ -19,7 +19,7 @@ void find_texture_below(const RenderModel& model, const ProxyBall& ball, ProxySt
 
 // One step of the texture under the strongest touch, along the common normal of the touches. `v_proxy_mps`: of the
 // proxy over the surface. `normal`: along which the force is to act.
-TextureForce touch_texture(const RenderModel& model, const ProxyState& proxy, const Feel& feel,
+TextureForce touch_texture(const RenderModel& model, const ProxyState& proxy, const ContactState& contact,
                            const Eigen::Vector3d& normal, const Eigen::Vector3d& v_proxy_mps, const DeviceState& device,
                            TextureState& state) noexcept;
 

@@ -113,9 +113,9 @@ TEST(ProxyTexture, PullsTakeLoadOffFriction) {
   RenderModel model = wavy_plane(1.0, 0.5, 1.0);
   Texture texture = model.textures[0].texture;
   RenderTextureConfig config;
-  config.model = TextureForceModel::kStochastic;
+  config.model = kForceModelOf<StochasticTexture>;
   model.textures[0] = make_render_texture(texture, config);
-  model.textures[0].grains.lift_sigma = 0.0;
+  std::get<StochasticTexture>(*model.textures[0].series_of_heights).lift_sigma = 0.0;
   ServoState state;
   stroke(model, state, {0.03, 0.05, 0.01}, {0.03, 0.05, -0.3e-3}, 1e-5);
   int pulls = 0;

@@ -77,7 +77,7 @@ TEST(RenderHeight, OfASeriesIsItsSum) {
   for (const Fourier1d& f : {series(128, 0.0, 10.0, 0.0, 1), series(128, -1.0, 7.3, 2e-4, 2), last,
                              series(1, 0.0, 2.5, 0.0, 4), series(500, -0.5, 40.0, 0.0, 5)}) {
     const RenderTexture texture = make_render_texture(of(f), {});
-    ASSERT_FALSE(texture.x_table.cells.empty());
+    ASSERT_FALSE(texture.tables.x_table.cells.empty());
     Random random(6);
     double height = 0.0, slope = 0.0;
     for (int i = 0; i < 4000; ++i) {
@@ -118,7 +118,7 @@ TEST(RenderHeight, OfAProductIsTheProduct) {
   product.scale_per_m = -2e3;
   product.offset_m = 1e-4;
   const RenderTexture texture = make_render_texture(of(product), {});
-  ASSERT_FALSE(texture.x_table.cells.empty());
+  ASSERT_FALSE(texture.tables.x_table.cells.empty());
   Random random(3);
   double height = 0.0, slope_x = 0.0, slope_y = 0.0, mean = 0.0, square = 0.0, square_x = 0.0, square_y = 0.0;
   constexpr int kPlaces = 6000;

@@ -90,7 +90,7 @@ double expected_correlation() {
 TEST(StochasticForce, IsTheSameByTheMetreAtEverySpeedAndRate) {
   constexpr double kGrain_m = 4e-4;
   const RenderTexture texture = make_render_texture(grains(kGrain_m), {});
-  EXPECT_EQ(texture.model, TextureForceModel::kStochastic);
+  EXPECT_EQ(texture.model, kForceModelOf<StochasticTexture>);
   EXPECT_NEAR(texture.highest_m, 2.0 * 3.0 * 2e-5, 1e-15);
   const double sigma_N = 300.0 * 2e-5;
   for (const double speed_mps : {0.025, 0.1}) {
@@ -106,18 +106,19 @@ TEST(StochasticForce, IsTheSameByTheMetreAtEverySpeedAndRate) {
 
 TEST(StochasticForce, WithoutGrainsIsWhatTheOriginalDoesAtOneKilohertz) {
   const RenderTexture texture = make_render_texture(grains(0.0), {});
-  EXPECT_DOUBLE_EQ(texture.grains.grain_m, 0.05e-3);
+  EXPECT_DOUBLE_EQ(std::get<StochasticTexture>(texture.texture.model).grain_m, 0.05e-3);
 }
 
 TEST(StochasticForce, OfAHeightFieldHasItsSpread) {
   Texture sine;
   sine.model = Fourier1d{5.0, {0.0}, {1e-4}, 0.0};
-  const RenderTexture texture = make_render_texture(sine, {.model = TextureForceModel::kStochastic});
-  EXPECT_NEAR(texture.grains.sigma_m, 1e-4 / std::numbers::sqrt2, 1e-7);
+  const RenderTexture texture = make_render_texture(sine, {.model = kForceModelOf<StochasticTexture>});
+  const auto& series = std::get<StochasticTexture>(*texture.series_of_heights);
+  EXPECT_NEAR(series.sigma_m, 1e-4 / std::numbers::sqrt2, 1e-7);
   // cos(ωx) falls below 1/e at arccos(1/e)/ω.
-  EXPECT_NEAR(texture.grains.grain_m, 5e-3 * std::acos(std::exp(-1.0)) / (2.0 * std::numbers::pi), 1e-4);
+  EXPECT_NEAR(series.grain_m, 5e-3 * std::acos(std::exp(-1.0)) / (2.0 * std::numbers::pi), 1e-4);
   const Statistics s = along_a_stroke(texture, 0.1, 1e-3, 1e-4, 10.0);
-  EXPECT_NEAR(s.sigma_N, 1000.0 * texture.grains.sigma_m, 0.05 * 1000.0 * texture.grains.sigma_m);
+  EXPECT_NEAR(s.sigma_N, 1000.0 * series.sigma_m, 0.05 * 1000.0 * series.sigma_m);
 }
 
 // As friction: a grain above the mean brakes, one below it yields.

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "asperity/testkit/shape_meshes.h"
+#include "evaluate_contacts.h"
 #include "scenes.h"
-#include "surface_place.h"
 
 namespace asperity {
 namespace {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "asperity/base/error.h"
 #include "asperity/base/random.h"
 #include "asperity/render/texture_force.h"
 #include "asperity/testkit/count_allocations.h"
@@ -40,7 +41,7 @@ std::vector<RenderTexture> all_models() {
   std::vector<RenderTexture> textures{make_render_texture(height, {}),
                                       make_render_texture(height, {.model = TextureForceModel::kNormalPerturbation}),
                                       make_render_texture(height, {.model = TextureForceModel::kLateralGradient}),
-                                      make_render_texture(height, {.model = TextureForceModel::kStochastic}),
+                                      make_render_texture(height, {.model = kForceModelOf<StochasticTexture>}),
                                       make_render_texture(rough(8e-5, 2), {}),
                                       make_render_texture(vibration(), {})};
   Texture taps;
@@ -153,6 +154,19 @@ TEST(TextureChange, AllocatesNothing) {
   }
   EXPECT_EQ(testkit::count_allocations(), start);
   EXPECT_TRUE(std::isfinite(sum));
+}
+
+TEST(RenderTexture, IsFilteredToTheCutoff) {
+  Texture texture;
+  texture.model = Fourier1d{10.0, {1e-4, 0.0, 0.0, 0.0, 0.0, 0.0, 1e-4}, {0, 0, 0, 0, 0, 0, 0}, 0.0};
+  RenderTextureConfig config;
+  config.cutoff_cycles_per_mm = 0.4;
+  const RenderTexture rendered = make_render_texture(texture, config);
+  EXPECT_EQ(std::get<Fourier1d>(rendered.texture.model).a_m.size(), 3u);
+  EXPECT_NEAR(rendered.highest_m, 2e-4, 1e-12);
+  EXPECT_NE(rendered.id, make_render_texture(texture, {}).id);
+  config.cutoff_cycles_per_mm = -1.0;
+  EXPECT_THROW(make_render_texture(texture, config), Error);
 }
 
 }  // namespace

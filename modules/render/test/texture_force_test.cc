@@ -126,8 +126,8 @@ TEST(TextureForce, IsZeroForWhatIsNotANumber) {
 
 TEST(TextureForce, RefusesModelsThatATextureCannotServe) {
   const Texture height = sine();
-  EXPECT_THROW(make_render_texture(height, {.model = TextureForceModel::kAutoregressive}), Error);
-  EXPECT_THROW(make_render_texture(height, {.model = TextureForceModel::kDecayingSinusoids}), Error);
+  EXPECT_THROW(make_render_texture(height, {.model = kForceModelOf<AutoregressiveTexture>}), Error);
+  EXPECT_THROW(make_render_texture(height, {.model = kForceModelOf<DecayingSinusoids>}), Error);
   Texture series;
   series.model = DecayingSinusoids{};
   EXPECT_THROW(make_render_texture(series, {.model = TextureForceModel::kLateralGradient}), Error);

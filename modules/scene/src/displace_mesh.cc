@@ -6,6 +6,7 @@
 #include <string>
 
 #include "asperity/base/error.h"
+#include "asperity/base/smoothstep.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/mesh_adjacency.h"
 #include "asperity/geometry/mesh_normals.h"
@@ -170,8 +171,7 @@ class Displacer {
     for (std::size_t k = 0; k < 3; ++k) {
       if (at_border_[mesh_.triangles[t][k]]) border += w[static_cast<Eigen::Index>(k)];
     }
-    const double inside = std::clamp(1.0 - border, 0.0, 1.0);
-    const double fade = inside * inside * (3.0 - 2.0 * inside);
+    const double fade = smoothstep(1.0 - border);
     const auto& xy_mm = object_.mesh.haptic[t].xy_mm;
     const Vector2d xy_m = 1e-3 * (w[0] * xy_mm[0] + w[1] * xy_mm[1] + w[2] * xy_mm[2]);
     return config_.gain * fade * (evaluate_height(relief.texture->model, xy_m.x(), xy_m.y()).height_m + relief.lift_m);

@@ -14,7 +14,6 @@
 #include "asperity/scene/format_x3p.h"
 #include "asperity/scene/write_scene.h"
 #include "asperity/texture/evaluate_height.h"
-#include "asperity/texture/fourier1d.h"
 #include "asperity/texture/sample_heights.h"
 #include "export_gltf.h"
 
@@ -73,10 +72,10 @@ void add_sound(const std::string& stem, const Texture& texture, const ExportConf
 
 void add_x3p(const std::string& stem, const Texture& texture, const ExportConfig& config, ExportResult& out) {
   X3pGrid grid;
-  if (const auto* series = std::get_if<Fourier1d>(&texture.model)) {
+  if (const auto length_mm = line_length_mm(texture.model)) {
     SampleHeightsConfig line;
-    line.length_mm = series->length_mm;
-    line.spacing_mm = std::min(line.spacing_mm, series->length_mm / 256.0);
+    line.length_mm = *length_mm;
+    line.spacing_mm = std::min(line.spacing_mm, *length_mm / 256.0);
     grid.height_m = sample_heights(texture.model, line);
     grid.columns = grid.height_m.size();
     grid.x_spacing_m = 1e-3 * line.spacing_mm;

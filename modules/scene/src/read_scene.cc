@@ -3,7 +3,6 @@
 #include <map>
 #include <string>
 #include <utility>
-#include <variant>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
@@ -11,6 +10,7 @@
 #include "asperity/base/text.h"
 #include "asperity/geometry/read_mesh.h"
 #include "asperity/texture/texture_file.h"
+#include "asperity/texture/texture_operations.h"
 #include "parse_scene.h"
 
 namespace asperity {
@@ -21,16 +21,6 @@ namespace {
 
 constexpr std::uint64_t kLargestScene_bytes = 16 << 20;
 constexpr std::uint64_t kLargestMap_bytes = 1 << 30;
-
-// What is in memory of a texture, about; an image is far larger than its file.
-std::uint64_t size_of(const Texture& texture) {
-  std::uint64_t size = sizeof(Texture);
-  if (const auto* map = std::get_if<HeightMap>(&texture.model)) size += map->level.size() * sizeof(map->level[0]);
-  if (const auto* areal = std::get_if<ArealTexture>(&texture.model)) {
-    size += areal->surface.coefficient_m.size() * (sizeof(double) + 1);
-  }
-  return size;
-}
 
 // The files that a scene names: each inside its folder, all together of a bounded size.
 class NamedFiles {
@@ -80,7 +70,7 @@ void read_object(NamedFiles& files, SceneObject& object, Problems& problems) {
   object.mesh = read_mesh(files.find(object.mesh_file));
   for (SceneTexture& texture : object.textures) {
     texture.texture = read_texture(files.find(texture.file));
-    files.count(size_of(texture.texture));
+    files.count(size_bytes(texture.texture));
   }
   if (!object.material_file.empty()) {
     const fs::path file = files.find(object.material_file);

@@ -27,8 +27,8 @@ Scene read_height_maps(SceneInput& input, FeelSettings& settings) {
   image.range_mm = input.height_range_mm;
   viewer.stiffness_N_per_m = settings.render.stiffness_N_per_m;
   viewer.friction = settings.render.friction;
-  if (settings.texture_model == TextureModelChoice::kAuto) {
-    settings.texture_model = TextureModelChoice::kNormalPerturbation;
+  if (settings.render.texture.model == TextureForceModel::kAuto) {
+    settings.render.texture.model = TextureForceModel::kNormalPerturbation;
   }
   input.tile_stroke_m = viewer_stroke_m(input.height_maps.size(), viewer);
   std::vector<Texture> tiles;

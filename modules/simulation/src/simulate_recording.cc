@@ -13,11 +13,11 @@
 #include "asperity/geometry/read_mesh.h"
 #include "asperity/simulation/make_surface.h"
 #include "asperity/simulation/mesh_base.h"
-#include "asperity/simulation/mesh_truth.h"
 #include "asperity/simulation/probe_motion.h"
 #include "asperity/simulation/probe_sampler.h"
 #include "asperity/simulation/probe_truth.h"
 #include "asperity/simulation/tracker_sampler.h"
+#include "mesh_truth.h"
 #include "streams.h"
 
 namespace asperity {
@@ -66,7 +66,7 @@ std::string config_json(const SimulationConfig& config) {
   std::string json = "{\"simulation\":{";
   const char* separator = "";
   for (const ConfigField& field : list_fields("", copy)) {
-    json += fmt::format("{}\"{}\":{}", separator, field.path, field.get());
+    json += fmt::format("{}\"{}\":{}", separator, field.path, toml_text(field.get()));
     separator = ",";
   }
   return json + "}";
@@ -74,11 +74,7 @@ std::string config_json(const SimulationConfig& config) {
 
 std::string extra_json(const SimulationConfig& config, const MeshBase* base, double length_m) {
   if (base == nullptr) return config_json(config) + "}";
-  const Pose T_mesh_world = base->T_world_mesh().inverse();
-  const Eigen::Vector3d& p = T_mesh_world.translation_m;
-  const Eigen::Quaterniond& q = T_mesh_world.rotation;
-  return fmt::format("{},\"T_mesh_world\":[{},{},{},{},{},{},{}],\"path_length_m\":{}}}", config_json(config), p.x(),
-                     p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), length_m);
+  return fmt::format("{},\"path_length_m\":{}}}", config_json(config), length_m);
 }
 
 std::vector<Segment> segments(const Hand& hand) {
@@ -100,7 +96,7 @@ Recording simulate_on(const SimulationConfig& config, const Surface& surface,
   const Calibration truth = make_probe_truth(config.probe, config.tracker, seed);
   ProbeMotion motion = base ? ProbeMotion(config, surface, base) : ProbeMotion(config, surface);
   MeshBasePath mesh_path;
-  if (base) mesh_path = lay_on_mesh(*base, motion.path());
+  if (base) mesh_path = place_on_mesh(*base, motion.path());
   ProbeSampler probe(config, truth, kStart_ns);
   TrackerSampler tracker(config, kStart_ns);
   const auto steps = static_cast<std::int64_t>(std::llround(motion.duration_s() / config.step_s));
@@ -137,6 +133,7 @@ Recording simulate_on(const SimulationConfig& config, const Surface& surface,
   }
   info.gravity_world_mps2 = exp_rotation(turn_rad) * Eigen::Vector3d(config.gravity_world_mps2.data());
   info.segments = segments(motion.hand());
+  if (base) info.T_mesh_world = base->T_world_mesh().inverse();
   info.extra_json = extra_json(config, base.get(), mesh_path.length_m);
   observer.update("simulate", 1.0);
   return recording;

@@ -12,8 +12,8 @@
 #include "asperity/geometry/pose.h"
 #include "asperity/simulation/make_surface.h"
 #include "asperity/simulation/mesh_stroke.h"
-#include "asperity/simulation/mesh_truth.h"
 #include "asperity/simulation/simulate_recording.h"
+#include "mesh_truth.h"
 #include "meshes.h"
 
 namespace asperity {
@@ -35,20 +35,6 @@ SimulationConfig bare(double length_m) {
 
 Recording simulate(const SimulationConfig& config, const TriangleMesh& mesh) {
   return simulate_recording(config, *make_surface(config.surface, static_cast<std::uint64_t>(config.seed)), mesh);
-}
-
-// T_mesh_world as the recording states it.
-Pose stated_pose(const Recording& recording) {
-  const std::string& json = recording.info.extra_json;
-  const std::string key = "\"T_mesh_world\":[";
-  std::string rest = json.substr(json.find(key) + key.size());
-  std::array<double, 7> x{};
-  for (double& value : x) {
-    std::size_t used = 0;
-    value = std::stod(rest, &used);
-    rest = rest.substr(used + 1);
-  }
-  return {Eigen::Quaterniond(x[3], x[4], x[5], x[6]), Eigen::Vector3d(x[0], x[1], x[2])};
 }
 
 double stated_length_m(const Recording& recording) {
@@ -112,7 +98,7 @@ TEST(MeshScan, TruthIsTheHeightAlongTheMeshsInterpolatedNormal) {
   for (const char* surface : {"sandpaper", "protoboard"}) {
     const Recording recording = simulate(on_mesh(surface, 0.05), mesh);
     const Truth& truth = *recording.truth;
-    const Pose T_mesh_world = stated_pose(recording);
+    const Pose T_mesh_world = recording.info.T_mesh_world.value();
     double worst_m = 0.0;
     for (std::size_t i = 0; i < truth.size(); i += 97) {
       const Eigen::Vector3d p = T_mesh_world * truth.p_world_tip_m[i];
@@ -213,7 +199,7 @@ TEST(MeshScan, GivenPoseIsTheMeshsPose) {
   const TriangleMesh mesh = bumpy_mesh(16);
   const Recording recording = simulate(config, mesh);
   const Pose expected = Pose{exp_rotation(Eigen::Vector3d(1.0, -2.0, 0.5)), Eigen::Vector3d(0.1, -0.05, 0.4)}.inverse();
-  const Pose stated = stated_pose(recording);
+  const Pose stated = recording.info.T_mesh_world.value();
   EXPECT_LT(stated.rotation.angularDistance(expected.rotation), 1e-12);
   EXPECT_LT((stated.translation_m - expected.translation_m).norm(), 1e-12);
   for (std::size_t i = 0; i < recording.truth->size(); i += 500) {
@@ -254,7 +240,7 @@ TEST(MeshScan, SharpEdgesAreRolledOver) {
   const TriangleMesh mesh = rounded_box_mesh({0.03, 0.025, 0.02}, 2e-3, 60);
   const Recording recording = simulate(config, mesh);
   const MeshSurface surface(mesh);
-  const Pose T_mesh_world = stated_pose(recording);
+  const Pose T_mesh_world = recording.info.T_mesh_world.value();
   double deepest_m = 0.0, highest_m = 0.0;
   for (std::size_t i = 0; i < recording.truth->size(); ++i) {
     deepest_m = std::min(deepest_m, recording.truth->height_m[i]);

@@ -1,8 +1,10 @@
 #include "asperity/study/study_file.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/json/parse_json.h"
@@ -10,10 +12,10 @@
 
 namespace asperity {
 
-
 namespace {
 
 constexpr std::size_t kLongestText = 500, kLongestName = 60, kLongestCode = 40, kLongestFile = 300, kMostStimuli = 32;
+constexpr std::uint64_t kLargestWhole = std::numeric_limits<std::int64_t>::max();
 constexpr std::size_t kDeepest = 4;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& key, const std::string& why) {
@@ -37,21 +39,23 @@ bool is_plain(const std::string& text, std::size_t longest) {
   return !text.empty() && text.size() <= longest && std::all_of(text.begin(), text.end(), plain);
 }
 
-// A leaf in the notation of ConfigField::set.
 void set_leaf(const std::vector<ConfigField>& fields, const std::string& where, const std::string& path,
               const Json& value) {
-  std::string text;
+  ConfigValue leaf;
   if (value.is_string()) {
-    text = '"' + text_of(where, path, value, kLongestText) + '"';
-  } else if (value.is_boolean() || value.is_number_integer()) {
-    text = value.dump();
+    leaf = text_of(where, path, value, kLongestText);
+  } else if (value.is_boolean()) {
+    leaf = value.get<bool>();
+  } else if (value.is_number_integer() &&
+             (!value.is_number_unsigned() || value.get<std::uint64_t>() <= kLargestWhole)) {
+    leaf = value.get<std::int64_t>();
   } else if (value.is_number()) {
-    text = number_text(value.get<double>());
+    leaf = value.get<double>();
   } else {
     refuse(where, path, "text, a number, or true or false is needed");
   }
   try {
-    set_field(fields, path, text);
+    find_field(fields, path).set(leaf);
   } catch (const Error& fault) {
     throw Error(where + ": " + fault.what());
   }
@@ -77,9 +81,8 @@ std::vector<std::string> stimuli_of(const std::string& where, const Json& value)
   return out;
 }
 
-// A value of the config that `text` is the TOML of: numbers, truth values and quoted names are JSON's.
 void put(Json& out, const ConfigField& field) {
-  const Json value = parse_json(field.get());
+  const Json value = config_leaf<Json>(field.get());
   const std::size_t dot = field.path.find('.');
   if (dot == std::string::npos) {
     out[field.path] = value;

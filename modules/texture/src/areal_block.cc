@@ -69,7 +69,7 @@ void parse_surface(const std::string& text, const std::string& name, ArealTextur
 
 }  // namespace
 
-void read_block(const BlockInput& input, ArealTexture& t) {
+void TextureModelTraits<ArealTexture>::read_block(const BlockInput& input, ArealTexture& t) {
   JsonObject& block = input.block;
   SplineGrid& g = t.surface;
   g.columns = static_cast<std::size_t>(block.required("columns").integer(4, kMostASide));
@@ -90,7 +90,7 @@ void read_block(const BlockInput& input, ArealTexture& t) {
   parse_surface(input.read_payload(".csv"), file, t);
 }
 
-std::string write_block(const ArealTexture& t, BlockOutput& output) {
+std::string TextureModelTraits<ArealTexture>::write_block(const ArealTexture& t, BlockOutput& output) {
   const SplineGrid& g = t.surface;
   if (g.coefficient_m.size() != g.columns * g.rows || t.supported.size() != g.coefficient_m.size())
     throw Error("texture: an areal grid of " + std::to_string(g.columns) + " x " + std::to_string(g.rows) + " with " +

@@ -44,7 +44,7 @@ void read_triangles(const JsonItem& in, AutoregressiveTexture& t) {
 
 }  // namespace
 
-void read_block(const BlockInput& in, AutoregressiveTexture& t) {
+void TextureModelTraits<AutoregressiveTexture>::read_block(const BlockInput& in, AutoregressiveTexture& t) {
   JsonObject& block = in.block;
   block.required("rate_Hz");
   list_autoregressive(t, FlatReader{in});
@@ -80,7 +80,7 @@ void read_block(const BlockInput& in, AutoregressiveTexture& t) {
   }
 }
 
-std::string write_block(const AutoregressiveTexture& texture, BlockOutput&) {
+std::string TextureModelTraits<AutoregressiveTexture>::write_block(const AutoregressiveTexture& texture, BlockOutput&) {
   AutoregressiveTexture t = texture;
   prepare_autoregressive(t, "texture");
   JsonWriter block = block_writer();

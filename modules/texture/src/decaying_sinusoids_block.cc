@@ -16,13 +16,13 @@ void list_decaying_sinusoids(Model& t, const Field& field) {
 
 }  // namespace
 
-void read_block(const BlockInput& input, DecayingSinusoids& t) {
+void TextureModelTraits<DecayingSinusoids>::read_block(const BlockInput& input, DecayingSinusoids& t) {
   for (const char* key : {"a_per_s", "b_per_kg", "decay_per_s", "omega_rad_per_s"}) input.block.required(key);
   list_decaying_sinusoids(t, FlatReader{input});
   input.block.finish();
 }
 
-std::string write_block(const DecayingSinusoids& t, BlockOutput&) {
+std::string TextureModelTraits<DecayingSinusoids>::write_block(const DecayingSinusoids& t, BlockOutput&) {
   JsonWriter block = block_writer();
   list_decaying_sinusoids(t, FlatWriter{block});
   return block.take();

@@ -8,15 +8,12 @@
 namespace asperity {
 namespace {
 
-// Wide enough for every texture, narrow enough that no exponent makes a force of it.
-constexpr double kMaxScale = 10.0;
-
 double scaled_sigma_m(const StochasticTexture& t, double speed_mps, double force_N) noexcept {
   double scale = fade(speed_mps, t.fade_speed_mps);
   if (t.speed_exponent != 0.0) scale *= std::pow(speed_mps / t.reference_speed_mps, t.speed_exponent);
   if (t.force_exponent != 0.0) scale *= std::pow(force_N / t.reference_force_N, t.force_exponent);
   // 0 · ∞ where an exponent is negative is not a number: nothing is rendered then.
-  return scale > 0.0 ? t.sigma_m * std::min(scale, kMaxScale) : 0.0;
+  return scale > 0.0 ? t.sigma_m * std::min(scale, kMostStochasticScale) : 0.0;
 }
 
 double next_deviate(const StochasticTexture& t, SeriesState& state, double speed_mps, double dt_s) noexcept {
@@ -37,21 +34,25 @@ double next_deviate(const StochasticTexture& t, SeriesState& state, double speed
 
 }  // namespace
 
-double next_height_m(const StochasticTexture& texture, SeriesState& state, double speed_mps, double force_N,
-                     double dt_s) noexcept {
-  speed_mps = servo_input(speed_mps);
-  const double sigma_m = scaled_sigma_m(texture, speed_mps, servo_input(force_N));
-  return lifted(sigma_m * next_deviate(texture, state, speed_mps, servo_input(dt_s)), sigma_m, texture.lift_sigma);
-}
-
-SeriesForce next_force(const StochasticTexture& texture, SeriesState& state, double speed_mps, double force_N,
-                       double dt_s) noexcept {
+StochasticHeight next_stochastic_height(const StochasticTexture& texture, SeriesState& state, double speed_mps,
+                                        double force_N, double dt_s) noexcept {
   speed_mps = servo_input(speed_mps);
   const double sigma_m = scaled_sigma_m(texture, speed_mps, servo_input(force_N));
   const double z_m = sigma_m * next_deviate(texture, state, speed_mps, servo_input(dt_s));
   const double height_m = lifted(z_m, sigma_m, texture.lift_sigma);
-  return {texture.stiffness_N_per_m * height_m, texture.tangential_ratio * texture.stiffness_N_per_m *
-                                                    (height_m - std::max(texture.lift_sigma, 0.0) * sigma_m)};
+  return {height_m, height_m - std::max(texture.lift_sigma, 0.0) * sigma_m};
+}
+
+double next_height_m(const StochasticTexture& texture, SeriesState& state, double speed_mps, double force_N,
+                     double dt_s) noexcept {
+  return next_stochastic_height(texture, state, speed_mps, force_N, dt_s).height_m;
+}
+
+SeriesForce next_force(const StochasticTexture& texture, SeriesState& state, double speed_mps, double force_N,
+                       double dt_s) noexcept {
+  const StochasticHeight next = next_stochastic_height(texture, state, speed_mps, force_N, dt_s);
+  return {texture.stiffness_N_per_m * next.height_m,
+          texture.tangential_ratio * texture.stiffness_N_per_m * next.above_mean_m};
 }
 
 }  // namespace asperity

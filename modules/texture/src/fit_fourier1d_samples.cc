@@ -11,6 +11,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/rounded_text.h"
+#include "asperity/base/smoothstep.h"
 #include "asperity/base/text.h"
 #include "asperity/texture/evaluate_fourier1d.h"
 
@@ -124,7 +125,7 @@ void bridge_gaps_round(std::vector<double>& z_m, double spacing_m) {
     const double from_left = slope(left, left + n - 1), from_right = slope(right, right + 1);
     for (std::size_t i = left + 1; i < right; ++i) {
       const double a_m = static_cast<double>(i - left) * spacing_m, b_m = length_m - a_m;
-      const double u = a_m / length_m, weight = u * u * (3.0 - 2.0 * u);
+      const double weight = smoothstep(a_m / length_m);
       z_m[i % n] = (1.0 - weight) * (at(left) + from_left * a_m * std::exp(-a_m / kBend_m)) +
                    weight * (at(right) + from_right * b_m * std::exp(-b_m / kBend_m));
     }

@@ -38,7 +38,9 @@ TextureFiles format_texture_files(const Texture& t, const std::string& stem) {
   out.text("name", t.name);
   const std::string model(t.model_name());
   out.text("model", model);
-  out.raw(model, std::visit([&](const auto& block) { return write_block(block, output); }, t.model));
+  out.raw(model,
+          std::visit([&]<class Model>(const Model& m) { return TextureModelTraits<Model>::write_block(m, output); },
+                     t.model));
   add_number("compliance_kc", t.compliance_kc);
   add_number("stiffness_N_per_m", t.stiffness_N_per_m);
   add_number("friction", t.friction);

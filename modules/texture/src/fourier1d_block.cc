@@ -34,9 +34,11 @@ void check_fourier1d(const Fourier1d& f) {
   }
 }
 
-void read_block(const BlockInput& input, Fourier1d& model) { model = read_fourier1d(input.block); }
+void TextureModelTraits<Fourier1d>::read_block(const BlockInput& input, Fourier1d& model) {
+  model = read_fourier1d(input.block);
+}
 
-std::string write_block(const Fourier1d& f, BlockOutput&) {
+std::string TextureModelTraits<Fourier1d>::write_block(const Fourier1d& f, BlockOutput&) {
   check_fourier1d(f);
   JsonWriter block = block_writer();
   block.number("length_mm", f.length_mm);

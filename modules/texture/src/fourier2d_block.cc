@@ -27,7 +27,7 @@ Fourier1d read_series(JsonObject& block, std::string_view key) {
 
 }  // namespace
 
-void read_block(const BlockInput& input, Fourier2d& t) {
+void TextureModelTraits<Fourier2d>::read_block(const BlockInput& input, Fourier2d& t) {
   JsonObject& block = input.block;
   t.kind = static_cast<Fourier2dKind>(block.required("kind").choice(kFourier2dKindNames));
   if (t.kind != Fourier2dKind::kIsotropic) {
@@ -51,7 +51,7 @@ void read_block(const BlockInput& input, Fourier2d& t) {
   t.grid = synthesize_isotropic(t.isotropic);
 }
 
-std::string write_block(const Fourier2d& t, BlockOutput&) {
+std::string TextureModelTraits<Fourier2d>::write_block(const Fourier2d& t, BlockOutput&) {
   JsonWriter block = block_writer();
   block.text("kind", kFourier2dKindNames.at(static_cast<std::size_t>(t.kind)));
   if (t.kind != Fourier2dKind::kIsotropic) {

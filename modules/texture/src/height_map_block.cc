@@ -16,7 +16,7 @@ constexpr std::int64_t kFewestPixels = 4;
 
 }  // namespace
 
-void read_block(const BlockInput& input, HeightMap& map) {
+void TextureModelTraits<HeightMap>::read_block(const BlockInput& input, HeightMap& map) {
   JsonObject& block = input.block;
   const auto most = static_cast<std::int64_t>(kLargestImageSide_px);
   map.columns = static_cast<std::size_t>(block.required("columns").integer(kFewestPixels, most));
@@ -49,7 +49,7 @@ void read_block(const BlockInput& input, HeightMap& map) {
   map.level = std::move(image.pixels);
 }
 
-std::string write_block(const HeightMap& map, BlockOutput& output) {
+std::string TextureModelTraits<HeightMap>::write_block(const HeightMap& map, BlockOutput& output) {
   if (!(map.high_m >= map.low_m)) throw Error("texture: a height map whose highest height is below its lowest");
   const std::string file = output.add_payload(".heights.png", format_height_image(map));
   JsonWriter block = block_writer();

@@ -15,7 +15,7 @@ namespace asperity {
 namespace {
 
 // 0 to 1 with neither slope nor curvature at the ends: the blend stays C².
-double smooth_step(double x) {
+double smootherstep(double x) {
   const double t = std::clamp(x, 0.0, 1.0);
   return t * t * t * (10.0 + t * (6.0 * t - 15.0));
 }
@@ -31,14 +31,14 @@ struct Tile {
   double row_height_m(double x_m, double y_m) const {
     const double own = evaluate_height(model, x_m, y_m).height_m;
     if (x_m >= seam_x_m) return own;
-    const double w = smooth_step(x_m / seam_x_m);
+    const double w = smootherstep(x_m / seam_x_m);
     return w * own + (1.0 - w) * evaluate_height(model, x_m + length_m, y_m).height_m;
   }
 
   double height_m(double x_m, double y_m) const {
     const double own = row_height_m(x_m, y_m);
     if (y_m >= seam_y_m) return own;
-    const double w = smooth_step(y_m / seam_y_m);
+    const double w = smootherstep(y_m / seam_y_m);
     return w * own + (1.0 - w) * row_height_m(x_m, y_m + width_m);
   }
 };

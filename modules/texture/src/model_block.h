@@ -29,21 +29,4 @@ struct BlockOutput {
   std::string add_payload(const char* ending, std::string content);
 };
 
-// One pair of overloads a model, in a source file of its own. read_block throws Error naming file, line
-// and key for whatever the model does not allow; write_block for what could not be read again.
-void read_block(const BlockInput& input, Fourier1d& model);
-std::string write_block(const Fourier1d& model, BlockOutput& output);
-void read_block(const BlockInput& input, Fourier2d& model);
-std::string write_block(const Fourier2d& model, BlockOutput& output);
-void read_block(const BlockInput& input, HeightMap& model);
-std::string write_block(const HeightMap& model, BlockOutput& output);
-void read_block(const BlockInput& input, ArealTexture& model);
-std::string write_block(const ArealTexture& model, BlockOutput& output);
-void read_block(const BlockInput& input, StochasticTexture& model);
-std::string write_block(const StochasticTexture& model, BlockOutput& output);
-void read_block(const BlockInput& input, AutoregressiveTexture& model);
-std::string write_block(const AutoregressiveTexture& model, BlockOutput& output);
-void read_block(const BlockInput& input, DecayingSinusoids& model);
-std::string write_block(const DecayingSinusoids& model, BlockOutput& output);
-
 }  // namespace asperity

@@ -10,7 +10,7 @@
 namespace asperity {
 namespace {
 
-constexpr std::uint64_t kLargestFile_bytes = 16ULL << 20;
+constexpr std::uint64_t kLargestTextureFile_bytes = 16ULL << 20;
 constexpr std::uint64_t kLargestPayload_bytes = 256ULL << 20;
 constexpr std::size_t kMostRoughnessValues = 100;
 
@@ -19,13 +19,12 @@ std::optional<double> optional_number(JsonObject& in, const char* key, Range ran
   return value ? std::optional(value->number(range)) : std::nullopt;
 }
 
-// Reads the block of the model whose name stands at `index` of the variant.
-template <std::size_t index = 0>
+// Reads the block of the model that is called as its key.
 void read_model(const BlockInput& input, TextureModel& model) {
-  if constexpr (index < std::variant_size_v<TextureModel>) {
-    if (input.path == kTextureModelNames[index]) return read_block(input, model.emplace<index>());
-    read_model<index + 1>(input, model);
-  }
+  for_each_texture_model([&]<class Model>() {
+    using Traits = TextureModelTraits<Model>;
+    if (input.path == Traits::kName) Traits::read_block(input, model.emplace<Model>());
+  });
 }
 
 void parse_model(JsonObject& root, const PayloadReader& payload, Texture& texture) {
@@ -107,7 +106,7 @@ Texture read_texture(const std::filesystem::path& path, const std::function<void
     if (std::filesystem::is_symlink(payload_path)) throw Error(payload_path.string() + ": is a symbolic link");
     return read(payload_path, kLargestPayload_bytes);
   };
-  return parse_texture(read(path, kLargestFile_bytes), path.string(), payload);
+  return parse_texture(read(path, kLargestTextureFile_bytes), path.string(), payload);
 }
 
 }  // namespace asperity

@@ -30,4 +30,20 @@ std::vector<double> sample_heights(const TextureModel& model, const SampleHeight
   return height_m;
 }
 
+std::vector<std::vector<double>> sample_lines(const TextureModel& model, double length_m, double spacing_m) {
+  const MeasuredArea area = measured_area(model);
+  SampleHeightsConfig line;
+  line.length_mm = length_m * 1e3;
+  line.spacing_mm = spacing_m * 1e3;
+  line.x_mm = 1e3 * area.x_m;
+  const double first_mm = 1e3 * area.y_m;
+  const std::size_t count = area.width_m > 0.0 ? 16 : 1;
+  std::vector<std::vector<double>> lines;
+  for (std::size_t i = 0; i < count; ++i) {
+    line.y_mm = first_mm + 1e3 * area.width_m * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
+    lines.push_back(sample_heights(model, line));
+  }
+  return lines;
+}
+
 }  // namespace asperity

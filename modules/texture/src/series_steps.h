@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "asperity/base/random.h"
+#include "asperity/base/smoothstep.h"
 
 namespace asperity {
 
@@ -19,8 +20,7 @@ inline double fixed_time_normal(Random& random) noexcept {
 inline double fade(double x, double full) noexcept {
   if (!(x > 0.0)) return full > 0.0 ? 0.0 : (x == 0.0 ? 1.0 : 0.0);
   if (!(x < full)) return 1.0;
-  const double s = x / full;
-  return s * s * (3.0 - 2.0 * s);
+  return smoothstep(x / full);
 }
 
 // A servo's input made harmless: not finite or negative is 0.

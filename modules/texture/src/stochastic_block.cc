@@ -20,13 +20,13 @@ void list_stochastic(Model& t, const Field& field) {
 
 }  // namespace
 
-void read_block(const BlockInput& input, StochasticTexture& t) {
+void TextureModelTraits<StochasticTexture>::read_block(const BlockInput& input, StochasticTexture& t) {
   input.block.required("sigma_m");
   list_stochastic(t, FlatReader{input});
   input.block.finish();
 }
 
-std::string write_block(const StochasticTexture& t, BlockOutput&) {
+std::string TextureModelTraits<StochasticTexture>::write_block(const StochasticTexture& t, BlockOutput&) {
   JsonWriter block = block_writer();
   list_stochastic(t, FlatWriter{block});
   return block.take();

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "asperity/base/smoothstep.h"
+
 namespace asperity {
 namespace {
 
@@ -62,8 +64,6 @@ double seam_mismatch(const std::vector<double>& z, const Window& w, std::size_t 
   }
   return sum / static_cast<double>(before + after);
 }
-
-double cubic_smooth_step(double x) { return x * x * (3.0 - 2.0 * x); }
 
 }  // namespace
 
@@ -129,7 +129,7 @@ std::vector<double> close_seam(const BridgedProfile& profile, const Window& wind
   const double jump = z.front() - z.back();
   for (std::size_t k = 0; k < seam; ++k) {
     // From near 0 at the seam to near 1 where the window is itself again.
-    const double own = cubic_smooth_step(static_cast<double>(k + 1) / static_cast<double>(seam + 1));
+    const double own = smoothstep(static_cast<double>(k + 1) / static_cast<double>(seam + 1));
     double& at_start = z[k];
     double& at_end = z[window.count - 1 - k];
     if (after >= seam) {

@@ -305,21 +305,21 @@ void CausalTip::push(const ProbeSample& row) {
 void CausalTip::push(const TrackerSample& pose) { impl_->add(pose); }
 
 void CausalTip::take(Samples& out) {
-  const auto append = [](auto& to, auto& from) {
+  const auto append_values = [](auto& to, auto& from) {
     to.insert(to.end(), from.begin(), from.end());
     from.clear();
   };
   TipMotion& from = impl_->ready.motion;
-  append(out.motion.t_ns, from.t_ns);
-  append(out.motion.p_world_tip_m, from.p_world_tip_m);
-  append(out.motion.q_world_marker, from.q_world_marker);
-  append(out.motion.v_world_tip_mps, from.v_world_tip_mps);
-  append(out.motion.a_world_tip_mps2, from.a_world_tip_mps2);
-  append(out.motion.cov_world_tip_m2, from.cov_world_tip_m2);
-  append(out.motion.force_N, from.force_N);
-  append(out.broken, impl_->ready.broken);
-  append(out.steady_m, impl_->ready.steady_m);
-  append(out.ahead_m, impl_->ready.ahead_m);
+  append_values(out.motion.t_ns, from.t_ns);
+  append_values(out.motion.p_world_tip_m, from.p_world_tip_m);
+  append_values(out.motion.q_world_marker, from.q_world_marker);
+  append_values(out.motion.v_world_tip_mps, from.v_world_tip_mps);
+  append_values(out.motion.a_world_tip_mps2, from.a_world_tip_mps2);
+  append_values(out.motion.cov_world_tip_m2, from.cov_world_tip_m2);
+  append_values(out.motion.force_N, from.force_N);
+  append_values(out.broken, impl_->ready.broken);
+  append_values(out.steady_m, impl_->ready.steady_m);
+  append_values(out.ahead_m, impl_->ready.ahead_m);
 }
 
 CausalTipCounts CausalTip::counts() const {

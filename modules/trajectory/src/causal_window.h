@@ -3,8 +3,8 @@
 #include <span>
 
 #include "asperity/geometry/pose.h"
-#include "asperity/trajectory/fused.h"
-#include "asperity/trajectory/inertial.h"
+#include "asperity/trajectory/calibrate_inertial.h"
+#include "asperity/trajectory/estimate_trajectory_fused.h"
 #include "inertial_smoother.h"
 
 namespace asperity::inertial_smoother {

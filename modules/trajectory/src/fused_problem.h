@@ -1,8 +1,8 @@
 #pragma once
 
 #include "asperity/recording/recording.h"
-#include "asperity/trajectory/fused.h"
-#include "asperity/trajectory/inertial.h"
+#include "asperity/trajectory/calibrate_inertial.h"
+#include "asperity/trajectory/estimate_trajectory_fused.h"
 #include "inertial_smoother.h"
 
 namespace asperity::inertial_smoother {

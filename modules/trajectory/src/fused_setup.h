@@ -1,7 +1,7 @@
 #pragma once
 
 #include "asperity/recording/calibration.h"
-#include "asperity/trajectory/fused.h"
+#include "asperity/trajectory/estimate_trajectory_fused.h"
 #include "inertial_smoother.h"
 
 // How calibration and settings become the smoother's problem, for the whole recording as for a window of it.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "asperity/geometry/motion.h"
-#include "asperity/trajectory/inertial.h"
+#include "asperity/trajectory/calibrate_inertial.h"
 #include "inertial_smoother.h"
 
 namespace asperity::inertial_smoother {

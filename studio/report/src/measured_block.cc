@@ -7,6 +7,7 @@
 
 #include "asperity/base/units.h"
 #include "asperity/json/parse_json.h"
+#include "asperity/pipeline/result_json.h"
 #include "asperity/pipeline/write_result.h"
 #include "asperity/studio/measured_figures.h"
 #include "profile_block.h"
@@ -44,18 +45,18 @@ void add_trajectory(const ProcessResult& result, std::size_t max_points, BlockWr
   block.add("trajectory_t_s", t_s);
   add_points(block, "trajectory_p_m", chosen, motion.p_world_tip_m, origin_m);
   const std::vector<double> force_N = held(motion.force_N, motion.size());
-  block.add("trajectory_force_N", gather(chosen, [&](std::size_t i) { return force_N[i]; }));
-  block.add("trajectory_sigma_m", gather(chosen, [&](std::size_t i) {
+  block.add("trajectory_force_N", gather_values(chosen, [&](std::size_t i) { return force_N[i]; }));
+  block.add("trajectory_sigma_m", gather_values(chosen, [&](std::size_t i) {
               return motion.cov_world_tip_m2.empty() ? kNan : std::sqrt(motion.cov_world_tip_m2[i].trace() / 3.0);
             }));
 
   const bool has_base = base.size() == motion.size() && base.size() > 0;
   const Chosen on_base = has_base ? chosen : Chosen{};
   add_points(block, "base_p_m", on_base, base.p_world_m, origin_m);
-  block.add("trajectory_height_m", gather(on_base, [&](std::size_t i) {
+  block.add("trajectory_height_m", gather_values(on_base, [&](std::size_t i) {
               return base.n_world[i].dot(motion.p_world_tip_m[i] - base.p_world_m[i]);
             }));
-  block.add("trajectory_speed_mps", gather(chosen, [&](std::size_t i) {
+  block.add("trajectory_speed_mps", gather_values(chosen, [&](std::size_t i) {
               return has_base ? result.base.speed_mps.at(i) : motion.v_world_tip_mps[i].norm();
             }));
   std::vector<std::uint8_t> contact;
@@ -106,7 +107,7 @@ void add_dropped(const ProcessResult& result, std::size_t max_gaps, BlockWriter&
 BlockWriter measured_block(const ProcessResult& result, const Recording& recording, const std::string& name,
                            const MeasuredBlockConfig& config) {
   BlockWriter block("measured");
-  block.head()["result"] = parse_json(format_result(result, recording, name));
+  block.head()["result"] = result_json(result, recording, name);
   block.head()["world"] = recording.info.world;
   block.head()["figures"] = measured_figures(block.head()["result"]);
   add_dropped(result, config.max_gaps, block);

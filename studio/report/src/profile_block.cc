@@ -28,7 +28,7 @@ void add_profile(const Profile& profile, std::size_t max_points, BlockWriter& bl
                              {"first_m", profile.size() > 0 ? profile.s_m[0] : 0.0},
                              {"spacing_m", profile.spacing_m * static_cast<double>(chosen.every)}};
   const auto add = [&](std::string_view name, const std::vector<double>& values) {
-    block.add(name, gather(chosen, [&](std::size_t i) { return values.at(i); }));
+    block.add(name, gather_values(chosen, [&](std::size_t i) { return values.at(i); }));
   };
   add("profile_height_m", profile.height_m);
   add("profile_sigma_m", profile.sigma_m);

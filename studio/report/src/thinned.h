@@ -25,7 +25,7 @@ inline Chosen choose(std::size_t count, std::size_t at_most) {
 }
 
 template <class Value>
-std::vector<float> gather(const Chosen& chosen, Value value) {
+std::vector<float> gather_values(const Chosen& chosen, Value value) {
   std::vector<float> out;
   out.reserve(chosen.index.size());
   for (const std::size_t i : chosen.index) out.push_back(static_cast<float>(value(i)));

@@ -121,7 +121,7 @@ TEST(MeasuredBlock, GapsSayWhy) {
 
 TEST(MeasuredBlock, ByEitherMethodAndWithoutAProfile) {
   ProcessConfig config;
-  config.method = Method::kThesis;
+  config.method = ProcessMethods::method<ThesisMethod>();
   const ReadBlock thesis = block_of(process_recording(scan(), config));
   EXPECT_TRUE(std::isnan(thesis.arrays.at("profile_sigma_m").at(10)));
   EXPECT_TRUE(std::isnan(thesis.arrays.at("trajectory_sigma_m").at(10)));

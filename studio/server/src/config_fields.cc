@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cmath>
-#include <string>
 #include <string_view>
 
+#include "asperity/base/config_tree.h"
 #include "asperity/json/parse_json.h"
 
 namespace asperity::studio {
@@ -12,12 +12,6 @@ namespace asperity::studio {
 namespace {
 
 constexpr std::array<std::string_view, 6> kTypeNames{"bool", "integer", "number", "text", "choice", "numbers"};
-
-// TOML's numbers, truth values, texts and lists of numbers are JSON's but for inf and nan.
-Json value_of(const std::string& toml) {
-  Json value = parse_json_or_null(toml);
-  return value.is_null() ? Json(toml) : value;
-}
 
 }  // namespace
 
@@ -28,8 +22,8 @@ Json fields_json(const std::vector<ConfigField>& fields, const std::vector<Confi
     Json each;
     each["path"] = field.path;
     each["type"] = kTypeNames.at(static_cast<std::size_t>(field.type));
-    each["value"] = value_of(field.get());
-    each["default"] = value_of(defaults.at(i).get());
+    each["value"] = config_leaf<Json>(field.get());
+    each["default"] = config_leaf<Json>(defaults.at(i).get());
     each["description"] = field.description;
     if (std::isfinite(field.range.low)) each["low"] = field.range.low;
     if (std::isfinite(field.range.high)) each["high"] = field.range.high;

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "asperity/base/error.h"
-#include "asperity/pipeline/replay_arrivals.h"
+#include "asperity/live/replay_arrivals.h"
 #include "asperity/simulation/simulate_recording.h"
 
 namespace asperity::studio {

@@ -110,11 +110,11 @@ TEST(TrialScene, ScalesEveryModel) {
 
 TEST(TrialScene, UsesTheViewersModelForImagesAlone) {
   Study study = study_of(StudyMethod::kPairs);
-  EXPECT_EQ(study_setup(study, {}).config.feel.texture_model, TextureModelChoice::kAuto);
+  EXPECT_EQ(study_setup(study, {}).config.feel.render.texture.model, TextureForceModel::kAuto);
   study.stimuli = {"a.png", "b.pgm"};
-  EXPECT_EQ(study_setup(study, {}).config.feel.texture_model, TextureModelChoice::kNormalPerturbation);
-  study.presentation.model = TextureModelChoice::kHeight;
-  EXPECT_EQ(study_setup(study, {}).config.feel.texture_model, TextureModelChoice::kHeight);
+  EXPECT_EQ(study_setup(study, {}).config.feel.render.texture.model, TextureForceModel::kNormalPerturbation);
+  study.presentation.model = TextureForceModel::kHeight;
+  EXPECT_EQ(study_setup(study, {}).config.feel.render.texture.model, TextureForceModel::kHeight);
   study.presentation.device = "hammer";
   EXPECT_THROW(study_setup(study, {}), Error);
 }

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "asperity/base/error.h"
-#include "asperity/texture/texture.h"
+#include "asperity/texture/evaluate_height.h"
 
 namespace asperity::studio {
 
@@ -23,29 +24,11 @@ struct Drawn {
 };
 
 Drawn drawn_of(const Texture& texture) {
-  const auto square = [](double width_mm, double height_mm) {
-    return Drawn{1e-3 * width_mm, 1e-3 * height_mm, kColumns, kRows};
-  };
-  if (const auto* one = std::get_if<Fourier1d>(&texture.model)) {
-    return {1e-3 * one->length_mm, 1e-3 * one->length_mm, 8 * kColumns, 1};
-  }
-  if (const auto* two = std::get_if<Fourier2d>(&texture.model)) {
-    if (two->kind == Fourier2dKind::kIsotropic) return square(two->isotropic.length_mm, two->isotropic.length_mm);
-    return square(two->x.length_mm, two->y.length_mm);
-  }
-  if (const auto* map = std::get_if<HeightMap>(&texture.model)) {
-    return square(map->mm_per_px_x * static_cast<double>(map->columns),
-                  map->mm_per_px_y * static_cast<double>(map->rows));
-  }
-  if (const auto* areal = std::get_if<ArealTexture>(&texture.model)) {
-    const SplineGrid& grid = areal->surface;
-    Drawn out = square(1e3 * grid.spacing_x_m * static_cast<double>(grid.columns),
-                       1e3 * grid.spacing_y_m * static_cast<double>(grid.rows));
-    out.x0_m = grid.origin_x_m;
-    out.y0_m = grid.origin_y_m;
-    return out;
-  }
-  return {};
+  const auto window = height_window(texture.model, std::numeric_limits<std::size_t>::max());
+  if (!window) return {};
+  const bool is_line = line_length_mm(texture.model).has_value();
+  return {window->length_m,    window->width_m, is_line ? 8 * kColumns : kColumns,
+          is_line ? 1 : kRows, window->x_m,     window->y_m};
 }
 
 Json texture_head(const Texture& texture, const RenderTexture& render, const Drawn& drawn) {

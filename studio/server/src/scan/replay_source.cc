@@ -6,10 +6,9 @@
 #include <utility>
 
 #include "asperity/base/error.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
-#include "asperity/recording/uncalibrated.h"
 #include "asperity/studio/calls.h"
-#include "asperity/transport/host_clock.h"
 #include "scan/episodes.h"
 
 namespace asperity::studio {
@@ -152,7 +151,7 @@ class ReplaySource : public ScanSource {
       throw Advice("the recording has no rows of the probe: there is nothing to play",
                    "Choose another recording, or all of it in the place of a segment.");
     }
-    if (!is_uncalibrated(recording.calibration)) calibration_ = recording.calibration;
+    if (!recording.calibration.uncalibrated) calibration_ = recording.calibration;
     stage_->recording = std::move(recording);
     const auto span = [this](const std::vector<std::int64_t>& t_ns) {
       if (t_ns.empty()) return;

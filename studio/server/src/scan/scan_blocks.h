@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "asperity/pipeline/scan_hints.h"
+#include "asperity/live/scan_hints.h"
 #include "asperity/recorder/recorder_snapshot.h"
 #include "asperity/recording/calibration.h"
 #include "asperity/studio/block.h"

@@ -3,8 +3,8 @@
 #include <string_view>
 #include <utility>
 
-#include "asperity/pipeline/live_profile.h"
-#include "asperity/pipeline/scan_hints.h"
+#include "asperity/live/live_profile.h"
+#include "asperity/live/scan_hints.h"
 #include "asperity/recorder/contact_detector.h"
 #include "asperity/recording/uncalibrated.h"
 
@@ -44,7 +44,7 @@ ScanConfig make_scan_config(const std::map<std::string, std::string>& settings) 
   for (const auto& [path, value] : settings) {
     if (!path.starts_with("live.")) set_field(fields, path, value);
   }
-  out.live = live_profile_config(out.process);
+  out.live = ProcessMethods::get(out.process.method).live_config(out.process);
   for (const auto& [path, value] : settings) {
     if (path.starts_with("live.")) set_field(fields, path, value);
   }

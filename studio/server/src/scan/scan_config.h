@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "asperity/base/config.h"
-#include "asperity/pipeline/live_config.h"
+#include "asperity/live/live_config.h"
+#include "asperity/live/scan_hints_config.h"
 #include "asperity/pipeline/process_config.h"
-#include "asperity/pipeline/scan_hints_config.h"
 #include "asperity/recorder/recorder_config.h"
 #include "asperity/tracking/track_body.h"
 #include "scan/bench_config.h"

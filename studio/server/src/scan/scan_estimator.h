@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "asperity/pipeline/live_profile.h"
-#include "asperity/pipeline/scan_hints.h"
+#include "asperity/live/live_profile.h"
+#include "asperity/live/scan_hints.h"
 #include "asperity/tracking/tracked_pose.h"
 #include "scan/kept_rows.h"
 #include "scan/scan_config.h"

@@ -6,6 +6,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/scene/height_map_viewer.h"
+#include "asperity/texture/texture_operations.h"
 #include "feel/feel_devices.h"
 #include "study/stimuli.h"
 
@@ -29,36 +30,6 @@ HeightMapViewerConfig viewer_of(const Study& study) {
 
 std::size_t tiles_of(const Study& study) { return study.method == StudyMethod::kRating ? 1 : 2; }
 
-void scale(std::vector<double>& values, double factor) {
-  for (double& value : values) value *= factor;
-}
-
-void scale(Fourier1d& series, double factor) {
-  scale(series.a_m, factor);
-  scale(series.b_m, factor);
-  series.mean_m *= factor;
-}
-
-struct Scale {
-  double factor;
-  void operator()(Fourier1d& model) const { scale(model, factor); }
-  void operator()(Fourier2d& model) const {
-    model.scale_per_m *= factor;
-    model.offset_m *= factor;
-    scale(model.isotropic.power_m2, factor * factor);
-    model.isotropic.mean_m *= factor;
-    scale(model.grid.coefficient_m, factor);
-  }
-  void operator()(HeightMap& model) const {
-    model.low_m *= factor;
-    model.high_m *= factor;
-  }
-  void operator()(ArealTexture& model) const { scale(model.surface.coefficient_m, factor); }
-  void operator()(StochasticTexture& model) const { model.sigma_m *= factor; }
-  void operator()(AutoregressiveTexture& model) const { model.mass_kg *= factor; }
-  void operator()(DecayingSinusoids& model) const { model.mass_kg *= factor; }
-};
-
 // One side of a staircase's trial.
 void change(Texture& texture, const Study& study, double level, bool comparison) {
   const double more = comparison ? 1.0 + level : 1.0;
@@ -79,7 +50,7 @@ void change(Texture& texture, const Study& study, double level, bool comparison)
 }  // namespace
 
 void scale_texture(Texture& texture, double factor) {
-  std::visit(Scale{factor}, texture.model);
+  scale_texture_model(texture.model, factor);
   if (texture.lift_m) *texture.lift_m *= factor;
 }
 
@@ -89,11 +60,11 @@ FeelSetup study_setup(const Study& study, const FeelConfig& start) {
   out.device = feel_device_kind(study.presentation.device).name;
   out.config.feel.render.stiffness_N_per_m = study.presentation.stiffness_N_per_m;
   out.config.feel.render.friction = study.presentation.friction;
-  out.config.feel.texture_model = study.presentation.model;
+  out.config.feel.render.texture.model = study.presentation.model;
   bool images = !study.stimuli.empty();
   for (const std::string& name : study.stimuli) images = images && is_image(name);
-  if (images && study.presentation.model == TextureModelChoice::kAuto) {
-    out.config.feel.texture_model = TextureModelChoice::kNormalPerturbation;
+  if (images && study.presentation.model == TextureForceModel::kAuto) {
+    out.config.feel.render.texture.model = TextureForceModel::kNormalPerturbation;
   }
   // The modelled hand, and what it drives, stroke over the tiles from left to right.
   out.input.tile_stroke_m = viewer_stroke_m(tiles_of(study), viewer_of(study));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -8,6 +9,7 @@
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace asperity {
@@ -33,6 +35,9 @@ struct Range {
 
 enum class FieldType { kBool, kInteger, kNumber, kText, kChoice, kNumbers };
 
+// What a field holds, in the order of FieldType; a choice is the text of its name.
+using ConfigValue = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
+
 // One field of a config, by its dotted path. Valid as long as the config it was listed from.
 struct ConfigField {
   std::string path;
@@ -40,9 +45,19 @@ struct ConfigField {
   std::string description;
   Range range;
   std::vector<std::string> choices;
-  std::function<std::string()> get;           // as written in TOML
-  std::function<void(std::string_view)> set;  // throws Error naming path, value and what is allowed
+  std::function<ConfigValue()> read;
+  std::function<bool(const ConfigValue&)> write;  // false: refused, the config is as it was
+
+  ConfigValue get() const { return read(); }
+  // Throws Error naming path, value and what is allowed. A whole number is a number too, and text takes any single
+  // value as TOML writes it.
+  void set(const ConfigValue& value) const;
+  // The same from the text of `--set`: texts and choices with or without quotes, lists with or without brackets.
+  void set_text(std::string_view text) const;
 };
+
+// The value as TOML writes it.
+std::string toml_text(const ConfigValue& value);
 
 class ConfigLister {
  public:
@@ -81,6 +96,8 @@ class ConfigLister {
 
  private:
   ConfigField& add(std::string_view name, FieldType type, std::string_view description, Range range);
+  template <class Integer>
+  void add_integer(std::string_view name, Integer& value, std::string_view description, Range range);
   void add_choice(std::string_view name, std::vector<std::string> names, std::string_view description,
                   std::function<std::size_t()> get, std::function<void(std::size_t)> set);
 
@@ -100,8 +117,19 @@ std::vector<ConfigField> list_fields(std::string_view name, Config& config) {
   return lister.take();
 }
 
-// Sets the field at `path`; throws Error for an unknown path, naming the nearest known one.
-void set_field(const std::vector<ConfigField>& fields, std::string_view path, std::string_view value);
+// True if all fields of both hold the same.
+template <class Config>
+bool is_same_config(Config a, Config b) {
+  const std::vector<ConfigField> fields_a = list_fields("", a), fields_b = list_fields("", b);
+  return std::equal(fields_a.begin(), fields_a.end(), fields_b.begin(), fields_b.end(),
+                    [](const ConfigField& x, const ConfigField& y) { return x.get() == y.get(); });
+}
+
+// The field at `path`; throws Error for an unknown path, naming the nearest known one.
+const ConfigField& find_field(const std::vector<ConfigField>& fields, std::string_view path);
+
+// Sets the field at `path` from the text of `--set`.
+void set_field(const std::vector<ConfigField>& fields, std::string_view path, std::string_view text);
 
 // The fields as TOML, a table a group, each with its description as a comment if asked.
 std::string to_toml(const std::vector<ConfigField>& fields, bool with_descriptions);

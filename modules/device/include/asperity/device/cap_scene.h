@@ -25,8 +25,4 @@ struct CappedScene {
 // rendered with this config.
 CappedScene cap_scene(Scene scene, RenderConfig config, const DeviceCaps& caps);
 
-// The highest spatial frequency that a texture may hold: its stated band's end, else what its model can represent;
-// infinite for a series, which has no heights.
-double highest_cycles_per_mm(const Texture& texture);
-
 }  // namespace asperity

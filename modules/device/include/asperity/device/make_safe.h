@@ -7,14 +7,14 @@
 #include "asperity/device/haptic_device.h"
 #include "asperity/device/passivity.h"
 #include "asperity/device/safety_config.h"
-#include "asperity/device/stale_watch.h"
+#include "asperity/device/staleness.h"
 
 namespace asperity {
 
 // What the safety layer remembers from one tick to the next. Plain data; begin with SafetyState{}.
 struct SafetyState {
   double gain = 0.0;  // of the soft start and of the ramps to zero, within 0 and 1
-  StaleWatch watch;
+  Staleness staleness;
   Eigen::Vector3d held_N = Eigen::Vector3d::Zero();  // the last finite force that was rendered
   Eigen::Vector3d out_N = Eigen::Vector3d::Zero();   // let through at the tick before
   PassivityState passivity;

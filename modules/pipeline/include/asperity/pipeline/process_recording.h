@@ -13,4 +13,8 @@ namespace asperity {
 // Throws Error if the recording or a setting does not allow a profile at all, and Cancelled.
 ProcessResult process_recording(const Recording& recording, const ProcessConfig& config, const Observer& observer = {});
 
+// The same by a method that need not be in the table: `config.method` says nothing then.
+ProcessResult process_recording(const Recording& recording, const ProcessConfig& config, const ProcessMethod& method,
+                                const Observer& observer = {});
+
 }  // namespace asperity

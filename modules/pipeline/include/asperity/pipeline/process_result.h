@@ -5,6 +5,7 @@
 
 #include "asperity/base/problem.h"
 #include "asperity/pipeline/measure_accuracy.h"
+#include "asperity/pipeline/process_config.h"
 #include "asperity/profile/estimate_compliance.h"
 #include "asperity/profile/estimate_stiffness.h"
 #include "asperity/profile/find_base_path.h"
@@ -47,8 +48,8 @@ struct ProcessResult {
   std::optional<Accuracy> accuracy;  // where the recording knows the truth
   Problems problems;                 // of all stages, the reading of the recording included
   bool trustworthy = true;
-  std::string verdict;      // in words, if not
-  std::string config_json;  // the settings, resolved
+  std::string verdict;   // in words, if not
+  ProcessConfig config;  // the settings that gave it
 };
 
 }  // namespace asperity

@@ -37,8 +37,8 @@ struct ScansOnMesh {
   HapticCoordinates coordinates;
   Problems problems;
   bool trustworthy = true;
-  std::string verdict;      // in words, if not
-  std::string config_json;  // the settings, resolved
+  std::string verdict;    // in words, if not
+  RegisterConfig config;  // the settings that gave it
 };
 
 // From scans and a mesh to a textured mesh (seed §5.4, §6.3, B.2): the tips' trajectories; the pose of the mesh to

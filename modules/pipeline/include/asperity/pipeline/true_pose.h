@@ -7,8 +7,8 @@
 
 namespace asperity {
 
-// The T_mesh_world that a recording simulated over a mesh knows: seven numbers [x, y, z, qw, qx, qy, qz] under
-// `extra` in its recording.json. nullopt if it has none; Error if they are no pose.
+// The T_mesh_world that a recording simulated over a mesh knows, its rotation of unit length to the last digit.
+// nullopt if it has none.
 std::optional<Pose> true_pose(const Recording& recording);
 
 }  // namespace asperity

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,6 +67,13 @@ struct MarkerPlacement {
   Pose T_marker_tag;
 };
 
+// What a calibration of one kind said when it was made.
+struct CalibrationRecord {
+  std::optional<bool> trustworthy;
+  std::optional<std::string> verdict;  // in words
+  std::string details_json = "{}";     // values, standard errors, residuals, settings, version: for a person
+};
+
 struct Calibration {
   AccelerometerCalibration accelerometer;
   std::optional<GyroscopeCalibration> gyroscope;
@@ -77,7 +85,9 @@ struct Calibration {
   double probe_latency_sigma_s = 0.0;  // extra.probe_latency_sigma_s
   std::optional<CameraCalibration> camera;
   std::vector<MarkerPlacement> markers;
-  std::string extra_json = "{}";
+  bool uncalibrated = false;                            // extra.uncalibrated: it stands for none (uncalibrated.h)
+  std::map<std::string, CalibrationRecord> calibrated;  // extra.calibrated, by kind: camera, tracker, force, accel, …
+  std::string extra_json = "{}";                        // what others have put into extra
 
   Eigen::Vector3d accelerometer_in_marker_m() const {
     return accelerometer.position_in_marker_m.value_or(tip_in_marker_m);

@@ -12,6 +12,7 @@
 #include "asperity/base/problem.h"
 #include "asperity/geometry/pose.h"
 #include "asperity/recording/calibration.h"
+#include "asperity/recording/recorder_state.h"
 
 namespace asperity {
 
@@ -51,12 +52,6 @@ struct Truth {
   std::size_t size() const { return t_ns.size(); }
 };
 
-struct Segment {
-  std::string name;
-  std::int64_t start_ns = 0;
-  std::int64_t end_ns = 0;
-};
-
 // recording.json
 struct RecordingInfo {
   std::string created = "1970-01-01T00:00:00Z";
@@ -70,7 +65,10 @@ struct RecordingInfo {
   Eigen::Vector3d gravity_world_mps2{0.0, 9.80665, 0.0};
   std::vector<Segment> segments;
   std::map<std::string, std::int64_t> problems;  // what the recorder lost or repaired
-  std::string extra_json = "{}";
+  std::optional<RecorderState> recorder;         // extra.recorder: a recorder of ours has made it
+  bool has_force_sensor = true;                  // extra.force_sensor; false for motion that was imported
+  std::optional<Pose> T_mesh_world;              // extra.T_mesh_world, of a simulation over a mesh, as it states it
+  std::string extra_json = "{}";                 // what others have put into extra
 };
 
 struct Recording {

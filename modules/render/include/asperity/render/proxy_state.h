@@ -6,8 +6,8 @@
 #include <Eigen/Core>
 
 #include "asperity/geometry/pose.h"
-#include "asperity/render/eased_material.h"
 #include "asperity/render/near_triangles.h"
+#include "asperity/render/render_material.h"
 
 namespace asperity {
 
@@ -18,6 +18,17 @@ struct ProxyTouch {
   Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal_world = Eigen::Vector3d::Zero();  // unit, from the surface towards the tip
   double pull_m = 0.0;  // multiplier: how far the surface holds the proxy off its goal along the normal
+};
+
+// What the proxy remembers of the material that it touches, so that an exchange of the snapshot under a touching tip
+// does not step the force. Plain data.
+struct EasedMaterial {
+  std::uint64_t id = 0;  // RenderModel::material_id of the step before
+  bool felt = false;     // something was touched in the step before: `last` is what was felt
+  RenderMaterial last;
+  RenderMaterial from;   // what was felt at the exchange
+  double since_s = 0.0;  // time since then
+  double left = 0.0;     // how much of `from` is still felt: 1 at the exchange, 0 at its end and without one
 };
 
 // The proxy between two steps: where the tip's centre would be if objects were rigid.

@@ -26,6 +26,18 @@ struct RenderConfig {
   bool force_shading = false;          // forces along interpolated normals
   double border_fade_m = 1e-3;         // width over which a texture fades at the border of its area (erratum 20)
   RenderTextureConfig texture;
+
+  template <class V>
+  void visit(V& v) {
+    v.field("tip_radius_m", tip_radius_m, "radius of the tip, m; 0: a point", {0.0, 0.1});
+    v.field("stiffness_N_per_m", stiffness_N_per_m, "where the scene knows none, N/m", {1.0, 1e6});
+    v.field("friction", friction, "coefficient of sliding where the scene knows none", {0.0, 10.0});
+    v.field("static_friction_ratio", static_friction_ratio, "coefficient of sticking over that of sliding",
+            {1.0, 10.0});
+    v.field("force_shading", force_shading, "forces along interpolated normals");
+    v.field("border_fade_m", border_fade_m, "over which a texture fades at its border, m", {0.0, 1.0});
+    v.group("texture", texture);
+  }
 };
 
 // The edges at which a textured area ends, another begins or the texture's coordinates tear, as triangles without

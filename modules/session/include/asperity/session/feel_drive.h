@@ -6,9 +6,9 @@
 #include <Eigen/Core>
 
 #include "asperity/base/progress.h"
-#include "asperity/pipeline/press_in_scan.h"
+#include "asperity/fidelity/press_in_scan.h"
+#include "asperity/fidelity/surface_stroke.h"
 #include "asperity/pipeline/process_result.h"
-#include "asperity/pipeline/surface_stroke.h"
 #include "asperity/scene/scene.h"
 #include "asperity/session/feel_settings.h"
 

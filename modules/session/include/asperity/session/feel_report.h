@@ -10,8 +10,8 @@
 #include "asperity/device/safety_cause.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/servo_tick.h"
+#include "asperity/fidelity/rendering_score.h"
 #include "asperity/json/json.h"
-#include "asperity/pipeline/rendering_score.h"
 
 namespace asperity {
 

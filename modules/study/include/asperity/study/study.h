@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "asperity/base/config.h"
-#include "asperity/render/texture_model_choice.h"
+#include "asperity/render/texture_force_model.h"
 #include "asperity/study/staircase.h"
 
 namespace asperity {
@@ -30,7 +30,7 @@ struct StudyPresentation {
   double range_mm = 2.5;
   double stiffness_N_per_m = 1000.0;
   double friction = 0.0;
-  TextureModelChoice model = TextureModelChoice::kAuto;
+  TextureForceModel model = TextureForceModel::kAuto;
 
   template <class V>
   void visit(V& v) {
@@ -39,7 +39,7 @@ struct StudyPresentation {
     v.field("range_mm", range_mm, "black to white, of images, mm", {1e-6, 1000.0});
     v.field("stiffness_N_per_m", stiffness_N_per_m, "where a texture has none, N/m", {1.0, 1e6});
     v.field("friction", friction, "coefficient, where a texture has none", {0.0, 10.0});
-    v.choice("model", model, kTextureModelChoices, "force model; auto: the texture's own");
+    v.choice("model", model, kTextureForceModelNames, "force model; auto: the texture's own");
   }
 };
 

@@ -1,32 +1,9 @@
 #pragma once
 
-#include "asperity/texture/height_map.h"
+#include "asperity/texture/height_map_model.h"
 #include "asperity/texture/texture.h"
 
 namespace asperity {
-
-struct MakeHeightMapConfig {
-  int columns = 256;
-  int rows = 256;
-  int bits = 16;
-  double length_mm = 0.0;
-  double width_mm = 0.0;
-  double seam_mm = 0.5;
-  double range_mm = 0.0;
-  Border border = Border::kPeriodic;
-
-  template <class V>
-  void visit(V& v) {
-    v.field("columns", columns, "pixels along the scan path", {4, 8192});
-    v.field("rows", rows, "pixels across it", {4, 8192});
-    v.field("bits", bits, "8 or 16", {8, 16});
-    v.field("length_mm", length_mm, "along x; 0: the model's period, else 10 mm", {0.0, 1e6});
-    v.field("width_mm", width_mm, "along y; 0: pixels as wide as long", {0.0, 1e6});
-    v.field("seam_mm", seam_mm, "length over which a tile's continuation is blended into its start", {0.0, 1e6});
-    v.field("range_mm", range_mm, "height from black to white; 0: just what the heights need", {0.0, 1e6});
-    v.choice("border", border, kBorderNames, "beyond the image");
-  }
-};
 
 struct HeightMapFit {
   HeightMap texture;

@@ -27,4 +27,8 @@ struct SampleHeightsConfig {
 // Error for a model that is no height field, a step that is not positive, or more than 10⁸ heights.
 std::vector<double> sample_heights(const TextureModel& model, const SampleHeightsConfig& config = {});
 
+// Lines along x through a height field, where its roughness is measured: one if it is the same for every y, else
+// sixteen across measured_area(). Throws as above.
+std::vector<std::vector<double>> sample_lines(const TextureModel& model, double length_m, double spacing_m);
+
 }  // namespace asperity

@@ -5,15 +5,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 
-#include "asperity/texture/areal_texture.h"
-#include "asperity/texture/autoregressive.h"
-#include "asperity/texture/decaying_sinusoids.h"
-#include "asperity/texture/fourier1d.h"
-#include "asperity/texture/fourier2d.h"
-#include "asperity/texture/height_map.h"
-#include "asperity/texture/stochastic.h"
+#include "asperity/texture/texture_models.h"
 
 namespace asperity {
 
@@ -23,13 +16,6 @@ struct TextureSource {
   std::string config_json;  // the resolved config; empty if unknown
   std::string version;
 };
-
-// The models, and in the same order their names in the file.
-using TextureModel = std::variant<Fourier1d, Fourier2d, HeightMap, ArealTexture, StochasticTexture,
-                                  AutoregressiveTexture, DecayingSinusoids>;
-inline constexpr std::array<std::string_view, 7> kTextureModelNames{
-    "fourier1d", "fourier2d", "heightmap", "areal", "stochastic", "autoregressive", "decaying_sinusoids"};
-static_assert(kTextureModelNames.size() == std::variant_size_v<TextureModel>);
 
 // A haptic texture, the content of a *.texture.json and of the image or table that it names.
 struct Texture {

@@ -8,10 +8,10 @@
 #include <Eigen/Core>
 
 #include "asperity/geometry/motion.h"
-#include "asperity/recording/append.h"
 #include "asperity/recording/calibration.h"
 #include "asperity/recording/recording.h"
-#include "asperity/trajectory/fused.h"
+#include "asperity/recording/recording_appender.h"
+#include "asperity/trajectory/estimate_trajectory_fused.h"
 
 namespace asperity {
 

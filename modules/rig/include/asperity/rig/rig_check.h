@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "asperity/recording/inspection.h"
+#include "asperity/rig/measure_grating.h"
+
+namespace asperity {
+
+// One stroke over the grating, processed as `process` does.
+struct RigStroke {
+  std::string name;
+  bool measured = false;  // false: `why_not` tells
+  std::string why_not;
+  bool trustworthy = true;  // what process says
+  std::string verdict;      // in words, if not
+  GratingFigures grating;
+  double median_depth_m = std::numeric_limits<double>::quiet_NaN();  // find_periodicity's, of highest and lowest points
+  double Rq_m = std::numeric_limits<double>::quiet_NaN();
+  double speed_mps = std::numeric_limits<double>::quiet_NaN();
+  double latency_s = std::numeric_limits<double>::quiet_NaN();  // as the stroke has it, less the calibrated one
+  double accel_bias_mps2 = std::numeric_limits<double>::quiet_NaN();
+  double tracker_noise_ratio = std::numeric_limits<double>::quiet_NaN();  // found over calibrated
+  double outlying_share = std::numeric_limits<double>::quiet_NaN();       // of the poses
+  double gravity_share = std::numeric_limits<double>::quiet_NaN();  // at rest, the accelerometer's reading over gravity
+  double gravity_angle_rad = std::numeric_limits<double>::quiet_NaN();  // at rest, of its up to the world's
+  Inspection inspection;
+};
+
+// A figure over the strokes that have it.
+struct Repeated {
+  std::size_t count = 0;
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double deviation = std::numeric_limits<double>::quiet_NaN();   // standard, with n − 1; nan below two
+  double half_width = std::numeric_limits<double>::quiet_NaN();  // of the mean's 95 % interval by Student's t
+};
+
+// What is wrong, and what most likely is its cause.
+struct RigFault {
+  std::string kind;   // pitch, depth, shape, pitch_repeatability, depth_repeatability, along, latency,
+                      // latency_repeatability, gravity, gravity_angle, noise, outlying, lost, calibration, stroke
+  std::string what;   // a sentence with the figures
+  std::string cause;  // a sentence on what to look at first
+};
+
+struct RigCheck {
+  std::vector<RigStroke> strokes;
+  Repeated pitch_m, depth_m, Rq_m, shape_rms_m, along_rms_m, correlation, latency_s;
+  Repeated gravity_share, gravity_angle_rad;  // at rest: length over gravity, angle to up
+  Repeated tracker_noise_ratio, outlying_share, lost_share;
+  double median_gravity_angle_rad = std::numeric_limits<double>::quiet_NaN();
+  double median_noise_ratio = std::numeric_limits<double>::quiet_NaN();
+  double true_Rq_m = 0.0;  // of the traced sine
+  std::vector<RigFault> faults;
+  std::vector<std::string> remarks;  // what limits the verdict
+  bool right = false;
+  std::string verdict;
+};
+
+}  // namespace asperity

@@ -1,0 +1,153 @@
+#include "asperity/rig/check_rig.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "asperity/base/error.h"
+#include "asperity/pipeline/process_recording.h"
+#include "asperity/signal/statistics.h"
+#include "judge_rig.h"
+
+namespace asperity {
+
+namespace {
+
+// 97.5 % of Student's t; beyond the table by the first terms of its expansion, right to 1e-3.
+double student_t(std::size_t freedom) {
+  constexpr std::array<double, 10> kTable{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
+  if (freedom <= kTable.size()) return kTable[freedom - 1];
+  constexpr double z = 1.959964;
+  const auto n = static_cast<double>(freedom);
+  return z + (z * z * z + z) / (4.0 * n) + (5.0 * std::pow(z, 5) + 16.0 * z * z * z + 3.0 * z) / (96.0 * n * n);
+}
+
+template <class ValueOf>
+std::vector<double> values_of(const std::vector<RigStroke>& strokes, ValueOf value_of) {
+  std::vector<double> values;
+  for (const RigStroke& stroke : strokes) {
+    const double value = value_of(stroke);
+    if (stroke.measured && std::isfinite(value)) values.push_back(value);
+  }
+  return values;
+}
+
+template <class ValueOf>
+Repeated repeated(const std::vector<RigStroke>& strokes, ValueOf value_of) {
+  const std::vector<double> values = values_of(strokes, value_of);
+  Repeated out;
+  out.count = values.size();
+  if (values.empty()) return out;
+  out.mean = mean(values);
+  if (values.size() < 2) return out;
+  out.deviation = standard_deviation(values);
+  out.half_width = student_t(values.size() - 1) * out.deviation / std::sqrt(static_cast<double>(values.size()));
+  return out;
+}
+
+double traced_rq_m(const TracedSine& sine) {
+  constexpr int kSteps = 256;
+  std::vector<double> heights(kSteps);
+  for (int i = 0; i < kSteps; ++i) {
+    heights[static_cast<std::size_t>(i)] = sine.height_m(2.0 * std::numbers::pi * i / kSteps);
+  }
+  const double middle = mean(heights);
+  for (double& height : heights) height -= middle;
+  return rms(heights);
+}
+
+double figure(const TrajectoryResult& trajectory, const char* name) {
+  const auto found = trajectory.figures.find(name);
+  return found == trajectory.figures.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
+}
+
+// The quietest stretch counts as rest by the accelerometer alone: a noisy tracker must not hide what it reads.
+void measure_rest(const Recording& recording, const CheckRigConfig& config, RigStroke& out) {
+  if (!out.inspection.quiet) return;
+  const QuietInterval& quiet = *out.inspection.quiet;
+  if (!(quiet.acceleration_noise_mps2.maxCoeff() < config.inspect.rest_acceleration_mps2)) return;
+  out.gravity_share = quiet.gravity_mps2 / recording.info.gravity_world_mps2.norm();
+  out.gravity_angle_rad = quiet.gravity_angle_rad;
+}
+
+double median_of(const std::vector<double>& values) {
+  return values.empty() ? std::numeric_limits<double>::quiet_NaN() : median(values);
+}
+
+void summarise(RigCheck& check) {
+  const std::vector<RigStroke>& strokes = check.strokes;
+  const auto angle = [](const RigStroke& s) { return s.gravity_angle_rad; };
+  const auto noise = [](const RigStroke& s) { return s.tracker_noise_ratio; };
+  check.pitch_m = repeated(strokes, [](const RigStroke& s) { return s.grating.pitch_m; });
+  check.depth_m = repeated(strokes, [](const RigStroke& s) { return s.grating.depth_m; });
+  check.Rq_m = repeated(strokes, [](const RigStroke& s) { return s.Rq_m; });
+  check.shape_rms_m = repeated(strokes, [](const RigStroke& s) { return s.grating.shape_rms_m; });
+  check.along_rms_m = repeated(strokes, [](const RigStroke& s) { return s.grating.along_rms_m; });
+  check.correlation = repeated(strokes, [](const RigStroke& s) { return s.grating.correlation; });
+  check.latency_s = repeated(strokes, [](const RigStroke& s) { return s.latency_s; });
+  check.gravity_share = repeated(strokes, [](const RigStroke& s) { return s.gravity_share; });
+  check.gravity_angle_rad = repeated(strokes, angle);
+  check.tracker_noise_ratio = repeated(strokes, noise);
+  check.outlying_share = repeated(strokes, [](const RigStroke& s) { return s.outlying_share; });
+  check.lost_share = repeated(strokes, [](const RigStroke& s) {
+    return std::max(s.inspection.probe.lost_share, s.inspection.tracker.lost_share);
+  });
+  check.median_gravity_angle_rad = median_of(values_of(strokes, angle));
+  check.median_noise_ratio = median_of(values_of(strokes, noise));
+}
+
+void measure(const Recording& recording, const CheckRigConfig& config, const Observer& observer, RigStroke& out) {
+  const ProcessResult result = process_recording(recording, config.process, observer);
+  out.trustworthy = result.trustworthy;
+  out.verdict = result.verdict;
+  out.latency_s = figure(result.trajectory, "latency_s") - recording.calibration.tracker.latency_s;
+  out.accel_bias_mps2 = figure(result.trajectory, "accel_bias_mps2");
+  out.tracker_noise_ratio = figure(result.trajectory, "tracker_noise_ratio");
+  out.outlying_share = figure(result.trajectory, "poses_outlying_share");
+  out.speed_mps = result.speed.mean_mps;
+  if (result.roughness) out.Rq_m = result.roughness->Rq_m;
+  if (!result.periodicity.periodic) {
+    out.why_not = "its profile has no period: was the grating scanned, across its ridges?";
+    return;
+  }
+  out.median_depth_m = result.periodicity.depth_m;
+  out.grating =
+      measure_grating(result.profile, result.periodicity.pitch_m, config.grating, recording.calibration.tip_radius_m);
+  if (!std::isfinite(out.grating.pitch_m)) {
+    out.why_not = "its profile is too short: eight periods without a gap are the least";
+    return;
+  }
+  // The line over the windows does not know their residuals' correlation; the other does.
+  out.grating.pitch_stderr_m = std::fmax(out.grating.pitch_stderr_m, result.periodicity.pitch_stderr_m);
+  out.measured = true;
+}
+
+}  // namespace
+
+RigCheck check_rig(std::span<const NamedRecording> strokes, const CheckRigConfig& config, const Observer& observer) {
+  if (strokes.empty()) throw Error("check-rig: there is no stroke");
+  RigCheck check;
+  for (const NamedRecording& stroke : strokes) {
+    RigStroke& out = check.strokes.emplace_back();
+    out.name = stroke.name;
+    check.true_Rq_m = traced_rq_m(TracedSine(config.grating, stroke.recording.calibration.tip_radius_m));
+    out.inspection = inspect_recording(stroke.recording, config.inspect);
+    measure_rest(stroke.recording, config, out);
+    try {
+      measure(stroke.recording, config, observer, out);
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const Error& error) {
+      out.why_not = error.what();
+    }
+  }
+  summarise(check);
+  judge_rig(strokes, config, check);
+  return check;
+}
+
+}  // namespace asperity

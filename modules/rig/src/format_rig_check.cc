@@ -1,0 +1,136 @@
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "asperity/base/config_tree.h"
+#include "asperity/base/text.h"
+#include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
+#include "asperity/rig/check_rig.h"
+
+namespace asperity {
+
+namespace {
+
+// JSON has no nan and no infinity.
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json repeated_json(const Repeated& figure) {
+  return {{"count", figure.count},
+          {"mean", number_or_null(figure.mean)},
+          {"standard_deviation", number_or_null(figure.deviation)},
+          {"half_width_95", number_or_null(figure.half_width)}};
+}
+
+Json stroke_json(const RigStroke& stroke, const RigCheck& check) {
+  Json out;
+  out["name"] = is_utf8(stroke.name) ? stroke.name : printable(stroke.name, 200);
+  out["measured"] = stroke.measured;
+  if (!stroke.measured) out["why_not"] = stroke.why_not;
+  out["trustworthy"] = stroke.trustworthy;
+  out["verdict"] = stroke.verdict;
+  const GratingFigures& grating = stroke.grating;
+  out["pitch_m"] = number_or_null(grating.pitch_m);
+  out["pitch_stderr_m"] = number_or_null(grating.pitch_stderr_m);
+  out["pitch_from_mean_m"] = number_or_null(grating.pitch_m - check.pitch_m.mean);
+  out["depth_m"] = number_or_null(grating.depth_m);
+  out["depth_stderr_m"] = number_or_null(grating.depth_stderr_m);
+  out["depth_from_mean_m"] = number_or_null(grating.depth_m - check.depth_m.mean);
+  out["median_depth_m"] = number_or_null(stroke.median_depth_m);
+  out["Rq_m"] = number_or_null(stroke.Rq_m);
+  out["shape_rms_m"] = number_or_null(grating.shape_rms_m);
+  out["correlation"] = number_or_null(grating.correlation);
+  out["along_rms_m"] = number_or_null(grating.along_rms_m);
+  out["length_m"] = number_or_null(grating.length_m);
+  out["length_error_m"] = number_or_null(grating.length_error_m);
+  out["speed_mps"] = number_or_null(stroke.speed_mps);
+  out["latency_from_calibrated_s"] = number_or_null(stroke.latency_s);
+  out["accel_bias_mps2"] = number_or_null(stroke.accel_bias_mps2);
+  out["tracker_noise_ratio"] = number_or_null(stroke.tracker_noise_ratio);
+  out["poses_outlying_share"] = number_or_null(stroke.outlying_share);
+  out["gravity_share"] = number_or_null(stroke.gravity_share);
+  out["gravity_angle_rad"] = number_or_null(stroke.gravity_angle_rad);
+  out["inspection"] = parse_json(inspection_json(stroke.inspection));
+  return out;
+}
+
+std::string row(const char* name, const Repeated& figure, double scale, const char* unit, double true_value) {
+  const std::string deviation = figure.count > 1 ? fmt::format("{:.2g}", scale * figure.deviation) : "?";
+  const std::string half_width = figure.count > 1 ? fmt::format("{:.2g}", scale * figure.half_width) : "?";
+  std::string out =
+      fmt::format("{:<13} {:>9.5g} ± {:<8} {:<4} each ± {:<8}", name, scale * figure.mean, half_width, unit, deviation);
+  if (std::isfinite(true_value)) {
+    out += fmt::format("true {:.5g} ({:+.2f} %)", scale * true_value, 100.0 * (figure.mean / true_value - 1.0));
+  }
+  while (out.ends_with(' ')) out.pop_back();
+  return out + "\n";
+}
+
+}  // namespace
+
+std::string rig_check_json(const RigCheck& check, const CheckRigConfig& config) {
+  Json out;
+  out["format"] = "asperity-rig-check";
+  out["version"] = 1;
+  out["right"] = check.right;
+  out["verdict"] = check.verdict;
+  out["faults"] = Json::array();
+  for (const RigFault& fault : check.faults) {
+    out["faults"].push_back({{"kind", fault.kind}, {"what", fault.what}, {"cause", fault.cause}});
+  }
+  out["remarks"] = check.remarks;
+  out["true"] = {
+      {"pitch_m", config.grating.pitch_m}, {"depth_m", config.grating.depth_m}, {"traced_Rq_m", check.true_Rq_m}};
+  out["pitch_m"] = repeated_json(check.pitch_m);
+  out["depth_m"] = repeated_json(check.depth_m);
+  out["Rq_m"] = repeated_json(check.Rq_m);
+  out["shape_rms_m"] = repeated_json(check.shape_rms_m);
+  out["correlation"] = repeated_json(check.correlation);
+  out["along_rms_m"] = repeated_json(check.along_rms_m);
+  out["latency_from_calibrated_s"] = repeated_json(check.latency_s);
+  out["gravity_share"] = repeated_json(check.gravity_share);
+  out["gravity_angle_rad"] = repeated_json(check.gravity_angle_rad);
+  out["tracker_noise_ratio"] = repeated_json(check.tracker_noise_ratio);
+  out["poses_outlying_share"] = repeated_json(check.outlying_share);
+  out["lost_share"] = repeated_json(check.lost_share);
+  out["strokes"] = Json::array();
+  for (const RigStroke& stroke : check.strokes) out["strokes"].push_back(stroke_json(stroke, check));
+  CheckRigConfig resolved = config;
+  out["config"] = config_tree<Json>(list_fields("", resolved));
+  out["asperity"] = kVersion;
+  return out.dump_repaired(2);
+}
+
+std::string rig_check_text(const RigCheck& check, const CheckRigConfig& config) {
+  std::string out;
+  for (const RigStroke& stroke : check.strokes) {
+    out += printable(stroke.name, 200) + ": ";
+    if (!stroke.measured) {
+      out += "no profile: " + stroke.why_not + "\n";
+      continue;
+    }
+    const GratingFigures& grating = stroke.grating;
+    out += fmt::format("pitch {:.4f} ± {:.4f} mm, depth {:.1f} ± {:.1f} µm, {:.0f} mm at {:.0f} mm/s\n",
+                       1e3 * grating.pitch_m, 1e3 * grating.pitch_stderr_m, 1e6 * grating.depth_m,
+                       1e6 * grating.depth_stderr_m, 1e3 * grating.length_m, 1e3 * stroke.speed_mps);
+  }
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  if (check.pitch_m.count > 0) {
+    out += fmt::format("mean of {} ± its 95 % interval, and one stroke's standard deviation:\n", check.pitch_m.count);
+    out += row("pitch", check.pitch_m, 1e3, "mm", config.grating.pitch_m);
+    out += row("depth", check.depth_m, 1e6, "µm", config.grating.depth_m);
+    out += row("Rq", check.Rq_m, 1e6, "µm", check.true_Rq_m);
+    out += row("shape error", check.shape_rms_m, 1e6, "µm", kUnknown);
+    out += row("correlation", check.correlation, 1.0, "", kUnknown);
+    out += row("along", check.along_rms_m, 1e6, "µm", kUnknown);
+    out += row("latency error", check.latency_s, 1e3, "ms", kUnknown);
+    out += row("gravity", check.gravity_share, 100.0, "%", kUnknown);
+  }
+  for (const std::string& remark : check.remarks) out += "note: " + remark + "\n";
+  for (const RigFault& fault : check.faults) out += fault.what + "\n  " + fault.cause + "\n";
+  return out + (check.right ? "RIGHT: " : "NOT RIGHT: ") + check.verdict + "\n";
+}
+
+}  // namespace asperity
