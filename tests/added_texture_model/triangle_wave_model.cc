@@ -13,13 +13,16 @@ namespace asperity {
 using WaveTraits = TextureModelTraits<TriangleWave>;
 
 void WaveTraits::read_block(const BlockInput& input, TriangleWave& t) {
-  input.json.only(input.path, {"length_mm", "height_m"});
-  t.length_mm = required_number(input.json, input.path, "length_mm", 1e-6, 1e6);
-  t.height_m = required_number(input.json, input.path, "height_m", 0.0, kLargestHeight_m);
+  t.length_mm = input.block.required("length_mm").number({1e-6, 1e6});
+  t.height_m = input.block.required("height_m").number({0.0, kLargestHeight_m});
+  input.block.finish();
 }
 
 std::string WaveTraits::write_block(const TriangleWave& t, BlockOutput&) {
-  return BlockText().add("length_mm", t.length_mm).add("height_m", t.height_m).str();
+  JsonWriter block = block_writer();
+  block.number("length_mm", t.length_mm);
+  block.number("height_m", t.height_m);
+  return block.take();
 }
 
 NamedValues WaveTraits::describe(const TriangleWave& t) {
