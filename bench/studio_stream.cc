@@ -18,6 +18,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/device/servo_loop.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/studio/web_server.h"
 #include "raw_client.h"
 #include "servo_plate.h"
@@ -100,7 +101,7 @@ void follow(int port, const std::string& cookie, Received& out) {
       }
       std::uint32_t head_bytes = 0;
       std::memcpy(&head_bytes, frame->payload.data() + 4, sizeof head_bytes);
-      const Json head = Json::parse(frame->payload.substr(8, head_bytes));
+      const Json head = parse_json(frame->payload.substr(8, head_bytes));
       const double age_ms = 1e-6 * (now - head.at("newest_ns").get<double>());
       out.bytes += frame->payload.size();
       if (head.at("kind") == "image") {

@@ -28,7 +28,8 @@ target_compile_options(asperity_flags INTERFACE
   -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # g++ 12 reports these inside Eigen and the standard library after inlining.
-  target_compile_options(asperity_flags INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)
+  target_compile_options(asperity_flags INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread
+    -Wno-restrict)
   if(CMAKE_UNITY_BUILD)
     # A type of the unnamed namespace in a .cc file that another one includes: it is still local to one translation unit.
     target_compile_options(asperity_flags INTERFACE -Wno-subobject-linkage)

@@ -9,17 +9,20 @@
 
 namespace {
 
+using asperity::Json;
 using asperity::must;
-using asperity::studio::Json;
 
 std::size_t depth_of(const Json& value) {
   std::size_t deepest = 0;
-  if (value.is_structured()) {
+  if (value.is_array()) {
     for (const Json& inner : value) deepest = std::max(deepest, depth_of(inner));
-    return 1 + deepest;
+  } else if (value.is_object()) {
+    for (const auto& member : value.items()) deepest = std::max(deepest, depth_of(member.value));
+  } else {
+    must(!value.is_number() || std::isfinite(value.get<double>()));
+    return 0;
   }
-  must(!value.is_number_float() || std::isfinite(value.get<double>()));
-  return 0;
+  return 1 + deepest;
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ Scene make_render_bench() {
   return scene;
 }
 
-void time_rendering(const Scene& scene, double tip_radius_m, nlohmann::ordered_json& out) {
+void time_rendering(const Scene& scene, double tip_radius_m, Json& out) {
   using Clock = std::chrono::steady_clock;
   RenderConfig config;
   config.tip_radius_m = tip_radius_m;

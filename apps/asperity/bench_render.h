@@ -1,7 +1,6 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
-
+#include "asperity/json/json.h"
 #include "asperity/scene/scene.h"
 
 namespace asperity::app {
@@ -12,6 +11,6 @@ Scene make_render_bench();
 // Times render_step on this machine: a tip is led over the first object in a random walk at 100 mm/s, 1 mm under the
 // surface, 1000 times a second. Sets "triangles", "steps" and "figures": updates a second over all steps, and the
 // time of single steps at 50 and 99 %, with that of reading the clock.
-void time_rendering(const Scene& scene, double tip_radius_m, nlohmann::ordered_json& out);
+void time_rendering(const Scene& scene, double tip_radius_m, Json& out);
 
 }  // namespace asperity::app

@@ -8,6 +8,7 @@
 
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
@@ -16,8 +17,6 @@
 namespace asperity::app {
 
 namespace fs = std::filesystem;
-using Json = CalibrateOutcome::Json;
-
 namespace {
 
 bool begins_as_calibration(std::string_view begin) {
@@ -58,7 +57,7 @@ int CalibrateCommand::run(const Observer& observer) {
   }
   const CalibrateOutcome outcome = calibrate(observer);
   if (!output_.empty()) write(before, outcome);
-  print_json(report(outcome).dump(2, ' ', false, Json::error_handler_t::replace));
+  print_json(report(outcome).dump_repaired(2));
   say(text(outcome));
   if (outcome.verdict.trustworthy) return kDone;
   complain(kind_ + ": " + outcome.verdict.text);
@@ -68,7 +67,7 @@ int CalibrateCommand::run(const Observer& observer) {
 void CalibrateCommand::write(const Calibration& before, const CalibrateOutcome& outcome) {
   Calibration calibration = before;
   outcome.store(calibration);
-  Json extra = Json::parse(calibration.extra_json.empty() ? "{}" : calibration.extra_json);
+  Json extra = parse_json(calibration.extra_json.empty() ? "{}" : calibration.extra_json);
   if (!extra["calibrated"].is_object()) extra["calibrated"] = Json::object();
   extra["calibrated"][kind_] = {
       {"values", outcome.values},
@@ -76,10 +75,10 @@ void CalibrateCommand::write(const Calibration& before, const CalibrateOutcome& 
       {"residuals", outcome.residuals},
       {"trustworthy", outcome.verdict.trustworthy},
       {"verdict", outcome.verdict.text},
-      {"config", Json::parse(config_json(fields()))},
+      {"config", parse_json(config_json(fields()))},
       {"asperity", kVersion},
   };
-  calibration.extra_json = extra.dump(-1, ' ', false, Json::error_handler_t::replace);
+  calibration.extra_json = extra.dump_repaired();
   write_calibration(output_, calibration);
 }
 
@@ -96,7 +95,7 @@ Json CalibrateCommand::report(const CalibrateOutcome& outcome) {
   out["notes"] = outcome.notes;
   for (const auto& [key, value] : outcome.details.items()) out[key] = value;
   if (!output_.empty()) out["file"] = output_;
-  out["config"] = Json::parse(config_json(fields()));
+  out["config"] = parse_json(config_json(fields()));
   out["asperity"] = kVersion;
   return out;
 }

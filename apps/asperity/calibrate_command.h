@@ -1,11 +1,11 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "asperity/calibration/calibration_verdict.h"
+#include "asperity/json/json.h"
 #include "asperity/recording/calibration.h"
 #include "command.h"
 #include "json_of.h"
@@ -23,7 +23,6 @@ struct CalibratedValue {
 
 // What one kind of calibration found: once for a program, once for a person, and how a calibration takes it.
 struct CalibrateOutcome {
-  using Json = nlohmann::ordered_json;
   Json values = Json::object();           // units in the key names
   Json standard_errors = Json::object();  // under the keys of `values`, of the same shapes
   Json residuals = Json::object();        // what the fit leaves, with the degrees of freedom
@@ -51,7 +50,7 @@ class CalibrateCommand : public Command {
 
  private:
   void write(const Calibration& before, const CalibrateOutcome& outcome);
-  CalibrateOutcome::Json report(const CalibrateOutcome& outcome);
+  Json report(const CalibrateOutcome& outcome);
   std::string text(const CalibrateOutcome& outcome) const;
 
   std::string kind_;

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "asperity/base/version.h"
 #include "asperity/geometry/mesh_surface.h"
 #include "asperity/geometry/read_mesh.h"
+#include "asperity/json/json.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/process_session.h"
 #include "asperity/registration/register_path.h"
@@ -30,7 +30,6 @@ namespace asperity::app {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
 using Eigen::Vector3d;
 
 double seconds(const std::function<void()>& work) {

@@ -16,8 +16,6 @@ namespace asperity::app {
 
 namespace {
 
-using Json = CalibrateOutcome::Json;
-
 struct AccelSettings {
   AccelerometerFieldConfig field;
   FitAccelerometerConfig known;

@@ -24,8 +24,6 @@ namespace asperity::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = CalibrateOutcome::Json;
-
 constexpr std::size_t kMostImages = 1000;
 
 struct CameraSettings {

@@ -13,8 +13,6 @@ namespace asperity::app {
 
 namespace {
 
-using Json = CalibrateOutcome::Json;
-
 Json quaternion_json(const Eigen::Quaterniond& q) { return json_of(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z())); }
 
 // The gyroscope's calibration with what the fit found: ω_marker = scale R ω_sensor − bias.

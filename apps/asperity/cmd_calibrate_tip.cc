@@ -30,7 +30,7 @@ class CalibrateTipCommand : public CalibrateCommand {
     out.standard_errors = {{"tip_in_marker_m", json_of(tip.stderr_m)},
                            {"dimple_world_m", json_of(tip.dimple_stderr_m)}};
     out.residuals = {{"rms_m", tip.rms_m}, {"expected_rms_m", tip.expected_rms_m}, {"noise_ratio", tip.noise_ratio}};
-    CalibrateOutcome::Json stretches = CalibrateOutcome::Json::array();
+    Json stretches = Json::array();
     for (const TimeStretch& stretch : tip.used_stretches) stretches.push_back({stretch.start_ns, stretch.end_ns});
     out.details = {{"covariance_m2", json_of_rows(tip.covariance_m2)},
                    {"spread", tip.spread},

@@ -10,6 +10,7 @@
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
 #include "asperity/calibration/calibrate_tracker_noise.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/session/our_file.h"
 #include "calibrate_command.h"
@@ -20,8 +21,6 @@
 namespace asperity::app {
 
 namespace {
-
-using Json = CalibrateOutcome::Json;
 
 Json json_of_noise(const SeriesNoise& noise, const std::string& unit) {
   return {{"samples", noise.samples},
@@ -159,7 +158,7 @@ class CalibrateTrackerCommand : public CalibrateCommand {
     out.store = [noise](Calibration& calibration) {
       calibration.tracker.sigma_position_m = noise.sigma_position_m;
       calibration.tracker.sigma_rotation_rad = noise.sigma_rotation_rad;
-      Json extra = Json::parse(calibration.extra_json.empty() ? "{}" : calibration.extra_json);
+      Json extra = parse_json(calibration.extra_json.empty() ? "{}" : calibration.extra_json);
       extra.erase("tracker_noise_model");  // of an earlier calibration, with other figures
       if (noise.model) extra["tracker_noise_model"] = json_of_model(*noise.model);
       calibration.extra_json = extra.dump();

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/true_profile.h"
 #include "asperity/pipeline/write_result.h"
@@ -28,13 +28,11 @@ namespace asperity::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 constexpr const char* kMark = "demo.json";
 
 bool is_demo_folder(const fs::path& folder) {
   try {
-    const Json json = Json::parse(read_file(folder / kMark, 1 << 20), nullptr, false);
+    const Json json = parse_json_or_null(read_file(folder / kMark, 1 << 20));
     return json.is_object() && json.value("format", "") == "asperity-demo";
   } catch (const Error&) {
     return false;
@@ -162,7 +160,7 @@ class DemoCommand : public Command {
       if (!scanner.trustworthy) complain("scanner: not to be trusted: " + scanner.verdict);
       trustworthy &= scanner.trustworthy;
     }
-    const std::string json = out.dump(2, ' ', false, Json::error_handler_t::replace);
+    const std::string json = out.dump_repaired(2);
     write_file(folder.path() / kMark, json + "\n");
     observer.update("writing", 1.0);
     folder.commit();

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/scene/export_scene.h"
 #include "asperity/session/export_files.h"
@@ -22,8 +22,6 @@ namespace asperity::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 class ExportCommand : public Command {
  public:
   explicit ExportCommand(Parser& root)
@@ -77,10 +75,10 @@ class ExportCommand : public Command {
     for (const ExportedFile& file : result.files)
       text += fmt::format("{:>12} bytes  {}\n", file.content.size(), printable(file.name, 200));
     for (const Problem& problem : result.problems) text += "problem: " + printable(problem.message, 300) + "\n";
-    out["config"] = Json::parse(config_json(fields()));
+    out["config"] = parse_json(config_json(fields()));
     out["asperity"] = kVersion;
     folder.commit();
-    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
     say(text + "in " + printable(target.string(), 200) + "\n");
     return kDone;
   }

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,6 +18,7 @@
 #include "asperity/device/device_registry.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/write_flight_record.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/pipeline/score_rendering.h"
 #include "asperity/session/feel_device.h"
@@ -41,8 +41,6 @@ namespace asperity::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 constexpr std::array<const char*, 4> kEndNames{"duration", "device_ended", "stopped", "fault"};
 
 // "sim (the default), replay or haply": all devices, with remarks on some.
@@ -168,7 +166,7 @@ class FeelCommand : public Command {
                               settings_.score, observer);
       if (!score->trustworthy) distrust("real against rendered: " + score->verdict);
     }
-    const std::string json = to_json(servo, *device, score).dump(2, ' ', false, Json::error_handler_t::replace);
+    const std::string json = to_json(servo, *device, score).dump_repaired(2);
     if (folder) {
       write_file(folder->path() / "result.json", json + "\n");
       write_listing(folder->path());
@@ -291,7 +289,7 @@ class FeelCommand : public Command {
     out["trustworthy"] = verdict_.empty();
     out["verdict"] = verdict_;
     out["warnings"] = warnings_;
-    out["config"] = Json::parse(config_json(fields()));
+    out["config"] = parse_json(config_json(fields()));
     out["asperity"] = kVersion;
     return out;
   }

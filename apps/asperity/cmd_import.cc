@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/recording/import.h"
 #include "asperity/recording/read_recording.h"
@@ -58,22 +58,22 @@ class ImportCommand : public Command {
 
  private:
   void report(const Recording& recording, const Problems& problems) {
-    nlohmann::ordered_json out;
+    Json out;
     out["format"] = "asperity-imported";
     out["version"] = 1;
     out["recording"] = output_;
     out["probe_rows"] = recording.probe.size();
     out["tracker_rows"] = recording.tracker.size();
-    out["problems"] = nlohmann::ordered_json::array();
+    out["problems"] = Json::array();
     std::string text = fmt::format("{}: {} probe rows, {} poses\n", printable(output_, 200), recording.probe.size(),
                                    recording.tracker.size());
     for (const Problem& problem : problems) {
       out["problems"].push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
       text += problem.message + "\n";
     }
-    out["config"] = nlohmann::ordered_json::parse(config_json(fields()));
+    out["config"] = parse_json(config_json(fields()));
     out["asperity"] = kVersion;
-    print_json(out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
     say(text);
   }
 

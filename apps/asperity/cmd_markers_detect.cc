@@ -1,22 +1,20 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/image/read_gray_image.h"
-#include "asperity/tracking/detect_tags.h"
+#include "asperity/json/json.h"
 #include "asperity/session/our_file.h"
+#include "asperity/json/json.h"
 #include "commands.h"
 
 namespace asperity::app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kHeader = "image,id,x0_px,y0_px,x1_px,y1_px,x2_px,y2_px,x3_px,y3_px\n";
 
@@ -71,7 +69,7 @@ class MarkersDetectCommand : public Command {
     }
     if (!output_.empty()) write_file(output_, table);
     const Json out{{"format", "asperity-markers-detect"}, {"version", 1}, {"family", family_}, {"images", images}};
-    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
     say(text);
     if (found == 0) complain("no marker of " + printable(family_) + " was found");
     return found == 0 ? kNotTrustworthy : kDone;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "asperity/base/text.h"
 #include "asperity/printing/format_pdf.h"
 #include "asperity/printing/marker_sheets.h"
+#include "asperity/json/json.h"
 #include "asperity/recording/format.h"
 #include "asperity/session/our_file.h"
 #include "commands.h"
@@ -20,8 +20,6 @@
 namespace asperity::app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kPdfHeader = "%PDF-1.7\n%asperity\n";
 
@@ -86,7 +84,7 @@ class PrintCommand : public Command {
     write_file(output_, format_pdf(print.pages, "asperity markers"));
     Json out{{"format", "asperity-markers-print"}, {"version", 1}, {"output", output_}, {"pages", print.pages.size()}};
     if (!markers_.empty()) out["markers"] = markers_;
-    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
     say(fmt::format("{}: {} page{}{}\nPrint at 100 %, without fitting to the page, and measure both rulers.\n",
                     printable(output_, 200), print.pages.size(), print.pages.size() == 1 ? "" : "s",
                     markers_.empty() ? "" : "; the body is in " + printable(markers_, 200)));

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/scene/paint.h"
 #include "asperity/scene/write_scene.h"
@@ -27,8 +27,6 @@ namespace asperity::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 struct PaintSettings {
   HapticCoordinatesConfig coordinates;
 
@@ -81,7 +79,7 @@ class PaintCommand : public Command {
     const PaintResult result = paint(object, picks, texture, settings_.coordinates);
     observer.update("writing", 1.0);
     write_scene(folder.path() / "scene.json", scene);
-    const std::string json = to_json(result, object, texture).dump(2, ' ', false, Json::error_handler_t::replace);
+    const std::string json = to_json(result, object, texture).dump_repaired(2);
     write_file(folder.path() / "paint.json", json + "\n");
     write_listing(folder.path());
     folder.commit();
@@ -101,7 +99,7 @@ class PaintCommand : public Command {
 
   Json to_json(const PaintResult& result, const SceneObject& object, const SceneTexture& texture) {
     Json out = stroke_json(result, object, texture);
-    out["config"] = Json::parse(config_json(fields()));
+    out["config"] = parse_json(config_json(fields()));
     out["asperity"] = kVersion;
     return out;
   }

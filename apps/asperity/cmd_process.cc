@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/write_result.h"
 #include "asperity/recording/cut_recording.h"
@@ -148,11 +148,11 @@ class ProcessCommand : public Command {
   }
 
   std::string joined_results() const {
-    nlohmann::ordered_json out;
+    Json out;
     out["format"] = "asperity-results";
     out["version"] = 1;
     for (const auto& [name, json] : results_) {
-      out["results"][is_utf8(name) ? name : printable(name, 200)] = nlohmann::ordered_json::parse(json);
+      out["results"][is_utf8(name) ? name : printable(name, 200)] = parse_json(json);
     }
     return out.dump(2);
   }

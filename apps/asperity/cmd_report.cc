@@ -1,6 +1,5 @@
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/session/our_file.h"
+#include "asperity/json/json.h"
 #include "asperity/studio/format_report.h"
 #include "asperity/studio/read_report_item.h"
 #include "commands.h"
@@ -53,7 +53,7 @@ class ReportCommand : public Command {
     const std::string page = studio::format_report(items);
     observer.update("writing", 1.0);
     write_file(file, page);
-    nlohmann::ordered_json out;
+    Json out;
     out["format"] = "asperity-report";
     out["version"] = 1;
     out["file"] = printable(file.string(), 4096);

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
@@ -109,14 +109,14 @@ class SimulateCommand : public Command {
     {
       LiveScan scan(recording, config_->probe, live_config_, folder.path());
       // Before anything is played: whoever started us opens what is named here.
-      print_json(scan.announcement().dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+      print_json(scan.announcement().dump_repaired());
       say(fmt::format("probe:       {}\ncamera:      {}\ncalibration: {}\nmarkers:     {}\n", scan.port(),
                       scan.camera(), scan.calibration(), scan.markers()));
       report = scan.play(observer);
       write_recording(folder.path(), scan.on_host_clock());
     }
     folder.commit();
-    print_json(live_json(report, output_).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    print_json(live_json(report, output_).dump_repaired());
     say(live_line(report, output_));
     return report.probe_bytes_lost + report.frames_lost > 0 ? kNotTrustworthy : kDone;
   }
@@ -125,16 +125,16 @@ class SimulateCommand : public Command {
     const ProbeStream& probe = recording.probe;
     const double duration_s =
         probe.size() < 2 ? 0.0 : static_cast<double>(probe.t_ns.back() - probe.t_ns.front()) * 1e-9;
-    nlohmann::ordered_json out;
+    Json out;
     out["format"] = "asperity-simulated";
     out["version"] = 1;
     out["recording"] = output_;
     out["duration_s"] = duration_s;
     out["probe_rows"] = probe.size();
     out["tracker_rows"] = recording.tracker.size();
-    out["config"] = nlohmann::ordered_json::parse(config_json(fields()));
+    out["config"] = parse_json(config_json(fields()));
     out["asperity"] = kVersion;
-    print_json(out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
     say(fmt::format("{}: {:.1f} s, {} probe rows, {} poses, with truth\n", printable(output_, 200), duration_s,
                     probe.size(), recording.tracker.size()));
   }

@@ -1,12 +1,12 @@
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "asperity/base/text.h"
 #include "asperity/session/interrupt.h"
+#include "asperity/json/json.h"
 #include "asperity/studio/feel_config.h"
 #include "asperity/studio/open_browser.h"
 #include "asperity/studio/studio.h"
@@ -75,7 +75,7 @@ class StudioCommand : public Command {
 
   void tell(const std::string& address, bool is_open_to_others) const {
     const std::string bare = address.substr(0, address.find("/#"));
-    nlohmann::ordered_json told;
+    Json told;
     told["address"] = address;
     told["port"] = std::stoi(bare.substr(bare.rfind(':') + 1));
     print_json(told.dump());

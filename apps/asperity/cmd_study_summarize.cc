@@ -1,12 +1,12 @@
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/json.h"
 #include "asperity/study/format_study_results.h"
 #include "asperity/study/study_log.h"
 #include "commands.h"
@@ -14,8 +14,6 @@
 namespace asperity::app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 class StudySummarizeCommand : public Command {
  public:
@@ -32,7 +30,7 @@ class StudySummarizeCommand : public Command {
     observer.update("thresholds and worths", 0.5);
     const StudyResults results = study_results(log.session);
     const std::vector<std::string> open = undetermined(results);
-    print_json(to_json(log, results, open).dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(to_json(log, results, open).dump_repaired(2));
     say(study_results_text(results));
     if (!quiet()) {
       for (const Problem& problem : log.problems) complain(problem.message);
@@ -60,8 +58,6 @@ class StudySummarizeCommand : public Command {
 
 }  // namespace
 
-std::unique_ptr<Command> make_study_summarize(Parser& study) {
-  return std::make_unique<StudySummarizeCommand>(study);
-}
+std::unique_ptr<Command> make_study_summarize(Parser& study) { return std::make_unique<StudySummarizeCommand>(study); }
 
 }  // namespace asperity::app

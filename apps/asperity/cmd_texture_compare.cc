@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/profile/read_heights.h"
 #include "asperity/texture/compare_textures.h"
@@ -21,8 +21,6 @@
 namespace asperity::app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct CompareSettings {
   ReadHeightsConfig input;
@@ -98,9 +96,9 @@ class TextureCompareCommand : public Command {
       one["felt"] = band.felt;
       out["bands"].push_back(one);
     }
-    out["config"] = Json::parse(config_json(fields()));
+    out["config"] = parse_json(config_json(fields()));
     out["asperity"] = kVersion;
-    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
     say_table(c);
     return kDone;
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/recorded_series.h"
@@ -20,7 +20,6 @@
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
-#include "named_values_json.h"
 #include "option_units.h"
 #include "read_series.h"
 #include "texture_fit_settings.h"
@@ -29,8 +28,6 @@
 namespace asperity::app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // "a (the default), b, c or d".
 std::string model_names() {
@@ -133,7 +130,7 @@ class TextureFitCommand : public Command {
 
   void finish(FittedTexture& fitted) {
     Texture& texture = fitted.texture;
-    Json report = json_of(fitted.report);
+    Json& report = fitted.report;
     if (is_height_field(texture.model)) texture.lift_m = lift_m(texture.model);
     texture.name = name_;
     if (name_.empty()) {
@@ -151,7 +148,7 @@ class TextureFitCommand : public Command {
     for (const auto& problem : fitted.problems)
       problems.push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
     report["problems"] = problems;
-    Json extra = Json::parse(texture.extra_json);
+    Json extra = parse_json(texture.extra_json);
     extra["fit"] = report;
     texture.extra_json = extra.dump();
     refuse_other_payloads(texture);
@@ -165,9 +162,9 @@ class TextureFitCommand : public Command {
     if (texture.lift_m) out["lift_m"] = *texture.lift_m;
     out["fit"] = report;
     out["roughness"] = texture.roughness;
-    out["config"] = Json::parse(config_json(fields()));
+    out["config"] = parse_json(config_json(fields()));
     out["asperity"] = kVersion;
-    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
     std::string text = fmt::format("{}: {}", output_, texture.model_name());
     for (const auto& [key, what] : {std::pair{"rms_height_m", "RMS height"},
                                     {"rms_error_m", "error"},

@@ -2,25 +2,22 @@
 
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/sample_heights.h"
 #include "asperity/texture/texture_file.h"
 #include "asperity/texture/texture_operations.h"
 #include "commands.h"
-#include "named_values_json.h"
 #include "texture_input.h"
 
 namespace asperity::app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr double kLine_m = 0.04;
 constexpr double kSpacing_m = 25e-6;
@@ -41,7 +38,7 @@ class TextureInfoCommand : public Command {
     out["file"] = file_;
     out["name"] = texture.name;
     out["model"] = texture.model_name();
-    out["describe"] = json_of(describe_texture_model(texture.model));
+    out["describe"] = describe_texture_model(texture.model);
     if (is_height_field(texture.model)) {
       const auto period = period_m(texture.model);
       out["period_m"] = period ? Json(*period) : Json(nullptr);
@@ -54,10 +51,10 @@ class TextureInfoCommand : public Command {
     if (texture.stiffness_N_per_m) out["stiffness_N_per_m"] = *texture.stiffness_N_per_m;
     if (texture.friction) out["friction"] = *texture.friction;
     out["source_roughness"] = texture.roughness;
-    const Json extra = Json::parse(texture.extra_json);
+    const Json extra = parse_json(texture.extra_json);
     if (extra.contains("fit")) out["fit"] = extra["fit"];
     out["asperity"] = kVersion;
-    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
     say_summary(out);
     return kDone;
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/json.h"
 #include "asperity/scene/read_scene.h"
 #include "asperity/scene/swap_texture.h"
 #include "asperity/scene/write_scene.h"
@@ -25,8 +25,6 @@ namespace asperity::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 class TextureSwapCommand : public Command {
  public:
   explicit TextureSwapCommand(Parser& root)
@@ -60,7 +58,7 @@ class TextureSwapCommand : public Command {
     out["before"] = old.empty() ? Json(nullptr) : Json(old);
     out["after"] = file;
     out["asperity"] = kVersion;
-    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
     say(fmt::format("{}: texture {} is now {}{}\n", printable(target.string(), 200), index_, printable(file, 200),
                     old.empty() ? "" : ", before " + printable(old, 200)));
     return kDone;

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/session/our_file.h"
 #include "asperity/texture/evaluate_height.h"
@@ -24,8 +24,6 @@
 namespace asperity::app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* kLineColumns = "s_m,height_m\n";
 constexpr const char* kStrokeColumns = "t_s,acceleration_mps2\n";
@@ -87,9 +85,9 @@ class TextureSynthesizeCommand : public Command {
     } else {
       throw UsageError("-o: heights along a line are called *.csv, a tile *.png");
     }
-    out["config"] = Json::parse(config_json(fields()));
+    out["config"] = parse_json(config_json(fields()));
     out["asperity"] = kVersion;
-    print_json(out.dump(2, ' ', false, Json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
     return kDone;
   }
 

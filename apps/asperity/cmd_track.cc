@@ -6,7 +6,6 @@
 #include <cctype>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,10 +14,11 @@
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/camera/open_image_folder.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/config_json.h"
 #include "asperity/recording/read_markers.h"
-#include "asperity/tracking/track_images.h"
 #include "asperity/session/our_file.h"
+#include "asperity/tracking/track_images.h"
 #include "commands.h"
 
 namespace asperity::app {
@@ -114,13 +114,13 @@ class TrackCommand : public Command {
   }
 
  private:
-  static nlohmann::ordered_json numbers(const Eigen::Vector3d& v) {
+  static Json numbers(const Eigen::Vector3d& v) {
     if (!v.allFinite()) return nullptr;
     return {v.x(), v.y(), v.z()};
   }
 
   void report(const TrackedImages& tracked, TagFrame declared, double frames_per_s) {
-    nlohmann::ordered_json out;
+    Json out;
     out["format"] = "asperity-tracked";
     out["version"] = 1;
     out["output"] = output_;
@@ -132,15 +132,15 @@ class TrackCommand : public Command {
     out["median_sigma_m"] = numbers(tracked.median_sigma_m);
     out["median_sigma_rad"] = numbers(tracked.median_sigma_rad);
     out["tag_frame_declared"] = name_of(declared);
-    out["problems"] = nlohmann::ordered_json::array();
+    out["problems"] = Json::array();
     for (const Problem& problem : tracked.problems) {
       out["problems"].push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
     }
     out["trustworthy"] = tracked.trustworthy;
     out["verdict"] = tracked.verdict;
-    out["config"] = nlohmann::ordered_json::parse(config_json(fields()));
+    out["config"] = parse_json(config_json(fields()));
     out["asperity"] = kVersion;
-    print_json(out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    print_json(out.dump_repaired(2));
 
     std::string text = fmt::format("{}: {}\n", printable(output_, 200), tracked.verdict);
     if (!tracked.poses.empty()) {

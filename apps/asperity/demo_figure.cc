@@ -14,10 +14,10 @@ std::string figure_line(const DemoFigure& figure) {
                      figure.unit);
 }
 
-nlohmann::ordered_json figures_json(const std::vector<DemoFigure>& figures) {
-  nlohmann::ordered_json out;
+Json figures_json(const std::vector<DemoFigure>& figures) {
+  Json out;
   for (const DemoFigure& figure : figures) {
-    nlohmann::ordered_json& one = out[figure.key];
+    Json& one = out[figure.key];
     one["measured"] = figure.measured;
     if (std::isfinite(figure.standard_error)) one["stderr"] = figure.standard_error;
     if (std::isfinite(figure.lower_bound)) one["lower_bound"] = figure.lower_bound;

@@ -1,9 +1,10 @@
 #pragma once
 
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
+
+#include "asperity/json/json.h"
 
 namespace asperity::app {
 
@@ -25,6 +26,6 @@ struct DemoFigure {
 std::string figure_line(const DemoFigure& figure);
 
 // An object by key of {measured, stderr, lower_bound, true}.
-nlohmann::ordered_json figures_json(const std::vector<DemoFigure>& figures);
+Json figures_json(const std::vector<DemoFigure>& figures);
 
 }  // namespace asperity::app

@@ -31,8 +31,6 @@ namespace asperity::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 constexpr double kMeshUnit_m = 1e-3;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::uint64_t kSeed = 1;

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "asperity/base/progress.h"
+#include "asperity/json/json.h"
 #include "asperity/pipeline/process_config.h"
 #include "asperity/texture/texture.h"
 
@@ -12,7 +12,7 @@ namespace asperity::app {
 
 struct MeshDemo {
   std::string text;  // the table's rows
-  nlohmann::ordered_json json;
+  Json json;
   bool trustworthy = true;
   std::string verdict;  // in words, if not
 };

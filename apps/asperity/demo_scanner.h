@@ -1,17 +1,17 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "asperity/base/progress.h"
+#include "asperity/json/json.h"
 #include "asperity/pipeline/process_config.h"
 
 namespace asperity::app {
 
 struct ScannerDemo {
   std::string text;  // the table's rows
-  nlohmann::ordered_json json;
+  Json json;
   bool trustworthy = true;
   std::string verdict;  // in words, if not
 };

@@ -4,10 +4,6 @@
 
 namespace asperity::app {
 
-using Json = nlohmann::ordered_json;
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
 Json json_of(const Eigen::Ref<const Eigen::VectorXd>& values) {
   Json out = Json::array();
   for (const double value : values) out.push_back(number_or_null(value));

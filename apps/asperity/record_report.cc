@@ -3,17 +3,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "json_of.h"
 
 namespace asperity::app {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json sensor_json(const SensorSnapshot& sensor) {
   Json out;
@@ -81,9 +79,9 @@ std::string record_json(const RecordOutcome& outcome, const std::string& config_
   out["trustworthy"] = outcome.verdict.doubts.empty();
   out["verdict"] = joined(outcome.verdict.doubts);
   out["warnings"] = outcome.verdict.warnings;
-  out["config"] = Json::parse(config_json);
+  out["config"] = parse_json(config_json);
   out["asperity"] = kVersion;
-  return out.dump(2, ' ', false, Json::error_handler_t::replace);
+  return out.dump_repaired(2);
 }
 
 std::string record_text(const RecordOutcome& outcome) {

@@ -48,6 +48,15 @@ void append_number(std::string& out, std::int64_t value) {
   out.append(buffer, end);
 }
 
+void append_exact(std::string& out, double value) {
+  constexpr double kWholeNumbers = 9007199254740992.0;  // 2^53: all whole numbers below are exact
+  if (std::abs(value) < kWholeNumbers && value == std::trunc(value) && !(value == 0.0 && std::signbit(value))) {
+    append_number(out, static_cast<std::int64_t>(value));
+  } else {
+    append_number(out, value);
+  }
+}
+
 std::string number_text(double value) {
   std::string out;
   append_number(out, value);

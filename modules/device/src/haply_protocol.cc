@@ -2,54 +2,40 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
 #include <Eigen/LU>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/json/parse_json.h"
 
 namespace asperity {
-
-using nlohmann::json;
 
 namespace {
 
 constexpr double kFarthest_m = 10.0, kFastest_mps = 100.0;
 
-json parse_bounded(std::string_view text) {
+Json parse_bounded(std::string_view text) {
   if (text.size() > kMostFrame_bytes) {
     throw Error(fmt::format("haply: a frame of {} bytes, more than {}", text.size(), kMostFrame_bytes));
   }
-  const auto watch = [](int depth, json::parse_event_t, json&) {
-    if (depth >= kDeepestJson) throw Error(fmt::format("haply: JSON nested more than {} deep", kDeepestJson));
-    return true;
-  };
-  try {
-    return json::parse(text.begin(), text.end(), watch);
-  } catch (const json::exception&) {
-    throw Error("haply: not JSON: '" + printable(text) + "'");
-  }
+  JsonLimits limits;
+  limits.depth = kDeepestJson;
+  return parse_json(text, "haply", limits);
 }
 
-const json* find(const json& object, const char* key) {
-  if (!object.is_object()) return nullptr;
-  const auto at = object.find(key);
-  return at == object.end() ? nullptr : &*at;
-}
-
-std::string text_at(const json& object, const char* key) {
-  const json* value = find(object, key);
+std::string text_at(const Json& object, const char* key) {
+  const Json* value = object.find(key);
   return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
 }
 
-Eigen::Vector3d vector_at(const json& state, const char* key, double most, const std::string& device_id) {
-  const json* vector = find(state, key);
+Eigen::Vector3d vector_at(const Json& state, const char* key, double most, const std::string& device_id) {
+  const Json* vector = state.find(key);
   Eigen::Vector3d result;
   for (int i = 0; i < 3; ++i) {
     const char name[2] = {static_cast<char>('x' + i), '\0'};
-    const json* number = vector == nullptr ? nullptr : find(*vector, name);
+    const Json* number = vector == nullptr ? nullptr : vector->find(name);
     if (number == nullptr || !number->is_number()) {
       throw Error(fmt::format("haply: device '{}': no number {}.{} in its state", device_id, key, name));
     }
@@ -69,7 +55,7 @@ bool is_device_id(std::string_view id) {
   });
 }
 
-std::string listed(const json& devices) {
+std::string listed(const Json& devices) {
   std::string list;
   for (std::size_t i = 0; i < std::min<std::size_t>(devices.size(), 8); ++i) {
     list += (list.empty() ? "" : ", ") + printable(text_at(devices[i], "device_id"));
@@ -80,9 +66,9 @@ std::string listed(const json& devices) {
 }  // namespace
 
 HaplyForceKey parse_service_version(std::string_view body) {
-  const json document = parse_bounded(body);
-  const json* inner = find(document, "data");
-  const json& facts = inner == nullptr ? document : *inner;
+  const Json document = parse_bounded(body);
+  const Json* inner = document.find("data");
+  const Json& facts = inner == nullptr ? document : *inner;
   std::string version = text_at(facts, "project_version");
   if (version.empty()) version = text_at(facts, "git_tag");
   const auto dot = version.find('.');
@@ -97,14 +83,14 @@ HaplyForceKey parse_service_version(std::string_view body) {
 }
 
 HaplyState parse_haply_frame(std::string_view text, std::string_view device_id) {
-  const json frame = parse_bounded(text);
-  const json* devices = find(frame, "inverse3");
+  const Json frame = parse_bounded(text);
+  const Json* devices = frame.find("inverse3");
   if (devices == nullptr || !devices->is_array() || devices->empty()) {
     throw Error(device_id.empty()
                     ? "haply: the service has no Inverse3"
                     : fmt::format("haply: device '{}' is gone: the service has no Inverse3", printable(device_id)));
   }
-  const auto wanted = std::find_if(devices->begin(), devices->end(), [&](const json& device) {
+  const Json* wanted = std::find_if(devices->begin(), devices->end(), [&](const Json& device) {
     return device_id.empty() || text_at(device, "device_id") == device_id;
   });
   if (wanted == devices->end()) {
@@ -116,8 +102,8 @@ HaplyState parse_haply_frame(std::string_view text, std::string_view device_id) 
   if (!is_device_id(result.device_id)) {
     throw Error("haply: '" + printable(result.device_id) + "' is not a device's id");
   }
-  if (const json* config = find(*wanted, "config")) result.model = printable(text_at(*config, "type"));
-  const json* state = find(*wanted, "state");
+  if (const Json* config = wanted->find("config")) result.model = printable(text_at(*config, "type"));
+  const Json* state = wanted->find("state");
   if (state == nullptr) throw Error(fmt::format("haply: device '{}' has no state", result.device_id));
   result.p_m = vector_at(*state, "cursor_position", kFarthest_m, result.device_id);
   result.v_mps = vector_at(*state, "cursor_velocity", kFastest_mps, result.device_id);

@@ -10,7 +10,7 @@ namespace asperity {
 
 // Sizes of what a service may send.
 constexpr std::size_t kMostFrame_bytes = 256 * 1024;
-constexpr int kDeepestJson = 16;
+constexpr std::size_t kDeepestJson = 16;
 
 // What the service's version calls the three numbers of set_cursor_force.
 enum class HaplyForceKey { kVector, kValues };

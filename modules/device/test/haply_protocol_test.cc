@@ -41,7 +41,7 @@ TEST(HaplyProtocol, ReadsTheFirstOrTheNamedDevice) {
 TEST(HaplyProtocol, RefusesWhatIsNotAFrame) {
   const auto refused = [](const std::string& text) { return message_of([&] { parse_haply_frame(text, "049D"); }); };
   EXPECT_THAT(refused(""), HasSubstr("not JSON"));
-  EXPECT_THAT(refused("garbage\x01\xff"), HasSubstr("not JSON: 'garbage\\x01\\xff'"));
+  EXPECT_THAT(refused("garbage\x01\xff"), HasSubstr("haply:1:1: not JSON: syntax error"));
   EXPECT_THAT(refused(kFrame.substr(0, 100)), HasSubstr("not JSON"));
   EXPECT_THAT(refused("[]"), HasSubstr("is gone"));
   EXPECT_THAT(refused("7"), HasSubstr("is gone"));

@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <array>
 
-#include <nlohmann/json.hpp>
-
 #include "asperity/base/error.h"
 #include "asperity/base/inner_path.h"
 #include "asperity/base/text.h"
+#include "asperity/json/parse_json.h"
 #include "little_endian.h"
 
 namespace asperity {
 
 namespace {
 
-using nlohmann::json;
-
-constexpr int kMaxDepth = 32;
+constexpr std::size_t kMaxDepth = 32;
+constexpr std::size_t kMaxValues = 20'000'000;
 constexpr std::size_t kMaxBuffers = 256;
 constexpr std::size_t kMaxJsonBytes = std::size_t{512} << 20;
 constexpr std::array<std::string_view, 3> kKnownExtensions{"KHR_mesh_quantization", "KHR_materials_unlit",
@@ -34,7 +32,7 @@ class Checker {
     buffers();
     images();
     for (const char* left_out : {"animations", "cameras", "skins"}) {
-      const json& array = member(left_out);
+      const Json& array = member(left_out);
       if (array.is_array() && !array.empty()) {
         out_.problems.push_back({left_out, name_ + ": " + left_out + " are left out", array.size()});
       }
@@ -52,10 +50,10 @@ class Checker {
  private:
   [[noreturn]] void fail(const std::string& message) const { throw Error(name_ + ": " + message); }
 
-  const json& member(const char* key) const {
-    static const json nothing;
-    const auto found = document_.find(key);
-    return found == document_.end() ? nothing : *found;
+  const Json& member(const char* key) const {
+    static const Json nothing;
+    const Json* found = document_.find(key);
+    return found == nullptr ? nothing : *found;
   }
 
   std::uint32_t word(std::size_t at) const { return load<std::uint32_t>(bytes_.data() + at, std::endian::little); }
@@ -85,64 +83,57 @@ class Checker {
   }
 
   void parse(std::string_view text) {
-    if (text.size() > kMaxJsonBytes) fail("its JSON is larger than " + std::to_string(kMaxJsonBytes) + " bytes");
-    const auto watch = [&](int depth, json::parse_event_t, json&) {
-      if (depth > kMaxDepth) fail("nested more than " + std::to_string(kMaxDepth) + " deep");
-      return true;
-    };
-    try {
-      document_ = json::parse(text, watch);
-    } catch (const json::exception& error) {
-      fail("is not glTF: " + printable(error.what(), 200));
-    }
+    JsonLimits limits;
+    limits.bytes = kMaxJsonBytes;
+    limits.depth = kMaxDepth;
+    limits.values = kMaxValues;
+    document_ = parse_json(text, name_, limits);
     if (!document_.is_object()) fail("is not glTF: its JSON is no object");
   }
 
   void version() const {
-    const json& asset = member("asset");
-    const auto found = asset.is_object() ? asset.find("version") : asset.end();
-    const std::string version =
-        asset.is_object() && found != asset.end() && found->is_string() ? found->get<std::string>() : "";
+    const Json& asset = member("asset");
+    const Json* found = asset.find("version");
+    const std::string version = found != nullptr && found->is_string() ? found->text() : "";
     if (!version.starts_with("2.")) fail("is glTF of version '" + printable(version) + "'; 2.0 is read");
   }
 
   void extensions() {
-    const json& required = member("extensionsRequired");
+    const Json& required = member("extensionsRequired");
     if (required.is_array()) {
-      for (const json& extension : required) {
+      for (const Json& extension : required) {
         if (!is_known(extension)) fail("needs the extension '" + shown(extension) + "', which is not read");
       }
     }
-    const json& used = member("extensionsUsed");
+    const Json& used = member("extensionsUsed");
     std::size_t count = 0;
     std::string first;
     if (used.is_array()) {
-      for (const json& extension : used) {
-        if (extension.is_string() && extension.get<std::string>() == "KHR_mesh_quantization") continue;
+      for (const Json& extension : used) {
+        if (extension.is_string() && extension.text() == "KHR_mesh_quantization") continue;
         if (count++ == 0) first = shown(extension);
       }
     }
     if (count > 0) out_.problems.push_back({"extension", name_ + ": the extension '" + first + "' is not read", count});
   }
 
-  static bool is_known(const json& extension) {
-    return extension.is_string() && std::find(kKnownExtensions.begin(), kKnownExtensions.end(),
-                                              extension.get<std::string>()) != kKnownExtensions.end();
+  static bool is_known(const Json& extension) {
+    return extension.is_string() &&
+           std::find(kKnownExtensions.begin(), kKnownExtensions.end(), extension.text()) != kKnownExtensions.end();
   }
 
-  static std::string shown(const json& text) { return text.is_string() ? printable(text.get<std::string>()) : "?"; }
+  static std::string shown(const Json& text) { return text.is_string() ? printable(text.text()) : "?"; }
 
   void buffers() {
-    const auto buffers = document_.find("buffers");
-    if (buffers == document_.end()) return;
+    Json* buffers = document_.find("buffers");
+    if (buffers == nullptr) return;
     if (!buffers->is_array() || buffers->size() > kMaxBuffers)
       fail("'buffers' is no list of at most " + std::to_string(kMaxBuffers));
     std::uint64_t total = 0;
     for (std::size_t i = 0; i < buffers->size(); ++i) {
-      json& buffer = (*buffers)[i];
-      const auto length = buffer.is_object() ? buffer.find("byteLength") : buffer.end();
-      if (!buffer.is_object() || length == buffer.end() || !length->is_number_unsigned() ||
-          length->get<std::uint64_t>() == 0) {
+      Json& buffer = (*buffers)[i];
+      const Json* length = buffer.find("byteLength");
+      if (length == nullptr || !length->is_number_unsigned() || length->get<std::uint64_t>() == 0) {
         fail("buffer " + std::to_string(i) + " has no length");
       }
       const auto size = length->get<std::uint64_t>();
@@ -159,18 +150,17 @@ class Checker {
   }
 
   void images() {
-    const json& images = member("images");
+    const Json& images = member("images");
     if (!images.is_array()) return;
     std::size_t embedded = 0;
     std::size_t outside = 0;
-    for (const json& image : images) {
+    for (const Json& image : images) {
       std::string& file = out_.image_files.emplace_back();
-      const auto uri = image.is_object() ? image.find("uri") : image.end();
-      const bool is_file = image.is_object() && uri != image.end() && uri->is_string() &&
-                           !uri->get_ref<const std::string&>().starts_with("data:");
+      const Json* uri = image.find("uri");
+      const bool is_file = uri != nullptr && uri->is_string() && !uri->text().starts_with("data:");
       if (!is_file) {
         ++embedded;
-      } else if (const auto inner = inner_path(uri->get_ref<const std::string&>())) {
+      } else if (const auto inner = inner_path(uri->text())) {
         file = *inner;
       } else {
         ++outside;
@@ -185,7 +175,7 @@ class Checker {
   std::string_view bytes_;
   const std::string& name_;
   const MeshLimits& limits_;
-  json document_;
+  Json document_;
   GltfDocument out_;
 };
 

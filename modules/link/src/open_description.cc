@@ -1,16 +1,13 @@
 #include <cmath>
-#include <set>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/link/open_protocol.h"
+#include "asperity/json/parse_json.h"
 
 namespace asperity {
-
-using nlohmann::json;
 
 namespace {
 
@@ -18,7 +15,7 @@ constexpr double kMaxRate_Hz = 1e5;
 constexpr double kMaxScale = 1e12;
 constexpr double kLowestCount = -32768.0;
 constexpr double kHighestCount = 32767.0;
-constexpr int kMaxDepth = 4;
+constexpr std::size_t kMaxDepth = 4;
 
 // Lists each figure once, for reading, writing and checking.
 template <class Description, class Visit>
@@ -32,46 +29,30 @@ void visit_figures(Description& description, Visit&& visit) {
   visit("force_newton_per_count", description.force_newton_per_count, 0.0, kMaxScale);
 }
 
-bool read_text(const json& object, const char* key, std::string& out) {
-  const auto found = object.find(key);
-  if (found == object.end()) return true;
+bool read_text(const Json& object, const char* key, std::string& out) {
+  const Json* found = object.find(key);
+  if (found == nullptr) return true;
   if (!found->is_string()) return false;
   out = found->get<std::string>();
   return out.size() <= kOpenMaxName_bytes;
 }
 
-bool read_figure(const json& object, const char* key, double& out, double low, double high) {
-  const auto found = object.find(key);
-  if (found == object.end()) return true;
+bool read_figure(const Json& object, const char* key, double& out, double low, double high) {
+  const Json* found = object.find(key);
+  if (found == nullptr) return true;
   if (!found->is_number()) return false;
   out = found->get<double>();
   return std::isfinite(out) && out >= low && out <= high;
 }
 
-// The text as an object; discarded if it is none, names a key twice or is nested deeper than any description.
-json parse_object(std::string_view text) {
-  std::vector<std::set<std::string>> open;
-  bool sound = true;
-  const auto watch = [&](int depth, json::parse_event_t event, json& parsed) {
-    if (depth > kMaxDepth) sound = false;
-    if (event == json::parse_event_t::object_start) open.emplace_back();
-    if (event == json::parse_event_t::object_end && !open.empty()) open.pop_back();
-    if (event == json::parse_event_t::key && !open.empty()) {
-      sound = open.back().insert(parsed.get<std::string>()).second && sound;
-    }
-    return true;
-  };
-  json object = json::parse(text.begin(), text.end(), watch, false);
-  if (!sound || !object.is_object()) return {json::value_t::discarded};
-  return object;
-}
-
 }  // namespace
 
 std::optional<ProbeDescription> parse_open_description(std::string_view text) {
-  if (text.size() > kOpenMaxDescription_bytes || !is_utf8(text)) return std::nullopt;
-  const json object = parse_object(text);
-  if (object.is_discarded()) return std::nullopt;
+  JsonLimits limits;
+  limits.bytes = kOpenMaxDescription_bytes;
+  limits.depth = kMaxDepth;
+  const Json object = parse_json_or_null(text, limits);
+  if (!object.is_object()) return std::nullopt;
   ProbeDescription out;
   if (!read_text(object, "model", out.model) || out.model != "open") return std::nullopt;
   if (!read_text(object, "name", out.name) || !read_text(object, "firmware", out.firmware)) return std::nullopt;
@@ -80,7 +61,7 @@ std::optional<ProbeDescription> parse_open_description(std::string_view text) {
     sound = read_figure(object, key, value, low, high) && sound;
   });
   out.has_gyro = object.contains("gyro_counts_per_radps");
-  if (const auto axes = object.find("force_axes"); axes != object.end()) {
+  if (const Json* axes = object.find("force_axes")) {
     sound = sound && axes->is_number() && (axes->get<double>() == 1.0 || axes->get<double>() == 3.0);
     if (sound) out.force_axes = axes->get<double>() == 3.0 ? 3 : 1;
   }
@@ -99,7 +80,7 @@ std::string format_open_description(const ProbeDescription& description) {
     throw Error(fmt::format("open protocol: force_axes: {} is neither 1 nor 3", description.force_axes));
   }
   if (description.adc_min > description.adc_max) throw Error("open protocol: adc_min is above adc_max");
-  nlohmann::ordered_json object;
+  Json object;
   object["model"] = "open";
   object["name"] = description.name;
   object["firmware"] = description.firmware;

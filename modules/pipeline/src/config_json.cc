@@ -1,5 +1,6 @@
 #include "asperity/pipeline/config_json.h"
 
+#include "asperity/json/parse_json.h"
 #include "json.h"
 
 namespace asperity {
@@ -16,8 +17,8 @@ Json config_object(const std::vector<ConfigField>& fields) {
     // TOML and JSON write booleans, numbers, lists and simple strings alike; what they do not share
     // (inf, nan) stays text.
     const std::string text = field.get();
-    const Json value = Json::parse(text, nullptr, false);
-    (*place)[field.path.substr(start)] = value.is_discarded() ? Json(text) : value;
+    Json value = parse_json_or_null(text);
+    (*place)[field.path.substr(start)] = value.is_null() ? Json(text) : std::move(value);
   }
   return out;
 }

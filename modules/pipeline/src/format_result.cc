@@ -2,6 +2,7 @@
 
 #include "asperity/base/units.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/write_result.h"
 #include "json.h"
 
@@ -101,7 +102,7 @@ Json accuracy_json(const Accuracy& accuracy) {
 }  // namespace
 
 std::string format_result(const ProcessResult& result, const Recording& recording, const std::string& name) {
-  const Json config = Json::parse(result.config_json);
+  const Json config = parse_json(result.config_json);
   const Json& profile_config =
       config.at("method") == "fused" ? config.at("profile") : config.at("thesis").at("profile");
   Json out;
@@ -151,7 +152,7 @@ std::string format_result(const ProcessResult& result, const Recording& recordin
   out["config"] = config;
   out["asperity"] = kVersion;
   // Names come from files; what is not UTF-8 in them must not stop the writing.
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return out.dump_repaired(2) + "\n";
 }
 
 }  // namespace asperity

@@ -6,6 +6,7 @@
 
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/check_rig.h"
 #include "json.h"
 
@@ -48,7 +49,7 @@ Json stroke_json(const RigStroke& stroke, const RigCheck& check) {
   out["poses_outlying_share"] = number_or_null(stroke.outlying_share);
   out["gravity_share"] = number_or_null(stroke.gravity_share);
   out["gravity_angle_rad"] = number_or_null(stroke.gravity_angle_rad);
-  out["inspection"] = Json::parse(inspection_json(stroke.inspection));
+  out["inspection"] = parse_json(inspection_json(stroke.inspection));
   return out;
 }
 
@@ -96,7 +97,7 @@ std::string rig_check_json(const RigCheck& check, const CheckRigConfig& config) 
   CheckRigConfig resolved = config;
   out["config"] = config_object(list_fields("", resolved));
   out["asperity"] = kVersion;
-  return out.dump(2, ' ', false, Json::error_handler_t::replace);
+  return out.dump_repaired(2);
 }
 
 std::string rig_check_text(const RigCheck& check, const CheckRigConfig& config) {

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "asperity/base/text.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/recording/uncalibrated.h"
 #include "json.h"
 
@@ -60,7 +61,7 @@ class RigJudge {
             "Calibrate first: accel, tip, force, camera, tracker, latency.");
       return;
     }
-    const Json extra = Json::parse(calibration.extra_json, nullptr, false);
+    const Json extra = parse_json_or_null(calibration.extra_json);
     const bool told = extra.is_object() && extra.contains("calibrated") && extra["calibrated"].is_object();
     std::string missing;
     for (const char* kind : {"camera", "tracker", "force", "accel", "tip", "latency"}) {

@@ -4,12 +4,13 @@
 #include <string>
 
 #include "asperity/base/error.h"
+#include "asperity/json/parse_json.h"
 #include "json.h"
 
 namespace asperity {
 
 std::optional<Pose> true_pose(const Recording& recording) {
-  const Json extra = Json::parse(recording.info.extra_json, nullptr, false);
+  const Json extra = parse_json_or_null(recording.info.extra_json);
   if (!extra.is_object() || !extra.contains("T_mesh_world")) return std::nullopt;
   const Json& v = extra["T_mesh_world"];
   const std::string fault = "recording: extra.T_mesh_world is not x, y, z, qw, qx, qy, qz";

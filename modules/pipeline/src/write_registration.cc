@@ -12,6 +12,7 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/write_result.h"
 #include "asperity/scene/read_scene.h"
 #include "asperity/scene/write_scene.h"
@@ -99,7 +100,7 @@ Json coordinates_json(const HapticCoordinates& coordinates) {
 // The files that a registration.json lists, and itself; empty if it is not one of ours.
 std::set<std::string> listed_files(const fs::path& file) {
   constexpr std::uint64_t kLargest_bytes = 64 << 20;
-  const Json json = Json::parse(read_file(file, kLargest_bytes), nullptr, false);
+  const Json json = parse_json_or_null(read_file(file, kLargest_bytes));
   if (!json.is_object() || json.value("format", "") != "asperity-registration") return {};
   std::set<std::string> out{"registration.json"};
   for (const Json& name : json.at("files")) out.insert(name.get<std::string>());
@@ -171,10 +172,10 @@ std::string format_registration(const ScansOnMesh& result, std::span<const std::
   out["coordinates"] = coordinates_json(result.coordinates);
   out["problems"] = problems_json(result.problems);
   out["files"] = files;
-  out["config"] = Json::parse(result.config_json);
+  out["config"] = parse_json(result.config_json);
   out["asperity"] = kVersion;
   // Names come from files; what is not UTF-8 in them must not stop the writing.
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return out.dump_repaired(2) + "\n";
 }
 
 bool is_registration_folder(const fs::path& folder) noexcept {

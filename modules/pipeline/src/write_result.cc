@@ -10,6 +10,7 @@
 #include "asperity/base/nan.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/texture/texture_file.h"
 #include "json.h"
 
@@ -30,7 +31,7 @@ void append_cells(std::string& out, std::initializer_list<double> cells) {
 
 bool is_result_file(const fs::path& file) {
   constexpr std::uint64_t kLargest_bytes = 64 << 20;
-  const Json json = Json::parse(read_file(file, kLargest_bytes), nullptr, false);
+  const Json json = parse_json_or_null(read_file(file, kLargest_bytes));
   return json.is_object() && json.value("format", "") == "asperity-result";
 }
 

@@ -18,15 +18,15 @@ constexpr int kRuler_mm = 100;
 
 double tick_mm(int at_mm) { return at_mm % 10 == 0 ? 5.0 : at_mm % 5 == 0 ? 3.5 : 2.0; }
 
-constexpr double kSmallest_mm = 2.0, kLargest_mm = 1000.0;
+constexpr double kSmallestPage_mm = 2.0, kLargestPage_mm = 1000.0;
 
 }  // namespace
 
 double checked_mm(const char* what, double length_m) {
   const double length_mm = std::round(length_m * 1e9) / 1e6;
-  if (!(length_mm >= kSmallest_mm && length_mm <= kLargest_mm)) {
-    throw Error(fmt::format("markers: {} of {} is not within {} and {} mm", what, mm_text(length_m * 1e3), kSmallest_mm,
-                            kLargest_mm));
+  if (!(length_mm >= kSmallestPage_mm && length_mm <= kLargestPage_mm)) {
+    throw Error(fmt::format("markers: {} of {} is not within {} and {} mm", what, mm_text(length_m * 1e3), kSmallestPage_mm,
+                            kLargestPage_mm));
   }
   return length_mm;
 }

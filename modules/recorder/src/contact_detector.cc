@@ -23,8 +23,6 @@ void check(const char* low_name, double low, const char* high_name, double high)
   }
 }
 
-std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(time_s / kNanosecond_s)); }
-
 }  // namespace
 
 ContactDetector::ContactDetector(const TouchConfig& config, const std::optional<ForceCalibration>& force)
@@ -61,7 +59,7 @@ void ContactDetector::learn_idle(std::int64_t t_ns, double counts) {
   ++idle_count_;
   idle_mean_ += off / static_cast<double>(idle_count_);
   idle_square_ += off * (counts - idle_mean_);
-  if (t_ns - *first_ns_ < ns(config_.idle_s) || idle_count_ < kFewestIdleSamples) return;
+  if (t_ns - *first_ns_ < nanoseconds(config_.idle_s) || idle_count_ < kFewestIdleSamples) return;
   idle_known_ = true;
   idle_noise_ = std::sqrt(std::max(kLeastVariance, idle_square_ / static_cast<double>(idle_count_ - 1)));
 }
@@ -82,7 +80,7 @@ std::optional<ContactChange> ContactDetector::push(std::int64_t t_ns, double for
       off_evidence_ns_ = 0;
       last_above_ns_ = t_ns;
     }
-    if (off_evidence_ns_ < ns(config_.off_hold_s) || at != Level::kLow) return std::nullopt;
+    if (off_evidence_ns_ < nanoseconds(config_.off_hold_s) || at != Level::kLow) return std::nullopt;
     touching_ = false;
     above_since_ns_.reset();
     return ContactChange{false, last_above_ns_};
@@ -92,7 +90,7 @@ std::optional<ContactChange> ContactDetector::push(std::int64_t t_ns, double for
     return std::nullopt;
   }
   if (!above_since_ns_) above_since_ns_ = t_ns;
-  if (t_ns - *above_since_ns_ < ns(config_.on_hold_s)) return std::nullopt;
+  if (t_ns - *above_since_ns_ < nanoseconds(config_.on_hold_s)) return std::nullopt;
   touching_ = true;
   off_evidence_ns_ = 0;
   last_above_ns_ = t_ns;

@@ -1,22 +1,18 @@
 #include "recording_writer.h"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/recording/uncalibrated.h"
 #include "asperity/recording/write_recording.h"
 
 namespace asperity {
 
 namespace {
-
-using Json = nlohmann::json;
-
-std::int64_t ns(double time_s) { return static_cast<std::int64_t>(std::llround(time_s / kNanosecond_s)); }
 
 RecordingInfo with_description(RecordingInfo info, const std::optional<ProbeDescription>& description) {
   if (!description) return info;
@@ -42,7 +38,7 @@ std::optional<ForceCalibration> force_of(const Calibration& calibration) {
 
 Json numbers(const Eigen::Vector3d& values) {
   Json out = Json::array();
-  for (const double value : values) out.push_back(std::isfinite(value) ? Json(value) : Json());
+  for (const double value : values) out.push_back(number_or_null(value));
   return out;
 }
 
@@ -65,7 +61,7 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& folder, RecordingI
       contact_(config.contact, force_),
       gravity_(config.rest, calibration),
       appender_(folder, info_, calibration, columns_of(description, has_poses)),
-      segments_(appender_, ns(config.pre_roll_s)) {
+      segments_(appender_, nanoseconds(config.pre_roll_s)) {
   if (config.mode == StoreMode::kSegments && config.start_at_once) begin("segment_", SegmentWriter::kFromFirstRow);
   replace_recording_info(folder / "recording.json", current_info(false));
 }
@@ -97,13 +93,13 @@ void RecordingWriter::touch(const ContactChange& change) {
     // Touching again before the post-roll is over goes on with the same segment.
     if (!segments_.reopen()) begin("contact_", change.t_ns);
   } else if (segments_.is_open()) {
-    segments_.end_at(change.t_ns + ns(config_.post_roll_s));
+    segments_.end_at(change.t_ns + nanoseconds(config_.post_roll_s));
   }
 }
 
 void RecordingWriter::begin(std::string name, std::int64_t t_ns) {
   if (name.ends_with('_')) name += std::to_string(segments_.count() + 1);
-  if (!segments_.start(std::move(name), t_ns, ns(config_.pre_roll_s))) ++refused_;
+  if (!segments_.start(std::move(name), t_ns, nanoseconds(config_.pre_roll_s))) ++refused_;
   changed_ = true;
 }
 
@@ -169,7 +165,7 @@ RecordingInfo RecordingWriter::current_info(bool finished) const {
   problem("gravity_implausible", gravity.implausible ? 1 : 0);
   problem("columns_missing", columns_missing_ ? 1 : 0);
 
-  Json extra = Json::parse(info_.extra_json.empty() ? "{}" : info_.extra_json, nullptr, false);
+  Json extra = parse_json_or_null(info_.extra_json.empty() ? "{}" : info_.extra_json);
   if (!extra.is_object()) throw Error("recorder: extra_json is not a JSON object: " + printable(info_.extra_json));
   Json recorder;
   recorder["state"] = finished ? "finished" : "recording";
@@ -187,7 +183,7 @@ RecordingInfo RecordingWriter::current_info(bool finished) const {
     recorder["probe_firmware"] = printable(description_->firmware);
   }
   extra["recorder"] = std::move(recorder);
-  out.extra_json = extra.dump();
+  out.extra_json = extra.dump_sorted();
   return out;
 }
 

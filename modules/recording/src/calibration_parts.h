@@ -1,7 +1,7 @@
 #pragma once
 
+#include "asperity/json/json_object.h"
 #include "asperity/recording/calibration.h"
-#include "json_reader.h"
 
 namespace asperity {
 

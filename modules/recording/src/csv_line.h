@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 
 #include "asperity/base/text.h"
-#include "json_writer.h"
 
 namespace asperity {
 

@@ -1,12 +1,12 @@
 #include "asperity/recording/cut_recording.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/json/parse_json.h"
 
 namespace asperity {
 
@@ -34,7 +34,7 @@ std::vector<T> cut(const std::vector<T>& column, const Rows& rows) {
 }
 
 bool is_made_by_recorder(const RecordingInfo& info) {
-  const auto extra = nlohmann::json::parse(info.extra_json, nullptr, false);
+  const auto extra = parse_json_or_null(info.extra_json);
   return extra.is_object() && extra.contains("recorder");
 }
 

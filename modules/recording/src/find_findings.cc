@@ -5,7 +5,8 @@
 #include <numbers>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
+
+#include "asperity/json/parse_json.h"
 
 namespace asperity {
 
@@ -45,10 +46,10 @@ void judge_overlap(const Inspection& inspection, Findings& out) {
 
 // Imported motion has no force sensor, and says so.
 bool has_force_sensor(const Recording& recording) {
-  const auto extra = nlohmann::json::parse(recording.info.extra_json, nullptr, false);
+  const auto extra = parse_json_or_null(recording.info.extra_json);
   if (!extra.is_object()) return true;
-  const auto found = extra.find("force_sensor");
-  return found == extra.end() || *found != false;
+  const Json* found = extra.find("force_sensor");
+  return found == nullptr || *found != Json(false);
 }
 
 void judge_channels(const Recording& recording, const Inspection& inspection, const InspectConfig& config,

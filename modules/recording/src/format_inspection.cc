@@ -1,44 +1,43 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
+#include "asperity/json/json.h"
 #include "asperity/recording/inspect.h"
 
 namespace asperity {
 
-using json = nlohmann::ordered_json;
-
 namespace {
 
-json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
-json vector(const Eigen::Vector3d& v) { return json::array({number(v.x()), number(v.y()), number(v.z())}); }
+Json vector(const Eigen::Vector3d& v) {
+  return Json::array({number_or_null(v.x()), number_or_null(v.y()), number_or_null(v.z())});
+}
 
-json timing_json(const StreamTiming& timing) {
+Json timing_json(const StreamTiming& timing) {
   return {{"rows", timing.count},
           {"start_ns", timing.start_ns},
           {"end_ns", timing.end_ns},
-          {"duration_s", number(timing.duration_s)},
-          {"median_rate_hz", number(timing.median_rate_Hz)},
-          {"mean_rate_hz", number(timing.mean_rate_Hz)},
-          {"jitter_s", number(timing.jitter_s)},
+          {"duration_s", number_or_null(timing.duration_s)},
+          {"median_rate_hz", number_or_null(timing.median_rate_Hz)},
+          {"mean_rate_hz", number_or_null(timing.mean_rate_Hz)},
+          {"jitter_s", number_or_null(timing.jitter_s)},
           {"clock_step_ns", timing.clock_step_ns},
           {"gaps", timing.gaps},
-          {"longest_gap_s", number(timing.longest_gap_s)},
+          {"longest_gap_s", number_or_null(timing.longest_gap_s)},
           {"lost", timing.lost},
-          {"lost_share", number(timing.lost_share)},
+          {"lost_share", number_or_null(timing.lost_share)},
           {"duplicates", timing.duplicates}};
 }
 
-json quiet_json(const QuietStretch& quiet) {
-  return {{"start_s", number(quiet.start_s)},
-          {"duration_s", number(quiet.duration_s)},
+Json quiet_json(const QuietStretch& quiet) {
+  return {{"start_s", number_or_null(quiet.start_s)},
+          {"duration_s", number_or_null(quiet.duration_s)},
           {"at_rest", quiet.at_rest},
           {"specific_force_mps2", vector(quiet.specific_force_mps2)},
           {"acceleration_noise_mps2", vector(quiet.acceleration_noise_mps2)},
-          {"gravity_mps2", number(quiet.gravity_mps2)},
-          {"gravity_angle_rad", number(quiet.gravity_angle_rad)},
-          {"force_N", number(quiet.force_N)},
+          {"gravity_mps2", number_or_null(quiet.gravity_mps2)},
+          {"gravity_angle_rad", number_or_null(quiet.gravity_angle_rad)},
+          {"force_N", number_or_null(quiet.force_N)},
           {"poses", quiet.poses},
           {"position_noise_m", vector(quiet.position_noise_m)},
           {"rotation_noise_rad", vector(quiet.rotation_noise_rad)}};
@@ -55,24 +54,24 @@ std::string timing_text(const char* stream, const StreamTiming& timing) {
 }  // namespace
 
 std::string inspection_json(const Inspection& inspection) {
-  json channels = json::array();
+  Json channels = Json::array();
   for (const auto& channel : inspection.channels) {
     channels.push_back({{"name", channel.name},
                         {"samples", channel.samples},
-                        {"lowest", number(channel.lowest)},
-                        {"highest", number(channel.highest)},
-                        {"saturated_share", number(channel.saturated_share)},
-                        {"quiet_mean", number(channel.quiet_mean)},
-                        {"quiet_noise", number(channel.quiet_noise)}});
+                        {"lowest", number_or_null(channel.lowest)},
+                        {"highest", number_or_null(channel.highest)},
+                        {"saturated_share", number_or_null(channel.saturated_share)},
+                        {"quiet_mean", number_or_null(channel.quiet_mean)},
+                        {"quiet_noise", number_or_null(channel.quiet_noise)}});
   }
-  const json out = {{"probe", timing_json(inspection.probe)},
+  const Json out = {{"probe", timing_json(inspection.probe)},
                     {"tracker", timing_json(inspection.tracker)},
-                    {"overlap_s", number(inspection.overlap_s)},
+                    {"overlap_s", number_or_null(inspection.overlap_s)},
                     {"channels", channels},
-                    {"quiet", inspection.quiet ? quiet_json(*inspection.quiet) : json(nullptr)},
-                    {"force_lowest_N", number(inspection.force_lowest_N)},
-                    {"force_highest_N", number(inspection.force_highest_N)},
-                    {"force_rate_hz", number(inspection.force_rate_Hz)},
+                    {"quiet", inspection.quiet ? quiet_json(*inspection.quiet) : Json()},
+                    {"force_lowest_N", number_or_null(inspection.force_lowest_N)},
+                    {"force_highest_N", number_or_null(inspection.force_highest_N)},
+                    {"force_rate_hz", number_or_null(inspection.force_rate_Hz)},
                     {"flips", inspection.flips},
                     {"findings", inspection.findings}};
   return out.dump(2) + "\n";

@@ -1,20 +1,24 @@
-#include <nlohmann/json.hpp>
-
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/json/json_writer.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/recording/format.h"
-#include "json_writer.h"
 
 namespace asperity {
 
-using nlohmann::json;
-
 namespace {
 
-json extra_object(const std::string& text, const char* what) {
-  json extra = json::parse(text.empty() ? "{}" : text, nullptr, false);
+Json extra_object(const std::string& text, const char* what) {
+  Json extra = parse_json_or_null(text.empty() ? "{}" : text);
   if (!extra.is_object()) throw Error(std::string(what) + ": extra_json is not a JSON object: " + printable(text));
   return extra;
+}
+
+void write_vector(JsonWriter& out, std::string_view key, const Eigen::Vector3d& value) {
+  out.numbers(key, value.data(), 3);
+}
+void write_matrix(JsonWriter& out, std::string_view key, const Eigen::Matrix<double, 3, Eigen::Dynamic>& value) {
+  out.matrix(key, value.data(), 3, static_cast<std::size_t>(value.cols()));
 }
 
 const char* model_name(AccelerometerModel model) {
@@ -33,24 +37,25 @@ void write_sensors(JsonWriter& out, const Calibration& calibration) {
   const AccelerometerCalibration& accelerometer = calibration.accelerometer;
   out.begin_object("accelerometer");
   out.text("model", model_name(accelerometer.model));
-  out.matrix("B", accelerometer.B);
-  out.vector("C", accelerometer.C);
-  out.vector("residual_counts", accelerometer.residual_counts);
-  if (accelerometer.standard_errors.cols() > 0) out.matrix("stderr", accelerometer.standard_errors);
+  write_matrix(out, "B", accelerometer.B);
+  write_vector(out, "C", accelerometer.C);
+  write_vector(out, "residual_counts", accelerometer.residual_counts);
+  if (accelerometer.standard_errors.cols() > 0) write_matrix(out, "stderr", accelerometer.standard_errors);
   out.boolean("rotation_known", accelerometer.rotation_known);
-  if (accelerometer.position_in_marker_m) out.vector("position_in_marker_m", *accelerometer.position_in_marker_m);
+  if (accelerometer.position_in_marker_m)
+    write_vector(out, "position_in_marker_m", *accelerometer.position_in_marker_m);
   out.end_object();
   if (calibration.gyroscope) {
     out.begin_object("gyroscope");
-    out.matrix("B", calibration.gyroscope->B);
-    out.vector("C", calibration.gyroscope->C);
+    write_matrix(out, "B", calibration.gyroscope->B);
+    write_vector(out, "C", calibration.gyroscope->C);
     out.end_object();
   }
   out.begin_object("force");
   out.number("newton_per_count", calibration.force.newton_per_count);
   out.number("offset_newton", calibration.force.offset_newton);
   out.number("residual_newton", calibration.force.residual_newton);
-  if (calibration.force.axis_in_marker) out.vector("axis_in_marker", *calibration.force.axis_in_marker);
+  if (calibration.force.axis_in_marker) write_vector(out, "axis_in_marker", *calibration.force.axis_in_marker);
   out.end_object();
 }
 
@@ -85,11 +90,11 @@ std::string format_calibration(const Calibration& calibration) {
   out.text("format", "asperity-calibration");
   out.integer("version", 1);
   write_sensors(out, calibration);
-  out.vector("tip_in_marker_m", calibration.tip_in_marker_m);
+  write_vector(out, "tip_in_marker_m", calibration.tip_in_marker_m);
   out.number("tip_radius_m", calibration.tip_radius_m);
   out.begin_object("tracker");
-  out.vector("sigma_position_m", calibration.tracker.sigma_position_m);
-  out.vector("sigma_rotation_rad", calibration.tracker.sigma_rotation_rad);
+  write_vector(out, "sigma_position_m", calibration.tracker.sigma_position_m);
+  write_vector(out, "sigma_rotation_rad", calibration.tracker.sigma_rotation_rad);
   out.number("latency_s", calibration.tracker.latency_s);
   out.number("latency_sigma_s", calibration.tracker.latency_sigma_s);
   out.end_object();
@@ -99,7 +104,7 @@ std::string format_calibration(const Calibration& calibration) {
     for (const auto& marker : calibration.markers) write_marker(out, marker);
     out.end_array();
   }
-  json extra = extra_object(calibration.extra_json, "calibration");
+  Json extra = extra_object(calibration.extra_json, "calibration");
   const auto give = [&](const char* key, double value) {
     if (value != 0.0) extra[key] = value;
   };
@@ -107,7 +112,7 @@ std::string format_calibration(const Calibration& calibration) {
   give("accelerometer_rotation_sigma_rad", calibration.accelerometer.rotation_sigma_rad);
   give("probe_latency_s", calibration.probe_latency_s);
   give("probe_latency_sigma_s", calibration.probe_latency_sigma_s);
-  out.raw("extra", extra.dump());
+  out.raw("extra", extra.dump_sorted());
   return out.finish();
 }
 
@@ -138,7 +143,7 @@ std::string format_recording_info(const RecordingInfo& info) {
   out.begin_object("tracker");
   out.number("nominal_rate_hz", info.tracker_rate_Hz);
   out.end_object();
-  out.vector("gravity_world_mps2", info.gravity_world_mps2);
+  write_vector(out, "gravity_world_mps2", info.gravity_world_mps2);
   out.begin_array("segments");
   for (const auto& segment : info.segments) {
     out.begin_element();
@@ -151,7 +156,7 @@ std::string format_recording_info(const RecordingInfo& info) {
   out.begin_object("problems");
   for (const auto& [name, count] : info.problems) out.integer(name, count);
   out.end_object();
-  out.raw("extra", extra_object(info.extra_json, "recording").dump());
+  out.raw("extra", extra_object(info.extra_json, "recording").dump_sorted());
   return out.finish();
 }
 

@@ -5,11 +5,10 @@
 #include <limits>
 #include <numbers>
 
-#include <nlohmann/json.hpp>
-
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
 #include "asperity/base/units.h"
+#include "asperity/json/json.h"
 #include "stream_timing.h"
 
 namespace asperity {
@@ -153,13 +152,13 @@ Recording import_imu_pose(const ImportInput& input, const ImportConfig& config) 
   out.info.tracker_rate_Hz = config.pose_rate_Hz > 0.0 ? config.pose_rate_Hz : rate_of(input.pose_t_ns);
   for (const auto& problem : input.problems)
     out.info.problems[problem.kind] += static_cast<std::int64_t>(problem.count);
-  const nlohmann::json extra = {{"imported", true},
-                                {"force_sensor", false},
-                                {"pose_rate_hz", config.pose_rate_Hz},
-                                {"pose_noise_m", config.pose_noise_m},
-                                {"rotation_noise_rad", config.rotation_noise_rad},
-                                {"seed", config.seed}};
-  out.info.extra_json = extra.dump();
+  const Json extra = {{"imported", true},
+                      {"force_sensor", false},
+                      {"pose_rate_hz", config.pose_rate_Hz},
+                      {"pose_noise_m", config.pose_noise_m},
+                      {"rotation_noise_rad", config.rotation_noise_rad},
+                      {"seed", config.seed}};
+  out.info.extra_json = extra.dump_sorted();
   return out;
 }
 

@@ -2,18 +2,18 @@
 
 #include <fmt/format.h>
 #include <Eigen/SVD>
-#include <nlohmann/json.hpp>
 
+#include "asperity/json/parse_json.h"
 #include "asperity/recording/parse.h"
 #include "calibration_parts.h"
-#include "json_reader.h"
+#include "json_eigen.h"
+#include "json_limits.h"
 
 namespace asperity {
 
-using nlohmann::json;
-
 namespace {
 
+constexpr std::size_t kMostMarkers = 10'000;
 constexpr Range kNotNegative{0.0, 1e9};
 constexpr Range kWithinMetres{-100.0, 100.0};  // a place on a hand-held probe, generously
 
@@ -27,18 +27,15 @@ void require_invertible(const JsonObject& object, const Eigen::Matrix3d& B) {
 }
 
 std::optional<Eigen::Vector3d> optional_vector(JsonObject& object, const std::string& key, Range range) {
-  const json* value = object.find(key);
-  if (value == nullptr) return std::nullopt;
+  if (!object.has(key)) return std::nullopt;
   Eigen::Vector3d out;
-  object.read_vector(key, out, range);
+  read_vector(object, key, out, range);
   return out;
 }
 
 AccelerometerCalibration read_accelerometer(JsonObject object) {
   AccelerometerCalibration out;
-  std::string model;
-  object.require("model");
-  object.read_text("model", model);
+  const std::string model = object.required("model").text();
   if (model == "scalar_offset") {
     out.model = AccelerometerModel::kScalarOffset;
   } else if (model == "linear") {
@@ -48,14 +45,13 @@ AccelerometerCalibration read_accelerometer(JsonObject object) {
   } else {
     object.fail("model", fmt::format("'{}' is not scalar_offset, linear or quadric", model));
   }
-  const int width = out.model == AccelerometerModel::kQuadric ? 9 : 3;
-  object.require("B");
-  object.read_matrix("B", out.B, {width});
+  const std::size_t width = out.model == AccelerometerModel::kQuadric ? 9 : 3;
+  object.required("B");
+  read_matrix(object, "B", out.B, width);
   require_invertible(object, out.B.leftCols<3>());
-  object.require("C");
-  object.read_vector("C", out.C);
-  object.read_vector("residual_counts", out.residual_counts, kNotNegative);
-  object.read_matrix("stderr", out.standard_errors, {width + 1});
+  object.required("C").numbers(out.C.data(), 3);
+  read_vector(object, "residual_counts", out.residual_counts, kNotNegative);
+  read_matrix(object, "stderr", out.standard_errors, width + 1);
   object.read_bool("rotation_known", out.rotation_known);
   out.position_in_marker_m = optional_vector(object, "position_in_marker_m", kWithinMetres);
   object.finish();
@@ -65,20 +61,18 @@ AccelerometerCalibration read_accelerometer(JsonObject object) {
 GyroscopeCalibration read_gyroscope(JsonObject object) {
   GyroscopeCalibration out;
   Eigen::Matrix<double, 3, Eigen::Dynamic> B;
-  object.require("B");
-  object.read_matrix("B", B, {3});
+  object.required("B");
+  read_matrix(object, "B", B, 3);
   out.B = B;
   require_invertible(object, out.B);
-  object.require("C");
-  object.read_vector("C", out.C);
+  object.required("C").numbers(out.C.data(), 3);
   object.finish();
   return out;
 }
 
 ForceCalibration read_force(JsonObject object) {
   ForceCalibration out;
-  object.require("newton_per_count");
-  object.read_number("newton_per_count", out.newton_per_count);
+  out.newton_per_count = object.required("newton_per_count").number();
   object.read_number("offset_newton", out.offset_newton);
   object.read_number("residual_newton", out.residual_newton, kNotNegative);
   out.axis_in_marker = optional_vector(object, "axis_in_marker", {});
@@ -89,8 +83,8 @@ ForceCalibration read_force(JsonObject object) {
 
 TrackerCalibration read_tracker(JsonObject object) {
   TrackerCalibration out;
-  object.read_vector("sigma_position_m", out.sigma_position_m, {0.0, 100.0});
-  object.read_vector("sigma_rotation_rad", out.sigma_rotation_rad, {0.0, 10.0});
+  read_vector(object, "sigma_position_m", out.sigma_position_m, {0.0, 100.0});
+  read_vector(object, "sigma_rotation_rad", out.sigma_rotation_rad, {0.0, 10.0});
   object.read_number("latency_s", out.latency_s, {-10.0, 10.0});
   object.read_number("latency_sigma_s", out.latency_sigma_s, {0.0, 10.0});
   object.finish();
@@ -100,26 +94,24 @@ TrackerCalibration read_tracker(JsonObject object) {
 }  // namespace
 
 Calibration parse_calibration(std::string_view text, const std::string& name, const ReadLimits& limits) {
-  const json root = parse_json(text, name, limits);
-  JsonObject object(root, name, "");
+  const Json root = parse_json(text, name, json_limits(limits));
+  JsonObject object(root, name);
   object.require_format("asperity-calibration");
   Calibration out;
   out.accelerometer = read_accelerometer(object.required_object("accelerometer"));
-  if (auto gyroscope = object.object("gyroscope")) out.gyroscope = read_gyroscope(*gyroscope);
+  if (auto gyroscope = object.optional_object("gyroscope")) out.gyroscope = read_gyroscope(*gyroscope);
   out.force = read_force(object.required_object("force"));
-  object.require("tip_in_marker_m");
-  object.read_vector("tip_in_marker_m", out.tip_in_marker_m, kWithinMetres);
+  object.required("tip_in_marker_m").numbers(out.tip_in_marker_m.data(), 3, kWithinMetres);
   object.read_number("tip_radius_m", out.tip_radius_m, {0.0, 1.0});
-  if (auto tracker = object.object("tracker")) out.tracker = read_tracker(*tracker);
-  if (auto camera = object.object("camera")) out.camera = read_camera_object(*camera);
-  if (const json* markers = object.find("markers")) {
-    if (!markers->is_array()) object.fail("markers", "must be an array");
-    for (std::size_t i = 0; i < markers->size(); ++i) {
-      out.markers.push_back(read_marker_object(JsonObject((*markers)[i], name, fmt::format("markers[{}]", i))));
+  if (auto tracker = object.optional_object("tracker")) out.tracker = read_tracker(*tracker);
+  if (auto camera = object.optional_object("camera")) out.camera = read_camera_object(*camera);
+  if (const auto markers = object.optional("markers")) {
+    for (JsonItem& marker : markers->elements(kMostMarkers)) {
+      out.markers.push_back(read_marker_object(JsonObject(std::move(marker))));
     }
   }
-  if (auto extra = object.object("extra")) {
-    json rest = root.at("extra");
+  if (auto extra = object.optional_object("extra")) {
+    Json rest = root.at("extra");
     const auto take = [&](const std::string& key, double& value, Range range) {
       extra->read_number(key, value, range);
       rest.erase(key);
@@ -128,7 +120,7 @@ Calibration parse_calibration(std::string_view text, const std::string& name, co
     take("accelerometer_rotation_sigma_rad", out.accelerometer.rotation_sigma_rad, {0.0, 4.0});
     take("probe_latency_s", out.probe_latency_s, {-10.0, 10.0});
     take("probe_latency_sigma_s", out.probe_latency_sigma_s, {0.0, 10.0});
-    out.extra_json = rest.dump();
+    out.extra_json = rest.dump_sorted();
   }
   object.finish();
   return out;

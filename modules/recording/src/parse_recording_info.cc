@@ -1,15 +1,14 @@
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/recording/parse.h"
-#include "json_reader.h"
+#include "json_eigen.h"
+#include "json_limits.h"
 #include "time_order.h"
 
 namespace asperity {
-
-using nlohmann::json;
 
 namespace {
 
@@ -21,8 +20,7 @@ Segment read_segment(JsonObject object) {
   Segment out;
   object.read_text("name", out.name);
   for (const auto& [key, target] : {std::pair{"start_ns", &out.start_ns}, {"end_ns", &out.end_ns}}) {
-    object.require(key);
-    object.read_integer(key, *target, -kLatestTime_ns, kLatestTime_ns);
+    *target = object.required(key).integer(-kLatestTime_ns, kLatestTime_ns);
   }
   if (out.end_ns < out.start_ns) object.fail("end_ns", "lies before start_ns");
   object.finish();
@@ -41,8 +39,8 @@ void read_probe(JsonObject object, RecordingInfo& info) {
 }  // namespace
 
 RecordingInfo parse_recording_info(std::string_view text, const std::string& name, const ReadLimits& limits) {
-  const json root = parse_json(text, name, limits);
-  JsonObject object(root, name, "");
+  const Json root = parse_json(text, name, json_limits(limits));
+  JsonObject object(root, name);
   object.require_format("asperity-recording");
   RecordingInfo out;
   object.read_text("created", out.created);
@@ -52,24 +50,23 @@ RecordingInfo parse_recording_info(std::string_view text, const std::string& nam
     object.fail("world", fmt::format("'{}' is neither camera nor z_up", printable(out.world)));
   }
   if (out.world == "z_up") out.gravity_world_mps2 = {0.0, 0.0, -kStandardGravity_mps2};
-  object.read_vector("gravity_world_mps2", out.gravity_world_mps2, kGravity);
-  if (auto probe = object.object("probe")) read_probe(*probe, out);
-  if (auto tracker = object.object("tracker")) {
+  read_vector(object, "gravity_world_mps2", out.gravity_world_mps2, kGravity);
+  if (auto probe = object.optional_object("probe")) read_probe(*probe, out);
+  if (auto tracker = object.optional_object("tracker")) {
     tracker->read_number("nominal_rate_hz", out.tracker_rate_Hz, kRate_Hz);
     tracker->finish();
   }
-  if (const json* segments = object.find("segments")) {
-    if (!segments->is_array()) object.fail("segments", "must be an array");
-    for (std::size_t i = 0; i < segments->size(); ++i) {
-      out.segments.push_back(read_segment(JsonObject((*segments)[i], name, fmt::format("segments[{}]", i))));
+  if (const auto segments = object.optional("segments")) {
+    for (JsonItem& segment : segments->elements(root.at("segments").size())) {
+      out.segments.push_back(read_segment(JsonObject(std::move(segment))));
     }
   }
-  if (auto problems = object.object("problems")) {
-    for (const auto& item : root.at("problems").items()) {
-      problems->read_integer(item.key(), out.problems[item.key()], 0, INT64_MAX);
+  if (auto problems = object.optional_object("problems")) {
+    for (const auto& [key, count] : root.at("problems").items()) {
+      problems->read_integer(key, out.problems[key], 0, INT64_MAX);
     }
   }
-  object.read_extra(out.extra_json);
+  out.extra_json = read_extra(object);
   object.finish();
   return out;
 }

@@ -6,24 +6,22 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/inner_path.h"
 #include "asperity/base/text.h"
+#include "asperity/json/parse_json.h"
 #include "calibration_parts.h"
-#include "json_reader.h"
+#include "json_limits.h"
 
 namespace asperity {
-
-using nlohmann::json;
 
 namespace {
 
 constexpr std::size_t kMostMarkers = 1000;
 
-bool is_calibration(const json& root) {
+bool is_calibration(const Json& root) {
   return root.is_object() && root.contains("format") && root["format"] == "asperity-calibration";
 }
 
@@ -54,26 +52,26 @@ Eigen::Quaterniond R_frame_tag(TagFrame frame, std::string_view family) {
 }
 
 MarkerFile parse_markers(std::string_view text, const std::string& name, const ReadLimits& limits) {
-  const json root = parse_json(text, name, limits);
-  JsonObject object(root, name, "");
+  const Json root = parse_json(text, name, json_limits(limits));
+  JsonObject object(root, name);
   MarkerFile out;
   if (is_calibration(root)) {
-    if (auto extra = object.object("extra")) out.declared = read_tag_frame(*extra);
+    if (auto extra = object.optional_object("extra")) out.declared = read_tag_frame(*extra);
   } else {
     out.declared = read_tag_frame(object);
-    if (object.find("format") != nullptr) object.require_format("asperity-markers");
-    std::string extra;
-    object.read_extra(extra);
+    if (object.has("format")) object.require_format("asperity-markers");
+    object.extra();
   }
-  const json& markers = object.require("markers");
-  if (!markers.is_array() || markers.empty() || markers.size() > kMostMarkers) {
-    object.fail("markers", fmt::format("must be an array of 1 to {} markers", kMostMarkers));
+  const JsonItem markers = object.required("markers");
+  if (!markers.json().is_array() || markers.json().empty() || markers.json().size() > kMostMarkers) {
+    markers.fail(fmt::format("must be an array of 1 to {} markers", kMostMarkers));
   }
   std::set<std::pair<std::string, int>> seen;
-  for (std::size_t i = 0; i < markers.size(); ++i) {
-    MarkerPlacement marker = read_marker_object(JsonObject(markers[i], name, fmt::format("markers[{}]", i)));
+  for (JsonItem& item : markers.elements(kMostMarkers)) {
+    JsonObject placement(std::move(item));
+    MarkerPlacement marker = read_marker_object(placement);
     if (!seen.emplace(marker.family, marker.id).second) {
-      object.fail(fmt::format("markers[{}].id", i), fmt::format("marker {} is given twice", marker.id));
+      placement.fail("id", fmt::format("marker {} is given twice", marker.id));
     }
     marker.T_marker_tag.rotation = marker.T_marker_tag.rotation * R_frame_tag(out.declared, marker.family);
     out.markers.push_back(std::move(marker));
@@ -99,8 +97,8 @@ MarkerFile read_markers(const std::filesystem::path& path, const ReadLimits& lim
 }
 
 CameraCalibration parse_camera(std::string_view text, const std::string& name, const ReadLimits& limits) {
-  const json root = parse_json(text, name, limits);
-  JsonObject object(root, name, "");
+  const Json root = parse_json(text, name, json_limits(limits));
+  JsonObject object(root, name);
   object.require_format("asperity-calibration");
   return read_camera_object(object.required_object("camera"));
 }

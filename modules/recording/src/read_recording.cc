@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/recording/parse.h"
 #include "unfinished.h"
 
@@ -53,7 +53,7 @@ Recording read_recording(const fs::path& folder, const ReadLimits& limits) {
 bool is_recording_folder(const fs::path& folder) noexcept {
   try {
     constexpr std::uint64_t kLargest_bytes = std::uint64_t{64} << 20;
-    const auto root = nlohmann::json::parse(read_file(folder / "recording.json", kLargest_bytes), nullptr, false);
+    const auto root = parse_json_or_null(read_file(folder / "recording.json", kLargest_bytes));
     return root.is_object() && root.value("format", "") == "asperity-recording";
   } catch (const std::exception&) {
     return false;
@@ -65,7 +65,7 @@ bool is_replaceable_recording(const fs::path& folder) noexcept {
                                                   "calibration.json", "camera.json", "markers.json", "frames"};
   try {
     constexpr std::uint64_t kLargest_bytes = std::uint64_t{64} << 20;
-    const auto root = nlohmann::json::parse(read_file(folder / "recording.json", kLargest_bytes), nullptr, false);
+    const auto root = parse_json_or_null(read_file(folder / "recording.json", kLargest_bytes));
     if (!root.is_object() || root.value("format", "") != "asperity-recording" || !root.contains("extra")) return false;
     const auto& extra = root["extra"];
     if (!extra.is_object() || !(extra.contains("simulation") || extra.contains("imported"))) return false;

@@ -1,7 +1,8 @@
 #include "asperity/recording/uncalibrated.h"
 
 #include <exception>
-#include <nlohmann/json.hpp>
+
+#include "asperity/json/parse_json.h"
 
 namespace asperity {
 
@@ -27,7 +28,7 @@ Calibration make_uncalibrated(double accel_counts_per_mps2, double gyro_counts_p
 
 bool is_uncalibrated(const Calibration& calibration) noexcept {
   try {
-    const auto extra = nlohmann::json::parse(calibration.extra_json, nullptr, false);
+    const auto extra = parse_json_or_null(calibration.extra_json);
     return extra.is_object() && extra.contains("uncalibrated") && extra["uncalibrated"] == true;
   } catch (const std::exception&) {
     return false;

@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "asperity/base/text.h"
+#include "asperity/json/parse_json.h"
 
 namespace asperity {
 
 namespace {
 
 // A segment may have begun that recording.json did not yet know of.
-void add_unlisted(Recording& recording, const nlohmann::json& recorder, std::int64_t last_row_ns) {
+void add_unlisted(Recording& recording, const Json& recorder, std::int64_t last_row_ns) {
   constexpr std::int64_t kOverhang_ns = 200'000'000;  // rows that a segment may have behind its end
   std::int64_t known_ns = std::numeric_limits<std::int64_t>::min();
   for (const Segment& segment : recording.info.segments) known_ns = std::max(known_ns, segment.end_ns);
@@ -27,10 +27,10 @@ void add_unlisted(Recording& recording, const nlohmann::json& recorder, std::int
 }
 
 // The names of those whose rows are still there; "" if there are none.
-std::string discarded_names(const nlohmann::json& recorder) {
+std::string discarded_names(const Json& recorder) {
   constexpr std::size_t kMostNamed = 5;
-  const auto discarded = recorder.find("discarded");
-  if (discarded == recorder.end() || !discarded->is_array()) return "";
+  const Json* discarded = recorder.find("discarded");
+  if (discarded == nullptr || !discarded->is_array()) return "";
   std::string out;
   std::size_t count = 0;
   for (const auto& each : *discarded) {
@@ -43,7 +43,7 @@ std::string discarded_names(const nlohmann::json& recorder) {
 }  // namespace
 
 void close_unfinished(Recording& recording) {
-  const auto extra = nlohmann::json::parse(recording.info.extra_json, nullptr, false);
+  const auto extra = parse_json_or_null(recording.info.extra_json);
   if (!extra.is_object() || !extra.contains("recorder") || !extra["recorder"].is_object()) return;
   const auto& recorder = extra["recorder"];
   if (!recorder.contains("state") || recorder["state"] != "recording") return;

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/write_stl.h"
+#include "asperity/json/json.h"
 #include "asperity/scene/format_wav.h"
 #include "asperity/scene/format_x3p.h"
 #include "asperity/scene/write_scene.h"
@@ -19,8 +19,6 @@
 
 namespace asperity {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // The file's name without folder and endings; the same again gets a number.
 std::string stem_of(const std::string& file, std::set<std::string>& used) {
@@ -37,7 +35,7 @@ std::string stem_of(const std::string& file, std::set<std::string>& used) {
   return name;
 }
 
-std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+std::string json_text(const Json& json) { return json.dump_repaired(2) + "\n"; }
 
 double height_of(const HeightMap& map, std::size_t i) { return map.low_m + map.level[i] * map.metres_per_level(); }
 

@@ -1,6 +1,5 @@
 #include "asperity/scene/write_scene.h"
 
-#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "asperity/base/text.h"
 #include "asperity/geometry/write_mtl.h"
 #include "asperity/geometry/write_obj.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/scene/read_scene.h"
 #include "asperity/texture/texture_file.h"
 
@@ -18,8 +18,6 @@ namespace asperity {
 namespace fs = std::filesystem;
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json pose_json(const Pose& pose) {
   const Eigen::Vector3d& p = pose.translation_m;
@@ -76,7 +74,7 @@ std::string format_scene(const Scene& scene) {
     add_object(object, scene.objects[i]);
     out["objects"].push_back(object);
   }
-  const Json extra = Json::parse(scene.extra_json, nullptr, false);
+  const Json extra = parse_json_or_null(scene.extra_json);
   if (!extra.is_object()) throw Error("scene: extra_json is not a JSON object");
   if (!extra.empty()) out["extra"] = extra;
   return out.dump(2) + "\n";

@@ -110,30 +110,37 @@ TEST_P(SceneFault, IsNamed) {
 INSTANTIATE_TEST_SUITE_P(
     Faults, SceneFault,
     testing::Values(
-        Fault{"{", "parse error"}, Fault{"[]", "is not an object"},
-        Fault{R"({"format":"asperity-texture","version":1,"mesh":"m.obj"})", "is not \"asperity-scene\""},
-        Fault{R"({"format":"asperity-scene","version":2,"mesh":"m.obj"})", "'version' is not 1"},
-        Fault{R"({"format":"asperity-scene","version":1})", "has no 'mesh'"},
+        Fault{"{", ":1:1: not JSON: syntax error"}, Fault{"[]", ":1:1: must be a JSON object, found an array"},
+        Fault{R"({"format":"asperity-texture","version":1,"mesh":"m.obj"})",
+              R"(:1:11: key 'format': must be "asperity-scene", found "asperity-texture")"},
+        Fault{R"({"format":"asperity-scene","version":2,"mesh":"m.obj"})",
+              "key 'version': must be 1, the version that this program reads; found 2"},
+        Fault{R"({"format":"asperity-scene","version":1})", ":1:1: key 'mesh': is missing"},
         Fault{R"({"format":"asperity-scene","version":1,"mesh":"../m.obj"})", "'../m.obj', which is not a file in"},
         Fault{R"({"format":"asperity-scene","version":1,"mesh":"/etc/passwd"})", "not a file in the scene's folder"},
-        Fault{R"({"format":"asperity-scene","version":1,"mesh":"m.obj","unit_m":0})", "'unit_m' is 0"},
-        Fault{R"({"format":"asperity-scene","version":1,"mesh":"m.obj","colour":0})", "unknown key 'colour'"},
+        Fault{R"({"format":"asperity-scene","version":1,"mesh":"m.obj","unit_m":0})", "key 'unit_m': 0 is outside"},
+        Fault{R"({"format":"asperity-scene","version":1,"mesh":"m.obj","colour":0})",
+              "key 'colour': is not known here"},
         Fault{R"({"format":"asperity-scene","version":1,"mesh":"m.obj","friction":"much"})",
-              "'friction' is not a number"},
+              "key 'friction': must be a number, found \"much\""},
         Fault{R"({"format":"asperity-scene","version":1,"mesh":"m.obj","textures":[{"index":1}]})",
-              "'textures[0]' has no 'file'"},
+              "key 'textures[0].file': is missing"},
         Fault{R"({"format":"asperity-scene","version":1,"mesh":"m.obj","textures":[{"index":1.5,"file":"x"}]})",
-              "'textures[0].index' is not a whole number"},
+              "key 'textures[0].index': must be a whole number, found 1.5"},
         Fault{R"({"format":"asperity-scene","version":1,"mesh":"m.obj",
                   "textures":[{"index":1,"file":"x"},{"index":1,"file":"y"}]})",
-              "the index 1 a second time"},
+              "scene.json:2:61: key 'textures[1].index': the index 1 a second time"},
         Fault{R"({"format":"asperity-scene","version":1,"mesh":"m.obj","T_mesh_world":[0,0,0,2,0,0,0]})",
-              "not of unit length"}));
+              "not of unit length"},
+        Fault{R"({"format":"asperity-scene","version":1,"mesh":"m.obj",
+"mesh":"n.obj"})",
+              "scene.json:2:1: key 'mesh' appears twice"}));
 
 TEST(Scene, NestedTooDeepIsRefused) {
   const testkit::TempDir folder;
   write_file(folder.path() / "scene.json", std::string(100000, '['));
-  EXPECT_THAT([&] { read_scene(folder.path() / "scene.json"); }, ThrowsMessage<Error>(HasSubstr("nested deeper")));
+  EXPECT_THAT([&] { read_scene(folder.path() / "scene.json"); },
+              ThrowsMessage<Error>(HasSubstr("scene.json:1:33: nested more than 32 deep")));
 }
 
 TEST(Scene, NothingIsWrittenWhereANameLeadsOut) {

@@ -1,11 +1,11 @@
 #include "asperity/session/export_files.h"
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/json/json.h"
 #include "asperity/scene/read_scene.h"
 #include "asperity/session/our_folder.h"
 #include "asperity/texture/texture_file.h"
@@ -13,8 +13,6 @@
 namespace asperity {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 Scene read_export_source(const fs::path& path) {
   const auto texture_alone = [](const fs::path& file) {
     Scene scene;

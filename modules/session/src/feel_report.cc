@@ -4,16 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "asperity/json/json.h"
 
 namespace asperity {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-// JSON has no nan and no infinity.
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json spectrum_json(const SpectrumAgreement& spectrum, const char* unit) {
   Json out;

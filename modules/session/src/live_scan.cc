@@ -2,17 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/recording/format.h"
 #include "asperity/recording/write_recording.h"
 
 namespace asperity {
-
-using Json = nlohmann::ordered_json;
 
 LiveScan::LiveScan(const Recording& recording, const SimulatedProbeConfig& probe, const LiveBenchConfig& config,
                    const std::filesystem::path& folder)
@@ -21,7 +19,7 @@ LiveScan::LiveScan(const Recording& recording, const SimulatedProbeConfig& probe
       config_(config),
       bench_(recording, probe, config, folder_) {
   write_calibration(folder_ / "calibration.json", recording.calibration);
-  const Json all = Json::parse(format_calibration(recording.calibration));
+  const Json all = parse_json(format_calibration(recording.calibration));
   write_file(folder_ / "camera.json", Json{{"camera", all.at("camera")}}.dump(1) + "\n");
   write_file(folder_ / "markers.json", Json{{"markers", all.at("markers")}}.dump(1) + "\n");
 }

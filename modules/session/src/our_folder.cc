@@ -1,17 +1,15 @@
 #include "asperity/session/our_folder.h"
 
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/output.h"
+#include "asperity/json/parse_json.h"
 
 namespace asperity {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 namespace {
 
 constexpr const char* kListing = "files.json";
@@ -31,12 +29,12 @@ void write_listing(const fs::path& folder) {
   out["format"] = "asperity-files";
   out["version"] = 1;
   out["files"] = files_in(folder);
-  write_file(folder / kListing, out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file(folder / kListing, out.dump_repaired(2) + "\n");
 }
 
 bool is_our_folder(const fs::path& folder) {
   try {
-    const Json listing = Json::parse(read_file(folder / kListing, std::uint64_t{1} << 20));
+    const Json listing = parse_json(read_file(folder / kListing, std::uint64_t{1} << 20));
     if (listing.at("format") != "asperity-files") return false;
     std::set<std::string> ours{kListing};
     for (const Json& name : listing.at("files")) ours.insert(name.get<std::string>());

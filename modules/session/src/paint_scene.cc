@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "asperity/base/text.h"
+#include "asperity/json/json.h"
 #include "asperity/scene/read_scene.h"
 #include "asperity/session/mesh_unit.h"
 #include "asperity/texture/texture_file.h"
@@ -15,8 +15,6 @@ namespace asperity {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
 int next_index(const SceneObject& object) {
   int index = 0;
   for (const SceneTexture& texture : object.textures) index = std::max(index, texture.index);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,9 +10,11 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/camera/open_camera.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/link/capture_to_file.h"
 #include "asperity/link/probe_address.h"
 #include "asperity/link/probe_link.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/recording/read_markers.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/tracking/camera_pose_source.h"
@@ -79,7 +80,7 @@ std::optional<Calibration> read_record_calibration(const RecordInput& input) {
   if (input.markers.empty() && out.markers.empty()) return out;
   out.markers = read_markers(markers).markers;
   // They are now in terms of our tag frame, whatever the file had declared.
-  auto extra = nlohmann::json::parse(out.extra_json, nullptr, false);
+  auto extra = parse_json_or_null(out.extra_json);
   if (extra.is_object() && extra.erase("tag_frame") > 0) out.extra_json = extra.dump();
   return out;
 }

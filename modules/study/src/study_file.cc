@@ -1,21 +1,20 @@
 #include "asperity/study/study_file.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/study/study_error.h"
 
 namespace asperity {
 
-using Json = nlohmann::ordered_json;
 
 namespace {
 
 constexpr std::size_t kLongestText = 500, kLongestName = 60, kLongestCode = 40, kLongestFile = 300, kMostStimuli = 32;
-constexpr int kDeepest = 4;
+constexpr std::size_t kDeepest = 4;
 
 [[noreturn]] void refuse(const std::string& where, const std::string& key, const std::string& why) {
   throw Error(where + ": " + printable(key, 100) + ": " + why);
@@ -80,7 +79,7 @@ std::vector<std::string> stimuli_of(const std::string& where, const Json& value)
 
 // A value of the config that `text` is the TOML of: numbers, truth values and quoted names are JSON's.
 void put(Json& out, const ConfigField& field) {
-  const Json value = Json::parse(field.get());
+  const Json value = parse_json(field.get());
   const std::size_t dot = field.path.find('.');
   if (dot == std::string::npos) {
     out[field.path] = value;
@@ -136,22 +135,10 @@ Study read_study(const Json& value, const std::string& where) {
 }
 
 Json parse_study_text(std::string_view text, const std::string& where) {
-  std::vector<std::set<std::string>> open;
-  const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
-    using Event = Json::parse_event_t;
-    if (depth > kDeepest) throw Error(where + ": is nested more than " + std::to_string(kDeepest) + " deep");
-    if (event == Event::object_start) open.emplace_back();
-    if (event == Event::object_end) open.pop_back();
-    if (event == Event::key && !open.back().insert(parsed.get<std::string>()).second) {
-      throw Error(where + ": has the key '" + printable(parsed.get<std::string>()) + "' twice");
-    }
-    return true;
-  };
-  try {
-    return Json::parse(text.begin(), text.end(), watch);
-  } catch (const Json::exception&) {
-    throw Error(where + ": is not JSON");
-  }
+  JsonLimits limits;
+  limits.bytes = kLargestStudy_bytes;
+  limits.depth = kDeepest;
+  return parse_json(text, where, limits);
 }
 
 Study parse_study_file(std::string_view text, const std::string& name) {

@@ -9,17 +9,15 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/json/json.h"
 #include "asperity/study/study_file.h"
 
 namespace asperity {
-
-using Json = nlohmann::ordered_json;
 
 namespace {
 

@@ -1,13 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "asperity/json/json.h"
 #include "asperity/study/format_study_results.h"
 
 namespace asperity {
-
-using Json = nlohmann::ordered_json;
 
 namespace {
 

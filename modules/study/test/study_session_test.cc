@@ -6,7 +6,6 @@
 #include <fstream>
 #include <functional>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <regex>
 #include <set>
@@ -15,6 +14,7 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/json/json.h"
 #include "asperity/study/format_study_results.h"
 #include "asperity/study/plan_trials.h"
 #include "asperity/study/study_file.h"
@@ -24,7 +24,6 @@
 namespace asperity {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using testing::HasSubstr;
 
 Study study_of(StudyMethod method, int stimuli, int repetitions) {
@@ -301,7 +300,7 @@ TEST(StudyFile, ReadsWhatItWrites) {
 TEST(StudyFile, SaysWhatIsWrong) {
   const auto fault = [&](const std::string& text) { return fault_of([&] { parse_study_file(text, "a.study.json"); }); };
   const auto with = [&](const std::string& rest) { return fault(R"({"format":"asperity.study","version":1,)" + rest); };
-  EXPECT_THAT(fault("{"), HasSubstr("a.study.json: is not JSON"));
+  EXPECT_THAT(fault("{"), HasSubstr("a.study.json:1:1: not JSON"));
   EXPECT_THAT(fault("[]"), HasSubstr("is no study"));
   EXPECT_THAT(fault(R"({"format":"asperity.study","version":2})"), HasSubstr("version"));
   EXPECT_THAT(with(R"("speed":1})"), HasSubstr("speed"));

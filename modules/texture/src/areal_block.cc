@@ -29,7 +29,9 @@ std::string surface_csv(const ArealTexture& t) {
     append_number(out, node_x_m(g, i % g.columns));
     out += ',';
     append_number(out, node_y_m(g, i / g.columns));
-    out += ',' + number_json(g.coefficient_m[i], "coefficient_m") + (t.supported[i] ? ",1\n" : ",0\n");
+    if (!std::isfinite(g.coefficient_m[i]))
+      throw Error("texture: 'coefficient_m' is " + number_text(g.coefficient_m[i]) + ", which a file cannot hold");
+    out += ',' + number_text(g.coefficient_m[i]) + (t.supported[i] ? ",1\n" : ",0\n");
   }
   return out;
 }
@@ -68,25 +70,24 @@ void parse_surface(const std::string& text, const std::string& name, ArealTextur
 }  // namespace
 
 void TextureModelTraits<ArealTexture>::read_block(const BlockInput& input, ArealTexture& t) {
-  const LocatedJson& json = input.json;
-  const std::string& path = input.path;
-  json.only(path, {"file", "columns", "rows", "spacing_m", "origin_m", "border"});
+  JsonObject& block = input.block;
   SplineGrid& g = t.surface;
-  g.columns = static_cast<std::size_t>(required_integer(json, path, "columns", 4, kMostASide));
-  g.rows = static_cast<std::size_t>(required_integer(json, path, "rows", 4, kMostASide));
-  if (g.columns * g.rows > kMostNodes)
-    json.fail(path + ".rows", "more than " + std::to_string(kMostNodes) + " grid points");
-  const auto spacing_m = required_numbers(json, path, "spacing_m", 1e3, 2);
+  g.columns = static_cast<std::size_t>(block.required("columns").integer(4, kMostASide));
+  g.rows = static_cast<std::size_t>(block.required("rows").integer(4, kMostASide));
+  if (g.columns * g.rows > kMostNodes) block.fail("rows", "more than " + std::to_string(kMostNodes) + " grid points");
+  const auto spacing_m = block.required("spacing_m").numbers(2, {-1e3, 1e3});
   if (spacing_m.size() != 2 || !(spacing_m[0] >= 1e-12) || !(spacing_m[1] >= 1e-12))
-    json.fail(path + ".spacing_m", "is not [x, y] of at least 1e-12 m");
-  const auto origin_m = required_numbers(json, path, "origin_m", 1e6, 2);
-  if (origin_m.size() != 2) json.fail(path + ".origin_m", "is not [x, y]");
+    block.fail("spacing_m", "is not [x, y] of at least 1e-12 m");
+  const auto origin_m = block.required("origin_m").numbers(2, {-1e6, 1e6});
+  if (origin_m.size() != 2) block.fail("origin_m", "is not [x, y]");
   g.spacing_x_m = spacing_m[0];
   g.spacing_y_m = spacing_m[1];
   g.origin_x_m = origin_m[0];
   g.origin_y_m = origin_m[1];
-  g.border = static_cast<Border>(required_choice(json, path, "border", {kBorderNames.begin(), kBorderNames.end()}));
-  parse_surface(input.read_payload(".csv"), json.find(path, "file")->get<std::string>(), t);
+  g.border = static_cast<Border>(block.required("border").choice(kBorderNames));
+  const std::string file = block.required("file").text();
+  block.finish();
+  parse_surface(input.read_payload(".csv"), file, t);
 }
 
 std::string TextureModelTraits<ArealTexture>::write_block(const ArealTexture& t, BlockOutput& output) {
@@ -95,14 +96,14 @@ std::string TextureModelTraits<ArealTexture>::write_block(const ArealTexture& t,
     throw Error("texture: an areal grid of " + std::to_string(g.columns) + " x " + std::to_string(g.rows) + " with " +
                 std::to_string(g.coefficient_m.size()) + " coefficients");
   const std::string file = output.add_payload(".surface.csv", surface_csv(t));
-  return BlockText()
-      .add("file", text_json(file, "file"))
-      .add("columns", std::to_string(g.columns))
-      .add("rows", std::to_string(g.rows))
-      .add("spacing_m", std::vector<double>{g.spacing_x_m, g.spacing_y_m})
-      .add("origin_m", std::vector<double>{g.origin_x_m, g.origin_y_m})
-      .add("border", "\"" + std::string(kBorderNames.at(static_cast<std::size_t>(g.border))) + "\"")
-      .str();
+  JsonWriter block = block_writer();
+  block.text("file", file);
+  block.integer("columns", static_cast<std::int64_t>(g.columns));
+  block.integer("rows", static_cast<std::int64_t>(g.rows));
+  block.numbers("spacing_m", {g.spacing_x_m, g.spacing_y_m});
+  block.numbers("origin_m", {g.origin_x_m, g.origin_y_m});
+  block.text("border", kBorderNames.at(static_cast<std::size_t>(g.border)));
+  return block.take();
 }
 
 }  // namespace asperity

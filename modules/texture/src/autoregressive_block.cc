@@ -20,24 +20,22 @@ void list_autoregressive(Model& t, const Field& field) {
 }
 
 // One list for all models: those of a list come one after another.
-std::vector<double> lsf_list(const BlockInput& in, const char* key, std::size_t models) {
-  auto all = required_numbers(in.json, in.path, key, 4.0);
+std::vector<double> lsf_list(const JsonItem& in, std::size_t models) {
+  auto all = in.numbers(kMostCoefficients, {-4.0, 4.0});
   if (all.size() % models != 0 || all.size() / models > static_cast<std::size_t>(kMaxSeriesOrder)) {
-    in.json.fail(in.path + "." + key, std::to_string(all.size()) + " numbers for " + std::to_string(models) +
-                                          " models of an order of at most " + std::to_string(kMaxSeriesOrder));
+    in.fail(std::to_string(all.size()) + " numbers for " + std::to_string(models) + " models of an order of at most " +
+            std::to_string(kMaxSeriesOrder));
   }
   return all;
 }
 
-void read_triangles(const BlockInput& in, AutoregressiveTexture& t) {
-  auto all = required_numbers(in.json, in.path, "triangles", 1e6);
-  const std::string path = in.path + ".triangles";
-  if (all.size() % 3 != 0) in.json.fail(path, std::to_string(all.size()) + " numbers are no triangles");
+void read_triangles(const JsonItem& in, AutoregressiveTexture& t) {
+  auto all = in.numbers(kMostCoefficients, {-1e6, 1e6});
+  if (all.size() % 3 != 0) in.fail(std::to_string(all.size()) + " numbers are no triangles");
   for (std::size_t i = 0; i < all.size(); i += 3) {
     std::array<int, 3> triangle;
     for (std::size_t j = 0; j < 3; ++j) {
-      if (all[i + j] != std::floor(all[i + j]))
-        in.json.fail(path + "[" + std::to_string(i + j) + "]", number_text(all[i + j]) + " is no index");
+      if (all[i + j] != std::floor(all[i + j])) in.element(i + j).fail(number_text(all[i + j]) + " is no index");
       triangle[j] = static_cast<int>(all[i + j]);
     }
     t.triangles.push_back(triangle);
@@ -47,27 +45,25 @@ void read_triangles(const BlockInput& in, AutoregressiveTexture& t) {
 }  // namespace
 
 void TextureModelTraits<AutoregressiveTexture>::read_block(const BlockInput& in, AutoregressiveTexture& t) {
-  in.json.only(in.path, {"rate_Hz", "mass_kg", "tangential_ratio", "lift_sigma", "fade_speed_mps", "fade_force_N",
-                         "max_speed_mps", "max_force_N", "speed_mps", "force_N", "gain", "variance_m2_per_s4",
-                         "ar_lsf_rad", "ma_lsf_rad", "triangles"});
-  in.json.require(in.path, "rate_Hz");
+  JsonObject& block = in.block;
+  block.required("rate_Hz");
   list_autoregressive(t, FlatReader{in});
-  const auto speed = required_numbers(in.json, in.path, "speed_mps", 1e3, kMaxSeriesModels);
+  const auto speed = block.required("speed_mps").numbers(kMaxSeriesModels, {-1e3, 1e3});
   const std::size_t models = speed.size();
-  if (models == 0) in.json.fail(in.path + ".speed_mps", "is empty");
+  if (models == 0) block.fail("speed_mps", "is empty");
   const auto column = [&](const char* key, double largest) {
-    auto values = required_numbers(in.json, in.path, key, largest, kMaxSeriesModels);
+    auto values = block.required(key).numbers(kMaxSeriesModels, {-largest, largest});
     if (values.size() != models) {
-      in.json.fail(in.path + "." + key,
-                   std::to_string(values.size()) + " numbers where speed_mps has " + std::to_string(models));
+      block.fail(key, std::to_string(values.size()) + " numbers where speed_mps has " + std::to_string(models));
     }
     return values;
   };
   const auto force = column("force_N", 1e6);
   const auto gain = column("gain", 1e6);
   const auto variance = column("variance_m2_per_s4", 1e12);
-  const auto ar = lsf_list(in, "ar_lsf_rad", models);
-  const auto ma = in.json.find(in.path, "ma_lsf_rad") ? lsf_list(in, "ma_lsf_rad", models) : std::vector<double>();
+  const auto ar = lsf_list(block.required("ar_lsf_rad"), models);
+  const auto ma_list = block.optional("ma_lsf_rad");
+  const auto ma = ma_list ? lsf_list(*ma_list, models) : std::vector<double>();
   const auto row = [models](const std::vector<double>& all, std::size_t i) {
     const auto order = static_cast<std::ptrdiff_t>(all.size() / models);
     const auto first = all.begin() + static_cast<std::ptrdiff_t>(i) * order;
@@ -75,18 +71,19 @@ void TextureModelTraits<AutoregressiveTexture>::read_block(const BlockInput& in,
   };
   for (std::size_t i = 0; i < models; ++i)
     t.models.push_back({speed[i], force[i], row(ar, i), row(ma, i), gain[i], variance[i]});
-  if (in.json.find(in.path, "triangles")) read_triangles(in, t);
+  if (const auto triangles = block.optional("triangles")) read_triangles(*triangles, t);
+  block.finish();
   try {
     prepare_autoregressive(t, "the models");
   } catch (const Error& error) {
-    in.json.fail(in.path, error.what());
+    block.item().fail(error.what());
   }
 }
 
 std::string TextureModelTraits<AutoregressiveTexture>::write_block(const AutoregressiveTexture& texture, BlockOutput&) {
   AutoregressiveTexture t = texture;
   prepare_autoregressive(t, "texture");
-  BlockText block;
+  JsonWriter block = block_writer();
   list_autoregressive(t, FlatWriter{block});
   std::vector<double> speed, force, gain, variance, ar, ma, triangles;
   for (const auto& m : t.models) {
@@ -98,11 +95,14 @@ std::string TextureModelTraits<AutoregressiveTexture>::write_block(const Autoreg
     ma.insert(ma.end(), m.ma_lsf_rad.begin(), m.ma_lsf_rad.end());
   }
   for (const auto& triangle : t.triangles) triangles.insert(triangles.end(), triangle.begin(), triangle.end());
-  block.add("speed_mps", speed).add("force_N", force).add("gain", gain).add("variance_m2_per_s4", variance);
-  block.add("ar_lsf_rad", ar);
-  if (!ma.empty()) block.add("ma_lsf_rad", ma);
-  if (!triangles.empty()) block.add("triangles", triangles);
-  return block.str();
+  block.numbers("speed_mps", speed);
+  block.numbers("force_N", force);
+  block.numbers("gain", gain);
+  block.numbers("variance_m2_per_s4", variance);
+  block.numbers("ar_lsf_rad", ar);
+  if (!ma.empty()) block.numbers("ma_lsf_rad", ma);
+  if (!triangles.empty()) block.numbers("triangles", triangles);
+  return block.take();
 }
 
 }  // namespace asperity

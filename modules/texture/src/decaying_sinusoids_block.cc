@@ -17,16 +17,15 @@ void list_decaying_sinusoids(Model& t, const Field& field) {
 }  // namespace
 
 void TextureModelTraits<DecayingSinusoids>::read_block(const BlockInput& input, DecayingSinusoids& t) {
-  input.json.only(input.path,
-                  {"a_per_s", "b_per_kg", "decay_per_s", "omega_rad_per_s", "mass_kg", "tangential_ratio", "pitch_m"});
-  for (const char* key : {"a_per_s", "b_per_kg", "decay_per_s", "omega_rad_per_s"}) input.json.require(input.path, key);
+  for (const char* key : {"a_per_s", "b_per_kg", "decay_per_s", "omega_rad_per_s"}) input.block.required(key);
   list_decaying_sinusoids(t, FlatReader{input});
+  input.block.finish();
 }
 
 std::string TextureModelTraits<DecayingSinusoids>::write_block(const DecayingSinusoids& t, BlockOutput&) {
-  BlockText block;
+  JsonWriter block = block_writer();
   list_decaying_sinusoids(t, FlatWriter{block});
-  return block.str();
+  return block.take();
 }
 
 }  // namespace asperity

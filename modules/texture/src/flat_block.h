@@ -4,7 +4,6 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "block_json.h"
 #include "model_block.h"
 
 namespace asperity {
@@ -14,18 +13,18 @@ namespace asperity {
 struct FlatReader {
   const BlockInput& input;
   void operator()(const char* key, double& value, double low, double high) const {
-    value = optional_number(input.json, input.path, key, low, high, value);
+    input.block.read_number(key, value, {low, high});
   }
 };
 
 struct FlatWriter {
-  BlockText& block;
+  JsonWriter& block;
   void operator()(const char* key, const double& value, double low, double high) const {
     if (!(value >= low && value <= high)) {
       throw Error(std::string("texture: '") + key + "' is " + number_text(value) + ", not within " + number_text(low) +
                   " and " + number_text(high));
     }
-    block.add(key, value);
+    block.number(key, value);
   }
 };
 

@@ -4,29 +4,26 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "block_json.h"
 #include "model_block.h"
 
 namespace asperity {
 
-Fourier1d read_fourier1d(const LocatedJson& json, const std::string& path) {
-  json.only(path, {"length_mm", "omega_rad_per_mm", "a_m", "b_m", "mean_m"});
+Fourier1d read_fourier1d(JsonObject& series) {
   Fourier1d f;
-  f.length_mm = required_number(json, path, "length_mm", 1e-6, 1e6);
-  if (const auto* omega = json.find(path, "omega_rad_per_mm")) {
-    const double given = read_number(json, *omega, path + ".omega_rad_per_mm", 0.0, kLargestNumber);
-    if (std::abs(given - f.omega_rad_per_mm()) > 1e-4 * f.omega_rad_per_mm()) {
-      json.fail(path + ".omega_rad_per_mm",
-                number_text(given) + " is not 2π / length_mm = " + number_text(f.omega_rad_per_mm()));
-    }
+  f.length_mm = series.required("length_mm").number({1e-6, 1e6});
+  if (const auto omega = series.optional("omega_rad_per_mm")) {
+    const double given = omega->number({0.0, kLargestNumber});
+    if (std::abs(given - f.omega_rad_per_mm()) > 1e-4 * f.omega_rad_per_mm())
+      omega->fail(number_text(given) + " is not 2π / length_mm = " + number_text(f.omega_rad_per_mm()));
   }
-  f.a_m = required_numbers(json, path, "a_m", kLargestHeight_m);
-  f.b_m = required_numbers(json, path, "b_m", kLargestHeight_m);
-  if (f.a_m.empty()) json.fail(path + ".a_m", "is empty");
+  f.a_m = series.required("a_m").numbers(kMostCoefficients, kHeights_m);
+  f.b_m = series.required("b_m").numbers(kMostCoefficients, kHeights_m);
+  if (f.a_m.empty()) series.fail("a_m", "is empty");
   if (f.a_m.size() != f.b_m.size()) {
-    json.fail(path + ".b_m", std::to_string(f.b_m.size()) + " numbers where a_m has " + std::to_string(f.a_m.size()));
+    series.fail("b_m", std::to_string(f.b_m.size()) + " numbers where a_m has " + std::to_string(f.a_m.size()));
   }
-  f.mean_m = optional_number(json, path, "mean_m", -kLargestHeight_m, kLargestHeight_m, 0.0);
+  series.read_number("mean_m", f.mean_m, kHeights_m);
+  series.finish();
   return f;
 }
 
@@ -38,18 +35,18 @@ void check_fourier1d(const Fourier1d& f) {
 }
 
 void TextureModelTraits<Fourier1d>::read_block(const BlockInput& input, Fourier1d& model) {
-  model = read_fourier1d(input.json, input.path);
+  model = read_fourier1d(input.block);
 }
 
 std::string TextureModelTraits<Fourier1d>::write_block(const Fourier1d& f, BlockOutput&) {
   check_fourier1d(f);
-  return BlockText()
-      .add("length_mm", f.length_mm)
-      .add("omega_rad_per_mm", f.omega_rad_per_mm())
-      .add("a_m", f.a_m)
-      .add("b_m", f.b_m)
-      .add("mean_m", f.mean_m)
-      .str();
+  JsonWriter block = block_writer();
+  block.number("length_mm", f.length_mm);
+  block.number("omega_rad_per_mm", f.omega_rad_per_mm());
+  block.numbers("a_m", f.a_m);
+  block.numbers("b_m", f.b_m);
+  block.number("mean_m", f.mean_m);
+  return block.take();
 }
 
 }  // namespace asperity

@@ -17,35 +17,34 @@ constexpr std::int64_t kFewestPixels = 4;
 }  // namespace
 
 void TextureModelTraits<HeightMap>::read_block(const BlockInput& input, HeightMap& map) {
-  const LocatedJson& json = input.json;
-  const std::string& path = input.path;
-  json.only(path, {"file", "columns", "rows", "bits", "mm_per_px", "low_m", "high_m", "border"});
-  const auto most = std::int64_t{kLargestImageSide_px};
-  map.columns = static_cast<std::size_t>(required_integer(json, path, "columns", kFewestPixels, most));
-  map.rows = static_cast<std::size_t>(required_integer(json, path, "rows", kFewestPixels, most));
-  map.bits = static_cast<int>(required_integer(json, path, "bits", 8, 16));
-  if (map.bits != 8 && map.bits != 16) json.fail(path + ".bits", "is neither 8 nor 16");
-  const auto pixel_mm = required_numbers(json, path, "mm_per_px", 1e6, 2);
+  JsonObject& block = input.block;
+  const auto most = static_cast<std::int64_t>(kLargestImageSide_px);
+  map.columns = static_cast<std::size_t>(block.required("columns").integer(kFewestPixels, most));
+  map.rows = static_cast<std::size_t>(block.required("rows").integer(kFewestPixels, most));
+  map.bits = static_cast<int>(block.required("bits").integer(8, 16));
+  if (map.bits != 8 && map.bits != 16) block.fail("bits", "is neither 8 nor 16");
+  const auto pixel_mm = block.required("mm_per_px").numbers(2, {-1e6, 1e6});
   if (pixel_mm.size() != 2 || !(pixel_mm[0] >= 1e-9) || !(pixel_mm[1] >= 1e-9))
-    json.fail(path + ".mm_per_px", "is not [x, y] of at least 1e-9 mm");
+    block.fail("mm_per_px", "is not [x, y] of at least 1e-9 mm");
   map.mm_per_px_x = pixel_mm[0];
   map.mm_per_px_y = pixel_mm[1];
-  map.low_m = required_number(json, path, "low_m", -kLargestHeight_m, kLargestHeight_m);
-  map.high_m = required_number(json, path, "high_m", map.low_m, kLargestHeight_m);
-  map.border = static_cast<Border>(required_choice(json, path, "border", {kBorderNames.begin(), kBorderNames.end()}));
+  map.low_m = block.required("low_m").number(kHeights_m);
+  map.high_m = block.required("high_m").number({map.low_m, kLargestHeight_m});
+  map.border = static_cast<Border>(block.required("border").choice(kBorderNames));
+  const JsonItem file = block.required("file");
+  block.finish();
   const std::string content = input.read_payload(".png");
   DeepGrayImage image;
   try {
-    image = parse_png(content, json.find(path, "file")->get<std::string>());
+    image = parse_png(content, file.text());
   } catch (const Error& error) {
-    json.fail(path + ".file", error.what());
+    file.fail(error.what());
   }
   if (static_cast<std::size_t>(image.width) != map.columns || static_cast<std::size_t>(image.height) != map.rows ||
       image.bits != map.bits) {
-    json.fail(path + ".file", "the image has " + std::to_string(image.width) + " x " + std::to_string(image.height) +
-                                  " pixels of " + std::to_string(image.bits) + " bits, the block says " +
-                                  std::to_string(map.columns) + " x " + std::to_string(map.rows) + " of " +
-                                  std::to_string(map.bits));
+    file.fail("the image has " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels of " +
+              std::to_string(image.bits) + " bits, the block says " + std::to_string(map.columns) + " x " +
+              std::to_string(map.rows) + " of " + std::to_string(map.bits));
   }
   map.level = std::move(image.pixels);
 }
@@ -53,16 +52,16 @@ void TextureModelTraits<HeightMap>::read_block(const BlockInput& input, HeightMa
 std::string TextureModelTraits<HeightMap>::write_block(const HeightMap& map, BlockOutput& output) {
   if (!(map.high_m >= map.low_m)) throw Error("texture: a height map whose highest height is below its lowest");
   const std::string file = output.add_payload(".heights.png", format_height_image(map));
-  return BlockText()
-      .add("file", text_json(file, "file"))
-      .add("columns", std::to_string(map.columns))
-      .add("rows", std::to_string(map.rows))
-      .add("bits", std::to_string(map.bits))
-      .add("mm_per_px", std::vector<double>{map.mm_per_px_x, map.mm_per_px_y})
-      .add("low_m", map.low_m)
-      .add("high_m", map.high_m)
-      .add("border", "\"" + std::string(kBorderNames.at(static_cast<std::size_t>(map.border))) + "\"")
-      .str();
+  JsonWriter block = block_writer();
+  block.text("file", file);
+  block.integer("columns", static_cast<std::int64_t>(map.columns));
+  block.integer("rows", static_cast<std::int64_t>(map.rows));
+  block.integer("bits", map.bits);
+  block.numbers("mm_per_px", {map.mm_per_px_x, map.mm_per_px_y});
+  block.number("low_m", map.low_m);
+  block.number("high_m", map.high_m);
+  block.text("border", kBorderNames.at(static_cast<std::size_t>(map.border)));
+  return block.take();
 }
 
 }  // namespace asperity

@@ -22,32 +22,59 @@ std::size_t line_at(std::string_view text, std::size_t offset) {
                  text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text.size())), '\n'));
 }
 
-// Before anything is built from it: no declared entities, no deep nesting.
-void check_shape(std::string_view text, const std::string& name) {
-  int depth = 0;
-  for (std::size_t i = text.find('<'); i != std::string_view::npos && i + 1 < text.size(); i = text.find('<', i + 1)) {
-    const auto rest = text.substr(i);
-    const auto skip = [&](std::string_view open, std::string_view close) {
-      if (!rest.starts_with(open)) return false;
-      const auto end = rest.find(close, open.size());
-      if (end == std::string_view::npos)
-        throw Error(name + ":" + std::to_string(line_at(text, i)) + ": '" + std::string(open) + "' is not closed");
-      i += end;
-      return true;
-    };
-    if (skip("<!--", "-->") || skip("<![CDATA[", "]]>") || skip("<?", "?>")) continue;
-    if (rest.starts_with("<!"))
-      throw Error(name + ":" + std::to_string(line_at(text, i)) + ": a document type declaration is not accepted");
-    if (rest.starts_with("</")) {
-      --depth;
-      continue;
+// Before anything is built from it: no declared entities, no deep nesting. Goes over the text once; a quoted value of
+// an attribute may hold what ends a tag elsewhere.
+class ShapeCheck {
+ public:
+  ShapeCheck(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+
+  void check() {
+    for (at_ = text_.find('<'); at_ != std::string_view::npos; at_ = text_.find('<', at_)) {
+      if (skip("<!--", "-->") || skip("<![CDATA[", "]]>") || skip("<?", "?>")) continue;
+      if (starts_with("<!")) fail("a document type declaration is not accepted");
+      if (skip("</", ">")) {
+        --depth_;
+      } else if (!skip_tag() && ++depth_ > kDeepest) {
+        fail("nested deeper than " + std::to_string(kDeepest));
+      }
     }
-    const auto end = rest.find('>');
-    if (end != std::string_view::npos && rest[end - 1] == '/') continue;
-    if (++depth > kDeepest)
-      throw Error(name + ":" + std::to_string(line_at(text, i)) + ": nested deeper than " + std::to_string(kDeepest));
   }
-}
+
+ private:
+  bool starts_with(std::string_view open) const { return text_.compare(at_, open.size(), open) == 0; }
+
+  bool skip(std::string_view open, std::string_view close) {
+    if (!starts_with(open)) return false;
+    const auto end = text_.find(close, at_ + open.size());
+    if (end == std::string_view::npos) fail("'" + std::string(open) + "' is not closed");
+    at_ = end + close.size();
+    return true;
+  }
+  // True if the tag has no content.
+  bool skip_tag() {
+    char quote = '\0';
+    for (std::size_t i = at_ + 1; i < text_.size(); ++i) {
+      const char c = text_[i];
+      if (quote != '\0') {
+        if (c == quote) quote = '\0';
+      } else if (c == '"' || c == '\'') {
+        quote = c;
+      } else if (c == '>') {
+        at_ = i + 1;
+        return text_[i - 1] == '/';
+      }
+    }
+    fail("a tag is not closed");
+  }
+  [[noreturn]] void fail(const std::string& message) const {
+    throw Error(name_ + ":" + std::to_string(line_at(text_, at_)) + ": " + message);
+  }
+
+  std::string_view text_;
+  const std::string& name_;
+  std::size_t at_ = 0;
+  int depth_ = 0;
+};
 
 class Reader {
  public:
@@ -192,7 +219,7 @@ void read_triangles(const Reader& reader, const pugi::xml_node& set, PennTexture
 PennTexture parse_penn(std::string_view text, const std::string& name, const ImportPennConfig& config) {
   if (text.size() > kLargestFile_bytes)
     throw Error(name + ": " + std::to_string(text.size()) + " bytes, more than " + std::to_string(kLargestFile_bytes));
-  check_shape(text, name);
+  ShapeCheck(text, name).check();
   pugi::xml_document document;
   const auto result = document.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!result) {

@@ -5,13 +5,13 @@
 
 #include "asperity/texture/texture.h"
 #include "asperity/texture/texture_file.h"
-#include "located_json.h"
+#include "block_json.h"
 
 namespace asperity {
 
-// What a model's block is read from. `path` is the block's key, the model's name.
+// What a model's block is read from; whoever reads it finishes it. `path` is the block's key, the model's name.
 struct BlockInput {
-  const LocatedJson& json;
+  JsonObject& block;
   std::string path;
   const PayloadReader& payload;
 

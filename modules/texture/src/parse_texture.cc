@@ -3,8 +3,8 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/texture/texture_file.h"
-#include "block_json.h"
 #include "model_block.h"
 
 namespace asperity {
@@ -14,17 +14,9 @@ constexpr std::uint64_t kLargestFile_bytes = 16ULL << 20;
 constexpr std::uint64_t kLargestPayload_bytes = 256ULL << 20;
 constexpr std::size_t kMostRoughnessValues = 100;
 
-using Json = LocatedJson::Json;
-
-std::optional<double> optional_value(const LocatedJson& json, const char* key, double low, double high) {
-  const Json* value = json.find("", key);
-  if (!value) return std::nullopt;
-  return read_number(json, *value, key, low, high);
-}
-
-std::string optional_text(const LocatedJson& json, const std::string& path, const char* key) {
-  const Json* value = json.find(path, key);
-  return value ? read_text(json, *value, path.empty() ? key : path + "." + key) : std::string();
+std::optional<double> optional_number(JsonObject& in, const char* key, Range range) {
+  const auto value = in.optional(key);
+  return value ? std::optional(value->number(range)) : std::nullopt;
 }
 
 // Reads the block of the model that is called as its key.
@@ -35,77 +27,70 @@ void read_model(const BlockInput& input, TextureModel& model) {
   });
 }
 
-void parse_model(const LocatedJson& json, const PayloadReader& payload, Texture& texture) {
-  const std::string model = required_text(json, "", "model");
+void parse_model(JsonObject& root, const PayloadReader& payload, Texture& texture) {
+  const JsonItem item = root.required("model");
+  const std::string& model = item.text(kLongestText_bytes);
   std::string known;
   for (const auto name : kTextureModelNames) {
     if (model == name) {
-      json.require("", model.c_str());
-      return read_model({json, model, payload}, texture.model);
+      JsonObject block = root.required_object(model);
+      return read_model({block, model, payload}, texture.model);
     }
     known.append(known.empty() ? "" : ", ").append(name);
   }
-  json.fail("model", "'" + printable(model) + "' is not a model that this version knows (" + known + ")");
+  item.fail("'" + printable(model) + "' is not a model that this version knows (" + known + ")");
 }
 
-void parse_common(const LocatedJson& json, Texture& texture) {
-  texture.name = optional_text(json, "", "name");
-  texture.compliance_kc = optional_value(json, "compliance_kc", 0.0, 1.0);
-  texture.stiffness_N_per_m = optional_value(json, "stiffness_N_per_m", 0.0, 1e9);
-  texture.friction = optional_value(json, "friction", 0.0, 100.0);
-  texture.lift_m = optional_value(json, "lift_m", -1e6, 1e6);
-  if (const Json* roughness = json.find("", "roughness")) {
-    if (!roughness->is_object()) json.fail("roughness", "is not an object");
-    if (roughness->size() > kMostRoughnessValues)
-      json.fail("roughness", "has more than " + std::to_string(kMostRoughnessValues) + " values");
-    for (const auto& [key, value] : roughness->items()) {
-      texture.roughness[key] = read_number(json, value, "roughness." + key, -kLargestNumber, kLargestNumber);
-    }
+void parse_common(JsonObject& root, Texture& texture) {
+  root.read_text("name", texture.name, kLongestText_bytes);
+  texture.compliance_kc = optional_number(root, "compliance_kc", {0.0, 1.0});
+  texture.stiffness_N_per_m = optional_number(root, "stiffness_N_per_m", {0.0, 1e9});
+  texture.friction = optional_number(root, "friction", {0.0, 100.0});
+  texture.lift_m = optional_number(root, "lift_m", {-1e6, 1e6});
+  if (auto roughness = root.optional_object("roughness")) {
+    const auto& values = roughness->item().json().items();
+    if (values.size() > kMostRoughnessValues)
+      roughness->item().fail("has more than " + std::to_string(kMostRoughnessValues) + " values");
+    for (const auto& member : values) texture.roughness[member.key] = roughness->required(member.key).number();
   }
-  if (const Json* band = json.find("", "band_cycles_per_mm")) {
-    const auto limits = read_numbers(json, *band, "band_cycles_per_mm", kLargestNumber);
+  if (const auto band = root.optional("band_cycles_per_mm")) {
+    const auto limits = band->numbers(kMostCoefficients);
     if (limits.size() != 2 || !(limits[0] >= 0.0) || !(limits[1] >= limits[0])) {
-      json.fail("band_cycles_per_mm", "is not [low, high] with 0 <= low <= high");
+      band->fail("is not [low, high] with 0 <= low <= high");
     }
     texture.band_cycles_per_mm = {limits[0], limits[1]};
   }
-  if (json.find("", "source")) {
-    json.only("source", {"recording", "config", "version"});
-    texture.source.recording = optional_text(json, "source", "recording");
-    texture.source.version = optional_text(json, "source", "version");
-    if (const Json* config = json.find("source", "config")) texture.source.config_json = config->dump();
+  if (auto source = root.optional_object("source")) {
+    source->read_text("recording", texture.source.recording, kLongestText_bytes);
+    source->read_text("version", texture.source.version, kLongestText_bytes);
+    if (const Json* config = source->find("config")) texture.source.config_json = config->dump();
+    source->finish();
   }
-  if (const Json* extra = json.find("", "extra")) {
-    if (!extra->is_object()) json.fail("extra", "is not an object");
-    texture.extra_json = extra->dump();
-  }
+  if (root.has("extra")) texture.extra_json = root.extra().dump();
 }
 
 }  // namespace
 
 std::string BlockInput::read_payload(const char* ending) const {
-  const std::string file = required_text(json, path, "file");
+  const JsonItem item = block.required("file");
+  const std::string& file = item.text(kLongestText_bytes);
   const bool plain = !file.empty() && file.front() != '.' && file.find_first_of("/\\:") == std::string::npos &&
                      file.find('\0') == std::string::npos;
   if (!plain || !file.ends_with(ending)) {
-    json.fail(path + ".file",
-              "'" + printable(file) + "' is not the plain name of a file *" + ending + " in the same folder");
+    item.fail("'" + printable(file) + "' is not the plain name of a file *" + ending + " in the same folder");
   }
-  if (!payload) json.fail(path + ".file", "'" + printable(file) + "' cannot be read from text alone");
+  if (!payload) item.fail("'" + printable(file) + "' cannot be read from text alone");
   return payload(file);
 }
 
 Texture parse_texture(std::string_view content, const std::string& name, const PayloadReader& payload) {
-  const LocatedJson json(content, name);
-  const Json& format = json.require("", "format");
-  if (format != "asperity-texture") json.fail("format", "is not \"asperity-texture\"");
-  const Json& version = json.require("", "version");
-  if (version != 1) json.fail("version", printable(version.dump()) + " is not a version that this program reads (1)");
+  const Json json = parse_json(content, name);
+  JsonObject root(json, name);
+  root.require_format("asperity-texture");
   Texture texture;
-  parse_model(json, payload, texture);
-  json.only("", {"format", "version", "name", "model", texture.model_name(), "compliance_kc", "stiffness_N_per_m",
-                 "friction", "lift_m", "roughness", "band_cycles_per_mm", "source", "extra"});
-  parse_common(json, texture);
+  parse_model(root, payload, texture);
+  parse_common(root, texture);
+  root.finish();
   return texture;
 }
 

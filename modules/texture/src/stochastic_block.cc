@@ -4,7 +4,7 @@ namespace asperity {
 namespace {
 
 template <class Model, class Field>
-void x(Model& t, const Field& field) {
+void list_stochastic(Model& t, const Field& field) {
   field("sigma_m", t.sigma_m, 0.0, kLargestHeight_m);
   field("grain_m", t.grain_m, 0.0, kLargestHeight_m);
   field("tangential_ratio", t.tangential_ratio, -100.0, 100.0);
@@ -21,17 +21,15 @@ void x(Model& t, const Field& field) {
 }  // namespace
 
 void TextureModelTraits<StochasticTexture>::read_block(const BlockInput& input, StochasticTexture& t) {
-  input.json.only(input.path,
-                  {"sigma_m", "grain_m", "tangential_ratio", "lift_sigma", "stiffness_N_per_m", "mass_kg",
-                   "reference_speed_mps", "speed_exponent", "reference_force_N", "force_exponent", "fade_speed_mps"});
-  input.json.require(input.path, "sigma_m");
-  x(t, FlatReader{input});
+  input.block.required("sigma_m");
+  list_stochastic(t, FlatReader{input});
+  input.block.finish();
 }
 
 std::string TextureModelTraits<StochasticTexture>::write_block(const StochasticTexture& t, BlockOutput&) {
-  BlockText block;
-  x(t, FlatWriter{block});
-  return block.str();
+  JsonWriter block = block_writer();
+  list_stochastic(t, FlatWriter{block});
+  return block.take();
 }
 
 }  // namespace asperity

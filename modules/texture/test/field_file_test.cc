@@ -116,17 +116,17 @@ TEST(FieldFile, NamesLineAndKeyOfWhatIsWrong) {
   const Texture isotropic = surface(Fourier2dKind::kIsotropic);
   expect_refused(outer, "\"outer\"", "\"inner\"", "'fourier2d.kind'",
                  "'inner' is not one of outer, pattern, isotropic");
-  expect_refused(outer, "\"length_mm\": 10", "\"length_mm\": 0", "x.json:8: 'fourier2d.x.length_mm'",
-                 "0 is not within");
-  expect_refused(outer, "\"scale_per_m\"", "\"scale\"", "'fourier2d.scale'", "is not a key of this format");
-  expect_refused(isotropic, "\"seed\": 77", "\"seed\": 7.5", "'fourier2d.seed'", "is not a whole number");
-  expect_refused(isotropic, "\"seed\": 77", "\"seed\": 18446744073709551615", "'fourier2d.seed'", "is not within");
+  expect_refused(outer, "\"length_mm\": 10", "\"length_mm\": 0",
+                 "x.json:8:", "key 'fourier2d.x.length_mm': 0 is outside");
+  expect_refused(outer, "\"scale_per_m\"", "\"scale\"", "'fourier2d.scale_per_m'", "is missing");
+  expect_refused(isotropic, "\"seed\": 77", "\"seed\": 7.5", "'fourier2d.seed'", "must be a whole number");
+  expect_refused(isotropic, "\"seed\": 77", "\"seed\": 18446744073709551615", "'fourier2d.seed'", "is outside");
   expect_refused(isotropic, "\"power_m2\": [", "\"power_m2\": [-1, ", "'fourier2d.power_m2[0]'", "is negative");
   expect_refused(map(16), "\"columns\": 20", "\"columns\": 21", "'heightmap.file'", "the block says 21 x 12");
-  expect_refused(map(16), "\"columns\": 20", "\"columns\": 1000000000000", "'heightmap.columns'", "is not within");
+  expect_refused(map(16), "\"columns\": 20", "\"columns\": 1000000000000", "'heightmap.columns'", "is outside");
   expect_refused(map(16), "\"bits\": 16", "\"bits\": 12", "'heightmap.bits'", "neither 8 nor 16");
   expect_refused(map(16), "\"border\": \"periodic\"", "\"border\": \"torn\"", "'heightmap.border'", "'torn'");
-  expect_refused(area(), "\"spacing_m\": [", "\"spacing_m\": [0, ", "'areal.spacing_m'", "3 numbers, more than 2");
+  expect_refused(area(), "\"spacing_m\": [", "\"spacing_m\": [0, ", "'areal.spacing_m'", "has 3 entries, more than 2");
 }
 
 TEST(FieldFile, KeepsToItsFolder) {

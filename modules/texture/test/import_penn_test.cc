@@ -136,6 +136,20 @@ TEST(ImportPenn, IsNotToBeHarmedByAHostileFile) {
   for (int i = 0; i < 100000; ++i) deep += "<a>";
   expect_error(deep, "x.xml:1", "nested deeper than 16");
   expect_error("<!DOCTYPE a [<!ENTITY b \"c\">]><modelSet/>", "x.xml:1", "document type");
+  // What looks like the end of a tag inside a quoted value is none.
+  std::string quoted;
+  for (int i = 0; i < 20; ++i) quoted += "<a b=\"/>\">\n";
+  expect_error(quoted, "x.xml:1", "nested deeper than 16");
+  // Each search goes on where the last one ended: these would take minutes otherwise.
+  const auto repeated = [](const std::string& what, int times) {
+    std::string text;
+    for (int i = 0; i < times; ++i) text += what;
+    return text;
+  };
+  expect_error(repeated("</", 2'400'000) + repeated("<", 100), "x.xml:1", "'</' is not closed");
+  expect_error(repeated("</a>", 1'200'000) + "<", "x.xml:1", "a tag is not closed");
+  expect_error("<modelSet>" + repeated("<a b='>' />", 400'000) + "<!--", "x.xml:1", "'<!--' is not closed");
+  expect_error(repeated("<a b='", 800'000), "x.xml:1", "a tag is not closed");
   expect_error("<modelSet><!-- ", "x.xml:1", "not closed");
   std::string many = "<modelSet><maxSpeed>1</maxSpeed><maxForce>1</maxForce><model><ARlsf>";
   for (int i = 0; i < 33; ++i) many += "<value>0.1</value>";

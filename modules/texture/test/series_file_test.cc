@@ -98,9 +98,9 @@ void expect_error(const TextureModel& model, const std::string& from, const std:
 
 TEST(SeriesFile, NamesFileLineAndKeyOfWhatIsWrong) {
   const StochasticTexture s{.sigma_m = 1e-5};
-  expect_error(s, "\"sigma_m\"", "\"sigm\"", "x.json:7: 'stochastic.sigm'", "is not a key");
-  expect_error(s, "1e-05", "-1", "x.json:7: 'stochastic.sigma_m'", "-1 is not within");
-  expect_error(DecayingSinusoids{}, "\"decay_per_s\": 100,", "", "'decaying_sinusoids'", "'decay_per_s' is missing");
+  expect_error(s, "\"sigma_m\"", "\"sigm\"", "x.json:6:", "key 'stochastic.sigma_m': is missing");
+  expect_error(s, "1e-05", "-1", "x.json:7:", "key 'stochastic.sigma_m': -1 is outside");
+  expect_error(DecayingSinusoids{}, "\"decay_per_s\": 100,", "", "'decaying_sinusoids.decay_per_s'", "is missing");
   const auto t = models(0);
   expect_error(t, "\"gain\": [", "\"gain\": [1, ", "'autoregressive.gain'", "8 numbers where speed_mps has 7");
   expect_error(t, "\"ar_lsf_rad\": [", "\"ar_lsf_rad\": [0.1, ", "'autoregressive.ar_lsf_rad'",
@@ -109,7 +109,7 @@ TEST(SeriesFile, NamesFileLineAndKeyOfWhatIsWrong) {
   expect_error(t, "\"triangles\": [", "\"triangles\": [0, 1, 7, ", "'autoregressive'", "a triangle of model 7");
   expect_error(t, "\"triangles\": [", "\"triangles\": [0, 1, 1.5, ", "'autoregressive.triangles[2]'",
                "1.5 is no index");
-  expect_error(t, "\"rate_Hz\": 2000", "\"rate_Hz\": 0", "'autoregressive.rate_Hz'", "0 is not within");
+  expect_error(t, "\"rate_Hz\": 2000", "\"rate_Hz\": 0", "'autoregressive.rate_Hz'", "0 is outside");
 }
 
 TEST(SeriesFile, WritesOnlyWhatCanBeRead) {

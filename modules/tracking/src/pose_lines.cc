@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kLongestLine_bytes = 1000;
 constexpr double kQuaternionTolerance = 1e-3;  // as read_recording's
 constexpr double kFarthest_m = 1e4;
-constexpr int kMostMarkers = 1000;
+constexpr int kMostMarkersOfPose = 1000;
 
 std::string_view next_cell(std::string_view& rest) {
   const std::size_t comma = rest.find(',');
@@ -40,7 +40,7 @@ std::optional<TrackerSample> parse_line(std::string_view line, std::int64_t arri
   if (out.T_world_marker.translation_m.cwiseAbs().maxCoeff() > kFarthest_m) return std::nullopt;
   if (!(std::abs(q.norm() - 1.0) <= kQuaternionTolerance)) return std::nullopt;
   out.T_world_marker.rotation = q.normalized();
-  if (const auto markers = parse_int64(next_cell(line)); markers && *markers >= 0 && *markers <= kMostMarkers)
+  if (const auto markers = parse_int64(next_cell(line)); markers && *markers >= 0 && *markers <= kMostMarkersOfPose)
     out.markers = static_cast<int>(*markers);
   if (const auto px = parse_double(next_cell(line)); px && std::isfinite(*px) && *px >= 0.0) out.reprojection_px = *px;
   return out;

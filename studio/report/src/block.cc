@@ -82,10 +82,9 @@ std::string BlockWriter::take() {
   // blanks to a length that surely holds them.
   head_["arrays"] = arrays_;
   constexpr std::size_t kLongestOffset = 20;
-  const std::size_t start =
-      aligned(8 + head_.dump(-1, ' ', false, Json::error_handler_t::replace).size() + kLongestOffset * arrays_.size());
+  const std::size_t start = aligned(8 + head_.dump_repaired().size() + kLongestOffset * arrays_.size());
   for (Json& array : head_["arrays"]) array["offset"] = array["offset"].get<std::size_t>() + start;
-  std::string head = head_.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string head = head_.dump_repaired();
   head.resize(start - 8, ' ');
   std::string out;
   out.reserve(start + data_.size());

@@ -6,6 +6,7 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/json/parse_json.h"
 #include "base64.h"
 
 namespace asperity::studio {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::uint64_t kLargestReport_bytes = 64U << 20U;
 constexpr std::size_t kLargestHead_bytes = 16U << 20U;
-constexpr int kDeepestHead = 34;  // a result.json, and where it stands
+constexpr std::size_t kDeepestHead = 34;  // a result.json, and where it stands
 constexpr std::string_view kBegin = "<script type=\"application/octet-stream\"";
 constexpr std::string_view kEnd = "</script>";
 
@@ -24,15 +25,12 @@ Json head_of(const std::string& block) {
   if (block.size() < 8 || !block.starts_with("ASB1")) return nullptr;
   std::memcpy(&bytes, block.data() + 4, sizeof bytes);
   if (bytes > block.size() - 8 || bytes > kLargestHead_bytes) return nullptr;
-  bool too_deep = false;
-  const auto watch = [&](int depth, Json::parse_event_t, Json&) {
-    too_deep = too_deep || depth > kDeepestHead;
-    return !too_deep;
-  };
-  const auto begin = block.begin() + 8;
-  Json head = Json::parse(begin, begin + static_cast<std::ptrdiff_t>(bytes), watch, false);
-  const bool measured = !too_deep && head.is_object() && head.contains("kind") && head["kind"] == "measured";
-  return measured ? head : Json(nullptr);
+  JsonLimits limits;
+  limits.bytes = kLargestHead_bytes;
+  limits.depth = kDeepestHead;
+  Json head = parse_json_or_null(std::string_view(block).substr(8, bytes), limits);
+  const Json* kind = head.find("kind");
+  return kind != nullptr && *kind == "measured" ? head : Json(nullptr);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asperity/base/units.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/write_result.h"
 #include "asperity/studio/measured_figures.h"
 #include "profile_block.h"
@@ -105,7 +106,7 @@ void add_dropped(const ProcessResult& result, std::size_t max_gaps, BlockWriter&
 BlockWriter measured_block(const ProcessResult& result, const Recording& recording, const std::string& name,
                            const MeasuredBlockConfig& config) {
   BlockWriter block("measured");
-  block.head()["result"] = Json::parse(format_result(result, recording, name));
+  block.head()["result"] = parse_json(format_result(result, recording, name));
   block.head()["world"] = recording.info.world;
   block.head()["figures"] = measured_figures(block.head()["result"]);
   add_dropped(result, config.max_gaps, block);

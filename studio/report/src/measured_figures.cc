@@ -18,8 +18,7 @@ const Json* at(const Json& result, std::string_view key) {
   const Json* place = &result;
   while (place != nullptr && !key.empty()) {
     const std::size_t dot = std::min(key.find('.'), key.size());
-    const auto found = place->is_object() ? place->find(std::string(key.substr(0, dot))) : place->end();
-    place = place->is_object() && found != place->end() ? &*found : nullptr;
+    place = place->find(key.substr(0, dot));
     key.remove_prefix(std::min(dot + 1, key.size()));
   }
   return place;
@@ -62,8 +61,8 @@ void add(const Json& result, std::string_view group, const FigureRow& row, Json&
       one["value"] = value->is_boolean() ? Json(value->get<bool>() ? "yes" : "no") : Json(nullptr);
       break;
     case FigureKind::kText:
-      if (!value->is_string() || value->get_ref<const std::string&>().empty()) return;
-      one["value"] = printable(value->get_ref<const std::string&>(), kLongestText);
+      if (!value->is_string() || value->text().empty()) return;
+      one["value"] = printable(value->text(), kLongestText);
       break;
   }
   out.push_back(std::move(one));

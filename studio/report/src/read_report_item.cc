@@ -13,6 +13,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/read_path.h"
 #include "asperity/studio/block.h"
 #include "asperity/studio/measured_figures.h"
@@ -29,27 +30,20 @@ namespace {
 constexpr std::uint64_t kLargestResult_bytes = 16U << 20U;
 constexpr std::uint64_t kLargestProfile_bytes = 256U << 20U;
 constexpr std::uint64_t kLargestTrajectory_bytes = 1U << 30U;
-constexpr int kDeepestResult = 32;
+constexpr std::size_t kDeepestResult = 32;
 constexpr std::size_t kMostPathPoints = 20'000;      // a screen has fewer pixels along a path
 constexpr std::size_t kMostProfilePoints = 400'000;  // 10 m at the usual spacing
 
 Json parse_result(std::string_view text, const std::string& name) {
-  const auto watch = [&](int depth, Json::parse_event_t, Json&) {
-    if (depth > kDeepestResult) throw Error(name + ": nested more than " + std::to_string(kDeepestResult) + " deep");
-    return true;
-  };
-  Json out;
-  try {
-    out = Json::parse(text, watch);
-  } catch (const Json::exception& error) {
-    throw Error(name + ": is not JSON: " + printable(error.what(), 200));
-  }
-  const auto format = out.is_object() ? out.find("format") : out.end();
-  if (!out.is_object() || format == out.end() || *format != "asperity-result") {
-    throw Error(name + ": is not a result of asperity process");
-  }
-  if (out.value("version", Json(nullptr)) != 1) {
-    throw Error(name + ": is of version " + printable(out.value("version", Json(nullptr)).dump()) + "; 1 is read");
+  JsonLimits limits;
+  limits.bytes = kLargestResult_bytes;
+  limits.depth = kDeepestResult;
+  Json out = parse_json(text, name, limits);
+  const Json* format = out.find("format");
+  if (format == nullptr || *format != "asperity-result") throw Error(name + ": is not a result of asperity process");
+  const Json* version = out.find("version");
+  if (version == nullptr || *version != 1) {
+    throw Error(name + ": is of version " + (version == nullptr ? "null" : shown(*version)) + "; 1 is read");
   }
   return out;
 }
@@ -95,8 +89,8 @@ void add_path(const std::optional<std::string_view>& text, const std::string& na
 }
 
 std::string title_of(const Json& result, const std::string& name) {
-  const auto recording = result.find("recording");
-  return !name.empty() || recording == result.end() || !recording->is_string() ? name : recording->get<std::string>();
+  const Json* recording = result.find("recording");
+  return !name.empty() || recording == nullptr || !recording->is_string() ? name : recording->text();
 }
 
 void find_in(const fs::path& folder, int deepest, std::vector<fs::path>& out) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/json/parse_json.h"
 
 namespace asperity::studio {
 namespace {
@@ -22,11 +23,11 @@ TEST(Block, IsReadAsItIsDocumented) {
   EXPECT_EQ(frame.substr(0, 4), "ASB1");
   std::uint32_t length = 0;
   std::memcpy(&length, frame.data() + 4, 4);
-  const Json head = Json::parse(frame.substr(8, length));
+  const Json head = parse_json(frame.substr(8, length));
   EXPECT_EQ(head["kind"], "test");
   EXPECT_EQ(head["note"], "ü");
   ASSERT_EQ(head["arrays"].size(), 2U);
-  EXPECT_EQ(head["arrays"][1]["shape"], Json::parse("[2,3]"));
+  EXPECT_EQ(head["arrays"][1]["shape"], parse_json("[2,3]"));
   const auto at = head["arrays"][0]["offset"].get<std::size_t>();
   EXPECT_EQ(at % 8, 0U);
   std::vector<double> back(3);

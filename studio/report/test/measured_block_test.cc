@@ -70,7 +70,7 @@ TEST(MeasuredBlock, EveryFigureIsThatOfResultJson) {
                                               {"ms", 1e3}, {"µm/N", 1e3}, {"µs", 1e6},   {"mrad", 1e3}};
   std::size_t compared = 0;
   for (const Json& figure : block.head["figures"]) {
-    const std::string key = figure["key"], unit = figure["unit"];
+    const std::string key = figure["key"].text(), unit = figure["unit"].text();
     EXPECT_FALSE(figure["label"].get<std::string>().empty());
     if (key.empty() || !figure["value"].is_number()) continue;
     const Json& original = at(block.head["result"], key);
@@ -128,7 +128,7 @@ TEST(MeasuredBlock, ByEitherMethodAndWithoutAProfile) {
   config = {};
   config.base.shape = PathShape::kMesh;
   const ReadBlock none = block_of(process_recording(scan(), config));
-  EXPECT_FALSE(none.head["result"]["trustworthy"]);
+  EXPECT_EQ(none.head["result"]["trustworthy"], false);
   EXPECT_TRUE(none.arrays.at("profile_height_m").empty());
   EXPECT_TRUE(none.arrays.at("base_p_m").empty());
   EXPECT_FALSE(none.arrays.at("trajectory_p_m").empty());

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "asperity/json/parse_json.h"
 #include "figure_rows.h"
 
 namespace asperity::studio {
@@ -13,12 +14,12 @@ using ::testing::ElementsAre;
 
 std::vector<std::string> keys(const Json& figures) {
   std::vector<std::string> out;
-  for (const Json& figure : figures) out.push_back(figure["key"]);
+  for (const Json& figure : figures) out.push_back(figure["key"].text());
   return out;
 }
 
 TEST(MeasuredFigures, HaveUnitAndError) {
-  const Json figures = measured_figures(Json::parse(
+  const Json figures = measured_figures(parse_json(
       R"({"length_m":0.08,"periodicity":{"periodic":true,"pitch_m":0.0025,"pitch_stderr_m":1e-6,"periods":3}})"));
   ASSERT_EQ(figures.size(), 4U);
   EXPECT_EQ(figures[0]["unit"], "mm");
@@ -30,7 +31,7 @@ TEST(MeasuredFigures, HaveUnitAndError) {
 }
 
 TEST(MeasuredFigures, LeaveOutWhatMeansNothing) {
-  const Json figures = measured_figures(Json::parse(
+  const Json figures = measured_figures(parse_json(
       R"({"periodicity":{"periodic":false,"pitch_m":0.0025,"depth_m":1e-5,"strength":0.2,"periods":3},
           "stiffness":{"measured":false,"stiffness_N_per_mm":2,"lower_bound_N_per_mm":1.1,"verdict":""},
           "roughness":null})"));
@@ -38,16 +39,16 @@ TEST(MeasuredFigures, LeaveOutWhatMeansNothing) {
 }
 
 TEST(MeasuredFigures, OfWhatCouldNotBeHadAreNull) {
-  const Json figures = measured_figures(Json::parse(R"({"roughness":{"Ra_m":null,"missing":null}})"));
+  const Json figures = measured_figures(parse_json(R"({"roughness":{"Ra_m":null,"missing":null}})"));
   ASSERT_EQ(figures.size(), 2U);
   EXPECT_TRUE(figures[0]["value"].is_null());
   EXPECT_TRUE(figures[1]["value"].is_null());
 }
 
 TEST(MeasuredFigures, TakeAnyJson) {
-  EXPECT_TRUE(measured_figures(Json::parse("[1]")).empty());
-  EXPECT_TRUE(measured_figures(Json::parse(R"({"profile":7,"base":{"shape":3},"stiffness":[]})")).empty());
-  const Json odd = measured_figures(Json::parse(R"({"length_m":"<b>","profile":{"gaps":{}}})"));
+  EXPECT_TRUE(measured_figures(parse_json("[1]")).empty());
+  EXPECT_TRUE(measured_figures(parse_json(R"({"profile":7,"base":{"shape":3},"stiffness":[]})")).empty());
+  const Json odd = measured_figures(parse_json(R"({"length_m":"<b>","profile":{"gaps":{}}})"));
   for (const Json& figure : odd) EXPECT_TRUE(figure["value"].is_null()) << figure;
 }
 

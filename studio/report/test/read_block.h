@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/json/parse_json.h"
 #include "asperity/studio/block.h"
 
 namespace asperity::studio {
@@ -36,13 +37,13 @@ inline ReadBlock read_block(const std::string& frame) {
   std::uint32_t length = 0;
   std::memcpy(&length, frame.data() + 4, sizeof length);
   ReadBlock out;
-  out.head = Json::parse(frame.substr(8, length));
+  out.head = parse_json(frame.substr(8, length));
   for (const Json& array : out.head.at("arrays")) {
-    const std::string name = array.at("name"), type = array.at("type");
+    const std::string name = array.at("name").text(), type = array.at("type").text();
     out.shapes[name] = array.at("shape").get<std::vector<std::size_t>>();
     std::size_t count = 1;
     for (const std::size_t size : out.shapes[name]) count *= size;
-    const std::size_t offset = array.at("offset");
+    const std::size_t offset = array.at("offset").get<std::size_t>();
     if (type == "f64") out.arrays[name] = numbers_at<double>(frame, offset, count);
     if (type == "f32") out.arrays[name] = numbers_at<float>(frame, offset, count);
     if (type == "u32") out.arrays[name] = numbers_at<std::uint32_t>(frame, offset, count);

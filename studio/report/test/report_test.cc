@@ -4,6 +4,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/studio/block.h"
 #include "asperity/studio/format_report.h"
 #include "asperity/studio/read_report_item.h"
@@ -95,7 +96,7 @@ TEST(ReportItem, KeepsWhatTheReportOfTheSameResultHolds) {
   const testkit::TempDir dir;
   write_result(dir / "rec");
   BlockWriter fuller("measured");
-  fuller.head()["result"] = Json::parse(kResult);
+  fuller.head()["result"] = parse_json(kResult);
   fuller.add("compliance_ratio", std::vector<double>{1.0});
   const std::string block = fuller.take();
   write_file(dir / "rec" / "report.html", format_report({{"other", "no block"}, {"rec", block}}));
@@ -122,7 +123,7 @@ TEST(ReportItem, KeepsWhatTheReportOfTheSameResultHolds) {
 
 TEST(ReportItem, NamesWhatIsWrong) {
   const testkit::TempDir dir;
-  EXPECT_THAT(error_of(write_result(dir / "a", "{")), HasSubstr("result.json: is not JSON"));
+  EXPECT_THAT(error_of(write_result(dir / "a", "{")), HasSubstr("result.json:1:1: not JSON"));
   EXPECT_THAT(error_of(write_result(dir / "b", "[1]")), HasSubstr("is not a result of asperity process"));
   EXPECT_THAT(error_of(write_result(dir / "c", R"({"format":"asperity-result","version":2})")), HasSubstr("version 2"));
   EXPECT_THAT(error_of(write_result(dir / "d", std::string(50'000, '['))), HasSubstr("nested more than 32 deep"));

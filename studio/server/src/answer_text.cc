@@ -6,7 +6,7 @@ namespace asperity::studio {
 
 namespace {
 
-std::string text(const Json& message) { return message.dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string text(const Json& message) { return message.dump_repaired(); }
 
 }  // namespace
 

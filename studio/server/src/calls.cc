@@ -8,19 +8,14 @@ namespace asperity::studio {
 
 namespace {
 
-std::string words(const Json& value) {
-  return printable(value.dump(-1, ' ', false, Json::error_handler_t::replace), 60);
-}
+std::string words(const Json& value) { return printable(value.dump_repaired(), 60); }
 
 [[noreturn]] void refuse_argument(const std::string& call, std::string_view name, const Json* value, const char* what) {
   const std::string given = value ? words(*value) + " is not " + what : std::string("is missing; it is ") + what;
   throw Error(call + ": " + std::string(name) + ": " + given);
 }
 
-const Json* find(const Json& args, std::string_view name) {
-  const auto found = args.find(name);
-  return found == args.end() ? nullptr : &*found;
-}
+const Json* find(const Json& args, std::string_view name) { return args.find(name); }
 
 }  // namespace
 
@@ -49,7 +44,7 @@ bool Request::flag(std::string_view name) const {
 
 std::string Request::text(std::string_view name) const {
   const Json* value = find(call_.args, name);
-  if (!value || !value->is_string() || !is_utf8(value->get_ref<const std::string&>())) {
+  if (!value || !value->is_string() || !is_utf8(value->text())) {
     refuse_argument(call_.name, name, value, "a text");
   }
   return value->get<std::string>();

@@ -46,8 +46,8 @@ void CommonPage::bind_document(Calls& calls) {
     request.answer(out);
   });
   calls.add("document.edit", [this](const Request& request) {
-    const auto value = request.args().find("value");
-    Edit edit{request.text("path"), Json(), value == request.args().end() ? Json() : *value, request.text("label"),
+    const Json* value = request.args().find("value");
+    Edit edit{request.text("path"), Json(), value == nullptr ? Json() : *value, request.text("label"),
               request.text("gesture")};
     shared_.check_edit(request.client(), edit);
     shared_.document.edit(edit.path, std::move(edit.after), edit.label, edit.gesture);

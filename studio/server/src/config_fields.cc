@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "asperity/json/parse_json.h"
+
 namespace asperity::studio {
 
 namespace {
@@ -13,8 +15,8 @@ constexpr std::array<std::string_view, 6> kTypeNames{"bool", "integer", "number"
 
 // TOML's numbers, truth values, texts and lists of numbers are JSON's but for inf and nan.
 Json value_of(const std::string& toml) {
-  Json value = Json::parse(toml, nullptr, false);
-  return value.is_discarded() ? Json(toml) : value;
+  Json value = parse_json_or_null(toml);
+  return value.is_null() ? Json(toml) : value;
 }
 
 }  // namespace

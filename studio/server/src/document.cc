@@ -5,7 +5,9 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/studio/calls.h"
+#include "json_pointer.h"
 
 namespace asperity::studio {
 
@@ -19,71 +21,49 @@ constexpr std::size_t kLongestPath = 1000;
 constexpr std::size_t kMostParts = 32;
 constexpr std::size_t kLongestLabel = 200;
 // A message and a path are 32 deep at most; a file has two levels about a section.
-constexpr int kDeepestValue = 80;
+constexpr std::size_t kDeepestValue = 80;
 
-std::string dump(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
-Json::json_pointer pointer_of(std::string_view path) {
+JsonPointer pointer_of(std::string_view path) {
   const auto parts = static_cast<std::size_t>(std::count(path.begin(), path.end(), '/'));
   if (path.size() > kLongestPath || parts > kMostParts) throw Error("'" + printable(path) + "' is too long a path");
-  try {
-    return Json::json_pointer(std::string(path));
-  } catch (const Json::exception&) {
-    throw Error("'" + printable(path) + "' is no place in the document");
-  }
+  return parse_json_pointer(path);
 }
 
 std::string section_name(std::string_view path) {
-  const Json::json_pointer pointer = pointer_of(path);
+  const JsonPointer pointer = pointer_of(path);
   if (pointer.empty()) throw Error("the document is changed section by section, not as a whole");
-  Json::json_pointer rest = pointer;
-  std::string first;
-  while (!rest.empty()) {
-    first = rest.back();
-    rest.pop_back();
-  }
-  return first;
+  return pointer.front();
 }
 
 // What stands at a path; null for nothing.
-Json value_at(const Json& tree, const Json::json_pointer& pointer) {
-  return tree.contains(pointer) ? tree.at(pointer) : Json();
+Json value_at(const Json& tree, const JsonPointer& pointer) {
+  const Json* value = find_at(tree, pointer);
+  return value == nullptr ? Json() : *value;
 }
 
 // The value at a path set, or with null taken out. Throws Error if it leads nowhere.
-void put(Json& tree, const Json::json_pointer& pointer, const Json& value, std::string_view path) {
-  const Json::json_pointer parent = pointer.parent_pointer();
-  if (!tree.contains(parent) || !tree.at(parent).is_object()) {
+void put(Json& tree, const JsonPointer& pointer, const Json& value, std::string_view path) {
+  const Json* parent = find_at(tree, JsonSteps(pointer).first(pointer.size() - 1));
+  if (parent == nullptr || !parent->is_object() || !set_at(tree, pointer, value)) {
     throw Error("'" + printable(path) + "' is no place in the document");
-  }
-  if (value.is_null()) {
-    tree.at(parent).erase(pointer.back());
-  } else {
-    tree.at(parent)[pointer.back()] = value;
   }
 }
 
 // An edit inside a list is one of the whole list: taking out and putting in are then each other's opposite.
 void widen_to_list(const Json& tree, std::string& path, Json& after) {
-  const Json::json_pointer pointer = pointer_of(path);
-  for (Json::json_pointer upper = pointer.parent_pointer(); !upper.empty(); upper = upper.parent_pointer()) {
-    if (!tree.contains(upper) || !tree.at(upper).is_array()) continue;
-    Json list = tree.at(upper);
-    Json patch = Json::array();
-    const Json::json_pointer inner(pointer.to_string().substr(upper.to_string().size()));
-    const bool there = list.contains(inner);
-    if (after.is_null() && !there) throw Error("'" + printable(path) + "' is no place in the document");
-    Json step;
-    step["op"] = after.is_null() ? "remove" : there ? "replace" : "add";
-    step["path"] = inner.to_string();
-    if (!after.is_null()) step["value"] = after;
-    patch.push_back(std::move(step));
-    try {
-      after = list.patch(patch);
-    } catch (const Json::exception&) {
+  const JsonPointer pointer = pointer_of(path);
+  const JsonSteps steps(pointer);
+  for (std::size_t upper = steps.size() - 1; upper > 0; --upper) {
+    const Json* list = find_at(tree, steps.first(upper));
+    if (list == nullptr || !list->is_array()) continue;
+    const JsonSteps inner = steps.subspan(upper);
+    Json changed = *list;
+    const bool nothing_to_take = after.is_null() && find_at(changed, inner) == nullptr;
+    if (nothing_to_take || !set_at(changed, inner, after)) {
       throw Error("'" + printable(path) + "' is no place in the document");
     }
-    path = upper.to_string();
+    after = std::move(changed);
+    path = format_json_pointer(steps.first(upper));
     widen_to_list(tree, path, after);
     return;
   }
@@ -98,7 +78,7 @@ Json json_of(const Edit& edit) {
   return out;
 }
 
-std::size_t size_of(const Edit& edit) { return dump(edit.before).size() + dump(edit.after).size(); }
+std::size_t size_of(const Edit& edit) { return edit.before.dump_repaired().size() + edit.after.dump_repaired().size(); }
 
 std::vector<Edit> edits_of(const Json& list) {
   std::vector<Edit> out;
@@ -115,11 +95,10 @@ Edit reversed(Edit edit) {
   return edit;
 }
 
-Json parse_bounded(const std::string& text) {
-  return Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
-    if (depth > kDeepestValue) throw Error("is nested too deeply");
-    return true;
-  });
+JsonLimits file_limits() {
+  JsonLimits out;
+  out.depth = kDeepestValue;
+  return out;
 }
 
 }  // namespace
@@ -137,12 +116,12 @@ void Document::load() {
   std::error_code error;
   if (!std::filesystem::exists(file_, error)) return;
   try {
-    const Json file = parse_bounded(read_file(file_, kLargestFile));
+    const Json file = parse_json(read_file(file_, kLargestFile), "it", file_limits());
     if (file.at("format") != "asperity-studio" || file.at("version") != 1) throw Error("is of another version");
     bool whole = true;
     for (const auto& [name, first] : first_) {
-      const auto found = file.at("document").find(name);
-      if (found == file.at("document").end()) continue;
+      const Json* found = file.at("document").find(name);
+      if (found == nullptr) continue;
       try {
         validators_.at(name)(*found);
         value_[name] = *found;
@@ -188,7 +167,7 @@ Json Document::changed_section(const Edit& edit) const {
   } else {
     put(holder, pointer_of(edit.path), edit.after, edit.path);
   }
-  if (dump(holder[name]).size() > kLargestSection) {
+  if (holder[name].dump_repaired().size() > kLargestSection) {
     throw Advice("the page '" + name + "' would hold too much", "Take something out of it before you add more.");
   }
   validators_.at(name)(holder[name]);
@@ -274,7 +253,7 @@ std::optional<std::string> Document::take_unsaved() {
   for (const Step& step : undo_) file["undo"].push_back(json_of(step.edit));
   for (const Step& step : redo_) file["redo"].push_back(json_of(step.edit));
   unsaved_ = false;
-  return dump(file) + "\n";
+  return file.dump_repaired() + "\n";
 }
 
 }  // namespace asperity::studio

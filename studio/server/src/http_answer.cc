@@ -1,6 +1,7 @@
 #include "http_answer.h"
 
 #include "asperity/base/text.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/studio/block.h"
 #include "secret.h"
 
@@ -46,7 +47,7 @@ HttpAnswer answer_asset(const HttpRequest& request, std::string_view path, const
 }
 
 std::optional<std::string> token_of(const std::string& body) {
-  const Json json = Json::parse(body, nullptr, false);
+  const Json json = parse_json_or_null(body);
   if (!json.is_object() || json.size() != 1 || !json.contains("token") || !json["token"].is_string()) {
     return std::nullopt;
   }

@@ -166,11 +166,11 @@ class SocketConnection : public std::enable_shared_from_this<SocketConnection> {
 
   void answer_subscription(const Call& call) {
     try {
-      const auto topic = call.args.find("topic");
-      if (topic == call.args.end() || !topic->is_string() || call.args.size() != 1) {
+      const Json* topic = call.args.find("topic");
+      if (topic == nullptr || !topic->is_string() || call.args.size() != 1) {
         throw Error(call.name + ": needs a topic and nothing else");
       }
-      const auto& name = topic->get_ref<const std::string&>();
+      const auto& name = topic->text();
       if (call.name == "subscribe") {
         server_.clients.subscribe(client_, name);
       } else {

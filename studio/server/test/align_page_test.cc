@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "align_bench.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/registration/manual_alignment.h"
 
 namespace asperity::studio {
@@ -18,7 +19,7 @@ class AlignPageTest : public ::testing::Test {
 };
 
 TEST_F(AlignPageTest, OpensMeshAndPathAndFindsWhatThereIs) {
-  EXPECT_EQ(bench_.call("align.paths").result, Json::parse(R"([{"kind":"path","name":"path.csv"}])"));
+  EXPECT_EQ(bench_.call("align.paths").result, parse_json(R"([{"kind":"path","name":"path.csv"}])"));
   const ReadBlock block(bench_.call("align.open").block);
   EXPECT_EQ(block.array<std::uint32_t>("indices").size(), 3 * bench_.pebble.triangles.size());
   const std::vector<float> positions = block.array<float>("positions");
@@ -138,18 +139,18 @@ TEST_F(AlignPageTest, RefusesNonsenseAndKeepsWhatThereWas) {
   const auto refuses = [&](const std::string& path, const Json& value) {
     EXPECT_THROW(bench_.document.edit(path, value, ""), Error) << path << " " << value.dump();
   };
-  refuses("/align/T_mesh_world", Json::parse("[0,0,0,1,0,0]"));
-  refuses("/align/T_mesh_world", Json::parse("[0,0,0,2,0,0,0]"));
-  refuses("/align/T_mesh_world", Json::parse("[0,0,1e9,1,0,0,0]"));
+  refuses("/align/T_mesh_world", parse_json("[0,0,0,1,0,0]"));
+  refuses("/align/T_mesh_world", parse_json("[0,0,0,2,0,0,0]"));
+  refuses("/align/T_mesh_world", parse_json("[0,0,1e9,1,0,0,0]"));
   refuses("/align/T_mesh_world", "here");
-  refuses("/align/picks", Json::parse(R"([{"path":[0,0,0]}])"));
+  refuses("/align/picks", parse_json(R"([{"path":[0,0,0]}])"));
   refuses("/align/mesh_unit", "furlong");
   refuses("/align/mesh_unit", "-1mm");
-  refuses("/align/paths", Json::parse(R"([1])"));
-  refuses("/align/config", Json::parse(R"({"search.rotations":"many"})"));
-  refuses("/align/config", Json::parse(R"({"no.such.setting":"1"})"));
+  refuses("/align/paths", parse_json(R"([1])"));
+  refuses("/align/config", parse_json(R"({"search.rotations":"many"})"));
+  refuses("/align/config", parse_json(R"({"no.such.setting":"1"})"));
   refuses("/align/else", 1);
-  refuses("/align/ran", Json::parse(R"({"guess":null,"paths":[],"mesh":"","mesh_unit":"mm","config":{"no":"1"}})"));
+  refuses("/align/ran", parse_json(R"({"guess":null,"paths":[],"mesh":"","mesh_unit":"mm","config":{"no":"1"}})"));
   EXPECT_EQ(bench_.document.section("align"), before);
 
   EXPECT_THAT(bench_.call("align.residuals", args_of({{"pose", json_of_pose(bench_.guess())}})).error,
@@ -161,7 +162,7 @@ TEST_F(AlignPageTest, RefusesNonsenseAndKeepsWhatThereWas) {
               HasSubstr("shift_m"));
   EXPECT_THAT(bench_.call("align.sliders", args_of({{"pose", before["T_mesh_world"]}, {"shift_m", {1, 2, 3}}})).error,
               HasSubstr("not both"));
-  bench_.document.edit("/align/paths", Json::parse(R"(["../../etc/passwd"])"), "");
+  bench_.document.edit("/align/paths", parse_json(R"(["../../etc/passwd"])"), "");
   EXPECT_THAT(bench_.call("align.open").error, HasSubstr("passwd"));
   bench_.document.edit("/align/paths", Json::array(), "");
   EXPECT_THAT(bench_.call("align.open").hint, HasSubstr("recording"));

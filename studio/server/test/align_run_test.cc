@@ -7,6 +7,7 @@
 
 #include "align_bench.h"
 #include "asperity/base/csv.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/write_registration.h"
 #include "asperity/session/register_input.h"
 
@@ -97,7 +98,7 @@ TEST_F(AlignRunTest, TakenItIsOneStepAndWrittenAsTheCommandLineWrites) {
 
 TEST_F(AlignRunTest, TheRunnerUpIsTakenAndKept) {
   // From anywhere there is nearly always another place that is next best.
-  bench_.document.edit("/align/config", Json::parse(R"({"search.rotations":"200","search.positions":"20"})"), "");
+  bench_.document.edit("/align/config", parse_json(R"({"search.rotations":"200","search.positions":"20"})"), "");
   const Json result = bench_.call("align.run", args_of({{"guess", false}})).result;
   ASSERT_TRUE(result.is_object());
   EXPECT_TRUE(result["guess"].is_null());
@@ -160,7 +161,7 @@ TEST_F(AlignRunTest, UndoTakesAResultBackAndRedoBringsIt) {
 
 TEST_F(AlignRunTest, AResultIsOfTheSettingsThatGaveIt) {
   const Json first = bench_.call("align.run", args_of({{"guess", true}})).result;
-  bench_.document.edit("/align/config", Json::parse(R"({"search.registration.max_points":"100"})"), "a setting");
+  bench_.document.edit("/align/config", parse_json(R"({"search.registration.max_points":"100"})"), "a setting");
   const Json second = bench_.call("align.run", args_of({{"guess", true}})).result;
   EXPECT_NE(second["T_mesh_world"], first["T_mesh_world"]);
   EXPECT_EQ(bench_.document.undo_label(), "register");

@@ -6,18 +6,19 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/testkit/temp_dir.h"
 
 namespace asperity::studio {
 namespace {
 
 void refuse_negative(const Json& section) {
-  if (section.at("a") < 0) throw Error("a is negative");
+  if (section.at("a").get<double>() < 0) throw Error("a is negative");
 }
 
 std::unique_ptr<Document> make_document(const std::filesystem::path& file) {
   auto out = std::make_unique<Document>(file);
-  out->add_section("page", Json::parse(R"({"a":1,"list":[1,2,3],"deep":{"x":0}})"), refuse_negative);
+  out->add_section("page", parse_json(R"({"a":1,"list":[1,2,3],"deep":{"x":0}})"), refuse_negative);
   out->load();
   return out;
 }
@@ -35,7 +36,7 @@ TEST_F(DocumentTest, UndoAndRedoGoBackAndForth) {
   document_->edit("/page/deep/y", "new", "a key");
   document_->edit("/page/deep/x", nullptr, "taken out");
   const Json last = document_->value();
-  EXPECT_EQ(last, Json::parse(R"({"page":{"a":2,"list":[1,2,3],"deep":{"y":"new"}}})"));
+  EXPECT_EQ(last, parse_json(R"({"page":{"a":2,"list":[1,2,3],"deep":{"y":"new"}}})"));
   EXPECT_EQ(document_->undo_label(), "taken out");
   while (document_->undo()) {
   }
@@ -49,10 +50,10 @@ TEST_F(DocumentTest, ListsGrowAndShrinkAndComeBack) {
   document_->edit("/page/list/-", 4, "one more");
   document_->edit("/page/list/0", nullptr, "one less");
   document_->edit("/page/list/1", 7, "another");
-  EXPECT_EQ(document_->value()["page"]["list"], Json::parse("[2,7,4]"));
+  EXPECT_EQ(document_->value()["page"]["list"], parse_json("[2,7,4]"));
   document_->undo();
   document_->undo();
-  EXPECT_EQ(document_->value()["page"]["list"], Json::parse("[1,2,3,4]"));
+  EXPECT_EQ(document_->value()["page"]["list"], parse_json("[1,2,3,4]"));
   document_->undo();
   EXPECT_EQ(document_->value(), first_);
 }

@@ -42,7 +42,8 @@ TEST(FeelPage, IsFeltWithThePointerWhileItHasTheForce) {
   EXPECT_EQ(rig.status()["state"], "running");
   rig.touch();
   EXPECT_LE(rig.hub.newest().out_N, 5.0);
-  EXPECT_TRUE(rig.wait([&] { return rig.hub.state()["touching"].get<bool>() && rig.hub.state()["height_m"] > 0.0; }));
+  EXPECT_TRUE(rig.wait(
+      [&] { return rig.hub.state()["touching"].get<bool>() && rig.hub.state()["height_m"].get<double>() > 0.0; }));
 
   // Its heartbeats stop: nothing else is done.
   rig.beating.clear();
@@ -304,7 +305,7 @@ TEST(FeelPage, WhatNobodySeesIsNotMade) {
   rig.document.edit("/feel/replay", "path.csv", "path");
   ASSERT_EQ(rig.call("feel.start").error, "");
   EXPECT_TRUE(rig.wait([&] { return rig.status()["state"] == "idle"; }));
-  EXPECT_GT(rig.status()["last_run"]["figures"]["ticks"], 0);
+  EXPECT_GT(rig.status()["last_run"]["figures"]["ticks"].get<int>(), 0);
   EXPECT_EQ(rig.hub.frames_of("feel.state") + rig.hub.frames_of("feel.ticks") + rig.hub.frames_of("feel.sound"), 0U);
 }
 
@@ -345,7 +346,7 @@ TEST(FeelPage, ARecordedPathAndTheModelledHandEndByThemselvesOrWhenStopped) {
   EXPECT_EQ(rig.call("feel.start").error, "");
   EXPECT_TRUE(rig.wait([&] { return rig.status()["state"] == "idle"; }));
   EXPECT_EQ(rig.status()["last_run"]["end"], "the way was at its end");
-  EXPECT_GT(rig.status()["last_run"]["figures"]["force"]["peak_N"], 0.1);
+  EXPECT_GT(rig.status()["last_run"]["figures"]["force"]["peak_N"].get<double>(), 0.1);
 }
 
 }  // namespace asperity::studio

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "asperity/json/parse_json.h"
 #include "asperity/scene/read_scene.h"
 #include "asperity/texture/texture_file.h"
 #include "page_rig.h"
@@ -55,7 +56,7 @@ class PaintPageTest : public ::testing::Test, protected PageRig<> {
     Json stroke;
     stroke["texture"] = "wave.texture.json";
     stroke["index"] = 1;
-    stroke["picks_m"] = Json::parse(picks);
+    stroke["picks_m"] = parse_json(picks);
     document.edit("/paint/strokes/-", stroke, "stroke");
   }
 };
@@ -113,7 +114,7 @@ TEST_F(PaintPageTest, RefusesNonsenseAndStrangersFolders) {
        {"7", "\"x\"", "[1]", "[{}]", R"([{"texture":1,"index":1,"picks_m":[]}])",
         R"([{"texture":"w","index":-1,"picks_m":[]}])", R"([{"texture":"w","index":1,"picks_m":[[1,2]]}])",
         R"([{"texture":"w","index":1,"picks_m":[[1,2,"x"]]}])"}) {
-    EXPECT_THROW(document.edit("/paint/strokes", Json::parse(value), "x"), Error) << value;
+    EXPECT_THROW(document.edit("/paint/strokes", parse_json(value), "x"), Error) << value;
   }
   add_stroke("[[0.005,0.01,0],[0.035,0.01,0]]");
   std::filesystem::create_directory(folder / "mine");
@@ -126,8 +127,7 @@ TEST_F(PaintPageTest, RefusesNonsenseAndStrangersFolders) {
 }
 
 TEST_F(PaintPageTest, PreviewsAPath) {
-  const FakeHub::Answer answer =
-      call("paint.path", Json{{"picks_m", Json::parse("[[0.005,0.005,0],[0.005,0.015,0]]")}});
+  const FakeHub::Answer answer = call("paint.path", Json{{"picks_m", parse_json("[[0.005,0.005,0],[0.005,0.015,0]]")}});
   ASSERT_EQ(answer.error, "");
   EXPECT_NEAR(ReadBlock(answer.block).head["length_m"].get<double>(), 0.010, 1e-9);
 }

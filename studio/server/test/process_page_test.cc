@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "asperity/base/output.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/measure_repeatability.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/write_result.h"
@@ -74,7 +75,7 @@ TEST_F(ProcessPageTest, RunsWithTheSettingsOfTheDocument) {
   ProcessConfig config;
   config.profile.cutoff_cycles_per_mm = 0.3;
   const Recording recording = read_recording(folder / "one");
-  const Json expected = Json::parse(format_result(process_recording(recording, config), recording, "one"));
+  const Json expected = parse_json(format_result(process_recording(recording, config), recording, "one"));
   EXPECT_EQ(second["result"], expected);
 }
 
@@ -86,7 +87,7 @@ TEST_F(ProcessPageTest, TellsItsFieldsWithValuesAndDefaults) {
   ASSERT_NE(method, fields.end());
   EXPECT_EQ((*method)["value"], "thesis");
   EXPECT_EQ((*method)["default"], "fused");
-  EXPECT_EQ((*method)["choices"], Json::parse(R"(["fused","thesis"])"));
+  EXPECT_EQ((*method)["choices"], parse_json(R"(["fused","thesis"])"));
 }
 
 TEST_F(ProcessPageTest, RefusesWhatIsNoSettingAndChangesNothing) {
@@ -96,7 +97,7 @@ TEST_F(ProcessPageTest, RefusesWhatIsNoSettingAndChangesNothing) {
         R"(["/process/config/profile.spacing_m", "-1"])", R"(["/process/config/profile.spacing_m", 1])",
         R"(["/process/config", []])", R"(["/process/current", -1])", R"(["/process/current", "a"])",
         R"(["/process/scans", {}])", R"(["/process/scans", [{"segment": ""}]])"}) {
-    const Json json = Json::parse(edit);
+    const Json json = parse_json(edit);
     EXPECT_THROW(document.edit(json[0].get<std::string>(), json[1], "bad"), Error) << edit;
     EXPECT_EQ(document.section("process"), before) << edit;
   }
@@ -142,7 +143,7 @@ TEST_F(ProcessPageTest, WritesTheFilesOfTheCommandLine) {
   document.edit("/process/config/profile.cutoff_cycles_per_mm", "0.3", "tune");
   const FakeHub::Answer answer = call("process.write", Json{{"name", "out"}});
   ASSERT_EQ(answer.error, "");
-  EXPECT_EQ(answer.result["files"], Json::parse(R"([""])"));
+  EXPECT_EQ(answer.result["files"], parse_json(R"([""])"));
   ProcessConfig config;
   config.profile.cutoff_cycles_per_mm = 0.3;
   const Recording recording = read_recording(folder / "one");
@@ -156,7 +157,7 @@ TEST_F(ProcessPageTest, WritesTheFilesOfTheCommandLine) {
   // Again, over its own results; several, each in a folder; never over something else.
   choose({"one", "two"});
   EXPECT_EQ(call("process.write", Json{{"name", "out"}, {"replace", true}}).result["files"],
-            Json::parse(R"(["one","two"])"));
+            parse_json(R"(["one","two"])"));
   EXPECT_TRUE(fs::exists(folder / "out" / "two" / "result.json"));
   EXPECT_FALSE(fs::exists(folder / "out" / "result.json"));
   EXPECT_NE(call("process.write", Json{{"name", "one"}}).error, "");

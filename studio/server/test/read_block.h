@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/json/parse_json.h"
 #include "asperity/studio/block.h"
 
 namespace asperity::studio {
@@ -15,7 +16,7 @@ class ReadBlock {
   explicit ReadBlock(std::string frame) : frame_(std::move(frame)) {
     std::uint32_t bytes = 0;
     std::memcpy(&bytes, frame_.data() + 4, sizeof bytes);
-    head = Json::parse(frame_.substr(8, bytes));
+    head = parse_json(frame_.substr(8, bytes));
   }
 
   // The numbers of an array; empty if there is none of the name. The type is trusted.

@@ -265,7 +265,7 @@ TEST(ScanPage, OverwritesNothingAndLeavesNothingEmptyBehind) {
   choose_replay(bench);
   fs::create_directory(bench.folder / "scan");
   std::ofstream(bench.folder / "scan" / "mine.txt") << "mine";
-  const std::string name = bench.ask("scan.open").at("recording");
+  const std::string name = bench.ask("scan.open").at("recording").text();
   EXPECT_NE(name, "scan");
   EXPECT_THAT(bench.call("scan.open").error, HasSubstr("open already"));
   EXPECT_TRUE(bench.ask("scan.close").at("recording").is_null());
@@ -348,7 +348,7 @@ TEST(ScanPage, ListsEachSettingOnce) {
   const Json fields = bench.ask("scan.fields");
   std::set<std::string> paths;
   for (const Json& field : fields) {
-    EXPECT_TRUE(paths.insert(field.at("path")).second) << field.at("path");
+    EXPECT_TRUE(paths.insert(field.at("path").text()).second) << field.at("path");
     if (field.at("path") == "hints.light_N") {
       EXPECT_EQ(field.at("value"), 0.5);
       EXPECT_EQ(field.at("default"), 0.3);

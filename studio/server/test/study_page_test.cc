@@ -9,6 +9,7 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/study/study_file.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/testkit/temp_dir.h"
 #include "asperity/texture/read_height_image.h"
 #include "asperity/texture/texture_file.h"
@@ -315,7 +316,7 @@ TEST_F(StudyPageTest, KnowsAChangeOfWhatATextureNames) {
   ASSERT_EQ(rig.ask("study.begin").error, "");
   EXPECT_EQ(rig.ask("study.end").error, "");
   // The check sums of the head, by the definition of CRC-32/ISO-HDLC bit by bit.
-  const Json head = Json::parse(log().substr(log().find('{'), log().find('\n') - log().find('{')));
+  const Json head = parse_json(log().substr(log().find('{'), log().find('\n') - log().find('{')));
   const std::string whole =
       read_file(folder / "a.texture.json", 1 << 20U) + read_file(folder / "a.heights.png", 1 << 20U);
   EXPECT_EQ(head["textures_crc32"]["a.texture.json"], crc_by_bits(whole));
@@ -340,7 +341,7 @@ TEST_F(StudyPageTest, NamesResultsAfterTheRun) {
   const auto written = [&](const std::string& name) {
     return rig.ask("study.export", {{"log", name}}).result["name"].get<std::string>();
   };
-  const auto results = [&](const std::string& name) { return Json::parse(read_file(folder / name, 1 << 20U)); };
+  const auto results = [&](const std::string& name) { return parse_json(read_file(folder / name, 1 << 20U)); };
   for (int run = 1; run <= 2; ++run) {
     ASSERT_EQ(rig.ask("study.begin").error, "");
     EXPECT_EQ(rig.ask("study.end").error, "");

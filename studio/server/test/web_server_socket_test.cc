@@ -29,6 +29,20 @@ TEST_F(WebServerSocket, AnswersACall) {
   EXPECT_EQ(client.next_frame()->payload, R"({"id":7,"result":{"a":[1,2.5,"ü"]}})");
 }
 
+// The largest message that one window may send does not keep the server from another.
+TEST_F(WebServerSocket, AHeartbeatIsAnsweredBesideTheLargestMessage) {
+  RawClient busy = browser(), other = browser();
+  std::string call = R"({"id":7,"call":"echo","args":{"a":[{})";
+  for (int i = 1; i < 199'000; ++i) call += ",{}";
+  busy.send(RawClient::frame(1, call + "]}}"));
+  for (int beat = 1; beat <= 20; ++beat) {
+    const std::string id = std::to_string(beat);
+    other.send(RawClient::frame(1, R"({"id":)" + id + R"(,"call":"echo","args":{}})"));
+    EXPECT_EQ(other.next_frame()->payload, R"({"id":)" + id + R"(,"result":{}})");
+  }
+  EXPECT_EQ(busy.next_frame()->payload.size(), std::string(R"({"id":7,"result":{"a":[]}})").size() + 3 * 199'000 - 1);
+}
+
 TEST_F(WebServerSocket, SendsATopicToThoseWhoFollowItAlone) {
   RawClient follower = browser(), other = browser();
   follower.send(RawClient::frame(1, R"({"id":1,"call":"subscribe","args":{"topic":"scan.probe"}})"));

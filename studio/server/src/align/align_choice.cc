@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 9> kKeys{"paths", "mesh",         "mesh_u
                                                 "picks", "T_mesh_world", "registered", "ran"};
 
 std::string text_of(const Json& json, std::string_view what) {
-  if (!json.is_string() || json.get_ref<const std::string&>().size() > kLongestName) {
+  if (!json.is_string() || json.text().size() > kLongestName) {
     throw Error("align: " + std::string(what) + " is not a text of at most 1000 bytes");
   }
   return json.get<std::string>();

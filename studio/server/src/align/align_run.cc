@@ -8,7 +8,6 @@
 
 #include "asperity/pipeline/locate_scans.h"
 #include "json_pose.h"
-#include "number_or_null.h"
 
 namespace asperity::studio {
 

@@ -127,8 +127,8 @@ class PaintPage : public Page {
   void preview(const Request& request) {
     const Painting painting = this->painting();
     const fs::path file = shared_.project.existing(painting.object);
-    const auto picks = request.args().find("picks_m");
-    Json stroke{{"texture", ""}, {"index", 1}, {"picks_m", picks == request.args().end() ? Json() : *picks}};
+    const Json* picks = request.args().find("picks_m");
+    Json stroke{{"texture", ""}, {"index", 1}, {"picks_m", picks == nullptr ? Json() : *picks}};
     Json section = first_painting();
     section["strokes"].push_back(std::move(stroke));
     const Stroke drawn = parse_painting(section).strokes.front();
@@ -173,7 +173,7 @@ class PaintPage : public Page {
           observer.update("writing", 0.9);
           write_scene(folder.path() / "scene.json", painted.scene);
           write_file(folder.path() / "paint.json",
-                     painting_json(painted, painting).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+                     painting_json(painted, painting).dump_repaired(2) + "\n");
           write_listing(folder.path());
           folder.commit();
           return Json{{"scene", name + "/scene.json"}};

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "asperity/base/error.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/registration/triangle_stretch.h"
 #include "asperity/scene/swap_texture.h"
 #include "asperity/session/paint_scene.h"
@@ -28,8 +29,7 @@ double number_of(const Json& value, const char* what, double low, double high) {
 
 std::string text_of(const Json& value, const char* what) {
   constexpr std::size_t kLongest = 1000;
-  if (!value.is_string() || value.get_ref<const std::string&>().size() > kLongest)
-    throw Error(std::string("paint: ") + what + " is no text");
+  if (!value.is_string() || value.text().size() > kLongest) throw Error(std::string("paint: ") + what + " is no text");
   return value.get<std::string>();
 }
 
@@ -87,36 +87,32 @@ Json textures_json(const SceneObject& object) {
 }  // namespace
 
 Json first_painting() {
-  return Json::parse(
+  return parse_json(
       R"({"object":"","unit_m":1.0,"rings":1,"half_width_mm":0.0,"strokes":[],"swaps":{},"current":-1,"written":""})");
 }
 
 Painting parse_painting(const Json& section) {
-  try {
-    refuse_unknown(section, {"object", "unit_m", "rings", "half_width_mm", "strokes", "swaps", "current", "written"},
-                   "paint");
-    Painting out;
-    out.object = text_of(section.at("object"), "the object");
-    out.unit_m = number_of(section.at("unit_m"), "the unit", 1e-9, 1e6);
-    out.coordinates.rings = static_cast<int>(number_of(section.at("rings"), "the number of rings", 0, 1000));
-    out.coordinates.half_width_mm = number_of(section.at("half_width_mm"), "half the width", 0.0, 1e6);
-    if (!section.at("strokes").is_array() || section.at("strokes").size() > kMostStrokes) {
-      throw Advice("a scene has " + std::to_string(kMostStrokes) + " strokes at most",
-                   "Write the scene, and go on painting on that.");
-    }
-    for (const Json& stroke : section.at("strokes")) out.strokes.push_back(stroke_of(stroke));
-    text_of(section.at("written"), "the scene that was written");
-    number_of(section.at("current"), "the chosen stroke", -1, kMostStrokes);
-    for (const auto& [index, texture] : section.at("swaps").items()) {
-      if (index.empty() || index.size() > 6 || index.find_first_not_of("0123456789") != std::string::npos) {
-        throw Error("paint: '" + index + "' is no texture's number");
-      }
-      out.swaps[std::stoi(index)] = text_of(texture, "a texture");
-    }
-    return out;
-  } catch (const Json::exception&) {
-    throw Error("paint: something is missing or of another kind");
+  refuse_unknown(section, {"object", "unit_m", "rings", "half_width_mm", "strokes", "swaps", "current", "written"},
+                 "paint");
+  Painting out;
+  out.object = text_of(section.at("object"), "the object");
+  out.unit_m = number_of(section.at("unit_m"), "the unit", 1e-9, 1e6);
+  out.coordinates.rings = static_cast<int>(number_of(section.at("rings"), "the number of rings", 0, 1000));
+  out.coordinates.half_width_mm = number_of(section.at("half_width_mm"), "half the width", 0.0, 1e6);
+  if (!section.at("strokes").is_array() || section.at("strokes").size() > kMostStrokes) {
+    throw Advice("a scene has " + std::to_string(kMostStrokes) + " strokes at most",
+                 "Write the scene, and go on painting on that.");
   }
+  for (const Json& stroke : section.at("strokes")) out.strokes.push_back(stroke_of(stroke));
+  text_of(section.at("written"), "the scene that was written");
+  number_of(section.at("current"), "the chosen stroke", -1, kMostStrokes);
+  for (const auto& [index, texture] : section.at("swaps").items()) {
+    if (index.empty() || index.size() > 6 || index.find_first_not_of("0123456789") != std::string::npos) {
+      throw Error("paint: '" + index + "' is no texture's number");
+    }
+    out.swaps[std::stoi(index)] = text_of(texture, "a texture");
+  }
+  return out;
 }
 
 PaintedScene paint_all(Scene scene, const Painting& painting, const Project& project, const Observer& observer) {

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "number_or_null.h"
-
 namespace asperity::studio {
 
 namespace {

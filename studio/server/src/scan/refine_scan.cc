@@ -7,7 +7,6 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/profile/compare_profiles.h"
-#include "number_or_null.h"
 
 namespace asperity::studio {
 

@@ -7,7 +7,6 @@
 
 #include "asperity/base/text.h"
 #include "json_pose.h"
-#include "number_or_null.h"
 
 namespace asperity::studio {
 

@@ -33,16 +33,18 @@ constexpr std::int64_t kClosedStatePeriod_ns = 500'000'000;
 
 // The devices that are there, by name alone: none is opened.
 Json devices_json() {
-  Json out;
-  out["serial"] = Json::array();
-  out["cameras"] = Json::array();
+  std::vector<std::string> serial, cameras;
   std::error_code error;
   for (fs::directory_iterator entry("/dev", error), end; !error && entry != end; entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (name.starts_with("ttyUSB") || name.starts_with("ttyACM")) out["serial"].push_back("serial:/dev/" + name);
-    if (name.starts_with("video")) out["cameras"].push_back("v4l2:/dev/" + name);
+    if (name.starts_with("ttyUSB") || name.starts_with("ttyACM")) serial.push_back("serial:/dev/" + name);
+    if (name.starts_with("video")) cameras.push_back("v4l2:/dev/" + name);
   }
-  for (Json& list : out) std::sort(list.begin(), list.end());
+  std::sort(serial.begin(), serial.end());
+  std::sort(cameras.begin(), cameras.end());
+  Json out;
+  out["serial"] = serial;
+  out["cameras"] = cameras;
   return out;
 }
 

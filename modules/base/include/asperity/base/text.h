@@ -16,6 +16,10 @@ void append_number(std::string& out, double value);
 void append_number(std::string& out, std::int64_t value);
 std::string number_text(double value);
 
+// A number as it is written in our text files: whole numbers without exponent or point, others as the
+// shortest text that reads back exactly.
+void append_exact(std::string& out, double value);
+
 // True if `text` is well-formed UTF-8.
 bool is_utf8(std::string_view text);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <cstdint>
 #include <string_view>
 
 namespace asperity {
@@ -14,5 +16,8 @@ double parse_length_unit_m(std::string_view text, std::string_view what);
 
 inline constexpr double kStandardGravity_mps2 = 9.80665;
 inline constexpr double kNanosecond_s = 1e-9;
+
+// To the nearest nanosecond.
+inline std::int64_t nanoseconds(double time_s) { return std::llround(time_s / kNanosecond_s); }
 
 }  // namespace asperity

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 
+#include "asperity/json/json.h"
 #include "asperity/scene/export_scene.h"
 #include "asperity/scene/scene.h"
 
@@ -13,6 +13,6 @@ Scene read_export_source(const std::filesystem::path& path);
 
 // Writes the files into `folder`, with the listing by which it is known for ours. Returns what `asperity export --json`
 // says of files and problems.
-nlohmann::ordered_json write_export(const std::filesystem::path& folder, const ExportResult& result);
+Json write_export(const std::filesystem::path& folder, const ExportResult& result);
 
 }  // namespace asperity

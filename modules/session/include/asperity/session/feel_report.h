@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "asperity/device/safety_cause.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/servo_tick.h"
+#include "asperity/json/json.h"
 #include "asperity/pipeline/rendering_score.h"
 
 namespace asperity {
@@ -24,7 +24,7 @@ class FeelFigures {
   std::size_t touching() const { return touching_; }
   std::size_t starting_inside() const { return starting_inside_; }
   std::size_t caused(SafetyCause cause) const;
-  nlohmann::ordered_json json() const;
+  Json json() const;
   // Two lines for a person.
   std::string text() const;
 
@@ -37,11 +37,11 @@ class FeelFigures {
   double highest_m_ = -std::numeric_limits<double>::infinity();
 };
 
-nlohmann::ordered_json score_json(const RenderingScore& score);
+Json score_json(const RenderingScore& score);
 std::string score_text(const RenderingScore& score);
 
 // Schedule and durations, in microseconds.
-nlohmann::ordered_json timing_json(const ServoStatistics& statistics, const ServoConfig& config);
+Json timing_json(const ServoStatistics& statistics, const ServoConfig& config);
 std::string timing_text(const ServoStatistics& statistics, const ServoConfig& config);
 
 }  // namespace asperity

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "asperity/base/progress.h"
+#include "asperity/json/json.h"
 #include "asperity/simulation/live_bench.h"
 
 namespace asperity {
@@ -22,7 +22,7 @@ class LiveScan {
   std::string calibration() const { return (folder_ / "calibration.json").string(); }
   std::string markers() const { return (folder_ / "markers.json").string(); }
   // What to open, on one line.
-  nlohmann::ordered_json announcement() const;
+  Json announcement() const;
 
   // Waits for both readers and plays. Throws Error if they don't come in time.
   LiveReport play(const Observer& observer);
@@ -35,7 +35,7 @@ class LiveScan {
   LiveBench bench_;
 };
 
-nlohmann::ordered_json live_json(const LiveReport& report, const std::string& recording);
+Json live_json(const LiveReport& report, const std::string& recording);
 std::string live_line(const LiveReport& report, const std::string& recording);
 
 }  // namespace asperity

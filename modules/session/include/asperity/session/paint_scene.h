@@ -1,10 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
-
+#include "asperity/base/error.h"
+#include "asperity/json/json.h"
 #include "asperity/scene/paint.h"
 #include "asperity/scene/scene.h"
 
@@ -19,6 +19,6 @@ Scene read_painted_scene(const std::filesystem::path& file, std::optional<double
 SceneTexture choose_texture(const Scene& scene, const std::filesystem::path& file, int index);
 
 // What one stroke did, as in paint.json, but for the settings.
-nlohmann::ordered_json stroke_json(const PaintResult& result, const SceneObject& object, const SceneTexture& texture);
+Json stroke_json(const PaintResult& result, const SceneObject& object, const SceneTexture& texture);
 
 }  // namespace asperity

@@ -2,15 +2,14 @@
 
 #include <cstdint>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace asperity::studio {
+#include "asperity/json/json.h"
 
-using Json = nlohmann::ordered_json;
+namespace asperity::studio {
 
 // Numbers with a head: one binary frame to the browser (docs/studio-protocol.md). A head in JSON, and arrays that it
 // describes, each at a multiple of eight bytes from the frame's beginning, so that the browser views them in place.

@@ -1,22 +1,12 @@
-#include "json_writer.h"
+#include "asperity/json/json_writer.h"
 
 #include <cmath>
 
-#include <nlohmann/json.hpp>
-
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "json_text.h"
 
 namespace asperity {
-
-void append_exact(std::string& out, double value) {
-  constexpr double kWholeNumbers = 9007199254740992.0;  // 2^53: all whole numbers below are exact
-  if (std::abs(value) < kWholeNumbers && value == std::trunc(value) && !(value == 0.0 && std::signbit(value))) {
-    append_number(out, static_cast<std::int64_t>(value));
-  } else {
-    append_number(out, value);
-  }
-}
 
 void JsonWriter::open(char bracket) {
   out_ += bracket;
@@ -26,38 +16,45 @@ void JsonWriter::open(char bracket) {
 
 void JsonWriter::close(char bracket) {
   --depth_;
-  if (!first_) {
+  if (!first_ && !inline_) {
     out_ += '\n';
-    out_.append(static_cast<std::size_t>(depth_), ' ');
+    out_.append(static_cast<std::size_t>(depth_ * style_.indent), ' ');
   }
   out_ += bracket;
-  first_ = false;
+  first_ = inline_ = false;
 }
 
 void JsonWriter::next(std::string_view key) {
-  out_ += first_ ? "\n" : ",\n";
+  if (inline_) {
+    out_ += first_ ? "" : ", ";
+  } else {
+    out_ += first_ ? "\n" : ",\n";
+    out_.append(static_cast<std::size_t>(depth_ * style_.indent), ' ');
+  }
   first_ = false;
-  out_.append(static_cast<std::size_t>(depth_), ' ');
   if (key.empty()) return;
-  out_ += nlohmann::json(key).dump() + ": ";
+  append_json_text(out_, key, false);
+  out_ += ": ";
 }
 
 void JsonWriter::value(double number, std::string_view key) {
   if (!std::isfinite(number)) {
     throw Error(std::string(key) + ": " + number_text(number) + " cannot be written to a file");
   }
-  if (number == 0.0 && std::signbit(number)) {
+  if (!style_.plain_whole_numbers) {
+    append_number(out_, number);
+  } else if (number == 0.0 && std::signbit(number)) {
     out_ += "-0.0";  // JSON readers take -0 for the integer 0
   } else {
     append_exact(out_, number);
   }
 }
 
-void JsonWriter::row(const double* values, std::size_t count, std::ptrdiff_t stride, std::string_view key) {
+void JsonWriter::row(const double* values, std::size_t count, std::size_t stride, std::string_view key) {
   out_ += '[';
   for (std::size_t i = 0; i < count; ++i) {
     if (i > 0) out_ += ", ";
-    value(values[static_cast<std::ptrdiff_t>(i) * stride], key);
+    value(values[i * stride], key);
   }
   out_ += ']';
 }
@@ -75,7 +72,7 @@ void JsonWriter::integer(std::string_view key, std::int64_t value) {
 void JsonWriter::text(std::string_view key, std::string_view value) {
   if (!is_utf8(value)) throw Error(std::string(key) + ": '" + printable(value) + "' is not UTF-8 text");
   next(key);
-  out_ += nlohmann::json(value).dump();
+  append_json_text(out_, value, false);
 }
 
 void JsonWriter::boolean(std::string_view key, bool value) {
@@ -88,12 +85,12 @@ void JsonWriter::numbers(std::string_view key, const double* values, std::size_t
   row(values, count, 1, key);
 }
 
-void JsonWriter::matrix(std::string_view key, const Eigen::Matrix<double, 3, Eigen::Dynamic>& value) {
+void JsonWriter::matrix(std::string_view key, const double* values, std::size_t rows, std::size_t columns) {
   next(key);
   out_ += '[';
-  for (Eigen::Index i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < rows; ++i) {
     if (i > 0) out_ += ", ";
-    row(value.data() + i, static_cast<std::size_t>(value.cols()), 3, key);
+    row(values + i, columns, rows, key);
   }
   out_ += ']';
 }
@@ -108,6 +105,11 @@ void JsonWriter::begin_object(std::string_view key) {
   open('{');
 }
 
+void JsonWriter::begin_inline(std::string_view key) {
+  begin_object(key);
+  inline_ = true;
+}
+
 void JsonWriter::begin_array(std::string_view key) {
   next(key);
   open('[');
@@ -118,9 +120,8 @@ void JsonWriter::begin_element() {
   open('{');
 }
 
-std::string JsonWriter::finish() {
+std::string JsonWriter::take() {
   close('}');
-  out_ += '\n';
   return std::move(out_);
 }
 
