@@ -26,8 +26,8 @@
 #include "asperity/signal/statistics.h"
 #include "asperity/simulation/make_pebble.h"
 #include "asperity/simulation/make_surface.h"
-#include "asperity/simulation/place_at_random.h"
 #include "asperity/simulation/random_motion.h"
+#include "asperity/simulation/randomise_pose.h"
 #include "asperity/simulation/simulate_recording.h"
 #include "read_options.h"
 
@@ -86,7 +86,7 @@ std::optional<Figures> measure(const Options& options, const asperity::TriangleM
   if (options.exact) config.calibration.imperfection = 0.0;
   config.shape.kind = asperity::BaseShapeKind::kMesh;
   config.shape.through = path.through;
-  asperity::place_at_random(number, config.shape);
+  asperity::randomise_pose(number, config.shape);
   asperity::Scan scan;
   scan.name = surface;
   scan.recording = asperity::simulate_recording(config, *asperity::make_surface(config.surface, number), mesh);

@@ -14,7 +14,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/pipeline/process_recording.h"
-#include "asperity/recording/import.h"
+#include "asperity/recording/import_imu_pose.h"
 #include "asperity/signal/statistics.h"
 
 namespace {

@@ -19,10 +19,10 @@
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/link/open_protocol.h"
 #include "asperity/recorder/recorder.h"
 #include "asperity/recording/read_recording.h"
-#include "asperity/transport/host_clock.h"
 
 namespace {
 

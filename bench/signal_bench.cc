@@ -6,7 +6,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "asperity/profile/integrate_verlet.h"
+#include "asperity/profile/thesis_steps.h"
 #include "asperity/signal/resample.h"
 #include "asperity/signal/zero_phase.h"
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "asperity/recording/inspect.h"
+#include "asperity/recording/inspect_recording.h"
 #include "asperity/recording/read_recording.h"
 
 int main(int argc, char** argv) try {

@@ -9,7 +9,7 @@
 
 #include "asperity/base/random.h"
 #include "asperity/pipeline/process_recording.h"
-#include "asperity/recording/validate.h"
+#include "asperity/recording/validate_recording.h"
 
 namespace {
 

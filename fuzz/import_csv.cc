@@ -1,7 +1,7 @@
 // Two files in one input, parted by a line "%%%": imu.csv and mocap.csv.
 #include "asperity/base/error.h"
-#include "asperity/recording/import.h"
-#include "asperity/recording/validate.h"
+#include "asperity/recording/import_imu_pose.h"
+#include "asperity/recording/validate_recording.h"
 #include "fuzz_input.h"
 
 using namespace asperity;

@@ -1,6 +1,6 @@
 #include "asperity/base/error.h"
-#include "asperity/recording/format.h"
-#include "asperity/recording/parse.h"
+#include "asperity/recording/format_recording.h"
+#include "asperity/recording/parse_recording.h"
 #include "fuzz_input.h"
 
 using namespace asperity;

@@ -2,9 +2,9 @@
 #include <array>
 
 #include "asperity/base/error.h"
-#include "asperity/recording/inspect.h"
-#include "asperity/recording/parse.h"
-#include "asperity/recording/validate.h"
+#include "asperity/recording/inspect_recording.h"
+#include "asperity/recording/parse_recording.h"
+#include "asperity/recording/validate_recording.h"
 #include "fuzz_input.h"
 
 using namespace asperity;

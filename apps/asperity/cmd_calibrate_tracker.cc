@@ -43,7 +43,7 @@ Json json_of_axes(const std::array<SeriesNoise, 3>& axes, const std::string& uni
   return out;
 }
 
-Json json_of_rest(const TrackerRest& rest) {
+Json json_of_rest(const StaticInterval& rest) {
   return {{"recording", printable(rest.recording, 200)},
           {"start_ns", rest.start_ns},
           {"end_ns", rest.end_ns},
@@ -97,7 +97,7 @@ class CalibrateTrackerCommand : public CalibrateCommand {
       observer.update("reading", static_cast<double>(recordings.size()) / static_cast<double>(folders_.size()));
       recordings.push_back(read_recording(folder));
     }
-    std::vector<RestingTracker> trackers;
+    std::vector<StaticTracker> trackers;
     for (std::size_t i = 0; i < recordings.size(); ++i) {
       trackers.push_back({printable(folders_[i], 200), &recordings[i].tracker, recordings[i].calibration.markers,
                           recordings[i].info.world == "camera"});
@@ -106,7 +106,7 @@ class CalibrateTrackerCommand : public CalibrateCommand {
     if (!figure_.empty()) {
       const auto longest = std::max_element(
           noise.rests.begin(), noise.rests.end(),
-          [](const TrackerRest& a, const TrackerRest& b) { return a.deviation_m.size() < b.deviation_m.size(); });
+          [](const StaticInterval& a, const StaticInterval& b) { return a.deviation_m.size() < b.deviation_m.size(); });
       write_file(figure_, noise_svg(*longest));
     }
     return describe(noise);
@@ -121,7 +121,7 @@ class CalibrateTrackerCommand : public CalibrateCommand {
     out.residuals = {{"slow_position_m", json_of(noise.slow_position_m)},
                      {"slow_rotation_rad", json_of(noise.slow_rotation_rad)}};
     Json rests = Json::array();
-    for (const TrackerRest& rest : noise.rests) rests.push_back(json_of_rest(rest));
+    for (const StaticInterval& rest : noise.rests) rests.push_back(json_of_rest(rest));
     out.details = {{"gaussian", noise.gaussian}, {"moving", noise.moving}, {"rests", rests}};
     out.details["model"] = noise.model ? json_of_model(*noise.model) : Json(nullptr);
     constexpr double kMilli = 1e3;
@@ -133,7 +133,7 @@ class CalibrateTrackerCommand : public CalibrateCommand {
       out.table.push_back({fmt::format("rotation {}", "xyz"[axis]), kMilli * noise.sigma_rotation_rad[axis],
                            kMilli * noise.sigma_rotation_error_rad[axis], "mrad"});
     }
-    for (const TrackerRest& rest : noise.rests) {
+    for (const StaticInterval& rest : noise.rests) {
       std::string note =
           fmt::format("rest of {:.1f} s, {} poses", static_cast<double>(rest.end_ns - rest.start_ns) * kNanosecond_s,
                       rest.deviation_m.size());

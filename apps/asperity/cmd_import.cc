@@ -9,7 +9,7 @@
 #include "asperity/base/version.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/pipeline/config_json.h"
-#include "asperity/recording/import.h"
+#include "asperity/recording/import_imu_pose.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
 #include "commands.h"

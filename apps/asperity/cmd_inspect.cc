@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "asperity/recording/inspect.h"
+#include "asperity/recording/inspect_recording.h"
 #include "asperity/recording/read_recording.h"
 #include "commands.h"
 

@@ -8,10 +8,10 @@
 
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/json/json.h"
 #include "asperity/printing/format_pdf.h"
 #include "asperity/printing/marker_sheets.h"
-#include "asperity/json/json.h"
-#include "asperity/recording/format.h"
+#include "asperity/recording/format_recording.h"
 #include "asperity/session/our_file.h"
 #include "commands.h"
 #include "marker_family.h"

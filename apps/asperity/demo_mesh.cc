@@ -21,8 +21,8 @@
 #include "asperity/session/our_folder.h"
 #include "asperity/simulation/make_pebble.h"
 #include "asperity/simulation/make_surface.h"
-#include "asperity/simulation/place_at_random.h"
 #include "asperity/simulation/random_motion.h"
+#include "asperity/simulation/randomise_pose.h"
 #include "asperity/simulation/simulate_recording.h"
 #include "demo_figure.h"
 
@@ -50,7 +50,7 @@ Scan scan_over(const TriangleMesh& mesh, SimulationConfig& config, const Observe
   config.hand.speed_mps = 0.025;
   config.shape.kind = BaseShapeKind::kMesh;
   config.shape.through = kScanned;
-  place_at_random(kSeed, config.shape);
+  randomise_pose(kSeed, config.shape);
   Scan scan;
   scan.name = "pebble";
   scan.recording = simulate_recording(config, *make_surface(config.surface, kSeed), mesh, observer);

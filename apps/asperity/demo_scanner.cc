@@ -125,11 +125,11 @@ void measure_the_trackers_noise(Rig& rig, const Observer& observer) {
   constexpr double kRest_s = 6.0;
   constexpr double kRate_Hz = 40.0;
   const Pose T_world_marker{exp_rotation({0.2, 0.1, 0.05}), {0.0, -0.03, 0.32}};
-  const Recording rest = move(rig, resting_motion(T_world_marker, rig.tip_in_marker_m()), kRest_s, "rest", observer);
+  const Recording rest = move(rig, static_motion(T_world_marker, rig.tip_in_marker_m()), kRest_s, "rest", observer);
   const TrackerStream poses = track(rig, rest, kRate_Hz, 1, observer);
   const TrackerStream others = track(rig, rest, kRate_Hz, 2, observer);
   const auto measure = [&](const TrackerStream& stream) {
-    const RestingTracker resting{"rest", &stream, rig.calibration.markers, true};
+    const StaticTracker resting{"rest", &stream, rig.calibration.markers, true};
     return calibrate_tracker_noise({&resting, 1});
   };
   const TrackerNoise noise = measure(poses);
@@ -193,7 +193,7 @@ void calibrate_the_accelerometer(Rig& rig, const Observer& observer) {
   rig.add("accelerometer_field", fmt::format("accelerometer from gravity alone: {} poses", field.used), figures);
 
   // On a tilting table, which knows how it stands: the sensor's rotation to the marker comes with it.
-  const std::vector<Eigen::Vector3d> force_mps2 = resting_force_mps2(bench, heard.probe.t_ns);
+  const std::vector<Eigen::Vector3d> force_mps2 = static_specific_force_mps2(bench, heard.probe.t_ns);
   AccelerometerSamples still;
   for (const FieldPose& pose : field.poses) {
     for (std::size_t i = pose.pose.first; i < pose.pose.last; ++i) {

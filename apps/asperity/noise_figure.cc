@@ -16,7 +16,7 @@ constexpr std::size_t kBins = 31;
 
 double left_px(int axis) { return 40.0 + 290.0 * axis; }
 
-std::string panel(const TrackerRest& rest, int axis) {
+std::string panel(const StaticInterval& rest, int axis) {
   const double sigma_m = rest.position_m[static_cast<std::size_t>(axis)].total;
   double farthest_m = 0.0;
   for (const Eigen::Vector3d& d : rest.deviation_m) farthest_m = std::max(farthest_m, std::abs(d[axis]));
@@ -64,7 +64,7 @@ std::string panel(const TrackerRest& rest, int axis) {
 
 }  // namespace
 
-std::string noise_svg(const TrackerRest& rest) {
+std::string noise_svg(const StaticInterval& rest) {
   std::string out = fmt::format(
       "{} viewBox=\"0 0 900 320\" width=\"900\" height=\"320\" font-family=\"sans-serif\" "
       "font-size=\"13\">\n<rect width=\"900\" height=\"320\" fill=\"#fff\"/>\n",

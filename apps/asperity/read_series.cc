@@ -19,16 +19,11 @@ SeriesTable read_series(const std::string& file) {
   const std::size_t force = csv.require("force_N");
   SeriesTable table;
   std::vector<double> t_s;
-  const auto finite = [&csv](std::size_t column) {
-    const double value = csv.number(column);
-    if (!std::isfinite(value)) csv.fail(column, number_text(value) + " is not finite");
-    return value;
-  };
   while (csv.next()) {
-    t_s.push_back(finite(time));
-    table.acceleration_mps2.push_back(finite(acceleration));
-    table.speed_mps.push_back(finite(speed));
-    table.force_N.push_back(finite(force));
+    t_s.push_back(csv.finite(time));
+    table.acceleration_mps2.push_back(csv.finite(acceleration));
+    table.speed_mps.push_back(csv.finite(speed));
+    table.force_N.push_back(csv.finite(force));
   }
   if (t_s.size() < 2) throw Error(file + ": fewer than two rows");
   const double step_s = (t_s.back() - t_s.front()) / static_cast<double>(t_s.size() - 1);

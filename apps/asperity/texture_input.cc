@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
+#include "asperity/base/units.h"
 #include "asperity/profile/measure_roughness.h"
 
 namespace asperity::app {
@@ -19,24 +21,17 @@ namespace {
 
 constexpr std::uint64_t kLargestFile_bytes = 512ULL << 20;
 
-std::optional<double> unit_m(const std::string& name, const std::vector<std::string>& quantities) {
-  for (const auto& quantity : quantities) {
-    for (const auto& [ending, metres] : std::vector<std::pair<std::string, double>>{
-             {"_m", 1.0}, {"_mm", 1e-3}, {"_um", 1e-6}, {"_µm", 1e-6}, {"_nm", 1e-9}}) {
-      if (name == quantity + ending) return metres;
-    }
-  }
-  return std::nullopt;
-}
-
 struct Column {
   std::size_t index = 0;
   double unit_m = 1.0;
 };
 
-std::optional<Column> find_column(const CsvReader& csv, const std::vector<std::string>& quantities) {
+std::optional<Column> find_column(const CsvReader& csv, std::initializer_list<std::string_view> quantities) {
   for (std::size_t i = 0; i < csv.columns().size(); ++i) {
-    if (const auto unit = unit_m(csv.columns()[i], quantities)) return Column{i, *unit};
+    const auto named = split_length_name(csv.columns()[i]);
+    if (named && std::find(quantities.begin(), quantities.end(), named->quantity) != quantities.end()) {
+      return Column{i, named->unit_m};
+    }
   }
   return std::nullopt;
 }

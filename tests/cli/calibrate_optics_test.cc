@@ -158,7 +158,7 @@ TEST(CalibrateOptics, TheLatencyFromAShakenRecording) {
   EXPECT_EQ(after.tracker.latency_s, out["values"]["latency_s"].get<double>());
   EXPECT_EQ(after.tracker.latency_sigma_s, error_s);
 
-  write_to(dir / "still", simulate_motion(config, resting_motion(shake.T_world_marker, tip_in_marker_m), 6.0, "still"));
+  write_to(dir / "still", simulate_motion(config, static_motion(shake.T_world_marker, tip_in_marker_m), 6.0, "still"));
   const Outcome refused = run({"calibrate", "latency", (dir / "still").string()});
   EXPECT_EQ(refused.code, 1);
   EXPECT_THAT(refused.err, HasSubstr("shake the probe"));

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "probe_internal.h"
+#include "sample_frame.h"
 
 enum { kHostBytesAStep = 64, kFramesAStep = 8, kAskedPause_us = 100000 };
 

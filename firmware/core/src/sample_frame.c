@@ -1,6 +1,14 @@
-#include "probe_internal.h"
+#include "sample_frame.h"
 
 enum { kFlagStart = 1, kFlagOverrun = 2, kFlagGyro = 4, kFlagForce3 = 8 };
+
+static const asp_queued_row* asp_row_at(const asp_probe* probe, uint32_t i) {
+  return &probe->rows[(probe->rows_taken + i) % ASP_ROW_QUEUE];
+}
+
+static const asp_force_sample* asp_force_at(const asp_probe* probe, uint32_t i) {
+  return &probe->forces[(probe->forces_taken + i) % ASP_FORCE_QUEUE];
+}
 
 // Rows at the front of the queue that one frame can hold: numbered one after another and evenly spaced, so that a
 // time and a period say when each was. Spacings within a quarter of the first count as even: what is left is the

@@ -1,6 +1,7 @@
 #include "asperity/base/csv.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "asperity/base/error.h"
@@ -28,30 +29,32 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t limit_byt
   return text;
 }
 
-CsvReader::CsvReader(std::string_view text, std::string name) : name_(std::move(name)), rest_(text) {
+CsvReader::CsvReader(std::string_view text, std::string name, CsvHeader header) : name_(std::move(name)), rest_(text) {
   if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);
-  std::string_view header;
+  std::string_view first;
   accept_unterminated_ = true;
-  const bool found = next_line(header);
+  const bool found = next_line(first);
   accept_unterminated_ = false;
-  if (!found) throw Error(name_ + ":1: the header line is missing");
-  if (!is_utf8(header))
-    throw Error(name_ + ":" + std::to_string(line_) + ": the header is not UTF-8 text: " + printable(header));
-  std::size_t start = 0;
-  while (true) {
-    const auto comma = header.find(',', start);
-    const std::string column(trim(header.substr(start, comma - start)));
-    if (column.empty())
-      throw Error(name_ + ":" + std::to_string(line_) + ": column " + std::to_string(columns_.size() + 1) +
-                  " has no name");
-    if (find(column))
-      throw Error(name_ + ":" + std::to_string(line_) + ": column '" + printable(column) + "' appears twice");
-    if (columns_.size() == 1000) throw Error(name_ + ":" + std::to_string(line_) + ": more than 1000 columns");
-    columns_.push_back(column);
-    if (comma == std::string_view::npos) break;
-    start = comma + 1;
+  const bool optional = header == CsvHeader::kOptional;
+  if (!found) throw Error(name_ + (optional ? ":1: the file is empty" : ":1: the header line is missing"));
+  for (std::size_t start = 0; start != std::string_view::npos;) {
+    const auto comma = first.find(',', start);
+    if (cells_.size() == 1000) fail("more than 1000 columns");
+    cells_.push_back(trim(first.substr(start, comma - start)));
+    start = comma == std::string_view::npos ? comma : comma + 1;
   }
-  cells_.resize(columns_.size());
+  const auto is_number = [](std::string_view cell) { return parse_double(cell).has_value(); };
+  first_row_pending_ = optional && std::all_of(cells_.begin(), cells_.end(), is_number);
+  if (!first_row_pending_) take_header();
+}
+
+void CsvReader::take_header() {
+  for (const std::string_view cell : cells_) {
+    if (!is_utf8(cell)) fail("the header is not UTF-8 text: " + printable(cell));
+    if (cell.empty()) fail("column " + std::to_string(columns_.size() + 1) + " has no name");
+    if (find(cell)) fail("column '" + printable(cell) + "' appears twice");
+    columns_.emplace_back(cell);
+  }
 }
 
 std::optional<std::size_t> CsvReader::find(std::string_view column) const {
@@ -97,12 +100,17 @@ bool CsvReader::next_line(std::string_view& line) {
     rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
     ++line_;
     if (line.ends_with('\r')) line.remove_suffix(1);
-    if (!line.starts_with('#') && !trim(line).empty()) return true;
+    const std::string_view content = trim(line);
+    if (!content.empty() && content.front() != '#') return true;
   }
   return false;
 }
 
 bool CsvReader::next() {
+  if (first_row_pending_) {
+    first_row_pending_ = false;
+    return true;
+  }
   std::string_view line;
   if (!next_line(line)) return false;
   std::size_t count = 0;
@@ -119,8 +127,8 @@ bool CsvReader::next() {
     start = comma + 1;
   }
   if (count != cells_.size()) {
-    throw Error(name_ + ":" + std::to_string(line_) + ": " + std::to_string(count) + " cells where the header has " +
-                std::to_string(cells_.size()));
+    fail(std::to_string(count) + (count == 1 ? " cell" : " cells") + " where the " +
+         (columns_.empty() ? "first line" : "header") + " has " + std::to_string(cells_.size()));
   }
   return true;
 }
@@ -133,6 +141,18 @@ double CsvReader::number(std::size_t column) const {
   return *value;
 }
 
+double CsvReader::finite(std::size_t column) const {
+  const double value = number(column);
+  if (!std::isfinite(value)) fail(column, "'" + printable(cells_[column]) + "' is not finite");
+  return value;
+}
+
+double CsvReader::finite_or_nan(std::size_t column) const {
+  const double value = number(column);
+  if (std::isinf(value)) fail(column, "'" + printable(cells_[column]) + "' is infinite");
+  return value;
+}
+
 std::int64_t CsvReader::integer(std::size_t column) const {
   const auto value = parse_int64(cells_[column]);
   if (!value) fail(column, "'" + printable(cells_[column]) + "' is not a whole number");
@@ -140,7 +160,12 @@ std::int64_t CsvReader::integer(std::size_t column) const {
 }
 
 void CsvReader::fail(std::size_t column, const std::string& message) const {
-  throw Error(name_ + ":" + std::to_string(line_) + ": column '" + printable(columns_[column]) + "': " + message);
+  fail((columns_.empty() ? "column " + std::to_string(column + 1) : "column '" + printable(columns_[column]) + "'") +
+       ": " + message);
+}
+
+void CsvReader::fail(const std::string& message) const {
+  throw Error(name_ + ":" + std::to_string(line_) + ": " + message);
 }
 
 }  // namespace asperity

@@ -55,4 +55,13 @@ double parse_length_unit_m(std::string_view text, std::string_view what) {
   return unit_m;
 }
 
+std::optional<NamedLength> split_length_name(std::string_view column) {
+  const auto end = column.rfind('_');
+  if (end == std::string_view::npos) return std::nullopt;
+  for (const auto& [unit, metres] : kLengths) {
+    if (column.substr(end + 1) == unit) return NamedLength{column.substr(0, end), metres};
+  }
+  return std::nullopt;
+}
+
 }  // namespace asperity

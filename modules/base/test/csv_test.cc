@@ -52,7 +52,29 @@ TEST(Csv, RefusesBadShapes) {
   EXPECT_THROW(CsvReader("a,,b\n", "f"), Error);
   EXPECT_THROW(CsvReader("a,a\n", "f"), Error);
   CsvReader csv("a,b\n1\n", "f.csv");
-  EXPECT_THAT([&] { csv.next(); }, testing::ThrowsMessage<Error>("f.csv:2: 1 cells where the header has 2"));
+  EXPECT_THAT([&] { csv.next(); }, testing::ThrowsMessage<Error>("f.csv:2: 1 cell where the header has 2"));
+}
+
+TEST(Csv, FirstLineOfNumbersIsARowWhereAHeaderIsOptional) {
+  CsvReader csv(" # note\n1, 2\n3,nan\n", "f.csv", CsvHeader::kOptional);
+  EXPECT_TRUE(csv.columns().empty());
+  EXPECT_EQ(csv.width(), 2u);
+  EXPECT_EQ(csv.find("1"), std::nullopt);
+  ASSERT_TRUE(csv.next());
+  EXPECT_EQ(csv.number(1), 2.0);
+  EXPECT_EQ(csv.line(), 2u);
+  ASSERT_TRUE(csv.next());
+  EXPECT_TRUE(std::isnan(csv.finite_or_nan(1)));
+  EXPECT_THAT([&] { csv.finite(1); }, testing::ThrowsMessage<Error>("f.csv:3: column 2: 'nan' is not finite"));
+  EXPECT_FALSE(csv.next());
+
+  CsvReader named("a,2\n-inf,1\n3\n", "f.csv", CsvHeader::kOptional);
+  EXPECT_EQ(named.columns().size(), 2u);
+  ASSERT_TRUE(named.next());
+  EXPECT_THAT([&] { named.finite_or_nan(0); },
+              testing::ThrowsMessage<Error>("f.csv:2: column 'a': '-inf' is infinite"));
+  EXPECT_THAT([&] { named.next(); }, testing::ThrowsMessage<Error>("f.csv:3: 1 cell where the header has 2"));
+  EXPECT_THROW(CsvReader("\n", "f", CsvHeader::kOptional), Error);
 }
 
 }  // namespace

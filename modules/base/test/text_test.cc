@@ -45,5 +45,16 @@ TEST(Units, NumberWithUnit) {
   EXPECT_THROW(parse_length_m("infmm", "x"), Error);
 }
 
+TEST(Units, AColumnsNameEndsInItsUnitOfLength) {
+  EXPECT_EQ(split_length_name("height_um")->quantity, "height");
+  EXPECT_EQ(split_length_name("height_um")->unit_m, 1e-6);
+  EXPECT_EQ(split_length_name("z_\xC2\xB5m")->unit_m, 1e-6);  // the micro sign
+  EXPECT_EQ(split_length_name("z_\xCE\xBCm")->unit_m, 1e-6);  // the Greek letter
+  EXPECT_EQ(split_length_name("mean_height_m")->quantity, "mean_height");
+  EXPECT_FALSE(split_length_name("height"));
+  EXPECT_FALSE(split_length_name("force_N"));
+  EXPECT_FALSE(split_length_name(""));
+}
+
 }  // namespace
 }  // namespace asperity

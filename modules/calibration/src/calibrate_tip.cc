@@ -44,8 +44,8 @@ PivotPoses poses_of(const TrackerStream& stream, const TrackerCalibration& track
 }
 
 // A pose each time the probe has turned: a rest gives few, however long it lasts.
-std::vector<std::size_t> turned_poses(const TrackerStream& stream, const TrackerCalibration& tracker,
-                                      const CalibrateTipConfig& config) {
+std::vector<std::size_t> rotated_poses(const TrackerStream& stream, const TrackerCalibration& tracker,
+                                       const CalibrateTipConfig& config) {
   const double turn_rad = std::max(config.least_turn_rad, 5.0 * tracker.sigma_rotation_rad.norm());
   std::vector<std::size_t> out{0};
   for (std::size_t i = 1; i < stream.size(); ++i) {
@@ -206,7 +206,7 @@ void judge(TipCalibration& tip, const CalibrateTipConfig& config) {
 TipCalibration calibrate_tip(const TrackerStream& stream, const TrackerCalibration& tracker,
                              const CalibrateTipConfig& config) {
   const PivotPoses poses = poses_of(stream, tracker);
-  const std::vector<std::size_t> turned = turned_poses(stream, tracker, config);
+  const std::vector<std::size_t> turned = rotated_poses(stream, tracker, config);
   Pivot pivot = search(poses, turned, tracker, config);
   std::vector<double> distances;
   for (const std::size_t place : turned) distances.push_back(pivot_distance(pivot, poses, place, tracker));

@@ -11,8 +11,8 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
-#include "asperity/calibration/fit_noise_law.h"
-#include "find_rests.h"
+#include "find_static_intervals.h"
+#include "fit_noise_law.h"
 
 namespace asperity {
 
@@ -40,8 +40,8 @@ double robust_sigma(std::vector<double> x) {
 }
 
 // The rows that are no outliers in any axis of either deviation.
-std::vector<std::size_t> believable(const std::vector<Eigen::Vector3d>& position,
-                                    const std::vector<Eigen::Vector3d>& rotation, double sigmas) {
+std::vector<std::size_t> inlier_rows(const std::vector<Eigen::Vector3d>& position,
+                                     const std::vector<Eigen::Vector3d>& rotation, double sigmas) {
   std::vector<bool> bad(position.size());
   for (const auto* series : {&position, &rotation}) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -59,7 +59,7 @@ std::vector<std::size_t> believable(const std::vector<Eigen::Vector3d>& position
 }
 
 // The cosine between a tag's normal (into the tag) and the ray to its centre; the largest of all tags.
-double facing(const RestingTracker& recording, const Pose& T_camera_marker) {
+double facing(const StaticTracker& recording, const Pose& T_camera_marker) {
   double best = 0.0;
   const auto look = [&](const Pose& T_marker_tag) {
     const Pose T_camera_tag = T_camera_marker * T_marker_tag;
@@ -72,9 +72,10 @@ double facing(const RestingTracker& recording, const Pose& T_camera_marker) {
   return std::abs(T_camera_marker.translation_m.normalized().dot(T_camera_marker.rotation * Eigen::Vector3d::UnitZ()));
 }
 
-TrackerRest measure_rest(const RestingTracker& recording, PoseRange range, const TrackerNoiseConfig& config) {
+StaticInterval measure_static_interval(const StaticTracker& recording, PoseRange range,
+                                       const TrackerNoiseConfig& config) {
   const TrackerStream& tracker = *recording.tracker;
-  TrackerRest rest;
+  StaticInterval rest;
   rest.recording = recording.name;
   rest.start_ns = tracker.t_ns[range.first];
   rest.end_ns = tracker.t_ns[range.last - 1];
@@ -91,7 +92,7 @@ TrackerRest measure_rest(const RestingTracker& recording, PoseRange range, const
     position.push_back(pose.translation_m - rest.T_world_marker.translation_m);
     rotation.push_back(log_rotation(pose.rotation * rest.T_world_marker.rotation.conjugate()));
   }
-  const std::vector<std::size_t> rows = believable(position, rotation, config.outlier_sigmas);
+  const std::vector<std::size_t> rows = inlier_rows(position, rotation, config.outlier_sigmas);
   rest.outliers = position.size() - rows.size();
   std::vector<double> t_s;
   std::vector<Eigen::Vector3d> turn;
@@ -122,12 +123,12 @@ TrackerRest measure_rest(const RestingTracker& recording, PoseRange range, const
 }
 
 // The root of the mean variance over rests, by their numbers of poses, and its standard error.
-void pool(const std::vector<TrackerRest>& rests, Channel TrackerRest::*channel, Eigen::Vector3d& sigma,
+void pool(const std::vector<StaticInterval>& rests, Channel StaticInterval::*channel, Eigen::Vector3d& sigma,
           Eigen::Vector3d& error, Eigen::Vector3d& slow) {
   for (int axis = 0; axis < 3; ++axis) {
     double count = 0.0, white2 = 0.0, variance = 0.0, slow2 = 0.0;
-    for (const TrackerRest& rest : rests) count += static_cast<double>((rest.*channel)[0].samples);
-    for (const TrackerRest& rest : rests) {
+    for (const StaticInterval& rest : rests) count += static_cast<double>((rest.*channel)[0].samples);
+    for (const StaticInterval& rest : rests) {
       const SeriesNoise& noise = (rest.*channel)[static_cast<std::size_t>(axis)];
       const double share = static_cast<double>(noise.samples) / count;
       white2 += share * noise.white * noise.white;
@@ -141,21 +142,21 @@ void pool(const std::vector<TrackerRest>& rests, Channel TrackerRest::*channel, 
 }
 
 // Two axes of which neither is special: their mean variance.
-NoiseAtPlace across_place(const TrackerRest& rest, const Channel& channel) {
+NoiseAtPose noise_across(const StaticInterval& rest, const Channel& channel) {
   const double a = channel[0].white, b = channel[1].white;
-  NoiseAtPlace place{rest.distance_m, rest.tilt_rad, std::sqrt(0.5 * (a * a + b * b)), 0.0};
+  NoiseAtPose place{rest.distance_m, rest.tilt_rad, std::sqrt(0.5 * (a * a + b * b)), 0.0};
   place.sigma_error = std::hypot(a * channel[0].white_error, b * channel[1].white_error) / (2.0 * place.sigma);
   return place;
 }
 
-NoiseAtPlace along_place(const TrackerRest& rest, const Channel& channel) {
+NoiseAtPose noise_along(const StaticInterval& rest, const Channel& channel) {
   return {rest.distance_m, rest.tilt_rad, channel[2].white, channel[2].white_error};
 }
 
 void fit_model(const TrackerNoiseConfig& config, TrackerNoise& out) {
-  std::vector<NoiseAtPlace> across, along, about, tilt;
+  std::vector<NoiseAtPose> across, along, about, tilt;
   TrackerNoiseModel model;
-  for (const TrackerRest& rest : out.rests) {
+  for (const StaticInterval& rest : out.rests) {
     const auto measured = [](const SeriesNoise& noise) {
       return noise.white > 0.0 && std::isfinite(noise.white_error);
     };
@@ -163,10 +164,10 @@ void fit_model(const TrackerNoiseConfig& config, TrackerNoise& out) {
         !std::all_of(rest.ray_rotation_rad.begin(), rest.ray_rotation_rad.end(), measured)) {
       continue;
     }
-    across.push_back(across_place(rest, rest.ray_position_m));
-    along.push_back(along_place(rest, rest.ray_position_m));
-    tilt.push_back(across_place(rest, rest.ray_rotation_rad));
-    about.push_back(along_place(rest, rest.ray_rotation_rad));
+    across.push_back(noise_across(rest, rest.ray_position_m));
+    along.push_back(noise_along(rest, rest.ray_position_m));
+    tilt.push_back(noise_across(rest, rest.ray_rotation_rad));
+    about.push_back(noise_along(rest, rest.ray_rotation_rad));
     model.nearest_m = across.size() == 1 ? rest.distance_m : std::min(model.nearest_m, rest.distance_m);
     model.farthest_m = std::max(model.farthest_m, rest.distance_m);
     model.steepest_rad = std::max(model.steepest_rad, rest.tilt_rad);
@@ -201,7 +202,7 @@ void judge(TrackerNoise& out) {
   constexpr double kProbability = 1e-3, kSkewness = 0.5, kKurtosis = 1.0;
   const SeriesNoise* worst = nullptr;
   const char* worst_name = "";
-  for (const TrackerRest& rest : out.rests) {
+  for (const StaticInterval& rest : out.rests) {
     for (const auto& [name, channel] : {std::pair{"position", &rest.position_m}, {"rotation", &rest.rotation_rad}}) {
       for (const SeriesNoise& noise : *channel) {
         const bool large = std::abs(noise.skewness) > kSkewness || std::abs(noise.excess_kurtosis) > kKurtosis;
@@ -246,17 +247,17 @@ void judge(TrackerNoise& out) {
 
 }  // namespace
 
-TrackerNoise calibrate_tracker_noise(std::span<const RestingTracker> recordings, const TrackerNoiseConfig& config) {
+TrackerNoise calibrate_tracker_noise(std::span<const StaticTracker> recordings, const TrackerNoiseConfig& config) {
   TrackerNoise out;
   double longest_s = 0.0;
-  for (const RestingTracker& recording : recordings) {
+  for (const StaticTracker& recording : recordings) {
     const TrackerStream& tracker = *recording.tracker;
     if (tracker.size() > 1) {
       longest_s = std::max(longest_s, static_cast<double>(tracker.t_ns.back() - tracker.t_ns.front()) * kNanosecond_s);
     }
-    for (const PoseRange range : find_rests(tracker, config)) {
-      out.rests.push_back(measure_rest(recording, range, config));
-      const TrackerRest& rest = out.rests.back();
+    for (const PoseRange range : find_static_intervals(tracker, config)) {
+      out.rests.push_back(measure_static_interval(recording, range, config));
+      const StaticInterval& rest = out.rests.back();
       if (rest.outliers == 0) continue;
       out.problems.push_back({"tracker_outlier",
                               fmt::format("{}: {} of {} poses at rest lie far off the others and were left out",
@@ -271,8 +272,8 @@ TrackerNoise calibrate_tracker_noise(std::span<const RestingTracker> recordings,
                     "distances and tilts",
                     config.least_rest_s, config.least_poses, longest_s));
   }
-  pool(out.rests, &TrackerRest::position_m, out.sigma_position_m, out.sigma_position_error_m, out.slow_position_m);
-  pool(out.rests, &TrackerRest::rotation_rad, out.sigma_rotation_rad, out.sigma_rotation_error_rad,
+  pool(out.rests, &StaticInterval::position_m, out.sigma_position_m, out.sigma_position_error_m, out.slow_position_m);
+  pool(out.rests, &StaticInterval::rotation_rad, out.sigma_rotation_rad, out.sigma_rotation_error_rad,
        out.slow_rotation_rad);
   fit_model(config, out);
   judge(out);

@@ -1,4 +1,4 @@
-#include "asperity/calibration/fit_noise_law.h"
+#include "fit_noise_law.h"
 
 #include <fmt/format.h>
 
@@ -31,22 +31,22 @@ LinearLogs solve_noise_law(const Eigen::MatrixXd& rows, const Eigen::VectorXd& r
 
 }  // namespace
 
-NoiseLaw fit_noise_law(std::span<const NoiseAtPlace> places, double power, double least_tilt_ratio) {
+NoiseLaw fit_noise_law(std::span<const NoiseAtPose> poses, double power, double least_tilt_ratio) {
   constexpr std::size_t kFewest = 3;
-  if (places.size() < kFewest)
-    throw Error(fmt::format("noise law: {} places, at least {} are needed", places.size(), kFewest));
-  const auto n = static_cast<Eigen::Index>(places.size());
+  if (poses.size() < kFewest)
+    throw Error(fmt::format("noise law: {} poses, at least {} are needed", poses.size(), kFewest));
+  const auto n = static_cast<Eigen::Index>(poses.size());
   Eigen::VectorXd distance(n), tilt(n), sigma(n), weight(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const NoiseAtPlace& place = places[static_cast<std::size_t>(i)];
-    distance[i] = std::log(place.distance_m);
-    tilt[i] = -std::log(std::cos(place.tilt_rad));
-    sigma[i] = std::log(place.sigma);
-    weight[i] = place.sigma / place.sigma_error;
+    const NoiseAtPose& pose = poses[static_cast<std::size_t>(i)];
+    distance[i] = std::log(pose.distance_m);
+    tilt[i] = -std::log(std::cos(pose.tilt_rad));
+    sigma[i] = std::log(pose.sigma);
+    weight[i] = pose.sigma / pose.sigma_error;
     if (!std::isfinite(distance[i]) || !std::isfinite(tilt[i]) || !std::isfinite(sigma[i]) ||
         !std::isfinite(weight[i]) || !(weight[i] > 0.0)) {
-      throw Error(fmt::format("noise law: place {}: σ {} ± {} at {} m, {} rad", i, place.sigma, place.sigma_error,
-                              place.distance_m, place.tilt_rad));
+      throw Error(fmt::format("noise law: pose {}: σ {} ± {} at {} m, {} rad", i, pose.sigma, pose.sigma_error,
+                              pose.distance_m, pose.tilt_rad));
     }
   }
   NoiseLaw law;

@@ -11,6 +11,7 @@ namespace asperity {
 
 // The minimum of `f` near `start` by the downhill simplex (Nelder and Mead, 1965), from a simplex of side `step`
 // until its values differ by less than `tolerance`. Values that are not finite count as infinite.
+// By hand: of the kept libraries NLopt alone has it, LGPL, with a C callback and no rule for such values (ADR 14).
 template <int N, class F>
 Eigen::Matrix<double, N, 1> nelder_mead(F f, const Eigen::Matrix<double, N, 1>& start, double step, double tolerance,
                                         int most_evaluations = 400) {
@@ -34,16 +35,16 @@ Eigen::Matrix<double, N, 1> nelder_mead(F f, const Eigen::Matrix<double, N, 1>& 
     if (!(simplex[N].value - simplex[0].value > tolerance) || evaluations >= most_evaluations) return simplex[0].at;
     Point centre = Point::Zero();
     for (int i = 0; i < N; ++i) centre += simplex[static_cast<std::size_t>(i)].at / N;
-    const Point way = centre - simplex[N].at;
-    const Vertex reflected = evaluate(centre + way);
+    const Point reflection = centre - simplex[N].at;
+    const Vertex reflected = evaluate(centre + reflection);
     if (reflected.value < simplex[0].value) {
-      const Vertex expanded = evaluate(centre + 2.0 * way);
+      const Vertex expanded = evaluate(centre + 2.0 * reflection);
       simplex[N] = expanded.value < reflected.value ? expanded : reflected;
     } else if (reflected.value < simplex[N - 1].value) {
       simplex[N] = reflected;
     } else {
       const bool outside = reflected.value < simplex[N].value;
-      const Vertex contracted = evaluate(centre + (outside ? 0.5 : -0.5) * way);
+      const Vertex contracted = evaluate(centre + (outside ? 0.5 : -0.5) * reflection);
       if (contracted.value < std::min(reflected.value, simplex[N].value)) {
         simplex[N] = contracted;
       } else {

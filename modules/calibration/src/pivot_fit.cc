@@ -23,7 +23,7 @@ Eigen::Matrix3d miss_covariance(const Eigen::Vector3d& arm_m, const TrackerCalib
 }
 
 // E([φ]×ᵀ W [φ]×) for the stated rotation noise.
-Eigen::Matrix3d turned_weight(const Eigen::Matrix3d& W, const TrackerCalibration& tracker) {
+Eigen::Matrix3d rotated_weight(const Eigen::Matrix3d& W, const TrackerCalibration& tracker) {
   Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Matrix3d turn = tracker.sigma_rotation_rad[axis] * skew(Eigen::Vector3d::Unit(axis));
@@ -63,7 +63,7 @@ Normal sums(const PivotPoses& poses, const std::vector<RowRun>& runs, const Pivo
     const Eigen::Matrix<double, 6, 3> GW = G.transpose() * W;
     out.A += GW * G;
     out.b -= GW * poses.p_m[i];
-    out.excess.topLeftCorner<3, 3>() += R.transpose() * turned_weight(W, tracker) * R;
+    out.excess.topLeftCorner<3, 3>() += R.transpose() * rotated_weight(W, tracker) * R;
     out.count += 1.0;
   });
   return out;

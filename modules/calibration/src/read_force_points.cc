@@ -1,7 +1,5 @@
 #include "asperity/calibration/read_force_points.h"
 
-#include <cmath>
-
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
@@ -23,15 +21,10 @@ ForcePoints read_force_points(const std::filesystem::path& file) {
   const std::size_t counts = reader.require("counts");
   const std::size_t force = reader.require("force_N");
   ForcePoints out;
-  const auto number = [&](std::size_t column) {
-    const double value = reader.number(column);
-    if (!std::isfinite(value)) reader.fail(column, "is no finite number");
-    return value;
-  };
   while (reader.next()) {
     if (out.size() == kMostPoints) throw Error(name + ": more than a million readings");
-    out.counts.push_back(number(counts));
-    out.force_N.push_back(number(force));
+    out.counts.push_back(reader.finite(counts));
+    out.force_N.push_back(reader.finite(force));
   }
   return out;
 }

@@ -72,13 +72,13 @@ TEST(TrackerNoise, StandardErrorsAreTrue) {
     std::vector<Place> places = many_places();
     for (Place& place : places) place.length_s = 6.5;
     const TrackerStream tracker = simulate(random, places);
-    const RestingTracker recording{"simulated", &tracker, {}, true};
+    const StaticTracker recording{"simulated", &tracker, {}, true};
     const TrackerNoise noise = calibrate_tracker_noise({&recording, 1});
     ASSERT_EQ(noise.rests.size(), 6u);
     ASSERT_TRUE(noise.model);
     not_gaussian += !noise.gaussian;
     // On the optical axis the ray's frame is the world's.
-    const TrackerRest& first = noise.rests[0];
+    const StaticInterval& first = noise.rests[0];
     const double d = 0.25, steep = std::pow(std::cos(0.1), -kTiltPower);
     coverage.add("sigma_x", first.position_m[0].white, kAcross_m * d * steep, first.position_m[0].white_error);
     coverage.add("sigma_z", first.position_m[2].white, kAlong_m * d * d * steep, first.position_m[2].white_error);
@@ -103,7 +103,7 @@ TEST(TrackerNoise, StandardErrorsAreTrue) {
 TEST(TrackerNoise, FindsTheRestsOfOneRecording) {
   Random random(61);
   const TrackerStream tracker = simulate(random, many_places());
-  const RestingTracker recording{"one", &tracker, {}, true};
+  const StaticTracker recording{"one", &tracker, {}, true};
   const TrackerNoise noise = calibrate_tracker_noise({&recording, 1});
   ASSERT_EQ(noise.rests.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) {
@@ -118,7 +118,7 @@ TEST(TrackerNoise, FindsTheRestsOfOneRecording) {
 TEST(TrackerNoise, OneRestGivesNoModelAndSaysWhy) {
   Random random(62);
   const TrackerStream tracker = simulate(random, {{{0.0, 0.0, 0.28}, 0.0}});
-  const RestingTracker recording{"one", &tracker, {}, true};
+  const StaticTracker recording{"one", &tracker, {}, true};
   const TrackerNoise noise = calibrate_tracker_noise({&recording, 1});
   EXPECT_FALSE(noise.model);
   EXPECT_THAT(noise.no_model_because, testing::HasSubstr("several distances"));
@@ -132,7 +132,7 @@ TEST(TrackerNoise, SaysThatAHandMoves) {
     sway = 0.97 * sway + 0.12e-3 * random.normal();
     pose.translation_m.x() += sway;
   }
-  const RestingTracker recording{"hand", &tracker, {}, true};
+  const StaticTracker recording{"hand", &tracker, {}, true};
   const TrackerNoise noise = calibrate_tracker_noise({&recording, 1});
   EXPECT_TRUE(noise.moving);
   EXPECT_THAT(noise.verdict.text, testing::HasSubstr("The body moved"));
@@ -144,7 +144,7 @@ TEST(TrackerNoise, LeavesOutFlipsAndSaysSo) {
   Random random(64);
   TrackerStream tracker = simulate(random, {{{0.0, 0.0, 0.28}, 0.0}});
   for (std::size_t i = 100; i < 800; i += 100) tracker.T_world_marker[i].translation_m.z() += 0.01;
-  const RestingTracker recording{"flips", &tracker, {}, true};
+  const StaticTracker recording{"flips", &tracker, {}, true};
   const TrackerNoise noise = calibrate_tracker_noise({&recording, 1});
   ASSERT_EQ(noise.problems.size(), 1u);
   EXPECT_EQ(noise.problems[0].count, 7u);
@@ -155,7 +155,7 @@ TEST(TrackerNoise, IsNotGaussianWhereItIsNot) {
   Random random(65);
   TrackerStream tracker = simulate(random, {{{0.0, 0.0, 0.28}, 0.0}});
   for (Pose& pose : tracker.T_world_marker) pose.translation_m.y() += random.chance(0.1) ? 0.4e-3 : 0.0;
-  const RestingTracker recording{"flicker", &tracker, {}, true};
+  const StaticTracker recording{"flicker", &tracker, {}, true};
   const TrackerNoise noise = calibrate_tracker_noise({&recording, 1});
   EXPECT_FALSE(noise.gaussian);
   EXPECT_FALSE(noise.verdict.trustworthy);
@@ -166,10 +166,10 @@ TEST(TrackerNoise, RefusesWhatNeverRests) {
   TrackerStream tracker = simulate(random, {{{0.0, 0.0, 0.28}, 0.0}});
   for (std::size_t i = 0; i < tracker.size(); ++i)
     tracker.T_world_marker[i].translation_m.x() += 2e-4 * static_cast<double>(i);
-  const RestingTracker recording{"moving", &tracker, {}, true};
+  const StaticTracker recording{"moving", &tracker, {}, true};
   EXPECT_THROW(calibrate_tracker_noise({&recording, 1}), Error);
   const TrackerStream empty;
-  const RestingTracker nothing{"empty", &empty, {}, true};
+  const StaticTracker nothing{"empty", &empty, {}, true};
   EXPECT_THROW(calibrate_tracker_noise({&nothing, 1}), Error);
 }
 

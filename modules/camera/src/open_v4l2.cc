@@ -10,9 +10,9 @@
 #include <span>
 #include <utility>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/image/read_gray_image.h"
 #include "asperity/transport/byte_source.h"
-#include "asperity/transport/host_clock.h"
 #include "v4l2_controls.h"
 #include "v4l2_formats.h"
 #include "v4l2_system.h"

@@ -13,9 +13,9 @@
 #include <string_view>
 #include <system_error>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 #include "asperity/transport/byte_source.h"
-#include "asperity/transport/host_clock.h"
 #include "child_process.h"
 #include "y4m_source.h"
 

@@ -8,8 +8,8 @@
 #include <cstring>
 #include <utility>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/transport/byte_source.h"
-#include "asperity/transport/host_clock.h"
 
 namespace asperity {
 

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <algorithm>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/testkit/encode_jpeg.h"
 #include "asperity/transport/byte_source.h"
-#include "asperity/transport/host_clock.h"
 #include "fake_v4l2.h"
 
 namespace asperity {

@@ -8,10 +8,10 @@
 #include <fstream>
 #include <thread>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/image/y4m.h"
 #include "asperity/testkit/temp_dir.h"
 #include "asperity/transport/byte_source.h"
-#include "asperity/transport/host_clock.h"
 
 namespace asperity {
 namespace {

@@ -20,8 +20,8 @@ constexpr int kFailuresUntilFault = 5;  // one after another: a lost packet is n
 std::atomic<bool> owned{false};
 
 // Theirs: x toward the user, y right, z up. Ours: x right, y up, z toward the user.
-Eigen::Vector3d from_theirs(const Eigen::Vector3d& v) { return {v.y(), v.z(), v.x()}; }
-Eigen::Vector3d to_theirs(const Eigen::Vector3d& v) { return {v.z(), v.x(), v.y()}; }
+Eigen::Vector3d from_driver_frame(const Eigen::Vector3d& v) { return {v.y(), v.z(), v.x()}; }
+Eigen::Vector3d to_driver_frame(const Eigen::Vector3d& v) { return {v.z(), v.x(), v.y()}; }
 
 class DhdDevice final : public HapticDevice {
  public:
@@ -57,7 +57,7 @@ class DhdDevice final : public HapticDevice {
 
   void write(const Eigen::Vector3d& force_N) noexcept override {
     if (closed_ || faulty_) return;
-    const Eigen::Vector3d f_N = force_N.allFinite() ? to_theirs(force_N) : Eigen::Vector3d::Zero();
+    const Eigen::Vector3d f_N = force_N.allFinite() ? to_driver_frame(force_N) : Eigen::Vector3d::Zero();
     note(force_failures_, api_.set_force(f_N.x(), f_N.y(), f_N.z(), dhd::kDefaultDevice));
   }
 
@@ -89,8 +89,8 @@ class DhdDevice final : public HapticDevice {
     // Its estimator of velocity has nothing to say at first: that is no failure of the device.
     const bool moving = api_.get_linear_velocity(&v_mps.x(), &v_mps.y(), &v_mps.z(), dhd::kDefaultDevice) >= 0;
     const int buttons = api_.get_button_mask(dhd::kDefaultDevice);
-    reading_.p_m = from_theirs(p_m);
-    reading_.v_mps = moving && v_mps.allFinite() ? from_theirs(v_mps) : Eigen::Vector3d::Zero();
+    reading_.p_m = from_driver_frame(p_m);
+    reading_.v_mps = moving && v_mps.allFinite() ? from_driver_frame(v_mps) : Eigen::Vector3d::Zero();
     reading_.buttons = buttons > 0 ? static_cast<std::uint32_t>(buttons) : 0;
     ++reading_.sequence;
   }

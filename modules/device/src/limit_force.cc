@@ -1,4 +1,6 @@
-#include "asperity/device/limit_force.h"
+#include "limit_force.h"
+
+#include <algorithm>
 
 namespace asperity {
 
@@ -16,6 +18,11 @@ Eigen::Vector3d limit_force_rate(const Eigen::Vector3d& last_N, const Eigen::Vec
   const double length_N = change_N.stableNorm();
   if (length_N <= allowed_N) return force_N;
   return last_N + change_N * (allowed_N / length_N);
+}
+
+double next_gain(double gain, bool well, const SafetyConfig& config, double dt_s) noexcept {
+  if (well) return config.soft_start_s > 0.0 ? std::min(gain + dt_s / config.soft_start_s, 1.0) : 1.0;
+  return config.ramp_down_s > 0.0 ? std::max(gain - dt_s / config.ramp_down_s, 0.0) : 0.0;
 }
 
 }  // namespace asperity

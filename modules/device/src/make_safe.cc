@@ -2,10 +2,9 @@
 
 #include <algorithm>
 
-#include "asperity/device/force_gain.h"
-#include "asperity/device/limit_force.h"
 #include "asperity/device/safety_cause.h"
 #include "asperity/device/staleness.h"
+#include "limit_force.h"
 
 namespace asperity {
 namespace {
@@ -32,7 +31,7 @@ Eigen::Vector3d damping(const SafetyConfig& config, SafetyState& state, const Sa
   // A growing or falling gain is a spring whose stiffness changes: it creates energy by intent.
   observed.forgive = input.scene_changed || state.gain < 1.0;
   observed.dt_s = input.dt_s;
-  return damp_created_energy(config, state.passivity, observed);
+  return dissipate_created_energy(config, state.passivity, observed);
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ class HaplyDevice final : public IoDevice {
   void serve_and_leave() {
     run([this] { serve(); });
     try {
-      say_goodbye();
+      send_last_force();
     } catch (const std::exception&) {
       // The connection is gone, and the force with it: the service holds none beyond its session.
     }
@@ -112,7 +112,7 @@ class HaplyDevice final : public IoDevice {
     }
   }
 
-  void say_goodbye() {
+  void send_last_force() {
     const auto until = Clock::now() + seconds(0.2);
     const std::atomic<bool> never = false;
     send(Eigen::Vector3d::Zero(), false, until);

@@ -9,12 +9,12 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "asperity/device/spsc_ring.h"
 #include "check_config.h"
 #include "rumble_bands.h"
 #include "sdl_functions.h"
 #include "sdl_subsystem.h"
 #include "soft_limit.h"
+#include "spsc_queue.h"
 
 namespace asperity {
 
@@ -58,7 +58,7 @@ class RumbleSink final : public VibrationSink {
 
   const VibrationInfo& info() const noexcept override { return info_; }
   void push(double force_N) noexcept override {
-    if (std::isfinite(force_N)) ring_.push(force_N);
+    if (std::isfinite(force_N)) queue_.push(force_N);
   }
   bool working() const noexcept override { return !gone_.load(std::memory_order_relaxed); }
 
@@ -107,8 +107,8 @@ class RumbleSink final : public VibrationSink {
   // Takes what was pushed; true if something was. After a gap nobody felt the step to the first force.
   bool listen(bool after_gap) noexcept {
     bool any = false;
-    for (double force_N = 0.0; ring_.pop(force_N); any = ever_ = true) {
-      if (after_gap && !any) bands_.settle(force_N);
+    for (double force_N = 0.0; queue_.pop(force_N); any = ever_ = true) {
+      if (after_gap && !any) bands_.start_at(force_N);
       bands_.add(force_N);
     }
     return any;
@@ -130,7 +130,7 @@ class RumbleSink final : public VibrationSink {
   SdlSubsystem sdl_;
   SDL_Joystick* pad_ = nullptr;
   VibrationInfo info_;
-  SpscRing<double> ring_{4096};
+  SpscQueue<double> queue_{4096};
   std::atomic<bool> gone_{false};
   std::mutex mutex_;
   std::condition_variable wake_;

@@ -5,8 +5,8 @@
 
 namespace asperity {
 
-Eigen::Vector3d damp_created_energy(const SafetyConfig& config, PassivityState& state,
-                                    const PassivityInput& input) noexcept {
+Eigen::Vector3d dissipate_created_energy(const SafetyConfig& config, PassivityState& state,
+                                         const PassivityInput& input) noexcept {
   if (state.started) {
     const Eigen::Vector3d way_m = input.hand_m - state.hand_m;
     const double given_J = -state.force_N.dot(way_m);

@@ -68,8 +68,8 @@ class PointerDevice final : public ComputedDevice {
       step_ = step_of(dt_ns);
       step_ns_ = dt_ns;
     }
-    end_m_ = within_reach(end_m_);
-    const Eigen::Vector3d u_m = within_reach(target_m_);
+    end_m_ = inside_workspace(end_m_);
+    const Eigen::Vector3d u_m = inside_workspace(target_m_);
     for (int axis = 0; axis < 3; ++axis) {
       // From the point, so that a place far from the origin costs no digits.
       Eigen::Matrix<double, 5, 1> x;
@@ -81,7 +81,7 @@ class PointerDevice final : public ComputedDevice {
     }
   }
 
-  Eigen::Vector3d within_reach(const Eigen::Vector3d& place_m) const noexcept {
+  Eigen::Vector3d inside_workspace(const Eigen::Vector3d& place_m) const noexcept {
     const Eigen::Vector3d way_m = place_m - p_m_;
     const double length_m = way_m.stableNorm();
     return length_m > config_.reach_m ? Eigen::Vector3d(p_m_ + way_m * (config_.reach_m / length_m)) : place_m;

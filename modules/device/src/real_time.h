@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace asperity {
@@ -23,5 +24,8 @@ bool take_real_time_priority(std::string& why);
 
 // Timers of the calling thread fire as precisely as the kernel can; by default it lets them be 50 µs late.
 void take_precise_timers() noexcept;
+
+// Sleeps to `spin_ns` before `due_ns` of host_now_ns(), spins for the rest, and returns the time at which it ended.
+std::int64_t wait_until(std::int64_t due_ns, std::int64_t spin_ns) noexcept;
 
 }  // namespace asperity

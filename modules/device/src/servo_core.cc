@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "monotonic_clock.h"
+#include "asperity/base/host_clock.h"
 
 namespace asperity {
 namespace {
@@ -53,10 +53,10 @@ ServoOutput ServoCore::render(const DeviceReading& reading, const Eigen::Vector3
   state.p_world_m = tick.p_world_m;
   state.v_world_mps = config_.frame.velocity_mps(v_device_mps);
   state.dt_s = dt_s;
-  const std::int64_t begin_ns = config_.timed ? monotonic_ns() : 0;
+  const std::int64_t begin_ns = config_.timed ? host_now_ns() : 0;
   ServoOutput output = step_(*model, servo_, state);
   if (config_.timed) {
-    tick.step_ns = monotonic_ns() - begin_ns;
+    tick.step_ns = host_now_ns() - begin_ns;
     step_time_.add(tick.step_ns);
   }
   return output;

@@ -3,10 +3,10 @@
 #include <cstdint>
 
 #include "asperity/device/duration_histogram.h"
-#include "asperity/device/flight_recorder.h"
 #include "asperity/device/make_safe.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/velocity_estimator.h"
+#include "flight_recorder.h"
 
 namespace asperity {
 

@@ -7,11 +7,11 @@
 
 #include "asperity/base/config.h"
 #include "asperity/base/error.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
-#include "asperity/device/spsc_ring.h"
-#include "monotonic_clock.h"
 #include "real_time.h"
 #include "servo_core.h"
+#include "spsc_queue.h"
 
 namespace asperity {
 namespace {
@@ -58,12 +58,12 @@ class DirectSink final : public TickSink {
 
 class QueueSink final : public TickSink {
  public:
-  explicit QueueSink(std::size_t ticks) : ring_(ticks) {}
-  bool take(const ServoTick& tick) override { return ring_.push(tick); }
-  SpscRing<ServoTick>& ring() { return ring_; }
+  explicit QueueSink(std::size_t ticks) : queue_(ticks) {}
+  bool take(const ServoTick& tick) override { return queue_.push(tick); }
+  SpscQueue<ServoTick>& queue() { return queue_; }
 
  private:
-  SpscRing<ServoTick> ring_;
+  SpscQueue<ServoTick> queue_;
 };
 
 void run_unpaced(ServoCore& core, const std::atomic<bool>& stop, const std::function<void(const ServoTick&)>& on_tick) {
@@ -83,7 +83,7 @@ std::uint64_t last_due(std::uint64_t k, std::int64_t elapsed_ns, double rate_Hz)
 // The servo thread. What was missed is skipped: the tick that runs late is the last one that is due.
 void run_schedule(ServoCore& core, const ServoConfig& config, const std::atomic<bool>& stop,
                   const std::atomic<bool>& abandon, TickSink& sink) {
-  const std::int64_t start_ns = monotonic_ns() + kLead_ns;
+  const std::int64_t start_ns = host_now_ns() + kLead_ns;
   const auto spin_ns = static_cast<std::int64_t>(config.spin_s * 1e9);
   std::uint64_t done = 0;  // ticks of the schedule that are past
   for (std::uint64_t last = 0;;) {
@@ -96,7 +96,7 @@ void run_schedule(ServoCore& core, const ServoConfig& config, const std::atomic<
     if (!core.tick(k, since, begin_ns - expected_ns, stop_asked, sink)) return;
     last = k;
     done = k + 1;
-    if (monotonic_ns() > start_ns + due_ns(done, config.rate_Hz)) core.count_overrun();
+    if (host_now_ns() > start_ns + due_ns(done, config.rate_Hz)) core.count_overrun();
   }
 }
 
@@ -118,7 +118,7 @@ void run_paced(ServoCore& core, const ServoConfig& config, const std::atomic<boo
   std::exception_ptr failure;
   const auto drain = [&] {
     ServoTick tick;
-    while (sink.ring().pop(tick)) {
+    while (sink.queue().pop(tick)) {
       if (on_tick && !failure) on_tick(tick);
     }
   };

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "asperity/device/simulated_hand.h"
 #include "check_config.h"
 #include "computed_device.h"
+#include "simulated_hand.h"
 
 namespace asperity {
 

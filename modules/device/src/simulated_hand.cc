@@ -1,4 +1,4 @@
-#include "asperity/device/simulated_hand.h"
+#include "simulated_hand.h"
 
 #include <algorithm>
 #include <cmath>

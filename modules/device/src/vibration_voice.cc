@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "asperity/base/smoothstep.h"
 #include "soft_limit.h"
 
 namespace asperity {
@@ -30,17 +31,17 @@ VibrationVoice::VibrationVoice(const VibrationConfig& config, std::size_t block_
       high_pass_(SecondOrderFilter::high_pass(config.high_pass_Hz, config.audio_rate_Hz)) {}
 
 void VibrationVoice::push(double force_N) noexcept {
-  if (std::isfinite(force_N)) ring_.push(force_N);
+  if (std::isfinite(force_N)) queue_.push(force_N);
 }
 
 void VibrationVoice::begin() noexcept {
   double before_N = 0.0;
-  while (clock_ == Clock::kOwn && static_cast<double>(ring_.size()) > wanted_) ring_.pop(before_N);
+  while (clock_ == Clock::kOwn && static_cast<double>(queue_.read_available()) > wanted_) queue_.pop(before_N);
   // Before the first force the hand was free. After a gap nobody knows what it was, and a step would be made up.
   before_N = 0.0;
-  if (ever_played_) ring_.pop(before_N);
+  if (ever_played_) queue_.pop(before_N);
   reader_.fill(before_N);
-  high_pass_.settle_high_pass(before_N);
+  high_pass_.start_high_pass_at(before_N);
   last_force_ = before_N;
   fraction_ = excess_ = ramp_ = 0.0;
   correction_ = 1.0;
@@ -49,12 +50,11 @@ void VibrationVoice::begin() noexcept {
 }
 
 double VibrationVoice::next_sample() noexcept {
-  const double smooth = ramp_ * ramp_ * (3.0 - 2.0 * ramp_);
-  const double level = smooth * soft_limit(level_per_N_ * high_pass_(reader_.at(fraction_)), ceiling_);
+  const double level = smoothstep(ramp_) * soft_limit(level_per_N_ * high_pass_(reader_.at(fraction_)), ceiling_);
   ramp_ = std::clamp(ramp_ + (fading_out_ ? -gain_step_ : gain_step_), 0.0, 1.0);
   for (fraction_ += step_ * correction_; fraction_ >= 1.0; fraction_ -= 1.0) {
     // Without a next force the last one is held: what is already on its way is heard while fading out.
-    if (!ring_.pop(last_force_)) fading_out_ = true;
+    if (!queue_.pop(last_force_)) fading_out_ = true;
     reader_.shift(last_force_);
   }
   return level;
@@ -62,7 +62,7 @@ double VibrationVoice::next_sample() noexcept {
 
 void VibrationVoice::render(std::span<float> out) noexcept {
   const bool finishing = finishing_.load();
-  const auto waiting = static_cast<double>(ring_.size());
+  const auto waiting = static_cast<double>(queue_.read_available());
   if (!playing_ && !finishing && waiting >= wanted_) begin();
   if (playing_) {
     if (finishing) fading_out_ = true;

@@ -5,19 +5,19 @@
 #include <span>
 
 #include "asperity/device/second_order_filter.h"
-#include "asperity/device/spsc_ring.h"
 #include "asperity/device/vibration_config.h"
 #include "band_limited_reader.h"
+#include "spsc_queue.h"
 
 namespace asperity {
 
-// From forces at the servo's rate to samples at the audio rate: ring, band-limited interpolation, high-pass, soft
+// From forces at the servo's rate to samples at the audio rate: queue, band-limited interpolation, high-pass, soft
 // limit, fades. push() on one thread, render() on another; neither allocates, locks nor waits.
 class VibrationVoice {
  public:
   // How render() keeps step with push().
   enum class Clock {
-    kOwn,     // two clocks: the interpolation is drawn out or hurried by up to 3 % to keep the ring filled
+    kOwn,     // two clocks: the interpolation is drawn out or hurried by up to 3 % to keep the queue filled
     kCommon,  // exactly servo_rate_Hz to audio_rate_Hz, for files
   };
 
@@ -44,14 +44,14 @@ class VibrationVoice {
 
   static constexpr std::size_t kMostWaiting = 4096;
 
-  SpscRing<double> ring_{kMostWaiting};
+  SpscQueue<double> queue_{kMostWaiting};
   std::atomic<bool> finishing_{false}, finished_{false};
 
   // The rendering thread's.
   double step_, gain_step_, level_per_N_, ceiling_;
   float most_;
   Clock clock_;
-  double wanted_;     // forces in the ring at the begin of a block
+  double wanted_;     // forces in the queue at the begin of a block
   double ring_rate_;  // of the correction's smoothing, per sample
   BandLimitedReader reader_;
   SecondOrderFilter high_pass_;

@@ -104,7 +104,7 @@ TEST(Passivity, DoesNotTouchAPassiveSpringWithFriction) {
     const double pressed_N = 1000.0 * std::max(-z, 0.0);
     input.touching = pressed_N > 0.0;
     input.stored_J = 0.5 * pressed_N * std::max(-z, 0.0);
-    ASSERT_EQ(damp_created_energy(config, state, input), Eigen::Vector3d::Zero()) << k;
+    ASSERT_EQ(dissipate_created_energy(config, state, input), Eigen::Vector3d::Zero()) << k;
     const double along = input.hand_mps.x() > 0.0 ? 1.0 : -1.0;
     state.force_N = Eigen::Vector3d(-0.3 * pressed_N * along, 0.0, pressed_N);
   }
@@ -126,7 +126,7 @@ TEST(Passivity, ObservesTheSampledEnergyExactly) {
     input.hand_m.z() = -dx * (k <= n ? k : 2 * n - k);
     input.stored_J = 0.5 * k_N_per_m * input.hand_m.squaredNorm();
     input.touching = true;
-    damp_created_energy(config, state, input);
+    dissipate_created_energy(config, state, input);
     state.force_N.z() = -k_N_per_m * input.hand_m.z();
   }
   EXPECT_NEAR(state.excess_J, -k_N_per_m * dx * dx * n, 1e-9);
@@ -148,11 +148,11 @@ TEST(Passivity, DampingIsBoundedAndAgainstTheVelocity) {
   PassivityInput input;
   input.touching = true;
   input.hand_mps = Eigen::Vector3d(0.01, -0.02, 0.0);
-  const Eigen::Vector3d force = damp_created_energy(config, state, input);
+  const Eigen::Vector3d force = dissipate_created_energy(config, state, input);
   EXPECT_LT((force + config.max_damping_N_s_per_m * input.hand_mps).norm(), 1e-12);
   // A small debt is taken back within one tick: the power −f·v times dt is the debt.
   state.excess_J = -1e-7;
-  const Eigen::Vector3d small = damp_created_energy(config, state, input);
+  const Eigen::Vector3d small = dissipate_created_energy(config, state, input);
   EXPECT_NEAR(-small.dot(input.hand_mps) * kTick_s, 1e-7, 1e-9);
 }
 
@@ -163,18 +163,18 @@ TEST(Passivity, ForgivesAChangedSceneBoundsCreditAndForgetsDebt) {
   input.touching = true;
   state.excess_J = -1e-3;
   input.forgive = true;
-  damp_created_energy(config, state, input);
+  dissipate_created_energy(config, state, input);
   EXPECT_EQ(state.excess_J, 0.0);
   input.forgive = false;
   state.excess_J = 1.0;
-  damp_created_energy(config, state, input);
+  dissipate_created_energy(config, state, input);
   EXPECT_EQ(state.excess_J, config.max_credit_J);
   input.touching = false;
   state.excess_J = -1e-3;
   input.hand_mps.x() = 0.1;
-  EXPECT_EQ(damp_created_energy(config, state, input), Eigen::Vector3d::Zero());  // nothing drags in free space
+  EXPECT_EQ(dissipate_created_energy(config, state, input), Eigen::Vector3d::Zero());  // nothing drags in free space
   EXPECT_NEAR(state.excess_J, -1e-3 * std::exp(-kTick_s / config.debt_leak_s), 1e-15);
-  for (int k = 0; k < 500; ++k) damp_created_energy(config, state, input);
+  for (int k = 0; k < 500; ++k) dissipate_created_energy(config, state, input);
   EXPECT_NEAR(state.excess_J, -1e-3 / std::exp(1.0), 1e-5);
 }
 

@@ -6,11 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "asperity/base/random.h"
-#include "asperity/device/force_gain.h"
-#include "asperity/device/limit_force.h"
 #include "asperity/device/make_safe.h"
 #include "asperity/device/safety_cause.h"
 #include "asperity/device/staleness.h"
+#include "limit_force.h"
 
 namespace asperity {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
-#include "asperity/device/flight_recorder.h"
 #include "asperity/device/safety_cause.h"
 #include "asperity/testkit/temp_dir.h"
+#include "flight_recorder.h"
 
 namespace asperity {
 namespace {

@@ -10,8 +10,8 @@
 #include <Eigen/Geometry>
 
 #include "asperity/base/error.h"
+#include "bvh_oriented_box.h"
 #include "bvh_split.h"
-#include "bvh_turned_box.h"
 
 namespace asperity::bvh {
 
@@ -107,7 +107,7 @@ Range Builder::make_boxes() {
     boxes_[i] = box;
     order_[i] = i;
     all.box.add(box);
-    all.middles.add(twice_middle(box));
+    all.middles.add(twice_centre(box));
   }
   return all;
 }
@@ -166,7 +166,7 @@ std::array<Range, 2> Builder::split(const Range& range, int depth) {
   const Split best = depth < kSahDepth ? best_split(range, boxes_) : Split{};
   const auto take = [](Range& half, const Box& box) {
     half.box.add(box);
-    half.middles.add(twice_middle(box));
+    half.middles.add(twice_centre(box));
   };
   std::uint32_t i = range.first, j = range.last;
   if (best.axis < 0) {
@@ -177,7 +177,7 @@ std::array<Range, 2> Builder::split(const Range& range, int depth) {
   } else {
     const auto is_left = [&](const Box& box) {
       alignas(16) float middle[4];
-      _mm_store_ps(middle, twice_middle(box));
+      _mm_store_ps(middle, twice_centre(box));
       return bin_of(middle[best.axis], best.low, best.scale) <= best.bin;
     };
     while (i < j) {
@@ -247,7 +247,7 @@ std::uint32_t Builder::add_leaf(const Range& range, std::uint32_t parent) {
       slack = std::max(slack, std::min(aspect2 * aspect2 * 0x1p-44, length2 / aspect2 / (65535.0 * 65535.0)));
     }
   }
-  set_turned_box({exact.data(), head.count}, head);
+  set_oriented_box({exact.data(), head.count}, head);
   head.slack = static_cast<float>(slack * (1.0 + 1e-6)) + 0x1p-17f;
 
   const std::size_t head_units = sizeof(LeafHead) / kPoolUnit, block_units = sizeof(LeafBlock) / kPoolUnit;

@@ -122,7 +122,7 @@ class LeafDistances {
   }
 
   // No more than the distance whose square is stored, mesh units.
-  float no_more(float distance2) const {
+  float lower_bound_of(float distance2) const {
     const float low2 = distance2 - slack2_.first();
     return low2 > 0.0f ? (__builtin_sqrtf(low2) - kCornerSlack) * head_.unit * (1.0f - 0x1p-20f) : 0.0f;
   }

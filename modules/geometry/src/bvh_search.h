@@ -219,7 +219,7 @@ class ClosestSearch {
     leaf.store(distance2);
     for (; left != 0; left &= left - 1) {
       const int i = __builtin_ctz(left);
-      add({leaf.no_more(distance2[i]), head.first + static_cast<std::uint32_t>(i)});
+      add({leaf.lower_bound_of(distance2[i]), head.first + static_cast<std::uint32_t>(i)});
     }
   }
 

@@ -16,7 +16,7 @@ Split best_split(const Range& range, std::span<const Box> boxes) {
   const __m128 low4 = range.middles.low, scale4 = _mm_load_ps(scale);
   for (std::uint32_t i = range.first; i < range.last; ++i) {
     alignas(16) std::int32_t bin[4];
-    const __m128 place = _mm_mul_ps(_mm_sub_ps(twice_middle(boxes[i]), low4), scale4);
+    const __m128 place = _mm_mul_ps(_mm_sub_ps(twice_centre(boxes[i]), low4), scale4);
     _mm_store_si128(reinterpret_cast<__m128i*>(bin), _mm_cvttps_epi32(place));
     for (std::size_t k = 0; k < 3; ++k) {
       const auto b = static_cast<std::size_t>(std::min(bin[k], kBins - 1));

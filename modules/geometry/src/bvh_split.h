@@ -30,7 +30,7 @@ struct Box {
   }
 };
 
-inline __m128 twice_middle(const Box& box) { return _mm_add_ps(box.low, box.high); }
+inline __m128 twice_centre(const Box& box) { return _mm_add_ps(box.low, box.high); }
 
 // Triangles first .. last of the order, their box and that of twice their middles.
 struct Range {
@@ -48,8 +48,8 @@ struct Split {
 
 inline constexpr int kBins = 32;
 
-inline int bin_of(float twice_middle, float low, float scale) {
-  return std::clamp(static_cast<int>((twice_middle - low) * scale), 0, kBins - 1);
+inline int bin_of(float twice_centre, float low, float scale) {
+  return std::clamp(static_cast<int>((twice_centre - low) * scale), 0, kBins - 1);
 }
 
 inline std::uint32_t blocks(std::uint32_t count) { return (count + kWidth - 1) / kWidth; }

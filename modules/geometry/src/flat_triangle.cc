@@ -30,8 +30,8 @@ Vector3d FlatTriangle::barycentric(const Vector2d& p) const {
   return {1.0 - b - c, b, c};
 }
 
-Vector2d lay_beside(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector2d& flat_a,
-                    const Vector2d& flat_b, double side) {
+Vector2d place_beside(const Vector3d& p, const Vector3d& a, const Vector3d& b, const Vector2d& flat_a,
+                      const Vector2d& flat_b, double side) {
   const Vector3d edge = b - a;
   const Vector2d flat = flat_b - flat_a;
   const double length = edge.norm();
@@ -49,7 +49,7 @@ FlatTriangle flatten(const TriangleMesh& mesh, std::uint32_t triangle) {
   FlatTriangle out;
   out.corner[1] = Vector2d((mesh.vertices_m[b] - mesh.vertices_m[a]).norm(), 0.0);
   out.corner[2] =
-      lay_beside(mesh.vertices_m[c], mesh.vertices_m[a], mesh.vertices_m[b], out.corner[0], out.corner[1], 1.0);
+      place_beside(mesh.vertices_m[c], mesh.vertices_m[a], mesh.vertices_m[b], out.corner[0], out.corner[1], 1.0);
   return out;
 }
 
@@ -66,7 +66,7 @@ FlatTriangle flatten_over(const TriangleMesh& mesh, std::uint32_t triangle, cons
   out.corner[corner_at(new_tri, edge[0])] = a;
   out.corner[corner_at(new_tri, edge[1])] = b;
   out.corner[apex] =
-      lay_beside(mesh.vertices_m[new_tri[apex]], mesh.vertices_m[edge[0]], mesh.vertices_m[edge[1]], a, b, side);
+      place_beside(mesh.vertices_m[new_tri[apex]], mesh.vertices_m[edge[0]], mesh.vertices_m[edge[1]], a, b, side);
   return out;
 }
 

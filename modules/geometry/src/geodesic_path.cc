@@ -117,7 +117,7 @@ void remove_dead_ends(TriangleStrip& strip) {
   strip = std::move(out);
 }
 
-TriangleStrip led_round(const TriangleStrip& strip, const OtherSide& side) {
+TriangleStrip rerouted(const TriangleStrip& strip, const OtherSide& side) {
   TriangleStrip out;
   const auto offset = [](std::size_t i) { return static_cast<std::ptrdiff_t>(i); };
   out.faces.assign(strip.faces.begin(), strip.faces.begin() + offset(side.first_face));
@@ -239,7 +239,7 @@ GeodesicPath geodesic_path(const TriangleMesh& mesh, const MeshAdjacency& adjace
       out.path = trace(mesh, strip, flat, bends, start, goal);
       return out;
     }
-    strip = led_round(strip, *detour);
+    strip = rerouted(strip, *detour);
     ++out.detours;
   }
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "asperity/base/error.h"
-#include "little_endian.h"
+#include "asperity/base/little_endian.h"
 
 namespace asperity {
 
@@ -83,17 +83,17 @@ double GltfAccessor::number(std::size_t element, std::size_t component) const {
   const auto fraction = [&](double value, double full) { return normalized_ ? std::max(value / full, -1.0) : value; };
   switch (type_) {
     case TINYGLTF_COMPONENT_TYPE_BYTE:
-      return fraction(load<std::int8_t>(at, std::endian::little), 127.0);
+      return fraction(load_number<std::int8_t>(at, std::endian::little), 127.0);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-      return fraction(load<std::uint8_t>(at, std::endian::little), 255.0);
+      return fraction(load_number<std::uint8_t>(at, std::endian::little), 255.0);
     case TINYGLTF_COMPONENT_TYPE_SHORT:
-      return fraction(load<std::int16_t>(at, std::endian::little), 32767.0);
+      return fraction(load_number<std::int16_t>(at, std::endian::little), 32767.0);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-      return fraction(load<std::uint16_t>(at, std::endian::little), 65535.0);
+      return fraction(load_number<std::uint16_t>(at, std::endian::little), 65535.0);
     case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-      return load<std::uint32_t>(at, std::endian::little);
+      return load_number<std::uint32_t>(at, std::endian::little);
     default:
-      return load<float>(at, std::endian::little);
+      return load_number<float>(at, std::endian::little);
   }
 }
 
@@ -104,9 +104,9 @@ bool GltfAccessor::is_unsigned() const {
 
 std::uint32_t GltfAccessor::index(std::size_t element) const {
   const char* at = reinterpret_cast<const char*>(data_ + element * stride_);
-  if (type_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return load<std::uint8_t>(at, std::endian::little);
-  if (type_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) return load<std::uint16_t>(at, std::endian::little);
-  return load<std::uint32_t>(at, std::endian::little);
+  if (type_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return load_number<std::uint8_t>(at, std::endian::little);
+  if (type_ == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) return load_number<std::uint16_t>(at, std::endian::little);
+  return load_number<std::uint32_t>(at, std::endian::little);
 }
 
 }  // namespace asperity

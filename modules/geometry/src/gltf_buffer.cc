@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "asperity/base/error.h"
+#include "asperity/base/little_endian.h"
 #include "asperity/base/text.h"
-#include "little_endian.h"
 
 namespace asperity {
 
@@ -14,13 +14,13 @@ constexpr std::uint64_t kMaxBytes = 0xFFFFFFFFu;
 
 }  // namespace
 
-void GltfBuffer::append(std::uint32_t value) { append_little(bytes_, value); }
+void GltfBuffer::append(std::uint32_t value) { append_little_endian(bytes_, value); }
 
 void GltfBuffer::append_float(double value, const char* what) {
   const auto narrow = static_cast<float>(value);
   if (!std::isfinite(narrow))
     throw Error(std::string("glTF: ") + what + " cannot be written as float32: " + number_text(value));
-  append_little(bytes_, narrow);
+  append_little_endian(bytes_, narrow);
 }
 
 int GltfBuffer::add_view(std::size_t begin, int target) {

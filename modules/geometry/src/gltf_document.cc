@@ -5,9 +5,9 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/inner_path.h"
+#include "asperity/base/little_endian.h"
 #include "asperity/base/text.h"
 #include "asperity/json/parse_json.h"
-#include "little_endian.h"
 
 namespace asperity {
 
@@ -56,7 +56,9 @@ class Checker {
     return found == nullptr ? nothing : *found;
   }
 
-  std::uint32_t word(std::size_t at) const { return load<std::uint32_t>(bytes_.data() + at, std::endian::little); }
+  std::uint32_t word(std::size_t at) const {
+    return load_number<std::uint32_t>(bytes_.data() + at, std::endian::little);
+  }
 
   // The JSON text; the binary chunk of a .glb is kept aside.
   std::string_view split() {

@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "asperity/base/error.h"
+#include "asperity/base/little_endian.h"
 #include "asperity/base/text.h"
-#include "little_endian.h"
 #include "ply_header.h"
 
 namespace asperity {
@@ -68,21 +68,21 @@ class PlyNumbers {
     const char* start = take(1, size_of(type));
     switch (type) {
       case PlyType::kInt8:
-        return load<std::int8_t>(start, *order_);
+        return load_number<std::int8_t>(start, *order_);
       case PlyType::kUint8:
-        return load<std::uint8_t>(start, *order_);
+        return load_number<std::uint8_t>(start, *order_);
       case PlyType::kInt16:
-        return load<std::int16_t>(start, *order_);
+        return load_number<std::int16_t>(start, *order_);
       case PlyType::kUint16:
-        return load<std::uint16_t>(start, *order_);
+        return load_number<std::uint16_t>(start, *order_);
       case PlyType::kInt32:
-        return load<std::int32_t>(start, *order_);
+        return load_number<std::int32_t>(start, *order_);
       case PlyType::kUint32:
-        return load<std::uint32_t>(start, *order_);
+        return load_number<std::uint32_t>(start, *order_);
       case PlyType::kFloat32:
-        return load<float>(start, *order_);
+        return load_number<float>(start, *order_);
       case PlyType::kFloat64:
-        return load<double>(start, *order_);
+        return load_number<double>(start, *order_);
     }
     return 0.0;
   }

@@ -10,7 +10,6 @@
 #include "gltf_accessor.h"
 #include "gltf_document.h"
 #include "gltf_scene.h"
-#include "gltf_triangles.h"
 #include "load_gltf_model.h"
 #include "problem_counter.h"
 #include "tinygltf_config.h"

@@ -5,9 +5,9 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/base/little_endian.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/triangulate_polygon.h"
-#include "little_endian.h"
 #include "ply_header.h"
 #include "ply_numbers.h"
 #include "problem_counter.h"
@@ -54,7 +54,7 @@ class PlyParser {
       } else if (element.name == "face" && mesh_.triangles.empty()) {
         faces(element);
       } else {
-        pass_over(element);
+        skip_element(element);
       }
     }
     if (mesh_.vertices.empty()) throw Error(name_ + ": holds no vertices");
@@ -98,7 +98,7 @@ class PlyParser {
     numbers_.skip(property.type, count);
   }
 
-  void pass_over(const PlyElement& element) {
+  void skip_element(const PlyElement& element) {
     if (element.count > 0) {
       mesh_.problems.push_back(
           {"element", name_ + ": element '" + printable(element.name) + "' is not read", element.count});

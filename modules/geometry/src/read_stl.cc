@@ -6,8 +6,8 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/base/little_endian.h"
 #include "asperity/base/text.h"
-#include "little_endian.h"
 #include "problem_counter.h"
 #include "statement_lines.h"
 #include "vertex_merger.h"
@@ -34,7 +34,7 @@ class StlParser {
 
   MeshFile parse() {
     const std::size_t facets =
-        bytes_.size() >= kHeader ? load<std::uint32_t>(bytes_.data() + 80, std::endian::little) : 0;
+        bytes_.size() >= kHeader ? load_number<std::uint32_t>(bytes_.data() + 80, std::endian::little) : 0;
     const bool fits = bytes_.size() >= kHeader && bytes_.size() == kHeader + kFacet * facets;
     const std::size_t first = bytes_.find_first_not_of(" \t\r\n");
     const bool solid = first != std::string_view::npos && lower(bytes_.substr(first, 5)) == "solid" &&
@@ -73,7 +73,7 @@ class StlParser {
       const auto vector = [&](std::size_t k) {
         Eigen::Vector3d v;
         for (std::size_t j = 0; j < 3; ++j) {
-          v[static_cast<Eigen::Index>(j)] = load<float>(facet + 12 * k + 4 * j, std::endian::little);
+          v[static_cast<Eigen::Index>(j)] = load_number<float>(facet + 12 * k + 4 * j, std::endian::little);
         }
         return v;
       };

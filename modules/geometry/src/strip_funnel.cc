@@ -35,7 +35,7 @@ UnfoldedStrip unfold(const TriangleMesh& mesh, const MeshAdjacency& adjacency, c
     const std::uint32_t kept = keeps_left ? next.left_vertex : next.right_vertex;
     const std::uint32_t apex = a == kept ? b : a;
     const Vector2d place =
-        lay_beside(vertex(apex), vertex(next.right_vertex), vertex(next.left_vertex), next.right, next.left, -1.0);
+        place_beside(vertex(apex), vertex(next.right_vertex), vertex(next.left_vertex), next.right, next.left, -1.0);
     (keeps_left ? next.right : next.left) = place;
     (keeps_left ? next.right_vertex : next.left_vertex) = apex;
     flat.portals.push_back(next);
@@ -47,8 +47,8 @@ UnfoldedStrip unfold(const TriangleMesh& mesh, const MeshAdjacency& adjacency, c
   }
   const Portal& first = flat.portals.front();
   const Portal& final = flat.portals.back();
-  flat.from = lay_beside(from, vertex(first.right_vertex), vertex(first.left_vertex), first.right, first.left, 1.0);
-  flat.to = lay_beside(to, vertex(final.right_vertex), vertex(final.left_vertex), final.right, final.left, -1.0);
+  flat.from = place_beside(from, vertex(first.right_vertex), vertex(first.left_vertex), first.right, first.left, 1.0);
+  flat.to = place_beside(to, vertex(final.right_vertex), vertex(final.left_vertex), final.right, final.left, -1.0);
   return flat;
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "asperity/base/error.h"
+#include "asperity/base/little_endian.h"
 #include "asperity/base/output.h"
-#include "little_endian.h"
 
 namespace asperity {
 
@@ -12,7 +12,7 @@ namespace {
 
 void append_ply_vector(std::string& out, const Eigen::Vector3d& vector) {
   if (!vector.allFinite()) throw Error("PLY: a number of a vertex is not finite");
-  for (int i = 0; i < 3; ++i) append_little(out, vector[i]);
+  for (int i = 0; i < 3; ++i) append_little_endian(out, vector[i]);
 }
 
 }  // namespace
@@ -35,7 +35,7 @@ std::string format_ply(const MeshFile& mesh) {
     out += '\3';
     for (const std::uint32_t vertex : triangle) {
       if (vertex >= mesh.vertices.size()) throw Error("PLY: vertex " + std::to_string(vertex) + " does not exist");
-      append_little(out, vertex);
+      append_little_endian(out, vertex);
     }
   }
   return out;

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "asperity/base/csv.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
-#include "asperity/transport/host_clock.h"
 #include "capture_format.h"
 
 namespace asperity {

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "asperity/base/crc32.h"
 #include "asperity/base/error.h"
+#include "asperity/base/little_endian.h"
 #include "asperity/link/cobs.h"
-#include "asperity/link/crc32.h"
-#include "little_endian.h"
 
 namespace asperity {
 

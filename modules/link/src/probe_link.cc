@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/link/open_protocol.h"
-#include "asperity/transport/host_clock.h"
 
 namespace asperity {
 

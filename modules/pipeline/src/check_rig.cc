@@ -68,7 +68,7 @@ double figure(const TrajectoryResult& trajectory, const char* name) {
 // The quietest stretch counts as rest by the accelerometer alone: a noisy tracker must not hide what it reads.
 void measure_rest(const Recording& recording, const CheckRigConfig& config, RigStroke& out) {
   if (!out.inspection.quiet) return;
-  const QuietStretch& quiet = *out.inspection.quiet;
+  const QuietInterval& quiet = *out.inspection.quiet;
   if (!(quiet.acceleration_noise_mps2.maxCoeff() < config.inspect.rest_acceleration_mps2)) return;
   out.gravity_share = quiet.gravity_mps2 / recording.info.gravity_world_mps2.norm();
   out.gravity_angle_rad = quiet.gravity_angle_rad;

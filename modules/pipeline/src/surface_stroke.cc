@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "asperity/base/error.h"
+#include "asperity/base/smoothstep.h"
 #include "asperity/base/units.h"
 #include "asperity/geometry/mesh_point.h"
 
@@ -90,10 +91,6 @@ HandStroke stroke_along(const SurfaceLine& line, double duration_s, const Surfac
   out.press_N.reserve(static_cast<std::size_t>(steps) + 1);
   out.press_direction_world = press_direction(line);
   out.starts_ns = std::llround(start_s / kNanosecond_s);
-  const auto smooth = [](double u) {
-    u = std::clamp(u, 0.0, 1.0);
-    return u * u * (3.0 - 2.0 * u);
-  };
   for (std::int64_t i = 0; i <= steps; ++i) {
     const double t_s = static_cast<double>(i) * kStep_s;
     const double stroke_s = std::max(t_s - start_s, 0.0);
@@ -101,10 +98,10 @@ HandStroke stroke_along(const SurfaceLine& line, double duration_s, const Surfac
     const double way = way_m(length, config.speed_mps, ramp_s, stroke_s - legs * leg_s);
     const bool back = std::fmod(legs, 2.0) == 1.0;
     const LinePlace place = place_at(line, back ? length - way : way);
-    const double above_m = (1.0 - smooth(t_s / config.approach_s)) * config.approach_m;
+    const double above_m = (1.0 - smoothstep(t_s / config.approach_s)) * config.approach_m;
     out.path.t_ns.push_back(i * std::llround(kStep_s / kNanosecond_s));
     out.path.p_world_m.push_back(place.p_world_m + above_m * place.n_world);
-    out.press_N.push_back(smooth(t_s / config.approach_s - 1.0) * config.press_N);
+    out.press_N.push_back(smoothstep(t_s / config.approach_s - 1.0) * config.press_N);
   }
   return out;
 }

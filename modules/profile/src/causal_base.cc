@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t kCell_ns = 5'000'000;  // of the history: what find_base_path looks at
 constexpr std::size_t kFewest = 60;           // samples of a fit
-constexpr double kShortest_m = 15e-3;         // way in contact before the first fit: a shorter one is fitted to texture
+constexpr double kShortest_m = 15e-3;  // travel in contact before the first fit: a shorter one is fitted to texture
 constexpr std::size_t kMostCells = 12'000;
 
 template <class T>
@@ -80,7 +80,7 @@ void CausalBase::push(std::int64_t t_ns, const Eigen::Vector3d& p_world_tip_m, c
   }
   if (contact) {
     travelled_m_ += std::abs(travelled_m);
-    remainder_m_ *= std::exp(-std::abs(travelled_m) / config_.settle_m);
+    remainder_m_ *= std::exp(-std::abs(travelled_m) / config_.blend_m);
   }
   if (!history_.t_ns.empty() && t_ns < history_.t_ns.back() + kCell_ns) return;
   history_.t_ns.push_back(t_ns);

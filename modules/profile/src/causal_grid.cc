@@ -37,12 +37,12 @@ void CausalGrid::fill_holes(std::int64_t up_to_cell, std::vector<Sample>& out) {
 void CausalGrid::add_part(std::int64_t number, const Knot& at, std::vector<Sample>& out) {
   // Cell k holds the parts 4k - 2 to 4k + 1.
   const auto cell = static_cast<std::int64_t>(std::floor((static_cast<double>(number) + 0.5 * kParts) / kParts));
-  const std::int64_t place = number + kParts / 2 - cell * kParts;
-  if (place == 0) {
+  const std::int64_t part = number + kParts / 2 - cell * kParts;
+  if (part == 0) {
     cell_sum_ = {};
     in_cell_ = 0;
   }
-  if (place != in_cell_ || (any_cell_ && cell < next_cell_)) return;  // it began before this run, or is known already
+  if (part != in_cell_ || (any_cell_ && cell < next_cell_)) return;  // it began before this run, or is known already
   cell_sum_.t += at.t;
   cell_sum_.height += at.height;
   cell_sum_.sigma += at.sigma;

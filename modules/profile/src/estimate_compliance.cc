@@ -14,8 +14,8 @@ namespace asperity {
 namespace {
 
 constexpr double kUsualSpeedPercentile = 80.0;
-constexpr double kMovingPart = 0.5;   // of the usual speed: faster counts as a stroke
-constexpr double kRestingPart = 0.2;  // slower counts as rest
+constexpr double kMovingPart = 0.5;      // of the usual speed: faster counts as a stroke
+constexpr double kStationaryPart = 0.2;  // slower counts as stationary
 // Percentiles 10 and 90 of a normal distribution are this many standard deviations apart.
 constexpr double kSigmasBetweenDeciles = 2.5631031310892007;
 // What is left of an amplitude that does not stand out from the one at rest, in squares.
@@ -53,11 +53,11 @@ Eigen::Vector3d median_point(std::span<const Eigen::Vector3d> p_m) {
 }
 
 // Along the surface, from the median positions of the first and the last third: the noise of a tracker falls
-// with the way between them, and flipped poses do not count.
+// with the travel between them, and flipped poses do not count.
 double speed_mps(std::span<const Eigen::Vector3d> p_m, const Eigen::Vector3d& n_world, double duration_s) {
   const std::size_t third = p_m.size() / 3;
-  const Eigen::Vector3d way_m = median_point(p_m.last(third)) - median_point(p_m.first(third));
-  return (way_m - way_m.dot(n_world) * n_world).norm() / (2.0 / 3.0 * duration_s);
+  const Eigen::Vector3d travel_m = median_point(p_m.last(third)) - median_point(p_m.first(third));
+  return (travel_m - travel_m.dot(n_world) * n_world).norm() / (2.0 / 3.0 * duration_s);
 }
 
 struct Candidate {
@@ -95,7 +95,7 @@ std::vector<Candidate> cut(const TipMotion& samples, const Series& series, std::
 double rest_amplitude_mps2(const std::vector<Candidate>& windows, double usual_mps) {
   std::optional<double> least;
   for (const auto& [window, end_mps] : windows) {
-    if (window.speed_mps < kRestingPart * usual_mps) {
+    if (window.speed_mps < kStationaryPart * usual_mps) {
       least = std::min(least.value_or(window.amplitude_mps2), window.amplitude_mps2);
     }
   }

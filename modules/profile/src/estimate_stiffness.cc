@@ -30,12 +30,12 @@ struct Bins {
 };
 
 std::vector<double> without_line(std::vector<double> x) {
-  std::vector<double> place(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) place[i] = static_cast<double>(i);
-  const LinearFit line = linear_regression(place, x);
+  std::vector<double> index(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) index[i] = static_cast<double>(i);
+  const LinearFit line = linear_regression(index, x);
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double a = 2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(x.size());
-    x[i] = (x[i] - line.slope * place[i] - line.intercept) * 0.5 * (1.0 - std::cos(a));
+    x[i] = (x[i] - line.slope * index[i] - line.intercept) * 0.5 * (1.0 - std::cos(a));
   }
   return x;
 }

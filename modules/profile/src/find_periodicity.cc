@@ -34,13 +34,13 @@ double autocorrelation(std::span<const double> x, std::size_t lag) {
 
 // Sum of x exp(-2πi f k) over the points [from, to), with f in cycles a point.
 std::complex<double> transform_at(std::span<const double> x, double f, std::size_t from, std::size_t to) {
-  const std::complex<double> turn = std::polar(1.0, -kTwoPi * f);
+  const std::complex<double> step = std::polar(1.0, -kTwoPi * f);
   std::complex<double> sum = 0.0, phasor = 1.0;
   for (std::size_t k = from; k < to; ++k) {
     // Renewed now and then: the product's rounding errors add up.
     if ((k - from) % 256 == 0) phasor = std::polar(1.0, -kTwoPi * std::fmod(f * static_cast<double>(k), 1.0));
     if (std::isfinite(x[k])) sum += x[k] * phasor;
-    phasor *= turn;
+    phasor *= step;
   }
   return sum;
 }
@@ -108,7 +108,7 @@ double undo_multiple(std::span<const double> x, double f) {
 // Corrects f by the drift of the fundamental's phase and gives its standard error, relative.
 double follow_phase(std::span<const double> x, double& f) {
   const auto window = static_cast<std::size_t>(std::lround(2.0 / f));
-  std::vector<double> place, phase;
+  std::vector<double> centre, phase;
   double last = 0.0;
   for (std::size_t from = 0; from + window <= x.size(); from += window) {
     std::size_t finite = 0;
@@ -116,14 +116,14 @@ double follow_phase(std::span<const double> x, double& f) {
     if (static_cast<double>(finite) < 0.7 * static_cast<double>(window)) continue;
     const double angle = std::arg(transform_at(x, f, from, from + window));
     last = phase.empty() ? angle : last + std::remainder(angle - last, kTwoPi);
-    place.push_back(static_cast<double>(from) + 0.5 * static_cast<double>(window));
+    centre.push_back(static_cast<double>(from) + 0.5 * static_cast<double>(window));
     phase.push_back(last);
   }
-  if (place.size() < 3) return std::numeric_limits<double>::quiet_NaN();
-  const LinearFit line = linear_regression(place, phase);
+  if (centre.size() < 3) return std::numeric_limits<double>::quiet_NaN();
+  const LinearFit line = linear_regression(centre, phase);
   double square = 0.0, product = 0.0, before = 0.0;
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    const double residual = phase[i] - line.slope * place[i] - line.intercept;
+  for (std::size_t i = 0; i < centre.size(); ++i) {
+    const double residual = phase[i] - line.slope * centre[i] - line.intercept;
     square += residual * residual;
     if (i > 0) product += residual * before;
     before = residual;

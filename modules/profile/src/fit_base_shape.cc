@@ -52,7 +52,7 @@ Eigen::Vector3d mean_axis(const PathEvidence& evidence) {
   return sum / static_cast<double>(evidence.coarse_axis.size());
 }
 
-// Smallest turn from b to a for directions without a sign, in (-π/2, π/2].
+// Smallest rotation from b to a for directions without a sign, in (-π/2, π/2].
 double axial_difference(double a, double b) {
   const double d = std::remainder(a - b, kPi);
   return d;
@@ -141,7 +141,7 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
   // The level is that of the agreed points if some disagree, otherwise of all that was travelled.
   const bool agreed = *std::min_element(weights.begin(), weights.end()) > 0.0;
   out.point_m = fit.centroid_m + (agreed ? offset / weight : 0.0) * out.normal;
-  // Without a force sensor a minority off the plane is the approach or the lift.
+  // Without a force sensor a minority off the plane is the approach or the lifting.
   const auto off = static_cast<double>(std::count(weights.begin(), weights.end(), 0.0));
   const bool drop = !evidence.force_measured && off < 0.4 * static_cast<double>(weights.size());
   double kept = 0.0;
@@ -205,11 +205,11 @@ void refine_cylinder(CircleCandidate& circle, const PathEvidence& evidence, cons
       (*information)(0, 0) = (*information)(1, 1) = 1.0 / (kAxisTilt_rad * kAxisTilt_rad);
       (*gradient)(0) = x(0) / (kAxisTilt_rad * kAxisTilt_rad);
       (*gradient)(1) = x(1) / (kAxisTilt_rad * kAxisTilt_rad);
-      Eigen::Matrix<double, 3, 2> turn;
-      turn << e1 - e1.dot(axis) * axis, e2 - e2.dot(axis) * axis;
-      turn /= along.norm();
-      information->topLeftCorner<2, 2>() += turn.transpose() * across * turn;
-      gradient->head<2>() += turn.transpose() * across * axis;
+      Eigen::Matrix<double, 3, 2> derivative;
+      derivative << e1 - e1.dot(axis) * axis, e2 - e2.dot(axis) * axis;
+      derivative /= along.norm();
+      information->topLeftCorner<2, 2>() += derivative.transpose() * across * derivative;
+      gradient->head<2>() += derivative.transpose() * across * axis;
     }
     cost += axis.dot(across * axis);
     for (std::size_t c = 0; c < evidence.path.size(); ++c) {
@@ -277,7 +277,7 @@ CircleCandidate fit_circle_candidate(const PathEvidence& evidence, const BasePat
   out.radius_m = fit.radius_m;
   out.centre_m = plane.centroid_m + fit.centre_m.x() * e1 + fit.centre_m.y() * e2;
   if (!fit.converged || !(fit.radius_m > 0.0)) return out;
-  // A nearly straight path has no cylinder to turn.
+  // A nearly straight path has no cylinder to rotate.
   const double extent_m = std::sqrt(plane.scatter_m2.x());
   if (fit.radius_m < 50.0 * extent_m) refine_cylinder(out, evidence, config);
 

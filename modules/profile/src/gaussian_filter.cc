@@ -1,4 +1,4 @@
-#include "asperity/profile/gaussian_filter.h"
+#include "gaussian_filter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,12 +9,8 @@
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/units.h"
-#include "asperity/profile/blend_acceleration.h"
-#include "asperity/profile/force_scale.h"
-#include "asperity/profile/integrate_verlet.h"
-#include "asperity/profile/mark_stick_slip.h"
-#include "asperity/profile/path_length.h"
 #include "asperity/profile/resample_over_path.h"
+#include "asperity/profile/thesis_steps.h"
 #include "asperity/signal/resample.h"
 #include "asperity/signal/zero_phase.h"
 

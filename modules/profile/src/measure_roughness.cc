@@ -10,7 +10,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
-#include "asperity/profile/gaussian_filter.h"
+#include "gaussian_filter.h"
 #include "profile_features.h"
 
 namespace asperity {

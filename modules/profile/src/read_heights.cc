@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "areal_grid.h"
 #include "asperity/base/csv.h"
+#include "asperity/base/read_areal_map.h"
 #include "asperity/base/text.h"
-#include "number_table.h"
+#include "asperity/base/units.h"
 
 namespace asperity {
 namespace {
@@ -18,7 +18,7 @@ double metres(HeightUnit unit) {
   return kMetres[static_cast<std::size_t>(unit)];
 }
 
-std::size_t choose_column(const NumberTable& table, const ReadHeightsConfig& config) {
+std::size_t choose_column(const CsvReader& table, const ReadHeightsConfig& config) {
   if (!config.column.empty()) {
     const auto found = table.find(config.column);
     if (!found) table.fail("column '" + printable(config.column) + "' is missing");
@@ -35,7 +35,7 @@ std::size_t choose_column(const NumberTable& table, const ReadHeightsConfig& con
   return 0;
 }
 
-void take_spacing(const std::vector<double>& s_m, const ReadHeightsConfig& config, const NumberTable& table,
+void take_spacing(const std::vector<double>& s_m, const ReadHeightsConfig& config, const CsvReader& table,
                   HeightProfile& profile) {
   profile.spacing_m = (s_m.back() - s_m.front()) / static_cast<double>(s_m.size() - 1);
   if (!(profile.spacing_m > 0.0)) table.fail("s_m does not rise");
@@ -52,20 +52,20 @@ void take_spacing(const std::vector<double>& s_m, const ReadHeightsConfig& confi
   }
 }
 
-HeightProfile read_profile_heights(NumberTable& table, const ReadHeightsConfig& config) {
+HeightProfile read_profile_heights(CsvReader& table, const ReadHeightsConfig& config, bool ends_in_newline) {
   HeightProfile profile;
   const auto position = table.find("s_m");
   const std::size_t column = choose_column(table, config);
-  if (!table.header().empty()) profile.column = table.header()[column];
-  const double unit_m = unit_in_name_m(profile.column).value_or(metres(config.unit));
-  if (position && !table.ends_in_newline())
-    table.fail("the file does not end in a newline: its last row may be cut off");
+  if (!table.columns().empty()) profile.column = table.columns()[column];
+  const auto named = split_length_name(profile.column);
+  const double unit_m = named ? named->unit_m : metres(config.unit);
+  if (position && !ends_in_newline) table.fail("the file does not end in a newline: its last row may be cut off");
   if (!position && !(config.spacing_m > 0.0))
     table.fail("the file has no positions (s_m): the spacing of its heights must be given");
   std::vector<double> s_m;
   while (table.next()) {
-    profile.height_m.push_back(table.number(column, unit_m));
-    if (position) s_m.push_back(table.number(*position, 1.0));
+    profile.height_m.push_back(table.finite_or_nan(column) * unit_m);
+    if (position) s_m.push_back(table.finite_or_nan(*position));
   }
   if (profile.height_m.size() < 2) table.fail("fewer than two heights");
   if (position) {
@@ -77,15 +77,14 @@ HeightProfile read_profile_heights(NumberTable& table, const ReadHeightsConfig& 
 }
 
 // The units of an areal map's three columns, or nullopt if the columns are not one's.
-std::optional<std::array<double, 3>> areal_units_m(const NumberTable& table) {
+std::optional<std::array<double, 3>> areal_units_m(const CsvReader& table) {
   if (table.width() != 3) return std::nullopt;
-  if (table.header().empty()) return std::array<double, 3>{1e-3, 1e-3, 1e-6};
+  if (table.columns().empty()) return std::array<double, 3>{1e-3, 1e-3, 1e-6};
   std::array<double, 3> units{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::string& name = table.header()[i];
-    const auto unit = unit_in_name_m(name);
-    if (!unit || name[0] != "xyz"[i] || name[1] != '_') return std::nullopt;
-    units[i] = *unit;
+    const auto named = split_length_name(table.columns()[i]);
+    if (!named || named->quantity != std::string_view("xyz").substr(i, 1)) return std::nullopt;
+    units[i] = named->unit_m;
   }
   return units;
 }
@@ -93,9 +92,10 @@ std::optional<std::array<double, 3>> areal_units_m(const NumberTable& table) {
 }  // namespace
 
 Heights parse_heights(std::string_view text, const std::string& name, const ReadHeightsConfig& config) {
-  NumberTable table(text, name);
-  if (const auto units = areal_units_m(table)) return read_areal_grid(table, *units);
-  return read_profile_heights(table, config);
+  CsvReader table(text, name, CsvHeader::kOptional);
+  table.accept_unterminated();
+  if (const auto units = areal_units_m(table)) return read_areal_map(table, *units);
+  return read_profile_heights(table, config, text.ends_with('\n'));
 }
 
 Heights read_heights(const std::filesystem::path& path, const ReadHeightsConfig& config) {

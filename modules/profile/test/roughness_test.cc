@@ -9,9 +9,9 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
-#include "asperity/profile/gaussian_filter.h"
 #include "asperity/profile/measure_roughness.h"
 #include "asperity/profile/read_heights.h"
+#include "gaussian_filter.h"
 
 namespace asperity {
 namespace {

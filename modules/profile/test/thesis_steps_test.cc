@@ -5,11 +5,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
-#include "asperity/profile/blend_acceleration.h"
-#include "asperity/profile/force_scale.h"
-#include "asperity/profile/integrate_verlet.h"
-#include "asperity/profile/mark_stick_slip.h"
-#include "asperity/profile/path_length.h"
+#include "asperity/profile/thesis_steps.h"
 
 namespace asperity {
 namespace {

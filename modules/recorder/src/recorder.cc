@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
 #include "asperity/recording/uncalibrated.h"
-#include "asperity/transport/host_clock.h"
 #include "bounded_queue.h"
 #include "pose_thread.h"
 #include "probe_thread.h"
 #include "rate_meter.h"
-#include "recording_clerk.h"
+#include "recording_info_writer.h"
 #include "recording_writer.h"
 #include "sensor_problems.h"
 
@@ -68,7 +68,7 @@ class Recorder::Parts {
     const auto description = probe_->description();
     writer_.emplace(folder, with_rates(info), calibration ? *calibration : nominal(description), description,
                     poses_.has_value(), config);
-    clerk_.emplace(folder, config.sync_s);
+    info_writer_.emplace(folder, config.sync_s);
     thread_ = std::thread([this] { run(); });
   }
 
@@ -176,8 +176,8 @@ class Recorder::Parts {
       writer_->set_problems(sensor_problems(now));
       if (events != events_) writer_->note_change();
       events_ = events;
-      if (const auto info = writer_->commit()) clerk_->put(*info);
-      if (last) clerk_.reset();
+      if (const auto info = writer_->commit()) info_writer_->put(*info);
+      if (last) info_writer_.reset();
       if (last) writer_->finish();
     } catch (const std::exception& error) {
       failure_ = error.what();
@@ -199,7 +199,7 @@ class Recorder::Parts {
   std::optional<ProbeThread> probe_;
   std::optional<PoseThread> poses_;
   std::optional<RecordingWriter> writer_;
-  std::optional<RecordingClerk> clerk_;  // gone once the last recording.json is to be written
+  std::optional<RecordingInfoWriter> info_writer_;  // gone once the last recording.json is to be written
 
   std::vector<ProbeSample> probe_rows_;
   std::vector<TrackerSample> pose_rows_;

@@ -174,7 +174,8 @@ RecordingInfo RecordingWriter::current_info(bool finished) const {
   if (const auto until_ns = segments_.discarded_until_ns()) recorder["discarded_until_ns"] = *until_ns;
   recorder["discarded_segments"] = segments_.discarded();
   // Whose rows are still in the files.
-  if (!finished && !segments_.trash().empty()) recorder["discarded"] = discarded_json(segments_.trash());
+  if (!finished && !segments_.discarded_rows().empty())
+    recorder["discarded"] = discarded_json(segments_.discarded_rows());
   recorder["gravity"] = {{"measured", gravity.measured},
                          {"windows_at_rest", gravity.windows},
                          {"scatter_mps2", numbers(gravity.scatter_mps2)}};
@@ -217,7 +218,7 @@ void RecordingWriter::describe(RecorderSnapshot& out) const {
   out.segment = segments_.last_name();
   out.discarded = segments_.discarded();
   out.restored = segments_.restored();
-  if (!segments_.trash().empty()) out.last_discarded = segments_.trash().back();
+  if (!segments_.discarded_rows().empty()) out.last_discarded = segments_.discarded_rows().back();
   out.recorded_s = segments_.recorded_s();
   out.probe_rows = segments_.probe_rows();
   out.tracker_rows = segments_.tracker_rows();

@@ -13,7 +13,7 @@
 #include "asperity/recorder/recorder_config.h"
 #include "asperity/recorder/recorder_snapshot.h"
 #include "asperity/recorder/segment_writer.h"
-#include "asperity/recording/append.h"
+#include "asperity/recording/recording_appender.h"
 
 namespace asperity {
 

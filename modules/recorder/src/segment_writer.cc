@@ -24,13 +24,13 @@ bool SegmentWriter::is_claimed(std::int64_t t_ns) const {
     if (t_ns >= segment->start_ns) return true;
   }
   // What was discarded may be wanted again, with the rows that come after the decision.
-  return std::any_of(trash_.begin(), trash_.end(),
+  return std::any_of(discarded_rows_.begin(), discarded_rows_.end(),
                      [t_ns](const Segment& segment) { return t_ns >= segment.start_ns && t_ns <= segment.end_ns; });
 }
 
 std::optional<std::int64_t> SegmentWriter::discarded_until_ns() const {
   std::int64_t until_ns = given_up_until_ns_;
-  for (const Segment& segment : trash_) until_ns = std::max(until_ns, segment.end_ns);
+  for (const Segment& segment : discarded_rows_) until_ns = std::max(until_ns, segment.end_ns);
   return until_ns == kNever ? std::nullopt : std::optional(until_ns);
 }
 
@@ -120,10 +120,10 @@ std::optional<std::string> SegmentWriter::discard(std::int64_t t_ns) {
   ++discarded_;
   if (latest_ns_ == kNever) return gone.name;  // it never had a row
   gone.start_ns = std::max(gone.start_ns, first_ns_);
-  trash_.push_back(gone);
-  if (trash_.size() > kMostDiscarded) {
-    given_up_until_ns_ = std::max(given_up_until_ns_, trash_.front().end_ns);
-    trash_.erase(trash_.begin());
+  discarded_rows_.push_back(gone);
+  if (discarded_rows_.size() > kMostDiscarded) {
+    given_up_until_ns_ = std::max(given_up_until_ns_, discarded_rows_.front().end_ns);
+    discarded_rows_.erase(discarded_rows_.begin());
   }
   return gone.name;
 }
@@ -138,9 +138,9 @@ std::string SegmentWriter::free_name(const std::string& name) const {
 }
 
 std::optional<std::string> SegmentWriter::restore() {
-  if (trash_.empty() || segments_.size() >= kMostSegments) return std::nullopt;
-  Segment back = std::move(trash_.back());
-  trash_.pop_back();
+  if (discarded_rows_.empty() || segments_.size() >= kMostSegments) return std::nullopt;
+  Segment back = std::move(discarded_rows_.back());
+  discarded_rows_.pop_back();
   --discarded_;
   ++restored_;
   back.name = free_name(back.name);

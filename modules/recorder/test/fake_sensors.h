@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/link/probe_source.h"
 #include "asperity/tracking/pose_source.h"
-#include "asperity/transport/host_clock.h"
 
 namespace asperity {
 

@@ -157,7 +157,7 @@ TEST(SegmentWriter, BringsBackWhatWasDiscardedWithItsLateRows) {
   rig.run_to(2000);
   EXPECT_EQ(rig.writer.discard(2000 * kMs), "a");  // its last poses have not come yet
   rig.run_to(3000);
-  ASSERT_EQ(rig.writer.trash().size(), 1u);
+  ASSERT_EQ(rig.writer.discarded_rows().size(), 1u);
   rig.writer.start("a", 3000 * kMs, 0);
   rig.run_to(3500);
   EXPECT_EQ(rig.writer.restore(), "a_restored");  // the name was given again
@@ -185,7 +185,7 @@ TEST(SegmentWriter, WhatWasDiscardedBeginsWithItsFirstRow) {
   rig.writer.start("a", SegmentWriter::kFromFirstRow, 0);
   rig.run_to(1000);
   rig.writer.discard(1000 * kMs);
-  EXPECT_EQ(rig.writer.trash().back().start_ns, 10 * kMs);
+  EXPECT_EQ(rig.writer.discarded_rows().back().start_ns, 10 * kMs);
   rig.writer.restore();
   EXPECT_EQ(rig.writer.segments().back().start_ns, 10 * kMs);
 }
@@ -216,8 +216,8 @@ TEST(SegmentWriter, GivesTheOldestUpAtLast) {
     rig.run_to(rig.now_ms + 20);
     rig.writer.discard(rig.now_ms * kMs);
   }
-  EXPECT_EQ(rig.writer.trash().size(), SegmentWriter::kMostDiscarded);
-  EXPECT_EQ(rig.writer.trash().front().name, "s2");
+  EXPECT_EQ(rig.writer.discarded_rows().size(), SegmentWriter::kMostDiscarded);
+  EXPECT_EQ(rig.writer.discarded_rows().front().name, "s2");
   EXPECT_EQ(rig.writer.discarded(), SegmentWriter::kMostDiscarded + 2);
 }
 

@@ -67,7 +67,7 @@ void judge_channels(const Recording& recording, const Inspection& inspection, co
   }
 }
 
-void judge_gravity(const Recording& recording, const QuietStretch& quiet, const InspectConfig& config, Findings& out) {
+void judge_gravity(const Recording& recording, const QuietInterval& quiet, const InspectConfig& config, Findings& out) {
   const double gravity_mps2 = recording.info.gravity_world_mps2.norm();
   if (std::abs(quiet.gravity_mps2 - gravity_mps2) > config.gravity_tolerance * gravity_mps2) {
     out.push_back(
@@ -83,12 +83,13 @@ void judge_gravity(const Recording& recording, const QuietStretch& quiet, const 
   }
 }
 
-void judge_rest(const Recording& recording, const Inspection& inspection, const InspectConfig& config, Findings& out) {
+void judge_quiet_interval(const Recording& recording, const Inspection& inspection, const InspectConfig& config,
+                          Findings& out) {
   if (!inspection.quiet) {
     out.push_back(fmt::format("There is no stretch of {:g} s without a gap to measure noise in.", config.quiet_s));
     return;
   }
-  const QuietStretch& quiet = *inspection.quiet;
+  const QuietInterval& quiet = *inspection.quiet;
   if (!quiet.at_rest) {
     out.push_back(fmt::format(
         "The probe is never at rest for {:g} s; hold it still at the start to check its calibration.", config.quiet_s));
@@ -114,7 +115,7 @@ Findings find_findings(const Recording& recording, const Inspection& inspection,
   judge_timing("tracker", inspection.tracker, recording.info.tracker_rate_Hz, config, out);
   judge_overlap(inspection, out);
   judge_channels(recording, inspection, config, out);
-  judge_rest(recording, inspection, config, out);
+  judge_quiet_interval(recording, inspection, config, out);
   if (inspection.flips > 0) {
     out.push_back(fmt::format("{} poses jump away from their neighbours, as a marker seen the wrong way round does.",
                               inspection.flips));

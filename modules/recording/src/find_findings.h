@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "asperity/recording/inspect.h"
+#include "asperity/recording/inspect_recording.h"
 
 namespace asperity {
 

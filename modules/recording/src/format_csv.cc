@@ -1,4 +1,4 @@
-#include "asperity/recording/format.h"
+#include "asperity/recording/format_recording.h"
 #include "csv_line.h"
 
 namespace asperity {

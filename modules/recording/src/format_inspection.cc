@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "asperity/json/json.h"
-#include "asperity/recording/inspect.h"
+#include "asperity/recording/inspect_recording.h"
 
 namespace asperity {
 
@@ -29,7 +29,7 @@ Json timing_json(const StreamTiming& timing) {
           {"duplicates", timing.duplicates}};
 }
 
-Json quiet_json(const QuietStretch& quiet) {
+Json quiet_json(const QuietInterval& quiet) {
   return {{"start_s", number_or_null(quiet.start_s)},
           {"duration_s", number_or_null(quiet.duration_s)},
           {"at_rest", quiet.at_rest},
@@ -92,7 +92,7 @@ std::string inspection_text(const Inspection& inspection) {
                        channel.highest, channel.quiet_mean, channel.quiet_noise, saturated);
   }
   if (inspection.quiet) {
-    const QuietStretch& quiet = *inspection.quiet;
+    const QuietInterval& quiet = *inspection.quiet;
     out += fmt::format("\nquietest {:.2f} s from {:.2f} s: {}\n", quiet.duration_s, quiet.start_s,
                        quiet.at_rest ? "at rest" : "not at rest");
     out += fmt::format("  specific force {:.4f} m/s², noise ({:.4f}, {:.4f}, {:.4f}) m/s², force {:.3f} N\n",

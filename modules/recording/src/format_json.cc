@@ -2,7 +2,7 @@
 #include "asperity/base/text.h"
 #include "asperity/json/json_writer.h"
 #include "asperity/json/parse_json.h"
-#include "asperity/recording/format.h"
+#include "asperity/recording/format_recording.h"
 
 namespace asperity {
 

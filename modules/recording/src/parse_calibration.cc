@@ -4,7 +4,7 @@
 #include <Eigen/SVD>
 
 #include "asperity/json/parse_json.h"
-#include "asperity/recording/parse.h"
+#include "asperity/recording/parse_recording.h"
 #include "calibration_parts.h"
 #include "json_eigen.h"
 #include "json_limits.h"

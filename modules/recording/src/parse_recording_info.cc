@@ -3,7 +3,7 @@
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
 #include "asperity/json/parse_json.h"
-#include "asperity/recording/parse.h"
+#include "asperity/recording/parse_recording.h"
 #include "json_eigen.h"
 #include "json_limits.h"
 #include "time_order.h"

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "asperity/base/nan.h"
-#include "asperity/recording/parse.h"
+#include "asperity/recording/parse_recording.h"
 #include "csv_rows.h"
 #include "pose_rows.h"
 

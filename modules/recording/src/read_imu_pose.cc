@@ -2,7 +2,7 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/text.h"
-#include "asperity/recording/import.h"
+#include "asperity/recording/import_imu_pose.h"
 #include "csv_rows.h"
 #include "pose_rows.h"
 

@@ -6,8 +6,8 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
-#include "asperity/recording/format.h"
-#include "asperity/recording/validate.h"
+#include "asperity/recording/format_recording.h"
+#include "asperity/recording/validate_recording.h"
 
 namespace asperity {
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "asperity/base/error.h"
-#include "asperity/recording/validate.h"
+#include "asperity/recording/validate_recording.h"
 #include "random_recording.h"
 
 namespace asperity {

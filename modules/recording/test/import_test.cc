@@ -1,11 +1,11 @@
-#include "asperity/recording/import.h"
+#include "asperity/recording/import_imu_pose.h"
 
 #include <gmock/gmock.h>
 #include <cmath>
 
 #include "asperity/base/error.h"
-#include "asperity/recording/format.h"
-#include "asperity/recording/inspect.h"
+#include "asperity/recording/format_recording.h"
+#include "asperity/recording/inspect_recording.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
 #include "asperity/testkit/temp_dir.h"

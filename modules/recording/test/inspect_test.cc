@@ -1,10 +1,10 @@
-#include "asperity/recording/inspect.h"
+#include "asperity/recording/inspect_recording.h"
 
 #include <gmock/gmock.h>
 #include <cmath>
 
 #include "asperity/base/random.h"
-#include "asperity/recording/validate.h"
+#include "asperity/recording/validate_recording.h"
 
 namespace asperity {
 namespace {
@@ -60,7 +60,7 @@ TEST(Inspect, GoodRecording) {
   EXPECT_NEAR(inspection.force_highest_N, 0.899, 1e-12);
   EXPECT_NEAR(inspection.force_rate_Hz, 100.0, 0.5);
   ASSERT_TRUE(inspection.quiet.has_value());
-  const QuietStretch& quiet = *inspection.quiet;
+  const QuietInterval& quiet = *inspection.quiet;
   EXPECT_TRUE(quiet.at_rest);
   EXPECT_LE(quiet.start_s + quiet.duration_s, 2.0);
   // Standard errors of a deviation: 2.2 % from 1000 rows, 10 % from 49 steps (their neighbours correlate).

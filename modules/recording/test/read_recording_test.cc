@@ -7,7 +7,7 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
-#include "asperity/recording/parse.h"
+#include "asperity/recording/parse_recording.h"
 #include "asperity/testkit/temp_dir.h"
 
 namespace asperity {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "asperity/base/error.h"
-#include "asperity/recording/parse.h"
+#include "asperity/recording/parse_recording.h"
 
 namespace asperity {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
-#include "asperity/recording/format.h"
+#include "asperity/recording/format_recording.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/testkit/temp_dir.h"
 #include "random_recording.h"

@@ -2,12 +2,12 @@
 
 #include <vector>
 
-#include "settle.h"
+#include "fit_pose_fully.h"
 
 namespace asperity::registration {
 
 // What all solutions of one registration share.
-struct Common {
+struct SolutionContext {
   const RegistrationSurface& surface;
   const PointSet& points;
   const MatchRules& rules;
@@ -22,7 +22,7 @@ inline constexpr double kAmbiguousZ = 3.0;
 
 // Settles from each pose; `best` becomes the best of all, `out` gets the best of the rest that is another place as its
 // runner-up, and the iterations. Returns the z by which the runner-up is worse.
-double compare_solutions(const Common& common, Matcher& fine, const std::vector<CentredPose>& poses, Settled& best,
-                         RegistrationResult& out);
+double compare_solutions(const SolutionContext& context, Matcher& fine, const std::vector<CentredPose>& poses,
+                         ConvergedPose& best, RegistrationResult& out);
 
 }  // namespace asperity::registration

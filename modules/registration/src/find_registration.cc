@@ -10,10 +10,10 @@
 
 #include "asperity/base/error.h"
 #include "choose_points.h"
+#include "coarse_fits.h"
 #include "compare_solutions.h"
 #include "match_rules.h"
-#include "other_starts.h"
-#include "verdict.h"
+#include "registration_verdict.h"
 
 namespace asperity {
 
@@ -134,7 +134,7 @@ RegistrationResult find_registration(std::span<const MeasuredPath> paths, const 
   watch.begin(RegistrationPhase::kSearch);
   Matcher sparse(surface, points, choose_uniform(points, static_cast<std::size_t>(config.coarse_points)), rules);
   const std::vector<CoarseRun> runs =
-      run_coarsely(sparse, points, starts, options, 0.0, static_cast<std::size_t>(config.refined), watch);
+      run_coarse_fits(sparse, points, starts, options, 0.0, static_cast<std::size_t>(config.refined), watch);
   if (runs.empty()) throw Error("registration: too few points of the path meet the mesh at any pose");
 
   options.isotropic = 0.0;
@@ -145,15 +145,15 @@ RegistrationResult find_registration(std::span<const MeasuredPath> paths, const 
   Matcher fine(surface, points, choose_uniform(points, limit == 0 ? points.size() : static_cast<std::size_t>(limit)),
                rules);
   watch.begin(RegistrationPhase::kFit);
-  Settled best = settle(surface, points, rules, fine, runs.front().pose, options, config.registration);
+  ConvergedPose best = fit_pose_fully(surface, points, rules, fine, runs.front().pose, options, config.registration);
   out.iterations = best.fit.iterations;
   const double noise_m = std::hypot(path_noise_m(points, fine, best.pose), facet_sag_m(surface, fine));
   std::vector<CentredPose> others;
   for (std::size_t i = 1; i < runs.size(); ++i) others.push_back(runs[i].pose);
   const double z = compare_solutions({surface, points, rules, options, config.registration, noise_m, watch}, fine,
                                      others, best, out);
-  write_verdict({best, noise_m, TriedStarts::kEverywhere, z < kAmbiguousZ}, points, fine.size(), config.registration,
-                out);
+  write_registration_verdict({best, noise_m, TriedStarts::kEverywhere, z < kAmbiguousZ}, points, fine.size(),
+                             config.registration, out);
   return out;
 }
 

@@ -9,8 +9,8 @@
 #include "asperity/base/error.h"
 #include "asperity/base/rounded_text.h"
 #include "asperity/base/text.h"
+#include "asperity/registration/triangle_stretch.h"
 #include "fit_along_path.h"
-#include "measure_warp.h"
 #include "near_path.h"
 #include "path_foot.h"
 #include "surface_path.h"
@@ -42,6 +42,28 @@ void check(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const std::
     }
     if (!(path.s_m.back() > path.s_m.front())) throw Error(name + ": it has no length");
   }
+}
+
+// Fills in the numbers and lists of stretch and folds of the triangles `chosen`. Seen from outside, x × y
+// points inwards (erratum 17): a map that keeps the triangle's turn is a fold.
+void measure_warp(const TriangleMesh& mesh, std::span<const std::uint32_t> chosen,
+                  const std::vector<HapticTriangle>& triangles, double stretch_limit, HapticWarp& warp) {
+  warp.triangles = chosen.size();
+  double square = 0.0;
+  double area = 0.0;
+  bool first = true;
+  for (const std::uint32_t t : chosen) {
+    const TriangleStretch one = triangle_stretch(mesh, t, triangles[t]);
+    if (!one.known) continue;
+    warp.stretch_min = first ? one.low : std::min(warp.stretch_min, one.low);
+    warp.stretch_max = first ? one.high : std::max(warp.stretch_max, one.high);
+    first = false;
+    square += one.area_m2 * ((one.high - 1.0) * (one.high - 1.0) + (one.low - 1.0) * (one.low - 1.0)) / 2.0;
+    area += one.area_m2;
+    if (one.folded) warp.folded.push_back(t);
+    if (one.high > stretch_limit || one.low * stretch_limit < 1.0) warp.stretched.push_back(t);
+  }
+  warp.stretch_rms = area > 0.0 ? std::sqrt(square / area) : 0.0;
 }
 
 double mean_edge_m(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {

@@ -124,8 +124,8 @@ struct PathFeet::Search {
         apex = k;
       }
     }
-    const Vector2d place = lay_beside(vertices[tri[apex]], vertices[w.right_vertex], vertices[w.left_vertex],
-                                      w.right_end, w.left_end, -1.0);
+    const Vector2d place = place_beside(vertices[tri[apex]], vertices[w.right_vertex], vertices[w.left_vertex],
+                                        w.right_end, w.left_end, -1.0);
     flat.corner[apex] = place;
     look(next, flat, &w);
     const bool sees_right = cross(w.right, place) > 0.0;

@@ -14,11 +14,11 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "find_unobservable_dofs.h"
 #include "iteration_watch.h"
 #include "path_chain.h"
 #include "pose_motion.h"
 #include "refinement.h"
-#include "weak_turns.h"
 #include "whitening.h"
 
 namespace asperity {
@@ -135,9 +135,9 @@ Matrix6 held_covariance(std::span<const UndeterminedMotion> motions, double gues
 }
 
 // Whether the runner-up, whose cost (−2 log likelihood) is higher by `excess`, is still as good.
-void decide(double excess, RegistrationResult& result) {
-  constexpr double kSettled = 18.0;  // e⁹ : 1
-  if (!(excess > kSettled)) return;
+void resolve_ambiguity(double excess, RegistrationResult& result) {
+  constexpr double kDecisive = 18.0;  // e⁹ : 1
+  if (!(excess > kDecisive)) return;
   constexpr double kLeastInliers = 0.5;
   const auto points = static_cast<double>(result.points);
   result.ambiguous = false;
@@ -149,36 +149,36 @@ void decide(double excess, RegistrationResult& result) {
 }
 
 // Where a descent ended.
-struct Valley {
+struct LocalMinimum {
   double cost = 0.0;
   Pose T_mesh_world;
   double rms_m = 0.0;
 };
 
-// Another valley that is nearly as deep makes the result ambiguous (seed Fig. 25). The same valley ends within what
+// Another minimum that is nearly as deep makes the result ambiguous (seed Fig. 25). The same minimum ends within what
 // the covariance allows, or a millimetre.
-void name_rival(const PathChain& chain, const std::vector<Valley>& valleys, RegistrationResult& result) {
+void report_rival_minimum(const PathChain& chain, const std::vector<LocalMinimum>& minima, RegistrationResult& result) {
   constexpr double kNearly = 9.0;      // −2 log likelihood: 90 : 1
   constexpr double kSame = 5.0 * 5.0;  // squared standard deviations
   constexpr double kSame_m = 1e-3;
-  double deepest = std::numeric_limits<double>::infinity();
-  for (const Valley& valley : valleys) deepest = std::min(deepest, valley.cost);
-  const Valley* rival = nullptr;
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const LocalMinimum& minimum : minima) lowest = std::min(lowest, minimum.cost);
+  const LocalMinimum* rival = nullptr;
   double rival_m = 0.0;
   const Eigen::LDLT<Matrix6> covariance(result.covariance);
-  for (const Valley& valley : valleys) {
-    if (!(valley.cost < deepest + kNearly) || (rival != nullptr && valley.cost >= rival->cost)) continue;
+  for (const LocalMinimum& minimum : minima) {
+    if (!(minimum.cost < lowest + kNearly) || (rival != nullptr && minimum.cost >= rival->cost)) continue;
     double square_m2 = 0.0;
     std::size_t count = 0;
     for (const Eigen::Vector3d& p_m : chain.p_world_m) {
       if (!p_m.allFinite()) continue;
-      square_m2 += (valley.T_mesh_world * p_m - result.T_mesh_world * p_m).squaredNorm();
+      square_m2 += (minimum.T_mesh_world * p_m - result.T_mesh_world * p_m).squaredNorm();
       ++count;
     }
     const double distance_m = std::sqrt(square_m2 / static_cast<double>(std::max<std::size_t>(1, count)));
-    const Vector6 change = registration::pose_change(result.T_mesh_world, valley.T_mesh_world, result.centre_mesh_m);
+    const Vector6 change = registration::pose_change(result.T_mesh_world, minimum.T_mesh_world, result.centre_mesh_m);
     if (distance_m < kSame_m || change.dot(covariance.solve(change)) < kSame) continue;
-    rival = &valley;
+    rival = &minimum;
     rival_m = distance_m;
   }
   if (rival == nullptr) return;
@@ -219,25 +219,25 @@ RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, con
   };
   const std::size_t order = points_over(config.memory_m), smooth = points_over(config.slow_length_m / 8.0);
 
-  // The valley of the start, with the relief's spectrum as it is there; then all valleys with that spectrum.
+  // The minimum of the start, with the relief's spectrum as it is there; then all minima with that spectrum.
   Whitening whitening = registration::make_whitening(chain, heights, order, smooth);
   if (!(whitening.variance_m2 > 0.0)) return give_up("the path lies on the mesh exactly");
   Refined best = descend(problem, first, whitening, start.undetermined, config.max_iterations, watch);
   int iterations = best.iterations;
-  std::vector<Valley> valleys;  // with the first round's whitening
+  std::vector<LocalMinimum> minima;  // with the first round's whitening
   for (int round = 0; round < kRounds; ++round) {
     whitening = registration::make_whitening(chain, best.heights, order, smooth);
     if (!(whitening.variance_m2 > 0.0)) return give_up("the path lies on the mesh exactly");
     best = descend(problem, best.state, whitening, start.undetermined, config.max_iterations, watch);
     iterations += best.iterations;
     if (round > 0) continue;
-    valleys.push_back({best.cost, best.state.T_mesh_world, best.heights.rms_m});
+    minima.push_back({best.cost, best.state.T_mesh_world, best.heights.rms_m});
     for (const Pose& pose : others) {
       State other = first;
       other.T_mesh_world = pose;
       Refined there = descend(problem, other, whitening, start.undetermined, config.max_iterations, watch);
       iterations += there.iterations;
-      valleys.push_back({there.cost, there.state.T_mesh_world, there.heights.rms_m});
+      minima.push_back({there.cost, there.state.T_mesh_world, there.heights.rms_m});
       if (there.cost < best.cost) best = std::move(there);
     }
   }
@@ -248,13 +248,13 @@ RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, con
   result.T_mesh_world = best.state.T_mesh_world;
   result.rms_m = best.heights.rms_m;
   result.iterations += iterations;
-  registration::list_weak_turns(chain, config.undetermined_deg * std::numbers::pi / 180.0, result);
+  registration::append_uncertain_rotations(chain, config.undetermined_deg * std::numbers::pi / 180.0, result);
   if (start.ambiguous && start.runner_up) {
     State other = first;
     other.T_mesh_world = start.runner_up->T_mesh_world;
-    decide(descend(problem, other, whitening, {}, config.max_iterations, watch).cost - best.cost, result);
+    resolve_ambiguity(descend(problem, other, whitening, {}, config.max_iterations, watch).cost - best.cost, result);
   }
-  name_rival(chain, valleys, result);
+  report_rival_minimum(chain, minima, result);
   result.verdict +=
       fmt::format(" With the slow error of the tracker allowed for: residual {:.4f} mm RMS", 1e3 * result.rms_m);
   for (std::size_t i = start.undetermined.size(); i < result.undetermined.size(); ++i) {

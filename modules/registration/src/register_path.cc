@@ -8,10 +8,10 @@
 
 #include "asperity/base/error.h"
 #include "choose_points.h"
+#include "coarse_fits.h"
 #include "compare_solutions.h"
 #include "match_rules.h"
-#include "other_starts.h"
-#include "verdict.h"
+#include "registration_verdict.h"
 
 namespace asperity {
 
@@ -24,7 +24,7 @@ constexpr double kFineStep = 1.0;
 constexpr double kCoarseStep = 0.5;
 constexpr int kStartIterations = 15;
 
-bool is_doubtful(const Settled& best, double noise_m, std::size_t points, const StartsConfig& config) {
+bool is_doubtful(const ConvergedPose& best, double noise_m, std::size_t points, const StartsConfig& config) {
   return best.sigma_m > config.doubtful_ratio * noise_m ||
          static_cast<double>(best.outliers) > config.doubtful_outliers * static_cast<double>(points);
 }
@@ -81,7 +81,7 @@ RegistrationResult register_path(std::span<const MeasuredPath> paths, const Regi
   fine_options.alike = points_alike(points, limit, config.error_length_m);
   Matcher fine(surface, points, choose_uniform(points, limit), rules);
   watch.begin(RegistrationPhase::kFit);
-  Settled best = settle(surface, points, rules, fine, first.pose, fine_options, config);
+  ConvergedPose best = fit_pose_fully(surface, points, rules, fine, first.pose, fine_options, config);
   out.iterations = first.iterations + best.fit.iterations;
 
   const double noise_m = std::hypot(path_noise_m(points, fine, best.pose), facet_sag_m(surface, fine));
@@ -96,11 +96,11 @@ RegistrationResult register_path(std::span<const MeasuredPath> paths, const Regi
     quick.step_sigmas = 1.0;
     Matcher sparse(surface, points, choose_uniform(points, static_cast<std::size_t>(config.starts.points)), rules);
     std::vector<CentredPose> starts =
-        starts_about(start, config.starts.count, config.starts.radius_m, config.starts.turn_deg);
+        sample_starts_around(start, config.starts.count, config.starts.radius_m, config.starts.turn_deg);
     starts.insert(starts.begin(), best.pose);
     watch.begin(RegistrationPhase::kRestarts);
-    const std::vector<CoarseRun> runs = run_coarsely(sparse, points, starts, quick, config.robust_sigmas * noise_m,
-                                                     static_cast<std::size_t>(config.starts.refined) + 1, watch);
+    const std::vector<CoarseRun> runs = run_coarse_fits(sparse, points, starts, quick, config.robust_sigmas * noise_m,
+                                                        static_cast<std::size_t>(config.starts.refined) + 1, watch);
     std::vector<CentredPose> poses;
     poses.reserve(runs.size());
     for (const CoarseRun& run : runs) poses.push_back(run.pose);
@@ -108,8 +108,9 @@ RegistrationResult register_path(std::span<const MeasuredPath> paths, const Regi
     runner_up_z =
         compare_solutions({surface, points, rules, fine_options, config, noise_m, watch}, fine, poses, best, out);
   }
-  write_verdict({best, noise_m, tried ? TriedStarts::kAboutGuess : TriedStarts::kNone, runner_up_z < kAmbiguousZ},
-                points, fine.size(), config, out);
+  write_registration_verdict(
+      {best, noise_m, tried ? TriedStarts::kAboutGuess : TriedStarts::kNone, runner_up_z < kAmbiguousZ}, points,
+      fine.size(), config, out);
   return out;
 }
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "asperity/base/error.h"
+#include "asperity/base/little_endian.h"
 #include "asperity/base/text.h"
-#include "little_endian.h"
 
 namespace asperity {
 
@@ -18,21 +18,21 @@ std::string format_wav(std::span<const double> samples, double rate_Hz, double f
   const auto bytes = static_cast<std::uint32_t>(2 * samples.size());
   std::string out = "RIFF";
   out.reserve(44 + bytes);
-  append_little_endian(out, 36 + bytes, 4);
+  append_little_endian<std::uint32_t>(out, 36 + bytes);
   out += "WAVEfmt ";
-  append_little_endian(out, 16, 4);
-  append_little_endian(out, 1, 2);  // PCM
-  append_little_endian(out, 1, 2);  // channels
-  append_little_endian(out, rate, 4);
-  append_little_endian(out, 2 * rate, 4);  // bytes a second
-  append_little_endian(out, 2, 2);         // bytes a sample of all channels
-  append_little_endian(out, 16, 2);
+  append_little_endian<std::uint32_t>(out, 16);
+  append_little_endian<std::uint16_t>(out, 1);  // PCM
+  append_little_endian<std::uint16_t>(out, 1);  // channels
+  append_little_endian<std::uint32_t>(out, rate);
+  append_little_endian<std::uint32_t>(out, 2 * rate);  // bytes a second
+  append_little_endian<std::uint16_t>(out, 2);         // bytes a sample of all channels
+  append_little_endian<std::uint16_t>(out, 16);
   out += "data";
-  append_little_endian(out, bytes, 4);
+  append_little_endian<std::uint32_t>(out, bytes);
   for (const double sample : samples) {
     if (!std::isfinite(sample)) throw Error("wav: a sample is not finite");
     const double level = std::clamp(std::round(sample / full_scale * 32767.0), -32768.0, 32767.0);
-    append_little_endian(out, static_cast<std::uint16_t>(static_cast<std::int16_t>(level)), 2);
+    append_little_endian(out, static_cast<std::int16_t>(level));
   }
   return out;
 }

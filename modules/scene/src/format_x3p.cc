@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
 
 #include "asperity/base/error.h"
+#include "asperity/base/little_endian.h"
 #include "asperity/base/text.h"
-#include "little_endian.h"
 #include "md5.h"
 #include "stored_zip.h"
 
@@ -36,7 +34,7 @@ std::string format_x3p(const X3pGrid& grid) {
   data.reserve(8 * grid.height_m.size());
   for (const double height_m : grid.height_m) {
     if (!std::isfinite(height_m)) throw Error("x3p: a height is not finite");
-    append_little_endian(data, std::bit_cast<std::uint64_t>(height_m), 8);
+    append_little_endian(data, height_m);
   }
   std::string xml =
       "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"yes\"?>\n"

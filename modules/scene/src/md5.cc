@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "little_endian.h"
+#include "asperity/base/little_endian.h"
 
 namespace asperity {
 namespace {
@@ -69,7 +69,7 @@ std::string md5_hex(std::string_view data) {
   std::string tail(data.substr(at));
   tail += '\x80';
   while (tail.size() % 64 != 56) tail += '\0';
-  append_little_endian(tail, 8 * static_cast<std::uint64_t>(data.size()), 8);
+  append_little_endian(tail, 8 * static_cast<std::uint64_t>(data.size()));
   for (std::size_t i = 0; i < tail.size(); i += 64) add_block(state, tail.data() + i);
   std::string out;
   for (const std::uint32_t part : state) {

@@ -1,75 +1,68 @@
 #include "stored_zip.h"
 
-#include <array>
+#include <zip.h>
+
 #include <cstdint>
+#include <memory>
 
 #include "asperity/base/error.h"
-#include "little_endian.h"
 
 namespace asperity {
 namespace {
 
-std::uint32_t crc32(const std::string& data) {
-  static const std::array<std::uint32_t, 256> table = [] {
-    std::array<std::uint32_t, 256> t;
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      std::uint32_t c = i;
-      for (int bit = 0; bit < 8; ++bit) c = (c & 1) != 0 ? 0xEDB88320u ^ (c >> 1) : c >> 1;
-      t[i] = c;
-    }
-    return t;
-  }();
-  std::uint32_t crc = 0xFFFFFFFFu;
-  for (const char byte : data) crc = table[(crc ^ static_cast<unsigned char>(byte)) & 0xFF] ^ (crc >> 8);
-  return ~crc;
+constexpr std::uint16_t kFirstDay = 1 << 5 | 1;  // 1980-01-01
+
+struct SourceDeleter {
+  void operator()(zip_source_t* source) const { zip_source_free(source); }
+};
+struct ArchiveDeleter {
+  void operator()(zip_t* archive) const { zip_discard(archive); }
+};
+using Source = std::unique_ptr<zip_source_t, SourceDeleter>;
+using Archive = std::unique_ptr<zip_t, ArchiveDeleter>;
+
+[[noreturn]] void fail(zip_error_t* error) { throw Error(std::string("zip: ") + zip_error_strerror(error)); }
+
+void add_member(zip_t* archive, const ZipMember& member) {
+  Source content(zip_source_buffer(archive, member.content.data(), member.content.size(), 0));
+  if (!content) fail(zip_get_error(archive));
+  const zip_int64_t index = zip_file_add(archive, member.name.c_str(), content.get(), ZIP_FL_ENC_UTF_8);
+  if (index < 0) fail(zip_get_error(archive));
+  content.release();  // the archive's from here on
+  const auto at = static_cast<zip_uint64_t>(index);
+  if (zip_set_file_compression(archive, at, ZIP_CM_STORE, 0) != 0 ||
+      zip_file_set_dostime(archive, at, 0, kFirstDay, 0) != 0 ||
+      zip_file_set_external_attributes(archive, at, 0, ZIP_OPSYS_DOS, 0) != 0)
+    fail(zip_get_error(archive));
 }
 
-// What a member's header and its entry in the directory have in common.
-void append_description(std::string& out, const ZipMember& member) {
-  constexpr std::uint32_t kVersion = 20;
-  constexpr std::uint32_t kFirstDay = 1 << 5 | 1;  // 1980-01-01
-  append_little_endian(out, kVersion, 2);
-  append_little_endian(out, 0, 2);  // flags
-  append_little_endian(out, 0, 2);  // stored
-  append_little_endian(out, 0, 2);  // midnight
-  append_little_endian(out, kFirstDay, 2);
-  append_little_endian(out, crc32(member.content), 4);
-  append_little_endian(out, member.content.size(), 4);
-  append_little_endian(out, member.content.size(), 4);
-  append_little_endian(out, member.name.size(), 2);
-  append_little_endian(out, 0, 2);  // extra fields
+std::string read_all(zip_source_t* source) {
+  zip_stat_t stat;
+  if (zip_source_stat(source, &stat) != 0 || zip_source_open(source) != 0) fail(zip_source_error(source));
+  std::string out(stat.size, '\0');
+  const zip_int64_t count = zip_source_read(source, out.data(), out.size());
+  zip_source_close(source);
+  if (count != static_cast<zip_int64_t>(out.size())) fail(zip_source_error(source));
+  return out;
 }
 
 }  // namespace
 
 std::string format_stored_zip(const std::vector<ZipMember>& members) {
-  std::string out;
-  std::string directory;
-  for (const ZipMember& member : members) {
-    if (out.size() + member.content.size() > 0xFFFF0000u) throw Error("zip: more than 4 GiB");
-    const std::size_t offset = out.size();
-    out += "PK\x03\x04";
-    append_description(out, member);
-    out += member.name + member.content;
-    directory += "PK\x01\x02";
-    append_little_endian(directory, 20, 2);  // made by
-    append_description(directory, member);
-    append_little_endian(directory, 0, 2);  // comment
-    append_little_endian(directory, 0, 2);  // disk
-    append_little_endian(directory, 0, 2);  // attributes
-    append_little_endian(directory, 0, 4);
-    append_little_endian(directory, offset, 4);
-    directory += member.name;
-  }
-  const std::size_t offset = out.size();
-  out += directory + "PK\x05\x06";
-  append_little_endian(out, 0, 4);  // disks
-  append_little_endian(out, members.size(), 2);
-  append_little_endian(out, members.size(), 2);
-  append_little_endian(out, directory.size(), 4);
-  append_little_endian(out, offset, 4);
-  append_little_endian(out, 0, 2);
-  return out;
+  std::uint64_t size = 0;
+  for (const ZipMember& member : members) size += member.content.size();
+  if (size > 0xFFFF0000u) throw Error("zip: more than 4 GiB");
+  zip_error_t error;
+  zip_error_init(&error);
+  const Source bytes(zip_source_buffer_create(nullptr, 0, 0, &error));
+  if (!bytes) fail(&error);
+  Archive archive(zip_open_from_source(bytes.get(), ZIP_TRUNCATE, &error));
+  if (!archive) fail(&error);
+  zip_source_keep(bytes.get());  // the archive has taken one reference, we keep another
+  for (const ZipMember& member : members) add_member(archive.get(), member);
+  if (zip_close(archive.get()) != 0) fail(zip_get_error(archive.get()));
+  archive.release();
+  return read_all(bytes.get());
 }
 
 }  // namespace asperity

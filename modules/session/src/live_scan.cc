@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/json/parse_json.h"
-#include "asperity/recording/format.h"
+#include "asperity/recording/format_recording.h"
 #include "asperity/recording/write_recording.h"
 
 namespace asperity {

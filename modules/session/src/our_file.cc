@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "asperity/base/crc32.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 
@@ -21,16 +22,6 @@ std::string big_endian(std::uint32_t value) {
   std::string out;
   for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>((value >> shift) & 0xffU);
   return out;
-}
-
-// The check sum of a PNG's chunk (ISO 15948, annex D).
-std::uint32_t crc32(std::string_view bytes) {
-  std::uint32_t crc = 0xffffffffU;
-  for (const char byte : bytes) {
-    crc ^= static_cast<unsigned char>(byte);
-    for (int k = 0; k < 8; ++k) crc = (crc & 1U) != 0 ? (crc >> 1) ^ 0xedb88320U : crc >> 1;
-  }
-  return ~crc;
 }
 
 std::string png_note() {

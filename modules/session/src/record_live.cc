@@ -14,7 +14,7 @@
 #include "asperity/camera/open_y4m.h"
 #include "asperity/link/probe_source.h"
 #include "asperity/recorder/recorder.h"
-#include "asperity/recording/format.h"
+#include "asperity/recording/format_recording.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/session/live_scan.h"
 #include "asperity/simulation/probe_device.h"

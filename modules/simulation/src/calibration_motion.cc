@@ -10,7 +10,7 @@
 
 #include "asperity/base/random.h"
 #include "asperity/simulation/true_motion.h"
-#include "smooth_step.h"
+#include "septic_step.h"
 #include "streams.h"
 
 namespace asperity {
@@ -64,7 +64,7 @@ Eigen::Vector3d random_direction(Random& random) {
 
 }  // namespace
 
-MotionFunction resting_motion(const Pose& T_world_marker, const Eigen::Vector3d& tip_in_marker_m) {
+MotionFunction static_motion(const Pose& T_world_marker, const Eigen::Vector3d& tip_in_marker_m) {
   const MotionState state = state_of(T_world_marker, tip_in_marker_m);
   return [state](double) { return state; };
 }
@@ -87,7 +87,7 @@ MotionFunction shake_motion(const ShakeMotion& shake, const Eigen::Vector3d& tip
   const auto shift = std::make_shared<TimedWave3>(shake.amplitude_m, shake.low_Hz, shake.high_Hz, random);
   const auto turn = std::make_shared<TimedWave3>(shake.rotation_rad, shake.low_Hz, shake.high_Hz, random);
   return [shake, shift, turn, tip_in_marker_m](double t_s) {
-    const double share = smooth_step((t_s - shake.rest_s) / shake.ramp_s);
+    const double share = septic_step((t_s - shake.rest_s) / shake.ramp_s);
     Pose T = shake.T_world_marker;
     T.translation_m += share * shift->at(t_s);
     T.rotation = T.rotation * exp_rotation(share * turn->at(t_s));
@@ -109,14 +109,14 @@ MotionFunction static_poses_motion(const StaticPosesMotion& poses, const Eigen::
     const double index = std::clamp(std::floor(t_s / period_s), 0.0, last);
     const auto here = static_cast<std::size_t>(index);
     const std::size_t next = std::min(here + 1, turns->size() - 1);
-    const double share = smooth_step((t_s - index * period_s - poses.hold_s) / poses.move_s);
+    const double share = septic_step((t_s - index * period_s - poses.hold_s) / poses.move_s);
     Pose T = poses.T_world_marker;
     T.rotation = slerp((*turns)[here], (*turns)[next], share);
     return state_of(T, tip_in_marker_m);
   };
 }
 
-std::vector<Eigen::Vector3d> resting_force_mps2(const Recording& bench, const std::vector<std::int64_t>& t_ns) {
+std::vector<Eigen::Vector3d> static_specific_force_mps2(const Recording& bench, const std::vector<std::int64_t>& t_ns) {
   const TrueMotion motion(bench);
   std::vector<Eigen::Vector3d> out;
   out.reserve(t_ns.size());

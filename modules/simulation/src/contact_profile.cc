@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "asperity/simulation/tip_dilation.h"
+#include "tip_dilation.h"
 
 namespace asperity {
 namespace {

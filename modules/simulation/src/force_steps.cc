@@ -7,7 +7,7 @@
 #include <cstddef>
 
 #include "asperity/base/error.h"
-#include "smooth_step.h"
+#include "septic_step.h"
 
 namespace asperity {
 
@@ -23,7 +23,7 @@ MotionFunction force_steps_motion(const ForceSteps& steps, const Pose& T_world_m
     const double index = std::clamp(std::floor(t_s / period_s), 0.0, last);
     const auto here = static_cast<std::size_t>(index);
     const std::size_t next = std::min(here + 1, steps.force_N.size() - 1);
-    const double share = smooth_step((t_s - index * period_s - steps.hold_s) / steps.move_s);
+    const double share = septic_step((t_s - index * period_s - steps.hold_s) / steps.move_s);
     MotionState out = state;
     out.normal_force_N = steps.force_N[here] + share * (steps.force_N[next] - steps.force_N[here]);
     out.contact_force_world_N = out.normal_force_N * axis_world;

@@ -15,7 +15,7 @@ constexpr double kForceHigh_Hz = 1.0;
 constexpr double kWanderLow_Hz = 0.05;
 
 // 0 to 1 with two continuous derivatives.
-double quintic_smooth_step(double u) {
+double quintic_step(double u) {
   const double c = std::clamp(u, 0.0, 1.0);
   return c * c * c * (10.0 + c * (6.0 * c - 15.0));
 }
@@ -59,7 +59,7 @@ Hand::Hand(const HandConfig& config, double length_m, double step_s, std::uint64
 
 double Hand::speed(double t_s, double variation) const {
   const double ramp_s = config_.speed_ramp_s;
-  const double open = quintic_smooth_step((t_s - start_s()) / ramp_s) * quintic_smooth_step((end_s() - t_s) / ramp_s);
+  const double open = quintic_step((t_s - start_s()) / ramp_s) * quintic_step((end_s() - t_s) / ramp_s);
   return speed_scale_ * config_.speed_mps * std::max(0.1, 1.0 + variation) * open;
 }
 
@@ -82,7 +82,7 @@ HandState Hand::next() {
     const double u = (state.t_s - start_s) / config_.lift_s;
     if (u <= 0.0 || u >= 1.0) continue;
     state.lifting = true;
-    lift = quintic_smooth_step(u / 0.3) * quintic_smooth_step((1.0 - u) / 0.3);
+    lift = quintic_step(u / 0.3) * quintic_step((1.0 - u) / 0.3);
   }
   state.lift_m = lift * config_.lift_height_m;
 

@@ -1,4 +1,4 @@
-#include "asperity/simulation/link_faults.h"
+#include "link_faults.h"
 
 #include "streams.h"
 

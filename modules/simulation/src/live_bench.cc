@@ -17,13 +17,14 @@
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/image/y4m.h"
 #include "asperity/simulation/bench_camera.h"
-#include "asperity/simulation/link_faults.h"
 #include "asperity/simulation/probe_device.h"
 #include "asperity/simulation/simulate_motion.h"
 #include "asperity/simulation/simulate_recording.h"
 #include "asperity/simulation/tag_body.h"
+#include "link_faults.h"
 #include "pseudo_terminal.h"
 #include "stream_fifo.h"
 
@@ -32,13 +33,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// steady_clock is CLOCK_MONOTONIC here; read it as the recorder does.
-std::int64_t now_ns() {
-  timespec now{};
-  ::clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec;
-}
-
+// steady_clock is CLOCK_MONOTONIC here, as host_now_ns() is.
 Clock::time_point as_time_point(std::int64_t t_ns) {
   return Clock::time_point(std::chrono::duration_cast<Clock::duration>(std::chrono::nanoseconds(t_ns)));
 }
@@ -81,16 +76,16 @@ struct LiveBench::Impl {
     constexpr std::int64_t kAfterwards_ns = 50'000'000;  // the last frame is not full
     constexpr std::size_t kMostWaiting = std::size_t{1} << 18;
     const std::int64_t end_ns = recording.truth->t_ns.back() + kAfterwards_ns;
-    std::vector<std::uint8_t> sent, waiting, heard;
+    std::vector<std::uint8_t> sent, waiting, received;
     std::int64_t due_ns = host_start_ns;
     for (bool more = true; more && sleep_until(due_ns);) {
-      const std::int64_t host_ns = now_ns();
+      const std::int64_t host_ns = host_now_ns();
       const std::int64_t t_ns = std::min(host_ns - shift_ns, end_ns);
       report.latest_probe_s = std::max(report.latest_probe_s, 1e-9 * static_cast<double>(host_ns - due_ns));
       more = t_ns < end_ns;
-      heard.clear();
-      terminal.read(heard);
-      device->hear(heard);
+      received.clear();
+      terminal.read(received);
+      device->receive(received);
       sent.clear();
       device->advance(t_ns, sent);
       const std::size_t before = waiting.size();
@@ -105,8 +100,8 @@ struct LiveBench::Impl {
       due_ns += kTick_ns * std::max<std::int64_t>(1, (host_ns - due_ns) / kTick_ns);
     }
     // Closing the near end would take from the reader what it has not read yet.
-    const std::int64_t linger_end_ns = now_ns() + std::llround(config.linger_s * 1e9);
-    while (terminal.has_reader() && now_ns() < linger_end_ns && sleep_until(now_ns() + 40 * kTick_ns)) {
+    const std::int64_t linger_end_ns = host_now_ns() + std::llround(config.linger_s * 1e9);
+    while (terminal.has_reader() && host_now_ns() < linger_end_ns && sleep_until(host_now_ns() + 40 * kTick_ns)) {
       if (!waiting.empty())
         waiting.erase(waiting.begin(), waiting.begin() + static_cast<std::ptrdiff_t>(terminal.write(waiting)));
     }
@@ -127,7 +122,7 @@ struct LiveBench::Impl {
     std::string bytes;
     for (std::size_t frame = 0; frame < camera.frames(); ++frame) {
       const std::int64_t stamp_ns = camera.time(frame).stamp_ns + shift_ns;
-      if (now_ns() - stamp_ns > drop_after_ns) {
+      if (host_now_ns() - stamp_ns > drop_after_ns) {
         ++report.frames_dropped;
         continue;
       }
@@ -143,7 +138,7 @@ struct LiveBench::Impl {
       if (!header_sent) bytes = format_y4m_header(header);
       header_sent = true;
       append_y4m_frame(bytes, header, image, stamp_ns);
-      report.latest_frame_s = std::max(report.latest_frame_s, 1e-9 * static_cast<double>(now_ns() - stamp_ns));
+      report.latest_frame_s = std::max(report.latest_frame_s, 1e-9 * static_cast<double>(host_now_ns() - stamp_ns));
       std::size_t written = 0;
       while (written < bytes.size() && fifo.is_open() && !stopping())
         written += fifo.write(std::span(bytes).subspan(written), kPatience_ms);
@@ -190,12 +185,12 @@ double LiveBench::duration_s() const {
 
 bool LiveBench::wait_for_readers(const Observer& observer) {
   constexpr std::int64_t kLook_ns = 10'000'000;
-  const std::int64_t start_ns = now_ns();
+  const std::int64_t start_ns = host_now_ns();
   const std::int64_t end_ns = start_ns + std::llround(impl_->config.wait_s * 1e9);
   while (true) {
     bool is_new = false;
     if (impl_->fifo.open(is_new) && impl_->terminal.has_reader()) return true;
-    const std::int64_t host_ns = now_ns();
+    const std::int64_t host_ns = host_now_ns();
     if (host_ns >= end_ns) return false;
     observer.update("waiting", static_cast<double>(host_ns - start_ns) / static_cast<double>(end_ns - start_ns));
     impl_->sleep_until(host_ns + kLook_ns);
@@ -206,7 +201,7 @@ LiveReport LiveBench::play(const Observer& observer) {
   Impl& impl = *impl_;
   impl.report = {};
   impl.stop = false;
-  impl.host_start_ns = now_ns() + std::llround(impl.config.settle_s * 1e9);
+  impl.host_start_ns = host_now_ns() + std::llround(impl.config.settle_s * 1e9);
   impl.shift_ns = impl.host_start_ns - impl.recording.truth->t_ns.front();
   std::atomic<int> running{2};
   std::exception_ptr failure;
@@ -234,7 +229,7 @@ LiveReport LiveBench::play(const Observer& observer) {
   try {
     const double duration = duration_s();
     while (running > 0) {
-      const double done_s = 1e-9 * static_cast<double>(now_ns() - impl.host_start_ns);
+      const double done_s = 1e-9 * static_cast<double>(host_now_ns() - impl.host_start_ns);
       observer.update("playing", std::clamp(done_s / duration, 0.0, 1.0));
       constexpr auto kLook = std::chrono::milliseconds(50);
       std::unique_lock lock(impl.mutex);

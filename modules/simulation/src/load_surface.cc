@@ -1,100 +1,37 @@
-#include "asperity/simulation/load_surface.h"
+#include "load_surface.h"
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
-#include "asperity/base/text.h"
+#include "asperity/base/read_areal_map.h"
+#include "asperity/base/units.h"
 
 namespace asperity {
 namespace {
 
 constexpr std::uint64_t kLimitBytes = std::uint64_t{64} << 20;
 
-struct Table {
-  std::vector<std::string> header;  // empty without one
-  std::size_t columns = 0;
-  std::vector<std::array<double, 3>> rows;
-  std::vector<std::size_t> lines;  // of the rows, from 1
-};
-
-Table read_table(const std::string& file) {
-  const std::string text = read_file(file, kLimitBytes);
-  Table table;
-  std::string_view rest = text;
-  std::size_t line = 0;
-  while (!rest.empty()) {
-    ++line;
-    const std::size_t end = rest.find('\n');
-    const std::string_view row = trim(rest.substr(0, end));
-    rest = end == std::string_view::npos ? std::string_view{} : rest.substr(end + 1);
-    if (row.empty() || row.front() == '#') continue;
-    std::array<double, 3> values{};
-    std::vector<std::string> cells;
-    bool numeric = true;
-    std::string_view left = row;
-    while (true) {
-      const std::size_t comma = left.find(',');
-      const std::string_view cell = trim(left.substr(0, comma));
-      const auto value = parse_double(cell);
-      if (cells.size() == values.size()) throw Error(fmt::format("{}:{}: more than three columns", file, line));
-      numeric = numeric && value.has_value();
-      values[cells.size()] = value.value_or(0.0);
-      cells.emplace_back(cell);
-      if (comma == std::string_view::npos) break;
-      left = left.substr(comma + 1);
-    }
-    if (table.columns == 0) table.columns = cells.size();
-    if (cells.size() != table.columns) {
-      throw Error(fmt::format("{}:{}: {} cells where the first line has {}", file, line, cells.size(), table.columns));
-    }
-    if (!numeric) {
-      if (!table.rows.empty() || !table.header.empty()) {
-        throw Error(fmt::format("{}:{}: not a number: '{}'", file, line, printable(row)));
-      }
-      table.header = cells;
-      continue;
-    }
-    for (std::size_t c = 0; c < table.columns; ++c) {
-      if (!std::isfinite(values[c])) throw Error(fmt::format("{}:{}: '{}' is not finite", file, line, cells[c]));
-    }
-    table.rows.push_back(values);
-    table.lines.push_back(line);
-  }
-  return table;
-}
-
 // A relief of more than this is a wrong unit.
 constexpr double kGreatestHeight_m = 0.1;
 
-double height_of_row(const Table& table, const std::string& file, std::size_t row, std::size_t column, double scale) {
-  const double height_m = table.rows[row][column] * scale;
-  if (!(std::abs(height_m - table.rows[0][column] * scale) <= kGreatestHeight_m)) {
-    throw Error(fmt::format("{}:{}: {} would be {} m above the first height; is the unit right?", file,
-                            table.lines[row], table.rows[row][column], height_m - table.rows[0][column] * scale));
-  }
-  return height_m;
+bool is_plausible(double height_m, double first_m) { return std::abs(height_m - first_m) <= kGreatestHeight_m; }
+
+Error implausible(const std::string& where, double height_m, double first_m) {
+  return Error(fmt::format("{}: {} m above the first height; is the unit right?", where, height_m - first_m));
 }
 
-double unit_m(const Table& table, std::size_t column, double without) {
-  if (table.header.empty()) return without;
-  const std::string& name = table.header[column];
-  const auto ends = [&](std::string_view end) {
-    return name.size() >= end.size() && std::string_view(name).substr(name.size() - end.size()) == end;
-  };
-  if (ends("_um")) return 1e-6;
-  if (ends("_mm")) return 1e-3;
-  if (ends("_m")) return 1.0;
-  return without;
+// The unit in a column's name, or `without` if there is none.
+double unit_m(const CsvReader& table, std::size_t column, double without) {
+  if (table.columns().empty()) return without;
+  const auto named = split_length_name(table.columns()[column]);
+  return named ? named->unit_m : without;
 }
 
 // Index and fraction of `position` on a line of `count` samples continued by its mirror images.
@@ -111,9 +48,10 @@ Place mirrored(double position, std::size_t count) {
   return {index, folded - static_cast<double>(index)};
 }
 
-class Profile1d final : public Surface {
+class ProfileRelief final : public Surface {
  public:
-  Profile1d(std::vector<double> height_m, double spacing_m) : height_m_(std::move(height_m)), spacing_m_(spacing_m) {
+  ProfileRelief(std::vector<double> height_m, double spacing_m)
+      : height_m_(std::move(height_m)), spacing_m_(spacing_m) {
     double mean = 0.0;
     for (const double h : height_m_) mean += h;
     mean /= static_cast<double>(height_m_.size());
@@ -129,10 +67,14 @@ class Profile1d final : public Surface {
   double spacing_m_;
 };
 
-class ArealMap final : public Surface {
+class ArealRelief final : public Surface {
  public:
-  ArealMap(std::vector<double> height_m, std::size_t nx, double dx_m, double dy_m)
-      : height_m_(std::move(height_m)), nx_(nx), ny_(height_m_.size() / nx), dx_m_(dx_m), dy_m_(dy_m) {
+  explicit ArealRelief(ArealMap map)
+      : height_m_(std::move(map.height_m)),
+        nx_(map.columns),
+        ny_(map.rows),
+        dx_m_(map.x_spacing_m),
+        dy_m_(map.y_spacing_m) {
     remove_plane();
   }
   double height_m(double along_m, double across_m) const override {
@@ -176,64 +118,55 @@ class ArealMap final : public Surface {
   double dx_m_, dy_m_;
 };
 
-std::unique_ptr<Surface> make_map(const Table& table, const SimulatedSurfaceConfig& config) {
-  const std::string& file = config.file;
-  const double ux = unit_m(table, 0, 1e-3);
-  const double uy = unit_m(table, 1, 1e-3);
-  const double uz = unit_m(table, 2, 1e-6) * config.file_scale;
-  std::size_t nx = 1;
-  while (nx < table.rows.size() && table.rows[nx][1] == table.rows[0][1]) ++nx;
-  if (nx < 2 || table.rows.size() / nx < 2 || table.rows.size() % nx != 0) {
-    throw Error(fmt::format("{}: {} rows do not make a full grid, its first row has {}", file, table.rows.size(), nx));
+std::unique_ptr<Surface> read_areal_relief(CsvReader& table, const SimulatedSurfaceConfig& config) {
+  ArealMap map = read_areal_map(
+      table, {unit_m(table, 0, 1e-3), unit_m(table, 1, 1e-3), unit_m(table, 2, 1e-6) * config.file_scale});
+  for (std::size_t i = 0; i < map.height_m.size(); ++i) {
+    if (is_plausible(map.height_m[i], map.height_m[0])) continue;
+    const std::string where =
+        fmt::format("{}: point {} of row {}", config.file, i % map.columns + 1, i / map.columns + 1);
+    if (std::isnan(map.height_m[i])) throw Error(where + ": its height is not finite");
+    throw implausible(where, map.height_m[i], map.height_m[0]);
   }
-  const double dx = table.rows[1][0] - table.rows[0][0];
-  const double dy = table.rows[nx][1] - table.rows[0][1];
-  if (!(dx > 0.0) || !(dy > 0.0)) throw Error(fmt::format("{}: x and y must rise", file));
+  return std::make_unique<ArealRelief>(std::move(map));
+}
+
+std::unique_ptr<Surface> read_profile_relief(CsvReader& table, const SimulatedSurfaceConfig& config) {
+  const std::size_t column = table.width() - 1;
+  const double scale = unit_m(table, column, config.file_unit_m) * config.file_scale;
+  std::vector<double> position;
   std::vector<double> height_m;
-  height_m.reserve(table.rows.size());
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    const double x = table.rows[0][0] + dx * static_cast<double>(i % nx);
-    const std::size_t row = i / nx;
-    const double y = table.rows[0][1] + dy * static_cast<double>(row);
-    // Coordinates are printed with few digits, so a tenth of the spacing is allowed.
-    if (std::abs(table.rows[i][0] - x) > 0.1 * dx || std::abs(table.rows[i][1] - y) > 0.1 * dy) {
-      throw Error(fmt::format("{}:{}: ({}, {}) where the grid has ({}, {})", file, table.lines[i], table.rows[i][0],
-                              table.rows[i][1], x, y));
-    }
-    height_m.push_back(height_of_row(table, file, i, 2, uz));
+  std::vector<std::size_t> lines;
+  while (table.next()) {
+    position.push_back(table.finite(0));
+    height_m.push_back(table.finite(column) * scale);
+    lines.push_back(table.line());
+    if (!is_plausible(height_m.back(), height_m.front()))
+      throw implausible(fmt::format("{}:{}", config.file, table.line()), height_m.back(), height_m.front());
   }
-  return std::make_unique<ArealMap>(std::move(height_m), nx, dx * ux, dy * uy);
+  if (height_m.size() < 2) throw Error(fmt::format("{}: fewer than two heights", config.file));
+  if (column == 0) return std::make_unique<ProfileRelief>(std::move(height_m), config.file_spacing_m);
+  const double first = position.front();
+  const double step = (position.back() - first) / static_cast<double>(position.size() - 1);
+  if (!(step > 0.0)) throw Error(fmt::format("{}: positions must rise", config.file));
+  for (std::size_t i = 0; i < position.size(); ++i) {
+    if (std::abs(position[i] - first - step * static_cast<double>(i)) > 0.1 * step) {
+      throw Error(
+          fmt::format("{}:{}: position {} is not on the uniform grid of {}", config.file, lines[i], position[i], step));
+    }
+  }
+  return std::make_unique<ProfileRelief>(std::move(height_m), step * unit_m(table, 0, 1.0));
 }
 
 }  // namespace
 
 std::unique_ptr<Surface> load_surface(const SimulatedSurfaceConfig& config) {
   if (config.file.empty()) throw Error("simulation.surface.file: empty, but surface.kind is \"file\"");
-  const Table table = read_table(config.file);
-  if (table.rows.size() < 2) throw Error(fmt::format("{}: fewer than two heights", config.file));
-  if (table.columns == 3) return make_map(table, config);
-
-  const std::size_t column = table.columns - 1;
-  const double scale = unit_m(table, column, config.file_unit_m) * config.file_scale;
-  double spacing_m = config.file_spacing_m;
-  if (table.columns == 2) {
-    const double first = table.rows.front()[0];
-    const double step = (table.rows.back()[0] - first) / static_cast<double>(table.rows.size() - 1);
-    if (!(step > 0.0)) throw Error(fmt::format("{}: positions must rise", config.file));
-    for (std::size_t i = 0; i < table.rows.size(); ++i) {
-      if (std::abs(table.rows[i][0] - first - step * static_cast<double>(i)) > 0.1 * step) {
-        throw Error(fmt::format("{}:{}: position {} is not on the uniform grid of {}", config.file, table.lines[i],
-                                table.rows[i][0], step));
-      }
-    }
-    spacing_m = step * unit_m(table, 0, 1.0);
-  }
-  std::vector<double> height_m;
-  height_m.reserve(table.rows.size());
-  for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    height_m.push_back(height_of_row(table, config.file, i, column, scale));
-  }
-  return std::make_unique<Profile1d>(std::move(height_m), spacing_m);
+  const std::string text = read_file(config.file, kLimitBytes);
+  CsvReader table(text, config.file, CsvHeader::kOptional);
+  table.accept_unterminated();
+  if (table.width() > 3) table.fail("more than three columns");
+  return table.width() == 3 ? read_areal_relief(table, config) : read_profile_relief(table, config);
 }
 
 }  // namespace asperity

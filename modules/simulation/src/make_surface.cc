@@ -9,7 +9,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
-#include "asperity/simulation/load_surface.h"
+#include "load_surface.h"
 #include "streams.h"
 
 namespace asperity {

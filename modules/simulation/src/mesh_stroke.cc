@@ -66,8 +66,8 @@ Axes axes_of(const TriangleMesh& mesh) {
 
 // Straight on over the surface from `from` for `length_m`, in steps of kSpacing_m without the first point.
 // Beyond a border straight on in space.
-std::vector<Eigen::Vector3d> go_on(const MeshSurface& surface, const Eigen::Vector3d& from, Eigen::Vector3d direction,
-                                   double length_m) {
+std::vector<Eigen::Vector3d> continue_straight(const MeshSurface& surface, const Eigen::Vector3d& from,
+                                               Eigen::Vector3d direction, double length_m) {
   const auto steps = static_cast<std::size_t>(std::ceil(length_m / kSpacing_m));
   std::vector<Eigen::Vector3d> out;
   out.reserve(steps);
@@ -185,10 +185,10 @@ MeshStroke trace_mesh_stroke(const MeshSurface& surface, const std::vector<Eigen
     const Eigen::Vector3d normal = normal_at(surface, surface.bvh.closest_point(points[0]));
     Eigen::Vector3d direction = axes.longest - axes.longest.dot(normal) * normal;
     direction = direction.norm() > 0.1 ? direction.normalized() : normal.unitOrthogonal();
-    const std::vector<Eigen::Vector3d> back = go_on(surface, points[0], -direction, 0.5 * length_m);
+    const std::vector<Eigen::Vector3d> back = continue_straight(surface, points[0], -direction, 0.5 * length_m);
     line.assign(back.rbegin(), back.rend());
     line.push_back(points[0]);
-    const std::vector<Eigen::Vector3d> on = go_on(surface, points[0], direction, 0.5 * length_m);
+    const std::vector<Eigen::Vector3d> on = continue_straight(surface, points[0], direction, 0.5 * length_m);
     line.insert(line.end(), on.begin(), on.end());
   } else {
     line.push_back(points[0]);
@@ -210,8 +210,8 @@ MeshStroke trace_mesh_stroke(const MeshSurface& surface, const std::vector<Eigen
   // The directions at the ends over a millimetre, where the last step alone is at the facets' mercy.
   const std::size_t reach = std::min<std::size_t>(10, line.size() - 1);
   const std::vector<Eigen::Vector3d> before =
-      go_on(surface, line.front(), (line.front() - line[reach]).normalized(), kMargin_m + kSpacing_m);
-  const std::vector<Eigen::Vector3d> after = go_on(
+      continue_straight(surface, line.front(), (line.front() - line[reach]).normalized(), kMargin_m + kSpacing_m);
+  const std::vector<Eigen::Vector3d> after = continue_straight(
       surface, line.back(), (line.back() - line[line.size() - 1 - reach]).normalized(), kMargin_m + 3.0 * kSpacing_m);
   std::vector<Eigen::Vector3d> whole(before.rbegin(), before.rend());
   whole.insert(whole.end(), line.begin(), line.end());

@@ -1,4 +1,4 @@
-#include "asperity/simulation/mesh_truth.h"
+#include "mesh_truth.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ constexpr double kWindow_m = 1e-3;  // the foot is no further from its place on 
 
 }  // namespace
 
-MeshBasePath lay_on_mesh(const MeshBase& base, const ScanPath& path) {
+MeshBasePath place_on_mesh(const MeshBase& base, const ScanPath& path) {
   MeshBasePath out;
   const auto margin = static_cast<std::ptrdiff_t>(kTruthMargin_m / kTruthSpacing_m);
   const auto count = static_cast<std::ptrdiff_t>(std::ceil(path.length_m() / kTruthSpacing_m));

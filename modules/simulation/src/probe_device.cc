@@ -85,7 +85,7 @@ class OpenDevice : public ProbeDevice {
     out_ = nullptr;
   }
 
-  void hear(std::span<const std::uint8_t> bytes) override {
+  void receive(std::span<const std::uint8_t> bytes) override {
     constexpr std::size_t kMost = 4096;
     for (const std::uint8_t byte : bytes) {
       if (heard_.size() < kMost) heard_.push_back(byte);
@@ -156,7 +156,7 @@ class WhatDevice : public ProbeDevice {
     }
   }
 
-  void hear(std::span<const std::uint8_t>) override {}
+  void receive(std::span<const std::uint8_t>) override {}
 
  private:
   static std::uint8_t byte(double counts) { return static_cast<std::uint8_t>(whole(counts, 0.0, 255.0)); }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "asperity/base/smoothstep.h"
+
 namespace asperity {
 namespace {
 
@@ -115,7 +117,7 @@ ScanPoint ScanPath::at(double s_m) const {
   const ScanPoint& to = nodes_[i + 1];
   // Cubic Hermite with the directions as derivatives.
   const double w = 1.0 - u;
-  const double h_to = u * u * (3.0 - 2.0 * u);
+  const double h_to = smoothstep(u);
   const double d_from = u * w * w * kPathSpacing_m;
   const double d_to = -u * u * w * kPathSpacing_m;
   return {from.a_m + h_to * (to.a_m - from.a_m) + d_from * std::cos(from.angle_rad) + d_to * std::cos(to.angle_rad),

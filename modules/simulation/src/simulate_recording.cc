@@ -13,11 +13,11 @@
 #include "asperity/geometry/read_mesh.h"
 #include "asperity/simulation/make_surface.h"
 #include "asperity/simulation/mesh_base.h"
-#include "asperity/simulation/mesh_truth.h"
 #include "asperity/simulation/probe_motion.h"
 #include "asperity/simulation/probe_sampler.h"
 #include "asperity/simulation/probe_truth.h"
 #include "asperity/simulation/tracker_sampler.h"
+#include "mesh_truth.h"
 #include "streams.h"
 
 namespace asperity {
@@ -100,7 +100,7 @@ Recording simulate_on(const SimulationConfig& config, const Surface& surface,
   const Calibration truth = make_probe_truth(config.probe, config.tracker, seed);
   ProbeMotion motion = base ? ProbeMotion(config, surface, base) : ProbeMotion(config, surface);
   MeshBasePath mesh_path;
-  if (base) mesh_path = lay_on_mesh(*base, motion.path());
+  if (base) mesh_path = place_on_mesh(*base, motion.path());
   ProbeSampler probe(config, truth, kStart_ns);
   TrackerSampler tracker(config, kStart_ns);
   const auto steps = static_cast<std::int64_t>(std::llround(motion.duration_s() / config.step_s));

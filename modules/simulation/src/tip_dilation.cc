@@ -1,4 +1,4 @@
-#include "asperity/simulation/tip_dilation.h"
+#include "tip_dilation.h"
 
 #include <algorithm>
 #include <cmath>

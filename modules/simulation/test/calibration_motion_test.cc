@@ -25,7 +25,7 @@ Eigen::Vector3d tip_of(const SimulationConfig& config) { return Eigen::Vector3d(
 TEST(CalibrationMotion, RestReadsGravity) {
   const SimulationConfig config = quiet_config();
   const Pose T{exp_rotation({0.3, -0.2, 0.5}), {0.01, 0.02, 0.3}};
-  const Recording recording = simulate_motion(config, resting_motion(T, tip_of(config)), 0.5, "rest");
+  const Recording recording = simulate_motion(config, static_motion(T, tip_of(config)), 0.5, "rest");
   const Eigen::Vector3d up_mps2 = T.rotation.conjugate() * -Eigen::Vector3d(config.gravity_world_mps2.data());
   ASSERT_GT(recording.probe.size(), 1900U);
   const Eigen::Vector3d f_mps2 =
@@ -90,7 +90,7 @@ TEST(CalibrationMotion, ForceStepsAreReadBack) {
 
 TEST(CalibrationMotion, RefusesWhatCannotBe) {
   const SimulationConfig config = quiet_config();
-  const MotionFunction rest = resting_motion({}, tip_of(config));
+  const MotionFunction rest = static_motion({}, tip_of(config));
   EXPECT_THROW(simulate_motion(config, rest, 0.0, "rest"), Error);
   EXPECT_THROW(simulate_motion(config, rest, 1e6, "rest"), Error);
   EXPECT_THROW(simulate_motion(config, rest, std::nan(""), "rest"), Error);

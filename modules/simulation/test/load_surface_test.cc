@@ -1,4 +1,4 @@
-#include "asperity/simulation/load_surface.h"
+#include "load_surface.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -65,8 +65,11 @@ TEST_F(LoadSurface, NamesTheLineOfAFault) {
   EXPECT_THAT([&] { load("0,0\n1e-3,1e-6\n5e-3,2e-6\n"); }, ThrowsMessage<Error>(HasSubstr("relief.csv:2")));
   EXPECT_THAT([&] { load("0\n1\n2,3\n"); }, ThrowsMessage<Error>(HasSubstr("relief.csv:3")));
   EXPECT_THAT([&] { load("1\n2\nnan\n"); }, ThrowsMessage<Error>(HasSubstr("not finite")));
+  EXPECT_THAT([&] { load("0,0,1\n1,0,1\n0,1,1\n1,1,nan\n"); }, ThrowsMessage<Error>(HasSubstr("point 2 of row 2")));
+  EXPECT_THAT([&] { load("0,0,1\n1,0,1\n0,1,1\n1,1,1e9\n"); }, ThrowsMessage<Error>(HasSubstr("unit")));
   EXPECT_THAT([&] { load("1\n2\n3e9\n"); }, ThrowsMessage<Error>(HasSubstr("unit")));
-  EXPECT_THAT([&] { load("0,0,1\n1,0,1\n0,1,1\n"); }, ThrowsMessage<Error>(HasSubstr("full grid")));
+  EXPECT_THAT([&] { load("0,0,1\n1,0,1\n0,1,1\n"); },
+              ThrowsMessage<Error>(HasSubstr("relief.csv:3: the last row has 1 points where the first has 2")));
   EXPECT_THAT([&] { load("1,2,3,4\n"); }, ThrowsMessage<Error>(HasSubstr("more than three")));
   EXPECT_THROW(load(""), Error);
   config_.file = "no/such/file.csv";

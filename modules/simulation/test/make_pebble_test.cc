@@ -10,8 +10,8 @@
 #include <Eigen/Geometry>
 
 #include "asperity/base/error.h"
-#include "asperity/simulation/place_at_random.h"
 #include "asperity/simulation/random_motion.h"
+#include "asperity/simulation/randomise_pose.h"
 
 namespace asperity {
 namespace {
@@ -84,7 +84,7 @@ TEST(PlaceAtRandom, StaysBeforeTheTracker) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     const SimulatedShapeConfig before;
     SimulatedShapeConfig shape;
-    place_at_random(seed, shape);
+    randomise_pose(seed, shape);
     const Vector3d n0(before.normal[0], before.normal[1], before.normal[2]);
     const Vector3d n(shape.normal[0], shape.normal[1], shape.normal[2]);
     const Vector3d along(shape.stroke_direction[0], shape.stroke_direction[1], shape.stroke_direction[2]);

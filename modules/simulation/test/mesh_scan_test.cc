@@ -12,8 +12,8 @@
 #include "asperity/geometry/pose.h"
 #include "asperity/simulation/make_surface.h"
 #include "asperity/simulation/mesh_stroke.h"
-#include "asperity/simulation/mesh_truth.h"
 #include "asperity/simulation/simulate_recording.h"
+#include "mesh_truth.h"
 #include "meshes.h"
 
 namespace asperity {

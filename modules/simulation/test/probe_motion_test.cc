@@ -75,7 +75,7 @@ TEST(ProbeMotion, LiftingOffLosesTheContact) {
   config.hand.lifts = 1;
   const auto states = run(config);
   const auto surface = make_surface(config.surface, 1);
-  const double start_s = ProbeMotion(config, *surface).hand().lift_starts_s().front();
+  const double start_s = ProbeMotion(config, *surface).hand().lift_off_starts_s().front();
   double top_m = 0.0;
   for (const MotionState& state : states) {
     if (state.height_m > 0.1e-6) {

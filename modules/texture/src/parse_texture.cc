@@ -10,7 +10,7 @@
 namespace asperity {
 namespace {
 
-constexpr std::uint64_t kLargestFile_bytes = 16ULL << 20;
+constexpr std::uint64_t kLargestTextureFile_bytes = 16ULL << 20;
 constexpr std::uint64_t kLargestPayload_bytes = 256ULL << 20;
 constexpr std::size_t kMostRoughnessValues = 100;
 
@@ -106,7 +106,7 @@ Texture read_texture(const std::filesystem::path& path, const std::function<void
     if (std::filesystem::is_symlink(payload_path)) throw Error(payload_path.string() + ": is a symbolic link");
     return read(payload_path, kLargestPayload_bytes);
   };
-  return parse_texture(read(path, kLargestFile_bytes), path.string(), payload);
+  return parse_texture(read(path, kLargestTextureFile_bytes), path.string(), payload);
 }
 
 }  // namespace asperity

@@ -15,7 +15,7 @@ namespace asperity {
 namespace {
 
 constexpr std::uint64_t kLargestImageFile_bytes = std::uint64_t{1} << 30;
-constexpr int kFewestPixels = 4;
+constexpr int kFewestImagePixels = 4;
 
 }  // namespace
 
@@ -25,9 +25,9 @@ Texture parse_height_image(std::string_view data, const std::string& name, const
   if (!(config.range_mm >= 0.0) || !std::isfinite(config.range_mm))
     throw Error("height image: a range of heights of " + number_text(config.range_mm) + " mm");
   DeepGrayImage image = data.substr(0, 1) == "P" ? parse_pgm(data, name) : parse_png(data, name);
-  if (std::min(image.width, image.height) < kFewestPixels) {
+  if (std::min(image.width, image.height) < kFewestImagePixels) {
     throw Error(name + ": an image of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
-                " pixels; a height map has at least " + std::to_string(kFewestPixels) + " a side");
+                " pixels; a height map has at least " + std::to_string(kFewestImagePixels) + " a side");
   }
   HeightMap map;
   map.columns = static_cast<std::size_t>(image.width);

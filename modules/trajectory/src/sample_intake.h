@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "asperity/recording/append.h"
 #include "asperity/recording/recording.h"
+#include "asperity/recording/recording_appender.h"
 #include "asperity/trajectory/causal_tip.h"
 
 namespace asperity {

@@ -7,8 +7,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
-#include "asperity/transport/host_clock.h"
 
 namespace asperity {
 

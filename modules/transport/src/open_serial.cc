@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
-#include "asperity/transport/host_clock.h"
 #include "asperity/transport/serial_port.h"
 
 namespace asperity {

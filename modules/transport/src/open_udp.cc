@@ -16,8 +16,8 @@
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/ip/udp.hpp>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
-#include "asperity/transport/host_clock.h"
 
 namespace asperity {
 

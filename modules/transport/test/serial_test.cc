@@ -8,9 +8,9 @@
 #include <fstream>
 #include <numeric>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/testkit/temp_dir.h"
 #include "asperity/transport/find_usb_serial.h"
-#include "asperity/transport/host_clock.h"
 
 namespace asperity {
 namespace {
@@ -138,7 +138,8 @@ TEST(Serial, OnlyOneMayHaveIt) {
 TEST(Serial, WhatIsNoPortIsRefused) {
   const testkit::TempDir dir;
   std::ofstream(dir / "file") << "x";
-  EXPECT_THAT([&] { open_serial((dir / "file").string(), 115200); }, ThrowsMessage<Error>(HasSubstr("is not a serial port")));
+  EXPECT_THAT([&] { open_serial((dir / "file").string(), 115200); },
+              ThrowsMessage<Error>(HasSubstr("is not a serial port")));
   EXPECT_THAT([&] { open_serial((dir / "absent").string(), 115200); }, ThrowsMessage<Error>(HasSubstr("plugged in")));
   const Pty pty;
   EXPECT_THAT([&] { open_serial(pty.path(), 123456); }, ThrowsMessage<Error>(HasSubstr("123456 is no baud rate")));

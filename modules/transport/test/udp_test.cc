@@ -6,7 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "asperity/transport/host_clock.h"
+#include "asperity/base/host_clock.h"
 
 namespace asperity {
 namespace {

@@ -3,8 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/base/version.h"
-#include "asperity/transport/host_clock.h"
 
 namespace asperity::studio {
 

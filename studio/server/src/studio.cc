@@ -6,8 +6,8 @@
 #include <utility>
 #include <variant>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/studio/calls.h"
-#include "asperity/transport/host_clock.h"
 #include "file_saver.h"
 #include "folder_lock.h"
 #include "inbox.h"

@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/studio/page.h"
 #include "asperity/testkit/temp_dir.h"
-#include "asperity/transport/host_clock.h"
 #include "fake_hub.h"
 #include "inbox.h"
 

@@ -5,9 +5,9 @@
 
 #include "read_block.h"
 #include "scan/kept_rows.h"
+#include "scan/live_scan_buffer.h"
 #include "scan/row_tap.h"
 #include "scan/scan_blocks.h"
-#include "scan/scan_book.h"
 
 namespace asperity::studio {
 namespace {
@@ -153,8 +153,8 @@ LiveEstimate grown(std::initializer_list<double> s_m) {
   return out;
 }
 
-TEST(ScanBook, GrowsByFramesThatFollowEachOther) {
-  ScanBook book;
+TEST(LiveScanBuffer, GrowsByFramesThatFollowEachOther) {
+  LiveScanBuffer book;
   EXPECT_FALSE(book.grown());
   book.add(grown({0.0, 1.0}), true);
   const ReadBlock first(book.take_growth().take());
@@ -169,29 +169,29 @@ TEST(ScanBook, GrowsByFramesThatFollowEachOther) {
   EXPECT_THAT(ReadBlock(book.profile().take()).array<float>("height_m"), ElementsAre(0.F, 2.F, 4.F));
   EXPECT_THAT(ReadBlock(book.take_motion().take()).array<float>("tip_m"),
               ElementsAre(0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 2.F, 0.F, 0.F));
-  book.begin_anew();
+  book.restart();
   book.add(grown({7.0}), true);
   const ReadBlock anew(book.take_growth().take());
   EXPECT_EQ(anew.head.at("generation"), second.head.at("generation").get<int>() + 1);
   EXPECT_EQ(anew.head.at("first"), 0);
 }
 
-TEST(ScanBook, ThinsAPathThatIsFullAndKeepsLittleOfTheAir) {
-  ScanBook book;
+TEST(LiveScanBuffer, ThinsAPathThatIsFullAndKeepsLittleOfTheAir) {
+  LiveScanBuffer book;
   LiveEstimate one;
-  one.tips.resize(ScanBook::kMostTips / 10);
+  one.tips.resize(LiveScanBuffer::kMostTips / 10);
   for (int i = 0; i < 11; ++i) book.add(one, true);
   const std::size_t stored = ReadBlock(book.path().take()).array<float>("force_N").size();
-  EXPECT_LE(stored, ScanBook::kMostTips);
-  EXPECT_GE(stored, ScanBook::kMostTips / 2);
+  EXPECT_LE(stored, LiveScanBuffer::kMostTips);
+  EXPECT_GE(stored, LiveScanBuffer::kMostTips / 2);
   for (int i = 0; i < 40; ++i) book.add(one, false);
   const std::size_t all = ReadBlock(book.path().take()).array<float>("force_N").size();
   EXPECT_GE(all, stored);
-  EXPECT_LE(all, stored + ScanBook::kMostTipsInTheAir);
+  EXPECT_LE(all, stored + LiveScanBuffer::kMostTipsInTheAir);
 }
 
-TEST(ScanBook, HasAPathButNoProfileWhileNothingIsStored) {
-  ScanBook book;
+TEST(LiveScanBuffer, HasAPathButNoProfileWhileNothingIsStored) {
+  LiveScanBuffer book;
   book.add(grown({0.0, 1.0}), false);
   EXPECT_TRUE(book.moved());
   EXPECT_FALSE(book.grown());

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/testkit/temp_dir.h"
-#include "asperity/transport/host_clock.h"
 #include "feel_rig.h"
 #include "study/study_page.h"
 

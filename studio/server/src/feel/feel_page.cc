@@ -89,7 +89,7 @@ void FeelPage::load() {
     hint_ = is_felt ? "It goes on with " + world_->title + " until you stop. Choose something else, or undo it." : "";
     return tell();
   }
-  auto result = std::make_shared<std::shared_ptr<const FeltWorld>>();
+  auto result = std::make_shared<std::shared_ptr<const LoadedScene>>();
   try {
     FeelSetup setup = resolve_choices(chosen, start_, shared_.project);
     loading_ = true;
@@ -97,7 +97,7 @@ void FeelPage::load() {
         "Reading what is to be felt", kModelSlot,
         [result, chosen, setup = std::move(setup), before = world_, number = ++worlds_](const Observer& observer) {
           observer.update("reading", 0.0);
-          *result = make_felt_world(setup, chosen, before, number);
+          *result = load_scene(setup, chosen, before, number);
         },
         [this, result, revision = revision_](std::exception_ptr error) {
           if (revision == revision_ || !error) loading_ = false;
@@ -111,7 +111,7 @@ void FeelPage::load() {
   tell();
 }
 
-void FeelPage::loaded(std::shared_ptr<const FeltWorld> world) {
+void FeelPage::loaded(std::shared_ptr<const LoadedScene> world) {
   world_ = std::move(world);
   problem_.clear();
   hint_.clear();
@@ -125,7 +125,7 @@ void FeelPage::swap_model() {
   shared_.jobs.start(
       "Bringing the change to the device", kSwapSlot,
       [result, world = world_, info = running_.info, kind = running_.kind, config = running_.config](const Observer&) {
-        *result = make_swapped_model(*world, info, kind.driven() || kind.name == "mouse", config);
+        *result = prepare_swapped_model(*world, info, kind.driven() || kind.name == "mouse", config);
       },
       [this, result, number = run_number_](std::exception_ptr error) {
         if (error) return complain(error);

@@ -8,7 +8,7 @@
 #include "asperity/studio/page.h"
 #include "feel/feel_host.h"
 #include "feel/feel_run.h"
-#include "feel/felt_world.h"
+#include "feel/loaded_scene.h"
 
 namespace asperity::studio {
 
@@ -45,7 +45,7 @@ class FeelPage : public Page, public FeelHost {
   FeelChoices choices() const;
   double largest_force_N() const;
   void load();
-  void loaded(std::shared_ptr<const FeltWorld> world);
+  void loaded(std::shared_ptr<const LoadedScene> world);
   void begin(const Request& request);
   void check_start(const DeviceKind& kind, const Request& request) const;
   void open_in_job(const Request& request, const std::shared_ptr<Opening>& opening, std::string_view title,
@@ -71,9 +71,9 @@ class FeelPage : public Page, public FeelHost {
   State state_ = State::kIdle;
   bool stop_asked_ = false;  // while opening
 
-  std::shared_ptr<const FeltWorld> world_;  // the newest that is whole
-  std::uint64_t revision_ = 0;              // of the choices
-  std::uint64_t worlds_ = 0;                // made so far
+  std::shared_ptr<const LoadedScene> world_;  // the newest that is whole
+  std::uint64_t revision_ = 0;                // of the choices
+  std::uint64_t worlds_ = 0;                  // made so far
   bool loading_ = false;
   std::string problem_, hint_;
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "asperity/base/error.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/device/write_flight_record.h"
-#include "asperity/transport/host_clock.h"
 #include "asperity/session/our_file.h"
 #include "feel/ended_logs.h"
 #include "feel/feel_json.h"
@@ -23,9 +23,9 @@ constexpr const char* kFlightRecord = "asperity-feel.flight.csv";
 // What the job that opens a device hands over.
 struct FeelPage::Opening {
   FeelSetup setup;
-  std::uint64_t revision = 0;              // of the choices
-  std::shared_ptr<const FeltWorld> world;  // null: a visitor's scene
-  std::uint64_t visit = 0;                 // key of that
+  std::uint64_t revision = 0;                // of the choices
+  std::shared_ptr<const LoadedScene> world;  // null: a visitor's scene
+  std::uint64_t visit = 0;                   // key of that
   OpenedFeel opened;
 };
 
@@ -52,7 +52,7 @@ void FeelPage::begin(const Request& request) {
   open_in_job(request, opening, kind.title,
               [opening, chosen, before = world_, number = ++worlds_](const Observer& observer) {
                 observer.update("the scene", 0.0);
-                opening->world = make_felt_world(opening->setup, chosen, before, number);
+                opening->world = load_scene(opening->setup, chosen, before, number);
                 opening->setup = opening->world->setup;
                 opening->opened = open_feel(opening->setup, *opening->world->scene, observer);
               });

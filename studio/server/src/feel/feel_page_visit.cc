@@ -1,6 +1,6 @@
 #include <utility>
 
-#include "asperity/transport/host_clock.h"
+#include "asperity/base/host_clock.h"
 #include "feel/feel_page.h"
 
 // What is felt for another page.

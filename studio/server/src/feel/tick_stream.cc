@@ -90,7 +90,7 @@ void TickStream::add_sound(const ServoTick& tick, std::int64_t ticks_since) {
   const double force_N = axis_.push(tick.out_world_N, v_world_mps_, tick.t_ns);
   if (!sounding_) {
     high_pass_ = SecondOrderFilter::high_pass(kHighPass_Hz, rate_Hz_);
-    high_pass_.settle_high_pass(force_N);
+    high_pass_.start_high_pass_at(force_N);
     sounding_ = true;
     ticks_since = 1;
   }

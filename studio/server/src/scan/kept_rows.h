@@ -6,8 +6,8 @@
 #include <limits>
 #include <span>
 
-#include "asperity/recording/append.h"
 #include "asperity/recording/recording.h"
+#include "asperity/recording/recording_appender.h"
 
 namespace asperity::studio {
 

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "asperity/base/error.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 #include "asperity/recording/uncalibrated.h"
 #include "asperity/studio/calls.h"
-#include "asperity/transport/host_clock.h"
 #include "scan/episodes.h"
 
 namespace asperity::studio {

@@ -9,10 +9,10 @@
 #include <system_error>
 #include <utility>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 #include "asperity/recording/cut_recording.h"
 #include "asperity/recording/read_recording.h"
-#include "asperity/transport/host_clock.h"
 #include "asperity/session/utc_now.h"
 #include "config_fields.h"
 #include "scan/bench_source.h"

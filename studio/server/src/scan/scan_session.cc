@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "asperity/base/error.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 #include "asperity/recording/uncalibrated.h"
 #include "asperity/studio/calls.h"
-#include "asperity/transport/host_clock.h"
 #include "scan/scan_blocks.h"
 
 namespace asperity::studio {
@@ -239,7 +239,7 @@ void ScanSession::grow_again(const RecorderSnapshot& now) {
   const std::int64_t end_ns = now.storing ? std::numeric_limits<std::int64_t>::max() : shown_->end_ns;
   const LiveEstimate estimate = estimator_->again(shown_->start_ns, end_ns, now.storing);
   const std::lock_guard lock(mutex_);
-  book_.begin_anew();
+  book_.restart();
   book_.add(estimate, true);
 }
 

@@ -14,8 +14,8 @@
 
 #include "asperity/recorder/recorder.h"
 #include "asperity/studio/hub.h"
+#include "scan/live_scan_buffer.h"
 #include "scan/row_tap.h"
-#include "scan/scan_book.h"
 #include "scan/scan_config.h"
 #include "scan/scan_estimator.h"
 #include "scan/scan_source.h"
@@ -110,7 +110,7 @@ class ScanSession {
   // What was discarded last, as it was shown.
   struct Shelved {
     Segment segment;
-    ScanBook book;
+    LiveScanBuffer book;
   };
 
   void begin_in_contact();
@@ -161,7 +161,7 @@ class ScanSession {
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  ScanBook book_;
+  LiveScanBuffer book_;
   std::optional<ScanConfig> wanted_;  // settings to be taken
   bool end_ = false;
   std::thread thread_;

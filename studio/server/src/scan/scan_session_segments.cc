@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "asperity/transport/host_clock.h"
+#include "asperity/base/host_clock.h"
 #include "scan/scan_session.h"
 
 namespace asperity::studio {
@@ -74,7 +74,7 @@ void ScanSession::begin_scan(const RecorderSnapshot& now) {
   events_.forgotten();
   if (ended_ && !ended_->live) ended_->live = live_heights();
   const std::lock_guard lock(mutex_);
-  book_.begin_anew();
+  book_.restart();
 }
 
 void ScanSession::keep_ended(Ended ended, const RecorderSnapshot& now) {
@@ -87,7 +87,7 @@ void ScanSession::shelve(const RecorderSnapshot& now) {
   const std::optional<Segment> shown = std::exchange(shown_, std::nullopt);
   ended_.reset();
   const std::lock_guard lock(mutex_);
-  ScanBook book = book_.begin_anew();
+  LiveScanBuffer book = book_.restart();
   const bool is_shown = shown && now.last_discarded && shown->start_ns == now.last_discarded->start_ns;
   if (is_shown) shelved_ = Shelved{*now.last_discarded, std::move(book)};
 }

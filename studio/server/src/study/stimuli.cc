@@ -3,9 +3,9 @@
 #include <string_view>
 #include <utility>
 
+#include "asperity/base/crc32.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/text.h"
-#include "asperity/link/crc32.h"
 #include "asperity/studio/calls.h"
 #include "asperity/texture/read_height_image.h"
 #include "asperity/texture/texture_file.h"
@@ -15,10 +15,6 @@ namespace asperity::studio {
 namespace {
 
 constexpr std::uint64_t kLargestImage_bytes = std::uint64_t{1} << 30U;
-
-std::uint32_t crc32_of(std::string_view bytes) {
-  return crc32({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
-}
 
 }  // namespace
 
@@ -38,7 +34,7 @@ Stimuli read_stimuli(const Study& study, const Project& project) {
     } else {
       out.textures.push_back(read_texture(file, [&](std::string_view content) { bytes.append(content); }));
     }
-    out.crc32.push_back(crc32_of(bytes));
+    out.crc32.push_back(asperity::crc32(bytes));
     const bool slippery = !(out.textures.back().friction.value_or(study.presentation.friction) > 0.0);
     if (study.method == StudyMethod::kStaircase && study.parameter == StudyParameter::kFrictionDifference && slippery) {
       throw Advice(printable(name, 200) + ": has no friction that could be changed",

@@ -10,7 +10,8 @@ import { Toasts } from "../ui/Toasts";
 import { Help } from "./Help";
 import { JobBar } from "./JobBar";
 import { PageFrame } from "./PageFrame";
-import { go, route, routes } from "./routes";
+import { go } from "./go";
+import { route, routes } from "./routes";
 import { nextTheme, theme } from "./settings";
 import { WaitingKey } from "./WaitingKey";
 

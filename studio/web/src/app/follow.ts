@@ -7,7 +7,7 @@ import { entries, followEntries, readEntries } from "../ui/entries";
 import { followJobs, readJobs } from "../ui/job";
 import { complain, say } from "../ui/toast";
 import { editToOpen, pageOf } from "./opened";
-import { go } from "./routes";
+import { go } from "./go";
 
 const kFirstClient = 1;
 

@@ -68,8 +68,6 @@ export function routeOf(hash: string): Route {
   return routes.find((candidate) => candidate.id === id) ?? routes[0]!;
 }
 
-export const go = (id: string): void => void (location.hash = `#/${id}`);
-
 if (typeof window !== "undefined") {
   window.addEventListener("hashchange", () => {
     // A token is no page: the one that is shown stays.

@@ -1,7 +1,7 @@
 import uPlot from "uplot";
 import { themeColour } from "./colours";
 import { axis, uBands, uSeries } from "./options";
-import type { PlotProps } from "./Plot";
+import type { PlotProps } from "./props";
 import { readout } from "./readout";
 import { columnsBetween, extent, type Series } from "./series";
 import { isAllOf, rangeAfter, zoomed, type Range } from "./zoom";

@@ -1,5 +1,5 @@
 import { floored, number, quantity, withUnit } from "../ui/format";
-import type { PlotProps } from "./Plot";
+import type { PlotProps } from "./props";
 import { nearest, type Series } from "./series";
 
 /** The values of the series at an x, in words. */

@@ -1,6 +1,6 @@
 import { number } from "../ui/format";
 import { axisWords } from "./options";
-import type { PlotProps } from "./Plot";
+import type { PlotProps } from "./props";
 
 /** What a plot shows, in words: for each series its count and range. */
 export function summary({ series, xAxis, yAxis }: Pick<PlotProps, "series" | "xAxis" | "yAxis">): string {

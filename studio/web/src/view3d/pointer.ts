@@ -1,5 +1,4 @@
-import type { Intersection, Object3D, Ray } from "three";
-import type { View } from "./View";
+import type { Intersection, Object3D, Ray, Raycaster } from "three";
 
 export interface PointerHit {
   kind: "down" | "move" | "up" | "leave";
@@ -17,7 +16,17 @@ export interface PointerListener {
   on(pointer: PointerHit): boolean | void;
 }
 
-export function listenToPointer(view: View, { targets, on }: PointerListener): () => void {
+/** What listenToPointer asks of a view. */
+export interface PointedView {
+  readonly canvas: HTMLCanvasElement;
+  readonly controls: { enabled: boolean };
+  readonly content: Object3D;
+  /** A ray through a place of the canvas, in CSS pixels of the window. */
+  aim(clientX: number, clientY: number): Raycaster;
+}
+
+/** Calls the listener for what the pointer does over the view; the function that it returns ends it. */
+export function listenToPointer(view: PointedView, { targets, on }: PointerListener): () => void {
   const { canvas, controls } = view;
   const tell = (kind: PointerHit["kind"], event: PointerEvent): boolean => {
     const raycaster = view.aim(event.clientX, event.clientY);

@@ -13,16 +13,21 @@ namespace asperity {
 // A file's whole content. Throws Error if it cannot be read or is larger than `limit_bytes`.
 std::string read_file(const std::filesystem::path& path, std::uint64_t limit_bytes);
 
-// Reads a comma-separated file with a header line, row by row, from text held in memory. Lines end
-// with \n or \r\n; blank lines and lines that begin with # are passed over. No quoting: none of our
-// formats needs it.
+enum class CsvHeader {
+  kRequired,
+  kOptional,  // the first line is a row if all its cells are numbers
+};
+
+// Reads comma-separated values row by row from text held in memory. Lines end with \n or \r\n; blank lines and lines
+// that begin with # are passed over. No quoting: none of our formats needs it.
 class CsvReader {
  public:
-  // `name` is what messages call the file. Throws Error if the header is missing, not UTF-8, or has
-  // an empty or repeated column.
-  CsvReader(std::string_view text, std::string name);
+  // `name` is what messages call the file. Throws Error if the first line is missing, or is a header that is not UTF-8
+  // or has an empty or repeated column.
+  CsvReader(std::string_view text, std::string name, CsvHeader header = CsvHeader::kRequired);
 
-  const std::vector<std::string>& columns() const { return columns_; }
+  const std::vector<std::string>& columns() const { return columns_; }  // empty without a header
+  std::size_t width() const { return cells_.size(); }
   // The place of a column, or nullopt; `require` throws Error naming the file and the column.
   std::optional<std::size_t> find(std::string_view column) const;
   std::size_t require(std::string_view column) const;
@@ -33,6 +38,8 @@ class CsvReader {
   std::string_view cell(std::size_t column) const { return cells_[column]; }
   bool empty(std::size_t column) const { return cells_[column].empty(); }
   double number(std::size_t column) const;         // throws Error unless the cell is a number (nan allowed)
+  double finite(std::size_t column) const;         // throws Error unless it is a finite number
+  double finite_or_nan(std::size_t column) const;  // throws Error unless it is a finite number or nan
   std::int64_t integer(std::size_t column) const;  // throws Error unless the cell is a whole number
   std::size_t line() const { return line_; }       // of the current row, from 1
 
@@ -41,11 +48,13 @@ class CsvReader {
   bool truncated() const { return truncated_; }
   void accept_unterminated() { accept_unterminated_ = true; }
 
-  // "file:line: column 'x': message"
+  // "file:line: column 'x': message" (by its number without a header), and "file:line: message".
   [[noreturn]] void fail(std::size_t column, const std::string& message) const;
+  [[noreturn]] void fail(const std::string& message) const;
 
  private:
   bool next_line(std::string_view& line);
+  void take_header();
 
   std::string name_;
   std::string_view rest_;
@@ -54,6 +63,7 @@ class CsvReader {
   std::size_t line_ = 0;
   bool truncated_ = false;
   bool accept_unterminated_ = false;
+  bool first_row_pending_ = false;
 };
 
 }  // namespace asperity

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace asperity {
@@ -13,6 +14,13 @@ double parse_duration_s(std::string_view text, std::string_view what);  // 10s 2
 
 // A unit of length: its name (m, mm, …) or how long it is (0.06m). From 1 nm to 1000 m, else it throws in the same way.
 double parse_length_unit_m(std::string_view text, std::string_view what);
+
+// A column's name that ends in its unit of length (_nm, _um, _µm, _mm, _cm, _m), as "height_um".
+struct NamedLength {
+  std::string_view quantity;  // the name before it
+  double unit_m = 1.0;
+};
+std::optional<NamedLength> split_length_name(std::string_view column);  // nullopt if it has none
 
 inline constexpr double kStandardGravity_mps2 = 9.80665;
 inline constexpr double kNanosecond_s = 1e-9;

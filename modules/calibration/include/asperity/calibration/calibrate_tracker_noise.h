@@ -10,7 +10,7 @@
 namespace asperity {
 
 // A tracker's poses with what is needed to know how far and how tilted the tags were.
-struct RestingTracker {
+struct StaticTracker {
   std::string name;
   const TrackerStream* tracker = nullptr;
   std::vector<MarkerPlacement> markers;  // empty: one tag in the marker frame's own plane
@@ -49,6 +49,6 @@ struct TrackerNoiseConfig {
 // scatter of each is taken apart into white and slow (series_noise.h), and with several places the
 // white part's law over distance and tilt is fitted (docs/calibration-optics.md). Throws Error, saying what to record
 // instead, if nothing rests long enough.
-TrackerNoise calibrate_tracker_noise(std::span<const RestingTracker> recordings, const TrackerNoiseConfig& config = {});
+TrackerNoise calibrate_tracker_noise(std::span<const StaticTracker> recordings, const TrackerNoiseConfig& config = {});
 
 }  // namespace asperity

@@ -16,7 +16,7 @@
 namespace asperity {
 
 // The tracker's scatter while the marker body rested in one place.
-struct TrackerRest {
+struct StaticInterval {
   std::string recording;
   std::int64_t start_ns = 0;
   std::int64_t end_ns = 0;
@@ -62,7 +62,7 @@ struct TrackerNoise {
   Eigen::Vector3d slow_rotation_rad = Eigen::Vector3d::Zero();
   bool gaussian = true;  // no channel refuses it by more than chance, or by little
   bool moving = false;   // the slow part is larger than the white one
-  std::vector<TrackerRest> rests;
+  std::vector<StaticInterval> rests;
   std::optional<TrackerNoiseModel> model;
   std::string no_model_because;
   Problems problems;

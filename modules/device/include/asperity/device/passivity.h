@@ -37,8 +37,8 @@ struct PassivityInput {
 //
 // The caller sets `state.force_N` to the force that it commands at last.
 // Realtime-safe: yes.
-Eigen::Vector3d damp_created_energy(const SafetyConfig& config, PassivityState& state,
-                                    const PassivityInput& input) noexcept;
+Eigen::Vector3d dissipate_created_energy(const SafetyConfig& config, PassivityState& state,
+                                         const PassivityInput& input) noexcept;
 
 // What a spring holds that is stretched by `stretch_m` and pulls with `force_N`, if its force stops growing at
 // `max_force_N`: ½ F L, or F_max L (1 − F_max/2F) beyond; F is the force along the stretch, 0 if it does not pull back.

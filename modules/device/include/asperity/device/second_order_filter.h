@@ -25,7 +25,7 @@ class SecondOrderFilter {
   }
 
   // As if `x` had been its input for ever and 0 its output: what a high-pass makes of a constant.
-  void settle_high_pass(double x) noexcept {
+  void start_high_pass_at(double x) noexcept {
     s1_ = -b0_ * x;
     s2_ = b2_ * x;
   }

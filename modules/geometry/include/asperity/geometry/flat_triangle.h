@@ -22,8 +22,8 @@ struct FlatTriangle {
 
 // The place of `p` beside the line from `a` to `b`, whose places are given: `side` is 1 to its left and -1
 // to its right. Where a and b are one point, any place at the right distance.
-Eigen::Vector2d lay_beside(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                           const Eigen::Vector2d& flat_a, const Eigen::Vector2d& flat_b, double side);
+Eigen::Vector2d place_beside(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                             const Eigen::Vector2d& flat_a, const Eigen::Vector2d& flat_b, double side);
 
 // A triangle with its first corner at the origin and its second on the x axis, seen from outside.
 FlatTriangle flatten(const TriangleMesh& mesh, std::uint32_t triangle);

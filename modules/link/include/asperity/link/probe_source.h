@@ -9,7 +9,7 @@
 #include "asperity/link/link_statistics.h"
 #include "asperity/link/probe_description.h"
 #include "asperity/link/probe_link.h"
-#include "asperity/recording/append.h"
+#include "asperity/recording/recording_appender.h"
 
 namespace asperity {
 

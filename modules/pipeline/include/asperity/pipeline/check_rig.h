@@ -8,7 +8,7 @@
 #include "asperity/pipeline/process_config.h"
 #include "asperity/pipeline/rig_check.h"
 #include "asperity/pipeline/sine_grating.h"
-#include "asperity/recording/inspect.h"
+#include "asperity/recording/inspect_recording.h"
 #include "asperity/recording/recording.h"
 
 namespace asperity {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "asperity/recording/append.h"
 #include "asperity/recording/recording.h"
+#include "asperity/recording/recording_appender.h"
 
 namespace asperity {
 

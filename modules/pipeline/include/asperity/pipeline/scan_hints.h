@@ -10,9 +10,9 @@
 
 #include "asperity/pipeline/live_estimate.h"
 #include "asperity/pipeline/scan_hints_config.h"
-#include "asperity/recording/append.h"
 #include "asperity/recording/calibration.h"
 #include "asperity/recording/recording.h"
+#include "asperity/recording/recording_appender.h"
 
 namespace asperity {
 

@@ -15,13 +15,13 @@ struct CausalBaseConfig {
   BasePathConfig base;
   double history_s = 6.0;
   double period_s = 0.25;
-  double settle_m = 10e-3;
+  double blend_m = 10e-3;
 };
 
 // The base shape under a path that is still growing: find_base_path over the last seconds, again and again. Until the
 // path is long enough for that, and its normal known better than by how a probe is held, the plane lies across the
 // probe's axis. Where a new fit differs from the one before,
-// the height goes over to it within the distance settle_m, without a step. Thread-safe: no.
+// the height goes over to it within the distance blend_m, without a step. Thread-safe: no.
 class CausalBase {
  public:
   CausalBase(const CausalBaseConfig& config, const Eigen::Vector3d& tip_in_marker_m);
@@ -33,7 +33,7 @@ class CausalBase {
 
   bool begun() const { return begun_; }  // there is a plane, if only the probe's
   bool fitted() const { return fitted_; }
-  bool settled() const { return travelled_m_ > 10.0 * config_.settle_m; }
+  bool settled() const { return travelled_m_ > 10.0 * config_.blend_m; }
   PathShape shape() const { return shape_; }
   double radius_m() const { return shape_ == PathShape::kCircle ? radius_m_ : 0.0; }
   double normal_sigma_deg() const { return normal_sigma_deg_; }

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "asperity/profile/areal_map.h"
+#include "asperity/base/areal_map.h"
 
 namespace asperity {
 

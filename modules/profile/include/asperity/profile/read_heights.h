@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "asperity/profile/areal_map.h"
+#include "asperity/base/areal_map.h"
 
 namespace asperity {
 
@@ -39,7 +39,7 @@ using Heights = std::variant<HeightProfile, ArealMap>;
 // Heights from a text file of one of these kinds, told apart by their first line:
 //   s_m,height_m,texture_m,…   a profile.csv, uniform in s_m
 //   height                     one column, with or without a header; needs `spacing_m`. A name that
-//                              ends in _nm, _um, _µm, _mm or _m says its unit
+//                              ends in _nm, _um, _µm, _mm, _cm or _m says its unit
 //   x_mm,y_mm,z_µm             an areal map on a full rectangular grid, with or without that header
 //                              (other units by name), rows along x or along y; blank lines allowed
 // Throws Error naming file, line and value for anything else, infinite numbers, uneven positions, a

@@ -9,7 +9,7 @@
 #include "asperity/link/link_statistics.h"
 #include "asperity/link/probe_description.h"
 #include "asperity/recorder/gravity_estimator.h"
-#include "asperity/recording/append.h"
+#include "asperity/recording/recording_appender.h"
 #include "asperity/tracking/pose_source.h"
 
 namespace asperity {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "asperity/recording/append.h"
+#include "asperity/recording/recording_appender.h"
 
 namespace asperity {
 
@@ -54,7 +54,7 @@ class SegmentWriter {
   std::size_t discarded() const { return discarded_; }
   std::size_t restored() const { return restored_; }
   // What can be brought back, the one discarded last at the end. Of more than kMostDiscarded the oldest are given up.
-  const std::vector<Segment>& trash() const { return trash_; }
+  const std::vector<Segment>& discarded_rows() const { return discarded_rows_; }
   // The latest end of what is discarded; nullopt: nothing is.
   std::optional<std::int64_t> discarded_until_ns() const;
   std::uint64_t probe_rows() const { return probe_.written; }
@@ -96,7 +96,7 @@ class SegmentWriter {
   Stream<TrackerSample> tracker_;
   std::vector<Segment> segments_;
   bool open_ = false;  // the last one
-  std::vector<Segment> trash_;
+  std::vector<Segment> discarded_rows_;
   std::size_t discarded_ = 0;
   std::size_t restored_ = 0;
   std::int64_t given_up_until_ns_ = kNever;  // the latest end of what cannot be brought back any more

@@ -30,7 +30,7 @@ struct StreamTiming {
 };
 
 // One column of the probe, in counts.
-struct ChannelFigures {
+struct ChannelStatistics {
   std::string name;
   std::size_t samples = 0;  // rows with a value
   double lowest = std::numeric_limits<double>::quiet_NaN();
@@ -41,7 +41,7 @@ struct ChannelFigures {
 };
 
 // The stretch in which the accelerometer varied least.
-struct QuietStretch {
+struct QuietInterval {
   double start_s = 0.0;  // since the probe's first row
   double duration_s = 0.0;
   bool at_rest = false;                                           // still enough for the figures below to mean noise
@@ -62,8 +62,8 @@ struct Inspection {
   StreamTiming probe;
   StreamTiming tracker;
   double overlap_s = 0.0;
-  std::vector<ChannelFigures> channels;
-  std::optional<QuietStretch> quiet;  // nullopt: too short a recording
+  std::vector<ChannelStatistics> channels;
+  std::optional<QuietInterval> quiet;  // nullopt: too short a recording
   double force_lowest_N = std::numeric_limits<double>::quiet_NaN();
   double force_highest_N = std::numeric_limits<double>::quiet_NaN();
   double force_rate_Hz = 0.0;

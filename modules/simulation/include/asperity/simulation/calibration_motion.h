@@ -12,7 +12,7 @@ namespace asperity {
 // `seed`.
 
 // At rest in front of the camera.
-MotionFunction resting_motion(const Pose& T_world_marker, const Eigen::Vector3d& tip_in_marker_m);
+MotionFunction static_motion(const Pose& T_world_marker, const Eigen::Vector3d& tip_in_marker_m);
 
 struct PivotMotion {
   Eigen::Vector3d p_world_tip_m{0.0, 0.09, 0.34};  // in a dimple
@@ -53,6 +53,6 @@ MotionFunction static_poses_motion(const StaticPosesMotion& poses, const Eigen::
 
 // The specific force of a probe at rest, −g in the marker frame, at times `t_ns` of a recording of the bench: what a
 // tilting table or a robot that holds the probe knows (seed §3.5, Freedom 6S; erratum 5).
-std::vector<Eigen::Vector3d> resting_force_mps2(const Recording& bench, const std::vector<std::int64_t>& t_ns);
+std::vector<Eigen::Vector3d> static_specific_force_mps2(const Recording& bench, const std::vector<std::int64_t>& t_ns);
 
 }  // namespace asperity

@@ -37,7 +37,7 @@ class Hand {
   double start_s() const { return config_.rest_s; }  // of the stroke
   double end_s() const { return config_.rest_s + stroke_s_; }
   // Beginnings of the lifts; each takes lift_s.
-  const std::vector<double>& lift_starts_s() const { return lift_starts_s_; }
+  const std::vector<double>& lift_off_starts_s() const { return lift_starts_s_; }
   double greatest_force_N() const;
 
  private:

@@ -28,7 +28,7 @@ class ProbeDevice {
   virtual void advance(std::int64_t t_ns, std::vector<std::uint8_t>& out) = 0;
 
   // Bytes from the host.
-  virtual void hear(std::span<const std::uint8_t> bytes) = 0;
+  virtual void receive(std::span<const std::uint8_t> bytes) = 0;
 };
 
 // `recording` needs its truth: samples are taken at its times, one for each row, so that nothing of it may have been

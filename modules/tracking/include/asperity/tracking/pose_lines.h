@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "asperity/recording/append.h"
+#include "asperity/recording/recording_appender.h"
 
 namespace asperity {
 

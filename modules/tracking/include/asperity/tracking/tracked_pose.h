@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "asperity/recording/append.h"
+#include "asperity/recording/recording_appender.h"
 
 namespace asperity {
 

@@ -8,9 +8,9 @@
 #include <Eigen/Core>
 
 #include "asperity/geometry/motion.h"
-#include "asperity/recording/append.h"
 #include "asperity/recording/calibration.h"
 #include "asperity/recording/recording.h"
+#include "asperity/recording/recording_appender.h"
 #include "asperity/trajectory/fused.h"
 
 namespace asperity {

@@ -1,5 +1,5 @@
 import { useState } from "preact/hooks";
-import { go } from "../../app/routes";
+import { go } from "../../app/go";
 import { call } from "../../net/connection";
 import { Button } from "../../ui/Button";
 import { readEntries } from "../../ui/entries";

@@ -1,5 +1,5 @@
 import { useState } from "preact/hooks";
-import { go } from "../../app/routes";
+import { go } from "../../app/go";
 import { call } from "../../net/connection";
 import { edit } from "../../state/document";
 import { Button } from "../../ui/Button";

@@ -1,7 +1,7 @@
 // What the operator tells the recorder.
 import { call } from "../../net/connection";
 import { edit, valueAt } from "../../state/document";
-import { go } from "../../app/routes";
+import { go } from "../../app/go";
 import { say } from "../../ui/toast";
 import { type ProcessSection, withScan } from "../process/processing";
 import { abilities } from "./scanState";

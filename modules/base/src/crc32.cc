@@ -1,0 +1,16 @@
+#include "asperity/base/crc32.h"
+
+#include <zlib.h>
+
+namespace asperity {
+
+std::uint32_t crc32(std::span<const std::uint8_t> bytes) noexcept {
+  // zlib takes a null pointer for the question after its start value, which is 0 too.
+  return static_cast<std::uint32_t>(::crc32_z(0, bytes.data(), bytes.size()));
+}
+
+std::uint32_t crc32(std::string_view bytes) noexcept {
+  return crc32({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace asperity

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "asperity/calibration/calibrate_tracker_noise.h"
+
+namespace asperity {
+
+// Rows [first, last) of a tracker stream.
+struct PoseRange {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+// The stretches, in order and apart, in which the mean poses over blocks stay together; the first and last block of
+// each stretch, where the motion may begin, is left away. Those too short for the config are not among them.
+std::vector<PoseRange> find_static_intervals(const TrackerStream& tracker, const TrackerNoiseConfig& config);
+
+// The chordal mean of rotations that are near each other.
+Eigen::Quaterniond mean_rotation(const TrackerStream& tracker, PoseRange range);
+
+}  // namespace asperity

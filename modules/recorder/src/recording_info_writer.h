@@ -1,0 +1,39 @@
+#pragma once
+
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "asperity/recording/recording.h"
+
+namespace asperity {
+
+// Does in a thread of its own what may wait for the disk while rows are written: replaces recording.json, and forces
+// the files to the disk every `sync_s`.
+class RecordingInfoWriter {
+ public:
+  RecordingInfoWriter(std::filesystem::path folder, double sync_s);  // 0: never
+  // Ends; an info that is not yet written is left.
+  ~RecordingInfoWriter();
+  RecordingInfoWriter(const RecordingInfoWriter&) = delete;
+  RecordingInfoWriter& operator=(const RecordingInfoWriter&) = delete;
+
+  // To be written soon; a newer one takes its place.
+  void put(const RecordingInfo& info);
+
+ private:
+  void run();
+  void sync() const;
+
+  std::filesystem::path folder_;
+  double sync_s_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool stop_ = false;
+  std::optional<RecordingInfo> waiting_;
+  std::thread thread_;
+};
+
+}  // namespace asperity

@@ -1,0 +1,133 @@
+#include "asperity/recording/recording_appender.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <cerrno>
+#include <cstring>
+
+#include "asperity/base/error.h"
+#include "asperity/recording/format_recording.h"
+#include "asperity/recording/write_recording.h"
+#include "csv_line.h"
+#include "keep_rows.h"
+
+namespace asperity {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kBatch_bytes = 64 * 1024;
+
+[[noreturn]] void fail(const fs::path& path) {
+  throw Error(path.string() + ": cannot be written: " + std::strerror(errno));
+}
+
+}  // namespace
+
+void RecordingAppender::Stream::open_new(const fs::path& new_path, std::string header) {
+  path = new_path;
+  file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
+  if (file < 0) fail(path);
+  waiting = std::move(header);
+  waiting.reserve(2 * kBatch_bytes);
+  write();
+}
+
+void RecordingAppender::Stream::write() {
+  std::size_t done = 0;
+  while (done < waiting.size()) {
+    const ssize_t count = ::write(file, waiting.data() + done, waiting.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      const int reason = errno;
+      waiting.erase(0, done);
+      errno = reason;
+      fail(path);
+    }
+    done += static_cast<std::size_t>(count);
+    bytes += static_cast<std::uint64_t>(count);
+  }
+  waiting.clear();
+}
+
+void RecordingAppender::Stream::close() noexcept {
+  if (file >= 0) ::close(file);
+  file = -1;
+}
+
+RecordingAppender::RecordingAppender(fs::path folder, const RecordingInfo& info, const Calibration& calibration,
+                                     const AppendColumns& columns)
+    : folder_(std::move(folder)), columns_(columns) {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) throw Error(folder_.string() + ": cannot be made: " + error.message());
+  if (!fs::is_empty(folder_, error) || error)
+    throw Error(folder_.string() + ": exists and is not empty; nothing was changed");
+  write_recording_info(folder_ / "recording.json", info);
+  write_calibration(folder_ / "calibration.json", calibration);
+  try {
+    probe_.open_new(folder_ / "probe.csv", probe_header(columns.gyro, columns.force3));
+    tracker_.open_new(folder_ / "tracker.csv", tracker_header(columns.markers, columns.reprojection, columns.sigmas));
+  } catch (...) {
+    probe_.close();
+    tracker_.close();
+    throw;
+  }
+}
+
+RecordingAppender::~RecordingAppender() {
+  try {
+    if (probe_.file >= 0 && tracker_.file >= 0) flush();
+  } catch (const Error&) {
+    // A destructor cannot report; whoever needs to know calls finish().
+  }
+  probe_.close();
+  tracker_.close();
+}
+
+void RecordingAppender::add(const ProbeSample& sample) {
+  std::string& out = probe_.waiting;
+  append_time(out, sample.t_ns);
+  append_cells(out, sample.accel_counts);
+  append_cell(out, sample.force_counts);
+  if (columns_.gyro) append_cells(out, sample.gyro_counts);
+  if (columns_.force3) append_cells(out, sample.force3_counts);
+  out += '\n';
+  if (out.size() >= kBatch_bytes) probe_.write();
+}
+
+void RecordingAppender::add(const TrackerSample& sample) {
+  std::string& out = tracker_.waiting;
+  append_time(out, sample.t_ns);
+  append_cells(out, sample.T_world_marker.translation_m);
+  append_cells(out, sample.T_world_marker.rotation);
+  if (columns_.markers) append_cell(out, static_cast<double>(sample.markers));
+  if (columns_.reprojection) append_cell(out, sample.reprojection_px);
+  if (columns_.sigmas) {
+    append_cells(out, sample.sigma_position_m);
+    append_cells(out, sample.sigma_rotation_rad);
+  }
+  out += '\n';
+  if (out.size() >= kBatch_bytes) tracker_.write();
+}
+
+void RecordingAppender::flush(bool to_disk) {
+  for (Stream* stream : {&probe_, &tracker_}) {
+    if (stream->file < 0) throw Error(folder_.string() + ": the recording is finished");
+    stream->write();
+    if (to_disk && ::fdatasync(stream->file) != 0) fail(stream->path);
+  }
+}
+
+void RecordingAppender::finish(const RecordingInfo& info, bool only_segments) {
+  flush(true);
+  probe_.close();
+  tracker_.close();
+  // First the list: whoever dies in between leaves rows that no segment claims, not segments without rows.
+  write_recording_info(folder_ / "recording.json", info);
+  if (!only_segments) return;
+  for (const Stream* stream : {&probe_, &tracker_}) keep_rows(stream->path, info.segments);
+}
+
+}  // namespace asperity

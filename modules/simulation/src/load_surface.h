@@ -1,0 +1,20 @@
+#pragma once
+
+#include <memory>
+
+#include "asperity/simulation/surface.h"
+#include "asperity/simulation/surface_config.h"
+
+namespace asperity {
+
+// Reads `config.file`, comma separated, with or without a header line; blank lines are passed over.
+//   one column     heights, `file_spacing_m` apart
+//   two columns    position along the stroke and height, positions uniform (as s_m,height_m)
+//   three columns  x_mm,y_mm,z_um: an areal map on a full rectangular grid, along x or along y (read_areal_map)
+// A header's names carry units by their ends (_m, _cm, _mm, _um, _nm); without one a profile's heights are in
+// `file_unit_m` and its positions in metres, and a map is as above. A profile loses its mean, a map its least-squares
+// plane. Beyond its border a relief goes on as its mirror image, so that it has no steps. Throws Error naming file,
+// line and value; files over 64 MiB and heights beyond 0.1 m are refused.
+std::unique_ptr<Surface> load_surface(const SimulatedSurfaceConfig& config);
+
+}  // namespace asperity
