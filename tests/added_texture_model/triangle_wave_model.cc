@@ -5,7 +5,6 @@
 
 #include "asperity/texture/texture_fit.h"
 #include "asperity/texture/texture_hash.h"
-#include "block_json.h"
 #include "model_block.h"
 
 namespace asperity {
@@ -25,9 +24,7 @@ std::string WaveTraits::write_block(const TriangleWave& t, BlockOutput&) {
   return block.take();
 }
 
-NamedValues WaveTraits::describe(const TriangleWave& t) {
-  return NamedValues().add("length_mm", t.length_mm).add("height_m", t.height_m);
-}
+Json WaveTraits::describe(const TriangleWave& t) { return {{"length_mm", t.length_mm}, {"height_m", t.height_m}}; }
 
 void WaveTraits::scale(TriangleWave& t, double factor) { t.height_m *= factor; }
 void WaveTraits::add_to(TextureHash& hash, const TriangleWave& t) { hash.add(t.length_mm, t.height_m); }
@@ -57,7 +54,7 @@ void WaveTraits::fit(const TextureFitInput& input, const TextureFitOptions& opti
   const HeightLine line = input.read_heights(input.files);
   const auto [low, high] = std::minmax_element(line.height_m.begin(), line.height_m.end());
   out.texture.model = TriangleWave{options.of<TriangleWave>().length_mm, *high - *low};
-  out.report.add("heights", line.height_m.size());
+  out.report["heights"] = line.height_m.size();
 }
 
 }  // namespace asperity
