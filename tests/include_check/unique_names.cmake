@@ -9,9 +9,10 @@ foreach(header IN LISTS headers)
   file(STRINGS "${header}" lines REGEX "^(struct|class|enum class|enum|union) [A-Za-z0-9_]+.*[{:]")
   file(STRINGS "${header}" scopes REGEX "^namespace [a-z:]+ {")
   list(GET scopes 0 scope)
-  # A specialisation of a template is of the same name.
-  list(FILTER lines EXCLUDE REGEX "^(struct|class) [A-Za-z0-9_]+<")
   foreach(line IN LISTS lines)
+    if(line MATCHES "^(struct|class) [A-Za-z0-9_]+<")
+      continue()  # a specialisation has its template's name
+    endif()
     string(REGEX REPLACE "^(struct|class|enum class|enum|union) ([A-Za-z0-9_]+).*" "\\2" name "${line}")
     set(key "${scope}|${name}")
     if(key IN_LIST seen)
