@@ -111,7 +111,7 @@ TEST_F(Report, SaysWhatIsWrong) {
   write_text(dir / "out/rec1/result.json", "{");
   const Outcome damaged = run({"report", (dir / "out/rec1").string()});
   EXPECT_EQ(damaged.code, 1);
-  EXPECT_THAT(damaged.err, HasSubstr("result.json: is not JSON"));
+  EXPECT_THAT(damaged.err, HasSubstr("result.json:1:1: not JSON"));
 }
 
 }  // namespace
