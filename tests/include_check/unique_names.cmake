@@ -10,9 +10,8 @@ foreach(header IN LISTS headers)
   file(STRINGS "${header}" scopes REGEX "^namespace [a-z:]+ {")
   list(GET scopes 0 scope)
   foreach(line IN LISTS lines)
-    # A specialisation of a template is not another type.
     if(line MATCHES "^(struct|class) [A-Za-z0-9_]+<")
-      continue()
+      continue()  # a specialisation has its template's name
     endif()
     string(REGEX REPLACE "^(struct|class|enum class|enum|union) ([A-Za-z0-9_]+).*" "\\2" name "${line}")
     set(key "${scope}|${name}")

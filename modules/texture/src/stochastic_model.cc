@@ -25,11 +25,10 @@ constexpr double kOfThePlace = -1.0;
 
 }  // namespace
 
-NamedValues StochasticTraits::describe(const StochasticTexture& t) {
-  return NamedValues()
-      .add("sigma_m", t.sigma_m)
-      .add("correlation_length_m", t.correlation_length_m)
-      .add("stiffness_N_per_m", t.stiffness_N_per_m);
+Json StochasticTraits::describe(const StochasticTexture& t) {
+  return {{"sigma_m", t.sigma_m},
+          {"correlation_length_m", t.correlation_length_m},
+          {"stiffness_N_per_m", t.stiffness_N_per_m}};
 }
 
 void StochasticTraits::scale(StochasticTexture& t, double factor) { t.sigma_m *= factor; }
@@ -113,14 +112,14 @@ void StochasticTraits::fit(const TextureFitInput& input, const TextureFitOptions
   out.texture.roughness = input.roughness({profile.height_m}, profile.spacing_m);
   const StochasticFit fit =
       fit_stochastic(profile.height_m, profile.spacing_m, options.of<StochasticTexture>().stochastic);
-  out.report.add("samples", fit.samples)
-      .add("sigma_m", fit.texture.sigma_m)
-      .add("skewness", fit.skewness)
-      .add("excess_kurtosis", fit.excess_kurtosis)
-      .add("kolmogorov_distance", fit.kolmogorov_distance)
-      .add("correlation_length_m", fit.correlation_length_m)
-      .add("not_white", fit.not_white)
-      .add("misplaced_power", fit.misplaced_power);
+  out.report["samples"] = fit.samples;
+  out.report["sigma_m"] = fit.texture.sigma_m;
+  out.report["skewness"] = fit.skewness;
+  out.report["excess_kurtosis"] = fit.excess_kurtosis;
+  out.report["kolmogorov_distance"] = fit.kolmogorov_distance;
+  out.report["correlation_length_m"] = fit.correlation_length_m;
+  out.report["not_white"] = fit.not_white;
+  out.report["misplaced_power"] = fit.misplaced_power;
   out.add_problems(fit.problems);
   out.texture.model = fit.texture;
 }
