@@ -53,19 +53,27 @@ std::unique_ptr<Command> make_lines(Parser& root) { return std::make_unique<Line
 
 // --------------------------------------------------------------------------------------------------------------------
 
+// The program with this command alone, at `words` of a command line.
+struct Program {
+  Parser root{"asperity", ""};
+  std::unique_ptr<Command> command = make_lines(root);
+
+  explicit Program(std::vector<std::string> words) {
+    words.insert(words.begin(), {"asperity", "lines"});
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    const ParsedLine line = root.parse(static_cast<int>(argv.size()), argv.data());
+    EXPECT_EQ(line.kind, ParsedLine::Kind::kCommand) << line.text;
+    EXPECT_TRUE(command->parser().is_parsed());
+  }
+};
+
 // What the command writes to standard output.
-std::string output_of(std::vector<std::string> words) {
-  Parser root("asperity", "");
-  const std::unique_ptr<Command> command = make_lines(root);
-  words.insert(words.begin(), {"asperity", "lines"});
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  const ParsedLine line = root.parse(static_cast<int>(argv.size()), argv.data());
-  EXPECT_EQ(line.kind, ParsedLine::Kind::kCommand) << line.text;
-  EXPECT_TRUE(command->parser().is_parsed());
+std::string output_of(const std::vector<std::string>& words) {
+  Program program(words);
   testing::internal::CaptureStdout();
-  if (command->resolve()) {
-    EXPECT_EQ(command->run({}), kDone);
+  if (program.command->resolve()) {
+    EXPECT_EQ(program.command->run({}), kDone);
   }
   return testing::internal::GetCapturedStdout();
 }
@@ -77,7 +85,7 @@ TEST(AddingACommand, ItHasItsOptionsItsSettingsAndTheCommonOnes) {
   EXPECT_EQ(output_of({file}), "3 lines\n");
   EXPECT_EQ(output_of({file, "--json", "--set", "lines.skip=1"}), "{\"lines\": 2}\n");
   EXPECT_THAT(output_of({"--print-config"}), testing::HasSubstr("skip = 0"));
-  EXPECT_THROW(output_of({}), UsageError);
+  EXPECT_THROW(Program({}).command->resolve(), UsageError);
 }
 
 TEST(AddingACommand, ItIsInTheManualAndInTheCompletions) {

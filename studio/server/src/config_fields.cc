@@ -33,4 +33,18 @@ Json fields_json(const std::vector<ConfigField>& fields, const std::vector<Confi
   return out;
 }
 
+void use_present_names(Json& section, std::string_view key, const std::vector<ConfigField>& fields) {
+  Json* const settings = section.find(key);
+  if (settings == nullptr || !settings->is_object()) return;
+  for (const ConfigField& field : fields) {
+    for (const std::string& former : field.former) {
+      const Json* const found = settings->find(former);
+      if (found == nullptr) continue;
+      const Json value = *found;
+      settings->erase(former);
+      if (!settings->contains(field.path)) (*settings)[field.path] = value;
+    }
+  }
+}
+
 }  // namespace asperity::studio

@@ -105,11 +105,12 @@ JsonLimits file_limits() {
 
 Document::Document(std::filesystem::path file) : file_(std::move(file)) {}
 
-void Document::add_section(const std::string& name, Json first, Validator validator) {
+void Document::add_section(const std::string& name, Json first, Validator validator, Updater updater) {
   if (first_.contains(name)) throw Error("the document's section '" + name + "' is there twice");
   value_[name] = first;
   first_[name] = std::move(first);
   validators_[name] = std::move(validator);
+  updaters_[name] = std::move(updater);
 }
 
 void Document::load() {
@@ -123,8 +124,10 @@ void Document::load() {
       const Json* found = file.at("document").find(name);
       if (found == nullptr) continue;
       try {
-        validators_.at(name)(*found);
-        value_[name] = *found;
+        Json section = *found;
+        if (updaters_.at(name)) updaters_.at(name)(section);
+        validators_.at(name)(section);
+        value_[name] = std::move(section);
       } catch (const std::exception& fault) {
         whole = false;
         problems_.push_back("the page '" + name + "' begins anew: " + printable(fault.what(), 300));

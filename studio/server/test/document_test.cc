@@ -8,6 +8,7 @@
 #include "asperity/base/output.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/testkit/temp_dir.h"
+#include "config_fields.h"
 
 namespace asperity::studio {
 namespace {
@@ -142,6 +143,43 @@ TEST_F(DocumentTest, AnUndoStepThatThePageRefusesIsDropped) {
   EXPECT_EQ(again->value()["page"]["a"], 1);
   EXPECT_FALSE(again->undo());
   EXPECT_FALSE(again->redo());
+}
+
+struct RenamedConfig {
+  double cutoff_Hz = 1.0;
+  double order = 2.0;
+
+  template <class V>
+  void visit(V& v) {
+    v.field("cutoff_Hz", cutoff_Hz, "low-pass");
+    v.former("cutoff_hz");
+    v.field("order", order, "of it");
+  }
+};
+
+// A project of an older version: its settings have the names that they have now, for the forms and for what is written.
+TEST_F(DocumentTest, SettingsOfAnOlderVersionGetTheirPresentNames) {
+  const auto open = [this] {
+    auto out = std::make_unique<Document>(file_);
+    out->add_section(
+        "page", parse_json(R"({"config":{}})"), [](const Json&) {},
+        [](Json& section) {
+          RenamedConfig config;
+          use_present_names(section, "config", list_fields("", config));
+        });
+    out->load();
+    return out;
+  };
+  const auto reopen_with = [&](const char* config) {
+    std::filesystem::remove(file_);
+    const auto older = open();
+    older->edit("/page/config", parse_json(config), "as it was");
+    write_file(file_, *older->take_unsaved());
+    return open()->section("page").at("config");
+  };
+  EXPECT_EQ(reopen_with(R"({"order":"3","cutoff_hz":"5"})"), parse_json(R"({"order":"3","cutoff_Hz":"5"})"));
+  EXPECT_EQ(reopen_with(R"({"cutoff_Hz":"6","cutoff_hz":"5"})"), parse_json(R"({"cutoff_Hz":"6"})"));
+  EXPECT_EQ(reopen_with(R"([1])"), parse_json("[1]"));
 }
 
 TEST_F(DocumentTest, ASectionThatItsPageRefusesBeginsAnew) {

@@ -43,7 +43,12 @@ BlockWriter residual_block(const AlignScene& scene, const Pose& pose, std::vecto
 }  // namespace
 
 void AlignPage::bind(Document& document, Calls& calls) {
-  document.add_section(kSection, json_of_choice({}), check_section);
+  document.add_section(kSection, json_of_choice({}), check_section, [](Json& section) {
+    RegisterConfig config;
+    const std::vector<ConfigField> fields = list_fields("", config);
+    use_present_names(section, "config", fields);
+    if (Json* const ran = section.find("ran")) use_present_names(*ran, "config", fields);
+  });
   calls.add("align.paths", [this](const Request& request) {
     answer_in_lane(shared_.jobs, "project", request, "", "",
                    [project = shared_.project](const Observer&) { return list_paths(project); });

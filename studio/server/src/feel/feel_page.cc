@@ -30,12 +30,16 @@ double FeelPage::largest_force_N() const {
 }
 
 void FeelPage::bind(Document& document, Calls& calls) {
-  document.add_section("feel", first_feel_section(), [start = start_](const Json& section) {
+  const auto check = [start = start_](const Json& section) {
     const FeelChoices chosen = read_feel_choices(section);
     feel_device_kind(chosen.device);
     FeelConfig config = start;
     const std::vector<ConfigField> fields = settable_fields(config);
     for (const auto& [path, value] : chosen.settings) set_field(fields, path, value);
+  };
+  document.add_section("feel", first_feel_section(), check, [start = start_](Json& section) {
+    FeelConfig config = start;
+    use_present_names(section, "settings", settable_fields(config));
   });
   calls.add("feel.status", [this](const Request& request) { request.answer(status()); });
   calls.add("feel.fields", [this](const Request& request) { request.answer(fields()); });

@@ -58,7 +58,12 @@ class ProcessPage : public Page {
   explicit ProcessPage(Shared& shared) : shared_(shared), sessions_(std::make_shared<ScanSessions>()) {}
 
   void bind(Document& document, Calls& calls) override {
-    document.add_section(kSection, first_process_section(), [](const Json& section) { process_choice(section); });
+    document.add_section(
+        kSection, first_process_section(), [](const Json& section) { process_choice(section); },
+        [](Json& section) {
+          ProcessConfig config;
+          use_present_names(section, "config", list_fields("", config));
+        });
     calls.add("process.fields", [this](const Request& request) { tell_fields(request); });
     calls.add("process.run", [this](const Request& request) { run(request); });
     calls.add("process.compare", [this](const Request& request) { compare(request); });

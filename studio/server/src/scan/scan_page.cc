@@ -71,7 +71,12 @@ class ScanPage : public Page {
   explicit ScanPage(Shared& shared) : shared_(shared) {}
 
   void bind(Document& document, Calls& calls) override {
-    document.add_section("scan", first_scan_section(), [](const Json& section) { read_scan_choices(section); });
+    document.add_section(
+        "scan", first_scan_section(), [](const Json& section) { read_scan_choices(section); },
+        [](Json& section) {
+          ScanConfig config;
+          use_present_names(section, "settings", scan_fields(config));
+        });
     calls.add("scan.sources", [](const Request& request) { request.answer(devices_json()); });
     calls.add("scan.fields", [this](const Request& request) {
       ScanConfig now = make_scan_config(choices().settings), first = make_scan_config({});

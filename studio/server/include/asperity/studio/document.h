@@ -30,13 +30,15 @@ class Document {
  public:
   // Checks a section as a whole before it is taken; throws Error in words.
   using Validator = std::function<void(const Json& section)>;
+  // Brings a section that an older version wrote up to date, before it is checked.
+  using Updater = std::function<void(Json& section)>;
   using Listener = std::function<void(const Edit&)>;
 
   // An unreadable file is put aside under another name and a note is left in problems().
   explicit Document(std::filesystem::path file);
 
   // Before load(): a page's section with its first value.
-  void add_section(const std::string& name, Json first, Validator validator);
+  void add_section(const std::string& name, Json first, Validator validator, Updater updater = {});
   // Reads the file. A section that its page does not take begins with its first value, and a note is left.
   void load();
 
@@ -80,6 +82,7 @@ class Document {
   Json value_ = Json::object();
   std::map<std::string, Json, std::less<>> first_;
   std::map<std::string, Validator, std::less<>> validators_;
+  std::map<std::string, Updater, std::less<>> updaters_;
   std::vector<Step> undo_, redo_;
   std::vector<Listener> listeners_;
   std::vector<std::string> problems_;
