@@ -79,7 +79,7 @@ void direct_form_step(benchmark::State& state) {
 }
 
 void stochastic_step(benchmark::State& state) {
-  const StochasticTexture texture{.sigma_m = 1e-5, .grain_m = 1e-4};
+  const StochasticTexture texture{.sigma_m = 1e-5, .correlation_length_m = 1e-4};
   SeriesState series = start_series(1);
   Hand hand;
   for (auto _ : state) {

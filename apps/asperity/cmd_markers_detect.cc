@@ -9,7 +9,7 @@
 #include "asperity/image/read_gray_image.h"
 #include "asperity/json/json.h"
 #include "asperity/session/our_file.h"
-#include "asperity/json/json.h"
+#include "asperity/tracking/detect_tags.h"
 #include "commands.h"
 
 namespace asperity::app {

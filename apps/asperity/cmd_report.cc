@@ -6,8 +6,8 @@
 
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
-#include "asperity/session/our_file.h"
 #include "asperity/json/json.h"
+#include "asperity/session/our_file.h"
 #include "asperity/studio/format_report.h"
 #include "asperity/studio/read_report_item.h"
 #include "commands.h"

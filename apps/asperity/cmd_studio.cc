@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "asperity/base/text.h"
-#include "asperity/session/interrupt.h"
 #include "asperity/json/json.h"
+#include "asperity/session/interrupt.h"
 #include "asperity/studio/feel_config.h"
 #include "asperity/studio/open_browser.h"
 #include "asperity/studio/studio.h"

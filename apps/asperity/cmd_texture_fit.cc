@@ -20,7 +20,6 @@
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
-#include "named_values_json.h"
 #include "option_units.h"
 #include "read_series.h"
 #include "texture_fit_settings.h"
@@ -131,7 +130,7 @@ class TextureFitCommand : public Command {
 
   void finish(FittedTexture& fitted) {
     Texture& texture = fitted.texture;
-    Json report = json_of(fitted.report);
+    Json& report = fitted.report;
     if (is_height_field(texture.model)) texture.lift_m = lift_m(texture.model);
     texture.name = name_;
     if (name_.empty()) {

@@ -13,7 +13,6 @@
 #include "asperity/texture/texture_file.h"
 #include "asperity/texture/texture_operations.h"
 #include "commands.h"
-#include "named_values_json.h"
 #include "texture_input.h"
 
 namespace asperity::app {
@@ -39,7 +38,7 @@ class TextureInfoCommand : public Command {
     out["file"] = file_;
     out["name"] = texture.name;
     out["model"] = texture.model_name();
-    out["describe"] = json_of(describe_texture_model(texture.model));
+    out["describe"] = describe_texture_model(texture.model);
     if (is_height_field(texture.model)) {
       const auto period = period_m(texture.model);
       out["period_m"] = period ? Json(*period) : Json(nullptr);

@@ -10,8 +10,9 @@
 #include "asperity/session/interrupt.h"
 #include "command.h"
 #include "commands.h"
-#include "parser_pages.h"
+#include "manual_page.h"
 #include "progress_line.h"
+#include "shell_completion.h"
 
 namespace asperity::app {
 
@@ -26,7 +27,7 @@ struct Program {
   Program() {
     parser.set_version_flag("--version", std::string("asperity ") + kVersion);
     parser.add_flag("--man", manual, "Print the manual page");
-    parser.add_option("--completion", completion, "Print completions for a shell")->one_of({"bash"});
+    parser.add_option("--completion", completion, "Print completions for a shell")->one_of({"bash", "fish", "zsh"});
     parser.require_subcommand(0, 1);
     for (const auto make : {make_demo, make_simulate, make_export, make_feel, make_import, make_inspect, make_paint,
                             make_process, make_record, make_register, make_report, make_bench, make_roughness,
@@ -90,7 +91,7 @@ int parse_and_run(Program& program, int argc, char** argv) {
   if (line.kind == ParsedLine::Kind::kFault) return usage(line.text, line.command);
   if (line.kind == ParsedLine::Kind::kText) return print(line.text), kDone;
   if (program.manual) return print(manual_page(program.parser)), kDone;
-  if (!program.completion.empty()) return print(bash_completion(program.parser)), kDone;
+  if (!program.completion.empty()) return print(shell_completion(program.completion, program.parser)), kDone;
   for (const auto& command : program.commands) {
     if (command->parser().is_parsed()) return run_command(*command);
   }

@@ -46,7 +46,7 @@ TEST(AddedTextureModel, IsAHeightField) {
   EXPECT_EQ(period_m(model), 2e-3);
   EXPECT_EQ(sample_lines(model, 0.01, 1e-4).size(), 1u);
   EXPECT_EQ(low_pass_texture(wave(), 10.0).model_name(), "triangle_wave");
-  EXPECT_EQ(describe_texture_model(model).all().size(), 2u);
+  EXPECT_EQ(describe_texture_model(model).size(), 2u);
 }
 
 TEST(AddedTextureModel, IsFitted) {

@@ -5,7 +5,6 @@
 
 #include "asperity/texture/texture_fit.h"
 #include "asperity/texture/texture_hash.h"
-#include "block_json.h"
 #include "model_block.h"
 
 namespace asperity {
@@ -13,18 +12,19 @@ namespace asperity {
 using WaveTraits = TextureModelTraits<TriangleWave>;
 
 void WaveTraits::read_block(const BlockInput& input, TriangleWave& t) {
-  input.json.only(input.path, {"length_mm", "height_m"});
-  t.length_mm = required_number(input.json, input.path, "length_mm", 1e-6, 1e6);
-  t.height_m = required_number(input.json, input.path, "height_m", 0.0, kLargestHeight_m);
+  t.length_mm = input.block.required("length_mm").number({1e-6, 1e6});
+  t.height_m = input.block.required("height_m").number({0.0, kLargestHeight_m});
+  input.block.finish();
 }
 
 std::string WaveTraits::write_block(const TriangleWave& t, BlockOutput&) {
-  return BlockText().add("length_mm", t.length_mm).add("height_m", t.height_m).str();
+  JsonWriter block = block_writer();
+  block.number("length_mm", t.length_mm);
+  block.number("height_m", t.height_m);
+  return block.take();
 }
 
-NamedValues WaveTraits::describe(const TriangleWave& t) {
-  return NamedValues().add("length_mm", t.length_mm).add("height_m", t.height_m);
-}
+Json WaveTraits::describe(const TriangleWave& t) { return {{"length_mm", t.length_mm}, {"height_m", t.height_m}}; }
 
 void WaveTraits::scale(TriangleWave& t, double factor) { t.height_m *= factor; }
 void WaveTraits::add_to(TextureHash& hash, const TriangleWave& t) { hash.add(t.length_mm, t.height_m); }
@@ -54,7 +54,7 @@ void WaveTraits::fit(const TextureFitInput& input, const TextureFitOptions& opti
   const HeightLine line = input.read_heights(input.files);
   const auto [low, high] = std::minmax_element(line.height_m.begin(), line.height_m.end());
   out.texture.model = TriangleWave{options.of<TriangleWave>().length_mm, *high - *low};
-  out.report.add("heights", line.height_m.size());
+  out.report["heights"] = line.height_m.size();
 }
 
 }  // namespace asperity

@@ -15,7 +15,7 @@ struct TextureModelTraits<TriangleWave> {
   static constexpr std::string_view kName = "triangle_wave";
   static void read_block(const BlockInput& input, TriangleWave& t);
   static std::string write_block(const TriangleWave& t, BlockOutput& output);
-  static NamedValues describe(const TriangleWave& t);
+  static Json describe(const TriangleWave& t);
   static void scale(TriangleWave& t, double factor);
   static void add_to(TextureHash& hash, const TriangleWave& t);
 

@@ -141,6 +141,28 @@ TEST(Usage, ManualPageAndCompletionNameEveryCommandAndOption) {
   EXPECT_THAT(completion.out, HasSubstr("complete -o filenames -F _asperity asperity"));
 }
 
+TEST(Usage, ManualPageHasADateAndExamples) {
+  const Outcome manual = run({"--man"});
+  EXPECT_THAT(manual.out, testing::ContainsRegex("^\\.TH ASPERITY 1 \"[0-9]{4}-[0-9]{2}-[0-9]{2}\""));
+  EXPECT_THAT(manual.out, HasSubstr(".SH EXAMPLES\n"));
+  EXPECT_THAT(manual.out, HasSubstr("asperity process rec \\-o out/rec"));
+}
+
+TEST(Usage, CompletionsForFishAndZshNameEveryCommand) {
+  const Outcome fish = run({"--completion", "fish"});
+  const Outcome zsh = run({"--completion", "zsh"});
+  EXPECT_EQ(fish.code, 0);
+  EXPECT_EQ(zsh.code, 0);
+  EXPECT_THAT(zsh.out, StartsWith("#compdef asperity\n"));
+  for (const auto& command : kCommands) {
+    EXPECT_THAT(fish.out, HasSubstr("-n '__fish_use_subcommand' -a " + command + " -d "));
+    EXPECT_THAT(zsh.out, HasSubstr("    " + command + ") choices=("));
+  }
+  EXPECT_THAT(fish.out, HasSubstr("-n '__fish_seen_subcommand_from process' -l method -a 'fused thesis' -r -d "));
+  EXPECT_THAT(zsh.out, HasSubstr("    'texture fit') choices=("));
+  EXPECT_THAT(zsh.out, HasSubstr("    --method) values=(fused thesis) ;;"));
+}
+
 TEST(Usage, AFullDiskIsAnError) {
   const Outcome outcome = run_into("/dev/full", {"--help"});
   EXPECT_EQ(outcome.code, 1);

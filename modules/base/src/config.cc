@@ -153,6 +153,8 @@ ConfigField& ConfigLister::add(std::string_view name, FieldType type, std::strin
   return field;
 }
 
+void ConfigLister::former(std::string_view name) { fields_.back().former.push_back(prefix_ + std::string(name)); }
+
 void ConfigLister::field(std::string_view name, bool& value, std::string_view description) {
   ConfigField& field = add(name, FieldType::kBool, description, {});
   field.read = [&value] { return ConfigValue(value); };
@@ -260,6 +262,9 @@ const ConfigField& find_field(const std::vector<ConfigField>& fields, std::strin
     if (field.path == path) return field;
     const std::size_t distance = edit_distance(path.substr(0, 200), field.path);
     if (distance < nearest_distance) nearest_distance = distance, nearest = &field;
+  }
+  for (const auto& field : fields) {
+    if (std::find(field.former.begin(), field.former.end(), path) != field.former.end()) return field;
   }
   std::string message = "unknown setting '" + printable(path) + "'";
   if (nearest != nullptr) message += "; did you mean '" + nearest->path + "'?";

@@ -26,6 +26,8 @@ struct Outer {
   template <class V>
   void visit(V& v) {
     v.field("cutoff_Hz", cutoff_Hz, "low-pass", {0, 100});
+    v.former("cutoff");
+    v.former("corner_hz");
     v.choice("colour", colour, kColourNames, "which");
     v.field("sigma_m", sigma_m, "noise");
     v.group("inner", inner);
@@ -43,6 +45,22 @@ TEST(Config, SetsByPath) {
   EXPECT_EQ(config.colour, Colour::kBlue);
   EXPECT_EQ(config.sigma_m[2], 6.0);
   EXPECT_EQ(config.inner.count, 7);
+}
+
+// A settings file, a --set or a project of an older version.
+TEST(Config, ReadsFormerNamesAndWritesTheNewOne) {
+  Outer config;
+  const auto fields = list_fields("stage", config);
+  set_field(fields, "stage.cutoff", "2.5");
+  EXPECT_EQ(config.cutoff_Hz, 2.5);
+  find_field(fields, "stage.corner_hz").set(3.5);
+  EXPECT_EQ(config.cutoff_Hz, 3.5);
+  EXPECT_EQ(find_field(fields, "stage.cutoff").path, "stage.cutoff_Hz");
+  EXPECT_THAT(to_toml(fields, true), testing::Not(testing::HasSubstr("corner_hz")));
+  // The range is that of the field, and a group's former names are that group's.
+  EXPECT_THROW(set_field(fields, "stage.cutoff", "101"), Error);
+  EXPECT_THROW(set_field(fields, "cutoff", "2"), Error);
+  EXPECT_THROW(set_field(fields, "stage.inner.cutoff", "2"), Error);
 }
 
 TEST(Config, RefusesWithPathAndValue) {

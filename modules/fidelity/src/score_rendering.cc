@@ -194,11 +194,11 @@ void judge(RenderingScore& out, const ScoreConfig& config) {
       "{}, rendered ones are {:.2f} of the real; spectra of height are {:.1f} dB apart, of force "
       "{:.1f} dB",
       what, ratio, out.height.distance_dB, out.force.distance_dB);
-  if (out.touched < config.least_touched) {
+  if (out.touched < config.min_contact_fraction) {
     out.trustworthy = false;
     out.verdict += fmt::format("; only {:.0f} % of the scan touched the surface", 100.0 * out.touched);
   }
-  if (out.score < config.poor) {
+  if (out.score < config.min_score) {
     out.trustworthy = false;
     out.verdict += fmt::format("; a score of {:.2f} is poor", out.score);
   }

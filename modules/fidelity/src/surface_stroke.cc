@@ -78,7 +78,7 @@ SurfaceLine shortened(const SurfaceLine& line, double margin_m) {
 HandStroke stroke_along(const SurfaceLine& line, double duration_s, const SurfaceStrokeConfig& config) {
   const double length = length_m(line);
   if (!(length > 0.0)) throw Error("stroke: the line over the surface has no length");
-  const double ramp_s = std::min(config.turn_s, length / config.speed_mps);
+  const double ramp_s = std::min(config.speed_ramp_s, length / config.speed_mps);
   const double leg_s = length / config.speed_mps + ramp_s;
   const double start_s = 2.0 * config.approach_s;
   const double whole_s = duration_s > 0.0 ? duration_s : start_s + 2.0 * leg_s;

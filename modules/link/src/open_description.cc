@@ -4,8 +4,8 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "asperity/link/open_protocol.h"
 #include "asperity/json/parse_json.h"
+#include "asperity/link/open_protocol.h"
 
 namespace asperity {
 

@@ -19,7 +19,7 @@ constexpr double kStrokeBegun_m = 3e-3;  // before, a turn is only how the strok
 constexpr double kFollowPeriod = 0.02;   // a row
 constexpr double kBand = 0.4;            // of the rate: what the comparison's band allows (compare_profiles.h)
 
-double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+double duration_s_of(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 }  // namespace
 
@@ -81,7 +81,7 @@ void ScanAdvisor::count_lost(double step_s) {
 
 void ScanAdvisor::push(const ProbeSample& row) {
   if (newest_row_ns_ && row.t_ns <= *newest_row_ns_) return;
-  const double step_s = newest_row_ns_ ? seconds(row.t_ns - *newest_row_ns_) : 0.0;
+  const double step_s = newest_row_ns_ ? duration_s_of(row.t_ns - *newest_row_ns_) : 0.0;
   if (newest_row_ns_ && step_s < config_.silent_s) count_lost(step_s);
   newest_row_ns_ = row.t_ns;
   const double keep = config_.window_s;
@@ -120,7 +120,7 @@ void ScanAdvisor::push(const LiveEstimate& estimate) {
 
 // What the motion alone shows.
 void ScanAdvisor::judge_tip(const LiveTip& tip) {
-  const double step_s = last_tip_ ? std::max(0.0, seconds(tip.t_ns - last_tip_->t_ns)) : 0.0;
+  const double step_s = last_tip_ ? std::max(0.0, duration_s_of(tip.t_ns - last_tip_->t_ns)) : 0.0;
   const double hysteresis = config_.hysteresis;
   const bool touching = tip.contact;
   speed_.add(touching ? tip.speed_mps : 0.0, step_s, config_.window_s);
@@ -185,9 +185,9 @@ std::vector<Hint> ScanAdvisor::hints(std::int64_t now_ns) {
   if (!begun_ns_) begun_ns_ = now_ns;
   judge(HintKind::kNoCalibration, now_ns, !calibrated_, calibrated_, 0.0);
   // Before the first row or pose the wait counts from the first question.
-  const double row_age_s = seconds(now_ns - newest_row_ns_.value_or(*begun_ns_));
+  const double row_age_s = duration_s_of(now_ns - newest_row_ns_.value_or(*begun_ns_));
   judge(HintKind::kProbeSilent, now_ns, row_age_s > config_.silent_s, row_age_s < 0.5 * config_.silent_s, row_age_s);
-  const double pose_age_s = seconds(now_ns - newest_pose_ns_.value_or(*begun_ns_));
+  const double pose_age_s = duration_s_of(now_ns - newest_pose_ns_.value_or(*begun_ns_));
   judge(HintKind::kMarkerLost, now_ns, pose_age_s > config_.marker_lost_s, pose_age_s < 0.75 * config_.marker_lost_s,
         pose_age_s);
 
@@ -199,12 +199,12 @@ std::vector<Hint> ScanAdvisor::hints(std::int64_t now_ns) {
     const bool timed =
         kind == HintKind::kNoCalibration || kind == HintKind::kProbeSilent || kind == HintKind::kMarkerLost;
     const double appear_s = timed ? 0.0 : config_.appear_s;
-    if (!c.shown && c.held && seconds(now_ns - c.held_since_ns) >= appear_s) {
+    if (!c.shown && c.held && duration_s_of(now_ns - c.held_since_ns) >= appear_s) {
       c.shown = true;
       c.shown_since_ns = now_ns;
       c.worst = c.value;
-    } else if (c.shown && !c.held && seconds(now_ns - c.better_since_ns) >= config_.vanish_s &&
-               seconds(now_ns - c.shown_since_ns) >= config_.shown_s) {
+    } else if (c.shown && !c.held && duration_s_of(now_ns - c.better_since_ns) >= config_.vanish_s &&
+               duration_s_of(now_ns - c.shown_since_ns) >= config_.shown_s) {
       c.shown = false;
     }
     if (!c.shown) continue;

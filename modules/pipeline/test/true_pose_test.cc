@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "asperity/recording/parse.h"
+#include "asperity/recording/parse_recording.h"
 
 namespace asperity {
 namespace {

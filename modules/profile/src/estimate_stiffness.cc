@@ -148,7 +148,7 @@ StiffnessEstimate estimate_stiffness(const TipMotion& motion, const BasePath& ba
     out.verdict = "no time in contact is long enough";
     return out;
   }
-  out.band_high_hz = std::min(config.high_hz, config.high_cycles_per_mm * 1e3 * travelled_m / out.used_s);
+  out.band_high_hz = std::min(config.high_Hz, config.high_cycles_per_mm * 1e3 * travelled_m / out.used_s);
   for (const Run& run : series) {
     const double duration_s = static_cast<double>(run.height_m.size()) / kRate_hz;
     const auto height = real_dft(without_line(run.height_m)), force = real_dft(without_line(run.force_N));

@@ -125,9 +125,9 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
     out.s_m[i] = out.s_m[i - 1] + tangent.dot(u_m[i] - u_m[i - 1]);
   }
   const double rate_hz = static_cast<double>(end - 1 - begin) / (t_s[end - 1] - t_s[begin]);
-  if (config.along_cutoff_hz > 0.0 && config.along_cutoff_hz * 1.3 < 0.5 * rate_hz) {
+  if (config.along_cutoff_Hz > 0.0 && config.along_cutoff_Hz * 1.3 < 0.5 * rate_hz) {
     const std::span<const double> inside(out.s_m.data() + begin, end - begin);
-    const std::vector<double> smoothed = zero_phase_lowpass(inside, config.along_cutoff_hz, rate_hz);
+    const std::vector<double> smoothed = zero_phase_lowpass(inside, config.along_cutoff_Hz, rate_hz);
     std::copy(smoothed.begin(), smoothed.end(), out.s_m.begin() + static_cast<std::ptrdiff_t>(begin));
   }
   std::fill(out.s_m.begin() + static_cast<std::ptrdiff_t>(end), out.s_m.end(), out.s_m[end - 1]);

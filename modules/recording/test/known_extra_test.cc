@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "asperity/recording/format.h"
-#include "asperity/recording/parse.h"
+#include "asperity/recording/format_recording.h"
+#include "asperity/recording/parse_recording.h"
 #include "asperity/recording/uncalibrated.h"
 
 // What the program knows of `extra` has fields; the files' keys and bytes are those of before it had them.

@@ -26,9 +26,10 @@ TextureTouch stroke(double speed_mps, double contact_N, double dt_s) {
   return touch;
 }
 
-Texture grains(double grain_m) {
+Texture stochastic(double correlation_length_m) {
   Texture texture;
-  texture.model = StochasticTexture{.sigma_m = 2e-5, .grain_m = grain_m, .tangential_ratio = 0.3};
+  texture.model =
+      StochasticTexture{.sigma_m = 2e-5, .correlation_length_m = correlation_length_m, .tangential_ratio = 0.3};
   return texture;
 }
 
@@ -72,7 +73,7 @@ Statistics along_a_stroke(const RenderTexture& texture, double speed_mps, double
   return s;
 }
 
-// Two grains blended linearly at constant variance, at a distance of half a grain: the mean over the place u of
+// Two impulses blended linearly at constant variance, at half their distance: the mean over the place u of
 // E[z(u) z(u + ½)], w(u) = (1 − u, u) normalised.
 double expected_correlation() {
   double sum = 0.0;
@@ -88,15 +89,16 @@ double expected_correlation() {
 }
 
 TEST(StochasticForce, IsTheSameByTheMetreAtEverySpeedAndRate) {
-  constexpr double kGrain_m = 4e-4;
-  const RenderTexture texture = make_render_texture(grains(kGrain_m), {});
+  constexpr double kCorrelationLength_m = 4e-4;
+  const RenderTexture texture = make_render_texture(stochastic(kCorrelationLength_m), {});
   EXPECT_EQ(texture.model, kForceModelOf<StochasticTexture>);
   EXPECT_NEAR(texture.highest_m, 2.0 * 3.0 * 2e-5, 1e-15);
   const double sigma_N = 300.0 * 2e-5;
   for (const double speed_mps : {0.025, 0.1}) {
     for (const double dt_s : {1e-3, 2.5e-4}) {
-      // 20000 grains: standard errors of 0.5 % of the spread, 0.7 % of σ and of the correlation.
-      const Statistics s = along_a_stroke(texture, speed_mps, dt_s, 0.5 * kGrain_m, 2e4 * kGrain_m);
+      // 20000 impulses: standard errors of 0.5 % of the spread, 0.7 % of σ and of the correlation.
+      const Statistics s =
+          along_a_stroke(texture, speed_mps, dt_s, 0.5 * kCorrelationLength_m, 2e4 * kCorrelationLength_m);
       EXPECT_NEAR(s.mean_N, 3.0 * sigma_N, 0.03 * sigma_N) << speed_mps << ' ' << dt_s;
       EXPECT_NEAR(s.sigma_N, sigma_N, 0.03 * sigma_N) << speed_mps << ' ' << dt_s;
       EXPECT_NEAR(s.correlation, expected_correlation(), 0.03) << speed_mps << ' ' << dt_s;
@@ -104,9 +106,9 @@ TEST(StochasticForce, IsTheSameByTheMetreAtEverySpeedAndRate) {
   }
 }
 
-TEST(StochasticForce, WithoutGrainsIsWhatTheOriginalDoesAtOneKilohertz) {
-  const RenderTexture texture = make_render_texture(grains(0.0), {});
-  EXPECT_DOUBLE_EQ(std::get<StochasticTexture>(texture.texture.model).grain_m, 0.05e-3);
+TEST(StochasticForce, WithoutACorrelationLengthIsWhatTheOriginalDoesAtOneKilohertz) {
+  const RenderTexture texture = make_render_texture(stochastic(0.0), {});
+  EXPECT_DOUBLE_EQ(std::get<StochasticTexture>(texture.texture.model).correlation_length_m, 0.05e-3);
 }
 
 TEST(StochasticForce, OfAHeightFieldHasItsSpread) {
@@ -116,14 +118,14 @@ TEST(StochasticForce, OfAHeightFieldHasItsSpread) {
   const auto& series = std::get<StochasticTexture>(*texture.series_of_heights);
   EXPECT_NEAR(series.sigma_m, 1e-4 / std::numbers::sqrt2, 1e-7);
   // cos(ωx) falls below 1/e at arccos(1/e)/ω.
-  EXPECT_NEAR(series.grain_m, 5e-3 * std::acos(std::exp(-1.0)) / (2.0 * std::numbers::pi), 1e-4);
+  EXPECT_NEAR(series.correlation_length_m, 5e-3 * std::acos(std::exp(-1.0)) / (2.0 * std::numbers::pi), 1e-4);
   const Statistics s = along_a_stroke(texture, 0.1, 1e-3, 1e-4, 10.0);
   EXPECT_NEAR(s.sigma_N, 1000.0 * series.sigma_m, 0.05 * 1000.0 * series.sigma_m);
 }
 
-// As friction: a grain above the mean brakes, one below it yields.
+// As friction: an impulse above the mean brakes, one below it yields.
 TEST(StochasticForce, TangentialPartIsItsRatioOfTheNormalOneAgainstTheMotion) {
-  const RenderTexture texture = make_render_texture(grains(1e-4), {});
+  const RenderTexture texture = make_render_texture(stochastic(1e-4), {});
   TextureState state;
   for (int i = 0; i < 1000; ++i) {
     const Eigen::Vector3d f = texture_force(texture, state, stroke(0.1, 1.0, 1e-3)).force_N;

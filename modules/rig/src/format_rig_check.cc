@@ -14,9 +14,6 @@ namespace asperity {
 
 namespace {
 
-// JSON has no nan and no infinity.
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json repeated_json(const Repeated& figure) {
   return {{"count", figure.count},
           {"mean", number_or_null(figure.mean)},

@@ -16,7 +16,7 @@ namespace asperity {
 
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr double kFullCircle_rad = 2.0 * std::numbers::pi;
 
 void refuse_shape(const SineGratingConfig& sine, const SineGratingShape& shape) {
   const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
@@ -52,7 +52,7 @@ class GratingBuilder {
     for (int i = 0; i <= steps; ++i) {
       // Exactly level where the phase is whole: sin(2πn) is not 0 in doubles.
       const double z_m =
-          i % shape.steps == 0 ? 0.0 : 0.5 * sine.depth_m * std::sin(kTwoPi * (i % shape.steps) / shape.steps);
+          i % shape.steps == 0 ? 0.0 : 0.5 * sine.depth_m * std::sin(kFullCircle_rad * (i % shape.steps) / shape.steps);
       add_row(shape.land_m + length_m * i / steps, shape.height_m + z_m, shape.height_m);
     }
     add_row(2.0 * shape.land_m + length_m, shape.height_m, shape.height_m);
@@ -123,8 +123,8 @@ TriangleMesh make_sine_grating(const SineGratingConfig& sine, const SineGratingS
 
 TracedSine::TracedSine(const SineGratingConfig& sine, double tip_radius_m)
     : amplitude_m_(0.5 * sine.depth_m),
-      slope_(0.5 * sine.depth_m * kTwoPi / sine.pitch_m),
-      reach_rad_(kTwoPi / sine.pitch_m * tip_radius_m) {
+      slope_(0.5 * sine.depth_m * kFullCircle_rad / sine.pitch_m),
+      reach_rad_(kFullCircle_rad / sine.pitch_m * tip_radius_m) {
   const double reached_m = sine.pitch_m * sine.pitch_m / (2.0 * std::numbers::pi * std::numbers::pi * sine.depth_m);
   if (!(tip_radius_m >= 0.0 && tip_radius_m < reached_m)) {
     throw Error(
@@ -155,7 +155,7 @@ double TracedSine::fundamental_share() const {
   constexpr int kSteps = 256;
   double sum = 0.0;
   for (int i = 0; i < kSteps; ++i) {
-    const double phase_rad = kTwoPi * i / kSteps;
+    const double phase_rad = kFullCircle_rad * i / kSteps;
     sum += height_m(phase_rad) * std::sin(phase_rad);
   }
   return 2.0 * sum / kSteps / amplitude_m_;

@@ -14,7 +14,6 @@
 #include "asperity/link/capture_to_file.h"
 #include "asperity/link/probe_address.h"
 #include "asperity/link/probe_link.h"
-#include "asperity/json/parse_json.h"
 #include "asperity/recording/read_markers.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/tracking/camera_pose_source.h"
@@ -81,7 +80,7 @@ std::optional<Calibration> read_record_calibration(const RecordInput& input) {
   out.markers = read_markers(markers).markers;
   // They are now in terms of our tag frame, whatever the file had declared.
   auto extra = parse_json_or_null(out.extra_json);
-  if (extra.is_object() && extra.erase("tag_frame") > 0) out.extra_json = extra.dump();
+  if (extra.is_object() && extra.erase("tag_frame") > 0) out.extra_json = extra.dump_sorted();
   return out;
 }
 

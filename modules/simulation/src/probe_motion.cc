@@ -109,9 +109,9 @@ void ProbeMotion::advance(const HandState& hand) {
   const double step_s = config_.step_s;
   const double hand_N = hand.force_N +
                         h.normal_stiffness_N_per_m * (height_m_ - rest_height_m_ - hand.lift_m - hand.tremor_m) +
-                        h.normal_damping_Ns_per_m * v_h_mps_;
+                        h.normal_damping_N_s_per_m * v_h_mps_;
   const double pull_N = h.tangential_stiffness_N_per_m * (hand.s_m + hand.along_m - s_m_) +
-                        h.tangential_damping_Ns_per_m * (hand.v_mps - v_s_mps_);
+                        h.tangential_damping_N_s_per_m * (hand.v_mps - v_s_mps_);
   if (!hand.lifting) rest_height_m_ += (height_m_ - rest_height_m_) * step_s / h.normal_adaptation_s;
 
   v_h_mps_ += (force_N_ - hand_N) / h.normal_mass_kg * step_s;

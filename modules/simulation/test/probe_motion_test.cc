@@ -119,7 +119,7 @@ TEST(ProbeMotion, SlowStickyRubberSticksAndSlips) {
   config.hand.speed_mps = 0.003;
   config.hand.length_m = 0.006;
   config.hand.force_N = 1.5;
-  config.hand.tangential_damping_Ns_per_m = 2.0;
+  config.hand.tangential_damping_N_s_per_m = 2.0;
   config.contact.friction_static = 1.2;
   config.contact.friction_dynamic = 0.6;
   config.contact.friction_viscous_s_per_m = 0.0;

@@ -13,15 +13,14 @@ namespace asperity {
 
 using ArealTraits = TextureModelTraits<ArealTexture>;
 
-NamedValues ArealTraits::describe(const ArealTexture& t) {
+Json ArealTraits::describe(const ArealTexture& t) {
   std::size_t supported = 0;
   for (const auto flag : t.supported) supported += flag;
-  return NamedValues()
-      .add("columns", t.surface.columns)
-      .add("rows", t.surface.rows)
-      .add("spacing_m", std::vector<double>{t.surface.spacing_x_m, t.surface.spacing_y_m})
-      .add("supported_part", static_cast<double>(supported) / static_cast<double>(t.supported.size()))
-      .add("border", kBorderNames.at(static_cast<std::size_t>(t.surface.border)));
+  return {{"columns", t.surface.columns},
+          {"rows", t.surface.rows},
+          {"spacing_m", {t.surface.spacing_x_m, t.surface.spacing_y_m}},
+          {"supported_part", static_cast<double>(supported) / static_cast<double>(t.supported.size())},
+          {"border", kBorderNames.at(static_cast<std::size_t>(t.surface.border))}};
 }
 
 void ArealTraits::scale(ArealTexture& t, double factor) {
@@ -85,11 +84,11 @@ void ArealTraits::make_tables(const ArealTexture& t, ServoTables& tables) { tabl
 void ArealTraits::fit(const TextureFitInput& input, const TextureFitOptions& options, FittedTexture& out) {
   const auto samples = input.read_areal_samples(input.files);
   ArealFit fit = fit_areal(samples, options.of<ArealTexture>().areal);
-  out.report.add("samples", samples.size())
-      .add("rms_height_m", fit.rms_height_m)
-      .add("rms_error_m", fit.rms_error_m)
-      .add("supported_part", fit.supported_part)
-      .add("relative_residual", fit.relative_residual);
+  out.report["samples"] = samples.size();
+  out.report["rms_height_m"] = fit.rms_height_m;
+  out.report["rms_error_m"] = fit.rms_error_m;
+  out.report["supported_part"] = fit.supported_part;
+  out.report["relative_residual"] = fit.relative_residual;
   out.add_problems(fit.problems);
   const SplineGrid& grid = fit.texture.surface;
   const double spacing_m = std::max(grid.spacing_x_m, grid.spacing_y_m);

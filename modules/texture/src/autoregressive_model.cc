@@ -15,13 +15,12 @@ namespace asperity {
 
 using AutoregressiveTraits = TextureModelTraits<AutoregressiveTexture>;
 
-NamedValues AutoregressiveTraits::describe(const AutoregressiveTexture& t) {
-  return NamedValues()
-      .add("rate_Hz", t.rate_Hz)
-      .add("models", t.models.size())
-      .add("order", t.models.empty() ? 0 : t.models.front().ar_lsf_rad.size())
-      .add("triangles", t.triangles.size())
-      .add("mass_kg", t.mass_kg);
+Json AutoregressiveTraits::describe(const AutoregressiveTexture& t) {
+  return {{"rate_Hz", t.rate_Hz},
+          {"models", t.models.size()},
+          {"order", t.models.empty() ? 0 : t.models.front().ar_lsf_rad.size()},
+          {"triangles", t.triangles.size()},
+          {"mass_kg", t.mass_kg}};
 }
 
 void AutoregressiveTraits::scale(AutoregressiveTexture& t, double factor) { t.mass_kg *= factor; }
@@ -63,7 +62,7 @@ void AutoregressiveTraits::fit(const TextureFitInput& input, const TextureFitOpt
   const std::string& file = input.files.front();
   if (file.ends_with(".xml")) {
     PennTexture penn = import_penn(file, options.of<AutoregressiveTexture>().penn);
-    out.report.add("models", penn.texture.models.size());
+    out.report["models"] = penn.texture.models.size();
     out.texture.friction = penn.friction;
     out.add_problems(penn.problems);
     out.texture.model = std::move(penn.texture);
@@ -72,13 +71,14 @@ void AutoregressiveTraits::fit(const TextureFitInput& input, const TextureFitOpt
   const SeriesTable table = input.read_recording_or_series(file);
   AutoregressiveFit fit = fit_autoregressive({table.acceleration_mps2, table.speed_mps, table.force_N, table.rate_Hz},
                                              options.of<AutoregressiveTexture>().autoregressive);
-  out.report.add("samples", fit.samples).add("models", fit.texture.models.size()).add("order", fit.order);
+  out.report["samples"] = fit.samples;
+  out.report["models"] = fit.texture.models.size();
+  out.report["order"] = fit.order;
   if (fit.held_out.samples > 0) {
-    out.report.add("held_out", NamedValues()
-                                   .add("variance_error", fit.held_out.variance_error)
-                                   .add("spectrum_error", fit.held_out.spectrum_error)
-                                   .add("worst_band_error", fit.held_out.worst_band_error)
-                                   .add("samples", fit.held_out.samples));
+    out.report["held_out"] = {{"variance_error", fit.held_out.variance_error},
+                              {"spectrum_error", fit.held_out.spectrum_error},
+                              {"worst_band_error", fit.held_out.worst_band_error},
+                              {"samples", fit.held_out.samples}};
   }
   out.add_problems(fit.problems);
   out.texture.model = std::move(fit.texture);

@@ -21,13 +21,12 @@ constexpr double kRingingLoad_N = 0.05;
 
 }  // namespace
 
-NamedValues RingingTraits::describe(const DecayingSinusoids& t) {
-  return NamedValues()
-      .add("a_per_s", t.a_per_s)
-      .add("b_per_kg", t.b_per_kg)
-      .add("decay_per_s", t.decay_per_s)
-      .add("omega_rad_per_s", t.omega_rad_per_s)
-      .add("pitch_m", t.pitch_m);
+Json RingingTraits::describe(const DecayingSinusoids& t) {
+  return {{"a_per_s", t.a_per_s},
+          {"b_per_kg", t.b_per_kg},
+          {"decay_per_s", t.decay_per_s},
+          {"omega_rad_per_s", t.omega_rad_per_s},
+          {"pitch_m", t.pitch_m}};
 }
 
 void RingingTraits::scale(DecayingSinusoids& t, double factor) { t.mass_kg *= factor; }
@@ -72,11 +71,11 @@ void RingingTraits::fit(const TextureFitInput& input, const TextureFitOptions& o
   FitDecayingSinusoidsConfig config = options.of<DecayingSinusoids>().decaying_sinusoids;
   config.rate_Hz = tables.front().rate_Hz;
   const DecayingSinusoidsFit fit = fit_decaying_sinusoids(taps, config);
-  out.report.add("taps", taps.size())
-      .add("rms_mps2", fit.rms_mps2)
-      .add("rms_error_mps2", fit.rms_error_mps2)
-      .add("converged", fit.converged)
-      .add("speed_and_force_determined", fit.speed_and_force_determined);
+  out.report["taps"] = taps.size();
+  out.report["rms_mps2"] = fit.rms_mps2;
+  out.report["rms_error_mps2"] = fit.rms_error_mps2;
+  out.report["converged"] = fit.converged;
+  out.report["speed_and_force_determined"] = fit.speed_and_force_determined;
   out.add_problems(fit.problems);
   out.texture.model = fit.texture;
 }

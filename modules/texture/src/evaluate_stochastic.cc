@@ -18,10 +18,10 @@ double scaled_sigma_m(const StochasticTexture& t, double speed_mps, double force
 
 double next_deviate(const StochasticTexture& t, SeriesState& state, double speed_mps, double dt_s) noexcept {
   const double fresh = fixed_time_normal(state.random);
-  if (!(t.grain_m > 0.0)) return fresh;
-  state.phase += speed_mps * dt_s / t.grain_m;
+  if (!(t.correlation_length_m > 0.0)) return fresh;
+  state.phase += speed_mps * dt_s / t.correlation_length_m;
   if (state.phase >= 1.0) {
-    // Where a step crosses several grains, those between were never under the tip.
+    // Where a step crosses several impulses, those between were never under the tip.
     state.previous = state.phase < 2.0 ? state.current : fixed_time_normal(state.random);
     state.current = fresh;
     state.phase -= std::floor(state.phase);

@@ -105,7 +105,7 @@ StochasticFit fit_stochastic(std::span<const double> height_m, double spacing_m,
   fit.texture.tangential_ratio = config.tangential_ratio;
   fit.texture.lift_sigma = config.lift_sigma;
   fit.texture.stiffness_N_per_m = config.stiffness_N_per_m;
-  if (config.use_grain) fit.texture.grain_m = fit.correlation_length_m;
+  if (config.use_correlation_length) fit.texture.correlation_length_m = fit.correlation_length_m;
 
   const std::size_t segment = std::clamp<std::size_t>(window.count / 8, 16, 1024);
   const auto source = welch(stretch, 1.0 / spacing_m, segment);

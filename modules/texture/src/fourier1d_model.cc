@@ -16,8 +16,8 @@ namespace asperity {
 
 using Traits1d = TextureModelTraits<Fourier1d>;
 
-NamedValues Traits1d::describe(const Fourier1d& f) {
-  return NamedValues().add("length_mm", f.length_mm).add("harmonics", f.a_m.size()).add("mean_m", f.mean_m);
+Json Traits1d::describe(const Fourier1d& f) {
+  return {{"length_mm", f.length_mm}, {"harmonics", f.a_m.size()}, {"mean_m", f.mean_m}};
 }
 
 void Traits1d::scale(Fourier1d& f, double factor) {
@@ -74,18 +74,18 @@ Fourier1d fit_series(const TextureFitInput& input, const std::vector<std::string
   Fourier1d series;
   if (input.whole_path) {
     FourierPathFit path = fit_fourier1d_path(profile.height_m, profile.spacing_m, options.of<Fourier1d>().path);
-    out.report.add("rms_height_m", path.fit.rms_height_m)
-        .add("rms_error_m", path.fit.rms_error_m)
-        .add("relative_residual", path.fit.relative_residual);
+    out.report["rms_height_m"] = path.fit.rms_height_m;
+    out.report["rms_error_m"] = path.fit.rms_error_m;
+    out.report["relative_residual"] = path.fit.relative_residual;
     out.add_problems(path.problems);
     series = std::move(path.fit.texture);
   } else {
     FourierFit window = fit_fourier1d(profile.height_m, profile.spacing_m, options.of<Fourier1d>().fourier1d);
-    out.report.add("first_sample", window.first_sample)
-        .add("samples", window.samples)
-        .add("bridged", window.bridged)
-        .add("rms_height_m", window.rms_height_m)
-        .add("rms_error_m", window.rms_error_m);
+    out.report["first_sample"] = window.first_sample;
+    out.report["samples"] = window.samples;
+    out.report["bridged"] = window.bridged;
+    out.report["rms_height_m"] = window.rms_height_m;
+    out.report["rms_error_m"] = window.rms_error_m;
     out.add_problems(window.problems);
     series = std::move(window.texture);
   }

@@ -18,16 +18,17 @@ namespace asperity {
 
 using Traits2d = TextureModelTraits<Fourier2d>;
 
-NamedValues Traits2d::describe(const Fourier2d& t) {
-  NamedValues out;
-  out.add("kind", kFourier2dKindNames.at(static_cast<std::size_t>(t.kind)));
+Json Traits2d::describe(const Fourier2d& t) {
+  Json out;
+  out["kind"] = kFourier2dKindNames.at(static_cast<std::size_t>(t.kind));
   if (t.kind == Fourier2dKind::kIsotropic) {
-    out.add("length_mm", t.isotropic.length_mm)
-        .add("harmonics", t.isotropic.power_m2.size())
-        .add("seed", t.isotropic.seed);
+    out["length_mm"] = t.isotropic.length_mm;
+    out["harmonics"] = t.isotropic.power_m2.size();
+    out["seed"] = t.isotropic.seed;
   } else {
     using Factor = TextureModelTraits<Fourier1d>;
-    out.add("x", Factor::describe(t.x)).add("y", Factor::describe(t.y));
+    out["x"] = Factor::describe(t.x);
+    out["y"] = Factor::describe(t.y);
   }
   return out;
 }
@@ -143,10 +144,10 @@ void Traits2d::fit(const TextureFitInput& input, const TextureFitOptions& option
   FittedTexture across;
   const Fourier1d y = input.files.size() == 2 ? fit_series(input, {input.files.back()}, options, across) : x;
   Fourier2dFit fit = fit_fourier2d(x, y, options.of<Fourier2d>().fourier2d);
-  out.report.add("kind", kFourier2dKindNames.at(static_cast<std::size_t>(fit.texture.kind)))
-      .add("surface_rms_m", fit.rms_height_m)
-      .add("source_rms_m", fit.source_rms_m);
-  if (fit.texture.kind == Fourier2dKind::kIsotropic) out.report.add("spectrum_error", fit.spectrum_error);
+  out.report["kind"] = kFourier2dKindNames.at(static_cast<std::size_t>(fit.texture.kind));
+  out.report["surface_rms_m"] = fit.rms_height_m;
+  out.report["source_rms_m"] = fit.source_rms_m;
+  if (fit.texture.kind == Fourier2dKind::kIsotropic) out.report["spectrum_error"] = fit.spectrum_error;
   out.add_problems(across.problems);
   out.add_problems(fit.problems);
   out.texture.model = std::move(fit.texture);

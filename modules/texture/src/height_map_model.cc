@@ -18,16 +18,15 @@ namespace asperity {
 
 using MapTraits = TextureModelTraits<HeightMap>;
 
-NamedValues MapTraits::describe(const HeightMap& map) {
-  return NamedValues()
-      .add("columns", map.columns)
-      .add("rows", map.rows)
-      .add("bits", map.bits)
-      .add("mm_per_px", std::vector<double>{map.mm_per_px_x, map.mm_per_px_y})
-      .add("low_m", map.low_m)
-      .add("high_m", map.high_m)
-      .add("quantisation_m", map.metres_per_level())
-      .add("border", kBorderNames.at(static_cast<std::size_t>(map.border)));
+Json MapTraits::describe(const HeightMap& map) {
+  return {{"columns", map.columns},
+          {"rows", map.rows},
+          {"bits", map.bits},
+          {"mm_per_px", {map.mm_per_px_x, map.mm_per_px_y}},
+          {"low_m", map.low_m},
+          {"high_m", map.high_m},
+          {"quantisation_m", map.metres_per_level()},
+          {"border", kBorderNames.at(static_cast<std::size_t>(map.border))}};
 }
 
 void MapTraits::scale(HeightMap& map, double factor) {
@@ -108,9 +107,9 @@ void MapTraits::fit(const TextureFitInput& input, const TextureFitOptions& optio
     TextureModelTraits<Fourier2d>::fit(input, options, out);
   }
   HeightMapFit fit = make_height_map(out.texture.model, options.of<HeightMap>().heightmap);
-  out.report.add("map_rms_m", fit.rms_height_m)
-      .add("map_rms_error_m", fit.rms_error_m)
-      .add("quantisation_m", fit.quantisation_m);
+  out.report["map_rms_m"] = fit.rms_height_m;
+  out.report["map_rms_error_m"] = fit.rms_error_m;
+  out.report["quantisation_m"] = fit.quantisation_m;
   if (fit.clipped > 0)
     out.add_problems({{"clipped", std::to_string(fit.clipped) + " pixels lie outside the range", fit.clipped}});
   out.texture.model = std::move(fit.texture);

@@ -6,7 +6,7 @@ namespace {
 template <class Model, class Field>
 void list_stochastic(Model& t, const Field& field) {
   field("sigma_m", t.sigma_m, 0.0, kLargestHeight_m);
-  field("grain_m", t.grain_m, 0.0, kLargestHeight_m);
+  field("correlation_length_m", t.correlation_length_m, 0.0, kLargestHeight_m);
   field("tangential_ratio", t.tangential_ratio, -100.0, 100.0);
   field("lift_sigma", t.lift_sigma, 0.0, 10.0);
   field("stiffness_N_per_m", t.stiffness_N_per_m, 0.0, 1e6);
@@ -21,8 +21,10 @@ void list_stochastic(Model& t, const Field& field) {
 }  // namespace
 
 void TextureModelTraits<StochasticTexture>::read_block(const BlockInput& input, StochasticTexture& t) {
+  const FlatReader read{input};
   input.block.required("sigma_m");
-  list_stochastic(t, FlatReader{input});
+  read("grain_m", t.correlation_length_m, 0.0, kLargestHeight_m);  // its former name
+  list_stochastic(t, read);
   input.block.finish();
 }
 

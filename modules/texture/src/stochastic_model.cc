@@ -25,22 +25,21 @@ constexpr double kOfThePlace = -1.0;
 
 }  // namespace
 
-NamedValues StochasticTraits::describe(const StochasticTexture& t) {
-  return NamedValues()
-      .add("sigma_m", t.sigma_m)
-      .add("grain_m", t.grain_m)
-      .add("stiffness_N_per_m", t.stiffness_N_per_m);
+Json StochasticTraits::describe(const StochasticTexture& t) {
+  return {{"sigma_m", t.sigma_m},
+          {"correlation_length_m", t.correlation_length_m},
+          {"stiffness_N_per_m", t.stiffness_N_per_m}};
 }
 
 void StochasticTraits::scale(StochasticTexture& t, double factor) { t.sigma_m *= factor; }
 
 void StochasticTraits::add_to(TextureHash& hash, const StochasticTexture& t) {
-  hash.add(t.sigma_m, t.grain_m, t.tangential_ratio, t.lift_sigma, t.stiffness_N_per_m, t.reference_speed_mps,
-           t.speed_exponent, t.reference_force_N, t.force_exponent, t.fade_speed_mps);
+  hash.add(t.sigma_m, t.correlation_length_m, t.tangential_ratio, t.lift_sigma, t.stiffness_N_per_m,
+           t.reference_speed_mps, t.speed_exponent, t.reference_force_N, t.force_exponent, t.fade_speed_mps);
 }
 
 void StochasticTraits::low_pass(StochasticTexture& t, double cutoff_cycles_per_mm) {
-  t.grain_m = std::max(t.grain_m, 0.5e-3 / cutoff_cycles_per_mm);
+  t.correlation_length_m = std::max(t.correlation_length_m, 0.5e-3 / cutoff_cycles_per_mm);
 }
 
 SeriesContactForce StochasticTraits::contact_force(const StochasticTexture& t, SeriesState& state,
@@ -72,7 +71,7 @@ void StochasticTraits::stroke(const StochasticTexture& t, const StrokeConfig& c,
 }
 
 void StochasticTraits::prepare(StochasticTexture& t, double) {
-  if (!(t.grain_m > 0.0)) t.grain_m = t.reference_speed_mps / kOriginalRate_Hz;
+  if (!(t.correlation_length_m > 0.0)) t.correlation_length_m = t.reference_speed_mps / kOriginalRate_Hz;
 }
 
 SeriesHeights StochasticTraits::heights(const StochasticTexture& t) {
@@ -99,7 +98,7 @@ void StochasticTraits::take_heights(StochasticTexture& t, const Texture& height_
     height_m.push_back(std::numeric_limits<double>::quiet_NaN());
   }
   t = StochasticTexture{};
-  t.grain_m = spacing_m;
+  t.correlation_length_m = spacing_m;
   const bool flat =
       std::all_of(height_m.begin(), height_m.end(), [&](double h) { return std::isnan(h) || h == height_m.front(); });
   if (!flat) t = fit_stochastic(height_m, spacing_m, {.lift_sigma = kOffsetSigma}).texture;
@@ -113,14 +112,14 @@ void StochasticTraits::fit(const TextureFitInput& input, const TextureFitOptions
   out.texture.roughness = input.roughness({profile.height_m}, profile.spacing_m);
   const StochasticFit fit =
       fit_stochastic(profile.height_m, profile.spacing_m, options.of<StochasticTexture>().stochastic);
-  out.report.add("samples", fit.samples)
-      .add("sigma_m", fit.texture.sigma_m)
-      .add("skewness", fit.skewness)
-      .add("excess_kurtosis", fit.excess_kurtosis)
-      .add("kolmogorov_distance", fit.kolmogorov_distance)
-      .add("correlation_length_m", fit.correlation_length_m)
-      .add("not_white", fit.not_white)
-      .add("misplaced_power", fit.misplaced_power);
+  out.report["samples"] = fit.samples;
+  out.report["sigma_m"] = fit.texture.sigma_m;
+  out.report["skewness"] = fit.skewness;
+  out.report["excess_kurtosis"] = fit.excess_kurtosis;
+  out.report["kolmogorov_distance"] = fit.kolmogorov_distance;
+  out.report["correlation_length_m"] = fit.correlation_length_m;
+  out.report["not_white"] = fit.not_white;
+  out.report["misplaced_power"] = fit.misplaced_power;
   out.add_problems(fit.problems);
   out.texture.model = fit.texture;
 }

@@ -4,7 +4,7 @@
 
 namespace asperity {
 
-NamedValues describe_texture_model(const TextureModel& model) {
+Json describe_texture_model(const TextureModel& model) {
   return std::visit([]<class Model>(const Model& m) { return TextureModelTraits<Model>::describe(m); }, model);
 }
 

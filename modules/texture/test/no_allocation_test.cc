@@ -36,7 +36,8 @@ TEST(NoAllocation, OfSeriesTextures) {
   ::operator delete(::operator new(1));
   ASSERT_GT(testkit::count_allocations(), before) << "the counter counts";
 
-  EXPECT_EQ(allocations_of(StochasticTexture{.sigma_m = 1e-5, .grain_m = 1e-4, .speed_exponent = 0.5}), 0u);
+  EXPECT_EQ(allocations_of(StochasticTexture{.sigma_m = 1e-5, .correlation_length_m = 1e-4, .speed_exponent = 0.5}),
+            0u);
   EXPECT_EQ(allocations_of(DecayingSinusoids{.a_per_s = 10.0, .pitch_m = 1e-3}), 0u);
   Random random(3);
   AutoregressiveTexture t;

@@ -51,6 +51,18 @@ Model round_trip(const Model& model) {
   return std::get<Model>(back.model);
 }
 
+// Files of older versions; what is written has the present key alone.
+TEST(SeriesFile, CorrelationLengthIsReadByItsFormerName) {
+  const std::string text = text_of(StochasticTexture{.sigma_m = 1e-5, .correlation_length_m = 2e-4});
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("grain_m")));
+  std::string old = text;
+  const std::string key = "correlation_length_m";
+  old.replace(old.find(key), key.size(), "grain_m");
+  const Texture back = parse_texture(old, "old.texture.json");
+  EXPECT_EQ(std::get<StochasticTexture>(back.model).correlation_length_m, 2e-4);
+  EXPECT_EQ(text_of(std::get<StochasticTexture>(back.model)), text);
+}
+
 TEST(SeriesFile, StochasticComesBackAsItWas) {
   const StochasticTexture t{1.0 / 3.0 * 1e-5, 2e-4, 0.3, 2.5, 450.0, 0.04, 0.03, 0.5, 2.0, -0.25, 1e-3};
   const auto back = round_trip(t);

@@ -57,13 +57,13 @@ TEST(Stochastic, IsWhiteAndGaussian) {
   EXPECT_NEAR(m.lag_one, 0.0, 5.0 * se);
 }
 
-TEST(Stochastic, GrainsFollowTheDistance) {
-  // 50 µm a step over grains of 200 µm: neighbours are alike, and the variance is the same between grains.
-  const StochasticTexture t{.sigma_m = 2e-6, .grain_m = 2e-4, .lift_sigma = 0.0};
+TEST(Stochastic, ImpulsesFollowTheDistance) {
+  // 50 µm a step with impulses every 200 µm: neighbours are alike, and the variance is the same between them.
+  const StochasticTexture t{.sigma_m = 2e-6, .correlation_length_m = 2e-4, .lift_sigma = 0.0};
   const auto slow = moments(heights(t, 0.05, 1.0, kCount));
   EXPECT_NEAR(slow.sigma, 2e-6, 0.03 * 2e-6);
   EXPECT_GT(slow.lag_one, 0.8);
-  // 1 mm a step: every step on another grain.
+  // 1 mm a step: every step at another impulse.
   const auto fast = moments(heights(t, 1.0, 1.0, kCount));
   EXPECT_NEAR(fast.sigma, 2e-6, 0.03 * 2e-6);
   EXPECT_NEAR(fast.lag_one, 0.0, 0.02);

@@ -64,8 +64,9 @@ Vector3d stated_sigma_rad(const TrackerCalibration& tracker) {
 void set_constants(const FusedConfig& config, bool has_gyro, Problem& problem) {
   problem.time_sigma = config.tracker_time_sigma_s;
   problem.gate_chi2 = config.gate_chi2;
-  problem.accel_bias_psd = std::pow(config.accel_bias_walk_mps2_rts, 2);
-  problem.gyro_bias_psd = std::pow(has_gyro ? config.gyro_bias_walk_radps_rts : config.angular_accel_radps2_rtHz, 2);
+  problem.accel_bias_psd = std::pow(config.accel_bias_walk_mps2_per_rts, 2);
+  problem.gyro_bias_psd =
+      std::pow(has_gyro ? config.gyro_bias_walk_radps_per_rts : config.angular_accel_radps2_per_rtHz, 2);
 }
 
 void choose_process_noise(Problem& problem, bool has_gyro) {

@@ -116,7 +116,7 @@ void Document::load() {
   std::error_code error;
   if (!std::filesystem::exists(file_, error)) return;
   try {
-    const Json file = parse_json(read_file(file_, kLargestFile), "it", file_limits());
+    const Json file = parse_json(read_file(file_, kLargestFile), file_.filename().string(), file_limits());
     if (file.at("format") != "asperity-studio" || file.at("version") != 1) throw Error("is of another version");
     bool whole = true;
     for (const auto& [name, first] : first_) {

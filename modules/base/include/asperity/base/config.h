@@ -26,6 +26,11 @@ namespace asperity {
 //     }
 //   };
 //
+// A field that had another name says so, and files and options that have the old one are read for ever:
+//
+//       v.field("min_score", min_score, "a lower score is invalid", {0.0, 1.0});
+//       v.former("poor");
+//
 // From this come TOML files, `--set stage.field=value`, `--print-config` and the record in results.
 
 struct Range {
@@ -41,6 +46,7 @@ using ConfigValue = std::variant<bool, std::int64_t, double, std::string, std::v
 // One field of a config, by its dotted path. Valid as long as the config it was listed from.
 struct ConfigField {
   std::string path;
+  std::vector<std::string> former;  // paths that it had: read as `path` is, never written
   FieldType type = FieldType::kNumber;
   std::string description;
   Range range;
@@ -84,6 +90,9 @@ class ConfigLister {
         [&value](std::size_t i) { value = static_cast<Enum>(i); });
   }
 
+  // The field listed last was called `name` before, in the same group.
+  void former(std::string_view name);
+
   template <class Config>
   void group(std::string_view name, Config& config) {
     const std::string outer = prefix_;
@@ -125,7 +134,7 @@ bool is_same_config(Config a, Config b) {
                     [](const ConfigField& x, const ConfigField& y) { return x.get() == y.get(); });
 }
 
-// The field at `path`; throws Error for an unknown path, naming the nearest known one.
+// The field at `path`, or that was there formerly; throws Error for an unknown path, naming the nearest known one.
 const ConfigField& find_field(const std::vector<ConfigField>& fields, std::string_view path);
 
 // Sets the field at `path` from the text of `--set`.

@@ -15,8 +15,8 @@ struct ScoreConfig {
   double least_part = 0.03;
   double half_dB = 6.0;
   double half_distribution = 0.3;
-  double poor = 0.5;
-  double least_touched = 0.9;
+  double min_score = 0.5;
+  double min_contact_fraction = 0.9;
   ComparisonConfig comparison;
 
   // Real and rendered share their arc length, so nothing but the coordinates' error is left to a shift.
@@ -29,8 +29,10 @@ struct ScoreConfig {
     v.field("half_dB", half_dB, "distance of spectra that halves their agreement, dB", {0.1, 100.0});
     v.field("half_distribution", half_distribution,
             "distance of the heights' distributions that halves their agreement, in RMS heights", {1e-3, 100.0});
-    v.field("poor", poor, "a score below it is not to be trusted", {0.0, 1.0});
-    v.field("least_touched", least_touched, "part of the scan's contact that must be felt", {0.0, 1.0});
+    v.field("min_score", min_score, "a score below it is not to be trusted", {0.0, 1.0});
+    v.former("poor");
+    v.field("min_contact_fraction", min_contact_fraction, "part of the scan's contact that must be felt", {0.0, 1.0});
+    v.former("least_touched");
     v.group("comparison", comparison);
   }
 };

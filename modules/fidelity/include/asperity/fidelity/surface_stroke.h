@@ -49,7 +49,7 @@ struct SurfaceStrokeConfig {
   double press_N = 1.0;
   double approach_m = 2e-3;
   double approach_s = 0.2;
-  double turn_s = 0.1;
+  double speed_ramp_s = 0.1;
   double margin_m = 2e-3;
 
   template <class V>
@@ -58,7 +58,8 @@ struct SurfaceStrokeConfig {
     v.field("press_N", press_N, "force that presses it in, N", {0.0, 50.0});
     v.field("approach_m", approach_m, "above the surface, where the stroke begins, m", {0.0, 1.0});
     v.field("approach_s", approach_s, "time of coming down, and of pressing after that, s", {1e-2, 100.0});
-    v.field("turn_s", turn_s, "time in which the speed is reached, and lost, s", {1e-3, 100.0});
+    v.field("speed_ramp_s", speed_ramp_s, "time in which the speed is reached, and lost, s", {1e-3, 100.0});
+    v.former("turn_s");
     v.field("margin_m", margin_m, "left out at the ends of a line that nobody chose, m", {0.0, 1.0});
   }
 };

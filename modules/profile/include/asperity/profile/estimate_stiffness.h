@@ -12,7 +12,7 @@ namespace asperity {
 
 struct StiffnessConfig {
   double high_cycles_per_mm = 0.12;
-  double high_hz = 5.0;
+  double high_Hz = 5.0;
   double min_run_s = 1.0;
   double significance = 3.0;
 
@@ -20,7 +20,8 @@ struct StiffnessConfig {
   void visit(V& v) {
     v.field("high_cycles_per_mm", high_cycles_per_mm, "the texture begins here: the band ends at this times the speed",
             {1e-3, 10.0});
-    v.field("high_hz", high_hz, "upper end of the band at any speed", {0.1, 1e3});
+    v.field("high_Hz", high_Hz, "upper end of the band at any speed", {0.1, 1e3});
+    v.former("high_hz");
     v.field("min_run_s", min_run_s, "shortest time in contact that is used", {0.2, 1e3});
     v.field("significance", significance, "standard errors from which a compliance counts as measured", {1.0, 10.0});
   }

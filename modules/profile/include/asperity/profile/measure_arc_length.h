@@ -14,7 +14,7 @@ struct ArcLengthConfig {
   double direction_cutoff_cycles_per_mm = 0.03;
   double bend_cutoff_cycles_per_mm = 0.14;
   double bend_m = 0.0;  // 0: from the motion's own σ, see find_base_path.h
-  double along_cutoff_hz = 0.0;
+  double along_cutoff_Hz = 0.0;
   double rest_speed_mps = 1e-3;
   double rest_fraction = 0.15;
 
@@ -26,7 +26,8 @@ struct ArcLengthConfig {
             "the same in bends; shorter ones are tremor, not path", {1e-3, 10.0});
     v.field("bend_m", bend_m,
             "a bend that the low-pass cuts by more than this is followed; twice this wholly; 0: by sigma", {0.0, 1.0});
-    v.field("along_cutoff_hz", along_cutoff_hz, "low-pass of the progress along the path; 0 for none", {0.0, 1e5});
+    v.field("along_cutoff_Hz", along_cutoff_Hz, "low-pass of the progress along the path; 0 for none", {0.0, 1e5});
+    v.former("along_cutoff_hz");
     v.field("rest_speed_mps", rest_speed_mps, "slower than this the tip has no direction of its own", {0.0, 10.0});
     v.field("rest_fraction", rest_fraction, "the same as a fraction of the 80th percentile of the speed", {0.0, 1.0});
   }

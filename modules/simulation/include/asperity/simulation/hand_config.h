@@ -35,11 +35,11 @@ struct HandConfig {
 
   double normal_mass_kg = 0.04;
   double normal_stiffness_N_per_m = 300.0;
-  double normal_damping_Ns_per_m = 4.0;
+  double normal_damping_N_s_per_m = 4.0;
   double normal_adaptation_s = 0.25;  // in which the hand follows the height it meets
   double tangential_mass_kg = 0.08;
   double tangential_stiffness_N_per_m = 2500.0;
-  double tangential_damping_Ns_per_m = 15.0;
+  double tangential_damping_N_s_per_m = 15.0;
 
   double tremor_low_Hz = 8.0;
   double tremor_high_Hz = 12.0;
@@ -74,14 +74,16 @@ struct HandConfig {
     v.field("lift_s", lift_s, "duration of a lift, s", {0.05, 10.0});
     v.field("normal_mass_kg", normal_mass_kg, "mass felt along the normal, kg", {1e-3, 10.0});
     v.field("normal_stiffness_N_per_m", normal_stiffness_N_per_m, "hand's stiffness along the normal, N/m", {0.0, 1e5});
-    v.field("normal_damping_Ns_per_m", normal_damping_Ns_per_m, "hand's damping along the normal, N s/m", {0.0, 1e4});
+    v.field("normal_damping_N_s_per_m", normal_damping_N_s_per_m, "hand's damping along the normal, N s/m", {0.0, 1e4});
+    v.former("normal_damping_Ns_per_m");
     v.field("normal_adaptation_s", normal_adaptation_s, "time in which the hand yields to the height it meets, s",
             {0.01, 100.0});
     v.field("tangential_mass_kg", tangential_mass_kg, "mass felt along the stroke, kg", {1e-3, 10.0});
     v.field("tangential_stiffness_N_per_m", tangential_stiffness_N_per_m, "hand's stiffness along the stroke, N/m",
             {1.0, 1e5});
-    v.field("tangential_damping_Ns_per_m", tangential_damping_Ns_per_m, "hand's damping along the stroke, N s/m",
+    v.field("tangential_damping_N_s_per_m", tangential_damping_N_s_per_m, "hand's damping along the stroke, N s/m",
             {0.0, 1e4});
+    v.former("tangential_damping_Ns_per_m");
     v.field("tremor_low_Hz", tremor_low_Hz, "tremor's band, lower end, Hz", {0.0, 50.0});
     v.field("tremor_high_Hz", tremor_high_Hz, "tremor's band, upper end, Hz", {0.0, 50.0});
     v.field("tremor_lateral_m", tremor_lateral_m, "tremor across the stroke, m rms", {0.0, 0.01});

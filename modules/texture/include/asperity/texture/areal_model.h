@@ -11,7 +11,7 @@ struct TextureModelTraits<ArealTexture> {
   static constexpr std::string_view kName = "areal";
   static void read_block(const BlockInput& input, ArealTexture& t);
   static std::string write_block(const ArealTexture& t, BlockOutput& output);
-  static NamedValues describe(const ArealTexture& t);
+  static Json describe(const ArealTexture& t);
   static void scale(ArealTexture& t, double factor);
   static void add_to(TextureHash& hash, const ArealTexture& t);
   static void low_pass(ArealTexture& t, double cutoff_cycles_per_mm);

@@ -14,7 +14,7 @@ struct TextureModelTraits<AutoregressiveTexture> {
   static constexpr std::string_view kName = "autoregressive";
   static void read_block(const BlockInput& input, AutoregressiveTexture& t);
   static std::string write_block(const AutoregressiveTexture& t, BlockOutput& output);
-  static NamedValues describe(const AutoregressiveTexture& t);
+  static Json describe(const AutoregressiveTexture& t);
   static void scale(AutoregressiveTexture& t, double factor);
   static void add_to(TextureHash& hash, const AutoregressiveTexture& t);
 

@@ -13,7 +13,7 @@ struct TextureModelTraits<DecayingSinusoids> {
   static constexpr std::string_view kName = "decaying_sinusoids";
   static void read_block(const BlockInput& input, DecayingSinusoids& t);
   static std::string write_block(const DecayingSinusoids& t, BlockOutput& output);
-  static NamedValues describe(const DecayingSinusoids& t);
+  static Json describe(const DecayingSinusoids& t);
   static void scale(DecayingSinusoids& t, double factor);
   static void add_to(TextureHash& hash, const DecayingSinusoids& t);
 

@@ -12,7 +12,7 @@ struct TextureModelTraits<Fourier1d> {
   static constexpr std::string_view kName = "fourier1d";
   static void read_block(const BlockInput& input, Fourier1d& f);
   static std::string write_block(const Fourier1d& f, BlockOutput& output);
-  static NamedValues describe(const Fourier1d& f);
+  static Json describe(const Fourier1d& f);
   static void scale(Fourier1d& f, double factor);
   static void add_to(TextureHash& hash, const Fourier1d& f);
   static void low_pass(Fourier1d& f, double cutoff_cycles_per_mm);

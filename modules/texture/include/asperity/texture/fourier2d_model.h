@@ -11,7 +11,7 @@ struct TextureModelTraits<Fourier2d> {
   static constexpr std::string_view kName = "fourier2d";
   static void read_block(const BlockInput& input, Fourier2d& t);
   static std::string write_block(const Fourier2d& t, BlockOutput& output);
-  static NamedValues describe(const Fourier2d& t);
+  static Json describe(const Fourier2d& t);
   static void scale(Fourier2d& t, double factor);
   static void add_to(TextureHash& hash, const Fourier2d& t);
   static void low_pass(Fourier2d& t, double cutoff_cycles_per_mm);

@@ -33,7 +33,7 @@ struct TextureModelTraits<HeightMap> {
   static constexpr std::string_view kName = "heightmap";
   static void read_block(const BlockInput& input, HeightMap& map);
   static std::string write_block(const HeightMap& map, BlockOutput& output);
-  static NamedValues describe(const HeightMap& map);
+  static Json describe(const HeightMap& map);
   static void scale(HeightMap& map, double factor);
   static void add_to(TextureHash& hash, const HeightMap& map);
   static void low_pass(HeightMap& map, double cutoff_cycles_per_mm);

@@ -16,7 +16,7 @@ inline constexpr int kMaxSeriesOrder = 32;
 // start_series(), and again when the texture is exchanged.
 struct SeriesState {
   Random random{0};
-  double phase = 0.0;     // of the model's sample period, or metres since the last grain or edge
+  double phase = 0.0;     // of the model's sample period, or metres since the last impulse or edge
   double previous = 0.0;  // the model's last two samples
   double current = 0.0;
   int triangle = 0;                                    // of the speed-force plane, where the last point was found

@@ -6,12 +6,12 @@ namespace asperity {
 //   σ(v, f) = sigma_m (v / reference_speed)^speed_exponent (f / reference_force)^force_exponent
 //   H = clamp(σ z + lift_sigma σ, 0, 2 lift_sigma σ),  z normal with mean 0 and variance 1
 //   normal force k H, tangential force rho k (H − lift), k = stiffness.
-// The original draws a new z every servo step (grain_m = 0), so that its spectrum moves with the servo's
-// rate. With a grain, z changes with the distance travelled: a new deviate every grain, blended at constant
-// variance between.
+// The original draws a new z every servo step (correlation_length_m = 0), so that its spectrum moves with the servo's
+// rate. With a correlation length, z changes with the distance travelled: a new impulse every length, blended at
+// constant variance between.
 struct StochasticTexture {
   double sigma_m = 0.0;
-  double grain_m = 0.0;
+  double correlation_length_m = 0.0;
   double tangential_ratio = 0.0;  // rho
   double lift_sigma = 3.0;        // erratum 20; 0: heights of both signs
   double stiffness_N_per_m = 300.0;

@@ -14,7 +14,7 @@ struct TextureModelTraits<StochasticTexture> {
   static constexpr std::string_view kName = "stochastic";
   static void read_block(const BlockInput& input, StochasticTexture& t);
   static std::string write_block(const StochasticTexture& t, BlockOutput& output);
-  static NamedValues describe(const StochasticTexture& t);
+  static Json describe(const StochasticTexture& t);
   static void scale(StochasticTexture& t, double factor);
   static void add_to(TextureHash& hash, const StochasticTexture& t);
   static void low_pass(StochasticTexture& t, double cutoff_cycles_per_mm);

@@ -8,6 +8,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/problem.h"
+#include "asperity/json/json.h"
 #include "asperity/texture/texture.h"
 
 namespace asperity {
@@ -50,7 +51,7 @@ class TextureFitFilesError : public Error {
 // A texture and what its fit says of it.
 struct FittedTexture {
   Texture texture;
-  NamedValues report;
+  Json report;
   Problems problems;
 
   void add_problems(const Problems& more) { problems.insert(problems.end(), more.begin(), more.end()); }

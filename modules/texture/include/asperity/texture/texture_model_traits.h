@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "asperity/texture/height_and_gradient.h"
-#include "asperity/texture/named_values.h"
 #include "asperity/texture/series_state.h"
 #include "asperity/texture/servo_tables.h"
 
@@ -23,6 +22,7 @@ struct StrokeConfig;
 struct Texture;
 struct TextureFitInput;
 struct TextureFitOptions;
+class Json;
 class TextureHash;
 
 // All that the program knows of a texture model beside its data. A model is a struct of plain data and its

@@ -2,12 +2,13 @@
 
 #include <cstdint>
 
+#include "asperity/json/json.h"
 #include "asperity/texture/texture.h"
 
 namespace asperity {
 
 // A model's numbers, for people.
-NamedValues describe_texture_model(const TextureModel& model);
+Json describe_texture_model(const TextureModel& model);
 
 // Makes heights, or the forces of a series, `factor` times as large.
 void scale_texture_model(TextureModel& model, double factor);

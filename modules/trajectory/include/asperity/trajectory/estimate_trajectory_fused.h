@@ -9,27 +9,32 @@ namespace asperity {
 
 struct FusedConfig {
   InertialConfig inertial;
-  double accel_bias_sigma_mps2 = 0.3;       // prior
-  double accel_bias_walk_mps2_rts = 0.003;  // random walk, (m/s²)/√s
-  double gyro_bias_sigma_radps = 0.05;      // prior
-  double gyro_bias_walk_radps_rts = 1e-4;   // random walk, (rad/s)/√s
-  double angular_accel_radps2_rtHz = 0.3;   // without a gyroscope: white angular acceleration, (rad/s²)/√Hz
-  double process_noise_scale = 0.0;         // factor on the process noise; 0: chosen by likelihood
-  double tracker_time_sigma_s = 0.3e-3;     // jitter of one pose's time
-  double gate_chi2 = 16.8;                  // a pose farther off (3 degrees of freedom) loses weight as 1/d⁴
-  int passes = 3;                           // filter–smoother passes; weights and constants are refined between
-  bool adapt_tracker_noise = true;          // scale the calibrated σ by what the residuals show
-  bool estimate_latency = true;             // within its prior
+  double accel_bias_sigma_mps2 = 0.3;           // prior
+  double accel_bias_walk_mps2_per_rts = 0.003;  // random walk, (m/s²)/√s
+  double gyro_bias_sigma_radps = 0.05;          // prior
+  double gyro_bias_walk_radps_per_rts = 1e-4;   // random walk, (rad/s)/√s
+  double angular_accel_radps2_per_rtHz = 0.3;   // without a gyroscope: white angular acceleration, (rad/s²)/√Hz
+  double process_noise_scale = 0.0;             // factor on the process noise; 0: chosen by likelihood
+  double tracker_time_sigma_s = 0.3e-3;         // jitter of one pose's time
+  double gate_chi2 = 16.8;                      // a pose farther off (3 degrees of freedom) loses weight as 1/d⁴
+  int passes = 3;                               // filter–smoother passes; weights and constants are refined between
+  bool adapt_tracker_noise = true;              // scale the calibrated σ by what the residuals show
+  bool estimate_latency = true;                 // within its prior
 
   template <class V>
   void visit(V& v) {
     v.group("inertial", inertial);
     v.field("accel_bias_sigma_mps2", accel_bias_sigma_mps2, "prior of the accelerometer's bias, m/s2", {0, 100});
-    v.field("accel_bias_walk_mps2_rts", accel_bias_walk_mps2_rts, "random walk of that bias, (m/s2)/sqrt(s)", {0, 10});
+    v.field("accel_bias_walk_mps2_per_rts", accel_bias_walk_mps2_per_rts, "random walk of that bias, (m/s2)/sqrt(s)",
+            {0, 10});
+    v.former("accel_bias_walk_mps2_rts");
     v.field("gyro_bias_sigma_radps", gyro_bias_sigma_radps, "prior of the gyroscope's bias, rad/s", {0, 10});
-    v.field("gyro_bias_walk_radps_rts", gyro_bias_walk_radps_rts, "random walk of that bias, (rad/s)/sqrt(s)", {0, 10});
-    v.field("angular_accel_radps2_rtHz", angular_accel_radps2_rtHz,
+    v.field("gyro_bias_walk_radps_per_rts", gyro_bias_walk_radps_per_rts, "random walk of that bias, (rad/s)/sqrt(s)",
+            {0, 10});
+    v.former("gyro_bias_walk_radps_rts");
+    v.field("angular_accel_radps2_per_rtHz", angular_accel_radps2_per_rtHz,
             "without a gyroscope: white angular acceleration, (rad/s2)/sqrt(Hz)", {1e-6, 1e4});
+    v.former("angular_accel_radps2_rtHz");
     v.field("process_noise_scale", process_noise_scale, "factor on the process noise; 0: chosen by likelihood",
             {0, 1e6});
     v.field("tracker_time_sigma_s", tracker_time_sigma_s, "jitter of one pose's time, s", {0, 1});

@@ -9,7 +9,4 @@ namespace asperity::app {
 // The manual page (roff, man section 1) of the program and all its commands.
 std::string manual_page(const Parser& root);
 
-// A bash script that completes commands, options and file names.
-std::string bash_completion(const Parser& root);
-
 }  // namespace asperity::app
