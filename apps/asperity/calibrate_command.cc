@@ -6,10 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "asperity/base/config_tree.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
-#include "asperity/json/parse_json.h"
+#include "asperity/json/config_json.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
 #include "asperity/session/our_file.h"
@@ -69,7 +68,7 @@ void CalibrateCommand::write(const Calibration& before, const CalibrateOutcome& 
   outcome.store(calibration);
   const Json details = {
       {"values", outcome.values},       {"stderr", outcome.standard_errors},
-      {"residuals", outcome.residuals}, {"config", config_tree<Json>(fields())},
+      {"residuals", outcome.residuals}, {"config", config_json(fields())},
       {"asperity", kVersion},
   };
   calibration.calibrated[kind_] = {outcome.verdict.trustworthy, outcome.verdict.text, details.dump_repaired()};
@@ -89,7 +88,7 @@ Json CalibrateCommand::report(const CalibrateOutcome& outcome) {
   out["notes"] = outcome.notes;
   for (const auto& [key, value] : outcome.details.items()) out[key] = value;
   if (!output_.empty()) out["file"] = output_;
-  out["config"] = config_tree<Json>(fields());
+  out["config"] = config_json(fields());
   out["asperity"] = kVersion;
   return out;
 }

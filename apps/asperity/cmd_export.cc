@@ -6,11 +6,10 @@
 #include <string>
 #include <utility>
 
-#include "asperity/base/config_tree.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
-#include "asperity/json/parse_json.h"
+#include "asperity/json/config_json.h"
 #include "asperity/scene/export_scene.h"
 #include "asperity/session/export_files.h"
 #include "asperity/session/our_folder.h"
@@ -75,7 +74,7 @@ class ExportCommand : public Command {
     for (const ExportedFile& file : result.files)
       text += fmt::format("{:>12} bytes  {}\n", file.content.size(), printable(file.name, 200));
     for (const Problem& problem : result.problems) text += "problem: " + printable(problem.message, 300) + "\n";
-    out["config"] = config_tree<Json>(fields());
+    out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     folder.commit();
     print_json(out.dump_repaired(2));

@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "asperity/base/config_tree.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -20,7 +19,7 @@
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/write_flight_record.h"
 #include "asperity/fidelity/score_rendering.h"
-#include "asperity/json/parse_json.h"
+#include "asperity/json/config_json.h"
 #include "asperity/session/feel_device.h"
 #include "asperity/session/feel_drive.h"
 #include "asperity/session/feel_log.h"
@@ -289,7 +288,7 @@ class FeelCommand : public Command {
     out["trustworthy"] = verdict_.empty();
     out["verdict"] = verdict_;
     out["warnings"] = warnings_;
-    out["config"] = config_tree<Json>(fields());
+    out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     return out;
   }

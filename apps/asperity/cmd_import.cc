@@ -4,11 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "asperity/base/config_tree.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
-#include "asperity/json/parse_json.h"
+#include "asperity/json/config_json.h"
 #include "asperity/recording/import_imu_pose.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
@@ -71,7 +70,7 @@ class ImportCommand : public Command {
       out["problems"].push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
       text += problem.message + "\n";
     }
-    out["config"] = config_tree<Json>(fields());
+    out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
     say(text);

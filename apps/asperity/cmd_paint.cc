@@ -9,11 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "asperity/base/config_tree.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
-#include "asperity/json/parse_json.h"
+#include "asperity/json/config_json.h"
 #include "asperity/scene/paint.h"
 #include "asperity/scene/write_scene.h"
 #include "asperity/session/mesh_unit.h"
@@ -99,7 +98,7 @@ class PaintCommand : public Command {
 
   Json to_json(const PaintResult& result, const SceneObject& object, const SceneTexture& texture) {
     Json out = stroke_json(result, object, texture);
-    out["config"] = config_tree<Json>(fields());
+    out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     return out;
   }

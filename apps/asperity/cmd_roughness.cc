@@ -6,9 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "asperity/base/config_tree.h"
 #include "asperity/base/version.h"
-#include "asperity/json/parse_json.h"
+#include "asperity/json/config_json.h"
 #include "asperity/profile/measure_areal_roughness.h"
 #include "asperity/profile/measure_roughness.h"
 #include "asperity/profile/read_heights.h"
@@ -133,7 +132,7 @@ class RoughnessCommand : public Command {
   }
 
   void finish(Json& out) {
-    out["config"] = config_tree<Json>(fields());
+    out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
   }

@@ -7,11 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "asperity/base/config_tree.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
-#include "asperity/json/parse_json.h"
+#include "asperity/json/config_json.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
 #include "asperity/session/live_scan.h"
@@ -132,7 +131,7 @@ class SimulateCommand : public Command {
     out["duration_s"] = duration_s;
     out["probe_rows"] = probe.size();
     out["tracker_rows"] = recording.tracker.size();
-    out["config"] = config_tree<Json>(fields());
+    out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
     say(fmt::format("{}: {:.1f} s, {} probe rows, {} poses, with truth\n", printable(output_, 200), duration_s,

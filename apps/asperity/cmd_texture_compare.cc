@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "asperity/base/config_tree.h"
 #include "asperity/base/version.h"
-#include "asperity/json/parse_json.h"
+#include "asperity/json/config_json.h"
 #include "asperity/profile/read_heights.h"
 #include "asperity/texture/compare_textures.h"
 #include "asperity/texture/evaluate_height.h"
@@ -96,7 +95,7 @@ class TextureCompareCommand : public Command {
       one["felt"] = band.felt;
       out["bands"].push_back(one);
     }
-    out["config"] = config_tree<Json>(fields());
+    out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
     say_table(c);

@@ -8,12 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "asperity/base/config_tree.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/config_json.h"
 #include "asperity/json/parse_json.h"
-#include "asperity/pipeline/config_json.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/recorded_series.h"
 #include "asperity/recording/read_recording.h"
@@ -144,7 +143,7 @@ class TextureFitCommand : public Command {
     for (const auto& file : files_)
       sources += (sources.empty() ? "" : ", ") + std::filesystem::path(file).filename().string();
     constexpr std::size_t kLongest_bytes = 4000;
-    texture.source = {printable(sources, kLongest_bytes), config_json(fields()), kVersion};
+    texture.source = {printable(sources, kLongest_bytes), config_json(fields()).dump(2), kVersion};
     Json problems = Json::array();
     for (const auto& problem : fitted.problems)
       problems.push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
@@ -163,7 +162,7 @@ class TextureFitCommand : public Command {
     if (texture.lift_m) out["lift_m"] = *texture.lift_m;
     out["fit"] = report;
     out["roughness"] = texture.roughness;
-    out["config"] = config_tree<Json>(fields());
+    out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
     std::string text = fmt::format("{}: {}", output_, texture.model_name());

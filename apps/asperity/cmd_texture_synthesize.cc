@@ -5,11 +5,10 @@
 #include <string_view>
 #include <vector>
 
-#include "asperity/base/config_tree.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
-#include "asperity/json/parse_json.h"
+#include "asperity/json/config_json.h"
 #include "asperity/session/our_file.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/format_height_image.h"
@@ -85,7 +84,7 @@ class TextureSynthesizeCommand : public Command {
     } else {
       throw UsageError("-o: heights along a line are called *.csv, a tile *.png");
     }
-    out["config"] = config_tree<Json>(fields());
+    out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
     return kDone;

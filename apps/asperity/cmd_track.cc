@@ -10,12 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "asperity/base/config_tree.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/camera/open_image_folder.h"
-#include "asperity/json/parse_json.h"
+#include "asperity/json/config_json.h"
 #include "asperity/recording/read_markers.h"
 #include "asperity/session/our_file.h"
 #include "asperity/tracking/track_images.h"
@@ -138,7 +137,7 @@ class TrackCommand : public Command {
     }
     out["trustworthy"] = tracked.trustworthy;
     out["verdict"] = tracked.verdict;
-    out["config"] = config_tree<Json>(fields());
+    out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
 

@@ -5,7 +5,7 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "asperity/pipeline/config_json.h"
+#include "asperity/json/config_json.h"
 
 namespace asperity::app {
 
@@ -63,6 +63,6 @@ void load_config_file(const std::filesystem::path& path, const std::vector<Confi
   }
 }
 
-std::string fields_to_json(const std::vector<ConfigField>& fields) { return config_json(fields); }
+std::string fields_to_json(const std::vector<ConfigField>& fields) { return config_json(fields).dump(2); }
 
 }  // namespace asperity::app

@@ -4,10 +4,9 @@
 
 #include <cmath>
 
-#include "asperity/base/config_tree.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
-#include "asperity/json/parse_json.h"
+#include "asperity/json/config_json.h"
 #include "json_of.h"
 
 namespace asperity::app {
@@ -80,7 +79,7 @@ std::string record_json(const RecordOutcome& outcome, const std::vector<ConfigFi
   out["trustworthy"] = outcome.verdict.doubts.empty();
   out["verdict"] = joined(outcome.verdict.doubts);
   out["warnings"] = outcome.verdict.warnings;
-  out["config"] = config_tree<Json>(config);
+  out["config"] = config_json(config);
   out["asperity"] = kVersion;
   return out.dump_repaired(2);
 }

@@ -8,7 +8,7 @@
 # dependency is a module or such a folder. All of them must be used; an include without asperity/ must be of its own folder.
 cmake_minimum_required(VERSION 3.22)
 
-set(heavy "nlohmann/json\\.hpp|toml\\+\\+/|CLI/|fmt/|opencv2/|boost/|SDL2/|embree")
+set(heavy "nlohmann/|toml\\+\\+/|CLI/|fmt/|opencv2/|boost/|SDL2/|embree")
 set(testkit_depends base geometry recording)
 set(faults "")
 

@@ -1,9 +1,8 @@
 #include <cmath>
 
-#include "asperity/base/config_tree.h"
 #include "asperity/base/units.h"
 #include "asperity/base/version.h"
-#include "asperity/json/parse_json.h"
+#include "asperity/json/config_json.h"
 #include "asperity/pipeline/result_json.h"
 #include "asperity/pipeline/write_result.h"
 #include "json.h"
@@ -149,7 +148,7 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
   }
   if (result.accuracy) out["accuracy"] = accuracy_json(*result.accuracy);
   out["problems"] = problems_json(result.problems);
-  out["config"] = config_tree<Json>(list_fields("", config));
+  out["config"] = config_json(list_fields("", config));
   out["asperity"] = kVersion;
   return out;
 }

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "asperity/base/version.h"
-#include "asperity/pipeline/config_json.h"
+#include "asperity/json/config_json.h"
 #include "process_stages.h"
 
 namespace asperity {
@@ -53,7 +53,7 @@ Texture join_texture(const Recording& recording, const ProcessMethod& method, co
   const double nyquist = 0.5 / (result.profile.spacing_m * 1e3);
   texture.band_cycles_per_mm = {low, std::min(fit_high, nyquist)};
   ProcessConfig config = result.config;
-  texture.source.config_json = config_json(list_fields("", config));
+  texture.source.config_json = config_json(list_fields("", config)).dump(2);
   texture.source.version = kVersion;
   return texture;
 }

@@ -7,12 +7,12 @@
 #include <set>
 #include <utility>
 
-#include "asperity/base/config_tree.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/config_json.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/pipeline/write_result.h"
 #include "asperity/scene/read_scene.h"
@@ -174,7 +174,7 @@ std::string format_registration(const ScansOnMesh& result, std::span<const std::
   out["problems"] = problems_json(result.problems);
   out["files"] = files;
   RegisterConfig config = result.config;
-  out["config"] = config_tree<Json>(list_fields("", config));
+  out["config"] = config_json(list_fields("", config));
   out["asperity"] = kVersion;
   // Names come from files; what is not UTF-8 in them must not stop the writing.
   return out.dump_repaired(2) + "\n";

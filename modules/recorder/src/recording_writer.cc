@@ -6,7 +6,6 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
-#include "asperity/json/parse_json.h"
 #include "asperity/recording/write_recording.h"
 
 namespace asperity {

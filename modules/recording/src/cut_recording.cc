@@ -6,7 +6,6 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
-#include "asperity/json/parse_json.h"
 
 namespace asperity {
 

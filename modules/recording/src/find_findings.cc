@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include <fmt/format.h>
-#include "asperity/json/parse_json.h"
 
 namespace asperity {
 

@@ -27,6 +27,4 @@ void read_matrix(JsonObject& object, std::string_view key, Eigen::Matrix<double,
   }
 }
 
-std::string read_extra(JsonObject& object) { return object.extra().dump_sorted(); }
-
 }  // namespace asperity

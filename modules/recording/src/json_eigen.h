@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <string_view>
 
 #include <Eigen/Core>
@@ -14,8 +13,5 @@ void read_vector(JsonObject& object, std::string_view key, Eigen::Vector3d& out,
 // Three rows of `columns` numbers each.
 void read_matrix(JsonObject& object, std::string_view key, Eigen::Matrix<double, 3, Eigen::Dynamic>& out,
                  std::size_t columns);
-
-// The member "extra" as a text with sorted keys; "{}" if there is none.
-std::string read_extra(JsonObject& object);
 
 }  // namespace asperity

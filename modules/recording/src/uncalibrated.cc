@@ -1,7 +1,5 @@
 #include "asperity/recording/uncalibrated.h"
 
-#include <exception>
-#include "asperity/json/parse_json.h"
 namespace asperity {
 
 namespace {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "asperity/base/text.h"
-#include "asperity/json/parse_json.h"
 
 namespace asperity {
 

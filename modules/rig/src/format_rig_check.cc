@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "asperity/base/config_tree.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/json/config_json.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/rig/check_rig.h"
 
@@ -95,7 +95,7 @@ std::string rig_check_json(const RigCheck& check, const CheckRigConfig& config) 
   out["strokes"] = Json::array();
   for (const RigStroke& stroke : check.strokes) out["strokes"].push_back(stroke_json(stroke, check));
   CheckRigConfig resolved = config;
-  out["config"] = config_tree<Json>(list_fields("", resolved));
+  out["config"] = config_json(list_fields("", resolved));
   out["asperity"] = kVersion;
   return out.dump_repaired(2);
 }

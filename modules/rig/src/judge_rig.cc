@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "asperity/base/text.h"
-#include "asperity/json/parse_json.h"
 
 namespace asperity {
 

@@ -4,9 +4,9 @@
 #include <limits>
 #include <set>
 
-#include "asperity/base/config_tree.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/json/config_json.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/study/study_error.h"
 
@@ -82,7 +82,7 @@ std::vector<std::string> stimuli_of(const std::string& where, const Json& value)
 }
 
 void put(Json& out, const ConfigField& field) {
-  const Json value = config_leaf<Json>(field.get());
+  const Json value = config_value_json(field.get());
   const std::size_t dot = field.path.find('.');
   if (dot == std::string::npos) {
     out[field.path] = value;

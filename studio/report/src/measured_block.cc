@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "asperity/base/units.h"
-#include "asperity/json/parse_json.h"
+#include "asperity/json/json.h"
 #include "asperity/pipeline/result_json.h"
 #include "asperity/pipeline/write_result.h"
 #include "asperity/studio/measured_figures.h"

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "asperity/base/config_tree.h"
-#include "asperity/json/parse_json.h"
+#include "asperity/json/config_json.h"
 
 namespace asperity::studio {
 
@@ -22,8 +21,8 @@ Json fields_json(const std::vector<ConfigField>& fields, const std::vector<Confi
     Json each;
     each["path"] = field.path;
     each["type"] = kTypeNames.at(static_cast<std::size_t>(field.type));
-    each["value"] = config_leaf<Json>(field.get());
-    each["default"] = config_leaf<Json>(defaults.at(i).get());
+    each["value"] = config_value_json(field.get());
+    each["default"] = config_value_json(defaults.at(i).get());
     each["description"] = field.description;
     if (std::isfinite(field.range.low)) each["low"] = field.range.low;
     if (std::isfinite(field.range.high)) each["high"] = field.range.high;

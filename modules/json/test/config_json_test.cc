@@ -1,4 +1,4 @@
-#include "asperity/pipeline/config_json.h"
+#include "asperity/json/config_json.h"
 
 #include <gtest/gtest.h>
 #include <array>
@@ -40,7 +40,7 @@ struct Outer {
 
 TEST(ConfigJson, KeepsTypesOrderAndGroups) {
   Outer config;
-  EXPECT_EQ(config_json(list_fields("", config)),
+  EXPECT_EQ(config_json(list_fields("", config)).dump(2),
             R"({
   "length_m": 1e-07,
   "open": "inf",
