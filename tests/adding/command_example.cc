@@ -9,7 +9,8 @@
 #include "asperity/base/output.h"
 #include "asperity/testkit/temp_dir.h"
 #include "command.h"
-#include "parser_pages.h"
+#include "manual_page.h"
+#include "shell_completion.h"
 
 namespace asperity::app {
 namespace {
@@ -83,7 +84,7 @@ TEST(AddingACommand, ItIsInTheManualAndInTheCompletions) {
   Parser root("asperity", "");
   const std::unique_ptr<Command> command = make_lines(root);
   EXPECT_THAT(manual_page(root), testing::HasSubstr("Counts the lines of a file"));
-  EXPECT_THAT(bash_completion(root), testing::HasSubstr("lines"));
+  EXPECT_THAT(shell_completion("bash", root), testing::HasSubstr("lines"));
 }
 
 }  // namespace

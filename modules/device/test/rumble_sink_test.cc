@@ -62,7 +62,7 @@ TEST(RumbleBands, AreTheAmplitudesOfTones) {
     EXPECT_EQ(bands.take().slow_N, 0.0);
   }
   RumbleBands settled(20.0, 100.0, 1000.0);
-  settled.settle(3.0);
+  settled.start_at(3.0);
   for (int i = 0; i < 100; ++i) settled.add(3.0);
   EXPECT_LT(settled.take().fast_N, 1e-12);
 }

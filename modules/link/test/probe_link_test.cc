@@ -106,7 +106,7 @@ TEST(ProbeAddress, OpensAFile) {
     for (std::size_t i = 0; i < samples.size(); ++i) ASSERT_EQ(samples[i].t_ns, first[i].t_ns);
   }
   EXPECT_THAT([&] { open_probe_source(parse_probe_address("serial:" + path), ProbeProtocol::kWhat); },
-              ThrowsMessage<Error>(HasSubstr("is not a serial port")));
+              ThrowsMessage<Error>(HasSubstr("not a serial port")));
 }
 
 // A probe that never speaks unless asked.

@@ -25,8 +25,8 @@ constexpr double kSmallestPage_mm = 2.0, kLargestPage_mm = 1000.0;
 double checked_mm(const char* what, double length_m) {
   const double length_mm = std::round(length_m * 1e9) / 1e6;
   if (!(length_mm >= kSmallestPage_mm && length_mm <= kLargestPage_mm)) {
-    throw Error(fmt::format("markers: {} of {} is not within {} and {} mm", what, mm_text(length_m * 1e3), kSmallestPage_mm,
-                            kLargestPage_mm));
+    throw Error(fmt::format("markers: {} of {} is not within {} and {} mm", what, mm_text(length_m * 1e3),
+                            kSmallestPage_mm, kLargestPage_mm));
   }
   return length_mm;
 }

@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(
               "key 'textures[0].index': must be a whole number, found 1.5"},
         Fault{R"({"format":"asperity-scene","version":1,"mesh":"m.obj",
                   "textures":[{"index":1,"file":"x"},{"index":1,"file":"y"}]})",
-              "scene.json:2:61: key 'textures[1].index': the index 1 a second time"},
+              "scene.json:2:63: key 'textures[1].index': the index 1 a second time"},
         Fault{R"({"format":"asperity-scene","version":1,"mesh":"m.obj","T_mesh_world":[0,0,0,2,0,0,0]})",
               "not of unit length"},
         Fault{R"({"format":"asperity-scene","version":1,"mesh":"m.obj",

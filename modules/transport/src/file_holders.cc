@@ -33,7 +33,8 @@ std::string file_holders(const std::string& path) {
   if (error) return {};
   std::string out;
   int named = 0;
-  for (fs::directory_iterator it("/proc", error), end; !error && it != end && named < kMostHolders; it.increment(error)) {
+  for (fs::directory_iterator it("/proc", error), end; !error && it != end && named < kMostHolders;
+       it.increment(error)) {
     const std::string id = it->path().filename().string();
     if (!std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::isdigit(c) != 0; })) continue;
     if (!has_open(it->path(), file)) continue;

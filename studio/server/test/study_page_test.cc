@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 
 #include "asperity/base/csv.h"
-#include "asperity/study/study_file.h"
 #include "asperity/json/parse_json.h"
+#include "asperity/study/study_file.h"
 #include "asperity/testkit/temp_dir.h"
 #include "asperity/texture/read_height_image.h"
 #include "asperity/texture/texture_file.h"

@@ -162,22 +162,21 @@ class PaintPage : public Page {
     const fs::path file = shared_.project.existing(painting.object);
     const std::string name = request.text("name");
     const fs::path target = write_target(shared_.project, request);
-    answer_by_job(
-        shared_.jobs, request, "Writing " + name, "paint.write",
-        [cache = cache_, project = &shared_.project, painting, file, target, name](const Observer& observer) {
-          OutputFolder folder(target, is_our_folder);
-          const PaintedScene painted = paint_all(cache->read(file, painting.unit_m), painting, *project, observer);
-          for (const PaintedStroke& stroke : painted.strokes) {
-            if (!stroke.fault.empty()) throw Advice(stroke.fault, "Take the stroke out, or draw it anew.");
-          }
-          observer.update("writing", 0.9);
-          write_scene(folder.path() / "scene.json", painted.scene);
-          write_file(folder.path() / "paint.json",
-                     painting_json(painted, painting).dump_repaired(2) + "\n");
-          write_listing(folder.path());
-          folder.commit();
-          return Json{{"scene", name + "/scene.json"}};
-        });
+    answer_by_job(shared_.jobs, request, "Writing " + name, "paint.write",
+                  [cache = cache_, project = &shared_.project, painting, file, target, name](const Observer& observer) {
+                    OutputFolder folder(target, is_our_folder);
+                    const PaintedScene painted =
+                        paint_all(cache->read(file, painting.unit_m), painting, *project, observer);
+                    for (const PaintedStroke& stroke : painted.strokes) {
+                      if (!stroke.fault.empty()) throw Advice(stroke.fault, "Take the stroke out, or draw it anew.");
+                    }
+                    observer.update("writing", 0.9);
+                    write_scene(folder.path() / "scene.json", painted.scene);
+                    write_file(folder.path() / "paint.json", painting_json(painted, painting).dump_repaired(2) + "\n");
+                    write_listing(folder.path());
+                    folder.commit();
+                    return Json{{"scene", name + "/scene.json"}};
+                  });
   }
 
   void export_to(const Request& request) {
