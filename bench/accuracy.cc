@@ -3,6 +3,7 @@
 //
 //   accuracy [--seeds N] [--speeds 20,25,45] [--probes open,what] [--methods fused,thesis] [--surfaces …]
 //            [--faults no]   without flipped and lost poses, spikes and lost samples
+//            [--set probe.true_rate_Hz=4000,probe.quantise=false]   settings of the bench, after all others
 
 #include <algorithm>
 #include <cmath>
@@ -30,9 +31,10 @@ struct Options {
   std::vector<std::string> probes{"open", "what"};
   std::vector<std::string> methods{"fused", "thesis"};
   std::vector<std::string> speeds{"20", "25", "45"};
+  std::vector<std::string> settings;  // key=value
 };
 
-Options parse(int argc, char** argv) {
+Options parse_options(int argc, char** argv) {
   Options out;
   bench::read_options(argc, argv,
                       {{"--seeds", [&](auto value) { out.seeds = bench::seed_count(value); }},
@@ -40,6 +42,7 @@ Options parse(int argc, char** argv) {
                        {"--surfaces", [&](auto value) { out.surfaces = bench::split_list(value); }},
                        {"--probes", [&](auto value) { out.probes = bench::split_list(value); }},
                        {"--methods", [&](auto value) { out.methods = bench::split_list(value); }},
+                       {"--set", [&](auto value) { out.settings = bench::split_list(value); }},
                        {"--speeds", [&](auto value) { out.speeds = bench::split_list(value); }}});
   return out;
 }
@@ -95,6 +98,12 @@ void run(const Options& options) {
             config.tracker.flip_chance = config.tracker.dropout_chance = 0.0;
             config.probe.spike_chance = config.probe.dropout_chance = 0.0;
           }
+          for (const std::string& setting : options.settings) {
+            const std::size_t equals = setting.find('=');
+            if (equals == std::string::npos) throw Error("--set: '" + setting + "' is not KEY=VALUE");
+            asperity::set_field(asperity::list_fields("", config), setting.substr(0, equals),
+                                setting.substr(equals + 1));
+          }
           const asperity::Recording recording = asperity::simulate_recording(config);
           for (std::size_t m = 0; m < options.methods.size(); ++m) {
             asperity::ProcessConfig process;
@@ -121,7 +130,7 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   try {
-    run(parse(argc, argv));
+    run(parse_options(argc, argv));
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "accuracy: %s\n", error.what());

@@ -38,7 +38,7 @@ struct Options {
   asperity::LiveProfileConfig config;
 };
 
-Options parse(int argc, char** argv) {
+Options parse_options(int argc, char** argv) {
   Options out;
   const auto set = [&](std::string_view value) {
     const std::size_t equals = value.find('=');
@@ -204,7 +204,7 @@ void run_recordings(const Options& options) {
 
 int main(int argc, char** argv) {
   try {
-    const Options options = parse(argc, argv);
+    const Options options = parse_options(argc, argv);
     options.recordings.empty() ? run(options) : run_recordings(options);
     return 0;
   } catch (const std::exception& error) {

@@ -47,7 +47,7 @@ void texture_fit(benchmark::State& state) {
 void texture_height(benchmark::State& state) {
   const auto fit = asperity::fit_fourier1d(rough_profile_m(2000), 0.025e-3);
   double x_m = 0.0;
-  for (auto _ : state) benchmark::DoNotOptimize(asperity::evaluate(fit.texture, x_m += 1.7e-5));
+  for (auto _ : state) benchmark::DoNotOptimize(asperity::evaluate_height(fit.texture, x_m += 1.7e-5));
 }
 
 BENCHMARK(roughness)->Unit(benchmark::kMillisecond);

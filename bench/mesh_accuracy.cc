@@ -50,7 +50,7 @@ struct Options {
   bool each = false;
 };
 
-Options parse(int argc, char** argv) {
+Options parse_options(int argc, char** argv) {
   Options out;
   bench::read_options(
       argc, argv,
@@ -72,13 +72,13 @@ struct PathChoice {
   std::string through;
 };
 
-struct Figures {
+struct PoseMetrics {
   double rms_mm, turn_deg, sigma_mm, sigma_deg, correlation, length_error_percent;
   bool turn_listed, trustworthy;
 };
 
-std::optional<Figures> measure(const Options& options, const asperity::TriangleMesh& mesh, const std::string& surface,
-                               const PathChoice& path, int seed) {
+std::optional<PoseMetrics> measure_pose(const Options& options, const asperity::TriangleMesh& mesh,
+                                        const std::string& surface, const PathChoice& path, int seed) {
   const auto number = static_cast<std::uint64_t>(seed);
   asperity::SimulationConfig config = asperity::make_simulation_config(surface, "open");
   config.seed = seed;
@@ -100,42 +100,43 @@ std::optional<Figures> measure(const Options& options, const asperity::TriangleM
   if (registered.path.size() == 0 || !registered.process.accuracy || !registered.process.accuracy->profile) return {};
   const asperity::PoseError error = asperity::pose_error(result.registration, truth, registered.path.p_mesh_m);
   const asperity::ProfileComparison& profile = *registered.process.accuracy->profile;
-  return Figures{1e3 * error.rms_m,
-                 error.turn_rad / kDegree,
-                 1e3 * error.sigma_m,
-                 error.sigma_rad / kDegree,
-                 profile.correlation,
-                 std::abs(profile.length_error_percent),
-                 !result.registration.undetermined.empty(),
-                 result.trustworthy};
+  return PoseMetrics{1e3 * error.rms_m,
+                     error.rotation_rad / kDegree,
+                     1e3 * error.sigma_m,
+                     error.sigma_rad / kDegree,
+                     profile.correlation,
+                     std::abs(profile.length_error_percent),
+                     !result.registration.undetermined.empty(),
+                     result.trustworthy};
 }
 
 template <class Get>
-std::vector<double> all(const std::vector<Figures>& figures, Get get) {
+std::vector<double> all(const std::vector<PoseMetrics>& metrics, Get get) {
   std::vector<double> out;
-  for (const Figures& one : figures) out.push_back(get(one));
+  for (const PoseMetrics& one : metrics) out.push_back(get(one));
   return out;
 }
 
-void print_row(const std::string& name, const std::vector<Figures>& figures, int seeds) {
-  if (figures.empty()) {
+void print_row(const std::string& name, const std::vector<PoseMetrics>& metrics, int seeds) {
+  if (metrics.empty()) {
     std::printf("| %s | | | | | | | | %d |\n", name.c_str(), seeds);
     return;
   }
-  const auto rms = all(figures, [](const Figures& f) { return f.rms_mm; });
-  const auto turn = all(figures, [](const Figures& f) { return f.turn_deg; });
-  const auto sigma = all(figures, [](const Figures& f) { return f.sigma_mm; });
-  const auto sigma_deg = all(figures, [](const Figures& f) { return f.sigma_deg; });
-  const auto correlation = all(figures, [](const Figures& f) { return f.correlation; });
-  const auto length = all(figures, [](const Figures& f) { return f.length_error_percent; });
-  const auto listed = std::count_if(figures.begin(), figures.end(), [](const Figures& f) { return f.turn_listed; });
-  const auto doubted = std::count_if(figures.begin(), figures.end(), [](const Figures& f) { return !f.trustworthy; });
+  const auto rms = all(metrics, [](const PoseMetrics& f) { return f.rms_mm; });
+  const auto turn = all(metrics, [](const PoseMetrics& f) { return f.turn_deg; });
+  const auto sigma = all(metrics, [](const PoseMetrics& f) { return f.sigma_mm; });
+  const auto sigma_deg = all(metrics, [](const PoseMetrics& f) { return f.sigma_deg; });
+  const auto correlation = all(metrics, [](const PoseMetrics& f) { return f.correlation; });
+  const auto length = all(metrics, [](const PoseMetrics& f) { return f.length_error_percent; });
+  const auto listed = std::count_if(metrics.begin(), metrics.end(), [](const PoseMetrics& f) { return f.turn_listed; });
+  const auto doubted =
+      std::count_if(metrics.begin(), metrics.end(), [](const PoseMetrics& f) { return !f.trustworthy; });
   std::printf("| %s | %.3f (%.3f) | %.3f | %.2f (%.2f) | %.2f | %.3f (%.3f) | %.2f (%.2f) | %d | %d |\n", name.c_str(),
               asperity::median(rms), *std::max_element(rms.begin(), rms.end()), asperity::median(sigma),
               asperity::median(turn), *std::max_element(turn.begin(), turn.end()), asperity::median(sigma_deg),
               asperity::median(correlation), *std::min_element(correlation.begin(), correlation.end()),
               asperity::median(length), *std::max_element(length.begin(), length.end()), static_cast<int>(listed),
-              static_cast<int>(doubted) + seeds - static_cast<int>(figures.size()));
+              static_cast<int>(doubted) + seeds - static_cast<int>(metrics.size()));
   std::fflush(stdout);
 }
 
@@ -153,15 +154,15 @@ void run(const Options& options) {
   for (const std::string& surface : options.surfaces) {
     for (const PathChoice& path : paths) {
       const std::string name = surface + " | " + path.name;
-      std::vector<Figures> figures;
+      std::vector<PoseMetrics> metrics;
       for (int seed = 1; seed <= options.seeds; ++seed) {
         asperity::PebbleConfig pebble;
         pebble.seed = seed;
-        const auto one = measure(options, given ? *given : asperity::make_pebble(pebble), surface, path, seed);
+        const auto one = measure_pose(options, given ? *given : asperity::make_pebble(pebble), surface, path, seed);
         if (one && options.each) print_row(name + ", seed " + std::to_string(seed), {*one}, 1);
-        if (one) figures.push_back(*one);
+        if (one) metrics.push_back(*one);
       }
-      print_row(name, figures, options.seeds);
+      print_row(name, metrics, options.seeds);
     }
   }
 }
@@ -170,7 +171,7 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   try {
-    run(parse(argc, argv));
+    run(parse_options(argc, argv));
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "mesh_accuracy: %s\n", error.what());

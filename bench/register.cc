@@ -40,7 +40,7 @@ struct Options {
   double turn_rad = 5.0 * std::numbers::pi / 180.0;
 };
 
-Options parse(int argc, char** argv) {
+Options parse_options(int argc, char** argv) {
   Options out;
   bench::read_options(
       argc, argv,
@@ -264,7 +264,7 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   try {
-    run(parse(argc, argv));
+    run(parse_options(argc, argv));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "register_bench: %s\n", error.what());
     return 1;

@@ -63,7 +63,7 @@ void time_pass(const std::vector<Vector3d>& path, Start start, Step step, Timing
   timing.most_us.push_back(*std::max_element(us.begin(), us.end()));
 }
 
-void print(const char* name, std::size_t triangles, double tip_m, const Timing& timing) {
+void print_timing(const char* name, std::size_t triangles, double tip_m, const Timing& timing) {
   std::printf("%-28s %9zu %5.1f %12.0f %8.2f %8.2f %9.1f\n", name, triangles, 1e3 * tip_m, quantile(timing.rate, 0.5),
               quantile(timing.p50_us, 0.5), quantile(timing.p99_us, 0.5), quantile(timing.most_us, 0.5));
   std::fflush(stdout);
@@ -73,7 +73,7 @@ void judge_god_object(const TriangleMesh& mesh, const MeshBvh& bvh, const std::v
   bench::GodObject god(mesh, bvh);
   asperity::testkit::ProxyJudge judge(mesh, bvh, {0.0, bench::kDepth_m, true});
   for (const Vector3d& p : path) judge.tick(p, god.step(p));
-  const auto f = judge.figures();
+  const auto f = judge.statistics();
   std::printf(
       "  the god object in %.0f s: %zu stuck events, %zu pop-throughs, lag up to %.2f mm, %zu frozen ticks, error "
       "%.0f mN RMS, steps of up to %.0f um too much\n",
@@ -123,9 +123,9 @@ void bench_mesh(int frequency, int repetitions) {
       embree.rate.push_back(static_cast<double>(path.size()) / (cpu_s() - begin_s));
 #endif
     }
-    print("render_step", mesh.triangles.size(), tip_m, ours);
+    print_timing("render_step", mesh.triangles.size(), tip_m, ours);
     if (tip_m == 0.0) {
-      print("god object", mesh.triangles.size(), tip_m, god_timing);
+      print_timing("god object", mesh.triangles.size(), tip_m, god_timing);
       if (!embree.rate.empty()) {
         std::printf("%-28s %9zu %5.1f %12.0f\n", "Embree's closest point alone", mesh.triangles.size(), 0.0,
                     quantile(embree.rate, 0.5));

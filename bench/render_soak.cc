@@ -72,7 +72,7 @@ void soak(const TriangleMesh& mesh, const MeshBvh& bvh, double tip_m, double spe
     }
     proxy_m = out.proxy_m;
   }
-  const testkit::ProxyFigures f = judge.figures();
+  const testkit::ProxyStatistics f = judge.statistics();
   const double count = static_cast<double>(std::max<std::size_t>(pressed, 1));
   const double rms_N = std::sqrt(error2 / count);
   std::printf("%8zu %4.1f %4.0f %-3s %5zu %4zu %6zu %6.3f %6.2f %9.1e", mesh.triangles.size(), 1e3 * tip_m,

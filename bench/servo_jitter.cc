@@ -17,7 +17,7 @@ namespace {
 
 using asperity::Error;
 
-void measure(const char* name, double seconds, double rate_Hz, double spin_s) {
+void measure_jitter(const char* name, double seconds, double rate_Hz, double spin_s) {
   const asperity::ServoStatistics s = asperity::stroke_plate(seconds, rate_Hz, spin_s);
   std::printf("%-11s %8llu %8llu %8llu %6llu %9.2f %9.2f %9.2f %9.2f %9.2f %9.2f  %s\n", name,
               static_cast<unsigned long long>(s.ticks), static_cast<unsigned long long>(s.overruns),
@@ -42,8 +42,8 @@ int main(int argc, char** argv) {
     const asperity::ServoConfig defaults;
     std::printf("%g s at %g Hz; times in µs\n%-11s %8s %8s %8s %6s %9s %9s %9s %9s %9s %9s\n", seconds, rate_Hz, "",
                 "ticks", "overruns", "skipped", "lost", "late p50", "p99", "max", "step p50", "p99", "max");
-    measure("sleep", std::max(seconds / 5.0, 1.0), rate_Hz, 0.0);
-    measure("sleep+spin", seconds, rate_Hz, defaults.spin_s);
+    measure_jitter("sleep", std::max(seconds / 5.0, 1.0), rate_Hz, 0.0);
+    measure_jitter("sleep+spin", seconds, rate_Hz, defaults.spin_s);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "servo_jitter: %s\n", e.what());
     return 1;

@@ -101,7 +101,7 @@ void print_series(const Texture& texture, const Fourier1d& f) {
     const double x_m = random.uniform(-0.02, 0.02);
     const Exact e = exact(f, x_m);
     const HeightAndGradient h = render_height(t, x_m, 0.0);
-    height = std::max(height, std::abs(static_cast<double>(h.height_m - t.lift_m - e.height)));
+    height = std::max(height, std::abs(static_cast<double>(h.height_m - t.height_offset_m - e.height)));
     slope = std::max(slope, std::abs(static_cast<double>(h.slope_x - e.slope)));
     rms += std::pow(static_cast<double>(e.height), 2) / places;
     slope_rms += std::pow(static_cast<double>(e.slope), 2) / places;

@@ -73,9 +73,9 @@ function(asperity_precompile target)
   target_precompile_headers(${target} REUSE_FROM asperity_precompiled)
 endfunction()
 
-# asperity_test_program(target): flags, GoogleTest and the precompiled headers of a test program. Tests are compiled with -O1:
-# what they call is not.
-function(asperity_test_program target)
+# asperity_small_program(target): the flags and precompiled headers of tests, for programs beside the product. They are
+# compiled with -O1: what they call is not.
+function(asperity_small_program target)
   if(NOT TARGET asperity_test_precompiled)
     file(WRITE "${CMAKE_BINARY_DIR}/test_precompiled.cc" "")
     add_library(asperity_test_precompiled OBJECT "${CMAKE_BINARY_DIR}/test_precompiled.cc")
@@ -85,12 +85,18 @@ function(asperity_test_program target)
     set_target_properties(asperity_test_precompiled PROPERTIES POSITION_INDEPENDENT_CODE OFF)
     target_precompile_headers(asperity_test_precompiled PRIVATE ${ASPERITY_STANDARD_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
   endif()
-  target_link_libraries(${target} PRIVATE asperity_flags GTest::gmock GTest::gtest_main)
+  target_link_libraries(${target} PRIVATE asperity_flags)
   target_compile_features(${target} PRIVATE cxx_std_20)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   # The precompiled headers are of an object library; a program's flags for position-independent code differ from a library's.
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF UNITY_BUILD OFF)
   target_precompile_headers(${target} REUSE_FROM asperity_test_precompiled)
+endfunction()
+
+# asperity_test_program(target): asperity_small_program with GoogleTest.
+function(asperity_test_program target)
+  asperity_small_program(${target})
+  target_link_libraries(${target} PRIVATE GTest::gmock GTest::gtest_main)
 endfunction()
 
 # asperity_optimise_fully(target): -O3 in release builds, where a measurement shows that it pays (docs/performance.md).
@@ -185,6 +191,8 @@ function(add_asperity_fuzzer name source)
       target_compile_features(asperity_replay_corpus PRIVATE cxx_std_20)
     endif()
     target_link_libraries(fuzz_${name} PRIVATE asperity_replay_corpus)
+    asperity_small_program(fuzz_${name})
+    target_compile_definitions(fuzz_${name} PRIVATE GTEST_HAS_PTHREAD=1)  # as in what was precompiled
     add_test(NAME fuzz_replay.${name}
              COMMAND fuzz_${name} ${CMAKE_CURRENT_SOURCE_DIR}/corpus/${name})
     set_tests_properties(fuzz_replay.${name} PROPERTIES TIMEOUT 120)

@@ -66,7 +66,7 @@ int main(int argc, char** argv) try {
   const asperity::RegisteredScan& on_mesh = result.scans.front();
   const asperity::PoseError error = asperity::pose_error(result.registration, truth, on_mesh.path.p_mesh_m);
   std::printf("moved        %.2f mm from the truth, expected %.2f\n", 1e3 * error.rms_m, 1e3 * error.sigma_m);
-  std::printf("turned       %.2f degrees, expected %.2f\n", error.turn_rad * 180.0 / std::numbers::pi,
+  std::printf("turned       %.2f degrees, expected %.2f\n", error.rotation_rad * 180.0 / std::numbers::pi,
               error.sigma_rad * 180.0 / std::numbers::pi);
   std::printf("textured     %zu triangles along %.1f mm\n", result.coordinates.warps.front().triangles,
               1e3 * (on_mesh.path.s_m.back() - on_mesh.path.s_m.front()));

@@ -12,6 +12,7 @@
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
 #include "asperity/session/our_file.h"
+#include "asperity/verdict/verdict_json.h"
 
 namespace asperity::app {
 
@@ -58,20 +59,24 @@ int CalibrateCommand::run(const Observer& observer) {
   if (!output_.empty()) write(before, outcome);
   print_json(report(outcome).dump_repaired(2));
   say(text(outcome));
-  if (outcome.verdict.trustworthy) return kDone;
-  complain(kind_ + ": " + outcome.verdict.text);
-  return kNotTrustworthy;
+  for (const Verdict& verdict : outcome.verdict.verdicts) {
+    if (verdict.severity != Severity::kNote) print_error(kind_ + ": " + verdict_line(verdict));
+  }
+  return outcome.verdict.trustworthy ? kDone : kNotTrustworthy;
 }
 
 void CalibrateCommand::write(const Calibration& before, const CalibrateOutcome& outcome) {
   Calibration calibration = before;
   outcome.store(calibration);
   const Json details = {
-      {"values", outcome.values},       {"stderr", outcome.standard_errors},
-      {"residuals", outcome.residuals}, {"config", config_json(fields())},
+      {"values", outcome.values},
+      {"stderr", outcome.standard_errors},
+      {"residuals", outcome.residuals},
+      {"config", config_json(fields())},
+      {"verdicts", verdicts_json(outcome.verdict.verdicts)},
       {"asperity", kVersion},
   };
-  calibration.calibrated[kind_] = {outcome.verdict.trustworthy, outcome.verdict.text, details.dump_repaired()};
+  calibration.calibrated[kind_] = {outcome.verdict.trustworthy, outcome.verdict.text, details};
   write_calibration(output_, calibration);
 }
 
@@ -85,6 +90,7 @@ Json CalibrateCommand::report(const CalibrateOutcome& outcome) {
   out["residuals"] = outcome.residuals;
   out["trustworthy"] = outcome.verdict.trustworthy;
   out["verdict"] = outcome.verdict.text;
+  out["verdicts"] = verdicts_json(outcome.verdict.verdicts);
   out["notes"] = outcome.notes;
   for (const auto& [key, value] : outcome.details.items()) out[key] = value;
   if (!output_.empty()) out["file"] = output_;
@@ -102,7 +108,11 @@ std::string CalibrateCommand::text(const CalibrateOutcome& outcome) const {
     out += fmt::format("{:<{}} {:>13.7g} {:<12} {}\n", row.name, width, row.value, error, row.unit);
   }
   for (const std::string& note : outcome.notes) out += "note: " + note + "\n";
-  out += (outcome.verdict.trustworthy ? "good: " : "NOT TO BE TRUSTED: ") + outcome.verdict.text + "\n";
+  const std::string_view word = verdict_word(outcome.verdict.verdicts);
+  out += (word == "valid"     ? "good: "
+          : word == "limited" ? "LIMITED: "
+                              : "NOT TO BE TRUSTED: ") +
+         outcome.verdict.text + "\n";
   if (!output_.empty()) out += printable(output_, 200) + ": " + kind_ + " written\n";
   return out;
 }

@@ -37,8 +37,8 @@ class CalibrateLatencyCommand : public CalibrateCommand {
   std::vector<std::string> inputs() const override { return {folder_}; }
 
   CalibrateOutcome calibrate(const Observer& observer) override {
-    Recording recording = read_recording(folder_);
-    if (!calibration_.empty()) recording.calibration = read_calibration(calibration_);
+    Recording recording = read_recording(folder_, {}, observer);
+    if (!calibration_.empty()) recording.calibration = read_calibration(calibration_, {}, observer);
     observer.update("fitting", 0.5);
     return describe(calibrate_latency(recording, config_), recording);
   }

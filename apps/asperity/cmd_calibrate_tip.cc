@@ -22,7 +22,7 @@ class CalibrateTipCommand : public CalibrateCommand {
 
  private:
   CalibrateOutcome calibrate(const Observer& observer) override {
-    const Recording recording = read_recording(recording_);
+    const Recording recording = read_recording(recording_, {}, observer);
     observer.update("fitting", 0.3);
     const TipCalibration tip = calibrate_tip(recording.tracker, recording.calibration.tracker, config_);
     CalibrateOutcome out;
@@ -54,7 +54,10 @@ class CalibrateTipCommand : public CalibrateCommand {
                     tip.used, tip.poses, tip.independent_poses));
     out.notes.emplace_back("the tip is the point that stays in place, the centre of its ball if it has one");
     out.verdict = tip.verdict;
-    out.store = [place_m = tip.tip_in_marker_m](Calibration& calibration) { calibration.tip_in_marker_m = place_m; };
+    out.store = [place_m = tip.tip_in_marker_m, sigma_m = tip.stderr_m](Calibration& calibration) {
+      calibration.tip_in_marker_m = place_m;
+      calibration.tip_sigma_m = sigma_m;
+    };
     return out;
   }
 

@@ -10,7 +10,6 @@
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
 #include "asperity/calibration/calibrate_tracker_noise.h"
-#include "asperity/json/parse_json.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/session/our_file.h"
 #include "calibrate_command.h"
@@ -54,29 +53,6 @@ Json json_of_rest(const StaticInterval& rest) {
           {"rotation", json_of_axes(rest.rotation_rad, "rad")}};
 }
 
-Json json_of_law(const NoiseLaw& law) {
-  return {{"scale", law.scale},
-          {"scale_stderr", law.scale_error},
-          {"distance_power", law.power},
-          {"tilt_power", law.tilt_power},
-          {"tilt_power_stderr", law.tilt_power_error},
-          {"measured_distance_power", law.measured_power},
-          {"measured_distance_power_stderr", law.measured_power_error},
-          {"chi_square", law.chi_square},
-          {"degrees_of_freedom", law.degrees_of_freedom}};
-}
-
-Json json_of_model(const TrackerNoiseModel& model) {
-  return {{"formula", "sigma = scale * (distance / 1 m)^distance_power * cos(tilt)^-tilt_power"},
-          {"position_across_ray_m", json_of_law(model.across_m)},
-          {"position_along_ray_m", json_of_law(model.along_m)},
-          {"rotation_about_ray_rad", json_of_law(model.about_rad)},
-          {"rotation_across_ray_rad", json_of_law(model.tilt_rad)},
-          {"nearest_m", model.nearest_m},
-          {"farthest_m", model.farthest_m},
-          {"steepest_rad", model.steepest_rad}};
-}
-
 class CalibrateTrackerCommand : public CalibrateCommand {
  public:
   explicit CalibrateTrackerCommand(Parser& calibrate)
@@ -95,7 +71,7 @@ class CalibrateTrackerCommand : public CalibrateCommand {
     std::vector<Recording> recordings;
     for (const std::string& folder : folders_) {
       observer.update("reading", static_cast<double>(recordings.size()) / static_cast<double>(folders_.size()));
-      recordings.push_back(read_recording(folder));
+      recordings.push_back(read_recording(folder, {}, observer));
     }
     std::vector<StaticTracker> trackers;
     for (std::size_t i = 0; i < recordings.size(); ++i) {
@@ -123,7 +99,7 @@ class CalibrateTrackerCommand : public CalibrateCommand {
     Json rests = Json::array();
     for (const StaticInterval& rest : noise.rests) rests.push_back(json_of_rest(rest));
     out.details = {{"gaussian", noise.gaussian}, {"moving", noise.moving}, {"rests", rests}};
-    out.details["model"] = noise.model ? json_of_model(*noise.model) : Json(nullptr);
+    out.details["model"] = noise.model ? noise_model_json(*noise.model) : Json(nullptr);
     constexpr double kMilli = 1e3;
     for (int axis = 0; axis < 3; ++axis) {
       out.table.push_back({fmt::format("position {}", "xyz"[axis]), kMilli * noise.sigma_position_m[axis],
@@ -158,10 +134,9 @@ class CalibrateTrackerCommand : public CalibrateCommand {
     out.store = [noise](Calibration& calibration) {
       calibration.tracker.sigma_position_m = noise.sigma_position_m;
       calibration.tracker.sigma_rotation_rad = noise.sigma_rotation_rad;
-      Json extra = parse_json(calibration.extra_json.empty() ? "{}" : calibration.extra_json);
-      extra.erase("tracker_noise_model");  // of an earlier calibration, with other figures
-      if (noise.model) extra["tracker_noise_model"] = json_of_model(*noise.model);
-      calibration.extra_json = extra.dump();
+      calibration.tracker.noise_model = noise.model;
+      if (!noise.moving) calibration.tracker.slow_sigma_m = noise.slow_position_m;
+      calibration.extra.erase("tracker_noise_model");  // of another form than ours, with other figures
     };
     return out;
   }

@@ -58,21 +58,21 @@ class CheckRigCommand : public Command {
     if (recordings_.empty()) throw UsageError("REC: no recording is given");
     if (!output_.empty()) refuse_stranger(output_, begins_as_rig_check, recordings_);
     std::vector<NamedRecording> strokes;
-    for (const std::string& path : recordings_) add_strokes(path, strokes);
+    for (const std::string& path : recordings_) add_strokes(path, strokes, observer);
     const RigCheck check = check_rig(strokes, config_, observer);
     const std::string json = rig_check_json(check, config_);
     if (!output_.empty()) write_file(output_, json + "\n");
     print_json(json);
     say(rig_check_text(check, config_));
     if (check.right) return kDone;
-    complain("check-rig: " + check.verdict);
+    print_error("check-rig: " + check.verdict);
     return kNotTrustworthy;
   }
 
  private:
-  static void add_strokes(const std::string& path, std::vector<NamedRecording>& strokes) {
+  static void add_strokes(const std::string& path, std::vector<NamedRecording>& strokes, const Observer& observer) {
     constexpr std::size_t kMost = 1000;
-    Recording recording = read_recording(path);
+    Recording recording = read_recording(path, {}, observer);
     const std::vector<Segment> pieces = separate_segments(recording);
     const std::string name = printable(path, 200);
     if (pieces.size() + strokes.size() >= kMost) throw Error(name + ": more than 1000 strokes");

@@ -19,8 +19,8 @@
 #include "asperity/simulation/simulate_recording.h"
 #include "commands.h"
 #include "demo_feel.h"
-#include "demo_figure.h"
 #include "demo_mesh.h"
+#include "demo_metric.h"
 #include "demo_scanner.h"
 
 namespace asperity::app {
@@ -64,38 +64,38 @@ std::vector<Scan> make_scans(bool full) {
   return scans;
 }
 
-std::vector<DemoFigure> compare(const Scan& scan, const Recording& recording, const ProcessResult& result,
-                                const ProcessConfig& config) {
+std::vector<DemoMetric> compare_scan(const Scan& scan, const Recording& recording, const ProcessResult& result,
+                                     const ProcessConfig& config) {
   const Profile truth = true_profile(*recording.truth, config.profile);
   const Periodicity pattern = find_periodicity(truth.texture_m, truth.spacing_m, config.periodicity);
   const RoughnessResult roughness = measure_roughness(truth.texture_m, truth.spacing_m, config.roughness);
-  std::vector<DemoFigure> figures;
+  std::vector<DemoMetric> metrics;
   if (pattern.periodic) {
-    figures.push_back({"pitch_m", "pitch", "mm", 1e3, result.periodicity.pitch_m, result.periodicity.pitch_stderr_m,
-                       DemoFigure::kNone, scan.simulation.surface.pitch_m});
-    figures.push_back({"depth_m", "depth", "µm", 1e6, result.periodicity.depth_m, result.periodicity.depth_stderr_m,
-                       DemoFigure::kNone, pattern.depth_m});
+    metrics.push_back({"pitch_m", "pitch", "mm", 1e3, result.periodicity.pitch_m, result.periodicity.pitch_stderr_m,
+                       DemoMetric::kNone, scan.simulation.surface.pitch_m});
+    metrics.push_back({"depth_m", "depth", "µm", 1e6, result.periodicity.depth_m, result.periodicity.depth_stderr_m,
+                       DemoMetric::kNone, pattern.depth_m});
   }
-  figures.push_back({"Rq_m", "Rq", "µm", 1e6, result.roughness ? result.roughness->Rq_m : DemoFigure::kNone,
-                     DemoFigure::kNone, DemoFigure::kNone, roughness.Rq_m});
+  metrics.push_back({"Rq_m", "Rq", "µm", 1e6, result.roughness ? result.roughness->Rq_m : DemoMetric::kNone,
+                     DemoMetric::kNone, DemoMetric::kNone, roughness.Rq_m});
   const StiffnessEstimate& stiffness = result.stiffness;
   const double k_N_per_m = scan.simulation.contact.stiffness_N_per_m;
   if (stiffness.measured) {
-    figures.push_back({"stiffness_N_per_m", "contact stiffness", "N/mm", 1e-3, 1e3 * stiffness.stiffness_N_per_mm,
-                       1e3 * stiffness.stiffness_stderr_N_per_mm, DemoFigure::kNone, k_N_per_m});
+    metrics.push_back({"stiffness_N_per_m", "contact stiffness", "N/mm", 1e-3, 1e3 * stiffness.stiffness_N_per_mm,
+                       1e3 * stiffness.stiffness_stderr_N_per_mm, DemoMetric::kNone, k_N_per_m});
   } else {
-    figures.push_back({"stiffness_N_per_m", "contact stiffness", "N/mm", 1e-3, DemoFigure::kNone, DemoFigure::kNone,
+    metrics.push_back({"stiffness_N_per_m", "contact stiffness", "N/mm", 1e-3, DemoMetric::kNone, DemoMetric::kNone,
                        1e3 * stiffness.lower_bound_N_per_mm, k_N_per_m});
   }
   if (result.accuracy && result.accuracy->profile) {
-    figures.push_back({"correlation", "correlation", "", 1.0, result.accuracy->profile->correlation, DemoFigure::kNone,
-                       DemoFigure::kNone, 1.0});
-    figures.push_back(
-        {"gain", "gain", "", 1.0, result.accuracy->profile->gain, DemoFigure::kNone, DemoFigure::kNone, 1.0});
-    figures.push_back({"length_error", "length error", "%", 1e2, 1e-2 * result.accuracy->profile->length_error_percent,
-                       DemoFigure::kNone, DemoFigure::kNone, 0.0});
+    metrics.push_back({"correlation", "correlation", "", 1.0, result.accuracy->profile->correlation, DemoMetric::kNone,
+                       DemoMetric::kNone, 1.0});
+    metrics.push_back(
+        {"gain", "gain", "", 1.0, result.accuracy->profile->gain, DemoMetric::kNone, DemoMetric::kNone, 1.0});
+    metrics.push_back({"length_error", "length error", "%", 1e2, 1e-2 * result.accuracy->profile->length_error_percent,
+                       DemoMetric::kNone, DemoMetric::kNone, 0.0});
   }
-  return figures;
+  return metrics;
 }
 
 class DemoCommand : public Command {
@@ -130,11 +130,11 @@ class DemoCommand : public Command {
       write_recording(recording_folder, recording);
       const ProcessResult result = process_recording(recording, config_, observer);
       write_result(result_folder, result, recording, scan.name);
-      const std::vector<DemoFigure> figures = compare(scan, recording, result, config_);
-      out["surfaces"][scan.name] = figures_json(figures);
+      const std::vector<DemoMetric> metrics = compare_scan(scan, recording, result, config_);
+      out["surfaces"][scan.name] = metrics_json(metrics);
       text += scan.title + "\n";
-      for (const DemoFigure& figure : figures) text += figure_line(figure);
-      if (!result.trustworthy) complain(scan.name + ": not to be trusted: " + result.verdict);
+      for (const DemoMetric& metric : metrics) text += metric_line(metric);
+      if (!result.verdict.empty()) print_error(scan.name + ": " + result.verdict);
       trustworthy &= result.trustworthy;
       if (scan.name == "protoboard") {
         protoboard = result;
@@ -146,18 +146,18 @@ class DemoCommand : public Command {
     const MeshDemo mesh = demonstrate_mesh(folder.path(), config_, *protoboard->texture, observer);
     out["mesh"] = mesh.json;
     text += mesh.text;
-    if (!mesh.trustworthy) complain("pebble: not to be trusted: " + mesh.verdict);
+    if (!mesh.verdict.empty()) print_error("pebble: " + mesh.verdict);
     trustworthy &= mesh.trustworthy;
     const FeelDemo felt = demonstrate_feel(folder.path(), *protoboard, true_pitch_m, observer);
     out["feel"] = felt.json;
     text += felt.text;
-    if (!felt.trustworthy) complain("feel: not to be trusted: " + felt.verdict);
+    if (!felt.trustworthy) print_error("feel: invalid: " + felt.verdict);
     trustworthy &= felt.trustworthy;
     if (full_) {
       const ScannerDemo scanner = demonstrate_scanner(folder.path() / "scanner", config_, observer);
       out["scanner"] = scanner.json;
       text += scanner.text;
-      if (!scanner.trustworthy) complain("scanner: not to be trusted: " + scanner.verdict);
+      if (!scanner.trustworthy) print_error("scanner: invalid: " + scanner.verdict);
       trustworthy &= scanner.trustworthy;
     }
     const std::string json = out.dump_repaired(2);

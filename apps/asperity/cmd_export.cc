@@ -55,7 +55,7 @@ class ExportCommand : public Command {
     }
     OutputFolder folder(target, is_our_folder);
     observer.update("reading", 0.0);
-    Scene scene = read_export_source(source_);
+    Scene scene = read_export_source(source_, observer);
     if (!mesh_unit_.empty()) {
       if (fs::path(source_).extension() == ".json" || fs::is_directory(source_))
         throw UsageError("--mesh-unit: the scene says what its unit is");

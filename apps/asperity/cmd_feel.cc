@@ -133,7 +133,7 @@ class FeelCommand : public Command {
     std::optional<OutputFolder> folder;
     if (!output_.empty()) folder.emplace(output_, is_our_folder);
     observer.update("reading", 0.0);
-    const Scene scene = read_scene_input();
+    const Scene scene = read_scene(observer);
     FeelDrive drive;
     if (!replay_.empty()) {
       drive = read_drive(replay_, mapped_, scene, settings_, observer);
@@ -148,22 +148,22 @@ class FeelCommand : public Command {
     warn_of(drive.problems);
     const std::unique_ptr<HapticDevice> device = open_device(device_, drive, settings_);
     observer.update("scene", 0.0);
-    FeltModel felt = make_felt_model(scene, device->info(), kind_.driven(), settings_);
-    warnings_ = felt.warnings;
-    SnapshotExchange<const RenderModel> model(std::move(felt.model));
+    PreparedModel prepared = prepare_render_model(scene, device->info(), kind_.driven(), settings_);
+    warnings_ = prepared.warnings;
+    SnapshotExchange<const RenderModel> model(std::move(prepared.model));
     const fs::path log = !log_.empty() ? fs::path(log_) : folder ? folder->path() / "log.csv" : fs::path();
     const ServoResult servo = feel(*device, model, log, observer);
-    const RunVerdict run = judge_run(figures_, servo, *device, drive, *model.acquire(), settings_.servo.safety);
+    const RunVerdict run = judge_run(statistics_, servo, *device, drive, *model.acquire(), settings_.servo.safety);
     warnings_.insert(warnings_.end(), run.warnings.begin(), run.warnings.end());
     warnings_.insert(warnings_.end(), notes_.begin(), notes_.end());
-    for (const std::string& doubt : run.doubts) distrust(doubt);
+    for (const std::string& reason : run.reasons) add_reason(reason);
     std::optional<RenderingScore> score;
     const bool whole = device_ != "sim" && !(settings_.servo.duration_s > 0.0) && servo.end == ServoEnd::kDeviceEnded;
     if (drive.scan && !whole) warnings_.push_back("real and rendered are compared over a whole replay only");
     if (drive.scan && whole) {
       score = score_rendering(drive.scan->measured, drive.scan->pressed, *model.acquire(), settings_.servo.rate_Hz,
                               settings_.score, observer);
-      if (!score->trustworthy) distrust("real against rendered: " + score->verdict);
+      if (!score->trustworthy) add_reason("real against rendered: " + score->verdict);
     }
     const std::string json = to_json(servo, *device, score).dump_repaired(2);
     if (folder) {
@@ -178,9 +178,9 @@ class FeelCommand : public Command {
   }
 
  private:
-  Scene read_scene_input() {
+  Scene read_scene(const Observer& observer) {
     try {
-      return read_felt_scene(input_, settings_);
+      return read_scene_input(input_, settings_, observer);
     } catch (const WrongUnit& error) {
       throw UsageError(std::string("--mesh-unit: ") + error.what());
     }
@@ -214,7 +214,7 @@ class FeelCommand : public Command {
     if (mapped_ && replay_.empty()) throw UsageError("--mapped needs --replay");
     if (from_.empty() != to_.empty()) throw UsageError("--from and --to belong together");
     if (!from_.empty() && (!kind_.driven() || !replay_.empty())) throw UsageError("--from: no hand is modelled");
-    if (kind_.felt) settings_.servo.paced = true;
+    if (kind_.has_person) settings_.servo.paced = true;
   }
 
   static std::optional<Eigen::Vector3d> point(const std::string& option, const std::string& text) {
@@ -231,11 +231,11 @@ class FeelCommand : public Command {
     if (kind_.driven()) config.duration_s = 0.0;  // the path has it: no ramp follows
     const double whole_s = settings_.servo.duration_s;
     std::optional<ForceHold> hold;
-    if (kind_.felt) hold.emplace();
+    if (kind_.has_person) hold.emplace();
     ServoResult servo = run_servo(device, model, config, interrupt_flag(), [&](const ServoTick& tick) {
-      figures_.add(tick);
+      statistics_.add(tick);
       if (rows) rows->add(tick);
-      if (!config.paced && figures_.ticks() % 4096 == 0) {
+      if (!config.paced && statistics_.ticks() % 4096 == 0) {
         observer.update("feeling", whole_s > 0.0 ? 1e-9 * static_cast<double>(tick.t_ns) / whole_s : 0.0);
       }
     });
@@ -260,7 +260,7 @@ class FeelCommand : public Command {
     }
   }
 
-  void distrust(const std::string& why) { verdict_ += (verdict_.empty() ? "" : "; ") + why; }
+  void add_reason(const std::string& why) { verdict_ += (verdict_.empty() ? "" : "; ") + why; }
 
   void warn_of(const Problems& problems) {
     for (const Problem& problem : problems) notes_.push_back(problem.message);
@@ -277,8 +277,8 @@ class FeelCommand : public Command {
     if (!log_.empty()) out["log"] = log_;
     out["end"] = kEndNames.at(static_cast<std::size_t>(servo.end));
     out["rate_Hz"] = settings_.servo.rate_Hz;
-    out["duration_s"] = static_cast<double>(figures_.ticks()) / settings_.servo.rate_Hz;
-    out.update(figures_.json());
+    out["duration_s"] = static_cast<double>(statistics_.ticks()) / settings_.servo.rate_Hz;
+    out.update(statistics_.json());
     out["limited_ticks"] = servo.statistics.limited_ticks;
     out["dissipated_J"] = servo.statistics.dissipated_J;
     if (settings_.servo.paced || settings_.servo.timed) {
@@ -295,18 +295,18 @@ class FeelCommand : public Command {
 
   void report(const ServoResult& servo, const std::optional<RenderingScore>& score) {
     std::string text = fmt::format("{:<10} {:.2f} s at {} Hz\n", device_,
-                                   static_cast<double>(figures_.ticks()) / settings_.servo.rate_Hz,
+                                   static_cast<double>(statistics_.ticks()) / settings_.servo.rate_Hz,
                                    number_text(settings_.servo.rate_Hz));
-    text += figures_.text();
+    text += statistics_.text();
     if (settings_.servo.paced || settings_.servo.timed) text += timing_text(servo.statistics, settings_.servo);
     if (score) text += score_text(*score);
     if (!log_.empty()) text += "log        " + printable(log_, 200) + "\n";
     if (!output_.empty()) text += "result in " + printable(output_, 200) + "\n";
     say(text);
     if (!quiet()) {
-      for (const std::string& warning : warnings_) complain(warning);
+      for (const std::string& warning : warnings_) print_error(warning);
     }
-    if (!verdict_.empty()) complain("not to be trusted: " + verdict_);
+    if (!verdict_.empty()) print_error("invalid: " + verdict_);
   }
 
   std::string device_, replay_, rate_, log_, duration_, tip_, model_, stiffness_, friction_;
@@ -316,7 +316,7 @@ class FeelCommand : public Command {
   SceneInput input_;
   DeviceKind kind_;
   FeelSettings settings_;
-  FeelFigures figures_;
+  FeelStatistics statistics_;
   std::vector<std::string> warnings_, notes_;
   std::string verdict_;
 };

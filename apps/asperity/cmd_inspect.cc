@@ -20,10 +20,10 @@ class InspectCommand : public Command {
   std::vector<ConfigField> fields() override { return list_fields("inspect", config_); }
 
   int run(const Observer& observer) override {
-    const Recording recording = read_recording(recording_);
+    const Recording recording = read_recording(recording_, {}, observer);
     observer.update("inspecting", 0.5);
     const Inspection inspection = inspect_recording(recording, config_);
-    print_json(inspection_json(inspection));
+    print_json(inspection_json(inspection).dump(2));
     say(inspection_text(inspection));
     return kDone;
   }

@@ -71,7 +71,7 @@ class MarkersDetectCommand : public Command {
     const Json out{{"format", "asperity-markers-detect"}, {"version", 1}, {"family", family_}, {"images", images}};
     print_json(out.dump_repaired(2));
     say(text);
-    if (found == 0) complain("no marker of " + printable(family_) + " was found");
+    if (found == 0) print_error("no marker of " + printable(family_) + " was found");
     return found == 0 ? kNotTrustworthy : kDone;
   }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/json/json.h"
@@ -13,13 +14,36 @@
 #include "asperity/printing/marker_sheets.h"
 #include "asperity/recording/format_recording.h"
 #include "asperity/session/our_file.h"
+#include "asperity/tracking/aruco_dictionary.h"
+#include "asperity/tracking/detect_tags.h"
 #include "commands.h"
-#include "marker_family.h"
 #include "option_units.h"
 
 namespace asperity::app {
 
 namespace {
+
+namespace fs = std::filesystem;
+
+// The pictures of a family by its name (asperity/tracking/detect_tags.h). Throws Error for one that is not known.
+TagFamily open_family(const std::string& name) {
+  const std::shared_ptr<TagDetector> detector = make_tag_detector(name);
+  return {name, [detector](int id) { return detector->pattern(id); }};
+}
+
+// The name of `family` in a markers.json in `folder`: a dictionary's file is named from there. Throws Error if it does
+// not lie in that folder or one within, for a body's file reaches no other.
+std::string family_beside(const std::string& family, const fs::path& folder) {
+  const std::string file = aruco_file(family);
+  if (file.empty()) return family;
+  const fs::path inner =
+      fs::weakly_canonical(file).lexically_relative(fs::weakly_canonical(folder.empty() ? "." : folder));
+  if (inner.empty() || *inner.begin() == "..") {
+    throw Error("--markers: the dictionary " + printable(file, 200) +
+                " does not lie beside the body's file: put it there");
+  }
+  return "aruco:" + inner.generic_string();
+}
 
 constexpr std::string_view kPdfHeader = "%PDF-1.7\n%asperity\n";
 

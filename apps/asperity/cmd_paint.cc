@@ -70,9 +70,9 @@ class PaintCommand : public Command {
     if (picks.size() < 2) throw UsageError("--through: at least two points x,y,z are needed, with ; between");
     OutputFolder folder(output_, is_our_folder);
     observer.update("reading", 0.0);
-    Scene scene = read(unit_m);
+    Scene scene = read(unit_m, observer);
     SceneObject& object = scene.objects.front();
-    const SceneTexture texture = choose_texture(scene, texture_, index_);
+    const SceneTexture texture = choose_texture(scene, texture_, index_, observer);
 
     observer.update("painting", 0.0);
     const PaintResult result = paint(object, picks, texture, settings_.coordinates);
@@ -88,9 +88,9 @@ class PaintCommand : public Command {
   }
 
  private:
-  Scene read(double unit_m) const {
+  Scene read(double unit_m, const Observer& observer) const {
     try {
-      return read_painted_scene(mesh_, mesh_unit_.empty() ? std::nullopt : std::optional(unit_m));
+      return read_painted_scene(mesh_, mesh_unit_.empty() ? std::nullopt : std::optional(unit_m), observer);
     } catch (const WrongUnit& error) {
       throw UsageError(std::string("--mesh-unit: ") + error.what());
     }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -10,19 +11,107 @@
 
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
-#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/process_recording.h"
+#include "asperity/pipeline/process_result.h"
+#include "asperity/pipeline/result_json.h"
 #include "asperity/pipeline/write_result.h"
+#include "asperity/profile/stiffness_of_compliance.h"
 #include "asperity/recording/cut_recording.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/studio/measured_block.h"
 #include "asperity/studio/write_report.h"
 #include "commands.h"
-#include "result_summary.h"
 
 namespace asperity::app {
 
 namespace {
+
+// "verdict  valid", or a line for each verdict.
+std::string verdict_lines(const Verdicts& verdicts) {
+  if (verdicts.empty()) return "  verdict     valid\n";
+  std::string out;
+  for (const Verdict& verdict : verdicts)
+    out += (out.empty() ? "  verdict     " : "              ") + verdict_line(verdict) + "\n";
+  return out;
+}
+
+// A value and its standard error to so many decimals; words where one of them is missing.
+std::string with_error(double value, double error, int decimals) {
+  if (!std::isfinite(value)) return "not determined";
+  if (!std::isfinite(error)) return fmt::format("{:.{}f}", value, decimals);
+  return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);
+}
+
+// A few lines for a person on what was measured.
+std::string result_summary(const ProcessResult& result) {
+  const auto shape = kPathShapeNames.at(static_cast<std::size_t>(result.base.shape));
+  const double length_stderr_mm = 1e3 * result.noise.length_stderr_m;
+  std::string out = fmt::format("  scan path   {} mm on a {}, {:.0f} % with heights, {:.1f} mm/s\n",
+                                with_error(1e3 * result.coverage.length_m, length_stderr_mm, 2), shape,
+                                100.0 * result.coverage.covered, result.speed.mean_mps * 1e3);
+  if (std::isfinite(result.noise.snr)) {
+    out += fmt::format("  noise       {:.2g} ± {:.1g} µm RMS in the texture, signal to noise {:.3g} (power)\n",
+                       1e6 * result.noise.noise_rms_m, 1e6 * result.noise.noise_rms_stderr_m, result.noise.snr);
+  }
+  if (result.roughness) {
+    const RoughnessResult& r = *result.roughness;
+    const auto um = [&](double RoughnessParameters::*value) {
+      return with_error(1e6 * (r.*value), 1e6 * (r.standard_error.*value), 1) + " µm";
+    };
+    if (std::isfinite(r.Rq_m)) {
+      out += fmt::format("  roughness   Ra {}, Rq {}, Rz {}, RSm {} mm\n", um(&RoughnessParameters::Ra_m),
+                         um(&RoughnessParameters::Rq_m), um(&RoughnessParameters::Rz_m),
+                         with_error(1e3 * r.RSm_m, 1e3 * r.standard_error.RSm_m, 3));
+    } else {
+      out += fmt::format(
+          "  roughness   not determined: the texture does not stand out of its noise; Rq is at most {:.2g} µm\n",
+          1e6 * result.noise.at_most_m);
+    }
+  }
+  if (result.periodicity.periodic) {
+    const Periodicity& p = result.periodicity;
+    out += fmt::format("  pattern     pitch {} mm, depth {} µm over {} periods\n",
+                       with_error(p.pitch_m * 1e3, p.pitch_stderr_m * 1e3, 3),
+                       with_error(p.depth_m * 1e6, p.depth_stderr_m * 1e6, 0), p.periods);
+  }
+  if (result.stiffness.measured) {
+    const StiffnessEstimate& s = result.stiffness;
+    out += fmt::format("  stiffness   {:.3g} N/mm, 95 %: {:.3g} to {:.3g}\n", s.stiffness_N_per_mm,
+                       s.lower_bound_N_per_mm, s.upper_bound_N_per_mm);
+  } else if (!result.stiffness.verdict.empty()) {
+    out += "  stiffness   " + result.stiffness.verdict + "\n";
+  }
+  if (result.compliance.determined) {
+    const Compliance& c = result.compliance;
+    out += fmt::format(
+        "  compliance  k_c {:.3f} ± {:.3f}, 95 %: {:.3f} to {:.3f}, from {} windows of {:.2g} to {:.2g} N\n", c.k_c,
+        c.k_c_stderr, c.k_c_low, c.k_c_high, c.windows.size(), c.lightest_N, c.firmest_N);
+    if (const auto k = stiffness_of_compliance(c); k && std::isfinite(k->high_N_per_mm) && !result.stiffness.measured) {
+      out += fmt::format("              by the chart {:.2g} N/mm, 95 %: {:.2g} to {:.2g}\n", k->stiffness_N_per_mm,
+                         k->low_N_per_mm, k->high_N_per_mm);
+    }
+  } else if (!result.compliance.verdict.empty()) {
+    out += "  compliance  " + result.compliance.verdict + "\n";
+  }
+  if (result.fit) {
+    out += fmt::format("  texture     {:.4g} mm, {} harmonics, {:.1f} µm RMS, model error {:.1f} µm\n",
+                       result.fit->texture.length_mm, result.fit->texture.a_m.size(), result.fit->rms_height_m * 1e6,
+                       result.fit->rms_error_m * 1e6);
+  }
+  if (result.accuracy) {
+    const Accuracy& a = *result.accuracy;
+    out += fmt::format("  truth       position {:.0f} µm RMS (raw tracker {:.0f} µm)", a.position_rms_m * 1e6,
+                       a.tracker_rms_m * 1e6);
+    if (a.profile) {
+      out += fmt::format(", profile: correlation {:.3f}, gain {:.3f}, {:.1f} µm RMS, length {:+.2f} %",
+                         a.profile->correlation, a.profile->gain, a.profile->rms_um, a.profile->length_error_percent);
+    }
+    out += "\n";
+  }
+  out += verdict_lines(result.verdicts);
+  for (const Problem& problem : result.problems) out += "  note        " + problem.message + "\n";
+  return out;
+}
 
 namespace fs = std::filesystem;
 
@@ -42,7 +131,9 @@ class ProcessCommand : public Command {
                                 "OUT/SEGMENT/ or OUT/NAME/SEGMENT/ each"));
     require(parser().add_option("-o,--output", output_, "Folder of the results"))->type_name("OUT");
     parser().add_option("--segment", segment_, "Only this segment of each recording")->type_name("NAME");
-    parser().add_option("--method", method_, "fused (ours, the default) or thesis (the baseline)")->type_name("NAME");
+    parser()
+        .add_option("--method", method_, "The first is the default: " + ProcessMethods::describe())
+        ->type_name("NAME");
   }
 
   std::vector<ConfigField> fields() override { return list_fields("", config_); }
@@ -73,10 +164,10 @@ class ProcessCommand : public Command {
     observer.update("writing", 1.0);
     if (!alone_) studio::write_report(folder.path(), items_);
     folder.commit();
-    print_json(alone_ ? results_.front().second : joined_results());
+    print_json(alone_ ? results_.front().second.dump_repaired(2) : joined_results());
     say(text + "results in " + printable(output_, 200) + "\n");
-    for (const std::string& why : distrust_) complain(why);
-    return distrust_.empty() ? kDone : kNotTrustworthy;
+    for (const std::string& why : reasons_) print_error(why);
+    return valid_ ? kDone : kNotTrustworthy;
   }
 
  private:
@@ -84,7 +175,7 @@ class ProcessCommand : public Command {
   void process_pieces(const std::string& path, const std::string& name, const fs::path& place, const Observer& observer,
                       std::string& text) {
     observer.update("reading", 0.0);
-    const Recording recording = read_recording(path);
+    const Recording recording = read_recording(path, {}, observer);
     const std::vector<Segment> pieces = chosen_segments(path, recording);
     alone_ = recordings_.size() == 1 && pieces.size() < 2;
     if (pieces.empty()) {
@@ -121,7 +212,8 @@ class ProcessCommand : public Command {
         throw;
       } catch (const Error& error) {
         if (first_fault.empty()) first_fault = error.what();
-        distrust_.push_back(std::string(error.what()) + "; left out");
+        reasons_.push_back(std::string(error.what()) + "; left out");
+        valid_ = false;
       }
     }
     if (results_.size() == before) throw Error(first_fault);
@@ -142,19 +234,23 @@ class ProcessCommand : public Command {
     write_result(place, result, recording, name);
     items_.push_back({name, studio::measured_block(result, recording, name).take()});
     studio::write_report(place, {items_.back()});
-    results_.emplace_back(name, format_result(result, recording, name));
+    results_.emplace_back(name, result_json(result, recording, name));
     text += printable(name, 200) + "\n" + result_summary(result);
-    if (!result.trustworthy) distrust_.push_back(printable(path, 200) + ": not to be trusted: " + result.verdict);
+    for (const Verdict& verdict : result.verdicts) {
+      if (verdict.severity == Severity::kNote) continue;
+      reasons_.push_back(printable(path, 200) + ": " + verdict_line(verdict));
+    }
+    valid_ &= result.trustworthy;
   }
 
   std::string joined_results() const {
     Json out;
     out["format"] = "asperity-results";
     out["version"] = 1;
-    for (const auto& [name, json] : results_) {
-      out["results"][is_utf8(name) ? name : printable(name, 200)] = parse_json(json);
+    for (const auto& [name, result] : results_) {
+      out["results"][is_utf8(name) ? name : printable(name, 200)] = result;
     }
-    return out.dump(2);
+    return out.dump_repaired(2);
   }
 
   std::vector<std::string> recordings_;
@@ -163,9 +259,10 @@ class ProcessCommand : public Command {
   std::string segment_;
   bool alone_ = true;  // one result, not several by name
   ProcessConfig config_;
-  std::vector<std::pair<std::string, std::string>> results_;
+  std::vector<std::pair<std::string, Json>> results_;
   std::vector<studio::ReportItem> items_;
-  std::vector<std::string> distrust_;
+  std::vector<std::string> reasons_;  // what is invalid, limited or left out
+  bool valid_ = true;
 };
 
 }  // namespace

@@ -19,7 +19,7 @@
 #include "option_units.h"
 #include "record_report.h"
 #include "record_status.h"
-#include "record_verdict.h"
+#include "recording_evidence.h"
 #include "terminal_keys.h"
 
 namespace asperity::app {
@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 struct RecordSettings {
   RecorderConfig recorder;
   TrackConfig track;
-  RecordVerdictConfig verdict;
+  JudgeRecordingConfig verdict;
 
   template <class V>
   void visit(V& v) {
@@ -106,11 +106,11 @@ class RecordCommand : public Command {
                         make_record_sensors(input_, calibration, settings_.track, on_frame), settings_.recorder);
       outcome.end = watch(recorder);
       storing_ = false;
-      outcome.figures = recorder.finish();
+      outcome.recorder = recorder.finish();
     }
     if (kept) {
       kept->finish();
-      outcome.frames = kept->figures();
+      outcome.frames = kept->counts();
     }
     return report(outcome, calibration.has_value());
   }
@@ -158,19 +158,14 @@ class RecordCommand : public Command {
 
   int report(RecordOutcome& outcome, bool calibrated) {
     const bool by_contact = settings_.recorder.mode == StoreMode::kAuto;
-    outcome.verdict = judge_recording(outcome.figures, by_contact, calibrated, settings_.verdict);
-    if (!outcome.frames.failure.empty())
-      outcome.verdict.warnings.push_back("images were not kept: " + printable(outcome.frames.failure, 300));
-    else if (outcome.frames.dropped > 0)
-      outcome.verdict.warnings.push_back(
-          fmt::format("{} images were not kept: the disk or PNG is too slow", outcome.frames.dropped));
+    outcome.verdicts = judge_recording(recording_evidence(outcome.recorder, outcome.frames, by_contact, calibrated),
+                                       settings_.verdict);
     print_json(record_json(outcome, fields()));
     say(record_text(outcome));
-    if (!quiet()) {
-      for (const std::string& warning : outcome.verdict.warnings) complain(warning);
+    for (const Verdict& verdict : outcome.verdicts) {
+      if (verdict.severity == Severity::kInvalid || !quiet()) print_error(verdict_line(verdict));
     }
-    for (const std::string& doubt : outcome.verdict.doubts) complain("not to be trusted: " + doubt);
-    return outcome.verdict.doubts.empty() ? kDone : kNotTrustworthy;
+    return is_trustworthy(outcome.verdicts) ? kDone : kNotTrustworthy;
   }
 
   RecordInput input_;

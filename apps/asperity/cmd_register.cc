@@ -57,9 +57,23 @@ class RegisterCommand : public Command {
                     "Texture to lay along a path instead of its own; one for all, or one a path")
         ->type_name("FILE");
     require(parser().add_option("-o,--output", output_, "Folder of the results"))->type_name("OUT");
+    parser()
+        .add_option("--method", method_,
+                    "Of measuring, and of thesis also of registering, which needs a guess; the first is the default: " +
+                        ProcessMethods::describe())
+        ->type_name("NAME");
   }
 
   std::vector<ConfigField> fields() override { return list_fields("", config_); }
+
+  void apply_options() override {
+    if (method_.empty()) return;
+    try {
+      set_field(fields(), "process.method", method_);
+    } catch (const Error& error) {
+      throw UsageError(std::string("--") + error.what());
+    }
+  }
 
   int run(const Observer& observer) override {
     if (files_.size() < 2) throw UsageError("PATH... MESH: at least one path and the mesh are needed");
@@ -71,7 +85,7 @@ class RegisterCommand : public Command {
 
     OutputFolder folder(output_, is_registration_folder);
     observer.update("reading", 0.0);
-    const RegisterInput input = read_register_input(files_, mesh_path, unit_m, textures_);
+    const RegisterInput input = read_register_input(files_, mesh_path, unit_m, textures_, observer);
     const ScansOnMesh result = register_input(input, guess, config_, observer);
     observer.update("writing", 1.0);
     write_registration(folder.path(), result, input.scans, input.mesh, unit_m);
@@ -79,7 +93,9 @@ class RegisterCommand : public Command {
     folder.commit();
     print_json(trim(json));
     say(summary(result) + "results in " + printable(output_, 200) + "\n");
-    if (!result.trustworthy) complain("not to be trusted: " + result.verdict);
+    for (const Verdict& verdict : result.verdicts) {
+      if (verdict.severity != Severity::kNote) print_error(verdict_line(verdict));
+    }
     return result.trustworthy ? kDone : kNotTrustworthy;
   }
 
@@ -122,7 +138,7 @@ class RegisterCommand : public Command {
     if (registration.runner_up) {
       const RunnerUp& other = *registration.runner_up;
       out += fmt::format("runner-up     residual {:.3f} mm RMS, {:.1f} mm and {:.1f} degrees away\n", other.rms_m * 1e3,
-                         other.distance_m * 1e3, other.turn_rad * 180.0 / std::numbers::pi);
+                         other.distance_m * 1e3, other.rotation_rad * 180.0 / std::numbers::pi);
     }
     if (!registration.verdict.empty()) out += "verdict       " + registration.verdict + "\n";
     for (std::size_t i = 0; i < result.scans.size(); ++i) {
@@ -149,7 +165,7 @@ class RegisterCommand : public Command {
   }
 
   std::vector<std::string> files_, textures_;
-  std::string mesh_unit_, guess_, align_, picks_, output_;
+  std::string mesh_unit_, guess_, align_, picks_, output_, method_;
   RegisterConfig config_;
 };
 

@@ -1,15 +1,18 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "asperity/base/nan.h"
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
+#include "asperity/profile/estimate_texture_noise.h"
 #include "asperity/profile/measure_areal_roughness.h"
-#include "asperity/profile/measure_roughness.h"
+#include "asperity/profile/measure_roughness_under_noise.h"
 #include "asperity/profile/read_heights.h"
 #include "commands.h"
 #include "option_units.h"
@@ -36,20 +39,29 @@ struct Parameter {
   const char* key;
   double value;
   bool length;
+  double error = kNan;  // standard error, where it is known
 };
 
 Json to_json(const std::vector<Parameter>& parameters) {
   Json out;
-  for (const auto& [key, value, length] : parameters) out[key] = value;
+  for (const auto& [key, value, length, error] : parameters) {
+    out[key] = value;
+    if (!std::isfinite(error)) continue;
+    const std::string name(key, std::string_view(key).size() - (length ? 2 : 0));
+    out[name + (length ? "_stderr_m" : "_stderr")] = error;
+  }
   return out;
 }
 
 std::string to_table(const std::vector<Parameter>& parameters) {
   std::string out;
-  for (const auto& [key, value, length] : parameters) {
-    const std::string name = length ? std::string(key, std::string_view(key).size() - 2) : key;
-    out +=
-        length ? fmt::format("{:<6} {:12.5g} µm\n", name, value * 1e6) : fmt::format("{:<6} {:12.5g}\n", name, value);
+  for (const auto& [key, value, length, error] : parameters) {
+    const std::string name(key, std::string_view(key).size() - (length ? 2 : 0));
+    const double unit = length ? 1e6 : 1.0;
+    out += fmt::format("{:<6} ", name);
+    out += std::isfinite(unit * value) ? fmt::format("{:12.5g}", unit * value) : "not determined";
+    if (std::isfinite(value) && std::isfinite(error)) out += fmt::format(" ± {:.2g}", unit * error);
+    out += length && std::isfinite(unit * value) ? " µm\n" : "\n";
   }
   return out;
 }
@@ -82,14 +94,18 @@ class RoughnessCommand : public Command {
 
  private:
   void report_profile(const HeightProfile& profile) {
+    constexpr double kCutoff_cycles_per_mm = 0.1;  // of a profile.csv's texture, unless somebody has changed it
+    const TextureNoise noise =
+        noise_of_sigma(profile.height_m, profile.sigma_m, profile.spacing_m, kCutoff_cycles_per_mm);
+    // The file's heights as they are: what noise could have added is in the error, not taken off.
     const RoughnessResult r = measure_roughness(profile.height_m, profile.spacing_m, settings_.profile);
-    const std::vector<Parameter> parameters{
-        {"Ra_m", r.Ra_m, true},       {"Rq_m", r.Rq_m, true},       {"Rz_m", r.Rz_m, true},
-        {"Rt_m", r.Rt_m, true},       {"Rsk", r.Rsk, false},        {"Rku", r.Rku, false},
-        {"RSm_m", r.RSm_m, true},     {"R5p_m", r.R5p_m, true},     {"R5v_m", r.R5v_m, true},
-        {"R10z_m", r.R10z_m, true},   {"Rcm10_m", r.Rcm10_m, true}, {"Rcm50_m", r.Rcm50_m, true},
-        {"Rcm90_m", r.Rcm90_m, true},
-    };
+    const RoughnessResult cleaned =
+        measure_roughness_under_noise(profile.height_m, profile.spacing_m, noise, settings_.profile);
+    std::vector<Parameter> parameters;
+    for (const RoughnessParameter& p : kRoughnessParameters) {
+      const double error = std::hypot(cleaned.standard_error.*p.value, cleaned.*p.value - r.*p.value);
+      parameters.push_back({p.key.data(), r.*p.value, p.is_length, error});
+    }
     Json out = begin("profile");
     out["length_m"] = r.length_m;
     out["spacing_m"] = profile.spacing_m;

@@ -51,7 +51,7 @@ class StudioCommand : public Command {
     const ForceHold force;
     const FinishHold finish;
     const auto started = [&](const std::string& address) {
-      tell(address, is_open_to_others);
+      print_address(address, is_open_to_others);
       if (!no_open_) browser.emplace(address);
     };
     studio::run_studio(config_, started, interrupt_flag());
@@ -73,7 +73,7 @@ class StudioCommand : public Command {
     config_.open = whole.filename().string();
   }
 
-  void tell(const std::string& address, bool is_open_to_others) const {
+  void print_address(const std::string& address, bool is_open_to_others) const {
     const std::string bare = address.substr(0, address.find("/#"));
     Json told;
     told["address"] = address;

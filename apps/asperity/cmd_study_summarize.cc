@@ -33,9 +33,9 @@ class StudySummarizeCommand : public Command {
     print_json(to_json(log, results, open).dump_repaired(2));
     say(study_results_text(results));
     if (!quiet()) {
-      for (const Problem& problem : log.problems) complain(problem.message);
+      for (const Problem& problem : log.problems) print_error(problem.message);
     }
-    for (const std::string& what : open) complain("not determined: " + what);
+    for (const std::string& what : open) print_error("not determined: " + what);
     return open.empty() ? kDone : kNotTrustworthy;
   }
 

@@ -39,17 +39,17 @@ struct CompareSettings {
 constexpr const char* kSame = "same to the hand";
 constexpr const char* kNoticeable = "noticeable";
 
-const char* verdict(bool noticeable) { return noticeable ? kNoticeable : kSame; }
+const char* verdict_of(bool noticeable) { return noticeable ? kNoticeable : kSame; }
 
 Json to_json(const Difference& d) {
   return {{"a", number_or_null(d.a)},
           {"b", number_or_null(d.b)},
           {"percent", number_or_null(d.percent)},
           {"jnd_percent", d.jnd_percent},
-          {"verdict", verdict(d.noticeable)}};
+          {"verdict", verdict_of(d.noticeable)}};
 }
 
-std::string row(const std::string& name, const Difference& d, double unit, const std::string& note) {
+std::string format_row(const std::string& name, const Difference& d, double unit, const std::string& note) {
   return fmt::format("{:<22} {:>11.5g} {:>11.5g} {:>+9.2f} % {:>7.3g} %  {}\n", name, d.a * unit, d.b * unit, d.percent,
                      d.jnd_percent, note);
 }
@@ -73,14 +73,14 @@ class TextureCompareCommand : public Command {
     if (!spacing_.empty()) settings_.input.spacing_m = length_option_m("--spacing", spacing_);
   }
 
-  int run(const Observer&) override {
-    const TextureComparison c = compare_textures(surface_of(a_), surface_of(b_), settings_.compare);
+  int run(const Observer& observer) override {
+    const TextureComparison c = compare_textures(surface_of(a_, observer), surface_of(b_, observer), settings_.compare);
     Json out;
     out["format"] = "asperity-texture-comparison";
     out["version"] = 1;
     out["a"] = a_;
     out["b"] = b_;
-    out["verdict"] = verdict(c.noticeable);
+    out["verdict"] = verdict_of(c.noticeable);
     out["noticeable"] = c.noticeable;
     out["band_cycles_per_mm"] = {c.low_cycles_per_mm, c.high_cycles_per_mm};
     out["roughness"] = Json::object();
@@ -92,7 +92,7 @@ class TextureCompareCommand : public Command {
       one["low_cycles_per_mm"] = band.low_cycles_per_mm;
       one["high_cycles_per_mm"] = band.high_cycles_per_mm;
       one["uncertainty_percent"] = number_or_null(band.uncertainty_percent);
-      one["felt"] = band.felt;
+      one["felt"] = band.is_compared;
       out["bands"].push_back(one);
     }
     out["config"] = config_json(fields());
@@ -103,11 +103,11 @@ class TextureCompareCommand : public Command {
   }
 
  private:
-  ComparedSurface surface_of(const std::string& file) const {
+  ComparedSurface surface_of(const std::string& file, const Observer& observer) const {
     ComparedSurface surface;
     std::vector<std::vector<double>> lines;
     if (is_texture_file(file)) {
-      const Texture texture = read_texture(file);
+      const Texture texture = read_texture(file, {}, observer);
       surface.spacing_m = 1e-3 * settings_.spacing_mm;
       if (!is_height_field(texture.model)) throw Error(file + ": a force in time, which has no spectrum over lengths");
       lines = sample_lines(texture.model, 1e-3 * settings_.length_mm, surface.spacing_m);
@@ -135,15 +135,15 @@ class TextureCompareCommand : public Command {
     std::string text = fmt::format("{:<22} {:>11} {:>11} {:>11} {:>9}\n", "", "A", "B", "difference", "noticed");
     for (const auto& [name, d] : c.roughness) {
       const bool length = name.ends_with("_m");
-      text += row(length ? name.substr(0, name.size() - 2) + " µm" : name, d, length ? 1e6 : 1.0,
-                  name == "Rq_m" || name == "RSm_m" ? verdict(d.noticeable) : "");
+      text += format_row(length ? name.substr(0, name.size() - 2) + " µm" : name, d, length ? 1e6 : 1.0,
+                         name == "Rq_m" || name == "RSm_m" ? verdict_of(d.noticeable) : "");
     }
-    text += row("mean cycles/mm", c.frequency_per_mm, 1.0, "");
+    text += format_row("mean cycles/mm", c.frequency_per_mm, 1.0, "");
     for (const auto& band : c.bands) {
-      text += row(fmt::format("{:.3g}-{:.3g} /mm, RMS µm", band.low_cycles_per_mm, band.high_cycles_per_mm), band.rms_m,
-                  1e6, band.felt ? verdict(band.rms_m.noticeable) : "too weak to be felt");
+      text += format_row(fmt::format("{:.3g}-{:.3g} /mm, RMS µm", band.low_cycles_per_mm, band.high_cycles_per_mm),
+                         band.rms_m, 1e6, band.is_compared ? verdict_of(band.rms_m.noticeable) : "too weak to be felt");
     }
-    say(text + fmt::format("at {:.3g} mm/s: {}\n", settings_.compare.speed_mps * 1e3, verdict(c.noticeable)));
+    say(text + fmt::format("at {:.3g} mm/s: {}\n", settings_.compare.speed_mps * 1e3, verdict_of(c.noticeable)));
   }
 
   std::string a_;

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -9,25 +11,85 @@
 #include <vector>
 
 #include "asperity/base/csv.h"
+#include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
-#include "asperity/json/parse_json.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/recorded_series.h"
+#include "asperity/profile/find_periodicity.h"
+#include "asperity/profile/read_heights.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/session/our_file.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/texture_file.h"
+#include "asperity/texture/texture_fit.h"
 #include "commands.h"
 #include "option_units.h"
-#include "read_series.h"
-#include "texture_fit_settings.h"
 #include "texture_input.h"
 
 namespace asperity::app {
 
 namespace {
+
+// A table t_s,acceleration_mps2,speed_mps,force_N (more columns allowed). Throws Error naming file, line and
+// column for a number that is missing or not finite, or times that are not even to a hundredth of a step.
+SeriesTable read_series(const std::string& file) {
+  constexpr std::uint64_t kLargestFile_bytes = 512ULL << 20;
+  const std::string text = read_file(file, kLargestFile_bytes);
+  CsvReader csv(text, file);
+  const std::size_t time = csv.require("t_s");
+  const std::size_t acceleration = csv.require("acceleration_mps2");
+  const std::size_t speed = csv.require("speed_mps");
+  const std::size_t force = csv.require("force_N");
+  SeriesTable table;
+  std::vector<double> t_s;
+  while (csv.next()) {
+    t_s.push_back(csv.finite(time));
+    table.acceleration_mps2.push_back(csv.finite(acceleration));
+    table.speed_mps.push_back(csv.finite(speed));
+    table.force_N.push_back(csv.finite(force));
+  }
+  if (t_s.size() < 2) throw Error(file + ": fewer than two rows");
+  const double step_s = (t_s.back() - t_s.front()) / static_cast<double>(t_s.size() - 1);
+  if (!(step_s > 0.0)) throw Error(file + ": t_s does not rise");
+  for (std::size_t i = 0; i < t_s.size(); ++i) {
+    const double expected_s = t_s.front() + static_cast<double>(i) * step_s;
+    if (!(std::abs(t_s[i] - expected_s) <= 1e-2 * step_s)) {
+      throw Error(file + ": t_s is not even: row " + std::to_string(i + 1) + " has " + number_text(t_s[i]) + " where " +
+                  number_text(expected_s) + " was expected");
+    }
+  }
+  table.rate_Hz = 1.0 / step_s;
+  return table;
+}
+
+struct FitSettings {
+  FittedModelChoice model{};
+  bool whole_path = false;
+  double stroke_spacing_mm = 0.0;
+
+  template <class V>
+  void visit(V& v) {
+    v.choice("model", model, kFittedModelNames, "what the texture is");
+    v.field("whole_path", whole_path, "fourier1d: the whole path as one series instead of its best window");
+    v.field("stroke_spacing_mm", stroke_spacing_mm, "areal: how far profiles lie apart, in their order; 0: not given",
+            {0.0, 1e6});
+  }
+};
+
+struct TextureFitSettings {
+  ReadHeightsConfig input;
+  FitSettings fit;
+  TextureFitOptions models;
+
+  template <class V>
+  void visit(V& v) {
+    v.group("input", input);
+    v.group("fit", fit);
+    models.visit(v);
+  }
+};
 
 // "a (the default), b, c or d".
 std::string model_names() {
@@ -98,6 +160,11 @@ class TextureFitCommand : public Command {
       HeightProfile profile = read_strokes(files, settings_.input);
       return HeightLine{std::move(profile.height_m), profile.spacing_m};
     };
+    input.pitch_m = [&](const std::vector<std::string>& files) {
+      const HeightProfile profile = read_strokes(files, settings_.input);
+      const Periodicity found = find_periodicity(profile.height_m, profile.spacing_m, {});
+      return found.periodic ? found.pitch_m : 0.0;
+    };
     input.read_areal_samples = [&](const std::vector<std::string>& files) {
       return asperity::app::read_areal_samples(files, settings_.input, 1e-3 * settings_.fit.stroke_spacing_mm);
     };
@@ -109,6 +176,13 @@ class TextureFitCommand : public Command {
     input.roughness = [](const std::vector<std::vector<double>>& lines_m, double spacing_m) {
       return roughness_of(lines_m, spacing_m);
     };
+    // Another file than the default model reads: what it is, and what to do.
+    if (std::string_view(kFittedModelNames[static_cast<std::size_t>(settings_.fit.model)]) != "autoregressive" &&
+        files_.front().ends_with(".xml")) {
+      throw UsageError(
+          printable(files_.front(), 200) +
+          " is an XML file: models of the Penn Haptic Texture Toolkit are read with --model autoregressive");
+    }
     try {
       return fit_texture(settings_.fit.model, input, settings_.models);
     } catch (const TextureFitFilesError& error) {
@@ -131,7 +205,7 @@ class TextureFitCommand : public Command {
   void finish(FittedTexture& fitted) {
     Texture& texture = fitted.texture;
     Json& report = fitted.report;
-    if (is_height_field(texture.model)) texture.lift_m = lift_m(texture.model);
+    if (is_height_field(texture.model)) texture.height_offset_m = height_offset_m(texture.model);
     texture.name = name_;
     if (name_.empty()) {
       texture.name = std::filesystem::path(output_).filename().string();
@@ -143,14 +217,12 @@ class TextureFitCommand : public Command {
     for (const auto& file : files_)
       sources += (sources.empty() ? "" : ", ") + std::filesystem::path(file).filename().string();
     constexpr std::size_t kLongest_bytes = 4000;
-    texture.source = {printable(sources, kLongest_bytes), config_json(fields()).dump(2), kVersion};
+    texture.source = {printable(sources, kLongest_bytes), config_json(fields()), kVersion};
     Json problems = Json::array();
     for (const auto& problem : fitted.problems)
       problems.push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
     report["problems"] = problems;
-    Json extra = parse_json(texture.extra_json);
-    extra["fit"] = report;
-    texture.extra_json = extra.dump();
+    texture.fit = {report, texture.fit ? texture.fit->place : texture.extra.size()};
     refuse_other_payloads(texture);
     write_texture(output_, texture);
 
@@ -159,7 +231,7 @@ class TextureFitCommand : public Command {
     out["version"] = 1;
     out["file"] = output_;
     out["model"] = texture.model_name();
-    if (texture.lift_m) out["lift_m"] = *texture.lift_m;
+    if (texture.height_offset_m) out["lift_m"] = *texture.height_offset_m;
     out["fit"] = report;
     out["roughness"] = texture.roughness;
     out["config"] = config_json(fields());
@@ -180,7 +252,7 @@ class TextureFitCommand : public Command {
       text += fmt::format(", on a held-out half: variance {:+.1f} %, spectrum {:.1f} %",
                           100.0 * error["variance_error"].get<double>(), 100.0 * error["spectrum_error"].get<double>());
     }
-    if (texture.lift_m) text += fmt::format(", lift {:.4g} µm", *texture.lift_m * 1e6);
+    if (texture.height_offset_m) text += fmt::format(", lift {:.4g} µm", *texture.height_offset_m * 1e6);
     text += "\n";
     for (const auto& problem : fitted.problems) text += "note: " + problem.message + "\n";
     say(text);

@@ -7,7 +7,7 @@
 
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
-#include "asperity/json/parse_json.h"
+#include "asperity/json/json.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/sample_heights.h"
 #include "asperity/texture/texture_file.h"
@@ -30,8 +30,8 @@ class TextureInfoCommand : public Command {
     require(parser().add_option("TEXTURE", file_, "A *.texture.json"));
   }
 
-  int run(const Observer&) override {
-    const Texture texture = read_texture(file_);
+  int run(const Observer& observer) override {
+    const Texture texture = read_texture(file_, {}, observer);
     Json out;
     out["format"] = "asperity-texture-info";
     out["version"] = 1;
@@ -45,14 +45,13 @@ class TextureInfoCommand : public Command {
       out["lowest_m"] = lowest_height_m(texture.model);
       out["measured"] = roughness_of(sample_lines(texture.model, kLine_m, kSpacing_m), kSpacing_m);
     }
-    if (texture.lift_m) out["lift_m"] = *texture.lift_m;
+    if (texture.height_offset_m) out["lift_m"] = *texture.height_offset_m;
     if (texture.band_cycles_per_mm) out["band_cycles_per_mm"] = *texture.band_cycles_per_mm;
     if (texture.compliance_kc) out["compliance_kc"] = *texture.compliance_kc;
     if (texture.stiffness_N_per_m) out["stiffness_N_per_m"] = *texture.stiffness_N_per_m;
     if (texture.friction) out["friction"] = *texture.friction;
     out["source_roughness"] = texture.roughness;
-    const Json extra = parse_json(texture.extra_json);
-    if (extra.contains("fit")) out["fit"] = extra["fit"];
+    if (texture.fit) out["fit"] = texture.fit->metrics;
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
     say_summary(out);

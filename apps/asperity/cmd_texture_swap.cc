@@ -37,14 +37,14 @@ class TextureSwapCommand : public Command {
         ->type_name("OUT.scene.json");
   }
 
-  int run(const Observer&) override {
+  int run(const Observer& observer) override {
     const fs::path target = output_.empty() ? scene_ : output_;
     if (fs::path(scene_).extension() != ".json" || target.extension() != ".json")
       throw UsageError("a scene's file is called *.scene.json");
-    Scene scene = read_scene(scene_);
+    Scene scene = read_scene(scene_, observer);
     const SceneTexture* before = scene.objects.front().find_texture(index_);
     const std::string old = before ? before->file : std::string();
-    swap_texture(scene, index_, read_texture(texture_), fs::path(texture_).filename().string());
+    swap_texture(scene, index_, read_texture(texture_, {}, observer), fs::path(texture_).filename().string());
     if (!output_.empty() && fs::exists(target) && !fs::equivalent(target, scene_))
       throw Error(printable(output_, 200) + ": exists; nothing was changed");
     refuse_stranger(target, [](std::string_view) { return true; });  // no link, which a file would replace

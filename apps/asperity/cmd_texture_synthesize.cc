@@ -61,8 +61,8 @@ class TextureSynthesizeCommand : public Command {
     if (!spacing_.empty()) settings_.line.spacing_mm = 1e3 * length_option_m("--spacing", spacing_);
   }
 
-  int run(const Observer&) override {
-    Texture texture = read_texture(file_);
+  int run(const Observer& observer) override {
+    Texture texture = read_texture(file_, {}, observer);
     if (seed_option_->count() > 0) reseed(texture);
     refuse_stranger(output_,
                     [](std::string_view begin) {

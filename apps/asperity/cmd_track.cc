@@ -18,6 +18,7 @@
 #include "asperity/recording/read_markers.h"
 #include "asperity/session/our_file.h"
 #include "asperity/tracking/track_images.h"
+#include "asperity/verdict/verdict_json.h"
 #include "commands.h"
 
 namespace asperity::app {
@@ -107,8 +108,10 @@ class TrackCommand : public Command {
     const double frames_per_s = static_cast<double>(tracked.frames) / std::max(1e-9, processor_s() - start_s);
     write_file(output_, format_tracked_csv(tracked.poses));
     report(tracked, markers.declared, frames_per_s);
-    for (const Problem& problem : tracked.problems) complain("warning: " + problem.message);
-    if (!tracked.trustworthy) complain("not to be trusted: " + tracked.verdict);
+    for (const Problem& problem : tracked.problems) print_error("warning: " + problem.message);
+    for (const Verdict& verdict : tracked.verdicts) {
+      if (verdict.severity != Severity::kNote) print_error(verdict_line(verdict));
+    }
     return tracked.trustworthy ? kDone : kNotTrustworthy;
   }
 
@@ -137,6 +140,7 @@ class TrackCommand : public Command {
     }
     out["trustworthy"] = tracked.trustworthy;
     out["verdict"] = tracked.verdict;
+    out["verdicts"] = verdicts_json(tracked.verdicts);
     out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));

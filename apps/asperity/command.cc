@@ -46,28 +46,28 @@ bool Command::resolve() {
       throw UsageError(std::string("--set: ") + error.what());
     }
   }
-  if (print_config_) print(json_ ? fields_to_json(all) + "\n" : to_toml(all, true));
+  if (print_config_) print_text(json_ ? fields_to_json(all) + "\n" : to_toml(all, true));
   return !print_config_;
 }
 
 void Command::say(std::string_view text) const {
-  if (!json_ && !quiet_) print(text);
+  if (!json_ && !quiet_) print_text(text);
 }
 
 void Command::print_json(std::string_view object) const {
   if (!json_) return;
-  print(object);
-  if (!object.ends_with('\n')) print("\n");
+  print_text(object);
+  if (!object.ends_with('\n')) print_text("\n");
 }
 
-void print(std::string_view text) {
+void print_text(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
     if (errno == EPIPE) throw ClosedPipe();
     throw Error(std::string("standard output cannot be written: ") + std::strerror(errno));
   }
 }
 
-void complain(std::string_view text) {
+void print_error(std::string_view text) {
   // Paths and names in it may be a stranger's: nothing in them reaches the terminal as a command.
   std::string lines = "asperity: ";
   for (std::size_t from = 0; from <= text.size();) {

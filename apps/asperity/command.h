@@ -14,7 +14,7 @@ namespace asperity::app {
 inline constexpr int kDone = 0;
 inline constexpr int kBadInput = 1;
 inline constexpr int kUsage = 2;
-inline constexpr int kNotTrustworthy = 3;  // done, but the result is not to be trusted
+inline constexpr int kNotTrustworthy = 3;  // done, but the result is invalid
 
 // A command line that cannot be meant as it stands; ends the program with kUsage.
 class UsageError : public Error {
@@ -70,8 +70,8 @@ class Command {
 };
 
 // Writes to standard output. Throws ClosedPipe, or Error if it takes no more (a full disk).
-void print(std::string_view text);
+void print_text(std::string_view text);
 // One line on standard error, "asperity: text".
-void complain(std::string_view text);
+void print_error(std::string_view text);
 
 }  // namespace asperity::app

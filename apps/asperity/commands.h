@@ -37,6 +37,7 @@ std::unique_ptr<Command> make_texture_compare(Parser& texture);
 std::unique_ptr<Command> make_calibrate_accel(Parser& calibrate);
 std::unique_ptr<Command> make_calibrate_camera(Parser& calibrate);
 std::unique_ptr<Command> make_calibrate_force(Parser& calibrate);
+std::unique_ptr<Command> make_calibrate_imu(Parser& calibrate);
 std::unique_ptr<Command> make_calibrate_latency(Parser& calibrate);
 std::unique_ptr<Command> make_calibrate_tracker(Parser& calibrate);
 std::unique_ptr<Command> make_calibrate_tip(Parser& calibrate);

@@ -23,7 +23,7 @@
 #include "asperity/session/feel_log.h"
 #include "asperity/session/feel_settings.h"
 #include "asperity/session/our_folder.h"
-#include "demo_figure.h"
+#include "demo_metric.h"
 #include "feel_plot.h"
 
 namespace asperity::app {
@@ -56,7 +56,7 @@ Scene lay_on_plate(const ProcessResult& protoboard) {
   Texture texture = protoboard.texture.value_or(Texture{});
   const PathTexture whole = fit_path_texture(protoboard.profile, FitFourier1dPathConfig{});
   texture.model = whole.series.fit.texture;
-  texture.lift_m = whole.series.lift_m;
+  texture.height_offset_m = whole.series.height_offset_m;
   texture.band_cycles_per_mm.reset();
   SceneObject plate;
   plate.mesh_file = "plate.obj";
@@ -76,7 +76,7 @@ struct Felt {
   std::vector<double> x_m, force_N, height_m;
 };
 
-Felt stroke(const Scene& scene, const fs::path& log_file, const Observer& observer) {
+Felt record_stroke(const Scene& scene, const fs::path& log_file, const Observer& observer) {
   FeelSettings settings;
   const FeelDrive drive = make_drive(scene, std::nullopt, std::nullopt, settings);
   const std::unique_ptr<HapticDevice> device = open_device("sim", drive, settings);
@@ -111,7 +111,7 @@ FeelDemo demonstrate_feel(const fs::path& folder, const ProcessResult& protoboar
   fs::create_directories(place);
   const Scene scene = lay_on_plate(protoboard);
   write_scene(place / "scene.json", scene);
-  const Felt felt = stroke(scene, place / "log.csv", observer);
+  const Felt felt = record_stroke(scene, place / "log.csv", observer);
 
   constexpr double kSpacing_m = 0.05e-3, kHole_m = 1e-3;
   const std::array<std::span<const double>, 2> channels{felt.force_N, felt.height_m};
@@ -137,12 +137,12 @@ FeelDemo demonstrate_feel(const fs::path& folder, const ProcessResult& protoboar
   write_listing(place);
 
   FeelDemo out;
-  const std::vector<DemoFigure> figures{{"pitch_m", "pitch, from the force", "mm", 1e3, pattern.pitch_m,
-                                         pattern.pitch_stderr_m, DemoFigure::kNone, true_pitch_m}};
-  out.json = figures_json(figures);
+  const std::vector<DemoMetric> metrics{{"pitch_m", "pitch, from the force", "mm", 1e3, pattern.pitch_m,
+                                         pattern.pitch_stderr_m, DemoMetric::kNone, true_pitch_m}};
+  out.json = metrics_json(metrics);
   out.json["strength"] = pattern.strength;
   out.text = "the protoboard on a plate, stroked by a modelled hand\n";
-  for (const DemoFigure& figure : figures) out.text += figure_line(figure);
+  for (const DemoMetric& metric : metrics) out.text += metric_line(metric);
   if (!pattern.periodic) {
     out.trustworthy = false;
     out.verdict = "no pattern was found in the rendered force";

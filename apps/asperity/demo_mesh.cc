@@ -24,7 +24,7 @@
 #include "asperity/simulation/random_motion.h"
 #include "asperity/simulation/randomise_pose.h"
 #include "asperity/simulation/simulate_recording.h"
-#include "demo_figure.h"
+#include "demo_metric.h"
 
 namespace asperity::app {
 
@@ -57,25 +57,25 @@ Scan scan_over(const TriangleMesh& mesh, SimulationConfig& config, const Observe
   return scan;
 }
 
-std::vector<DemoFigure> compare(const Recording& recording, const ScansOnMesh& result, const Pose& true_T_mesh_world,
-                                const ProcessConfig& config) {
+std::vector<DemoMetric> compare_scans(const Recording& recording, const ScansOnMesh& result,
+                                      const Pose& true_T_mesh_world, const ProcessConfig& config) {
   const RegisteredScan& scan = result.scans.front();
   const PoseError error = pose_error(result.registration, true_T_mesh_world, scan.path.p_mesh_m);
-  std::vector<DemoFigure> out;
-  out.push_back({"pose_m", "pose, its points", "mm", 1e3, error.rms_m, error.sigma_m, DemoFigure::kNone, 0.0});
-  out.push_back({"turn_rad", "pose, its turn", "degrees", 1.0 / kDegree, error.turn_rad, error.sigma_rad,
-                 DemoFigure::kNone, 0.0});
+  std::vector<DemoMetric> out;
+  out.push_back({"pose_m", "pose, its points", "mm", 1e3, error.rms_m, error.sigma_m, DemoMetric::kNone, 0.0});
+  out.push_back({"turn_rad", "pose, its turn", "degrees", 1.0 / kDegree, error.rotation_rad, error.sigma_rad,
+                 DemoMetric::kNone, 0.0});
   const Profile truth = true_profile(*recording.truth, config.profile);
   const RoughnessResult roughness = measure_roughness(truth.texture_m, truth.spacing_m, config.roughness);
-  const double Rq_m = scan.process.roughness ? scan.process.roughness->Rq_m : DemoFigure::kNone;
-  out.push_back({"Rq_m", "Rq", "µm", 1e6, Rq_m, DemoFigure::kNone, DemoFigure::kNone, roughness.Rq_m});
+  const double Rq_m = scan.process.roughness ? scan.process.roughness->Rq_m : DemoMetric::kNone;
+  out.push_back({"Rq_m", "Rq", "µm", 1e6, Rq_m, DemoMetric::kNone, DemoMetric::kNone, roughness.Rq_m});
   if (scan.process.accuracy && scan.process.accuracy->profile) {
     const ProfileComparison& profile = *scan.process.accuracy->profile;
     out.push_back(
-        {"correlation", "correlation", "", 1.0, profile.correlation, DemoFigure::kNone, DemoFigure::kNone, 1.0});
-    out.push_back({"gain", "gain", "", 1.0, profile.gain, DemoFigure::kNone, DemoFigure::kNone, 1.0});
-    out.push_back({"length_error", "length error", "%", 1e2, 1e-2 * profile.length_error_percent, DemoFigure::kNone,
-                   DemoFigure::kNone, 0.0});
+        {"correlation", "correlation", "", 1.0, profile.correlation, DemoMetric::kNone, DemoMetric::kNone, 1.0});
+    out.push_back({"gain", "gain", "", 1.0, profile.gain, DemoMetric::kNone, DemoMetric::kNone, 1.0});
+    out.push_back({"length_error", "length error", "%", 1e2, 1e-2 * profile.length_error_percent, DemoMetric::kNone,
+                   DemoMetric::kNone, 0.0});
   }
   return out;
 }
@@ -102,7 +102,7 @@ PaintResult paint_beside(Scene scene, const Texture& other, const fs::path& fold
 }
 
 // The scan repeated by the renderer.
-RenderingScore repeat(const ScansOnMesh& result, const Scene& scene, const Observer& observer) {
+RenderingScore repeat_scan(const ScansOnMesh& result, const Scene& scene, const Observer& observer) {
   const RenderConfig config;
   const ProcessResult& measured = result.scans.front().process;
   const PressedScan pressed = press_in_scan(measured, scene, config.stiffness_N_per_m);
@@ -135,26 +135,26 @@ MeshDemo demonstrate_mesh(const fs::path& folder, const ProcessConfig& process, 
   write_registration(result_folder, result, {scan}, file, kMeshUnit_m);
 
   MeshDemo out;
-  const std::vector<DemoFigure> figures = compare(*scan.recording, result, truth, process);
-  out.json["registration"] = figures_json(figures);
+  const std::vector<DemoMetric> metrics = compare_scans(*scan.recording, result, truth, process);
+  out.json["registration"] = metrics_json(metrics);
   out.json["registration"]["undetermined"] = Json::array();
   for (const UndeterminedMotion& motion : result.registration.undetermined) {
     out.json["registration"]["undetermined"].push_back(motion.description);
   }
   out.text = "sandpaper on a pebble, registered from 5 mm and 5 degrees off\n";
-  for (const DemoFigure& figure : figures) out.text += figure_line(figure);
+  for (const DemoMetric& metric : metrics) out.text += metric_line(metric);
   out.text += undetermined_lines(result.registration);
   out.trustworthy = result.trustworthy;
   out.verdict = result.verdict;
 
   const Scene scene = make_scene(result, file, kMeshUnit_m);
-  const RenderingScore score = repeat(result, scene, observer);
-  const std::vector<DemoFigure> repeated{
-      {"correlation", "rendered, correlation", "", 1.0, score.correlation, DemoFigure::kNone, DemoFigure::kNone, 1.0},
-      {"score", "rendered, score", "", 1.0, score.score, DemoFigure::kNone, DemoFigure::kNone, 1.0}};
-  out.json["real_against_rendered"] = figures_json(repeated);
+  const RenderingScore score = repeat_scan(result, scene, observer);
+  const std::vector<DemoMetric> repeated{
+      {"correlation", "rendered, correlation", "", 1.0, score.correlation, DemoMetric::kNone, DemoMetric::kNone, 1.0},
+      {"score", "rendered, score", "", 1.0, score.score, DemoMetric::kNone, DemoMetric::kNone, 1.0}};
+  out.json["real_against_rendered"] = metrics_json(repeated);
   out.json["real_against_rendered"]["verdict"] = score.verdict;
-  for (const DemoFigure& figure : repeated) out.text += figure_line(figure);
+  for (const DemoMetric& metric : repeated) out.text += metric_line(metric);
   if (!score.trustworthy) {
     out.trustworthy = false;
     out.verdict += (out.verdict.empty() ? "" : "; ") + ("rendered: " + score.verdict);

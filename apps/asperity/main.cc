@@ -53,15 +53,15 @@ struct Program {
         "calibrate", "Find a calibration's values, their standard errors and whether to trust them");
     calibrate.require_subcommand(1, 0);
     for (const auto make : {make_calibrate_camera, make_calibrate_tracker, make_calibrate_force, make_calibrate_accel,
-                            make_calibrate_tip, make_calibrate_latency}) {
+                            make_calibrate_tip, make_calibrate_imu, make_calibrate_latency}) {
       commands.push_back(make(calibrate));
     }
   }
 };
 
 int usage(const std::string& message, const std::string& command) {
-  complain(message);
-  complain("see asperity " + (command.empty() ? "" : command + " ") + "--help");
+  print_error(message);
+  print_error("see asperity " + (command.empty() ? "" : command + " ") + "--help");
   return kUsage;
 }
 
@@ -74,14 +74,14 @@ int run_command(Command& command) {
   } catch (const UsageError& error) {
     return usage(name + ": " + error.what(), name);
   } catch (const Cancelled&) {
-    complain(kInterrupted);
+    print_error(kInterrupted);
     return interrupt_exit_code();
   } catch (const ClosedPipe&) {
     return kClosedPipe;
   } catch (const std::bad_alloc&) {
-    complain(name + ": not enough memory");
+    print_error(name + ": not enough memory");
   } catch (const std::exception& error) {
-    complain(error.what());
+    print_error(error.what());
   }
   return kBadInput;
 }
@@ -89,23 +89,23 @@ int run_command(Command& command) {
 int parse_and_run(Program& program, int argc, char** argv) {
   const ParsedLine line = program.parser.parse(argc, argv);
   if (line.kind == ParsedLine::Kind::kFault) return usage(line.text, line.command);
-  if (line.kind == ParsedLine::Kind::kText) return print(line.text), kDone;
-  if (program.manual) return print(manual_page(program.parser)), kDone;
-  if (!program.completion.empty()) return print(shell_completion(program.completion, program.parser)), kDone;
+  if (line.kind == ParsedLine::Kind::kText) return print_text(line.text), kDone;
+  if (program.manual) return print_text(manual_page(program.parser)), kDone;
+  if (!program.completion.empty()) return print_text(shell_completion(program.completion, program.parser)), kDone;
   for (const auto& command : program.commands) {
     if (command->parser().is_parsed()) return run_command(*command);
   }
   return usage("which command?", "");
 }
 
-int run(int argc, char** argv) {
+int run_command_line(int argc, char** argv) {
   try {
     Program program;
     return parse_and_run(program, argc, argv);
   } catch (const ClosedPipe&) {
     return kClosedPipe;
   } catch (const std::exception& error) {
-    complain(error.what());
+    print_error(error.what());
     return kBadInput;
   }
 }
@@ -115,6 +115,6 @@ int run(int argc, char** argv) {
 }  // namespace asperity::app
 
 int main(int argc, char** argv) {
-  asperity::watch_interrupts(asperity::app::complain);
-  return asperity::app::run(argc, argv);
+  asperity::watch_interrupts(asperity::app::print_error);
+  return asperity::app::run_command_line(argc, argv);
 }

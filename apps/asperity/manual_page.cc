@@ -87,7 +87,7 @@ std::string manual_page(const Parser& root) {
       ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\nthe input is bad; standard error says where\n.TP\n2\nthe command line is "
       "wrong\n";
   out +=
-      ".TP\n3\ndone, but the result is not to be trusted; standard error says why\n.TP\n128 + signal\nstopped by a "
+      ".TP\n3\ndone, but the result is invalid; standard error says why\n.TP\n128 + signal\nstopped by a "
       "signal, 130 for Ctrl\\-C; nothing was written\n";
   return out;
 }

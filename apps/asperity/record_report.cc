@@ -7,6 +7,7 @@
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
+#include "asperity/verdict/verdict_json.h"
 #include "json_of.h"
 
 namespace asperity::app {
@@ -39,16 +40,10 @@ Json link_json(const LinkStatistics& link) {
   return out;
 }
 
-std::string joined(const std::vector<std::string>& texts) {
-  std::string out;
-  for (const std::string& text : texts) out += (out.empty() ? "" : "; ") + text;
-  return out;
-}
-
 }  // namespace
 
 std::string record_json(const RecordOutcome& outcome, const std::vector<ConfigField>& config) {
-  const RecorderSnapshot& f = outcome.figures;
+  const RecorderSnapshot& f = outcome.recorder;
   Json out;
   out["format"] = "asperity-recorded";
   out["version"] = 1;
@@ -76,16 +71,20 @@ std::string record_json(const RecordOutcome& outcome, const std::vector<ConfigFi
                     {"gravity_world_mps2", json_of(f.gravity.gravity_world_mps2)},
                     {"scatter_mps2", json_of(f.gravity.scatter_mps2)},
                     {"windows_at_rest", f.gravity.windows}};
-  out["trustworthy"] = outcome.verdict.doubts.empty();
-  out["verdict"] = joined(outcome.verdict.doubts);
-  out["warnings"] = outcome.verdict.warnings;
+  out["trustworthy"] = is_trustworthy(outcome.verdicts);
+  out["verdict"] = verdict_sentence(outcome.verdicts);
+  out["verdicts"] = verdicts_json(outcome.verdicts);
+  out["warnings"] = Json::array();  // the messages of the limited ones, as before there were verdicts
+  for (const Verdict& verdict : outcome.verdicts) {
+    if (verdict.severity == Severity::kLimited) out["warnings"].push_back(verdict.message);
+  }
   out["config"] = config_json(config);
   out["asperity"] = kVersion;
   return out.dump_repaired(2);
 }
 
 std::string record_text(const RecordOutcome& outcome) {
-  const RecorderSnapshot& f = outcome.figures;
+  const RecorderSnapshot& f = outcome.recorder;
   std::string out =
       fmt::format("{}: {:.1f} s in {} segment{}, {} probe rows, {} poses\n", printable(outcome.recording, 200),
                   f.recorded_s, f.segments, f.segments == 1 ? "" : "s", f.probe_rows, f.tracker_rows);

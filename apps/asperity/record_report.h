@@ -6,16 +6,16 @@
 #include "asperity/base/config.h"
 #include "asperity/camera/frame_writer.h"
 #include "asperity/recorder/recorder_snapshot.h"
-#include "record_verdict.h"
+#include "asperity/verdict/verdict.h"
 
 namespace asperity::app {
 
 struct RecordOutcome {
   std::string recording;  // its folder
   std::string end;        // why: "duration", "key", "signal", "inputs_ended"
-  RecorderSnapshot figures;
-  FrameWriter::Figures frames;
-  RecordVerdict verdict;
+  RecorderSnapshot recorder;
+  FrameWriter::FrameCounts frames;
+  Verdicts verdicts;
 };
 
 // The outcome as one JSON object, with the settings.

@@ -71,7 +71,8 @@ std::string record_line(const RecorderSnapshot& now) {
 }
 
 RecordStatus::RecordStatus(bool quiet, bool says_keys) : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1) {
-  if (!quiet_ && says_keys) complain("space: start or stop a segment, d: discard, r: discard and scan again, q: end");
+  if (!quiet_ && says_keys)
+    print_error("space: start or stop a segment, d: discard, r: discard and scan again, q: end");
 }
 
 RecordStatus::~RecordStatus() { clear(); }
@@ -81,24 +82,24 @@ void RecordStatus::clear() {
   visible_ = false;
 }
 
-void RecordStatus::tell(const std::string& text) {
+void RecordStatus::print_line(const std::string& text) {
   clear();
-  complain(text);
+  print_error(text);
 }
 
-void RecordStatus::tell_changes(const char* what, const SensorSnapshot& now, SensorSnapshot& before) {
-  if (now.lost > before.lost) tell(fmt::format("{} lost: {}", what, printable(now.message, 300)));
-  if (now.returned > before.returned) tell(fmt::format("{} is back", what));
+void RecordStatus::print_changes(const char* what, const SensorSnapshot& now, SensorSnapshot& before) {
+  if (now.lost > before.lost) print_line(fmt::format("{} lost: {}", what, printable(now.message, 300)));
+  if (now.returned > before.returned) print_line(fmt::format("{} is back", what));
   for (const std::string& warning : now.warnings) {
-    if (told_.insert(without_digits(warning)).second) tell(printable(warning, 300));
+    if (printed_.insert(without_digits(warning)).second) print_line(printable(warning, 300));
   }
   before = now;
 }
 
 void RecordStatus::show(const RecorderSnapshot& now) {
   using namespace std::chrono_literals;
-  tell_changes("the probe", now.probe, probe_);
-  tell_changes("the tracker", now.poses, poses_);
+  print_changes("the probe", now.probe, probe_);
+  print_changes("the tracker", now.poses, poses_);
   if (quiet_ || Clock::now() < next_) return;
   next_ = Clock::now() + (terminal_ ? Clock::duration(200ms) : Clock::duration(2s));
   const std::string line = record_line(now);
@@ -107,7 +108,7 @@ void RecordStatus::show(const RecorderSnapshot& now) {
     std::fflush(stderr);
     visible_ = true;
   } else {
-    complain(line);
+    print_error(line);
   }
 }
 

@@ -25,8 +25,8 @@ class RecordStatus {
   void clear();
 
  private:
-  void tell(const std::string& text);
-  void tell_changes(const char* what, const SensorSnapshot& now, SensorSnapshot& before);
+  void print_line(const std::string& text);
+  void print_changes(const char* what, const SensorSnapshot& now, SensorSnapshot& before);
 
   using Clock = std::chrono::steady_clock;
   bool quiet_;
@@ -35,7 +35,7 @@ class RecordStatus {
   Clock::time_point next_ = Clock::now();
   SensorSnapshot probe_;
   SensorSnapshot poses_;
-  std::set<std::string> told_;  // warnings, without their digits
+  std::set<std::string> printed_;  // warnings, without their digits
 };
 
 }  // namespace asperity::app

@@ -42,7 +42,7 @@ Vector3d ProxyJudge::minimum_from(const Vector3d& centre_m, const Vector3d& devi
 }
 
 void ProxyJudge::tick(const Vector3d& device_m, const Vector3d& proxy_m) {
-  ProxyFigures& f = sums_;
+  ProxyStatistics& f = sums_;
   const bool pressed = inside_m(device_m) > 0.0;
   const double lag_m = (proxy_m - device_m).norm();
   f.largest_lag_m = std::max(f.largest_lag_m, lag_m);
@@ -99,8 +99,8 @@ void ProxyJudge::tick(const Vector3d& device_m, const Vector3d& proxy_m) {
   was_other_ = other;
 }
 
-ProxyFigures ProxyJudge::figures() const {
-  ProxyFigures out = sums_;
+ProxyStatistics ProxyJudge::statistics() const {
+  ProxyStatistics out = sums_;
   const double count = static_cast<double>(std::max<std::size_t>(out.pressed, 1));
   out.rms_error_m = std::sqrt(sums_.rms_error_m / count);
   out.rms_local_m = std::sqrt(sums_.rms_local_m / count);

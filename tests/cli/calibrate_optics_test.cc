@@ -1,4 +1,4 @@
-// `asperity calibrate camera|tracker|latency` on the bench's images and recordings.
+// `asperity calibrate camera|tracker|imu|latency` on the bench's images and recordings.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -103,7 +103,7 @@ TEST(CalibrateOptics, TheTrackersNoiseAtRest) {
   // What an earlier calibration said of the law does not outlive its figures.
   Calibration before;
   before.accelerometer.B = Eigen::Matrix3d::Identity();
-  before.extra_json = R"({"mine":1,"tracker_noise_model":{"formula":"old"}})";
+  before.extra = {{"mine", 1}, {"tracker_noise_model", {{"formula", "old"}}}};
   const fs::path to = dir / "calibration.json";
   write_calibration(to, before);
   const std::string figure = (dir / "noise.svg").string();
@@ -122,9 +122,8 @@ TEST(CalibrateOptics, TheTrackersNoiseAtRest) {
   EXPECT_TRUE(fs::exists(figure));
   const Calibration after = read_calibration(to);
   EXPECT_NEAR(after.tracker.sigma_position_m.z(), 5.4e-4, 1e-4);
-  const json extra = json::parse(after.extra_json);
-  EXPECT_EQ(extra["mine"], 1);
-  EXPECT_FALSE(extra.contains("tracker_noise_model"));
+  EXPECT_EQ(after.extra.dump(), R"({"mine":1})");
+  EXPECT_FALSE(after.tracker.noise_model);
   EXPECT_EQ(after.calibrated.at("tracker").trustworthy, true);
 
   write_to(dir / "short", at_rest(3.0, sigma_m, 2e-3));
@@ -162,6 +161,42 @@ TEST(CalibrateOptics, TheLatencyFromAShakenRecording) {
   const Outcome refused = run({"calibrate", "latency", (dir / "still").string()});
   EXPECT_EQ(refused.code, 1);
   EXPECT_THAT(refused.err, HasSubstr("shake the probe"));
+}
+
+TEST(CalibrateOptics, FindsTheInertialSensor) {
+  const testkit::TempDir dir;
+  SimulationConfig config = without_link_faults(make_simulation_config("protoboard", "open"));
+  config.step_s = 1e-4;
+  const Eigen::Vector3d tip_in_marker_m(config.probe.tip_in_marker_m.data());
+  ShakeMotion shake;
+  Recording shaken = simulate_motion(config, shake_motion(shake, tip_in_marker_m), 12.0, "shaken");
+  const Eigen::Vector3d truth_m(config.probe.sensor_in_marker_m.data());
+  shaken.calibration.accelerometer.position_in_marker_m.reset();  // what is to be found is not given away
+  shaken.calibration.tracker.latency_s = 0.0;
+  write_to(dir / "shaken", shaken);
+  const std::string to = (dir / "calibration.json").string();
+  const Outcome outcome = run({"calibrate", "imu", (dir / "shaken").string(), "--json", "-o", to});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json out = json::parse(outcome.out);
+  EXPECT_EQ(out["trustworthy"], true);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double error_m = out["stderr"]["accelerometer_position_in_marker_m"][axis].get<double>();
+    EXPECT_GT(error_m, 0.0);
+    EXPECT_LT(error_m, 2e-3);
+    EXPECT_NEAR(out["values"]["accelerometer_position_in_marker_m"][axis].get<double>(),
+                truth_m[static_cast<Eigen::Index>(axis)], 4.0 * error_m);
+  }
+  const Calibration after = read_calibration(to);
+  ASSERT_TRUE(after.accelerometer.position_in_marker_m);
+  EXPECT_EQ(after.accelerometer.position_in_marker_m->x(),
+            out["values"]["accelerometer_position_in_marker_m"][0].get<double>());
+  EXPECT_GT(after.accelerometer.position_sigma_m, 0.0);
+  EXPECT_EQ(after.tracker.latency_s, out["values"]["latency_s"].get<double>());
+
+  write_to(dir / "still", simulate_motion(config, static_motion(shake.T_world_marker, tip_in_marker_m), 6.0, "still"));
+  const Outcome refused = run({"calibrate", "imu", (dir / "still").string()});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("turning it"));
 }
 
 }  // namespace

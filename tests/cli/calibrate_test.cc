@@ -120,7 +120,7 @@ TEST(Calibrate, EachKindReplacesItsOwnPartAlone) {
   for (const char* kind : {"force", "accel", "tip"}) {
     ASSERT_TRUE(all.calibrated.contains(kind)) << kind;
     EXPECT_EQ(all.calibrated.at(kind).trustworthy, true);
-    EXPECT_TRUE(json::parse(all.calibrated.at(kind).details_json).contains("stderr"));
+    EXPECT_TRUE(all.calibrated.at(kind).details.contains("stderr"));
   }
   const std::string before = read_file(to, 1 << 20);
   ASSERT_EQ(run({"calibrate", "force", force, "-o", to}).code, 0);

@@ -27,7 +27,7 @@ constexpr std::size_t kRowsPerFrame = 10;
 constexpr std::chrono::milliseconds kFrame{10};
 constexpr int kFramesPerDescription = 50;
 
-void describe(std::vector<std::uint8_t>& out) {
+void append_description(std::vector<std::uint8_t>& out) {
   ProbeDescription probe;
   probe.model = "open";
   probe.name = "live rig";
@@ -81,19 +81,20 @@ LiveProbe::~LiveProbe() {
 
 void LiveProbe::run() {
   const Clock::time_point start = Clock::now();
-  std::vector<std::uint8_t> bytes;
+  std::vector<std::uint8_t> bytes;  // that wait to be sent: the line of a busy host is full, and nothing is lost
   std::int64_t sent = 0;
   for (std::int64_t tick = 1; !stop_; ++tick) {
     std::this_thread::sleep_until(start + kFrame * tick);
     pollfd port{master_, POLLIN, 0};
     if (::poll(&port, 1, 0) < 0 || (port.revents & POLLHUP) != 0) {
       sent = 0;  // nobody is there: whoever comes finds a probe that begins
+      bytes.clear();
       continue;
     }
-    bytes.clear();
-    if (sent % kFramesPerDescription == 0) describe(bytes);
+    if (sent % kFramesPerDescription == 0) append_description(bytes);
     add_frame(tick, sent++, std::lround(force_counts_.load()), bytes);
-    if (::write(master_, bytes.data(), bytes.size()) < 0) continue;  // a full line: lost, as on a wire
+    const ssize_t written = ::write(master_, bytes.data(), bytes.size());
+    if (written > 0) bytes.erase(bytes.begin(), bytes.begin() + written);
     std::array<char, 256> heard;
     while (::read(master_, heard.data(), heard.size()) > 0) {
     }

@@ -82,13 +82,15 @@ TEST(Record, FromASerialPortAndAPoseStream) {
 TEST(Record, ACaptureGivesTheSameRowsAgain) {
   const Rig rig;
   const std::string capture = rig.dir / "probe.bin";
-  ASSERT_EQ(run(rig.words({"--duration", "1s", "--capture", capture})).code, 0);
-  run({"record", "--probe", "file:" + capture, "--uncalibrated", "--json", "-o", rig.dir / "again"});
+  const Outcome live = run(rig.words({"--duration", "1s", "--capture", capture}));
+  ASSERT_EQ(live.code, 0) << live.err;
+  const Outcome replayed =
+      run({"record", "--probe", "file:" + capture, "--uncalibrated", "--json", "-o", rig.dir / "again"});
   const ProbeStream first = read_recording(rig.dir / "rec").probe;
   // Without poses it is no recording to process, but its rows are there.
   std::ifstream file(rig.dir / "again/probe.csv");
   const std::string rows{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')), first.size() + 1);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')), first.size() + 1) << live.err << replayed.err;
   const Outcome twice = run(rig.words({"--duration", "1s", "--capture", capture}));
   EXPECT_EQ(twice.code, 1);
 }

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 template <class T>
-void append(std::vector<T>& to, const std::vector<T>& more) {
+void append_column(std::vector<T>& to, const std::vector<T>& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
@@ -30,18 +30,18 @@ void write_two_strokes(const fs::path& one, const fs::path& two, bool by_recorde
   };
   recording.truth.reset();
   ProbeStream& probe = recording.probe;
-  append(probe.t_ns, later(probe.t_ns));
-  append(probe.accel_counts, std::vector(probe.accel_counts));
-  append(probe.force_counts, std::vector(probe.force_counts));
-  append(probe.gyro_counts, std::vector(probe.gyro_counts));
-  append(probe.force3_counts, std::vector(probe.force3_counts));
+  append_column(probe.t_ns, later(probe.t_ns));
+  append_column(probe.accel_counts, std::vector(probe.accel_counts));
+  append_column(probe.force_counts, std::vector(probe.force_counts));
+  append_column(probe.gyro_counts, std::vector(probe.gyro_counts));
+  append_column(probe.force3_counts, std::vector(probe.force3_counts));
   TrackerStream& tracker = recording.tracker;
-  append(tracker.t_ns, later(tracker.t_ns));
-  append(tracker.T_world_marker, std::vector(tracker.T_world_marker));
-  append(tracker.markers, std::vector(tracker.markers));
-  append(tracker.reprojection_px, std::vector(tracker.reprojection_px));
+  append_column(tracker.t_ns, later(tracker.t_ns));
+  append_column(tracker.T_world_marker, std::vector(tracker.T_world_marker));
+  append_column(tracker.markers, std::vector(tracker.markers));
+  append_column(tracker.reprojection_px, std::vector(tracker.reprojection_px));
   recording.info.segments = {{"contact_1", start_ns, end_ns}, {"contact 2/..", start_ns + later_ns, end_ns + later_ns}};
-  if (by_recorder) recording.info.extra_json = R"({"recorder":{"state":"finished"}})";
+  if (by_recorder) recording.info.recorder.emplace().state = "finished";
   fs::create_directory(two);
   write_recording(two, recording);
 }

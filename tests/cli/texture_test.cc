@@ -80,6 +80,29 @@ TEST_F(TextureCommands, EveryModelOfHeightsIsFittedAndDescribed) {
   }
 }
 
+// Seed Fig. 38: what repeats along the path is a pattern, without being asked for one.
+TEST_F(TextureCommands, APeriodicProfileGivesAPatternedHeightMap) {
+  write_text(path("p.csv"), wave_profile(20, 2.3));
+  const Json fit = done({"texture", "fit", path("p.csv"), "--model", "heightmap", "-o", path("x.texture.json")});
+  EXPECT_EQ(fit["fit"]["kind"], "pattern");
+  EXPECT_NEAR(fit["fit"]["pitch_m"].get<double>(), 2.3e-3, 2e-6);
+  EXPECT_FALSE(fit["fit"].contains("spectrum_error"));
+  // Whole periods, so that the image closes: four of 2.3 mm.
+  const Json info = done({"texture", "info", path("x.texture.json")});
+  const Json& map = info["describe"];
+  EXPECT_NEAR(map["mm_per_px"][0].get<double>() * map["columns"].get<double>(), 9.2, 0.03);
+  EXPECT_EQ(done({"texture", "fit", path("p.csv"), "--model", "heightmap", "--set", "fourier2d.kind=isotropic", "-o",
+                  path("y.texture.json")})["fit"]["kind"],
+            "isotropic");
+}
+
+TEST_F(TextureCommands, AnXmlFileNeedsItsModel) {
+  write_text(path("m.xml"), "<modelSet/>");
+  const auto result = run({"texture", "fit", path("m.xml"), "-o", path("x.texture.json")});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--model autoregressive"));
+}
+
 TEST_F(TextureCommands, SynthesizedHeightsAreTheTextures) {
   write_text(path("p.csv"), wave_profile(20));
   done({"texture", "fit", path("p.csv"), "-o", path("x.texture.json")});

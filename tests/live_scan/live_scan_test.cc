@@ -86,8 +86,8 @@ TEST(LiveScan, TheFirmwaresBytesDecodeToTheSamples) {
   config.step_s = 1e-4;
   const Recording bench =
       simulate_motion(config, shake_motion({}, Eigen::Vector3d(config.probe.tip_in_marker_m.data())), 3.0, "shaken");
-  const HeardProbe heard = through_link(bench, config.probe);
-  const ProbeStream& rows = heard.recording.probe;
+  const ReceivedProbe received = through_link(bench, config.probe);
+  const ProbeStream& rows = received.recording.probe;
   ASSERT_EQ(rows.size(), bench.probe.size());
   EXPECT_EQ(rows.accel_counts, bench.probe.accel_counts);
   EXPECT_EQ(rows.gyro_counts, bench.probe.gyro_counts);
@@ -95,8 +95,8 @@ TEST(LiveScan, TheFirmwaresBytesDecodeToTheSamples) {
   for (const double force : rows.force_counts) forces += std::isnan(force) ? 0 : 1;
   for (const double force : bench.probe.force_counts) sent += std::isnan(force) ? 0 : 1;
   EXPECT_EQ(forces, sent);
-  EXPECT_EQ(heard.description.model, "open");
-  EXPECT_NEAR(heard.description.rate_Hz, 4000.0, 1e-9);
+  EXPECT_EQ(received.description.model, "open");
+  EXPECT_NEAR(received.description.rate_Hz, 4000.0, 1e-9);
   // A host that reads every millisecond stamps to better than that.
   for (std::size_t i = 0; i < rows.size(); i += 100)
     ASSERT_NEAR(1e-9 * static_cast<double>(rows.t_ns[i] - bench.probe.t_ns[i]), 0.0, 6e-3);

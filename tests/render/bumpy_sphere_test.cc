@@ -60,7 +60,7 @@ TEST_P(BumpySphere, NeitherSticksNorPopsThroughNorJumps) {
     ASSERT_LE(out.friction_N.norm(), 1.2 * stroke.friction * out.contact_N.norm() * (1.0 + 1e-6) + 1e-9);
     largest_N = std::max(largest_N, out.force_N.norm());
   }
-  const testkit::ProxyFigures f = judge.figures();
+  const testkit::ProxyStatistics f = judge.statistics();
   EXPECT_EQ(f.stuck_events, 0u) << "lag of up to " << 1e3 * f.largest_lag_m << " mm";
   EXPECT_EQ(f.pop_throughs, 0u) << "inside by up to " << 1e6 * f.deepest_proxy_m << " µm";
   EXPECT_LE(f.deepest_proxy_m, 1e-9);

@@ -79,7 +79,7 @@ TEST_P(JaggedSphere, ProxyIsAtALocalMinimumOutside) {
     if (falls && first < 0) first = static_cast<int>(i);
     not_minimal += falls;
   }
-  EXPECT_EQ(judge.figures().pop_throughs, 0u) << 1e6 * judge.figures().deepest_proxy_m << " µm inside";
+  EXPECT_EQ(judge.statistics().pop_throughs, 0u) << 1e6 * judge.statistics().deepest_proxy_m << " µm inside";
   // Where a minimum has just vanished the way down may take a second tick.
   EXPECT_LE(not_minimal, probed / 200) << "first at tick " << first;
 }
@@ -151,11 +151,11 @@ TEST_P(Tip, JumpsOfCentimetresDoNotLeadInside) {
       p *= random.uniform(30e-3, 65e-3) / p.norm();
       const ServoOutput out = rig.step(p);
       judge.tick(p, out.proxy_m);
-      if (first < 0 && judge.figures().pop_throughs > 0) first = k;
+      if (first < 0 && judge.statistics().pop_throughs > 0) first = k;
       ASSERT_TRUE(out.force_N.allFinite() && out.proxy_m.allFinite());
     }
-    EXPECT_EQ(judge.figures().pop_throughs, 0u)
-        << 1e6 * judge.figures().deepest_proxy_m << " µm inside, first at " << first << ", friction " << friction;
+    EXPECT_EQ(judge.statistics().pop_throughs, 0u)
+        << 1e6 * judge.statistics().deepest_proxy_m << " µm inside, first at " << first << ", friction " << friction;
   }
 }
 
@@ -172,7 +172,7 @@ TEST_P(Tip, MayBePushedThroughTheMiddleAndOutBehind) {
     out = rig.step(p);
     judge.tick(p, out.proxy_m);
   }
-  EXPECT_EQ(judge.figures().pop_throughs, 0u);
+  EXPECT_EQ(judge.statistics().pop_throughs, 0u);
   // A sphere has no place that holds the proxy in front while the device is behind.
   for (int k = 0; k < 200; ++k) out = rig.step({20e-3, 10e-3, -60e-3});
   EXPECT_LE(out.force_N.norm(), 1e-6);

@@ -65,7 +65,9 @@ TEST(OwnMethod, IsALineOfTheTable) {
   EXPECT_EQ(config.one_pass.gate_chi2, 20.0);
   set_field(fields, "method", "thesis");
   EXPECT_EQ(config.method, WithOwn::method<ThesisMethod>());
-  EXPECT_EQ(ProcessMethods::describe(), "fused (ours) or thesis (the baseline)");
+  EXPECT_EQ(ProcessMethods::describe(),
+            "fused (ours), thesis (the baseline), thesis_tuned (the baseline, tuned), raw (the tracker's poses alone), "
+            "ekf (one pass, causal) or particle (many filters, causal)");
   EXPECT_EQ(WithOwn::describe(), "fused (ours), thesis (the baseline) or one_pass (an example)");
 }
 

@@ -20,7 +20,8 @@ constexpr std::array<Unit, 7> kLengths{
 constexpr std::array<Unit, 4> kDurations{{{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"min", 60.0}}};
 constexpr std::array<Unit, 3> kSpeeds{{{"m/s", 1.0}, {"cm/s", 1e-2}, {"mm/s", 1e-3}}};
 
-double parse(std::string_view text, std::string_view what, std::span<const Unit> units, std::string_view example) {
+double parse_quantity(std::string_view text, std::string_view what, std::span<const Unit> units,
+                      std::string_view example) {
   const std::string_view all = trim(text);
   const auto split = all.find_first_not_of("+-0123456789.eE");
   const auto number = parse_double(all.substr(0, split));
@@ -38,11 +39,13 @@ double parse(std::string_view text, std::string_view what, std::span<const Unit>
 }  // namespace
 
 double parse_length_m(std::string_view text, std::string_view what) {
-  return parse(text, what, kLengths, "5mm or 0.3m");
+  return parse_quantity(text, what, kLengths, "5mm or 0.3m");
 }
-double parse_speed_mps(std::string_view text, std::string_view what) { return parse(text, what, kSpeeds, "25mm/s"); }
+double parse_speed_mps(std::string_view text, std::string_view what) {
+  return parse_quantity(text, what, kSpeeds, "25mm/s");
+}
 double parse_duration_s(std::string_view text, std::string_view what) {
-  return parse(text, what, kDurations, "10s or 250ms");
+  return parse_quantity(text, what, kDurations, "10s or 250ms");
 }
 
 double parse_length_unit_m(std::string_view text, std::string_view what) {

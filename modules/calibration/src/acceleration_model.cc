@@ -14,7 +14,7 @@ struct Integral {
 };
 
 // One step to `next`, the acceleration being linear in time.
-void advance(Integral& s, const Columns& next, double step_s) {
+void advance_integral(Integral& s, const Columns& next, double step_s) {
   s.position += step_s * s.velocity + step_s * step_s / 6.0 * (2.0 * s.acceleration + next);
   s.velocity += 0.5 * step_s * (s.acceleration + next);
   s.acceleration = next;
@@ -59,12 +59,12 @@ Eigen::VectorXd AccelerationModel::residuals(double latency, Eigen::MatrixXd* sl
       at = Integral{};
       at.acceleration = columns_at(row);
     }
-    for (; row < target; ++row) advance(at, columns_at(row + 1), sensor_.t_s[row + 1] - sensor_.t_s[row]);
+    for (; row < target; ++row) advance_integral(at, columns_at(row + 1), sensor_.t_s[row + 1] - sensor_.t_s[row]);
     const double part_s = t_s - sensor_.t_s[row];
     const double share = part_s / (sensor_.t_s[row + 1] - sensor_.t_s[row]);
     Integral there = at;
     // The next sample's columns are needed for the part of a step only.
-    advance(there, at.acceleration + share * (columns_at(row + 1) - at.acceleration), part_s);
+    advance_integral(there, at.acceleration + share * (columns_at(row + 1) - at.acceleration), part_s);
     const Eigen::Vector3d seen = poses_.T_world_marker[i] * lever_arm_m_;
     const auto k = static_cast<Eigen::Index>(3 * i);
     out.segment<3>(k) = seen - there.position.col(0);

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 
+#include "asperity/algebra/solve.h"
 #include "asperity/base/error.h"
 #include "fit_ellipsoid.h"
 
@@ -102,14 +102,14 @@ std::vector<Eigen::Vector3d> chosen(const std::vector<Eigen::Vector3d>& counts, 
 }
 
 Matrix9 cofactor(const EllipsoidFit& fit) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(fit.slope, Eigen::ComputeThinV);
-  const Eigen::Matrix<double, 9, 1> inverse = svd.singularValues().cwiseInverse();
-  return svd.matrixV() * inverse.cwiseAbs2().asDiagonal() * svd.matrixV().transpose();
+  const SingularValues svd = singular_values(fit.slope, SingularVectors::kThinV);
+  const Eigen::VectorXd inverse = svd.values.cwiseInverse();
+  return svd.V * inverse.cwiseAbs2().asDiagonal() * svd.V.transpose();
 }
 
 double least_singular(const EllipsoidFit& fit) {
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(fit.slope);
-  return svd.singularValues()[8] / std::sqrt(static_cast<double>(fit.slope.rows()));
+  return singular_values(fit.slope, SingularVectors::kNone).values[8] /
+         std::sqrt(static_cast<double>(fit.slope.rows()));
 }
 
 // Leaves out poses that the others contradict, until the set stays.
@@ -141,7 +141,7 @@ EllipsoidFit fit_inliers(const std::vector<Eigen::Vector3d>& counts, const Accel
 }
 
 // Scales and angles of B's rows and, by their derivatives, the standard errors.
-void describe(AccelerometerFieldResult& out, const Matrix9& covariance) {
+void describe_field(AccelerometerFieldResult& out, const Matrix9& covariance) {
   const Eigen::Matrix3d B = out.accelerometer.B;
   constexpr int kFirst[3] = {0, 1, 3};  // where a row of B begins among the parameters
   const auto block = [&](int a, int b) -> Eigen::MatrixXd {
@@ -176,36 +176,31 @@ void describe(AccelerometerFieldResult& out, const Matrix9& covariance) {
   }
 }
 
-CalibrationVerdict judge(const AccelerometerFieldResult& result, const AccelerometerFieldConfig& config) {
+CalibrationVerdict judge_field(const AccelerometerFieldResult& result, const AccelerometerFieldConfig& config) {
   const double g = config.gravity_mps2;
   const double scale_share = (result.scale_stderr.array() / result.scale_counts_per_mps2.array()).maxCoeff();
   const double bias_share = (result.bias_stderr_counts.array() / (g * result.scale_counts_per_mps2.array())).maxCoeff();
   const double residual_mps2 = result.residual_counts / result.scale_counts_per_mps2.mean();
   CalibrationVerdict out;
-  const auto fail = [&](const std::string& text) {
-    out.text += (out.trustworthy ? "" : " ") + text;
-    out.trustworthy = false;
-  };
+  out.text = fmt::format(
+      "{} poses lie on one ellipsoid to {:.2g} m/s²; scale is known to {:.2g} %, bias to {:.2g} "
+      "m/s². Gravity says nothing of the sensor's rotation to the marker.",
+      result.used, result.rms_mps2, 100.0 * scale_share, bias_share * g);
   if (!(residual_mps2 <= config.residual_share * g)) {
-    fail(fmt::format("The poses miss gravity by {:.2g} m/s² each: the probe was not still, or its readings bend.",
-                     residual_mps2));
+    out.add("gravity_missed", fmt::format("the poses miss gravity by {:.2g} m/s² each: the probe was not still, or its "
+                                          "readings bend",
+                                          residual_mps2));
   }
   const double angle_rad = result.misalignment_stderr_rad.maxCoeff();
   if (!(std::max({scale_share, bias_share, angle_rad}) <= config.uncertainty_share)) {
-    fail(
-        fmt::format("Scale is known to {:.2g} %, bias to {:.2g} % of gravity and the axes' angles to {:.2g} mrad only: "
-                    "record more poses, in more directions.",
-                    100.0 * scale_share, 100.0 * bias_share, 1e3 * angle_rad));
+    out.add("accelerometer_uncertain",
+            fmt::format("scale is known to {:.2g} %, bias to {:.2g} % of gravity and the axes' angles to {:.2g} mrad "
+                        "only",
+                        100.0 * scale_share, 100.0 * bias_share, 1e3 * angle_rad));
   }
   if (5 * (result.poses.size() - result.used) > result.poses.size()) {
-    fail(fmt::format("{} of {} poses contradict the others: the probe was moved while it was to be still.",
-                     result.poses.size() - result.used, result.poses.size()));
-  }
-  if (out.trustworthy) {
-    out.text = fmt::format(
-        "{} poses lie on one ellipsoid to {:.2g} m/s²; scale is known to {:.2g} %, bias to {:.2g} "
-        "m/s². Gravity says nothing of the sensor's rotation to the marker.",
-        result.used, result.rms_mps2, 100.0 * scale_share, bias_share * g);
+    out.add("poses_contradict", fmt::format("{} of {} poses contradict the others", result.poses.size() - result.used,
+                                            result.poses.size()));
   }
   return out;
 }
@@ -253,7 +248,7 @@ AccelerometerFieldResult calibrate_accelerometer_field(const AccelerometerSample
   unit.head<6>() /= g;
   const Matrix9 covariance =
       out.residual_counts * out.residual_counts * (unit.asDiagonal() * cofactor(fit) * unit.asDiagonal()).eval();
-  describe(out, covariance);
+  describe_field(out, covariance);
 
   const Eigen::Matrix3d inverse = B.inverse();
   double used_square = 0.0;
@@ -270,7 +265,7 @@ AccelerometerFieldResult calibrate_accelerometer_field(const AccelerometerSample
   }
   out.rms_mps2 = std::sqrt(used_square / static_cast<double>(out.used));
   out.rms_all_mps2 = std::sqrt(all_square / static_cast<double>(counts.size()));
-  out.verdict = judge(out, config);
+  out.verdict = judge_field(out, config);
   return out;
 }
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
@@ -64,7 +63,7 @@ struct Fit {
   CameraMatrix covariance;  // for independent corners
 };
 
-Fit refine(const Views& views, CameraBundle start, bool k3_free, int most_iterations) {
+Fit refine_bundle(const Views& views, CameraBundle start, bool k3_free, int most_iterations) {
   Fit fit{std::move(start), 0.0, {}};
   fit.bundle.free.fill(true);
   fit.bundle.free[kK3] = k3_free;
@@ -79,10 +78,11 @@ Fit refine(const Views& views, CameraBundle start, bool k3_free, int most_iterat
 // Whether the data ask for k3: by Schwarz's criterion, which a coefficient of nothing passes at these numbers of
 // corners in one calibration of a hundred and fifty.
 Fit choose_model(const Views& views, const CameraBundle& start, const CameraFitConfig& config, double& k3_over_error) {
-  Fit without = refine(views, start, false, config.most_iterations);
-  if (unmirror_poses(views, without.bundle)) without = refine(views, without.bundle, false, config.most_iterations);
+  Fit without = refine_bundle(views, start, false, config.most_iterations);
+  if (unmirror_poses(views, without.bundle))
+    without = refine_bundle(views, without.bundle, false, config.most_iterations);
   if (config.k3 == ThirdRadialTerm::kZero) return without;
-  Fit with = refine(views, without.bundle, true, config.most_iterations);
+  Fit with = refine_bundle(views, without.bundle, true, config.most_iterations);
   k3_over_error = with.bundle.parameters[kK3] / std::sqrt(with.covariance(kK3, kK3));
   if (config.k3 == ThirdRadialTerm::kFree) return with;
   const double numbers = 2.0 * static_cast<double>(count_corners(views));
@@ -124,7 +124,8 @@ std::vector<double> rms_by_view_px(const Views& views, const CameraBundle& bundl
   return out;
 }
 
-CameraFitView describe(const BoardView& view, const CameraVector& parameters, const Pose& T_camera_board, bool used) {
+CameraFitView describe_view(const BoardView& view, const CameraVector& parameters, const Pose& T_camera_board,
+                            bool used) {
   CameraFitView out;
   out.name = view.name;
   out.corners = view.corner_px.size();
@@ -158,35 +159,28 @@ void refuse_undetermined(const CameraFit& fit, const CameraFitConfig& config) {
   }
 }
 
-CalibrationVerdict judge(const CameraFit& fit, const CameraFitConfig& config) {
-  std::vector<std::string> faults;
-  if (!fit.converged) faults.push_back("the fit did not converge");
-  if (fit.rms_px > config.good_rms_px) {
-    faults.push_back(
-        fmt::format("the corners miss the model by {:.2f} px: sharper images, a flat board, focus locked", fit.rms_px));
-  }
+CalibrationVerdict judge_camera(const CameraFit& fit, const CameraFitConfig& config) {
   const double share = std::max(fit.standard_error[0] / fit.camera.fx, fit.standard_error[1] / fit.camera.fy);
+  CalibrationVerdict verdict;
+  verdict.text = fmt::format("focal length to {:.2f} %, corners within {:.2f} px RMS;{}.", 100.0 * share, fit.rms_px,
+                             fit.k3_free ? " k3 was fitted: the distortion asks for it" : " k3 is held at 0");
+  if (!fit.converged) verdict.add("camera_not_converged", "the fit did not converge");
+  if (fit.rms_px > config.good_rms_px) {
+    verdict.add("camera_misfit", fmt::format("the corners miss the model by {:.2f} px", fit.rms_px));
+  }
   if (share > config.good_focal_error) {
-    faults.push_back(fmt::format("the focal length is known to {:.1f} % only: more views, tilted by 20 to 45 degrees",
-                                 100.0 * share));
+    verdict.add("focal_length_uncertain", fmt::format("the focal length is known to {:.1f} % only", 100.0 * share));
   }
   if (fit.coverage < config.good_coverage) {
-    faults.push_back(
-        fmt::format("the board covered {:.0f} % of the image only: outside, the distortion is a guess; "
-                    "take it to the corners of the image",
-                    100.0 * fit.coverage));
+    verdict.add("board_coverage",
+                fmt::format("the board covered {:.0f} % of the image only: outside, the distortion is a guess",
+                            100.0 * fit.coverage));
   }
-  CalibrationVerdict verdict;
-  verdict.trustworthy = faults.empty();
-  verdict.text = fmt::format("focal length to {:.2f} %, corners within {:.2f} px RMS", 100.0 * share, fit.rms_px);
-  for (const std::string& fault : faults) verdict.text += "; " + fault;
-  verdict.text += ".";
-  verdict.text += fit.k3_free ? " k3 was fitted: the distortion asks for it." : " k3 is held at 0.";
   if (fit.errors_scaled) {
-    verdict.text += fmt::format(
-        " Views disagree by {:.1f} times what the scatter of corners explains (a board that bends, blur, focus that "
-        "changes): the standard errors are larger by that.",
-        std::sqrt(fit.dispersion));
+    verdict.add("views_disagree",
+                fmt::format("views disagree by {:.1f} times what the scatter of corners explains; the standard errors "
+                            "are larger by that",
+                            std::sqrt(fit.dispersion)));
   }
   return verdict;
 }
@@ -222,7 +216,7 @@ CameraFit calibrate_camera(std::span<const BoardView> all_views, int width, int 
     const std::ptrdiff_t at = worst - rms.begin();
     const BoardView& view = *views[static_cast<std::size_t>(at)];
     left_out.push_back(
-        describe(view, fit.bundle.parameters, fit.bundle.T_camera_board[static_cast<std::size_t>(at)], false));
+        describe_view(view, fit.bundle.parameters, fit.bundle.T_camera_board[static_cast<std::size_t>(at)], false));
     out.problems.push_back(
         {"view_left_out", fmt::format("{}: its corners miss by {:.2f} px RMS, the median is {:.2f} px",
                                       printable(view.name), *worst, median(rms))});
@@ -234,7 +228,7 @@ CameraFit calibrate_camera(std::span<const BoardView> all_views, int width, int 
 
   const CameraBundle& bundle = fit.bundle;
   const CameraVector& c = bundle.parameters;
-  out.camera = {width, height, c[0], c[1], c[2], c[3], {c[4], c[5], c[6], c[7], c[8]}};
+  out.camera = {width, height, c[0], c[1], c[2], c[3], {c[4], c[5], c[6], c[7], c[8]}, std::nullopt};
   out.k3_free = bundle.free[kK3];
   out.corner_sigma_px = fit.sigma_px;
   out.rms_px = std::sqrt(bundle.sum_of_squares_px2 / static_cast<double>(count_corners(views)));
@@ -243,14 +237,15 @@ CameraFit calibrate_camera(std::span<const BoardView> all_views, int width, int 
   out.converged = bundle.converged;
   measure_dispersion(fit, out);
   out.covariance = fit.covariance * (out.errors_scaled ? out.dispersion : 1.0);
+  out.camera.covariance = out.covariance;
   out.standard_error = out.covariance.diagonal().cwiseSqrt();
   for (std::size_t v = 0; v < views.size(); ++v)
-    out.views.push_back(describe(*views[v], c, bundle.T_camera_board[v], true));
+    out.views.push_back(describe_view(*views[v], c, bundle.T_camera_board[v], true));
   for (const CameraFitView& view : out.views) out.steepest_tilt_rad = std::max(out.steepest_tilt_rad, view.tilt_rad);
   out.views.insert(out.views.end(), left_out.begin(), left_out.end());
   refuse_narrow_coverage(out.coverage, config);
   refuse_undetermined(out, config);
-  out.verdict = judge(out, config);
+  out.verdict = judge_camera(out, config);
   return out;
 }
 

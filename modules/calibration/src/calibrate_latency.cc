@@ -185,7 +185,7 @@ LatencyFit by_accelerometer(const Recording& recording, const LatencyConfig& con
   return out;
 }
 
-void judge(const LatencyConfig& config, LatencyFit& out) {
+void judge_latency(const LatencyConfig& config, LatencyFit& out) {
   if (!(out.latency_error_s <= config.largest_error_s)) {
     throw Error(fmt::format(
         "calibrate latency: the motion is too weak ({:.2g} {} RMS): {:.1f} ± {:.1f} ms is all it says: {}", out.motion,
@@ -200,12 +200,12 @@ void judge(const LatencyConfig& config, LatencyFit& out) {
                                     1e6 * out.clock_rate, 1e6 * out.clock_rate_error);
   }
   if (out.latency_error_s > config.good_error_s) {
-    out.verdict.trustworthy = false;
-    out.verdict.text += fmt::format(" Known to {:.2f} ms only: {}.", 1e3 * out.latency_error_s, kAdvice);
+    out.verdict.add("latency_uncertain",
+                    fmt::format("the latency is known to {:.2f} ms only", 1e3 * out.latency_error_s));
   }
 }
 
-void check(const Recording& recording, const LatencyConfig& config) {
+void check_latency_input(const Recording& recording, const LatencyConfig& config) {
   if (!(config.largest_latency_s > config.least_latency_s)) {
     throw Error(fmt::format("calibration.largest_latency_s {} must be above least_latency_s {}",
                             config.largest_latency_s, config.least_latency_s));
@@ -222,10 +222,10 @@ void check(const Recording& recording, const LatencyConfig& config) {
 }  // namespace
 
 LatencyFit calibrate_latency(const Recording& recording, const LatencyConfig& config) {
-  check(recording, config);
+  check_latency_input(recording, config);
   const bool gyroscope = config.method != LatencyMethod::kAccelerometer && recording.probe.has_gyro();
   LatencyFit out = gyroscope ? by_gyroscope(recording, config) : by_accelerometer(recording, config);
-  judge(config, out);
+  judge_latency(config, out);
   return out;
 }
 

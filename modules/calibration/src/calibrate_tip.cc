@@ -64,8 +64,8 @@ double quantile(std::vector<double>& values, double share) {
   return *at;
 }
 
-Pivot search(const PivotPoses& poses, const std::vector<std::size_t>& turned, const TrackerCalibration& tracker,
-             const CalibrateTipConfig& config) {
+Pivot search_pivot(const PivotPoses& poses, const std::vector<std::size_t>& turned, const TrackerCalibration& tracker,
+                   const CalibrateTipConfig& config) {
   // Some hundred poses judge a candidate as well as thousands do.
   constexpr std::size_t kJudges = 400;
   std::vector<std::size_t> judges;
@@ -174,30 +174,24 @@ void check_swing(const PivotPoses& poses, const std::vector<RowRun>& runs, const
       std::max(config.least_spread, 5.0 * tracker.sigma_rotation_rad.norm()), kHowToSwing));
 }
 
-void judge(TipCalibration& tip, const CalibrateTipConfig& config) {
-  const auto fail = [&](const std::string& text) {
-    tip.verdict.text += (tip.verdict.trustworthy ? "" : " ") + text;
-    tip.verdict.trustworthy = false;
-  };
-  if (!(tip.noise_ratio <= config.residual_ratio)) {
-    fail(fmt::format(
-        "The tip misses the dimple by {:.2g} mm, {:.1f} times what the tracker's noise allows: it slid, the "
-        "marker is loose, or the tracker's noise is stated too small.",
-        1e3 * tip.rms_m, tip.noise_ratio));
-  }
+void judge_tip(TipCalibration& tip, const CalibrateTipConfig& config) {
   const double error_m = tip.stderr_m.maxCoeff();
+  tip.verdict.text = fmt::format(
+      "The tip stays within {:.2g} mm (RMS) of one point over {} poses, and its place on the "
+      "probe is known to {:.2g} mm.",
+      1e3 * tip.rms_m, tip.used, 1e3 * error_m);
+  if (!(tip.noise_ratio <= config.residual_ratio)) {
+    tip.verdict.add("tip_slid", fmt::format("the tip misses the dimple by {:.2g} mm, {:.1f} times what the tracker's "
+                                            "noise allows: it slid, the marker is loose, or the tracker's noise is "
+                                            "stated too small",
+                                            1e3 * tip.rms_m, tip.noise_ratio));
+  }
   if (!(error_m <= config.uncertainty_m)) {
-    fail(fmt::format("The tip is known to {:.2g} mm only: swing wider and longer.", 1e3 * error_m));
+    tip.verdict.add("tip_uncertain", fmt::format("the tip is known to {:.2g} mm only", 1e3 * error_m));
   }
   const double share = static_cast<double>(tip.used) / static_cast<double>(tip.poses);
   if (!(share >= config.least_share)) {
-    fail(fmt::format("Only {:.0f} % of the poses stand in one dimple: record the swing alone.", 100.0 * share));
-  }
-  if (tip.verdict.trustworthy) {
-    tip.verdict.text = fmt::format(
-        "The tip stays within {:.2g} mm (RMS) of one point over {} poses, and its place on the "
-        "probe is known to {:.2g} mm.",
-        1e3 * tip.rms_m, tip.used, 1e3 * error_m);
+    tip.verdict.add("little_in_dimple", fmt::format("only {:.0f} % of the poses stand in one dimple", 100.0 * share));
   }
 }
 
@@ -207,7 +201,7 @@ TipCalibration calibrate_tip(const TrackerStream& stream, const TrackerCalibrati
                              const CalibrateTipConfig& config) {
   const PivotPoses poses = poses_of(stream, tracker);
   const std::vector<std::size_t> turned = rotated_poses(stream, tracker, config);
-  Pivot pivot = search(poses, turned, tracker, config);
+  Pivot pivot = search_pivot(poses, turned, tracker, config);
   std::vector<double> distances;
   for (const std::size_t place : turned) distances.push_back(pivot_distance(pivot, poses, place, tracker));
   // The 40 % quantile of a three-component normal vector's length is 0.89 of its median.
@@ -249,7 +243,7 @@ TipCalibration calibrate_tip(const TrackerStream& stream, const TrackerCalibrati
   out.independent_poses = static_cast<double>(out.used) * fit.independent_covariance.topLeftCorner<3, 3>().trace() /
                           out.covariance_m2.trace();
   for (const RowRun& run : runs) out.used_stretches.push_back({stream.t_ns[run.first], stream.t_ns[run.last - 1]});
-  judge(out, config);
+  judge_tip(out, config);
   return out;
 }
 

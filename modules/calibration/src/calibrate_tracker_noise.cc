@@ -11,6 +11,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
+#include "asperity/geometry/pose.h"
 #include "find_static_intervals.h"
 #include "fit_noise_law.h"
 
@@ -112,8 +113,7 @@ StaticInterval measure_static_interval(const StaticTracker& recording, PoseRange
   rest.distance_m = rest.T_world_marker.translation_m.norm();
   rest.tilt_rad = std::acos(std::clamp(facing(recording, rest.T_world_marker), 0.0, 1.0));
   const Eigen::Matrix3d R_ray_world =
-      Eigen::Quaterniond::FromTwoVectors(rest.T_world_marker.translation_m, Eigen::Vector3d::UnitZ())
-          .toRotationMatrix();
+      shortest_rotation(rest.T_world_marker.translation_m, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   std::vector<Eigen::Vector3d> ray = rest.deviation_m;
   for (Eigen::Vector3d& deviation : ray) deviation = R_ray_world * deviation;
   for (Eigen::Vector3d& angle : turn) angle = R_ray_world * angle;
@@ -123,8 +123,8 @@ StaticInterval measure_static_interval(const StaticTracker& recording, PoseRange
 }
 
 // The root of the mean variance over rests, by their numbers of poses, and its standard error.
-void pool(const std::vector<StaticInterval>& rests, Channel StaticInterval::*channel, Eigen::Vector3d& sigma,
-          Eigen::Vector3d& error, Eigen::Vector3d& slow) {
+void pool_intervals(const std::vector<StaticInterval>& rests, Channel StaticInterval::*channel, Eigen::Vector3d& sigma,
+                    Eigen::Vector3d& error, Eigen::Vector3d& slow) {
   for (int axis = 0; axis < 3; ++axis) {
     double count = 0.0, white2 = 0.0, variance = 0.0, slow2 = 0.0;
     for (const StaticInterval& rest : rests) count += static_cast<double>((rest.*channel)[0].samples);
@@ -197,7 +197,7 @@ void fit_model(const TrackerNoiseConfig& config, TrackerNoise& out) {
   out.model = model;
 }
 
-void judge(TrackerNoise& out) {
+void judge_tracker_noise(TrackerNoise& out) {
   // Of hundreds of poses even a harmless departure from the Gaussian shows: it must also be large.
   constexpr double kProbability = 1e-3, kSkewness = 0.5, kKurtosis = 1.0;
   const SeriesNoise* worst = nullptr;
@@ -220,28 +220,29 @@ void judge(TrackerNoise& out) {
   const Eigen::Vector3d s = 1e3 * out.sigma_position_m;
   out.verdict.text = fmt::format("white noise of {:.3g}, {:.3g}, {:.3g} mm along x, y, z over {} rest{}.", s.x(), s.y(),
                                  s.z(), out.rests.size(), out.rests.size() == 1 ? "" : "s");
+  if (!(out.sigma_position_m.minCoeff() > 0.0) || !(out.sigma_rotation_rad.minCoeff() > 0.0)) {
+    out.verdict.text.clear();
+    out.verdict.add("no_noise", "a coordinate did not change at all over a rest: these are no measured poses");
+    return;
+  }
   if (out.gaussian) {
     out.verdict.text += " A Gaussian describes it.";
   } else {
-    out.verdict.text += fmt::format(
-        " It is not Gaussian ({}: skewness {:.2f}, excess kurtosis {:.1f}): flickering light, or poses that flip; see "
-        "the "
-        "figure.",
-        worst_name, worst->skewness, worst->excess_kurtosis);
+    out.verdict.add(
+        "noise_not_gaussian",
+        fmt::format("it is not Gaussian ({}: skewness {:.2f}, excess kurtosis {:.1f}): flickering light, or "
+                    "poses that flip",
+                    worst_name, worst->skewness, worst->excess_kurtosis));
   }
   if (out.moving) {
-    out.verdict.text += fmt::format(
-        " The body moved: a slow part of {:.2g} mm and {:.2g} rad, more than the noise (a hand's jitter, light that "
-        "changes). "
-        "The white part stands; clamp the probe to be sure.",
-        1e3 * out.slow_position_m.maxCoeff(), out.slow_rotation_rad.maxCoeff());
+    out.verdict.add(
+        "body_moved",
+        fmt::format("the body moved: a slow part of {:.2g} mm and {:.2g} rad, more than the noise (a hand's "
+                    "jitter, light that changes); the white part stands",
+                    1e3 * out.slow_position_m.maxCoeff(), out.slow_rotation_rad.maxCoeff()));
   } else if (out.slow_position_m.norm() > 0.0 || out.slow_rotation_rad.norm() > 0.0) {
     out.verdict.text +=
         fmt::format(" A slow part of {:.2g} mm is not in these figures.", 1e3 * out.slow_position_m.maxCoeff());
-  }
-  out.verdict.trustworthy = out.gaussian;
-  if (!(out.sigma_position_m.minCoeff() > 0.0) || !(out.sigma_rotation_rad.minCoeff() > 0.0)) {
-    out.verdict = {false, "a coordinate did not change at all over a rest: these are no measured poses."};
   }
 }
 
@@ -272,11 +273,12 @@ TrackerNoise calibrate_tracker_noise(std::span<const StaticTracker> recordings, 
                     "distances and tilts",
                     config.least_rest_s, config.least_poses, longest_s));
   }
-  pool(out.rests, &StaticInterval::position_m, out.sigma_position_m, out.sigma_position_error_m, out.slow_position_m);
-  pool(out.rests, &StaticInterval::rotation_rad, out.sigma_rotation_rad, out.sigma_rotation_error_rad,
-       out.slow_rotation_rad);
+  pool_intervals(out.rests, &StaticInterval::position_m, out.sigma_position_m, out.sigma_position_error_m,
+                 out.slow_position_m);
+  pool_intervals(out.rests, &StaticInterval::rotation_rad, out.sigma_rotation_rad, out.sigma_rotation_error_rad,
+                 out.slow_rotation_rad);
   fit_model(config, out);
-  judge(out);
+  judge_tracker_noise(out);
   return out;
 }
 

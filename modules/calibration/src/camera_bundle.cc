@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
+#include "asperity/algebra/solve.h"
 
 namespace asperity {
 
@@ -92,23 +92,36 @@ PoseMatrix damped(const PoseMatrix& matrix, double damping) {
   return out;
 }
 
+// A view's pose step is alone − by_camera · the camera's step (Schur's complement).
+struct EliminatedPose {
+  PoseVector alone;
+  Eigen::Matrix<double, 6, kCameraParameters> by_camera;
+};
+
+EliminatedPose eliminate_pose(const PoseMatrix& pose, const ViewNormals& n) {
+  Eigen::Matrix<double, 6, kCameraParameters + 1> right;
+  right << n.pose_gradient, n.cross.transpose();
+  const Eigen::MatrixXd solved = solve_symmetric(pose, right);
+  return {solved.col(0), solved.rightCols<kCameraParameters>()};
+}
+
 struct Step {
   CameraVector camera;
   std::vector<PoseVector> poses;
   double predicted_px2 = 0.0;  // how much less the sum of squares becomes if the problem is linear
 };
 
-Step solve(const std::vector<ViewNormals>& normals, const CameraBundle& bundle, double damping) {
+Step solve_step(const std::vector<ViewNormals>& normals, const CameraBundle& bundle, double damping) {
   CameraMatrix reduced = CameraMatrix::Zero();
   CameraVector right = CameraVector::Zero();
-  std::vector<Eigen::LDLT<PoseMatrix>> poses;
+  std::vector<EliminatedPose> poses;
   poses.reserve(normals.size());
   for (const ViewNormals& n : normals) {
-    poses.emplace_back(damped(n.pose, damping));
+    const EliminatedPose& pose = poses.emplace_back(eliminate_pose(damped(n.pose, damping), n));
     reduced += n.camera;
     reduced.diagonal() += damping * n.camera.diagonal();
-    reduced -= n.cross * poses.back().solve(n.cross.transpose());
-    right += n.camera_gradient - n.cross * poses.back().solve(n.pose_gradient);
+    reduced -= n.cross * pose.by_camera;
+    right += n.camera_gradient - n.cross * pose.alone;
   }
   for (std::size_t k = 0; k < kCameraParameters; ++k) {
     if (!bundle.free[k]) reduced(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) = 1.0;
@@ -117,11 +130,11 @@ Step solve(const std::vector<ViewNormals>& normals, const CameraBundle& bundle, 
   // Unit diagonal first: focal lengths and distortion coefficients differ by many powers of ten.
   const CameraVector scale = reduced.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
   const CameraMatrix scaled = scale.asDiagonal() * reduced * scale.asDiagonal();
-  step.camera = scale.asDiagonal() * Eigen::LDLT<CameraMatrix>(scaled).solve(scale.asDiagonal() * right);
+  step.camera = scale.asDiagonal() * solve_symmetric(scaled, scale.asDiagonal() * right);
   step.poses.reserve(normals.size());
   for (std::size_t v = 0; v < normals.size(); ++v) {
     const ViewNormals& n = normals[v];
-    step.poses.push_back(poses[v].solve(n.pose_gradient - n.cross.transpose() * step.camera));
+    step.poses.push_back(poses[v].alone - poses[v].by_camera * step.camera);
     step.predicted_px2 += step.camera.dot(n.camera_gradient) + step.poses.back().dot(n.pose_gradient);
   }
   return step;
@@ -139,9 +152,9 @@ void store_information(const std::vector<ViewNormals>& normals, CameraBundle& bu
   bundle.view_information.clear();
   bundle.view_score.clear();
   for (const ViewNormals& n : normals) {
-    const Eigen::LDLT<PoseMatrix> pose(n.pose);
-    bundle.view_information.push_back(n.camera - n.cross * pose.solve(n.cross.transpose()));
-    bundle.view_score.push_back(n.camera_gradient - n.cross * pose.solve(n.pose_gradient));
+    const EliminatedPose pose = eliminate_pose(n.pose, n);
+    bundle.view_information.push_back(n.camera - n.cross * pose.by_camera);
+    bundle.view_score.push_back(n.camera_gradient - n.cross * pose.alone);
     bundle.information += bundle.view_information.back();
   }
 }
@@ -171,7 +184,7 @@ void refine_bundle(std::span<const BoardView* const> views, int most_iterations,
   bundle.converged = false;
   linearise();
   for (bundle.iterations = 0; bundle.iterations < most_iterations; ++bundle.iterations) {
-    const Step step = solve(normals, bundle, damping);
+    const Step step = solve_step(normals, bundle, damping);
     CameraVector parameters = bundle.parameters + step.camera;
     std::vector<Pose> poses = bundle.T_camera_board;
     for (std::size_t v = 0; v < poses.size(); ++v) {

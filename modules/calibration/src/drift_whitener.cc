@@ -17,8 +17,8 @@ struct State {
 
 }  // namespace
 
-Whitened whiten(DriftKind kind, const std::vector<double>& t_s, const std::vector<std::uint8_t>& starts, double ratio,
-                const Eigen::MatrixXd& columns) {
+Whitened whiten_series(DriftKind kind, const std::vector<double>& t_s, const std::vector<std::uint8_t>& starts,
+                       double ratio, const Eigen::MatrixXd& columns) {
   const bool second = kind == DriftKind::kIntegratedRandomWalk;
   const int taken = second ? 2 : 1;
   Whitened out;
@@ -73,7 +73,7 @@ Whitened whiten(DriftKind kind, const std::vector<double>& t_s, const std::vecto
 double most_likely_ratio(DriftKind kind, const std::vector<double>& t_s, const std::vector<std::uint8_t>& starts,
                          const Eigen::MatrixXd& residual) {
   const auto cost = [&](double log_ratio) {
-    const Whitened w = whiten(kind, t_s, starts, std::exp(log_ratio), residual);
+    const Whitened w = whiten_series(kind, t_s, starts, std::exp(log_ratio), residual);
     const double square = w.rows.squaredNorm();
     return square > 0.0 ? w.log_determinant + w.count * std::log(square) : -std::numeric_limits<double>::infinity();
   };

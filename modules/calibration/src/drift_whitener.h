@@ -20,8 +20,8 @@ struct Whitened {
 };
 
 // `ratio`: variance rate of the drift (of the angle per s; of the velocity per s) over the white noise's variance.
-Whitened whiten(DriftKind kind, const std::vector<double>& t_s, const std::vector<std::uint8_t>& starts, double ratio,
-                const Eigen::MatrixXd& columns);
+Whitened whiten_series(DriftKind kind, const std::vector<double>& t_s, const std::vector<std::uint8_t>& starts,
+                       double ratio, const Eigen::MatrixXd& columns);
 
 // The ratio at which `residual` (one column) is most likely, its white variance being free.
 double most_likely_ratio(DriftKind kind, const std::vector<double>& t_s, const std::vector<std::uint8_t>& starts,

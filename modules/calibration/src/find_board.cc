@@ -39,7 +39,7 @@ double least_spacing_px(const Corners& corners) {
 
 // Refines the corners in windows whose half width is at most `clear_share` of the way to the next corner, so that
 // nothing else printed lies in them. False if the squares are too small for that.
-bool refine(const GrayImage& image, const FindBoardConfig& config, double clear_share, Corners& corners) {
+bool refine_board_corners(const GrayImage& image, const FindBoardConfig& config, double clear_share, Corners& corners) {
   constexpr int kSmallestWindow_px = 2;
   const double spacing_px = least_spacing_px(corners);
   const int window = std::isfinite(spacing_px) ? std::min(config.window_px, static_cast<int>(clear_share * spacing_px))
@@ -62,7 +62,8 @@ std::optional<Corners> find_checkerboard(const GrayImage& image, const Calibrati
   for (int row = 0; row < board.rows; ++row) {
     for (int column = 0; column < board.columns; ++column) out.cell.emplace_back(column, row);
   }
-  if (config.method == CornerMethod::kSubPixel && !refine(image, config, kCheckerboardClear, out)) return std::nullopt;
+  if (config.method == CornerMethod::kSubPixel && !refine_board_corners(image, config, kCheckerboardClear, out))
+    return std::nullopt;
   return out;
 }
 
@@ -89,7 +90,7 @@ std::optional<Corners> find_charuco(const GrayImage& image, const CalibrationBoa
   if (columns < 2 || rows < 2) return std::nullopt;
   // The markers' own corners are the nearest: their distance along a side of the square.
   const double clear_share = 0.5 * (1.0 - board.marker_m / board.square_m);
-  if (!refine(image, config, clear_share, out)) return std::nullopt;
+  if (!refine_board_corners(image, config, clear_share, out)) return std::nullopt;
   return out;
 }
 

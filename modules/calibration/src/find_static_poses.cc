@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kFewestRows = 20;
 constexpr double kMotion = std::numeric_limits<double>::infinity();
 
-void check(const AccelerometerSamples& samples) {
+void check_static_samples(const AccelerometerSamples& samples) {
   if (samples.counts.size() != samples.size()) {
     throw Error(fmt::format("accelerometer: {} times, but {} readings", samples.size(), samples.counts.size()));
   }
@@ -123,7 +123,7 @@ Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3d>& values, std::size_t 
   return sum / static_cast<double>(last - first);
 }
 
-void describe(StaticPose& pose, const AccelerometerSamples& samples) {
+void describe_pose(StaticPose& pose, const AccelerometerSamples& samples) {
   pose.start_s = samples.t_s[pose.first];
   pose.duration_s = samples.t_s[pose.last - 1] - pose.start_s;
   pose.mean_counts = mean_of(samples.counts, pose.first, pose.last);
@@ -131,7 +131,7 @@ void describe(StaticPose& pose, const AccelerometerSamples& samples) {
   pose.drift_counts = (mean_of(samples.counts, pose.first, middle) - mean_of(samples.counts, middle, pose.last)).norm();
 }
 
-double spread(const std::vector<StaticPose>& poses) {
+double measure_spread(const std::vector<StaticPose>& poses) {
   if (poses.empty()) return 0.0;
   const auto n = static_cast<double>(poses.size());
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -142,8 +142,8 @@ double spread(const std::vector<StaticPose>& poses) {
 }
 
 // A rest that a tremor has cut in two would otherwise count twice with one error.
-std::vector<StaticPose> join(const std::vector<StaticPose>& poses, const AccelerometerSamples& samples,
-                             double nearer_counts) {
+std::vector<StaticPose> join_poses(const std::vector<StaticPose>& poses, const AccelerometerSamples& samples,
+                                   double nearer_counts) {
   std::vector<StaticPose> out;
   for (const StaticPose& pose : poses) {
     if (out.empty() || (out.back().mean_counts - pose.mean_counts).norm() >= nearer_counts) {
@@ -164,7 +164,7 @@ std::vector<StaticPose> join(const std::vector<StaticPose>& poses, const Acceler
 }  // namespace
 
 StaticPoses find_static_poses(const AccelerometerSamples& samples, const FindStaticPosesConfig& config) {
-  check(samples);
+  check_static_samples(samples);
   std::vector<double> steps_s(samples.size() - 1);
   for (std::size_t i = 0; i + 1 < samples.size(); ++i) steps_s[i] = samples.t_s[i + 1] - samples.t_s[i];
   const double period_s = median(steps_s);
@@ -194,11 +194,11 @@ StaticPoses find_static_poses(const AccelerometerSamples& samples, const FindSta
     while (i < samples.size() && variance[i] <= threshold) ++i;
     pose.last = i;
     if (samples.t_s[pose.last - 1] - samples.t_s[pose.first] < config.shortest_s) continue;
-    describe(pose, samples);
+    describe_pose(pose, samples);
     rests.push_back(pose);
   }
-  out.poses = join(rests, samples, config.same_pose * spread(rests));
-  out.radius_counts = spread(out.poses);
+  out.poses = join_poses(rests, samples, config.same_pose * measure_spread(rests));
+  out.radius_counts = measure_spread(out.poses);
   return out;
 }
 

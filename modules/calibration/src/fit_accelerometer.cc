@@ -5,8 +5,8 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <Eigen/SVD>
 
+#include "asperity/algebra/solve.h"
 #include "asperity/base/error.h"
 #include "fit_accelerometer_model.h"
 #include "student.h"
@@ -47,15 +47,15 @@ std::string missing_directions(const ForcePoses& poses) {
 }
 
 // The singular values of (f/|f|, 1), the least of which over √poses tells how far the directions spread.
-Eigen::JacobiSVD<Eigen::MatrixXd> directions_of(const ForcePoses& poses) {
-  Eigen::MatrixXd G = design(poses, {0, 1, 2});
+SingularValues directions_of(const ForcePoses& poses) {
+  Eigen::MatrixXd G = design_matrix(poses, {0, 1, 2});
   const double size = mean_force(poses);
   G.leftCols<3>() /= size > 0.0 ? size : 1.0;
-  return Eigen::JacobiSVD<Eigen::MatrixXd>(G, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  return singular_values(G, SingularVectors::kThinV);
 }
 
-double spread_of(const ForcePoses& poses, const Eigen::JacobiSVD<Eigen::MatrixXd>& directions) {
-  return directions.singularValues()[3] / std::sqrt(static_cast<double>(poses.size()));
+double spread_of(const ForcePoses& poses, const SingularValues& directions) {
+  return directions.values[3] / std::sqrt(static_cast<double>(poses.size()));
 }
 
 // The spread; refuses directions that do not determine the linear model.
@@ -66,11 +66,11 @@ double check_directions(const ForcePoses& poses, const FitAccelerometerConfig& c
                     "every side up once, and hold each for two seconds",
                     poses.size(), config.fewest_poses));
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd = directions_of(poses);
+  const SingularValues svd = directions_of(poses);
   const double spread = spread_of(poses, svd);
   if (spread >= config.least_spread) return spread;
   Eigen::Index axis = 0;
-  svd.matrixV().col(3).head<3>().cwiseAbs().maxCoeff(&axis);
+  svd.V.col(3).head<3>().cwiseAbs().maxCoeff(&axis);
   const std::string missing = missing_directions(poses);
   throw Error(fmt::format(
       "the {} poses do not determine the accelerometer's model, least of all along the marker's {} axis, where the "
@@ -130,7 +130,7 @@ std::array<int, 3> assign_axes(const ForcePoses& poses) {
   return best;
 }
 
-void choose(AccelerometerFit& out, const FitAccelerometerConfig& config) {
+void choose_model(AccelerometerFit& out, const FitAccelerometerConfig& config) {
   if (config.model != AccelerometerChoice::kAuto) {
     const auto wanted = static_cast<AccelerometerModel>(static_cast<int>(config.model) - 1);
     const auto found = std::find_if(out.models.begin(), out.models.end(), [&](const AccelerometerModelFit& fit) {
@@ -163,34 +163,30 @@ void choose(AccelerometerFit& out, const FitAccelerometerConfig& config) {
   }
 }
 
-void judge(AccelerometerFit& fit, double force_mps2, bool correlated, const FitAccelerometerConfig& config) {
+void judge_accelerometer(AccelerometerFit& fit, double force_mps2, bool correlated,
+                         const FitAccelerometerConfig& config) {
   const AccelerometerModelFit& chosen = fit.models[fit.chosen];
   const Eigen::Matrix3d B = chosen.accelerometer.B.leftCols<3>();
   const double scale = B.norm() / std::sqrt(3.0);
   const Eigen::MatrixXd& errors = chosen.accelerometer.standard_errors;
   const double slope_share = errors.leftCols<3>().maxCoeff() / scale;
   const double offset_share = errors.rightCols<1>().maxCoeff() / (scale * force_mps2);
-  const auto fail = [&](const std::string& text) {
-    fit.verdict.text += (fit.verdict.trustworthy ? "" : " ") + text;
-    fit.verdict.trustworthy = false;
-  };
+  fit.verdict.text = fmt::format(
+      "{} poses fit the {} model to {:.3g} counts; its factors are known to {:.2g} % of the scale.", fit.poses,
+      name_of(chosen), chosen.accelerometer.residual_counts.mean(), 100.0 * std::max(slope_share, offset_share));
   if (!(std::max(slope_share, offset_share) <= config.uncertainty_share)) {
-    fail(fmt::format("The factors are known to {:.2g} % of the scale only: add poses.",
-                     100.0 * std::max(slope_share, offset_share)));
+    fit.verdict.add("accelerometer_uncertain", fmt::format("the factors are known to {:.2g} % of the scale only",
+                                                           100.0 * std::max(slope_share, offset_share)));
   }
   if (chosen.degrees_of_freedom < 4) {
-    fail(fmt::format("{} degrees of freedom are too few to believe the errors: add poses.", chosen.degrees_of_freedom));
+    fit.verdict.add("too_few_poses",
+                    fmt::format("{} degrees of freedom are too few to believe the errors", chosen.degrees_of_freedom));
   }
   if (correlated) {
-    fail(
-        fmt::format("The errors of neighbouring poses are alike (correlation {:.2f}), so the standard errors are too "
-                    "small: add poses, in no order of direction.",
-                    fit.correlation));
-  }
-  if (fit.verdict.trustworthy) {
-    fit.verdict.text = fmt::format(
-        "{} poses fit the {} model to {:.3g} counts; its factors are known to {:.2g} % of the scale.", fit.poses,
-        name_of(chosen), chosen.accelerometer.residual_counts.mean(), 100.0 * std::max(slope_share, offset_share));
+    fit.verdict.add("neighbours_alike",
+                    fmt::format("the errors of neighbouring poses are alike (correlation {:.2f}), so the standard "
+                                "errors are too small",
+                                fit.correlation));
   }
 }
 
@@ -221,8 +217,8 @@ AccelerometerFit fit_accelerometer(const AccelerometerSamples& samples, const Fi
     out.correlation = neighbour_correlation(poses, linear);
   }
   out.poses = static_cast<std::size_t>(poses.size());
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(linear.accelerometer.B);
-  if (!(svd.singularValues()[2] > 1e-3 * svd.singularValues()[0])) {
+  const Eigen::VectorXd gain = singular_values(linear.accelerometer.B, SingularVectors::kNone).values;
+  if (!(gain[2] > 1e-3 * gain[0])) {
     throw Error("the readings do not follow the specific force on all three axes: is an axis dead, or read twice?");
   }
 
@@ -242,9 +238,9 @@ AccelerometerFit fit_accelerometer(const AccelerometerSamples& samples, const Fi
   for (std::size_t m = 1; m < out.models.size(); ++m) {
     out.models[m].better_probability = improvement_probability(out.models[m - 1], out.models[m]);
   }
-  choose(out, config);
+  choose_model(out, config);
   out.accelerometer = out.models[out.chosen].accelerometer;
-  judge(out, mean_force(poses), correlated(kShown), config);
+  judge_accelerometer(out, mean_force(poses), correlated(kShown), config);
   return out;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/SVD>
+#include "asperity/algebra/solve.h"
 
 namespace asperity {
 
@@ -16,17 +16,17 @@ struct Solved {
   double sum = 0.0;  // of the squares left
 };
 
-Solved solve(const Eigen::MatrixXd& G, const Eigen::VectorXd& counts) {
+Solved solve_columns(const Eigen::MatrixXd& G, const Eigen::VectorXd& counts) {
   const Eigen::VectorXd length = G.colwise().norm().transpose();
   const Eigen::VectorXd shrink = length.cwiseInverse();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(G * shrink.asDiagonal(), Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd inverse = svd.singularValues().cwiseInverse();
-  const Eigen::MatrixXd root = shrink.asDiagonal() * svd.matrixV() * inverse.asDiagonal();
+  const SingularValues svd = singular_values(G * shrink.asDiagonal(), SingularVectors::kThin);
+  const Eigen::VectorXd inverse = svd.values.cwiseInverse();
+  const Eigen::MatrixXd root = shrink.asDiagonal() * svd.V * inverse.asDiagonal();
   Solved out;
   // About the mean, so that an offset of tens of thousands of counts costs no digits.
   const double mean = counts.mean();
   const Eigen::VectorXd about = (counts.array() - mean).matrix();
-  out.parameters = root * (svd.matrixU().transpose() * about);
+  out.parameters = root * (svd.U.transpose() * about);
   out.sum = (about - G * out.parameters).squaredNorm();
   out.parameters[out.parameters.size() - 1] += mean;
   out.cofactor = root * root.transpose();
@@ -36,8 +36,8 @@ Solved solve(const Eigen::MatrixXd& G, const Eigen::VectorXd& counts) {
 double relative_singular_value(const Eigen::MatrixXd& G) {
   const Eigen::VectorXd shrink = G.colwise().norm().transpose().cwiseInverse();
   if (!shrink.allFinite()) return 0.0;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(G * shrink.asDiagonal());
-  return svd.singularValues()[svd.singularValues().size() - 1] / svd.singularValues()[0];
+  const SingularValues svd = singular_values(G * shrink.asDiagonal(), SingularVectors::kNone);
+  return svd.values[svd.values.size() - 1] / svd.values[0];
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ const char* term_name(int term) {
   return kNames[term];
 }
 
-Eigen::MatrixXd design(const ForcePoses& poses, const std::vector<int>& terms) {
+Eigen::MatrixXd design_matrix(const ForcePoses& poses, const std::vector<int>& terms) {
   Eigen::MatrixXd G(poses.size(), static_cast<Eigen::Index>(terms.size()) + 1);
   for (std::size_t k = 0; k < terms.size(); ++k) G.col(static_cast<Eigen::Index>(k)) = poses.features.col(terms[k]);
   G.col(G.cols() - 1).setOnes();
@@ -58,7 +58,7 @@ Eigen::Matrix3d line_sums(const ForcePoses& poses) {
   Eigen::Matrix3d out;
   for (int axis = 0; axis < 3; ++axis) {
     for (int marker = 0; marker < 3; ++marker)
-      out(axis, marker) = solve(design(poses, {marker}), poses.counts.col(axis)).sum;
+      out(axis, marker) = solve_columns(design_matrix(poses, {marker}), poses.counts.col(axis)).sum;
   }
   return out;
 }
@@ -77,7 +77,7 @@ AccelerometerModelFit fit_accelerometer_terms(const ForcePoses& poses, Accelerom
   for (int axis = 0; axis < 3; ++axis) {
     const auto at = static_cast<std::size_t>(axis);
     const Eigen::VectorXd counts = poses.counts.col(axis);
-    const Solved solved = solve(design(poses, terms[at]), counts);
+    const Solved solved = solve_columns(design_matrix(poses, terms[at]), counts);
     const double sigma = std::sqrt(solved.sum / out.degrees_of_freedom);
     accelerometer.residual_counts[axis] = sigma;
     for (std::size_t k = 0; k < terms[at].size(); ++k) {
@@ -102,7 +102,7 @@ std::vector<int> determined_quadric_terms(const ForcePoses& poses, double least_
   constexpr Eigen::Index kFewestLeft = 4;
   std::vector<int> terms{0, 1, 2, 3, 4, 5, 6, 7, 8};
   const auto determined = [&](const std::vector<int>& chosen) {
-    return relative_singular_value(design(poses, chosen)) >= least_relative_singular_value;
+    return relative_singular_value(design_matrix(poses, chosen)) >= least_relative_singular_value;
   };
   const auto enough = [&](const std::vector<int>& chosen) {
     return poses.size() >= static_cast<Eigen::Index>(chosen.size()) + 1 + kFewestLeft;

@@ -17,7 +17,7 @@ AccelerometerModelFit fit_accelerometer_terms(const ForcePoses& poses, Accelerom
 std::vector<int> determined_quadric_terms(const ForcePoses& poses, double least_relative_singular_value);
 
 // The design matrix of `terms` and a column of ones.
-Eigen::MatrixXd design(const ForcePoses& poses, const std::vector<int>& terms);
+Eigen::MatrixXd design_matrix(const ForcePoses& poses, const std::vector<int>& terms);
 
 // Residual sums of squares of each sensor axis (row) over a line in each axis of the marker (column).
 Eigen::Matrix3d line_sums(const ForcePoses& poses);

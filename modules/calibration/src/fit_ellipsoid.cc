@@ -4,8 +4,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <Eigen/SVD>
+
+#include "asperity/algebra/solve.h"
 
 namespace asperity {
 
@@ -59,12 +60,12 @@ Ellipsoid start_ellipsoid(const std::vector<Eigen::Vector3d>& counts, double g_m
         2.0 * x.transpose();
     square[i] = x.squaredNorm();
   }
-  const Eigen::Vector4d s = sphere.completeOrthogonalDecomposition().solve(square);
+  const Eigen::Vector4d s = least_squares(sphere, square).x;
   Ellipsoid out;
   out.C = mean + size * s.head<3>();
   out.B *= size * std::sqrt(std::max(s[3] + s.head<3>().squaredNorm(), 0.01)) / g_mps2;
 
-  const Parameters q = quadric.completeOrthogonalDecomposition().solve(Eigen::VectorXd::Ones(n));
+  const Parameters q = least_squares(quadric, Eigen::VectorXd::Ones(n)).x;
   Eigen::Matrix3d A;
   A << q[0], q[3], q[4], q[3], q[1], q[5], q[4], q[5], q[2];
   if (Eigen::LLT<Eigen::Matrix3d>(A).info() != Eigen::Success) return out;
@@ -109,7 +110,7 @@ EllipsoidFit fit_ellipsoid(const std::vector<Eigen::Vector3d>& counts, const Eig
     Eigen::Matrix<double, 9, 9> H = J.transpose() * J;
     const Parameters down = -J.transpose() * r;
     H.diagonal() += damping * Parameters::Constant(H.diagonal().maxCoeff());
-    const Parameters change = H.ldlt().solve(down);
+    const Parameters change = solve_symmetric(H, down);
     const Ellipsoid next = moved(at.ellipsoid, change, g_mps2);
     if (change.allFinite() && usable(next)) {
       EllipsoidFit there = measure_ellipsoid(counts, next, g_mps2);

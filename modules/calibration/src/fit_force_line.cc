@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 #include <Eigen/Core>
-#include <Eigen/QR>
 
+#include "asperity/algebra/solve.h"
 #include "asperity/base/error.h"
 #include "student.h"
 
@@ -18,7 +18,7 @@ namespace {
 const char* const kWhatToMeasure =
     "press the probe on a scale at five or more forces spread over its range, and write one line counts,force_N each";
 
-void check(const ForcePoints& points) {
+void check_force_points(const ForcePoints& points) {
   if (points.counts.size() != points.force_N.size()) {
     throw Error(fmt::format("force points: {} counts, but {} forces", points.counts.size(), points.force_N.size()));
   }
@@ -65,8 +65,7 @@ void test_bend(const Scaled& x, const Eigen::VectorXd& residual_N, ForceLineFit&
   G.col(0).setOnes();
   G.col(1) = x.u;
   const Eigen::VectorXd square = x.u.cwiseAbs2();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> line(G);
-  const Eigen::Vector2d below = line.solve(square);
+  const Eigen::Vector2d below = least_squares(G, square).x;
   const Eigen::VectorXd bend = square - G * below;
   // Two distinct counts leave nothing of the square but rounding.
   const double size = bend.squaredNorm();
@@ -121,40 +120,34 @@ std::string places(const std::vector<std::size_t>& at) {
   return out + (at.size() > 10 ? ", …" : "");
 }
 
-CalibrationVerdict judge(const ForceLineFit& fit, double span_N, const FitForceLineConfig& config) {
+CalibrationVerdict judge_force_line(const ForceLineFit& fit, double span_N, const FitForceLineConfig& config) {
   CalibrationVerdict out;
   const double half = student_quantile(0.95, fit.degrees_of_freedom) * fit.newton_per_count_stderr /
                       std::abs(fit.force.newton_per_count);
-  const auto fail = [&](const std::string& text) {
-    out.text += (out.trustworthy ? "" : " ") + text;
-    out.trustworthy = false;
-  };
+  out.text = fmt::format(
+      "A straight line fits to {:.2g} N with {} degrees of freedom; the slope is known to ±{:.1f} % "
+      "(95 %).",
+      fit.force.residual_newton, fit.degrees_of_freedom, 100.0 * half);
   if (!(half <= config.slope_uncertainty)) {
-    fail(fmt::format("The slope is known to ±{:.0f} % only (95 %): measure more forces over a wider range.",
-                     100.0 * half));
+    out.add("force_slope_unknown", fmt::format("the slope is known to ±{:.0f} % only (95 %)", 100.0 * half));
   }
   if (!fit.saturated.empty()) {
-    fail(
-        fmt::format("Points {} share one end of the counts at different forces: the sensor is saturated there; leave "
-                    "them out.",
-                    places(fit.saturated)));
+    out.add("force_saturated",
+            fmt::format("points {} share one end of the counts at different forces: the sensor is saturated there",
+                        places(fit.saturated)));
   }
   if (fit.bend_probability < config.significance && fit.bend_newton > config.linearity_share * span_N) {
-    fail(
-        fmt::format("The sensor is not straight: a parabola leaves the line by {:.2g} N, {:.1f} % of the range "
-                    "(probability {:.1g} by chance).",
-                    fit.bend_newton, 100.0 * fit.bend_newton / span_N, fit.bend_probability));
-  }
-  if (out.trustworthy) {
-    out.text = fmt::format(
-        "A straight line fits to {:.2g} N with {} degrees of freedom; the slope is known to ±{:.1f} % "
-        "(95 %).",
-        fit.force.residual_newton, fit.degrees_of_freedom, 100.0 * half);
+    out.add("force_not_straight",
+            fmt::format("the sensor is not straight: a parabola leaves the line by {:.2g} N, {:.1f} % of the range "
+                        "(probability {:.1g} by chance)",
+                        fit.bend_newton, 100.0 * fit.bend_newton / span_N, fit.bend_probability));
   }
   if (!fit.outliers.empty()) {
+    out.add("force_outlier", fmt::format("point {} contradicts the others", places(fit.outliers)));
     out.text += fmt::format(" Point {} contradicts the others: look at it again.", places(fit.outliers));
   }
   if (fit.counts_error_newton > 0.5 * fit.force.residual_newton) {
+    out.add("counts_coarse", "the rounding of the counts is not small beside the residual");
     out.text += " The rounding of the counts is not small beside the residual.";
   }
   return out;
@@ -163,7 +156,7 @@ CalibrationVerdict judge(const ForceLineFit& fit, double span_N, const FitForceL
 }  // namespace
 
 ForceLineFit fit_force_line(const ForcePoints& points, const FitForceLineConfig& config) {
-  check(points);
+  check_force_points(points);
   const Scaled x = scale(points.counts);
   const auto n = static_cast<double>(points.size());
   const Eigen::Map<const Eigen::VectorXd> force_N(points.force_N.data(), static_cast<Eigen::Index>(points.size()));
@@ -189,7 +182,7 @@ ForceLineFit fit_force_line(const ForcePoints& points, const FitForceLineConfig&
   test_bend(x, residual_N, fit);
   fit.outliers = find_outliers(x, residual_N, config.significance);
   fit.saturated = find_saturated(points, config.saturation_share);
-  fit.verdict = judge(fit, force_N.maxCoeff() - force_N.minCoeff(), config);
+  fit.verdict = judge_force_line(fit, force_N.maxCoeff() - force_N.minCoeff(), config);
   return fit;
 }
 

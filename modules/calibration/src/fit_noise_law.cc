@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/QR>
-
+#include "asperity/algebra/solve.h"
 #include "asperity/base/error.h"
 
 namespace asperity {
@@ -20,11 +19,10 @@ struct LinearLogs {
 
 // Least squares with rows already divided by their errors.
 LinearLogs solve_noise_law(const Eigen::MatrixXd& rows, const Eigen::VectorXd& right) {
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows);
   LinearLogs out;
-  out.values = qr.solve(right);
+  out.values = least_squares(rows, right).x;
   out.chi_square = (rows * out.values - right).squaredNorm();
-  const Eigen::MatrixXd inverse = (rows.transpose() * rows).inverse();
+  const Eigen::MatrixXd inverse = inverse_of(rows.transpose() * rows);
   out.errors = inverse.diagonal().cwiseSqrt();
   return out;
 }
@@ -51,15 +49,15 @@ NoiseLaw fit_noise_law(std::span<const NoiseAtPose> poses, double power, double 
   }
   NoiseLaw law;
   law.power = power;
-  law.tilt_fitted = n > 2 && tilt.maxCoeff() - tilt.minCoeff() >= std::log(least_tilt_ratio);
-  const auto columns = law.tilt_fitted ? 2 : 1;
+  const bool tilt_fitted = n > 2 && tilt.maxCoeff() - tilt.minCoeff() >= std::log(least_tilt_ratio);
+  const auto columns = tilt_fitted ? 2 : 1;
   Eigen::MatrixXd rows(n, columns);
   rows.col(0) = weight;
-  if (law.tilt_fitted) rows.col(1) = weight.cwiseProduct(tilt);
+  if (tilt_fitted) rows.col(1) = weight.cwiseProduct(tilt);
   const LinearLogs held = solve_noise_law(rows, weight.cwiseProduct(sigma - power * distance));
   law.scale = std::exp(held.values[0]);
   law.scale_error = law.scale * held.errors[0];
-  if (law.tilt_fitted) {
+  if (tilt_fitted) {
     law.tilt_power = held.values[1];
     law.tilt_power_error = held.errors[1];
   }

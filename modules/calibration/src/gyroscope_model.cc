@@ -17,8 +17,8 @@ struct Integral {
 
 // One step from rate a to rate b with the given mean, with the bias taken off and (`raw_mean`) not; Magnus' series to
 // the fourth order for a rate that is nearly linear in time.
-void advance(Integral& s, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& mean,
-             const Eigen::Vector3d& raw_mean, double step_s) {
+void advance_rotation_integral(Integral& s, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                               const Eigen::Vector3d& mean, const Eigen::Vector3d& raw_mean, double step_s) {
   const Eigen::Vector3d angle = step_s * mean + step_s * step_s / 12.0 * a.cross(b);
   const Eigen::Matrix3d R_middle = (s.R * exp_rotation(0.5 * angle)).toRotationMatrix();
   s.by_bias += step_s * R_middle;
@@ -72,8 +72,8 @@ LatencyRows GyroscopeModel::rows() const {
     for (; row < target; ++row) {
       const Eigen::Vector3d next = M * sensor_.x[row + 1];
       const Eigen::Vector3d mean = M * step_mean_[row];
-      advance(at, raw - bias_radps, next - bias_radps, mean - bias_radps, mean,
-              sensor_.t_s[row + 1] - sensor_.t_s[row]);
+      advance_rotation_integral(at, raw - bias_radps, next - bias_radps, mean - bias_radps, mean,
+                                sensor_.t_s[row + 1] - sensor_.t_s[row]);
       raw = next;
     }
     const double part_s = t_s - sensor_.t_s[row];
@@ -81,7 +81,7 @@ LatencyRows GyroscopeModel::rows() const {
     const Eigen::Vector3d here = raw + share * (M * sensor_.x[row + 1] - raw);
     Integral there = at;
     const Eigen::Vector3d middle = 0.5 * (raw + here);
-    advance(there, raw - bias_radps, here - bias_radps, middle - bias_radps, middle, part_s);
+    advance_rotation_integral(there, raw - bias_radps, here - bias_radps, middle - bias_radps, middle, part_s);
     if (poses_.starts[i] != 0) R_world_start = poses_.T_world_marker[i].rotation * there.R.conjugate();
     const Eigen::Matrix3d world = R_world_start.toRotationMatrix();
     const Eigen::Quaterniond predicted = R_world_start * there.R;

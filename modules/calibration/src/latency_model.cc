@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
+#include "asperity/algebra/solve.h"
 
 namespace asperity {
 
@@ -29,8 +29,8 @@ struct Solution {
   double cost = 0.0;
 };
 
-Solution solve(const LatencyModel& model, const std::array<Eigen::MatrixXd, 3>& columns, const Eigen::Vector3d& ratio,
-               const Eigen::VectorXd& prior_sigma) {
+Solution solve_latency(const LatencyModel& model, const std::array<Eigen::MatrixXd, 3>& columns,
+                       const Eigen::Vector3d& ratio, const Eigen::VectorXd& prior_sigma) {
   const Eigen::Index parameters = columns[0].cols() - 1;
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(parameters, parameters);
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(parameters);
@@ -40,7 +40,7 @@ Solution solve(const LatencyModel& model, const std::array<Eigen::MatrixXd, 3>& 
   std::array<double, 3> freedom{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto k = static_cast<std::size_t>(axis);
-    Whitened w = whiten(model.drift(), model.pose_t_s(), model.starts(), ratio[axis], columns[k]);
+    Whitened w = whiten_series(model.drift(), model.pose_t_s(), model.starts(), ratio[axis], columns[k]);
     rows[k] = std::move(w.rows);
     freedom[k] = std::max(1.0, w.count - static_cast<double>(parameters) / 3.0);
     out.white[axis] = std::sqrt(rows[k].col(0).squaredNorm() / freedom[k]);
@@ -59,9 +59,12 @@ Solution solve(const LatencyModel& model, const std::array<Eigen::MatrixXd, 3>& 
       gradient.noalias() -= weight * r.rightCols(parameters).transpose() * r.col(0);
     }
     const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
-    const Eigen::LDLT<Eigen::MatrixXd> factors(scale.asDiagonal() * information * scale.asDiagonal());
-    out.step = scale.asDiagonal() * factors.solve(Eigen::VectorXd(scale.asDiagonal() * gradient));
-    out.covariance = scale.asDiagonal() * factors.solve(Eigen::MatrixXd(scale.asDiagonal()));
+    const Eigen::MatrixXd scaled = scale.asDiagonal() * information * scale.asDiagonal();
+    Eigen::MatrixXd right(parameters, parameters + 1);
+    right << scale.asDiagonal() * gradient, Eigen::MatrixXd(scale.asDiagonal());
+    const Eigen::MatrixXd solved = scale.asDiagonal() * solve_symmetric(scaled, right);
+    out.step = solved.col(0);
+    out.covariance = solved.rightCols(parameters);
     for (int axis = 0; axis < 3; ++axis) {
       const auto k = static_cast<std::size_t>(axis);
       const Eigen::VectorXd left = rows[k].col(0) + rows[k].rightCols(parameters) * out.step;
@@ -87,7 +90,7 @@ void fit_clock_rate(const LatencyModel& model, const std::array<Eigen::MatrixXd,
   }
   Eigen::VectorXd sigma(prior.size() + 1);
   sigma << prior, std::numeric_limits<double>::infinity();
-  const Solution solution = solve(model, wider, out.ratio, sigma);
+  const Solution solution = solve_latency(model, wider, out.ratio, sigma);
   out.clock_rate = solution.step[prior.size()];
   out.clock_rate_error = std::sqrt(solution.covariance(prior.size(), prior.size()));
 }
@@ -110,7 +113,7 @@ LatencyEstimate estimate_latency(LatencyModel& model) {
   for (int round = 0; round < kRounds; ++round) {
     out.converged = false;
     for (int i = 0; i < kMostSteps && !out.converged; ++i) {
-      const Solution solution = solve(model, columns, out.ratio, prior);
+      const Solution solution = solve_latency(model, columns, out.ratio, prior);
       if (!solution.step.allFinite()) return out;
       out.covariance = solution.covariance;
       out.white = solution.white;
@@ -126,14 +129,14 @@ LatencyEstimate estimate_latency(LatencyModel& model) {
       out.ratio[axis] = std::isfinite(least) ? std::max(likely, least) : likely;
     }
   }
-  const Solution last = solve(model, columns, out.ratio, prior);
+  const Solution last = solve_latency(model, columns, out.ratio, prior);
   out.covariance = last.covariance;
   out.white = last.white;
   fit_clock_rate(model, columns, prior, out);
   out.worst_innovation = Eigen::VectorXd::Zero(columns[0].rows());
   for (int axis = 0; axis < 3; ++axis) {
-    const Whitened w = whiten(model.drift(), model.pose_t_s(), model.starts(), out.ratio[axis],
-                              columns[static_cast<std::size_t>(axis)].leftCols<1>());
+    const Whitened w = whiten_series(model.drift(), model.pose_t_s(), model.starts(), out.ratio[axis],
+                                     columns[static_cast<std::size_t>(axis)].leftCols<1>());
     out.worst_innovation = out.worst_innovation.cwiseMax(w.rows.col(0).cwiseAbs() / out.white[axis]);
   }
   return out;

@@ -23,7 +23,7 @@ struct Match {
   double motion = 0.0;
 };
 
-Match match(const Pairs& pairs, bool solve_rotation, bool solve_scale) {
+Match match_pairs(const Pairs& pairs, bool solve_rotation, bool solve_scale) {
   const auto n = static_cast<double>(pairs.seen.size());
   Eigen::Vector3d seen_mean = Eigen::Vector3d::Zero(), felt_mean = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < pairs.seen.size(); ++i) {
@@ -53,7 +53,7 @@ Match match(const Pairs& pairs, bool solve_rotation, bool solve_scale) {
 }
 
 template <class PairsAt>
-LatencyScan scan(const LatencyConfig& config, bool solve_rotation, bool solve_scale, PairsAt pairs_at) {
+LatencyScan scan_latencies(const LatencyConfig& config, bool solve_rotation, bool solve_scale, PairsAt pairs_at) {
   LatencyScan out;
   Match best;
   double least = std::numeric_limits<double>::infinity();
@@ -62,7 +62,7 @@ LatencyScan scan(const LatencyConfig& config, bool solve_rotation, bool solve_sc
   for (std::size_t i = 0; i <= steps; ++i) {
     const double latency_s = config.least_latency_s + range_s * static_cast<double>(i) / static_cast<double>(steps);
     const Pairs pairs = pairs_at(latency_s);
-    const Match here = match(pairs, solve_rotation, solve_scale);
+    const Match here = match_pairs(pairs, solve_rotation, solve_scale);
     out.rows = pairs.seen.size();
     out.latency_s.push_back(latency_s);
     out.cost.push_back(here.cost);
@@ -99,7 +99,7 @@ struct Integrals {
   std::vector<Eigen::Vector3d> once, twice;
 };
 
-Integrals integrate(const SensorSeries& sensor) {
+Integrals integrate_sensor(const SensorSeries& sensor) {
   Integrals out;
   out.once.resize(sensor.x.size(), Eigen::Vector3d::Zero());
   out.twice = out.once;
@@ -159,7 +159,7 @@ double median_step_s(const std::vector<double>& t_s) {
 
 LatencyScan scan_gyroscope(const SensorSeries& sensor, const PoseSeries& poses, const LatencyConfig& config,
                            bool solve_rotation, bool solve_scale) {
-  const Integrals integrals = integrate(sensor);
+  const Integrals integrals = integrate_sensor(sensor);
   const double longest_s = 3.0 * median_step_s(poses.t_s);
   std::vector<Eigen::Vector3d> turns(poses.t_s.size(), Eigen::Vector3d::Zero());  // rad/s, since the pose before
   for (std::size_t i = 1; i < turns.size(); ++i) {
@@ -167,7 +167,7 @@ LatencyScan scan_gyroscope(const SensorSeries& sensor, const PoseSeries& poses, 
     turns[i] = log_rotation(turn) / (poses.t_s[i] - poses.t_s[i - 1]);
   }
   const std::vector<bool> good = plausible(turns);
-  return scan(config, solve_rotation, solve_scale, [&](double latency_s) {
+  return scan_latencies(config, solve_rotation, solve_scale, [&](double latency_s) {
     Pairs pairs;
     std::size_t row = 0;
     Eigen::Vector3d before = Eigen::Vector3d::Zero();
@@ -187,7 +187,7 @@ LatencyScan scan_gyroscope(const SensorSeries& sensor, const PoseSeries& poses, 
 LatencyScan scan_accelerometer(const SensorSeries& sensor, const PoseSeries& poses, const PoseInterpolator& tracker,
                                const Eigen::Vector3d& lever_arm_m, const Eigen::Vector3d& gravity_world_mps2,
                                const LatencyConfig& config, bool solve_rotation) {
-  const Integrals integrals = integrate(sensor);
+  const Integrals integrals = integrate_sensor(sensor);
   // A second difference over 2 h is the mean acceleration under a triangle of that base: long enough to quiet the
   // poses' noise.
   const double h = std::max(0.04, 2.0 * median_step_s(poses.t_s));
@@ -213,7 +213,7 @@ LatencyScan scan_accelerometer(const SensorSeries& sensor, const PoseSeries& pos
   }
   seen.resize(kept);
   t_s.resize(kept);
-  return scan(config, solve_rotation, false, [&](double latency_s) {
+  return scan_latencies(config, solve_rotation, false, [&](double latency_s) {
     Pairs pairs{seen, {}};
     std::size_t before = 0, here = 0, after = 0;
     for (const double at : t_s) {

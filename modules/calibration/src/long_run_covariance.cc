@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
+#include "asperity/algebra/solve.h"
 
 namespace asperity {
 
@@ -63,11 +63,11 @@ Eigen::MatrixXd long_run_covariance(const Eigen::MatrixXd& scores, const std::ve
   // The window's weights sum to 1 + 3·window: both sides, flat and sloping.
   S /= 1.0 - std::min(leverage * (1.0 + 3.0 * static_cast<double>(window)), 0.5);
   // The flat window may come out negative in a direction that hardly varies; independent rows are its floor then.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(S);
-  if (eigen.eigenvalues()[0] > 0.0) return S;
-  const Eigen::MatrixXd V = eigen.eigenvectors();
+  const SymmetricEigen eigen = symmetric_eigen(S);
+  if (eigen.values[0] > 0.0) return S;
+  const Eigen::MatrixXd& V = eigen.vectors;
   const Eigen::VectorXd floor = (V.transpose() * gamma[0] * V).diagonal();
-  return V * eigen.eigenvalues().cwiseMax(floor).asDiagonal() * V.transpose();
+  return V * eigen.values.cwiseMax(floor).asDiagonal() * V.transpose();
 }
 
 }  // namespace asperity

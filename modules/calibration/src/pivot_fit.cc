@@ -4,8 +4,8 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/QR>
 
+#include "asperity/algebra/solve.h"
 #include "asperity/geometry/pose.h"
 
 namespace asperity {
@@ -47,19 +47,19 @@ void for_each(const std::vector<RowRun>& runs, Visit visit) {
   }
 }
 
-Design design(const Eigen::Matrix3d& R) {
+Design pivot_design(const Eigen::Matrix3d& R) {
   Design G;
   G << R, -Eigen::Matrix3d::Identity();
   return G;
 }
 
-Normal sums(const PivotPoses& poses, const std::vector<RowRun>& runs, const Pivot& at,
-            const TrackerCalibration& tracker) {
+Normal sum_normals(const PivotPoses& poses, const std::vector<RowRun>& runs, const Pivot& at,
+                   const TrackerCalibration& tracker) {
   Normal out;
   for_each(runs, [&](std::size_t i) {
     const Eigen::Matrix3d& R = poses.R[i];
     const Eigen::Matrix3d W = miss_covariance(R * at.tip_m, tracker).inverse();
-    const Design G = design(R);
+    const Design G = pivot_design(R);
     const Eigen::Matrix<double, 6, 3> GW = G.transpose() * W;
     out.A += GW * G;
     out.b -= GW * poses.p_m[i];
@@ -79,10 +79,10 @@ Pivot solve_pivot(const PivotPoses& poses, const std::vector<std::size_t>& place
   Eigen::VectorXd y(rows);
   for (std::size_t k = 0; k < places.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(3 * k);
-    G.middleRows<3>(row) = design(poses.R[places[k]]);
+    G.middleRows<3>(row) = pivot_design(poses.R[places[k]]);
     y.segment<3>(row) = origin_m - poses.p_m[places[k]];
   }
-  const Vector6 solved = G.completeOrthogonalDecomposition().solve(y);
+  const Vector6 solved = least_squares(G, y).x;
   return {solved.head<3>(), solved.tail<3>() + origin_m};
 }
 
@@ -102,12 +102,12 @@ PivotFit fit_pivot(const PivotPoses& poses, const std::vector<RowRun>& runs, con
   for (int round = 0; round < kRounds; ++round) {
     double chi = 0.0;
     for_each(runs, [&](std::size_t i) { chi += std::pow(pivot_distance(out.pivot, poses, i, tracker), 2); });
-    const Normal normal = sums(poses, runs, out.pivot, tracker);
+    const Normal normal = sum_normals(poses, runs, out.pivot, tracker);
     count = normal.count;
     out.noise_ratio = std::sqrt(chi / (3.0 * count - 6.0));
     excess = out.noise_ratio * out.noise_ratio * normal.excess;
     A = normal.A - excess;
-    const Vector6 solved = A.ldlt().solve(normal.b);
+    const Vector6 solved = solve_symmetric(A, normal.b);
     const Pivot next{solved.head<3>(), solved.tail<3>()};
     const double step_m = (next.tip_m - out.pivot.tip_m).norm() + (next.dimple_m - out.pivot.dimple_m).norm();
     out.pivot = next;
@@ -124,13 +124,13 @@ PivotFit fit_pivot(const PivotPoses& poses, const std::vector<RowRun>& runs, con
     const Eigen::Vector3d miss_m = out.pivot.miss_m(poses, i);
     const Eigen::Matrix3d sigma = miss_covariance(poses.R[i] * out.pivot.tip_m, tracker);
     scores.row(static_cast<Eigen::Index>(i)) =
-        (design(poses.R[i]).transpose() * sigma.ldlt().solve(miss_m) - taken).transpose();
+        (pivot_design(poses.R[i]).transpose() * sigma.ldlt().solve(miss_m) - taken).transpose();
     square += miss_m.squaredNorm();
     expected += sigma.trace();
   });
   out.rms_m = std::sqrt(square / count);
   out.expected_rms_m = std::sqrt(expected / count);
-  const Matrix6 inverse = A.inverse();
+  const Matrix6 inverse = inverse_of(A);
   // What each pose moves the result by.
   scores *= inverse;
   out.covariance = count * long_run_covariance(scores, runs, 6.0 / (3.0 * count));

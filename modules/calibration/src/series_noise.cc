@@ -135,7 +135,7 @@ double sample_deviation(std::span<const double> x) {
   return std::sqrt(square / (n - 1.0));
 }
 
-void check(std::span<const double> t_s, std::span<const double> x) {
+void check_series(std::span<const double> t_s, std::span<const double> x) {
   constexpr std::size_t kFewest = 8;
   if (t_s.size() != x.size() || x.size() < kFewest) {
     throw Error(fmt::format("series noise: {} times for {} values, must be as many and at least {}", t_s.size(),
@@ -151,7 +151,7 @@ void check(std::span<const double> t_s, std::span<const double> x) {
 }  // namespace
 
 SeriesNoise fit_series_noise(std::span<const double> t_s, std::span<const double> x) {
-  check(t_s, x);
+  check_series(t_s, x);
   SeriesNoise out;
   out.samples = x.size();
   const auto n = static_cast<double>(x.size());

@@ -154,6 +154,23 @@ TEST(CalibrateCamera, AScaledBoardGivesTheSameCamera) {
   EXPECT_NEAR(scaled.standard_error[0], fit.standard_error[0], 1e-4 * fit.standard_error[0]);
 }
 
+// A camera that is right is not "not to be trusted" because the board has not been everywhere (Bouguet's own images
+// cover 47 %, and give fx to 0.003 % of his value).
+TEST(CalibrateCamera, ABoardThatWasNotEverywhereLimits) {
+  Random random(29);
+  const auto views = test::simulated_views(random, test::true_camera(), kBoard, 12);
+  const CameraFit fit = calibrate_camera(views, 640, 480, {.good_coverage = 0.999});
+  EXPECT_LT(fit.coverage, 0.999);
+  ASSERT_EQ(fit.verdict.verdicts.size(), 1u);
+  EXPECT_EQ(fit.verdict.verdicts[0].code, "board_coverage");
+  EXPECT_EQ(fit.verdict.verdicts[0].severity, Severity::kLimited);
+  EXPECT_FALSE(fit.verdict.verdicts[0].remedy.empty());
+  EXPECT_TRUE(fit.verdict.trustworthy);
+  EXPECT_THAT(fit.verdict.text, testing::HasSubstr("of the image only"));
+  ASSERT_TRUE(fit.camera.covariance);
+  EXPECT_DOUBLE_EQ((*fit.camera.covariance)(0, 0), fit.standard_error[0] * fit.standard_error[0]);
+}
+
 // OpenCV's optimum is another implementation's; its own standard errors are √2 too large: it divides by the number of
 // corners, not of coordinates.
 TEST(CalibrateCamera, AgreesWithOpenCv) {

@@ -148,7 +148,9 @@ TEST(CalibrateTip, ALongRestDoesNotOutvoteTheSwing) {
   const TipCalibration tip = calibrate_tip(simulate(swing, tracker, random), tracker);
   EXPECT_LT((tip.tip_in_marker_m - swing.tip_m).norm(), 5e-4);
   EXPECT_LT(tip.used, tip.poses / 3);
-  EXPECT_FALSE(tip.verdict.trustworthy) << "most of the recording is no swing";
+  // Most of the recording is no swing; the tip that came of the rest is right, as the line above says.
+  EXPECT_EQ(verdict_word(tip.verdict.verdicts), "limited");
+  EXPECT_TRUE(tip.verdict.trustworthy);
   EXPECT_THAT(tip.verdict.text, HasSubstr("record the swing alone"));
 }
 

@@ -7,6 +7,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
+#include "asperity/geometry/pose.h"
 #include "coverage.h"
 
 namespace asperity {
@@ -30,7 +31,7 @@ TrackerStream simulate(Random& random, const std::vector<Place>& places, double 
   Eigen::Vector3d at = places[0].p_m;
   double tilt = places[0].tilt_rad;
   const auto add = [&] {
-    const Eigen::Quaterniond to_ray = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), at);
+    const Eigen::Quaterniond to_ray = shortest_rotation(Eigen::Vector3d::UnitZ(), at);
     const double d = at.norm(), steep = std::pow(std::cos(tilt), -kTiltPower);
     const auto noise = [&](double across, double along) {
       return Eigen::Vector3d(steep * (to_ray * Eigen::Vector3d(across * random.normal(), across * random.normal(),
@@ -158,7 +159,10 @@ TEST(TrackerNoise, IsNotGaussianWhereItIsNot) {
   const StaticTracker recording{"flicker", &tracker, {}, true};
   const TrackerNoise noise = calibrate_tracker_noise({&recording, 1});
   EXPECT_FALSE(noise.gaussian);
-  EXPECT_FALSE(noise.verdict.trustworthy);
+  // Its size is right; that it is not a Gaussian's limits what it may be used for.
+  ASSERT_EQ(noise.verdict.verdicts.size(), 1u);
+  EXPECT_EQ(noise.verdict.verdicts[0].code, "noise_not_gaussian");
+  EXPECT_EQ(noise.verdict.verdicts[0].severity, Severity::kLimited);
 }
 
 TEST(TrackerNoise, RefusesWhatNeverRests) {

@@ -202,7 +202,7 @@ TEST(FitAccelerometer, OppositePosesInARowAreNotAveragedAway) {
   EXPECT_EQ(fit.joined, 1U);
   EXPECT_EQ(fit.poses, 64U);
   EXPECT_GT(fit.correlation, 0.5);
-  EXPECT_FALSE(fit.verdict.trustworthy);
+  EXPECT_EQ(verdict_word(fit.verdict.verdicts), "limited");
   EXPECT_THAT(fit.verdict.text, HasSubstr("neighbouring poses are alike"));
 }
 

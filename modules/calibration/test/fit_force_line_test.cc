@@ -63,7 +63,7 @@ TEST(FitForceLine, TwoHundredCalibrationsOfAnEightBitSensorKeepTheirErrors) {
   coverage.expect("force line, 12 points", kTrials);
 }
 
-TEST(FitForceLine, ABentSensorIsNotTrusted) {
+TEST(FitForceLine, ABentSensorIsLimitedByItsBend) {
   ForcePoints points;
   Random random(3);
   for (int i = 0; i < 20; ++i) {
@@ -75,7 +75,7 @@ TEST(FitForceLine, ABentSensorIsNotTrusted) {
   EXPECT_LT(fit.bend_probability, 1e-6);
   // The parabola less its own line, at the ends: 4e-5·(u² − mean u²) with u = ±85.5, mean u² = 81·(400 − 1)/12.
   EXPECT_NEAR(fit.bend_newton, 4e-5 * (85.5 * 85.5 - 81.0 * 399.0 / 12.0), 0.02);
-  EXPECT_FALSE(fit.verdict.trustworthy);
+  EXPECT_EQ(verdict_word(fit.verdict.verdicts), "limited");
   EXPECT_THAT(fit.verdict.text, HasSubstr("not straight"));
 }
 

@@ -13,8 +13,9 @@ struct ShakenProbe {
   double latency_s = 0.0437;
   double length_s = 10.0;
   double tracker_Hz = 60.0, probe_Hz = 200.0;
-  double turn_rad = 0.12, move_m = 0.012;  // amplitude of each sine
-  double regular_Hz = 0.0;                 // above 0: one sine of this frequency alone
+  double turn_rad = 0.12, move_m = 0.012;               // amplitude of each sine
+  Eigen::Vector3d turn_axes = Eigen::Vector3d::Ones();  // how much of the turning is about each
+  double regular_Hz = 0.0;                              // above 0: one sine of this frequency alone
   double tracker_sigma_rad = 3.5e-3, tracker_sigma_m = 0.3e-3;
   double gyro_sigma_radps = 0.01, accel_sigma_mps2 = 0.05;
   double clock_rate = 0.0;
@@ -38,7 +39,8 @@ class Motion {
   Pose at(double t) const {
     Eigen::Vector3d turn, move;
     for (std::size_t k = 0; k < 3; ++k) {
-      turn[static_cast<Eigen::Index>(k)] = probe_.turn_rad * sum(waves_[k], t);
+      turn[static_cast<Eigen::Index>(k)] =
+          probe_.turn_rad * probe_.turn_axes[static_cast<Eigen::Index>(k)] * sum(waves_[k], t);
       move[static_cast<Eigen::Index>(k)] = probe_.move_m * sum(waves_[k + 3], t);
     }
     return {exp_rotation(Eigen::Vector3d(0.3, 0.2, -0.4)) * exp_rotation(turn), Eigen::Vector3d(0.0, 0.02, 0.4) + move};

@@ -51,7 +51,7 @@ inline AccelerometerSamples hold_in(const std::vector<Eigen::Vector3d>& directio
     const int rows = static_cast<int>(sensor.rate_Hz * random.uniform(2.5, 3.5));
     for (int i = 0; i < rows; ++i) add(g_mps2 * directions[p], drift);
     if (p + 1 == directions.size()) break;
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(directions[p], directions[p + 1]);
+    const Eigen::Quaterniond turn = shortest_rotation(directions[p], directions[p + 1]);
     const int steps = static_cast<int>(sensor.rate_Hz);
     for (int i = 1; i < steps; ++i) {
       const Eigen::Vector3d f = slerp(Eigen::Quaterniond::Identity(), turn, i / sensor.rate_Hz) * directions[p];

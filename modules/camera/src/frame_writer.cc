@@ -17,8 +17,8 @@ FrameWriter::~FrameWriter() { finish(); }
 void FrameWriter::push(const CameraFrame& frame) {
   {
     const std::lock_guard lock(mutex_);
-    if (stop_ || !figures_.failure.empty() || waiting_.size() >= most_waiting_) {
-      ++figures_.dropped;
+    if (stop_ || !counts_.failure.empty() || waiting_.size() >= most_waiting_) {
+      ++counts_.dropped;
       return;
     }
     waiting_.push_back(frame);
@@ -26,9 +26,9 @@ void FrameWriter::push(const CameraFrame& frame) {
   changed_.notify_all();
 }
 
-FrameWriter::Figures FrameWriter::figures() const {
+FrameWriter::FrameCounts FrameWriter::counts() const {
   const std::lock_guard lock(mutex_);
-  return figures_;
+  return counts_;
 }
 
 void FrameWriter::finish() {
@@ -56,11 +56,11 @@ void FrameWriter::run() {
     }
     lock.lock();
     if (failure.empty()) {
-      ++figures_.written;
+      ++counts_.written;
       continue;
     }
-    figures_.failure = failure;
-    figures_.dropped += waiting_.size() + 1;
+    counts_.failure = failure;
+    counts_.dropped += waiting_.size() + 1;
     waiting_.clear();
   }
 }

@@ -32,14 +32,14 @@ std::optional<v4l2_queryctrl> find_control(const V4l2Device& device, std::uint32
   return out;
 }
 
-std::optional<int> get(const V4l2Device& device, std::uint32_t id) {
+std::optional<int> get_control(const V4l2Device& device, std::uint32_t id) {
   v4l2_control out{};
   out.id = id;
   if (!device.ask(VIDIOC_G_CTRL, out)) return std::nullopt;
   return out.value;
 }
 
-bool set(const V4l2Device& device, std::uint32_t id, int value) {
+bool set_control(const V4l2Device& device, std::uint32_t id, int value) {
   v4l2_control control{};
   control.id = id;
   control.value = value;
@@ -62,22 +62,22 @@ std::optional<int> lock_property(const V4l2Device& device, const Property& prope
                             *wanted, value->minimum, value->maximum));
   }
   // Read before the camera stops to adapt: what it has found for itself.
-  const std::optional<int> present = value ? get(device, property.value) : std::nullopt;
+  const std::optional<int> present = value ? get_control(device, property.value) : std::nullopt;
   if (automatic) {
     bool stopped = false;
-    for (const int manual : property.manual) stopped = stopped || set(device, property.automatic, manual);
+    for (const int manual : property.manual) stopped = stopped || set_control(device, property.automatic, manual);
     if (!stopped) return warn(std::string("the camera keeps adapting it (") + std::strerror(errno) + ")");
-    const auto now = get(device, property.automatic);
+    const auto now = get_control(device, property.automatic);
     bool is_manual = !now;
     for (const int manual : property.manual) is_manual = is_manual || *now == manual;
     if (!is_manual) return warn("the camera went back to adapting it");
   }
   if (!value) return std::nullopt;
   const std::optional<int> target = wanted ? wanted : present;
-  if (target && !set(device, property.value, *target)) {
+  if (target && !set_control(device, property.value, *target)) {
     if (wanted || automatic) return warn(fmt::format("{} cannot be set ({})", *target, std::strerror(errno)));
   }
-  const std::optional<int> now = get(device, property.value);
+  const std::optional<int> now = get_control(device, property.value);
   const int step = std::max(1, value->step);
   if (wanted && now && std::abs(*now - *wanted) >= step) {
     warnings.push_back(fmt::format("{} is {}, not {}", property.name, *now, *wanted));
@@ -88,7 +88,8 @@ std::optional<int> lock_property(const V4l2Device& device, const Property& prope
 void lock_exposure(const V4l2Device& device, const V4l2Config& config, const V4l2Image& image,
                    std::vector<std::string>& warnings) {
   // In some drivers exposure may lengthen the frames even when it is set by hand.
-  if (find_control(device, V4L2_CID_EXPOSURE_AUTO_PRIORITY) && !set(device, V4L2_CID_EXPOSURE_AUTO_PRIORITY, 0)) {
+  if (find_control(device, V4L2_CID_EXPOSURE_AUTO_PRIORITY) &&
+      !set_control(device, V4L2_CID_EXPOSURE_AUTO_PRIORITY, 0)) {
     warnings.push_back("exposure may lower the rate: the driver keeps that to itself");
   }
   Property exposure{"exposure",

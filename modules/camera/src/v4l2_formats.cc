@@ -57,7 +57,7 @@ void add_mode(const V4l2Device& device, std::uint32_t fourcc, std::uint32_t widt
   out.push_back({fourcc, w, h, fastest_rate_Hz(device, fourcc, w, h)});
 }
 
-std::string describe(const std::vector<V4l2Mode>& modes) {
+std::string describe_modes(const std::vector<V4l2Mode>& modes) {
   if (modes.empty()) return "it does not tell what it has";
   std::string out = "it has";
   constexpr std::size_t kShown = 40;
@@ -78,8 +78,8 @@ v4l2_format current_format(const V4l2Device& device) {
 }
 
 // The first format in our order that the camera has as asked for.
-std::uint32_t choose(const std::vector<V4l2Mode>& modes, const V4l2Config& config, const v4l2_format& wanted,
-                     const V4l2Device& device) {
+std::uint32_t choose_format(const std::vector<V4l2Mode>& modes, const V4l2Config& config, const v4l2_format& wanted,
+                            const V4l2Device& device) {
   for (const auto& [format, fourcc] : kFormats) {
     if (config.format != V4l2Format::kAny && config.format != format) continue;
     for (const V4l2Mode& mode : modes) {
@@ -97,7 +97,8 @@ std::uint32_t choose(const std::vector<V4l2Mode>& modes, const V4l2Config& confi
   }
   throw Error(fmt::format("{}: no images of {}x{}{} that could be used (grey, yuyv, uyvy, mjpg); {}", device.name(),
                           wanted.fmt.pix.width, wanted.fmt.pix.height,
-                          config.rate_Hz > 0.0 ? fmt::format(" at {:.4g} Hz", config.rate_Hz) : "", describe(modes)));
+                          config.rate_Hz > 0.0 ? fmt::format(" at {:.4g} Hz", config.rate_Hz) : "",
+                          describe_modes(modes)));
 }
 
 double set_rate(const V4l2Device& device, double rate_Hz, std::vector<std::string>& warnings) {
@@ -155,20 +156,20 @@ V4l2Image agree_on_format(const V4l2Device& device, const V4l2Config& config, st
     format.fmt.pix.width = static_cast<std::uint32_t>(config.width);
     format.fmt.pix.height = static_cast<std::uint32_t>(config.height);
   }
-  format.fmt.pix.pixelformat = choose(modes, config, format, device);
+  format.fmt.pix.pixelformat = choose_format(modes, config, format, device);
   format.fmt.pix.field = V4L2_FIELD_NONE;
   format.fmt.pix.bytesperline = 0;
   format.fmt.pix.sizeimage = 0;
   const v4l2_pix_format asked = format.fmt.pix;
   if (!device.ask(VIDIOC_S_FMT, format)) {
     if (errno == EBUSY) throw Error(device.name() + ": is used by another program");
-    throw Error(device.name() + ": the format cannot be set: " + std::strerror(errno) + "; " + describe(modes));
+    throw Error(device.name() + ": the format cannot be set: " + std::strerror(errno) + "; " + describe_modes(modes));
   }
   const v4l2_pix_format& got = format.fmt.pix;
   if (got.pixelformat != asked.pixelformat || got.width != asked.width || got.height != asked.height) {
     throw Error(fmt::format("{}: gives {} {}x{} where {} {}x{} was asked for; {}", device.name(),
                             fourcc_text(got.pixelformat), got.width, got.height, fourcc_text(asked.pixelformat),
-                            asked.width, asked.height, describe(modes)));
+                            asked.width, asked.height, describe_modes(modes)));
   }
   if (got.field != V4L2_FIELD_NONE && got.field != V4L2_FIELD_ANY) {
     throw Error(device.name() + ": its images are interlaced: their halves are of different times");

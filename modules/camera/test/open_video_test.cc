@@ -51,13 +51,13 @@ fs::path make_avi(const testkit::TempDir& dir) {
   return dir / "a.avi";
 }
 
-void append(std::string& out, std::uint32_t value, int bytes = 4) {
+void append_value(std::string& out, std::uint32_t value, int bytes = 4) {
   for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i));
 }
 
 std::string chunk(const std::string& name, const std::string& content) {
   std::string out = name;
-  append(out, static_cast<std::uint32_t>(content.size()));
+  append_value(out, static_cast<std::uint32_t>(content.size()));
   out += content;
   if (content.size() % 2 != 0) out += '\0';
   return out;
@@ -68,24 +68,24 @@ std::string format_avi(const std::vector<int>& grays) {
   std::string header, stream, format, images, index;
   for (const std::uint32_t value :
        {22222u, 0u, 0u, 0x10u, static_cast<std::uint32_t>(grays.size()), 0u, 1u, 0u, 64u, 48u, 0u, 0u, 0u, 0u})
-    append(header, value);
+    append_value(header, value);
   stream = "vidsMJPG";
   for (const std::uint32_t value : {0u, 0u, 0u, 1u, 45u, 0u, static_cast<std::uint32_t>(grays.size()), 0u, ~0u, 0u})
-    append(stream, value);
-  for (const std::uint32_t value : {0u, 0u, 64u, 48u}) append(stream, value, 2);
-  append(format, 40);
-  append(format, 64);
-  append(format, 48);
-  append(format, 1, 2);
-  append(format, 24, 2);
+    append_value(stream, value);
+  for (const std::uint32_t value : {0u, 0u, 64u, 48u}) append_value(stream, value, 2);
+  append_value(format, 40);
+  append_value(format, 64);
+  append_value(format, 48);
+  append_value(format, 1, 2);
+  append_value(format, 24, 2);
   format += "MJPG";
-  for (const std::uint32_t value : {64u * 48u * 3u, 0u, 0u, 0u, 0u}) append(format, value);
+  for (const std::uint32_t value : {64u * 48u * 3u, 0u, 0u, 0u, 0u}) append_value(format, value);
   for (const int gray : grays) {
     const auto jpeg = testkit::encode_jpeg(64, 48, std::vector<std::uint8_t>(64 * 48, static_cast<std::uint8_t>(gray)));
     index += "00dc";
-    append(index, 0x10);
-    append(index, static_cast<std::uint32_t>(4 + images.size()));
-    append(index, static_cast<std::uint32_t>(jpeg.size()));
+    append_value(index, 0x10);
+    append_value(index, static_cast<std::uint32_t>(4 + images.size()));
+    append_value(index, static_cast<std::uint32_t>(jpeg.size()));
     images += chunk("00dc", {jpeg.begin(), jpeg.end()});
   }
   const std::string lists = chunk("LIST", "hdrl" + chunk("avih", header) +
@@ -97,13 +97,8 @@ std::string format_avi(const std::vector<int>& grays) {
 TEST(OpenVideo, ImagesAndTimesOfTheContainer) {
   const testkit::TempDir dir;
   std::ofstream(dir / "a.avi", std::ios::binary) << format_avi({0, 40, 80, 120, 160, 200});
-  std::unique_ptr<CameraSource> camera;
-  try {
-    camera = open_video(dir / "a.avi");
-  } catch (const Error& error) {
-    if (std::string(error.what()).find("is not installed") != std::string::npos) GTEST_SKIP() << error.what();
-    throw;
-  }
+  const std::unique_ptr<CameraSource> camera =
+      open_video(dir / "a.avi");  // by the ffmpeg that scripts/bootstrap installs
   EXPECT_NEAR(camera->nominal_rate_Hz(), 45.0, 1e-6);
   CameraFrame frame;
   for (int i = 0; i < 6; ++i) {

@@ -33,7 +33,7 @@ struct DeviceEntry {
 
 // The entry of a device with settings. `open` is called with them and the drive.
 template <class Config, class Open>
-DeviceEntry entry(DeviceKind kind, Open open, std::string Config::*need = nullptr) {
+DeviceEntry make_entry(DeviceKind kind, Open open, std::string Config::*need = nullptr) {
   return {kind, Config(), [](std::any& config, ConfigLister& v) { std::any_cast<Config&>(config).visit(v); },
           [need](const std::any& config) { return need && (std::any_cast<const Config&>(config).*need).empty(); },
           [open](const std::any& config, const DeviceDrive& drive) {
@@ -44,7 +44,7 @@ DeviceEntry entry(DeviceKind kind, Open open, std::string Config::*need = nullpt
 // Of a device with motors, which a person moves.
 template <class Config>
 DeviceEntry with_motors(DeviceKind kind, Device (*open)(const Config&), std::string Config::*need = nullptr) {
-  return entry<Config>(
+  return make_entry<Config>(
       kind, [open](const Config& config, const DeviceDrive&) { return open(config); }, need);
 }
 
@@ -86,18 +86,18 @@ const std::vector<DeviceEntry>& entries() {
   constexpr DeviceMover kHand = DeviceMover::kModelledHand;
   constexpr NeededSetting kTwoDiyPort{"serial port", "2diy.port", "/dev/ttyACM0"};
   static const std::vector<DeviceEntry> all{
-      without_settings({.name = "sim", .title = "Modelled hand", .mover = kHand, .felt = false}, open_hand),
-      without_settings({.name = "replay", .title = "Recorded path", .mover = DeviceMover::kPath, .felt = false},
+      without_settings({.name = "sim", .title = "Modelled hand", .mover = kHand, .has_person = false}, open_hand),
+      without_settings({.name = "replay", .title = "Recorded path", .mover = DeviceMover::kPath, .has_person = false},
                        open_path),
       with_motors<HaplyConfig>({.name = "haply", .title = "Haply Inverse3"}, open_haply),
       with_motors<OpenHapticsConfig>({.name = "openhaptics", .title = "OpenHaptics"}, open_openhaptics),
       with_motors<DhdConfig>({.name = "dhd", .title = "Force Dimension"}, open_dhd),
       with_motors<TwoDiyConfig>({.name = "2diy", .title = "Haply 2diy", .needs = kTwoDiyPort}, open_two_diy,
                                 &TwoDiyConfig::port),
-      entry<AudioSinkConfig>({.name = "audio", .title = "Voice coil", .mover = kHand, .vibrotactile = true},
-                             open_audio),
-      entry<RumbleSinkConfig>({.name = "gamepad", .title = "Gamepad", .mover = kHand, .vibrotactile = true},
-                              open_gamepad),
+      make_entry<AudioSinkConfig>({.name = "audio", .title = "Voice coil", .mover = kHand, .vibrotactile = true},
+                                  open_audio),
+      make_entry<RumbleSinkConfig>({.name = "gamepad", .title = "Gamepad", .mover = kHand, .vibrotactile = true},
+                                   open_gamepad),
   };
   return all;
 }

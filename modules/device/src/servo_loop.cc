@@ -20,7 +20,7 @@ constexpr double kQueue_s = 4.0;  // ticks that on_tick may be behind
 constexpr auto kDrainEvery = std::chrono::milliseconds(2);
 constexpr std::int64_t kLead_ns = 2'000'000;  // from the thread's start to the first tick
 
-void check(const ServoConfig& config) {
+void check_servo_config(const ServoConfig& config) {
   ServoConfig copy = config;
   for (const ConfigField& field : list_fields("servo", copy)) {
     if (field.type == FieldType::kNumber) field.set(field.get());
@@ -148,7 +148,7 @@ ServoResult run_servo(HapticDevice& device, SnapshotExchange<const RenderModel>&
                       const std::atomic<bool>& stop, const std::function<void(const ServoTick&)>& on_tick,
                       ServoStep step, const ForcePermit* permit) {
   const ForceGuard guard(device);
-  check(config);
+  check_servo_config(config);
   ServoCore core(device, scene, config, step, permit);
   if (config.paced) {
     run_paced(core, config, stop, on_tick);

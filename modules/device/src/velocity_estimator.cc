@@ -9,20 +9,20 @@ namespace {
 constexpr std::size_t kWindow = VelocityEstimator::kWindow;
 
 // The place of the position that is `age` readings old.
-std::size_t place(const VelocityEstimator& state, std::size_t age) noexcept {
+std::size_t index_of_age(const VelocityEstimator& state, std::size_t age) noexcept {
   return (state.next + kWindow - 1 - age) % kWindow;
 }
 
 double fitted_slope(const VelocityEstimator& state, Eigen::Index axis, double noise_m) noexcept {
-  const std::size_t newest = place(state, 0);
+  const std::size_t newest = index_of_age(state, 0);
   const double p_m = state.p_m[newest][axis];
   const double t_s = state.t_s[newest];
   double slope = 0.0;
   for (std::size_t n = 1; n < state.count; ++n) {
-    const std::size_t oldest = place(state, n);
+    const std::size_t oldest = index_of_age(state, n);
     const double candidate = (p_m - state.p_m[oldest][axis]) / (t_s - state.t_s[oldest]);
     for (std::size_t between = 1; between < n; ++between) {
-      const std::size_t k = place(state, between);
+      const std::size_t k = index_of_age(state, between);
       const double line_m = p_m - candidate * (t_s - state.t_s[k]);
       if (std::abs(state.p_m[k][axis] - line_m) > noise_m) return slope;
     }
@@ -39,7 +39,7 @@ Eigen::Vector3d estimate_velocity(VelocityEstimator& state, const Eigen::Vector3
     state = {};
     return state.v_mps;
   }
-  if (state.count > 0 && (sequence == state.sequence || !(t_s > state.t_s[place(state, 0)]))) return state.v_mps;
+  if (state.count > 0 && (sequence == state.sequence || !(t_s > state.t_s[index_of_age(state, 0)]))) return state.v_mps;
   state.sequence = sequence;
   state.p_m[state.next] = p_m;
   state.t_s[state.next] = t_s;

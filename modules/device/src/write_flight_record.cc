@@ -19,18 +19,18 @@ constexpr std::string_view kHeader =
 
 constexpr std::array<std::string_view, 4> kStatusNames{"ready", "stalled", "fault", "ended"};
 
-void add(std::string& out, std::int64_t value) {
+void append_field(std::string& out, std::int64_t value) {
   append_number(out, value);
   out += ',';
 }
 
-void add(std::string& out, double value) {
+void append_field(std::string& out, double value) {
   append_number(out, value);
   out += ',';
 }
 
-void add(std::string& out, const Eigen::Vector3d& value) {
-  for (const double x : value) add(out, x);
+void append_field(std::string& out, const Eigen::Vector3d& value) {
+  for (const double x : value) append_field(out, x);
 }
 
 }  // namespace
@@ -38,28 +38,28 @@ void add(std::string& out, const Eigen::Vector3d& value) {
 std::string format_flight_record(std::span<const ServoTick> ticks) {
   std::string out(kHeader);
   for (const ServoTick& t : ticks) {
-    add(out, t.t_ns);
+    append_field(out, t.t_ns);
     out += kStatusNames[static_cast<std::size_t>(t.reading.status)];
     out += ',' + std::to_string(t.reading.sequence) + ',' + std::to_string(t.reading.buttons) + ',';
-    add(out, t.reading.p_m);
-    add(out, t.reading.v_mps);
-    add(out, t.p_world_m);
-    add(out, t.output.proxy_m);
-    add(out, t.output.force_N);
-    add(out, t.output.contact_N);
-    add(out, t.output.texture_N);
-    add(out, t.output.friction_N);
-    add(out, t.output.texture_height_m);
-    add(out, std::int64_t{t.output.sticking});
-    add(out, std::int64_t{t.output.starts_inside});
+    append_field(out, t.reading.p_m);
+    append_field(out, t.reading.v_mps);
+    append_field(out, t.p_world_m);
+    append_field(out, t.output.proxy_m);
+    append_field(out, t.output.force_N);
+    append_field(out, t.output.contact_N);
+    append_field(out, t.output.texture_N);
+    append_field(out, t.output.friction_N);
+    append_field(out, t.output.texture_height_m);
+    append_field(out, std::int64_t{t.output.sticking});
+    append_field(out, std::int64_t{t.output.starts_inside});
     // No object and no triangle are empty cells.
     if (t.output.contact.found()) out += std::to_string(t.output.contact.object);
     out += ',';
     if (t.output.contact.found()) out += std::to_string(t.output.contact.triangle);
     out += ',';
-    add(out, t.out_world_N);
+    append_field(out, t.out_world_N);
     out += cause_names(t.limited_by) + ',';
-    add(out, t.late_ns);
+    append_field(out, t.late_ns);
     append_number(out, t.step_ns);
     out += '\n';
   }

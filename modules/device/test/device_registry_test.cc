@@ -30,7 +30,7 @@ TEST(DeviceRegistry, KnowsWhoMovesAndFeelsADevice) {
     const std::string name(kind.name);
     const bool computed = name == "sim" || name == "replay";
     const bool vibrates = name == "audio" || name == "gamepad";
-    EXPECT_EQ(kind.felt, !computed) << name;
+    EXPECT_EQ(kind.has_person, !computed) << name;
     EXPECT_EQ(kind.vibrotactile, vibrates) << name;
     EXPECT_EQ(kind.driven(), computed || vibrates) << name;
     EXPECT_EQ(kind.mover == DeviceMover::kPath, name == "replay") << name;

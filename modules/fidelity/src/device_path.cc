@@ -6,7 +6,7 @@
 
 namespace asperity {
 
-TimePlace find_time(const std::vector<std::int64_t>& times_ns, std::int64_t t_ns, std::size_t& hint) {
+TimeIndex find_time(const std::vector<std::int64_t>& times_ns, std::int64_t t_ns, std::size_t& hint) {
   if (times_ns.empty()) throw Error("path: it has no points");
   if (hint >= times_ns.size() || times_ns[hint] > t_ns) {
     const auto after = std::upper_bound(times_ns.begin(), times_ns.end(), t_ns);
@@ -18,7 +18,7 @@ TimePlace find_time(const std::vector<std::int64_t>& times_ns, std::int64_t t_ns
 }
 
 Eigen::Vector3d position_at(const DevicePath& path, std::int64_t t_ns, std::size_t& hint) {
-  const TimePlace place = find_time(path.t_ns, t_ns, hint);
+  const TimeIndex place = find_time(path.t_ns, t_ns, hint);
   if (place.share == 0.0) return path.p_world_m[place.index];
   const Eigen::Vector3d& from_m = path.p_world_m[place.index];
   return from_m + place.share * (path.p_world_m[place.index + 1] - from_m);

@@ -53,7 +53,7 @@ Ticks render_scan(const PressedScan& pressed, const RenderModel& model, double r
   for (std::int64_t i = 0; i <= count; ++i) {
     if (i % 4096 == 0) observer.update("rendering", static_cast<double>(i) / static_cast<double>(count + 1));
     const std::int64_t t_ns = std::llround(static_cast<double>(i) / rate_Hz / kNanosecond_s);
-    const TimePlace place = find_time(pressed.path.t_ns, t_ns, hint);
+    const TimeIndex place = find_time(pressed.path.t_ns, t_ns, hint);
     const Vector3d p_m = position_at(pressed.path, t_ns, hint);
     device.v_world_mps = (p_m - device.p_world_m) * rate_Hz;
     device.p_world_m = p_m;
@@ -128,19 +128,20 @@ SpectrumAgreement compare_spectra(const Pair& pair, double spacing_m, const Comp
   out.rms_ratio = out.rendered_rms / out.real_rms;
   constexpr double kMost_dB = 40.0;
   double sum = 0.0;
-  std::size_t felt = 0;
+  std::size_t compared = 0;
   for (const BandDifference& band : compare_textures(real, rendered, config).bands) {
-    BandAgreement one{band.low_cycles_per_mm, band.high_cycles_per_mm, band.rms_m.a, band.rms_m.b, 0.0, band.felt};
+    BandAgreement one{band.low_cycles_per_mm, band.high_cycles_per_mm, band.rms_m.a, band.rms_m.b, 0.0,
+                      band.is_compared};
     if (one.real_rms != one.rendered_rms) {
       one.difference_dB = std::clamp(20.0 * std::log10(one.rendered_rms / one.real_rms), -kMost_dB, kMost_dB);
     }
-    if (one.felt) {
+    if (one.is_compared) {
       sum += one.difference_dB * one.difference_dB;
-      ++felt;
+      ++compared;
     }
     out.bands.push_back(one);
   }
-  if (felt > 0) out.distance_dB = std::sqrt(sum / static_cast<double>(felt));
+  if (compared > 0) out.distance_dB = std::sqrt(sum / static_cast<double>(compared));
   return out;
 }
 
@@ -173,7 +174,7 @@ std::vector<double> added_force(std::vector<double> rendered_N, const std::vecto
   return rendered_N;
 }
 
-void judge(RenderingScore& out, const ScoreConfig& config) {
+void judge_score(RenderingScore& out, const ScoreConfig& config) {
   const auto agreement = [](double distance, double half) { return std::exp2(-distance / half); };
   const double ratio = out.height.rms_ratio;
   out.height_score = std::min(ratio, 1.0 / ratio) * agreement(out.height.distance_dB, config.half_dB);
@@ -194,9 +195,9 @@ void judge(RenderingScore& out, const ScoreConfig& config) {
       "{}, rendered ones are {:.2f} of the real; spectra of height are {:.1f} dB apart, of force "
       "{:.1f} dB",
       what, ratio, out.height.distance_dB, out.force.distance_dB);
-  if (out.touched < config.min_contact_fraction) {
+  if (out.contact_fraction < config.min_contact_fraction) {
     out.trustworthy = false;
-    out.verdict += fmt::format("; only {:.0f} % of the scan touched the surface", 100.0 * out.touched);
+    out.verdict += fmt::format("; only {:.0f} % of the scan touched the surface", 100.0 * out.contact_fraction);
   }
   if (out.score < config.min_score) {
     out.trustworthy = false;
@@ -215,7 +216,7 @@ RenderingScore score_rendering(const ProcessResult& measured, const PressedScan&
 
   RenderingScore out;
   out.ticks = ticks.all;
-  out.touched = static_cast<double>(ticks.touching) / static_cast<double>(ticks.all);
+  out.contact_fraction = static_cast<double>(ticks.touching) / static_cast<double>(ticks.all);
   out.speed_mps = measured.speed.mean_mps;
   const TipMotion& motion = measured.trajectory.motion;
   const double span_s = static_cast<double>(motion.t_ns.back() - motion.t_ns.front()) * kNanosecond_s;
@@ -249,7 +250,7 @@ RenderingScore score_rendering(const ProcessResult& measured, const PressedScan&
   const std::vector<double> expected_N = expected_force(profile, grid(ticks.texture_N_per_m));
   out.force = compare_spectra(common(expected_N, added_force(rendered_N, measured_N)), profile.spacing_m, spectra);
   out.measured_force = compare_spectra(common(measured_N, rendered_N), profile.spacing_m, spectra);
-  judge(out, config);
+  judge_score(out, config);
   return out;
 }
 

@@ -99,7 +99,7 @@ TEST(ScoreRendering, AFaithfulTextureHasTheScansHeights) {
   EXPECT_NEAR(result.height.rms_ratio, 1.0, 2e-3);
   EXPECT_LT(result.height.distance_dB, 0.1);
   EXPECT_LT(result.force.distance_dB, 0.1);
-  EXPECT_NEAR(result.touched, 1.0, 1e-12);
+  EXPECT_NEAR(result.contact_fraction, 1.0, 1e-12);
   EXPECT_GT(result.score, 0.97);
   EXPECT_TRUE(result.trustworthy);
   // The texture's spring alone: k_c k_s of the cosine; what was measured does not vary.

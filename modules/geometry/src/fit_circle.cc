@@ -6,10 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
-
+#include "asperity/algebra/solve.h"
 #include "asperity/base/error.h"
 
 namespace asperity {
@@ -31,18 +28,18 @@ Circle fit_algebraic(const std::vector<Eigen::Vector2d>& p, const std::vector<do
     const Eigen::Vector2d& q = p[static_cast<std::size_t>(i)];
     rows.row(i) = std::sqrt(w[static_cast<std::size_t>(i)]) * Eigen::RowVector4d(q.squaredNorm(), q.x(), q.y(), 1.0);
   }
-  const Eigen::JacobiSVD<Eigen::MatrixX4d> svd(rows, Eigen::ComputeFullV);
+  const SingularValues svd = singular_values(rows, SingularVectors::kFullV);
   Eigen::Vector4d a;
-  if (svd.singularValues()(3) < 1e-12 * svd.singularValues()(0)) {
-    a = svd.matrixV().col(3);
+  if (svd.values(3) < 1e-12 * svd.values(0)) {
+    a = svd.V.col(3);
   } else {
-    const Eigen::Matrix4d y = svd.matrixV() * svd.singularValues().asDiagonal() * svd.matrixV().transpose();
+    const Eigen::Matrix4d y = svd.V * svd.values.asDiagonal() * svd.V.transpose();
     Eigen::Matrix4d constraint_inverse = Eigen::Matrix4d::Zero();
     constraint_inverse(0, 3) = constraint_inverse(3, 0) = -0.5;
     constraint_inverse(1, 1) = constraint_inverse(2, 2) = 1.0;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(y * constraint_inverse * y);
+    const SymmetricEigen eigen = symmetric_eigen(y * constraint_inverse * y);
     // The eigenvalues rise and exactly one is negative: the fit belongs to the least positive one.
-    a = y.ldlt().solve(eigen.eigenvectors().col(1));
+    a = solve_symmetric(y, eigen.vectors.col(1));
   }
   // A vanishing quadratic term is a straight line: a very large circle stands for it.
   const double side = a(0) < 0.0 ? -1.0 : 1.0;
@@ -117,7 +114,7 @@ CircleFit fit_circle(std::span<const Eigen::Vector2d> points_m, std::span<const 
     for (int attempt = 0; attempt < 12 && !improved; ++attempt) {
       Eigen::Matrix3d damped = information;
       damped.diagonal() *= 1.0 + damping;
-      const Eigen::Vector3d step = -damped.ldlt().solve(gradient);
+      const Eigen::Vector3d step = -solve_symmetric(damped, gradient);
       const Circle next{circle.centre + step.head<2>(), circle.radius + step.z()};
       const double next_cost = step.allFinite() ? cost_of(next) : std::numeric_limits<double>::infinity();
       if (next_cost <= cost) {
@@ -141,7 +138,7 @@ CircleFit fit_circle(std::span<const Eigen::Vector2d> points_m, std::span<const 
   const double freedom = static_cast<double>(n) - 3.0;
   fit.covariance_m2 =
       freedom > 0.0
-          ? Eigen::Matrix3d(scale * scale * cost / freedom * information.ldlt().solve(Eigen::Matrix3d::Identity()))
+          ? Eigen::Matrix3d(scale * scale * cost / freedom * solve_symmetric(information, Eigen::Matrix3d::Identity()))
           : Eigen::Matrix3d::Constant(std::numeric_limits<double>::infinity());
   return fit;
 }

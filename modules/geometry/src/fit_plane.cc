@@ -5,8 +5,8 @@
 #include <string>
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 
+#include "asperity/algebra/solve.h"
 #include "asperity/base/error.h"
 
 namespace asperity {
@@ -35,13 +35,13 @@ PlaneFit fit_plane(std::span<const Eigen::Vector3d> points_m, std::span<const do
     const double w = weights.empty() ? 1.0 : weights[i];
     rows.row(static_cast<Eigen::Index>(i)) = std::sqrt(w / sum) * (points_m[i] - centroid).transpose();
   }
-  const Eigen::JacobiSVD<Eigen::MatrixX3d> svd(rows, Eigen::ComputeFullV);
+  const SingularValues svd = singular_values(rows, SingularVectors::kFullV);
 
   PlaneFit fit;
   fit.centroid_m = centroid;
-  fit.axes = svd.matrixV();
+  fit.axes = svd.V;
   if (fit.axes.determinant() < 0.0) fit.axes.col(2) *= -1.0;
-  fit.scatter_m2 = svd.singularValues().cwiseAbs2();
+  fit.scatter_m2 = svd.values.cwiseAbs2();
   fit.rms_m = std::sqrt(fit.scatter_m2.z());
   const double freedom = static_cast<double>(n) - 3.0;
   for (int k = 0; k < 2; ++k) {

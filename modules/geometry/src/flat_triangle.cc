@@ -44,7 +44,7 @@ Vector2d place_beside(const Vector3d& p, const Vector3d& a, const Vector3d& b, c
          side * along.cross(out).norm() * Vector2d(-flat_along.y(), flat_along.x());
 }
 
-FlatTriangle flatten(const TriangleMesh& mesh, std::uint32_t triangle) {
+FlatTriangle flatten_triangle(const TriangleMesh& mesh, std::uint32_t triangle) {
   const auto& [a, b, c] = mesh.triangles[triangle];
   FlatTriangle out;
   out.corner[1] = Vector2d((mesh.vertices_m[b] - mesh.vertices_m[a]).norm(), 0.0);

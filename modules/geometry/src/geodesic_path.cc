@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 // A detour is taken only if it is shorter by more than rounding, or two equal ways would alternate.
 constexpr double kAngleTol_rad = 1e-9;
 
-void check(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const MeshPoint& point) {
+void check_mesh_point(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const MeshPoint& point) {
   if (adjacency.edge_of_triangle.size() != mesh.triangles.size())
     throw Error("geodesic path: the adjacency is of another mesh");
   if (point.triangle >= mesh.triangles.size()) {
@@ -165,8 +165,8 @@ std::optional<OtherSide> best_detour(const TriangleMesh& mesh, const MeshAdjacen
 }
 
 // The straightened path: its ends, bends and every crossing of an edge, each point once.
-MeshPath trace(const TriangleMesh& mesh, const TriangleStrip& strip, const UnfoldedStrip& flat,
-               const std::vector<Bend>& bends, const Vector3d& from, const Vector3d& to) {
+MeshPath trace_strip(const TriangleMesh& mesh, const TriangleStrip& strip, const UnfoldedStrip& flat,
+                     const std::vector<Bend>& bends, const Vector3d& from, const Vector3d& to) {
   MeshPath path;
   const auto add = [&path](const Vector3d& p, std::uint32_t triangle) {
     if (!path.p_mesh_m.empty() && p == path.p_mesh_m.back()) {
@@ -223,20 +223,20 @@ MeshPath trace(const TriangleMesh& mesh, const TriangleStrip& strip, const Unfol
 
 GeodesicPath geodesic_path(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const MeshPoint& from,
                            const MeshPoint& to) {
-  check(mesh, adjacency, from);
-  check(mesh, adjacency, to);
+  check_mesh_point(mesh, adjacency, from);
+  check_mesh_point(mesh, adjacency, to);
   const Vector3d start = position_m(mesh, from);
   const Vector3d goal = position_m(mesh, to);
   TriangleStrip strip = find_strip(mesh, adjacency, from, to);
   GeodesicPath out;
   const auto limit = static_cast<int>(std::min<std::size_t>(1000 + 10 * strip.faces.size(), 1'000'000));
   for (;;) {
-    const UnfoldedStrip flat = unfold(mesh, adjacency, strip, start, goal);
+    const UnfoldedStrip flat = unfold_strip(mesh, adjacency, strip, start, goal);
     const std::vector<Bend> bends = shortest_bends(flat);
     const auto detour = best_detour(mesh, adjacency, strip, flat, bends);
     if (!detour || out.detours == limit) {
       out.locally_shortest = !detour;
-      out.path = trace(mesh, strip, flat, bends, start, goal);
+      out.path = trace_strip(mesh, strip, flat, bends, start, goal);
       return out;
     }
     strip = rerouted(strip, *detour);

@@ -41,7 +41,7 @@ std::size_t components_of(int type) {
 }
 
 template <class Entry>
-const Entry& entry(const std::vector<Entry>& entries, int index, const std::string& what, const char* kind) {
+const Entry& find_entry(const std::vector<Entry>& entries, int index, const std::string& what, const char* kind) {
   if (index < 0 || static_cast<std::size_t>(index) >= entries.size()) {
     throw Error(what + ": " + kind + " " + std::to_string(index) + " of " + std::to_string(entries.size()));
   }
@@ -52,10 +52,10 @@ const Entry& entry(const std::vector<Entry>& entries, int index, const std::stri
 
 GltfAccessor::GltfAccessor(const tinygltf::Model& model, int accessor, std::size_t components,
                            const std::string& what) {
-  const tinygltf::Accessor& a = entry(model.accessors, accessor, what, "accessor");
+  const tinygltf::Accessor& a = find_entry(model.accessors, accessor, what, "accessor");
   if (a.sparse.isSparse) throw Error(what + ": sparse accessors are not read");
-  const tinygltf::BufferView& view = entry(model.bufferViews, a.bufferView, what, "buffer view");
-  const tinygltf::Buffer& buffer = entry(model.buffers, view.buffer, what, "buffer");
+  const tinygltf::BufferView& view = find_entry(model.bufferViews, a.bufferView, what, "buffer view");
+  const tinygltf::Buffer& buffer = find_entry(model.buffers, view.buffer, what, "buffer");
   component_bytes_ = bytes_of(a.componentType);
   if (component_bytes_ == 0 || components_of(a.type) != components) {
     throw Error(what + ": an accessor of another type (component " + std::to_string(a.componentType) + ", type " +

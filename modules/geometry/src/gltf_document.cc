@@ -22,8 +22,8 @@ constexpr std::array<std::string_view, 3> kKnownExtensions{"KHR_mesh_quantizatio
 
 class Checker {
  public:
-  Checker(std::string_view bytes, const std::string& name, const MeshLimits& limits)
-      : bytes_(bytes), name_(name), limits_(limits) {}
+  Checker(std::string_view bytes, const std::string& name, const MeshLimits& limits, const Observer& observer)
+      : bytes_(bytes), name_(name), limits_(limits), observer_(observer) {}
 
   GltfDocument check() {
     parse(split());
@@ -89,7 +89,7 @@ class Checker {
     limits.bytes = kMaxJsonBytes;
     limits.depth = kMaxDepth;
     limits.values = kMaxValues;
-    document_ = parse_json(text, name_, limits);
+    document_ = parse_json(text, name_, limits, observer_.without_progress());
     if (!document_.is_object()) fail("is not glTF: its JSON is no object");
   }
 
@@ -177,14 +177,16 @@ class Checker {
   std::string_view bytes_;
   const std::string& name_;
   const MeshLimits& limits_;
+  const Observer& observer_;
   Json document_;
   GltfDocument out_;
 };
 
 }  // namespace
 
-GltfDocument check_gltf(std::string_view bytes, const std::string& name, const MeshLimits& limits) {
-  return Checker(bytes, name, limits).check();
+GltfDocument check_gltf(std::string_view bytes, const std::string& name, const MeshLimits& limits,
+                        const Observer& observer) {
+  return Checker(bytes, name, limits, observer).check();
 }
 
 }  // namespace asperity

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "asperity/base/problem.h"
+#include "asperity/base/progress.h"
 #include "asperity/geometry/mesh_limits.h"
 
 namespace asperity {
@@ -20,6 +21,7 @@ struct GltfDocument {
   Problems problems;
 };
 
-GltfDocument check_gltf(std::string_view bytes, const std::string& name, const MeshLimits& limits);
+GltfDocument check_gltf(std::string_view bytes, const std::string& name, const MeshLimits& limits,
+                        const Observer& observer);
 
 }  // namespace asperity

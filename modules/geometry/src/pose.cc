@@ -22,6 +22,10 @@ Eigen::Vector3d log_rotation(const Eigen::Quaterniond& q) {
   return sign * scale * q.vec();
 }
 
+Eigen::Quaterniond shortest_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to);
+}
+
 double rotation_between_rad(const Pose& a, const Pose& b) {
   return log_rotation(a.rotation.conjugate() * b.rotation).norm();
 }

@@ -306,15 +306,15 @@ class GltfReader {
 }  // namespace
 
 MeshFile parse_gltf(std::string_view bytes, const std::string& name, const std::filesystem::path& folder,
-                    const MeshLimits& limits) {
-  const GltfDocument document = check_gltf(bytes, name, limits);
+                    const MeshLimits& limits, const Observer& observer) {
+  const GltfDocument document = check_gltf(bytes, name, limits, observer);
   const tinygltf::Model model = load_gltf_model(document, name, folder, limits);
   return GltfReader(model, document, name, limits).read();
 }
 
-MeshFile read_gltf(const std::filesystem::path& path, const MeshLimits& limits) {
+MeshFile read_gltf(const std::filesystem::path& path, const MeshLimits& limits, const Observer& observer) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  return parse_gltf(read_file(path, limits.file_bytes), path.string(), folder, limits);
+  return parse_gltf(read_file(path, limits.file_bytes), path.string(), folder, limits, observer);
 }
 
 }  // namespace asperity

@@ -11,7 +11,7 @@
 
 namespace asperity {
 
-MeshFile read_mesh(const std::filesystem::path& path, const MeshLimits& limits) {
+MeshFile read_mesh(const std::filesystem::path& path, const MeshLimits& limits, const Observer& observer) {
   std::string extension = path.extension().string();
   for (char& c : extension) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
@@ -19,7 +19,7 @@ MeshFile read_mesh(const std::filesystem::path& path, const MeshLimits& limits) 
   if (extension == ".obj") return read_obj(path, limits);
   if (extension == ".ply") return read_ply(path, limits);
   if (extension == ".stl") return read_stl(path, limits);
-  if (extension == ".gltf" || extension == ".glb") return read_gltf(path, limits);
+  if (extension == ".gltf" || extension == ".glb") return read_gltf(path, limits, observer);
   throw Error(path.string() + ": '" + printable(extension) +
               "' is not a mesh that can be read; .obj, .ply, .stl, .gltf and .glb are");
 }

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kHeader = 84;  // 80 bytes of text and the count
 constexpr std::size_t kFacet = 50;   // normal, three corners, attribute
 
-std::string lower(std::string_view text) {
+std::string to_lower(std::string_view text) {
   std::string out(text);
   for (char& c : out) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
@@ -37,7 +37,7 @@ class StlParser {
         bytes_.size() >= kHeader ? load_number<std::uint32_t>(bytes_.data() + 80, std::endian::little) : 0;
     const bool fits = bytes_.size() >= kHeader && bytes_.size() == kHeader + kFacet * facets;
     const std::size_t first = bytes_.find_first_not_of(" \t\r\n");
-    const bool solid = first != std::string_view::npos && lower(bytes_.substr(first, 5)) == "solid" &&
+    const bool solid = first != std::string_view::npos && to_lower(bytes_.substr(first, 5)) == "solid" &&
                        bytes_.find('\0') == std::string_view::npos;
     if (!fits && solid) {
       ascii();
@@ -101,13 +101,13 @@ class StlParser {
     StatementLines lines(bytes_, name_, limits_.line_bytes);
     const auto require = [&](std::string_view keyword, std::string_view rest) {
       if (!lines.next()) throw Error(name_ + ": ends where '" + std::string(keyword) + "' is needed");
-      if (lower(lines.keyword()) != keyword || lower(lines.rest()) != rest) {
+      if (to_lower(lines.keyword()) != keyword || to_lower(lines.rest()) != rest) {
         lines.fail("'" + printable(lines.keyword()) + "' where '" + std::string(keyword) + "' is needed");
       }
     };
     bool in_solid = false;
     while (lines.next()) {
-      const std::string keyword = lower(lines.keyword());
+      const std::string keyword = to_lower(lines.keyword());
       if (keyword == "solid" && !in_solid) {
         in_solid = true;
         begin_solid(lines.rest());
@@ -117,12 +117,12 @@ class StlParser {
         require_room(lines.place(), mesh_.triangles.size() + 1);
         std::string place = lines.place();
         std::string_view rest = lines.rest();
-        if (lower(next_word(rest)) != "normal") lines.fail("'facet' without 'normal'");
+        if (to_lower(next_word(rest)) != "normal") lines.fail("'facet' without 'normal'");
         // Exporters write nan for the normal of a triangle without area; it is not used.
         const Eigen::Vector3d normal = vector(lines, rest, false);
         require("outer", "loop");
         for (Eigen::Vector3d& corner : corners_) {
-          if (!lines.next() || lower(lines.keyword()) != "vertex") lines.fail("a facet needs three 'vertex' lines");
+          if (!lines.next() || to_lower(lines.keyword()) != "vertex") lines.fail("a facet needs three 'vertex' lines");
           rest = lines.rest();
           corner = vector(lines, rest, true);
         }

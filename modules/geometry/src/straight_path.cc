@@ -61,7 +61,7 @@ StraightPath straight_path(const TriangleMesh& mesh, const MeshAdjacency& adjace
 
   StraightPath out;
   std::uint32_t triangle = from.triangle;
-  FlatTriangle flat = flatten(mesh, triangle);
+  FlatTriangle flat = flatten_triangle(mesh, triangle);
   Vector3d weight = from.barycentric;
   Vector3d p = position_m(mesh, from);
   const auto add = [&] {

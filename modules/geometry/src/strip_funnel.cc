@@ -14,8 +14,8 @@ double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y(
 
 }  // namespace
 
-UnfoldedStrip unfold(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const TriangleStrip& strip,
-                     const Vector3d& from, const Vector3d& to) {
+UnfoldedStrip unfold_strip(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const TriangleStrip& strip,
+                           const Vector3d& from, const Vector3d& to) {
   const auto vertex = [&mesh](std::uint32_t v) -> const Vector3d& { return mesh.vertices_m[v]; };
   UnfoldedStrip flat;
   flat.portals.reserve(strip.edges.size());

@@ -26,8 +26,8 @@ struct UnfoldedStrip {
   Eigen::Vector2d to;
 };
 
-UnfoldedStrip unfold(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const TriangleStrip& strip,
-                     const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+UnfoldedStrip unfold_strip(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const TriangleStrip& strip,
+                           const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 // Where the shortest path within a strip bends: round an end of a portal.
 struct Bend {

@@ -13,12 +13,12 @@ namespace {
 using Point = Eigen::Vector2d;
 
 // Twice the signed area of the triangle; positive if counter-clockwise.
-double turn(const Point& a, const Point& b, const Point& c) {
+double signed_area(const Point& a, const Point& b, const Point& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
 // The polygon's points in the plane of largest projected area, counter-clockwise; empty if it has no area.
-std::vector<Point> project(std::span<const Eigen::Vector3d> points) {
+std::vector<Point> project_polygon(std::span<const Eigen::Vector3d> points) {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (std::size_t i = 2; i < points.size(); ++i) {
     normal += (points[i - 1] - points[0]).cross(points[i] - points[0]);
@@ -81,12 +81,13 @@ class Ring {
     const Point& a = points_[previous_[tip]];
     const Point& b = points_[tip];
     const Point& c = points_[next_[tip]];
-    if (!(turn(a, b, c) > 0.0)) return false;
+    if (!(signed_area(a, b, c) > 0.0)) return false;
     if (crossing_) return true;
     for (std::uint32_t i = next_[next_[tip]]; i != previous_[tip]; i = next_[i]) {
       const Point& p = points_[i];
       // A corner in the same place as one of the ear's belongs to a seam that joins a hole to the outline.
-      if (turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0 && p != a && p != b && p != c)
+      if (signed_area(a, b, p) >= 0.0 && signed_area(b, c, p) >= 0.0 && signed_area(c, a, p) >= 0.0 && p != a &&
+          p != b && p != c)
         return false;
     }
     return true;
@@ -94,7 +95,7 @@ class Ring {
 
   bool find_flat(std::uint32_t& tip, std::uint32_t left) const {
     for (std::uint32_t i = 0; i < left; ++i, tip = next_[tip]) {
-      if (turn(points_[previous_[tip]], points_[tip], points_[next_[tip]]) == 0.0) return true;
+      if (signed_area(points_[previous_[tip]], points_[tip], points_[next_[tip]]) == 0.0) return true;
     }
     return false;
   }
@@ -110,7 +111,7 @@ class Ring {
 
 PolygonShape triangulate_polygon(std::span<const Eigen::Vector3d> points, std::vector<Triangle>& triangles) {
   if (points.size() < 3) throw Error("triangulate_polygon: fewer than three corners");
-  std::vector<Point> plane = project(points);
+  std::vector<Point> plane = project_polygon(points);
   if (plane.empty()) {
     for (std::uint32_t i = 2; i < points.size(); ++i) triangles.push_back({0, i - 1, i});
     return PolygonShape::kDegenerate;

@@ -24,7 +24,7 @@ using tinygltf::Value;
 
 [[noreturn]] void fail(const std::string& message) { throw Error("glTF: " + message); }
 
-Value text(const std::string& value) { return Value(printable(value, 200)); }
+Value printable_value(const std::string& value) { return Value(printable(value, 200)); }
 
 // The triangles of one primitive: those of one haptic texture and one material.
 struct Group {
@@ -92,8 +92,8 @@ class GltfWriter {
     for (const GltfTexture& texture : scene_.textures) {
       if (!haptic_.emplace(texture.index, haptic_.size()).second)
         fail("haptic texture " + std::to_string(texture.index) + " twice");
-      Value::Object extra{{"name", text(texture.name)}};
-      Value::Object mpeg_material{{"name", text(texture.name)}};
+      Value::Object extra{{"name", printable_value(texture.name)}};
+      Value::Object mpeg_material{{"name", printable_value(texture.name)}};
       normal_map_.push_back(texture.normal_map ? add_image(*texture.normal_map) : -1);
       if (texture.height_map) {
         const int height = add_image(*texture.height_map);

@@ -16,7 +16,7 @@
 namespace asperity {
 namespace {
 
-using test::append;
+using test::append_value;
 using test::message_of;
 using test::pyramid;
 using testing::ElementsAre;
@@ -45,6 +45,20 @@ GltfExport example() {
   texture.friction = 0.4;
   scene.textures.push_back(texture);
   return scene;
+}
+
+TEST(Gltf, LongReadIsStopped) {
+  std::string text = format_gltf(example(), GltfForm::kJson);
+  std::string many = "{\"many\":[0";
+  for (int i = 0; i < 10000; ++i) many += ",0";
+  text.replace(text.find('{'), 1, many + "],");
+  std::size_t asked = 0;
+  Observer observer;
+  EXPECT_EQ(parse_gltf(text, "t.gltf", {}, {}, observer).triangles.size(), 6u);
+  observer.cancelled = [&asked] { return ++asked > 1; };
+  observer.progress = [](std::string_view stage, double) { FAIL() << stage; };
+  EXPECT_THROW(parse_gltf(text, "t.gltf", {}, {}, observer), Cancelled);
+  EXPECT_EQ(asked, 2u);
 }
 
 // Geometry and haptic coordinates come back but for float32: 2^-24 of each number.
@@ -98,8 +112,9 @@ class GltfFolder : public testing::Test {
  protected:
   GltfFolder() {
     fs::create_directories(folder_ / "in" / "side");
-    for (const float value : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 1.f, 1.f, 0.f}) append(data_, value, false);
-    for (const unsigned char i : {0, 1, 2, 3}) append(data_, i, false);
+    for (const float value : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 1.f, 1.f, 0.f})
+      append_value(data_, value, false);
+    for (const unsigned char i : {0, 1, 2, 3}) append_value(data_, i, false);
   }
 
   static std::string document(const std::string& uri, const std::string& mode, const std::string& nodes,

@@ -18,7 +18,7 @@ inline std::string message_of(const std::function<void()>& action) {
 }
 
 template <class Number>
-void append(std::string& out, Number value, bool big) {
+void append_value(std::string& out, Number value, bool big) {
   std::string bytes(reinterpret_cast<const char*>(&value),
                     sizeof value);  // the machines we build for are little-endian
   if (big) bytes.assign(bytes.rbegin(), bytes.rend());

@@ -11,7 +11,7 @@
 namespace asperity {
 namespace {
 
-using test::append;
+using test::append_value;
 using test::message_of;
 using test::pyramid;
 using testing::ElementsAre;
@@ -51,14 +51,14 @@ TEST(Ply, BothByteOrdersAndOddTypes) {
     const double x[4] = {0, 1, 1, 0};
     const short y[4] = {0, 0, -7, -7};
     for (int i = 0; i < 4; ++i) {
-      append(file, static_cast<unsigned char>(2), big);
-      append(file, short{1}, big);
-      append(file, short{2}, big);
-      append(file, x[i] / 3, big);
-      append(file, y[i], big);
-      append(file, 0.5f, big);
+      append_value(file, static_cast<unsigned char>(2), big);
+      append_value(file, short{1}, big);
+      append_value(file, short{2}, big);
+      append_value(file, x[i] / 3, big);
+      append_value(file, y[i], big);
+      append_value(file, 0.5f, big);
     }
-    append(file, static_cast<unsigned short>(4), big);
+    append_value(file, static_cast<unsigned short>(4), big);
     file += std::string("\0\1\2\3", 4);
     const MeshFile mesh = parse_ply(file, "t.ply");
     EXPECT_THAT(mesh.vertices, ElementsAre(Eigen::Vector3d(0, 0, .5), Eigen::Vector3d(1.0 / 3, 0, .5),

@@ -114,6 +114,7 @@ class JsonTreeBuilder {
     if (members.list.size() >= limits_.keys) {
       fail_inside(place, fmt::format("an object with more than {} keys", limits_.keys));
     }
+    // cppcheck-suppress accessMoved
     members.append(std::move(key)).set_place(place);
     return true;
   }
@@ -187,9 +188,16 @@ class JsonTreeBuilder {
       observer_.update("read", static_cast<double>(reached_ - begin_) / static_cast<double>(end_ - begin_));
     }
     value.set_place(place);
-    if (open_.empty()) return root_ = std::move(value);
+    if (open_.empty()) {
+      root_ = std::move(value);
+      return root_;
+    }
     Json& outer = *open_.back();
-    if (outer.is_object()) return outer.members_->list.back().value = std::move(value);
+    if (outer.is_object()) {
+      Json& member = outer.members_->list.back().value;
+      member = std::move(value);
+      return member;
+    }
     outer.list_->push_back(std::move(value));
     return outer.list_->back();
   }

@@ -19,7 +19,7 @@ constexpr std::size_t kMaxDepth = 4;
 
 // Lists each figure once, for reading, writing and checking.
 template <class Description, class Visit>
-void visit_figures(Description& description, Visit&& visit) {
+void visit_values(Description& description, Visit&& visit) {
   visit("rate_hz", description.rate_Hz, 0.0, kMaxRate_Hz);
   visit("adc_min", description.adc_min, kLowestCount, kHighestCount);
   visit("adc_max", description.adc_max, kLowestCount, kHighestCount);
@@ -57,7 +57,7 @@ std::optional<ProbeDescription> parse_open_description(std::string_view text) {
   if (!read_text(object, "model", out.model) || out.model != "open") return std::nullopt;
   if (!read_text(object, "name", out.name) || !read_text(object, "firmware", out.firmware)) return std::nullopt;
   bool sound = true;
-  visit_figures(out, [&](const char* key, double& value, double low, double high) {
+  visit_values(out, [&](const char* key, double& value, double low, double high) {
     sound = read_figure(object, key, value, low, high) && sound;
   });
   out.has_gyro = object.contains("gyro_counts_per_radps");
@@ -84,7 +84,7 @@ std::string format_open_description(const ProbeDescription& description) {
   object["model"] = "open";
   object["name"] = description.name;
   object["firmware"] = description.firmware;
-  visit_figures(description, [&](const char* key, double value, double low, double high) {
+  visit_values(description, [&](const char* key, double value, double low, double high) {
     if (!(value >= low && value <= high)) {
       throw Error(fmt::format("open protocol: {}: {} is outside {} to {}", key, value, low, high));
     }

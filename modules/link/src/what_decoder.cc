@@ -106,25 +106,28 @@ void WhatDecoder::begin_learning() {
   clock_.restart(clock_config(period_ns_, kFirstRateError));
 }
 
-void WhatDecoder::learn(Timed& timed) {
+void WhatDecoder::learn(const Timed& timed) {
   if (timed.newest) {
     if (marks_.size() == kMarks) marks_.pop_front();
     marks_.push_back({count_, timed.device_ns, timed.raw_ns});
   }
+  // Frames that waited for a busy host say nothing about the pace; the newest of a read does.
+  if (marks_.empty()) return;
   ++learned_;
   if (learned_ == kLearn_frames || learned_ == kLearnWell_frames) {
     const double pace_ns = median_pace_ns();
     if (pace_ns > 0.0) period_ns_ = std::clamp(pace_ns, kShortestPeriod_ns, kLongestPeriod_ns);
-    begin_clock(learned_ == kLearn_frames ? kLearningRateError : kRateError, timed);
+    begin_clock(learned_ == kLearn_frames ? kLearningRateError : kRateError);
   } else if (learned_ > kLearnWell_frames && learned_ % kRelearn_frames == 0 &&
              std::abs(clock_.rate() - 1.0) > kRelearnRateError) {
     period_ns_ = std::clamp(period_ns_ * clock_.rate(), kShortestPeriod_ns, kLongestPeriod_ns);
-    begin_clock(kRateError, timed);
+    begin_clock(kRateError);
   }
 }
 
 // Over stretches of a third of what is known, at most 100 frames; 0 if there are too few.
 double WhatDecoder::median_pace_ns() const {
+  if (marks_.size() < 2) return 0.0;
   std::vector<double> paces_ns;
   paces_ns.reserve(marks_.size());
   const std::int64_t stretch = std::min<std::int64_t>(100, (marks_.back().count - marks_.front().count) / 3);
@@ -142,9 +145,9 @@ double WhatDecoder::median_pace_ns() const {
 }
 
 // The device's time is counted anew at the pace that is known now, back to the oldest mark.
-void WhatDecoder::begin_clock(double rate_error, Timed& timed) {
+void WhatDecoder::begin_clock(double rate_error) {
   clock_.restart(clock_config(period_ns_, rate_error));
-  const double end_ns = marks_.empty() ? timed.device_ns : marks_.back().device_ns;
+  const double end_ns = marks_.back().device_ns;
   for (Mark& mark : marks_) {
     mark.device_ns = end_ns - static_cast<double>(marks_.back().count - mark.count) * period_ns_;
     clock_.observe(std::llround(mark.device_ns), mark.raw_ns);

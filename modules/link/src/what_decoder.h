@@ -55,9 +55,9 @@ class WhatDecoder : public ProbeDecoder {
   Timed time_of(const WhatFrame& frame);
   void take(Timed timed, std::vector<ProbeSample>& out);
   void begin_learning();
-  void learn(Timed& timed);
+  void learn(const Timed& timed);
   double median_pace_ns() const;
-  void begin_clock(double rate_error, Timed& timed);
+  void begin_clock(double rate_error);
   void decide(const Timed& timed, std::vector<ProbeSample>& out);
   void put_forward(std::int64_t frames);
   void release(std::vector<ProbeSample>& out);

@@ -76,6 +76,26 @@ TEST(WhatDecoder, FirstSamplesHaveUsableTimes) {
   EXPECT_LT(time_errors_us(result, sent, 0).back(), 10e3);
 }
 
+// A host that is busy finds hundreds of frames waiting at each read.
+TEST(WhatDecoder, AHostThatLooksSeldomLosesNothing) {
+  for (const std::size_t at_once : {std::size_t{150}, std::size_t{640}, std::size_t{700}, std::size_t{5000}}) {
+    Random random(5);
+    const auto sent = even_frames(3'000, 471.0);
+    std::vector<testkit::ReadBytes> late;
+    for (const testkit::ReadBytes& read : testkit::what_line(sent, {}, random)) {
+      if (late.empty() || late.back().bytes.size() >= at_once) late.push_back({});
+      late.back().arrival_ns = read.arrival_ns;
+      late.back().bytes.insert(late.back().bytes.end(), read.bytes.begin(), read.bytes.end());
+    }
+    const Result result = receive(late);
+    EXPECT_EQ(result.statistics.frames, 2'999u) << at_once;
+    EXPECT_LE(result.statistics.lost_frames, 2u) << at_once;
+    // The pace is known from a look to the next: within a look of the truth, 5000 bytes being 2.1 s.
+    const double look_us = 1e6 * static_cast<double>(at_once) / 5.0 / 471.0;
+    EXPECT_LT(time_errors_us(result, sent, 0).back(), look_us + 10e3) << at_once;
+  }
+}
+
 // A host that stalls for up to 80 ms some three times a second.
 TEST(WhatDecoder, LateReadsAreNoLosses) {
   Random random(3);

@@ -44,6 +44,10 @@ TrackerSample tracker_sample(const TrackerStream& stream, std::size_t index) {
   out.T_world_marker = stream.T_world_marker[index];
   if (!stream.markers.empty()) out.markers = stream.markers[index];
   if (!stream.reprojection_px.empty()) out.reprojection_px = stream.reprojection_px[index];
+  if (!stream.sigma_position_m.empty()) out.sigma_position_m = stream.sigma_position_m[index];
+  if (!stream.sigma_rotation_rad.empty()) out.sigma_rotation_rad = stream.sigma_rotation_rad[index];
+  if (!stream.noise_position_m.empty()) out.noise_position_m = stream.noise_position_m[index];
+  if (!stream.noise_rotation_rad.empty()) out.noise_rotation_rad = stream.noise_rotation_rad[index];
   return out;
 }
 

@@ -1,10 +1,13 @@
 #include <cmath>
+#include <string>
 
 #include "asperity/base/units.h"
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
 #include "asperity/pipeline/result_json.h"
 #include "asperity/pipeline/write_result.h"
+#include "asperity/profile/stiffness_of_compliance.h"
+#include "asperity/verdict/verdict_json.h"
 #include "json.h"
 
 namespace asperity {
@@ -31,27 +34,19 @@ Json base_json(const BasePathResult& base) {
   out["base_rms_m"] = base.base_rms_m;
   out["turning_points"] = base.turning_points.size();
   out["undetermined"] = Json::array();
-  for (const Undetermined& one : base.undetermined) {
-    out["undetermined"].push_back({{"freedom", one.freedom}, {"sigma_deg", one.sigma_deg}});
+  for (const UndeterminedRotation& one : base.undetermined) {
+    out["undetermined"].push_back({{"freedom", one.description}, {"sigma_deg", one.sigma_deg}});
   }
   return out;
 }
 
 Json roughness_json(const RoughnessResult& r) {
   Json out;
-  out["Ra_m"] = r.Ra_m;
-  out["Rq_m"] = r.Rq_m;
-  out["Rz_m"] = r.Rz_m;
-  out["Rt_m"] = r.Rt_m;
-  out["Rsk"] = r.Rsk;
-  out["Rku"] = r.Rku;
-  out["RSm_m"] = r.RSm_m;
-  out["R5p_m"] = r.R5p_m;
-  out["R5v_m"] = r.R5v_m;
-  out["R10z_m"] = r.R10z_m;
-  out["Rcm10_m"] = r.Rcm10_m;
-  out["Rcm50_m"] = r.Rcm50_m;
-  out["Rcm90_m"] = r.Rcm90_m;
+  for (const RoughnessParameter& p : kRoughnessParameters) {
+    const std::string unit = p.is_length ? "_m" : "";
+    out[std::string(p.name) + unit] = r.*p.value;
+    out[std::string(p.name) + "_stderr" + unit] = r.standard_error.*p.value;
+  }
   out["samples"] = r.samples;
   out["missing"] = r.missing;
   return out;
@@ -67,11 +62,33 @@ Json periodicity_json(const Periodicity& p) {
           {"periods", p.periods}};
 }
 
+Json compliance_json(const Compliance& c) {
+  const auto charted = stiffness_of_compliance(c);
+  return {{"determined", c.determined},
+          {"charted_stiffness_N_per_mm", charted ? Json(charted->stiffness_N_per_mm) : Json(nullptr)},
+          {"charted_stiffness_low_N_per_mm", charted ? Json(charted->low_N_per_mm) : Json(nullptr)},
+          {"charted_stiffness_high_N_per_mm", charted ? Json(charted->high_N_per_mm) : Json(nullptr)},
+          {"k_c", c.k_c},
+          {"k_c_stderr", c.k_c_stderr},
+          {"k_c_low", c.k_c_low},
+          {"k_c_high", c.k_c_high},
+          {"standard_forces_N", {kStandardLightest_N, kStandardFirmest_N}},
+          {"sigma_r2", c.sigma_r2},
+          {"force_exponent", c.exponent},
+          {"force_exponent_stderr", c.exponent_error},
+          {"lightest_N", c.lightest_N},
+          {"firmest_N", c.firmest_N},
+          {"windows", c.windows.size()},
+          {"lost_fraction", c.lost_fraction},
+          {"verdict", c.verdict}};
+}
+
 Json stiffness_json(const StiffnessEstimate& s) {
   return {{"measured", s.measured},
           {"stiffness_N_per_mm", s.stiffness_N_per_mm},
           {"stiffness_stderr_N_per_mm", s.stiffness_stderr_N_per_mm},
           {"lower_bound_N_per_mm", s.lower_bound_N_per_mm},
+          {"upper_bound_N_per_mm", s.upper_bound_N_per_mm},
           {"compliance_mm_per_N", s.compliance_mm_per_N},
           {"compliance_stderr_mm_per_N", s.compliance_stderr_mm_per_N},
           {"force_rms_N", s.force_rms_N},
@@ -113,28 +130,35 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
   out["method"] = kMethodNames.at(static_cast<std::size_t>(config.method));
   out["trustworthy"] = result.trustworthy;
   out["verdict"] = result.verdict;
+  out["verdicts"] = verdicts_json(result.verdicts);
   out["duration_s"] = stream_span_s(result.trajectory.motion.t_ns);
   out["samples"] = {{"probe", recording.probe.size()},
                     {"tracker", recording.tracker.size()},
                     {"motion", result.trajectory.motion.size()},
                     {"profile", result.profile.size()}};
   out["length_m"] = result.base.length_m;
+  out["length_stderr_m"] = result.noise.length_stderr_m;
   out["profile"] = {{"length_m", result.coverage.length_m},
+                    {"length_stderr_m", result.noise.length_stderr_m},
                     {"covered", result.coverage.covered},
                     {"gaps", result.coverage.gaps},
                     {"spacing_m", result.profile.spacing_m},
+                    {"texture_rms_m", result.noise.texture_rms_m},
+                    {"noise_rms_m", result.noise.noise_rms_m},
+                    {"noise_rms_stderr_m", result.noise.noise_rms_stderr_m},
+                    {"added_noise_rms_m", result.noise.added_rms_m},
+                    {"place_sigma_m", result.noise.place_sigma_m},
+                    {"snr", result.noise.snr},
+                    {"snr_low", result.noise.snr_low},
+                    {"at_most_m", result.noise.at_most_m},
                     {"high_pass_cycles_per_mm", ProcessMethods::get(config.method).high_pass_cycles_per_mm(config)}};
   out["speed_mps"] = {
       {"mean", result.speed.mean_mps}, {"lowest", result.speed.lowest_mps}, {"highest", result.speed.highest_mps}};
   out["base"] = base_json(result.base);
-  out["trajectory"] = Json(result.trajectory.figures);
+  out["trajectory"] = Json(result.trajectory.metrics);
   out["roughness"] = result.roughness ? roughness_json(*result.roughness) : Json(nullptr);
   out["periodicity"] = periodicity_json(result.periodicity);
-  out["compliance"] = {{"k_c", result.compliance.k_c},
-                       {"sigma_r2", result.compliance.sigma_r2},
-                       {"force_exponent", result.compliance.exponent},
-                       {"force_exponent_stderr", result.compliance.exponent_error},
-                       {"windows", result.compliance.windows.size()}};
+  out["compliance"] = compliance_json(result.compliance);
   out["stiffness"] = stiffness_json(result.stiffness);
   if (result.fit) {
     out["texture"] = {{"file", "texture.json"},
@@ -142,7 +166,7 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
                       {"harmonics", result.fit->texture.a_m.size()},
                       {"rms_height_m", result.fit->rms_height_m},
                       {"rms_error_m", result.fit->rms_error_m},
-                      {"lift_m", result.fit->lift_m}};
+                      {"lift_m", result.fit->height_offset_m}};
   } else {
     out["texture"] = nullptr;
   }

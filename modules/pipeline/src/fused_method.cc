@@ -1,5 +1,6 @@
 #include "asperity/pipeline/fused_method.h"
 
+#include "asperity/pipeline/height_errors.h"
 #include "asperity/pipeline/process_config.h"
 #include "asperity/profile/make_profile.h"
 
@@ -13,6 +14,8 @@ ProcessMethod FusedMethod::make_method() {
   out.make_profile = [](const ProcessConfig& config, const TipMotion& motion, const BasePathResult& base) {
     return make_profile(motion, base.path, base.contact, config.profile);
   };
+  out.height_errors = [](const Recording& recording, const ProcessConfig&, const TrajectoryResult& trajectory,
+                         const BasePathResult& base) { return height_errors(recording, trajectory, base); };
   out.estimate_compliance = [](const Recording&, const ProcessConfig& config, const TipMotion& motion,
                                const BasePathResult& base) {
     return estimate_compliance(motion, motion.t_ns, base.path.n_world, config.compliance);

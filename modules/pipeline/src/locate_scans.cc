@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "asperity/base/error.h"
 #include "asperity/registration/find_registration.h"
 #include "asperity/registration/refine_registration.h"
 #include "asperity/registration/register_path.h"
@@ -18,7 +19,7 @@ struct PoseStep {
 };
 
 // Turns and shifts within balls of the given radii, on an additive sequence (Roberts 2018) of six numbers.
-std::vector<PoseStep> spread_steps(int count, double shift_m, double turn_rad) {
+std::vector<PoseStep> spread_steps(int count, double shift_m, double rotation_rad) {
   constexpr double kRoot = 1.1347241384015194;  // x⁷ = x + 1
   std::vector<PoseStep> out;
   for (int i = 1; out.size() < static_cast<std::size_t>(count) && i < 100 * count; ++i) {
@@ -29,7 +30,7 @@ std::vector<PoseStep> spread_steps(int count, double shift_m, double turn_rad) {
       value = 2.0 * std::fmod(0.5 + power * i, 1.0) - 1.0;
     }
     const Eigen::Vector3d a(u[0], u[1], u[2]), b(u[3], u[4], u[5]);
-    if (a.norm() <= 1.0 && b.norm() <= 1.0) out.push_back({turn_rad * a, shift_m * b});
+    if (a.norm() <= 1.0 && b.norm() <= 1.0) out.push_back({rotation_rad * a, shift_m * b});
   }
   return out;
 }
@@ -83,6 +84,16 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
     search.registration.error_length_m = config.refinement.slow_length_m;
   }
   LocatedScans out;
+  const ProcessMethod& method = ProcessMethods::get(config.process.method);
+  if (method.register_paths) {
+    if (!guess)
+      throw Error(
+          "registration by this method begins from a pose near the right one: give a guess (--guess, --align or "
+          "--picks)");
+    out.registration = method.register_paths(config.process, paths, surface, *guess);
+    out.slow_error_world_m.resize(scans.points.size());
+    return out;
+  }
   out.registration = guess ? register_path(smooth, ready, *guess, search.registration, observer)
                            : find_registration(smooth, ready, search, observer);
   // Scans have errors that last along the path; points without a sequence have none that is known.

@@ -9,6 +9,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/units.h"
+#include "asperity/pipeline/true_profile.h"
 
 namespace asperity {
 
@@ -81,10 +82,20 @@ std::vector<double> heights_in_contact(const Truth& truth) {
   return out;
 }
 
+// The true heights in contact, resampled as a profile is, without a high-pass.
+Profile true_heights(Truth truth, double spacing_m, double max_hole_m) {
+  truth.height_m = heights_in_contact(truth);
+  ProfileConfig config;
+  config.spacing_m = spacing_m;
+  config.max_hole_m = max_hole_m;
+  config.cutoff_cycles_per_mm = 0.0;
+  return true_profile(truth, config);
+}
+
 }  // namespace
 
 Accuracy measure_accuracy(const Recording& recording, const TipMotion& motion, const Profile& profile,
-                          const ComparisonConfig& config) {
+                          const ComparisonConfig& config, const TextureOf& texture_of) {
   if (!recording.truth) throw Error("measure_accuracy: the recording has no truth");
   const Truth& truth = *recording.truth;
   const TrackerStream& tracker = recording.tracker;
@@ -135,8 +146,13 @@ Accuracy measure_accuracy(const Recording& recording, const TipMotion& motion, c
           std::min(config.high_cycles_per_mm, comparison_limit_cycles_per_mm(rate_Hz, speed_mps));
     }
     out.band_high_cycles_per_mm = comparison.high_cycles_per_mm;
-    AlignedProfiles aligned =
-        align_profiles(profile.s_m, profile.height_m, truth.s_m, heights_in_contact(truth), comparison);
+    AlignedProfiles aligned;
+    if (texture_of) {
+      const Profile expected = true_heights(truth, profile.spacing_m, comparison.max_hole_m);
+      aligned = align_profiles(profile.s_m, profile.texture_m, expected.s_m, texture_of(expected.height_m), comparison);
+    } else {
+      aligned = align_profiles(profile.s_m, profile.height_m, truth.s_m, heights_in_contact(truth), comparison);
+    }
     out.profile = aligned.comparison;
     out.heights = std::move(aligned.heights);
   }

@@ -49,8 +49,12 @@ PathPoints measured_path(const TipMotion& motion, std::span<const char> usable, 
     axis += motion.q_world_marker[i] * -tip_in_marker_m;
     ++count;
     if (!motion.cov_world_tip_m2.empty()) {
-      out.slow_covariance_world_m2 += motion.cov_world_tip_m2[i];
-      sigma_m.push_back(std::sqrt(std::max(0.0, motion.cov_world_tip_m2[i].trace() / 3.0)));
+      // The tip's error in the marker is one error of all points: it moves the path and does not scatter it.
+      const Eigen::Matrix3d R = motion.q_world_marker[i].toRotationMatrix();
+      const Eigen::Matrix3d tip_m2 = R * motion.sigma_tip_in_marker_m.cwiseAbs2().asDiagonal() * R.transpose();
+      const Eigen::Matrix3d of_point_m2 = motion.cov_world_tip_m2[i] - tip_m2;
+      out.slow_covariance_world_m2 += of_point_m2;
+      sigma_m.push_back(std::sqrt(std::max(0.0, of_point_m2.trace() / 3.0)));
     }
   }
   close();

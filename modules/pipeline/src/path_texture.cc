@@ -25,7 +25,7 @@ double usual_speed_mps(const Profile& profile) {
 }
 
 // Moves a series along by `shift_m`: g(x) becomes g(x − shift).
-void shift(Fourier1d& texture, double shift_m) {
+void shift_phase(Fourier1d& texture, double shift_m) {
   const double phase = texture.omega_rad_per_mm() * shift_m * 1e3;
   for (std::size_t j = 0; j < texture.a_m.size(); ++j) {
     const double angle = static_cast<double>(j + 1) * phase, c = std::cos(angle), s = std::sin(angle);
@@ -48,7 +48,7 @@ PathTexture fit_path_texture(const Profile& profile, const FitFourier1dPathConfi
   if (last - first < 4) throw Error("path texture: the profile has no heights");
   const std::span<const double> heights(profile.texture_m.data() + first, last - first);
   PathTexture out{fit_fourier1d_path(heights, profile.spacing_m, config), profile.s_m[first]};
-  shift(out.series.fit.texture, out.start_m);
+  shift_phase(out.series.fit.texture, out.start_m);
   return out;
 }
 

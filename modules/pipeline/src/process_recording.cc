@@ -21,7 +21,7 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
 
   // The height along it (seed §5.1).
   observer.update("profile", 0.8);
-  s.profile = stage::find_profile(config, method, s);
+  s.profile = stage::find_profile(recording, config, method, s);
 
   // What it says of the surface (seed §5.2).
   observer.update("roughness", 0.85);
@@ -38,7 +38,7 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
   s.fit = stage::fit_texture(config, s);
 
   // How far it is from the truth, where the recording knows it.
-  s.accuracy = stage::compare_with_truth(recording, config, s);
+  s.accuracy = stage::compare_with_truth(recording, config, method, s);
 
   observer.update("texture", 1.0);
   return join_stages(recording, config, method, std::move(s));

@@ -16,12 +16,12 @@ using IsSame = std::function<bool(const ProcessConfig&, const ProcessConfig&)>;
 
 // That one group of the settings is the same.
 template <class Group>
-IsSame same(Group ProcessConfig::*group) {
+IsSame same_config(Group ProcessConfig::*group) {
   return [group](const ProcessConfig& a, const ProcessConfig& b) { return is_same_config(a.*group, b.*group); };
 }
 
 // The outcome of a stage's last run, and what it was made from.
-struct Kept {
+struct StageRun {
   std::optional<ProcessConfig> config;  // none: there is nothing to keep
   std::vector<std::size_t> inputs;      // the runs of the stages that it used
   std::size_t runs = 0;
@@ -33,19 +33,19 @@ struct ProcessSession::Impl {
   Recording recording;
   ProcessResult result;
   ProcessStages s;
-  Kept trajectory, base, profile, roughness, periodicity, compliance, stiffness, fit, accuracy;
+  StageRun trajectory, base, profile, roughness, periodicity, compliance, stiffness, fit, accuracy;
 
   // Runs the stage unless its settings and inputs are those of its last run. What it throws goes on, and nothing of it
   // is kept then.
   template <class T, class Stage>
-  void update(Outcome<T>& outcome, Kept& kept, const ProcessConfig& config, const IsSame& is_same,
+  void update(Outcome<T>& outcome, StageRun& last_run, const ProcessConfig& config, const IsSame& is_same,
               std::vector<std::size_t> inputs, Stage stage) {
-    if (kept.config && kept.inputs == inputs && is_same(*kept.config, config)) return;
-    kept.config.reset();
-    ++kept.runs;
+    if (last_run.config && last_run.inputs == inputs && is_same(*last_run.config, config)) return;
+    last_run.config.reset();
+    ++last_run.runs;
     outcome = stage();
-    kept.config = config;
-    kept.inputs = std::move(inputs);
+    last_run.config = config;
+    last_run.inputs = std::move(inputs);
   }
 };
 
@@ -71,33 +71,33 @@ const ProcessResult& ProcessSession::process(const ProcessConfig& config, const 
   kept.update(s.trajectory, kept.trajectory, config, same_trajectory, {},
               [&] { return stage::find_trajectory(recording, config, method, observer); });
   observer.update("base path", 0.7);
-  kept.update(s.base, kept.base, config, same(&ProcessConfig::base), {kept.trajectory.runs},
+  kept.update(s.base, kept.base, config, same_config(&ProcessConfig::base), {kept.trajectory.runs},
               [&] { return stage::find_base_path(recording, config, method, s); });
   observer.update("profile", 0.8);
   kept.update(s.profile, kept.profile, config, method.is_same_profile, {kept.trajectory.runs, kept.base.runs},
-              [&] { return stage::find_profile(config, method, s); });
+              [&] { return stage::find_profile(recording, config, method, s); });
 
   const std::vector<std::size_t> of_profile{kept.profile.runs};
   observer.update("roughness", 0.85);
-  kept.update(s.roughness, kept.roughness, config, same(&ProcessConfig::roughness), of_profile,
+  kept.update(s.roughness, kept.roughness, config, same_config(&ProcessConfig::roughness), of_profile,
               [&] { return stage::measure_roughness(config, s); });
-  kept.update(s.periodicity, kept.periodicity, config, same(&ProcessConfig::periodicity), of_profile,
+  kept.update(s.periodicity, kept.periodicity, config, same_config(&ProcessConfig::periodicity), of_profile,
               [&] { return stage::find_periodicity(config, s); });
 
   // Of the profile they ask only whether there is one.
   const std::vector<std::size_t> of_base{kept.trajectory.runs, kept.base.runs, s.profile.value ? 1U : 0U};
   observer.update("compliance", 0.9);
-  kept.update(s.compliance, kept.compliance, config, same(&ProcessConfig::compliance), of_base,
+  kept.update(s.compliance, kept.compliance, config, same_config(&ProcessConfig::compliance), of_base,
               [&] { return stage::estimate_compliance(recording, config, method, s); });
-  kept.update(s.stiffness, kept.stiffness, config, same(&ProcessConfig::stiffness), of_base,
+  kept.update(s.stiffness, kept.stiffness, config, same_config(&ProcessConfig::stiffness), of_base,
               [&] { return stage::estimate_stiffness(config, s); });
 
   observer.update("texture", 0.95);
-  kept.update(s.fit, kept.fit, config, same(&ProcessConfig::texture), of_profile,
+  kept.update(s.fit, kept.fit, config, same_config(&ProcessConfig::texture), of_profile,
               [&] { return stage::fit_texture(config, s); });
-  kept.update(s.accuracy, kept.accuracy, config, same(&ProcessConfig::comparison),
+  kept.update(s.accuracy, kept.accuracy, config, same_config(&ProcessConfig::comparison),
               {kept.trajectory.runs, kept.base.runs, kept.profile.runs},
-              [&] { return stage::compare_with_truth(recording, config, s); });
+              [&] { return stage::compare_with_truth(recording, config, method, s); });
   observer.update("texture", 1.0);
   kept.result = join_stages(recording, config, method, s);
   return kept.result;

@@ -6,7 +6,11 @@
 #include <utility>
 
 #include "asperity/base/error.h"
-#include "asperity/pipeline/find_quality_warnings.h"
+#include "asperity/pipeline/scan_evidence.h"
+#include "asperity/profile/apply_wiener_filter.h"
+#include "asperity/profile/estimate_texture_noise.h"
+#include "asperity/profile/find_periodicity_under_noise.h"
+#include "asperity/profile/measure_roughness_under_noise.h"
 
 namespace asperity::stage {
 
@@ -14,7 +18,7 @@ namespace {
 
 // The outcome of a step that may not succeed.
 template <class T, class Step>
-Outcome<T> attempt(const char* kind, const char* what, Step step) {
+Outcome<T> attempt_step(const char* kind, const char* what, Step step) {
   Outcome<T> out;
   try {
     out.value = step();
@@ -22,9 +26,27 @@ Outcome<T> attempt(const char* kind, const char* what, Step step) {
     throw;
   } catch (const Error& error) {
     out.problems.push_back({kind, std::string("no ") + what + ": " + error.what(), 1});
-    out.quality_warnings.push_back(std::string("no ") + what);
   }
   return out;
+}
+
+// The heights that are expected, given the noise in them. What is left of that is the noise of the texture then.
+void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise) {
+  if (noise.added_psd_m2_mm.empty()) return;
+  const WienerTexture expected = apply_wiener_filter(profile.texture_m, profile.spacing_m,
+                                                     noise.frequency_cycles_per_mm, noise.added_psd_m2_mm, bridge_m);
+  const double misplaced_m2 = noise.noise_rms_m * noise.noise_rms_m - noise.added_rms_m * noise.added_rms_m;
+  const double left =
+      std::sqrt(std::max(0.0, misplaced_m2) + expected.error_rms_m * expected.error_rms_m) / noise.noise_rms_m;
+  if (!std::isfinite(left)) return;
+  noise.noise_rms_m *= left;
+  noise.noise_rms_stderr_m *= left;
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    if (!std::isfinite(expected.texture_m[i])) continue;
+    profile.height_m[i] += expected.texture_m[i] - profile.texture_m[i];
+    profile.texture_m[i] = expected.texture_m[i];
+    profile.texture_sigma_m[i] *= left;
+  }
 }
 
 Coverage measure_coverage(const Profile& profile) {
@@ -45,8 +67,8 @@ Coverage measure_coverage(const Profile& profile) {
   return out;
 }
 
-SpeedFigures measure_speed(const Profile& profile) {
-  SpeedFigures out;
+SpeedStatistics measure_speed(const Profile& profile) {
+  SpeedStatistics out;
   double time_s = 0.0;
   std::size_t count = 0;
   for (std::size_t i = 0; i < profile.size(); ++i) {
@@ -69,9 +91,6 @@ Outcome<TrajectoryResult> find_trajectory(const Recording& recording, const Proc
   Outcome<TrajectoryResult> out;
   TrajectoryResult& trajectory = out.value.emplace(method.estimate_trajectory(recording, config, observer));
   out.problems = trajectory.problems;
-  if (!trajectory.trustworthy) out.quality_warnings.push_back(trajectory.verdict);
-  for (std::string& warning : find_quality_warnings(recording, trajectory))
-    out.quality_warnings.push_back(std::move(warning));
 
   // Without a force sensor a motion need not be a scan.
   if (!has_force(recording.probe)) {
@@ -85,7 +104,7 @@ Outcome<TrajectoryResult> find_trajectory(const Recording& recording, const Proc
 Outcome<BasePathResult> find_base_path(const Recording& recording, const ProcessConfig& config,
                                        const ProcessMethod& method, const ProcessStages& before) {
   const TipMotion& motion = before.trajectory.value->motion;
-  Outcome<BasePathResult> out = attempt<BasePathResult>("no_profile", "profile", [&] {
+  Outcome<BasePathResult> out = attempt_step<BasePathResult>("no_profile", "profile", [&] {
     return method.find_base_path ? method.find_base_path(recording, config, motion)
                                  : asperity::find_base_path(motion, recording.calibration.tip_in_marker_m, config.base);
   });
@@ -93,12 +112,21 @@ Outcome<BasePathResult> find_base_path(const Recording& recording, const Process
   return out;
 }
 
-Outcome<MeasuredProfile> find_profile(const ProcessConfig& config, const ProcessMethod& method,
-                                      const ProcessStages& before) {
+Outcome<MeasuredProfile> find_profile(const Recording& recording, const ProcessConfig& config,
+                                      const ProcessMethod& method, const ProcessStages& before) {
   if (!before.base.value) return {};
-  return attempt<MeasuredProfile>("no_profile", "profile", [&] {
+  return attempt_step<MeasuredProfile>("no_profile", "profile", [&] {
     MeasuredProfile out;
-    out.profile = method.make_profile(config, before.trajectory.value->motion, *before.base.value);
+    const TrajectoryResult& trajectory = *before.trajectory.value;
+    const BasePathResult& base = *before.base.value;
+    out.profile = method.make_profile(config, trajectory.motion, base);
+    const HeightErrors errors =
+        method.height_errors ? method.height_errors(recording, config, trajectory, base) : HeightErrors{};
+    TextureNoiseEstimate noise = estimate_texture_noise(out.profile, errors, method.high_pass_cycles_per_mm(config));
+    out.noise = std::move(noise.noise);
+    out.profile.texture_sigma_m = std::move(noise.texture_sigma_m);
+    out.measured_texture_m = out.profile.texture_m;
+    if (config.profile.remove_noise) remove_noise(config.profile.bridge_m, out.profile, out.noise);
     out.coverage = measure_coverage(out.profile);
     out.speed = measure_speed(out.profile);
     return out;
@@ -108,46 +136,53 @@ Outcome<MeasuredProfile> find_profile(const ProcessConfig& config, const Process
 Outcome<RoughnessResult> measure_roughness(const ProcessConfig& config, const ProcessStages& before) {
   if (!before.profile.value) return {};
   const Profile& profile = before.profile.value->profile;
-  return attempt<RoughnessResult>("no_roughness", "roughness", [&] {
-    return asperity::measure_roughness(profile.texture_m, profile.spacing_m, config.roughness);
+  const TextureNoise& noise = before.profile.value->noise;
+  return attempt_step<RoughnessResult>("no_roughness", "roughness", [&] {
+    return measure_roughness_under_noise(before.profile.value->measured_texture_m, profile.spacing_m, noise,
+                                         config.roughness);
   });
 }
 
 Outcome<Periodicity> find_periodicity(const ProcessConfig& config, const ProcessStages& before) {
   if (!before.profile.value) return {};
-  const Profile& profile = before.profile.value->profile;
-  return {asperity::find_periodicity(profile.texture_m, profile.spacing_m, config.periodicity), {}, {}};
+  const MeasuredProfile& measured = *before.profile.value;
+  return {find_periodicity_under_noise(measured.measured_texture_m, measured.profile.spacing_m, measured.noise,
+                                       config.periodicity),
+          {}};
 }
 
 Outcome<Compliance> estimate_compliance(const Recording& recording, const ProcessConfig& config,
                                         const ProcessMethod& method, const ProcessStages& before) {
   if (!before.profile.value) return {};
-  return {method.estimate_compliance(recording, config, before.trajectory.value->motion, *before.base.value), {}, {}};
+  return {method.estimate_compliance(recording, config, before.trajectory.value->motion, *before.base.value), {}};
 }
 
 Outcome<StiffnessEstimate> estimate_stiffness(const ProcessConfig& config, const ProcessStages& before) {
   if (!before.profile.value) return {};
   const BasePathResult& base = *before.base.value;
-  return {
-      asperity::estimate_stiffness(before.trajectory.value->motion, base.path, base.contact, config.stiffness), {}, {}};
+  return {asperity::estimate_stiffness(before.trajectory.value->motion, base.path, base.contact, config.stiffness), {}};
 }
 
 Outcome<FourierFit> fit_texture(const ProcessConfig& config, const ProcessStages& before) {
   if (!before.profile.value) return {};
   const Profile& profile = before.profile.value->profile;
-  Outcome<FourierFit> out = attempt<FourierFit>(
+  Outcome<FourierFit> out = attempt_step<FourierFit>(
       "no_texture", "texture", [&] { return fit_fourier1d(profile.texture_m, profile.spacing_m, config.texture); });
   if (out.value) out.problems = out.value->problems;
   return out;
 }
 
 Outcome<Accuracy> compare_with_truth(const Recording& recording, const ProcessConfig& config,
-                                     const ProcessStages& before) {
+                                     const ProcessMethod& method, const ProcessStages& before) {
   Outcome<Accuracy> out;
   if (!recording.truth) return out;
   const Profile profile = before.profile.value ? before.profile.value->profile : Profile{};
   try {
-    out.value = measure_accuracy(recording, before.trajectory.value->motion, profile, config.comparison);
+    TextureOf texture_of;
+    if (method.comparable_texture) {
+      texture_of = [&](const std::vector<double>& height_m) { return method.comparable_texture(config, height_m); };
+    }
+    out.value = measure_accuracy(recording, before.trajectory.value->motion, profile, config.comparison, texture_of);
   } catch (const Error& error) {
     out.problems.push_back({"no_accuracy", std::string("not compared with the truth: ") + error.what(), 1});
   }

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "asperity/base/progress.h"
 #include "asperity/pipeline/process_config.h"
@@ -11,18 +9,19 @@
 
 namespace asperity {
 
-// What a stage gives: its value, unless the data did not allow one, and what it has to say beside it.
+// What a stage gives: its value, unless the data did not allow one, and what it reports of it.
 template <class T>
 struct Outcome {
   std::optional<T> value;
   Problems problems;
-  std::vector<std::string> quality_warnings;  // why the result is not to be trusted
 };
 
 struct MeasuredProfile {
   Profile profile;
+  std::vector<double> measured_texture_m;  // texture_m before the expected noise was taken out: surface and noise
   Coverage coverage;
-  SpeedFigures speed;
+  SpeedStatistics speed;
+  TextureNoise noise;
 };
 
 // The outcomes of all stages between a recording and its texture. Without a base path or a profile those that need it
@@ -39,9 +38,6 @@ struct ProcessStages {
   Outcome<Accuracy> accuracy;
 };
 
-// A force sensor that never changes is none: whether the tip touched is then not known.
-bool has_force(const ProbeStream& probe);
-
 // The stages: pure functions of the recording, of the outcomes before them and of their own settings. What a usable
 // recording may not allow, such as roughness of too short a profile, is in the outcome.
 namespace stage {
@@ -51,8 +47,8 @@ Outcome<TrajectoryResult> find_trajectory(const Recording& recording, const Proc
                                           const ProcessMethod& method, const Observer& observer);
 Outcome<BasePathResult> find_base_path(const Recording& recording, const ProcessConfig& config,
                                        const ProcessMethod& method, const ProcessStages& before);
-Outcome<MeasuredProfile> find_profile(const ProcessConfig& config, const ProcessMethod& method,
-                                      const ProcessStages& before);
+Outcome<MeasuredProfile> find_profile(const Recording& recording, const ProcessConfig& config,
+                                      const ProcessMethod& method, const ProcessStages& before);
 Outcome<RoughnessResult> measure_roughness(const ProcessConfig& config, const ProcessStages& before);
 Outcome<Periodicity> find_periodicity(const ProcessConfig& config, const ProcessStages& before);
 Outcome<Compliance> estimate_compliance(const Recording& recording, const ProcessConfig& config,
@@ -61,7 +57,7 @@ Outcome<StiffnessEstimate> estimate_stiffness(const ProcessConfig& config, const
 Outcome<FourierFit> fit_texture(const ProcessConfig& config, const ProcessStages& before);
 // No value without a truth. One that does not fit says nothing against the measurement.
 Outcome<Accuracy> compare_with_truth(const Recording& recording, const ProcessConfig& config,
-                                     const ProcessStages& before);
+                                     const ProcessMethod& method, const ProcessStages& before);
 
 }  // namespace stage
 

@@ -10,9 +10,12 @@
 #include "asperity/geometry/mesh_surface.h"
 #include "asperity/pipeline/locate_scans.h"
 #include "asperity/pipeline/process_motion.h"
+#include "asperity/pipeline/scan_evidence.h"
 #include "asperity/pipeline/scan_points.h"
 #include "asperity/profile/base_path_on_mesh.h"
 #include "asperity/profile/make_profile.h"
+#include "asperity/verdict/judge_registration.h"
+#include "asperity/verdict/verdict_codes.h"
 
 namespace asperity {
 
@@ -20,9 +23,8 @@ namespace {
 
 void append_problems(Problems& to, const Problems& from) { to.insert(to.end(), from.begin(), from.end()); }
 
-void mark_untrusted(ScansOnMesh& result, const std::string& why) {
-  result.trustworthy = false;
-  result.verdict += (result.verdict.empty() ? "" : "; ") + why;
+void add_verdict(ScansOnMesh& result, std::string_view code, std::string message) {
+  result.verdicts.push_back(make_verdict(code, std::move(message)));
 }
 
 // Runs a step on a scan; what it throws names the scan.
@@ -64,7 +66,7 @@ void make_own_texture(const RegisterConfig& config, RegisteredScan& scan) {
   Texture texture = result.texture.value_or(Texture{});
   if (texture.name.empty()) texture.name = scan.name;
   texture.model = scan.path_texture->series.fit.texture;
-  texture.lift_m = scan.path_texture->series.lift_m;
+  texture.height_offset_m = scan.path_texture->series.height_offset_m;
   append_problems(result.problems, scan.path_texture->series.problems);
   const double nyquist = 0.5 / (result.profile.spacing_m * 1e3);
   texture.band_cycles_per_mm = {config.process.profile.cutoff_cycles_per_mm,
@@ -81,8 +83,8 @@ bool is_arbitrary(const RegistrationResult& registration) {
 }
 
 // The motion without its slow error, which is known at some of its samples.
-TipMotion corrected(TipMotion motion, const std::vector<double>& sample,
-                    const std::vector<Eigen::Vector3d>& error_world_m) {
+TipMotion correct_motion(TipMotion motion, const std::vector<double>& sample,
+                         const std::vector<Eigen::Vector3d>& error_world_m) {
   if (error_world_m.empty()) return motion;
   std::size_t next = 0;
   for (std::size_t i = 0; i < motion.size(); ++i) {
@@ -101,8 +103,11 @@ void measure_scan(const Scan& scan, const MeshSurface& surface, const Pose& T_me
                   RegisteredScan& registered, const Observer& observer) {
   // Base points and normals of the registered mesh (seed §4.3).
   const FindBase find_base = [&](const TipMotion& motion) {
-    return base_path_on_mesh(corrected(motion, points.sample, slow_error_world_m), tip_in_marker_m(scan), surface,
-                             T_mesh_world, config.process.base);
+    BasePathResult base = base_path_on_mesh(correct_motion(motion, points.sample, slow_error_world_m),
+                                            tip_in_marker_m(scan), surface, T_mesh_world, config.process.base);
+    const ProcessMethod& method = ProcessMethods::get(config.process.method);
+    if (scan.recording && method.measure_arc_length) method.measure_arc_length(base.path);
+    return base;
   };
   if (scan.recording) {
     measure_along(*scan.recording, config.process, find_base, registered.process, observer);
@@ -138,10 +143,10 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
   LocatedScans located = locate_scans(begun, surface, guess, config, observer);
   out.registration = std::move(located.registration);
   append_problems(out.problems, out.registration.problems);
-  if (!out.registration.trustworthy) mark_untrusted(out, out.registration.verdict);
+  out.verdicts = judge_registration(pose_evidence(out.registration));
   // Where the scans say nothing the guess counts; without one the place is arbitrary.
   if (!guess && is_arbitrary(out.registration)) {
-    mark_untrusted(out, "without a guess, where the scans lie along undetermined motions is arbitrary");
+    add_verdict(out, "pose_arbitrary", "without a guess, where the scans lie along undetermined motions is arbitrary");
   }
 
   // What they met there.
@@ -153,9 +158,9 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
                    located.slow_error_world_m[i], scan, observer);
       return 0;
     });
-    if (!scan.process.trustworthy) mark_untrusted(out, printable(scan.name, 200) + ": " + scan.process.verdict);
+    append_verdicts(out.verdicts, scan.process.verdicts, printable(scan.name, 200));
     if (scan.path.size() < 2) {
-      mark_untrusted(out, printable(scan.name, 200) + ": no path on the mesh");
+      add_verdict(out, "no_path_on_mesh", printable(scan.name, 200) + ": the path does not lie on the mesh");
       scan.path = {};
     }
     mesh_paths.push_back(scan.path);
@@ -172,10 +177,13 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
     out.coordinates = {};
     out.coordinates.triangles.resize(surface.mesh.triangles.size());
     out.coordinates.warps.resize(mesh_paths.size());
-    mark_untrusted(out, std::string("no haptic coordinates: ") + error.what());
+    add_verdict(out, "no_haptic_coordinates", std::string("there are no haptic coordinates: ") + error.what());
   }
   append_problems(out.problems, out.coordinates.problems);
   observer.update("coordinates", 1.0);
+  sort_verdicts(out.verdicts);
+  out.trustworthy = is_trustworthy(out.verdicts);
+  out.verdict = verdict_sentence(out.verdicts);
   return out;
 }
 

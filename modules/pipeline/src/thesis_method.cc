@@ -1,6 +1,8 @@
 #include "asperity/pipeline/thesis_method.h"
 
+#include "asperity/geometry/mesh_surface.h"
 #include "asperity/pipeline/process_config.h"
+#include "asperity/profile/thesis_steps.h"
 #include "asperity/trajectory/reject_outliers.h"
 #include "asperity/trajectory/sample_at_probe.h"
 
@@ -43,6 +45,14 @@ ProcessMethod ThesisMethod::make_method() {
     return estimate_compliance(samples, motion.t_ns, base.path.n_world, config.compliance);
   };
   out.high_pass_cycles_per_mm = [](const ProcessConfig& config) { return config.thesis.profile.cutoff_cycles_per_mm; };
+  out.comparable_texture = [](const ProcessConfig& config, const std::vector<double>& height_m) {
+    return extract_texture_thesis(height_m, config.thesis.profile);
+  };
+  out.register_paths = [](const ProcessConfig& config, std::span<const MeasuredPath> paths, const MeshSurface& surface,
+                          const Pose& guess) {
+    return register_thesis(paths, surface.bvh, guess, config.thesis.registration);
+  };
+  out.measure_arc_length = [](BasePath& path) { path.s_m = path_length_m(path.p_world_m); };
   out.live_config = thesis_live_config;
   out.is_same_trajectory = [](const ProcessConfig& a, const ProcessConfig& b) {
     return is_same_config(a.thesis.trajectory, b.thesis.trajectory);

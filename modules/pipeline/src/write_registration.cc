@@ -17,6 +17,7 @@
 #include "asperity/pipeline/write_result.h"
 #include "asperity/scene/read_scene.h"
 #include "asperity/scene/write_scene.h"
+#include "asperity/verdict/verdict_json.h"
 #include "json.h"
 
 namespace asperity {
@@ -30,8 +31,8 @@ Json undetermined_json(const RegistrationResult& registration) {
   for (const UndeterminedMotion& motion : registration.undetermined) {
     out.push_back({{"description", motion.description},
                    {"sigma_m", number_or_null(motion.sigma_m)},
-                   {"turn_rad", vector_json(motion.turn)},
-                   {"shift_m", vector_json(motion.shift)},
+                   {"turn_rad", vector_json(motion.rotation_rad)},
+                   {"shift_m", vector_json(motion.shift_m)},
                    {"centre_mesh_m", vector_json(motion.centre_mesh_m)}});
   }
   return out;
@@ -43,7 +44,7 @@ Json runner_up_json(const RegistrationResult& registration) {
   return {{"T_mesh_world", pose_json(other.T_mesh_world)},
           {"rms_m", other.rms_m},
           {"distance_m", other.distance_m},
-          {"turn_deg", other.turn_rad * 180.0 / std::numbers::pi}};
+          {"turn_deg", other.rotation_rad * 180.0 / std::numbers::pi}};
 }
 
 Json covariance_json(const RegistrationResult& registration) {
@@ -165,6 +166,7 @@ std::string format_registration(const ScansOnMesh& result, std::span<const std::
   out["runner_up"] = runner_up_json(registration);
   out["trustworthy"] = result.trustworthy;
   out["verdict"] = result.verdict.empty() ? registration.verdict : result.verdict;
+  out["verdicts"] = verdicts_json(result.verdicts);
   out["covariance"] = {{"of", "turn about centre_mesh_m (rad), then shift (m)"},
                        {"centre_mesh_m", vector_json(registration.centre_mesh_m)},
                        {"matrix", covariance_json(registration)}};

@@ -61,27 +61,32 @@ bool holds_results(const fs::path& folder, int deepest) {
 }  // namespace
 
 std::string format_trajectory_csv(const TipMotion& motion) {
-  std::string out = "t_ns,px_m,py_m,pz_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,sigma_m\n";
-  out.reserve(out.size() + motion.size() * 12 * kCell_bytes);
+  std::string out = "t_ns,px_m,py_m,pz_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,sigma_m,sigma_x_m,sigma_y_m,sigma_z_m\n";
+  out.reserve(out.size() + motion.size() * 15 * kCell_bytes);
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const Eigen::Vector3d& p = motion.p_world_tip_m[i];
     const Eigen::Quaterniond& q = motion.q_world_marker[i];
     const Eigen::Vector3d& v = motion.v_world_tip_mps[i];
-    const double sigma_m = motion.cov_world_tip_m2.empty() ? kNan : std::sqrt(motion.cov_world_tip_m2[i].trace() / 3.0);
+    const Eigen::Vector3d variance_m2 = motion.cov_world_tip_m2.empty()
+                                            ? Eigen::Vector3d::Constant(kNan)
+                                            : Eigen::Vector3d(motion.cov_world_tip_m2[i].diagonal());
+    const Eigen::Vector3d sigma_m = variance_m2.cwiseSqrt();
     append_number(out, motion.t_ns[i]);
-    append_cells(out, {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(), v.z(), sigma_m});
+    append_cells(out, {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(), v.z(), std::sqrt(variance_m2.mean()), sigma_m.x(),
+                       sigma_m.y(), sigma_m.z()});
     out += '\n';
   }
   return out;
 }
 
 std::string format_profile_csv(const Profile& profile) {
-  std::string out = "s_m,height_m,sigma_m,texture_m,force_N,speed_mps\n";
-  out.reserve(out.size() + profile.size() * 6 * kCell_bytes);
+  std::string out = "s_m,height_m,sigma_m,texture_m,force_N,speed_mps,texture_sigma_m\n";
+  out.reserve(out.size() + profile.size() * 7 * kCell_bytes);
   for (std::size_t i = 0; i < profile.size(); ++i) {
     append_number(out, profile.s_m[i]);
-    append_cells(
-        out, {profile.height_m[i], profile.sigma_m[i], profile.texture_m[i], profile.force_N[i], profile.speed_mps[i]});
+    const double texture_sigma_m = profile.texture_sigma_m.empty() ? kNan : profile.texture_sigma_m[i];
+    append_cells(out, {profile.height_m[i], profile.sigma_m[i], profile.texture_m[i], profile.force_N[i],
+                       profile.speed_mps[i], texture_sigma_m});
     out += '\n';
   }
   return out;

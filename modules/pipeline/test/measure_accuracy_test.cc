@@ -8,6 +8,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/pipeline/true_profile.h"
+#include "asperity/profile/make_profile_thesis.h"
 
 namespace asperity {
 namespace {
@@ -82,6 +83,29 @@ TEST(MeasureAccuracy, ConstantOffsetsAreTheirLength) {
   EXPECT_NEAR(accuracy.profile->correlation, 1.0, kEnds);
   EXPECT_NEAR(accuracy.profile->gain, 0.8, kEnds);
   EXPECT_NEAR(accuracy.band_high_cycles_per_mm, 0.4 * 100.0 / 25.0, 1e-3);  // the probe's 100 Hz at 25 mm/s
+}
+
+// A baseline's heights drift; what it compares is its texture, against the truth through the same filter.
+TEST(MeasureAccuracy, ATextureIsComparedThroughItsOwnHighPass) {
+  Recording recording = make_recording();
+  // A wave of 6 mm, a third of whose amplitude the filter leaves, in truth and measurement alike.
+  const auto both = [](double s_m) { return wave_m(s_m) + 2.0 * wave_m(s_m / 3.0); };
+  for (std::size_t i = 0; i < kSamples; ++i) recording.truth->height_m[i] = both(recording.truth->s_m[i]);
+  Profile profile = make_sine_profile(0.0);
+  std::vector<double> height_m;
+  for (const double s_m : profile.s_m) height_m.push_back(0.8 * both(s_m));
+  const ThesisProfileConfig config;
+  profile.texture_m = extract_texture_thesis(height_m, config);
+  for (std::size_t i = 0; i < profile.size(); ++i) profile.height_m[i] = 0.1 * profile.s_m[i];
+  const TextureOf texture_of = [&](const std::vector<double>& h) { return extract_texture_thesis(h, config); };
+  const Accuracy accuracy =
+      measure_accuracy(recording, make_motion(recording, Eigen::Vector3d::Zero()), profile, {}, texture_of);
+  ASSERT_TRUE(accuracy.profile);
+  constexpr double kEnds = 1e-3;
+  EXPECT_NEAR(accuracy.profile->correlation, 1.0, kEnds);
+  EXPECT_NEAR(accuracy.profile->gain, 0.8, kEnds);
+  // Of the 2 mm wave (0.5 cycles/mm, −3 dB at 0.4) the two-pass filter leaves most, of the 6 mm wave little.
+  EXPECT_LT(accuracy.profile->true_rms_um, 1e6 * kAmplitude_m);
 }
 
 TEST(MeasureAccuracy, WithoutHeightsOnlyPositionsAreCompared) {

@@ -38,11 +38,11 @@ TEST(PathTexture, HasAtEachPlaceOfThePathWhatWasMeasuredThere) {
   // The series is fitted with a ridge of 1e-4 and closed over gap and seam: half a micrometre of 31.
   for (double s_m = 0.2e-3; s_m < 39.8e-3; s_m += 0.1e-3) {
     if (s_m > 19.8e-3 && s_m < 21.7e-3) continue;
-    EXPECT_NEAR(evaluate(texture.series.fit.texture, s_m).height_m, relief_m(s_m), 0.5e-6) << s_m;
+    EXPECT_NEAR(evaluate_height(texture.series.fit.texture, s_m).height_m, relief_m(s_m), 0.5e-6) << s_m;
   }
   // In the gap it stays within what surrounds it.
   for (double s_m = 20e-3; s_m < 21.5e-3; s_m += 0.05e-3) {
-    EXPECT_LT(std::abs(evaluate(texture.series.fit.texture, s_m).height_m), 45e-6) << s_m;
+    EXPECT_LT(std::abs(evaluate_height(texture.series.fit.texture, s_m).height_m), 45e-6) << s_m;
   }
 }
 
@@ -52,7 +52,7 @@ TEST(PathTexture, ItsPlaceIsTheProfilesAlsoWhereTheStrokeBeginsLater) {
   const PathTexture texture = fit_path_texture(profile, {});
   EXPECT_NEAR(texture.start_m, 7.3e-3, 1e-12);
   for (double s_m = 1e-3; s_m < 19e-3; s_m += 0.1e-3) {
-    EXPECT_NEAR(evaluate(texture.series.fit.texture, s_m + 7.3e-3).height_m, relief_m(s_m), 0.5e-6) << s_m;
+    EXPECT_NEAR(evaluate_height(texture.series.fit.texture, s_m + 7.3e-3).height_m, relief_m(s_m), 0.5e-6) << s_m;
   }
 }
 

@@ -28,12 +28,12 @@ TipMotion make_motion() {
 TEST(WriteResult, TrajectoryColumns) {
   TipMotion motion = make_motion();
   EXPECT_EQ(format_trajectory_csv(motion),
-            "t_ns,px_m,py_m,pz_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,sigma_m\n"
-            "5,0.1,-0.25,3,1,0,0,0,0,0,0,nan\n"
-            "1000000007,1,2,1e-07,0.5,-0.5,0.5,0.5,0.02,0,-1,nan\n");
-  // Variances 9, 12 and 27: their mean is 16, its root 4.
-  motion.cov_world_tip_m2.assign(2, Eigen::Vector3d(9.0, 12.0, 27.0).asDiagonal());
-  EXPECT_THAT(format_trajectory_csv(motion), ::testing::EndsWith(",-1,4\n"));
+            "t_ns,px_m,py_m,pz_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,sigma_m,sigma_x_m,sigma_y_m,sigma_z_m\n"
+            "5,0.1,-0.25,3,1,0,0,0,0,0,0,nan,nan,nan,nan\n"
+            "1000000007,1,2,1e-07,0.5,-0.5,0.5,0.5,0.02,0,-1,nan,nan,nan,nan\n");
+  // Variances 9, 4 and 35: their mean is 16, its root 4; of each axis its own.
+  motion.cov_world_tip_m2.assign(2, Eigen::Vector3d(9.0, 4.0, 35.0).asDiagonal());
+  EXPECT_THAT(format_trajectory_csv(motion), ::testing::EndsWith(",-1,4,3,2,5.916079783099616\n"));
 }
 
 TEST(WriteResult, ProfileColumnsReadBackExactly) {
@@ -45,8 +45,8 @@ TEST(WriteResult, ProfileColumnsReadBackExactly) {
   profile.force_N = {0.75, kNan};
   profile.speed_mps = {0.025, 0.026};
   const std::string text = format_profile_csv(profile);
-  EXPECT_THAT(text, ::testing::StartsWith("s_m,height_m,sigma_m,texture_m,force_N,speed_mps\n0,"));
-  EXPECT_THAT(text, ::testing::EndsWith("\n2.5e-05,nan,nan,nan,nan,0.026\n"));
+  EXPECT_THAT(text, ::testing::StartsWith("s_m,height_m,sigma_m,texture_m,force_N,speed_mps,texture_sigma_m\n0,"));
+  EXPECT_THAT(text, ::testing::EndsWith("\n2.5e-05,nan,nan,nan,nan,0.026,nan\n"));
   CsvReader reader(text, "profile.csv");
   ASSERT_TRUE(reader.next());
   EXPECT_EQ(reader.number(1), profile.height_m[0]);

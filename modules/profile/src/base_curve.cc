@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSpacing_m = 0.5e-3;
 
-void smooth(std::vector<Eigen::Vector3d>& v, double cutoff_per_m) {
+void smooth_points(std::vector<Eigen::Vector3d>& v, double cutoff_per_m) {
   std::vector<double> x(v.size());
   for (int axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < v.size(); ++i) x[i] = v[i][axis];
@@ -25,7 +25,7 @@ void smooth(std::vector<Eigen::Vector3d>& v, double cutoff_per_m) {
 }
 
 // The curve at the fractional index x.
-CurvePoint at(const BaseCurve& curve, double x) {
+CurvePoint point_at(const BaseCurve& curve, double x) {
   const auto last = static_cast<double>(curve.p_m.size() - 2);
   const auto i = static_cast<std::size_t>(std::clamp(std::floor(x), 0.0, last));
   const double f = x - static_cast<double>(i);
@@ -55,8 +55,8 @@ BaseCurve make_base_curve(const PathEvidence& evidence, double cutoff_cycles_per
     out.normal[k] = evidence.probe_axis[c];
   }
   const double cutoff_per_m = 1e3 * cutoff_cycles_per_mm;
-  smooth(out.p_m, cutoff_per_m);
-  smooth(out.normal, cutoff_per_m);
+  smooth_points(out.p_m, cutoff_per_m);
+  smooth_points(out.normal, cutoff_per_m);
   out.tangent.resize(count);
   out.s_m.assign(count, 0.0);
   for (std::size_t k = 0; k < count; ++k) {
@@ -83,9 +83,9 @@ std::vector<CurvePoint> project_on_curve(const BaseCurve& curve, const PathEvide
       const auto k = static_cast<std::size_t>(std::clamp(x, 0.0, last));
       // Beyond its ends the curve goes on straight; a step is limited so that a point far off cannot jump to another
       // bend.
-      x += std::clamp(curve.tangent[k].dot(p_m[i] - at(curve, x).p_m) / curve.spacing_m, -10.0, 10.0);
+      x += std::clamp(curve.tangent[k].dot(p_m[i] - point_at(curve, x).p_m) / curve.spacing_m, -10.0, 10.0);
     }
-    out.push_back(at(curve, x));
+    out.push_back(point_at(curve, x));
   }
   return out;
 }

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "asperity/base/error.h"
+#include "asperity/geometry/pose.h"
 #include "asperity/signal/statistics.h"
 #include "motion_times.h"
 
@@ -29,7 +30,7 @@ class Development {
       return u_m_;
     }
     const Eigen::Vector3d step_m = p_m - p_m_;
-    e1_ = Eigen::Quaterniond::FromTwoVectors(normal_, normal) * e1_;
+    e1_ = shortest_rotation(normal_, normal) * e1_;
     e1_ = (e1_ - e1_.dot(normal) * normal).normalized();
     Eigen::Vector2d flat_m(e1_.dot(step_m), normal.cross(e1_).dot(step_m));
     const double flat = flat_m.norm();

@@ -1,110 +1,97 @@
 #include "asperity/profile/estimate_compliance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "asperity/base/error.h"
-#include "asperity/base/units.h"
-#include "asperity/signal/resample.h"
 #include "asperity/signal/statistics.h"
+#include "compliance_windows.h"
+#include "fit_force_law.h"
 
 namespace asperity {
 namespace {
 
-constexpr double kUsualSpeedPercentile = 80.0;
-constexpr double kMovingPart = 0.5;      // of the usual speed: faster counts as a stroke
-constexpr double kStationaryPart = 0.2;  // slower counts as stationary
-// Percentiles 10 and 90 of a normal distribution are this many standard deviations apart.
-constexpr double kSigmasBetweenDeciles = 2.5631031310892007;
-// What is left of an amplitude that does not stand out from the one at rest, in squares.
-constexpr double kLeastSquarePart = 0.05;
+// From a law near a power of the force to one that outruns an elastic contact's, whose radius squared goes with F.
+constexpr std::array<double, 5> kForcePowers = {0.25, 0.5, 0.75, 1.0, 1.25};
+constexpr double kLeastSpan = 2.0;  // below it nothing is determined
+constexpr double kMostLost = 0.5;
+constexpr double kNormal95 = 1.959963984540054;
 
-struct Series {
-  std::vector<double> a_normal_mps2;
-  std::vector<Eigen::Vector3d> n_world;
-  std::vector<double> force_N;
+// ∂ ln(amplitude) and k_c, its mean and variance over the laws.
+struct Average {
+  double weight = 0.0, softness = 0.0, softness2 = 0.0, k_c = 0.0, k_c2 = 0.0;
+
+  void add(double w, double g, double g_sigma, double k, double k_sigma) {
+    weight += w;
+    softness += w * g;
+    softness2 += w * (g * g + g_sigma * g_sigma);
+    k_c += w * k;
+    k_c2 += w * (k * k + k_sigma * k_sigma);
+  }
 };
 
-Series project(const TipMotion& samples, std::span<const std::int64_t> normal_t_ns,
-               std::span<const Eigen::Vector3d> n_world) {
-  Series out;
-  std::vector<double> t_s;
-  std::size_t k = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    while (k + 1 < n_world.size() && normal_t_ns[k + 1] <= samples.t_ns[i]) ++k;
-    out.n_world.push_back(n_world[k]);
-    out.a_normal_mps2.push_back(samples.a_world_tip_mps2[i].dot(n_world[k]));
-    t_s.push_back(static_cast<double>(samples.t_ns[i] - samples.t_ns.front()) * kNanosecond_s);
-  }
-  out.force_N = bridge_gaps(t_s, samples.force_N);
-  return out;
+double coefficient(double softness, double force_power) {
+  return compliance_coefficient(standard_sigma_r2(softness, force_power));
 }
 
-Eigen::Vector3d median_point(std::span<const Eigen::Vector3d> p_m) {
-  Eigen::Vector3d out;
-  std::vector<double> values(p_m.size());
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    std::transform(p_m.begin(), p_m.end(), values.begin(), [=](const Eigen::Vector3d& p) { return p[axis]; });
-    out[axis] = median(values);
+void estimate_coefficient(const ComplianceWindows& windows, const ComplianceConfig& config, Compliance& out) {
+  const ForcePowers data{windows.force_N, windows.power, windows.noise};
+  std::array<ForceLaw, kForcePowers.size()> laws;
+  for (std::size_t i = 0; i < laws.size(); ++i) laws[i] = fit_force_law(data, kForcePowers[i]);
+  const ForceLaw& best = *std::min_element(
+      laws.begin(), laws.end(), [](const ForceLaw& a, const ForceLaw& b) { return a.deviance < b.deviance; });
+  Average average;
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    const double g = laws[i].softness, p = kForcePowers[i];
+    const double sigma = std::hypot(laws[i].softness_stderr, config.softness_sigma);
+    const double weight = std::exp((best.deviance - laws[i].deviance) / std::max(best.dispersion, 1e-6));
+    // Bounded: a law that is not determined must not give an infinite difference.
+    const double reach = std::min(sigma, 1.0);
+    const double slope = (coefficient(g - reach, p) - coefficient(g + reach, p)) / (2.0 * reach);
+    average.add(weight, g, sigma, coefficient(g, p), slope * std::min(sigma, 10.0));
   }
-  return out;
+  const double mean_g = average.softness / average.weight, mean_k = average.k_c / average.weight;
+  out.exponent = 1.0 + mean_g;
+  out.exponent_error = std::sqrt(std::max(0.0, average.softness2 / average.weight - mean_g * mean_g));
+  out.k_c_stderr = std::sqrt(std::max(0.0, average.k_c2 / average.weight - mean_k * mean_k));
+  out.k_c = std::min(1.0, mean_k);
+  out.k_c_low = std::clamp(mean_k - kNormal95 * out.k_c_stderr, 0.0, 1.0);
+  out.k_c_high = std::clamp(mean_k + kNormal95 * out.k_c_stderr, 0.0, 1.0);
+  out.sigma_r2 = -std::log(out.k_c);
 }
 
-// Along the surface, from the median positions of the first and the last third: the noise of a tracker falls
-// with the travel between them, and flipped poses do not count.
-double speed_mps(std::span<const Eigen::Vector3d> p_m, const Eigen::Vector3d& n_world, double duration_s) {
-  const std::size_t third = p_m.size() / 3;
-  const Eigen::Vector3d travel_m = median_point(p_m.last(third)) - median_point(p_m.first(third));
-  return (travel_m - travel_m.dot(n_world) * n_world).norm() / (2.0 / 3.0 * duration_s);
-}
-
-struct Candidate {
-  ComplianceWindow window;
-  double slowest_end_mps = 0.0;  // speed in the first or last third: a stroke may begin or end inside
-};
-
-// All windows; their ratios not yet known.
-std::vector<Candidate> cut(const TipMotion& samples, const Series& series, std::int64_t window_ns) {
-  constexpr std::size_t kLeastSamples = 27;  // nine a third
-  std::vector<Candidate> windows;
-  if (samples.size() == 0) return windows;
-  const auto& t_ns = samples.t_ns;
-  for (std::int64_t start = t_ns.front(); start + window_ns <= t_ns.back(); start += window_ns / 2) {
-    const auto begin = static_cast<std::size_t>(std::lower_bound(t_ns.begin(), t_ns.end(), start) - t_ns.begin());
-    const auto end =
-        static_cast<std::size_t>(std::lower_bound(t_ns.begin(), t_ns.end(), start + window_ns) - t_ns.begin());
-    if (end - begin < kLeastSamples) continue;
-    const auto part = [&](const std::vector<double>& x) { return std::span(x).subspan(begin, end - begin); };
-    const auto a = part(series.a_normal_mps2);
-    ComplianceWindow window;
-    window.force_N = mean(part(series.force_N));
-    window.amplitude_mps2 = (percentile(a, 90.0) - percentile(a, 10.0)) / kSigmasBetweenDeciles;
-    const auto p_m = std::span(samples.p_world_tip_m).subspan(begin, end - begin);
-    const Eigen::Vector3d& n_world = series.n_world[(begin + end) / 2];
-    const double duration_s = static_cast<double>(window_ns) * kNanosecond_s;
-    window.speed_mps = speed_mps(p_m, n_world, duration_s);
-    const std::size_t third = p_m.size() / 3;
-    windows.push_back({window, std::min(speed_mps(p_m.first(third), n_world, duration_s / 3.0),
-                                        speed_mps(p_m.last(third), n_world, duration_s / 3.0))});
+std::string missing_windows(const ComplianceWindows& windows, const ComplianceConfig& config) {
+  if (static_cast<double>(windows.lost) > kMostLost * static_cast<double>(windows.moving)) {
+    return fmt::format(
+        "not determined: the tip left the surface in {:.0f} % of the strokes: press harder or move slower",
+        100.0 * static_cast<double>(windows.lost) / static_cast<double>(windows.moving));
   }
-  return windows;
-}
-
-double rest_amplitude_mps2(const std::vector<Candidate>& windows, double usual_mps) {
-  std::optional<double> least;
-  for (const auto& [window, end_mps] : windows) {
-    if (window.speed_mps < kStationaryPart * usual_mps) {
-      least = std::min(least.value_or(window.amplitude_mps2), window.amplitude_mps2);
-    }
-  }
-  return least.value_or(0.0);
+  return fmt::format("not determined: the strokes have {} sections of {:g} mm with force, {} are needed",
+                     windows.force_N.size(), config.window_mm, config.min_windows);
 }
 
 }  // namespace
 
 double compliance_coefficient(double sigma_r2) { return std::exp(-sigma_r2); }
+
+double standard_sigma_r2(double softness, double force_power) {
+  constexpr int kPoints = 64;
+  const double g = std::max(-1.0, softness);
+  double sum = 0.0, squares = 0.0, force = 0.0, force2 = 0.0;
+  for (int i = 0; i < kPoints; ++i) {
+    const double f = kStandardLightest_N + (kStandardFirmest_N - kStandardLightest_N) * (i + 0.5) / kPoints;
+    const double r = f * std::exp(g * (std::pow(f, force_power) - 1.0) / force_power);
+    sum += r;
+    squares += r * r;
+    force += f;
+    force2 += f * f;
+  }
+  return kPoints * (squares / (sum * sum) - force2 / (force * force));
+}
 
 Compliance estimate_compliance(const TipMotion& samples, std::span<const std::int64_t> normal_t_ns,
                                std::span<const Eigen::Vector3d> n_world, const ComplianceConfig& config) {
@@ -115,51 +102,58 @@ Compliance estimate_compliance(const TipMotion& samples, std::span<const std::in
                 " accelerations, " + std::to_string(samples.force_N.size()) + " forces, " +
                 std::to_string(n_world.size()) + " normals");
   }
-  const Series series = project(samples, normal_t_ns, n_world);
-  const auto window_ns = static_cast<std::int64_t>(std::llround(config.window_s / kNanosecond_s));
-  const std::vector<Candidate> all = cut(samples, series, window_ns);
   Compliance out;
-  if (all.empty()) return out;
-
-  std::vector<double> speeds_mps;
-  speeds_mps.reserve(all.size());
-  for (const Candidate& candidate : all) speeds_mps.push_back(candidate.window.speed_mps);
-  const double usual_mps = percentile(speeds_mps, kUsualSpeedPercentile);
-  out.rest_amplitude_mps2 = rest_amplitude_mps2(all, usual_mps);
-  const double least_speed_mps = std::max(config.min_speed_mps, kMovingPart * usual_mps);
-  for (auto [window, slowest_end_mps] : all) {
-    const double square = window.amplitude_mps2 * window.amplitude_mps2;
-    window.amplitude_mps2 =
-        std::sqrt(std::max(square - out.rest_amplitude_mps2 * out.rest_amplitude_mps2, kLeastSquarePart * square));
-    const bool counts = window.force_N >= config.min_force_N && window.speed_mps >= least_speed_mps &&
-                        slowest_end_mps >= least_speed_mps;
-    if (counts && window.amplitude_mps2 > 0.0) out.windows.push_back(window);
+  if (std::none_of(samples.force_N.begin(), samples.force_N.end(), [](double f) { return std::isfinite(f); })) {
+    out.verdict = "not determined: no force was measured";
+    return out;
   }
-  if (out.windows.size() < static_cast<std::size_t>(config.min_windows)) return out;
-
-  std::vector<double> ratio, log_ratio, log_force;
-  for (const ComplianceWindow& window : out.windows) {
-    ratio.push_back(window.force_N * window.speed_mps * window.speed_mps / window.amplitude_mps2);
+  const ComplianceWindows windows = cut_compliance_windows(samples, normal_t_ns, n_world, config);
+  out.rest_amplitude_mps2 = windows.rest_amplitude_mps2;
+  if (windows.moving > 0) out.lost_fraction = static_cast<double>(windows.lost) / static_cast<double>(windows.moving);
+  if (windows.force_N.empty()) {
+    out.verdict = missing_windows(windows, config);
+    return out;
   }
-  const double scale = 1.0 / mean(ratio);
-  for (std::size_t i = 0; i < ratio.size(); ++i) {
-    out.windows[i].ratio = ratio[i] *= scale;
-    log_ratio.push_back(std::log(ratio[i]));
-    log_force.push_back(std::log(out.windows[i].force_N));
+  std::vector<double> ratio;
+  for (std::size_t j = 0; j < windows.force_N.size(); ++j) {
+    const double v = windows.speed_mps[j];
+    const double curvature =
+        std::sqrt(std::max(windows.power[j] - windows.noise[j], 0.05 * windows.power[j]) / (1e-3 * config.window_mm));
+    out.windows.push_back({windows.force_N[j], v * v * curvature, v, 0.0});
+    ratio.push_back(curvature > 0.0 ? windows.force_N[j] / curvature : 0.0);
   }
-  out.ratio_variance = variance(ratio);
-  const auto [light, firm] = std::minmax_element(log_force.begin(), log_force.end());
-  if (*firm - *light < std::log(config.min_force_ratio)) return out;
-
-  const LinearFit fit = linear_regression(log_force, log_ratio);
-  out.exponent = fit.slope;
-  out.exponent_error = fit.slope_error;
-  std::vector<double> fitted;
-  fitted.reserve(log_force.size());
-  for (const double f : log_force) fitted.push_back(std::exp(fit.slope * (f - log_force.front())));
-  const double fitted_mean = mean(fitted);
-  out.sigma_r2 = variance(fitted) / (fitted_mean * fitted_mean);
-  out.k_c = compliance_coefficient(out.sigma_r2);
+  const double mean_ratio = mean(ratio);
+  for (std::size_t j = 0; j < ratio.size(); ++j) out.windows[j].ratio = ratio[j] /= mean_ratio;
+  if (ratio.size() > 1) out.ratio_variance = variance(ratio);
+  const auto [light, firm] = std::minmax_element(windows.force_N.begin(), windows.force_N.end());
+  out.lightest_N = *light;
+  out.firmest_N = *firm;
+  if (out.windows.size() < static_cast<std::size_t>(config.min_windows)) {
+    out.verdict = missing_windows(windows, config);
+    return out;
+  }
+  // On a soft surface the texture may stand out where the force is light only.
+  if (!(percentile(windows.power, 90.0) > 3.0 * mean(windows.noise))) {
+    out.verdict = fmt::format(
+        "not determined: no waves of {:.2g} to {:.2g} mm are above the noise at rest: move faster, or on a rougher "
+        "area",
+        1.0 / config.max_cycles_per_mm, 1.0 / config.min_cycles_per_mm);
+    return out;
+  }
+  const double span = *firm / *light;
+  estimate_coefficient(windows, config, out);
+  out.determined =
+      span >= config.min_force_ratio || (span >= kLeastSpan && out.k_c_stderr <= config.max_stderr * out.k_c);
+  if (out.determined) {
+    out.verdict = "determined";
+  } else {
+    out.verdict = fmt::format(
+        "not determined: the force went from {:.2g} to {:.2g} N: press {:g} times as hard at the end of a stroke as at "
+        "its "
+        "beginning",
+        *light, *firm, config.min_force_ratio);
+    out.k_c = out.k_c_low = out.k_c_high = out.sigma_r2 = std::numeric_limits<double>::quiet_NaN();
+  }
   return out;
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
@@ -24,6 +26,8 @@ constexpr std::ptrdiff_t kSmoothing = 3;  // bins to either side in the residual
 // Neighbouring bins of a Hann-tapered series correlate by 2/3 and 1/6: the variance of a sum over many
 // grows by 1 + 2·(2/3)² + 2·(1/6)².
 constexpr double kTaperVariance = 1.0 + 2.0 * 4.0 / 9.0 + 2.0 / 36.0;
+
+constexpr double kBoundSigmas = 1.959963984540054;
 
 struct Bins {
   std::vector<std::complex<double>> height, force;
@@ -46,7 +50,7 @@ struct Slope {
 };
 
 // Weighted least squares of -height on force, the weights from the residual's spectrum, iterated.
-Slope regress(const std::vector<Bins>& runs) {
+Slope regress_bins(const std::vector<Bins>& runs) {
   Slope out;
   std::size_t bins = 0;
   double cross = 0.0, power = 0.0;
@@ -164,7 +168,7 @@ StiffnessEstimate estimate_stiffness(const TipMotion& motion, const BasePath& ba
     runs.push_back(std::move(bins));
   }
   out.force_rms_N = std::sqrt(square / static_cast<double>(cells_used));
-  const Slope slope = regress(runs);
+  const Slope slope = regress_bins(runs);
   if (!std::isfinite(slope.variance)) {
     out.verdict = "the recording is too short for the band below the texture";
     return out;
@@ -176,14 +180,18 @@ StiffnessEstimate estimate_stiffness(const TipMotion& motion, const BasePath& ba
     out.verdict = "height and force rise together below the texture's band: the relief hides any sinking";
     return out;
   }
-  out.lower_bound_N_per_mm = 1e-3 / (std::max(slope.compliance, 0.0) + 1.96 * sigma);
+  out.lower_bound_N_per_mm = 1e-3 / (std::max(slope.compliance, 0.0) + kBoundSigmas * sigma);
   out.measured = slope.compliance > config.significance * sigma;
   if (out.measured) {
     out.stiffness_N_per_mm = 1e-3 / slope.compliance;
     out.stiffness_stderr_N_per_mm = out.stiffness_N_per_mm * sigma / slope.compliance;
+    // config.significance may be below 1.96: then there is no upper end.
+    const double least = slope.compliance - kBoundSigmas * sigma;
+    out.upper_bound_N_per_mm = least > 0.0 ? 1e-3 / least : std::numeric_limits<double>::infinity();
     out.verdict = "measured";
   } else {
-    out.verdict = "the force varied too little to show any sinking: only the lower bound holds";
+    out.verdict = fmt::format("the force varied too little to show any sinking: at least {:.3g} N/mm (97.5 %)",
+                              out.lower_bound_N_per_mm);
   }
   return out;
 }

@@ -138,10 +138,10 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
   if (out.shape != PathShape::kCurve && out.normal_sigma_deg > config.undetermined_deg) {
     out.undetermined.push_back({"normal about the direction of travel", out.normal_sigma_deg});
   }
-  for (const Undetermined& u : out.undetermined) {
+  for (const UndeterminedRotation& u : out.undetermined) {
     out.problems.push_back(
         {"undetermined_normal",
-         u.freedom + ": standard deviation " + number_text(std::round(u.sigma_deg * 10.0) / 10.0) + " degrees"});
+         u.description + ": standard deviation " + number_text(std::round(u.sigma_deg * 10.0) / 10.0) + " degrees"});
   }
   if (out.shape_probability < 0.9) {
     out.problems.push_back({"uncertain_shape", "base shape " +

@@ -9,6 +9,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/signal/statistics.h"
+#include "period_depths.h"
 
 namespace asperity {
 
@@ -156,6 +157,21 @@ std::span<const double> search_part(std::span<const double> x) {
 
 }  // namespace
 
+std::vector<double> period_depths(std::span<const double> x, double period) {
+  std::vector<double> out;
+  for (double from = 0.0; from + period <= static_cast<double>(x.size()); from += period) {
+    double low = std::numeric_limits<double>::infinity(), high = -low, finite = 0.0;
+    for (auto k = static_cast<std::size_t>(from); k < static_cast<std::size_t>(from + period); ++k) {
+      if (!std::isfinite(x[k])) continue;
+      low = std::min(low, x[k]);
+      high = std::max(high, x[k]);
+      finite += 1.0;
+    }
+    if (finite > 0.7 * period) out.push_back(high - low);
+  }
+  return out;
+}
+
 Periodicity find_periodicity(std::span<const double> height_m, double spacing_m, const PeriodicityConfig& config) {
   if (!(spacing_m > 0.0) || !(config.min_pitch_m > 2.0 * spacing_m) || !(config.max_pitch_m > config.min_pitch_m)) {
     throw Error("periodicity: spacing " + number_text(spacing_m) + " m, pitch " + number_text(config.min_pitch_m) +
@@ -184,17 +200,7 @@ Periodicity find_periodicity(std::span<const double> height_m, double spacing_m,
   out.pitch_stderr_m = out.pitch_m * relative;
   out.strength = autocorrelation(x, static_cast<std::size_t>(std::lround(period)));
 
-  std::vector<double> depths;
-  for (double from = 0.0; from + period <= static_cast<double>(x.size()); from += period) {
-    double low = std::numeric_limits<double>::infinity(), high = -low, finite = 0.0;
-    for (auto k = static_cast<std::size_t>(from); k < static_cast<std::size_t>(from + period); ++k) {
-      if (!std::isfinite(x[k])) continue;
-      low = std::min(low, x[k]);
-      high = std::max(high, x[k]);
-      finite += 1.0;
-    }
-    if (finite > 0.7 * period) depths.push_back(high - low);
-  }
+  const std::vector<double> depths = period_depths(x, period);
   out.periods = depths.size();
   if (!depths.empty()) {
     out.depth_m = median(depths);

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "asperity/algebra/solve.h"
 #include "asperity/geometry/fit_plane.h"
 #include "asperity/signal/statistics.h"
 
@@ -239,7 +239,7 @@ void refine_cylinder(CircleCandidate& circle, const PathEvidence& evidence, cons
     for (int attempt = 0; attempt < 10 && !improved; ++attempt) {
       Matrix5 damped = information;
       damped.diagonal() *= 1.0 + damping;
-      const Vector5 step = -damped.ldlt().solve(gradient);
+      const Vector5 step = -solve_symmetric(damped, gradient);
       if (step.allFinite() && x(4) + step(4) > -0.9 && linearise(x + step, nullptr, nullptr) <= cost) {
         x += step;
         improved = true;

@@ -18,6 +18,7 @@ namespace asperity {
 namespace {
 
 constexpr double kStopWander_m = 0.3e-3;   // s moves by its slow error even when the tip rests
+constexpr double kRestBeside_s = 0.02;     // of a rest before or after the path, what belongs to it
 constexpr double kStopEdge_s = 0.25;       // of a long stop, what still belongs to the stroke beside it
 constexpr std::ptrdiff_t kSpeedReach = 4;  // cells to either side over which the speed is taken
 
@@ -31,11 +32,26 @@ Samples take_samples(const TipMotion& motion, const BasePath& base, const Profil
   out.t_s.resize(n);
   out.height_m.resize(n);
   out.sigma_m.assign(n, kNan);
+  // The tip's error in the marker is one error: heights are above their base, which takes what is the same everywhere.
+  const Eigen::Vector3d tip_m2 = motion.sigma_tip_in_marker_m.cwiseAbs2();
+  std::vector<Eigen::Vector3d> n_marker;
+  Eigen::Vector3d mean_n_marker = Eigen::Vector3d::Zero();
+  if (!tip_m2.isZero(0.0)) {
+    n_marker.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      n_marker[i] = motion.q_world_marker[i].conjugate() * base.n_world[i];
+      mean_n_marker += n_marker[i] / static_cast<double>(n);
+    }
+  }
   for (std::size_t i = 0; i < n; ++i) {
     out.t_s[i] = static_cast<double>(motion.t_ns[i] - motion.t_ns[0]) * kNanosecond_s;
     out.height_m[i] = base.n_world[i].dot(motion.p_world_tip_m[i] - base.p_world_m[i]);
     if (!motion.cov_world_tip_m2.empty()) {
-      out.sigma_m[i] = std::sqrt(std::max(0.0, base.n_world[i].dot(motion.cov_world_tip_m2[i] * base.n_world[i])));
+      double variance_m2 = base.n_world[i].dot(motion.cov_world_tip_m2[i] * base.n_world[i]);
+      if (!n_marker.empty()) {
+        variance_m2 += tip_m2.dot((n_marker[i] - mean_n_marker).cwiseAbs2() - n_marker[i].cwiseAbs2());
+      }
+      out.sigma_m[i] = std::sqrt(std::max(0.0, variance_m2));
     }
   }
   out.force_N.assign(n, kNan);
@@ -74,6 +90,21 @@ std::vector<int> find_parts(const std::vector<double>& t_s, const std::vector<do
   return part;
 }
 
+// Of the rests before and after the path, in which s stands (measure_arc_length.h), only what is next to the motion
+// stays: the height's slow error there is not that of the stroke, and would make a step at its end.
+void leave_out_end_rests(const std::vector<double>& t_s, const std::vector<double>& s_m, std::vector<char>& use) {
+  std::size_t first = 0, last = use.size();
+  while (first < last && use[first] == 0) ++first;
+  while (last > first && use[last - 1] == 0) --last;
+  if (last <= first) return;
+  std::size_t moves = first, stands = last;
+  while (moves < last && s_m[moves] == s_m[first]) ++moves;
+  while (stands > moves && s_m[stands - 1] == s_m[last - 1]) --stands;
+  if (moves >= stands) return;
+  for (std::size_t i = first; i < moves; ++i) use[i] = t_s[moves] - t_s[i] <= kRestBeside_s ? use[i] : char{0};
+  for (std::size_t i = stands; i < last; ++i) use[i] = t_s[i] - t_s[stands - 1] <= kRestBeside_s ? use[i] : char{0};
+}
+
 void check_sizes(const TipMotion& motion, const BasePath& base, std::span<const char> usable) {
   const std::size_t n = motion.size();
   if (base.size() != n || base.n_world.size() != n || base.s_m.size() != n || motion.p_world_tip_m.size() != n ||
@@ -93,6 +124,7 @@ Profile make_profile(const TipMotion& motion, const BasePath& base, std::span<co
   const Samples samples = take_samples(motion, base, config);
   std::vector<char> use(n, 1);
   if (!usable.empty()) std::copy(usable.begin(), usable.end(), use.begin());
+  leave_out_end_rests(samples.t_s, base.s_m, use);
   const std::vector<int> part = find_parts(samples.t_s, base.s_m, config.max_stop_s);
   double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m;
   for (std::size_t i = 0; i < n; ++i) {

@@ -29,8 +29,10 @@ double uniform_period_s(const TipMotion& motion) {
   return static_cast<double>(period_ns) * kNanosecond_s;
 }
 
+}  // namespace
+
 // §5.2: gaps are bridged for the filter and marked again after it.
-std::vector<double> high_pass(const std::vector<double>& height_m, const ThesisProfileConfig& config) {
+std::vector<double> extract_texture_thesis(const std::vector<double>& height_m, const ThesisProfileConfig& config) {
   if (config.cutoff_cycles_per_mm == 0.0) return height_m;
   const double samples_per_mm = 1e-3 / config.spacing_m;
   std::vector<double> texture_m =
@@ -40,8 +42,6 @@ std::vector<double> high_pass(const std::vector<double>& height_m, const ThesisP
   }
   return texture_m;
 }
-
-}  // namespace
 
 ThesisProfileResult make_profile_thesis(const TipMotion& motion, const BasePath& base,
                                         const ThesisProfileConfig& config) {
@@ -92,7 +92,7 @@ ThesisProfileResult make_profile_thesis(const TipMotion& motion, const BasePath&
   profile.s_m.resize(count);
   for (std::size_t i = 0; i < count; ++i) profile.s_m[i] = begin_m + static_cast<double>(i) * config.spacing_m;
   profile.height_m = resample_uniform(s_m, height_m, begin_m, config.spacing_m, count);
-  profile.texture_m = high_pass(profile.height_m, config);
+  profile.texture_m = extract_texture_thesis(profile.height_m, config);
   profile.sigma_m.assign(count, kNan);
   profile.force_N = resample_uniform(s_m, motion.force_N, begin_m, config.spacing_m, count);
   profile.speed_mps = resample_uniform(s_m, speed_mps, begin_m, config.spacing_m, count);

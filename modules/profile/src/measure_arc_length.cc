@@ -17,7 +17,8 @@ constexpr double kPathRate_hz = 200.0;   // ample for directions that change at 
 constexpr double kSpeedCutoff_hz = 3.0;  // for the speed that sets the direction's own cut-off
 
 constexpr double kLowestCutoff_hz = 0.5;
-constexpr double kUsualBend_m = 0.7e-3;  // where nothing is known of the noise
+constexpr double kLastingMotion_s = 0.25;  // shorter is noise that looks like motion
+constexpr double kUsualBend_m = 0.7e-3;    // where nothing is known of the noise
 
 std::vector<double> speeds(const EvenPath<2>& path) {
   std::vector<double> out(path.size());
@@ -80,6 +81,25 @@ Directions find_directions(const EvenPath<2>& path, const EvenPath<2>& slow, con
   return out;
 }
 
+// The first of `moving`'s cells from which it moves for `cells` on end; its size if there is none.
+template <class Iterator>
+std::size_t first_lasting(Iterator begin, Iterator end, std::size_t cells) {
+  std::size_t run = 0, at = 0;
+  for (Iterator i = begin; i != end; ++i, ++at) {
+    run = *i != 0 ? run + 1 : 0;
+    if (run == cells) return at + 1 - cells;
+  }
+  return at;
+}
+
+// All of s that lies in the samples [begin, end) becomes their mean.
+void hold_at_mean(std::vector<double>& s_m, std::size_t begin, std::size_t end) {
+  if (end <= begin) return;
+  const std::span<const double> part(s_m.data() + begin, end - begin);
+  const double middle_m = mean(part);
+  std::fill(s_m.begin() + static_cast<std::ptrdiff_t>(begin), s_m.begin() + static_cast<std::ptrdiff_t>(end), middle_m);
+}
+
 }  // namespace
 
 ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen::Vector2d> u_m,
@@ -123,6 +143,25 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
   for (std::size_t i = begin + 1; i < end; ++i) {
     const Eigen::Vector2d& tangent = directions.tangent[index_at(path, 0.5 * (t_s[i - 1] + t_s[i]))];
     out.s_m[i] = out.s_m[i - 1] + tangent.dot(u_m[i] - u_m[i - 1]);
+  }
+  // In the rests before and after the path s has one value, not the range of its noise, and the path lies between them:
+  // the lowest of many noisy s would be too low, and the length too long.
+  const auto lasting = static_cast<std::size_t>(kLastingMotion_s * kPathRate_hz);
+  const std::size_t starts = first_lasting(moving.begin(), moving.end(), lasting);
+  const std::size_t stops = path.size() - first_lasting(moving.rbegin(), moving.rend(), lasting);
+  if (starts < stops) {
+    std::size_t start = begin, stop = end;
+    while (start < end && index_at(path, t_s[start]) < starts) ++start;
+    while (stop > start && index_at(path, t_s[stop - 1]) >= stops) --stop;
+    hold_at_mean(out.s_m, begin, start);
+    hold_at_mean(out.s_m, stop, end);
+    const double first_m = out.s_m[begin];
+    const double last_m = out.s_m[end - 1] - first_m;
+    for (std::size_t i = begin; i < end; ++i) {
+      out.s_m[i] -= first_m;
+      if (start > begin) out.s_m[i] = std::max(out.s_m[i], 0.0);
+      if (stop < end) out.s_m[i] = std::min(out.s_m[i], last_m);
+    }
   }
   const double rate_hz = static_cast<double>(end - 1 - begin) / (t_s[end - 1] - t_s[begin]);
   if (config.along_cutoff_Hz > 0.0 && config.along_cutoff_Hz * 1.3 < 0.5 * rate_hz) {

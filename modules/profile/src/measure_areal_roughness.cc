@@ -6,8 +6,8 @@
 #include <string>
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 
+#include "asperity/algebra/solve.h"
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
@@ -15,7 +15,7 @@
 namespace asperity {
 namespace {
 
-std::size_t check(const ArealMap& map, const ArealRoughnessConfig& config) {
+std::size_t check_areal_map(const ArealMap& map, const ArealRoughnessConfig& config) {
   if (map.columns < 2 || map.rows < 2 || map.height_m.size() != map.columns * map.rows) {
     throw Error("areal roughness: " + std::to_string(map.height_m.size()) + " heights for a map of " +
                 std::to_string(map.columns) + " by " + std::to_string(map.rows) + " points");
@@ -63,9 +63,9 @@ Eigen::Vector3d fit_plane(const ArealMap& map, double mean_m) {
     normal += basis * basis.transpose();
     right += basis * (z - mean_m);
   });
-  const Eigen::ColPivHouseholderQR<Eigen::Matrix3d> qr(normal);
-  if (qr.rank() < 3) throw Error("areal roughness: the heights present lie on a line and fix no plane");
-  return qr.solve(right) + Eigen::Vector3d(mean_m, 0.0, 0.0);
+  const LeastSquares fit = least_squares(normal, right);
+  if (fit.rank < 3) throw Error("areal roughness: the heights present lie on a line and fix no plane");
+  return fit.x + Eigen::Vector3d(mean_m, 0.0, 0.0);
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ Eigen::Vector3d fit_plane(const ArealMap& map, double mean_m) {
 ArealRoughnessResult measure_areal_roughness(const ArealMap& map, const ArealRoughnessConfig& config) {
   ArealRoughnessResult result;
   result.samples = map.height_m.size();
-  result.missing = check(map, config);
+  result.missing = check_areal_map(map, config);
   const double count = static_cast<double>(result.samples - result.missing);
 
   double mean_m = 0.0;

@@ -20,7 +20,7 @@ std::size_t count_missing(std::span<const double> z) {
   return static_cast<std::size_t>(std::count_if(z.begin(), z.end(), [](double v) { return std::isnan(v); }));
 }
 
-void check(std::span<const double> height_m, double spacing_m, const RoughnessConfig& config) {
+void check_profile(std::span<const double> height_m, double spacing_m, const RoughnessConfig& config) {
   if (!(spacing_m > 0.0) || !std::isfinite(spacing_m)) {
     throw Error("roughness: the spacing " + number_text(spacing_m) + " m is not a positive length");
   }
@@ -172,7 +172,7 @@ std::vector<double> descending(std::span<const double> height_m) {
 
 std::vector<double> roughness_profile_m(std::span<const double> height_m, double spacing_m,
                                         const RoughnessConfig& config) {
-  check(height_m, spacing_m, config);
+  check_profile(height_m, spacing_m, config);
   std::vector<double> z(height_m.begin(), height_m.end());
   subtract_mean(z);
   if (config.form == ProfileForm::kLine) subtract_line(z);

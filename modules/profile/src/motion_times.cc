@@ -13,13 +13,13 @@ namespace asperity {
 
 namespace {
 
-// The median standard deviation of the position; 0 without a covariance.
+// The median standard deviation of the position, less what is one error all along; 0 without a covariance.
 double usual_sigma_m(const TipMotion& motion) {
   if (motion.cov_world_tip_m2.empty()) return 0.0;
   std::vector<double> sigma_m;
   sigma_m.reserve(motion.size());
   for (const Eigen::Matrix3d& cov : motion.cov_world_tip_m2)
-    sigma_m.push_back(std::sqrt(std::max(0.0, cov.trace() / 3.0)));
+    sigma_m.push_back(std::sqrt(std::max(0.0, (cov.trace() - motion.sigma_tip_in_marker_m.squaredNorm()) / 3.0)));
   return median(sigma_m);
 }
 

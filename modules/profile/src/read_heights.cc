@@ -57,6 +57,7 @@ HeightProfile read_profile_heights(CsvReader& table, const ReadHeightsConfig& co
   const auto position = table.find("s_m");
   const std::size_t column = choose_column(table, config);
   if (!table.columns().empty()) profile.column = table.columns()[column];
+  const auto sigma = profile.column == "texture_m" ? table.find("texture_sigma_m") : std::nullopt;
   const auto named = split_length_name(profile.column);
   const double unit_m = named ? named->unit_m : metres(config.unit);
   if (position && !ends_in_newline) table.fail("the file does not end in a newline: its last row may be cut off");
@@ -66,6 +67,7 @@ HeightProfile read_profile_heights(CsvReader& table, const ReadHeightsConfig& co
   while (table.next()) {
     profile.height_m.push_back(table.finite_or_nan(column) * unit_m);
     if (position) s_m.push_back(table.finite_or_nan(*position));
+    if (sigma) profile.sigma_m.push_back(table.finite_or_nan(*sigma));
   }
   if (profile.height_m.size() < 2) table.fail("fewer than two heights");
   if (position) {

@@ -9,6 +9,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/geometry/mesh_surface.h"
+#include "asperity/geometry/pose.h"
 
 namespace asperity {
 namespace {
@@ -57,7 +58,7 @@ Helix scan_helix(double radius_m, bool inside) {
     const Vector3d radial(std::cos(angle), std::sin(angle), 0.0);
     const double sign = inside ? -1.0 : 1.0;
     const Vector3d p_mesh_m = (radius_m + sign * height_m) * radial + (0.005 + kClimb * s_m) * Vector3d::UnitZ();
-    const Eigen::Quaterniond q_mesh_marker = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), sign * radial);
+    const Eigen::Quaterniond q_mesh_marker = shortest_rotation(Vector3d::UnitZ(), sign * radial);
     const Pose T_world_mesh = kMeshFromWorld.inverse();
     out.motion.t_ns.push_back(static_cast<std::int64_t>(i * 1e9 / kRate_hz));
     out.motion.p_world_tip_m.push_back(T_world_mesh * p_mesh_m);

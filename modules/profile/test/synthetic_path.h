@@ -10,6 +10,7 @@
 
 #include "asperity/base/random.h"
 #include "asperity/geometry/motion.h"
+#include "asperity/geometry/pose.h"
 
 namespace asperity::synthetic {
 
@@ -73,8 +74,7 @@ inline Scan make_scan(const std::function<Point(double)>& base, const std::funct
     const Eigen::Vector3d fine = o.fine_sigma_m * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
     out.motion.t_ns.push_back(static_cast<std::int64_t>(std::llround(t * 1e9)));
     out.motion.p_world_tip_m.emplace_back(b.p_m + h * b.normal + slow + fine);
-    out.motion.q_world_marker.push_back(
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), b.normal + o.probe_lean));
+    out.motion.q_world_marker.push_back(shortest_rotation(Eigen::Vector3d::UnitZ(), b.normal + o.probe_lean));
     out.motion.force_N.push_back(1.0);
     out.s_m.push_back(b.s_m);
     out.height_m.push_back(h);

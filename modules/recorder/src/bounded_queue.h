@@ -11,7 +11,7 @@
 
 namespace asperity {
 
-struct QueueFigures {
+struct QueueCounts {
   double fill = 0.0;  // share
   double highest_fill = 0.0;
   std::uint64_t overflowed = 0;  // rows dropped
@@ -56,7 +56,7 @@ class BoundedQueue {
     emptied_.notify_one();
   }
 
-  QueueFigures figures() const {
+  QueueCounts counts() const {
     const std::lock_guard lock(mutex_);
     const auto share = [this](std::size_t rows) { return static_cast<double>(rows) / static_cast<double>(capacity_); };
     return {share(waiting_.size()), share(highest_), overflowed_, received_};

@@ -16,7 +16,7 @@ constexpr std::int64_t kAboveWeighs = 4;        // a sample above against one be
 constexpr double kLeastVariance = 1.0 / 12.0;   // of a converter's rounding, counts²
 constexpr std::int64_t kFewestIdleSamples = 8;  // for a noise worth the name
 
-void check(const char* low_name, double low, const char* high_name, double high) {
+void check_thresholds(const char* low_name, double low, const char* high_name, double high) {
   if (low > high) {
     throw Error(std::string("contact.") + low_name + " (" + number_text(low) + ") lies above contact." + high_name +
                 " (" + number_text(high) + ")");
@@ -27,8 +27,8 @@ void check(const char* low_name, double low, const char* high_name, double high)
 
 ContactDetector::ContactDetector(const TouchConfig& config, const std::optional<ForceCalibration>& force)
     : config_(config), force_(force) {
-  check("off_N", config.off_N, "on_N", config.on_N);
-  check("off_noise", config.off_noise, "on_noise", config.on_noise);
+  check_thresholds("off_N", config.off_N, "on_N", config.on_N);
+  check_thresholds("off_noise", config.off_noise, "on_noise", config.on_noise);
 }
 
 bool ContactDetector::ready() const { return force_.has_value() || idle_known_; }

@@ -38,7 +38,7 @@ class OpenedSource {
 };
 
 // What a thread and its queue say of themselves; the name, the warnings and the rate are others' to tell.
-inline void describe_sensor(const SensorThread::Health& health, const QueueFigures& queue, SensorSnapshot& out) {
+inline void describe_sensor(const SensorThread::Health& health, const QueueCounts& queue, SensorSnapshot& out) {
   out.state = health.state;
   out.message = health.message;
   out.failed = health.failed;

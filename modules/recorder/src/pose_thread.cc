@@ -27,15 +27,15 @@ bool PoseThread::read(std::chrono::milliseconds timeout) {
     poses_.push_back(with_sigmas(*pose));
     queue_.push(poses_);
   }
-  const TrackingStatistics figures = source_->statistics();
+  const TrackingStatistics statistics = source_->statistics();
   constexpr unsigned kReadsPerLook = 64;  // a tracker may come to warn later
   const bool look = reads_++ % kReadsPerLook == 0;
   std::vector<std::string> warnings;
   if (look) warnings = source_->warnings();
   const std::lock_guard lock(mutex_);
   // A tracker that sees no marker is alive as long as its frames come.
-  const bool alive = pose.has_value() || figures.frames != now_.frames;
-  now_ = figures;
+  const bool alive = pose.has_value() || statistics.frames != now_.frames;
+  now_ = statistics;
   if (look) warnings_ = std::move(warnings);
   return alive;
 }
@@ -48,7 +48,7 @@ void PoseThread::close() noexcept {
 }
 
 void PoseThread::describe(RecorderSnapshot& out) const {
-  describe_sensor(thread_->health(), queue_.figures(), out.poses);
+  describe_sensor(thread_->health(), queue_.counts(), out.poses);
   out.poses.name = source_.name();
   const std::lock_guard lock(mutex_);
   out.tracking = before_ + now_;

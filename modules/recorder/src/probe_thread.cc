@@ -29,12 +29,12 @@ bool ProbeThread::read(std::chrono::milliseconds timeout) {
     lost = std::current_exception();  // after what had come before
   }
   const bool alive = !samples_.empty();
-  const LinkStatistics figures = source_->statistics();
+  const LinkStatistics statistics = source_->statistics();
   auto description = source_->description();
   if (alive) queue_.push(samples_);
   {
     const std::lock_guard lock(mutex_);
-    now_ = figures;
+    now_ = statistics;
     if (description) description_ = std::move(description);
     ended_ = waits_ && lost;
   }
@@ -62,7 +62,7 @@ std::optional<ProbeDescription> ProbeThread::description() const {
 }
 
 void ProbeThread::describe(RecorderSnapshot& out) const {
-  describe_sensor(thread_->health(), queue_.figures(), out.probe);
+  describe_sensor(thread_->health(), queue_.counts(), out.probe);
   out.probe.name = source_.name();
   const std::lock_guard lock(mutex_);
   out.link = before_ + now_;

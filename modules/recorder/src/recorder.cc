@@ -1,9 +1,13 @@
 #include "asperity/recorder/recorder.h"
 
 #include <algorithm>
+#include <array>
 #include <condition_variable>
+#include <cstdint>
+#include <map>
 #include <mutex>
 #include <span>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -12,20 +16,77 @@
 #include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
+#include "asperity/recorder/recorder_snapshot.h"
 #include "asperity/recording/uncalibrated.h"
 #include "bounded_queue.h"
 #include "pose_thread.h"
 #include "probe_thread.h"
-#include "rate_meter.h"
 #include "recording_info_writer.h"
 #include "recording_writer.h"
-#include "sensor_problems.h"
 
 namespace asperity {
+
+// Events in the last second, in steps of a tenth.
+class RateMeter {
+ public:
+  explicit RateMeter(std::int64_t now_ns) : step_(now_ns / kStep_ns) {}
+
+  void add(std::int64_t now_ns, std::uint64_t count) {
+    move_to(now_ns);
+    counts_[slot(step_)] += count;
+  }
+
+  // Of the ten whole steps before now.
+  double rate_Hz(std::int64_t now_ns) {
+    move_to(now_ns);
+    std::uint64_t sum = 0;
+    for (std::int64_t step = step_ - kSteps; step < step_; ++step) sum += counts_[slot(step)];
+    return static_cast<double>(sum);
+  }
+
+ private:
+  static constexpr std::int64_t kStep_ns = 100'000'000;
+  static constexpr std::int64_t kSteps = 10;
+
+  static std::size_t slot(std::int64_t step) { return static_cast<std::size_t>(step % (kSteps + 1)); }
+
+  void move_to(std::int64_t now_ns) {
+    const std::int64_t now = now_ns / kStep_ns;
+    if (now - step_ > kSteps) {
+      counts_.fill(0);
+      step_ = now;
+    }
+    while (step_ < now) counts_[slot(++step_)] = 0;
+  }
+
+  std::int64_t step_;
+  std::array<std::uint64_t, kSteps + 1> counts_{};
+};
 
 namespace fs = std::filesystem;
 
 namespace {
+
+// What the sensors and queues have lost, as counts for recording.json (docs/recorder.md); zeros are left out.
+std::map<std::string, std::int64_t> sensor_problems(const RecorderSnapshot& now) {
+  std::map<std::string, std::int64_t> out;
+  const auto count = [&](const char* name, std::uint64_t value) {
+    if (value > 0) out[name] = static_cast<std::int64_t>(value);
+  };
+  count(now.link.losses_are_estimated ? "probe_lost_samples_estimated" : "probe_lost_samples", now.link.lost_samples);
+  count(now.link.losses_are_estimated ? "probe_lost_frames_estimated" : "probe_lost_frames", now.link.lost_frames);
+  count("probe_damaged_frames", now.link.damaged_frames);
+  count("probe_late_frames", now.link.late_frames);
+  count("probe_resyncs", now.link.resyncs);
+  count("probe_restarts", now.link.restarts);
+  count("probe_overruns", now.link.overruns);
+  count("probe_queue_overflow", now.probe.overflowed);
+  count("probe_disappeared", now.probe.lost);
+  count("tracker_skipped_frames", now.tracking.skipped_frames);
+  count("tracker_queue_overflow", now.poses.overflowed);
+  count("tracker_disappeared", now.poses.lost);
+  return out;
+}
 
 constexpr std::size_t kMostCommands = 1000;
 

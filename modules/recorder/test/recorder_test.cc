@@ -54,7 +54,7 @@ TEST(Recorder, RecordsBothStreamsWithoutLoss) {
   EXPECT_EQ(recording.probe.accel_counts.front().x(), 0.0);
   const std::string tracker = read_file(rig.folder() / "tracker.csv", 1 << 24);
   EXPECT_THAT(tracker, HasSubstr("markers,reprojection_px,sigma_px_m,sigma_py_m,sigma_pz_m,sigma_rx_rad"));
-  EXPECT_THAT(tracker, HasSubstr(",2,0.125,1e-04,1e-04,1e-04,1e-04,1e-04,1e-04\n"));
+  EXPECT_THAT(tracker, HasSubstr(",2,0.125,1e-04,1e-04,1e-04,1e-04,1e-04,1e-04,,,,,,\n"));
 }
 
 TEST(Recorder, MeasuresGravityAtRest) {

@@ -29,7 +29,7 @@ FeatureSlopes feature_slopes(const Eigen::Vector3d& f) {
   return out;
 }
 
-Eigen::Vector3d solve(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& right) {
+Eigen::Vector3d solve_invertible(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& right) {
   const Eigen::FullPivLU<Eigen::Matrix3d> lu(matrix);
   if (!lu.isInvertible()) throw Error("accelerometer.B: its linear part is singular");
   return lu.solve(right);
@@ -48,9 +48,9 @@ Eigen::Vector3d AccelerometerCalibration::specific_force_mps2(const Eigen::Vecto
     Eigen::Matrix3d inverse;
     bool invertible = false;
     Eigen::Matrix3d(B).computeInverseWithCheck(inverse, invertible);
-    return invertible ? Eigen::Vector3d(inverse * (counts_read - C)) : solve(B, counts_read - C);
+    return invertible ? Eigen::Vector3d(inverse * (counts_read - C)) : solve_invertible(B, counts_read - C);
   }
-  Eigen::Vector3d f = solve(B.leftCols<3>(), counts_read - C);
+  Eigen::Vector3d f = solve_invertible(B.leftCols<3>(), counts_read - C);
   double error = (counts(f) - counts_read).squaredNorm();
   constexpr int kMostSteps = 50;
   for (int step = 0; step < kMostSteps && error > 0.0; ++step) {
@@ -81,6 +81,27 @@ Eigen::Vector3d Calibration::force_axis_in_marker() const {
         "origin");
   }
   return axis / length;
+}
+
+Eigen::Vector3d Force3Calibration::force_N(const Eigen::Vector3d& counts) const {
+  const Eigen::FullPivLU<Eigen::Matrix3d> lu(B);
+  if (!lu.isInvertible()) throw Error("force3.B: it is singular");
+  return lu.solve(counts - C);
+}
+
+std::optional<Eigen::Vector3d> Calibration::tip_stderr_m() const {
+  const auto record = calibrated.find("tip");
+  if (record == calibrated.end() || !record->second.details.is_object()) return std::nullopt;
+  const Json* errors = record->second.details.find("stderr");
+  const Json* list = errors != nullptr && errors->is_object() ? errors->find("tip_in_marker_m") : nullptr;
+  if (list == nullptr || !list->is_array() || list->size() != 3) return std::nullopt;
+  Eigen::Vector3d out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Json& each = (*list)[i];
+    if (!each.is_number() || !(each.get<double>() >= 0.0) || !std::isfinite(each.get<double>())) return std::nullopt;
+    out[static_cast<Eigen::Index>(i)] = each.get<double>();
+  }
+  return out;
 }
 
 }  // namespace asperity

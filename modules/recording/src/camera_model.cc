@@ -14,7 +14,7 @@ struct Distorted {
   Eigen::Matrix2d jacobian;  // of `at` by (x, y)
 };
 
-Distorted distort(const CameraCalibration& camera, const Eigen::Vector2d& p) {
+Distorted distort_point(const CameraCalibration& camera, const Eigen::Vector2d& p) {
   std::array<double, 5> d{};
   for (std::size_t i = 0; i < d.size() && i < camera.distortion.size(); ++i) d[i] = camera.distortion[i];
   const auto [k1, k2, p1, p2, k3] = d;
@@ -34,7 +34,7 @@ Distorted distort(const CameraCalibration& camera, const Eigen::Vector2d& p) {
 
 std::optional<Eigen::Vector2d> project(const CameraCalibration& camera, const Eigen::Vector3d& p_camera_m) {
   if (!(p_camera_m.z() > 0.0)) return std::nullopt;
-  const Eigen::Vector2d at = distort(camera, p_camera_m.head<2>() / p_camera_m.z()).at;
+  const Eigen::Vector2d at = distort_point(camera, p_camera_m.head<2>() / p_camera_m.z()).at;
   return Eigen::Vector2d(camera.fx * at.x() + camera.cx, camera.fy * at.y() + camera.cy);
 }
 
@@ -42,7 +42,7 @@ std::optional<Projection> project_with_derivative(const CameraCalibration& camer
   if (!(p_camera_m.z() > 0.0)) return std::nullopt;
   const double inverse_z = 1.0 / p_camera_m.z();
   const Eigen::Vector2d p = p_camera_m.head<2>() * inverse_z;
-  const Distorted seen = distort(camera, p);
+  const Distorted seen = distort_point(camera, p);
   Eigen::Matrix<double, 2, 3> p_by_point;
   p_by_point << inverse_z, 0.0, -p.x() * inverse_z, 0.0, inverse_z, -p.y() * inverse_z;
   const Eigen::Vector2d focal(camera.fx, camera.fy);
@@ -56,7 +56,7 @@ std::optional<Eigen::Vector3d> unproject(const CameraCalibration& camera, const 
   const Eigen::Vector2d wanted((pixel.x() - camera.cx) / camera.fx, (pixel.y() - camera.cy) / camera.fy);
   Eigen::Vector2d p = wanted;
   for (int i = 0; i < kMostSteps; ++i) {
-    const Distorted here = distort(camera, p);
+    const Distorted here = distort_point(camera, p);
     const Eigen::Vector2d miss = here.at - wanted;
     // A turned-over determinant: beyond the fold of the distortion, where several rays share a pixel.
     if (!(here.jacobian.determinant() > 0.0)) return std::nullopt;

@@ -26,7 +26,7 @@ Rows rows_between(const std::vector<std::int64_t>& t_ns, std::int64_t start_ns, 
 
 // An empty column, of a sensor that is not there, stays empty.
 template <class T>
-std::vector<T> cut(const std::vector<T>& column, const Rows& rows) {
+std::vector<T> cut_column(const std::vector<T>& column, const Rows& rows) {
   if (column.empty()) return {};
   return {column.begin() + static_cast<std::ptrdiff_t>(rows.first),
           column.begin() + static_cast<std::ptrdiff_t>(rows.last)};
@@ -78,18 +78,25 @@ Recording cut_recording(const Recording& recording, std::int64_t start_ns, std::
 
   const ProbeStream& probe = recording.probe;
   const Rows samples = rows_between(probe.t_ns, start_ns, end_ns);
-  out.probe = {cut(probe.t_ns, samples), cut(probe.accel_counts, samples), cut(probe.force_counts, samples),
-               cut(probe.gyro_counts, samples), cut(probe.force3_counts, samples)};
+  out.probe = {cut_column(probe.t_ns, samples), cut_column(probe.accel_counts, samples),
+               cut_column(probe.force_counts, samples), cut_column(probe.gyro_counts, samples),
+               cut_column(probe.force3_counts, samples)};
   const TrackerStream& tracker = recording.tracker;
   const Rows poses = rows_between(tracker.t_ns, start_ns, end_ns);
-  out.tracker = {cut(tracker.t_ns, poses), cut(tracker.T_world_marker, poses), cut(tracker.markers, poses),
-                 cut(tracker.reprojection_px, poses)};
+  out.tracker = {cut_column(tracker.t_ns, poses),
+                 cut_column(tracker.T_world_marker, poses),
+                 cut_column(tracker.markers, poses),
+                 cut_column(tracker.reprojection_px, poses),
+                 cut_column(tracker.sigma_position_m, poses),
+                 cut_column(tracker.sigma_rotation_rad, poses),
+                 cut_column(tracker.noise_position_m, poses),
+                 cut_column(tracker.noise_rotation_rad, poses)};
   if (!recording.truth) return out;
   const Truth& truth = *recording.truth;
   const Rows known = rows_between(truth.t_ns, start_ns, end_ns);
-  out.truth = {cut(truth.t_ns, known),           cut(truth.s_m, known),
-               cut(truth.height_m, known),       cut(truth.p_world_tip_m, known),
-               cut(truth.q_world_marker, known), cut(truth.force_N, known)};
+  out.truth = {cut_column(truth.t_ns, known),           cut_column(truth.s_m, known),
+               cut_column(truth.height_m, known),       cut_column(truth.p_world_tip_m, known),
+               cut_column(truth.q_world_marker, known), cut_column(truth.force_N, known)};
   return out;
 }
 

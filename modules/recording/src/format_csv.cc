@@ -10,11 +10,21 @@ std::string probe_header(bool has_gyro, bool has_force3) {
   return out + "\n";
 }
 
-std::string tracker_header(bool has_markers, bool has_reprojection, bool has_sigmas) {
+namespace {
+bool has_sigmas(const TrackerStream& tracker) {
+  return !tracker.sigma_position_m.empty() && !tracker.sigma_rotation_rad.empty();
+}
+bool has_noise(const TrackerStream& tracker) {
+  return !tracker.noise_position_m.empty() && !tracker.noise_rotation_rad.empty();
+}
+}  // namespace
+
+std::string tracker_header(bool with_markers, bool with_reprojection, bool with_sigmas, bool with_noise) {
   std::string out = "t_ns,px_m,py_m,pz_m,qw,qx,qy,qz";
-  if (has_markers) out += ",markers";
-  if (has_reprojection) out += ",reprojection_px";
-  if (has_sigmas) out += ",sigma_px_m,sigma_py_m,sigma_pz_m,sigma_rx_rad,sigma_ry_rad,sigma_rz_rad";
+  if (with_markers) out += ",markers";
+  if (with_reprojection) out += ",reprojection_px";
+  if (with_sigmas) out += ",sigma_px_m,sigma_py_m,sigma_pz_m,sigma_rx_rad,sigma_ry_rad,sigma_rz_rad";
+  if (with_noise) out += ",noise_px_m,noise_py_m,noise_pz_m,noise_rx_rad,noise_ry_rad,noise_rz_rad";
   return out + "\n";
 }
 
@@ -39,6 +49,14 @@ void append_tracker_rows(std::string& out, const TrackerStream& tracker, std::si
       append_number(out, std::int64_t{tracker.markers[i]});
     }
     if (!tracker.reprojection_px.empty()) append_cell(out, tracker.reprojection_px[i]);
+    if (has_sigmas(tracker)) {
+      append_cells(out, tracker.sigma_position_m[i]);
+      append_cells(out, tracker.sigma_rotation_rad[i]);
+    }
+    if (has_noise(tracker)) {
+      append_cells(out, tracker.noise_position_m[i]);
+      append_cells(out, tracker.noise_rotation_rad[i]);
+    }
     out += '\n';
   }
 }
@@ -50,7 +68,8 @@ std::string format_probe_csv(const ProbeStream& probe) {
 }
 
 std::string format_tracker_csv(const TrackerStream& tracker) {
-  std::string out = tracker_header(!tracker.markers.empty(), !tracker.reprojection_px.empty());
+  std::string out = tracker_header(!tracker.markers.empty(), !tracker.reprojection_px.empty(), has_sigmas(tracker),
+                                   has_noise(tracker));
   append_tracker_rows(out, tracker, 0, tracker.size());
   return out;
 }

@@ -43,17 +43,32 @@ Json quiet_json(const QuietInterval& quiet) {
           {"rotation_noise_rad", vector(quiet.rotation_noise_rad)}};
 }
 
+// A value to so many decimals; a word where there is none.
+std::string shown(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "unknown";
+}
+
+std::string shown_significant(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "unknown";
+}
+
+std::string shown_vector(const Eigen::Vector3d& value, int decimals) {
+  return fmt::format("({}, {}, {})", shown(value.x(), decimals), shown(value.y(), decimals),
+                     shown(value.z(), decimals));
+}
+
 std::string timing_text(const char* stream, const StreamTiming& timing) {
   return fmt::format(
-      "{:<8} {} rows over {:.3f} s, {:.2f} Hz (median {:.2f}), jitter {:.1f} µs, {} gaps (longest {:.1f} ms), "
-      "{} lost ({:.2f} %), {} duplicates\n",
-      stream, timing.count, timing.duration_s, timing.mean_rate_Hz, timing.median_rate_Hz, 1e6 * timing.jitter_s,
-      timing.gaps, 1e3 * timing.longest_gap_s, timing.lost, 100.0 * timing.lost_share, timing.duplicates);
+      "{:<8} {} rows over {} s, {} Hz (median {}), jitter {} µs, {} gaps (longest {} ms), {} lost ({} %), {} "
+      "duplicates\n",
+      stream, timing.count, shown(timing.duration_s, 3), shown(timing.mean_rate_Hz, 2), shown(timing.median_rate_Hz, 2),
+      shown(1e6 * timing.jitter_s, 1), timing.gaps, shown(1e3 * timing.longest_gap_s, 1), timing.lost,
+      shown(100.0 * timing.lost_share, 2), timing.duplicates);
 }
 
 }  // namespace
 
-std::string inspection_json(const Inspection& inspection) {
+Json inspection_json(const Inspection& inspection) {
   Json channels = Json::array();
   for (const auto& channel : inspection.channels) {
     channels.push_back({{"name", channel.name},
@@ -64,44 +79,41 @@ std::string inspection_json(const Inspection& inspection) {
                         {"quiet_mean", number_or_null(channel.quiet_mean)},
                         {"quiet_noise", number_or_null(channel.quiet_noise)}});
   }
-  const Json out = {{"probe", timing_json(inspection.probe)},
-                    {"tracker", timing_json(inspection.tracker)},
-                    {"overlap_s", number_or_null(inspection.overlap_s)},
-                    {"channels", channels},
-                    {"quiet", inspection.quiet ? quiet_json(*inspection.quiet) : Json()},
-                    {"force_lowest_N", number_or_null(inspection.force_lowest_N)},
-                    {"force_highest_N", number_or_null(inspection.force_highest_N)},
-                    {"force_rate_hz", number_or_null(inspection.force_rate_Hz)},
-                    {"flips", inspection.flips},
-                    {"findings", inspection.findings}};
-  return out.dump(2) + "\n";
+  return {{"probe", timing_json(inspection.probe)},
+          {"tracker", timing_json(inspection.tracker)},
+          {"overlap_s", number_or_null(inspection.overlap_s)},
+          {"channels", channels},
+          {"quiet", inspection.quiet ? quiet_json(*inspection.quiet) : Json()},
+          {"force_lowest_N", number_or_null(inspection.force_lowest_N)},
+          {"force_highest_N", number_or_null(inspection.force_highest_N)},
+          {"force_rate_hz", number_or_null(inspection.force_rate_Hz)},
+          {"flips", inspection.flips},
+          {"findings", inspection.findings}};
 }
 
 std::string inspection_text(const Inspection& inspection) {
   std::string out = timing_text("probe", inspection.probe) + timing_text("tracker", inspection.tracker);
-  out += fmt::format("overlap  {:.3f} s\n", inspection.overlap_s);
-  out += fmt::format("force    {:.3f} to {:.3f} N at {:.1f} Hz\n", inspection.force_lowest_N,
-                     inspection.force_highest_N, inspection.force_rate_Hz);
+  out += fmt::format("overlap  {} s\n", shown(inspection.overlap_s, 3));
+  out += fmt::format("force    {} to {} N at {} Hz\n", shown(inspection.force_lowest_N, 3),
+                     shown(inspection.force_highest_N, 3), shown(inspection.force_rate_Hz, 1));
   out += fmt::format("flips    {}\n\n", inspection.flips);
   out += fmt::format("{:<9}{:>12}{:>12}{:>12}{:>12}{:>14}\n", "counts", "lowest", "highest", "quiet mean",
                      "quiet noise", "saturated");
   for (const auto& channel : inspection.channels) {
     const std::string saturated =
         std::isnan(channel.saturated_share) ? "unknown" : fmt::format("{:.3f} %", 100.0 * channel.saturated_share);
-    out += fmt::format("{:<9}{:>12.6g}{:>12.6g}{:>12.6g}{:>12.4g}{:>14}\n", channel.name, channel.lowest,
-                       channel.highest, channel.quiet_mean, channel.quiet_noise, saturated);
+    out += fmt::format("{:<9}{:>12}{:>12}{:>12}{:>12}{:>14}\n", channel.name, shown_significant(channel.lowest, 6),
+                       shown_significant(channel.highest, 6), shown_significant(channel.quiet_mean, 6),
+                       shown_significant(channel.quiet_noise, 4), saturated);
   }
   if (inspection.quiet) {
     const QuietInterval& quiet = *inspection.quiet;
     out += fmt::format("\nquietest {:.2f} s from {:.2f} s: {}\n", quiet.duration_s, quiet.start_s,
                        quiet.at_rest ? "at rest" : "not at rest");
-    out += fmt::format("  specific force {:.4f} m/s², noise ({:.4f}, {:.4f}, {:.4f}) m/s², force {:.3f} N\n",
-                       quiet.gravity_mps2, quiet.acceleration_noise_mps2.x(), quiet.acceleration_noise_mps2.y(),
-                       quiet.acceleration_noise_mps2.z(), quiet.force_N);
-    out += fmt::format("  tracker noise ({:.3f}, {:.3f}, {:.3f}) mm, ({:.2f}, {:.2f}, {:.2f}) mrad over {} poses\n",
-                       1e3 * quiet.position_noise_m.x(), 1e3 * quiet.position_noise_m.y(),
-                       1e3 * quiet.position_noise_m.z(), 1e3 * quiet.rotation_noise_rad.x(),
-                       1e3 * quiet.rotation_noise_rad.y(), 1e3 * quiet.rotation_noise_rad.z(), quiet.poses);
+    out += fmt::format("  specific force {} m/s², noise {} m/s², force {} N\n", shown(quiet.gravity_mps2, 4),
+                       shown_vector(quiet.acceleration_noise_mps2, 4), shown(quiet.force_N, 3));
+    out += fmt::format("  tracker noise {} mm, {} mrad over {} poses\n", shown_vector(1e3 * quiet.position_noise_m, 3),
+                       shown_vector(1e3 * quiet.rotation_noise_rad, 2), quiet.poses);
   }
   out += inspection.findings.empty() ? "\nNothing looks wrong.\n" : "\nWhat looks wrong:\n";
   for (const auto& finding : inspection.findings) out += "  - " + finding + "\n";

@@ -1,19 +1,36 @@
+#include <array>
+#include <optional>
+
 #include "asperity/base/error.h"
-#include "asperity/base/text.h"
 #include "asperity/json/json_writer.h"
-#include "asperity/json/parse_json.h"
 #include "asperity/recording/format_recording.h"
 #include "known_extra.h"
+#include "plain_number.h"
 
 namespace asperity {
 
 namespace {
 
-Json extra_object(const std::string& text, const char* what) {
-  Json extra = parse_json_or_null(text.empty() ? "{}" : text);
-  if (!extra.is_object()) throw Error(std::string(what) + ": extra_json is not a JSON object: " + printable(text));
-  return extra;
+Json extra_object(const Json& strangers, const char* what) {
+  if (!strangers.is_object()) throw Error(std::string(what) + ": extra is not an object: " + shown(strangers));
+  return strangers;
 }
+
+// Takes what JsonWriter does; whole numbers are without a point, as in its text.
+class MembersOf {
+ public:
+  explicit MembersOf(Json& object) : object_(object) {}
+  void integer(std::string_view key, std::int64_t value) { object_[key] = value; }
+  void text(std::string_view key, const std::string& value) { object_[key] = value; }
+  void number(std::string_view key, double value) { object_[key] = plain_number(value); }
+  void numbers(std::string_view key, const double* values, std::size_t count) {
+    Json& list = object_[key] = Json::array();
+    for (std::size_t i = 0; i < count; ++i) list.push_back(plain_number(values[i]));
+  }
+
+ private:
+  Json& object_;
+};
 
 void write_vector(JsonWriter& out, std::string_view key, const Eigen::Vector3d& value) {
   out.numbers(key, value.data(), 3);
@@ -60,8 +77,8 @@ void write_sensors(JsonWriter& out, const Calibration& calibration) {
   out.end_object();
 }
 
-void write_camera(JsonWriter& out, const CameraCalibration& camera) {
-  out.begin_object("camera");
+template <class Out>
+void write_camera(Out& out, const CameraCalibration& camera) {
   out.integer("width", camera.width);
   out.integer("height", camera.height);
   out.number("fx", camera.fx);
@@ -69,19 +86,27 @@ void write_camera(JsonWriter& out, const CameraCalibration& camera) {
   out.number("cx", camera.cx);
   out.number("cy", camera.cy);
   if (!camera.distortion.empty()) out.numbers("distortion", camera.distortion.data(), camera.distortion.size());
-  out.end_object();
 }
 
-void write_marker(JsonWriter& out, const MarkerPlacement& marker) {
+template <class Out>
+void write_marker(Out& out, const MarkerPlacement& marker) {
   const Eigen::Vector3d& p = marker.T_marker_tag.translation_m;
   const Eigen::Quaterniond& q = marker.T_marker_tag.rotation;
   const double pose[7] = {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()};
-  out.begin_element();
   out.integer("id", marker.id);
   out.text("family", marker.family);
   out.number("size_m", marker.size_m);
   out.numbers("T_marker_tag", pose, 7);
-  out.end_object();
+}
+
+void write_markers(JsonWriter& out, const std::vector<MarkerPlacement>& markers) {
+  out.begin_array("markers");
+  for (const auto& marker : markers) {
+    out.begin_element();
+    write_marker(out, marker);
+    out.end_object();
+  }
+  out.end_array();
 }
 
 }  // namespace
@@ -99,13 +124,13 @@ std::string format_calibration(const Calibration& calibration) {
   out.number("latency_s", calibration.tracker.latency_s);
   out.number("latency_sigma_s", calibration.tracker.latency_sigma_s);
   out.end_object();
-  if (calibration.camera) write_camera(out, *calibration.camera);
-  if (!calibration.markers.empty()) {
-    out.begin_array("markers");
-    for (const auto& marker : calibration.markers) write_marker(out, marker);
-    out.end_array();
+  if (calibration.camera) {
+    out.begin_object("camera");
+    write_camera(out, *calibration.camera);
+    out.end_object();
   }
-  Json extra = extra_object(calibration.extra_json, "calibration");
+  if (!calibration.markers.empty()) write_markers(out, calibration.markers);
+  Json extra = extra_object(calibration.extra, "calibration");
   const auto give = [&](const char* key, double value) {
     if (value != 0.0) extra[key] = value;
   };
@@ -113,6 +138,12 @@ std::string format_calibration(const Calibration& calibration) {
   give("accelerometer_rotation_sigma_rad", calibration.accelerometer.rotation_sigma_rad);
   give("probe_latency_s", calibration.probe_latency_s);
   give("probe_latency_sigma_s", calibration.probe_latency_sigma_s);
+  const auto give3 = [&](const char* key, const std::optional<Eigen::Vector3d>& value) {
+    if (value) extra[key] = Json(std::array{value->x(), value->y(), value->z()});
+  };
+  give3("tip_sigma_m", calibration.tip_sigma_m);
+  give3("tracker_slow_sigma_m", calibration.tracker.slow_sigma_m);
+  if (calibration.tracker.slow_time_s) extra["tracker_slow_time_s"] = *calibration.tracker.slow_time_s;
   add_known_extra(calibration, extra);
   out.raw("extra", extra.dump_sorted());
   return out.finish();
@@ -123,10 +154,26 @@ std::string format_markers(const std::vector<MarkerPlacement>& markers) {
   out.text("format", "asperity-markers");
   out.integer("version", 1);
   out.text("tag_frame", "apriltag");
-  out.begin_array("markers");
-  for (const auto& marker : markers) write_marker(out, marker);
-  out.end_array();
+  write_markers(out, markers);
   return out.finish();
+}
+
+Json camera_json(const CameraCalibration& camera) {
+  Json out;
+  MembersOf members(out);
+  write_camera(members, camera);
+  return out;
+}
+
+Json markers_json(const std::vector<MarkerPlacement>& markers) {
+  Json out = Json::array();
+  for (const MarkerPlacement& marker : markers) {
+    Json one;
+    MembersOf members(one);
+    write_marker(members, marker);
+    out.push_back(std::move(one));
+  }
+  return out;
 }
 
 std::string format_recording_info(const RecordingInfo& info) {
@@ -158,7 +205,7 @@ std::string format_recording_info(const RecordingInfo& info) {
   out.begin_object("problems");
   for (const auto& [name, count] : info.problems) out.integer(name, count);
   out.end_object();
-  Json extra = extra_object(info.extra_json, "recording");
+  Json extra = extra_object(info.extra, "recording");
   add_known_extra(info, extra);
   out.raw("extra", extra.dump_sorted());
   return out.finish();

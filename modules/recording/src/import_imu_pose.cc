@@ -8,7 +8,6 @@
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
 #include "asperity/base/units.h"
-#include "asperity/json/json.h"
 #include "stream_timing.h"
 
 namespace asperity {
@@ -117,7 +116,7 @@ Calibration known_calibration(const ImportConfig& config) {
   return out;
 }
 
-void check(const ImportInput& input) {
+void check_import(const ImportInput& input) {
   if (input.imu_t_ns.empty()) throw Error("import: there are no inertial samples");
   if (input.pose_t_ns.empty()) throw Error("import: there are no poses");
   const bool equal = input.specific_force_mps2.size() == input.imu_t_ns.size() &&
@@ -134,7 +133,7 @@ double rate_of(const std::vector<std::int64_t>& t_ns) {
 }  // namespace
 
 Recording import_imu_pose(const ImportInput& input, const ImportConfig& config) {
-  check(input);
+  check_import(input);
   Recording out;
   out.probe = counted_probe(input);
   out.tracker = thinned_tracker(input, config);
@@ -152,13 +151,8 @@ Recording import_imu_pose(const ImportInput& input, const ImportConfig& config) 
   out.info.tracker_rate_Hz = config.pose_rate_Hz > 0.0 ? config.pose_rate_Hz : rate_of(input.pose_t_ns);
   for (const auto& problem : input.problems)
     out.info.problems[problem.kind] += static_cast<std::int64_t>(problem.count);
-  const Json extra = {{"imported", true},
-                      {"pose_rate_hz", config.pose_rate_Hz},
-                      {"pose_noise_m", config.pose_noise_m},
-                      {"rotation_noise_rad", config.rotation_noise_rad},
-                      {"seed", config.seed}};
+  out.info.imported = {config.pose_rate_Hz, config.pose_noise_m, config.rotation_noise_rad, config.seed};
   out.info.has_force_sensor = false;
-  out.info.extra_json = extra.dump_sorted();
   return out;
 }
 

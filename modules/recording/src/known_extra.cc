@@ -5,12 +5,15 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "asperity/json/parse_json.h"
+#include "camera_covariance.h"
+#include "force3_json.h"
+#include "plain_number.h"
 
 namespace asperity {
 
@@ -150,6 +153,112 @@ Json pose_list(const Pose& pose) {
   return out;
 }
 
+constexpr const char* kNoiseModel = "tracker_noise_model";
+
+// nan is null in files.
+std::optional<double> number_or_nan(const Json* value) {
+  if (value != nullptr && value->is_null()) return std::numeric_limits<double>::quiet_NaN();
+  return value != nullptr && value->is_number() ? std::optional(value->get<double>()) : std::nullopt;
+}
+
+bool take_numbers(const Json& object, std::initializer_list<std::pair<const char*, double*>> members) {
+  return std::all_of(members.begin(), members.end(), [&object](const auto& member) {
+    const std::optional<double> number = number_or_nan(object.find(member.first));
+    if (number) *member.second = *number;
+    return number.has_value();
+  });
+}
+
+bool take_law(const Json& model, const char* key, NoiseLaw& law) {
+  const Json* object = model.find(key);
+  if (object == nullptr || !object->is_object()) return false;
+  const Json* freedom = object->find("degrees_of_freedom");
+  if (freedom == nullptr || !is_int64(*freedom)) return false;
+  const auto degrees_of_freedom = freedom->get<std::int64_t>();
+  law.degrees_of_freedom = static_cast<int>(std::clamp<std::int64_t>(degrees_of_freedom, 0, 1'000'000'000));
+  return take_numbers(*object, {{"scale", &law.scale},
+                                {"scale_stderr", &law.scale_error},
+                                {"distance_power", &law.power},
+                                {"tilt_power", &law.tilt_power},
+                                {"tilt_power_stderr", &law.tilt_power_error},
+                                {"measured_distance_power", &law.measured_power},
+                                {"measured_distance_power_stderr", &law.measured_power_error},
+                                {"chi_square", &law.chi_square}});
+}
+
+bool take_noise_model(const Json& value, std::optional<TrackerNoiseModel>& out) {
+  if (!value.is_object()) return false;
+  TrackerNoiseModel model;
+  const bool whole = take_law(value, "position_across_ray_m", model.across_m) &&
+                     take_law(value, "position_along_ray_m", model.along_m) &&
+                     take_law(value, "rotation_about_ray_rad", model.about_rad) &&
+                     take_law(value, "rotation_across_ray_rad", model.tilt_rad) &&
+                     take_numbers(value, {{"nearest_m", &model.nearest_m},
+                                          {"farthest_m", &model.farthest_m},
+                                          {"steepest_rad", &model.steepest_rad}});
+  // What says more, or says it otherwise, would not come back.
+  if (!whole || noise_model_json(model).dump_sorted() != value.dump_sorted()) return false;
+  out = model;
+  return true;
+}
+
+void take_simulation(Json& extra, RecordingInfo& info) {
+  take_member(extra, "simulation", [&](const Json& value) {
+    if (value.is_object()) info.simulation.emplace().settings = value;
+    return value.is_object();
+  });
+  if (!info.simulation) return;
+  take_member(info.simulation->settings, "live", [&](const Json& value) {
+    info.simulation->is_live = value == Json(true);
+    return info.simulation->is_live;
+  });
+  take_member(extra, "path_length_m", [&](const Json& value) {
+    const bool known = value.is_number() && plain_number(value.get<double>()).dump() == value.dump();
+    if (known) info.simulation->path_length_m = value.get<double>();
+    return known;
+  });
+}
+
+void add_simulation(const SimulationOrigin& simulation, Json& extra) {
+  Json& out = extra["simulation"] = simulation.settings;
+  if (simulation.is_live) out["live"] = true;
+  if (simulation.path_length_m) extra["path_length_m"] = plain_number(*simulation.path_length_m);
+}
+
+Json import_json(const ImportOrigin& imported) {
+  return {{"imported", true},
+          {"pose_rate_hz", imported.pose_rate_Hz},
+          {"pose_noise_m", imported.pose_noise_m},
+          {"rotation_noise_rad", imported.rotation_noise_rad},
+          {"seed", imported.seed}};
+}
+
+bool take_three(const Json* list, std::array<double, 3>& out) {
+  if (list == nullptr || !list->is_array() || list->size() != out.size()) return false;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (!(*list)[i].is_number()) return false;
+    out[i] = (*list)[i].get<double>();
+  }
+  return true;
+}
+
+void take_import(Json& extra, RecordingInfo& info) {
+  ImportOrigin imported;
+  const Json *rate = extra.find("pose_rate_hz"), *seed = extra.find("seed");
+  if (rate == nullptr || !rate->is_number() || seed == nullptr || !is_int64(*seed)) return;
+  imported.pose_rate_Hz = rate->get<double>();
+  imported.seed = seed->get<std::int64_t>();
+  if (!take_three(extra.find("pose_noise_m"), imported.pose_noise_m)) return;
+  if (!take_three(extra.find("rotation_noise_rad"), imported.rotation_noise_rad)) return;
+  const Json written = import_json(imported);
+  for (const auto& [key, value] : written.items()) {
+    const Json* found = extra.find(key);
+    if (found == nullptr || found->dump() != value.dump()) return;
+  }
+  for (const auto& [key, value] : written.items()) extra.erase(key);
+  info.imported = imported;
+}
+
 void take_calibrated(Json& extra, Calibration& calibration) {
   Json* found = extra.find("calibrated");
   if (found == nullptr || !found->is_object()) return;
@@ -162,7 +271,7 @@ void take_calibrated(Json& extra, Calibration& calibration) {
     CalibrationRecord& out = calibration.calibrated[kind];
     take_flag(details, "trustworthy", [&](bool flag) { out.trustworthy = flag; });
     take_text(details, "verdict", [&](std::string text) { out.verdict = std::move(text); });
-    out.details_json = details.dump_sorted();
+    out.details = std::move(details);
     found->erase(kind);
   }
   if (found->empty()) extra.erase("calibrated");
@@ -173,7 +282,7 @@ void add_calibrated(const Calibration& calibration, Json& extra) {
   Json& out = extra["calibrated"];
   if (!out.is_object()) out = Json::object();
   for (const auto& [kind, record] : calibration.calibrated) {
-    Json entry = parse_json(record.details_json);
+    Json entry = record.details;
     if (record.trustworthy) entry["trustworthy"] = *record.trustworthy;
     if (record.verdict) entry["verdict"] = *record.verdict;
     out[kind] = std::move(entry);
@@ -189,12 +298,21 @@ void take_known_extra(Json& extra, RecordingInfo& info) {
     return value == Json(false);
   });
   take_member(extra, kPose, [&](const Json& value) { return take_pose(value, info.T_mesh_world); });
+  take_simulation(extra, info);
+  take_import(extra, info);
+  take_member(extra, "replayed", [&](const Json& value) {
+    info.is_replayed = value == Json(true);
+    return info.is_replayed;
+  });
 }
 
 void add_known_extra(const RecordingInfo& info, Json& extra) {
   if (info.recorder) add_recorder(*info.recorder, extra);
   if (!info.has_force_sensor) extra["force_sensor"] = false;
   if (info.T_mesh_world) extra[kPose] = pose_list(*info.T_mesh_world);
+  if (info.simulation) add_simulation(*info.simulation, extra);
+  if (info.imported) extra.update(import_json(*info.imported));
+  if (info.is_replayed) extra["replayed"] = true;
 }
 
 void take_known_extra(Json& extra, Calibration& calibration) {
@@ -203,11 +321,26 @@ void take_known_extra(Json& extra, Calibration& calibration) {
     return value == Json(true);
   });
   take_calibrated(extra, calibration);
+  take_member(extra, kCameraCovariance, [&](const Json& value) {
+    return calibration.camera && take_camera_covariance(value, *calibration.camera);
+  });
+  take_member(extra, kNoiseModel,
+              [&](const Json& value) { return take_noise_model(value, calibration.tracker.noise_model); });
+  take_member(extra, kForce3, [&](const Json& value) { return take_force3(value, calibration.force3); });
+  take_member(extra, "tag_frame", [&](const Json& value) {
+    if (value.is_string()) calibration.tag_frame = tag_frame_of(value.text());
+    return calibration.tag_frame.has_value();
+  });
 }
 
 void add_known_extra(const Calibration& calibration, Json& extra) {
   if (calibration.uncalibrated) extra["uncalibrated"] = true;
   add_calibrated(calibration, extra);
+  if (calibration.tracker.noise_model) extra[kNoiseModel] = noise_model_json(*calibration.tracker.noise_model);
+  if (calibration.force3) extra[kForce3] = force3_json(*calibration.force3);
+  if (calibration.tag_frame) extra["tag_frame"] = name_of(*calibration.tag_frame);
+  if (calibration.camera && calibration.camera->covariance)
+    extra[kCameraCovariance] = camera_covariance_json(*calibration.camera);
 }
 
 }  // namespace asperity

@@ -94,8 +94,9 @@ TrackerCalibration read_tracker(JsonObject object) {
 
 }  // namespace
 
-Calibration parse_calibration(std::string_view text, const std::string& name, const ReadLimits& limits) {
-  const Json root = parse_json(text, name, json_limits(limits));
+Calibration parse_calibration(std::string_view text, const std::string& name, const ReadLimits& limits,
+                              const Observer& observer) {
+  const Json root = parse_json(text, name, json_limits(limits), observer.without_progress());
   JsonObject object(root, name);
   object.require_format("asperity-calibration");
   Calibration out;
@@ -121,8 +122,15 @@ Calibration parse_calibration(std::string_view text, const std::string& name, co
     take("accelerometer_rotation_sigma_rad", out.accelerometer.rotation_sigma_rad, {0.0, 4.0});
     take("probe_latency_s", out.probe_latency_s, {-10.0, 10.0});
     take("probe_latency_sigma_s", out.probe_latency_sigma_s, {0.0, 10.0});
+    const auto take3 = [&](const std::string& key, std::optional<Eigen::Vector3d>& value, Range range) {
+      value = optional_vector(*extra, key, range);
+      rest.erase(key);
+    };
+    take3("tip_sigma_m", out.tip_sigma_m, {0.0, 1.0});
+    take3("tracker_slow_sigma_m", out.tracker.slow_sigma_m, {0.0, 1.0});
+    if (extra->has("tracker_slow_time_s")) take("tracker_slow_time_s", out.tracker.slow_time_s.emplace(1.0), {1e-3, 1e6});
     take_known_extra(rest, out);
-    out.extra_json = rest.dump_sorted();
+    out.extra = std::move(rest);
   }
   object.finish();
   return out;

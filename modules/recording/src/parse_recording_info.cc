@@ -39,8 +39,9 @@ void read_probe(JsonObject object, RecordingInfo& info) {
 
 }  // namespace
 
-RecordingInfo parse_recording_info(std::string_view text, const std::string& name, const ReadLimits& limits) {
-  const Json root = parse_json(text, name, json_limits(limits));
+RecordingInfo parse_recording_info(std::string_view text, const std::string& name, const ReadLimits& limits,
+                                   const Observer& observer) {
+  const Json root = parse_json(text, name, json_limits(limits), observer.without_progress());
   JsonObject object(root, name);
   object.require_format("asperity-recording");
   RecordingInfo out;
@@ -69,7 +70,7 @@ RecordingInfo parse_recording_info(std::string_view text, const std::string& nam
   }
   Json extra = object.extra();
   take_known_extra(extra, out);
-  out.extra_json = extra.dump_sorted();
+  out.extra = std::move(extra);
   object.finish();
   return out;
 }

@@ -103,6 +103,13 @@ TrackerStream parse_tracker_csv(std::string_view text, const std::string& name, 
   const PoseColumns columns(csv);
   const auto markers = csv.find("markers");
   const auto reprojection = csv.find("reprojection_px");
+  const auto sigma_position = find3(csv, "sigma_px_m", "sigma_py_m", "sigma_pz_m");
+  const auto sigma_rotation = find3(csv, "sigma_rx_rad", "sigma_ry_rad", "sigma_rz_rad");
+  const auto noise_position = find3(csv, "noise_px_m", "noise_py_m", "noise_pz_m");
+  const auto noise_rotation = find3(csv, "noise_rx_rad", "noise_ry_rad", "noise_rz_rad");
+  const auto sigma3 = [&](const Columns3& at) -> Eigen::Vector3d {
+    return {number_or_nan(csv, at[0]), number_or_nan(csv, at[1]), number_or_nan(csv, at[2])};
+  };
 
   TrackerStream out;
   std::vector<std::uint32_t> line;
@@ -118,12 +125,17 @@ TrackerStream parse_tracker_csv(std::string_view text, const std::string& name, 
       out.markers.push_back(static_cast<int>(seen));
     }
     if (reprojection) out.reprojection_px.push_back(number_or_nan(csv, *reprojection));
+    if (sigma_position) out.sigma_position_m.push_back(sigma3(*sigma_position));
+    if (sigma_rotation) out.sigma_rotation_rad.push_back(sigma3(*sigma_rotation));
+    if (noise_position) out.noise_position_m.push_back(sigma3(*noise_position));
+    if (noise_rotation) out.noise_rotation_rad.push_back(sigma3(*noise_rotation));
     out.t_ns.push_back(*t_ns);
     line.push_back(static_cast<std::uint32_t>(csv.line()));
     out.T_world_marker.push_back(*pose);
   }
   finish_rows(csv, line, name, limits, row_problems, problems, out.t_ns, out.T_world_marker, out.markers,
-              out.reprojection_px);
+              out.reprojection_px, out.sigma_position_m, out.sigma_rotation_rad, out.noise_position_m,
+              out.noise_rotation_rad);
   return out;
 }
 

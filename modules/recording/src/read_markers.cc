@@ -1,7 +1,6 @@
 #include "asperity/recording/read_markers.h"
 
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <utility>
 
@@ -13,13 +12,14 @@
 #include "asperity/base/text.h"
 #include "asperity/json/parse_json.h"
 #include "calibration_parts.h"
+#include "camera_covariance.h"
 #include "json_limits.h"
 
 namespace asperity {
 
 namespace {
 
-constexpr std::size_t kMostMarkers = 1000;
+constexpr std::size_t kMostInFile = 1000;
 
 bool is_calibration(const Json& root) {
   return root.is_object() && root.contains("format") && root["format"] == "asperity-calibration";
@@ -28,28 +28,13 @@ bool is_calibration(const Json& root) {
 TagFrame read_tag_frame(JsonObject& object) {
   std::string text = "apriltag";
   object.read_text("tag_frame", text);
-  if (text == "apriltag") return TagFrame::kAprilTag;
-  for (const TagFrame frame : {TagFrame::kOpenCv, TagFrame::kOpenCvUpright}) {
-    if (text == name_of(frame)) return frame;
-  }
-  object.fail("tag_frame", fmt::format("'{}' is not apriltag or opencv or opencv_upright", printable(text)));
+  const auto frame = tag_frame_of(text);
+  if (!frame)
+    object.fail("tag_frame", fmt::format("'{}' is not apriltag or opencv or opencv_upright", printable(text)));
+  return *frame;
 }
 
 }  // namespace
-
-std::string_view name_of(TagFrame frame) {
-  if (frame == TagFrame::kAprilTag) return "apriltag";
-  return frame == TagFrame::kOpenCv ? "opencv" : "opencv_upright";
-}
-
-Eigen::Quaterniond R_frame_tag(TagFrame frame, std::string_view family) {
-  if (frame == TagFrame::kAprilTag) return Eigen::Quaterniond::Identity();
-  // OpenCV's frame is x right, y up, z towards the viewer, and its pictures of AprilTag's first families are turned by
-  // half a turn in their plane.
-  const bool turned = frame == TagFrame::kOpenCv &&
-                      (family == "tag36h11" || family == "tag36h10" || family == "tag25h9" || family == "tag16h5");
-  return turned ? Eigen::Quaterniond(0.0, 0.0, 1.0, 0.0) : Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
-}
 
 MarkerFile parse_markers(std::string_view text, const std::string& name, const ReadLimits& limits) {
   const Json root = parse_json(text, name, json_limits(limits));
@@ -63,11 +48,11 @@ MarkerFile parse_markers(std::string_view text, const std::string& name, const R
     object.extra();
   }
   const JsonItem markers = object.required("markers");
-  if (!markers.json().is_array() || markers.json().empty() || markers.json().size() > kMostMarkers) {
-    markers.fail(fmt::format("must be an array of 1 to {} markers", kMostMarkers));
+  if (!markers.json().is_array() || markers.json().empty() || markers.json().size() > kMostInFile) {
+    markers.fail(fmt::format("must be an array of 1 to {} markers", kMostInFile));
   }
   std::set<std::pair<std::string, int>> seen;
-  for (JsonItem& item : markers.elements(kMostMarkers)) {
+  for (JsonItem& item : markers.elements(kMostInFile)) {
     JsonObject placement(std::move(item));
     MarkerPlacement marker = read_marker_object(placement);
     if (!seen.emplace(marker.family, marker.id).second) {
@@ -100,7 +85,11 @@ CameraCalibration parse_camera(std::string_view text, const std::string& name, c
   const Json root = parse_json(text, name, json_limits(limits));
   JsonObject object(root, name);
   object.require_format("asperity-calibration");
-  return read_camera_object(object.required_object("camera"));
+  CameraCalibration out = read_camera_object(object.required_object("camera"));
+  if (const Json* extra = root.find("extra"); extra != nullptr && extra->is_object()) {
+    if (const Json* covariance = extra->find(kCameraCovariance)) take_camera_covariance(*covariance, out);
+  }
+  return out;
 }
 
 CameraCalibration read_camera(const std::filesystem::path& path, const ReadLimits& limits) {

@@ -14,33 +14,35 @@ namespace asperity {
 
 namespace fs = std::filesystem;
 
-Calibration read_calibration(const fs::path& path, const ReadLimits& limits) {
-  return parse_calibration(read_file(path, limits.json_bytes), path.string(), limits);
+Calibration read_calibration(const fs::path& path, const ReadLimits& limits, const Observer& observer) {
+  return parse_calibration(read_file(path, limits.json_bytes), path.string(), limits, observer);
 }
 
 Truth read_truth(const fs::path& path, Problems& problems, const ReadLimits& limits) {
   return parse_truth_csv(read_file(path, limits.csv_bytes), path.string(), problems, limits);
 }
 
-Recording read_probe_recording(const fs::path& folder, const ReadLimits& limits) {
+Recording read_probe_recording(const fs::path& folder, const ReadLimits& limits, const Observer& observer) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) throw Error(folder.string() + ": not a recording folder");
   const fs::path info = folder / "recording.json";
   if (!fs::exists(info, error)) throw Error(folder.string() + ": not a recording: recording.json is missing");
   Recording out;
-  out.info = parse_recording_info(read_file(info, limits.json_bytes), info.string(), limits);
+  out.info = parse_recording_info(read_file(info, limits.json_bytes), info.string(), limits, observer);
   const fs::path calibration = folder / "calibration.json";
   if (!fs::exists(calibration, error)) {
     throw Error(folder.string() + ": calibration.json is missing; counts and poses mean nothing without it");
   }
-  out.calibration = read_calibration(calibration, limits);
+  out.calibration = read_calibration(calibration, limits, observer);
+  observer.without_progress().update("read", 0.0);
   const fs::path probe = folder / "probe.csv";
   out.probe = parse_probe_csv(read_file(probe, limits.csv_bytes), probe.string(), out.problems, limits);
   return out;
 }
 
-Recording read_recording(const fs::path& folder, const ReadLimits& limits) {
-  Recording out = read_probe_recording(folder, limits);
+Recording read_recording(const fs::path& folder, const ReadLimits& limits, const Observer& observer) {
+  Recording out = read_probe_recording(folder, limits, observer);
+  observer.without_progress().update("read", 0.0);
   const fs::path tracker = folder / "tracker.csv";
   out.tracker = parse_tracker_csv(read_file(tracker, limits.csv_bytes), tracker.string(), out.problems, limits);
   const fs::path truth = folder / "truth.csv";

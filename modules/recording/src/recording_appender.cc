@@ -68,7 +68,7 @@ RecordingAppender::RecordingAppender(fs::path folder, const RecordingInfo& info,
   write_calibration(folder_ / "calibration.json", calibration);
   try {
     probe_.open_new(folder_ / "probe.csv", probe_header(columns.gyro, columns.force3));
-    tracker_.open_new(folder_ / "tracker.csv", tracker_header(columns.markers, columns.reprojection, columns.sigmas));
+    tracker_.open_new(folder_ / "tracker.csv", tracker_header(columns.markers, columns.reprojection, columns.sigmas, columns.sigmas));
   } catch (...) {
     probe_.close();
     tracker_.close();
@@ -107,6 +107,8 @@ void RecordingAppender::add(const TrackerSample& sample) {
   if (columns_.sigmas) {
     append_cells(out, sample.sigma_position_m);
     append_cells(out, sample.sigma_rotation_rad);
+    append_cells(out, sample.noise_position_m);
+    append_cells(out, sample.noise_rotation_rad);
   }
   out += '\n';
   if (out.size() >= kBatch_bytes) tracker_.write();

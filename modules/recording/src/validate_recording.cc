@@ -57,6 +57,15 @@ void validate_recording(const Recording& recording) {
   if (!tracker.reprojection_px.empty()) {
     require_length("tracker", "reprojection errors", tracker.reprojection_px.size(), tracker.size());
   }
+  if (!tracker.sigma_position_m.empty() || !tracker.sigma_rotation_rad.empty()) {
+    require_length("tracker", "standard deviations", tracker.sigma_position_m.size(), tracker.size());
+    require_length("tracker", "standard deviations", tracker.sigma_rotation_rad.size(), tracker.size());
+  }
+  if (!tracker.noise_position_m.empty() || !tracker.noise_rotation_rad.empty()) {
+    require_length("tracker", "standard deviations of one pose alone", tracker.noise_position_m.size(), tracker.size());
+    require_length("tracker", "standard deviations of one pose alone", tracker.noise_rotation_rad.size(),
+                   tracker.size());
+  }
   for (std::size_t i = 0; i < tracker.size(); ++i) {
     if (!tracker.T_world_marker[i].translation_m.allFinite()) fail("tracker", i, "its position is not finite");
     require_rotation("tracker", i, tracker.T_world_marker[i].rotation);

@@ -151,7 +151,7 @@ TEST(Inspect, OneRowOfEach) {
   validate_recording(recording);
   const Inspection inspection = inspect_recording(recording);
   EXPECT_THAT(inspection.findings, Contains(HasSubstr("single row")));
-  EXPECT_THAT(inspection_json(inspection), HasSubstr("\"median_rate_hz\": null"));
+  EXPECT_THAT(inspection_json(inspection).dump(2), HasSubstr("\"median_rate_hz\": null"));
   EXPECT_THAT(inspection_text(inspection), HasSubstr("What looks wrong"));
 }
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "asperity/base/random.h"
+#include "asperity/json/parse_json.h"
 #include "asperity/recording/recording.h"
 
 namespace asperity {
@@ -60,12 +61,19 @@ inline Calibration random_calibration(Random& random) {
   out.tip_in_marker_m = {0.001, random.normal() * 0.01, 0.12};
   out.tracker.latency_s = random.uniform(-0.1, 0.1);
   out.tracker.latency_sigma_s = 0.005;
-  if (random.chance(0.5))
-    out.camera = CameraCalibration{640, 480, 512.1, 512.2, 320.3, 240.4, {0.1, -0.2, 0.0, 1e-5, 0.3}};
+  if (random.chance(0.5)) {
+    out.camera = CameraCalibration{640, 480, 512.1, 512.2, 320.3, 240.4, {0.1, -0.2, 0.0, 1e-5, 0.3}, std::nullopt};
+    if (random.chance(0.5)) {
+      Eigen::Matrix<double, 9, 9> any;
+      for (Eigen::Index i = 0; i < any.size(); ++i) any.data()[i] = random.normal();
+      out.camera->covariance = 0.1 * any * any.transpose();
+      *out.camera->covariance = (0.5 * (*out.camera->covariance + out.camera->covariance->transpose())).eval();
+    }
+  }
   for (int i = static_cast<int>(random.bits() % 3); i > 0; --i) {
     out.markers.push_back({i, "tag36h11", 0.03, Pose{any_rotation(random), Eigen::Vector3d(0.01 * i, 0.0, 0.1)}});
   }
-  if (random.chance(0.5)) out.extra_json = R"({"a":[1,2.5,{"b":null}],"ü":"µ\"\\"})";
+  if (random.chance(0.5)) out.extra = parse_json(R"({"a":[1,2.5,{"b":null}],"ü":"µ\"\\"})");
   return out;
 }
 
@@ -98,12 +106,24 @@ inline Recording random_recording(std::uint64_t seed) {
   }
   const bool markers = random.chance(0.5);
   const bool reprojection = random.chance(0.5);
+  const bool sigmas = random.chance(0.5), noise = random.chance(0.5);
   for (std::size_t rows = 1 + random.bits() % 20; rows > 0; --rows) {
     t_ns += 1 + static_cast<std::int64_t>(random.bits() % 1'000'000'000);
     out.tracker.t_ns.push_back(t_ns);
     out.tracker.T_world_marker.push_back({any_rotation(random), 0.05 * awkward_vector(random)});
     if (markers) out.tracker.markers.push_back(static_cast<int>(random.bits() % 7));
     if (reprojection) out.tracker.reprojection_px.push_back(random.chance(0.2) ? kNan : random.uniform());
+    const auto any_sigma = [&]() -> Eigen::Vector3d {
+      return Eigen::Vector3d::Constant(random.chance(0.2) ? kNan : random.uniform());
+    };
+    if (sigmas) {
+      out.tracker.sigma_position_m.push_back(any_sigma());
+      out.tracker.sigma_rotation_rad.push_back(any_sigma());
+    }
+    if (noise) {
+      out.tracker.noise_position_m.push_back(any_sigma());
+      out.tracker.noise_rotation_rad.push_back(any_sigma());
+    }
   }
   if (random.chance(0.5)) {
     out.truth.emplace();

@@ -63,7 +63,7 @@ TEST(ReadRecording, EverythingTheFormatAllows) {
   EXPECT_THAT(recording.tracker.markers, ElementsAre(2, 1));
   EXPECT_EQ(recording.calibration.accelerometer.model, AccelerometerModel::kQuadric);
   EXPECT_EQ(recording.calibration.accelerometer.position_sigma_m, 0.02);
-  EXPECT_EQ(recording.calibration.extra_json, R"({"note":"bench 3"})");
+  EXPECT_EQ(recording.calibration.extra.dump_sorted(), R"({"note":"bench 3"})");
   EXPECT_FALSE(recording.calibration.accelerometer.rotation_known);
   EXPECT_EQ(recording.calibration.tracker.latency_s, 0.03);
   EXPECT_EQ(recording.calibration.markers.at(0).id, 7);
@@ -102,6 +102,17 @@ TEST(ReadRecording, NamesTheFileThatIsMissing) {
   EXPECT_FALSE(is_recording_folder(dir / "rec"));
   write_file(dir / "rec" / "recording.json", R"({"format":5})");
   EXPECT_FALSE(is_recording_folder(dir / "rec"));
+}
+
+TEST(ReadRecording, LongReadIsStopped) {
+  std::string text = R"({"format":"asperity-recording","version":1,"extra":{"many":[0)";
+  for (int i = 0; i < 10000; ++i) text += ",0";
+  text += "]}}";
+  EXPECT_EQ(parse_recording_info(text, "r.json").extra.at("many").size(), 10001u);
+  Observer observer;
+  observer.cancelled = [] { return true; };
+  EXPECT_THROW(parse_recording_info(text, "r.json", {}, observer), Cancelled);
+  EXPECT_THROW(read_recording(kData / "good_minimal", {}, observer), Cancelled);
 }
 
 TEST(ReadRecording, BoundsAreCheckedBeforeReading) {

@@ -44,8 +44,8 @@ TEST(Append, WhatWasDiscardedBeforeACrashIsReported) {
   const testkit::TempDir dir;
   RecordingInfo info;
   info.segments = {{"kept", 0, 50'000'000}};
-  info.extra_json =
-      R"({"recorder":{"state":"recording","discarded_until_ns":90000000,"discarded":[{"name":"spoilt","start_ns":60000000,"end_ns":90000000},7]}})";
+  info.extra = parse_json(
+      R"({"recorder":{"state":"recording","discarded_until_ns":90000000,"discarded":[{"name":"spoilt","start_ns":60000000,"end_ns":90000000},7]}})");
   {
     RecordingAppender appender(dir / "rec", info, any_calibration(), {});
     for (int i = 0; i < 400; ++i) appender.add(probe_sample(i));

@@ -81,6 +81,10 @@ void expect_same(const Calibration& a, const Calibration& b) {
     EXPECT_EQ(a.camera->fx, b.camera->fx);
     EXPECT_EQ(a.camera->cy, b.camera->cy);
     EXPECT_EQ(a.camera->distortion, b.camera->distortion);
+    ASSERT_EQ(a.camera->covariance.has_value(), b.camera->covariance.has_value());
+    if (a.camera->covariance) {
+      EXPECT_TRUE(same(*a.camera->covariance, *b.camera->covariance));
+    }
   }
   ASSERT_EQ(a.markers.size(), b.markers.size());
   for (std::size_t i = 0; i < a.markers.size(); ++i) {
@@ -89,7 +93,7 @@ void expect_same(const Calibration& a, const Calibration& b) {
     EXPECT_EQ(a.markers[i].size_m, b.markers[i].size_m);
     EXPECT_TRUE(same(a.markers[i].T_marker_tag, b.markers[i].T_marker_tag));
   }
-  EXPECT_EQ(a.extra_json, b.extra_json);
+  EXPECT_EQ(a.extra, b.extra);
 }
 
 void expect_same(const Recording& a, const Recording& b) {
@@ -109,7 +113,7 @@ void expect_same(const Recording& a, const Recording& b) {
     EXPECT_EQ(a.info.segments[i].end_ns, b.info.segments[i].end_ns);
   }
   EXPECT_EQ(a.info.problems, b.info.problems);
-  EXPECT_EQ(a.info.extra_json, b.info.extra_json);
+  EXPECT_EQ(a.info.extra, b.info.extra);
   expect_same(a.calibration, b.calibration);
   EXPECT_EQ(a.probe.t_ns, b.probe.t_ns);
   EXPECT_TRUE(same(a.probe.accel_counts, b.probe.accel_counts));
@@ -120,6 +124,10 @@ void expect_same(const Recording& a, const Recording& b) {
   EXPECT_TRUE(same(a.tracker.T_world_marker, b.tracker.T_world_marker));
   EXPECT_EQ(a.tracker.markers, b.tracker.markers);
   EXPECT_TRUE(same(a.tracker.reprojection_px, b.tracker.reprojection_px));
+  EXPECT_TRUE(same(a.tracker.sigma_position_m, b.tracker.sigma_position_m));
+  EXPECT_TRUE(same(a.tracker.sigma_rotation_rad, b.tracker.sigma_rotation_rad));
+  EXPECT_TRUE(same(a.tracker.noise_position_m, b.tracker.noise_position_m));
+  EXPECT_TRUE(same(a.tracker.noise_rotation_rad, b.tracker.noise_rotation_rad));
   ASSERT_EQ(a.truth.has_value(), b.truth.has_value());
   if (!a.truth) return;
   EXPECT_EQ(a.truth->t_ns, b.truth->t_ns);
@@ -148,6 +156,20 @@ TEST(WriteRecording, ReadsBackExactly) {
   }
 }
 
+// As values they have the numbers of the file, whole ones without a point.
+TEST(WriteRecording, CameraAndMarkersAloneAreThoseOfTheFile) {
+  int cameras = 0;
+  for (std::uint64_t seed = 1; seed <= 25; ++seed) {
+    const Calibration calibration = random_recording(seed).calibration;
+    const Json file = parse_json(format_calibration(calibration));
+    if (!calibration.camera || calibration.markers.empty()) continue;
+    EXPECT_EQ(camera_json(*calibration.camera).dump(), file.at("camera").dump());
+    EXPECT_EQ(markers_json(calibration.markers).dump(), file.at("markers").dump());
+    ++cameras;
+  }
+  EXPECT_GT(cameras, 0);
+}
+
 TEST(WriteRecording, WholeNumbersStayWhole) {
   ProbeStream probe;
   probe.t_ns = {1'000'000'000};
@@ -168,7 +190,7 @@ TEST(WriteRecording, RefusesWhatCouldNotBeRead) {
   EXPECT_THAT([&] { write_recording(dir.path(), recording); },
               testing::ThrowsMessage<Error>(testing::HasSubstr("offset_newton: inf")));
   recording = random_recording(1);
-  recording.info.extra_json = "[1]";
+  recording.info.extra = Json::array({1});
   EXPECT_THROW(write_recording(dir.path(), recording), Error);
   EXPECT_FALSE(is_recording_folder(dir.path()));
 }

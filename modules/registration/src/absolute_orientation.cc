@@ -6,6 +6,7 @@
 #include <Eigen/SVD>
 
 #include "asperity/base/error.h"
+#include "asperity/geometry/pose.h"
 
 namespace asperity {
 namespace {
@@ -13,8 +14,8 @@ namespace {
 // Below this ratio of the second to the first singular value the pairs lie on a line.
 constexpr double kCollinear = 1e-7;
 
-void check(std::span<const Eigen::Vector3d> a_m, std::span<const Eigen::Vector3d> b_m,
-           std::span<const double> weights) {
+void check_point_pairs(std::span<const Eigen::Vector3d> a_m, std::span<const Eigen::Vector3d> b_m,
+                       std::span<const double> weights) {
   if (a_m.size() != b_m.size()) {
     throw Error(fmt::format("absolute orientation: {} points against {}", a_m.size(), b_m.size()));
   }
@@ -39,7 +40,7 @@ void check(std::span<const Eigen::Vector3d> a_m, std::span<const Eigen::Vector3d
 
 AbsoluteOrientation absolute_orientation(std::span<const Eigen::Vector3d> a_m, std::span<const Eigen::Vector3d> b_m,
                                          std::span<const double> weights) {
-  check(a_m, b_m, weights);
+  check_point_pairs(a_m, b_m, weights);
   double sum = 0.0;
   Eigen::Vector3d mean_a = Eigen::Vector3d::Zero();
   Eigen::Vector3d mean_b = Eigen::Vector3d::Zero();
@@ -64,7 +65,7 @@ AbsoluteOrientation absolute_orientation(std::span<const Eigen::Vector3d> a_m, s
   out.collinear = s(1) <= kCollinear * s(0);
   if (out.collinear) {
     // The shortest turn that lays one line on the other.
-    out.T_b_a.rotation = Eigen::Quaterniond::FromTwoVectors(svd.matrixV().col(0), svd.matrixU().col(0));
+    out.T_b_a.rotation = shortest_rotation(svd.matrixV().col(0), svd.matrixU().col(0));
   } else {
     const double sign = svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0 ? -1.0 : 1.0;
     const Eigen::Matrix3d rotation =

@@ -6,7 +6,8 @@
 #include <numeric>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+
+#include "asperity/algebra/solve.h"
 
 namespace asperity::registration {
 namespace {
@@ -79,11 +80,11 @@ std::vector<std::uint32_t> by_stability(const std::vector<Match>& matches, const
     root.matrixL().solveInPlace(rows[i]);
     sum += rows[i] * rows[i].transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix6> motions(sum);
+  const Matrix6 motions = symmetric_eigen(sum).vectors;
   std::array<std::vector<std::uint32_t>, 6> order;
   for (int k = 0; k < 6; ++k) {
     std::vector<double> hold(matches.size());
-    for (std::size_t i = 0; i < matches.size(); ++i) hold[i] = std::abs(motions.eigenvectors().col(k).dot(rows[i]));
+    for (std::size_t i = 0; i < matches.size(); ++i) hold[i] = std::abs(motions.col(k).dot(rows[i]));
     auto& list = order[static_cast<std::size_t>(k)];
     list.resize(matches.size());
     std::iota(list.begin(), list.end(), 0U);
@@ -101,7 +102,7 @@ std::vector<std::uint32_t> by_stability(const std::vector<Match>& matches, const
     const std::uint32_t i = order[w][next[w]];
     taken[i] = 1;
     out.push_back(i);
-    held += (motions.eigenvectors().transpose() * rows[i]).cwiseAbs2();
+    held += (motions.transpose() * rows[i]).cwiseAbs2();
   }
   return out;
 }

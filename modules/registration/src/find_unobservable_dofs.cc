@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 
+#include "asperity/algebra/solve.h"
 #include "choose_points.h"
 
 namespace asperity::registration {
@@ -82,9 +82,9 @@ std::vector<Vector6> translations_then_rotations(const std::vector<Vector6>& mot
   Eigen::Matrix<double, 6, Eigen::Dynamic> span(6, k);
   for (Eigen::Index i = 0; i < k; ++i) span.col(i) = motions[static_cast<std::size_t>(i)];
   const Eigen::MatrixXd rotations = radius_m * span.topRows<3>();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rotations, Eigen::ComputeFullV);
+  const Eigen::MatrixXd V = singular_values(rotations, SingularVectors::kFullV).V;
   std::vector<Vector6> out;
-  for (Eigen::Index i = k - 1; i >= 0; --i) out.emplace_back(span * svd.matrixV().col(i));
+  for (Eigen::Index i = k - 1; i >= 0; --i) out.emplace_back(span * V.col(i));
   return out;
 }
 
@@ -121,7 +121,7 @@ Observability find_unobservable_dofs(const RegistrationSurface& surface, const P
   // Every point counts once, however many of them the fit used.
   const double share = static_cast<double>(points.size()) / static_cast<double>(matcher.size());
   const Matrix6 info = share * information(matcher, pose, limit_m);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(info, out.metric);
+  const SymmetricEigen motions = symmetric_eigen(info, out.metric);
   const double n = static_cast<double>(points.size());
   const double surface_m = std::hypot(config.surface_error_m, facet_sag_m(surface, matcher));
   const double noise_m = std::hypot(sigma_m, std::sqrt(n) * surface_m);
@@ -132,8 +132,8 @@ Observability find_unobservable_dofs(const RegistrationSurface& surface, const P
   SlideTest test(surface, points, rules, pose, sigma_m, config);
   const double prior = config.guess_sigma_m;
   for (int k = 0; k < 6; ++k) {
-    const Vector6 v = solver.eigenvectors().col(k);
-    const double lambda = std::max(solver.eigenvalues()(k), 0.0);
+    const Vector6 v = motions.vectors.col(k);
+    const double lambda = std::max(motions.values[k], 0.0);
     bool unobservable = false;
     double along_m = lambda > 0.0 ? sigma_m / std::sqrt(lambda) : std::numeric_limits<double>::infinity();
     if (std::sqrt(lambda / n) < clear || along_m > config.undetermined_m) {
@@ -163,7 +163,7 @@ void append_uncertain_rotations(const PathChain& chain, double limit_rad, Regist
     if (!(sigma_rad > limit_rad)) continue;
     const Eigen::Vector3d axis = solver.eigenvectors().col(k);
     const bool listed = std::any_of(result.undetermined.begin(), result.undetermined.end(), [&](const auto& other) {
-      return other.turn.norm() > 0.0 && std::abs(other.turn.normalized().dot(axis)) > 0.9;
+      return other.rotation_rad.norm() > 0.0 && std::abs(other.rotation_rad.normalized().dot(axis)) > 0.9;
     });
     if (listed) continue;
     // The shift that goes with the rotation in the data.
@@ -177,8 +177,8 @@ void append_uncertain_rotations(const PathChain& chain, double limit_rad, Regist
     const double scale = 1.0 / std::sqrt(moved_m2);
     if (!std::isfinite(scale)) continue;
     UndeterminedMotion motion;
-    motion.turn = scale * axis;
-    motion.shift = scale * shift;
+    motion.rotation_rad = scale * axis;
+    motion.shift_m = scale * shift;
     motion.centre_mesh_m = result.centre_mesh_m;
     motion.sigma_m = sigma_rad / scale;
     motion.description = fmt::format("turns about ({:.2f}, {:.2f}, {:.2f}) are known to {:.1f} degrees only", axis.x(),
@@ -190,11 +190,11 @@ void append_uncertain_rotations(const PathChain& chain, double limit_rad, Regist
 UndeterminedMotion describe_motion(const Vector6& motion, const Eigen::Vector3d& centre_m, double sigma_m,
                                    double radius_m) {
   UndeterminedMotion out;
-  out.turn = motion.head<3>();
-  out.shift = motion.tail<3>();
+  out.rotation_rad = motion.head<3>();
+  out.shift_m = motion.tail<3>();
   out.centre_mesh_m = centre_m;
   out.sigma_m = sigma_m;
-  const double turn = out.turn.norm();
+  const double rotation_rad = out.rotation_rad.norm();
   // One sense for a direction and its opposite: the largest component positive.
   const auto direction = [](const Eigen::Vector3d& a) {
     Eigen::Index largest = 0;
@@ -203,16 +203,16 @@ UndeterminedMotion describe_motion(const Vector6& motion, const Eigen::Vector3d&
     for (int k = 0; k < 3; ++k) d(k) = std::abs(d(k)) < 0.005 ? 0.0 : d(k);  // no "-0.00"
     return fmt::format("({:.2f}, {:.2f}, {:.2f})", d.x(), d.y(), d.z());
   };
-  if (turn * radius_m < 0.1 * out.shift.norm()) {
-    out.description = "slides along " + direction(out.shift);
+  if (rotation_rad * radius_m < 0.1 * out.shift_m.norm()) {
+    out.description = "slides along " + direction(out.shift_m);
     return out;
   }
-  const Eigen::Vector3d axis = out.turn / turn;
-  const Eigen::Vector3d through_m = centre_m + axis.cross(out.shift) / turn;
+  const Eigen::Vector3d axis = out.rotation_rad / rotation_rad;
+  const Eigen::Vector3d through_m = centre_m + axis.cross(out.shift_m) / rotation_rad;
   out.description = fmt::format("turns about the axis through ({:.1f}, {:.1f}, {:.1f}) mm along {}",
                                 1e3 * through_m.x(), 1e3 * through_m.y(), 1e3 * through_m.z(), direction(axis));
-  const double along_m = axis.dot(out.shift);
-  if (std::abs(along_m) > 0.1 * turn * radius_m) out.description += ", sliding along it";
+  const double along_m = axis.dot(out.shift_m);
+  if (std::abs(along_m) > 0.1 * rotation_rad * radius_m) out.description += ", sliding along it";
   return out;
 }
 

@@ -30,7 +30,7 @@ Vector6 jacobian(const Match& m, const Eigen::Vector3d& centre_m) {
 }
 
 // The plane's Hessian and gradient; the isotropic part is added from the weights' sum and the points' metric.
-Sums accumulate(const Matcher& matcher, const CentredPose& pose, double width_m) {
+Sums accumulate_sums(const Matcher& matcher, const CentredPose& pose, double width_m) {
   Sums out;
   double h[6][6] = {};
   double g[6] = {};
@@ -110,7 +110,7 @@ Fit fit_pose(Matcher& matcher, const PointSet& points, const CentredPose& start,
     }
     const double width_m = options.robust_sigmas * scale_m;
     if (options.watch != nullptr) options.watch->report(matcher, points, pose, width_m);
-    const Sums sums = accumulate(matcher, pose, width_m);
+    const Sums sums = accumulate_sums(matcher, pose, width_m);
     best.iterations = k + 1;
     if (sums.usable < 3 || !(sums.weight > 0.0)) {
       best.enough = have_best;

@@ -12,7 +12,7 @@ double robust_cost(double d_m, double width_m) {
   return std::isnan(d_m) ? 1.0 : -std::expm1(-d_m * d_m / (width_m * width_m));
 }
 
-void evaluate(ConvergedPose& out, Matcher& matcher, const RegistrationConfig& config) {
+void evaluate_pose(ConvergedPose& out, Matcher& matcher, const RegistrationConfig& config) {
   if (!out.fit.matched) matcher.match(out.pose);
   const double limit_m = config.outlier_sigmas * matcher.scale_m();
   double square = 0.0;
@@ -49,7 +49,7 @@ ConvergedPose fit_pose_fully(const RegistrationSurface& surface, const PointSet&
   out.pose = out.fit.pose;
   int iterations = out.fit.iterations;
   for (int round = 0; round < kRounds; ++round) {
-    evaluate(out, matcher, config);
+    evaluate_pose(out, matcher, config);
     out.observability = find_unobservable_dofs(surface, points, rules, matcher, out.pose, out.sigma_m, config);
     if (out.observability.held.empty() || !out.fit.enough) break;
     const Vector6 from_guess = motion_between(options.reference, out.pose);

@@ -21,7 +21,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-void check(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const std::vector<MeshPath>& paths) {
+void check_paths(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const std::vector<MeshPath>& paths) {
   if (adjacency.edge_of_triangle.size() != mesh.triangles.size())
     throw Error("haptic coordinates: the adjacency is of another mesh");
   for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -217,7 +217,7 @@ OnePath coordinates_along(const TriangleMesh& mesh, const MeshAdjacency& adjacen
                     (adjacency.edge_of_triangle[t][0] != MeshAdjacency::kNone && std::isfinite(bounds[v].distance_m));
     }
   } else {
-    grow(mesh, adjacency, config.rings, marked);
+    grow_marked(mesh, adjacency, config.rings, marked);
   }
   bounds = edge_distances(mesh, adjacency, smooth.pieces, marked, std::numeric_limits<double>::infinity());
 
@@ -276,7 +276,7 @@ double distance_mm(const OnePath& path, std::uint32_t t) {
   return std::hypot(past_mm, middle.y());
 }
 
-void report(const HapticWarp& warp, std::size_t jumps, std::size_t path, Problems& problems) {
+void append_warp_problems(const HapticWarp& warp, std::size_t jumps, std::size_t path, Problems& problems) {
   const auto add = [&](const char* kind, std::size_t count, const std::string& what) {
     if (count > 0)
       problems.push_back({kind, "path " + std::to_string(path) + ": " + std::to_string(count) + " " + what, count});
@@ -293,7 +293,7 @@ void report(const HapticWarp& warp, std::size_t jumps, std::size_t path, Problem
 
 HapticCoordinates assign_haptic_coordinates(const TriangleMesh& mesh, const MeshAdjacency& adjacency,
                                             const std::vector<MeshPath>& paths, const HapticCoordinatesConfig& config) {
-  check(mesh, adjacency, paths);
+  check_paths(mesh, adjacency, paths);
   HapticCoordinates out;
   out.triangles.assign(mesh.triangles.size(), {});
   std::vector<double> nearest_mm(mesh.triangles.size(), std::numeric_limits<double>::infinity());
@@ -314,7 +314,7 @@ HapticCoordinates assign_haptic_coordinates(const TriangleMesh& mesh, const Mesh
       nearest_mm[t] = apart_mm;
       out.triangles[t] = one.triangles[t];
     }
-    report(one.warp, one.jumps, i + 1, out.problems);
+    append_warp_problems(one.warp, one.jumps, i + 1, out.problems);
     out.warps.push_back(one.warp);
   }
   if (out.contested > 0) {

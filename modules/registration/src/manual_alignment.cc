@@ -16,15 +16,15 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 Pose align_manually(const ManualAlignment& alignment) {
   for (std::size_t k = 0; k < 3; ++k) {
-    if (!std::isfinite(alignment.shift_m[k]) || !std::isfinite(alignment.turn_deg[k])) {
+    if (!std::isfinite(alignment.shift_m[k]) || !std::isfinite(alignment.rotation_deg[k])) {
       throw Error(fmt::format("manual alignment: axis {}: shift {} m, turn {} deg is not finite", "xyz"[k],
-                              alignment.shift_m[k], alignment.turn_deg[k]));
+                              alignment.shift_m[k], alignment.rotation_deg[k]));
     }
   }
   Pose out;
   for (int k = 0; k < 3; ++k) {
-    const double turn_rad = kDegree * std::remainder(alignment.turn_deg[static_cast<std::size_t>(k)], 360.0);
-    out.rotation = out.rotation * Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::Unit(k));
+    const double rotation_rad = kDegree * std::remainder(alignment.rotation_deg[static_cast<std::size_t>(k)], 360.0);
+    out.rotation = out.rotation * Eigen::AngleAxisd(rotation_rad, Eigen::Vector3d::Unit(k));
   }
   out.translation_m = Eigen::Vector3d(alignment.shift_m[0], alignment.shift_m[1], alignment.shift_m[2]);
   return out;
@@ -37,12 +37,12 @@ ManualAlignment manual_alignment(const Pose& T_mesh_world) {
   const double cos_b = std::hypot(r(0, 0), r(0, 1));
   ManualAlignment out;
   out.shift_m = {T_mesh_world.translation_m.x(), T_mesh_world.translation_m.y(), T_mesh_world.translation_m.z()};
-  out.turn_deg[1] = std::atan2(r(0, 2), cos_b) / kDegree;
-  if (cos_b > 1e-9) {  // of 1: the turns about x and z are apart
-    out.turn_deg[0] = std::atan2(-r(1, 2), r(2, 2)) / kDegree;
-    out.turn_deg[2] = std::atan2(-r(0, 1), r(0, 0)) / kDegree;
+  out.rotation_deg[1] = std::atan2(r(0, 2), cos_b) / kDegree;
+  if (cos_b > 1e-9) {  // of 1: the rotations about x and z are apart
+    out.rotation_deg[0] = std::atan2(-r(1, 2), r(2, 2)) / kDegree;
+    out.rotation_deg[2] = std::atan2(-r(0, 1), r(0, 0)) / kDegree;
   } else {
-    out.turn_deg[0] = std::atan2(r(2, 1), r(1, 1)) / kDegree;
+    out.rotation_deg[0] = std::atan2(r(2, 1), r(1, 1)) / kDegree;
   }
   return out;
 }

@@ -24,7 +24,7 @@ std::vector<EdgeDistance> edge_distances(const TriangleMesh& mesh, const MeshAdj
     queue.push({by.distance_m, vertex});
   };
   for (const PathPiece& piece : pieces) {
-    const FlatTriangle flat = flatten(mesh, piece.triangle);
+    const FlatTriangle flat = flatten_triangle(mesh, piece.triangle);
     const Vector2d start = flat.at(piece.from);
     const Vector2d along = flat.at(piece.to) - start;
     const double square = along.squaredNorm();
@@ -54,7 +54,7 @@ std::vector<EdgeDistance> edge_distances(const TriangleMesh& mesh, const MeshAdj
   return out;
 }
 
-void grow(const TriangleMesh& mesh, const MeshAdjacency& adjacency, int rings, std::vector<bool>& marked) {
+void grow_marked(const TriangleMesh& mesh, const MeshAdjacency& adjacency, int rings, std::vector<bool>& marked) {
   std::vector<std::uint32_t> front;
   for (std::uint32_t t = 0; t < marked.size(); ++t) {
     if (marked[t]) front.push_back(t);

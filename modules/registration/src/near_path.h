@@ -24,6 +24,6 @@ std::vector<EdgeDistance> edge_distances(const TriangleMesh& mesh, const MeshAdj
                                          double limit_m);
 
 // Marks `rings` rings of triangles that share a vertex with a marked one.
-void grow(const TriangleMesh& mesh, const MeshAdjacency& adjacency, int rings, std::vector<bool>& marked);
+void grow_marked(const TriangleMesh& mesh, const MeshAdjacency& adjacency, int rings, std::vector<bool>& marked);
 
 }  // namespace asperity

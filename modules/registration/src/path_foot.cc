@@ -154,7 +154,7 @@ PathFeet::PathFeet(const TriangleMesh& mesh, const MeshAdjacency& adjacency, con
 PathFoot PathFeet::of_vertex(std::uint32_t vertex, double limit_m, double from_s_m, double to_s_m) const {
   Search search{*this, from_s_m, to_s_m, limit_m, {}, {}};
   for (const std::uint32_t triangle : adjacency_.triangles_of_vertex(vertex)) {
-    FlatTriangle flat = flatten(mesh_, triangle);
+    FlatTriangle flat = flatten_triangle(mesh_, triangle);
     const Triangle& tri = mesh_.triangles[triangle];
     const std::size_t k = tri[0] == vertex ? 0 : tri[1] == vertex ? 1 : 2;
     const Vector2d origin = flat.corner[k];
@@ -168,7 +168,7 @@ PathFoot PathFeet::of_vertex(std::uint32_t vertex, double limit_m, double from_s
 
 PathFoot PathFeet::of_point(const MeshPoint& point, double limit_m, double from_s_m, double to_s_m) const {
   Search search{*this, from_s_m, to_s_m, limit_m, {}, {}};
-  FlatTriangle flat = flatten(mesh_, point.triangle);
+  FlatTriangle flat = flatten_triangle(mesh_, point.triangle);
   const Vector2d origin = flat.at(point.barycentric);
   for (Vector2d& corner : flat.corner) corner -= origin;
   search.look(point.triangle, flat, nullptr);

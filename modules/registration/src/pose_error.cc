@@ -20,7 +20,7 @@ PoseError pose_error(const RegistrationResult& result, const Pose& true_T_mesh_w
   const auto count = static_cast<double>(p_mesh_m.size());
   PoseError out;
   out.rms_m = std::sqrt(sum_m2 / count);
-  out.turn_rad = log_rotation(error.rotation).norm();
+  out.rotation_rad = log_rotation(error.rotation).norm();
   out.sigma_m = std::sqrt(expected_m2 / count);
   out.sigma_rad = std::sqrt(result.covariance.topLeftCorner<3, 3>().trace());
   return out;

@@ -9,11 +9,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
+#include "asperity/algebra/solve.h"
 #include "find_unobservable_dofs.h"
 #include "iteration_watch.h"
 #include "path_chain.h"
@@ -44,12 +42,12 @@ constexpr double kKnown_m = 5e-3;    // a motion known to this is left free: gue
 bool is_held(const UndeterminedMotion& motion) { return !(motion.sigma_m < kKnown_m); }
 
 // Keeps the pose along motions of which the path says nothing: they are made stiff.
-void hold(Eigen::MatrixXd& information, std::span<const UndeterminedMotion> motions) {
+void hold_motions(Eigen::MatrixXd& information, std::span<const UndeterminedMotion> motions) {
   const double stiff = 1e6 * information.topLeftCorner<6, 6>().trace();
   for (const UndeterminedMotion& motion : motions) {
     if (!is_held(motion)) continue;
     Vector6 direction;
-    direction << motion.turn, motion.shift;
+    direction << motion.rotation_rad, motion.shift_m;
     if (direction.norm() > 0.0) direction.normalize();
     information.topLeftCorner<6, 6>() += stiff * direction * direction.transpose();
   }
@@ -64,8 +62,8 @@ struct Refined {
 };
 
 // Gauss–Newton with one filter, from one state.
-Refined descend(const Refinement& problem, const State& start, const Whitening& whitening,
-                std::span<const UndeterminedMotion> held, int max_iterations, IterationWatch& watch) {
+Refined descend_to_minimum(const Refinement& problem, const State& start, const Whitening& whitening,
+                           std::span<const UndeterminedMotion> held, int max_iterations, IterationWatch& watch) {
   watch.next_start();
   Refined out;
   out.state = start;
@@ -77,9 +75,9 @@ Refined descend(const Refinement& problem, const State& start, const Whitening& 
     Equations equations = problem.equations(out.state, out.heights, whitening);
     out.cost = equations.cost;
     if (equations.rows < kLeastPoints) return out;
-    hold(equations.information, held);
+    hold_motions(equations.information, held);
     out.information = equations.information;
-    const Eigen::VectorXd step = out.information.ldlt().solve(equations.right);
+    const Eigen::VectorXd step = solve_symmetric(out.information, equations.right);
     if (!step.allFinite()) return out;
     double share = 1.0;
     bool fell = false;
@@ -100,7 +98,7 @@ Refined descend(const Refinement& problem, const State& start, const Whitening& 
 
 Matrix6 pose_covariance(const Eigen::MatrixXd& information) {
   const Eigen::MatrixXd pose_columns = Eigen::MatrixXd::Identity(information.rows(), 6);
-  return information.ldlt().solve(pose_columns).topRows<6>();
+  return solve_symmetric(information, pose_columns).topRows<6>();
 }
 
 // The settings with knots far enough apart that there are not too many.
@@ -127,7 +125,7 @@ Matrix6 held_covariance(std::span<const UndeterminedMotion> motions, double gues
   for (const UndeterminedMotion& motion : motions) {
     if (!is_held(motion)) continue;
     Vector6 direction;
-    direction << motion.turn, motion.shift;
+    direction << motion.rotation_rad, motion.shift_m;
     const double sigma_m = std::min(motion.sigma_m, guess_sigma_m);
     out += sigma_m * sigma_m * direction * direction.transpose();
   }
@@ -145,7 +143,7 @@ void resolve_ambiguity(double excess, RegistrationResult& result) {
   result.verdict.resize(std::min(result.verdict.size(), result.verdict.find(" Ambiguous:")));
   result.verdict += fmt::format(
       " The next best pose, {:.2f} mm and {:.2f} degrees away, is less likely by a factor of e^{:.0f}.",
-      1e3 * result.runner_up->distance_m, result.runner_up->turn_rad * 180.0 / std::numbers::pi, 0.5 * excess);
+      1e3 * result.runner_up->distance_m, result.runner_up->rotation_rad * 180.0 / std::numbers::pi, 0.5 * excess);
 }
 
 // Where a descent ended.
@@ -165,7 +163,6 @@ void report_rival_minimum(const PathChain& chain, const std::vector<LocalMinimum
   for (const LocalMinimum& minimum : minima) lowest = std::min(lowest, minimum.cost);
   const LocalMinimum* rival = nullptr;
   double rival_m = 0.0;
-  const Eigen::LDLT<Matrix6> covariance(result.covariance);
   for (const LocalMinimum& minimum : minima) {
     if (!(minimum.cost < lowest + kNearly) || (rival != nullptr && minimum.cost >= rival->cost)) continue;
     double square_m2 = 0.0;
@@ -177,17 +174,17 @@ void report_rival_minimum(const PathChain& chain, const std::vector<LocalMinimum
     }
     const double distance_m = std::sqrt(square_m2 / static_cast<double>(std::max<std::size_t>(1, count)));
     const Vector6 change = registration::pose_change(result.T_mesh_world, minimum.T_mesh_world, result.centre_mesh_m);
-    if (distance_m < kSame_m || change.dot(covariance.solve(change)) < kSame) continue;
+    if (distance_m < kSame_m || change.dot(solve_symmetric(result.covariance, change).col(0)) < kSame) continue;
     rival = &minimum;
     rival_m = distance_m;
   }
   if (rival == nullptr) return;
-  const double turn_rad = rival->T_mesh_world.rotation.angularDistance(result.T_mesh_world.rotation);
-  result.runner_up = RunnerUp{rival->T_mesh_world, rival->rms_m, rival_m, turn_rad};
+  const double rotation_rad = rival->T_mesh_world.rotation.angularDistance(result.T_mesh_world.rotation);
+  result.runner_up = RunnerUp{rival->T_mesh_world, rival->rms_m, rival_m, rotation_rad};
   result.ambiguous = true;
   result.trustworthy = false;
   result.verdict += fmt::format(" Ambiguous: {:.2f} mm and {:.2f} degrees away it fits nearly as well ({:.4f} mm RMS).",
-                                1e3 * rival_m, turn_rad * 180.0 / std::numbers::pi, 1e3 * rival->rms_m);
+                                1e3 * rival_m, rotation_rad * 180.0 / std::numbers::pi, 1e3 * rival->rms_m);
 }
 
 }  // namespace
@@ -222,20 +219,20 @@ RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, con
   // The minimum of the start, with the relief's spectrum as it is there; then all minima with that spectrum.
   Whitening whitening = registration::make_whitening(chain, heights, order, smooth);
   if (!(whitening.variance_m2 > 0.0)) return give_up("the path lies on the mesh exactly");
-  Refined best = descend(problem, first, whitening, start.undetermined, config.max_iterations, watch);
+  Refined best = descend_to_minimum(problem, first, whitening, start.undetermined, config.max_iterations, watch);
   int iterations = best.iterations;
   std::vector<LocalMinimum> minima;  // with the first round's whitening
   for (int round = 0; round < kRounds; ++round) {
     whitening = registration::make_whitening(chain, best.heights, order, smooth);
     if (!(whitening.variance_m2 > 0.0)) return give_up("the path lies on the mesh exactly");
-    best = descend(problem, best.state, whitening, start.undetermined, config.max_iterations, watch);
+    best = descend_to_minimum(problem, best.state, whitening, start.undetermined, config.max_iterations, watch);
     iterations += best.iterations;
     if (round > 0) continue;
     minima.push_back({best.cost, best.state.T_mesh_world, best.heights.rms_m});
     for (const Pose& pose : others) {
       State other = first;
       other.T_mesh_world = pose;
-      Refined there = descend(problem, other, whitening, start.undetermined, config.max_iterations, watch);
+      Refined there = descend_to_minimum(problem, other, whitening, start.undetermined, config.max_iterations, watch);
       iterations += there.iterations;
       minima.push_back({there.cost, there.state.T_mesh_world, there.heights.rms_m});
       if (there.cost < best.cost) best = std::move(there);
@@ -252,7 +249,8 @@ RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, con
   if (start.ambiguous && start.runner_up) {
     State other = first;
     other.T_mesh_world = start.runner_up->T_mesh_world;
-    resolve_ambiguity(descend(problem, other, whitening, {}, config.max_iterations, watch).cost - best.cost, result);
+    resolve_ambiguity(descend_to_minimum(problem, other, whitening, {}, config.max_iterations, watch).cost - best.cost,
+                      result);
   }
   report_rival_minimum(chain, minima, result);
   result.verdict +=

@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "asperity/algebra/solve.h"
 #include "pose_motion.h"
 
 namespace asperity::registration {
@@ -26,7 +27,7 @@ Eigen::MatrixXd prior_precision(const PathChain& chain, const RefineConfig& conf
         correlation(a, b) = std::exp(-std::abs(static_cast<double>(a - b)) * config.knot_m / config.slow_length_m);
       }
     }
-    const Eigen::MatrixXd inverse = correlation.inverse();
+    const Eigen::MatrixXd inverse = inverse_of(correlation);
     const Eigen::Matrix3d covariance = config.slow_factor * config.slow_factor * part.covariance_m2;
     const Eigen::Matrix3d weight = covariance.inverse();
     for (Eigen::Index a = 0; a < knots; ++a) {

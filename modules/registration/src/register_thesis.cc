@@ -13,7 +13,7 @@ namespace {
 constexpr double kMostSpacings = 1e7;
 
 // The path at equal distances along its chords, its first point first.
-void resample(const MeasuredPath& path, std::size_t index, double spacing_m, std::vector<Eigen::Vector3d>& out) {
+void resample_path(const MeasuredPath& path, std::size_t index, double spacing_m, std::vector<Eigen::Vector3d>& out) {
   double length_m = 0.0;
   for (std::size_t i = 0; i < path.p_world_m.size(); ++i) {
     if (!path.p_world_m[i].allFinite()) {
@@ -41,7 +41,7 @@ void resample(const MeasuredPath& path, std::size_t index, double spacing_m, std
 RegistrationResult register_thesis(std::span<const MeasuredPath> paths, const MeshBvh& bvh, const Pose& guess,
                                    const ThesisRegistrationConfig& config) {
   std::vector<Eigen::Vector3d> world_m;
-  for (std::size_t k = 0; k < paths.size(); ++k) resample(paths[k], k, config.spacing_m, world_m);
+  for (std::size_t k = 0; k < paths.size(); ++k) resample_path(paths[k], k, config.spacing_m, world_m);
   if (world_m.size() < 3) {
     throw Error(fmt::format("registration: {} points at equal distances of {} m; three are needed", world_m.size(),
                             config.spacing_m));

@@ -72,12 +72,12 @@ void write_registration_verdict(const RegistrationFindings& findings, const Poin
     out.verdict += fmt::format(
         " Ambiguous: {:.2f} mm and {:.2f} degrees away it fits as well ({:.4f} mm RMS); the path cannot tell which is "
         "correct.",
-        1e3 * out.runner_up->distance_m, 180.0 / std::numbers::pi * out.runner_up->turn_rad,
+        1e3 * out.runner_up->distance_m, 180.0 / std::numbers::pi * out.runner_up->rotation_rad,
         1e3 * out.runner_up->rms_m);
   } else if (out.runner_up) {
     out.verdict +=
         fmt::format(" The next best pose is {:.2f} mm and {:.2f} degrees away and fits worse ({:.4f} mm RMS).",
-                    1e3 * out.runner_up->distance_m, 180.0 / std::numbers::pi * out.runner_up->turn_rad,
+                    1e3 * out.runner_up->distance_m, 180.0 / std::numbers::pi * out.runner_up->rotation_rad,
                     1e3 * out.runner_up->rms_m);
   } else if (findings.tried == TriedStarts::kAboutGuess) {
     out.verdict += fmt::format(" No other pose within {:.0f} mm and {:.0f} degrees of the guess.",

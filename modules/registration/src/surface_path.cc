@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
+#include "asperity/algebra/solve.h"
 #include "asperity/geometry/connected_point.h"
 #include "asperity/geometry/flat_triangle.h"
 #include "asperity/geometry/geodesic_path.h"
@@ -34,11 +35,12 @@ TriangleStrip strip_between(const TriangleMesh& mesh, const MeshAdjacency& adjac
   return find_strip(mesh, adjacency, from, to);
 }
 
-Development develop(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const std::vector<MeshPoint>& points) {
+Development develop_points(const TriangleMesh& mesh, const MeshAdjacency& adjacency,
+                           const std::vector<MeshPoint>& points) {
   Development out;
   out.place.reserve(points.size());
   out.triangle.reserve(points.size());
-  FlatTriangle flat = flatten(mesh, points[0].triangle);
+  FlatTriangle flat = flatten_triangle(mesh, points[0].triangle);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (i > 0 && points[i].triangle != points[i - 1].triangle) {
       const TriangleStrip strip = strip_between(mesh, adjacency, points[i - 1], points[i]);
@@ -90,11 +92,11 @@ Vector2d smoothed(const std::vector<double>& s_m, const std::vector<Vector2d>& p
     right += weight * row * (place[i] - origin).transpose();
   }
   if (!quadratic) normal(2, 2) = 1.0;
-  return origin + Vector2d(normal.completeOrthogonalDecomposition().solve(right).row(0).transpose());
+  return origin + Vector2d(least_squares(normal, right).x.row(0).transpose());
 }
 
-void join(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const MeshPoint& from, const MeshPoint& to,
-          double from_s_m, double to_s_m, SurfacePath& out) {
+void join_points(const TriangleMesh& mesh, const MeshAdjacency& adjacency, const MeshPoint& from, const MeshPoint& to,
+                 double from_s_m, double to_s_m, SurfacePath& out) {
   if (from.triangle == to.triangle) {
     out.length_m += (position_m(mesh, to) - position_m(mesh, from)).norm();
     out.pieces.push_back({from.triangle, from.barycentric, to.barycentric, from_s_m, to_s_m});
@@ -126,7 +128,7 @@ SurfacePath make_surface_path(const TriangleMesh& mesh, const MeshAdjacency& adj
   std::vector<double> s_m;
   std::vector<MeshPoint> points;
   if (half_window_m > 0.0) {
-    const Development flat = develop(mesh, adjacency, out.points);
+    const Development flat = develop_points(mesh, adjacency, out.points);
     const double length_m = path.s_m.back() - path.s_m.front();
     const auto steps = static_cast<std::size_t>(std::clamp(4.0 * length_m / edge_m, 4.0, 1e5));
     std::size_t nearest = 0;
@@ -146,7 +148,7 @@ SurfacePath make_surface_path(const TriangleMesh& mesh, const MeshAdjacency& adj
     points = out.points;
   }
   for (std::size_t i = 0; i + 1 < points.size(); ++i)
-    join(mesh, adjacency, points[i], points[i + 1], s_m[i], s_m[i + 1], out);
+    join_points(mesh, adjacency, points[i], points[i + 1], s_m[i], s_m[i + 1], out);
   // Pieces as short as rounding have no direction.
   std::erase_if(out.pieces, [&](const PathPiece& piece) {
     return (position_m(mesh, {piece.triangle, piece.to}) - position_m(mesh, {piece.triangle, piece.from})).norm() <=

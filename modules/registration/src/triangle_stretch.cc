@@ -9,7 +9,7 @@
 namespace asperity {
 
 TriangleStretch triangle_stretch(const TriangleMesh& mesh, std::uint32_t triangle, const HapticTriangle& coordinates) {
-  const FlatTriangle flat = flatten(mesh, triangle);
+  const FlatTriangle flat = flatten_triangle(mesh, triangle);
   Eigen::Matrix2d surface;
   surface << flat.corner[1] - flat.corner[0], flat.corner[2] - flat.corner[0];
   const auto& xy_mm = coordinates.xy_mm;

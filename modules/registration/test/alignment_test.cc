@@ -96,7 +96,7 @@ TEST(ManualAlignment, TurnsAboutXThenTheNewYThenTheNewZ) {
   EXPECT_LT((T.rotation.toRotationMatrix() - rx * ry * rz).norm(), 1e-14);
   EXPECT_EQ(T.translation_m, Eigen::Vector3d(1, 2, 3));
   const ManualAlignment back = manual_alignment(T);
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back.turn_deg[k], six.turn_deg[k], 1e-11);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back.rotation_deg[k], six.rotation_deg[k], 1e-11);
 }
 
 TEST(ManualAlignment, SixNumbersSurviveTheMiddleTurnOf90Degrees) {

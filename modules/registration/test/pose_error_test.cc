@@ -20,7 +20,7 @@ TEST(PoseError, OfAShiftIsItsLength) {
   const std::vector<Vector3d> points{{0.0, 0.0, 0.0}, {0.05, 0.01, 0.0}};
   const PoseError error = pose_error(result, truth, points);
   EXPECT_NEAR(error.rms_m, 5e-3, 1e-15);
-  EXPECT_NEAR(error.turn_rad, 0.0, 1e-7);  // an angle from a quaternion's rounding
+  EXPECT_NEAR(error.rotation_rad, 0.0, 1e-7);  // an angle from a quaternion's rounding
   EXPECT_NEAR(error.sigma_m, 3e-3, 1e-15);
   EXPECT_EQ(error.sigma_rad, 0.0);
 }
@@ -35,7 +35,7 @@ TEST(PoseError, OfATurnGrowsWithTheDistanceFromItsAxis) {
   const PoseError error = pose_error(result, Pose{}, std::vector<Vector3d>{{0.03, 0.0, 0.5}, {0.0, 0.04, -0.2}});
   // Chords 2 r sin(θ/2) at r = 30 and 40 mm; by the covariance 0.02 rad at 20 and at √1700 mm from the centre.
   EXPECT_NEAR(error.rms_m, 2.0 * std::sin(0.5 * kTurn) * std::sqrt((9e-4 + 16e-4) / 2.0), 1e-12);
-  EXPECT_NEAR(error.turn_rad, kTurn, 1e-12);
+  EXPECT_NEAR(error.rotation_rad, kTurn, 1e-12);
   EXPECT_NEAR(error.sigma_m, 0.02 * std::sqrt((4e-4 + 17e-4) / 2.0), 1e-12);
   EXPECT_NEAR(error.sigma_rad, 0.02, 1e-15);
 }

@@ -115,8 +115,8 @@ TEST(RegisterPath, ASphereLeavesThreeTurns) {
     ASSERT_EQ(got.result.undetermined.size(), 3U) << got.result.verdict;
     for (const auto& motion : got.result.undetermined) {
       // Each turns about the centre: the velocity there, shift + turn x (0 - mean), vanishes.
-      const Eigen::Vector3d at_centre = motion.shift - motion.turn.cross(motion.centre_mesh_m);
-      EXPECT_LT(at_centre.norm(), 0.05 * motion.turn.norm() * kRadius_m);
+      const Eigen::Vector3d at_centre = motion.shift_m - motion.rotation_rad.cross(motion.centre_mesh_m);
+      EXPECT_LT(at_centre.norm(), 0.05 * motion.rotation_rad.norm() * kRadius_m);
     }
     EXPECT_LT((got.result.T_mesh_world * Eigen::Vector3d::Zero()).norm(), 2e-4);
   }

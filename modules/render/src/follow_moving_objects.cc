@@ -5,13 +5,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-bool same(const Pose& a, const Pose& b) {
+bool is_same_pose(const Pose& a, const Pose& b) {
   return a.rotation.coeffs() == b.rotation.coeffs() && a.translation_m == b.translation_m;
 }
 
 // Goes to a place without a change of what is touched, and with the list of triangles left empty.
-void sweep(const RenderModel& model, const ProxyBall& ball, const Vector3d& goal_m, ObjectSet objects,
-           ProxyState& proxy) {
+void sweep_objects(const RenderModel& model, const ProxyBall& ball, const Vector3d& goal_m, ObjectSet objects,
+                   ProxyState& proxy) {
   const auto touches = proxy.touches;
   const std::uint32_t count = proxy.touch_count;
   const bool over_texture = proxy.over_texture;
@@ -30,7 +30,7 @@ void follow_moving_objects(const RenderModel& model, const ProxyBall& ball, Prox
   ObjectSet moving = 0, all = 0;
   for (std::size_t o = 0; o < model.objects.size(); ++o) {
     all |= ObjectSet{1} << o;
-    if (!same(model.objects[o].T_world_mesh, proxy.T_world_mesh[o])) moving |= ObjectSet{1} << o;
+    if (!is_same_pose(model.objects[o].T_world_mesh, proxy.T_world_mesh[o])) moving |= ObjectSet{1} << o;
   }
   if (moving == 0) return;
   ObjectSet in_place = all & ~moving;
@@ -48,12 +48,12 @@ void follow_moving_objects(const RenderModel& model, const ProxyBall& ball, Prox
     }
     const Vector3d before_m = proxy.p_world_m;
     proxy.p_world_m = motion * before_m;
-    if (!touched) sweep(model, ball, before_m, self, proxy);
+    if (!touched) sweep_objects(model, ball, before_m, self, proxy);
     const Vector3d pushed_m = proxy.p_world_m;
     proxy.p_world_m = before_m;
     if ((pushed_m - before_m).norm() > ball.slack_m) {
       if (in_place != 0)
-        sweep(model, ball, pushed_m, in_place, proxy);
+        sweep_objects(model, ball, pushed_m, in_place, proxy);
       else
         proxy.p_world_m = pushed_m;
     }

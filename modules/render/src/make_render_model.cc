@@ -23,18 +23,20 @@ namespace {
 
 using Eigen::Vector3d;
 
-void require(bool good, const char* what, double value) {
+void require_value(bool good, const char* what, double value) {
   if (!good) throw Error(std::string("rendering: ") + what + ": " + number_text(value));
 }
 
-void check(const RenderConfig& config) {
+void check_render_config(const RenderConfig& config) {
   const auto finite = [](double x) { return std::isfinite(x); };
-  require(finite(config.tip_radius_m) && config.tip_radius_m >= 0.0, "tip radius", config.tip_radius_m);
-  require(finite(config.stiffness_N_per_m) && config.stiffness_N_per_m > 0.0, "stiffness", config.stiffness_N_per_m);
-  require(finite(config.friction) && config.friction >= 0.0, "friction", config.friction);
-  require(finite(config.static_friction_ratio) && config.static_friction_ratio >= 1.0,
-          "static over sliding friction below 1", config.static_friction_ratio);
-  require(finite(config.border_fade_m) && config.border_fade_m >= 0.0, "fade at the border", config.border_fade_m);
+  require_value(finite(config.tip_radius_m) && config.tip_radius_m >= 0.0, "tip radius", config.tip_radius_m);
+  require_value(finite(config.stiffness_N_per_m) && config.stiffness_N_per_m > 0.0, "stiffness",
+                config.stiffness_N_per_m);
+  require_value(finite(config.friction) && config.friction >= 0.0, "friction", config.friction);
+  require_value(finite(config.static_friction_ratio) && config.static_friction_ratio >= 1.0,
+                "static over sliding friction below 1", config.static_friction_ratio);
+  require_value(finite(config.border_fade_m) && config.border_fade_m >= 0.0, "fade at the border",
+                config.border_fade_m);
 }
 
 bool is_closed(const TriangleMesh& mesh) {
@@ -221,7 +223,7 @@ RenderObject make_object(const Scene& scene, const SceneObject& object, const Re
   if (!object.material.vertices.empty() && object.material.vertices.size() != object.mesh.vertices.size())
     throw Error(std::to_string(object.material.vertices.size()) + " materials for " +
                 std::to_string(object.mesh.vertices.size()) + " vertices");
-  require(std::isfinite(object.unit_m) && object.unit_m > 0.0, "unit in metres", object.unit_m);
+  require_value(std::isfinite(object.unit_m) && object.unit_m > 0.0, "unit in metres", object.unit_m);
   if (!object.T_world_mesh.rotation.coeffs().allFinite() || !object.T_world_mesh.translation_m.allFinite())
     throw Error("its pose is not finite");
   TriangleMesh mesh = to_metres(object.mesh, object.unit_m);
@@ -256,7 +258,7 @@ RenderObject make_object(const Scene& scene, const SceneObject& object, const Re
 }  // namespace
 
 RenderModel make_render_model(const Scene& scene, const RenderConfig& config) {
-  check(config);
+  check_render_config(config);
   if (scene.objects.empty()) throw Error("rendering: a scene without objects");
   if (scene.objects.size() > ProxyState::kMostObjects)
     throw Error("rendering: " + std::to_string(scene.objects.size()) + " objects, at most " +

@@ -72,7 +72,7 @@ SeriesHeights heights_of_series(const TextureModel& series) {
 std::uint64_t texture_id(const RenderTexture& texture) {
   TextureHash hash;
   hash.add(static_cast<std::uint64_t>(texture.texture.model.index()), static_cast<std::uint64_t>(texture.model),
-           texture.seed, texture.lift_m);
+           texture.seed, texture.height_offset_m);
   std::visit([&]<class Model>(const Model& model) { ModelTraits<Model>::add_to(hash, model); }, texture.texture.model);
   return hash.value() == 0 ? 1 : hash.value();
 }
@@ -104,13 +104,13 @@ RenderTexture make_render_texture(const Texture& source, const RenderTextureConf
     TextureModel& series = result.series_of_heights ? *result.series_of_heights : result.texture.model;
     prepare_series(series, config.rate_Hz);
     const SeriesHeights heights = heights_of_series(series);
-    result.lift_m = heights.offset_m;
+    result.height_offset_m = heights.offset_m;
     result.highest_m = heights.highest_m;
     result.own_stiffness_N_per_m = heights.stiffness_N_per_m;
   } else {
-    result.lift_m = texture.lift_m.value_or(lift_m(texture.model));
-    check_finite(texture, "the lift", result.lift_m);
-    const double highest_m = highest_height_m(texture.model) + result.lift_m;
+    result.height_offset_m = texture.height_offset_m.value_or(height_offset_m(texture.model));
+    check_finite(texture, "the lift", result.height_offset_m);
+    const double highest_m = highest_height_m(texture.model) + result.height_offset_m;
     check_finite(texture, "the highest height", highest_m);
     result.highest_m = std::max(highest_m, 0.0);
   }

@@ -29,7 +29,7 @@ RenderModel model_of(const Own& own, double friction = 0.0, double scale = 1.0) 
   SceneTexture laid;
   laid.index = 3;
   laid.texture.model = Fourier1d{5.0 * scale, {0.05e-3 * scale}, {0.0}, 0.0};
-  laid.texture.lift_m = 0.05e-3 * scale;
+  laid.texture.height_offset_m = 0.05e-3 * scale;
   laid.texture.stiffness_N_per_m = own.stiffness_N_per_m;
   laid.texture.compliance_kc = own.compliance_kc;
   laid.texture.friction = own.friction;

@@ -29,7 +29,7 @@ RenderModel wavy_plane(double until_m, double friction, double kc) {
   wave.a_m = {kHeight_m};
   wave.b_m = {0.0};
   laid.texture.model = wave;
-  laid.texture.lift_m = kHeight_m;
+  laid.texture.height_offset_m = kHeight_m;
   laid.texture.compliance_kc = kc;
   scene.objects[0].textures.push_back(laid);
   MeshFile& mesh = scene.objects[0].mesh;
@@ -115,7 +115,7 @@ TEST(ProxyTexture, PullsTakeLoadOffFriction) {
   RenderTextureConfig config;
   config.model = kForceModelOf<StochasticTexture>;
   model.textures[0] = make_render_texture(texture, config);
-  std::get<StochasticTexture>(*model.textures[0].series_of_heights).lift_sigma = 0.0;
+  std::get<StochasticTexture>(*model.textures[0].series_of_heights).offset_sigmas = 0.0;
   ServoState state;
   stroke(model, state, {0.03, 0.05, 0.01}, {0.03, 0.05, -0.3e-3}, 1e-5);
   int pulls = 0;
@@ -136,7 +136,7 @@ TEST(ProxyTexture, HiddenByABareSurfaceFadesAndDoesNotClick) {
   SceneTexture laid;
   laid.index = 1;
   laid.texture.model = Fourier1d{kWave_mm, {0.0}, {0.0}, 0.0};
-  laid.texture.lift_m = 1.5e-3;
+  laid.texture.height_offset_m = 1.5e-3;
   scene.objects[0].textures.push_back(laid);
   HapticTriangle all;
   all.texture = 1;

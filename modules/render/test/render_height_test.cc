@@ -85,7 +85,7 @@ TEST(RenderHeight, OfASeriesIsItsSum) {
       const HeightAndGradient h = render_height(texture, x_m, random.uniform(-1.0, 1.0));
       const Exact e = exact(f, x_m);
       if (h.height_m == 0.0) continue;  // at the lowest point, where the table may lie below the surface
-      height = std::max(height, std::abs(static_cast<double>(h.height_m - texture.lift_m - e.height_m)));
+      height = std::max(height, std::abs(static_cast<double>(h.height_m - texture.height_offset_m - e.height_m)));
       slope = std::max(slope, std::abs(static_cast<double>(h.slope_x - e.slope)));
       EXPECT_EQ(h.slope_y, 0.0);
     }
@@ -135,7 +135,7 @@ TEST(RenderHeight, OfAProductIsTheProduct) {
     square_x += hx * hx / kPlaces;
     square_y += hy * hy / kPlaces;
     const HeightAndGradient r = render_height(texture, x_m, y_m);
-    height = std::max(height, std::abs(r.height_m - texture.lift_m - h));
+    height = std::max(height, std::abs(r.height_m - texture.height_offset_m - h));
     slope_x = std::max(slope_x, std::abs(r.slope_x - hx));
     slope_y = std::max(slope_y, std::abs(r.slope_y - hy));
   }
@@ -172,7 +172,7 @@ TEST(RenderHeight, OfImagesAndSplinesIsTheTextureModules) {
       const HeightAndGradient wanted = evaluate_height(source.model, x_m, y_m);
       const HeightAndGradient h = render_height(texture, x_m, y_m);
       if (h.height_m == 0.0) continue;
-      EXPECT_NEAR(h.height_m - texture.lift_m, wanted.height_m, 1e-15);
+      EXPECT_NEAR(h.height_m - texture.height_offset_m, wanted.height_m, 1e-15);
       EXPECT_NEAR(h.slope_x, wanted.slope_x, 1e-10);
       EXPECT_NEAR(h.slope_y, wanted.slope_y, 1e-10);
     }

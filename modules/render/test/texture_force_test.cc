@@ -16,7 +16,7 @@ namespace {
 constexpr double kAmplitude_m = 2e-4;
 constexpr double kLength_m = 5e-3;
 
-// A sine of 0.2 mm about the mean, 5 mm long: lifted, its heights are 0 to 0.4 mm.
+// A sine of 0.2 mm about the mean, 5 mm long: with its offset, its heights are 0 to 0.4 mm.
 Texture sine() {
   Texture texture;
   texture.model = Fourier1d{1e3 * kLength_m, {0.0}, {kAmplitude_m}, 0.0};
@@ -62,7 +62,7 @@ double depth_m(double x_m, double z_m) { return std::clamp(height_m(x_m) - z_m, 
 TEST(TextureForce, OfAHeightIsItsDepthTimesTheStiffness) {
   const RenderTexture texture = make_render_texture(sine(), {});
   EXPECT_EQ(texture.model, TextureForceModel::kHeight);
-  EXPECT_NEAR(texture.lift_m, kAmplitude_m, 1e-12);
+  EXPECT_NEAR(texture.height_offset_m, kAmplitude_m, 1e-12);
   EXPECT_NEAR(texture.highest_m, 2.0 * kAmplitude_m, 1e-12);
   at_all_places([&](double x_m, double z_m) {
     const Eigen::Vector3d expected(0.0, 0.0, 0.7 * 800.0 * depth_m(x_m, z_m));

@@ -48,7 +48,7 @@ TEST(HeightMapViewer, IsFeltAsBasdogansForce) {
       const ServoOutput output =
           lowered(model, 1e-3 * (corners_mm[k].x() + x_mm), 1e-3 * (corners_mm[k].y() + 10.0 - y_mm));
       const HeightAndGradient h = evaluate_height(tiles[k].model, 1e-3 * x_mm, 1e-3 * y_mm);
-      const double height_m = h.height_m + lift_m(tiles[k].model);
+      const double height_m = h.height_m + height_offset_m(tiles[k].model);
       // The image's y runs down the plane.
       const Eigen::Vector3d m = Eigen::Vector3d(-h.slope_x, h.slope_y, 1.0).normalized();
       EXPECT_NEAR((output.texture_N - 400.0 * height_m * m).norm(), 0.0, 1e-6) << k << ' ' << x_mm;

@@ -37,9 +37,9 @@ std::vector<double> values_of(const std::vector<RigStroke>& strokes, ValueOf val
 }
 
 template <class ValueOf>
-Repeated repeated(const std::vector<RigStroke>& strokes, ValueOf value_of) {
+RepeatedMeasurement repeated(const std::vector<RigStroke>& strokes, ValueOf value_of) {
   const std::vector<double> values = values_of(strokes, value_of);
-  Repeated out;
+  RepeatedMeasurement out;
   out.count = values.size();
   if (values.empty()) return out;
   out.mean = mean(values);
@@ -60,9 +60,9 @@ double traced_rq_m(const TracedSine& sine) {
   return rms(heights);
 }
 
-double figure(const TrajectoryResult& trajectory, const char* name) {
-  const auto found = trajectory.figures.find(name);
-  return found == trajectory.figures.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
+double find_metric(const TrajectoryResult& trajectory, const char* name) {
+  const auto found = trajectory.metrics.find(name);
+  return found == trajectory.metrics.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
 }
 
 // The quietest stretch counts as rest by the accelerometer alone: a noisy tracker must not hide what it reads.
@@ -78,7 +78,7 @@ double median_of(const std::vector<double>& values) {
   return values.empty() ? std::numeric_limits<double>::quiet_NaN() : median(values);
 }
 
-void summarise(RigCheck& check) {
+void summarise_strokes(RigCheck& check) {
   const std::vector<RigStroke>& strokes = check.strokes;
   const auto angle = [](const RigStroke& s) { return s.gravity_angle_rad; };
   const auto noise = [](const RigStroke& s) { return s.tracker_noise_ratio; };
@@ -100,14 +100,15 @@ void summarise(RigCheck& check) {
   check.median_noise_ratio = median_of(values_of(strokes, noise));
 }
 
-void measure(const Recording& recording, const CheckRigConfig& config, const Observer& observer, RigStroke& out) {
+void measure_stroke(const Recording& recording, const CheckRigConfig& config, const Observer& observer,
+                    RigStroke& out) {
   const ProcessResult result = process_recording(recording, config.process, observer);
   out.trustworthy = result.trustworthy;
   out.verdict = result.verdict;
-  out.latency_s = figure(result.trajectory, "latency_s") - recording.calibration.tracker.latency_s;
-  out.accel_bias_mps2 = figure(result.trajectory, "accel_bias_mps2");
-  out.tracker_noise_ratio = figure(result.trajectory, "tracker_noise_ratio");
-  out.outlying_share = figure(result.trajectory, "poses_outlying_share");
+  out.latency_s = find_metric(result.trajectory, "latency_s") - recording.calibration.tracker.latency_s;
+  out.accel_bias_mps2 = find_metric(result.trajectory, "accel_bias_mps2");
+  out.tracker_noise_ratio = find_metric(result.trajectory, "tracker_noise_ratio");
+  out.outlying_share = find_metric(result.trajectory, "poses_outlying_share");
   out.speed_mps = result.speed.mean_mps;
   if (result.roughness) out.Rq_m = result.roughness->Rq_m;
   if (!result.periodicity.periodic) {
@@ -138,14 +139,14 @@ RigCheck check_rig(std::span<const NamedRecording> strokes, const CheckRigConfig
     out.inspection = inspect_recording(stroke.recording, config.inspect);
     measure_rest(stroke.recording, config, out);
     try {
-      measure(stroke.recording, config, observer, out);
+      measure_stroke(stroke.recording, config, observer, out);
     } catch (const Cancelled&) {
       throw;
     } catch (const Error& error) {
       out.why_not = error.what();
     }
   }
-  summarise(check);
+  summarise_strokes(check);
   judge_rig(strokes, config, check);
   return check;
 }

@@ -7,18 +7,17 @@
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
-#include "asperity/json/parse_json.h"
 #include "asperity/rig/check_rig.h"
 
 namespace asperity {
 
 namespace {
 
-Json repeated_json(const Repeated& figure) {
-  return {{"count", figure.count},
-          {"mean", number_or_null(figure.mean)},
-          {"standard_deviation", number_or_null(figure.deviation)},
-          {"half_width_95", number_or_null(figure.half_width)}};
+Json repeated_json(const RepeatedMeasurement& measurement) {
+  return {{"count", measurement.count},
+          {"mean", number_or_null(measurement.mean)},
+          {"standard_deviation", number_or_null(measurement.deviation)},
+          {"half_width_95", number_or_null(measurement.half_width)}};
 }
 
 Json stroke_json(const RigStroke& stroke, const RigCheck& check) {
@@ -28,7 +27,7 @@ Json stroke_json(const RigStroke& stroke, const RigCheck& check) {
   if (!stroke.measured) out["why_not"] = stroke.why_not;
   out["trustworthy"] = stroke.trustworthy;
   out["verdict"] = stroke.verdict;
-  const GratingFigures& grating = stroke.grating;
+  const GratingMetrics& grating = stroke.grating;
   out["pitch_m"] = number_or_null(grating.pitch_m);
   out["pitch_stderr_m"] = number_or_null(grating.pitch_stderr_m);
   out["pitch_from_mean_m"] = number_or_null(grating.pitch_m - check.pitch_m.mean);
@@ -49,17 +48,18 @@ Json stroke_json(const RigStroke& stroke, const RigCheck& check) {
   out["poses_outlying_share"] = number_or_null(stroke.outlying_share);
   out["gravity_share"] = number_or_null(stroke.gravity_share);
   out["gravity_angle_rad"] = number_or_null(stroke.gravity_angle_rad);
-  out["inspection"] = parse_json(inspection_json(stroke.inspection));
+  out["inspection"] = inspection_json(stroke.inspection);
   return out;
 }
 
-std::string row(const char* name, const Repeated& figure, double scale, const char* unit, double true_value) {
-  const std::string deviation = figure.count > 1 ? fmt::format("{:.2g}", scale * figure.deviation) : "?";
-  const std::string half_width = figure.count > 1 ? fmt::format("{:.2g}", scale * figure.half_width) : "?";
-  std::string out =
-      fmt::format("{:<13} {:>9.5g} ± {:<8} {:<4} each ± {:<8}", name, scale * figure.mean, half_width, unit, deviation);
+std::string format_row(const char* name, const RepeatedMeasurement& measurement, double scale, const char* unit,
+                       double true_value) {
+  const std::string deviation = measurement.count > 1 ? fmt::format("{:.2g}", scale * measurement.deviation) : "?";
+  const std::string half_width = measurement.count > 1 ? fmt::format("{:.2g}", scale * measurement.half_width) : "?";
+  std::string out = fmt::format("{:<13} {:>9.5g} ± {:<8} {:<4} each ± {:<8}", name, scale * measurement.mean,
+                                half_width, unit, deviation);
   if (std::isfinite(true_value)) {
-    out += fmt::format("true {:.5g} ({:+.2f} %)", scale * true_value, 100.0 * (figure.mean / true_value - 1.0));
+    out += fmt::format("true {:.5g} ({:+.2f} %)", scale * true_value, 100.0 * (measurement.mean / true_value - 1.0));
   }
   while (out.ends_with(' ')) out.pop_back();
   return out + "\n";
@@ -108,7 +108,7 @@ std::string rig_check_text(const RigCheck& check, const CheckRigConfig& config) 
       out += "no profile: " + stroke.why_not + "\n";
       continue;
     }
-    const GratingFigures& grating = stroke.grating;
+    const GratingMetrics& grating = stroke.grating;
     out += fmt::format("pitch {:.4f} ± {:.4f} mm, depth {:.1f} ± {:.1f} µm, {:.0f} mm at {:.0f} mm/s\n",
                        1e3 * grating.pitch_m, 1e3 * grating.pitch_stderr_m, 1e6 * grating.depth_m,
                        1e6 * grating.depth_stderr_m, 1e3 * grating.length_m, 1e3 * stroke.speed_mps);
@@ -116,14 +116,14 @@ std::string rig_check_text(const RigCheck& check, const CheckRigConfig& config) 
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   if (check.pitch_m.count > 0) {
     out += fmt::format("mean of {} ± its 95 % interval, and one stroke's standard deviation:\n", check.pitch_m.count);
-    out += row("pitch", check.pitch_m, 1e3, "mm", config.grating.pitch_m);
-    out += row("depth", check.depth_m, 1e6, "µm", config.grating.depth_m);
-    out += row("Rq", check.Rq_m, 1e6, "µm", check.true_Rq_m);
-    out += row("shape error", check.shape_rms_m, 1e6, "µm", kUnknown);
-    out += row("correlation", check.correlation, 1.0, "", kUnknown);
-    out += row("along", check.along_rms_m, 1e6, "µm", kUnknown);
-    out += row("latency error", check.latency_s, 1e3, "ms", kUnknown);
-    out += row("gravity", check.gravity_share, 100.0, "%", kUnknown);
+    out += format_row("pitch", check.pitch_m, 1e3, "mm", config.grating.pitch_m);
+    out += format_row("depth", check.depth_m, 1e6, "µm", config.grating.depth_m);
+    out += format_row("Rq", check.Rq_m, 1e6, "µm", check.true_Rq_m);
+    out += format_row("shape error", check.shape_rms_m, 1e6, "µm", kUnknown);
+    out += format_row("correlation", check.correlation, 1.0, "", kUnknown);
+    out += format_row("along", check.along_rms_m, 1e6, "µm", kUnknown);
+    out += format_row("latency error", check.latency_s, 1e3, "ms", kUnknown);
+    out += format_row("gravity", check.gravity_share, 100.0, "%", kUnknown);
   }
   for (const std::string& remark : check.remarks) out += "note: " + remark + "\n";
   for (const RigFault& fault : check.faults) out += fault.what + "\n  " + fault.cause + "\n";

@@ -181,7 +181,7 @@ class RigJudge {
 
   void judge_latency() {
     const TrackerCalibration& tracker = strokes_.front().recording.calibration.tracker;
-    const Repeated& latency = check_.latency_s;
+    const RepeatedMeasurement& latency = check_.latency_s;
     const double sure_s = std::abs(latency.mean) - (latency.count > 1 ? latency.half_width : 0.0);
     if (sure_s > limits_.latency_s && sure_s > limits_.latency_sigmas * tracker.latency_sigma_s) {
       fault("latency",

@@ -60,7 +60,7 @@ std::vector<Wave> fit_waves(const Profile& profile, double k) {
 }
 
 void compare_shape(const Profile& profile, const TracedSine& sine, double k, const LinearFit& phase,
-                   GratingFigures& out) {
+                   GratingMetrics& out) {
   std::vector<double> measured, reference;
   measured.reserve(profile.size());
   reference.reserve(profile.size());
@@ -85,10 +85,10 @@ void compare_shape(const Profile& profile, const TracedSine& sine, double k, con
 
 }  // namespace
 
-GratingFigures measure_grating(const Profile& profile, double found_pitch_m, const SineGratingConfig& sine,
+GratingMetrics measure_grating(const Profile& profile, double found_pitch_m, const SineGratingConfig& sine,
                                double tip_radius_m) {
   const TracedSine traced(sine, tip_radius_m);
-  GratingFigures out;
+  GratingMetrics out;
   if (!(found_pitch_m > 4.0 * profile.spacing_m)) return out;
   const double k = kTwoPi / found_pitch_m;
   const std::vector<Wave> waves = fit_waves(profile, k);

@@ -96,15 +96,15 @@ TEST(MeasureGrating, FindsWhatWasPutIn) {
     profile.height_m.push_back(height_m + 1e-3 + 1e-4 * s_m);
     profile.texture_m.push_back(height_m);
   }
-  const GratingFigures figures = measure_grating(profile, 2.002e-3, sine, r_m);
-  EXPECT_NEAR(figures.pitch_m, stretch * sine.pitch_m, 1e-7);
-  EXPECT_NEAR(figures.depth_m, sine.depth_m, 2e-7);
-  EXPECT_LT(figures.along_rms_m, 1e-6);
+  const GratingMetrics metrics = measure_grating(profile, 2.002e-3, sine, r_m);
+  EXPECT_NEAR(metrics.pitch_m, stretch * sine.pitch_m, 1e-7);
+  EXPECT_NEAR(metrics.depth_m, sine.depth_m, 2e-7);
+  EXPECT_LT(metrics.along_rms_m, 1e-6);
   // Windows of the found pitch are 0.2 % short of two periods: that much of the second harmonic of 8 µm leaks.
-  EXPECT_LT(figures.shape_rms_m, 5e-7);
-  EXPECT_GT(figures.correlation, 0.99999);
-  EXPECT_NEAR(figures.length_error_m, figures.length_m * (1.0 - 1.0 / stretch), 1e-5);
-  EXPECT_GT(figures.windows, 13U);
+  EXPECT_LT(metrics.shape_rms_m, 5e-7);
+  EXPECT_GT(metrics.correlation, 0.99999);
+  EXPECT_NEAR(metrics.length_error_m, metrics.length_m * (1.0 - 1.0 / stretch), 1e-5);
+  EXPECT_GT(metrics.windows, 13U);
 
   profile.s_m.resize(300);
   profile.height_m.resize(300);

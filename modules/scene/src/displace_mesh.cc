@@ -23,7 +23,7 @@ constexpr std::uint32_t kNone = MeshAdjacency::kNone;
 
 struct Relief {
   const Texture* texture = nullptr;
-  double lift_m = 0.0;
+  double height_offset_m = 0.0;
 };
 
 // A new vertex: where it was, and the sum of the heights that its triangles give it.
@@ -70,8 +70,9 @@ class Displacer {
   void find_reliefs() {
     for (const SceneTexture& texture : object_.textures) {
       if (!is_height_field(texture.texture.model)) continue;
-      const double lift = texture.texture.lift_m ? *texture.texture.lift_m : lift_m(texture.texture.model);
-      reliefs_[texture.index] = {&texture.texture, lift};
+      const double offset_m =
+          texture.texture.height_offset_m ? *texture.texture.height_offset_m : height_offset_m(texture.texture.model);
+      reliefs_[texture.index] = {&texture.texture, offset_m};
     }
     at_border_.assign(mesh_.vertices_m.size(), false);
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -174,7 +175,8 @@ class Displacer {
     const double fade = smoothstep(1.0 - border);
     const auto& xy_mm = object_.mesh.haptic[t].xy_mm;
     const Vector2d xy_m = 1e-3 * (w[0] * xy_mm[0] + w[1] * xy_mm[1] + w[2] * xy_mm[2]);
-    return config_.gain * fade * (evaluate_height(relief.texture->model, xy_m.x(), xy_m.y()).height_m + relief.lift_m);
+    return config_.gain * fade *
+           (evaluate_height(relief.texture->model, xy_m.x(), xy_m.y()).height_m + relief.height_offset_m);
   }
 
   // A triangle without texture, its edges cut where its neighbours' are.

@@ -4,10 +4,14 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "asperity/base/error.h"
+#include "asperity/base/rounded_text.h"
 #include "asperity/base/text.h"
+#include "asperity/base/version.h"
+#include "asperity/geometry/write_gltf.h"
 #include "asperity/geometry/write_stl.h"
 #include "asperity/json/json.h"
 #include "asperity/scene/format_wav.h"
@@ -15,10 +19,36 @@
 #include "asperity/scene/write_scene.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/sample_heights.h"
-#include "export_gltf.h"
 
 namespace asperity {
 namespace {
+
+// One object as binary glTF; textures without heights are named in `problems`.
+std::string object_as_glb(const Scene& scene, const SceneObject& object, const TextureMapsConfig& images,
+                          Problems& problems) {
+  GltfExport out;
+  out.mesh = object.mesh;
+  out.unit_m = object.unit_m;
+  for (const SceneTexture& texture : object.textures) {
+    GltfTexture gltf;
+    gltf.index = texture.index;
+    gltf.name = texture.texture.name.empty() ? texture.file : texture.texture.name;
+    gltf.stiffness_N_per_m =
+        texture.texture.stiffness_N_per_m ? texture.texture.stiffness_N_per_m : scene.stiffness_N_per_m;
+    gltf.friction = texture.texture.friction ? texture.texture.friction : scene.friction;
+    if (is_height_field(texture.texture.model)) {
+      TextureMaps maps = make_texture_maps(texture.texture, images);
+      gltf.size_mm = maps.size_mm;
+      gltf.height_range_m = maps.heights.high_m - maps.heights.low_m;
+      gltf.normal_map = GltfImage{gltf.name + " normals", std::move(maps.normal_png), {}};
+      gltf.height_map = GltfImage{gltf.name + " heights", std::move(maps.height_png), {}};
+    } else {
+      problems.push_back({"not_exported", printable(texture.file) + ": a force in time has no image", 1});
+    }
+    out.textures.push_back(std::move(gltf));
+  }
+  return format_gltf(out, GltfForm::kBinary);
+}
 
 // The file's name without folder and endings; the same again gets a number.
 std::string stem_of(const std::string& file, std::set<std::string>& used) {
@@ -70,6 +100,39 @@ void add_sound(const std::string& stem, const Texture& texture, const ExportConf
   out.files.push_back({stem + ".sound.json", json_text(about)});
 }
 
+std::string mm_text(double x_m) { return rounded_text(1e3 * x_m, 5); }
+
+// What of the heights of an X3P file of that extent was measured, and what a model made of it.
+std::string measured_note(const TextureModel& model, double length_m, double width_m) {
+  const std::string begin = std::string("asperity ") + kVersion + ": ";
+  if (const auto* areal = std::get_if<ArealTexture>(&model)) {
+    const SplineGrid& g = areal->surface;
+    const double x_m = g.origin_x_m + 2.0 * g.spacing_x_m, y_m = g.origin_y_m + 2.0 * g.spacing_y_m;
+    const double to_x_m = x_m + (static_cast<double>(g.columns) - 5.0) * g.spacing_x_m;
+    const double to_y_m = y_m + (static_cast<double>(g.rows) - 5.0) * g.spacing_y_m;
+    std::string out = begin + "an areal surface fitted with points " + mm_text(g.spacing_x_m) +
+                      " mm apart. Measured: x " + mm_text(x_m) + " to " + mm_text(to_x_m) + " mm, y " + mm_text(y_m) +
+                      " to " + mm_text(to_y_m) + " mm from the first point of this file. ";
+    std::size_t gaps = 0;
+    for (std::size_t r = 2; r + 2 < g.rows; ++r)
+      for (std::size_t c = 2; c + 2 < g.columns; ++c) gaps += areal->supported[r * g.columns + c] == 0 ? 1 : 0;
+    if (gaps > 0) out += std::to_string(gaps) + " of its points have no height near and were filled smoothly. ";
+    const bool beyond = length_m > to_x_m + g.spacing_x_m || width_m > to_y_m + g.spacing_y_m;
+    return out + (beyond ? "What lies beyond was continued (border: " +
+                               std::string(kBorderNames.at(static_cast<std::size_t>(g.border))) + "), not measured."
+                         : "Nothing lies beyond.");
+  }
+  if (const auto* surface = std::get_if<Fourier2d>(&model)) {
+    if (surface->kind == Fourier2dKind::kIsotropic)
+      return begin + "a surface synthesised with the spectrum of a measured profile and random phases (seed " +
+             std::to_string(surface->isotropic.seed) + "). No height was measured where it is.";
+    return begin + "a surface made of the product of profiles along x and y. Only lines along x and y were measured.";
+  }
+  if (width_m == 0.0) return begin + "a profile by the model " + std::string(kTextureModelNames[model.index()]) + ".";
+  return begin + "a surface by the model " + std::string(kTextureModelNames[model.index()]) +
+         ". The file does not say which part of it was measured.";
+}
+
 void add_x3p(const std::string& stem, const Texture& texture, const ExportConfig& config, ExportResult& out) {
   X3pGrid grid;
   if (const auto length_mm = line_length_mm(texture.model)) {
@@ -87,6 +150,8 @@ void add_x3p(const std::string& stem, const Texture& texture, const ExportConfig
     grid.y_spacing_m = 1e-3 * maps.heights.mm_per_px_y;
     for (std::size_t i = 0; i < maps.heights.level.size(); ++i) grid.height_m.push_back(height_of(maps.heights, i));
   }
+  const double width_m = grid.rows > 1 ? grid.y_spacing_m * static_cast<double>(grid.rows) : 0.0;
+  grid.note = measured_note(texture.model, grid.x_spacing_m * static_cast<double>(grid.columns), width_m);
   out.files.push_back({stem + ".x3p", format_x3p(grid)});
 }
 

@@ -20,6 +20,13 @@ std::string axis(const char* name, const char* type, double increment_m) {
       name, type, number_text(increment_m));
 }
 
+// Without what would end a comment or the document.
+std::string comment_text(const std::string& text) {
+  std::string out;
+  for (const char c : printable(text, 1000)) out += c == '-' && !out.empty() && out.back() == '-' ? '_' : c;
+  return out;
+}
+
 }  // namespace
 
 std::string format_x3p(const X3pGrid& grid) {
@@ -38,8 +45,9 @@ std::string format_x3p(const X3pGrid& grid) {
   }
   std::string xml =
       "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"yes\"?>\n"
-      "<p:ISO5436_2 xmlns:p=\"http://www.opengps.eu/2008/ISO5436_2\">\n"
-      "  <Record1>\n    <Revision>ISO5436 - 2000</Revision>\n";
+      "<p:ISO5436_2 xmlns:p=\"http://www.opengps.eu/2008/ISO5436_2\">\n";
+  if (!grid.note.empty()) xml += "  <!-- " + comment_text(grid.note) + " -->\n";
+  xml += "  <Record1>\n    <Revision>ISO5436 - 2000</Revision>\n";
   xml += fmt::format("    <FeatureType>{}</FeatureType>\n    <Axes>\n", profile ? "PRF" : "SUR");
   xml += axis("CX", "I", grid.x_spacing_m) + axis("CY", "I", profile ? grid.x_spacing_m : grid.y_spacing_m) +
          axis("CZ", "A", 1.0) + "    </Axes>\n  </Record1>\n";

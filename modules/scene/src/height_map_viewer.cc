@@ -13,7 +13,7 @@
 namespace asperity {
 namespace {
 
-void check(const char* what, double value, bool zero_too) {
+void check_length(const char* what, double value, bool zero_too) {
   if (!std::isfinite(value) || !(zero_too ? value >= 0.0 : value > 0.0))
     throw Error(std::string("height-map viewer: ") + what + " of " + number_text(value));
 }
@@ -66,10 +66,10 @@ Grid grid_of(std::size_t tiles, const HeightMapViewerConfig& config) {
     throw Error("height-map viewer: " + std::to_string(tiles) + " tiles; 1 to " + std::to_string(kMostViewerTiles) +
                 " are possible");
   }
-  check("tiles with a side in mm", config.tile_mm, false);
-  check("a gap in mm", config.gap_mm, true);
-  check("a stiffness in N/m", config.stiffness_N_per_m, false);
-  check("a friction", config.friction, true);
+  check_length("tiles with a side in mm", config.tile_mm, false);
+  check_length("a gap in mm", config.gap_mm, true);
+  check_length("a stiffness in N/m", config.stiffness_N_per_m, false);
+  check_length("a friction", config.friction, true);
   const int count = static_cast<int>(tiles);
   if (config.columns < 0) throw Error("height-map viewer: " + std::to_string(config.columns) + " columns");
   const int wanted =

@@ -61,8 +61,8 @@ SceneObject parse_object(JsonObject& in) {
 
 }  // namespace
 
-Scene parse_scene(std::string_view text, const std::string& name) {
-  const Json json = parse_json(text, name);
+Scene parse_scene(std::string_view text, const std::string& name, const Observer& observer) {
+  const Json json = parse_json(text, name, {}, observer.without_progress());
   JsonObject root(json, name);
   root.require_format("asperity-scene");
   Scene scene;
@@ -79,7 +79,7 @@ Scene parse_scene(std::string_view text, const std::string& name) {
       object.finish();
     }
   }
-  if (root.has("extra")) scene.extra_json = root.extra().dump();
+  scene.extra = root.extra();
   root.finish();
   return scene;
 }

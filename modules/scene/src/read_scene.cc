@@ -52,7 +52,7 @@ class NamedFiles {
 };
 
 // What the mesh file says of itself, and the textures that only it knows.
-void report(const SceneObject& object, Problems& problems) {
+void append_object_problems(const SceneObject& object, Problems& problems) {
   problems.insert(problems.end(), object.mesh.problems.begin(), object.mesh.problems.end());
   std::map<int, std::size_t> unlisted;
   for (const HapticTriangle& triangle : object.mesh.haptic) {
@@ -66,10 +66,12 @@ void report(const SceneObject& object, Problems& problems) {
   }
 }
 
-void read_object(NamedFiles& files, SceneObject& object, Problems& problems) {
-  object.mesh = read_mesh(files.find(object.mesh_file));
+void read_object(NamedFiles& files, SceneObject& object, Problems& problems, const Observer& observer) {
+  observer.update("read", 0.0);
+  object.mesh = read_mesh(files.find(object.mesh_file), {}, observer);
   for (SceneTexture& texture : object.textures) {
-    texture.texture = read_texture(files.find(texture.file));
+    observer.update("read", 0.0);
+    texture.texture = read_texture(files.find(texture.file), {}, observer);
     files.count(size_bytes(texture.texture));
   }
   if (!object.material_file.empty()) {
@@ -77,7 +79,7 @@ void read_object(NamedFiles& files, SceneObject& object, Problems& problems) {
     object.material =
         parse_material_map(read_file(file, kLargestMap_bytes), printable(file.string()), object.mesh.vertices.size());
   }
-  report(object, problems);
+  append_object_problems(object, problems);
 }
 
 }  // namespace
@@ -90,19 +92,20 @@ bool stays_inside(const fs::path& name) {
   return name.native().find_first_of(std::string_view("\0\\", 2)) == fs::path::string_type::npos;
 }
 
-Scene read_scene(const fs::path& path, std::uint64_t limit_bytes) {
+Scene read_scene(const fs::path& path, const Observer& observer, std::uint64_t limit_bytes) {
+  const Observer asked = observer.without_progress();
   Scene scene;
   if (path.extension() != ".json") {
     SceneObject object;
     object.mesh_file = path.filename().string();
-    object.mesh = read_mesh(path);
-    report(object, scene.problems);
+    object.mesh = read_mesh(path, {}, asked);
+    append_object_problems(object, scene.problems);
     scene.objects.push_back(std::move(object));
     return scene;
   }
-  scene = parse_scene(read_file(path, kLargestScene_bytes), printable(path.string()));
+  scene = parse_scene(read_file(path, kLargestScene_bytes), printable(path.string()), asked);
   NamedFiles files(path, limit_bytes);
-  for (SceneObject& object : scene.objects) read_object(files, object, scene.problems);
+  for (SceneObject& object : scene.objects) read_object(files, object, scene.problems, asked);
   return scene;
 }
 

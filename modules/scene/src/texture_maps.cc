@@ -43,8 +43,8 @@ std::string format_normal_png(const HeightMap& heights) {
   };
   for (std::size_t row = 0; row < heights.rows; ++row) {
     for (std::size_t column = 0; column < heights.columns; ++column) {
-      const HeightAndGradient g = evaluate(heights, 1e-3 * heights.mm_per_px_x * static_cast<double>(column),
-                                           1e-3 * heights.mm_per_px_y * static_cast<double>(row));
+      const HeightAndGradient g = evaluate_height(heights, 1e-3 * heights.mm_per_px_x * static_cast<double>(column),
+                                                  1e-3 * heights.mm_per_px_y * static_cast<double>(row));
       const double scale = 1.0 / std::sqrt(1.0 + g.slope_x * g.slope_x + g.slope_y * g.slope_y);
       encode(-g.slope_x * scale);
       encode(g.slope_y * scale);

@@ -9,7 +9,6 @@
 #include "asperity/base/text.h"
 #include "asperity/geometry/write_mtl.h"
 #include "asperity/geometry/write_obj.h"
-#include "asperity/json/parse_json.h"
 #include "asperity/scene/read_scene.h"
 #include "asperity/texture/texture_file.h"
 
@@ -74,9 +73,8 @@ std::string format_scene(const Scene& scene) {
     add_object(object, scene.objects[i]);
     out["objects"].push_back(object);
   }
-  const Json extra = parse_json_or_null(scene.extra_json);
-  if (!extra.is_object()) throw Error("scene: extra_json is not a JSON object");
-  if (!extra.empty()) out["extra"] = extra;
+  if (!scene.extra.is_object()) throw Error("scene: extra is not an object: " + shown(scene.extra));
+  if (!scene.extra.empty()) out["extra"] = scene.extra;
   return out.dump(2) + "\n";
 }
 

@@ -19,6 +19,8 @@
 #include "asperity/scene/paint.h"
 #include "asperity/scene/texture_maps.h"
 #include "asperity/testkit/shape_meshes.h"
+#include "asperity/texture/fit_areal.h"
+#include "asperity/texture/fit_fourier2d.h"
 
 namespace asperity {
 namespace {
@@ -165,6 +167,11 @@ TEST(FormatX3p, SumsAreThoseOfMd5) {
   EXPECT_THAT(members.at("main.xml"), testing::HasSubstr("<FeatureType>PRF</FeatureType>"));
 }
 
+TEST(FormatX3p, HoldsItsNoteAsAComment) {
+  const auto members = unzip(format_x3p({1, 1, 1e-5, 0.0, {0.0}, "measured -- half -->"}));
+  EXPECT_THAT(members.at("main.xml"), testing::HasSubstr("<!-- measured -_ half -_> -->"));
+}
+
 TEST(FormatX3p, RefusesWhatIsNoGrid) {
   EXPECT_THROW(format_x3p({2, 2, 1e-5, 1e-5, {0.0}}), Error);
   EXPECT_THROW(format_x3p({1, 1, 0.0, 1e-5, {0.0}}), Error);
@@ -202,6 +209,24 @@ TEST(ExportScene, NamesFilesAfterMeshesAndTextures) {
               ElementsAre("cosine.height.png", "cosine.normal.png", "cosine.images.json"));
   EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kWav)), ElementsAre("cosine.wav", "cosine.sound.json"));
   EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kX3p)), ElementsAre("cosine.x3p"));
+}
+
+// An areal surface of 3 mm x 2 mm in a file of 10 mm: what was measured, and what the border made.
+TEST(ExportScene, X3pSaysWhatWasMeasured) {
+  Scene scene = painted_scene();
+  std::vector<ArealSample> samples;
+  for (int r = 0; r <= 20; ++r)
+    for (int c = 0; c <= 30; ++c) samples.push_back({1e-4 * c, 1e-4 * r, 1e-6 * std::sin(0.3 * c + 0.2 * r)});
+  scene.objects[0].textures[0].texture.model = fit_areal(samples).texture;
+  auto members = unzip(export_scene(scene, ExportFormat::kX3p).files.front().content);
+  EXPECT_THAT(members.at("main.xml"),
+              testing::HasSubstr("points 0.1 mm apart. Measured: x 0 to 3 mm, y 0 to 2 mm from the first point of this "
+                                 "file. What lies beyond was continued (border: mirror), not measured."));
+  const Fourier1d profile{10.0, {0.0, 0.0, 0.0, 1e-4}, {0.0, 0.0, 0.0, 0.0}, 0.0};
+  scene.objects[0].textures[0].texture.model = fit_fourier2d(profile, profile).texture;
+  members = unzip(export_scene(scene, ExportFormat::kX3p).files.front().content);
+  EXPECT_THAT(members.at("main.xml"),
+              testing::HasSubstr("random phases (seed 0). No height was measured where it is."));
 }
 
 TEST(ExportScene, TwoTexturesOfOneNameDoNotShareAFile) {

@@ -136,6 +136,21 @@ INSTANTIATE_TEST_SUITE_P(
 "mesh":"n.obj"})",
               "scene.json:2:1: key 'mesh' appears twice"}));
 
+TEST(Scene, LongReadIsStopped) {
+  const testkit::TempDir folder;
+  write_scene(folder.path() / "scene.json", plane_scene());
+  std::size_t asked = 0;
+  Observer observer;
+  observer.cancelled = [&asked] {
+    ++asked;
+    return false;
+  };
+  read_scene(folder.path() / "scene.json", observer);
+  EXPECT_GE(asked, 2u);  // before the mesh, and before each texture
+  observer.cancelled = [] { return true; };
+  EXPECT_THROW(read_scene(folder.path() / "scene.json", observer), Cancelled);
+}
+
 TEST(Scene, NestedTooDeepIsRefused) {
   const testkit::TempDir folder;
   write_file(folder.path() / "scene.json", std::string(100000, '['));
@@ -237,7 +252,7 @@ TEST(Scene, OneImageTakenHundredsOfTimesIsRefused) {
   }
   write_file(folder.path() / "scene.json", scene + "]}");
   constexpr std::uint64_t kFive_bytes = 5 * 2 * 2048 * 2048;
-  EXPECT_THAT([&] { read_scene(folder.path() / "scene.json", kFive_bytes); },
+  EXPECT_THAT([&] { read_scene(folder.path() / "scene.json", {}, kFive_bytes); },
               ThrowsMessage<Error>(HasSubstr("take more than")));
   EXPECT_EQ(read_scene(folder.path() / "scene.json").objects[0].textures.size(), 10u);
 }

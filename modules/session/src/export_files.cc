@@ -13,22 +13,22 @@
 namespace asperity {
 
 namespace fs = std::filesystem;
-Scene read_export_source(const fs::path& path) {
-  const auto texture_alone = [](const fs::path& file) {
+Scene read_export_source(const fs::path& path, const Observer& observer) {
+  const auto texture_alone = [&observer](const fs::path& file) {
     Scene scene;
     SceneObject object;
-    object.textures.push_back({1, file.filename().string(), read_texture(file)});
+    object.textures.push_back({1, file.filename().string(), read_texture(file, {}, observer)});
     scene.objects.push_back(std::move(object));
     return scene;
   };
   if (fs::is_directory(path)) {
-    if (fs::exists(path / "scene.json")) return read_scene(path / "scene.json");
+    if (fs::exists(path / "scene.json")) return read_scene(path / "scene.json", observer);
     if (fs::exists(path / "texture.json")) return texture_alone(path / "texture.json");
     throw Error(printable(path.string(), 200) + ": holds neither scene.json nor texture.json");
   }
   const std::string name = path.filename().string();
   if (name == "texture.json" || name.ends_with(".texture.json")) return texture_alone(path);
-  return read_scene(path);
+  return read_scene(path, observer);
 }
 
 Json write_export(const fs::path& folder, const ExportResult& result) {

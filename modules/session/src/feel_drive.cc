@@ -25,7 +25,7 @@ FeelDrive repeat_recording(const std::string& folder, const Scene& scene, const 
   if (!fs::exists(fs::path(folder) / "recording.json") && fs::exists(fs::path(folder) / "trajectory.csv")) {
     throw Error(printable(folder, 200) + ": a result, not a recording; its trajectory.csv can be felt with --mapped");
   }
-  const Recording recording = read_recording(folder);
+  const Recording recording = read_recording(folder, {}, observer);
   FeelDrive out;
   try {
     ScanDrive scan;

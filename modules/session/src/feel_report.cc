@@ -24,14 +24,14 @@ Json spectrum_json(const SpectrumAgreement& spectrum, const char* unit) {
                               {std::string("real_rms_") + unit, band.real_rms},
                               {std::string("rendered_rms_") + unit, band.rendered_rms},
                               {"difference_dB", band.difference_dB},
-                              {"felt", band.felt}});
+                              {"felt", band.is_compared}});
   }
   return out;
 }
 
 }  // namespace
 
-void FeelFigures::add(const ServoTick& tick) {
+void FeelStatistics::add(const ServoTick& tick) {
   const ServoOutput& output = tick.output;
   ++ticks_;
   sticking_ += output.sticking ? 1 : 0;
@@ -51,14 +51,14 @@ void FeelFigures::add(const ServoTick& tick) {
   highest_m_ = std::max(highest_m_, output.texture_height_m);
 }
 
-std::size_t FeelFigures::caused(SafetyCause cause) const {
+std::size_t FeelStatistics::caused(SafetyCause cause) const {
   for (std::size_t k = 0; k < causes_.size(); ++k) {
     if (flag(cause) == 1U << k) return causes_[k];
   }
   return 0;
 }
 
-Json FeelFigures::json() const {
+Json FeelStatistics::json() const {
   const double count = std::max<double>(1.0, static_cast<double>(ticks_));
   Json out;
   out["ticks"] = ticks_;
@@ -78,7 +78,7 @@ Json FeelFigures::json() const {
   return out;
 }
 
-std::string FeelFigures::text() const {
+std::string FeelStatistics::text() const {
   const double count = std::max<double>(1.0, static_cast<double>(ticks_));
   std::string out = fmt::format("force      peak {:.3f} N, RMS {:.3f} N; to the hand at most {:.3f} N\n", peak_N_,
                                 std::sqrt(square_N2_ / count), peak_out_N_);
@@ -101,7 +101,7 @@ Json score_json(const RenderingScore& score) {
   out["speed_mps"] = score.speed_mps;
   out["compared_m"] = number_or_null(score.compared_m);
   out["ticks"] = score.ticks;
-  out["touched"] = score.touched;
+  out["touched"] = score.contact_fraction;
   out["phase_known"] = score.phase_known;
   if (!score.phase_known) out["phase_unknown"] = score.phase_unknown;
   out["correlation"] = number_or_null(score.correlation);

@@ -50,17 +50,17 @@ void place_device(const RenderModel& model, const DeviceInfo& info, DeviceFrame&
 
 }  // namespace
 
-Scene read_felt_scene(SceneInput& input, FeelSettings& settings) {
+Scene read_scene_input(SceneInput& input, FeelSettings& settings, const Observer& observer) {
   if (!input.height_maps.empty()) return read_height_maps(input, settings);
   fs::path path(input.scene);
   if (fs::is_directory(path)) path /= "scene.json";
-  Scene scene = read_scene(path);
+  Scene scene = read_scene(path, observer);
   if (input.mesh_unit_m) set_mesh_unit(scene, path, *input.mesh_unit_m);
   return scene;
 }
 
-FeltModel make_felt_model(const Scene& scene, const DeviceInfo& device, bool driven, FeelSettings& settings) {
-  FeltModel out;
+PreparedModel prepare_render_model(const Scene& scene, const DeviceInfo& device, bool driven, FeelSettings& settings) {
+  PreparedModel out;
   const RenderConfig config = settings.render_config();
   if (driven) {
     out.model = std::make_unique<const RenderModel>(make_render_model(scene, config));

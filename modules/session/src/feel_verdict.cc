@@ -28,18 +28,18 @@ std::string nearest(const FeelDrive& drive, const RenderModel& model) {
 
 }  // namespace
 
-RunVerdict judge_run(const FeelFigures& figures, const ServoResult& servo, const HapticDevice& device,
+RunVerdict judge_run(const FeelStatistics& statistics, const ServoResult& servo, const HapticDevice& device,
                      const FeelDrive& drive, const RenderModel& model, const SafetyConfig& safety) {
   RunVerdict out;
-  const auto ticks = [&](SafetyCause cause) { return figures.caused(cause); };
-  if (servo.end == ServoEnd::kFault) out.doubts.push_back("the device has a fault: " + printable(device.fault(), 300));
+  const auto ticks = [&](SafetyCause cause) { return statistics.caused(cause); };
+  if (servo.end == ServoEnd::kFault) out.reasons.push_back("the device has a fault: " + printable(device.fault(), 300));
   if (ticks(SafetyCause::kNonFinite) > 0) {
-    out.doubts.push_back(fmt::format("the force was ramped to zero: {} ticks had numbers that are not finite",
-                                     ticks(SafetyCause::kNonFinite)));
+    out.reasons.push_back(fmt::format("the force was ramped to zero: {} ticks had numbers that are not finite",
+                                      ticks(SafetyCause::kNonFinite)));
   }
   if (ticks(SafetyCause::kStale) > 0) {
-    out.doubts.push_back(fmt::format("the force was ramped to zero: for {} ticks there was no news from the device",
-                                     ticks(SafetyCause::kStale)));
+    out.reasons.push_back(fmt::format("the force was ramped to zero: for {} ticks there was no news from the device",
+                                      ticks(SafetyCause::kStale)));
   }
   if (ticks(SafetyCause::kForceLimit) > 0) {
     out.warnings.push_back(
@@ -52,11 +52,12 @@ RunVerdict judge_run(const FeelFigures& figures, const ServoResult& servo, const
   if (servo.statistics.lost_ticks > 0) {
     out.warnings.push_back(fmt::format("{} ticks are missing in the log", servo.statistics.lost_ticks));
   }
-  if (figures.starting_inside() > 0) {
-    out.warnings.push_back(fmt::format(
-        "the point started inside an object: no force for {} ticks, until it had left it", figures.starting_inside()));
+  if (statistics.starting_inside() > 0) {
+    out.warnings.push_back(
+        fmt::format("the point started inside an object: no force for {} ticks, until it had left it",
+                    statistics.starting_inside()));
   }
-  if (figures.touching() == 0 && figures.ticks() > 0)
+  if (statistics.touching() == 0 && statistics.ticks() > 0)
     out.warnings.push_back("nothing was touched" + nearest(drive, model));
   return out;
 }

@@ -5,7 +5,6 @@
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
-#include "asperity/json/parse_json.h"
 #include "asperity/recording/format_recording.h"
 #include "asperity/recording/write_recording.h"
 
@@ -18,9 +17,10 @@ LiveScan::LiveScan(const Recording& recording, const SimulatedProbeConfig& probe
       config_(config),
       bench_(recording, probe, config, folder_) {
   write_calibration(folder_ / "calibration.json", recording.calibration);
-  const Json all = parse_json(format_calibration(recording.calibration));
-  write_file(folder_ / "camera.json", Json{{"camera", all.at("camera")}}.dump(1) + "\n");
-  write_file(folder_ / "markers.json", Json{{"markers", all.at("markers")}}.dump(1) + "\n");
+  const Calibration& calibration = recording.calibration;
+  if (!calibration.camera || calibration.markers.empty()) throw Error("the recording has no camera with markers");
+  write_file(folder_ / "camera.json", Json{{"camera", camera_json(*calibration.camera)}}.dump(1) + "\n");
+  write_file(folder_ / "markers.json", Json{{"markers", markers_json(calibration.markers)}}.dump(1) + "\n");
 }
 
 Json LiveScan::announcement() const {

@@ -37,8 +37,8 @@ bool is_taken(const Scene& scene, int index, const std::string& name) {
 
 }  // namespace
 
-Scene read_painted_scene(const fs::path& file, std::optional<double> unit_m) {
-  Scene scene = read_scene(file);
+Scene read_painted_scene(const fs::path& file, std::optional<double> unit_m, const Observer& observer) {
+  Scene scene = read_scene(file, observer);
   SceneObject& object = scene.objects.front();
   if (unit_m) set_mesh_unit(scene, file, *unit_m);
   for (SceneObject& each : scene.objects) {
@@ -49,10 +49,10 @@ Scene read_painted_scene(const fs::path& file, std::optional<double> unit_m) {
   return scene;
 }
 
-SceneTexture choose_texture(const Scene& scene, const fs::path& file, int index) {
+SceneTexture choose_texture(const Scene& scene, const fs::path& file, int index, const Observer& observer) {
   SceneTexture out;
   out.index = index >= 0 ? index : next_index(scene.objects.front());
-  out.texture = read_texture(file);
+  out.texture = read_texture(file, {}, observer);
   out.file = file.filename().string();
   for (int n = out.index; is_taken(scene, out.index, out.file); ++n) {
     out.file = fmt::format("{}-{}", n, file.filename().string());

@@ -10,7 +10,6 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/camera/open_camera.h"
-#include "asperity/json/parse_json.h"
 #include "asperity/link/capture_to_file.h"
 #include "asperity/link/probe_address.h"
 #include "asperity/link/probe_link.h"
@@ -79,8 +78,7 @@ std::optional<Calibration> read_record_calibration(const RecordInput& input) {
   if (input.markers.empty() && out.markers.empty()) return out;
   out.markers = read_markers(markers).markers;
   // They are now in terms of our tag frame, whatever the file had declared.
-  auto extra = parse_json_or_null(out.extra_json);
-  if (extra.is_object() && extra.erase("tag_frame") > 0) out.extra_json = extra.dump_sorted();
+  out.tag_frame.reset();
   return out;
 }
 

@@ -84,7 +84,7 @@ LiveRecording record_live(const Recording& scan, const SimulatedProbeConfig& pro
       info.created = scan.info.created;
       info.object = scan.info.object;
       info.gravity_world_mps2 = scan.info.gravity_world_mps2;
-      info.extra_json = "{\"simulation\":{\"live\":true}}";
+      info.simulation.emplace().is_live = true;
       Recorder recorder(folder, info, calibration, std::move(sensors), settings);
       // The camera's end comes when the tracker has worked off its last frame, also on a machine that is too slow.
       while (!played || !has_ended(recorder.snapshot().poses)) {
@@ -109,12 +109,12 @@ LiveRecording record_live(const Recording& scan, const SimulatedProbeConfig& pro
   return out;
 }
 
-HeardProbe through_link(const Recording& recording, const SimulatedProbeConfig& probe) {
+ReceivedProbe through_link(const Recording& recording, const SimulatedProbeConfig& probe) {
   const std::unique_ptr<ProbeDecoder> decoder = make_probe_decoder(protocol_of(probe));
   std::vector<ProbeSample> samples;
   for (const ProbeBytes& arrived : send_recording(recording, probe))
     decoder->push(arrived.bytes, arrived.t_ns, samples);
-  HeardProbe out{recording, decoder->description().value_or(ProbeDescription{})};
+  ReceivedProbe out{recording, decoder->description().value_or(ProbeDescription{})};
   ProbeStream& probe_rows = out.recording.probe;
   probe_rows = {};
   for (const ProbeSample& sample : samples) {
@@ -138,6 +138,11 @@ TrackerStream track_frames(BenchCamera& camera, BodyTracker& tracker, const Obse
     out.T_world_marker.push_back(pose->sample.T_world_marker);
     out.markers.push_back(pose->sample.markers);
     out.reprojection_px.push_back(pose->sample.reprojection_px);
+    const TrackerSample row = with_sigmas(*pose);
+    out.sigma_position_m.push_back(row.sigma_position_m);
+    out.sigma_rotation_rad.push_back(row.sigma_rotation_rad);
+    out.noise_position_m.push_back(row.noise_position_m);
+    out.noise_rotation_rad.push_back(row.noise_rotation_rad);
   }
   return out;
 }

@@ -25,11 +25,11 @@ std::string scan_name(const std::string& path) {
   return fs::is_directory(path) ? whole.filename().string() : whole.stem().string();
 }
 
-Scan read_scan(const std::string& path) {
+Scan read_scan(const std::string& path, const Observer& observer) {
   Scan scan;
   scan.name = scan_name(path);
   if (fs::is_directory(path)) {
-    scan.recording = read_recording(path);
+    scan.recording = read_recording(path, {}, observer);
   } else {
     scan.path = read_path(path);
   }
@@ -65,14 +65,14 @@ void check_register_input(const std::vector<std::string>& scans, const std::vect
 }
 
 RegisterInput read_register_input(const std::vector<std::string>& scans, const std::string& mesh, double unit_m,
-                                  const std::vector<std::string>& textures) {
+                                  const std::vector<std::string>& textures, const Observer& observer) {
   check_register_input(scans, textures);
   RegisterInput out;
-  out.mesh = read_mesh(mesh);
+  out.mesh = read_mesh(mesh, {}, observer);
   out.unit_m = unit_m;
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    Scan& scan = out.scans.emplace_back(read_scan(scans[i]));
-    if (!textures.empty()) scan.texture = read_texture(textures[textures.size() == 1 ? 0 : i]);
+    Scan& scan = out.scans.emplace_back(read_scan(scans[i], observer));
+    if (!textures.empty()) scan.texture = read_texture(textures[textures.size() == 1 ? 0 : i], {}, observer);
   }
   return out;
 }

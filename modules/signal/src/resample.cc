@@ -50,7 +50,7 @@ std::vector<double> interpolate_rising(std::span<const double> t, std::span<cons
 }
 
 template <class Time>
-std::vector<double> bridge(std::span<const double> x, Time t) {
+std::vector<double> bridge_gaps(std::span<const double> x, Time t) {
   std::vector<double> out(x.begin(), x.end());
   std::size_t next = 0;  // first index not yet looked at
   while (next < x.size()) {
@@ -130,11 +130,11 @@ std::vector<double> interval_means(std::span<const double> t, std::span<const do
 
 std::vector<double> bridge_gaps(std::span<const double> t, std::span<const double> x) {
   check_samples(t, x);
-  return bridge(x, [=](std::size_t i) { return t[i]; });
+  return bridge_gaps(x, [=](std::size_t i) { return t[i]; });
 }
 
 std::vector<double> bridge_gaps(std::span<const double> x) {
-  return bridge(x, [](std::size_t i) { return static_cast<double>(i); });
+  return bridge_gaps(x, [](std::size_t i) { return static_cast<double>(i); });
 }
 
 }  // namespace asperity

@@ -13,7 +13,7 @@
 namespace asperity {
 namespace {
 
-void need(std::span<const double> x, std::size_t count, const char* what) {
+void require_count(std::span<const double> x, std::size_t count, const char* what) {
   if (x.size() < count) {
     throw Error(std::string(what) + " needs at least " + std::to_string(count) + " samples, not " +
                 std::to_string(x.size()));
@@ -21,7 +21,7 @@ void need(std::span<const double> x, std::size_t count, const char* what) {
 }
 
 void check_pair(std::span<const double> x, std::span<const double> y, const char* what) {
-  need(x, 2, what);
+  require_count(x, 2, what);
   if (x.size() != y.size()) {
     throw Error(std::string(what) + ": " + std::to_string(x.size()) + " and " + std::to_string(y.size()) + " samples");
   }
@@ -49,12 +49,12 @@ Moments moments(std::span<const double> x, std::span<const double> y) {
 }  // namespace
 
 double mean(std::span<const double> x) {
-  need(x, 1, "mean");
+  require_count(x, 1, "mean");
   return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
 }
 
 double variance(std::span<const double> x) {
-  need(x, 2, "variance");
+  require_count(x, 2, "variance");
   const double centre = mean(x);
   double sum = 0.0;
   for (const double v : x) sum += (v - centre) * (v - centre);
@@ -64,14 +64,14 @@ double variance(std::span<const double> x) {
 double standard_deviation(std::span<const double> x) { return std::sqrt(variance(x)); }
 
 double rms(std::span<const double> x) {
-  need(x, 1, "root mean square");
+  require_count(x, 1, "root mean square");
   return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0) / static_cast<double>(x.size()));
 }
 
 double median(std::span<const double> x) { return percentile(x, 50.0); }
 
 double percentile(std::span<const double> x, double percent) {
-  need(x, 1, "percentile");
+  require_count(x, 1, "percentile");
   if (!(percent >= 0.0 && percent <= 100.0)) throw Error("percentile " + number_text(percent) + " is not in 0 to 100");
   std::vector<double> copy(x.begin(), x.end());
   const double place = percent / 100.0 * static_cast<double>(copy.size() - 1);

@@ -22,7 +22,7 @@ std::vector<double> cosine(std::size_t n, double cycles_per_sample) {
 }
 
 // Amplitude and phase over the middle half, which must hold whole periods.
-std::complex<double> measure(const std::vector<double>& y, double cycles_per_sample) {
+std::complex<double> measure_response(const std::vector<double>& y, double cycles_per_sample) {
   const std::size_t n = y.size() / 2;
   std::complex<double> sum = 0.0;
   for (std::size_t i = n / 2; i < n / 2 + n; ++i) {
@@ -45,10 +45,10 @@ TEST(ZeroPhase, MeasuredGainAtTheCutoffIsMinusThreeDecibels) {
     const double high = 0.1;
     const auto at_low = cosine(n, low);
     const auto at_high = cosine(n, high);
-    const std::complex<double> gains[] = {measure(zero_phase_highpass(at_low, low, 1.0, order), low),
-                                          measure(zero_phase_lowpass(at_high, high, 1.0, order), high),
-                                          measure(zero_phase_bandpass(at_low, low, high, 1.0, order), low),
-                                          measure(zero_phase_bandpass(at_high, low, high, 1.0, order), high)};
+    const std::complex<double> gains[] = {measure_response(zero_phase_highpass(at_low, low, 1.0, order), low),
+                                          measure_response(zero_phase_lowpass(at_high, high, 1.0, order), high),
+                                          measure_response(zero_phase_bandpass(at_low, low, high, 1.0, order), low),
+                                          measure_response(zero_phase_bandpass(at_high, low, high, 1.0, order), high)};
     for (const auto& gain : gains) {
       EXPECT_NEAR(gain.real(), std::numbers::sqrt2 / 2, kGainTol) << order;
       EXPECT_NEAR(gain.imag(), 0.0, kGainTol) << order;
@@ -59,7 +59,7 @@ TEST(ZeroPhase, MeasuredGainAtTheCutoffIsMinusThreeDecibels) {
 TEST(ZeroPhase, GainElsewhereIsTheSquareOfOnePass) {
   const auto pass = zero_phase_bandpass_pass(0.02, 0.2, 1.0, 3);
   for (const double f : {0.01, 0.05, 0.125, 0.25, 0.4}) {
-    const auto gain = measure(zero_phase_bandpass(cosine(16000, f), 0.02, 0.2, 1.0, 3), f);
+    const auto gain = measure_response(zero_phase_bandpass(cosine(16000, f), 0.02, 0.2, 1.0, 3), f);
     EXPECT_NEAR(gain.real(), std::norm(frequency_response(pass, f, 1.0)), 1e-6) << f;
   }
 }

@@ -60,7 +60,8 @@ CameraCalibration camera_truth(const SimulatedCameraConfig& config) {
           config.fy_px,
           config.cx_px,
           config.cy_px,
-          {config.distortion[0], config.distortion[1], config.distortion[2], config.distortion[3], 0.0}};
+          {config.distortion[0], config.distortion[1], config.distortion[2], config.distortion[3], 0.0},
+          std::nullopt};
 }
 
 double blur_sigma_px(const SimulatedCameraConfig& config, double distance_m) {

@@ -30,6 +30,13 @@ RandomWave wave(double rms, double low_Hz, double high_Hz, double step_s, std::u
 Hand::Hand(const HandConfig& config, double length_m, double step_s, std::uint64_t seed)
     : config_(config), step_s_(step_s), stroke_s_(length_m / config.speed_mps + config.speed_ramp_s) {
   const HandConfig& c = config_;
+  // To stop and to start again takes the way of one ramp.
+  const double travel_s = stroke_s_;
+  for (int i = 1; i <= c.pauses; ++i) {
+    pause_starts_s_.push_back(c.rest_s + travel_s * i / (c.pauses + 1) + (i - 1) * (c.pause_s + c.speed_ramp_s) +
+                              0.5 * c.speed_ramp_s);
+  }
+  stroke_s_ += c.pauses * (c.pause_s + c.speed_ramp_s);
   speed_wave_ = wave(c.speed_variation, kSlowLow_Hz, kSpeedHigh_Hz, step_s, seed, Stream::kSpeed);
   force_wave_ = wave(c.force_variation, kSlowLow_Hz, kForceHigh_Hz, step_s, seed, Stream::kForce);
   lateral_wave_ = wave(c.tremor_lateral_m, c.tremor_low_Hz, c.tremor_high_Hz, step_s, seed, Stream::kLateral);
@@ -57,9 +64,19 @@ Hand::Hand(const HandConfig& config, double length_m, double step_s, std::uint64
   }
 }
 
+double Hand::between_pauses(double t_s) const {
+  double open = 1.0;
+  for (const double start_s : pause_starts_s_) {
+    const double ramp_s = config_.speed_ramp_s;
+    open *= quintic_step((start_s - t_s) / ramp_s) + quintic_step((t_s - start_s - config_.pause_s) / ramp_s);
+  }
+  return open;
+}
+
 double Hand::speed(double t_s, double variation) const {
   const double ramp_s = config_.speed_ramp_s;
-  const double open = quintic_step((t_s - start_s()) / ramp_s) * quintic_step((end_s() - t_s) / ramp_s);
+  double open = quintic_step((t_s - start_s()) / ramp_s) * quintic_step((end_s() - t_s) / ramp_s);
+  if (!pause_starts_s_.empty()) open *= between_pauses(t_s);
   return speed_scale_ * config_.speed_mps * std::max(0.1, 1.0 + variation) * open;
 }
 

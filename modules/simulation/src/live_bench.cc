@@ -38,7 +38,7 @@ Clock::time_point as_time_point(std::int64_t t_ns) {
   return Clock::time_point(std::chrono::duration_cast<Clock::duration>(std::chrono::nanoseconds(t_ns)));
 }
 
-void shift(std::vector<std::int64_t>& t_ns, std::int64_t by_ns) {
+void shift_times(std::vector<std::int64_t>& t_ns, std::int64_t by_ns) {
   for (std::int64_t& t : t_ns) t += by_ns;
 }
 
@@ -250,9 +250,9 @@ LiveReport LiveBench::play(const Observer& observer) {
 Recording LiveBench::on_host_clock() const {
   Recording out = impl_->recording;
   const std::int64_t by_ns = impl_->shift_ns;
-  shift(out.probe.t_ns, by_ns);
-  shift(out.tracker.t_ns, by_ns);
-  shift(out.truth->t_ns, by_ns);
+  shift_times(out.probe.t_ns, by_ns);
+  shift_times(out.tracker.t_ns, by_ns);
+  shift_times(out.truth->t_ns, by_ns);
   for (Segment& segment : out.info.segments) {
     segment.start_ns += by_ns;
     segment.end_ns += by_ns;

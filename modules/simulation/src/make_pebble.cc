@@ -67,7 +67,7 @@ TriangleMesh icosahedron() {
 }
 
 // Each face cut into n² triangles; points on its edges are shared with the neighbours by their place on the edge.
-TriangleMesh subdivide(const TriangleMesh& coarse, int n) {
+TriangleMesh subdivide_mesh(const TriangleMesh& coarse, int n) {
   TriangleMesh out;
   out.vertices_m = coarse.vertices_m;
   std::map<std::array<std::uint32_t, 3>, std::uint32_t> on_edges;  // lower end, upper end, steps from the lower
@@ -124,7 +124,7 @@ TriangleMesh make_pebble(const PebbleConfig& config) {
     throw Error(fmt::format("pebble.facet_m: {} m would give {:.3g} triangles", config.facet_m, triangles));
   }
   const int n = std::max(1, static_cast<int>(std::lround(std::sqrt(triangles / 20.0))));
-  TriangleMesh out = subdivide(icosahedron(), n);
+  TriangleMesh out = subdivide_mesh(icosahedron(), n);
 
   const std::vector<Wave> waves = make_waves(config);
   const double amplitude_m = config.bump_m * std::sqrt(2.0 / kWaves);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/geometry/pose.h"
 #include "asperity/simulation/base_shape.h"
 #include "asperity/simulation/mesh_stroke.h"
 
@@ -83,7 +84,7 @@ MeshBase::MeshBase(std::shared_ptr<const MeshSurface> surface, const SimulatedSh
   if (config.mesh_pose == MeshPose::kGiven) {
     T_world_mesh_ = {exp_rotation(Eigen::Vector3d(config.mesh_rotation_rad.data())),
                      Eigen::Vector3d(config.mesh_position_m.data())};
-    held = Eigen::Quaterniond::FromTwoVectors(stand.normal(0.0), T_world_mesh_.rotation * middle.normal);
+    held = shortest_rotation(stand.normal(0.0), T_world_mesh_.rotation * middle.normal);
   } else {
     Eigen::Matrix3d from, to;
     from << middle.along, middle.across, middle.normal;
@@ -106,7 +107,7 @@ MeshBase::MeshBase(std::shared_ptr<const MeshSurface> surface, const SimulatedSh
     Eigen::Quaterniond turn = held;
     turns[static_cast<std::size_t>(middle_node)] = turn.coeffs();
     for (std::ptrdiff_t i = middle_node + step; i >= 0 && i < n; i += step) {
-      const Eigen::Vector3d small = log_rotation(Eigen::Quaterniond::FromTwoVectors(at(i - step), at(i)));
+      const Eigen::Vector3d small = log_rotation(shortest_rotation(at(i - step), at(i)));
       turn = (exp_rotation(follow_normal * small) * turn).normalized();
       const Eigen::Vector4d& before = turns[static_cast<std::size_t>(i - step)];
       turns[static_cast<std::size_t>(i)] =

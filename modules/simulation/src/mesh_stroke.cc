@@ -95,8 +95,8 @@ std::vector<Eigen::Vector3d> continue_straight(const MeshSurface& surface, const
 }
 
 // A line between two points over the surface, both included, its points at most kSpacing_m apart.
-std::vector<Eigen::Vector3d> join(const MeshSurface& surface, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                                  std::size_t number) {
+std::vector<Eigen::Vector3d> join_points(const MeshSurface& surface, const Eigen::Vector3d& from,
+                                         const Eigen::Vector3d& to, std::size_t number) {
   const auto fail = [&] {
     return Error(
         fmt::format("simulation.shape.through: no way over the surface from point {} to point {}: pick more "
@@ -193,7 +193,7 @@ MeshStroke trace_mesh_stroke(const MeshSurface& surface, const std::vector<Eigen
   } else {
     line.push_back(points[0]);
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-      const std::vector<Eigen::Vector3d> part = join(surface, points[i], points[i + 1], i + 1);
+      const std::vector<Eigen::Vector3d> part = join_points(surface, points[i], points[i + 1], i + 1);
       line.insert(line.end(), part.begin() + 1, part.end());
     }
   }

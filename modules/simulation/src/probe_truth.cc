@@ -6,6 +6,7 @@
 
 #include "asperity/base/random.h"
 #include "asperity/base/units.h"
+#include "asperity/json/json.h"
 #include "noise_bandwidth.h"
 #include "normal_vector.h"
 #include "streams.h"
@@ -21,8 +22,12 @@ constexpr double kScaleSpread = 0.005;
 constexpr double kAccelOffset_mps2 = 0.2;  // 20 mg
 constexpr double kGyroOffset_dps = 0.5;
 constexpr double kForceOffset_N = 0.2;
+constexpr double kForce3CountsOfRange = 0.5;  // ±10 N over the converter's range
+constexpr double kForce3Range_N = 10.0;
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 constexpr double kRounding_counts = 0.28867513459481287;  // 1/√12
+
+Json list(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Eigen::Matrix3d near_identity(Random& random) {
   Eigen::Matrix3d m;
@@ -69,6 +74,15 @@ Calibration make_probe_truth(const SimulatedProbeConfig& probe, const SimulatedT
     truth.gyroscope = gyroscope;
   }
   const double rounding = probe.quantise ? kRounding_counts : 0.0;
+  if (probe.force3) {
+    Random own(seed, stream(Stream::kForce3Truth));
+    Force3Calibration& force3 = truth.force3.emplace();
+    const double counts_per_N = kForce3CountsOfRange * (probe.adc_max - probe.adc_min) / kForce3Range_N;
+    force3.B = counts_per_N * near_identity(own);
+    force3.C = Eigen::Vector3d::Constant(0.5 * (probe.adc_min + probe.adc_max)) +
+               counts_per_N * kForceOffset_N * normal_vector(own);
+    force3.residual_newton = Eigen::Vector3d::Constant(std::hypot(probe.force3_noise_N, rounding / counts_per_N));
+  }
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     truth.accelerometer.residual_counts[axis] = std::hypot(B.row(axis).norm() * accel_noise_mps2(probe), rounding);
   }
@@ -104,14 +118,33 @@ Calibration make_stated_calibration(const Calibration& truth, const SimulatedPro
   }
   stated.force.newton_per_count *= 1.0 + factor * config.force_scale * random.normal();
   stated.force.offset_newton += factor * config.force_offset_N * random.normal();
+  if (stated.force3) {
+    Random own(seed, stream(Stream::kForce3Calibration));
+    const double counts_per_N = truth.force3->B.col(0).norm();
+    for (Eigen::Index r = 0; r < 3; ++r) {
+      for (Eigen::Index c = 0; c < 3; ++c)
+        stated.force3->B(r, c) += factor * config.force_scale * counts_per_N * own.normal();
+      stated.force3->C[r] += factor * config.force_offset_N * counts_per_N * own.normal();
+    }
+  }
+  // As `asperity calibrate` states them.
+  const Eigen::Vector3d tip_stderr_m = Eigen::Vector3d::Constant(factor * config.tip_m);
+  stated.calibrated["tip"].details = {{"stderr", {{"tip_in_marker_m", list(tip_stderr_m)}}}};
+  stated.calibrated["force"].details = {
+      {"stderr",
+       {{"newton_per_count", factor * config.force_scale * std::abs(truth.force.newton_per_count)},
+        {"offset_newton", factor * config.force_offset_N}}}};
   const Eigen::Vector3d tip_error_m = factor * config.tip_m * normal_vector(random);
   const Eigen::Vector3d sensor_error_m = factor * config.sensor_m * normal_vector(random);
   const bool at_tip = probe.sensor_in_marker_m == probe.tip_in_marker_m;
   stated.tip_in_marker_m += tip_error_m;
+  stated.tip_sigma_m = Eigen::Vector3d::Constant(factor * config.tip_m);
   if (at_tip) {
-    stated.accelerometer.position_in_marker_m.reset();
+    // Where the tip is, there it is: it has been calibrated with it.
+    stated.accelerometer.position_in_marker_m = stated.tip_in_marker_m;
   } else {
     *stated.accelerometer.position_in_marker_m += sensor_error_m;
+    stated.accelerometer.position_sigma_m = factor * config.sensor_m;
   }
   // A tracker without noise would be stated as certain, which no filter can weigh.
   constexpr double kLeastSigma = 1e-6;  // m and rad

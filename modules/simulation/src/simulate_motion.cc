@@ -35,6 +35,7 @@ Recording simulate_motion(const SimulationConfig& config, const MotionFunction& 
     probe.push(state);
     tracker.push(state);
   }
+  probe.finish();
 
   Recording recording;
   SimulatedCalibrationConfig exact;
@@ -55,7 +56,7 @@ Recording simulate_motion(const SimulationConfig& config, const MotionFunction& 
   info.tracker_rate_Hz = config.tracker.rate_Hz;
   info.gravity_world_mps2 = Eigen::Vector3d(config.gravity_world_mps2.data());
   info.segments = {{object, kStart_ns, kStart_ns + std::llround(duration_s * 1e9)}};
-  info.extra_json = "{\"simulation\":{}}";
+  info.simulation.emplace();
   observer.update("simulate", 1.0);
   return recording;
 }

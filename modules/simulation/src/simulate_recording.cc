@@ -11,6 +11,7 @@
 #include "asperity/base/config.h"
 #include "asperity/base/error.h"
 #include "asperity/geometry/read_mesh.h"
+#include "asperity/json/config_json.h"
 #include "asperity/simulation/make_surface.h"
 #include "asperity/simulation/mesh_base.h"
 #include "asperity/simulation/probe_motion.h"
@@ -26,7 +27,7 @@ namespace {
 constexpr std::int64_t kStart_ns = 1'000'000'000;
 constexpr std::int64_t kStepsPerUpdate = 8192;
 
-void validate(const SimulationConfig& config) {
+void check_simulation(const SimulationConfig& config) {
   // Semi-implicit Euler is stable below a phase of 2 a step; at 0.3 its frequency is right to 0.4 %.
   constexpr double kGreatestPhase = 0.3;
   const double phase = config.step_s * std::sqrt(config.contact.stiffness_N_per_m / config.hand.normal_mass_kg);
@@ -45,7 +46,8 @@ void validate(const SimulationConfig& config) {
   const HandConfig& hand = config.hand;
   const double strokes = hand.path == HandPathShape::kBackAndForth ? hand.strokes : 1.0;
   const double path_m = strokes * (hand.length_m + hand.row_spacing_m);
-  const double duration_s = path_m / hand.speed_mps + 2.0 * hand.rest_s;
+  const double duration_s =
+      path_m / hand.speed_mps + 2.0 * hand.rest_s + hand.pauses * (hand.pause_s + hand.speed_ramp_s);
   if (path_m > kLongestPath_m || duration_s > kLongest_s) {
     throw Error(fmt::format("simulation.hand.length_m: a path of {:.3g} m in {:.3g} s is more than {} m or {} s",
                             path_m, duration_s, kLongestPath_m, kLongest_s));
@@ -60,21 +62,11 @@ void validate(const SimulationConfig& config) {
   }
 }
 
-// TOML's booleans, numbers and basic strings are JSON's.
-std::string config_json(const SimulationConfig& config) {
+Json settings_json(const SimulationConfig& config) {
   SimulationConfig copy = config;
-  std::string json = "{\"simulation\":{";
-  const char* separator = "";
-  for (const ConfigField& field : list_fields("", copy)) {
-    json += fmt::format("{}\"{}\":{}", separator, field.path, toml_text(field.get()));
-    separator = ",";
-  }
-  return json + "}";
-}
-
-std::string extra_json(const SimulationConfig& config, const MeshBase* base, double length_m) {
-  if (base == nullptr) return config_json(config) + "}";
-  return fmt::format("{},\"path_length_m\":{}}}", config_json(config), length_m);
+  Json out = Json::object();
+  for (const ConfigField& field : list_fields("", copy)) out[field.path] = config_value_json(field.get());
+  return out;
 }
 
 std::vector<Segment> segments(const Hand& hand) {
@@ -89,7 +81,7 @@ std::vector<Segment> segments(const Hand& hand) {
 // The stroke on `base`, or on the plane or cylinder of the config where there is none.
 Recording simulate_on(const SimulationConfig& config, const Surface& surface,
                       const std::shared_ptr<const MeshBase>& base, const Observer& observer) {
-  validate(config);
+  check_simulation(config);
   const auto seed = static_cast<std::uint64_t>(config.seed);
   observer.update("simulate", 0.0);
 
@@ -106,10 +98,14 @@ Recording simulate_on(const SimulationConfig& config, const Surface& surface,
     probe.push(state);
     tracker.push(state);
   }
+  probe.finish();
 
   Recording recording;
   recording.calibration = make_stated_calibration(truth, config.probe, config.calibration, tracker.rms_position_m(),
                                                   tracker.rms_rotation_rad(), seed);
+  // As `asperity calibrate tracker` states them.
+  recording.calibration.tracker.slow_sigma_m = config.tracker.slow_share * tracker.rms_position_m();
+  if (config.tracker.slow_share > 0.0) recording.calibration.tracker.slow_time_s = config.tracker.slow_time_s;
   recording.calibration.tip_radius_m = config.contact.tip_radius_m;
   recording.probe = std::move(probe.samples);
   recording.tracker = std::move(tracker.poses);
@@ -134,7 +130,8 @@ Recording simulate_on(const SimulationConfig& config, const Surface& surface,
   info.gravity_world_mps2 = exp_rotation(turn_rad) * Eigen::Vector3d(config.gravity_world_mps2.data());
   info.segments = segments(motion.hand());
   if (base) info.T_mesh_world = base->T_world_mesh().inverse();
-  info.extra_json = extra_json(config, base.get(), mesh_path.length_m);
+  info.simulation.emplace().settings = settings_json(config);
+  if (base) info.simulation->path_length_m = mesh_path.length_m;
   observer.update("simulate", 1.0);
   return recording;
 }

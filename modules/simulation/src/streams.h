@@ -32,6 +32,14 @@ enum class Stream : std::uint64_t {
   kBoards,
   kFrameTimes,
   kCameraNoise,
+  kProbeWander,
+  kFlicker,
+  kWarming,
+  kForce3Noise,
+  kForce3Truth,
+  kForce3Calibration,
+  kTrackerSlow,
+  kTrackerWander,
 };
 
 constexpr std::uint64_t stream(Stream s) { return static_cast<std::uint64_t>(s); }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "normal_vector.h"
 #include "streams.h"
@@ -50,12 +51,38 @@ TrackerSampler::TrackerSampler(const SimulationConfig& config, std::int64_t star
       start_ns_(start_ns),
       noise_(seed_of(config), stream(Stream::kTrackerNoise)),
       clock_(seed_of(config), stream(Stream::kTrackerClock)),
-      faults_(seed_of(config), stream(Stream::kTrackerFaults)) {
+      faults_(seed_of(config), stream(Stream::kTrackerFaults)),
+      slow_random_(seed_of(config), stream(Stream::kTrackerSlow)),
+      wander_random_(seed_of(config), stream(Stream::kTrackerWander)),
+      wander_(config.tracker.clock_wander_s, config.tracker.clock_wander_time_s, wander_random_) {
   phase_ = clock_.uniform();
+  for (GaussMarkov& part : slow_) part = GaussMarkov(1.0, config_.slow_time_s, slow_random_);
+}
+
+Pose TrackerSampler::shake(const Pose& T_world_marker, double t_s) {
+  const double step_s = t_s - held_t_s_;
+  const Eigen::Vector3d v_mps = (T_world_marker.translation_m - held_m_) / step_s;
+  if (held_ >= 2) {
+    const double omega_radps = 2.0 * std::numbers::pi * config_.mount_Hz;
+    const Eigen::Vector3d a_mps2 = (v_mps - held_v_mps_) / step_s;
+    bend_v_mps_ += step_s * (-a_mps2 - 2.0 * config_.mount_damping_ratio * omega_radps * bend_v_mps_ -
+                             omega_radps * omega_radps * bend_m_);
+    bend_m_ += step_s * bend_v_mps_;
+  }
+  held_ = std::min(held_ + 1, 2);
+  held_t_s_ = t_s;
+  held_m_ = T_world_marker.translation_m;
+  held_v_mps_ = v_mps;
+  const Eigen::Vector3d out_of_body = T_world_marker.rotation * -tip_in_marker_m_.normalized();
+  Pose out = T_world_marker;
+  out.translation_m += bend_m_;
+  out.rotation = (exp_rotation(out_of_body.cross(bend_m_) / config_.mount_length_m) * out.rotation).normalized();
+  return out;
 }
 
 void TrackerSampler::push(const MotionState& state) {
-  const Pose now{state.q_world_marker, state.p_world_tip_m - state.q_world_marker * tip_in_marker_m_};
+  Pose now{state.q_world_marker, state.p_world_tip_m - state.q_world_marker * tip_in_marker_m_};
+  if (config_.mount_Hz > 0.0) now = shake(now, state.t_s);
   if (has_previous_) {
     while (true) {
       const double t_s = (static_cast<double>(frames_) + phase_) / config_.rate_Hz;
@@ -73,12 +100,23 @@ void TrackerSampler::push(const MotionState& state) {
 void TrackerSampler::take(const Pose& T_world_marker, double t_s) {
   ++frames_;
   const SimulatedTrackerNoise noise = simulated_tracker_noise(config_, T_world_marker);
-  const Eigen::Vector3d position_m = noise.world_from_ray * noise.position_m.cwiseProduct(normal_vector(noise_));
-  const Eigen::Vector3d rotation_rad = noise.world_from_ray * noise.rotation_rad.cwiseProduct(normal_vector(noise_));
+  Eigen::Vector3d position_m = noise.world_from_ray * noise.position_m.cwiseProduct(normal_vector(noise_));
+  Eigen::Vector3d rotation_rad = noise.world_from_ray * noise.rotation_rad.cwiseProduct(normal_vector(noise_));
+  if (config_.slow_share > 0.0) {
+    Eigen::Matrix<double, 6, 1> slow;
+    for (std::size_t axis = 0; axis < 6; ++axis)
+      slow[static_cast<Eigen::Index>(axis)] = slow_[axis].next(1.0 / config_.rate_Hz, slow_random_);
+    slow *= config_.slow_share;
+    position_m += noise.world_from_ray * noise.position_m.cwiseProduct(slow.head<3>());
+    rotation_rad += noise.world_from_ray * noise.rotation_rad.cwiseProduct(slow.tail<3>());
+  }
   const double flip_shift_m = config_.flip_depth_m * noise_.normal();
-  sum_position_m2_ += (noise.world_from_ray.cwiseAbs2() * noise.position_m.cwiseAbs2());
-  sum_rotation_rad2_ += (noise.world_from_ray.cwiseAbs2() * noise.rotation_rad.cwiseAbs2());
+  const double with_slow = 1.0 + config_.slow_share * config_.slow_share;
+  sum_position_m2_ += with_slow * (noise.world_from_ray.cwiseAbs2() * noise.position_m.cwiseAbs2());
+  sum_rotation_rad2_ += with_slow * (noise.world_from_ray.cwiseAbs2() * noise.rotation_rad.cwiseAbs2());
   double stamp_s = t_s + config_.latency_s + config_.clock_jitter_s * clock_.normal();
+
+  if (config_.clock_wander_s > 0.0) stamp_s += wander_.next(1.0 / config_.rate_Hz, wander_random_);
 
   if (lost_left_ == 0 && faults_.chance(config_.dropout_chance))
     lost_left_ = run_length(config_.dropout_frames, faults_);

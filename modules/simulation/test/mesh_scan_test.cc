@@ -37,11 +37,7 @@ Recording simulate(const SimulationConfig& config, const TriangleMesh& mesh) {
   return simulate_recording(config, *make_surface(config.surface, static_cast<std::uint64_t>(config.seed)), mesh);
 }
 
-double stated_length_m(const Recording& recording) {
-  const std::string& json = recording.info.extra_json;
-  const std::string key = "\"path_length_m\":";
-  return std::stod(json.substr(json.find(key) + key.size()));
-}
+double stated_length_m(const Recording& recording) { return recording.info.simulation.value().path_length_m.value(); }
 
 struct BruteFoot {
   double height_m = 0.0;
@@ -258,7 +254,7 @@ TEST(MeshScan, SameSeedSameData) {
   const Recording b = simulate(config, mesh);
   EXPECT_EQ(a.probe.accel_counts, b.probe.accel_counts);
   EXPECT_EQ(a.truth->height_m, b.truth->height_m);
-  EXPECT_EQ(a.info.extra_json, b.info.extra_json);
+  EXPECT_EQ(a.info.simulation.value().settings, b.info.simulation.value().settings);
 }
 
 TEST(MeshScan, RefusesWhatCannotBeScanned) {

@@ -11,7 +11,7 @@
 namespace asperity {
 namespace {
 
-ScanPath make(HandConfig config) {
+ScanPath make_path(HandConfig config) {
   Random random(5);
   return {config, random};
 }
@@ -20,7 +20,7 @@ TEST(ScanPath, ItsParameterIsItsArcLength) {
   for (const HandPathShape kind : {HandPathShape::kStraight, HandPathShape::kCurved, HandPathShape::kBackAndForth}) {
     HandConfig config;
     config.path = kind;
-    const ScanPath path = make(config);
+    const ScanPath path = make_path(config);
     for (double s = -1e-3; s < path.length_m() + 1e-3; s += 0.37e-3) {
       const ScanPoint a = path.at(s - 1e-7);
       const ScanPoint b = path.at(s + 1e-7);
@@ -35,7 +35,7 @@ TEST(ScanPath, ItsParameterIsItsArcLength) {
 TEST(ScanPath, StraightOneIsCentred) {
   HandConfig config;
   config.lateral_wander_m = 0.0;
-  const ScanPath path = make(config);
+  const ScanPath path = make_path(config);
   EXPECT_NEAR(path.at(0.0).a_m, -0.04, 1e-9);
   EXPECT_NEAR(path.at(0.08).a_m, 0.04, 1e-9);
   EXPECT_NEAR(path.at(0.03).v_m, 0.0, 1e-12);
@@ -45,7 +45,7 @@ TEST(ScanPath, ArcHasItsSagitta) {
   HandConfig config;
   config.path = HandPathShape::kCurved;
   config.lateral_wander_m = 0.0;
-  const ScanPath path = make(config);
+  const ScanPath path = make_path(config);
   EXPECT_NEAR(path.at(0.04).v_m - path.at(0.0).v_m, 8e-3, 1e-8);
   EXPECT_NEAR(path.at(0.08).v_m, path.at(0.0).v_m, 1e-8);
 }
@@ -54,7 +54,7 @@ TEST(ScanPath, StrokesRunToAndFroOnNeighbouringRows) {
   HandConfig config;
   config.path = HandPathShape::kBackAndForth;
   config.lateral_wander_m = 0.0;
-  const ScanPath path = make(config);
+  const ScanPath path = make_path(config);
   const double turn_m = (path.length_m() - 3 * 0.08) / 2;
   const ScanPoint first = path.at(0.04);
   const ScanPoint second = path.at(0.08 + turn_m + 0.04);

@@ -143,7 +143,7 @@ TEST(SimulateRecording, SameSeedSameDataOtherSeedOtherData) {
     EXPECT_EQ(a.tracker.t_ns, b.tracker.t_ns);
     EXPECT_EQ(a.truth->height_m, b.truth->height_m);
     EXPECT_EQ(a.calibration.accelerometer.B, b.calibration.accelerometer.B);
-    EXPECT_EQ(a.info.extra_json, b.info.extra_json);
+    EXPECT_EQ(a.info.simulation.value().settings, b.info.simulation.value().settings);
     config.seed = 2;
     const Recording c = simulate_recording(config);
     EXPECT_NE(a.probe.accel_counts, c.probe.accel_counts);
@@ -281,7 +281,7 @@ TEST(SimulateRecording, SegmentsAndConfigAreRecorded) {
   EXPECT_EQ(recording.info.segments[1].start_ns, recording.info.segments[0].end_ns);
   EXPECT_NEAR(static_cast<double>(recording.info.segments[0].end_ns) * 1e-9, 1.2, 1e-9);
   EXPECT_EQ(recording.info.object, "cable_tie");
-  EXPECT_THAT(recording.info.extra_json, ::testing::HasSubstr("\"surface.kind\":\"cable_tie\""));
+  EXPECT_EQ(recording.info.simulation.value().settings.at("surface.kind"), "cable_tie");
 }
 
 TEST(SimulateRecording, RefusesWhatItCannotIntegrateAndStopsWhenAsked) {

@@ -17,7 +17,7 @@ std::size_t below(Random& random, std::size_t count) {
 
 // Fisher and Yates.
 template <class List>
-void shuffle(List& list, Random& random) {
+void shuffle_list(List& list, Random& random) {
   for (std::size_t k = list.size(); k > 1; --k) {
     const std::size_t other = below(random, k);
     const typename List::value_type kept = list[k - 1];
@@ -74,7 +74,7 @@ std::vector<Trial> plan_trials(const Study& study, std::string_view participant,
   Random random = random_of(study, participant, run, "order");
   std::vector<Trial> out;
   for (int repetition = 1; repetition <= study.repetitions; ++repetition) {
-    shuffle(once, random);
+    shuffle_list(once, random);
     for (const auto& [left, right] : once) {
       Trial trial;
       trial.number = static_cast<int>(out.size()) + 1;
@@ -94,7 +94,7 @@ std::vector<bool> plan_sides(const Study& study, std::string_view participant, i
   while (out.size() < most) {
     std::vector<bool> some(kSidesTogether);
     for (std::size_t k = 0; k < kSidesTogether; k += 2) some[k] = true;
-    shuffle(some, random);
+    shuffle_list(some, random);
     out.insert(out.end(), some.begin(), some.end());
   }
   out.resize(most);

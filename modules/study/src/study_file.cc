@@ -81,7 +81,7 @@ std::vector<std::string> stimuli_of(const std::string& where, const Json& value)
   return out;
 }
 
-void put(Json& out, const ConfigField& field) {
+void put_field(Json& out, const ConfigField& field) {
   const Json value = config_value_json(field.get());
   const std::size_t dot = field.path.find('.');
   if (dot == std::string::npos) {
@@ -100,7 +100,7 @@ Json study_json(const Study& study) {
   out["question"] = study.question;
   out["stimuli"] = study.stimuli;
   out["object"] = study.object;
-  for (const ConfigField& field : list_fields("", copy)) put(out, field);
+  for (const ConfigField& field : list_fields("", copy)) put_field(out, field);
   out["presentation"]["device"] = study.presentation.device;
   return out;
 }

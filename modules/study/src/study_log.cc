@@ -99,7 +99,7 @@ double time_of(const CsvReader& rows, std::size_t column) {
   return value;
 }
 
-void follow(StudyLog& log, CsvReader& rows, const std::string& name) {
+void follow_rows(StudyLog& log, CsvReader& rows, const std::string& name) {
   const std::size_t trial = rows.require("trial"), level = rows.require("level"), answer = rows.require("answer"),
                     response = rows.require("response_s"), since = rows.require("since_begin_s");
   StudySession& session = log.session;
@@ -180,7 +180,7 @@ StudyLog parse_study_log(std::string_view text, const std::string& name) {
   std::string columns;
   for (const std::string& column : rows.columns()) columns += (columns.empty() ? "" : ",") + column;
   if (columns + '\n' != kColumns) throw Error(name + ":2: has not the columns of a study's log");
-  follow(out, rows, name);
+  follow_rows(out, rows, name);
   out.whole_bytes = text.rfind('\n') + 1;
   if (rows.truncated()) {
     out.problems.push_back({"cut_off", name + ": the last row was cut off, and does not count"});

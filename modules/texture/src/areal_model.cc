@@ -40,7 +40,7 @@ std::size_t ArealTraits::size_bytes(const ArealTexture& t) {
 }
 
 HeightAndGradient ArealTraits::height(const ArealTexture& t, double x_m, double y_m) noexcept {
-  return evaluate(t.surface, x_m, y_m);
+  return evaluate_height(t.surface, x_m, y_m);
 }
 
 double ArealTraits::lowest_m(const ArealTexture& t) { return lowest_height_m(t.surface); }

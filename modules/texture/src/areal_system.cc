@@ -48,9 +48,10 @@ void for_each_difference(std::size_t columns, std::size_t rows, bool periodic, c
 void resample_grid(const SplineGrid& from, SplineGrid& to) {
   for (std::size_t r = 0; r < to.rows; ++r) {
     for (std::size_t c = 0; c < to.columns; ++c) {
-      to.coefficient_m[r * to.columns + c] = evaluate(from, to.origin_x_m + to.spacing_x_m * static_cast<double>(c),
-                                                      to.origin_y_m + to.spacing_y_m * static_cast<double>(r))
-                                                 .height_m;
+      to.coefficient_m[r * to.columns + c] =
+          evaluate_height(from, to.origin_x_m + to.spacing_x_m * static_cast<double>(c),
+                          to.origin_y_m + to.spacing_y_m * static_cast<double>(r))
+              .height_m;
     }
   }
 }

@@ -12,7 +12,7 @@ void list_autoregressive(Model& t, const Field& field) {
   field("rate_Hz", t.rate_Hz, 1.0, 1e6);
   field("mass_kg", t.mass_kg, 0.0, 1e3);
   field("tangential_ratio", t.tangential_ratio, -1e3, 1e3);
-  field("lift_sigma", t.lift_sigma, 0.0, 10.0);
+  field("lift_sigma", t.offset_sigmas, 0.0, 10.0);
   field("fade_speed_mps", t.fade_speed_mps, 0.0, 1e3);
   field("fade_force_N", t.fade_force_N, 0.0, 1e6);
   field("max_speed_mps", t.max_speed_mps, 0.0, 1e3);

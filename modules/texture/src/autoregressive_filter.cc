@@ -34,6 +34,17 @@ void multiply_root(Polynomial& p, std::size_t& length, double s, std::size_t d) 
   length += d;
 }
 
+// Levinson's step: the coefficients of order m become those of order m + 1.
+void add_reflection(double k, std::size_t m, std::span<double> a) noexcept {
+  for (std::size_t i = 0; 2 * i < m; ++i) {
+    const std::size_t j = m - 1 - i;
+    const double low = a[i] + k * a[j];
+    a[j] = a[j] + k * a[i];
+    a[i] = low;
+  }
+  a[m] = k;
+}
+
 // Minus the phase of z⁻¹ z⁻ᵖA(z⁻¹)/A(z) at ω, unwrapped: S_m = (k_m + u) / (1 + k_m u) with u = z⁻¹ S_{m−1}.
 double allpass_lag_rad(std::span<const double> k, double omega_rad) {
   double lag = omega_rad;
@@ -84,15 +95,7 @@ bool ar_to_reflection(std::span<const double> a, std::span<double> k) noexcept {
 }
 
 void reflection_to_ar(std::span<const double> k, std::span<double> a) noexcept {
-  for (std::size_t m = 0; m < k.size(); ++m) {
-    for (std::size_t i = 0; 2 * i < m; ++i) {
-      const std::size_t j = m - 1 - i;
-      const double low = a[i] + k[m] * a[j];
-      a[j] = a[j] + k[m] * a[i];
-      a[i] = low;
-    }
-    a[m] = k[m];
-  }
+  for (std::size_t m = 0; m < k.size(); ++m) add_reflection(k[m], m, a);
 }
 
 std::vector<double> reflection_to_lsf(std::span<const double> k) {
@@ -133,6 +136,22 @@ std::vector<double> autocovariance(std::span<const double> k, double variance, i
     r[m] = next;
   }
   return r;
+}
+
+void autocorrelation(std::span<const double> k, std::span<double> r) noexcept {
+  const std::size_t order = k.size();
+  std::array<double, kMaxSeriesOrder> a{};
+  double error = 1.0;  // of the predictor of the order so far
+  if (!r.empty()) r[0] = 1.0;
+  for (std::size_t m = 1; m < r.size(); ++m) {
+    const std::size_t known = std::min(m - 1, order);
+    double next = m <= order ? -k[m - 1] * error : 0.0;
+    for (std::size_t i = 0; i < known; ++i) next -= a[i] * r[m - 1 - i];
+    r[m] = next;
+    if (m > order) continue;
+    error *= 1.0 - k[m - 1] * k[m - 1];
+    add_reflection(k[m - 1], m - 1, a);
+  }
 }
 
 LevinsonResult levinson(std::span<const double> r) {

@@ -128,14 +128,14 @@ TextureComparison compare_textures(const ComparedSurface& a, const ComparedSurfa
     const double variance_a = spectrum_a.variance(from, to);
     const double variance_b = spectrum_b.variance(from, to);
     band.rms_m = difference(std::sqrt(variance_a), std::sqrt(variance_b), jnd_at(std::sqrt(from * to)));
-    band.felt = variance_a > least * whole_a || variance_b > least * whole_b;
+    band.is_compared = variance_a > least * whole_a || variance_b > least * whole_b;
     // A variance from n independent bins has the relative deviation √(1/n); Hann windows that overlap by half
     // leave about half of segments and bins independent.
     const auto deviation = [&](const Spectrum& s) {
       return 1.0 / std::max(1.0, 0.5 * s.segments * std::max(1.0, (to - from) / s.step));
     };
     band.uncertainty_percent = 50.0 * std::sqrt(deviation(spectrum_a) + deviation(spectrum_b));
-    result.noticeable = result.noticeable || (band.felt && band.rms_m.noticeable);
+    result.noticeable = result.noticeable || (band.is_compared && band.rms_m.noticeable);
     result.bands.push_back(band);
     from = to;
   }

@@ -19,7 +19,7 @@ struct Point {
   double v = 0.0;
 };
 
-Point at(const AutoregressiveTexture& t, int i) noexcept {
+Point point_at(const AutoregressiveTexture& t, int i) noexcept {
   const auto& m = t.models[static_cast<std::size_t>(i)];
   return {m.speed_mps / t.max_speed_mps, m.force_N / t.max_force_N};
 }
@@ -30,9 +30,9 @@ double cross(const Point& a, const Point& b, const Point& c) noexcept {
 
 bool inside(const AutoregressiveTexture& t, int triangle, const Point& p, SeriesBlend& blend) noexcept {
   const auto& tri = t.triangles[static_cast<std::size_t>(triangle)];
-  const Point a = at(t, tri[0]);
-  const Point b = at(t, tri[1]);
-  const Point c = at(t, tri[2]);
+  const Point a = point_at(t, tri[0]);
+  const Point b = point_at(t, tri[1]);
+  const Point c = point_at(t, tri[2]);
   const double wa = cross(b, c, p);
   const double wb = cross(c, a, p);
   const double wc = cross(a, b, p);
@@ -47,8 +47,8 @@ SeriesBlend nearest_on_border(const AutoregressiveTexture& t, const Point& p) no
   SeriesBlend best{{0, 0, 0}, {1.0, 0.0, 0.0}, -1};
   double nearest = -1.0;
   for (const auto& edge : t.edges) {
-    const Point a = at(t, edge[0]);
-    const Point b = at(t, edge[1]);
+    const Point a = point_at(t, edge[0]);
+    const Point b = point_at(t, edge[1]);
     const double du = b.u - a.u;
     const double dv = b.v - a.v;
     const double length2 = du * du + dv * dv;
@@ -89,7 +89,37 @@ double next_sample(const BlendedFilter& filter, const double* c, SeriesState& st
     past[j + 1] = past[j];
   }
   past[0] = y;
-  return filter.gain * sum;
+  return sum / filter.numerator_sigma;
+}
+
+// What linear interpolation between two neighbours, each of unit variance, leaves of it: 1 − 2φ(1 − φ)(1 − ρ). The
+// least is that of an alternating series half way, of which nothing is left to amplify.
+double interpolated_variance(double phase, double neighbour_correlation) noexcept {
+  constexpr double kLeast = 0x1p-10;
+  return std::max(kLeast, 1.0 - 2.0 * phase * (1.0 - phase) * (1.0 - neighbour_correlation));
+}
+
+// The standard deviation of Σ b_i y_{n−i}, b_0 = 1, and the correlation of two neighbours of it, y being the output of
+// unit variance of 1/A.
+void measure_numerator(BlendedFilter& filter) noexcept {
+  constexpr double kLeastVariance = 0x1p-40;  // below it rounding decides
+  const auto ma_order = static_cast<std::size_t>(filter.ma_order);
+  std::array<double, kMaxSeriesOrder + 2> r{};
+  autocorrelation(std::span<const double>(filter.k).first(static_cast<std::size_t>(filter.order)),
+                  std::span(r).first(ma_order + 2));
+  const auto b = [&](std::size_t i) { return i == 0 ? 1.0 : filter.b[i - 1]; };
+  double variance = 0.0;
+  double neighbours = 0.0;
+  for (std::size_t i = 0; i <= ma_order; ++i) {
+    for (std::size_t j = 0; j <= ma_order; ++j) {
+      const double product = b(i) * b(j);
+      variance += product * r[i > j ? i - j : j - i];
+      neighbours += product * r[i + 1 > j ? i + 1 - j : j - i - 1];
+    }
+  }
+  variance = std::max(variance, kLeastVariance);
+  filter.numerator_sigma = std::sqrt(variance);
+  filter.neighbour_correlation = std::clamp(neighbours / variance, -1.0, 1.0);
 }
 
 struct Step {
@@ -119,9 +149,11 @@ Step next_step(const AutoregressiveTexture& t, SeriesState& state, double speed_
       state.current = next_sample(filter, c.data(), state);
     }
   }
-  const double y = state.previous + state.phase * (state.current - state.previous);
-  const double scale = fade(speed_mps, t.fade_speed_mps) * fade(force_N, t.fade_force_N);
-  return {scale * filter.pole_sigma * y, scale * filter.sigma_mps2};
+  const double y = (state.previous + state.phase * (state.current - state.previous)) /
+                   std::sqrt(interpolated_variance(state.phase, filter.neighbour_correlation));
+  const double sigma_mps2 =
+      fade_factor(speed_mps, t.fade_speed_mps) * fade_factor(force_N, t.fade_force_N) * filter.sigma_mps2;
+  return {sigma_mps2 * y, sigma_mps2};
 }
 
 }  // namespace
@@ -146,28 +178,24 @@ BlendedFilter blended_filter(const AutoregressiveTexture& texture, const SeriesB
   const auto ma_order = static_cast<std::size_t>(filter.ma_order);
   std::array<double, kMaxSeriesOrder> lsf{};
   std::array<double, kMaxSeriesOrder> ma_lsf{};
-  filter.gain = 0.0;
-  double pole_variance = 0.0;
   double output_variance = 0.0;
   for (std::size_t j = 0; j < 3; ++j) {
     const auto& model = texture.models[static_cast<std::size_t>(blend.model[j])];
     const double w = blend.weight[j];
     for (std::size_t i = 0; i < order; ++i) lsf[i] += w * model.ar_lsf_rad[i];
     for (std::size_t i = 0; i < ma_order; ++i) ma_lsf[i] += w * model.ma_lsf_rad[i];
-    filter.gain += w * model.gain;
-    pole_variance += w * model.pole_variance_m2_per_s4;
     output_variance += w * model.sigma_mps2 * model.sigma_mps2;
   }
   std::array<double, kMaxSeriesOrder> a{};
   lsf_to_ar(std::span(lsf).first(order), std::span(a).first(order));
   ar_to_reflection(std::span(a).first(order), std::span(filter.k).first(order));
   for (std::size_t i = 0; i < order; ++i) filter.k[i] = std::clamp(filter.k[i], -kMaxReflection, kMaxReflection);
-  filter.pole_sigma = std::sqrt(pole_variance);
   filter.sigma_mps2 = std::sqrt(output_variance);
-  if (ma_order == 0)
-    filter.pole_sigma *= filter.gain;
-  else
+  filter.neighbour_correlation = -filter.k[0];
+  if (ma_order > 0) {
     lsf_to_ar(std::span(ma_lsf).first(ma_order), std::span(filter.b).first(ma_order));
+    measure_numerator(filter);
+  }
   return filter;
 }
 
@@ -180,7 +208,8 @@ SeriesForce next_force(const AutoregressiveTexture& texture, SeriesState& state,
                        double dt_s) noexcept {
   const Step step = next_step(texture, state, speed_mps, force_N, dt_s);
   const double force = texture.mass_kg * step.acceleration_mps2;
-  return {lifted(force, texture.mass_kg * step.sigma_mps2, texture.lift_sigma), texture.tangential_ratio * force};
+  return {with_offset(force, texture.mass_kg * step.sigma_mps2, texture.offset_sigmas),
+          texture.tangential_ratio * force};
 }
 
 }  // namespace asperity

@@ -13,9 +13,9 @@ namespace {
 double valley_m(const Fourier1d& texture, double low_m, double high_m) {
   for (int i = 0; i < 60; ++i) {
     const double middle_m = 0.5 * (low_m + high_m);
-    (evaluate(texture, middle_m).slope < 0.0 ? low_m : high_m) = middle_m;
+    (evaluate_height(texture, middle_m).slope < 0.0 ? low_m : high_m) = middle_m;
   }
-  return evaluate(texture, 0.5 * (low_m + high_m)).height_m;
+  return evaluate_height(texture, 0.5 * (low_m + high_m)).height_m;
 }
 
 // x / L less whole periods, as the sum of two doubles: the angle of harmonic 4096 is then as exact as that of
@@ -116,7 +116,7 @@ const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
 
 }  // namespace
 
-HeightAndSlope evaluate(const Fourier1d& texture, double x_m) noexcept {
+HeightAndSlope evaluate_height(const Fourier1d& texture, double x_m) noexcept {
 #if defined(__x86_64__)
   if (has_avx2) return sum_series_avx2(texture, x_m);
 #endif
@@ -133,7 +133,7 @@ double lowest_height_m(const Fourier1d& texture) {
     curvature += k * k * std::hypot(texture.a_m[j], texture.b_m[j]);
   }
   std::vector<HeightAndSlope> grid(count + 1);
-  for (std::size_t i = 0; i < count; ++i) grid[i] = evaluate(texture, static_cast<double>(i) * step_m);
+  for (std::size_t i = 0; i < count; ++i) grid[i] = evaluate_height(texture, static_cast<double>(i) * step_m);
   grid[count] = grid[0];
   double lowest = std::min_element(grid.begin(), grid.end(), [](const auto& a, const auto& b) {
                     return a.height_m < b.height_m;
@@ -149,6 +149,6 @@ double lowest_height_m(const Fourier1d& texture) {
   return lowest;
 }
 
-double lift_m(const Fourier1d& texture) { return -lowest_height_m(texture); }
+double height_offset_m(const Fourier1d& texture) { return -lowest_height_m(texture); }
 
 }  // namespace asperity

@@ -8,10 +8,10 @@
 
 namespace asperity {
 
-HeightAndGradient evaluate(const Fourier2d& t, double x_m, double y_m) noexcept {
-  if (t.kind == Fourier2dKind::kIsotropic) return evaluate(t.grid, x_m, y_m);
-  const HeightAndSlope x = evaluate(t.x, x_m);
-  const HeightAndSlope y = evaluate(t.y, y_m);
+HeightAndGradient evaluate_height(const Fourier2d& t, double x_m, double y_m) noexcept {
+  if (t.kind == Fourier2dKind::kIsotropic) return evaluate_height(t.grid, x_m, y_m);
+  const HeightAndSlope x = evaluate_height(t.x, x_m);
+  const HeightAndSlope y = evaluate_height(t.y, y_m);
   return {t.offset_m + t.scale_per_m * x.height_m * y.height_m, t.scale_per_m * x.slope * y.height_m,
           t.scale_per_m * x.height_m * y.slope};
 }

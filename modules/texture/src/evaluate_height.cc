@@ -51,7 +51,7 @@ double highest_height_m(const TextureModel& model) {
       model);
 }
 
-double lift_m(const TextureModel& model) { return -lowest_height_m(model); }
+double height_offset_m(const TextureModel& model) { return -lowest_height_m(model); }
 
 HeightPeriods height_periods_m(const TextureModel& model) {
   return std::visit(

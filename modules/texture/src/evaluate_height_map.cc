@@ -34,7 +34,7 @@ HeightAndGradient evaluate_at(const HeightMap& map, double u, double v) noexcept
 
 }  // namespace
 
-HeightAndGradient evaluate(const HeightMap& map, double x_m, double y_m) noexcept {
+HeightAndGradient evaluate_height(const HeightMap& map, double x_m, double y_m) noexcept {
   const double pixel_x_m = map.mm_per_px_x * 1e-3;
   const double pixel_y_m = map.mm_per_px_y * 1e-3;
   const double u = x_m / pixel_x_m;

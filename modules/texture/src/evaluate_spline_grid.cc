@@ -40,7 +40,7 @@ HeightAndGradient evaluate_at(const SplineGrid& grid, double u, double v) noexce
 
 }  // namespace
 
-HeightAndGradient evaluate(const SplineGrid& grid, double x_m, double y_m) noexcept {
+HeightAndGradient evaluate_height(const SplineGrid& grid, double x_m, double y_m) noexcept {
   const double u = (x_m - grid.origin_x_m) / grid.spacing_x_m;
   const double v = (y_m - grid.origin_y_m) / grid.spacing_y_m;
   if (!std::isfinite(u) || !std::isfinite(v) || grid.columns < 4 || grid.rows < 4) return {kNan, kNan, kNan};

@@ -9,7 +9,7 @@ namespace asperity {
 namespace {
 
 double scaled_sigma_m(const StochasticTexture& t, double speed_mps, double force_N) noexcept {
-  double scale = fade(speed_mps, t.fade_speed_mps);
+  double scale = fade_factor(speed_mps, t.fade_speed_mps);
   if (t.speed_exponent != 0.0) scale *= std::pow(speed_mps / t.reference_speed_mps, t.speed_exponent);
   if (t.force_exponent != 0.0) scale *= std::pow(force_N / t.reference_force_N, t.force_exponent);
   // 0 · ∞ where an exponent is negative is not a number: nothing is rendered then.
@@ -39,8 +39,8 @@ StochasticHeight next_stochastic_height(const StochasticTexture& texture, Series
   speed_mps = servo_input(speed_mps);
   const double sigma_m = scaled_sigma_m(texture, speed_mps, servo_input(force_N));
   const double z_m = sigma_m * next_deviate(texture, state, speed_mps, servo_input(dt_s));
-  const double height_m = lifted(z_m, sigma_m, texture.lift_sigma);
-  return {height_m, height_m - std::max(texture.lift_sigma, 0.0) * sigma_m};
+  const double height_m = with_offset(z_m, sigma_m, texture.offset_sigmas);
+  return {height_m, height_m - std::max(texture.offset_sigmas, 0.0) * sigma_m};
 }
 
 double next_height_m(const StochasticTexture& texture, SeriesState& state, double speed_mps, double force_N,

@@ -78,6 +78,49 @@ Side side(double low, double high, double spacing_m, double period_m, Border bor
   return {static_cast<std::size_t>(cells) + 1, spacing_m, low - slack - 2.0 * spacing_m};
 }
 
+// How far apart the values of one coordinate are, if they are those of a grid's lines: evenly spaced, each the same
+// number to a thousandth of the spacing. 0 otherwise.
+double line_spacing_m(std::vector<double> values_m, std::size_t& lines) {
+  std::sort(values_m.begin(), values_m.end());
+  const double span_m = values_m.back() - values_m.front();
+  std::vector<double> line_m{values_m.front()};
+  for (const double x : values_m)
+    if (x - line_m.back() > 1e-7 * span_m) line_m.push_back(x);
+  lines = line_m.size();
+  const double spacing_m = span_m / static_cast<double>(lines - 1);
+  for (std::size_t i = 0; i < lines; ++i)
+    if (std::abs(line_m[i] - line_m.front() - static_cast<double>(i) * spacing_m) > 1e-3 * spacing_m) return 0.0;
+  return spacing_m;
+}
+
+// That of the data (see fit_areal.h), missing heights counted: a map with gaps is a map.
+double default_spacing_m(std::span<const ArealSample> samples, const Extent& e, Problems& problems) {
+  constexpr double kScattered_m = 1e-4;
+  constexpr double kMostPoints = 1048576.0, kMostPointsASide = 2048.0;
+  std::vector<double> x_m, y_m;
+  for (const ArealSample& s : samples) {
+    x_m.push_back(s.x_m);
+    y_m.push_back(s.y_m);
+  }
+  std::size_t columns = 0, rows = 0;
+  const double across_m = line_spacing_m(std::move(x_m), columns), along_m = line_spacing_m(std::move(y_m), rows);
+  const double width_m = e.high_x - e.low_x, height_m = e.high_y - e.low_y;
+  // Strokes far apart are no map, however even.
+  const bool is_grid = across_m > 0.0 && along_m > 0.0 && columns * rows == samples.size() &&
+                       std::max(across_m, along_m) <= 3.0 * std::min(across_m, along_m);
+  const double wanted_m =
+      is_grid ? std::min(across_m, along_m)
+              : std::min(kScattered_m, std::sqrt(width_m * height_m / static_cast<double>(samples.size())));
+  const double possible_m =
+      std::max(std::sqrt(width_m * height_m / kMostPoints), std::max(width_m, height_m) / kMostPointsASide);
+  if (wanted_m >= possible_m) return wanted_m;
+  problems.push_back({"coarser_than_data",
+                      "the surface's points are " + rounded_text(1e3 * possible_m) + " mm apart, the data's " +
+                          rounded_text(1e3 * wanted_m) + " mm (areal.spacing_mm)",
+                      1});
+  return possible_m;
+}
+
 SplineGrid empty_grid(const Extent& e, const FitArealConfig& config, double spacing_m) {
   const Side x = side(e.low_x, e.high_x, spacing_m, config.period_x_mm * 1e-3, config.border);
   const Side y = side(e.low_y, e.high_y, spacing_m, config.period_y_mm * 1e-3, config.border);
@@ -92,8 +135,8 @@ SplineGrid empty_grid(const Extent& e, const FitArealConfig& config, double spac
 }  // namespace
 
 ArealFit fit_areal(std::span<const ArealSample> samples, const FitArealConfig& config) {
-  if (!(config.spacing_mm > 0.0) || !std::isfinite(config.spacing_mm))
-    throw Error("texture: the spacing " + number_text(config.spacing_mm) + " mm is not positive");
+  if (!(config.spacing_mm >= 0.0) || !std::isfinite(config.spacing_mm))
+    throw Error("texture: the spacing " + number_text(config.spacing_mm) + " mm is negative");
   ArealFit fit;
   const std::vector<ArealSample> present = checked(samples, fit.problems);
   const Extent extent = extent_of(present);
@@ -102,7 +145,8 @@ ArealFit fit_areal(std::span<const ArealSample> samples, const FitArealConfig& c
   double mean_m = 0.0;
   for (const auto& s : present) mean_m += s.height_m / static_cast<double>(present.size());
 
-  double spacing_m = config.spacing_mm * 1e-3;
+  const double spacing_m =
+      config.spacing_mm > 0.0 ? config.spacing_mm * 1e-3 : default_spacing_m(samples, extent, fit.problems);
   const double longest = std::max(extent.high_x - extent.low_x, extent.high_y - extent.low_y);
   int levels = 1;
   while (levels < 12 && longest / (spacing_m * std::pow(2.0, levels)) > 16.0) ++levels;
@@ -122,7 +166,7 @@ ArealFit fit_areal(std::span<const ArealSample> samples, const FitArealConfig& c
   double error = 0.0;
   for (const auto& s : present) {
     square += std::pow(s.height_m - mean_m, 2);
-    error += std::pow(s.height_m - evaluate(fit.texture.surface, s.x_m, s.y_m).height_m, 2);
+    error += std::pow(s.height_m - evaluate_height(fit.texture.surface, s.x_m, s.y_m).height_m, 2);
   }
   fit.rms_height_m = std::sqrt(square / static_cast<double>(present.size()));
   fit.rms_error_m = std::sqrt(error / static_cast<double>(present.size()));
@@ -141,7 +185,7 @@ ArealFit fit_areal(std::span<const ArealSample> samples, const FitArealConfig& c
                                 rounded_text(fit.relative_residual) + " only; more iterations, or a coarser grid",
                             1});
   }
-  fit.lift_m = -lowest_height_m(fit.texture.surface);
+  fit.height_offset_m = -lowest_height_m(fit.texture.surface);
   return fit;
 }
 

@@ -21,8 +21,8 @@ struct Group {
   std::vector<std::span<const double>> segments;  // windows of the group that follow each other are one
 };
 
-std::vector<Group> gather(const std::vector<SeriesWindow>& windows, const std::vector<int>& number,
-                          std::span<const double> x) {
+std::vector<Group> gather_groups(const std::vector<SeriesWindow>& windows, const std::vector<int>& number,
+                                 std::span<const double> x) {
   std::vector<Group> groups(static_cast<std::size_t>(*std::max_element(number.begin(), number.end())) + 1);
   for (std::size_t i = 0; i < windows.size(); ++i) {
     auto& g = groups[static_cast<std::size_t>(number[i])];
@@ -76,7 +76,7 @@ AutoregressiveFit fit_once(const SeriesRecording& recording, const FitAutoregres
       static_cast<int>(std::clamp(std::floor(stroked_s / config.seconds_per_model), 1.0, double(config.max_models)));
   const auto least = std::max<std::size_t>(
       2, static_cast<std::size_t>(0.5 * config.seconds_per_model * recording.rate_Hz / windows.front().count));
-  const auto groups = gather(windows, group_windows(windows, groups_wanted, least), x);
+  const auto groups = gather_groups(windows, group_windows(windows, groups_wanted, least), x);
   std::vector<BurgResult> filters;
   for (const auto& g : groups) {
     filters.push_back(burg(g.segments, config.max_order));

@@ -6,8 +6,9 @@
 #include <numbers>
 #include <string>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
+#include "asperity/algebra/solve.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 
@@ -19,7 +20,7 @@ constexpr Eigen::Index kMostLags = 96;
 // a, b, B, ω.
 using Parameters = Eigen::Vector4d;
 
-void check(const std::vector<TapRecording>& taps, const FitDecayingSinusoidsConfig& config) {
+void check_taps(const std::vector<TapRecording>& taps, const FitDecayingSinusoidsConfig& config) {
   if (taps.empty()) throw Error("texture: no taps");
   if (!(config.rate_Hz > 0.0) || !std::isfinite(config.rate_Hz))
     throw Error("texture: the rate " + number_text(config.rate_Hz) + " Hz is not positive");
@@ -53,10 +54,9 @@ std::complex<double> common_pole(const std::vector<TapRecording>& taps) {
     for (Eigen::Index i = 0; i + lags <= x.size(); ++i)
       covariance.selfadjointView<Eigen::Lower>().rankUpdate(x.segment(i, lags));
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
-  const Eigen::MatrixXd signal = solver.eigenvectors().rightCols<2>();
-  const Eigen::Matrix2d shift = signal.topRows(lags - 1).colPivHouseholderQr().solve(signal.bottomRows(lags - 1));
-  return Eigen::EigenSolver<Eigen::Matrix2d>(shift).eigenvalues()[0];
+  const Eigen::MatrixXd signal = symmetric_eigen(covariance).vectors.rightCols<2>();
+  const Eigen::Matrix2d shift = least_squares(signal.topRows(lags - 1), signal.bottomRows(lags - 1)).x;
+  return eigenvalues(shift)[0];
 }
 
 // The wave of unit amplitude and its derivatives with B and ω.
@@ -102,18 +102,16 @@ bool solve_amplitudes(const std::vector<TapRecording>& taps, double rate_Hz, Par
   Eigen::Vector2d unit = m.colwise().norm();
   for (double& u : unit) u = u > 0.0 ? 1.0 / u : 0.0;
   const Eigen::MatrixXd scaled = m * unit.asDiagonal();
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-  solver.setThreshold(1e-6);
-  solver.compute(scaled);
-  const Eigen::Vector2d x = solver.solve(y);
+  const LeastSquares fit = least_squares(scaled, y, 1e-6);
+  const Eigen::Vector2d x = fit.x;
   p[0] = x[0] * unit[0];
   p[1] = x[1] * unit[1];
-  return solver.rank() == 2;
+  return fit.rank == 2;
 }
 
 // Steps of Levenberg and Marquardt on B and ω, a and b solved anew at each (variable projection).
-void refine(const std::vector<TapRecording>& taps, const FitDecayingSinusoidsConfig& config, Parameters& p,
-            DecayingSinusoidsFit& fit) {
+void refine_parameters(const std::vector<TapRecording>& taps, const FitDecayingSinusoidsConfig& config, Parameters& p,
+                       DecayingSinusoidsFit& fit) {
   double best = cost(taps, config.rate_Hz, p);
   double damping = 1e-3;
   for (fit.iterations = 0; fit.iterations < config.max_iterations; ++fit.iterations) {
@@ -131,7 +129,7 @@ void refine(const std::vector<TapRecording>& taps, const FitDecayingSinusoidsCon
     }
     Eigen::Matrix3d damped = normal;
     damped.diagonal() *= 1.0 + damping;
-    const Eigen::Vector3d step = damped.ldlt().solve(right);
+    const Eigen::Vector3d step = solve_symmetric(damped, right);
     Parameters next = p;
     next[2] += step[0];
     next[3] += step[1];
@@ -154,7 +152,8 @@ void refine(const std::vector<TapRecording>& taps, const FitDecayingSinusoidsCon
   }
 }
 
-void measure(const std::vector<TapRecording>& taps, const Parameters& p, double rate_Hz, DecayingSinusoidsFit& fit) {
+void measure_fit(const std::vector<TapRecording>& taps, const Parameters& p, double rate_Hz,
+                 DecayingSinusoidsFit& fit) {
   double square = 0.0;
   double error = 0.0;
   double count = 0.0;
@@ -185,7 +184,7 @@ void measure(const std::vector<TapRecording>& taps, const Parameters& p, double 
 
 DecayingSinusoidsFit fit_decaying_sinusoids(const std::vector<TapRecording>& taps,
                                             const FitDecayingSinusoidsConfig& config) {
-  check(taps, config);
+  check_taps(taps, config);
   const auto pole = common_pole(taps);
   Parameters p(0.0, 0.0, -std::log(std::abs(pole)) * config.rate_Hz, std::abs(std::arg(pole)) * config.rate_Hz);
   if (!p.allFinite() || !(p[3] > 0.0) || !(p[3] < std::numbers::pi * config.rate_Hz * (1.0 - 1e-9))) {
@@ -194,8 +193,8 @@ DecayingSinusoidsFit fit_decaying_sinusoids(const std::vector<TapRecording>& tap
   }
   DecayingSinusoidsFit fit;
   fit.speed_and_force_determined = solve_amplitudes(taps, config.rate_Hz, p);
-  refine(taps, config, p, fit);
-  measure(taps, p, config.rate_Hz, fit);
+  refine_parameters(taps, config, p, fit);
+  measure_fit(taps, p, config.rate_Hz, fit);
   fit.texture = {p[0], p[1], p[2], p[3], config.mass_kg, 0.0, 0.0};
   if (!fit.speed_and_force_determined) {
     fit.problems.push_back({"not_determined",

@@ -15,7 +15,7 @@
 namespace asperity {
 namespace {
 
-void check(std::span<const double> height_m, double spacing_m, const FitFourier1dConfig& config) {
+void check_heights(std::span<const double> height_m, double spacing_m, const FitFourier1dConfig& config) {
   if (!(spacing_m > 0.0) || !std::isfinite(spacing_m))
     throw Error("texture: the spacing " + number_text(spacing_m) + " m is not a positive length");
   if (!(config.length_mm > 0.0) || !std::isfinite(config.length_mm)) {
@@ -57,7 +57,7 @@ Window choose_window(const BridgedProfile& profile, double spacing_m, const FitF
   return longest;
 }
 
-Fourier1d transform(const std::vector<double>& z, std::size_t coefficients, double length_mm) {
+Fourier1d transform_heights(const std::vector<double>& z, std::size_t coefficients, double length_mm) {
   const std::size_t count = z.size();
   std::vector<double> cosine(count), sine(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -87,7 +87,7 @@ Fourier1d transform(const std::vector<double>& z, std::size_t coefficients, doub
 }  // namespace
 
 FourierFit fit_fourier1d(std::span<const double> height_m, double spacing_m, const FitFourier1dConfig& config) {
-  check(height_m, spacing_m, config);
+  check_heights(height_m, spacing_m, config);
   FourierFit fit;
   const BridgedProfile profile = bridge_short_gaps(height_m, samples_of(config.max_gap_mm, spacing_m));
   const Window window = choose_window(profile, spacing_m, config, fit.problems);
@@ -96,11 +96,11 @@ FourierFit fit_fourier1d(std::span<const double> height_m, double spacing_m, con
   double length_mm = static_cast<double>(window.count) * spacing_m * 1e3;
   if (std::abs(length_mm - config.length_mm) < 1e-9 * config.length_mm) length_mm = config.length_mm;
   const std::size_t coefficients = std::min(static_cast<std::size_t>(config.coefficients), (window.count - 1) / 2);
-  fit.texture = transform(periodic_m, coefficients, length_mm);
+  fit.texture = transform_heights(periodic_m, coefficients, length_mm);
   fit.first_sample = window.first;
   fit.samples = window.count;
   fit.bridged = profile.bridged_before[window.first + window.count] - profile.bridged_before[window.first];
-  fit.lift_m = lift_m(fit.texture);
+  fit.height_offset_m = height_offset_m(fit.texture);
 
   double mean_m = 0.0;
   for (std::size_t i = 0; i < window.count; ++i)
@@ -110,7 +110,7 @@ FourierFit fit_fourier1d(std::span<const double> height_m, double spacing_m, con
   for (std::size_t i = 0; i < window.count; ++i) {
     const double z = profile.height_m[window.first + i];
     const double x_m = length_mm * 1e-3 * static_cast<double>(i) / static_cast<double>(window.count);
-    const double difference = evaluate(fit.texture, x_m).height_m - z;
+    const double difference = evaluate_height(fit.texture, x_m).height_m - z;
     square += (z - mean_m) * (z - mean_m);
     error += difference * difference;
   }

@@ -189,7 +189,7 @@ FourierSamplesFit fit_fourier1d_samples(std::span<const double> x_m, std::span<c
   double error = 0.0;
   double height = 0.0;
   for (const Sample& s : samples) {
-    error += std::pow(evaluate(fit.texture, s.turn * length_m).height_m - s.height_m, 2);
+    error += std::pow(evaluate_height(fit.texture, s.turn * length_m).height_m - s.height_m, 2);
     height += std::pow(s.height_m - mean_m, 2);
   }
   fit.rms_error_m = std::sqrt(weight * error);
@@ -226,7 +226,7 @@ FourierPathFit fit_fourier1d_path(std::span<const double> height_m, double spaci
                                1});
   }
   result.fit = fit_fourier1d_samples(x_m, closed_m, length_m, samples);
-  result.lift_m = lift_m(result.fit.texture);
+  result.height_offset_m = height_offset_m(result.fit.texture);
   return result;
 }
 

@@ -15,7 +15,7 @@
 namespace asperity {
 namespace {
 
-void check(const Fourier1d& f) {
+void check_series(const Fourier1d& f) {
   if (f.a_m.size() != f.b_m.size() || f.a_m.empty()) {
     throw Error("texture: " + std::to_string(f.a_m.size()) + " cosine and " + std::to_string(f.b_m.size()) +
                 " sine coefficients");
@@ -153,10 +153,10 @@ double surface_rms_m(const Fourier2d& t) {
     const double mean = sum / (n * n);
     for (std::size_t r = 0; r < t.grid.rows; ++r) {
       for (std::size_t c = 0; c < t.grid.columns; ++c) {
-        const double z =
-            evaluate(t.grid, t.grid.spacing_x_m * static_cast<double>(c), t.grid.spacing_y_m * static_cast<double>(r))
-                .height_m -
-            mean;
+        const double z = evaluate_height(t.grid, t.grid.spacing_x_m * static_cast<double>(c),
+                                         t.grid.spacing_y_m * static_cast<double>(r))
+                             .height_m -
+                         mean;
         square += z * z;
       }
     }
@@ -171,19 +171,21 @@ double surface_rms_m(const Fourier2d& t) {
 
 }  // namespace
 
-Fourier2dFit fit_fourier2d(const Fourier1d& x, const Fourier1d& y, const FitFourier2dConfig& config) {
-  check(x);
-  check(y);
+Fourier2dFit fit_fourier2d(const Fourier1d& x, const Fourier1d& y, const FitFourier2dConfig& config, bool periodic) {
+  check_series(x);
+  check_series(y);
   Fourier2dFit fit;
   fit.source_rms_m = std::sqrt(rms_height_m(x) * rms_height_m(y));
-  if (config.kind == Fourier2dKind::kIsotropic) {
+  const auto automatic = periodic ? Fourier2dFitKind::kPattern : Fourier2dFitKind::kIsotropic;
+  const Fourier2dFitKind kind = config.kind == Fourier2dFitKind::kAuto ? automatic : config.kind;
+  if (kind == Fourier2dFitKind::kIsotropic) {
     fit.source_rms_m = rms_height_m(x);
     fit_isotropic(x, config, fit);
   } else {
-    fit.texture = config.kind == Fourier2dKind::kOuter ? outer(x, y) : pattern(x, y);
+    fit.texture = kind == Fourier2dFitKind::kOuter ? outer(x, y) : pattern(x, y);
   }
   fit.rms_height_m = surface_rms_m(fit.texture);
-  fit.lift_m = -lowest_height_m(fit.texture);
+  fit.height_offset_m = -lowest_height_m(fit.texture);
   return fit;
 }
 

@@ -103,7 +103,7 @@ StochasticFit fit_stochastic(std::span<const double> height_m, double spacing_m,
   measure_distribution(std::move(present), fit);
   fit.correlation_length_m = correlation_length_m(stretch, spacing_m);
   fit.texture.tangential_ratio = config.tangential_ratio;
-  fit.texture.lift_sigma = config.lift_sigma;
+  fit.texture.offset_sigmas = config.offset_sigmas;
   fit.texture.stiffness_N_per_m = config.stiffness_N_per_m;
   if (config.use_correlation_length) fit.texture.correlation_length_m = fit.correlation_length_m;
 
@@ -112,7 +112,7 @@ StochasticFit fit_stochastic(std::span<const double> height_m, double spacing_m,
   fit.not_white = misplaced(source.density, std::vector<double>(source.density.size(), 1.0));
   // Stroked at one spacing a step, the series is the profile that the texture would make.
   StochasticTexture plain = fit.texture;
-  plain.lift_sigma = 0.0;
+  plain.offset_sigmas = 0.0;
   plain.fade_speed_mps = 0.0;
   SeriesState state = start_series(1);
   std::vector<double> synthesised(kSynthesised);

@@ -1,23 +1,25 @@
+#include <algorithm>
 #include <utility>
 #include <variant>
 
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
-#include "asperity/base/text.h"
-#include "asperity/json/parse_json.h"
 #include "asperity/texture/texture_file.h"
 #include "model_block.h"
 
 namespace asperity {
 namespace {
 
-// One line, whatever layout the text had.
-std::string json(const std::string& value, const char* key) {
-  try {
-    return parse_json(value).dump();
-  } catch (const Error&) {
-    throw Error(std::string("texture: '") + key + "' is not JSON: " + printable(value));
+Json whole_extra(const Texture& texture) {
+  if (!texture.extra.is_object()) throw Error("texture: extra is not an object: " + shown(texture.extra));
+  if (!texture.fit) return texture.extra;
+  Json out = Json::object();
+  const std::vector<JsonMember>& others = texture.extra.items();
+  for (std::size_t i = 0; i <= others.size(); ++i) {
+    if (i == std::min(texture.fit->place, others.size())) out[kFitKey] = texture.fit->metrics;
+    if (i < others.size()) out[others[i].key] = others[i].value;
   }
+  return out;
 }
 
 }  // namespace
@@ -44,7 +46,8 @@ TextureFiles format_texture_files(const Texture& t, const std::string& stem) {
   add_number("compliance_kc", t.compliance_kc);
   add_number("stiffness_N_per_m", t.stiffness_N_per_m);
   add_number("friction", t.friction);
-  add_number("lift_m", t.lift_m);
+  add_number("lift_m", t.height_offset_m);
+  add_number("height_sigma_m", t.height_sigma_m);
   if (!t.roughness.empty()) {
     out.begin_inline("roughness");
     for (const auto& [key, value] : t.roughness) out.number(key, value);
@@ -54,10 +57,11 @@ TextureFiles format_texture_files(const Texture& t, const std::string& stem) {
     out.numbers("band_cycles_per_mm", t.band_cycles_per_mm->data(), t.band_cycles_per_mm->size());
   out.begin_inline("source");
   out.text("recording", t.source.recording);
-  if (!t.source.config_json.empty()) out.raw("config", json(t.source.config_json, "source.config"));
+  if (t.source.config) out.raw("config", t.source.config->dump());
   out.text("version", t.source.version);
+  if (t.source.snr) out.number("snr", *t.source.snr);
   out.end_object();
-  out.raw("extra", json(t.extra_json, "extra"));
+  out.raw("extra", whole_extra(t).dump());
   return {out.finish(), std::move(output.payloads)};
 }
 

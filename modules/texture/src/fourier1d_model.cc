@@ -43,7 +43,7 @@ void Traits1d::low_pass(Fourier1d& f, double cutoff_cycles_per_mm) {
 }
 
 HeightAndGradient Traits1d::height(const Fourier1d& f, double x_m, double) noexcept {
-  const HeightAndSlope h = evaluate(f, x_m);
+  const HeightAndSlope h = evaluate_height(f, x_m);
   return {h.height_m, h.slope, 0.0};
 }
 

@@ -71,7 +71,7 @@ bool Traits2d::reseed(Fourier2d& t, std::int64_t seed) {
 }
 
 HeightAndGradient Traits2d::height(const Fourier2d& t, double x_m, double y_m) noexcept {
-  return evaluate(t, x_m, y_m);
+  return evaluate_height(t, x_m, y_m);
 }
 double Traits2d::lowest_m(const Fourier2d& t) { return lowest_height_m(t); }
 
@@ -140,10 +140,27 @@ void Traits2d::make_tables(const Fourier2d& t, ServoTables& tables) {
 
 void Traits2d::fit(const TextureFitInput& input, const TextureFitOptions& options, FittedTexture& out) {
   if (input.files.size() > 2) throw TextureFitFilesError("fourier2d takes one profile, or one along x and one along y");
-  const Fourier1d x = fit_series(input, {input.files.front()}, options, out);
+  const FitFourier2dConfig& config = options.of<Fourier2d>().fourier2d;
+  // A profile that repeats gives a pattern, which closes if the series holds whole periods.
+  bool periodic = config.kind == Fourier2dFitKind::kAuto && input.pitch_m != nullptr;
+  const auto fit_axis = [&](const std::string& file, FittedTexture& axis) {
+    TextureFitOptions own = options;
+    if (periodic) {
+      const double pitch_m = input.pitch_m({file});
+      periodic = pitch_m > 0.0;
+      if (periodic) {
+        axis.report["pitch_m"] = pitch_m;
+        double& length_mm = std::get<TextureModelTraits<Fourier1d>::FitOptions>(own.all).fourier1d.length_mm;
+        length_mm = 1e3 * pitch_m * std::max(1.0, std::round(length_mm / (1e3 * pitch_m)));
+      }
+    }
+    return fit_series(input, {file}, own, axis);
+  };
+  const Fourier1d x = fit_axis(input.files.front(), out);
   FittedTexture across;
-  const Fourier1d y = input.files.size() == 2 ? fit_series(input, {input.files.back()}, options, across) : x;
-  Fourier2dFit fit = fit_fourier2d(x, y, options.of<Fourier2d>().fourier2d);
+  const Fourier1d y = input.files.size() == 2 ? fit_axis(input.files.back(), across) : x;
+  if (across.report.contains("pitch_m")) out.report["pitch_across_m"] = across.report["pitch_m"];
+  Fourier2dFit fit = fit_fourier2d(x, y, config, periodic);
   out.report["kind"] = kFourier2dKindNames.at(static_cast<std::size_t>(fit.texture.kind));
   out.report["surface_rms_m"] = fit.rms_height_m;
   out.report["source_rms_m"] = fit.source_rms_m;

@@ -62,7 +62,7 @@ void MapTraits::low_pass(HeightMap& map, double cutoff_cycles_per_mm) {
 std::size_t MapTraits::size_bytes(const HeightMap& map) { return map.level.size() * sizeof(map.level[0]); }
 
 HeightAndGradient MapTraits::height(const HeightMap& map, double x_m, double y_m) noexcept {
-  return evaluate(map, x_m, y_m);
+  return evaluate_height(map, x_m, y_m);
 }
 
 double MapTraits::lowest_m(const HeightMap& map) { return lowest_height_m(map); }

@@ -234,7 +234,7 @@ PennTexture parse_penn(std::string_view text, const std::string& name, const Imp
   PennTexture penn;
   penn.texture.rate_Hz = config.rate_Hz;
   penn.texture.mass_kg = config.mass_kg;
-  penn.texture.lift_sigma = config.lift_sigma;
+  penn.texture.offset_sigmas = config.offset_sigmas;
   // Below these the toolkit takes speed and force as none.
   penn.texture.fade_speed_mps = 5e-5;
   penn.texture.fade_force_N = 0.05;

@@ -15,7 +15,7 @@ namespace {
 using Complex = std::complex<double>;
 
 // Where a line of `size` cells takes its value at `i`, beyond its ends too.
-std::size_t continued(std::ptrdiff_t i, std::ptrdiff_t size, Border border) {
+std::size_t continue_index(std::ptrdiff_t i, std::ptrdiff_t size, Border border) {
   if (border == Border::kClamp) return static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(i, 0, size - 1));
   const std::ptrdiff_t period = border == Border::kPeriodic ? size : 2 * (size - 1);
   const std::ptrdiff_t m = ((i % period) + period) % period;
@@ -35,7 +35,7 @@ class LineFilter {
     gain_.resize(length);
     for (std::size_t i = 0; i < length; ++i) {
       const auto at = static_cast<std::ptrdiff_t>(i) - static_cast<std::ptrdiff_t>(margin_);
-      source_[i] = continued(at, static_cast<std::ptrdiff_t>(size), border);
+      source_[i] = continue_index(at, static_cast<std::ptrdiff_t>(size), border);
       const std::size_t wave = std::min(i, length - i);
       gain_[i] = low_pass_gain(static_cast<double>(wave) / static_cast<double>(length), cutoff);
     }

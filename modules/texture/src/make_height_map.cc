@@ -123,13 +123,13 @@ HeightMapFit make_height_map(const TextureModel& model, const MakeHeightMapConfi
       const double y_m = pixel_y_m * (static_cast<double>(r) + 0.5);
       const bool near_border = !tiling && (c < 2 || r < 2 || c + 3 > columns || r + 3 > rows);
       if (x_m < tile.seam_x_m || y_m < tile.seam_y_m || near_border) continue;
-      error += std::pow(evaluate(map, x_m, y_m).height_m - evaluate_height(model, x_m, y_m).height_m, 2);
+      error += std::pow(evaluate_height(map, x_m, y_m).height_m - evaluate_height(model, x_m, y_m).height_m, 2);
       ++compared;
     }
   }
   fit.rms_height_m = std::sqrt(square / static_cast<double>(height_m.size()));
   fit.rms_error_m = std::sqrt(error / static_cast<double>(std::max<std::size_t>(compared, 1)));
-  fit.lift_m = -lowest_height_m(map);
+  fit.height_offset_m = -lowest_height_m(map);
   return fit;
 }
 

@@ -9,6 +9,9 @@
 
 namespace asperity {
 
+// The member of extra that is ours.
+inline constexpr const char* kFitKey = "fit";
+
 // What a model's block is read from; whoever reads it finishes it. `path` is the block's key, the model's name.
 struct BlockInput {
   JsonObject& block;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "asperity/base/csv.h"
@@ -41,12 +42,21 @@ void parse_model(JsonObject& root, const PayloadReader& payload, Texture& textur
   item.fail("'" + printable(model) + "' is not a model that this version knows (" + known + ")");
 }
 
+void take_fit(Texture& texture) {
+  const std::vector<JsonMember>& members = texture.extra.items();
+  const auto found = std::find_if(members.begin(), members.end(), [](const auto& each) { return each.key == kFitKey; });
+  if (found == members.end()) return;
+  texture.fit = {found->value, static_cast<std::size_t>(found - members.begin())};
+  texture.extra.erase(kFitKey);
+}
+
 void parse_common(JsonObject& root, Texture& texture) {
   root.read_text("name", texture.name, kLongestText_bytes);
   texture.compliance_kc = optional_number(root, "compliance_kc", {0.0, 1.0});
   texture.stiffness_N_per_m = optional_number(root, "stiffness_N_per_m", {0.0, 1e9});
   texture.friction = optional_number(root, "friction", {0.0, 100.0});
-  texture.lift_m = optional_number(root, "lift_m", {-1e6, 1e6});
+  texture.height_offset_m = optional_number(root, "lift_m", {-1e6, 1e6});
+  texture.height_sigma_m = optional_number(root, "height_sigma_m", {0.0, 1e6});
   if (auto roughness = root.optional_object("roughness")) {
     const auto& values = roughness->item().json().items();
     if (values.size() > kMostRoughnessValues)
@@ -63,10 +73,12 @@ void parse_common(JsonObject& root, Texture& texture) {
   if (auto source = root.optional_object("source")) {
     source->read_text("recording", texture.source.recording, kLongestText_bytes);
     source->read_text("version", texture.source.version, kLongestText_bytes);
-    if (const Json* config = source->find("config")) texture.source.config_json = config->dump();
+    if (const Json* config = source->find("config")) texture.source.config = *config;
+    texture.source.snr = optional_number(*source, "snr", {0.0, 1e30});
     source->finish();
   }
-  if (root.has("extra")) texture.extra_json = root.extra().dump();
+  texture.extra = root.extra();
+  take_fit(texture);
 }
 
 }  // namespace
@@ -83,8 +95,9 @@ std::string BlockInput::read_payload(const char* ending) const {
   return payload(file);
 }
 
-Texture parse_texture(std::string_view content, const std::string& name, const PayloadReader& payload) {
-  const Json json = parse_json(content, name);
+Texture parse_texture(std::string_view content, const std::string& name, const PayloadReader& payload,
+                      const Observer& observer) {
+  const Json json = parse_json(content, name, {}, observer.without_progress());
   JsonObject root(json, name);
   root.require_format("asperity-texture");
   Texture texture;
@@ -94,7 +107,8 @@ Texture parse_texture(std::string_view content, const std::string& name, const P
   return texture;
 }
 
-Texture read_texture(const std::filesystem::path& path, const std::function<void(std::string_view)>& seen) {
+Texture read_texture(const std::filesystem::path& path, const std::function<void(std::string_view)>& seen,
+                     const Observer& observer) {
   const auto read = [&](const std::filesystem::path& file, std::uint64_t limit_bytes) {
     std::string content = read_file(file, limit_bytes);
     if (seen) seen(content);
@@ -106,7 +120,7 @@ Texture read_texture(const std::filesystem::path& path, const std::function<void
     if (std::filesystem::is_symlink(payload_path)) throw Error(payload_path.string() + ": is a symbolic link");
     return read(payload_path, kLargestPayload_bytes);
   };
-  return parse_texture(read(path, kLargestTextureFile_bytes), path.string(), payload);
+  return parse_texture(read(path, kLargestTextureFile_bytes), path.string(), payload, observer);
 }
 
 }  // namespace asperity

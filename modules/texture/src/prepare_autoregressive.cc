@@ -9,7 +9,7 @@
 #include "asperity/texture/autoregressive.h"
 #include "asperity/texture/autoregressive_filter.h"
 #include "asperity/texture/series_state.h"
-#include "asperity/texture/triangulate.h"
+#include "asperity/texture/triangulate_points.h"
 
 namespace asperity {
 namespace {
@@ -78,7 +78,7 @@ void check_model(const std::string& name, const AutoregressiveModel& model, cons
 }
 
 // Counter-clockwise in the plane; triangles without area are of no use and go.
-void wind(AutoregressiveTexture& t) {
+void wind_points(AutoregressiveTexture& t) {
   const auto area = [&](const std::array<int, 3>& tri) {
     const auto& a = t.models[static_cast<std::size_t>(tri[0])];
     const auto& b = t.models[static_cast<std::size_t>(tri[1])];
@@ -102,7 +102,7 @@ void prepare_autoregressive(AutoregressiveTexture& texture, const std::string& n
   check_number(name, "the rate", texture.rate_Hz, 1.0, 1e6);
   check_number(name, "the mass", texture.mass_kg, 0.0, 1e3);
   check_number(name, "the tangential ratio", texture.tangential_ratio, -1e3, 1e3);
-  check_number(name, "the lift", texture.lift_sigma, 0.0, 10.0);
+  check_number(name, "the lift", texture.offset_sigmas, 0.0, 10.0);
   check_number(name, "the speed of fading", texture.fade_speed_mps, 0.0, 1e3);
   check_number(name, "the force of fading", texture.fade_force_N, 0.0, 1e6);
   check_number(name, "the largest speed", texture.max_speed_mps, 0.0, 1e3);
@@ -132,11 +132,11 @@ void prepare_autoregressive(AutoregressiveTexture& texture, const std::string& n
                     std::to_string(texture.models.size()) + ", counted from 0");
     }
   }
-  wind(texture);
+  wind_points(texture);
   std::vector<PlanePoint> points;
   for (const auto& model : texture.models)
     points.push_back({model.speed_mps / texture.max_speed_mps, model.force_N / texture.max_force_N});
-  if (texture.triangles.empty()) texture.triangles = triangulate(points);
+  if (texture.triangles.empty()) texture.triangles = triangulate_points(points);
   texture.edges = border_edges(points, texture.triangles);
 }
 

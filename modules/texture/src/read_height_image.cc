@@ -41,7 +41,7 @@ Texture parse_height_image(std::string_view data, const std::string& name, const
   Texture texture;
   texture.name = name;
   texture.model = std::move(map);
-  texture.lift_m = 0.0;
+  texture.height_offset_m = 0.0;
   return texture;
 }
 

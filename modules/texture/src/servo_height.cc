@@ -83,7 +83,7 @@ template <class Grid, class Value>
   Place x, y;
   if (!inside((x_m - scale.origin_x_m) * scale.cells_x_per_m, grid.columns, grid.border, x) ||
       !inside((y_m - scale.origin_y_m) * scale.cells_y_per_m, grid.rows, grid.border, y)) {
-    return evaluate(grid, x_m, y_m);
+    return evaluate_height(grid, x_m, y_m);
   }
   const HeightAndGradient h = patch(values + y.first * grid.columns + x.first, grid.columns, cubics, x.t, y.t);
   return {scale.low_m + scale.unit_m * h.height_m, scale.unit_m * scale.cells_x_per_m * h.slope_x,

@@ -8,7 +8,7 @@ void list_stochastic(Model& t, const Field& field) {
   field("sigma_m", t.sigma_m, 0.0, kLargestHeight_m);
   field("correlation_length_m", t.correlation_length_m, 0.0, kLargestHeight_m);
   field("tangential_ratio", t.tangential_ratio, -100.0, 100.0);
-  field("lift_sigma", t.lift_sigma, 0.0, 10.0);
+  field("lift_sigma", t.offset_sigmas, 0.0, 10.0);
   field("stiffness_N_per_m", t.stiffness_N_per_m, 0.0, 1e6);
   field("mass_kg", t.mass_kg, 1e-6, 1e3);
   field("reference_speed_mps", t.reference_speed_mps, 1e-6, 1e3);

@@ -34,7 +34,7 @@ Json StochasticTraits::describe(const StochasticTexture& t) {
 void StochasticTraits::scale(StochasticTexture& t, double factor) { t.sigma_m *= factor; }
 
 void StochasticTraits::add_to(TextureHash& hash, const StochasticTexture& t) {
-  hash.add(t.sigma_m, t.correlation_length_m, t.tangential_ratio, t.lift_sigma, t.stiffness_N_per_m,
+  hash.add(t.sigma_m, t.correlation_length_m, t.tangential_ratio, t.offset_sigmas, t.stiffness_N_per_m,
            t.reference_speed_mps, t.speed_exponent, t.reference_force_N, t.force_exponent, t.fade_speed_mps);
 }
 
@@ -53,7 +53,7 @@ SeriesContactForce StochasticTraits::contact_force(const StochasticTexture& t, S
   const double pressed = contact.z_m <= 0.0 ? 1.0 : height_m > 0.0 ? depth_m / height_m : 0.0;
   double normal_N = stiffness_N_per_m * depth_m;
   double tangential_N = pressed * stiffness_N_per_m * contact.fade * (t.tangential_ratio * next.above_mean_m);
-  if (!(t.lift_sigma > 0.0)) {
+  if (!(t.offset_sigmas > 0.0)) {
     // Heights of both signs: a hole takes away load that is there and no more.
     if (height_m < 0.0) normal_N = std::max(stiffness_N_per_m * height_m, -contact.load_N);
     tangential_N = std::clamp(tangential_N, -contact.load_N, contact.load_N);
@@ -64,7 +64,7 @@ SeriesContactForce StochasticTraits::contact_force(const StochasticTexture& t, S
 void StochasticTraits::stroke(const StochasticTexture& t, const StrokeConfig& c,
                               std::vector<double>& acceleration_mps2) {
   StochasticTexture plain = t;
-  plain.lift_sigma = 0.0;
+  plain.offset_sigmas = 0.0;
   SeriesState state = start_series(static_cast<std::uint64_t>(c.seed));
   for (double& a : acceleration_mps2)
     a = t.stiffness_N_per_m / t.mass_kg * next_height_m(plain, state, c.speed_mps, c.force_N, 1.0 / c.rate_Hz);
@@ -76,7 +76,7 @@ void StochasticTraits::prepare(StochasticTexture& t, double) {
 
 SeriesHeights StochasticTraits::heights(const StochasticTexture& t) {
   const bool scaled = t.speed_exponent != 0.0 || t.force_exponent != 0.0;
-  const double offset_m = std::max(t.lift_sigma, 0.0) * t.sigma_m;
+  const double offset_m = std::max(t.offset_sigmas, 0.0) * t.sigma_m;
   return {offset_m, (scaled ? kMostStochasticScale : 1.0) * 2.0 * offset_m, t.stiffness_N_per_m};
 }
 
@@ -101,7 +101,7 @@ void StochasticTraits::take_heights(StochasticTexture& t, const Texture& height_
   t.correlation_length_m = spacing_m;
   const bool flat =
       std::all_of(height_m.begin(), height_m.end(), [&](double h) { return std::isnan(h) || h == height_m.front(); });
-  if (!flat) t = fit_stochastic(height_m, spacing_m, {.lift_sigma = kOffsetSigma}).texture;
+  if (!flat) t = fit_stochastic(height_m, spacing_m, {.offset_sigmas = kOffsetSigma}).texture;
   // A height stays under a tip at rest.
   t.fade_speed_mps = 0.0;
   t.stiffness_N_per_m = kOfThePlace;

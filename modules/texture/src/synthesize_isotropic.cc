@@ -15,7 +15,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-void check(const IsotropicSpectrum& spectrum) {
+void check_spectrum(const IsotropicSpectrum& spectrum) {
   const std::size_t count = spectrum.power_m2.size();
   if (count == 0 || count > kMostIsotropicHarmonics) {
     throw Error("texture: an isotropic spectrum of " + std::to_string(count) + " harmonics; 1 to " +
@@ -52,7 +52,7 @@ void inverse_fft_2d(std::vector<Complex>& z, std::size_t n) {
 }  // namespace
 
 SplineGrid synthesize_isotropic(const IsotropicSpectrum& spectrum) {
-  check(spectrum);
+  check_spectrum(spectrum);
   const std::size_t most = spectrum.power_m2.size();
   std::size_t n = 8;
   while (n < 4 * most) n *= 2;

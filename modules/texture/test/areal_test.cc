@@ -38,11 +38,32 @@ TEST(FitAreal, KeepsAPlaneExactly) {
   // A plane has no curvature to be held against.
   EXPECT_LT(fit.rms_error_m, 1e-6 * fit.rms_height_m);
   for (double x = 0.2e-3; x < 7.8e-3; x += 0.37e-3) {
-    const HeightAndGradient h = evaluate(fit.texture.surface, x, 2.1e-3);
+    const HeightAndGradient h = evaluate_height(fit.texture.surface, x, 2.1e-3);
     EXPECT_NEAR(h.height_m, plane(x, 2.1e-3), 1e-9);
     EXPECT_NEAR(h.slope_x, 0.01, 1e-5);
     EXPECT_NEAR(h.slope_y, -0.02, 1e-5);
   }
+}
+
+// By default nothing that was measured is thrown away: an areal map gives a surface of its own points.
+TEST(FitAreal, TakesTheSpacingOfTheData) {
+  const auto wave = [](double x, double y) {
+    return 5e-6 * std::sin(2 * pi * x / 60e-6) * std::cos(2 * pi * y / 80e-6);
+  };
+  std::vector<ArealSample> map;
+  for (int r = 0; r < 61; ++r)
+    for (int c = 0; c < 81; ++c) map.push_back({10e-6 * c, 10e-6 * r, wave(10e-6 * c, 10e-6 * r)});
+  map[1000].height_m = std::numeric_limits<double>::quiet_NaN();
+  const ArealFit fit = fit_areal(map);
+  EXPECT_NEAR(fit.texture.surface.spacing_x_m, 10e-6, 1e-9);
+  EXPECT_NEAR(fit.texture.surface.spacing_y_m, 10e-6, 1e-9);
+  EXPECT_GE(fit.texture.surface.columns, 81u);
+  EXPECT_GE(fit.texture.surface.rows, 61u);
+  EXPECT_LT(fit.rms_error_m, 0.02 * fit.rms_height_m);  // smoothness 1e-3 on six points a wave
+  // Scattered: √(8 mm · 5 mm / 40000) = 32 µm; few samples: 0.1 mm as a surface needs between strokes.
+  const auto plane = [](double x, double) { return 0.01 * x; };
+  EXPECT_NEAR(fit_areal(scattered(40000, plane)).texture.surface.spacing_x_m, 32e-6, 1e-6);
+  EXPECT_NEAR(fit_areal(scattered(500, plane)).texture.surface.spacing_x_m, 0.1e-3, 1e-6);
 }
 
 TEST(FitAreal, FindsWavesFromManyNoisyStrokes) {
@@ -69,10 +90,10 @@ TEST(FitAreal, FindsWavesFromManyNoisyStrokes) {
   int count = 0;
   for (double x = 0.0; x <= 7.9e-3; x += 0.1e-3) {
     for (double y = 0.0; y <= 5e-3; y += 0.1e-3, ++count)
-      square += std::pow(evaluate(fit.texture.surface, x, y).height_m - wave(x, y), 2);
+      square += std::pow(evaluate_height(fit.texture.surface, x, y).height_m - wave(x, y), 2);
   }
   EXPECT_LT(std::sqrt(square / count), 0.6e-6);
-  EXPECT_NEAR(fit.lift_m, 20e-6, 2e-6);
+  EXPECT_NEAR(fit.height_offset_m, 20e-6, 2e-6);
 }
 
 TEST(FitAreal, MarksGapsAndBridgesThemSmoothly) {
@@ -104,7 +125,7 @@ TEST(FitAreal, MarksGapsAndBridgesThemSmoothly) {
     }
   }
   // A thin plate over the hole of 1 mm: the bowl's 2 µm of sag are met to a third.
-  EXPECT_NEAR(evaluate(g, 4e-3, 2.5e-3).height_m, bowl(4e-3, 2.5e-3), 0.7e-6);
+  EXPECT_NEAR(evaluate_height(g, 4e-3, 2.5e-3).height_m, bowl(4e-3, 2.5e-3), 0.7e-6);
 }
 
 TEST(FitAreal, RepeatsWhereAskedTo) {
@@ -117,7 +138,7 @@ TEST(FitAreal, RepeatsWhereAskedTo) {
   config.period_y_mm = 5.0;
   const ArealFit fit = fit_areal(scattered(20000, wave), config);
   for (double x = -10e-3; x < 10e-3; x += 0.77e-3)
-    EXPECT_NEAR(evaluate(fit.texture.surface, x, 2 * x).height_m, wave(x, 2 * x), 0.2e-6) << x;
+    EXPECT_NEAR(evaluate_height(fit.texture.surface, x, 2 * x).height_m, wave(x, 2 * x), 0.2e-6) << x;
 }
 
 TEST(SplineGrid, IsSmoothAcrossItsBorders) {
@@ -129,14 +150,14 @@ TEST(SplineGrid, IsSmoothAcrossItsBorders) {
     const ArealFit fit = fit_areal(scattered(5000, wave), config);
     constexpr double kStep_m = 1e-9;
     for (double s = -12e-3; s < 20e-3; s += 3.1e-6) {
-      const HeightAndGradient a = evaluate(fit.texture.surface, s, 0.6 * s);
-      const HeightAndGradient b = evaluate(fit.texture.surface, s + kStep_m, 0.6 * (s + kStep_m));
+      const HeightAndGradient a = evaluate_height(fit.texture.surface, s, 0.6 * s);
+      const HeightAndGradient b = evaluate_height(fit.texture.surface, s + kStep_m, 0.6 * (s + kStep_m));
       ASSERT_NEAR(b.height_m - a.height_m, kStep_m * (a.slope_x + 0.6 * a.slope_y), 1e-14) << s;
       ASSERT_NEAR(a.slope_x, b.slope_x, 1e-5) << s;
       ASSERT_NEAR(a.slope_y, b.slope_y, 1e-5) << s;
     }
     // Nothing steeper than inside, however far out.
-    EXPECT_LT(std::abs(evaluate(fit.texture.surface, 1.0, -3.0).height_m), 40e-6);
+    EXPECT_LT(std::abs(evaluate_height(fit.texture.surface, 1.0, -3.0).height_m), 40e-6);
   }
 }
 

@@ -36,7 +36,7 @@ Fourier1d profile() {
 
 Texture surface(Fourier2dKind kind) {
   FitFourier2dConfig config;
-  config.kind = kind;
+  config.kind = static_cast<Fourier2dFitKind>(static_cast<int>(kind) + 1);  // after auto
   config.seed = 77;
   Texture t;
   t.name = "surface";
@@ -163,15 +163,15 @@ TEST(FieldFile, ReadsASurfaceStrictly) {
   EXPECT_THAT(with(last, last.substr(0, last.size() - 2) + "2\n"), ThrowsMessage<Error>(HasSubstr("neither 0 nor 1")));
 }
 
-TEST(EvaluateHeight, KnowsPeriodAndLift) {
+TEST(EvaluateHeight, KnowsPeriodAndOffset) {
   EXPECT_DOUBLE_EQ(period_m(surface(Fourier2dKind::kIsotropic).model).value(), 0.01);
   EXPECT_FALSE(period_m(area().model).has_value());
   for (const Texture& t : {surface(Fourier2dKind::kOuter), surface(Fourier2dKind::kIsotropic), map(16), area()}) {
-    const double lift = lift_m(t.model);
+    const double offset_m = height_offset_m(t.model);
     double lowest = 1.0;
     for (double x = -0.01; x < 0.02; x += 1.3e-4) {
       for (double y = -0.01; y < 0.02; y += 1.3e-4)
-        lowest = std::min(lowest, evaluate_height(t.model, x, y).height_m + lift);
+        lowest = std::min(lowest, evaluate_height(t.model, x, y).height_m + offset_m);
     }
     // A pattern search ends a thousandth of a cell from the lowest point.
     EXPECT_GE(lowest, -1e-10) << t.model_name();
@@ -180,7 +180,8 @@ TEST(EvaluateHeight, KnowsPeriodAndLift) {
   const TextureModel noise = StochasticTexture{};
   EXPECT_FALSE(is_height_field(noise));
   EXPECT_TRUE(std::isnan(evaluate_height(noise, 0.0, 0.0).height_m));
-  EXPECT_THAT([&] { static_cast<void>(lift_m(noise)); }, ThrowsMessage<Error>(HasSubstr("stochastic has no heights")));
+  EXPECT_THAT([&] { static_cast<void>(height_offset_m(noise)); },
+              ThrowsMessage<Error>(HasSubstr("stochastic has no heights")));
 }
 
 }  // namespace

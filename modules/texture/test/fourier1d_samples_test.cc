@@ -50,7 +50,7 @@ TEST(EvaluateFourier1dLong, IsTheSumForThousandsOfHarmonics) {
       height += f.a_m[j - 1] * std::cos(phase) + f.b_m[j - 1] * std::sin(phase);
       slope += omega * (f.b_m[j - 1] * std::cos(phase) - f.a_m[j - 1] * std::sin(phase));
     }
-    const HeightAndSlope got = evaluate(f, x_m);
+    const HeightAndSlope got = evaluate_height(f, x_m);
     EXPECT_NEAR(got.height_m, static_cast<double>(height), 1e-12 * amplitude_m);
     EXPECT_NEAR(got.slope, static_cast<double>(slope), 1e-12 * amplitude_m * 4096 * 2 * pi / 0.01);
   }
@@ -84,7 +84,7 @@ TEST(FitFourier1dSamples, FindsASeriesFromUnevenSamplesWithAGap) {
     // A gap of 0.1 mm, less than the finest wave's 0.25 mm, and positions in no order.
     if (x > 1e-3 && x < 1.1e-3) continue;
     x_m.push_back(x);
-    z_m.push_back(evaluate(truth, x).height_m);
+    z_m.push_back(evaluate_height(truth, x).height_m);
   }
   z_m[5] = kNan;
   const FourierSamplesFit fit = fit_fourier1d_samples(x_m, z_m, 10e-3, {.coefficients = 40, .ridge = 0.0});
@@ -122,7 +122,7 @@ TEST(FitFourier1dPath, HoldsAWholePathWithGaps) {
   EXPECT_LT(path.fit.rms_error_m, 0.02 * path.fit.rms_height_m);
   // In the gap of 1 mm and in the seam the series stays within twice the profile's own range.
   for (double x_mm = 0.0; x_mm < 52.5; x_mm += 0.01)
-    EXPECT_LT(std::abs(evaluate(path.fit.texture, 1e-3 * x_mm).height_m), 60e-6) << x_mm;
+    EXPECT_LT(std::abs(evaluate_height(path.fit.texture, 1e-3 * x_mm).height_m), 60e-6) << x_mm;
   EXPECT_EQ(fit_fourier1d_path(z_m, 0.025e-3, {.most_coefficients = 100}).problems.at(0).kind, "coarse_texture");
 }
 
@@ -155,7 +155,7 @@ TEST(FitFourier1dMeasured, ReproducesBandLimitedProfilesOutsideTheSeam) {
     double height = 0.0;
     for (std::size_t i = seam; i < fit.samples - seam; ++i) {
       const double z = z_m[fit.first_sample + i];
-      error += std::pow(evaluate(fit.texture, kSpacing_m * static_cast<double>(i)).height_m - z, 2);
+      error += std::pow(evaluate_height(fit.texture, kSpacing_m * static_cast<double>(i)).height_m - z, 2);
       height += std::pow(z - mean_m, 2);
     }
     EXPECT_LT(std::sqrt(error / height), 0.02) << name;

@@ -51,7 +51,7 @@ TEST_P(EvaluateFourier1d, IsTheSumOfTheSeed) {
       height += f.a_m[j - 1] * std::cos(phase) + f.b_m[j - 1] * std::sin(phase);
       slope += static_cast<long double>(j) * omega * (f.b_m[j - 1] * std::cos(phase) - f.a_m[j - 1] * std::sin(phase));
     }
-    const HeightAndSlope got = evaluate(f, x_m);
+    const HeightAndSlope got = evaluate_height(f, x_m);
     EXPECT_NEAR(got.height_m, static_cast<double>(height), 1e-16) << x_m;
     EXPECT_NEAR(got.slope, static_cast<double>(slope), 1e-11) << x_m;
   }
@@ -61,8 +61,8 @@ INSTANTIATE_TEST_SUITE_P(Counts, EvaluateFourier1d, testing::Values(1, 2, 3, 4, 
 
 TEST(EvaluateFourier1dAt, NotANumberStaysOne) {
   const Fourier1d f = random_texture(4, 1);
-  EXPECT_TRUE(std::isnan(evaluate(f, kNan).height_m));
-  EXPECT_TRUE(std::isnan(evaluate(f, std::numeric_limits<double>::infinity()).height_m));
+  EXPECT_TRUE(std::isnan(evaluate_height(f, kNan).height_m));
+  EXPECT_TRUE(std::isnan(evaluate_height(f, std::numeric_limits<double>::infinity()).height_m));
 }
 
 TEST(LowestHeight, IsBelowEveryPointAndReached) {
@@ -70,18 +70,18 @@ TEST(LowestHeight, IsBelowEveryPointAndReached) {
     const Fourier1d f = random_texture(1 + 7 * seed, seed);
     const double lowest = lowest_height_m(f);
     double brute = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 10000; ++i) brute = std::min(brute, evaluate(f, 1e-6 * i).height_m);
+    for (int i = 0; i < 10000; ++i) brute = std::min(brute, evaluate_height(f, 1e-6 * i).height_m);
     EXPECT_LE(lowest, brute + 1e-17);
     // A grid step of 1 µm misses the valley by at most |g''| step² / 8, 4 nm for these spectra.
     EXPECT_GE(lowest, brute - 4e-9);
-    EXPECT_NEAR(lift_m(f), -lowest, 0.0);
+    EXPECT_NEAR(height_offset_m(f), -lowest, 0.0);
   }
   EXPECT_NEAR(lowest_height_m({10.0, {3e-6}, {4e-6}, 1e-6}), -4e-6, 1e-18);
 }
 
 TEST(FitFourier1d, FindsTheCoefficientsOfASeries) {
   const Fourier1d truth = random_texture(128, 3);
-  const auto z = sampled(400, [&](double x) { return evaluate(truth, x).height_m; });
+  const auto z = sampled(400, [&](double x) { return evaluate_height(truth, x).height_m; });
   const FourierFit fit = fit_fourier1d(z, kSpacing_m, {.seam_mm = 0.0});
   EXPECT_EQ(fit.samples, 400u);
   EXPECT_EQ(fit.texture.length_mm, 10.0);
@@ -124,13 +124,14 @@ TEST(FitFourier1d, ReproducesAPeriodicSurfaceBeyondItsWindow) {
   double square = 0.0;
   for (std::size_t i = 0; i < z.size(); ++i) {
     const double x_m = (static_cast<double>(i) - static_cast<double>(fit.first_sample)) * kSpacing_m;
-    square += std::pow(evaluate(fit.texture, x_m).height_m - z[i], 2);
+    square += std::pow(evaluate_height(fit.texture, x_m).height_m - z[i], 2);
   }
   // Four whole pitches in 10 mm: only what lies above 12.8 cycles/mm is lost.
   EXPECT_LT(std::sqrt(square / static_cast<double>(z.size())), 2e-6);
   EXPECT_LT(fit.rms_error_m, 2e-6);
-  EXPECT_NEAR(fit.lift_m, 1.5e-3, 0.01e-3);
-  for (int i = 0; i < 1000; ++i) EXPECT_GE(evaluate(fit.texture, 1e-5 * i).height_m + fit.lift_m, -1e-15);
+  EXPECT_NEAR(fit.height_offset_m, 1.5e-3, 0.01e-3);
+  for (int i = 0; i < 1000; ++i)
+    EXPECT_GE(evaluate_height(fit.texture, 1e-5 * i).height_m + fit.height_offset_m, -1e-15);
 }
 
 TEST(FitFourier1d, ClosesTheSeam) {
@@ -145,7 +146,7 @@ TEST(FitFourier1d, ClosesTheSeam) {
       double worst = 0.0;
       for (std::size_t i = 40; i + 40 < 400; ++i) {
         const double difference =
-            evaluate(fit.texture, static_cast<double>(i) * kSpacing_m).height_m - z[fit.first_sample + i];
+            evaluate_height(fit.texture, static_cast<double>(i) * kSpacing_m).height_m - z[fit.first_sample + i];
         worst = std::max(worst, std::abs(difference));
       }
       return worst;
@@ -182,7 +183,7 @@ TEST(FitFourier1d, SameInputGivesTheSameBits) {
   const FourierFit b = fit_fourier1d(z, kSpacing_m);
   EXPECT_EQ(a.first_sample, b.first_sample);
   EXPECT_EQ(a.texture.a_m, b.texture.a_m);
-  EXPECT_EQ(a.lift_m, b.lift_m);
+  EXPECT_EQ(a.height_offset_m, b.height_offset_m);
 }
 
 TEST(FitFourier1d, RefusesWhatCannotBeATexture) {

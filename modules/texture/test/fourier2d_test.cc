@@ -55,9 +55,11 @@ void expect_gradient(const Fourier2d& t, double scale) {
     const double x = random.uniform(-0.02, 0.02);
     const double y = random.uniform(-0.02, 0.02);
     constexpr double kStep_m = 1e-7;
-    const HeightAndGradient h = evaluate(t, x, y);
-    const double dx = (evaluate(t, x + kStep_m, y).height_m - evaluate(t, x - kStep_m, y).height_m) / (2 * kStep_m);
-    const double dy = (evaluate(t, x, y + kStep_m).height_m - evaluate(t, x, y - kStep_m).height_m) / (2 * kStep_m);
+    const HeightAndGradient h = evaluate_height(t, x, y);
+    const double dx =
+        (evaluate_height(t, x + kStep_m, y).height_m - evaluate_height(t, x - kStep_m, y).height_m) / (2 * kStep_m);
+    const double dy =
+        (evaluate_height(t, x, y + kStep_m).height_m - evaluate_height(t, x, y - kStep_m).height_m) / (2 * kStep_m);
     EXPECT_NEAR(h.slope_x, dx, 1e-3 * scale);
     EXPECT_NEAR(h.slope_y, dy, 1e-3 * scale);
   }
@@ -65,43 +67,43 @@ void expect_gradient(const Fourier2d& t, double scale) {
 
 TEST(Fourier2dOuter, HasTheProfilesRmsHeightAndPeaksForHoles) {
   FitFourier2dConfig config;
-  config.kind = Fourier2dKind::kOuter;
+  config.kind = Fourier2dFitKind::kOuter;
   const Fourier1d f = holes();
   const Fourier2dFit fit = fit_fourier2d(f, f, config);
   std::vector<double> z;
   for (int i = 0; i < 200; ++i) {
-    for (int k = 0; k < 200; ++k) z.push_back(evaluate(fit.texture, 5e-5 * i, 5e-5 * k).height_m);
+    for (int k = 0; k < 200; ++k) z.push_back(evaluate_height(fit.texture, 5e-5 * i, 5e-5 * k).height_m);
   }
   EXPECT_NEAR(rms_m(z), fit.source_rms_m, 1e-9 * fit.source_rms_m);
   EXPECT_NEAR(fit.rms_height_m, fit.source_rms_m, 1e-12);
   // Where both profiles have a hole, the product of the zero-mean factors is a peak (erratum 21).
-  EXPECT_GT(evaluate(fit.texture, 1.25e-3, 1.25e-3).height_m, f.mean_m);
+  EXPECT_GT(evaluate_height(fit.texture, 1.25e-3, 1.25e-3).height_m, f.mean_m);
   expect_gradient(fit.texture, 1.0);
 }
 
 TEST(Fourier2dPattern, IsTheProfileAlongItsDeepestLineAndTopBetween) {
   FitFourier2dConfig config;
-  config.kind = Fourier2dKind::kPattern;
+  config.kind = Fourier2dFitKind::kPattern;
   const Fourier1d f = holes();
   const Fourier2dFit fit = fit_fourier2d(f, f, config);
   double deepest_m = 0.0;
   double lowest = 1.0;
   double highest = -1.0;
   for (int i = 0; i < 10000; ++i) {
-    const double z = evaluate(f, 1e-6 * i).height_m;
+    const double z = evaluate_height(f, 1e-6 * i).height_m;
     if (z < lowest) lowest = z, deepest_m = 1e-6 * i;
     highest = std::max(highest, z);
   }
   for (double x = 0.0; x < 0.01; x += 1.37e-4)
-    EXPECT_NEAR(evaluate(fit.texture, x, deepest_m).height_m, evaluate(f, x).height_m, 1e-8) << x;
-  EXPECT_NEAR(evaluate(fit.texture, deepest_m, deepest_m).height_m, lowest, 1e-8);
+    EXPECT_NEAR(evaluate_height(fit.texture, x, deepest_m).height_m, evaluate_height(f, x).height_m, 1e-8) << x;
+  EXPECT_NEAR(evaluate_height(fit.texture, deepest_m, deepest_m).height_m, lowest, 1e-8);
   for (double x = 0.0; x < 0.01; x += 1.37e-4) {
     for (double y = 0.0; y < 0.01; y += 1.37e-4) {
-      EXPECT_LE(evaluate(fit.texture, x, y).height_m, highest + 1e-9);
-      EXPECT_GE(evaluate(fit.texture, x, y).height_m + fit.lift_m, -1e-12);
+      EXPECT_LE(evaluate_height(fit.texture, x, y).height_m, highest + 1e-9);
+      EXPECT_GE(evaluate_height(fit.texture, x, y).height_m + fit.height_offset_m, -1e-12);
     }
   }
-  EXPECT_NEAR(fit.lift_m, -lowest, 1e-8);
+  EXPECT_NEAR(fit.height_offset_m, -lowest, 1e-8);
 }
 
 TEST(SynthesizeIsotropic, IsTheSumOfItsWaves) {
@@ -120,7 +122,7 @@ TEST(SynthesizeIsotropic, IsTheSumOfItsWaves) {
     }
     return sum / 4096.0;
   };
-  const auto height = [&](double x, double y) { return evaluate(t, x, y).height_m; };
+  const auto height = [&](double x, double y) { return evaluate_height(t, x, y).height_m; };
   EXPECT_NEAR(mean_of(height), 5e-6, 1e-12);
   // A cubic spline through 16 points a wave misses the wave by less than a thousandth between them.
   EXPECT_NEAR(mean_of([&](double x, double y) { return std::pow(height(x, y) - 5e-6, 2); }), 8 * power_m2,
@@ -151,7 +153,7 @@ TEST(Fourier2dIsotropic, SectionsInEveryDirectionHaveTheProfilesSpectrum) {
       for (std::size_t i = 0; i < count; ++i) {
         const double s = length_m * static_cast<double>(i) / static_cast<double>(count);
         z.push_back(
-            evaluate(fit.texture, direction_x * s - direction_y * offset, direction_y * s + direction_x * offset)
+            evaluate_height(fit.texture, direction_x * s - direction_y * offset, direction_y * s + direction_x * offset)
                 .height_m);
       }
       const auto dft = real_dft(z);
@@ -200,6 +202,13 @@ TEST(Fourier2dIsotropic, SaysThatAPatternIsNone) {
   EXPECT_GT(fit.spectrum_error, 0.2);
   ASSERT_EQ(fit.problems.size(), 1u);
   EXPECT_EQ(fit.problems[0].kind, "not_isotropic");
+}
+
+TEST(Fourier2d, APeriodicProfileIsAPatternByDefault) {
+  const Fourier1d f = holes();
+  EXPECT_EQ(fit_fourier2d(f, f, {}, true).texture.kind, Fourier2dKind::kPattern);
+  EXPECT_EQ(fit_fourier2d(f, f, {}, false).texture.kind, Fourier2dKind::kIsotropic);
+  EXPECT_EQ(fit_fourier2d(f, f, {.kind = Fourier2dFitKind::kIsotropic}, true).texture.kind, Fourier2dKind::kIsotropic);
 }
 
 TEST(Fourier2d, RefusesFlatProfiles) {

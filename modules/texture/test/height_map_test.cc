@@ -85,9 +85,9 @@ TEST(EvaluateHeightMap, PassesThroughItsPixels) {
       const double wanted = -1e-5 + 3e-5 * map.level[r * 20 + c] / 65535.0;
       const double x = 0.04e-3 * static_cast<double>(c);
       const double y = 0.05e-3 * static_cast<double>(r);
-      EXPECT_NEAR(evaluate(map, x, y).height_m, wanted, 1e-17);
+      EXPECT_NEAR(evaluate_height(map, x, y).height_m, wanted, 1e-17);
       // And again a period of 20 x 0.04 mm and 30 x 0.05 mm further on; positions round.
-      EXPECT_NEAR(evaluate(map, x + 3 * 0.8e-3, y - 2 * 1.5e-3).height_m, wanted, 1e-15);
+      EXPECT_NEAR(evaluate_height(map, x + 3 * 0.8e-3, y - 2 * 1.5e-3).height_m, wanted, 1e-15);
     }
   }
 }
@@ -98,23 +98,23 @@ TEST(EvaluateHeightMap, IsSmoothEverywhere) {
     constexpr double kStep_m = 1e-9;
     // Slopes of noise reach 3e-5 m in 4e-5 m; they may change by curvature times step, no more.
     for (double s = -1.3e-3; s < 1.3e-3; s += 0.5e-6) {
-      const HeightAndGradient a = evaluate(map, s, 0.7 * s);
-      const HeightAndGradient b = evaluate(map, s + kStep_m, 0.7 * s + 0.7 * kStep_m);
+      const HeightAndGradient a = evaluate_height(map, s, 0.7 * s);
+      const HeightAndGradient b = evaluate_height(map, s + kStep_m, 0.7 * s + 0.7 * kStep_m);
       EXPECT_NEAR(b.height_m - a.height_m, kStep_m * (a.slope_x + 0.7 * a.slope_y), 1e-12) << s;
       EXPECT_NEAR(a.slope_x, b.slope_x, 1e-3) << s;
       EXPECT_NEAR(a.slope_y, b.slope_y, 1e-3) << s;
     }
   }
   const HeightMap map = map_of(12, 9, Border::kClamp);
-  EXPECT_TRUE(std::isnan(evaluate(map, std::numeric_limits<double>::infinity(), 0.0).height_m));
-  EXPECT_TRUE(std::isfinite(evaluate(map, 1e200, -1e200).height_m));
+  EXPECT_TRUE(std::isnan(evaluate_height(map, std::numeric_limits<double>::infinity(), 0.0).height_m));
+  EXPECT_TRUE(std::isfinite(evaluate_height(map, 1e200, -1e200).height_m));
 }
 
 TEST(EvaluateHeightMap, LowestIsBelowAFineGrid) {
   const HeightMap map = map_of(12, 9, Border::kPeriodic);
   double lowest = 1.0;
   for (double x = 0.0; x < 0.48e-3; x += 1e-6) {
-    for (double y = 0.0; y < 0.45e-3; y += 1e-6) lowest = std::min(lowest, evaluate(map, x, y).height_m);
+    for (double y = 0.0; y < 0.45e-3; y += 1e-6) lowest = std::min(lowest, evaluate_height(map, x, y).height_m);
   }
   EXPECT_NEAR(lowest_height_m(map), lowest, 1e-8);
 }
@@ -129,7 +129,7 @@ Fourier1d waves() {
 
 TEST(MakeHeightMap, TilesHaveNoStepInHeightOrSlope) {
   FitFourier2dConfig pattern;
-  pattern.kind = Fourier2dKind::kPattern;
+  pattern.kind = Fourier2dFitKind::kPattern;
   // A period of 7.3 mm cut to a tile of 10 mm: the seam must be closed.
   const TextureModel source = fit_fourier2d(waves(), waves(), pattern).texture;
   MakeHeightMapConfig config;
@@ -152,8 +152,8 @@ TEST(MakeHeightMap, TilesHaveNoStepInHeightOrSlope) {
   }
   EXPECT_LT(seam, 1.5 * inside);
   for (double y = 0.0; y < 0.01; y += 1.7e-4) {
-    const HeightAndGradient before = evaluate(fit.texture, 0.01 - 1e-10, y);
-    const HeightAndGradient after = evaluate(fit.texture, 0.01 + 1e-10, y);
+    const HeightAndGradient before = evaluate_height(fit.texture, 0.01 - 1e-10, y);
+    const HeightAndGradient after = evaluate_height(fit.texture, 0.01 + 1e-10, y);
     EXPECT_NEAR(after.height_m - before.height_m, 2e-10 * before.slope_x, 1e-15);
     EXPECT_NEAR(before.slope_x, after.slope_x, 1e-5);
     EXPECT_NEAR(before.slope_y, after.slope_y, 1e-5);
@@ -171,8 +171,8 @@ TEST(MakeHeightMap, NeedsNoSeamWhereTheModelRepeats) {
   double worst = 0.0;
   for (std::size_t c = 0; c < 256; ++c) {
     const double x_m = 7.3e-3 * static_cast<double>(c) / 256;
-    worst =
-        std::max(worst, std::abs(evaluate(fit.texture, x_m, 0.0).height_m - evaluate_height(source, x_m, 0).height_m));
+    worst = std::max(
+        worst, std::abs(evaluate_height(fit.texture, x_m, 0.0).height_m - evaluate_height(source, x_m, 0).height_m));
   }
   // Half a level of the range.
   EXPECT_LT(worst, 0.5000001 * fit.quantisation_m);

@@ -48,7 +48,7 @@ std::vector<double> heights(const StochasticTexture& t, double speed_mps, double
 constexpr int kCount = 200000;
 
 TEST(Stochastic, IsWhiteAndGaussian) {
-  const auto m = moments(heights({.sigma_m = 2e-6, .lift_sigma = 0.0}, 0.05, 1.0, kCount));
+  const auto m = moments(heights({.sigma_m = 2e-6, .offset_sigmas = 0.0}, 0.05, 1.0, kCount));
   // Five standard errors of each for independent samples.
   const double se = 1.0 / std::sqrt(double(kCount));
   EXPECT_NEAR(m.mean, 0.0, 5.0 * se * 2e-6);
@@ -59,7 +59,7 @@ TEST(Stochastic, IsWhiteAndGaussian) {
 
 TEST(Stochastic, ImpulsesFollowTheDistance) {
   // 50 µm a step with impulses every 200 µm: neighbours are alike, and the variance is the same between them.
-  const StochasticTexture t{.sigma_m = 2e-6, .correlation_length_m = 2e-4, .lift_sigma = 0.0};
+  const StochasticTexture t{.sigma_m = 2e-6, .correlation_length_m = 2e-4, .offset_sigmas = 0.0};
   const auto slow = moments(heights(t, 0.05, 1.0, kCount));
   EXPECT_NEAR(slow.sigma, 2e-6, 0.03 * 2e-6);
   EXPECT_GT(slow.lag_one, 0.8);
@@ -69,7 +69,7 @@ TEST(Stochastic, ImpulsesFollowTheDistance) {
   EXPECT_NEAR(fast.lag_one, 0.0, 0.02);
 }
 
-TEST(Stochastic, IsLiftedAndClamped) {
+TEST(Stochastic, IsOffsetAndClamped) {
   const StochasticTexture t{.sigma_m = 2e-6, .tangential_ratio = 0.4, .stiffness_N_per_m = 1000.0};
   SeriesState state = start_series(3);
   bool low = false, high = false;
@@ -85,7 +85,7 @@ TEST(Stochastic, IsLiftedAndClamped) {
 }
 
 TEST(Stochastic, ScalesWithSpeedAndForceAndFades) {
-  const StochasticTexture t{.sigma_m = 2e-6, .lift_sigma = 0.0, .speed_exponent = 1.0, .force_exponent = 0.5};
+  const StochasticTexture t{.sigma_m = 2e-6, .offset_sigmas = 0.0, .speed_exponent = 1.0, .force_exponent = 0.5};
   EXPECT_NEAR(moments(heights(t, 0.1, 4.0, kCount)).sigma, 2.0 * 2.0 * 2e-6, 0.05e-6);
   EXPECT_EQ(moments(heights(t, 0.0, 1.0, 100)).sigma, 0.0);
   const StochasticTexture inverse{.sigma_m = 2e-6, .speed_exponent = -3.0};

@@ -23,11 +23,12 @@ Texture whole_texture() {
   t.compliance_kc = 0.9556;
   t.stiffness_N_per_m = 1200.0;
   t.friction = 0.3;
-  t.lift_m = 1.25e-4;
+  t.height_offset_m = 1.25e-4;
   t.roughness = {{"Ra_m", 1e-5}, {"Rsk", -0.2}};
   t.band_cycles_per_mm = {0.1, 4.0};
-  t.source = {"scan one", R"({"coefficients":128})", "0.1.0"};
-  t.extra_json = R"({"note":[1,2]})";
+  t.height_sigma_m = 2.5e-6;
+  t.source = {"scan one", Json{{"coefficients", 128}}, "0.1.0", 40.5};
+  t.extra = {{"note", {1, 2}}};
   return t;
 }
 
@@ -59,14 +60,29 @@ TEST(TextureFile, ComesBackAsItWas) {
   EXPECT_EQ(back.compliance_kc, t.compliance_kc);
   EXPECT_EQ(back.stiffness_N_per_m, t.stiffness_N_per_m);
   EXPECT_EQ(back.friction, t.friction);
-  EXPECT_EQ(back.lift_m, t.lift_m);
+  EXPECT_EQ(back.height_offset_m, t.height_offset_m);
+  EXPECT_EQ(back.height_sigma_m, t.height_sigma_m);
+  EXPECT_EQ(back.source.snr, t.source.snr);
   EXPECT_EQ(back.roughness, t.roughness);
   EXPECT_EQ(back.band_cycles_per_mm, t.band_cycles_per_mm);
   EXPECT_EQ(back.source.recording, t.source.recording);
-  EXPECT_EQ(back.source.config_json, t.source.config_json);
+  EXPECT_EQ(back.source.config, t.source.config);
   EXPECT_EQ(back.source.version, t.source.version);
-  EXPECT_EQ(back.extra_json, t.extra_json);
+  EXPECT_EQ(back.extra, t.extra);
   EXPECT_EQ(format_texture(back), format_texture(t));
+}
+
+// The fit's report is ours; the members around it are not, and all are kept as they were.
+TEST(TextureFile, FitStaysWhereItStands) {
+  for (const char* extra : {R"({"fit":{"samples":7,"rms_error_m":1e-06},"note":[1,2]})", R"({"note":[1,2],"fit":null})",
+                            R"({"a":1,"fit":{},"b":2.0})"}) {
+    const std::string text = with(R"({"note":[1,2]})", extra);
+    const Texture back = parse_texture(text, "x.json");
+    EXPECT_TRUE(back.fit) << extra;
+    EXPECT_FALSE(back.extra.contains("fit")) << extra;
+    EXPECT_EQ(format_texture(back), text);
+  }
+  EXPECT_FALSE(parse_texture(format_texture(whole_texture()), "x.json").fit);
 }
 
 TEST(TextureFile, ReadsTheContractsExample) {
@@ -102,7 +118,16 @@ TEST(TextureFile, NamesFileLineAndKeyOfWhatIsWrong) {
   expect_error(with("\"lift_m\": ", "\"friction\": 1, \"lift_m\": "), "x.json:16:", "key 'friction' appears twice");
   expect_error(with("{\"note\":[1,2]}", "7"), "'extra'", "must be an object");
   expect_error(with("[1,2]", std::string(1000, '[') + std::string(1000, ']')),
-               "x.json:20:", "nested more than 32 deep");
+               "x.json:21:", "nested more than 32 deep");
+}
+
+TEST(TextureFile, LongReadIsStopped) {
+  Texture t = whole_texture();
+  std::get<Fourier1d>(t.model).a_m.resize(10000);
+  std::get<Fourier1d>(t.model).b_m.resize(10000);
+  Observer observer;
+  observer.cancelled = [] { return true; };
+  EXPECT_THROW(parse_texture(format_texture(t), "x.json", {}, observer), Cancelled);
 }
 
 TEST(TextureFile, RefusesTooManyCoefficients) {
@@ -114,11 +139,14 @@ TEST(TextureFile, RefusesTooManyCoefficients) {
 
 TEST(TextureFile, WritesOnlyWhatCanBeRead) {
   Texture t = whole_texture();
-  t.lift_m = std::numeric_limits<double>::quiet_NaN();
+  t.height_offset_m = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT([&] { format_texture(t); }, ThrowsMessage<Error>(HasSubstr("lift_m: nan cannot be written")));
   t = whole_texture();
   std::get<Fourier1d>(t.model).b_m.pop_back();
   EXPECT_THAT([&] { format_texture(t); }, ThrowsMessage<Error>(HasSubstr("3 cosine and 2 sine coefficients")));
+  t = whole_texture();
+  t.extra = Json::array();
+  EXPECT_THAT([&] { format_texture(t); }, ThrowsMessage<Error>(HasSubstr("extra is not an object")));
   t = whole_texture();
   t.name = "\xFF";
   EXPECT_THAT([&] { format_texture(t); }, ThrowsMessage<Error>(HasSubstr("not UTF-8")));

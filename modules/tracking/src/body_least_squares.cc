@@ -17,6 +17,9 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Vector8 = Eigen::Matrix<double, 8, 1>;
 using Matrix8 = Eigen::Matrix<double, 8, 8>;
 
+// The root of the weight above which a corner counts as used.
+constexpr double kInUse = 0.5;
+
 // One up to half of `limit`, then falling smoothly to nothing at it: the corners of a sound frame all count fully, so
 // that the least squares' own covariance holds.
 double weight(double distance, double limit) {
@@ -78,12 +81,13 @@ bool BodyLeastSquares::evaluate(const Pose& pose, Residuals& out, bool with_deri
 }
 
 // The corners' errors and those of their tags' places: a tag that is off moves its corners together.
-bool BodyLeastSquares::weigh_tags(const Residuals& at, std::vector<Metric>& out) const {
+bool BodyLeastSquares::weigh_tags(const Residuals& at, double corner_px, std::vector<Metric>& out) const {
   const double placement2_m2 = config_->placement_sigma_m * config_->placement_sigma_m;
   out.resize(observations_.size());
   for (std::size_t i = 0; i < observations_.size(); ++i) {
     const auto by_place = at.by_pose[i].leftCols<3>();
-    const Matrix8 covariance = observations_[i].covariance + placement2_m2 * by_place * by_place.transpose();
+    Matrix8 covariance = observations_[i].covariance + placement2_m2 * by_place * by_place.transpose();
+    covariance.diagonal().array() += corner_px * corner_px;
     const Eigen::LLT<Matrix8> factor(covariance);
     if (factor.info() != Eigen::Success) return false;
     out[i].information = factor.solve(Matrix8::Identity());
@@ -117,12 +121,23 @@ std::optional<double> BodyLeastSquares::loose_cost(const Pose& pose, double loos
   return cost;
 }
 
-std::optional<LeastSquaresPose> BodyLeastSquares::minimise(const Pose& start) const {
+double BodyLeastSquares::reweigh(const Residuals& at, const std::vector<Metric>& metric, std::vector<double>& squares,
+                                 std::vector<double>& root_weights) const {
+  distances2(at, metric, squares);
+  const double scale = robust_scale(squares);
+  root_weights.resize(squares.size());
+  for (std::size_t k = 0; k < squares.size(); ++k) {
+    root_weights[k] = std::sqrt(weight(std::sqrt(squares[k]), config_->outlier_sigmas * scale));
+  }
+  return scale;
+}
+
+std::optional<LeastSquaresPose> BodyLeastSquares::minimise(const Pose& start, double corner_px) const {
   LeastSquaresPose out;
   out.pose = start;
   Residuals here, there;
   std::vector<Metric> metric;
-  if (!evaluate(out.pose, here, true) || !weigh_tags(here, metric)) return std::nullopt;
+  if (!evaluate(out.pose, here, true) || !weigh_tags(here, corner_px, metric)) return std::nullopt;
   std::vector<double> squares, root_weights(4 * observations_.size());
   Matrix6 normal;
   double scale = 1.0;
@@ -139,17 +154,10 @@ std::optional<LeastSquaresPose> BodyLeastSquares::minimise(const Pose& start) co
     }
     return cost;
   };
-  const auto reweigh = [&] {
-    distances2(here, metric, squares);
-    scale = robust_scale(squares);
-    for (std::size_t k = 0; k < squares.size(); ++k) {
-      root_weights[k] = std::sqrt(weight(std::sqrt(squares[k]), config_->outlier_sigmas * scale));
-    }
-  };
 
   double damping = 1e-3;  // of the diagonal
   for (int iteration = 0; iteration < config_->most_iterations && !out.converged; ++iteration) {
-    reweigh();
+    scale = reweigh(here, metric, squares, root_weights);
     normal.setZero();
     Vector6 gradient = Vector6::Zero();
     for (std::size_t i = 0; i < observations_.size(); ++i) {
@@ -188,36 +196,50 @@ std::optional<LeastSquaresPose> BodyLeastSquares::minimise(const Pose& start) co
     }
   }
 
-  reweigh();
-  normal.setZero();
-  double effective = 0.0, sum_px2 = 0.0;
+  reweigh(here, metric, squares, root_weights);
+  double sum_px2 = 0.0;
   out.corners_of_tag.assign(observations_.size(), 0);
   for (std::size_t i = 0; i < observations_.size(); ++i) {
-    Eigen::Matrix<double, 8, 6> J = here.by_pose[i];
     for (int corner = 0; corner < 4; ++corner) {
       const std::size_t k = 4 * i + static_cast<std::size_t>(corner);
-      J.middleRows<2>(2 * corner) *= root_weights[k];
-      effective += root_weights[k] * root_weights[k];
       out.robust_cost += std::log1p(squares[k] / 9.0);
-      if (root_weights[k] <= 0.5) continue;
+      if (root_weights[k] <= kInUse) continue;
       ++out.corners_of_tag[i];
       ++out.corners_used;
       sum_px2 += here.r_px[i].segment<2>(2 * corner).squaredNorm();
     }
-    normal.noalias() += J.transpose() * metric[i].information * J;
   }
   if (out.corners_used < 3) return std::nullopt;
   out.reprojection_px = std::sqrt(sum_px2 / out.corners_used);
-  const double dof = std::max(0.0, 2.0 * effective - 6.0);
-  const double variance = config_->prior_dof + dof > 0.0
-                              ? (config_->prior_dof + weighted_cost(here)) / (config_->prior_dof + dof)
-                              : scale * scale;
-  out.scale = std::sqrt(variance);
-  const Eigen::LDLT<Matrix6> factor(normal);
-  if (factor.info() != Eigen::Success || !factor.isPositive()) return std::nullopt;
-  out.covariance = variance * factor.solve(Matrix6::Identity());
-  out.covariance = (0.5 * (out.covariance + out.covariance.transpose())).eval();
-  if (!out.covariance.allFinite()) return std::nullopt;
+  return out;
+}
+
+std::optional<BodyLeastSquares::AtMinimum> BodyLeastSquares::at_minimum(const LeastSquaresPose& minimum,
+                                                                        double corner_px) const {
+  Residuals here;
+  std::vector<Metric> metric;
+  if (!evaluate(minimum.pose, here, true) || !weigh_tags(here, corner_px, metric)) return std::nullopt;
+  std::vector<double> squares, root_weights;
+  reweigh(here, metric, squares, root_weights);
+  AtMinimum out;
+  out.normal.setZero();
+  for (std::size_t i = 0; i < observations_.size(); ++i) {
+    CornersAtPose tag;
+    tag.p_marker_m = observations_[i].p_marker_m;
+    tag.covariance_px2 = observations_[i].covariance;
+    tag.residual_px = here.r_px[i];
+    tag.by_pose = here.by_pose[i];
+    Vector8 root;
+    for (int k = 0; k < 8; ++k) root[k] = root_weights[4 * i + static_cast<std::size_t>(k / 2)];
+    for (std::size_t corner = 0; corner < 4; ++corner) tag.used[corner] = root_weights[4 * i + corner] > kInUse;
+    const Eigen::Matrix<double, 8, 6> J = root.asDiagonal() * here.by_pose[i];
+    const Eigen::Matrix<double, 6, 8> JtW = J.transpose() * metric[i].information;
+    out.normal.noalias() += JtW * J;
+    tag.weighed = JtW * root.asDiagonal();
+    out.corners.push_back(tag);
+  }
+  const Eigen::LDLT<Matrix6> factor(out.normal);
+  if (!out.normal.allFinite() || factor.info() != Eigen::Success || !factor.isPositive()) return std::nullopt;
   return out;
 }
 

@@ -7,15 +7,14 @@
 #include <Eigen/Core>
 
 #include "asperity/tracking/solve_body_pose.h"
+#include "pose_error.h"
 
 namespace asperity {
 
 struct LeastSquaresPose {
   Pose pose;
-  Eigen::Matrix<double, 6, 6> covariance;
   double robust_cost = 0.0;  // comparable among minima of one problem
   double reprojection_px = 0.0;
-  double scale = 1.0;
   bool converged = false;
   std::vector<int> corners_of_tag;  // those with weight
   int corners_used = 0;
@@ -30,7 +29,17 @@ class BodyLeastSquares {
   // Σ log(1 + d²/loose²) over the corners' distances; nullopt if a corner is not in front of the camera.
   std::optional<double> loose_cost(const Pose& pose, double loose_px) const;
 
-  std::optional<LeastSquaresPose> minimise(const Pose& start) const;
+  // The minimum next to `start`. `corner_px` is the standard deviation of what each corner is off by beside its own
+  // covariance.
+  std::optional<LeastSquaresPose> minimise(const Pose& start, double corner_px = 0.0) const;
+
+  // The corners at a minimum that minimise() found with the same `corner_px`, and its normal matrix; nullopt where that
+  // is singular.
+  struct AtMinimum {
+    std::vector<CornersAtPose> corners;
+    Eigen::Matrix<double, 6, 6> normal;
+  };
+  std::optional<AtMinimum> at_minimum(const LeastSquaresPose& minimum, double corner_px) const;
 
  private:
   struct Observation {
@@ -49,9 +58,12 @@ class BodyLeastSquares {
   };
 
   bool evaluate(const Pose& pose, Residuals& out, bool with_derivative) const;
-  bool weigh_tags(const Residuals& at, std::vector<Metric>& out) const;
+  bool weigh_tags(const Residuals& at, double corner_px, std::vector<Metric>& out) const;
   // Squared distances of the corners in their own covariances, four a tag.
   void distances2(const Residuals& residuals, const std::vector<Metric>& metric, std::vector<double>& out) const;
+  // The roots of the corners' robust weights; the scale of their distances.
+  double reweigh(const Residuals& at, const std::vector<Metric>& metric, std::vector<double>& squares,
+                 std::vector<double>& root_weights) const;
 
   const CameraCalibration* camera_;
   const BodyPoseConfig* config_;

@@ -62,7 +62,7 @@ double mean_error_px(const CameraCalibration& camera, const std::vector<MarkerPl
   return corners == 0 ? kLargest_px : sum_px / corners;
 }
 
-std::string describe(const Eigen::Quaterniond& R, const std::string& family) {
+std::string describe_frame(const Eigen::Quaterniond& R, const std::string& family) {
   if (is_same(R, R_frame_tag(TagFrame::kOpenCv, family))) {
     return "OpenCV's (x right, y up, z out of the tag, upright as OpenCV draws it)";
   }
@@ -112,13 +112,13 @@ TagFrameFinding find_tag_frame(const CameraCalibration& camera, const std::vecto
   const auto best =
       static_cast<std::size_t>(std::find_if(error_px.begin(), error_px.end(), fits_alike) - error_px.begin());
   for (std::size_t i = 0; i < symmetries.size(); ++i) {
-    if (i != best && fits_alike(error_px[i])) out.as_good.push_back(describe(symmetries[i], family));
+    if (i != best && fits_alike(error_px[i])) out.as_good.push_back(describe_frame(symmetries[i], family));
   }
   out.R_frame_tag = symmetries[best];
   out.as_declared = false;
   out.determined = true;
   out.error_px = error_px[best];
-  out.description = describe(symmetries[best], family);
+  out.description = describe_frame(symmetries[best], family);
   return out;
 }
 

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-
+#include "asperity/algebra/solve.h"
 #include "asperity/recording/camera_model.h"
 #include "blurred_pattern.h"
 #include "tag_image_fit.h"
@@ -28,7 +26,7 @@ std::optional<Eigen::Matrix<double, 8, 1>> homography_of(const Corners& q) {
     A.row(2 * i + 1) << 0.0, 0.0, 0.0, x, y, 1.0, -q(1, i) * x, -q(1, i) * y;
     b.segment<2>(2 * i) = q.col(i);
   }
-  const Eigen::Matrix<double, 8, 1> h = A.fullPivLu().solve(b);
+  const Eigen::Matrix<double, 8, 1> h = solve_square(A, b);
   if (!h.allFinite()) return std::nullopt;
   return h;
 }

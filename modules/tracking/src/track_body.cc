@@ -162,6 +162,7 @@ std::optional<TrackedPose> BodyTracker::Impl::solve(const std::vector<FoundTag>&
   out.sample.markers = solved->tags_used;
   out.sample.reprojection_px = solved->reprojection_px;
   out.covariance = solved->covariance;
+  out.noise = solved->noise;
   out.ambiguous = solved->ambiguous;
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (solved->used[i]) out.tags.push_back(found[i].detection);

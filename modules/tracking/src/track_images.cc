@@ -11,6 +11,7 @@
 #include "asperity/base/text.h"
 #include "asperity/signal/statistics.h"
 #include "asperity/transport/byte_source.h"
+#include "asperity/verdict/verdict_codes.h"
 
 namespace asperity {
 namespace {
@@ -20,8 +21,8 @@ double median_or_nan(const std::vector<double>& values) {
 }
 
 // Names the image that the tracker cannot use.
-std::optional<TrackedPose> push(BodyTracker& tracker, const CameraFrame& frame, const CameraSource& source,
-                                std::size_t number) {
+std::optional<TrackedPose> push_frame(BodyTracker& tracker, const CameraFrame& frame, const CameraSource& source,
+                                      std::size_t number) {
   try {
     return tracker.push(frame.image, frame.t_ns);
   } catch (const Error& error) {
@@ -30,8 +31,8 @@ std::optional<TrackedPose> push(BodyTracker& tracker, const CameraFrame& frame, 
 }
 
 // False if the tags' frame was found to be another while rows had gone before.
-bool follow(CameraSource& source, BodyTracker& tracker, TrackedImages& out, const Observer& observer,
-            std::size_t frames_expected) {
+bool follow_source(CameraSource& source, BodyTracker& tracker, TrackedImages& out, const Observer& observer,
+                   std::size_t frames_expected) {
   const bool was_changed = tracker.tag_frame_was_changed();
   CameraFrame frame;
   out.frames = 0;
@@ -43,7 +44,7 @@ bool follow(CameraSource& source, BodyTracker& tracker, TrackedImages& out, cons
                                                                            static_cast<double>(frames_expected)));
       if (!source.read(frame, std::chrono::milliseconds(1000))) continue;
       ++out.frames;
-      if (auto pose = push(tracker, frame, source, out.frames)) out.poses.push_back(std::move(*pose));
+      if (auto pose = push_frame(tracker, frame, source, out.frames)) out.poses.push_back(std::move(*pose));
       if (tracker.tag_frame_was_changed() != was_changed) return false;
     }
   } catch (const LinkLost&) {
@@ -51,7 +52,7 @@ bool follow(CameraSource& source, BodyTracker& tracker, TrackedImages& out, cons
   return true;
 }
 
-void summarise(TrackedImages& out) {
+void summarise_poses(TrackedImages& out) {
   std::vector<double> reprojection;
   std::array<std::vector<double>, 6> sigma;
   for (const TrackedPose& pose : out.poses) {
@@ -66,27 +67,37 @@ void summarise(TrackedImages& out) {
   }
 }
 
-void judge(TrackedImages& out) {
+void judge_tracking(const CameraCalibration& camera, const BodyPoseConfig& config, TrackedImages& out) {
   constexpr double kHardlyAny = 0.1;         // of the frames
   constexpr double kLargeResidual_px = 0.5;  // sound calibrations leave a few hundredths
   constexpr double kOften = 0.2;
   const double found = out.frames == 0 ? 0.0 : static_cast<double>(out.poses.size()) / static_cast<double>(out.frames);
   out.verdict = fmt::format("the body was found in {} of {} images", out.poses.size(), out.frames);
   if (found < kHardlyAny) {
-    out.trustworthy = false;
-    out.verdict += ": check the markers' family, ids and size, the light and the focus";
-  } else if (out.median_reprojection_px > kLargeResidual_px) {
-    out.trustworthy = false;
-    out.verdict +=
-        fmt::format(", but its corners are off by {:.2f} px: the camera's calibration or the markers' places are wrong",
-                    out.median_reprojection_px);
-  } else if (static_cast<double>(out.ambiguous) > kOften * static_cast<double>(out.poses.size())) {
-    out.trustworthy = false;
-    out.verdict += fmt::format(
-        ", but in {} of them the tags' plane could lie the other way as well: use tags in more than one plane, or "
-        "nearer",
-        out.ambiguous);
+    out.verdicts.push_back(make_verdict("body_hardly_found", out.verdict));
+    out.verdict = verdict_text(out.verdicts.back());
   }
+  if (out.median_reprojection_px > kLargeResidual_px) {
+    out.verdicts.push_back(make_verdict(
+        "tags_misfit",
+        fmt::format("the tags' corners are off by {:.2f} px in the median, and the sigmas are larger by it",
+                    out.median_reprojection_px)));
+    out.verdict += ", but " + verdict_text(out.verdicts.back());
+  }
+  if (static_cast<double>(out.ambiguous) > kOften * static_cast<double>(out.poses.size())) {
+    out.verdicts.push_back(
+        make_verdict("plane_ambiguous", fmt::format("in {} of {} poses the tags' plane could lie the other way as well",
+                                                    out.ambiguous, out.poses.size())));
+    out.verdict += ", but " + verdict_text(out.verdicts.back());
+  }
+  if (!camera.covariance) {
+    out.verdicts.push_back(make_verdict(
+        "camera_errors_assumed",
+        fmt::format("the camera's calibration states no errors; the sigmas hold {:.2g} % of its focal length",
+                    100.0 * config.focal_error)));
+  }
+  sort_verdicts(out.verdicts);
+  out.trustworthy = is_trustworthy(out.verdicts);
 }
 
 }  // namespace
@@ -96,24 +107,24 @@ TrackedImages track_images(const std::function<std::unique_ptr<CameraSource>()>&
                            const Observer& observer, std::size_t frames_expected) {
   TrackedImages out;
   BodyTracker tracker(camera, body, config);
-  if (!follow(*open(), tracker, out, observer, frames_expected)) {
+  if (!follow_source(*open(), tracker, out, observer, frames_expected)) {
     TrackConfig settled = config;
     settled.find_tag_frame = false;
     BodyTracker again(camera, tracker.body(), settled);
-    follow(*open(), again, out, observer, frames_expected);
+    follow_source(*open(), again, out, observer, frames_expected);
   }
   out.body = tracker.body();
   out.problems = tracker.problems();
   std::stable_sort(out.poses.begin(), out.poses.end(),
                    [](const TrackedPose& a, const TrackedPose& b) { return a.sample.t_ns < b.sample.t_ns; });
-  summarise(out);
-  judge(out);
+  summarise_poses(out);
+  judge_tracking(camera, config.pose, out);
   return out;
 }
 
 std::string tracked_csv_header() {
   return "t_ns,px_m,py_m,pz_m,qw,qx,qy,qz,markers,reprojection_px,sigma_px_m,sigma_py_m,sigma_pz_m,sigma_rx_rad,"
-         "sigma_ry_rad,sigma_rz_rad\n";
+         "sigma_ry_rad,sigma_rz_rad,noise_px_m,noise_py_m,noise_pz_m,noise_rx_rad,noise_ry_rad,noise_rz_rad\n";
 }
 
 std::string format_tracked_csv(const std::vector<TrackedPose>& poses) {
@@ -131,6 +142,7 @@ std::string format_tracked_csv(const std::vector<TrackedPose>& poses) {
     append_number(out, std::int64_t{pose.sample.markers});
     cell(pose.sample.reprojection_px);
     for (int i = 0; i < 6; ++i) cell(std::sqrt(pose.covariance(i, i)));
+    for (int i = 0; i < 6; ++i) cell(std::sqrt(pose.noise(i, i)));
     out += '\n';
   }
   return out;

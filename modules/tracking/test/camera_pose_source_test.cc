@@ -98,8 +98,8 @@ TEST(FrameWriter, KeepsImagesExactly) {
   FrameWriter writer(dir / "frames");
   for (int i = 0; i < 3; ++i) writer.push({1000 + i, plain_image(static_cast<std::uint8_t>(80 * i))});
   writer.finish();
-  EXPECT_EQ(writer.figures().written, 3u);
-  EXPECT_EQ(writer.figures().dropped, 0u);
+  EXPECT_EQ(writer.counts().written, 3u);
+  EXPECT_EQ(writer.counts().dropped, 0u);
   for (int i = 0; i < 3; ++i) {
     const GrayImage image = read_gray_image(dir / "frames" / (std::to_string(1000 + i) + ".png"));
     EXPECT_EQ(image.pixels, plain_image(static_cast<std::uint8_t>(80 * i)).pixels);
@@ -112,9 +112,9 @@ TEST(FrameWriter, SaysWhatItCouldNotKeep) {
   writer.push({1, {}});  // an image of no size
   writer.finish();
   writer.push({2, plain_image(1)});
-  EXPECT_EQ(writer.figures().written, 0u);
-  EXPECT_EQ(writer.figures().dropped, 2u);
-  EXPECT_THAT(writer.figures().failure, testing::HasSubstr("no size"));
+  EXPECT_EQ(writer.counts().written, 0u);
+  EXPECT_EQ(writer.counts().dropped, 2u);
+  EXPECT_THAT(writer.counts().failure, testing::HasSubstr("no size"));
 }
 
 }  // namespace

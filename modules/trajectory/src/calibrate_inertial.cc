@@ -180,17 +180,17 @@ bool at_limit(const Eigen::Vector3d& counts, const RecordingInfo& info) {
          ((counts.array() <= info.adc_min).any() || (counts.array() >= info.adc_max).any());
 }
 
-// Adds, to each sample, the error that a share of the moving part of the signal may carry.
-void add_scale_error(const std::vector<Eigen::Vector3d>& x, double share, std::size_t window,
-                     std::vector<double>& sigma) {
-  if (share <= 0.0 || x.empty()) return;
+// The size of each sample less the mean of the samples before it.
+std::vector<double> moving_part(const std::vector<Eigen::Vector3d>& x, std::size_t window) {
   const double forget = 1.0 / static_cast<double>(std::max<std::size_t>(window, 2));
   Eigen::Vector3d mean = x.front();
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    mean += forget * (x[i] - mean);
-    const double moving = share * (x[i] - mean).norm();
-    sigma[i] = std::sqrt(sigma[i] * sigma[i] + moving * moving);
+  std::vector<double> out;
+  out.reserve(x.size());
+  for (const Eigen::Vector3d& now : x) {
+    mean += forget * (now - mean);
+    out.push_back((now - mean).norm());
   }
+  return out;
 }
 
 }  // namespace
@@ -268,8 +268,8 @@ InertialStream calibrate_inertial(const Recording& recording, const InertialConf
       if (at_limit(probe.gyro_counts[i], info)) out.gyro_sigma_radps[i] = out.angular_rate_radps[i].norm();
     }
   }
-  add_scale_error(out.specific_force_mps2, config.scale_error,
-                  static_cast<std::size_t>(0.2 / std::max(out.period_s, 1e-6)), out.accel_sigma_mps2);
+  out.accel_moving_mps2 =
+      moving_part(out.specific_force_mps2, static_cast<std::size_t>(0.2 / std::max(out.period_s, 1e-6)));
   for (std::size_t i = 0; i < n; ++i) {
     if (spike[i]) {
       ++out.spikes;

@@ -109,15 +109,16 @@ InertialStream CausalTip::Impl::inertial() {
 }
 
 void CausalTip::Impl::configure(bool has_gyro, WindowProblem& problem) const {
-  inertial_smoother::set_constants(fused, has_gyro, problem);
-  problem.layout = inertial_smoother::choose_layout(calibration, fused);
+  inertial_smoother::set_constants(calibration, has_gyro, fused, problem);
+  problem.layout = inertial_smoother::choose_layout(calibration, has_gyro, false, fused);
   problem.gravity = intake.recording().info.gravity_world_mps2;
-  problem.sigma_position = inertial_smoother::stated_sigma_m(calibration.tracker);
-  problem.sigma_rotation = inertial_smoother::stated_sigma_rad(calibration.tracker);
+  problem.pose_noise =
+      inertial_smoother::stated_pose_noise(intake.recording().tracker, calibration, intake.recording().info);
   problem.process_scale = process_scale.factor();
-  problem.rate_scale = rate_scale;
+  problem.factors[inertial_smoother::kRateWalk] = rate_scale;
   problem.gyro_turns_too = gyro_turns_too;
   problem.gate_innovations = true;
+  problem.tip_sigma_m.setZero();  // live heights are compared with each other
 }
 
 // A sample waits for the poses shortly after it as long as poses have been on their way of late. The window reaches no
@@ -164,6 +165,7 @@ void CausalTip::Impl::begin() {
   configure(stream.has_gyro, problem);
   problem.start_covariance = inertial_smoother::prior(calibration, stream.has_gyro, fused, problem.layout);
   problem.start = inertial_smoother::first_guess(recording, problem);
+  inertial_smoother::tie_place_to_lever(problem);
   if (!calibration.accelerometer.rotation_known) inertial_smoother::choose_mounting(problem, stream.has_gyro);
   gyro_turns_too = problem.gyro_turns_too;
   checkpoint = Checkpoint{problem.start, problem.start_covariance, 0};
@@ -238,7 +240,7 @@ void CausalTip::Impl::step(bool last) {
   for (std::size_t e = 0; e < problem.epochs.size(); ++e) {
     if (problem.knots[problem.epochs[e].knot].t <= want_s) problem.checkpoint_epoch = e;
   }
-  const Smoothed smoothed = inertial_smoother::smooth(problem, calibration.tip_in_marker_m, {});
+  const Smoothed smoothed = inertial_smoother::smooth_motion(problem, calibration.tip_in_marker_m, true, {});
   if (!smoothed.last.p.allFinite() || !smoothed.first.p.allFinite() || !smoothed.checkpoint.P.allFinite()) {
     ++restarts;
     forget();
@@ -250,9 +252,8 @@ void CausalTip::Impl::step(bool last) {
     const std::int64_t pose = problem.epochs[e].pose;
     if (pose < 0) continue;
     const auto i = static_cast<std::size_t>(pose);
-    const double dp = smoothed.position_residual[i].cwiseQuotient(problem.sigma_position).squaredNorm();
-    const double dr = smoothed.rotation_residual[i].cwiseQuotient(problem.sigma_rotation).squaredNorm();
-    outlying += inertial_smoother::redescending(std::max(dp, dr), problem.gate_chi2) < 0.5;
+    const double d2 = std::max(smoothed.position_chi2[i], smoothed.rotation_chi2[i]);
+    outlying += inertial_smoother::redescending(d2, problem.gate_chi2) < 0.5;
   }
   checkpoint = process_scale.judge(problem, smoothed.checkpoint);
   begin_ns = origin_ns + nanoseconds(moved_s);

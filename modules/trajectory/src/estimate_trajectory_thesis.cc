@@ -10,7 +10,8 @@
 #include "asperity/trajectory/filter_position.h"
 #include "asperity/trajectory/remove_gravity.h"
 #include "asperity/trajectory/scan_speed.h"
-#include "asperity/trajectory/synchronise.h"
+#include "asperity/trajectory/synchronise_streams.h"
+#include "tip_noise.h"
 
 namespace asperity {
 namespace {
@@ -20,23 +21,8 @@ constexpr double kLeastScanSpeed_mps = 1e-3;
 // A state that has not been measured may have the velocity of a quick hand.
 constexpr double kInitialVelocity_mps = 0.1;
 
-// A tracker that claims to be exact is believed to a micrometre and a microradian.
+// A rotation that claims to be exact is believed to a microradian.
 constexpr double kLeastVariance = 1e-12;
-
-// The tip's variance along the world's axes, averaged over the recording so that R is constant: a
-// rotation error δ moves the tip by δ × r.
-Eigen::Vector3d tip_variance_m2(const TrackerCalibration& tracker,
-                                const std::vector<Eigen::Quaterniond>& q_world_marker,
-                                const Eigen::Vector3d& tip_in_marker_m) {
-  const Eigen::Vector3d rotation_rad2 = tracker.sigma_rotation_rad.cwiseAbs2();
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Quaterniond& q : q_world_marker) {
-    const Eigen::Matrix3d arm = skew(q * tip_in_marker_m);
-    sum += (arm * rotation_rad2.asDiagonal() * arm.transpose()).diagonal();
-  }
-  const Eigen::Vector3d R_m2 = tracker.sigma_position_m.cwiseAbs2() + sum / static_cast<double>(q_world_marker.size());
-  return R_m2.cwiseMax(kLeastVariance);
-}
 
 PositionFilterNoise position_noise(const ThesisTrajectoryConfig& config, double speed_mps,
                                    const Eigen::Vector3d& R_m2) {
@@ -61,11 +47,11 @@ double longest_gap_s(const std::vector<std::int64_t>& t_ns) {
   return static_cast<double>(longest_ns) * kNanosecond_s;
 }
 
-void judge(TrajectoryResult& result, std::size_t samples) {
+void judge_trajectory(TrajectoryResult& result, std::size_t samples) {
   constexpr double kGap_s = 0.5;
   constexpr double kRejectedPart = 0.1;
-  const double gap_s = result.figures["longest_tracker_gap_s"];
-  const double rejected = result.figures["rejected_samples"];
+  const double gap_s = result.metrics["longest_tracker_gap_s"];
+  const double rejected = result.metrics["rejected_samples"];
   if (rejected > 0.0) {
     result.problems.push_back({"probe_spikes",
                                fmt::format("{:.0f} of {} probe samples step away from their neighbours and "
@@ -91,8 +77,8 @@ TrajectoryResult estimate_trajectory_thesis(const Recording& recording, const Th
   const Outliers outliers = reject_outliers(recording.probe, calibration, config.outliers);
   const auto period_ns = static_cast<std::int64_t>(std::llround(config.period_s / kNanosecond_s));
   const double latency_s = calibration.tracker.latency_s - calibration.probe_latency_s;
-  const SynchronisedStreams streams =
-      synchronise(recording.probe, outliers, recording.tracker, latency_s, period_ns, config.average_over_period);
+  const SynchronisedStreams streams = synchronise_streams(recording.probe, outliers, recording.tracker, latency_s,
+                                                          period_ns, config.average_over_period);
 
   // §4.2: Kalman filters of the tip's position and of the orientation.
   std::vector<Eigen::Vector3d> p_world_tip_m;
@@ -104,7 +90,7 @@ TrajectoryResult estimate_trajectory_thesis(const Recording& recording, const Th
   const double speed_mps = std::max(kLeastScanSpeed_mps, config.scan_speed_mps > 0.0
                                                              ? config.scan_speed_mps
                                                              : average_scan_speed_mps(p_world_tip_m, config.period_s));
-  const Eigen::Vector3d R_m2 = tip_variance_m2(calibration.tracker, q_world_marker, calibration.tip_in_marker_m);
+  const Eigen::Vector3d R_m2 = mean_tip_variance_m2(calibration.tracker, q_world_marker, calibration.tip_in_marker_m);
   FilteredPosition filtered = filter_position(p_world_tip_m, config.period_s, position_noise(config, speed_mps, R_m2));
   const double step_rad = config.rotation_rate_radps * config.period_s;
   const double rotation_rad2 = std::max(kLeastVariance, calibration.tracker.sigma_rotation_rad.squaredNorm() / 3.0);
@@ -124,11 +110,11 @@ TrajectoryResult estimate_trajectory_thesis(const Recording& recording, const Th
   motion.force_N.reserve(streams.force_counts.size());
   for (const double counts : streams.force_counts) motion.force_N.push_back(calibration.force.force_N(counts));
 
-  result.figures["duration_s"] = static_cast<double>(motion.t_ns.back() - motion.t_ns.front()) * kNanosecond_s;
-  result.figures["scan_speed_mps"] = speed_mps;
-  result.figures["rejected_samples"] = static_cast<double>(outliers.count);
-  result.figures["longest_tracker_gap_s"] = longest_gap_s(recording.tracker.t_ns);
-  judge(result, recording.probe.size());
+  result.metrics["duration_s"] = static_cast<double>(motion.t_ns.back() - motion.t_ns.front()) * kNanosecond_s;
+  result.metrics["scan_speed_mps"] = speed_mps;
+  result.metrics["rejected_samples"] = static_cast<double>(outliers.count);
+  result.metrics["longest_tracker_gap_s"] = longest_gap_s(recording.tracker.t_ns);
+  judge_trajectory(result, recording.probe.size());
   return result;
 }
 

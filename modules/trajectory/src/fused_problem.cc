@@ -8,6 +8,7 @@
 #include <Eigen/SVD>
 
 #include "asperity/base/error.h"
+#include "fused_setup.h"
 
 namespace asperity::inertial_smoother {
 
@@ -36,16 +37,20 @@ void set_noise(const InertialStream& inertial, const FusedConfig& config, std::s
   const double dt = static_cast<double>(inertial.t_ns[i + 1] - inertial.t_ns[i]) * 1e-9;
   double accel = std::max(inertial.accel_sigma_mps2[i], inertial.accel_sigma_mps2[i + 1]);
   const double gyro = std::max(inertial.gyro_sigma_radps[i], inertial.gyro_sigma_radps[i + 1]);
+  const double change = (inertial.specific_force_mps2[i + 1] - inertial.specific_force_mps2[i]).norm();
   double correlation = period;
   if (dt > 1.5 * period) {  // lost samples: the straight line between what was there is a guess
-    const double change = (inertial.specific_force_mps2[i + 1] - inertial.specific_force_mps2[i]).norm();
     const double lost = std::min(1.0, (dt / period - 1.0) / 10.0);
     accel = std::hypot(accel, std::max(lost * config.inertial.gap_sigma_mps2, 0.5 * change));
     correlation = std::min(dt, 0.02);
   }
-  knot.accel_psd = accel * accel * correlation;
-  knot.gyro_psd = gyro * gyro * correlation;
-  if (inertial.has_gyro && dt > 5.0 * period) knot.gyro_psd = std::max(knot.gyro_psd, 0.25 * correlation);
+  const double moving =
+      config.inertial.scale_error * std::max(inertial.accel_moving_mps2[i], inertial.accel_moving_mps2[i + 1]);
+  const double jitter = dt > 0.0 ? config.inertial.sample_time_sigma_s * change / dt : 0.0;
+  const double turning = inertial.has_gyro ? config.inertial.rate_error * inertial.angular_rate_radps[i].norm() : 0.0;
+  knot.accel_psd = {accel * accel * correlation, moving * moving * correlation, jitter * jitter * correlation};
+  knot.gyro_psd = {gyro * gyro * correlation, turning * turning * correlation};
+  if (inertial.has_gyro && dt > 5.0 * period) knot.gyro_psd[0] = std::max(knot.gyro_psd[0], 0.25 * correlation);
 }
 
 Knot between_samples(const InertialStream& inertial, const FusedConfig& config, std::size_t after, double t_s,
@@ -82,6 +87,7 @@ Problem make_problem(const Recording& recording, const InertialStream& inertial,
                 "or correct the calibration's latency");
   }
   problem.poses = tracker.T_world_marker;
+  problem.pose_noise = stated_pose_noise(tracker, recording.calibration, recording.info);
   problem.position_weight.assign(tracker.size(), 1.0);
   problem.rotation_weight.assign(tracker.size(), 1.0);
 

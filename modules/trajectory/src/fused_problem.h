@@ -22,7 +22,7 @@ Knot between_samples(const InertialStream& inertial, const FusedConfig& config, 
                      std::int64_t origin_ns);
 
 // Epochs are never further apart: it keeps first-order noise terms exact enough.
-inline constexpr double kLongestInterval_s = 0.02;
+inline constexpr double kLongestInterval_s = 0.025;
 
 // A first state from the poses alone, robust against single wild ones; with the rotation marker ←
 // sensor from the directions of the specific force where the calibration leaves it open.

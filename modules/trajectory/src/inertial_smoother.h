@@ -8,22 +8,26 @@
 
 #include "asperity/base/progress.h"
 #include "asperity/geometry/pose.h"
+#include "noise_components.h"
 
 namespace asperity::inertial_smoother {
 
 // The error state: position p and velocity v of the accelerometer (world), rotation φ (world,
 // R = exp(φ) R̂), accelerometer bias (marker), gyroscope bias (marker; without a gyroscope minus the
-// angular rate); then, where they are estimated, the latency, the accelerometer's position in the
-// marker and the rotation marker ← sensor.
-inline constexpr int kP = 0, kV = 3, kPhi = 6, kBa = 9, kBg = 12, kBase = 15, kMax = 22;
+// angular rate); then, where they are estimated, what Layout lists.
+inline constexpr int kP = 0, kV = 3, kPhi = 6, kBa = 9, kBg = 12, kBase = 15, kMax = 49;
 using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMax, 1>;
 using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMax, kMax>;
 
-// Which constants are estimated, and where they are in the state (-1: not there).
+// Which further quantities are estimated, and where they are in the state (-1: not there).
 struct Layout {
   int latency = -1;
-  int lever = -1;
-  int misalignment = -1;
+  int lever = -1;         // the accelerometer's position in the marker
+  int misalignment = -1;  // the rotation marker ← sensor
+  int accel_matrix = -1;  // 9, by columns: the true specific force is (1 + E) times the calibrated one
+  int gyro_matrix = -1;   // likewise
+  int gravity = -1;       // what the stated gravity lacks, world
+  int slow = -1;          // 6, the tracker's slow error: position, rotation, world
   int size = kBase;
 };
 
@@ -36,15 +40,20 @@ struct Nominal {
   double latency = 0.0;  // s, beyond what the epochs' times already take off
   Eigen::Vector3d lever = Eigen::Vector3d::Zero();
   Eigen::Quaterniond misalignment = Eigen::Quaterniond::Identity();
+  Eigen::Matrix3d accel_matrix = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d gyro_matrix = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, 6, 1> slow = Eigen::Matrix<double, 6, 1>::Zero();
 };
 
 // One instant: a probe sample or the time of a tracker pose. Inputs hold there and are linear between.
+// Densities are of the segment that begins here, before the components' factors.
 struct Knot {
   double t = 0.0;  // s
   Eigen::Vector3d f = Eigen::Vector3d::Zero();
   Eigen::Vector3d w = Eigen::Vector3d::Zero();
-  double accel_psd = 0.0;  // of the segment that begins here, (m/s²)²/Hz
-  double gyro_psd = 0.0;   // (rad/s)²/Hz
+  std::array<double, 3> accel_psd{};  // own, motion, jitter; (m/s²)²/Hz
+  std::array<double, 2> gyro_psd{};   // own, motion; (rad/s)²/Hz
   std::int64_t sample = -1;
 };
 
@@ -52,6 +61,12 @@ struct Knot {
 struct Epoch {
   std::size_t knot = 0;
   std::int64_t pose = -1;  // index in the tracker's stream
+};
+
+// A pose's white noise as stated, world axes.
+struct PoseNoise {
+  Eigen::Matrix3d position_m2 = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d rotation_rad2 = Eigen::Matrix3d::Identity();
 };
 
 // The filter at an epoch, after its pose: from here it can go on.
@@ -66,10 +81,9 @@ struct Problem {
   std::vector<Knot> knots;
   std::vector<Epoch> epochs;            // the first is the first knot
   std::vector<Pose> poses;              // of the epochs that have one, by Epoch::pose
+  std::vector<PoseNoise> pose_noise;    // per pose
   std::vector<double> position_weight;  // per pose, from the residuals of the pass before; in (0, 1]
   std::vector<double> rotation_weight;
-  Eigen::Vector3d sigma_position = Eigen::Vector3d::Ones();
-  Eigen::Vector3d sigma_rotation = Eigen::Vector3d::Ones();
   double time_sigma = 0.0;
   double gate_chi2 = 16.8;
   bool gate_innovations = true;  // the first pass knows no residuals yet
@@ -77,10 +91,13 @@ struct Problem {
   bool gyro_turns_too = true;  // the misalignment is the gyroscope's as well: both on one chip
   double accel_bias_psd = 0.0;
   double gyro_bias_psd = 0.0;
-  double process_scale = 1.0;  // on accel_psd; with a gyroscope only there, without also on gyro_bias_psd
-  double rate_scale = 1.0;     // on gyro_bias_psd
+  Factors factors = kUnitFactors;
+  double process_scale = 1.0;  // besides, on all of the accelerometer's noise; without a gyroscope also on the rate's
+  Eigen::Matrix<double, 6, 1> slow_sigma = Eigen::Matrix<double, 6, 1>::Zero();  // m, rad
+  double slow_time_s = 1.0;
+  Eigen::Vector3d tip_sigma_m = Eigen::Vector3d::Zero();  // of the tip in the marker, marker axes
   Nominal start;
-  Square start_covariance;
+  Square start_covariance;  // without the factors of its components
   int refused_in_a_row = 0;
   std::size_t checkpoint_epoch = 0;  // the epoch that Smoothed::checkpoint is taken at
 };
@@ -90,8 +107,11 @@ struct Smoothed {
   std::vector<std::int64_t> sample;
   std::vector<Eigen::Vector3d> p, v, omega_world, a;
   std::vector<Eigen::Quaterniond> q;
-  // At the poses, by their index: residuals of the smoothed state, world frame; zero weight: not reached.
+  // At the poses, by their index: residuals of the smoothed state, world frame; zero: not reached.
   std::vector<Eigen::Vector3d> position_residual, rotation_residual;
+  // Their normalised squares, by the whole noise that the model gives them.
+  std::vector<double> position_chi2, rotation_chi2;
+  NoiseScore score;
   // At the epochs.
   std::vector<double> epoch_t;
   std::vector<Eigen::Matrix3d> tip_covariance;
@@ -113,9 +133,11 @@ struct Filtered {
   double log_likelihood = 0.0;
   Checkpoint checkpoint;
 };
-Filtered filter(const Problem& problem);
+Filtered filter_motion(const Problem& problem);
 
-// `lever_to_tip` is computed as tip_in_marker − lever with the estimated lever.
-Smoothed smooth(const Problem& problem, const Eigen::Vector3d& tip_in_marker, const Observer& observer);
+// `lever_to_tip` is computed as tip_in_marker − lever with the estimated lever. Without `path` the states at the
+// samples and the covariances are left out: residuals, score and constants cost half.
+Smoothed smooth_motion(const Problem& problem, const Eigen::Vector3d& tip_in_marker, bool path,
+                       const Observer& observer);
 
 }  // namespace asperity::inertial_smoother

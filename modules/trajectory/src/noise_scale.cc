@@ -33,7 +33,7 @@ inertial_smoother::Checkpoint NoiseScale::judge(const inertial_smoother::Problem
     part.start = rival.state.x;
     part.start_covariance = rival.state.P;
     part.refused_in_a_row = rival.state.refused_in_a_row;
-    const inertial_smoother::Filtered filtered = inertial_smoother::filter(part);
+    const inertial_smoother::Filtered filtered = inertial_smoother::filter_motion(part);
     rival.state = filtered.checkpoint;
     rival.score = keep * rival.score + filtered.log_likelihood;
   }

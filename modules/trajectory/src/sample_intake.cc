@@ -108,11 +108,19 @@ void SampleIntake::add(const TrackerSample& pose) {
   if (tracker.size() >= kMostPoses) {
     drop_front(tracker.t_ns, kMostPoses / 2);
     drop_front(tracker.T_world_marker, kMostPoses / 2);
+    drop_front(tracker.sigma_position_m, kMostPoses / 2);
+    drop_front(tracker.sigma_rotation_rad, kMostPoses / 2);
+    drop_front(tracker.noise_position_m, kMostPoses / 2);
+    drop_front(tracker.noise_rotation_rad, kMostPoses / 2);
   }
   tracker.t_ns.push_back(t_ns);
   Pose sane = pose.T_world_marker;
   sane.rotation.normalize();
   tracker.T_world_marker.push_back(sane);
+  tracker.sigma_position_m.push_back(pose.sigma_position_m);
+  tracker.sigma_rotation_rad.push_back(pose.sigma_rotation_rad);
+  tracker.noise_position_m.push_back(pose.noise_position_m);
+  tracker.noise_rotation_rad.push_back(pose.noise_rotation_rad);
 }
 
 void SampleIntake::clear_rows() {
@@ -138,6 +146,10 @@ void SampleIntake::forget_before(std::int64_t t_ns) {
       static_cast<std::size_t>(std::lower_bound(tracker.t_ns.begin(), tracker.t_ns.end(), t_ns) - tracker.t_ns.begin());
   drop_front(tracker.t_ns, poses);
   drop_front(tracker.T_world_marker, poses);
+  drop_front(tracker.sigma_position_m, poses);
+  drop_front(tracker.sigma_rotation_rad, poses);
+  drop_front(tracker.noise_position_m, poses);
+  drop_front(tracker.noise_rotation_rad, poses);
 }
 
 std::vector<double> SampleIntake::pose_s(std::int64_t origin_ns) const {

@@ -58,7 +58,7 @@ TEST(EstimateTrajectoryThesis, FollowsAKnownMotion) {
   const TipMotion& motion = result.motion;
   ASSERT_GT(motion.size(), 780u);
   EXPECT_TRUE(result.trustworthy);
-  EXPECT_NEAR(result.figures.at("scan_speed_mps"), kSpeed_mps, 1e-4);
+  EXPECT_NEAR(result.metrics.at("scan_speed_mps"), kSpeed_mps, 1e-4);
   for (std::size_t i = 200; i < motion.size(); ++i) {
     const double t = time_s(motion, i);
     EXPECT_EQ(motion.t_ns[i] - motion.t_ns[i - 1], 5'000'000);
@@ -104,7 +104,7 @@ TEST(EstimateTrajectoryThesis, SaysWhenTheMarkerWasLost) {
   r.tracker.T_world_marker.erase(r.tracker.T_world_marker.begin() + 50, r.tracker.T_world_marker.begin() + 90);
   const TrajectoryResult result = estimate_trajectory_thesis(r, {});
   EXPECT_FALSE(result.trustworthy);
-  EXPECT_NEAR(result.figures.at("longest_tracker_gap_s"), 41.0 / 45.0, 1e-6);
+  EXPECT_NEAR(result.metrics.at("longest_tracker_gap_s"), 41.0 / 45.0, 1e-6);
   r.tracker = {};
   EXPECT_THROW(estimate_trajectory_thesis(r, {}), Error);
 }

@@ -31,6 +31,31 @@ struct HandMotion {
   }
 };
 
+// A hand that takes the probe through the air with rests: a closed-form motion along a time of its own, which stands
+// still while the hand rests.
+struct RestingHand {
+  double phase = 0.0;
+  double turn_rad = 0.4;
+
+  double own_time(double t) const {
+    constexpr double kSteep = 6.0;  // 1/s
+    const auto ramp = [&](double x) { return 0.5 * (x + std::log(2.0 * std::cosh(kSteep * x)) / kSteep); };
+    return ramp(t - 3.0) - ramp(t - 7.0) + ramp(t - 8.5) - ramp(t - 12.5);
+  }
+  Eigen::Vector3d tip(double t) const {
+    const double u = own_time(t);
+    return {0.08 * std::sin(2.1 * u + phase),
+            -0.02 + 0.05 * std::sin(3.3 * u + 2.0 * phase) + 0.01 * std::sin(11.0 * u),
+            0.35 + 0.06 * std::cos(1.7 * u - phase)};
+  }
+  Eigen::Quaterniond orientation(double t) const {
+    const double u = own_time(t);
+    const Eigen::Vector3d phi(0.1 + turn_rad * std::sin(1.9 * u + phase), turn_rad * std::sin(1.3 * u + 1.0),
+                              0.7 * turn_rad * std::sin(2.6 * u - phase));
+    return exp_rotation(phi);
+  }
+};
+
 struct Sensors {
   double duration_s = 4.0;
   double rate_Hz = 4000.0;
@@ -39,6 +64,9 @@ struct Sensors {
   double gyro_noise_radps = 0.002;
   Eigen::Vector3d accel_bias{0.05, -0.03, 0.04};
   Eigen::Vector3d gyro_bias{0.004, -0.003, 0.002};
+  Eigen::Matrix3d accel_matrix = Eigen::Matrix3d::Identity();  // what the calibration does not know of
+  Eigen::Matrix3d gyro_matrix = Eigen::Matrix3d::Identity();
+  double tracker_jitter_s = 0.0;    // of a pose's stamp
   double counts_per_mps2 = 208.7;   // 16 bit over ±16 g
   double counts_per_radps = 938.7;  // 16 bit over ±2000 °/s
   double tracker_rate_Hz = 120.0;
@@ -52,7 +80,8 @@ struct Sensors {
   std::uint64_t seed = 1;
 };
 
-inline Recording record(const HandMotion& hand, const Sensors& sensors) {
+template <class Hand>
+Recording record(const Hand& hand, const Sensors& sensors) {
   Recording rec;
   const Eigen::Vector3d gravity(0.0, 9.80665, 0.0);
   rec.info.gravity_world_mps2 = gravity;
@@ -66,6 +95,8 @@ inline Recording record(const HandMotion& hand, const Sensors& sensors) {
   if (sensors.gyro)
     c.gyroscope = GyroscopeCalibration{Eigen::Matrix3d::Identity() * sensors.counts_per_radps, Eigen::Vector3d::Zero()};
   c.tip_in_marker_m = sensors.tip_in_marker;
+  c.tip_sigma_m = Eigen::Vector3d::Zero();  // exact, and stated so
+  c.tracker.slow_sigma_m = Eigen::Vector3d::Zero();
   c.tracker.sigma_position_m = sensors.tracker_sigma_m;
   c.tracker.sigma_rotation_rad.setConstant(sensors.tracker_rotation_sigma_rad);
   c.tracker.latency_s = sensors.latency_prior_s;
@@ -90,13 +121,14 @@ inline Recording record(const HandMotion& hand, const Sensors& sensors) {
     const Eigen::Vector3d omega =
         q.conjugate() *
         (log_rotation(hand.orientation(t + kStep_s) * hand.orientation(t - kStep_s).conjugate()) / (2.0 * kStep_s));
-    const Eigen::Vector3d f =
-        q.conjugate() * (a - gravity) + sensors.accel_bias + three(noise, sensors.accel_noise_mps2);
+    const Eigen::Vector3d f = sensors.accel_matrix * (q.conjugate() * (a - gravity)) + sensors.accel_bias +
+                              three(noise, sensors.accel_noise_mps2);
     rec.probe.t_ns.push_back(std::llround(t * 1e9));
     rec.probe.accel_counts.push_back(rounded(f * sensors.counts_per_mps2));
     if (sensors.gyro)
       rec.probe.gyro_counts.push_back(
-          rounded((omega + sensors.gyro_bias + three(noise, sensors.gyro_noise_radps)) * sensors.counts_per_radps));
+          rounded((sensors.gyro_matrix * omega + sensors.gyro_bias + three(noise, sensors.gyro_noise_radps)) *
+                  sensors.counts_per_radps));
     rec.probe.force_counts.push_back(1.0);
   }
   Random tracker(sensors.seed, 2);
@@ -111,7 +143,8 @@ inline Recording record(const HandMotion& hand, const Sensors& sensors) {
       pose.rotation = exp_rotation(Eigen::Vector3d(0.0, 0.8, 0.3)) * pose.rotation;
       pose.translation_m += Eigen::Vector3d(0.001, 0.002, 0.01);
     }
-    rec.tracker.t_ns.push_back(std::llround((t + sensors.latency_s) * 1e9));
+    const double late_s = sensors.tracker_jitter_s > 0.0 ? sensors.tracker_jitter_s * tracker.normal() : 0.0;
+    rec.tracker.t_ns.push_back(std::llround((t + sensors.latency_s + late_s) * 1e9));
     rec.tracker.T_world_marker.push_back(pose);
   }
   return rec;

@@ -9,7 +9,7 @@
 #include "asperity/json/json.h"
 #include "asperity/pipeline/result_json.h"
 #include "asperity/pipeline/write_result.h"
-#include "asperity/studio/measured_figures.h"
+#include "asperity/studio/measured_metrics.h"
 #include "profile_block.h"
 #include "profile_gaps.h"
 #include "thinned.h"
@@ -31,7 +31,7 @@ std::vector<double> held(const std::vector<double>& readings, std::size_t size) 
 void add_trajectory(const ProcessResult& result, std::size_t max_points, BlockWriter& block) {
   const TipMotion& motion = result.trajectory.motion;
   const BasePath& base = result.base.path;
-  const Chosen chosen = choose(motion.size(), max_points);
+  const Chosen chosen = choose_samples(motion.size(), max_points);
   const Eigen::Vector3d origin_m =
       motion.size() > 0 ? motion.p_world_tip_m[motion.size() / 2] : Eigen::Vector3d(Eigen::Vector3d::Zero());
   std::vector<double> t_s;
@@ -66,6 +66,10 @@ void add_trajectory(const ProcessResult& result, std::size_t max_points, BlockWr
 
 void add_compliance(const Compliance& compliance, BlockWriter& block) {
   block.head()["compliance"] = {{"k_c", compliance.k_c},
+                                {"k_c_stderr", compliance.k_c_stderr},
+                                {"k_c_low", compliance.k_c_low},
+                                {"k_c_high", compliance.k_c_high},
+                                {"verdict", compliance.verdict},
                                 {"sigma_r2", compliance.sigma_r2},
                                 {"exponent", compliance.exponent},
                                 {"exponent_error", compliance.exponent_error},
@@ -109,7 +113,7 @@ BlockWriter measured_block(const ProcessResult& result, const Recording& recordi
   BlockWriter block("measured");
   block.head()["result"] = result_json(result, recording, name);
   block.head()["world"] = recording.info.world;
-  block.head()["figures"] = measured_figures(block.head()["result"]);
+  block.head()["figures"] = measured_metrics(block.head()["result"]);
   add_dropped(result, config.max_gaps, block);
   add_trajectory(result, config.max_trajectory_points, block);
   add_profile(result.profile, config.max_profile_points, block);

@@ -21,7 +21,7 @@ void add_spectrum(const Profile& profile, BlockWriter& block) {
 }  // namespace
 
 void add_profile(const Profile& profile, std::size_t max_points, BlockWriter& block) {
-  const Chosen chosen = choose(profile.size(), max_points);
+  const Chosen chosen = choose_samples(profile.size(), max_points);
   block.head()["profile"] = {{"samples", profile.size()},
                              {"every", chosen.every},
                              {"points", chosen.index.size()},

@@ -16,7 +16,7 @@
 #include "asperity/json/parse_json.h"
 #include "asperity/pipeline/read_path.h"
 #include "asperity/studio/block.h"
-#include "asperity/studio/measured_figures.h"
+#include "asperity/studio/measured_metrics.h"
 #include "kept_block.h"
 #include "profile_block.h"
 #include "thinned.h"
@@ -79,7 +79,7 @@ void add_path(const std::optional<std::string_view>& text, const std::string& na
   TipMotion motion;
   if (text) motion = parse_path(*text, name).motion;
   const std::size_t points = motion.size();
-  const Chosen chosen = choose(points, kMostPathPoints);
+  const Chosen chosen = choose_samples(points, kMostPathPoints);
   const double duration_s =
       points == 0 ? 0.0 : static_cast<double>(motion.t_ns.back() - motion.t_ns.front()) * kNanosecond_s;
   block.head()["trajectory"] = {
@@ -109,7 +109,7 @@ ReportItem make_item(const Json& result, std::string_view profile, const std::op
   BlockWriter block("measured");
   block.head()["result"] = result;
   block.head()["world"] = "camera";
-  block.head()["figures"] = measured_figures(result);
+  block.head()["figures"] = measured_metrics(result);
   block.head()["dropped"] = result.value("problems", Json::array());
   block.head()["gaps"] = Json::array();
   block.head()["gap_count"] = 0;

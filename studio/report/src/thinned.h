@@ -17,7 +17,7 @@ struct Chosen {
   std::vector<std::size_t> index;
 };
 
-inline Chosen choose(std::size_t count, std::size_t at_most) {
+inline Chosen choose_samples(std::size_t count, std::size_t at_most) {
   Chosen out;
   out.every = std::max<std::size_t>(1, (count + at_most - 1) / at_most);
   for (std::size_t i = 0; i < count; i += out.every) out.index.push_back(i);

@@ -25,7 +25,7 @@ ReadBlock block_of(const ProcessResult& result, const MeasuredBlockConfig& confi
   return read_block(measured_block(result, scan(), "holes", config).take());
 }
 
-// A figure by its key in result.json.
+// A metric by its key in result.json.
 const Json& at(const Json& result, const std::string& key) {
   const Json* place = &result;
   std::size_t begin = 0;
@@ -69,15 +69,15 @@ TEST(MeasuredBlock, EveryFigureIsThatOfResultJson) {
   const std::map<std::string, double> factors{{"mm", 1e3}, {"µm", 1e6},   {"mm/s", 1e3}, {"%", 100.0},
                                               {"ms", 1e3}, {"µm/N", 1e3}, {"µs", 1e6},   {"mrad", 1e3}};
   std::size_t compared = 0;
-  for (const Json& figure : block.head["figures"]) {
-    const std::string key = figure["key"].text(), unit = figure["unit"].text();
-    EXPECT_FALSE(figure["label"].get<std::string>().empty());
-    if (key.empty() || !figure["value"].is_number()) continue;
+  for (const Json& metric : block.head["figures"]) {
+    const std::string key = metric["key"].text(), unit = metric["unit"].text();
+    EXPECT_FALSE(metric["label"].get<std::string>().empty());
+    if (key.empty() || !metric["value"].is_number()) continue;
     const Json& original = at(block.head["result"], key);
     // Those that have the unit in the file, too, are not scaled.
     const bool as_it_is = key.ends_with("_um") || key.ends_with("_mm") || key.ends_with("percent");
     const double factor = as_it_is || !factors.contains(unit) ? 1.0 : factors.at(unit);
-    EXPECT_NEAR(figure["value"].get<double>(), factor * original.get<double>(), 1e-9 * std::abs(factor)) << key;
+    EXPECT_NEAR(metric["value"].get<double>(), factor * original.get<double>(), 1e-9 * std::abs(factor)) << key;
     ++compared;
   }
   EXPECT_GT(compared, 40U);

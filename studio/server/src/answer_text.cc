@@ -6,7 +6,7 @@ namespace asperity::studio {
 
 namespace {
 
-std::string text(const Json& message) { return message.dump_repaired(); }
+std::string dump_message(const Json& message) { return message.dump_repaired(); }
 
 }  // namespace
 
@@ -14,7 +14,7 @@ std::string answer_text(std::uint64_t id, const Json& result) {
   Json message;
   message["id"] = id;
   message["result"] = result;
-  return text(message);
+  return dump_message(message);
 }
 
 std::string refusal_text(std::uint64_t id, std::string_view words, std::string_view hint) {
@@ -24,14 +24,14 @@ std::string refusal_text(std::uint64_t id, std::string_view words, std::string_v
   Json message;
   message["id"] = id;
   message["error"] = std::move(error);
-  return text(message);
+  return dump_message(message);
 }
 
 std::string event_text(std::string_view event, const Json& data) {
   Json message;
   message["event"] = event;
   message["data"] = data;
-  return text(message);
+  return dump_message(message);
 }
 
 }  // namespace asperity::studio

@@ -15,12 +15,12 @@ std::string words(const Json& value) { return printable(value.dump_repaired(), 6
   throw Error(call + ": " + std::string(name) + ": " + given);
 }
 
-const Json* find(const Json& args, std::string_view name) { return args.find(name); }
+const Json* find_argument(const Json& args, std::string_view name) { return args.find(name); }
 
 }  // namespace
 
 double Request::number(std::string_view name) const {
-  const Json* value = find(call_.args, name);
+  const Json* value = find_argument(call_.args, name);
   if (!value || !value->is_number() || !std::isfinite(value->get<double>())) {
     refuse_argument(call_.name, name, value, "a number");
   }
@@ -31,19 +31,19 @@ std::int64_t Request::integer(std::string_view name) const {
   const double value = number(name);
   constexpr double kExact = 9007199254740992.0;
   if (value != std::floor(value) || std::abs(value) > kExact) {
-    refuse_argument(call_.name, name, find(call_.args, name), "a whole number");
+    refuse_argument(call_.name, name, find_argument(call_.args, name), "a whole number");
   }
   return static_cast<std::int64_t>(value);
 }
 
 bool Request::flag(std::string_view name) const {
-  const Json* value = find(call_.args, name);
+  const Json* value = find_argument(call_.args, name);
   if (!value || !value->is_boolean()) refuse_argument(call_.name, name, value, "true or false");
   return value->get<bool>();
 }
 
 std::string Request::text(std::string_view name) const {
-  const Json* value = find(call_.args, name);
+  const Json* value = find_argument(call_.args, name);
   if (!value || !value->is_string() || !is_utf8(value->text())) {
     refuse_argument(call_.name, name, value, "a text");
   }
@@ -51,7 +51,7 @@ std::string Request::text(std::string_view name) const {
 }
 
 std::vector<double> Request::numbers(std::string_view name, std::size_t count) const {
-  const Json* value = find(call_.args, name);
+  const Json* value = find_argument(call_.args, name);
   const std::string what = "a list of " + std::to_string(count) + " numbers";
   if (!value || !value->is_array() || value->size() != count) {
     refuse_argument(call_.name, name, value, what.c_str());

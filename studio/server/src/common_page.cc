@@ -98,7 +98,7 @@ void CommonPage::bind_lease(Calls& calls) {
     Json out;
     out["mine"] = shared_.lease.acquire(request.client(), now_ns);
     request.answer(out);
-    tell_owner(now_ns);
+    send_owner(now_ns);
   });
   calls.add("lease.heartbeat", [this](const Request& request) {
     const std::int64_t now_ns = host_now_ns();
@@ -110,21 +110,21 @@ void CommonPage::bind_lease(Calls& calls) {
   calls.add("lease.release", [this](const Request& request) {
     shared_.lease.release(request.client());
     request.done();
-    tell_owner(host_now_ns());
+    send_owner(host_now_ns());
   });
 }
 
-void CommonPage::tell_owner(std::int64_t now_ns) {
+void CommonPage::send_owner(std::int64_t now_ns) {
   const std::optional<ClientId> owner = shared_.lease.owner(now_ns);
-  if (owner == told_owner_) return;
-  told_owner_ = owner;
+  if (owner == sent_owner_) return;
+  sent_owner_ = owner;
   Json data;
   data["owner"] = owner ? Json(*owner) : Json();
   shared_.hub.broadcast("lease", data);
 }
 
 void CommonPage::tick(std::int64_t now_ns) {
-  tell_owner(now_ns);
+  send_owner(now_ns);
   if (looking_ || now_ns - looked_ns_ < kLook_ns) return;
   looking_ = true;
   auto found = std::make_shared<Json>();
@@ -151,7 +151,7 @@ void CommonPage::edited(const Edit& edit) {
 
 void CommonPage::client_left(ClientId client) {
   shared_.lease.release(client);
-  tell_owner(host_now_ns());
+  send_owner(host_now_ns());
 }
 
 }  // namespace asperity::studio

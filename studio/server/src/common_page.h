@@ -23,11 +23,11 @@ class CommonPage : public Page {
   void bind_document(Calls& calls);
   void bind_project(Calls& calls);
   void bind_lease(Calls& calls);
-  void tell_owner(std::int64_t now_ns);
+  void send_owner(std::int64_t now_ns);
 
   Shared& shared_;
   std::optional<std::string> opened_;
-  std::optional<ClientId> told_owner_;
+  std::optional<ClientId> sent_owner_;
   std::int64_t looked_ns_ = 0;
   bool looking_ = false;
   Json entries_;

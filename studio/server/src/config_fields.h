@@ -13,7 +13,7 @@ namespace asperity::studio {
 Json fields_json(const std::vector<ConfigField>& fields, const std::vector<ConfigField>& defaults);
 
 // Gives the member `key` of a section, an object of settings by their paths, the settings' present names where it has
-// former ones (ConfigField::former). Leaves alone what is no such object.
+// former ones (ConfigField::former). Leaves any other value unchanged.
 void use_present_names(Json& section, std::string_view key, const std::vector<ConfigField>& fields);
 
 }  // namespace asperity::studio

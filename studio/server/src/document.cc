@@ -42,7 +42,7 @@ Json value_at(const Json& tree, const JsonPointer& pointer) {
 }
 
 // The value at a path set, or with null taken out. Throws Error if it leads nowhere.
-void put(Json& tree, const JsonPointer& pointer, const Json& value, std::string_view path) {
+void put_value(Json& tree, const JsonPointer& pointer, const Json& value, std::string_view path) {
   const Json* parent = find_at(tree, JsonSteps(pointer).first(pointer.size() - 1));
   if (parent == nullptr || !parent->is_object() || !set_at(tree, pointer, value)) {
     throw Error("'" + printable(path) + "' is no place in the document");
@@ -168,7 +168,7 @@ Json Document::changed_section(const Edit& edit) const {
     if (edit.after.is_null()) throw Error("a section of the document cannot be taken out");
     holder[name] = edit.after;
   } else {
-    put(holder, pointer_of(edit.path), edit.after, edit.path);
+    put_value(holder, pointer_of(edit.path), edit.after, edit.path);
   }
   if (holder[name].dump_repaired().size() > kLargestSection) {
     throw Advice("the page '" + name + "' would hold too much", "Take something out of it before you add more.");

@@ -29,7 +29,8 @@ class Board {
  public:
   explicit Board(Hub& hub) : hub_(hub) {}
 
-  void tell(const Job& job, std::string_view stage, double fraction, std::string_view state, const Json& fault = {}) {
+  void send_progress(const Job& job, std::string_view stage, double fraction, std::string_view state,
+                     const Json& fault = {}) {
     if (job.title.empty()) return;
     Json data;
     data["id"] = job.id;
@@ -70,7 +71,7 @@ class Progress {
     const auto now = std::chrono::steady_clock::now();
     if (now - last_ < std::chrono::milliseconds(100)) return;
     last_ = now;
-    board_.tell(job_, stage, fraction, "running");
+    board_.send_progress(job_, stage, fraction, "running");
   }
 
  private:
@@ -81,7 +82,7 @@ class Progress {
 
 std::exception_ptr do_work(Board& board, Job& job) {
   try {
-    board.tell(job, "", 0.0, "running");
+    board.send_progress(job, "", 0.0, "running");
     Progress progress(board, job);
     Observer observer;
     observer.progress = [&](std::string_view stage, double fraction) { progress(stage, fraction); };
@@ -94,16 +95,16 @@ std::exception_ptr do_work(Board& board, Job& job) {
   }
 }
 
-void tell_end(Board& board, const Job& job, std::exception_ptr error) {
+void send_end(Board& board, const Job& job, std::exception_ptr error) {
   try {
-    if (!error) return board.tell(job, "", 1.0, "done");
+    if (!error) return board.send_progress(job, "", 1.0, "done");
     std::rethrow_exception(error);
   } catch (const Cancelled&) {
-    board.tell(job, "", 1.0, "cancelled");
+    board.send_progress(job, "", 1.0, "cancelled");
   } catch (const Advice& advice) {
-    board.tell(job, "", 1.0, "failed", {{"message", advice.what()}, {"hint", advice.hint()}});
+    board.send_progress(job, "", 1.0, "failed", {{"message", advice.what()}, {"hint", advice.hint()}});
   } catch (const std::exception& fault) {
-    board.tell(job, "", 1.0, "failed", {{"message", fault.what()}, {"hint", ""}});
+    board.send_progress(job, "", 1.0, "failed", {{"message", fault.what()}, {"hint", ""}});
   }
 }
 
@@ -133,7 +134,7 @@ class Lane {
       }
       waiting_.push_back(job);
     }
-    board_.tell(*job, "", 0.0, "waiting");
+    board_.send_progress(*job, "", 0.0, "waiting");
     for (const auto& old : dropped) finish(old, std::make_exception_ptr(Cancelled()));
     woken_.notify_all();
   }
@@ -192,7 +193,7 @@ class Lane {
       if (job->done) job->done(error);
       job->work = nullptr;
       job->done = nullptr;
-      tell_end(*board, *job, error);
+      send_end(*board, *job, error);
     });
   }
 

@@ -35,7 +35,7 @@ std::filesystem::path private_file(const std::string& text) {
 }
 
 // Without a shell, without a word on our terminal, and out of reach of its Ctrl-C.
-void spawn(const char* program, const std::string& argument) {
+void spawn_program(const char* program, const std::string& argument) {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -70,7 +70,7 @@ OpenedBrowser::OpenedBrowser(const std::string& address) noexcept {
         "<!doctype html><meta charset=\"utf-8\"><meta name=\"referrer\" content=\"no-referrer\">"
         "<title>Asperity</title><meta http-equiv=\"refresh\" content=\"0; url=" +
         address + "\"><a href=\"" + address + "\">Asperity's studio</a>\n");
-    if (!file_.empty()) spawn("xdg-open", file_.string());
+    if (!file_.empty()) spawn_program("xdg-open", file_.string());
   } catch (const std::exception&) {
     // The address was printed all the same.
   }

@@ -21,7 +21,7 @@ Family family(const std::string& host) {
 
 std::string as_in_address(const std::string& host) { return family(host) == Family::kV6 ? "[" + host + "]" : host; }
 
-std::string lower(std::string_view text) {
+std::string to_lower(std::string_view text) {
   std::string out(text);
   std::transform(out.begin(), out.end(), out.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
@@ -38,7 +38,7 @@ bool is_number(std::string_view host) {
 }  // namespace
 
 bool is_this_machine_only(const std::string& host) {
-  if (lower(host) == "localhost") return true;
+  if (to_lower(host) == "localhost") return true;
   in_addr v4{};
   if (inet_pton(AF_INET, host.c_str(), &v4) == 1) return (ntohl(v4.s_addr) >> 24U) == 127;
   in6_addr v6{};
@@ -49,7 +49,7 @@ OwnHosts::OwnHosts(const std::string& host, int port) : port_(":" + std::to_stri
   in6_addr v6{};
   any_number_ = host == "0.0.0.0" || (inet_pton(AF_INET6, host.c_str(), &v6) == 1 && IN6_IS_ADDR_UNSPECIFIED(&v6));
   for (const std::string& name :
-       {std::string("127.0.0.1"), std::string("localhost"), std::string("[::1]"), lower(as_in_address(host))}) {
+       {std::string("127.0.0.1"), std::string("localhost"), std::string("[::1]"), to_lower(as_in_address(host))}) {
     names_.push_back(name + port_);
     if (port == 80) names_.push_back(name);
   }
@@ -57,14 +57,14 @@ OwnHosts::OwnHosts(const std::string& host, int port) : port_(":" + std::to_stri
 }
 
 bool OwnHosts::contains(std::string_view host_header) const {
-  const std::string host = lower(host_header);
+  const std::string host = to_lower(host_header);
   if (std::find(names_.begin(), names_.end(), host) != names_.end()) return true;
   return any_number_ && host.ends_with(port_) &&
          is_number(std::string_view(host).substr(0, host.size() - port_.size()));
 }
 
 bool OwnHosts::is_own_origin(std::string_view origin, std::string_view host_header) const {
-  return contains(host_header) && lower(origin) == "http://" + lower(host_header);
+  return contains(host_header) && to_lower(origin) == "http://" + to_lower(host_header);
 }
 
 std::string OwnHosts::address() const { return address_; }

@@ -38,7 +38,8 @@ std::optional<EntryKind> kind_of_file(const fs::path& path) {
   return std::nullopt;
 }
 
-void list(const fs::path& folder, const std::string& prefix, int depth, std::size_t& visited, std::vector<Entry>& out) {
+void list_folder(const fs::path& folder, const std::string& prefix, int depth, std::size_t& visited,
+                 std::vector<Entry>& out) {
   std::error_code error;
   for (fs::directory_iterator at(folder, fs::directory_options::skip_permission_denied, error), end; at != end;
        at.increment(error)) {
@@ -53,7 +54,7 @@ void list(const fs::path& folder, const std::string& prefix, int depth, std::siz
       if (is_file(at->path() / "result.json") && is_file(at->path() / "profile.csv")) {
         out.push_back({EntryKind::kResult, prefix + name});
       }
-      if (depth < kDeepest) list(at->path(), prefix + name + "/", depth + 1, visited, out);
+      if (depth < kDeepest) list_folder(at->path(), prefix + name + "/", depth + 1, visited, out);
     } else if (const std::optional<EntryKind> kind = kind_of_file(at->path())) {
       out.push_back({*kind, prefix + name});
     }
@@ -71,7 +72,7 @@ Project::Project(fs::path folder) {
 std::vector<Entry> Project::entries() const {
   std::vector<Entry> out;
   std::size_t visited = 0;
-  list(folder_, "", 1, visited, out);
+  list_folder(folder_, "", 1, visited, out);
   std::sort(out.begin(), out.end(), [](const Entry& a, const Entry& b) { return a.name < b.name; });
   return out;
 }

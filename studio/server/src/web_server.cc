@@ -49,7 +49,7 @@ Error cannot_listen(const WebServerConfig& config, const error_code& error) {
 // A program that is started, as the user's browser, must not hold the port or a connection after our end.
 void keep_from_children(int socket) { fcntl(socket, F_SETFD, FD_CLOEXEC); }
 
-tcp::acceptor listen(asio::io_context& context, const WebServerConfig& config) {
+tcp::acceptor listen_on(asio::io_context& context, const WebServerConfig& config) {
   error_code error;
   tcp::resolver resolver(context);
   const auto found = resolver.resolve(config.host, std::to_string(config.port), tcp::resolver::passive, error);
@@ -95,7 +95,7 @@ Site make_site(const WebServerConfig& config, int port) {
 class BeastServer : public WebServer {
  public:
   BeastServer(const WebServerConfig& config, const WebServerEvents& events)
-      : acceptor_(listen(context_, config)), pause_(context_), port_(acceptor_.local_endpoint().port()) {
+      : acceptor_(listen_on(context_, config)), pause_(context_), port_(acceptor_.local_endpoint().port()) {
     state_.emplace(config, events, make_site(config, port_));
     accept();
     thread_ = std::thread([this] { run(); });

@@ -46,7 +46,7 @@ TEST_F(AlignPageTest, SlidersAreThePose) {
   const ManualAlignment expected = manual_alignment(bench_.pose());
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_EQ(six["shift_m"][k], expected.shift_m[k]);
-    EXPECT_EQ(six["turn_deg"][k], expected.turn_deg[k]);
+    EXPECT_EQ(six["turn_deg"][k], expected.rotation_deg[k]);
   }
   // About the path's middle: the shift is where the middle lies, and turning leaves it there.
   const Json about = {0.1, 0.2, -0.3};

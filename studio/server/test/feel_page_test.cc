@@ -214,8 +214,8 @@ TEST(FeelPage, WritesALog) {
 // The run hands it over as soon as it is asked to, and at its end.
 TEST(RunLog, IsHandedOverWhenAskedForAndAtTheEnd) {
   testkit::TempDir folder;
-  std::vector<EndedLog> ended;
-  RunLog log([&](EndedLog one) { ended.push_back(std::move(one)); });
+  std::vector<FinishedLog> ended;
+  RunLog log([&](FinishedLog one) { ended.push_back(std::move(one)); });
   const ServoTick tick;
   log.add(tick);
   log.begin(std::make_unique<FeelLog>(folder / "whole.csv", false));

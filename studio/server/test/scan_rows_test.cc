@@ -23,7 +23,7 @@ std::vector<ProbeSample> rows_at(std::initializer_list<std::int64_t> times) {
 
 TEST(RowTap, GivesEachRowOnceAndCountsWhatItDrops) {
   RowTap tap;
-  RowTap::Taken taken;
+  RowTap::TakenRows taken;
   tap.add(rows_at({1, 2, 3}));
   tap.take(taken);
   EXPECT_EQ(taken.first_row, 0U);
@@ -41,7 +41,7 @@ TEST(RowTap, GivesEachRowOnceAndCountsWhatItDrops) {
 
 TEST(RowTap, KeepsAnImageOnlyWhenItIsWanted) {
   RowTap tap;
-  RowTap::Taken taken;
+  RowTap::TakenRows taken;
   CameraFrame frame;
   frame.t_ns = 1;
   frame.image = {2, 1, {10, 20}};
@@ -67,7 +67,7 @@ TEST(RowTap, KeepsAnImageOnlyWhenItIsWanted) {
 
 TEST(RowTap, ShowsAnImageInWhichNothingIsSeen) {
   RowTap tap;
-  RowTap::Taken taken;
+  RowTap::TakenRows taken;
   tap.want_images(true);
   CameraFrame frame;
   frame.image = {2, 1, {10, 20}};

@@ -123,7 +123,7 @@ describe("the verdict in few words", () => {
 
   it("says what it rests on", () => expect(verdictWords(found).replaceAll("\u202f", " ")).toBe("386 of 388 points lie on the mesh, to 0.027 mm RMS."));
 
-  it("says what to do where it is not to be trusted", () => {
+  it("says what to do where it is invalid", () => {
     expect(verdictWords({ ...found, trustworthy: false, ambiguous: true })).toContain("by pairs");
     expect(verdictWords({ ...found, trustworthy: false, converged: false })).toContain("no end");
     expect(verdictWords({ ...found, trustworthy: false, outliers: 300 })).toContain("unit");

@@ -78,8 +78,8 @@ std::map<std::string, std::string> settings_of(const Json& json, std::string_vie
   return out.config;
 }
 
-AlignChoice::Ran ran_of(const Json& json) {
-  AlignChoice::Ran out;
+AlignChoice::LastRun last_run_of(const Json& json) {
+  AlignChoice::LastRun out;
   out.guess = guess_of(json, "ran");
   out.paths = names_of(part(json, "paths", "ran"), "ran.paths");
   out.mesh = text_of(part(json, "mesh", "ran"), "ran.mesh");
@@ -96,7 +96,7 @@ Json json_of_settings(const std::map<std::string, std::string>& settings) {
 
 }  // namespace
 
-Json json_of_ran(const AlignChoice::Ran& ran) {
+Json json_of_last_run(const AlignChoice::LastRun& ran) {
   Json out;
   out["guess"] = ran.guess ? json_of_pose(*ran.guess) : Json();
   out["paths"] = ran.paths;
@@ -127,7 +127,7 @@ Json json_of_choice(const AlignChoice& choice) {
     registered["near"] = choice.registered->near;
     registered["T_mesh_world"] = json_of_pose(choice.registered->T_mesh_world);
   }
-  if (choice.ran) out["ran"] = json_of_ran(*choice.ran);
+  if (choice.ran) out["ran"] = json_of_last_run(*choice.ran);
   return out;
 }
 
@@ -148,7 +148,7 @@ AlignChoice choice_of_json(const Json& section) {
   out.picks = picks_of(part(section, "picks", "the section"));
   if (section.contains("T_mesh_world")) out.T_mesh_world = pose_of_json(section.at("T_mesh_world"), "align: the pose");
   if (section.contains("registered")) out.registered = registered_of(section.at("registered"));
-  if (section.contains("ran")) out.ran = ran_of(section.at("ran"));
+  if (section.contains("ran")) out.ran = last_run_of(section.at("ran"));
   return out;
 }
 

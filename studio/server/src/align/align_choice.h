@@ -35,7 +35,7 @@ struct AlignChoice {
   };
 
   // What was registered last, from where, and by which settings.
-  struct Ran {
+  struct LastRun {
     std::optional<Pose> guess;  // nullopt: from anywhere
     std::vector<std::string> paths;
     std::string mesh, mesh_unit;
@@ -50,11 +50,11 @@ struct AlignChoice {
   std::vector<Pick> picks;
   std::optional<Pose> T_mesh_world;
   std::optional<Registered> registered;
-  std::optional<Ran> ran;
+  std::optional<LastRun> ran;
 };
 
 Json json_of_choice(const AlignChoice& choice);
-Json json_of_ran(const AlignChoice::Ran& ran);
+Json json_of_last_run(const AlignChoice::LastRun& ran);
 
 // Throws Error in words for anything that is not a choice: unknown keys, more than 16 paths or 1000 picks, numbers that
 // are not finite, a unit that is none, a setting that the registration does not know or take.

@@ -72,7 +72,7 @@ void AlignPage::bind(Document& document, Calls& calls) {
   calls.add("align.write", [this](const Request& request) { write(request); });
 }
 
-void AlignPage::tick(std::int64_t) { tell_iterations(); }
+void AlignPage::tick(std::int64_t) { send_iterations(); }
 
 AlignChoice AlignPage::choice() const { return choice_of_json(shared_.document.section(kSection)); }
 
@@ -138,7 +138,7 @@ void AlignPage::turn_sliders(const Request& request) const {
   Json out;
   out["pose"] = json_of_pose(pose);
   out["shift_m"] = six.shift_m;
-  out["turn_deg"] = six.turn_deg;
+  out["turn_deg"] = six.rotation_deg;
   request.answer(out);
 }
 
@@ -172,14 +172,14 @@ void AlignPage::run(const Request& request) {
   const std::shared_ptr<const AlignScene> scene = this->scene();
   const std::optional<Pose> guess = request.flag("guess") ? std::optional<Pose>(pose(*scene)) : std::nullopt;
   const AlignChoice by = choice();
-  const AlignChoice::Ran ran{guess, by.paths, by.mesh, by.mesh_unit, by.config};
+  const AlignChoice::LastRun ran{guess, by.paths, by.mesh, by.mesh_unit, by.config};
   register_from(guess, by.config, guess ? "Registering from the pose shown" : "Registering from anywhere",
-                [this, request, ran = json_of_ran(ran), from_here = guess.has_value()](std::exception_ptr error) {
+                [this, request, ran = json_of_last_run(ran), from_here = guess.has_value()](std::exception_ptr error) {
                   try {
                     if (error) std::rethrow_exception(error);
                     const Json result = json_of_run(*last_);
                     // Known before the document's change is heard, which then asks for no other result.
-                    told_ran_ = ran;
+                    sent_ran_ = ran;
                     if (this->ran() != ran)
                       shared_.document.edit("/align/ran", ran, from_here ? "register" : "register from anywhere");
                     request.answer(result);
@@ -195,7 +195,7 @@ void AlignPage::register_from(const std::optional<Pose>& guess, const std::map<s
   AlignChoice wanted = choice();
   wanted.config = config;
   const std::uint64_t number = ++runs_;
-  tell_iterations();
+  send_iterations();
   log_ = std::make_shared<IterationLog>(number);
   running_ = true;
   auto made = std::make_shared<AlignRun>();
@@ -208,9 +208,9 @@ void AlignPage::register_from(const std::optional<Pose>& guess, const std::map<s
       },
       [this, made, scene, number, after = std::move(after)](std::exception_ptr error) {
         if (number == runs_) running_ = false;
-        tell_iterations();
+        send_iterations();
         if (!error && !is_same_scene(scene->of, choice())) {
-          told_ran_ = Json();  // wanted again with those files
+          sent_ran_ = Json();  // wanted again with those files
           error = std::make_exception_ptr(
               Advice("the scans or the mesh were changed while they were registered", "Register again."));
         }
@@ -237,11 +237,11 @@ void AlignPage::follow_document() {
   if (running_ || !scene_ || !is_same_scene(scene_->of, wanted)) return;
   const auto& of = wanted.ran;
   if (!of || of->paths != wanted.paths || of->mesh != wanted.mesh || of->mesh_unit != wanted.mesh_unit) {
-    told_ran_ = Json();
+    sent_ran_ = Json();
     return forget_result();
   }
-  if (ran() == told_ran_ && (!last_ || last_->scene == scene_)) return;
-  told_ran_ = ran();
+  if (ran() == sent_ran_ && (!last_ || last_->scene == scene_)) return;
+  sent_ran_ = ran();
   forget_result();
   register_from(of->guess, of->config, "Registering again, as before", [](std::exception_ptr) {});
 }
@@ -284,7 +284,7 @@ void AlignPage::write(const Request& request) {
                 });
 }
 
-void AlignPage::tell_iterations() {
+void AlignPage::send_iterations() {
   if (!log_) return;
   if (std::optional<BlockWriter> news = log_->take_news()) {
     shared_.hub.publish("align.iteration", news->take(), Delivery::kSeries);

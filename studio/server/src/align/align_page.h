@@ -49,7 +49,7 @@ class AlignPage : public Page {
   void follow_document();
   void accept(const Request& request);
   void write(const Request& request);
-  void tell_iterations();
+  void send_iterations();
 
   Shared& shared_;
   std::shared_ptr<const AlignScene> scene_;
@@ -60,7 +60,7 @@ class AlignPage : public Page {
   std::shared_ptr<IterationLog> log_;
   std::optional<AlignRun> last_;
   bool running_ = false;
-  Json told_ran_;  // the document's "ran" that last_ is the result of, or that could not be worked out
+  Json sent_ran_;  // the document's "ran" that last_ is the result of, or that could not be worked out
 };
 
 std::unique_ptr<Page> make_align_page(Shared& shared);

@@ -7,6 +7,9 @@
 #include <fmt/format.h>
 
 #include "asperity/pipeline/locate_scans.h"
+#include "asperity/pipeline/scan_evidence.h"
+#include "asperity/verdict/judge_registration.h"
+#include "asperity/verdict/verdict_json.h"
 #include "json_pose.h"
 
 namespace asperity::studio {
@@ -69,6 +72,7 @@ Json json_of_run(const AlignRun& run) {
   out["trustworthy"] = result.trustworthy;
   out["ambiguous"] = result.ambiguous;
   out["verdict"] = result.verdict;
+  out["verdicts"] = verdicts_json(judge_registration(pose_evidence(result)));
   out["certainty"] = run.certainty;
   out["undetermined"] = Json::array();
   for (const UndeterminedMotion& motion : result.undetermined) {
@@ -83,7 +87,7 @@ Json json_of_run(const AlignRun& run) {
     other["T_mesh_world"] = json_of_pose(result.runner_up->T_mesh_world);
     other["rms_m"] = number_or_null(result.runner_up->rms_m);
     other["distance_m"] = number_or_null(result.runner_up->distance_m);
-    other["turn_deg"] = number_or_null(result.runner_up->turn_rad / kDegree);
+    other["turn_deg"] = number_or_null(result.runner_up->rotation_rad / kDegree);
     out["runner_up"] = std::move(other);
   }
   out["problems"] = Json::array();

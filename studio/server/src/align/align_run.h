@@ -28,8 +28,8 @@ AlignRun run_align(std::uint64_t number, const std::shared_ptr<const AlignScene>
                    const std::optional<Pose>& guess, const RegistrationObserver& observer);
 
 // {"run","guess","T_mesh_world","rms_m","mean_m","points","outliers","iterations","converged","trustworthy",
-// "ambiguous","verdict","certainty","undetermined":[{"description","sigma_m"}],"runner_up","problems"}; what is not
-// finite is null.
+// "ambiguous","verdict","verdicts","certainty","undetermined":[{"description","sigma_m"}],"runner_up","problems"}; what
+// is not finite is null.
 Json json_of_run(const AlignRun& run);
 
 }  // namespace asperity::studio

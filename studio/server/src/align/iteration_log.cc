@@ -11,11 +11,11 @@ void IterationLog::add(const RegistrationIteration& iteration) {
 
 std::optional<BlockWriter> IterationLog::take_news() {
   const std::lock_guard lock(mutex_);
-  if (told_ == iterations_.size()) return std::nullopt;
-  BlockWriter out = block(told_, iterations_.size());
+  if (sent_ == iterations_.size()) return std::nullopt;
+  BlockWriter out = block(sent_, iterations_.size());
   out.head()["topic"] = "align.iteration";
   out.head()["sequence"] = sequence_++;
-  told_ = iterations_.size();
+  sent_ = iterations_.size();
   return out;
 }
 

@@ -33,7 +33,7 @@ class IterationLog {
   mutable std::mutex mutex_;
   std::uint64_t run_;
   std::uint64_t sequence_ = 0;
-  std::size_t told_ = 0;
+  std::size_t sent_ = 0;
   std::vector<RegistrationIteration> iterations_;
 };
 

@@ -10,6 +10,7 @@
 #include "asperity/pipeline/write_registration.h"
 #include "asperity/session/register_input.h"
 #include "asperity/studio/calls.h"
+#include "asperity/verdict/verdict_json.h"
 #include "json_pose.h"
 
 namespace asperity::studio {
@@ -68,7 +69,7 @@ Json write_alignment(const AlignChoice& choice, const Project& project, const st
   for (const std::string& path : choice.paths) scans.push_back(project.existing(path).string());
   for (const std::string& texture : choice.textures) textures.push_back(project.existing(texture).string());
   const RegisterInput input =
-      read_register_input(scans, project.existing(choice.mesh).string(), unit_m(choice), textures);
+      read_register_input(scans, project.existing(choice.mesh).string(), unit_m(choice), textures, observer);
   const ScansOnMesh result = register_input(input, start.guess, run_config(choice, start.near), observer);
   observer.update("writing", 1.0);
   write_registration(folder.path(), result, input.scans, input.mesh, input.unit_m);
@@ -79,6 +80,7 @@ Json write_alignment(const AlignChoice& choice, const Project& project, const st
   out["scene"] = name + "/scene.json";
   out["trustworthy"] = result.trustworthy;
   out["verdict"] = result.verdict.empty() ? result.registration.verdict : result.verdict;
+  out["verdicts"] = verdicts_json(result.verdicts);
   out["T_mesh_world"] = json_of_pose(result.registration.T_mesh_world);
   out["command"] = command_of(choice, start, name);
   return out;

@@ -21,7 +21,7 @@ constexpr std::string_view kMouse = "mouse";
 // The mouse is the studio's alone: its pointer comes from the browser, and no force reaches a person.
 const std::vector<DeviceKind>& kinds() {
   static const std::vector<DeviceKind> all = [] {
-    std::vector<DeviceKind> out{{.name = kMouse, .title = "Mouse or pen", .felt = false}};
+    std::vector<DeviceKind> out{{.name = kMouse, .title = "Mouse or pen", .has_person = false}};
     out.insert(out.end(), device_kinds().begin(), device_kinds().end());
     return out;
   }();
@@ -100,7 +100,7 @@ Json feel_devices_json(const FeelConfig& start) {
     each["available"] = lack.empty();
     each["words"] = lack.empty() ? std::string(words_of(kind)) : lack;
     each["driven"] = kind.driven();
-    each["felt"] = kind.felt;
+    each["felt"] = kind.has_person;
     out.push_back(std::move(each));
   }
   return out;
@@ -125,9 +125,9 @@ OpenedFeel open_feel(const FeelSetup& setup, const Scene& scene, const Observer&
   }
   observer.update("the scene", 0.6);
   // Nobody's motors are at the pointer's end: the scene is left as it is.
-  FeltModel felt = make_felt_model(scene, out.info, mouse || out.kind.driven(), out.config.feel);
+  PreparedModel prepared = prepare_render_model(scene, out.info, mouse || out.kind.driven(), out.config.feel);
   if (mouse) {
-    const Eigen::Vector3d start_m = above_scene_m(*felt.model);
+    const Eigen::Vector3d start_m = above_scene_m(*prepared.model);
     out.targets = std::make_shared<PointerTargets>(start_m);
     // The pointer is in the scene's world already.
     out.config.feel.servo.frame = DeviceFrame();
@@ -135,8 +135,8 @@ OpenedFeel open_feel(const FeelSetup& setup, const Scene& scene, const Observer&
     out.info = out.device->info();
   }
   if (out.kind.driven()) out.config.feel.servo.frame = DeviceFrame();
-  out.model = std::move(felt.model);
-  out.warnings = std::move(felt.warnings);
+  out.model = std::move(prepared.model);
+  out.warnings = std::move(prepared.warnings);
   for (const Problem& problem : out.drive.problems) out.warnings.push_back(problem.message);
   return out;
 }

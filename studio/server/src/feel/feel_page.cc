@@ -7,7 +7,7 @@
 #include "asperity/base/text.h"
 #include "complaint.h"
 #include "config_fields.h"
-#include "feel/ended_logs.h"
+#include "feel/finished_logs.h"
 
 namespace asperity::studio {
 
@@ -19,7 +19,7 @@ constexpr const char* kSwapSlot = "feel.swap";
 }  // namespace
 
 FeelPage::FeelPage(Shared& shared, FeelConfig start)
-    : shared_(shared), start_(std::move(start)), ended_logs_(std::make_shared<EndedLogs>()) {}
+    : shared_(shared), start_(std::move(start)), finished_logs_(std::make_shared<FinishedLogs>()) {}
 FeelPage::~FeelPage() = default;
 
 FeelChoices FeelPage::choices() const { return read_feel_choices(shared_.document.section("feel")); }
@@ -68,7 +68,7 @@ void FeelPage::edited(const Edit& edit) {
   if (run_) run_->permit().limit(largest_force_N());
   // The device and its limit are none of the scene's.
   if (edit.path != "/feel/device" && edit.path != "/feel/max_force_N") load();
-  tell();
+  send_status();
 }
 
 // While a scene is felt, what is under the hand is changed by the one whose hand it is; others may make it safer.
@@ -91,7 +91,7 @@ void FeelPage::load() {
     if (!is_felt) world_.reset();
     problem_ = is_felt ? "nothing is chosen" : "";
     hint_ = is_felt ? "It goes on with " + world_->title + " until you stop. Choose something else, or undo it." : "";
-    return tell();
+    return send_status();
   }
   auto result = std::make_shared<std::shared_ptr<const LoadedScene>>();
   try {
@@ -101,18 +101,18 @@ void FeelPage::load() {
         "Reading what is to be felt", kModelSlot,
         [result, chosen, setup = std::move(setup), before = world_, number = ++worlds_](const Observer& observer) {
           observer.update("reading", 0.0);
-          *result = load_scene(setup, chosen, before, number);
+          *result = load_scene(setup, chosen, before, number, observer);
         },
         [this, result, revision = revision_](std::exception_ptr error) {
           if (revision == revision_ || !error) loading_ = false;
-          if (choices().empty()) return tell();  // nothing is chosen any more
+          if (choices().empty()) return send_status();  // nothing is chosen any more
           if (error) return complain(error);
           loaded(*result);
         });
   } catch (const std::exception&) {
     complain(std::current_exception());
   }
-  tell();
+  send_status();
 }
 
 void FeelPage::loaded(std::shared_ptr<const LoadedScene> world) {
@@ -120,12 +120,12 @@ void FeelPage::loaded(std::shared_ptr<const LoadedScene> world) {
   problem_.clear();
   hint_.clear();
   if (run_ && state_ == State::kRunning && !visited_) swap_model();
-  tell();
+  send_status();
 }
 
 // The model for the running device is built beside the loop and taken between two of its ticks.
 void FeelPage::swap_model() {
-  auto result = std::make_shared<FeltModel>();
+  auto result = std::make_shared<PreparedModel>();
   shared_.jobs.start(
       "Bringing the change to the device", kSwapSlot,
       [result, world = world_, info = running_.info, kind = running_.kind, config = running_.config](const Observer&) {
@@ -136,7 +136,7 @@ void FeelPage::swap_model() {
         if (!run_ || number != run_number_) return;
         run_->swap(std::move(result->model));
         warnings_ = std::move(result->warnings);
-        tell();
+        send_status();
       });
 }
 
@@ -147,7 +147,7 @@ void FeelPage::complain(std::exception_ptr error) {
   if (!complaint) return;
   problem_ = std::move(complaint->problem);
   hint_ = std::move(complaint->hint);
-  tell();
+  send_status();
 }
 
 Json FeelPage::fields() const {
@@ -165,7 +165,7 @@ Json FeelPage::status() const {
   out["device"] = run_ ? std::string(running_.kind.name) : choices().device;
   out["device_model"] = run_ ? device_model_ : "";
   out["rate_Hz"] = run_ ? running_.config.feel.servo.rate_Hz : 0.0;
-  out["real_forces"] = run_ && running_.kind.felt;
+  out["real_forces"] = run_ && running_.kind.has_person;
   out["owner"] = state_ == State::kIdle ? Json() : Json(run_owner_);
   out["visited"] = visited_;
   out["held"] = visited_ && (visit_key_ == 0 || held_until_ns_ != 0);
@@ -186,10 +186,10 @@ Json FeelPage::status() const {
 }
 
 // Says how things stand if that is another than before.
-void FeelPage::tell() {
+void FeelPage::send_status() {
   Json now = status();
-  if (now == told_) return;
-  told_ = now;
+  if (now == sent_status_) return;
+  sent_status_ = now;
   shared_.hub.broadcast("feel", now);
   if (visit_changed_) visit_changed_();
 }

@@ -12,7 +12,7 @@
 
 namespace asperity::studio {
 
-struct EndedLogs;
+struct FinishedLogs;
 
 // The Feel page (docs/studio-feel.md): a scene, a device, and the loop between them.
 class FeelPage : public Page, public FeelHost {
@@ -62,7 +62,7 @@ class FeelPage : public Page, public FeelHost {
   void take(const Request& request);
   void permit(std::int64_t now_ns);
   void complain(std::exception_ptr error);
-  void tell();
+  void send_status();
   Json status() const;
   Json fields() const;
 
@@ -85,7 +85,7 @@ class FeelPage : public Page, public FeelHost {
   ClientId run_owner_ = 0;  // whose run it is: only that one's lease commands its force
   std::string log_name_;
   std::vector<Request> log_requests_;
-  std::shared_ptr<EndedLogs> ended_logs_;
+  std::shared_ptr<FinishedLogs> finished_logs_;
   Json last_run_;
 
   bool visited_ = false;             // what is felt, or being opened, is a visitor's
@@ -94,7 +94,7 @@ class FeelPage : public Page, public FeelHost {
   std::uint64_t visit_changes_ = 0;  // so far: of what is laid under the hand the newest counts
   std::int64_t held_until_ns_ = 0;   // no force before, between two things of a visitor
   std::function<void()> visit_changed_;
-  Json told_;
+  Json sent_status_;
 };
 
 std::unique_ptr<FeelPage> make_feel_page(Shared& shared);

@@ -1,20 +1,38 @@
 #include "feel/feel_page.h"
 
+#include <array>
 #include <mutex>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "asperity/base/error.h"
 #include "asperity/base/host_clock.h"
 #include "asperity/device/write_flight_record.h"
 #include "asperity/session/our_file.h"
-#include "feel/ended_logs.h"
-#include "feel/feel_json.h"
+#include "feel/feel_run.h"
+#include "feel/finished_logs.h"
 
 // The run's side of the page: its start and end, whose it is, its log.
 
 namespace asperity::studio {
 
 namespace {
+
+constexpr std::array<const char*, 4> kEnds{"its time was over", "the way was at its end", "stopped", "fault"};
+
+// How a run went: its end, statistics, reasons and warnings in words, and how well the schedule of `servo` was kept.
+Json outcome_json(const FeelOutcome& outcome, const ServoConfig& servo) {
+  Json out;
+  out["end"] = kEnds.at(static_cast<std::size_t>(outcome.servo.end));
+  out["doubts"] = outcome.verdict.reasons;
+  out["warnings"] = outcome.verdict.warnings;
+  out["duration_s"] = static_cast<double>(outcome.statistics.ticks()) / servo.rate_Hz;
+  out["figures"] = outcome.statistics.json();
+  out["timing"] = timing_json(outcome.servo.statistics, servo);
+  out["text"] = outcome.statistics.text();
+  return out;
+}
 
 constexpr const char* kFlightRecord = "asperity-feel.flight.csv";
 
@@ -31,7 +49,7 @@ struct FeelPage::Opening {
 
 void FeelPage::check_start(const DeviceKind& kind, const Request& request) const {
   if (state_ != State::kIdle) throw Advice("a scene is being felt already", "Stop it first.");
-  if (kind.felt && !shared_.may_command_forces) {
+  if (kind.has_person && !shared_.may_command_forces) {
     throw Advice("forces are not commanded from here",
                  "The studio listens to other machines: start it with --remote-force, or look on with the mouse.");
   }
@@ -52,7 +70,7 @@ void FeelPage::begin(const Request& request) {
   open_in_job(request, opening, kind.title,
               [opening, chosen, before = world_, number = ++worlds_](const Observer& observer) {
                 observer.update("the scene", 0.0);
-                opening->world = load_scene(opening->setup, chosen, before, number);
+                opening->world = load_scene(opening->setup, chosen, before, number, observer);
                 opening->setup = opening->world->setup;
                 opening->opened = open_feel(opening->setup, *opening->world->scene, observer);
               });
@@ -94,14 +112,14 @@ void FeelPage::open_in_job(const Request& request, const std::shared_ptr<Opening
                             request.refuse(fault);
                           }
                         });
-  tell();
+  send_status();
 }
 
 void FeelPage::opened(Opening& opening, std::exception_ptr error) {
   state_ = State::kIdle;
   if (error || stop_asked_) {
     visited_ = false;
-    return tell();
+    return send_status();
   }
   const bool newer = revision_ != opening.revision;
   running_ = std::move(opening.opened);
@@ -111,10 +129,10 @@ void FeelPage::opened(Opening& opening, std::exception_ptr error) {
   parts.servo = running_.config.feel.servo;
   parts.targets = running_.targets;
   parts.drive = std::move(running_.drive);
-  parts.felt = running_.kind.felt;
+  parts.has_person = running_.kind.has_person;
   parts.blind = visited_;
   device_model_ = running_.info.model;
-  // Those of a visitor's scene would tell which texture is where.
+  // Those of a visitor's scene would show which texture is where.
   warnings_ = visited_ ? std::vector<std::string>() : running_.warnings;
   last_run_ = Json();
   if (opening.world) world_ = opening.world;
@@ -123,7 +141,7 @@ void FeelPage::opened(Opening& opening, std::exception_ptr error) {
   problem_.clear();
   hint_.clear();
   const std::uint64_t number = ++run_number_;
-  const auto log_ended = [this, logs = ended_logs_](EndedLog log) {
+  const auto log_ended = [this, logs = finished_logs_](FinishedLog log) {
     {
       const std::lock_guard guard(logs->lock);
       logs->logs.push_back(std::move(log));
@@ -140,7 +158,7 @@ void FeelPage::opened(Opening& opening, std::exception_ptr error) {
   state_ = State::kRunning;
   permit(host_now_ns());
   if (newer) load();
-  tell();
+  send_status();
 }
 
 // Another window goes on with the run: by its own word, and with the lease.
@@ -151,7 +169,7 @@ void FeelPage::take(const Request& request) {
   }
   run_owner_ = request.client();
   request.done();
-  tell();
+  send_status();
 }
 
 void FeelPage::permit(std::int64_t now_ns) {
@@ -168,7 +186,7 @@ void FeelPage::tick(std::int64_t now_ns) {
   permit(now_ns);
   if (held_until_ns_ != 0 && now_ns >= held_until_ns_) {
     held_until_ns_ = 0;
-    tell();
+    send_status();
   }
   if (visited_ && permitted_ != before && visit_changed_) visit_changed_();
 }
@@ -180,7 +198,7 @@ void FeelPage::end_run() {
     run_->stop();
     state_ = State::kStopping;
   }
-  tell();
+  send_status();
 }
 
 void FeelPage::pointed(ClientId client, const Pointer& pointer) {
@@ -192,14 +210,14 @@ void FeelPage::ended() {
   FeelOutcome outcome = run_->take_outcome();
   run_.reset();
   state_ = State::kIdle;
-  // Its heights and parts of the force would tell which texture was touched.
+  // Its heights and parts of the force would show which texture was touched.
   last_run_ = visited_ ? Json() : outcome_json(outcome, running_.config.feel.servo);
   if (outcome.servo.end == ServoEnd::kFault) keep_flight_record(outcome.servo);
   running_ = {};
   visited_ = false;
   if (choices().empty()) load();
   if (outcome.failure) complain(outcome.failure);
-  tell();
+  send_status();
 }
 
 void FeelPage::keep_flight_record(ServoResult servo) {
@@ -213,7 +231,7 @@ void FeelPage::keep_flight_record(ServoResult servo) {
       [this](std::exception_ptr error) {
         if (error) return complain(error);
         warnings_.push_back(std::string("what happened before the fault is in ") + kFlightRecord);
-        tell();
+        send_status();
       });
 }
 
@@ -231,12 +249,12 @@ void FeelPage::set_log(const Request& request) {
   Json out;
   out["log"] = name;
   request.answer(out);
-  tell();
+  send_status();
 }
 
 // Brings the logs that a run has done with to their files, which may take a while.
 void FeelPage::collect_logs() {
-  for (EndedLog& ended : ended_logs_->take()) {
+  for (FinishedLog& ended : finished_logs_->take()) {
     if (!ended.log) {
       log_is_whole(ended.fault);
       continue;
@@ -264,7 +282,7 @@ void FeelPage::log_is_whole(const std::string& fault) {
   for (const Request& request : std::exchange(log_requests_, {})) {
     fault.empty() ? request.answer(out) : request.refuse(Advice(problem_, hint_));
   }
-  tell();
+  send_status();
 }
 
 void FeelPage::stop() {
@@ -274,7 +292,7 @@ void FeelPage::stop() {
   run_.reset();
   state_ = State::kIdle;
   // Nothing is brought to this thread any more.
-  for (const EndedLog& ended : ended_logs_->take()) {
+  for (const FinishedLog& ended : finished_logs_->take()) {
     try {
       if (ended.log) ended.log->commit();
     } catch (const std::exception&) {

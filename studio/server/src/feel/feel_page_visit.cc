@@ -11,7 +11,7 @@ void FeelPage::change_visit(FeelVisit visit) {
   if (!run_ || !visited_ || state_ != State::kRunning) return;
   visit_key_ = 0;
   permit(host_now_ns());
-  auto result = std::make_shared<FeltModel>();
+  auto result = std::make_shared<PreparedModel>();
   shared_.jobs.start(
       "", "feel.visit",
       [result, visit, info = running_.info, kind = running_.kind, servo = running_.config.feel.servo](const Observer&) {
@@ -19,7 +19,7 @@ void FeelPage::change_visit(FeelVisit visit) {
         const Scene scene = visit.make(setup);
         // Where the device stands, how fast it is served and how safely is settled for the run.
         setup.config.feel.servo = servo;
-        *result = make_felt_model(scene, info, kind.driven() || kind.name == "mouse", setup.config.feel);
+        *result = prepare_render_model(scene, info, kind.driven() || kind.name == "mouse", setup.config.feel);
       },
       [this, result, key = visit.key, number = run_number_, change = ++visit_changes_](std::exception_ptr error) {
         if (!run_ || number != run_number_ || change != visit_changes_) return;
@@ -30,9 +30,9 @@ void FeelPage::change_visit(FeelVisit visit) {
         run_->swap(std::move(result->model));
         visit_key_ = key;
         held_until_ns_ = host_now_ns() + kHold_ns;
-        tell();
+        send_status();
       });
-  tell();
+  send_status();
 }
 
 void FeelPage::leave() {

@@ -7,7 +7,7 @@
 
 namespace asperity::studio {
 
-FeelRun::FeelRun(FeelRunParts parts, Hub& hub, std::uint64_t number, std::function<void(EndedLog)> log_ended,
+FeelRun::FeelRun(FeelRunParts parts, Hub& hub, std::uint64_t number, std::function<void(FinishedLog)> log_ended,
                  std::function<void()> ended)
     : parts_(std::move(parts)), scene_(std::move(parts_.model)), log_(std::move(log_ended)), ended_(std::move(ended)) {
   thread_ = std::thread([this, &hub, number] { run(hub, number); });
@@ -30,12 +30,12 @@ FeelOutcome FeelRun::take_outcome() {
 void FeelRun::run(Hub& hub, std::uint64_t number) {
   try {
     std::optional<ForceHold> hold;
-    if (parts_.felt) hold.emplace();
+    if (parts_.has_person) hold.emplace();
     TickStream stream(hub, parts_.servo.rate_Hz, number, parts_.blind);
     outcome_.servo = run_servo(
         *parts_.device, scene_, parts_.servo, stop_,
         [&](const ServoTick& tick) {
-          outcome_.figures.add(tick);
+          outcome_.statistics.add(tick);
           stream.add(tick);
           log_.add(tick);
         },
@@ -43,7 +43,7 @@ void FeelRun::run(Hub& hub, std::uint64_t number) {
     parts_.device->close();
     hold.reset();
     stream.flush();
-    outcome_.verdict = judge_run(outcome_.figures, outcome_.servo, *parts_.device, parts_.drive, *scene_.acquire(),
+    outcome_.verdict = judge_run(outcome_.statistics, outcome_.servo, *parts_.device, parts_.drive, *scene_.acquire(),
                                  parts_.servo.safety);
   } catch (...) {
     outcome_.failure = std::current_exception();

@@ -27,13 +27,13 @@ struct FeelRunParts {
   std::shared_ptr<PointerTargets> targets;  // of the mouse, else null
   FeelDrive drive;                          // what moves the point, if no hand does
   bool blind = false;                       // browsers see where the point is and what is let through, no more
-  bool felt = false;                        // a hand is at it: a signal does not end the program before it is free
+  bool has_person = false;                  // a hand is at it: a signal does not end the program before it is free
 };
 
 // How a run ended.
 struct FeelOutcome {
   ServoResult servo;
-  FeelFigures figures;
+  FeelStatistics statistics;
   RunVerdict verdict;
   std::exception_ptr failure;  // what the loop or the log threw, with zero force
 };
@@ -44,7 +44,7 @@ class FeelRun {
  public:
   // Begins at once. On the run's thread are called: `log_ended` for each log, and last `ended`, when the force is zero
   // and the device closed.
-  FeelRun(FeelRunParts parts, Hub& hub, std::uint64_t number, std::function<void(EndedLog)> log_ended,
+  FeelRun(FeelRunParts parts, Hub& hub, std::uint64_t number, std::function<void(FinishedLog)> log_ended,
           std::function<void()> ended);
   // Stops it, and waits for its end: the safety layer's ramp.
   ~FeelRun();

@@ -72,10 +72,10 @@ FeelSetup resolve_choices(const FeelChoices& choices, const FeelConfig& start, c
   return out;
 }
 
-Scene read_chosen_scene(FeelSetup& setup) {
-  Scene scene = read_felt_scene(setup.input, setup.config.feel);
+Scene read_chosen_scene(FeelSetup& setup, const Observer& observer) {
+  Scene scene = read_scene_input(setup.input, setup.config.feel, observer);
   for (const auto& [index, file] : setup.textures) {
-    swap_texture(scene, index, read_texture(file), file.filename().string());
+    swap_texture(scene, index, read_texture(file, {}, observer), file.filename().string());
   }
   return scene;
 }

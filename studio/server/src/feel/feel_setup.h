@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "asperity/base/config.h"
+#include "asperity/base/progress.h"
 #include "asperity/session/feel_scene.h"
 #include "asperity/studio/feel_config.h"
 #include "asperity/studio/project.h"
@@ -37,6 +38,6 @@ FeelSetup resolve_choices(const FeelChoices& choices, const FeelConfig& start, c
 
 // Reads what is to be felt, with other textures in the place of its own where the user chose so. Not for the studio's
 // thread. Throws Error naming the file.
-Scene read_chosen_scene(FeelSetup& setup);
+Scene read_chosen_scene(FeelSetup& setup, const Observer& observer);
 
 }  // namespace asperity::studio

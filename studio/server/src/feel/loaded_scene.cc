@@ -68,14 +68,15 @@ std::string title_of(const FeelChoices& choices) {
 }  // namespace
 
 std::shared_ptr<const LoadedScene> load_scene(FeelSetup setup, const FeelChoices& choices,
-                                              const std::shared_ptr<const LoadedScene>& before, std::uint64_t number) {
+                                              const std::shared_ptr<const LoadedScene>& before, std::uint64_t number,
+                                              const Observer& observer) {
   auto out = std::make_shared<LoadedScene>();
   out->source = source_of(setup);
   if (same_source(setup, out->source, before)) {
     out->scene = before->scene;
     out->stamp = before->stamp;
   } else {
-    out->scene = std::make_shared<const Scene>(read_chosen_scene(setup));
+    out->scene = std::make_shared<const Scene>(read_chosen_scene(setup, observer));
     if (setup.input.height_maps.empty()) out->stamp = stamp_of(setup, *out->scene);
   }
   const RenderModel model = make_render_model(*out->scene, setup.config.feel.render_config());
@@ -93,12 +94,12 @@ std::shared_ptr<const LoadedScene> load_scene(FeelSetup setup, const FeelChoices
   return out;
 }
 
-FeltModel prepare_swapped_model(const LoadedScene& world, const DeviceInfo& device, bool as_it_is,
-                                const FeelConfig& running) {
+PreparedModel prepare_swapped_model(const LoadedScene& world, const DeviceInfo& device, bool as_it_is,
+                                    const FeelConfig& running) {
   FeelSettings settings = world.setup.config.feel;
   // Where the device stands, how fast it is served and how safely is settled for the run.
   settings.servo = running.feel.servo;
-  return make_felt_model(*world.scene, device, as_it_is, settings);
+  return prepare_render_model(*world.scene, device, as_it_is, settings);
 }
 
 }  // namespace asperity::studio

@@ -28,10 +28,11 @@ struct LoadedScene {
 // Reads the scene, unless `before` was read from the same, and makes its block. Not for the studio's thread. Throws
 // Error in words for what cannot be read or rendered.
 std::shared_ptr<const LoadedScene> load_scene(FeelSetup setup, const FeelChoices& choices,
-                                              const std::shared_ptr<const LoadedScene>& before, std::uint64_t number);
+                                              const std::shared_ptr<const LoadedScene>& before, std::uint64_t number,
+                                              const Observer& observer);
 
 // The model of a world for a device that runs already, within what it can render. Not for the studio's thread.
-FeltModel prepare_swapped_model(const LoadedScene& world, const DeviceInfo& device, bool as_it_is,
-                                const FeelConfig& running);
+PreparedModel prepare_swapped_model(const LoadedScene& world, const DeviceInfo& device, bool as_it_is,
+                                    const FeelConfig& running);
 
 }  // namespace asperity::studio

@@ -13,7 +13,7 @@
 namespace asperity::studio {
 
 // How a log ended: whole but for its commit(), or with a fault, without a log.
-struct EndedLog {
+struct FinishedLog {
   std::shared_ptr<FeelLog> log;
   std::string fault;
 };
@@ -23,7 +23,7 @@ struct EndedLog {
 class RunLog {
  public:
   // `ended` is called on the run's thread, once for each log.
-  explicit RunLog(std::function<void(EndedLog)> ended) : ended_(std::move(ended)) {}
+  explicit RunLog(std::function<void(FinishedLog)> ended) : ended_(std::move(ended)) {}
 
   void begin(std::unique_ptr<FeelLog> log);
   void end();
@@ -37,7 +37,7 @@ class RunLog {
  private:
   void take_orders();
 
-  std::function<void(EndedLog)> ended_;
+  std::function<void(FinishedLog)> ended_;
   std::atomic<bool> ordered_{false};
   std::mutex lock_;  // of the two below
   std::shared_ptr<FeelLog> next_;

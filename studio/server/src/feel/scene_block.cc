@@ -36,7 +36,7 @@ Json texture_head(const Texture& texture, const RenderTexture& render, const Dra
   out["name"] = texture.name;
   out["kind"] = texture.model_name();
   out["highest_m"] = render.highest_m;
-  out["lift_m"] = render.lift_m;
+  out["lift_m"] = render.height_offset_m;
   out["x0_m"] = drawn.x0_m;
   out["y0_m"] = drawn.y0_m;
   out["width_m"] = drawn.width_m;

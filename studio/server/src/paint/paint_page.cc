@@ -33,12 +33,12 @@ struct SceneCache {
   fs::file_time_type written;
   std::optional<Scene> scene;
 
-  const Scene& read(const fs::path& wanted, double wanted_unit_m) {
+  const Scene& read(const fs::path& wanted, double wanted_unit_m, const Observer& observer) {
     const fs::file_time_type now = fs::last_write_time(wanted);
     if (!scene || file != wanted || unit_m != wanted_unit_m || written != now) {
       scene.reset();
       const bool is_scene = wanted.extension() == ".json";
-      scene = read_painted_scene(wanted, is_scene ? std::nullopt : std::optional(wanted_unit_m));
+      scene = read_painted_scene(wanted, is_scene ? std::nullopt : std::optional(wanted_unit_m), observer);
       file = wanted;
       unit_m = wanted_unit_m;
       written = now;
@@ -118,7 +118,7 @@ class PaintPage : public Page {
     answer_by_job(shared_.jobs, request, "Painting", "paint",
                   [cache = cache_, project = &shared_.project, painting, file](const Observer& observer) {
                     observer.update("reading", 0.0);
-                    const Scene& scene = cache->read(file, painting.unit_m);
+                    const Scene& scene = cache->read(file, painting.unit_m, observer);
                     return painted_block(paint_all(scene, painting, *project, observer));
                   });
   }
@@ -135,7 +135,7 @@ class PaintPage : public Page {
     answer_by_job(shared_.jobs, request, "Path", "paint.path",
                   [cache = cache_, painting, file, drawn](const Observer& observer) {
                     observer.update("path", 0.0);
-                    const SceneObject& object = cache->read(file, painting.unit_m).objects.front();
+                    const SceneObject& object = cache->read(file, painting.unit_m, observer).objects.front();
                     const VirtualPath path = virtual_path(to_metres(object.mesh, object.unit_m), drawn.picks_m);
                     std::vector<double> p_m;
                     for (const Eigen::Vector3d& p : path.path.p_mesh_m) p_m.insert(p_m.end(), p.begin(), p.end());
@@ -151,7 +151,7 @@ class PaintPage : public Page {
   void show_texture(const Request& request) {
     const fs::path file = shared_.project.existing(request.text("file"));
     answer_by_job(shared_.jobs, request, "Texture", "",
-                  [file](const Observer&) { return texture_block(read_texture(file)); });
+                  [file](const Observer& observer) { return texture_block(read_texture(file, {}, observer)); });
   }
 
   void write(const Request& request) {
@@ -166,7 +166,7 @@ class PaintPage : public Page {
                   [cache = cache_, project = &shared_.project, painting, file, target, name](const Observer& observer) {
                     OutputFolder folder(target, is_our_folder);
                     const PaintedScene painted =
-                        paint_all(cache->read(file, painting.unit_m), painting, *project, observer);
+                        paint_all(cache->read(file, painting.unit_m, observer), painting, *project, observer);
                     for (const PaintedStroke& stroke : painted.strokes) {
                       if (!stroke.fault.empty()) throw Advice(stroke.fault, "Take the stroke out, or draw it anew.");
                     }
@@ -191,7 +191,7 @@ class PaintPage : public Page {
                   [source, format, target, name](const Observer& observer) {
                     OutputFolder folder(target, is_our_folder);
                     observer.update("reading", 0.0);
-                    const Scene scene = read_export_source(source);
+                    const Scene scene = read_export_source(source, observer);
                     observer.update("exporting", 0.3);
                     Json out = write_export(folder.path(), export_scene(scene, format, {}));
                     folder.commit();

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "asperity/base/error.h"
-#include "asperity/json/parse_json.h"
 #include "asperity/registration/triangle_stretch.h"
 #include "asperity/scene/swap_texture.h"
 #include "asperity/session/paint_scene.h"
@@ -52,9 +51,9 @@ Stroke stroke_of(const Json& json) {
 
 // Textures of several strokes with one index are the newest one's.
 PaintedStroke paint_one(Scene& scene, const Stroke& stroke, const Project& project,
-                        const HapticCoordinatesConfig& coordinates) {
+                        const HapticCoordinatesConfig& coordinates, const Observer& observer) {
   PaintedStroke out;
-  out.texture = choose_texture(scene, project.existing(stroke.texture), stroke.index);
+  out.texture = choose_texture(scene, project.existing(stroke.texture), stroke.index, observer);
   try {
     out.result = paint(scene.objects.front(), stroke.picks_m, out.texture, coordinates);
   } catch (const Cancelled&) {
@@ -87,8 +86,14 @@ Json textures_json(const SceneObject& object) {
 }  // namespace
 
 Json first_painting() {
-  return parse_json(
-      R"({"object":"","unit_m":1.0,"rings":1,"half_width_mm":0.0,"strokes":[],"swaps":{},"current":-1,"written":""})");
+  return {{"object", ""},
+          {"unit_m", 1.0},
+          {"rings", 1},
+          {"half_width_mm", 0.0},
+          {"strokes", Json::array()},
+          {"swaps", Json::object()},
+          {"current", -1},
+          {"written", ""}};
 }
 
 Painting parse_painting(const Json& section) {
@@ -119,10 +124,10 @@ PaintedScene paint_all(Scene scene, const Painting& painting, const Project& pro
   PaintedScene out{std::move(scene), {}};
   for (std::size_t i = 0; i < painting.strokes.size(); ++i) {
     observer.update("painting", static_cast<double>(i) / static_cast<double>(painting.strokes.size()));
-    out.strokes.push_back(paint_one(out.scene, painting.strokes[i], project, painting.coordinates));
+    out.strokes.push_back(paint_one(out.scene, painting.strokes[i], project, painting.coordinates, observer));
   }
   for (const auto& [index, texture] : painting.swaps) {
-    const SceneTexture chosen = choose_texture(out.scene, project.existing(texture), index);
+    const SceneTexture chosen = choose_texture(out.scene, project.existing(texture), index, observer);
     swap_texture(out.scene, index, chosen.texture, chosen.file);
   }
   return out;

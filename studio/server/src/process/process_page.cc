@@ -64,7 +64,7 @@ class ProcessPage : public Page {
           ProcessConfig config;
           use_present_names(section, "config", list_fields("", config));
         });
-    calls.add("process.fields", [this](const Request& request) { tell_fields(request); });
+    calls.add("process.fields", [this](const Request& request) { send_fields(request); });
     calls.add("process.run", [this](const Request& request) { run(request); });
     calls.add("process.compare", [this](const Request& request) { compare(request); });
     calls.add("process.write", [this](const Request& request) { write(request); });
@@ -74,7 +74,7 @@ class ProcessPage : public Page {
  private:
   ProcessChoice choice() const { return process_choice(shared_.document.section(kSection)); }
 
-  void tell_fields(const Request& request) const {
+  void send_fields(const Request& request) const {
     ProcessConfig config = choice().config, defaults;
     request.answer(Json{{"fields", fields_json(list_fields("", config), list_fields("", defaults))}});
   }
@@ -86,7 +86,7 @@ class ProcessPage : public Page {
     answer_by_job(shared_.jobs, request, "Process " + title_of(scan), "process.run " + title_of(scan),
                   [sessions = sessions_, scan, recording, config = choice().config](const Observer& observer) {
                     observer.update("reading", 0.0);
-                    OpenScan& open = sessions->open(recording, scan.segment);
+                    OpenScan& open = sessions->open(recording, scan.segment, observer);
                     const ProcessResult& result = open.session.process(config, observer);
                     const std::string name =
                         open.segment.empty() ? scan.recording : scan.recording + "/" + open.segment;
@@ -110,7 +110,8 @@ class ProcessPage : public Page {
                     std::vector<std::string> names;
                     for (std::size_t i = 0; i < recordings.size(); ++i) {
                       observer.update("reading", static_cast<double>(i) / static_cast<double>(recordings.size()));
-                      ProcessSession& session = sessions->open(recordings[i], chosen.scans[i].segment).session;
+                      ProcessSession& session =
+                          sessions->open(recordings[i], chosen.scans[i].segment, observer).session;
                       scans.push_back(repeated_scan(session.process(chosen.config, observer), session.recording()));
                       names.push_back(title_of(chosen.scans[i]));
                     }

@@ -8,7 +8,7 @@ namespace {
 
 std::vector<float> floats(const std::vector<double>& values) { return {values.begin(), values.end()}; }
 
-Json figure(const char* key, const char* label, double value, const char* unit, double deviation) {
+Json metric_json(const char* key, const char* label, double value, const char* unit, double deviation) {
   Json out{{"group", "Repeatability"}, {"key", key}, {"label", label}};
   out["value"] = number_or_null(value);
   if (std::isfinite(deviation)) out["error"] = deviation;
@@ -36,10 +36,11 @@ BlockWriter repeatability_block(const Repeatability& r, const std::vector<Repeat
   }
   block.head()["scans"] = std::move(list);
   block.head()["figures"] = {
-      figure("correlation", "Correlation with the first, mean ± sd", r.correlation.mean, "", r.correlation.deviation),
-      figure("spread_rms_m", "Spread of the heights, RMS", 1e6 * r.spread_rms_m, "µm", NAN),
-      figure("pitch_m", "Pitch, mean ± sd", 1e3 * r.pitch_m.mean, "mm", 1e3 * r.pitch_m.deviation),
-      figure("depth_m", "Depth, mean ± sd", 1e6 * r.depth_m.mean, "µm", 1e6 * r.depth_m.deviation)};
+      metric_json("correlation", "Correlation with the first, mean ± sd", r.correlation.mean, "",
+                  r.correlation.deviation),
+      metric_json("spread_rms_m", "Spread of the heights, RMS", 1e6 * r.spread_rms_m, "µm", NAN),
+      metric_json("pitch_m", "Pitch, mean ± sd", 1e3 * r.pitch_m.mean, "mm", 1e3 * r.pitch_m.deviation),
+      metric_json("depth_m", "Depth, mean ± sd", 1e6 * r.depth_m.mean, "µm", 1e6 * r.depth_m.deviation)};
   block.head()["band_cycles_per_mm"] = {config.low_cycles_per_mm, r.band_high_cycles_per_mm};
   block.add("s_m", r.s_m);
   std::vector<float> heights;

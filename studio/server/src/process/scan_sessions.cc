@@ -28,8 +28,8 @@ std::string stamp_of(const fs::path& recording) {
   return out;
 }
 
-OpenScan read_scan(const fs::path& folder, const std::string& segment) {
-  Recording recording = read_recording(folder);
+OpenScan read_scan(const fs::path& folder, const std::string& segment, const Observer& observer) {
+  Recording recording = read_recording(folder, {}, observer);
   const std::vector<Segment> pieces = separate_segments(recording);
   std::vector<std::string> names = segment_folders(pieces);
   if (pieces.empty() && segment.empty()) return {ProcessSession(std::move(recording)), {}, ""};
@@ -44,9 +44,9 @@ OpenScan read_scan(const fs::path& folder, const std::string& segment) {
 
 }  // namespace
 
-OpenScan& ScanSessions::open(const fs::path& recording, const std::string& segment) {
+OpenScan& ScanSessions::open(const fs::path& recording, const std::string& segment, const Observer& observer) {
   const std::string stamp = stamp_of(recording);
-  const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
+  const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const KeptSession& kept) {
     return kept.recording == recording && kept.segment == segment;
   });
   if (found != kept_.end() && found->stamp == stamp) {
@@ -54,7 +54,7 @@ OpenScan& ScanSessions::open(const fs::path& recording, const std::string& segme
     return kept_.front().scan;
   }
   if (found != kept_.end()) kept_.erase(found);
-  kept_.push_front({recording, segment, stamp, read_scan(recording, segment)});
+  kept_.push_front({recording, segment, stamp, read_scan(recording, segment, observer)});
   if (kept_.size() > kMost) kept_.pop_back();
   return kept_.front().scan;
 }

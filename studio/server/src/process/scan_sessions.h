@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/progress.h"
 #include "asperity/pipeline/process_session.h"
 
 namespace asperity::studio {
@@ -25,16 +26,16 @@ class ScanSessions {
   // The scan of a recording's folder, read again if its files have changed since. `segment` "" is the whole recording,
   // or the first of its segments where they stand apart. Valid until the next call. Throws Error if it cannot be read
   // or there is no such segment.
-  OpenScan& open(const std::filesystem::path& recording, const std::string& segment);
+  OpenScan& open(const std::filesystem::path& recording, const std::string& segment, const Observer& observer = {});
 
  private:
-  struct Kept {
+  struct KeptSession {
     std::filesystem::path recording;
     std::string segment;  // as it was asked for
     std::string stamp;
     OpenScan scan;
   };
-  std::list<Kept> kept_;  // the last used first
+  std::list<KeptSession> kept_;  // the last used first
 };
 
 }  // namespace asperity::studio

@@ -24,8 +24,8 @@ struct Piece {
 };
 
 // What one scan gives: itself, or each of its segments.
-std::vector<Piece> pieces_of(const NamedScan& scan, bool alone, ScanSessions& sessions) {
-  const std::vector<std::string>& segments = sessions.open(scan.recording, scan.segment).segments;
+std::vector<Piece> pieces_of(const NamedScan& scan, bool alone, ScanSessions& sessions, const Observer& observer) {
+  const std::vector<std::string>& segments = sessions.open(scan.recording, scan.segment, observer).segments;
   const fs::path place = alone ? fs::path() : fs::path(scan.name);
   if (!scan.segment.empty() || segments.size() < 2) return {{scan.segment, scan.name, place}};
   std::vector<Piece> out;
@@ -54,16 +54,18 @@ Json write_results(const fs::path& target, const std::vector<NamedScan>& scans, 
   std::vector<ReportItem> items;
   std::exception_ptr first_fault;
   for (const NamedScan& scan : scans) {
-    for (const Piece& piece : pieces_of(scan, scans.size() == 1, sessions)) {
+    for (const Piece& piece : pieces_of(scan, scans.size() == 1, sessions, observer)) {
       try {
-        ProcessSession& session = sessions.open(scan.recording, piece.segment).session;
+        ProcessSession& session = sessions.open(scan.recording, piece.segment, observer).session;
         const ProcessResult& result = session.process(config, observer);
         fs::create_directories(folder.path() / piece.place);
         write_result(folder.path() / piece.place, result, session.recording(), piece.name);
         files.push_back(piece.place.generic_string());
         items.push_back({piece.name, measured_block(result, session.recording(), piece.name).take()});
         write_report(folder.path() / piece.place, {items.back()});
-        if (!result.trustworthy) notes.push_back(piece.name + ": not to be trusted: " + result.verdict);
+        for (const Verdict& verdict : result.verdicts) {
+          if (verdict.severity != Severity::kNote) notes.push_back(piece.name + ": " + verdict_line(verdict));
+        }
       } catch (const Cancelled&) {
         throw;
       } catch (const Error& fault) {

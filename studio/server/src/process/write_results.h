@@ -19,7 +19,7 @@ struct NamedScan {
 
 // Writes what `asperity process REC… -o OUT` writes, all or nothing: `target` is the folder of the results, those of
 // one scan in it, of several in folders of their names; a recording whose segments stand apart, and of which none was
-// chosen, gives a folder each. What is not to be trusted or was left out is named. Answers
+// chosen, gives a folder each. What is invalid, limited or left out is named. Answers
 // {"files":[results' folders in `target`],"notes":[…]}. Throws Error, and nothing is written, if two recordings have
 // the same name, if `target` is something else than results, or if nothing could be processed; and Cancelled.
 Json write_results(const std::filesystem::path& target, const std::vector<NamedScan>& scans,

@@ -172,7 +172,7 @@ class BenchSource : public ScanSource {
     RecordingInfo out;
     out.object = recording_.info.object;
     out.gravity_world_mps2 = recording_.info.gravity_world_mps2;
-    out.extra_json = "{\"simulation\":{\"live\":true}}";
+    out.simulation.emplace().is_live = true;
     return out;
   }
 

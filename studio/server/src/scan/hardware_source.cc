@@ -8,7 +8,7 @@ namespace asperity::studio {
 
 namespace {
 
-void check(const RecordInput& input) {
+void check_input(const RecordInput& input) {
   if (input.probe.empty())
     throw Advice("no probe is named", "Give its address, such as serial:/dev/ttyUSB0 or udp:5005.");
   if (!input.camera.empty() && !input.poses.empty())
@@ -28,7 +28,7 @@ void check(const RecordInput& input) {
 class HardwareSource : public ScanSource {
  public:
   HardwareSource(RecordInput input, std::string world) : input_(std::move(input)), world_(std::move(world)) {
-    check(input_);
+    check_input(input_);
     calibration_ = read_record_calibration(input_);
   }
 

@@ -7,7 +7,7 @@ namespace asperity::studio {
 namespace {
 
 template <class Rows>
-auto from(const Rows& rows, std::int64_t t_ns) {
+auto first_from(const Rows& rows, std::int64_t t_ns) {
   return std::lower_bound(rows.begin(), rows.end(), t_ns,
                           [](const auto& row, std::int64_t limit_ns) { return row.t_ns < limit_ns; });
 }
@@ -34,15 +34,15 @@ void KeptRows::add(const TrackerSample& pose) {
 }
 
 void KeptRows::forget_before(std::int64_t t_ns) {
-  rows_.erase(rows_.begin(), from(rows_, t_ns));
-  poses_.erase(poses_.begin(), from(poses_, t_ns));
+  rows_.erase(rows_.begin(), first_from(rows_, t_ns));
+  poses_.erase(poses_.begin(), first_from(poses_, t_ns));
   dropped_until_ns_ = std::max(dropped_until_ns_, t_ns - 1);
 }
 
 void KeptRows::replay(std::int64_t start_ns, std::int64_t end_ns, const std::function<void(const ProbeSample&)>& on_row,
                       const std::function<void(const TrackerSample&)>& on_pose) const {
-  auto pose = from(poses_, start_ns);
-  for (auto row = from(rows_, start_ns); row != rows_.end() && row->t_ns <= end_ns; ++row) {
+  auto pose = first_from(poses_, start_ns);
+  for (auto row = first_from(rows_, start_ns); row != rows_.end() && row->t_ns <= end_ns; ++row) {
     for (; pose != poses_.end() && pose->t_ns <= row->t_ns; ++pose) on_pose(*pose);
     on_row(*row);
   }
@@ -63,6 +63,8 @@ void KeptRows::copy(std::int64_t start_ns, std::int64_t end_ns, bool has_gyro, R
         out.tracker.T_world_marker.push_back(pose.T_world_marker);
         out.tracker.markers.push_back(pose.markers);
         out.tracker.reprojection_px.push_back(pose.reprojection_px);
+        out.tracker.sigma_position_m.push_back(pose.sigma_position_m);
+        out.tracker.sigma_rotation_rad.push_back(pose.sigma_rotation_rad);
       });
 }
 

@@ -41,14 +41,14 @@ void LiveScanBuffer::begin_with(LiveScanBuffer kept) {
   kept.path_generation_ = path_generation_;
   kept.profile_sequence_ = profile_sequence_;
   kept.path_sequence_ = path_sequence_;
-  kept.told_points_ = kept.told_tips_ = 0;
+  kept.sent_points_ = kept.sent_tips_ = 0;
   kept.begun_anew_ = true;
   *this = std::move(kept);
 }
 
 void LiveScanBuffer::restart_path() {
   ++path_generation_;
-  told_tips_ = 0;
+  sent_tips_ = 0;
 }
 
 void LiveScanBuffer::add_tip(const LiveTip& tip, bool storing) {
@@ -131,17 +131,17 @@ BlockWriter LiveScanBuffer::path_from(std::size_t first) const {
 }
 
 BlockWriter LiveScanBuffer::take_growth() {
-  BlockWriter out = profile_from(told_points_);
+  BlockWriter out = profile_from(sent_points_);
   out.head()["sequence"] = profile_sequence_++;
-  told_points_ = s_m_.size();
+  sent_points_ = s_m_.size();
   begun_anew_ = false;
   return out;
 }
 
 BlockWriter LiveScanBuffer::take_motion() {
-  BlockWriter out = path_from(told_tips_);
+  BlockWriter out = path_from(sent_tips_);
   out.head()["sequence"] = path_sequence_++;
-  told_tips_ = path_.size();
+  sent_tips_ = path_.size();
   return out;
 }
 

@@ -26,8 +26,8 @@ class LiveScanBuffer {
 
   // What add() has brought since the last call, with "sequence", "generation" and "first"; empty: nothing. That the
   // profile has begun anew is told without a point of it, too: what was before is of nothing that there is.
-  bool grown() const { return begun_anew_ || told_points_ < s_m_.size(); }
-  bool moved() const { return told_tips_ < path_.size(); }
+  bool grown() const { return begun_anew_ || sent_points_ < s_m_.size(); }
+  bool moved() const { return sent_tips_ < path_.size(); }
   BlockWriter take_growth();
   BlockWriter take_motion();
   // All of it.
@@ -50,7 +50,7 @@ class LiveScanBuffer {
 
   std::uint32_t profile_generation_ = 0, path_generation_ = 0;
   std::uint64_t profile_sequence_ = 0, path_sequence_ = 0;
-  std::size_t told_points_ = 0, told_tips_ = 0;
+  std::size_t sent_points_ = 0, sent_tips_ = 0;
   bool begun_anew_ = false;
   LiveBase base_;
   std::int64_t motion_ns_ = 0;

@@ -7,6 +7,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/profile/compare_profiles.h"
+#include "asperity/verdict/verdict_json.h"
 
 namespace asperity::studio {
 
@@ -52,6 +53,7 @@ BlockWriter ScanRefiner::refine(const ProcessConfig& config, const Observer& obs
   head["took_s"] = took_s_;
   head["trustworthy"] = result.trustworthy;
   head["verdict"] = printable(result.verdict, 500);
+  head["verdicts"] = verdicts_json(result.verdicts);
   head["length_m"] = result.coverage.length_m;
   head["covered"] = result.coverage.covered;
   head["speed_mps"] = result.speed.mean_mps;

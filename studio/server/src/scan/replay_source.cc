@@ -180,7 +180,7 @@ class ReplaySource : public ScanSource {
     out.object = stage_->recording.info.object;
     out.world = stage_->recording.info.world;
     out.gravity_world_mps2 = stage_->recording.info.gravity_world_mps2;
-    out.extra_json = "{\"replayed\":true}";
+    out.is_replayed = true;
     return out;
   }
 

@@ -91,7 +91,7 @@ void RowTap::keep(const std::optional<TrackedPose>& pose) {
   image_ = std::move(seen);
 }
 
-void RowTap::take(Taken& out) {
+void RowTap::take(TakenRows& out) {
   out.rows.clear();
   out.poses.clear();
   out.image.reset();

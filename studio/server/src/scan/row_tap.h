@@ -44,7 +44,7 @@ class RowTap {
   void add(const CameraFrame& frame);
   void want_images(bool wanted) { images_wanted_ = wanted; }
 
-  struct Taken {
+  struct TakenRows {
     std::vector<ProbeSample> rows;
     std::uint64_t first_row = 0;  // number of the first of `rows` among all that came
     std::vector<TrackedPose> poses;
@@ -53,7 +53,7 @@ class RowTap {
     std::uint64_t poses_dropped = 0;
   };
   // All that waits; the memory of `out` is used in turn.
-  void take(Taken& out);
+  void take(TakenRows& out);
 
  private:
   void keep(const std::optional<TrackedPose>& pose);

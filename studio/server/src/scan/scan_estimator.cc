@@ -51,12 +51,12 @@ LiveEstimate ScanEstimator::take(std::span<const ProbeSample> rows, std::span<co
     while (tracked_.front().t_ns < tracked_.back().t_ns - kRemembered_ns) tracked_.pop_front();
   }
   LiveEstimate out = live_.estimate();
-  keep_trusted(out);
+  keep_valid(out);
   advisor_.push(out);
   return out;
 }
 
-void ScanEstimator::keep_trusted(LiveEstimate& estimate) {
+void ScanEstimator::keep_valid(LiveEstimate& estimate) {
   std::int64_t doubted_from_ns = std::numeric_limits<std::int64_t>::max(), doubted_to_ns = 0;
   const bool certain = estimate.base.known && estimate.base.normal_sigma_deg <= kCertain_deg;
   std::erase_if(estimate.tips, [&](LiveTip& tip) {

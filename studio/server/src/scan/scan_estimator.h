@@ -45,7 +45,7 @@ class ScanEstimator {
     Eigen::Vector3d p_world_m;
   };
   bool is_near_poses(const LiveTip& tip) const;
-  void keep_trusted(LiveEstimate& estimate);
+  void keep_valid(LiveEstimate& estimate);
 
   Calibration calibration_;
   bool calibrated_;

@@ -58,7 +58,7 @@ std::unique_ptr<ScanSource> open_source(const ScanChoices& choices, const ScanCo
     case SourceKind::kReplay:
       break;
   }
-  Recording read = read_recording(recording.value());
+  Recording read = read_recording(recording.value(), {}, observer);
   if (!choices.segment.empty()) {
     const Segment segment = find_segment(read, choices.segment);
     read = cut_recording(read, segment.start_ns, segment.end_ns);
@@ -159,7 +159,7 @@ class ScanPage : public Page {
 
  private:
   // What was discarded last, and what had been made of it.
-  struct Shelved {
+  struct DiscardedScan {
     Segment segment;
     std::shared_ptr<ScanRefiner> refiner;
     std::optional<BlockWriter> refined;
@@ -228,7 +228,7 @@ class ScanPage : public Page {
           busy_ = false;
           if (error && is_cancelled(error)) session_ = ending;  // it did not begin; the recording goes on
           if (error) return refuse(request, error);
-          shelved_.reset();
+          discarded_.reset();
           request.answer(Json{{"recording", *kept ? Json(ending->name()) : Json()}});
         });
   }
@@ -253,12 +253,12 @@ class ScanPage : public Page {
 
   ScanEvents events() {
     ScanEvents out;
-    out.ended = [this](FinishedScan scan) {
+    out.finished = [this](FinishedScan scan) {
       auto handed = std::make_shared<FinishedScan>(std::move(scan));
       shared_.post([this, handed] {
         const Segment segment = handed->segment;
-        const bool is_back =
-            shelved_ && shelved_->segment.start_ns == segment.start_ns && shelved_->segment.end_ns == segment.end_ns;
+        const bool is_back = discarded_ && discarded_->segment.start_ns == segment.start_ns &&
+                             discarded_->segment.end_ns == segment.end_ns;
         if (is_back) return bring_back(segment, std::move(handed->live));
         finished_ = segment;
         refiner_ = std::make_shared<ScanRefiner>(std::move(*handed));
@@ -271,7 +271,7 @@ class ScanPage : public Page {
     };
     out.discarded = [this] {
       shared_.post([this] {
-        if (refiner_) shelved_ = Shelved{finished_, refiner_, refined_, refined_by_};
+        if (refiner_) discarded_ = DiscardedScan{finished_, refiner_, refined_, refined_by_};
         forget();
       });
     };
@@ -287,7 +287,7 @@ class ScanPage : public Page {
 
   // What was discarded last is as it was; it may have another name.
   void bring_back(const Segment& segment, LiveHeights live) {
-    Shelved back = *std::exchange(shelved_, std::nullopt);
+    DiscardedScan back = *std::exchange(discarded_, std::nullopt);
     refiner_ = std::move(back.refiner);
     finished_ = segment;
     if (!back.refined || back.refined_by != settings_) return refine(std::move(live));
@@ -342,7 +342,7 @@ class ScanPage : public Page {
   std::shared_ptr<ScanRefiner> refiner_;  // of it; used by the jobs' thread
   std::optional<BlockWriter> refined_;
   std::map<std::string, std::string> refined_by_;  // settings
-  std::optional<Shelved> shelved_;
+  std::optional<DiscardedScan> discarded_;
   std::int64_t stated_ns_ = 0;
 };
 

@@ -177,15 +177,16 @@ void ScanSession::run() {
       last = changed_.wait_for(lock, kRound, [this] { return end_; });
     }
     try {
-      round(last);
+      run_round(last);
     } catch (const std::exception& error) {
-      tell(std::string("The live profile stops here: ") + error.what(),
-           "The recording goes on. Take the last change of the settings back, or stop and process the recording.");
+      send_message(
+          std::string("The live profile stops here: ") + error.what(),
+          "The recording goes on. Take the last change of the settings back, or stop and process the recording.");
     }
   }
 }
 
-void ScanSession::round(bool last) {
+void ScanSession::run_round(bool last) {
   const RecorderSnapshot now = recorder_->snapshot();
   tap_.want_images(hub_.has_subscribers("scan.image"));
   tap_.take(taken_);
@@ -194,13 +195,13 @@ void ScanSession::round(bool last) {
   retune(now);
   take_rows(now.storing);
   show(now, host_now_ns());
-  if (ended_ && (last || host_now_ns() >= ended_->hand_over_at_ns)) hand_over(now);
+  if (finished_ && (last || host_now_ns() >= finished_->hand_over_at_ns)) hand_over(now);
 }
 
 // A fault that comes again each round is told once.
-void ScanSession::tell(const std::string& message, const std::string& hint) {
-  if (message == told_) return;
-  told_ = message;
+void ScanSession::send_message(const std::string& message, const std::string& hint) {
+  if (message == sent_message_) return;
+  sent_message_ = message;
   hub_.broadcast("note", Json{{"message", message}, {"hint", hint}});
 }
 
@@ -228,8 +229,8 @@ void ScanSession::retune(const RecorderSnapshot& now) {
   if (!wanted) return;
   estimator_->configure(info_of(now), *wanted);
   config_ = *wanted;
-  shelved_.reset();  // of other settings
-  told_.clear();
+  discarded_.reset();  // of other settings
+  sent_message_.clear();
   if (!shown_ || !estimator_->kept().covers(shown_->start_ns)) return;
   grow_again(now);
   if (!now.storing) events_.retuned(live_heights());

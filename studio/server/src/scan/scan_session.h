@@ -37,7 +37,7 @@ struct LiveHeights {
   std::vector<double> s_m, height_m;
 };
 
-// A stroke that has ended, as the recording has it.
+// A stroke that has finished, as the recording has it.
 struct FinishedScan {
   std::string recording;  // name of the folder in the project
   Segment segment;
@@ -47,9 +47,9 @@ struct FinishedScan {
 
 // What a session tells, in its own thread.
 struct ScanEvents {
-  std::function<void(FinishedScan)> ended;
+  std::function<void(FinishedScan)> finished;
   std::function<void(LiveHeights)> retuned;  // the finished scan's causal profile, with other settings
-  std::function<void()> discarded;           // it may be brought back: ended() again, with the same times
+  std::function<void()> discarded;           // it may be brought back: finished() again, with the same times
   std::function<void()> forgotten;           // another has taken its place
 };
 
@@ -101,14 +101,14 @@ class ScanSession {
   };
 
   // A segment that waits for the poses of its end.
-  struct Ended {
+  struct FinishedSegment {
     Segment segment;
     std::optional<LiveHeights> live;  // nullopt: the book has them
     std::int64_t hand_over_at_ns = 0;
   };
 
   // What was discarded last, as it was shown.
-  struct Shelved {
+  struct DiscardedSegment {
     Segment segment;
     LiveScanBuffer book;
   };
@@ -120,15 +120,15 @@ class ScanSession {
   void watch(const RecorderSnapshot& now);
   bool use_what_is_known(const RecorderSnapshot& now);
   void begin_scan(const RecorderSnapshot& now);
-  void keep_ended(Ended ended, const RecorderSnapshot& now);
-  void shelve(const RecorderSnapshot& now);
+  void keep_finished(FinishedSegment finished, const RecorderSnapshot& now);
+  void keep_discarded(const RecorderSnapshot& now);
   void bring_back(const Segment& segment, const RecorderSnapshot& now);
   void grow_again(const RecorderSnapshot& now);
   void hand_over(const RecorderSnapshot& now);
   void retune(const RecorderSnapshot& now);
   LiveHeights live_heights() const;
-  void round(bool last);
-  void tell(const std::string& message, const std::string& hint);
+  void run_round(bool last);
+  void send_message(const std::string& message, const std::string& hint);
   BlockWriter state_of(const RecorderSnapshot& now, std::int64_t now_ns);
   void show_rows();
   void show(const RecorderSnapshot& now, std::int64_t now_ns);
@@ -144,19 +144,19 @@ class ScanSession {
   bool automatic_ = false;
 
   // The session's thread alone.
-  RowTap::Taken taken_;
+  RowTap::TakenRows taken_;
   std::optional<ScanEstimator> estimator_;
   ScanConfig config_;
   Known used_;  // what the estimator was told
   Watched before_;
   bool was_playing_ = false;
   std::optional<Segment> shown_;  // the scan that the book tells of
-  std::optional<Ended> ended_;
-  std::optional<Shelved> shelved_;
+  std::optional<FinishedSegment> finished_;
+  std::optional<DiscardedSegment> discarded_;
   std::int64_t newest_row_ns_ = 0;
   double age_s_ = 0.0;
   std::uint64_t poses_late_ = 0;
-  std::string told_;  // the last fault that was told
+  std::string sent_message_;  // the last fault that was sent
   std::int64_t stated_ns_ = 0;
 
   mutable std::mutex mutex_;

@@ -24,17 +24,17 @@ void ScanSession::watch(const RecorderSnapshot& now) {
     // After a restored one is shown, the recording's last may be another.
     const bool is_another = shown_ && now.last_discarded && shown_->start_ns != now.last_discarded->start_ns;
     if (!is_another) {
-      shelve(now);
+      keep_discarded(now);
       events_.discarded();
     }
   }
-  // One may have ended and the next begun between two rounds.
+  // One may have finished and the next begun between two rounds.
   const std::size_t next = before.storing && !discarded ? before_.begun - std::min(before_.begun, before.begun) : 0;
-  if (next > 0 && next < list.size()) keep_ended({list[list.size() - 1 - next], live_heights(), 0}, now);
+  if (next > 0 && next < list.size()) keep_finished({list[list.size() - 1 - next], live_heights(), 0}, now);
   if (next > 0 || (now.storing && (!before.storing || discarded))) begin_scan(now);
   if ((now.storing || (before.storing && !discarded)) && !list.empty()) shown_ = list.back();
   if (!now.storing && before.storing && !discarded && !list.empty()) {
-    keep_ended({list.back(), std::nullopt, 0}, now);
+    keep_finished({list.back(), std::nullopt, 0}, now);
     events_.forgotten();  // what is refined is another's
   }
   if (restored && before.last_discarded && !now.storing) bring_back(*before.last_discarded, now);
@@ -66,33 +66,33 @@ void ScanSession::begin_scan(const RecorderSnapshot& now) {
   if (!now.segment_list.empty()) {
     const std::int64_t trail_ns = now.segment_list.back().start_ns - KeptRows::kTrail_ns;
     std::int64_t wanted_ns = trail_ns;
-    if (ended_) wanted_ns = std::min(wanted_ns, ended_->segment.start_ns);
-    if (shelved_) wanted_ns = std::min(wanted_ns, shelved_->segment.start_ns);
+    if (finished_) wanted_ns = std::min(wanted_ns, finished_->segment.start_ns);
+    if (discarded_) wanted_ns = std::min(wanted_ns, discarded_->segment.start_ns);
     kept.forget_before(wanted_ns);
   }
   kept.hold(true);
   events_.forgotten();
-  if (ended_ && !ended_->live) ended_->live = live_heights();
+  if (finished_ && !finished_->live) finished_->live = live_heights();
   const std::lock_guard lock(mutex_);
   book_.restart();
 }
 
-void ScanSession::keep_ended(Ended ended, const RecorderSnapshot& now) {
-  if (ended_) hand_over(now);
-  ended_ = std::move(ended);
-  ended_->hand_over_at_ns = host_now_ns() + kPosesLate_ns;
+void ScanSession::keep_finished(FinishedSegment finished, const RecorderSnapshot& now) {
+  if (finished_) hand_over(now);
+  finished_ = std::move(finished);
+  finished_->hand_over_at_ns = host_now_ns() + kPosesLate_ns;
 }
 
-void ScanSession::shelve(const RecorderSnapshot& now) {
+void ScanSession::keep_discarded(const RecorderSnapshot& now) {
   const std::optional<Segment> shown = std::exchange(shown_, std::nullopt);
-  ended_.reset();
+  finished_.reset();
   const std::lock_guard lock(mutex_);
   LiveScanBuffer book = book_.restart();
   const bool is_shown = shown && now.last_discarded && shown->start_ns == now.last_discarded->start_ns;
-  if (is_shown) shelved_ = Shelved{*now.last_discarded, std::move(book)};
+  if (is_shown) discarded_ = DiscardedSegment{*now.last_discarded, std::move(book)};
 }
 
-// What was discarded is shown again, as if it had just ended.
+// What was discarded is shown again, as if it had just finished.
 void ScanSession::bring_back(const Segment& segment, const RecorderSnapshot& now) {
   const auto& list = now.segment_list;
   const auto back = std::find_if(list.begin(), list.end(), [&](const Segment& each) {
@@ -100,29 +100,29 @@ void ScanSession::bring_back(const Segment& segment, const RecorderSnapshot& now
   });
   if (back == list.end()) return;
   if (!estimator_->kept().covers(back->start_ns)) {
-    tell(back->name + " is in the recording again; its rows are not in memory any more",
-         "Finish the recording, and open it on the Process page.");
+    send_message(back->name + " is in the recording again; its rows are not in memory any more",
+                 "Finish the recording, and open it on the Process page.");
     return;
   }
   events_.forgotten();
   shown_ = *back;
-  if (shelved_ && shelved_->segment.start_ns == back->start_ns) {
-    Shelved shelved = *std::exchange(shelved_, std::nullopt);
+  if (discarded_ && discarded_->segment.start_ns == back->start_ns) {
+    DiscardedSegment discarded = *std::exchange(discarded_, std::nullopt);
     const std::lock_guard lock(mutex_);
-    book_.begin_with(std::move(shelved.book));
+    book_.begin_with(std::move(discarded.book));
   } else {
     grow_again(now);
   }
-  ended_ = Ended{*back, std::nullopt, host_now_ns()};
+  finished_ = FinishedSegment{*back, std::nullopt, host_now_ns()};
 }
 
 void ScanSession::hand_over(const RecorderSnapshot& now) {
-  const auto [segment, live, due_ns] = *std::exchange(ended_, std::nullopt);
+  const auto [segment, live, due_ns] = *std::exchange(finished_, std::nullopt);
   KeptRows& kept = estimator_->kept();
   kept.hold(true);  // until the next scan begins: it may be discarded, and be wanted again
   if (!kept.covers(segment.start_ns)) {
-    tell(segment.name + " is too long to be refined here; the recording has all of it",
-         "Finish the recording, and open it on the Process page.");
+    send_message(segment.name + " is too long to be refined here; the recording has all of it",
+                 "Finish the recording, and open it on the Process page.");
     return;
   }
   FinishedScan out;
@@ -138,7 +138,7 @@ void ScanSession::hand_over(const RecorderSnapshot& now) {
     out.rows.info.tracker_rate_Hz = 1e9 * static_cast<double>(poses.size() - 1) / span_ns;
   }
   out.live = live ? *live : live_heights();
-  events_.ended(std::move(out));
+  events_.finished(std::move(out));
 }
 
 }  // namespace asperity::studio

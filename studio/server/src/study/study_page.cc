@@ -165,7 +165,7 @@ void StudyPage::complain(std::exception_ptr error) {
   if (!complaint) return;
   problem_ = std::move(complaint->problem);
   hint_ = std::move(complaint->hint);
-  tell();
+  send_status();
 }
 
 // Nothing of it says which texture lies where, or how the answers are.
@@ -199,10 +199,10 @@ Json StudyPage::status() const {
   return out;
 }
 
-void StudyPage::tell() {
+void StudyPage::send_status() {
   Json now = status();
-  if (now == told_) return;
-  told_ = now;
+  if (now == sent_status_) return;
+  sent_status_ = now;
   shared_.hub.broadcast("study", now);
 }
 

@@ -51,7 +51,7 @@ class StudyPage : public Page {
   double since_begin_s() const;
   std::string date() const;
   void complain(std::exception_ptr error);
-  void tell();
+  void send_status();
   Json status() const;
 
   Shared& shared_;
@@ -74,7 +74,7 @@ class StudyPage : public Page {
   double touched_s_ = 0.0;              // before that
   bool touched_ = false;
   std::string problem_, hint_;
-  Json told_;
+  Json sent_status_;
 };
 
 std::unique_ptr<Page> make_study_page(Shared& shared, FeelHost& host);

@@ -110,7 +110,7 @@ void StudyPage::bind_session(Calls& calls) {
       why_.clear();
     }
     request.done();
-    tell();
+    send_status();
   });
   calls.add("study.end", [this](const Request& request) {
     end();
@@ -169,7 +169,7 @@ void StudyPage::open(const std::shared_ptr<Opening>& opening, const Request* req
         phase_ = Phase::kNone;
         if (error) {
           if (!asked) return complain(error);
-          tell();
+          send_status();
           try {
             std::rethrow_exception(error);
           } catch (const std::exception& fault) {
@@ -189,7 +189,7 @@ void StudyPage::open(const std::shared_ptr<Opening>& opening, const Request* req
         present();
         if (asked) asked->answer(status());
       });
-  tell();
+  send_status();
 }
 
 // The next trial, or the end.
@@ -205,7 +205,7 @@ void StudyPage::present() {
   } else if (phase_ == Phase::kRunning && host_.is_visited()) {
     host_.change_visit(visit());
   }
-  tell();
+  send_status();
 }
 
 FeelVisit StudyPage::visit() const {
@@ -260,7 +260,7 @@ void StudyPage::follow_touch() {
     touched_s_ = response_s(now_ns);
     touch_since_ns_ = 0;
   }
-  tell();
+  send_status();
   start_touch();
 }
 
@@ -337,7 +337,7 @@ void StudyPage::end() {
   last_log_ = std::exchange(log_name_, {});
   std::error_code error;
   fs::remove(shared_.project.folder() / kRunningFile, error);
-  tell();
+  send_status();
 }
 
 void StudyPage::client_left(ClientId client) {

@@ -31,7 +31,7 @@ HeightMapViewerConfig viewer_of(const Study& study) {
 std::size_t tiles_of(const Study& study) { return study.method == StudyMethod::kRating ? 1 : 2; }
 
 // One side of a staircase's trial.
-void change(Texture& texture, const Study& study, double level, bool comparison) {
+void change_texture(Texture& texture, const Study& study, double level, bool comparison) {
   const double more = comparison ? 1.0 + level : 1.0;
   switch (study.parameter) {
     case StudyParameter::kHeight:
@@ -51,7 +51,7 @@ void change(Texture& texture, const Study& study, double level, bool comparison)
 
 void scale_texture(Texture& texture, double factor) {
   scale_texture_model(texture.model, factor);
-  if (texture.lift_m) *texture.lift_m *= factor;
+  if (texture.height_offset_m) *texture.height_offset_m *= factor;
 }
 
 FeelSetup study_setup(const Study& study, const FeelConfig& start) {
@@ -75,7 +75,7 @@ Scene make_trial_scene(const Study& study, const std::vector<Texture>& stimuli, 
   std::vector<Texture> tiles{stimuli.at(static_cast<std::size_t>(trial.left))};
   if (trial.right >= 0) tiles.push_back(stimuli.at(static_cast<std::size_t>(trial.right)));
   for (std::size_t k = 0; k < tiles.size(); ++k) {
-    if (trial.level) change(tiles[k], study, *trial.level, trial.comparison_right == (k == 1));
+    if (trial.level) change_texture(tiles[k], study, *trial.level, trial.comparison_right == (k == 1));
     tiles[k].name = kLabels.at(k);
   }
   return make_height_map_viewer(tiles, viewer_of(study));

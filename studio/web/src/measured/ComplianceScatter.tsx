@@ -18,7 +18,7 @@ export function ComplianceScatter({ measured }: { measured: Measured }) {
     if (exponent !== null) out.push({ label: "Power of the force", ...powerLine(points.x, points.y, exponent), colour: 2 });
     return out;
   }, [measured]);
-  const { k_c, sigma_r2, exponent, exponent_error } = measured.compliance;
+  const { k_c, k_c_stderr, k_c_low, k_c_high, verdict, exponent, exponent_error } = measured.compliance;
   return (
     <div class="measured-column">
       <Plot
@@ -31,8 +31,8 @@ export function ComplianceScatter({ measured }: { measured: Measured }) {
       />
       <p class="measured-note" data-testid="compliance-words">
         {k_c === null
-          ? "No compliance coefficient: it wants a scan whose force goes from light to firm."
-          : `k_c = ${number(k_c, 3)} (1 stiff, towards 0 soft), σ² of the ratio ${number(sigma_r2, 3)}, ratio ∝ force^${withError(exponent, exponent_error)}.`}
+          ? `Compliance coefficient ${verdict ?? "not determined: the force of a stroke must go from light to firm"}.`
+          : `k_c = ${withError(k_c, k_c_stderr ?? null)}, 95 %: ${number(k_c_low ?? null, 3)} to ${number(k_c_high ?? null, 3)}, for forces of 0.5 to 1.5 N (1 stiff, towards 0 soft). Ratio ∝ force^${withError(exponent, exponent_error)} at 1 N.`}
       </p>
     </div>
   );

@@ -2,8 +2,9 @@
 // them needs a connection: the report shows the same.
 import type { Block, NumberArray } from "../net/block";
 import { quantity, withError } from "../ui/format";
+import { verdictsOf, type VerdictEntry } from "./verdicts";
 
-/** A figure as the server names it: name, unit and factor are its (studio/report/src/figure_rows.cc), digits are ours. */
+/** A figure as the server names it: name, unit and factor are its (studio/report/src/metric_rows.cc), digits are ours. */
 export interface MeasuredFigure {
   group: string;
   key: string;
@@ -33,6 +34,7 @@ export interface Measured {
   object: string;
   trustworthy: boolean;
   verdict: string;
+  verdicts: VerdictEntry[];
   version: string;
   method: string;
   world: string;
@@ -43,7 +45,16 @@ export interface Measured {
   config: Record<string, unknown>;
   trajectory: { samples: number; every: number; points: number; duration_s: number };
   profile: { samples: number; every: number; points: number; first_m: number; spacing_m: number };
-  compliance: { k_c: number | null; sigma_r2: number | null; exponent: number | null; exponent_error: number | null };
+  compliance: {
+    k_c: number | null;
+    k_c_stderr?: number | null;
+    k_c_low?: number | null;
+    k_c_high?: number | null;
+    verdict?: string;
+    sigma_r2: number | null;
+    exponent: number | null;
+    exponent_error: number | null;
+  };
   segments: string[];
   segment: string;
   array(name: string): NumberArray;
@@ -64,6 +75,7 @@ export function measuredOf(block: Block): Measured {
     object: result.object,
     trustworthy: result.trustworthy,
     verdict: result.verdict,
+    verdicts: verdictsOf(result),
     version: result.asperity,
     method: result.method,
     world: head.world,

@@ -1,3 +1,5 @@
+import { VerdictList } from "../measured/VerdictList";
+import { verdictsOf, verdictWord } from "../measured/verdicts";
 import { Comparison } from "./Comparison";
 import { OneResult } from "./OneResult";
 import { Overlaid } from "./Overlaid";
@@ -33,13 +35,14 @@ function subtitle({ json }: Result): string {
 }
 
 function Verdict({ result, named }: { result: Result; named: boolean }) {
-  const { trustworthy, verdict } = result.json;
-  if (trustworthy && named) return null;
+  const verdicts = verdictsOf(result.json);
+  const word = verdictWord(verdicts);
+  if (word === "valid" && named) return null;
   return (
-    <p class={trustworthy ? "report-verdict" : "report-verdict report-distrust"} role="status">
+    <div class={word === "valid" ? "report-verdict" : "report-verdict report-distrust"} role="status">
       {named && <strong>{result.name}: </strong>}
-      {trustworthy ? "✓ The measurement can be trusted." : `⚠ Not to be trusted: ${verdict}`}
-    </p>
+      <VerdictList verdicts={verdicts} />
+    </div>
   );
 }
 

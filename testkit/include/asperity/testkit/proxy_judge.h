@@ -14,7 +14,7 @@ namespace asperity::testkit {
 
 // What a proxy did over a path. "Pressed" ticks are those with the device inside the surface, for a ball inside the
 // surface at the distance of its radius.
-struct ProxyFigures {
+struct ProxyStatistics {
   std::size_t ticks = 0;
   std::size_t pressed = 0;
   std::size_t stuck_events = 0;  // |proxy − device| came to exceed 1.5 depths
@@ -47,7 +47,7 @@ class ProxyJudge {
 
   void tick(const Eigen::Vector3d& device_m, const Eigen::Vector3d& proxy_m);
 
-  ProxyFigures figures() const;
+  ProxyStatistics statistics() const;
   const Eigen::Vector3d& true_m() const { return true_m_; }  // the minimum of the last tick
   double last_error_m() const { return last_error_m_; }
   double last_step_excess_m() const { return last_step_excess_m_; }
@@ -63,7 +63,7 @@ class ProxyJudge {
   ProxyJudgeConfig config_;
   TrackedMinimum point_, local_point_;
   BallRest ball_, local_ball_;
-  ProxyFigures sums_;
+  ProxyStatistics sums_;
   Eigen::Vector3d device_m_, proxy_m_, true_m_;  // of the last tick
   bool was_pressed_ = false, was_stuck_ = false, was_through_ = false, was_other_ = false;
   double last_error_m_ = 0.0, last_step_excess_m_ = 0.0;

@@ -17,6 +17,8 @@ struct Observer {
     if (cancelled && cancelled()) throw Cancelled();
     if (progress) progress(stage, fraction);
   }
+  // For a part of a stage: asks the same, reports nothing.
+  Observer without_progress() const { return {{}, cancelled}; }
 };
 
 }  // namespace asperity

@@ -12,6 +12,7 @@
 #include "asperity/calibration/calibration_verdict.h"
 #include "asperity/calibration/series_noise.h"
 #include "asperity/geometry/pose.h"
+#include "asperity/recording/tracker_noise_model.h"
 
 namespace asperity {
 
@@ -31,26 +32,6 @@ struct StaticInterval {
   std::array<SeriesNoise, 3> ray_position_m;
   std::array<SeriesNoise, 3> ray_rotation_rad;
   std::vector<Eigen::Vector3d> deviation_m;  // of every pose used from the mean position, along the world's axes
-};
-
-// σ = scale · (distance / 1 m)^power · cos(tilt)^−tilt_power, for the white part.
-struct NoiseLaw {
-  double scale = 0.0;  // m or rad, at 1 m and facing the camera
-  double scale_error = 0.0;
-  double power = 0.0;  // of the distance, as geometry demands
-  double tilt_power = 0.0;
-  double tilt_power_error = 0.0;
-  bool tilt_fitted = false;     // false: the rests are too much alike, tilt_power is 0
-  double measured_power = 0.0;  // the power that the data themselves have, for comparison
-  double measured_power_error = 0.0;
-  double chi_square = 0.0;  // of the fit with the power held
-  int degrees_of_freedom = 0;
-};
-
-struct TrackerNoiseModel {
-  NoiseLaw across_m, along_m;    // the ray; powers 1 and 2
-  NoiseLaw about_rad, tilt_rad;  // about the ray, and about axes across it; powers 1 and 2
-  double nearest_m = 0.0, farthest_m = 0.0, steepest_rad = 0.0;  // where it was measured
 };
 
 struct TrackerNoise {

@@ -25,12 +25,12 @@ class FrameWriter {
   // Any thread; copies the image and does not wait for the disk.
   void push(const CameraFrame& frame);
 
-  struct Figures {
+  struct FrameCounts {
     std::uint64_t written = 0;
     std::uint64_t dropped = 0;
     std::string failure;  // why none are written any more; empty: nothing is wrong
   };
-  Figures figures() const;
+  FrameCounts counts() const;
   // Writes what waits.
   void finish();
 
@@ -44,7 +44,7 @@ class FrameWriter {
   std::condition_variable changed_;
   std::deque<CameraFrame> waiting_;
   bool stop_ = false;
-  Figures figures_;
+  FrameCounts counts_;
   std::thread thread_;
 };
 

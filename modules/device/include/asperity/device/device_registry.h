@@ -33,7 +33,7 @@ struct DeviceKind {
   std::string_view name;   // as of `asperity feel --device`; its settings are a group of this name
   std::string_view title;  // for people
   DeviceMover mover = DeviceMover::kPerson;
-  bool felt = true;           // its force reaches a person: it runs by the clock
+  bool has_person = true;     // its force reaches a person: it runs by the clock
   bool vibrotactile = false;  // its force is put out as a vibration
   std::optional<NeededSetting> needs = std::nullopt;
 

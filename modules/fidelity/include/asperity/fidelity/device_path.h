@@ -18,11 +18,11 @@ struct DevicePath {
 
 // The interval of rising times that `t_ns` falls in, and where: t[index] <= t, share in [0, 1); the first or last
 // time outside of them. `hint` is the index of the query before; queries that rise cost nothing.
-struct TimePlace {
+struct TimeIndex {
   std::size_t index = 0;
   double share = 0.0;
 };
-TimePlace find_time(const std::vector<std::int64_t>& times_ns, std::int64_t t_ns, std::size_t& hint);
+TimeIndex find_time(const std::vector<std::int64_t>& times_ns, std::int64_t t_ns, std::size_t& hint);
 
 // The point at a time; exactly a sample's own at its time.
 Eigen::Vector3d position_at(const DevicePath& path, std::int64_t t_ns, std::size_t& hint);

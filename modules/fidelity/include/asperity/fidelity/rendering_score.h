@@ -14,7 +14,7 @@ struct BandAgreement {
   double real_rms = 0.0;  // unit of the quantity
   double rendered_rms = 0.0;
   double difference_dB = 0.0;  // 20 log10(rendered / real), within ±40
-  bool felt = true;            // false: too weak in both to matter
+  bool is_compared = true;     // false: too weak in both to matter
 };
 
 // Real against rendered over the whole band.
@@ -22,7 +22,7 @@ struct SpectrumAgreement {
   double real_rms = std::numeric_limits<double>::quiet_NaN();
   double rendered_rms = std::numeric_limits<double>::quiet_NaN();
   double rms_ratio = std::numeric_limits<double>::quiet_NaN();    // rendered over real
-  double distance_dB = std::numeric_limits<double>::quiet_NaN();  // RMS of the felt octaves' differences
+  double distance_dB = std::numeric_limits<double>::quiet_NaN();  // RMS of the compared octaves' differences
   std::vector<BandAgreement> bands;
 };
 
@@ -33,7 +33,7 @@ struct RenderingScore {
   double speed_mps = 0.0;   // mean, of the scan
   double compared_m = 0.0;  // length of path that entered
   std::size_t ticks = 0;
-  double touched = 0.0;  // part of the scan's contact in which the renderer was in contact
+  double contact_fraction = 0.0;  // part of the scan's contact in which the renderer was in contact
 
   bool phase_known = false;   // the texture has the scan's own places, not its spectrum alone
   std::string phase_unknown;  // why not, in words

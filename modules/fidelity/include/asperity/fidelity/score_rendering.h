@@ -42,7 +42,7 @@ struct ScoreConfig {
 //
 //   the rendered height, that of the texture under the proxy, is held against the profile's height_m,
 //   the rendered normal force beyond the measured one, f·n − F, against k_c k_s H, what seed §6.5 (5) makes of the real
-//   heights H, lifted to 0 as a texture's are (erratum 20): the contact force (4) of the press is F by itself,
+//   heights H, their lowest at 0 as a texture's are (erratum 20): the contact force (4) of the press is F by itself,
 //
 // over the scan's arc length in the band of the contract: from low to min(high, 0.4 rate/speed) cycles/mm, second-order
 // Butterworth, zero phase, both sides alike. Octave spectra are Welch's (compare_textures.h); their distance D is the

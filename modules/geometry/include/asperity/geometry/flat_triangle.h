@@ -26,7 +26,7 @@ Eigen::Vector2d place_beside(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
                              const Eigen::Vector2d& flat_a, const Eigen::Vector2d& flat_b, double side);
 
 // A triangle with its first corner at the origin and its second on the x axis, seen from outside.
-FlatTriangle flatten(const TriangleMesh& mesh, std::uint32_t triangle);
+FlatTriangle flatten_triangle(const TriangleMesh& mesh, std::uint32_t triangle);
 
 // The triangle `next` turned about the edge that it shares with `triangle` into the plane of `flat`, beyond
 // the edge. `edge` holds the edge's vertices.

@@ -26,6 +26,10 @@ Eigen::Quaterniond exp_rotation(const Eigen::Vector3d& phi);
 // The rotation vector of `q`, its angle in [0, π].
 Eigen::Vector3d log_rotation(const Eigen::Quaterniond& q);
 
+// The rotation by the least angle that turns the direction of `from` into that of `to`; of opposite ones by π about any
+// axis across them.
+Eigen::Quaterniond shortest_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
 // The angle of the rotation that turns `a` into `b`, rad, in [0, π].
 double rotation_between_rad(const Pose& a, const Pose& b);
 

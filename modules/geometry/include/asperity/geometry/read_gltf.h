@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "asperity/base/progress.h"
 #include "asperity/geometry/mesh_file.h"
 #include "asperity/geometry/mesh_limits.h"
 
@@ -22,10 +23,11 @@ namespace asperity {
 // only in the file. Images are never opened. Throws Error naming the file for what is not glTF 2.0, a
 // required extension other than KHR_mesh_quantization, KHR_materials_unlit and KHR_texture_transform,
 // sparse accessors, an index, accessor or buffer view that leaves its bounds, numbers that are not
-// finite, nodes in a circle, no triangles, or more than `limits`.
+// finite, nodes in a circle, no triangles, or more than `limits`; Cancelled while its JSON is read if `observer` says
+// so.
 MeshFile parse_gltf(std::string_view bytes, const std::string& name, const std::filesystem::path& folder = {},
-                    const MeshLimits& limits = {});
+                    const MeshLimits& limits = {}, const Observer& observer = {});
 
-MeshFile read_gltf(const std::filesystem::path& path, const MeshLimits& limits = {});
+MeshFile read_gltf(const std::filesystem::path& path, const MeshLimits& limits = {}, const Observer& observer = {});
 
 }  // namespace asperity

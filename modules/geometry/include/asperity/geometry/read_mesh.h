@@ -2,13 +2,14 @@
 
 #include <filesystem>
 
+#include "asperity/base/progress.h"
 #include "asperity/geometry/mesh_file.h"
 #include "asperity/geometry/mesh_limits.h"
 
 namespace asperity {
 
 // Reads a mesh file as its extension says: .obj (see read_obj), .ply, .stl, .gltf, .glb, in any case of
-// letters. Throws Error for another extension and as those readers do.
-MeshFile read_mesh(const std::filesystem::path& path, const MeshLimits& limits = {});
+// letters. Throws Error for another extension and as those readers do; `observer` can stop those of glTF.
+MeshFile read_mesh(const std::filesystem::path& path, const MeshLimits& limits = {}, const Observer& observer = {});
 
 }  // namespace asperity

@@ -97,7 +97,7 @@ class ScanAdvisor {
   void judge(HintKind kind, std::int64_t t_ns, bool beyond, bool better, double value);
   void count_lost(double step_s);
   void judge_tip(const LiveTip& tip);
-  void judge_way(const LiveTip& tip);
+  void check_path(const LiveTip& tip);
 
   static constexpr double kMoving_mps = 2e-3;
 

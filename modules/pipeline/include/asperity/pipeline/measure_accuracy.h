@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "asperity/geometry/motion.h"
 #include "asperity/profile/compare_profiles.h"
@@ -24,8 +26,11 @@ struct Accuracy {
 // Positions are compared at the truth's own times, within the spans of the motion and of the poses;
 // profiles in the band from config.low_cycles_per_mm to the smaller of config.high_cycles_per_mm and
 // 0.4·rate/speed (compare_profiles.h), with the probe's mean rate and the true mean speed of travel.
+// With `texture_of`, the high-pass of heights with the profile's spacing, the profile's texture_m is compared with the
+// texture that it makes of the true heights; without it height_m with the true heights.
 // Throws Error if the recording has no truth or the spans do not overlap.
+using TextureOf = std::function<std::vector<double>(const std::vector<double>& height_m)>;
 Accuracy measure_accuracy(const Recording& recording, const TipMotion& motion, const Profile& profile,
-                          const ComparisonConfig& config);
+                          const ComparisonConfig& config, const TextureOf& texture_of = {});
 
 }  // namespace asperity

@@ -12,7 +12,7 @@
 
 namespace asperity {
 
-// The settings of all stages from a recording to a texture: those of the methods, `fused` and `thesis`, and those that
+// The settings of all stages from a recording to a texture: those of the methods, and those that
 // serve any. `profile` is the method fused's.
 struct ProcessConfig : ProcessMethods {
   Method method = ProcessMethods::method<FusedMethod>();

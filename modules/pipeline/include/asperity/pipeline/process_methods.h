@@ -6,9 +6,13 @@
 #include <string_view>
 #include <type_traits>
 
+#include "asperity/pipeline/ekf_method.h"
 #include "asperity/pipeline/fused_method.h"
+#include "asperity/pipeline/particle_method.h"
 #include "asperity/pipeline/process_method.h"
+#include "asperity/pipeline/raw_method.h"
 #include "asperity/pipeline/thesis_method.h"
+#include "asperity/pipeline/thesis_tuned_method.h"
 
 namespace asperity {
 
@@ -35,7 +39,7 @@ struct MethodTable : Methods... {
     (this->Methods::visit_method(v), ...);
   }
 
-  // The methods' names and what they are: "fused (ours) or thesis (the baseline)".
+  // The methods' names and what they are: "fused (ours), thesis (the baseline), …".
   static std::string describe() {
     std::string out;
     for (std::size_t i = 0; i < kNames.size(); ++i) {
@@ -54,7 +58,11 @@ struct MethodTable : Methods... {
 // Every method of process_recording.h, the default first.
 using ProcessMethods = MethodTable<  //
     FusedMethod,                     //
-    ThesisMethod>;
+    ThesisMethod,                    //
+    ThesisTunedMethod,               //
+    RawMethod,                       //
+    EkfMethod,                       //
+    ParticleMethod>;
 
 inline constexpr auto kMethodNames = ProcessMethods::kNames;
 

@@ -12,14 +12,16 @@
 #include "asperity/profile/find_periodicity.h"
 #include "asperity/profile/profile.h"
 #include "asperity/profile/roughness.h"
+#include "asperity/profile/texture_noise.h"
 #include "asperity/texture/fit_fourier1d.h"
 #include "asperity/texture/texture.h"
 #include "asperity/trajectory/trajectory_result.h"
+#include "asperity/verdict/verdict.h"
 
 namespace asperity {
 
 // Speed along the base path over the profile's points.
-struct SpeedFigures {
+struct SpeedStatistics {
   double mean_mps = 0.0;
   double lowest_mps = 0.0;
   double highest_mps = 0.0;
@@ -38,7 +40,8 @@ struct ProcessResult {
   BasePathResult base;
   Profile profile;
   Coverage coverage;
-  SpeedFigures speed;
+  SpeedStatistics speed;
+  TextureNoise noise;                        // of profile.texture_m
   std::optional<RoughnessResult> roughness;  // of profile.texture_m
   Periodicity periodicity;                   // of profile.height_m
   Compliance compliance;
@@ -47,9 +50,10 @@ struct ProcessResult {
   std::optional<Texture> texture;
   std::optional<Accuracy> accuracy;  // where the recording knows the truth
   Problems problems;                 // of all stages, the reading of the recording included
-  bool trustworthy = true;
-  std::string verdict;   // in words, if not
-  ProcessConfig config;  // the settings that gave it
+  Verdicts verdicts;                 // the worst first; docs/verdicts.md
+  bool trustworthy = true;           // none of them is invalid
+  std::string verdict;               // they in a sentence; empty if none is invalid or limited
+  ProcessConfig config;              // the settings that gave it
 };
 
 }  // namespace asperity

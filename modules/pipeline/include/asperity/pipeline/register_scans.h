@@ -17,6 +17,7 @@
 #include "asperity/registration/registration_iteration.h"
 #include "asperity/registration/registration_result.h"
 #include "asperity/texture/texture.h"
+#include "asperity/verdict/verdict.h"
 
 namespace asperity {
 
@@ -36,9 +37,10 @@ struct ScansOnMesh {
   std::vector<RegisteredScan> scans;
   HapticCoordinates coordinates;
   Problems problems;
-  bool trustworthy = true;
-  std::string verdict;    // in words, if not
-  RegisterConfig config;  // the settings that gave it
+  Verdicts verdicts;        // of the pose and of each scan, the worst first; docs/verdicts.md
+  bool trustworthy = true;  // none of them is invalid
+  std::string verdict;      // they in a sentence; empty if none is invalid or limited
+  RegisterConfig config;    // the settings that gave it
 };
 
 // From scans and a mesh to a textured mesh (seed §5.4, §6.3, B.2): the tips' trajectories; the pose of the mesh to

@@ -4,6 +4,7 @@
 
 #include "asperity/pipeline/process_method.h"
 #include "asperity/profile/make_profile_thesis.h"
+#include "asperity/registration/register_thesis.h"
 #include "asperity/trajectory/estimate_trajectory_thesis.h"
 
 namespace asperity {
@@ -11,11 +12,13 @@ namespace asperity {
 struct ThesisMethodConfig {
   ThesisTrajectoryConfig trajectory;
   ThesisProfileConfig profile;
+  ThesisRegistrationConfig registration;
 
   template <class V>
   void visit(V& v) {
     v.group("trajectory", trajectory);
     v.group("profile", profile);
+    v.group("registration", registration);
   }
 };
 

@@ -33,6 +33,8 @@ struct StiffnessEstimate {
   double stiffness_stderr_N_per_mm = std::numeric_limits<double>::quiet_NaN();
   double lower_bound_N_per_mm =
       std::numeric_limits<double>::quiet_NaN();  // with 97.5 % confidence, always given with data
+  double upper_bound_N_per_mm =
+      std::numeric_limits<double>::quiet_NaN();  // likewise, with the lower one 95 %; if measured
   double compliance_mm_per_N = std::numeric_limits<double>::quiet_NaN();
   double compliance_stderr_mm_per_N = std::numeric_limits<double>::quiet_NaN();
   double force_rms_N = 0.0;  // of the force's variation in the band

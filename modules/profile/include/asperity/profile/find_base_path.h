@@ -59,8 +59,8 @@ struct BasePathConfig {
 };
 
 // A rotation that the data leave open.
-struct Undetermined {
-  std::string freedom;
+struct UndeterminedRotation {
+  std::string description;
   double sigma_deg = 0.0;
 };
 
@@ -71,7 +71,7 @@ struct BasePathResult {
   std::vector<char> contact;       // one a sample
   std::vector<double> speed_mps;   // along the path, one a sample
   std::vector<std::size_t> turning_points;
-  std::vector<Undetermined> undetermined;
+  std::vector<UndeterminedRotation> undetermined;
 
   Eigen::Vector3d centre_world_m = Eigen::Vector3d::Zero();  // a point of the plane, or the circle's centre
   Eigen::Vector3d axis_world = Eigen::Vector3d::UnitZ();     // the plane's outward normal, or the circle's axis

@@ -16,6 +16,7 @@ struct ProfileConfig {
   double bridge_m = 2e-3;
   double max_stop_s = 1.0;
   double max_force_hole_s = 0.05;
+  bool remove_noise = true;
 
   template <class V>
   void visit(V& v) {
@@ -27,6 +28,7 @@ struct ProfileConfig {
     v.field("max_stop_s", max_stop_s, "a longer rest parts the profile: the slow error has moved on", {0.01, 1e4});
     v.field("max_force_hole_s", max_force_hole_s, "time between force readings that is still interpolated",
             {0.0, 10.0});
+    v.field("remove_noise", remove_noise, "take the expected noise out of the heights (Wiener's filter)");
   }
 };
 
@@ -36,9 +38,9 @@ struct ProfileConfig {
 // Samples are sorted by s, averaged where they are denser than a quarter of the spacing, interpolated by a
 // cubic spline and band-limited to the spacing (resample_over_path.h). Heights are nan where contact was
 // lost or samples lie further apart than max_hole_m. A rest shorter than max_stop_s leaves no trace but
-// more averaging; a longer one parts the profile by one nan point and a new run of the high-pass, for the
-// position's slow error has moved on. sigma_m is the position's standard deviation along the normal:
-// averaging does not lower it, because a smoother's errors last far longer than a cell.
+// more averaging (one before or after the path is left out but for 20 ms); a longer one parts the profile by one nan
+// point and a new run of the high-pass, for the position's slow error has moved on. sigma_m is the position's standard
+// deviation along the normal: averaging does not lower it, because a smoother's errors last far longer than a cell.
 // Throws Error if the sizes differ or nothing is usable.
 Profile make_profile(const TipMotion& motion, const BasePath& base, std::span<const char> usable,
                      const ProfileConfig& config);

@@ -46,4 +46,8 @@ struct ThesisProfileResult {
 ThesisProfileResult make_profile_thesis(const TipMotion& motion, const BasePath& base,
                                         const ThesisProfileConfig& config);
 
+// The profile's texture_m: its heights high-passed, gaps bridged by straight lines for the filter and marked again
+// (seed §5.2).
+std::vector<double> extract_texture_thesis(const std::vector<double>& height_m, const ThesisProfileConfig& config);
+
 }  // namespace asperity

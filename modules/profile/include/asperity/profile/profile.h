@@ -7,12 +7,13 @@ namespace asperity {
 // Height along the scan path, uniform in arc length (profile.csv). Heights are nan in gaps.
 struct Profile {
   double spacing_m = 0.025e-3;
-  std::vector<double> s_m;        // along the base path (erratum 23)
-  std::vector<double> height_m;   // along the outward normal, only the base shape removed
-  std::vector<double> sigma_m;    // standard deviation of height_m; nan if the method gives none
-  std::vector<double> texture_m;  // height_m after the high-pass
-  std::vector<double> force_N;    // calibrated axial reading
-  std::vector<double> speed_mps;  // along the base path
+  std::vector<double> s_m;              // along the base path (erratum 23)
+  std::vector<double> height_m;         // along the outward normal, only the base shape removed
+  std::vector<double> sigma_m;          // standard deviation of height_m; nan if the method gives none
+  std::vector<double> texture_m;        // height_m after the high-pass
+  std::vector<double> texture_sigma_m;  // standard deviation of texture_m (texture_noise.h); empty: not estimated
+  std::vector<double> force_N;          // calibrated axial reading
+  std::vector<double> speed_mps;        // along the base path
 
   std::size_t size() const { return s_m.size(); }
 };

@@ -31,7 +31,8 @@ struct ReadHeightsConfig {
 struct HeightProfile {
   std::vector<double> height_m;
   double spacing_m = 0.0;
-  std::string column;  // its name in the file; empty if it had none
+  std::string column;           // its name in the file; empty if it had none
+  std::vector<double> sigma_m;  // of texture_m in a file with texture_sigma_m; else empty
 };
 
 using Heights = std::variant<HeightProfile, ArealMap>;

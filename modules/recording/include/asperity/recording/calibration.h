@@ -8,6 +8,9 @@
 #include <Eigen/Core>
 
 #include "asperity/geometry/pose.h"
+#include "asperity/json/json.h"
+#include "asperity/recording/tag_frame.h"
+#include "asperity/recording/tracker_noise_model.h"
 
 namespace asperity {
 
@@ -46,11 +49,26 @@ struct ForceCalibration {
   double force_N(double counts) const { return newton_per_count * counts + offset_newton; }
 };
 
+// counts = B F + C, F the force on the tip in the marker frame, N: a sensor of three axes (force_x, force_y, force_z).
+struct Force3Calibration {
+  Eigen::Matrix3d B = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d C = Eigen::Vector3d::Zero();
+  Eigen::Vector3d residual_newton = Eigen::Vector3d::Zero();  // standard deviation of a reading
+
+  // Throws Error if B is singular.
+  Eigen::Vector3d force_N(const Eigen::Vector3d& counts) const;
+};
+
 struct TrackerCalibration {
   Eigen::Vector3d sigma_position_m{0.15e-3, 0.13e-3, 0.54e-3};  // along the world's axes (seed Fig. 9)
   Eigen::Vector3d sigma_rotation_rad{3.5e-3, 3.5e-3, 3.5e-3};
   double latency_s = 0.0;  // the pose's true time is t_ns minus this
   double latency_sigma_s = 0.0;
+  std::optional<TrackerNoiseModel> noise_model;  // extra.tracker_noise_model
+  // Slow error beside the white noise, along the world's axes: extra.tracker_slow_sigma_m, and its time constant:
+  // extra.tracker_slow_time_s.
+  std::optional<Eigen::Vector3d> slow_sigma_m;
+  std::optional<double> slow_time_s;
 };
 
 struct CameraCalibration {
@@ -58,6 +76,8 @@ struct CameraCalibration {
   int height = 0;
   double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0;  // px
   std::vector<double> distortion;                 // k1, k2, p1, p2, k3
+  // extra.camera_covariance: of the errors of fx, fy, cx, cy, k1, k2, p1, p2, k3 in this order; nullopt: unknown.
+  std::optional<Eigen::Matrix<double, 9, 9>> covariance = std::nullopt;
 };
 
 struct MarkerPlacement {
@@ -71,27 +91,33 @@ struct MarkerPlacement {
 struct CalibrationRecord {
   std::optional<bool> trustworthy;
   std::optional<std::string> verdict;  // in words
-  std::string details_json = "{}";     // values, standard errors, residuals, settings, version: for a person
+  Json details = Json::object();       // values, standard errors, residuals, settings, version: for a person
 };
 
 struct Calibration {
   AccelerometerCalibration accelerometer;
   std::optional<GyroscopeCalibration> gyroscope;
   ForceCalibration force;
+  std::optional<Force3Calibration> force3;  // extra.force3
   Eigen::Vector3d tip_in_marker_m = Eigen::Vector3d::Zero();
   double tip_radius_m = 0.00032;
+  std::optional<Eigen::Vector3d> tip_sigma_m;  // extra.tip_sigma_m: of tip_in_marker_m, marker axes
   TrackerCalibration tracker;
   double probe_latency_s = 0.0;        // extra.probe_latency_s: a sample's true time is its t_ns minus this
   double probe_latency_sigma_s = 0.0;  // extra.probe_latency_sigma_s
   std::optional<CameraCalibration> camera;
   std::vector<MarkerPlacement> markers;
+  std::optional<TagFrame> tag_frame;                    // extra.tag_frame, of `markers` as given; nullopt: ours
   bool uncalibrated = false;                            // extra.uncalibrated: it stands for none (uncalibrated.h)
   std::map<std::string, CalibrationRecord> calibrated;  // extra.calibrated, by kind: camera, tracker, force, accel, …
-  std::string extra_json = "{}";                        // what others have put into extra
+  Json extra = Json::object();                          // what others have put into extra
 
   Eigen::Vector3d accelerometer_in_marker_m() const {
     return accelerometer.position_in_marker_m.value_or(tip_in_marker_m);
   }
+  // The tip's standard error along the marker's axes, as `calibrate tip` states it
+  // (extra.calibrated.tip.stderr.tip_in_marker_m); nullopt: not stated.
+  std::optional<Eigen::Vector3d> tip_stderr_m() const;
   // The unit vector of the force sensor's axis in the marker frame, from the tip towards the hand.
   Eigen::Vector3d force_axis_in_marker() const;
 };

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "asperity/json/json.h"
 #include "asperity/recording/inspection.h"
 #include "asperity/recording/recording.h"
 
@@ -42,8 +43,8 @@ struct InspectConfig {
 // rules of validate_recording, as read_recording returns it. Linear in the number of rows.
 Inspection inspect_recording(const Recording& recording, const InspectConfig& config = {});
 
-// The inspection as one JSON object (units in the key names, null for nan), and as lines for a person.
-std::string inspection_json(const Inspection& inspection);
+// The inspection as an object (units in the key names, null for nan), and as lines for a person.
+Json inspection_json(const Inspection& inspection);
 std::string inspection_text(const Inspection& inspection);
 
 }  // namespace asperity

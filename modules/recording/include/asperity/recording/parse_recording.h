@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "asperity/base/progress.h"
 #include "asperity/recording/read_limits.h"
 #include "asperity/recording/recording.h"
 
@@ -11,8 +12,10 @@ namespace asperity {
 // The files of a recording, from text in memory. `name` is what messages call the file. Each throws
 // Error naming the file and the line or key; what was repaired or left out is appended to `problems`.
 
-RecordingInfo parse_recording_info(std::string_view text, const std::string& name, const ReadLimits& limits = {});
-Calibration parse_calibration(std::string_view text, const std::string& name, const ReadLimits& limits = {});
+RecordingInfo parse_recording_info(std::string_view text, const std::string& name, const ReadLimits& limits = {},
+                                   const Observer& observer = {});
+Calibration parse_calibration(std::string_view text, const std::string& name, const ReadLimits& limits = {},
+                              const Observer& observer = {});
 
 ProbeStream parse_probe_csv(std::string_view text, const std::string& name, Problems& problems,
                             const ReadLimits& limits = {});

@@ -7,15 +7,9 @@
 
 #include "asperity/recording/calibration.h"
 #include "asperity/recording/read_limits.h"
+#include "asperity/recording/tag_frame.h"
 
 namespace asperity {
-
-// How the frame of a tag lies on the tag, where there are several habits (docs/tracking.md).
-enum class TagFrame {
-  kAprilTag,       // x right, y down, z into the tag
-  kOpenCv,         // x right, y up, z out of the tag, for a tag upright as OpenCV draws it
-  kOpenCvUpright,  // the same for a tag upright as libapriltag draws it
-};
 
 // A body's markers. T_marker_tag is always in terms of our tag frame, that of AprilTag: x right, y down, z into the
 // tag, for a tag upright as libapriltag draws it; a file that declares another one is converted when it is read.
@@ -23,12 +17,6 @@ struct MarkerFile {
   std::vector<MarkerPlacement> markers;
   TagFrame declared = TagFrame::kAprilTag;
 };
-
-// "apriltag", "opencv" or "opencv_upright": as it is declared in a file.
-std::string_view name_of(TagFrame frame);
-
-// The rotation that maps our tag frame's coordinates into those of `frame` for a tag of `family`.
-Eigen::Quaterniond R_frame_tag(TagFrame frame, std::string_view family);
 
 // markers.json, {"markers":[…]} with "tag_frame":"apriltag"|"opencv"|"opencv_upright" where it is not ours, or a
 // calibration.json with "markers" (its "tag_frame" in "extra"). Throws Error naming the file and the key: no marker, a

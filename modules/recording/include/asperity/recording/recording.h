@@ -11,8 +11,10 @@
 
 #include "asperity/base/problem.h"
 #include "asperity/geometry/pose.h"
+#include "asperity/json/json.h"
 #include "asperity/recording/calibration.h"
 #include "asperity/recording/recorder_state.h"
+#include "asperity/recording/recording_origin.h"
 
 namespace asperity {
 
@@ -36,6 +38,13 @@ struct TrackerStream {
   std::vector<Pose> T_world_marker;
   std::vector<int> markers;             // empty, or tags seen
   std::vector<double> reprojection_px;  // empty, or RMS residual
+  // Empty, or standard deviations of translation and rotation vector along the world's axes; nan: unknown.
+  std::vector<Eigen::Vector3d> sigma_position_m;
+  std::vector<Eigen::Vector3d> sigma_rotation_rad;
+  // Empty, or the part of them that is of one pose alone, without what the camera's and the markers' calibration makes
+  // wrong in all; nan: unknown, take the whole.
+  std::vector<Eigen::Vector3d> noise_position_m;
+  std::vector<Eigen::Vector3d> noise_rotation_rad;
 
   std::size_t size() const { return t_ns.size(); }
 };
@@ -68,7 +77,10 @@ struct RecordingInfo {
   std::optional<RecorderState> recorder;         // extra.recorder: a recorder of ours has made it
   bool has_force_sensor = true;                  // extra.force_sensor; false for motion that was imported
   std::optional<Pose> T_mesh_world;              // extra.T_mesh_world, of a simulation over a mesh, as it states it
-  std::string extra_json = "{}";                 // what others have put into extra
+  std::optional<SimulationOrigin> simulation;    // extra.simulation: not a measurement
+  std::optional<ImportOrigin> imported;          // extra.imported
+  bool is_replayed = false;                      // extra.replayed: another recording was played into the recorder
+  Json extra = Json::object();                   // what others have put into extra
 };
 
 struct Recording {

@@ -34,6 +34,10 @@ struct TrackerSample {
   // Standard deviations of translation and of the rotation vector, both along the world's axes; nan: unknown.
   Eigen::Vector3d sigma_position_m = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Vector3d sigma_rotation_rad = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  // The part of them that is of this pose alone, without what all poses of a tracker share (its camera's calibration,
+  // the size of its tags); nan: unknown, take the whole.
+  Eigen::Vector3d noise_position_m = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::Vector3d noise_rotation_rad = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 };
 
 // Writes a recording while it is made, so that a process or a machine that dies leaves a folder that

@@ -10,15 +10,15 @@ namespace asperity {
 
 // The six numbers of an alignment by hand (seed §5.4, Fig. 23).
 struct ManualAlignment {
-  std::array<double, 3> shift_m{};   // x, y, z of the world frame's origin in the mesh frame
-  std::array<double, 3> turn_deg{};  // about x, then the turned y, then the twice turned z
+  std::array<double, 3> shift_m{};       // x, y, z of the world frame's origin in the mesh frame
+  std::array<double, 3> rotation_deg{};  // about x, then the rotated y, then the twice rotated z
 };
 
-// T_mesh_world with p_mesh = Rx(turn[0]) Ry(turn[1]) Rz(turn[2]) p_world + shift. Throws Error for a number that
-// is not finite.
+// T_mesh_world with p_mesh = Rx(rotation[0]) Ry(rotation[1]) Rz(rotation[2]) p_world + shift. Throws Error for a number
+// that is not finite.
 Pose align_manually(const ManualAlignment& alignment);
 
-// The six numbers of a pose, turns within ±180°, ±90°, ±180°; at a middle turn of ±90° the third is 0.
+// The six numbers of a pose, rotations within ±180°, ±90°, ±180°; at a middle rotation of ±90° the third is 0.
 ManualAlignment manual_alignment(const Pose& T_mesh_world);
 
 // T_mesh_world from at least three pairs of points that were picked on the path and on the mesh: the absolute

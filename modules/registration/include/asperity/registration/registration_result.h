@@ -31,8 +31,8 @@ inline constexpr std::array<std::string_view, 4> kStopRuleNames{"error_change", 
 
 // A motion of the path over the mesh that changes the distances too little to be determined.
 struct UndeterminedMotion {
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero();   // rad, about `centre_mesh_m`
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  // m; turn and shift scaled so that points move 1 m RMS
+  Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();  // about `centre_mesh_m`
+  Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();       // both scaled so that points move 1 m RMS
   Eigen::Vector3d centre_mesh_m = Eigen::Vector3d::Zero();
   double sigma_m = 0.0;     // standard deviation of the points' RMS motion along it
   std::string description;  // in words: "slides along (0.00, 1.00, 0.00)"
@@ -41,9 +41,9 @@ struct UndeterminedMotion {
 // Another pose at which the path fits the mesh.
 struct RunnerUp {
   Pose T_mesh_world;
-  double rms_m = 0.0;       // residual there
-  double distance_m = 0.0;  // RMS distance of the path's points between the two poses
-  double turn_rad = 0.0;    // angle between the two
+  double rms_m = 0.0;         // residual there
+  double distance_m = 0.0;    // RMS distance of the path's points between the two poses
+  double rotation_rad = 0.0;  // angle between the two
 };
 
 // Where a scan path lies on a mesh.
@@ -56,7 +56,7 @@ struct RegistrationResult {
   int iterations = 0;
   bool converged = false;
   StopRule stopped_by = StopRule::kIterationLimit;
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  // of (turn rad, shift m) about
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  // of (rotation rad, shift m) about
   Eigen::Vector3d centre_mesh_m = Eigen::Vector3d::Zero();                       // the points' mean, mesh frame
   std::vector<UndeterminedMotion> undetermined;
   std::optional<RunnerUp> runner_up;

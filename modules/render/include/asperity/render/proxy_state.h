@@ -23,8 +23,8 @@ struct ProxyTouch {
 // What the proxy remembers of the material that it touches, so that an exchange of the snapshot under a touching tip
 // does not step the force. Plain data.
 struct EasedMaterial {
-  std::uint64_t id = 0;  // RenderModel::material_id of the step before
-  bool felt = false;     // something was touched in the step before: `last` is what was felt
+  std::uint64_t id = 0;      // RenderModel::material_id of the step before
+  bool had_contact = false;  // in the step before: `last` is what was rendered
   RenderMaterial last;
   RenderMaterial from;   // what was felt at the exchange
   double since_s = 0.0;  // time since then

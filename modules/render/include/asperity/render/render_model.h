@@ -70,7 +70,7 @@ struct RenderModel {
   std::vector<RenderTexture> textures;
   RenderConfig config;
   double extent_m = 0.0;          // of the largest object, for the proxy's skin (docs/render.md)
-  double highest_m = 0.0;         // of all textures, lifted
+  double highest_m = 0.0;         // of all textures, with their offsets
   std::uint64_t material_id = 0;  // of the objects' materials: a hash of what is where
 };
 

@@ -32,8 +32,8 @@ struct RenderTextureConfig {
 struct RenderTexture {
   Texture texture;                                       // as it is rendered, filtered if that was asked for
   TextureForceModel model = TextureForceModel::kHeight;  // not kAuto
-  double lift_m = 0.0;                                   // added to the heights (erratum 20)
-  double highest_m = 0.0;                                // no lifted height is above it; 0 for a series without heights
+  double height_offset_m = 0.0;                          // added to the heights (erratum 20)
+  double highest_m = 0.0;                                // no height with it is above; 0 for a series without heights
   double own_stiffness_N_per_m = -1.0;                   // of a series; negative: that of the place
   double cross_fade_s = 0.05;
   std::uint64_t seed = 1;
@@ -48,10 +48,10 @@ struct RenderTexture {
 // config whose numbers cannot be rendered.
 RenderTexture make_render_texture(const Texture& texture, const RenderTextureConfig& config);
 
-// The lifted height H and its gradient over the texture's coordinates. H is not below the geometric surface: where a
-// file's own lift leaves it there, both are 0. All 0 for a texture without heights and for a position that is not
-// finite. A Fourier series is within 1e-6 of its RMS height and 1e-4 of its RMS slope of the exact sum; a product of
-// two likewise; images and splines are what the texture module evaluates, to rounding. Realtime-safe: yes.
+// The height H with its offset and its gradient over the texture's coordinates. H is not below the geometric surface:
+// where a file's own offset leaves it there, both are 0. All 0 for a texture without heights and for a position that is
+// not finite. A Fourier series is within 1e-6 of its RMS height and 1e-4 of its RMS slope of the exact sum; a product
+// of two likewise; images and splines are what the texture module evaluates, to rounding. Realtime-safe: yes.
 HeightAndGradient render_height(const RenderTexture& texture, double x_m, double y_m) noexcept;
 
 }  // namespace asperity

@@ -28,7 +28,7 @@ struct TextureTouch {
 // The force of a texture, without friction.
 struct TextureForce {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
-  double height_m = 0.0;  // H of erratum 19 at the place, lifted and faded; 0 for a texture without heights
+  double height_m = 0.0;  // H of erratum 19 at the place, with its offset, faded; 0 for a texture without heights
   double depth_m = 0.0;   // Δh, the penetration into the texture
 };
 

@@ -9,7 +9,7 @@
 namespace asperity {
 
 // A profile beside the sine that was scanned. Figures that it is too short for are nan.
-struct GratingFigures {
+struct GratingMetrics {
   double pitch_m = std::numeric_limits<double>::quiet_NaN();
   double pitch_stderr_m = std::numeric_limits<double>::quiet_NaN();
   double depth_m = std::numeric_limits<double>::quiet_NaN();  // by the fundamental's amplitude
@@ -30,7 +30,7 @@ struct GratingFigures {
 // over TracedSine::fundamental_share: white noise of standard deviation σ adds about σ²/(amplitude · points of a
 // window) to it, where the difference of highest and lowest point would grow by some σ. Standard errors are from the
 // scatter of the windows. Fewer than four windows: nothing. Throws Error as TracedSine.
-GratingFigures measure_grating(const Profile& profile, double found_pitch_m, const SineGratingConfig& sine,
+GratingMetrics measure_grating(const Profile& profile, double found_pitch_m, const SineGratingConfig& sine,
                                double tip_radius_m);
 
 }  // namespace asperity

@@ -17,7 +17,7 @@ struct RigStroke {
   std::string why_not;
   bool trustworthy = true;  // what process says
   std::string verdict;      // in words, if not
-  GratingFigures grating;
+  GratingMetrics grating;
   double median_depth_m = std::numeric_limits<double>::quiet_NaN();  // find_periodicity's, of highest and lowest points
   double Rq_m = std::numeric_limits<double>::quiet_NaN();
   double speed_mps = std::numeric_limits<double>::quiet_NaN();
@@ -31,7 +31,7 @@ struct RigStroke {
 };
 
 // A figure over the strokes that have it.
-struct Repeated {
+struct RepeatedMeasurement {
   std::size_t count = 0;
   double mean = std::numeric_limits<double>::quiet_NaN();
   double deviation = std::numeric_limits<double>::quiet_NaN();   // standard, with n − 1; nan below two
@@ -48,9 +48,9 @@ struct RigFault {
 
 struct RigCheck {
   std::vector<RigStroke> strokes;
-  Repeated pitch_m, depth_m, Rq_m, shape_rms_m, along_rms_m, correlation, latency_s;
-  Repeated gravity_share, gravity_angle_rad;  // at rest: length over gravity, angle to up
-  Repeated tracker_noise_ratio, outlying_share, lost_share;
+  RepeatedMeasurement pitch_m, depth_m, Rq_m, shape_rms_m, along_rms_m, correlation, latency_s;
+  RepeatedMeasurement gravity_share, gravity_angle_rad;  // at rest: length over gravity, angle to up
+  RepeatedMeasurement tracker_noise_ratio, outlying_share, lost_share;
   double median_gravity_angle_rad = std::numeric_limits<double>::quiet_NaN();
   double median_noise_ratio = std::numeric_limits<double>::quiet_NaN();
   double true_Rq_m = 0.0;  // of the traced sine

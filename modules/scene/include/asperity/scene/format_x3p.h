@@ -13,6 +13,7 @@ struct X3pGrid {
   double x_spacing_m = 0.0;
   double y_spacing_m = 0.0;  // without meaning for a profile
   std::vector<double> height_m;
+  std::string note{};  // for people: what of it was measured. A comment in main.xml
 };
 
 // Heights as an X3P file (ISO 25178-72): a zip archive of main.xml, the heights as doubles in metres, and their MD5

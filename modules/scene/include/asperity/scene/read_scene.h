@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "asperity/base/progress.h"
 #include "asperity/scene/scene.h"
 
 namespace asperity {
@@ -13,8 +14,10 @@ namespace asperity {
 // given twice or below 0, or a name that leads out of the scene's folder, by a link too; for a mesh or texture
 // that cannot be read; and for files that take more than
 // `limit_bytes` together, images as they are in memory. Coordinates whose texture the scene does not list are
-// a Problem: their triangles are felt untextured.
-Scene read_scene(const std::filesystem::path& path, std::uint64_t limit_bytes = std::uint64_t{4} << 30);
+// a Problem: their triangles are felt untextured. Throws Cancelled between files and while JSON is read if `observer`
+// says so.
+Scene read_scene(const std::filesystem::path& path, const Observer& observer = {},
+                 std::uint64_t limit_bytes = std::uint64_t{4} << 30);
 
 // True for a name that stays inside the folder in which it stands: relative, without a root, without ".."
 // and without backslashes.

@@ -7,6 +7,7 @@
 #include "asperity/base/problem.h"
 #include "asperity/geometry/mesh_file.h"
 #include "asperity/geometry/pose.h"
+#include "asperity/json/json.h"
 #include "asperity/scene/material_map.h"
 #include "asperity/texture/texture.h"
 
@@ -43,7 +44,7 @@ struct Scene {
   std::optional<double> stiffness_N_per_m;  // where neither map nor texture knows better
   std::optional<double> friction;
   std::optional<Pose> T_mesh_world;  // the registration of the first object's scans: tracker's world to mesh
-  std::string extra_json = "{}";
+  Json extra = Json::object();       // what others have put into extra
   Problems problems;
 };
 

@@ -16,7 +16,7 @@
 namespace asperity {
 
 // What a run was like, summed tick by tick.
-class FeelFigures {
+class FeelStatistics {
  public:
   void add(const ServoTick& tick);
 

@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include "asperity/base/progress.h"
 #include "asperity/device/haptic_device.h"
 #include "asperity/render/render_model.h"
 #include "asperity/scene/scene.h"
@@ -27,15 +28,15 @@ struct SceneInput {
 
 // Reads it. Images become tiles of a plane (seed Fig. 38), rendered by Basdogan's model unless the settings name
 // another. Throws Error naming the file, and WrongUnit (mesh_unit.h).
-Scene read_felt_scene(SceneInput& input, FeelSettings& settings);
+Scene read_scene_input(SceneInput& input, FeelSettings& settings, const Observer& observer = {});
 
-struct FeltModel {
+struct PreparedModel {
   std::unique_ptr<const RenderModel> model;
   std::vector<std::string> warnings;  // what the device's caps changed, in words
 };
 
 // A scene ready for the servo: within what the device can render and, unless the settings say where, with the middle
 // of its workspace in the middle of the scene. For a driven device the scene is left as it is.
-FeltModel make_felt_model(const Scene& scene, const DeviceInfo& device, bool driven, FeelSettings& settings);
+PreparedModel prepare_render_model(const Scene& scene, const DeviceInfo& device, bool driven, FeelSettings& settings);
 
 }  // namespace asperity

@@ -14,10 +14,10 @@ namespace asperity {
 // What is to be said of a run, in words.
 struct RunVerdict {
   std::vector<std::string> warnings;
-  std::vector<std::string> doubts;  // why it is not to be trusted; empty if nothing speaks against it
+  std::vector<std::string> reasons;  // why it is invalid; empty: it is valid
 };
 
-RunVerdict judge_run(const FeelFigures& figures, const ServoResult& servo, const HapticDevice& device,
+RunVerdict judge_run(const FeelStatistics& statistics, const ServoResult& servo, const HapticDevice& device,
                      const FeelDrive& drive, const RenderModel& model, const SafetyConfig& safety);
 
 }  // namespace asperity

@@ -29,11 +29,11 @@ LiveRecording record_live(const Recording& scan, const SimulatedProbeConfig& pro
 
 // The same without a clock's pace: `recording` with the samples that the decoder finds in the probe's bytes, and what
 // the probe says of itself.
-struct HeardProbe {
+struct ReceivedProbe {
   Recording recording;
   ProbeDescription description;
 };
-HeardProbe through_link(const Recording& recording, const SimulatedProbeConfig& probe);
+ReceivedProbe through_link(const Recording& recording, const SimulatedProbeConfig& probe);
 
 // What the tracker finds in all frames of `camera`.
 TrackerStream track_frames(BenchCamera& camera, BodyTracker& tracker, const Observer& observer);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/progress.h"
 #include "asperity/geometry/mesh_file.h"
 #include "asperity/pipeline/register_scans.h"
 
@@ -23,7 +24,7 @@ void check_register_input(const std::vector<std::string>& scans, const std::vect
 // Reads recordings (folders) and paths (CSV) with the mesh, and textures for the scans. Throws Error as
 // check_register_input does, and for what cannot be read.
 RegisterInput read_register_input(const std::vector<std::string>& scans, const std::string& mesh, double unit_m,
-                                  const std::vector<std::string>& textures);
+                                  const std::vector<std::string>& textures, const Observer& observer = {});
 
 // register_scans, with what is doubtful about the mesh among the problems.
 ScansOnMesh register_input(const RegisterInput& input, const std::optional<Pose>& guess, const RegisterConfig& config,

@@ -42,6 +42,8 @@ class Hand {
 
  private:
   double speed(double t_s, double variation) const;
+  // 1 while travelling, 0 in a pause, with ramps between.
+  double between_pauses(double t_s) const;
 
   HandConfig config_;
   double step_s_ = 0.0;
@@ -50,7 +52,7 @@ class Hand {
   double speed_scale_ = 1.0;
   std::int64_t index_ = 0;
   double s_m_ = 0.0;
-  std::vector<double> lift_starts_s_;
+  std::vector<double> lift_starts_s_, pause_starts_s_;
   RandomWave speed_wave_, force_wave_, lateral_wave_, normal_wave_, along_wave_;
   std::array<RandomWave, 3> rotation_wander_, rotation_tremor_;
 };

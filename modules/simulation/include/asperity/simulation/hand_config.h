@@ -19,6 +19,8 @@ struct HandConfig {
   double speed_variation = 0.12;  // relative
   double speed_ramp_s = 0.25;     // to start and to stop
   double rest_s = 0.5;            // before and after
+  int pauses = 0;                 // rests on the way, evenly spread over the path
+  double pause_s = 1.0;
   double curve_sagitta_m = 8e-3;  // curved
   int strokes = 3;                // back and forth
   double row_spacing_m = 2.5e-3;  // back and forth: between neighbouring strokes
@@ -60,6 +62,8 @@ struct HandConfig {
     v.field("speed_variation", speed_variation, "slow relative variation of the speed", {0.0, 0.3});
     v.field("speed_ramp_s", speed_ramp_s, "time to start and to stop, s", {0.01, 10.0});
     v.field("rest_s", rest_s, "rest in contact before and after, s", {0.0, 60.0});
+    v.field("pauses", pauses, "rests in contact on the way", {0, 1000});
+    v.field("pause_s", pause_s, "length of such a rest, s", {0.0, 600.0});
     v.field("curve_sagitta_m", curve_sagitta_m, "curved: height of the arc over its chord, m", {0.0, 1.0});
     v.field("strokes", strokes, "back_and_forth: number of strokes", {1, 1000});
     v.field("row_spacing_m", row_spacing_m, "back_and_forth: distance of neighbouring strokes, m", {1e-4, 0.1});

@@ -31,6 +31,20 @@ struct SimulatedProbeConfig {
   double force_noise_N = 0.005;
   double force_bandwidth_Hz = 100.0;
 
+  bool force3 = false;            // a force sensor of three axes beside the axial one
+  double force3_noise_N = 0.005;  // each axis
+
+  // What changes slowly; see docs/virtual-bench.md.
+  double accel_flicker_mps2 = 0.0;  // RMS of 1/f noise, each axis
+  double gyro_flicker_radps = 0.0;
+  double accel_warming_mps2 = 0.0;  // how far the offset goes while the chip warms, standard deviation each axis
+  double warming_s = 10.0;
+
+  double clock_drift_ppm = 0.0;  // the crystal's error: samples are taken so much faster
+  double clock_wander_s = 0.0;   // slow error of the stamps, standard deviation
+  double clock_wander_time_s = 2.0;
+  int batch_samples = 1;          // that arrive at the host together
+  double batch_delay_s = 0.2e-3;  // mean of the exponential wait of a batch; the mean itself is part of the latency
   double clock_jitter_s = 20e-6;  // rms, of a time stamp
   double clock_step_s = 0.0;      // resolution of time stamps; 0: 1 ns
   double delivery_delay_s = 0.0;  // mean of an exponential delay
@@ -62,6 +76,19 @@ struct SimulatedProbeConfig {
     v.field("force_noise_N", force_noise_N, "noise of a force sample, N rms", {0.0, 10.0});
     v.field("force_bandwidth_Hz", force_bandwidth_Hz, "-3 dB bandwidth of the force sensor, one pole, Hz; 0 for none",
             {0.0, 1e5});
+    v.field("force3", force3, "has a force sensor of three axes too");
+    v.field("force3_noise_N", force3_noise_N, "noise of its samples, N rms each axis", {0.0, 10.0});
+    v.field("accel_flicker_mps2", accel_flicker_mps2, "1/f noise of the accelerometer, 0.03 to 30 Hz, m/s² rms",
+            {0.0, 10.0});
+    v.field("gyro_flicker_radps", gyro_flicker_radps, "1/f noise of the gyroscope, rad/s rms", {0.0, 10.0});
+    v.field("accel_warming_mps2", accel_warming_mps2, "drift of the accelerometer's offset as it warms, m/s²",
+            {0.0, 10.0});
+    v.field("warming_s", warming_s, "time constant of the warming, s", {0.1, 1e5});
+    v.field("clock_drift_ppm", clock_drift_ppm, "error of the probe's crystal, ppm", {-1e4, 1e4});
+    v.field("clock_wander_s", clock_wander_s, "slow error of the time stamps, s", {0.0, 0.1});
+    v.field("clock_wander_time_s", clock_wander_time_s, "its correlation time, s", {0.01, 1e4});
+    v.field("batch_samples", batch_samples, "samples that arrive together; 1: each by itself", {1, 10000});
+    v.field("batch_delay_s", batch_delay_s, "mean wait of a batch, s", {0.0, 0.1});
     v.field("clock_jitter_s", clock_jitter_s, "jitter of a time stamp, s rms", {0.0, 0.1});
     v.field("clock_step_s", clock_step_s, "resolution of time stamps, s; 0 for 1 ns", {0.0, 0.1});
     v.field("delivery_delay_s", delivery_delay_s, "mean of the exponential delay of a time stamp, s", {0.0, 0.1});

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "asperity/base/random.h"
 #include "asperity/recording/recording.h"
+#include "asperity/simulation/gauss_markov.h"
 #include "asperity/simulation/probe_motion.h"
 #include "asperity/simulation/tracker_config.h"
 
@@ -39,6 +41,8 @@ class TrackerSampler {
 
  private:
   void take(const Pose& T_world_marker, double t_s);
+  // The marker on its springy mount, one step of the integration later.
+  Pose shake(const Pose& T_world_marker, double t_s);
 
   SimulatedTrackerConfig config_;
   Eigen::Vector3d tip_in_marker_m_;
@@ -53,6 +57,14 @@ class TrackerSampler {
   Eigen::Vector3d sum_position_m2_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d sum_rotation_rad2_ = Eigen::Vector3d::Zero();
   Random noise_, clock_, faults_;
+  Random slow_random_, wander_random_;
+  GaussMarkov wander_;
+  std::array<GaussMarkov, 6> slow_;
+
+  int held_ = 0;  // rigid poses before this one, of the mount's acceleration
+  double held_t_s_ = 0.0;
+  Eigen::Vector3d held_m_ = Eigen::Vector3d::Zero(), held_v_mps_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d bend_m_ = Eigen::Vector3d::Zero(), bend_v_mps_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace asperity

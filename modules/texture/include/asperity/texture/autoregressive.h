@@ -28,8 +28,8 @@ struct AutoregressiveModel {
 struct AutoregressiveTexture {
   double rate_Hz = 1000.0;        // of the models
   double mass_kg = 0.05;          // effective mass of tool and hand: acceleration to force (HaTT: 0.05)
-  double tangential_ratio = 0.0;  // tangential part of the force over its normal part, before the lift
-  double lift_sigma = 3.0;        // erratum 20; 0: forces of both signs
+  double tangential_ratio = 0.0;  // tangential part of the force over its normal part, before the offset
+  double offset_sigmas = 3.0;     // erratum 20; 0: forces of both signs
   double fade_speed_mps = 5e-3;   // below it the texture fades to nothing
   double fade_force_N = 0.05;     // likewise
   double max_speed_mps = 0.0;     // distances in the plane are measured in units of these; 0: the models' largest

@@ -28,6 +28,9 @@ std::vector<double> reflection_to_lsf(std::span<const double> k);
 // r_0…r_{count−1} of x = e/A(z), e white of variance `variance`.
 std::vector<double> autocovariance(std::span<const double> k, double variance, int count);
 
+// r_0…r_{count−1} over r_0, count being the length of `r`. Fixed time, no allocation. Realtime-safe: yes.
+void autocorrelation(std::span<const double> k, std::span<double> r) noexcept;
+
 // Reflection coefficients and the error's variance that reproduce r_0…r_p (Levinson 1947, Durbin 1960).
 // Throws Error if r is not a positive definite sequence.
 struct LevinsonResult {

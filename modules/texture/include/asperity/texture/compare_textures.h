@@ -44,7 +44,7 @@ struct BandDifference {
   double high_cycles_per_mm = 0.0;
   Difference rms_m;
   double uncertainty_percent = 0.0;  // standard deviation of the difference that the lines' length leaves
-  bool felt = true;                  // false: too weak in both to matter
+  bool is_compared = true;           // false: too weak in both to matter
 };
 
 struct TextureComparison {
@@ -53,7 +53,7 @@ struct TextureComparison {
   std::vector<BandDifference> bands;            // octaves
   std::map<std::string, Difference> roughness;  // of the names that both have
   Difference frequency_per_mm;                  // mean spatial frequency, weighted by power; for information
-  bool noticeable = false;                      // any of the bands felt, Rq_m or RSm_m
+  bool noticeable = false;                      // any of the compared bands, Rq_m or RSm_m
 };
 
 // The just-noticeable difference of a vibration in percent (seed §2.1): 3 up to 250 Hz [19], 18 from 300 Hz

@@ -14,7 +14,7 @@ void start_tap(const DecayingSinusoids& texture, SeriesState& state, double spee
 double next_acceleration_mps2(const DecayingSinusoids& texture, SeriesState& state, double speed_mps, double force_N,
                               double dt_s) noexcept;
 
-// The same times mass_kg. Not lifted: it is the ringing of the tool, not a height.
+// The same times mass_kg. Without an offset: it is the ringing of the tool, not a height.
 SeriesForce next_force(const DecayingSinusoids& texture, SeriesState& state, double speed_mps, double force_N,
                        double dt_s) noexcept;
 

@@ -11,13 +11,13 @@ struct HeightAndSlope {
 
 // g and its derivative `x_m` along the scan path (seed §6.5). Takes time in proportion to N; does not
 // allocate. Realtime-safe: yes, thread-safe: yes. nan for an x that is not finite.
-HeightAndSlope evaluate(const Fourier1d& texture, double x_m) noexcept;
+HeightAndSlope evaluate_height(const Fourier1d& texture, double x_m) noexcept;
 
 // The lowest height of a period, to rounding: found on a grid and refined wherever the second
 // derivative's bound lets a lower point lie between.
 double lowest_height_m(const Fourier1d& texture);
 
 // What must be added for the lowest point to lie on the geometric surface (erratum 20).
-double lift_m(const Fourier1d& texture);
+double height_offset_m(const Fourier1d& texture);
 
 }  // namespace asperity

@@ -13,7 +13,7 @@ namespace asperity {
 bool is_height_field(const TextureModel& model) noexcept;
 
 // A height field and its gradient, x_m along the scan path and y_m across it; a model of x alone is the same
-// for every y. Without the texture's lift. nan for a model that is no height field. Does not allocate.
+// for every y. Without the texture's height offset. nan for a model that is not a height field. Does not allocate.
 // Realtime-safe: yes, thread-safe: yes.
 HeightAndGradient evaluate_height(const TextureModel& model, double x_m, double y_m) noexcept;
 
@@ -21,7 +21,7 @@ HeightAndGradient evaluate_height(const TextureModel& model, double x_m, double 
 // surface (erratum 20). Throw Error for a model that is no height field.
 double lowest_height_m(const TextureModel& model);
 double highest_height_m(const TextureModel& model);
-double lift_m(const TextureModel& model);
+double height_offset_m(const TextureModel& model);
 
 // The length along x, in metres, after which the model repeats; nullopt for one that does not.
 std::optional<double> period_m(const TextureModel& model);

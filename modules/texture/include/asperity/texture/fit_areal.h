@@ -16,7 +16,7 @@ struct ArealSample {
 };
 
 struct FitArealConfig {
-  double spacing_mm = 0.1;
+  double spacing_mm = 0.0;
   double smoothness = 1e-3;
   Border border = Border::kMirror;
   double period_x_mm = 0.0;
@@ -25,7 +25,8 @@ struct FitArealConfig {
 
   template <class V>
   void visit(V& v) {
-    v.field("spacing_mm", spacing_mm, "distance of the grid's points", {1e-6, 1e6});
+    v.field("spacing_mm", spacing_mm,
+            "distance of the grid's points; 0: the data's, at most 0.1 mm if they are no grid", {0.0, 1e6});
     v.field("smoothness", smoothness, "weight of curvature against heights, a grid point with one sample each",
             {1e-9, 1e6});
     v.choice("border", border, kBorderNames, "beyond the measured area");
@@ -41,8 +42,8 @@ struct ArealFit {
   double rms_error_m = 0.0;        // surface against samples
   double supported_part = 0.0;     // of the grid's points
   double relative_residual = 0.0;  // of the normal equations, where the last level's iteration ended
-  double lift_m = 0.0;
-  Problems problems;  // "areal_gaps", "missing_heights", "not_converged"
+  double height_offset_m = 0.0;
+  Problems problems;  // "areal_gaps", "missing_heights", "not_converged", "coarser_than_data"
 };
 
 // A smooth surface through scattered heights, as of many strokes: the cubic B-spline grid c that minimises
@@ -50,9 +51,12 @@ struct ArealFit {
 // where c_uu, c_uv and c_vv are second differences over the grid (a thin plate's energy; Duchon 1977, on a
 // grid as Eilers and Marx 1996), λ = smoothness · max(1, samples a grid point). Gaps are filled as a thin
 // plate would and marked in `supported`. Solved by conjugate gradients from coarse to fine grids (each
-// coarse solution is the finer one's start), always with the same bits. nan heights are left out. Throws Error
-// for fewer than 16 samples, positions that are not finite or on one line, an infinite height, or a grid of
-// more than 4096 points a side or 4,194,304 in all.
+// coarse solution is the finer one's start), always with the same bits. nan heights are left out. The grid's points
+// are by default as far apart as the samples: an areal map's own spacing (the smaller of its two, which differ by a
+// factor of 3 at most); for other samples √(area / samples), at most 0.1 mm; coarser, with the Problem
+// "coarser_than_data", where that would be more than 1,048,576 points or 2048 a side. Throws Error for fewer than 16
+// samples, positions that are not finite or on one line, an infinite height, or a grid of more than 4096 points a side
+// or 4,194,304 in all.
 ArealFit fit_areal(std::span<const ArealSample> samples, const FitArealConfig& config = {});
 
 }  // namespace asperity

@@ -32,7 +32,7 @@ struct FourierFit {
   std::size_t bridged = 0;       // of them, interpolated over gaps
   double rms_height_m = 0.0;     // of the window about its mean
   double rms_error_m = 0.0;      // model against the window, its seam included
-  double lift_m = 0.0;           // erratum 20
+  double height_offset_m = 0.0;  // erratum 20
   Problems problems;             // "short_texture"
 };
 

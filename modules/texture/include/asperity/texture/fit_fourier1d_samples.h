@@ -63,7 +63,7 @@ struct FitFourier1dPathConfig {
 // few heights, or is too long, for coefficients_per_mm. Throws Error as above.
 struct FourierPathFit {
   FourierSamplesFit fit;
-  double lift_m = 0.0;
+  double height_offset_m = 0.0;
   Problems problems;
 };
 FourierPathFit fit_fourier1d_path(std::span<const double> height_m, double spacing_m,

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "asperity/base/problem.h"
 #include "asperity/texture/fourier1d.h"
@@ -8,8 +10,11 @@
 
 namespace asperity {
 
+enum class Fourier2dFitKind { kAuto, kOuter, kPattern, kIsotropic };
+inline constexpr std::array<std::string_view, 4> kFourier2dFitKindNames{"auto", "outer", "pattern", "isotropic"};
+
 struct FitFourier2dConfig {
-  Fourier2dKind kind = Fourier2dKind::kIsotropic;
+  Fourier2dFitKind kind = Fourier2dFitKind::kAuto;
   std::int64_t seed = 0;
   int coefficients = 128;
   double resolution = 0.25;
@@ -17,8 +22,9 @@ struct FitFourier2dConfig {
 
   template <class V>
   void visit(V& v) {
-    v.choice("kind", kind, kFourier2dKindNames,
-             "outer: product of the profiles (seed §6.5); pattern: product of depths; isotropic: random phases");
+    v.choice("kind", kind, kFourier2dFitKindNames,
+             "outer: product of the profiles (seed §6.5); pattern: product of depths; isotropic: random phases; auto: "
+             "pattern for a periodic profile, else isotropic");
     v.field("seed", seed, "isotropic: of the phases", {0.0, 9e15});
     v.field("coefficients", coefficients, "isotropic: harmonics kept of the profile's", {1, 256});
     v.field("resolution", resolution,
@@ -33,7 +39,7 @@ struct Fourier2dFit {
   double rms_height_m = 0.0;    // of the surface about its mean
   double source_rms_m = 0.0;    // of the profile, or the geometric mean of both
   double spectrum_error = 0.0;  // isotropic: Σ|S − S_source| / Σ S_source over the smoothed bands of sections
-  double lift_m = 0.0;
+  double height_offset_m = 0.0;
   Problems problems;  // "not_isotropic"
 };
 
@@ -48,7 +54,9 @@ struct Fourier2dFit {
 //              S_m = (a_m² + b_m²)/2 smoothed in bands, solved for P ≥ 0 by Richardson-Lucy steps (1972,
 //              1974), which keep Σ S_m. Only `x` counts. A profile whose spectrum has a peak cannot be a
 //              section of an isotropic surface: spectrum_error says by how much, a Problem from 0.2 on.
+//   auto       pattern if the profiles are `periodic` (find_periodicity.h decides for the command), else isotropic
 // Throws Error for profiles that are flat or of unequal coefficient counts.
-Fourier2dFit fit_fourier2d(const Fourier1d& x, const Fourier1d& y, const FitFourier2dConfig& config = {});
+Fourier2dFit fit_fourier2d(const Fourier1d& x, const Fourier1d& y, const FitFourier2dConfig& config = {},
+                           bool periodic = false);
 
 }  // namespace asperity

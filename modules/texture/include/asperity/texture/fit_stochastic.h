@@ -11,7 +11,7 @@ namespace asperity {
 struct FitStochasticConfig {
   bool use_correlation_length = true;
   double tangential_ratio = 0.0;
-  double lift_sigma = 3.0;
+  double offset_sigmas = 3.0;
   double stiffness_N_per_m = 300.0;
 
   template <class V>
@@ -20,7 +20,7 @@ struct FitStochasticConfig {
             "heights change with the distance travelled, not with every servo step");
     v.former("use_grain");
     v.field("tangential_ratio", tangential_ratio, "tangential part of the force over its normal part", {-100.0, 100.0});
-    v.field("lift_sigma", lift_sigma, "standard deviations by which the heights are lifted", {0.0, 10.0});
+    v.field("lift_sigma", offset_sigmas, "standard deviations by which the heights are lifted", {0.0, 10.0});
     v.field("stiffness_N_per_m", stiffness_N_per_m, "height to force", {0.0, 1e6});
   }
 };

@@ -13,15 +13,15 @@ namespace asperity {
 struct ImportPennConfig {
   double rate_Hz = 1000.0;
   double mass_kg = 0.05;
-  double lift_sigma = 3.0;
+  double offset_sigmas = 3.0;
 
   template <class V>
   void visit(V& v) {
     v.field("rate_Hz", rate_Hz, "of the models; the file does not say it (the toolkit has sets at 1 and 10 kHz)",
             {1.0, 1e6});
     v.field("mass_kg", mass_kg, "effective mass of tool and hand; the toolkit renders with 0.05", {0.0, 1e3});
-    v.field("lift_sigma", lift_sigma, "standard deviations by which normal forces are lifted; 0: forces of both signs",
-            {0.0, 10.0});
+    v.field("lift_sigma", offset_sigmas,
+            "standard deviations by which normal forces are lifted; 0: forces of both signs", {0.0, 10.0});
   }
 };
 

@@ -11,7 +11,7 @@ struct HeightMapFit {
   double quantisation_m = 0.0;  // height of one level: range / (2^bits − 1); a pixel errs by half of it at most
   double rms_error_m = 0.0;     // against the model between the pixels, the seams' blends left out
   std::size_t clipped = 0;      // pixels beyond range_mm
-  double lift_m = 0.0;
+  double height_offset_m = 0.0;
 };
 
 // A height field sampled into an image (seed §6.5, Fig. 38: 256 points over [0, 10 mm], 2.5 mm in 256 levels).

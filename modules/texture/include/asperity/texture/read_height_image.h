@@ -23,10 +23,10 @@ struct ReadHeightImageConfig {
 };
 
 // A grey-scale image as a height map (seed §6.5, Fig. 38: 10 mm, 2.5 mm from black to white): a PNG of 8 or 16 bits
-// (png_image.h) or a PGM, P5 or P2, of up to 16; which one is told by its first bytes. Black is 0, and the lift is 0:
-// an image without black begins higher. The texture is named after the file. Throws Error naming the file for one that
-// cannot be read or is no such image, is smaller than 4 x 4 or larger than png_image.h allows, and for a config out of
-// range.
+// (png_image.h) or a PGM, P5 or P2, of up to 16; its first bytes say which. Black is 0, and the height
+// offset is 0: an image without black begins higher. The texture is named after the file. Throws Error naming the file
+// for one that cannot be read or is not such an image, is smaller than 4 x 4 or larger than png_image.h allows, and for
+// a config out of range.
 Texture read_height_image(const std::filesystem::path& path, const ReadHeightImageConfig& config = {});
 
 // The same from memory; `name` is what messages call it.

@@ -86,8 +86,8 @@ inline HeightAndSlope table_height(const PeriodicTable& table, double x_m) noexc
   return {height, slope * table.cells_per_m};
 }
 
-// The same surfaces as evaluate() of the texture module, to rounding; faster where all sixteen values lie side by side
-// in the image or grid, the same call at its border. nan for a position that is not finite.
+// The same surfaces as evaluate_height() of the texture module, to rounding; faster where all sixteen values lie side
+// by side in the image or grid, the same call at its border. nan for a position that is not finite.
 HeightAndGradient map_height(const HeightMap& map, const GridScale& scale, double x_m, double y_m) noexcept;
 HeightAndGradient spline_height(const SplineGrid& grid, const GridScale& scale, double x_m, double y_m) noexcept;
 

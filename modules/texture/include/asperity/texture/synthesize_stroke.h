@@ -32,8 +32,8 @@ struct StrokeConfig {
 // Height fields: along the surface normal, v² ∂²h/∂x² averaged over one sample's travel (a difference of slopes, so
 // that what is finer than a sample is averaged rather than folded). Autoregressive textures and decaying sinusoids:
 // theirs; the former converted to rate_Hz (convert_rate); a decaying sinusoid without a pitch is one tap at the start.
-// Stochastic textures: their force, lift taken off, over their mass. Same texture and config, same samples. Throws
-// Error for a config out of range or more than 2^28 samples.
+// Stochastic textures: their force, the offset taken off, over their mass. Same texture and config, same samples.
+// Throws Error for a config out of range or more than 2^28 samples.
 std::vector<double> synthesize_stroke(const Texture& texture, const StrokeConfig& config = {});
 
 }  // namespace asperity

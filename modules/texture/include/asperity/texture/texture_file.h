@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "asperity/base/progress.h"
 #include "asperity/texture/texture.h"
 
 namespace asperity {
@@ -39,14 +40,16 @@ void write_texture(const std::filesystem::path& path, const Texture& texture);
 // `extra`), a wrong type or a number out of range; for an ω that is not 2π / L within 1e-4; for a model
 // or version that this program does not know; for more than 65536 coefficients or 16 MiB; for a payload
 // that is not in the same folder or not what the block says. `seen` is given all that is read: the file's bytes, then
-// its payload's.
-Texture read_texture(const std::filesystem::path& path, const std::function<void(std::string_view)>& seen = {});
+// its payload's. Throws Cancelled while the JSON is read if `observer` says so.
+Texture read_texture(const std::filesystem::path& path, const std::function<void(std::string_view)>& seen = {},
+                     const Observer& observer = {});
 
 // Gives the content of a payload by the name that the block has for it: a plain file name.
 using PayloadReader = std::function<std::string(const std::string& file)>;
 
 // The same from text in memory; `name` is what messages call it. Without `payload`, a model that has one
 // is refused.
-Texture parse_texture(std::string_view text, const std::string& name, const PayloadReader& payload = {});
+Texture parse_texture(std::string_view text, const std::string& name, const PayloadReader& payload = {},
+                      const Observer& observer = {});
 
 }  // namespace asperity

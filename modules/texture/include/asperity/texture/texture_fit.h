@@ -37,6 +37,8 @@ struct TextureFitInput {
   std::function<SeriesTable(const std::string& file)> read_series;
   std::function<SeriesTable(const std::string& file)> read_recording_or_series;
   std::function<bool(const std::string& file)> is_texture_file;
+  // The period of the heights along a line, 0 if they have none; unset: not looked for.
+  std::function<double(const std::vector<std::string>& files)> pitch_m;
   // Ra_m, Rq_m, … of lines of heights `spacing_m` apart.
   std::function<std::map<std::string, double>(const std::vector<std::vector<double>>& lines_m, double spacing_m)>
       roughness;

@@ -10,6 +10,7 @@
 #include "asperity/base/progress.h"
 #include "asperity/camera/camera_source.h"
 #include "asperity/tracking/track_body.h"
+#include "asperity/verdict/verdict.h"
 
 namespace asperity {
 
@@ -22,8 +23,9 @@ struct TrackedImages {
   Eigen::Vector3d median_sigma_rad = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());  // about them
   std::vector<MarkerPlacement> body;  // in terms of our tag frame, as it was found to be meant
   Problems problems;
-  bool trustworthy = true;
-  std::string verdict;
+  bool trustworthy = true;  // none of `verdicts` is invalid
+  std::string verdict;      // in words: what was found, then what limits it
+  Verdicts verdicts;
 };
 
 // Follows a body through all images of a source, which `open` opens; once more from the beginning if the tags' frame

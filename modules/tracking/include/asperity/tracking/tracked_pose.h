@@ -22,6 +22,8 @@ struct TrackedPose {
   // where unknown.
   Eigen::Matrix<double, 6, 6> covariance =
       Eigen::Matrix<double, 6, 6>::Constant(std::numeric_limits<double>::quiet_NaN());
+  // The part of it that is of this frame alone: without what the camera's calibration and the body's make wrong in all.
+  Eigen::Matrix<double, 6, 6> noise = Eigen::Matrix<double, 6, 6>::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<TagDetection> tags;  // those used
   bool ambiguous = false;          // the other way in which the tags' plane can lie fits nearly as well
 };
@@ -33,6 +35,10 @@ inline TrackerSample with_sigmas(const TrackedPose& pose) {
   if (!(variance.array() >= 0.0).all()) return out;
   out.sigma_position_m = variance.head<3>().cwiseSqrt();
   out.sigma_rotation_rad = variance.tail<3>().cwiseSqrt();
+  const Eigen::Matrix<double, 6, 1> own = pose.noise.diagonal();
+  if (!(own.array() >= 0.0).all()) return out;
+  out.noise_position_m = own.head<3>().cwiseSqrt();
+  out.noise_rotation_rad = own.tail<3>().cwiseSqrt();
   return out;
 }
 

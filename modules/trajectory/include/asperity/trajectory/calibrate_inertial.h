@@ -12,10 +12,12 @@
 namespace asperity {
 
 struct InertialConfig {
-  double spike_sigmas = 8.0;      // a sample this far from its neighbours, which agree, in two channels is a spike
-  double scale_error = 0.01;      // share of the moving specific force that calibration leaves wrong
-  double saturation_sigma = 0.5;  // standard deviation of a clipped sample, share of the restored or hidden peak
-  double gap_sigma_mps2 = 3.0;    // standard deviation of the specific force across a gap
+  double spike_sigmas = 8.0;  // a sample this far from its neighbours, which agree, in two channels is a spike
+  double scale_error = 0.01;  // noise that grows with the motion: share of the moving specific force, each sample
+  double rate_error = 0.003;  // likewise of the angular rate
+  double sample_time_sigma_s = 2e-6;    // jitter that smoothing the clock leaves in a sample's time
+  double saturation_sigma = 0.5;        // standard deviation of a clipped sample, share of the restored or hidden peak
+  double gap_sigma_mps2 = 3.0;          // standard deviation of the specific force across a gap
   double accel_noise_floor_mps2 = 0.0;  // per sample; 0: from quantisation and the quietest stretch
   double gyro_noise_floor_radps = 0.0;  // per sample; likewise
   SmoothClockConfig clock;
@@ -24,7 +26,11 @@ struct InertialConfig {
   void visit(V& v) {
     v.field("spike_sigmas", spike_sigmas,
             "a sample this far from its neighbours, which agree, in two channels is a spike", {3, 1000});
-    v.field("scale_error", scale_error, "share of the moving specific force that calibration leaves wrong", {0, 1});
+    v.field("scale_error", scale_error, "noise of a sample as a share of the moving specific force; learnt from here",
+            {0, 1});
+    v.field("rate_error", rate_error, "noise of a sample as a share of the angular rate; learnt from here", {0, 1});
+    v.field("sample_time_sigma_s", sample_time_sigma_s, "jitter of a sample's smoothed time, s; learnt from here",
+            {0, 1});
     v.field("saturation_sigma", saturation_sigma,
             "standard deviation of a clipped sample, share of the restored or hidden peak", {0, 100});
     v.field("gap_sigma_mps2", gap_sigma_mps2, "standard deviation of the specific force across a gap, m/s2", {0, 1e4});
@@ -43,6 +49,7 @@ struct InertialStream {
   std::vector<Eigen::Vector3d> angular_rate_radps;   // zero without a gyroscope
   std::vector<double> accel_sigma_mps2;              // standard deviation of one sample
   std::vector<double> gyro_sigma_radps;              // likewise; zero without a gyroscope
+  std::vector<double> accel_moving_mps2;             // size of the specific force less its mean of late
   std::vector<double> force_N;                       // at every sample, interpolated; nan where there is none
   bool has_gyro = false;
   double period_s = 0.0;

@@ -47,9 +47,9 @@ struct ThesisTrajectoryConfig {
 // tracker's position variance plus what its rotation variance makes of the lever arm, averaged over the
 // recording.
 //
-// figures: duration_s, scan_speed_mps, rejected_samples, longest_tracker_gap_s. The motion has no
+// metrics: duration_s, scan_speed_mps, rejected_samples, longest_tracker_gap_s. The motion has no
 // covariance: the filter's own counts interpolated poses as independent. Throws Error for streams that
-// cannot be synchronised (synchronise.h) or a calibration that cannot be inverted.
+// cannot be synchronised (synchronise_streams.h) or a calibration that cannot be inverted.
 TrajectoryResult estimate_trajectory_thesis(const Recording& recording, const ThesisTrajectoryConfig& config);
 
 }  // namespace asperity

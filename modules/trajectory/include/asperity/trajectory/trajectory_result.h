@@ -11,7 +11,7 @@ namespace asperity {
 // What a trajectory method estimates, with its diagnostics.
 struct TrajectoryResult {
   TipMotion motion;
-  std::map<std::string, double> figures;  // named measurements of the run, units in the names
+  std::map<std::string, double> metrics;  // named measurements of the run, units in the names
   Problems problems;                      // what was dropped or down-weighted, and why
   bool trustworthy = true;
   std::string verdict;  // in words, if not trustworthy

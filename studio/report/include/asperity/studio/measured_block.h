@@ -18,7 +18,7 @@ struct MeasuredBlockConfig {
 // All that the Process page and report.html show of one processed recording. `name` is the recording's.
 //
 // Head, kind "measured": "result" is result.json (write_result.h); "world" as in recording.json; "figures" a list
-// (measured_figures.h); "dropped"
+// (measured_metrics.h); "dropped"
 // [{"kind","message","count"}]; "gaps" [{"from_m","to_m","why"}] and "gap_count"; "trajectory" {"samples","every",
 // "points","origin_m","duration_s"}: every `every`-th sample is there; "profile" {"samples","every",
 // "points","first_m","spacing_m"}: the same; "spectrum" {"segments"}; "compliance" {"k_c","sigma_r2","exponent",

@@ -1,3 +1,4 @@
+import { VerdictList } from "../../measured/VerdictList";
 import { Button } from "../../ui/Button";
 import { Figure } from "../../ui/Figure";
 import { Figures } from "../../ui/Figures";
@@ -48,11 +49,12 @@ function Verdict({ found }: { found: RunResult }) {
   return (
     <>
       <div class={found.trustworthy ? "align-verdict align-good" : "align-verdict align-doubt"} data-testid="align-verdict">
-        <strong>{found.trustworthy ? "To be trusted. " : "Not to be trusted. "}</strong>
+        <strong>{found.trustworthy ? "Valid. " : "Invalid. "}</strong>
         {verdictWords(found)}
         <details open={!found.trustworthy}>
           <summary>In full</summary>
           {found.verdict}
+          {(found.verdicts?.length ?? 0) > 0 && <VerdictList verdicts={found.verdicts!} />}
         </details>
       </div>
       <p class="field-hint">{found.certainty}</p>

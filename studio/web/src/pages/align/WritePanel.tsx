@@ -1,5 +1,7 @@
 import { useState } from "preact/hooks";
 import { go } from "../../app/go";
+import { VerdictList } from "../../measured/VerdictList";
+import { verdictsOf, type VerdictEntry } from "../../measured/verdicts";
 import { call } from "../../net/connection";
 import { Button } from "../../ui/Button";
 import { readEntries } from "../../ui/entries";
@@ -14,6 +16,7 @@ interface Written {
   scene: string;
   trustworthy: boolean;
   verdict: string;
+  verdicts?: VerdictEntry[];
   command: string;
 }
 
@@ -52,10 +55,8 @@ export function WritePanel() {
       <div role="status" data-testid="align-written">
         {written && (
           <>
-            <p>
-              Written to {written.name}.{written.trustworthy ? "" : " Not to be trusted: "}
-              {written.trustworthy ? "" : written.verdict}
-            </p>
+            <p>Written to {written.name}.</p>
+            {verdictsOf(written).length > 0 && <VerdictList verdicts={verdictsOf(written)} />}
             <Button onClick={feel} testId="align-feel">
               Open in Feel
             </Button>

@@ -1,5 +1,6 @@
 // What the Align page knows beside the document: the open mesh and path, the last registration, what is being shown.
 import { batch, computed, effect, signal } from "@preact/signals";
+import type { VerdictEntry } from "../../measured/verdicts";
 import { call, onEvent, subscribe } from "../../net/connection";
 import type { Block } from "../../net/block";
 import { documentIsRead, edit, section } from "../../state/document";
@@ -39,6 +40,7 @@ export interface RunResult extends Solution {
   trustworthy: boolean;
   ambiguous: boolean;
   verdict: string;
+  verdicts?: VerdictEntry[];
   certainty: string;
   undetermined: { description: string; sigma_m: number | null }[];
   runner_up: (Solution & { distance_m: number | null; turn_deg: number | null }) | null;

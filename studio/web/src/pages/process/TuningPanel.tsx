@@ -11,6 +11,10 @@ import { fieldAt, knobs, type Knob } from "./processing";
 const METHODS = [
   { value: "fused", label: "Fused: both sensors at once" },
   { value: "thesis", label: "Thesis: the baseline" },
+  { value: "thesis_tuned", label: "Thesis, tuned by likelihood" },
+  { value: "raw", label: "Raw: the tracker's poses" },
+  { value: "ekf", label: "EKF: one pass, causal" },
+  { value: "particle", label: "Particle filter, causal" },
 ];
 
 /** Sets a field of the config; null: back to its default. */

@@ -78,7 +78,7 @@ const cutoff = (path: string): Knob => ({
 
 /** The settings that are tuned most, by method. */
 export function knobs(method: string): Knob[] {
-  if (method === "thesis") {
+  if (method.startsWith("thesis")) {
     return [
       cutoff("thesis.profile.cutoff_cycles_per_mm"),
       { path: "thesis.profile.scale_by_force", label: "Force compensation", hint: "Evens out the hand's force in the acceleration.", kind: "toggle", low: 0, high: 1, factor: 1, unit: "" },

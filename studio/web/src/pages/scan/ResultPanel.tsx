@@ -1,3 +1,5 @@
+import { VerdictList } from "../../measured/VerdictList";
+import { verdictsOf } from "../../measured/verdicts";
 import { Button } from "../../ui/Button";
 import { Figure } from "../../ui/Figure";
 import { Figures } from "../../ui/Figures";
@@ -26,7 +28,11 @@ export function ResultPanel() {
             <Figure label="Worked out in" value={`${Math.round(head.took_s * 1e3)}\u202fms`} testId="scan-took" />
           </Figures>
           {!isLiveUsable(head.difference) && <p class="field-hint">The live profile had too little to go by, and is not shown.</p>}
-          {!head.trustworthy && <p class="field-error" role="status">Not to be trusted: {head.verdict}</p>}
+          {verdictsOf(head).length > 0 && (
+            <div class="field-error" role="status">
+              <VerdictList verdicts={verdictsOf(head)} />
+            </div>
+          )}
           <Button onClick={openInProcess} testId="scan-to-process"
             hint={state.value?.open ? "Finishes the recording, closes the source and opens it on the Process page" : undefined}>
             Open in Process

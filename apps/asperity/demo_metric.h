@@ -1,0 +1,31 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "asperity/json/json.h"
+
+namespace asperity::app {
+
+// A measured metric of the demonstration beside the true one, in SI units; nan where there is none.
+struct DemoMetric {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+  const char* key;
+  const char* title;
+  const char* unit;
+  double scale;  // from SI to the unit that is printed
+  double measured = kNone;
+  double standard_error = kNone;
+  double lower_bound = kNone;  // instead of `measured`
+  double truth = kNone;
+};
+
+// One line of the table.
+std::string metric_line(const DemoMetric& metric);
+
+// An object by key of {measured, stderr, lower_bound, true}.
+Json metrics_json(const std::vector<DemoMetric>& metrics);
+
+}  // namespace asperity::app

@@ -1,0 +1,306 @@
+#include "judge_case.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <numbers>
+#include <numeric>
+#include <span>
+
+#include "asperity/base/error.h"
+#include "asperity/base/random.h"
+#include "asperity/pipeline/process_recording.h"
+#include "asperity/profile/measure_roughness.h"
+#include "fft.h"
+#include "true_figures.h"
+
+namespace bench {
+
+namespace {
+
+using asperity::ProcessResult;
+
+constexpr double kCovered_sigmas = 1.959963985;  // of a normal distribution: 95 %
+
+// What the product says of a figure.
+struct Said {
+  double value = kMissing, stderr_ = kMissing;
+  double low = kMissing, high = kMissing;  // instead of a standard error
+};
+
+// A texture and what belongs to it.
+struct TextureView {
+  std::span<const double> texture_m;
+  double spacing_m = 0.0;
+  double pitch_m = kMissing;  // of the surface, as its maker knows it
+};
+
+struct FigureKind {
+  const char* name;
+  std::function<Said(const ProcessResult&)> said;
+  // Of a texture; nullptr: `truth` instead.
+  std::function<double(const TextureView&)> of_texture;
+  std::function<double(const ScanCase&, const TrueProfile&)> truth;
+  bool is_height = false;
+};
+
+Said roughness(const ProcessResult& r, double asperity::RoughnessParameters::*value) {
+  if (!r.roughness) return {};
+  return {(*r.roughness).*value, r.roughness->standard_error.*value, kMissing, kMissing};
+}
+
+double plain(const TextureView& view, double PlainRoughness::*value) {
+  return measure_plain_roughness(view.texture_m).*value;
+}
+
+double library(const TextureView& view, double asperity::RoughnessParameters::*value) {
+  return asperity::measure_roughness(view.texture_m, view.spacing_m).*value;
+}
+
+double rms(std::span<const double> x) {
+  double sum = 0.0, count = 0.0;
+  for (const double v : x) {
+    if (!std::isfinite(v)) continue;
+    sum += v * v;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : kMissing;
+}
+
+// A figure is a line here: what is said of it, and how the truth's is had.
+const std::vector<FigureKind>& figure_kinds() {
+  using R = asperity::RoughnessParameters;
+  using P = PlainRoughness;
+  static const std::vector<FigureKind> kKinds{
+      {"length_m",
+       [](const ProcessResult& r) {
+         return Said{r.coverage.length_m, r.noise.length_stderr_m, kMissing, kMissing};
+       },
+       nullptr, [](const ScanCase&, const TrueProfile& t) { return t.length_m; }},
+      {"pitch_m",
+       [](const ProcessResult& r) {
+         return r.periodicity.periodic ? Said{r.periodicity.pitch_m, r.periodicity.pitch_stderr_m, kMissing, kMissing}
+                                       : Said{};
+       },
+       [](const TextureView& v) { return find_true_pitch_m(v.texture_m, v.spacing_m, v.pitch_m); }, nullptr},
+      {"depth_m",
+       [](const ProcessResult& r) {
+         return r.periodicity.periodic ? Said{r.periodicity.depth_m, r.periodicity.depth_stderr_m, kMissing, kMissing}
+                                       : Said{};
+       },
+       [](const TextureView& v) { return measure_depth_m(v.texture_m, v.spacing_m, v.pitch_m); }, nullptr, true},
+      {"Ra_m", [](const ProcessResult& r) { return roughness(r, &R::Ra_m); },
+       [](const TextureView& v) { return plain(v, &P::Ra_m); }, nullptr, true},
+      {"Rq_m", [](const ProcessResult& r) { return roughness(r, &R::Rq_m); },
+       [](const TextureView& v) { return plain(v, &P::Rq_m); }, nullptr, true},
+      {"Rz_m", [](const ProcessResult& r) { return roughness(r, &R::Rz_m); },
+       [](const TextureView& v) { return plain(v, &P::Rz_m); }, nullptr, true},
+      {"Rt_m", [](const ProcessResult& r) { return roughness(r, &R::Rt_m); },
+       [](const TextureView& v) { return plain(v, &P::Rt_m); }, nullptr, true},
+      {"Rsk", [](const ProcessResult& r) { return roughness(r, &R::Rsk); },
+       [](const TextureView& v) { return plain(v, &P::Rsk); }, nullptr},
+      {"Rku", [](const ProcessResult& r) { return roughness(r, &R::Rku); },
+       [](const TextureView& v) { return plain(v, &P::Rku); }, nullptr},
+      {"RSm_m", [](const ProcessResult& r) { return roughness(r, &R::RSm_m); },
+       [](const TextureView& v) { return library(v, &R::RSm_m); }, nullptr},
+      {"R10z_m", [](const ProcessResult& r) { return roughness(r, &R::R10z_m); },
+       [](const TextureView& v) { return library(v, &R::R10z_m); }, nullptr, true},
+      {"Rcm50_m", [](const ProcessResult& r) { return roughness(r, &R::Rcm50_m); },
+       [](const TextureView& v) { return library(v, &R::Rcm50_m); }, nullptr, true},
+      {"noise_rms_m",
+       [](const ProcessResult& r) {
+         return Said{r.noise.noise_rms_m, r.noise.noise_rms_stderr_m, kMissing, kMissing};
+       },
+       nullptr, [](const ScanCase&, const TrueProfile& t) { return rms(t.texture_error_m); }},
+      // The compliance is what is measured: its interval is even, the stiffness's is not.
+      {"compliance_mm_per_N",
+       [](const ProcessResult& r) {
+         return Said{r.stiffness.compliance_mm_per_N, r.stiffness.compliance_stderr_mm_per_N, kMissing, kMissing};
+       },
+       nullptr, [](const ScanCase& s, const TrueProfile&) { return 1.0 / s.stiffness_N_per_mm; }},
+      {"stiffness_above_N_per_mm",
+       [](const ProcessResult& r) {
+         return Said{r.stiffness.lower_bound_N_per_mm, kMissing, r.stiffness.lower_bound_N_per_mm, kMissing};
+       },
+       nullptr, [](const ScanCase& s, const TrueProfile&) { return s.stiffness_N_per_mm; }},
+  };
+  return kKinds;
+}
+
+// Noise with the amplitudes of `error_m`'s spectrum and random phases: another run of the same disturbance.
+class NoiseTwin {
+ public:
+  explicit NoiseTwin(std::span<const double> error_m) : n_(error_m.size()) {
+    std::size_t size = 1;
+    while (size < n_) size <<= 1;
+    spectrum_.assign(size, 0.0);
+    for (std::size_t i = 0; i < n_; ++i) spectrum_[i] = std::isfinite(error_m[i]) ? error_m[i] : 0.0;
+    fft(spectrum_, -1);
+  }
+
+  std::vector<double> draw(asperity::Random& random) const {
+    std::vector<std::complex<double>> x(spectrum_.size());
+    const std::size_t half = x.size() / 2;
+    for (std::size_t k = 1; k < half; ++k) {
+      x[k] = std::polar(std::abs(spectrum_[k]), 2.0 * std::numbers::pi * random.uniform());
+      x[x.size() - k] = std::conj(x[k]);
+    }
+    fft(x, 1);
+    std::vector<double> out(n_);
+    // The padding's share of the power belongs to the points.
+    const double scale =
+        std::sqrt(static_cast<double>(x.size()) / static_cast<double>(n_)) / static_cast<double>(x.size());
+    for (std::size_t i = 0; i < n_; ++i) out[i] = scale * x[i].real();
+    return out;
+  }
+
+ private:
+  std::size_t n_;
+  std::vector<std::complex<double>> spectrum_;
+};
+
+double standard_deviation(const std::vector<double>& x) {
+  double sum = 0.0, square = 0.0;
+  for (const double v : x) sum += v;
+  for (const double v : x)
+    square += (v - sum / static_cast<double>(x.size())) * (v - sum / static_cast<double>(x.size()));
+  return std::sqrt(square / static_cast<double>(x.size() - 1));
+}
+
+// The spread of the texture's figure over twins of the actual error added to the truth: what one would have to live
+// with who knew that error's spectrum, and took its bias off.
+double oracle_sigma(const FigureKind& kind, const ScanCase& scan, const TrueProfile& truth, double spacing_m) {
+  constexpr int kTwins = 8;
+  asperity::Random random(scan.seed, 0x7477696e);
+  const NoiseTwin twin(truth.texture_error_m);
+  std::vector<double> values;
+  for (int k = 0; k < kTwins; ++k) {
+    std::vector<double> disturbed = twin.draw(random);
+    for (std::size_t i = 0; i < disturbed.size(); ++i) disturbed[i] += truth.texture_m[i];
+    try {
+      const double value = kind.of_texture({disturbed, spacing_m, scan.pitch_m});
+      if (std::isfinite(value)) values.push_back(value);
+    } catch (const asperity::Error&) {
+      return kMissing;
+    }
+  }
+  if (values.size() < kTwins) return kMissing;
+  const double true_value = kind.of_texture({truth.texture_m, spacing_m, scan.pitch_m});
+  const double bias = std::accumulate(values.begin(), values.end(), 0.0) / kTwins - true_value;
+  const double spread = standard_deviation(values);
+  return kind.is_height ? spread * std::max(1.0, 1.0 + bias / true_value) : std::hypot(spread, bias);
+}
+
+// The RMS of x in each band, by its periodogram; missing points count as 0.
+std::array<double, kBands> band_rms(std::span<const double> x, double spacing_m) {
+  std::size_t size = 1;
+  while (size < x.size()) size <<= 1;
+  std::vector<std::complex<double>> spectrum(size, 0.0);
+  for (std::size_t i = 0; i < x.size(); ++i) spectrum[i] = std::isfinite(x[i]) ? x[i] : 0.0;
+  fft(spectrum, -1);
+  std::array<double, kBands> out{};
+  for (std::size_t k = 1; k < size / 2; ++k) {
+    const double f = static_cast<double>(k) / (static_cast<double>(size) * 1e3 * spacing_m);
+    const auto band = std::upper_bound(kBandEdges.begin(), kBandEdges.end(), f) - kBandEdges.begin() - 1;
+    if (band < 0 || band >= static_cast<std::ptrdiff_t>(kBands)) continue;
+    out[static_cast<std::size_t>(band)] +=
+        2.0 * std::norm(spectrum[k]) / (static_cast<double>(size) * static_cast<double>(x.size()));
+  }
+  for (double& power : out) power = std::sqrt(power);
+  return out;
+}
+
+// The same of what the product says of its noise.
+std::array<double, kBands> said_band_rms(const asperity::TextureNoise& noise) {
+  std::array<double, kBands> out{};
+  const auto& f = noise.frequency_cycles_per_mm;
+  for (std::size_t k = 1; k < f.size(); ++k) {
+    const auto band = std::upper_bound(kBandEdges.begin(), kBandEdges.end(), f[k]) - kBandEdges.begin() - 1;
+    if (band < 0 || band >= static_cast<std::ptrdiff_t>(kBands)) continue;
+    const double density = (k < noise.added_psd_m2_mm.size() ? noise.added_psd_m2_mm[k] : 0.0) +
+                           (k < noise.misplaced_psd_m2_mm.size() ? noise.misplaced_psd_m2_mm[k] : 0.0);
+    out[static_cast<std::size_t>(band)] += density * (f[k] - f[k - 1]);
+  }
+  for (double& power : out) power = std::sqrt(power);
+  return out;
+}
+
+FigureOutcome judge_figure(const FigureKind& kind, const ScanCase& scan, const ProcessResult* result,
+                           const TrueProfile& truth) {
+  FigureOutcome out;
+  out.name = kind.name;
+  if (result != nullptr && result->profile.size() > 0) {
+    const Said said = kind.said(*result);
+    out.value = said.value;
+    out.low = std::isfinite(said.stderr_) ? said.value - kCovered_sigmas * said.stderr_ : said.low;
+    out.high = std::isfinite(said.stderr_) ? said.value + kCovered_sigmas * said.stderr_ : said.high;
+  }
+  if (truth.texture_m.empty()) return out;
+  try {
+    out.truth = kind.of_texture ? kind.of_texture({truth.texture_m, result->profile.spacing_m, scan.pitch_m})
+                                : kind.truth(scan, truth);
+    // A tracker alone gives the length to a few per cent.
+    if (out.name == "length_m") out.oracle_sigma = 0.0;
+    if (kind.of_texture && std::isfinite(out.truth))
+      out.oracle_sigma = oracle_sigma(kind, scan, truth, result->profile.spacing_m);
+  } catch (const asperity::Error&) {
+    out.truth = kMissing;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> figure_names() {
+  std::vector<std::string> out;
+  for (const FigureKind& kind : figure_kinds()) out.emplace_back(kind.name);
+  return out;
+}
+
+ScanOutcome judge_case(const ScanCase& scan) {
+  ScanOutcome out;
+  out.seed = scan.seed;
+  out.family = scan.family;
+  out.probe = scan.probe;
+  out.conditions = scan.conditions;
+  out.nothing = scan.nothing;
+  const auto begun = std::chrono::steady_clock::now();
+  try {
+    const ProcessResult result = asperity::process_recording(scan.recording, {});
+    out.process_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    out.trusted = result.trustworthy;
+    for (const asperity::Verdict& verdict : result.verdicts) {
+      if (verdict.severity == asperity::Severity::kNote) continue;
+      out.codes += (out.codes.empty() ? "" : " ") +
+                   std::string(asperity::kSeverityNames[static_cast<std::size_t>(verdict.severity)]) + ":" +
+                   verdict.code;
+    }
+    out.noise_rms_m = result.noise.noise_rms_m;
+    out.snr = result.noise.snr;
+    if (result.accuracy) {
+      out.position_rms_m = result.accuracy->position_rms_m;
+      if (result.accuracy->profile) out.correlation = result.accuracy->profile->correlation;
+    }
+    const TrueProfile truth = find_true_profile(scan.recording, result);
+    out.position_over_sigma = position_error_over_sigma(scan.recording, result.trajectory.motion);
+    out.height_over_sigma = error_over_sigma(truth.error_m, result.profile.sigma_m);
+    out.texture_over_sigma = error_over_sigma(truth.texture_error_m, result.profile.texture_sigma_m.empty()
+                                                                         ? result.profile.sigma_m
+                                                                         : result.profile.texture_sigma_m);
+    out.texture_error_m = rms(truth.texture_error_m);
+    out.texture_rms_m = rms(truth.texture_m);
+    out.error_m = band_rms(truth.texture_error_m, result.profile.spacing_m);
+    out.surface_m = band_rms(truth.texture_m, result.profile.spacing_m);
+    out.said_m = said_band_rms(result.noise);
+    for (const FigureKind& kind : figure_kinds()) out.figures.push_back(judge_figure(kind, scan, &result, truth));
+  } catch (const asperity::Error& error) {
+    out.failed = true;
+    out.codes = std::string("failed: ") + error.what();
+    for (const FigureKind& kind : figure_kinds()) out.figures.push_back(judge_figure(kind, scan, nullptr, {}));
+  }
+  return out;
+}
+
+}  // namespace bench

@@ -1,0 +1,324 @@
+#include "asperity/pipeline/compare_with_tracker.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/LU>
+
+#include "asperity/base/units.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::size_t kMinPathPoses = 16;
+constexpr std::array<double, 10> kHalfWidths_s{0.05, 0.07, 0.1, 0.14, 0.2, 0.28, 0.4, 0.56, 0.8, 1.1};
+constexpr double kNoiseFloor_m = 1e-6;  // an axis
+constexpr double kResting_sigmas = 3.0;
+constexpr double kMaxPoseGap_s = 0.3;
+constexpr double kShapeError = 0.005;  // of the length
+constexpr double kSlowNoise = 2.0;     // all of the poses' noise over the white part, which the differences show
+
+struct PosePath {
+  std::vector<double> t_s;  // true time, from the motion's first sample
+  std::vector<Eigen::Vector3d> p_world_tip_m;
+};
+
+// A path smoothed by local parabolas: position, velocity, and what noise of unit size becomes in them.
+struct SmoothedPoses {
+  std::vector<Eigen::Vector3d> p_m;
+  std::vector<Eigen::Vector3d> v_mps;
+  std::vector<double> p_gain;        // standard deviation of p over that of a pose
+  std::vector<double> v_gain_per_s;  // likewise of v
+};
+
+double metric_or(const TrajectoryResult& trajectory, const char* name, double otherwise) {
+  const auto found = trajectory.metrics.find(name);
+  return found == trajectory.metrics.end() || !std::isfinite(found->second) ? otherwise : found->second;
+}
+
+PosePath tip_by_poses(const Recording& recording, const TrajectoryResult& trajectory) {
+  const Calibration& calibration = recording.calibration;
+  const double latency_s = metric_or(trajectory, "latency_s", calibration.tracker.latency_s);
+  PosePath out;
+  for (std::size_t i = 0; i < recording.tracker.size(); ++i) {
+    out.t_s.push_back(static_cast<double>(recording.tracker.t_ns[i] - trajectory.motion.t_ns.front()) * kNanosecond_s -
+                      latency_s);
+    out.p_world_tip_m.emplace_back(recording.tracker.T_world_marker[i] * calibration.tip_in_marker_m);
+  }
+  return out;
+}
+
+// By the fourth differences of evenly spaced poses; zero if there are too few.
+Eigen::Vector3d white_noise_m(const PosePath& path) {
+  constexpr std::size_t kWindow = 32;
+  constexpr double kGain2 = 70.0;  // 1² + 4² + 6² + 4² + 1²
+  std::vector<double> steps_s;
+  for (std::size_t i = 1; i < path.t_s.size(); ++i) steps_s.push_back(path.t_s[i] - path.t_s[i - 1]);
+  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
+  std::nth_element(steps_s.begin(), middle, steps_s.end());
+  const double longest_s = 1.5 * *middle;
+  std::array<std::vector<double>, 3> levels;
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  std::size_t count = 0;
+  for (std::size_t i = 2; i + 2 < path.t_s.size(); ++i) {
+    if (path.t_s[i + 2] - path.t_s[i - 2] > 4.0 * longest_s) continue;
+    const auto& p = path.p_world_tip_m;
+    const Eigen::Vector3d fourth_m = p[i - 2] - 4.0 * p[i - 1] + 6.0 * p[i] - 4.0 * p[i + 1] + p[i + 2];
+    sum += fourth_m.array().square() / kGain2;
+    if (++count < kWindow) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      levels[axis].push_back(std::sqrt(sum[static_cast<Eigen::Index>(axis)] / static_cast<double>(count)));
+    }
+    sum.setZero();
+    count = 0;
+  }
+  Eigen::Vector3d out = Eigen::Vector3d::Zero();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (levels[axis].empty()) continue;
+    const auto usual = levels[axis].begin() + static_cast<std::ptrdiff_t>(levels[axis].size() / 2);
+    std::nth_element(levels[axis].begin(), usual, levels[axis].end());
+    out[static_cast<Eigen::Index>(axis)] = *usual;
+  }
+  return out;
+}
+
+SmoothedPoses smooth_poses(const PosePath& path, double half_width_s) {
+  const std::size_t n = path.t_s.size();
+  SmoothedPoses out;
+  std::size_t first = 0, last = 0;
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < n; ++i) {
+    double reach_s = half_width_s;
+    // A parabola needs poses, three on the average on either side.
+    do {
+      first = i;
+      last = i + 1;
+      while (first > 0 && path.t_s[i] - path.t_s[first - 1] < reach_s) --first;
+      while (last < n && path.t_s[last] - path.t_s[i] < reach_s) ++last;
+      reach_s *= 1.4;
+    } while (last - first < std::min<std::size_t>(5, n));
+    reach_s /= 1.4;
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();  // a row a power, a column an axis
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+    const auto weight_at = [&](std::size_t j) {
+      const double u = (path.t_s[j] - path.t_s[i]) / reach_s;
+      return (1.0 - u * u) * (1.0 - u * u);
+    };
+    for (std::size_t j = first; j < last; ++j) {
+      const double dt_s = (path.t_s[j] - path.t_s[i]) / reach_s;
+      const double w = weight_at(j);
+      const Eigen::Vector3d powers(1.0, dt_s, dt_s * dt_s);
+      moments += w * powers * powers.transpose();
+      squares += w * w * powers * powers.transpose();
+      products += w * powers * (path.p_world_tip_m[j] - path.p_world_tip_m[i]).transpose();
+    }
+    const Eigen::Matrix3d inverse = moments.inverse();
+    const Eigen::Matrix3d fitted = inverse * products;
+    const Eigen::Matrix3d covariance = inverse * squares * inverse;
+    out.p_m.emplace_back(path.p_world_tip_m[i] + fitted.row(0).transpose());
+    out.v_mps.emplace_back(fitted.row(1).transpose() / reach_s);
+    out.p_gain.push_back(std::sqrt(covariance(0, 0)));
+    out.v_gain_per_s.push_back(std::sqrt(covariance(1, 1)) / reach_s);
+  }
+  return out;
+}
+
+double median_of_poses(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// The poses without those that are far from the median of their neighbours, in an axis. A steady motion, which spreads
+// the neighbours, leaves their median where the pose is.
+PosePath without_outliers(const PosePath& path, const Eigen::Vector3d& sigma_m) {
+  constexpr double kReach_s = 0.15;
+  constexpr double kOutlying = 6.0;  // standard deviations of the poses, or of what the neighbours spread over
+  PosePath out;
+  std::size_t first = 0, last = 0;
+  std::vector<double> values, distances;
+  for (std::size_t i = 0; i < path.t_s.size(); ++i) {
+    while (path.t_s[i] - path.t_s[first] > kReach_s) ++first;
+    while (last < path.t_s.size() && path.t_s[last] - path.t_s[i] <= kReach_s) ++last;
+    bool outlying = false;
+    for (int axis = 0; axis < 3; ++axis) {
+      values.clear();
+      distances.clear();
+      for (std::size_t j = first; j < last; ++j) values.push_back(path.p_world_tip_m[j][axis]);
+      const double middle_m = median_of_poses(values);
+      for (const double value : values) distances.push_back(std::abs(value - middle_m));
+      const double spread_m = std::max(sigma_m[axis], 1.48 * median_of_poses(distances));
+      outlying |= std::abs(path.p_world_tip_m[i][axis] - middle_m) > kOutlying * spread_m;
+    }
+    if (outlying) continue;
+    out.t_s.push_back(path.t_s[i]);
+    out.p_world_tip_m.push_back(path.p_world_tip_m[i]);
+  }
+  return out;
+}
+
+// The motion's sample at a time, nearest.
+std::size_t sample_at(const TipMotion& motion, double t_s) {
+  const auto t_ns = motion.t_ns.front() + static_cast<std::int64_t>(std::llround(t_s / kNanosecond_s));
+  const auto found = std::lower_bound(motion.t_ns.begin(), motion.t_ns.end(), t_ns);
+  const auto i = static_cast<std::size_t>(found - motion.t_ns.begin());
+  if (i == 0 || i == motion.size()) return i == 0 ? 0 : motion.size() - 1;
+  return t_ns - motion.t_ns[i - 1] < motion.t_ns[i] - t_ns ? i - 1 : i;
+}
+
+void compare_positions(const PosePath& path, const TipMotion& motion, const Eigen::Vector3d& sigma_m,
+                       TrackerComparison& out) {
+  const double end_s = static_cast<double>(motion.t_ns.back() - motion.t_ns.front()) * kNanosecond_s;
+  std::vector<double> distances_m;
+  for (std::size_t i = 0; i < path.t_s.size(); ++i) {
+    if (path.t_s[i] < 0.0 || path.t_s[i] > end_s) continue;
+    distances_m.push_back((motion.p_world_tip_m[sample_at(motion, path.t_s[i])] - path.p_world_tip_m[i]).norm());
+  }
+  if (distances_m.size() < kMinPathPoses) return;
+  const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);
+  std::nth_element(distances_m.begin(), middle, distances_m.end());
+  out.departure_m = *middle;
+  // The median length of noise is nearly its root mean square: 0.89 of it for three equal axes, 0.67 for one.
+  out.departure_ratio = out.departure_m / (0.8 * sigma_m.norm());
+}
+
+struct PathLength {
+  double length_m = 0.0;
+  double variance_m2 = 0.0;
+  double noise_m = 0.0;  // that noise in the direction adds
+  double resting_m = 0.0;
+};
+
+// Poses that follow one another in contact, [first, last).
+struct ContactRun {
+  std::size_t first = 0, last = 0;
+};
+
+std::vector<ContactRun> contact_runs(const PosePath& path, const TipMotion& motion, const BasePathResult& base) {
+  const double end_s = static_cast<double>(motion.t_ns.back() - motion.t_ns.front()) * kNanosecond_s;
+  std::vector<ContactRun> out;
+  bool open = false;
+  for (std::size_t i = 0; i < path.t_s.size(); ++i) {
+    const bool touches =
+        path.t_s[i] >= 0.0 && path.t_s[i] <= end_s && base.contact[sample_at(motion, path.t_s[i])] != 0;
+    const bool gap = open && path.t_s[i] - path.t_s[i - 1] > kMaxPoseGap_s;
+    if (touches && (!open || gap)) out.push_back({i, i});
+    if (touches) out.back().last = i + 1;
+    open = touches;
+  }
+  std::erase_if(out, [](const ContactRun& run) { return run.last - run.first < 3; });
+  return out;
+}
+
+// Σ Δq·u over a run, u from `direction`, q from `position`.
+PathLength measure_run(const PosePath& path, const ContactRun& run, const SmoothedPoses& direction,
+                       const SmoothedPoses& position, const TipMotion& motion, const BasePathResult& base,
+                       const Eigen::Vector3d& sigma_m, double half_width_s) {
+  PathLength out;
+  const double sigma_mean_m = sigma_m.norm() / std::sqrt(3.0);
+  Eigen::Vector3d u_before = Eigen::Vector3d::Zero();
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+  double turn_begins_s = path.t_s[run.first];
+  for (std::size_t i = run.first; i + 1 < run.last; ++i) {
+    const double dt_s = path.t_s[i + 1] - path.t_s[i];
+    const Eigen::Vector3d& n = base.path.n_world[sample_at(motion, 0.5 * (path.t_s[i] + path.t_s[i + 1]))];
+    Eigen::Vector3d v_mps = 0.5 * (direction.v_mps[i] + direction.v_mps[i + 1]);
+    v_mps -= v_mps.dot(n) * n;
+    const double speed_mps = v_mps.norm();
+    const double sigma_v_mps = sigma_mean_m * direction.v_gain_per_s[i];
+    Eigen::Vector3d u = Eigen::Vector3d::Zero();
+    if (speed_mps > kResting_sigmas * sigma_v_mps) {
+      u = v_mps / speed_mps;
+      out.length_m += (position.p_m[i + 1] - position.p_m[i]).dot(u);
+      out.noise_m += 0.5 * sigma_v_mps * sigma_v_mps / speed_mps * dt_s;
+    } else {
+      out.resting_m += speed_mps * dt_s;
+    }
+    turn += u - u_before;
+    u_before = u;
+    // The noise of q lasts for about the smoothing's width: what u turns within it counts together.
+    if (path.t_s[i] - turn_begins_s > half_width_s || i + 2 == run.last) {
+      const Eigen::Vector3d error_m = sigma_m * position.p_gain[i];
+      out.variance_m2 += turn.cwiseProduct(error_m).squaredNorm();
+      turn.setZero();
+      turn_begins_s = path.t_s[i];
+    }
+  }
+  out.variance_m2 += u_before.cwiseProduct(sigma_m * position.p_gain[run.last - 1]).squaredNorm();
+  return out;
+}
+
+// Our length over the runs, with what the motion's covariance makes of it.
+void measure_own(const PosePath& path, const std::vector<ContactRun>& runs, const TipMotion& motion,
+                 const BasePathResult& base, TrackerComparison& out) {
+  double variance_m2 = 0.0;
+  out.length_m = 0.0;
+  for (const ContactRun& run : runs) {
+    const std::size_t first = sample_at(motion, path.t_s[run.first]), last = sample_at(motion, path.t_s[run.last - 1]);
+    out.length_m += base.path.s_m[last] - base.path.s_m[first];
+    if (motion.cov_world_tip_m2.empty()) continue;
+    for (const std::size_t end : {first, last}) {
+      const Eigen::Vector3d& n = base.path.n_world[end];
+      const Eigen::Vector3d u = motion.v_world_tip_mps[end] - motion.v_world_tip_mps[end].dot(n) * n;
+      if (u.norm() > 0.0) variance_m2 += u.normalized().dot(motion.cov_world_tip_m2[end] * u.normalized());
+    }
+  }
+  if (!motion.cov_world_tip_m2.empty()) out.length_stderr_m = std::sqrt(variance_m2);
+}
+
+// The poses' length at the smoothing at which its standard error is least.
+void measure_tracker(const PosePath& path, const std::vector<ContactRun>& runs, const TipMotion& motion,
+                     const BasePathResult& base, const Eigen::Vector3d& sigma_m, TrackerComparison& out) {
+  SmoothedPoses narrower;
+  double narrower_m = TrackerComparison::kUnknown;
+  for (const double half_width_s : kHalfWidths_s) {
+    SmoothedPoses smoothed = smooth_poses(path, half_width_s);
+    PathLength total;
+    for (const ContactRun& run : runs) {
+      const PathLength part = measure_run(path, run, smoothed, narrower.p_m.empty() ? smoothed : narrower, motion, base,
+                                          sigma_m, half_width_s);
+      total.length_m += part.length_m;
+      total.variance_m2 += part.variance_m2;
+      total.noise_m += part.noise_m;
+      total.resting_m += part.resting_m;
+    }
+    const double stderr_m =
+        std::sqrt(total.variance_m2 + std::pow(total.noise_m, 2) + std::pow(total.resting_m, 2) +
+                  std::pow(total.length_m - narrower_m, 2) + std::pow(kShapeError * total.length_m, 2));
+    if (std::isfinite(stderr_m) && !(stderr_m >= out.tracker_length_stderr_m)) {
+      out.tracker_length_m = total.length_m;
+      out.tracker_length_stderr_m = stderr_m;
+      out.smoothing_s = half_width_s;
+    }
+    narrower_m = total.length_m;
+    narrower = std::move(smoothed);
+  }
+}
+
+}  // namespace
+
+TrackerComparison compare_with_tracker(const Recording& recording, const TrajectoryResult& trajectory,
+                                       const BasePathResult& base) {
+  TrackerComparison out;
+  const TipMotion& motion = trajectory.motion;
+  if (motion.size() < 2 || recording.tracker.size() < kMinPathPoses) return out;
+  const PosePath all = tip_by_poses(recording, trajectory);
+  const Eigen::Vector3d sigma_m = white_noise_m(all).cwiseMax(kNoiseFloor_m);
+  const PosePath path = without_outliers(all, sigma_m);
+  if (path.t_s.size() < kMinPathPoses) return out;
+  out.pose_noise_m = sigma_m.norm() / std::sqrt(3.0);
+  compare_positions(all, motion, sigma_m, out);
+  if (base.path.size() != motion.size() || base.contact.size() != motion.size()) return out;
+
+  const std::vector<ContactRun> runs = contact_runs(path, motion, base);
+  if (runs.empty()) return out;
+  measure_own(path, runs, motion, base, out);
+  measure_tracker(path, runs, motion, base, kSlowNoise * sigma_m, out);
+  return out;
+}
+
+}  // namespace asperity

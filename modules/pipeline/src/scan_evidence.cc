@@ -1,0 +1,162 @@
+#include "asperity/pipeline/scan_evidence.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "asperity/base/units.h"
+#include "asperity/pipeline/compare_specific_force.h"
+#include "asperity/pipeline/compare_with_tracker.h"
+#include "asperity/profile/find_contact.h"
+
+namespace asperity {
+
+namespace {
+
+double span_s(const std::vector<std::int64_t>& t_ns) {
+  return t_ns.size() < 2 ? 0.0 : static_cast<double>(t_ns.back() - t_ns.front()) * kNanosecond_s;
+}
+
+double repeated_share(const TrackerStream& tracker) {
+  if (tracker.size() == 0) return 0.0;
+  std::size_t repeated = 0;
+  for (std::size_t i = 1; i < tracker.size(); ++i) {
+    const Pose& a = tracker.T_world_marker[i - 1];
+    const Pose& b = tracker.T_world_marker[i];
+    repeated += a.translation_m == b.translation_m && a.rotation.coeffs() == b.rotation.coeffs() ? 1 : 0;
+  }
+  return static_cast<double>(repeated) / static_cast<double>(tracker.size());
+}
+
+std::size_t dropped_rows(const Recording& recording) {
+  std::size_t dropped = 0;
+  for (const Problem& problem : recording.problems) {
+    constexpr std::array<std::string_view, 5> kDropped{"duplicate_time", "bad_acceleration", "bad_quaternion",
+                                                       "position_far_off", "time_far_off"};
+    if (std::find(kDropped.begin(), kDropped.end(), problem.kind) != kDropped.end()) dropped += problem.count;
+  }
+  return dropped;
+}
+
+// Why a stage has no result; empty if no problem of the kind is there.
+std::string why_absent(const Problems& problems, std::string_view kind) {
+  for (const Problem& problem : problems) {
+    if (problem.kind != kind) continue;
+    const std::size_t colon = problem.message.find(": ");
+    return colon == std::string::npos ? problem.message : problem.message.substr(colon + 2);
+  }
+  return {};
+}
+
+void add_streams(const Recording& recording, const TrajectoryResult& trajectory, ScanEvidence& out) {
+  const auto metric = [&](const char* name) {
+    const auto found = trajectory.metrics.find(name);
+    return found == trajectory.metrics.end() ? ScanEvidence::kUnknown : found->second;
+  };
+  const auto count = [&](const char* name) {
+    const double value = metric(name);
+    return value > 0.0 ? static_cast<std::size_t>(value) : 0;
+  };
+  out.calibrated = !recording.calibration.uncalibrated;
+  out.has_force = has_force(recording.probe);
+  const auto latency = [&](const char* name, double calibrated_s) {
+    const double estimated_s = metric(name);
+    return std::isfinite(estimated_s) ? estimated_s : calibrated_s;
+  };
+  const SpecificForceComparison force =
+      compare_specific_force(recording, latency("latency_s", recording.calibration.tracker.latency_s),
+                             latency("probe_latency_s", recording.calibration.probe_latency_s));
+  out.force_ratio = force.ratio;
+  out.force_difference_share = force.difference_share;
+  out.clipped_force_ratio = force.clipped_ratio;
+  out.clipped_share = force.clipped_share;
+  out.accel_bias_mps2 = metric("accel_bias_mps2");
+  out.latency_s = metric("latency_s");
+  out.latency_prior_sigmas = metric("latency_prior_sigmas");
+  out.tracker_noise_ratio = metric("tracker_noise_ratio");
+  out.poses_used = count("poses_used");
+  out.poses_outlying = count("poses_outlying");
+  out.repeated_share = repeated_share(recording.tracker);
+  out.rows_dropped = dropped_rows(recording);
+  out.rows_kept = recording.probe.size() + recording.tracker.size();
+  out.recorded_s = std::max(span_s(recording.probe.t_ns), span_s(recording.tracker.t_ns));
+  out.used_s = span_s(trajectory.motion.t_ns);
+  out.tracker_gap_s = metric("longest_tracker_gap_s");
+  out.samples_rejected = count("rejected_samples");
+  out.samples = recording.probe.size();
+}
+
+}  // namespace
+
+PoseEvidence pose_evidence(const RegistrationResult& registration) {
+  PoseEvidence out;
+  out.converged = registration.converged;
+  out.iterations = registration.iterations;
+  out.points = registration.points;
+  out.outliers = registration.outliers;
+  out.ambiguous = registration.ambiguous;
+  if (registration.runner_up) {
+    out.rival_distance_m = registration.runner_up->distance_m;
+    out.rival_rotation_rad = registration.runner_up->rotation_rad;
+  }
+  return out;
+}
+
+bool has_force(const ProbeStream& probe) {
+  double first = std::numeric_limits<double>::quiet_NaN();
+  for (const double counts : probe.force_counts) {
+    if (!std::isfinite(counts)) continue;
+    if (std::isfinite(first) && counts != first) return true;
+    first = counts;
+  }
+  return false;
+}
+
+namespace {
+
+void add_measured(const Recording& recording, const ProcessResult& result, ScanEvidence& out) {
+  const TrackerComparison tracker = compare_with_tracker(recording, result.trajectory, result.base);
+  const double stated_m = recording.calibration.tracker.sigma_position_m.norm();
+  out.departure_m = tracker.departure_m;
+  // Poses that are better than stated are not evidence against a path that keeps to what is stated.
+  out.departure_ratio = tracker.departure_m / (0.8 * std::max(stated_m, std::sqrt(3.0) * tracker.pose_noise_m));
+  out.no_profile = why_absent(result.problems, "no_profile");
+  out.measured = result.profile.size() > 0 || !out.no_profile.empty();
+  if (!out.measured) return;
+  out.no_roughness = why_absent(result.problems, "no_roughness");
+  out.no_texture = why_absent(result.problems, "no_texture");
+  const TipMotion& motion = result.trajectory.motion;
+  if (out.has_force && motion.size() > 1) {
+    const std::vector<char> contact = find_contact(motion, result.config.base.contact);
+    const auto touching =
+        static_cast<double>(std::count_if(contact.begin(), contact.end(), [](char c) { return c != 0; }));
+    out.contact_s = span_s(motion.t_ns) * touching / static_cast<double>(contact.size());
+  }
+  out.covered = result.coverage.covered;
+  out.min_coverage = result.config.min_coverage;
+  const Profile& profile = result.profile;
+  out.error_known = profile.size() == 0 || std::any_of(profile.sigma_m.begin(), profile.sigma_m.end(),
+                                                       [](double sigma_m) { return std::isfinite(sigma_m); });
+  out.length_m = tracker.length_m;
+  out.length_stderr_m =
+      std::isfinite(result.noise.length_stderr_m) ? result.noise.length_stderr_m : tracker.length_stderr_m;
+  out.tracker_length_m = tracker.tracker_length_m;
+  out.tracker_length_stderr_m = tracker.tracker_length_stderr_m;
+  out.texture_rms_m = result.noise.texture_rms_m;
+  out.noise_rms_m = result.noise.noise_rms_m;
+  out.snr = result.noise.snr;
+  out.at_most_m = result.noise.at_most_m;
+}
+
+}  // namespace
+
+ScanEvidence scan_evidence(const Recording& recording, const ProcessResult& result) {
+  ScanEvidence out;
+  add_streams(recording, result.trajectory, out);
+  add_measured(recording, result, out);
+  return out;
+}
+
+}  // namespace asperity

@@ -1,0 +1,109 @@
+#include "asperity/pipeline/compare_with_tracker.h"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "asperity/base/random.h"
+#include "asperity/pipeline/compare_specific_force.h"
+
+namespace asperity {
+namespace {
+
+const Eigen::Vector3d kGravity_mps2(0.0, 9.80665, 0.0);
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
+
+// Twelve seconds of a tip that travels back and forth in x as a hand does, in closed form; the sensor is at the tip.
+struct Sweep {
+  double amplitude_m = 0.0;
+  double frequency_Hz = 0.0;
+  Recording recording;
+  TrajectoryResult trajectory;
+  BasePathResult base;
+
+  Sweep(double amplitude, double frequency, double pose_sigma_m) : amplitude_m(amplitude), frequency_Hz(frequency) {
+    Random random(3);
+    recording.info.gravity_world_mps2 = kGravity_mps2;
+    recording.calibration.accelerometer.B = 200.0 * Eigen::Matrix3d::Identity();
+    recording.calibration.tip_in_marker_m.setZero();
+    double s_m = 0.0;
+    for (int i = 0; i < 12'000; ++i) {
+      const double t_s = 1e-3 * i, w = kTwoPi * frequency_Hz;
+      const Eigen::Vector3d a_mps2(-amplitude_m * w * w * std::sin(w * t_s), 0.0, 0.0);
+      recording.probe.t_ns.push_back(i * 1'000'000LL);
+      recording.probe.accel_counts.emplace_back(200.0 * (a_mps2 - kGravity_mps2));
+      recording.probe.force_counts.push_back(1.0);
+      const Eigen::Vector3d p_m(amplitude_m * std::sin(w * t_s), 0.0, 0.3);
+      trajectory.motion.t_ns.push_back(i * 1'000'000LL);
+      trajectory.motion.p_world_tip_m.push_back(p_m);
+      trajectory.motion.v_world_tip_mps.emplace_back(amplitude_m * w * std::cos(w * t_s), 0.0, 0.0);
+      if (i > 0) s_m += std::abs(p_m.x() - base.path.p_world_m.back().x());
+      base.path.p_world_m.push_back(p_m);
+      base.path.n_world.emplace_back(0.0, 0.0, 1.0);
+      base.path.s_m.push_back(s_m);
+      base.contact.push_back(1);
+      if (i % 20 != 0) continue;
+      const Eigen::Vector3d noise_m(random.normal(), random.normal(), random.normal());
+      recording.tracker.t_ns.push_back(i * 1'000'000LL);
+      recording.tracker.T_world_marker.push_back({Eigen::Quaterniond::Identity(), p_m + pose_sigma_m * noise_m});
+    }
+  }
+};
+
+// A motion of 0.2 m at 2 Hz accelerates by up to 32 m/s²: gravity alone would explain none of the readings.
+TEST(CompareSpecificForce, FastMotionIsNotAWrongUnit) {
+  const Sweep sweep(0.2, 2.0, 0.3e-3);
+  const SpecificForceComparison c = compare_specific_force(sweep.recording, 0.0, 0.0);
+  EXPECT_GE(c.windows, 20U);
+  EXPECT_NEAR(c.ratio, 1.0, 0.02);
+  EXPECT_LT(c.difference_share, 0.03);
+}
+
+TEST(CompareSpecificForce, SeesUnitSignAndClipping) {
+  Sweep sweep(0.02, 0.5, 0.3e-3);
+  const auto compare = [&] { return compare_specific_force(sweep.recording, 0.0, 0.0); };
+  sweep.recording.calibration.accelerometer.B *= 9.80665;
+  EXPECT_NEAR(compare().ratio, 1.0 / 9.80665, 0.002);
+  sweep.recording.calibration.accelerometer.B /= -9.80665;
+  EXPECT_NEAR(compare().ratio, 1.0, 0.02);
+  EXPECT_NEAR(compare().difference_share, 2.0, 0.02);
+  // Gravity reads −1961 counts; a converter that ends at −1500 takes 24 % of it away.
+  sweep.recording.calibration.accelerometer.B *= -1.0;
+  sweep.recording.info.adc_min = -1500.0;
+  sweep.recording.info.adc_max = 1500.0;
+  for (Eigen::Vector3d& counts : sweep.recording.probe.accel_counts) counts = counts.cwiseMax(-1500.0);
+  const SpecificForceComparison clipped = compare();
+  EXPECT_EQ(clipped.windows, 0U);
+  EXPECT_NEAR(clipped.clipped_ratio, 1500.0 / 1961.33, 0.01);
+  EXPECT_NEAR(clipped.clipped_share, 1.0, 1e-9);
+}
+
+// The way of a sine is 4 A a period. Noise of 0.5 mm at 50 Hz would lengthen the poses' own polygon several times.
+TEST(CompareWithTracker, FindsTheLengthUnderTheNoise) {
+  const Sweep sweep(0.04, 0.25, 0.5e-3);
+  const TrackerComparison c = compare_with_tracker(sweep.recording, sweep.trajectory, sweep.base);
+  const double true_m = 4.0 * 0.04 * 0.25 * 11.98;
+  EXPECT_NEAR(c.length_m, true_m, 1e-3);
+  EXPECT_NEAR(c.tracker_length_m, true_m, 2.5 * c.tracker_length_stderr_m);
+  EXPECT_LT(c.tracker_length_stderr_m, 0.03 * true_m);
+  EXPECT_NEAR(c.pose_noise_m, 0.5e-3, 0.05e-3);  // 10 %: medians of 18 windows
+  EXPECT_NEAR(c.departure_ratio, 1.1, 0.2);      // the median length of three equal axes over 0.8 of their RMS
+}
+
+TEST(CompareWithTracker, PosesFarOffDoNotLengthenThePath) {
+  Sweep sweep(0.04, 0.25, 0.5e-3);
+  for (const std::size_t i : {50U, 51U, 200U, 431U})
+    sweep.recording.tracker.T_world_marker[i].translation_m.z() += 0.04;
+  const TrackerComparison c = compare_with_tracker(sweep.recording, sweep.trajectory, sweep.base);
+  EXPECT_NEAR(c.tracker_length_m, c.length_m, 2.5 * c.tracker_length_stderr_m);
+  EXPECT_LT(c.tracker_length_stderr_m, 0.03 * c.length_m);
+}
+
+TEST(CompareWithTracker, SeesAPathThatLeavesThePoses) {
+  Sweep sweep(0.04, 0.25, 0.5e-3);
+  for (Eigen::Vector3d& p_m : sweep.trajectory.motion.p_world_tip_m) p_m.y() += 0.005;
+  EXPECT_GT(compare_with_tracker(sweep.recording, sweep.trajectory, sweep.base).departure_ratio, 5.0);
+}
+
+}  // namespace
+}  // namespace asperity

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+
+#include "asperity/profile/find_periodicity.h"
+#include "asperity/profile/texture_noise.h"
+
+namespace asperity {
+
+// find_periodicity() of what a noisy profile is of: the depth without what noise adds to the highest less the lowest
+// point of a period, and standard errors of the measurement of this stretch.
+//
+// The depth is followed over added noise as the roughness is (measure_roughness_under_noise.h), at the pitch that was
+// found; in its error are the draws' spread, the extrapolation's doubt, that of the noise's power and
+// `noise.scale_sigma`. The pitch's error has `noise.along_sigma` added: an error of the length that phases cannot show.
+// Without a noise it is find_periodicity(), whose depth's error is that of a median over unlike periods.
+Periodicity find_periodicity_under_noise(std::span<const double> height_m, double spacing_m, const TextureNoise& noise,
+                                         const PeriodicityConfig& config);
+
+}  // namespace asperity

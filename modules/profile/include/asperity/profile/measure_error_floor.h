@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+
+namespace asperity {
+
+// The floor of an acceleration's spectrum, (m/s²)²/Hz, one-sided: the lowest of the mean densities of its octaves, from
+// half the sampling rate down to 12 Hz. White noise of whatever source (the sensor's, rounding, and what folds about
+// the sampling rate) is not above it, whereas a texture's acceleration rises towards high frequencies and a contact's
+// falls off beyond its resonance. Taken over runs of samples with `usable` set (empty: all) without a missing one.
+// 0 if there is no run of 0.16 s, or none of 32 samples.
+double acceleration_floor_m2ps3(std::span<const double> t_s, std::span<const double> accel_mps2,
+                                std::span<const char> usable);
+
+// The largest white noise of acceleration, (m/s²)²/Hz, that a position smoothed from it and from a tracker's noise of
+// density `tracker_psd_m2ps` can have had: its error A R/(A + R (2πf)⁴) cannot exceed the density that the position has
+// itself, in any octave from 1.6 to 50 Hz. `position_m` may be a height or what is travelled less its line. Infinite
+// where the position is nowhere quieter than the tracker, or shorter than two stretches of 1.3 s.
+double largest_acceleration_noise_m2ps3(std::span<const double> t_s, std::span<const double> position_m,
+                                        std::span<const char> usable, double tracker_psd_m2ps);
+
+}  // namespace asperity

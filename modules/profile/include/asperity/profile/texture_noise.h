@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "asperity/base/nan.h"
+
+namespace asperity {
+
+// The errors of a motion that go into heights, as densities over time frequency, one-sided and white. What is 0 is not
+// known.
+struct HeightErrors {
+  double accel_psd_m2ps3 = 0.0;        // of the acceleration along the normal, (m/s²)²/Hz
+  double tracker_psd_m2ps = 0.0;       // of the tracker along the normal, m²/Hz
+  double along_accel_psd_m2ps3 = 0.0;  // the same two along the path
+  double along_tracker_psd_m2ps = 0.0;
+  double scale_sigma = 0.0;        // relative, of all heights
+  double along_scale_sigma = 0.0;  // relative, of the arc length
+};
+
+// What of a profile's texture is expected to be error and not surface (docs/texture-noise.md). Nothing is determined
+// (nan, empty) where the method gives no noise.
+struct TextureNoise {
+  std::vector<double> frequency_cycles_per_mm;
+  // One-sided densities of the error of texture_m, m²/(cycles/mm), means over the profile: of noise that is added to
+  // the heights, and of heights at a wrong place along the path.
+  std::vector<double> added_psd_m2_mm;
+  std::vector<double> misplaced_psd_m2_mm;
+  // Of texture_m as it is given, over the points that have a height: of both, or what the removal of noise has left of
+  // it (apply_wiener_filter.h).
+  double noise_rms_m = kNan;
+  double noise_rms_stderr_m = kNan;
+  double added_rms_m = kNan;  // of the first alone: what biases Rq upwards
+  double added_rms_stderr_m = kNan;
+  double place_sigma_m = kNan;    // standard deviation of the place along the path
+  double texture_rms_m = kNan;    // as measured: surface and noise, none removed
+  double length_stderr_m = kNan;  // of the profile's length, from first to last height
+  double scale_sigma = 0.0;       // relative error of all heights: calibration, the normal's direction
+  double along_sigma = 0.0;       // relative error of lengths along the path
+  // Power of the surface over power of the noise, none removed: texture_rms² − added_rms² over the integral of both
+  // densities; 0 where negative. A correlation of the measured texture with the true one of about √(snr/(1 + snr)) goes
+  // with it.
+  double snr = kNan;
+  double snr_low = kNan;  // with the largest noise that is possible, 97.5 %
+  // The RMS that the surface's texture has at most, with 97.5 % of the noises that are possible.
+  double at_most_m = kNan;
+};
+
+}  // namespace asperity

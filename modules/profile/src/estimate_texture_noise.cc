@@ -1,0 +1,245 @@
+#include "asperity/profile/estimate_texture_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "asperity/base/nan.h"
+#include "asperity/profile/measure_spectrum.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::size_t kBlock_points = 20;  // over which speed and slope are taken together: 0.5 mm
+constexpr std::size_t kFrequencies = 128;  // of the spectrum, evenly in the logarithm
+constexpr double kBelowCutoff = 0.2;       // lowest frequency over the high-pass' cut-off: what is below is cut to 1e-5
+constexpr double kLowest_cycles_per_mm = 1e-3;
+constexpr double kFisher = 0.833;              // 3π/(8√2), the integral of (1 + x⁴)⁻²
+constexpr double kPositionBandwidth = 1.1107;  // π/(2√2), the integral of (1 + x⁴)⁻¹
+constexpr double kLeastInformation = 4.0;      // the floor is known to half its value even without a tracker
+constexpr double kSure = 1.96;
+
+struct Block {
+  std::size_t first = 0, last = 0;  // points
+  double points = 0.0;              // of them with a height
+  double speed_mmps = 0.0;
+  double slope_square = 0.0;  // mean over the block
+};
+
+double mean_present(std::span<const double> x) {
+  double sum = 0.0, count = 0.0;
+  for (const double v : x) {
+    if (!std::isfinite(v)) continue;
+    sum += v;
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : kNan;
+}
+
+double mean_square(std::span<const double> x) {
+  double sum = 0.0, count = 0.0;
+  for (const double v : x) {
+    if (!std::isfinite(v)) continue;
+    sum += v * v;
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : kNan;
+}
+
+double mean_slope_square(std::span<const double> x, double spacing) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 1; i < x.size(); ++i) {
+    if (!std::isfinite(x[i]) || !std::isfinite(x[i - 1])) continue;
+    sum += std::pow((x[i] - x[i - 1]) / spacing, 2);
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+// The blocks of the profile that have heights and a speed.
+std::vector<Block> find_blocks(const Profile& profile) {
+  std::vector<Block> out;
+  for (std::size_t first = 0; first < profile.size(); first += kBlock_points) {
+    Block block;
+    block.first = first;
+    block.last = std::min(first + kBlock_points, profile.size());
+    const auto part = [&](std::span<const double> x) { return x.subspan(first, block.last - first); };
+    for (const double h : part(profile.texture_m)) block.points += std::isfinite(h) ? 1.0 : 0.0;
+    block.speed_mmps = 1e3 * std::abs(mean_present(part(profile.speed_mps)));
+    block.slope_square = mean_slope_square(part(profile.texture_m), profile.spacing_m);
+    if (block.points > 0.0 && block.speed_mmps > 0.0) out.push_back(block);
+  }
+  return out;
+}
+
+std::vector<double> frequencies(double lowest, double highest) {
+  std::vector<double> out(kFrequencies);
+  const double step = std::log(highest / lowest) / static_cast<double>(kFrequencies - 1);
+  for (std::size_t i = 0; i < kFrequencies; ++i) out[i] = lowest * std::exp(step * static_cast<double>(i));
+  return out;
+}
+
+template <class Value>
+double integrate(const std::vector<double>& at, const Value& value) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < at.size(); ++i) sum += 0.5 * (value(i) + value(i - 1)) * (at[i] - at[i - 1]);
+  return sum;
+}
+
+// The frequency at which the noises of an acceleration (m²/s³) and of a tracker (m² s) meet.
+double meeting_Hz(double accel_psd, double tracker_psd) {
+  return std::pow(accel_psd / tracker_psd, 0.25) / (2.0 * std::numbers::pi);
+}
+
+// The density of a measured texture at a frequency, by straight lines.
+double density_at(const PowerSpectrum& spectrum, double frequency) {
+  if (spectrum.frequency.size() < 2) return 0.0;
+  const double place = frequency / spectrum.frequency[1];
+  const auto i = static_cast<std::size_t>(place);
+  if (i + 1 >= spectrum.density.size()) return spectrum.density.back();
+  const double share = place - static_cast<double>(i);
+  return (1.0 - share) * spectrum.density[i] + share * spectrum.density[i + 1];
+}
+
+// The variance of the place along the path, mm²: of one point, and of what is not a shift of the whole.
+struct PlaceVariance {
+  double point_mm2 = 0.0;
+  double shape_mm2 = 0.0;
+};
+
+PlaceVariance place_variance(const HeightErrors& errors, double duration_s, double length_mm) {
+  PlaceVariance out;
+  if (errors.along_accel_psd_m2ps3 > 0.0 && errors.along_tracker_psd_m2ps > 0.0) {
+    const double bandwidth_Hz =
+        kPositionBandwidth * meeting_Hz(errors.along_accel_psd_m2ps3, errors.along_tracker_psd_m2ps);
+    out.point_mm2 = 1e6 * errors.along_tracker_psd_m2ps * bandwidth_Hz;
+    out.shape_mm2 = 1e6 * errors.along_tracker_psd_m2ps * std::max(0.0, bandwidth_Hz - 0.5 / duration_s);
+  }
+  // A wrong scale moves a point by its distance from the middle.
+  out.shape_mm2 += std::pow(errors.along_scale_sigma * length_mm, 2) / 12.0;
+  return out;
+}
+
+}  // namespace
+
+double texture_power_gain(double cycles_per_mm, double cutoff_cycles_per_mm) {
+  if (!(cutoff_cycles_per_mm > 0.0)) return 1.0;
+  // The whole forward-backward filter of order 2 (zero_phase.h): −3 dB at the cut-off.
+  const double ratio = cutoff_cycles_per_mm / cycles_per_mm;
+  const double gain = 1.0 / (1.0 + (std::numbers::sqrt2 - 1.0) * ratio * ratio * ratio * ratio);
+  return gain * gain;
+}
+
+TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const HeightErrors& errors,
+                                            double cutoff_cycles_per_mm) {
+  TextureNoiseEstimate out;
+  TextureNoise& noise = out.noise;
+  out.texture_sigma_m.assign(profile.size(), kNan);
+  noise.texture_rms_m = std::sqrt(mean_square(profile.texture_m));
+  const std::vector<Block> blocks = find_blocks(profile);
+  if (blocks.empty() || !(errors.accel_psd_m2ps3 > 0.0) || !(errors.tracker_psd_m2ps > 0.0)) return out;
+
+  const double spacing_mm = 1e3 * profile.spacing_m;
+  double points = 0.0, duration_s = 0.0, slope_square = 0.0;
+  for (const Block& b : blocks) {
+    points += b.points;
+    duration_s += b.points * spacing_mm / b.speed_mmps;
+    slope_square += b.points * b.slope_square;
+  }
+  slope_square /= points;
+
+  // Added noise, in mm.
+  const double accel_psd = 1e6 * errors.accel_psd_m2ps3;
+  const double tracker_psd = 1e6 * errors.tracker_psd_m2ps;
+  const double lowest = std::max(kLowest_cycles_per_mm, kBelowCutoff * cutoff_cycles_per_mm);
+  const std::vector<double> k = frequencies(lowest, 0.5 / spacing_mm);
+  std::vector<double> gain(k.size()), added(k.size(), 0.0), here(k.size()), block_power(blocks.size());
+  for (std::size_t i = 0; i < k.size(); ++i) gain[i] = texture_power_gain(k[i], cutoff_cycles_per_mm);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const double speed = blocks[b].speed_mmps;
+    for (std::size_t i = 0; i < k.size(); ++i) {
+      const double omega = 2.0 * std::numbers::pi * k[i] * speed;
+      here[i] = gain[i] * speed * accel_psd * tracker_psd / (accel_psd + tracker_psd * omega * omega * omega * omega);
+      added[i] += blocks[b].points / points * here[i];
+    }
+    block_power[b] = integrate(k, [&](std::size_t i) { return here[i]; });
+  }
+  const double added_power = integrate(k, [&](std::size_t i) { return added[i]; });
+
+  // Misplaced heights.
+  const double length_mm = points * spacing_mm;
+  const PlaceVariance place = place_variance(errors, duration_s, length_mm);
+  const PowerSpectrum measured = measure_spectrum(profile.texture_m, profile.spacing_m);
+  std::vector<double> misplaced(k.size());
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    const double surface = std::max(0.0, 1e6 * density_at(measured, k[i]) - added[i]);
+    const double phase_variance = std::pow(2.0 * std::numbers::pi * k[i], 2) * place.shape_mm2;
+    misplaced[i] = 2.0 * (1.0 - std::exp(-0.5 * phase_variance)) * surface;
+  }
+  const double misplaced_power = integrate(k, [&](std::size_t i) { return misplaced[i]; });
+
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const double share = slope_square > 0.0 ? blocks[b].slope_square / slope_square : 0.0;
+    const double sigma_m = 1e-3 * std::sqrt(block_power[b] + share * misplaced_power);
+    for (std::size_t i = blocks[b].first; i < blocks[b].last; ++i) {
+      if (std::isfinite(profile.texture_m[i])) out.texture_sigma_m[i] = sigma_m;
+    }
+  }
+
+  noise.frequency_cycles_per_mm = k;
+  noise.added_psd_m2_mm.resize(k.size());
+  noise.misplaced_psd_m2_mm.resize(k.size());
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    noise.added_psd_m2_mm[i] = 1e-6 * added[i];
+    noise.misplaced_psd_m2_mm[i] = 1e-6 * misplaced[i];
+  }
+  const double square = integrate(k, [&](std::size_t i) { return added[i] * added[i]; });
+  const double by_chance = square / (length_mm * added_power * added_power);
+  const double information = kFisher * duration_s * meeting_Hz(accel_psd, tracker_psd);
+  const double relative = std::sqrt(by_chance + 1.0 / std::max(information, kLeastInformation));
+  const double measured_power = 1e6 * noise.texture_rms_m * noise.texture_rms_m;
+  const double noise_power = added_power + misplaced_power;
+  noise.place_sigma_m = 1e-3 * std::sqrt(place.shape_mm2);
+  noise.length_stderr_m = 1e-3 * std::sqrt(2.0 * place.point_mm2 + std::pow(errors.along_scale_sigma * length_mm, 2));
+  noise.scale_sigma = errors.scale_sigma;
+  noise.along_sigma = noise.length_stderr_m / (1e-3 * length_mm);
+  noise.added_rms_m = 1e-3 * std::sqrt(added_power);
+  noise.added_rms_stderr_m = 0.5 * relative * noise.added_rms_m;
+  noise.noise_rms_m = 1e-3 * std::sqrt(noise_power);
+  noise.noise_rms_stderr_m = 0.5 * relative * noise.noise_rms_m;
+  noise.snr = std::max(0.0, measured_power - added_power) / noise_power;
+  const double most = 1.0 + kSure * relative;
+  noise.snr_low = std::max(0.0, measured_power - most * added_power) / (most * noise_power);
+  noise.at_most_m =
+      1e-3 * std::sqrt(std::max(0.0, measured_power - added_power * std::max(0.0, 1.0 - kSure * relative)));
+  return out;
+}
+
+TextureNoise noise_of_sigma(std::span<const double> texture_m, std::span<const double> texture_sigma_m,
+                            double spacing_m, double cutoff_cycles_per_mm) {
+  constexpr double kRelative = 0.25;  // of the power
+  TextureNoise noise;
+  const double power_m2 = mean_square(texture_sigma_m);
+  if (!(power_m2 > 0.0) || !(cutoff_cycles_per_mm > 0.0)) return noise;
+  noise.frequency_cycles_per_mm = frequencies(kBelowCutoff * cutoff_cycles_per_mm, 0.5e-3 / spacing_m);
+  const std::vector<double>& k = noise.frequency_cycles_per_mm;
+  for (const double at : k) {
+    noise.added_psd_m2_mm.push_back(texture_power_gain(at, cutoff_cycles_per_mm) / (at * at * at * at));
+  }
+  const double sum = integrate(k, [&](std::size_t i) { return noise.added_psd_m2_mm[i]; });
+  for (double& density : noise.added_psd_m2_mm) density *= power_m2 / sum;
+  noise.misplaced_psd_m2_mm.assign(k.size(), 0.0);
+  noise.added_rms_m = noise.noise_rms_m = std::sqrt(power_m2);
+  noise.added_rms_stderr_m = noise.noise_rms_stderr_m = 0.5 * kRelative * noise.added_rms_m;
+  const double texture_m2 = mean_square(texture_m);
+  const double most_m2 = power_m2 * (1.0 + kSure * kRelative);
+  noise.texture_rms_m = std::sqrt(texture_m2);
+  noise.snr = std::max(0.0, texture_m2 - power_m2) / power_m2;
+  noise.snr_low = std::max(0.0, texture_m2 - most_m2) / most_m2;
+  noise.at_most_m = std::sqrt(std::max(0.0, texture_m2 - power_m2 * (1.0 - kSure * kRelative)));
+  return noise;
+}
+
+}  // namespace asperity

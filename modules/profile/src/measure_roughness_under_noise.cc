@@ -1,0 +1,157 @@
+#include "asperity/profile/measure_roughness_under_noise.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "asperity/base/nan.h"
+#include "draw_noise.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr std::size_t kDraws = 24;
+constexpr std::size_t kFewestDraws = 6;
+constexpr std::size_t kPlaceDraws = 8;
+constexpr std::size_t kMostDrawn_points = 200'000;  // drawn in all: a long profile's parameters vary little
+constexpr std::uint64_t kSeed = 20'260'101;
+constexpr double kLeastSnr = 1.0;  // below it the texture does not stand out: its parameters would be the noise's
+constexpr std::size_t kParameters = kRoughnessParameters.size();
+
+// The mean over the draws, and the spread of single ones.
+class Spread {
+ public:
+  void add(double x) {
+    if (!std::isfinite(x)) return;
+    ++count_;
+    const double step = x - mean_;
+    mean_ += step / count_;
+    square_ += step * (x - mean_);
+  }
+  double mean() const { return count_ > 0.0 ? mean_ : kNan; }
+  double deviation() const { return count_ > 1.0 ? std::sqrt(square_ / (count_ - 1.0)) : kNan; }
+
+ private:
+  double count_ = 0.0, mean_ = 0.0, square_ = 0.0;
+};
+
+double signed_square(double x) { return x * std::abs(x); }
+double signed_root(double x) { return std::copysign(std::sqrt(std::abs(x)), x); }
+
+struct Followed {
+  std::array<Spread, kParameters> once, twice;  // lengths squared
+  std::array<Spread, kParameters> plain;        // once, not squared
+};
+
+double along_power(const RoughnessParameter& p, double value) {
+  return p.is_length && p.name != "RSm" ? signed_square(value) : value;
+}
+double back_from_power(const RoughnessParameter& p, double value) {
+  return p.is_length && p.name != "RSm" ? signed_root(value) : value;
+}
+
+Followed follow_noise(std::span<const double> height_m, double spacing_m, const TextureNoise& noise,
+                      const RoughnessConfig& config) {
+  Followed out;
+  Random random(kSeed);
+  const std::size_t draws =
+      std::max(kFewestDraws, std::min(kDraws, kMostDrawn_points / std::max<std::size_t>(1, height_m.size())));
+  std::vector<double> heavier(height_m.size());
+  for (std::size_t j = 0; j < draws; ++j) {
+    const std::vector<double> more =
+        draw_noise(noise.frequency_cycles_per_mm, noise.added_psd_m2_mm, height_m.size(), 1e3 * spacing_m, random);
+    for (const double power : {1.0, 2.0}) {
+      for (std::size_t i = 0; i < heavier.size(); ++i) heavier[i] = height_m[i] + std::sqrt(power) * more[i];
+      const RoughnessResult r = measure_roughness(heavier, spacing_m, config);
+      for (std::size_t p = 0; p < kParameters; ++p) {
+        const double value = r.*kRoughnessParameters[p].value;
+        (power < 1.5 ? out.once : out.twice)[p].add(along_power(kRoughnessParameters[p], value));
+        if (power < 1.5) out.plain[p].add(value);
+      }
+    }
+  }
+  return out;
+}
+
+// Whether a parameter hangs on single heights: on where they are highest and lowest, or on high powers of them.
+bool hangs_on_extremes(const RoughnessParameter& p) {
+  return p.value != &RoughnessParameters::Ra_m && p.value != &RoughnessParameters::Rq_m &&
+         p.value != &RoughnessParameters::RSm_m;
+}
+
+// What heights at a wrong place can do to each parameter: the spread over draws of noise of their spectrum, and half of
+// the mean change.
+std::array<double, kParameters> doubt_by_place(std::span<const double> height_m, double spacing_m,
+                                               const TextureNoise& noise, const RoughnessConfig& config,
+                                               const RoughnessParameters& measured) {
+  Random random(kSeed, 1);
+  std::array<Spread, kParameters> spread;
+  std::vector<double> heavier(height_m.size());
+  for (std::size_t j = 0; j < kPlaceDraws; ++j) {
+    const std::vector<double> more =
+        draw_noise(noise.frequency_cycles_per_mm, noise.misplaced_psd_m2_mm, height_m.size(), 1e3 * spacing_m, random);
+    for (std::size_t i = 0; i < heavier.size(); ++i) heavier[i] = height_m[i] + more[i];
+    const RoughnessResult r = measure_roughness(heavier, spacing_m, config);
+    for (std::size_t p = 0; p < kParameters; ++p) spread[p].add(r.*kRoughnessParameters[p].value);
+  }
+  std::array<double, kParameters> out{};
+  for (std::size_t p = 0; p < kParameters; ++p) {
+    const RoughnessParameter& parameter = kRoughnessParameters[p];
+    if (!hangs_on_extremes(parameter)) continue;
+    const double change = 0.5 * (spread[p].mean() - measured.*parameter.value);
+    const double doubt = std::hypot(spread[p].deviation(), change);
+    out[p] = std::isfinite(doubt) ? doubt : 0.0;
+  }
+  return out;
+}
+
+}  // namespace
+
+RoughnessResult measure_roughness_under_noise(std::span<const double> height_m, double spacing_m,
+                                              const TextureNoise& noise, const RoughnessConfig& config) {
+  RoughnessResult out = measure_roughness(height_m, spacing_m, config);
+  if (!(noise.added_rms_m > 0.0)) return out;
+  if (noise.snr_low < kLeastSnr) {
+    static_cast<RoughnessParameters&>(out) = RoughnessParameters::unknown();
+    return out;
+  }
+  const RoughnessParameters measured = out;
+  const Followed followed = follow_noise(height_m, spacing_m, noise, config);
+  const std::array<double, kParameters> place = doubt_by_place(height_m, spacing_m, noise, config, measured);
+  const double relative = 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;  // of the power
+
+  for (std::size_t p = 0; p < kParameters; ++p) {
+    const RoughnessParameter& parameter = kRoughnessParameters[p];
+    double& value = out.*parameter.value;
+    double& error = out.standard_error.*parameter.value;
+    const double none = along_power(parameter, measured.*parameter.value);
+    const double once = followed.once[p].mean(), twice = followed.twice[p].mean();
+    const bool is_rq = parameter.value == &RoughnessParameters::Rq_m;
+    const double line = is_rq ? none - noise.added_rms_m * noise.added_rms_m : 2.0 * none - once;
+    const double parabola = is_rq ? line : 3.0 * none - 3.0 * once + twice;
+    const bool gone = parameter.is_length && (parabola * none <= 0.0 || line * none <= 0.0);
+    const double before = value;
+    value = gone ? kNan : back_from_power(parameter, parabola);
+    if (!std::isfinite(value)) continue;
+    // Of what noise adds to extremes the extrapolation finds about half: its curve is steepest where it cannot look.
+    const double doubt =
+        hangs_on_extremes(parameter) ? 0.5 * (value - before) : 0.5 * (value - back_from_power(parameter, line));
+    const double known = relative * (value - before);
+    double scale = 0.0;
+    if (parameter.value == &RoughnessParameters::RSm_m) {
+      scale = noise.along_sigma * value;
+    } else if (parameter.is_length) {
+      scale = noise.scale_sigma * value;
+    }
+    error = std::hypot(std::hypot(followed.plain[p].deviation(), doubt), std::hypot(known, scale, place[p]));
+  }
+  if (!std::isfinite(out.Rq_m)) {
+    static_cast<RoughnessParameters&>(out) = RoughnessParameters::unknown();
+    out.standard_error = RoughnessParameters::unknown();
+  }
+  return out;
+}
+
+}  // namespace asperity

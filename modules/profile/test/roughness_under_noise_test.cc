@@ -1,0 +1,127 @@
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "asperity/base/nan.h"
+#include "asperity/base/random.h"
+#include "asperity/profile/estimate_texture_noise.h"
+#include "asperity/profile/find_periodicity_under_noise.h"
+#include "asperity/profile/measure_roughness_under_noise.h"
+#include "draw_noise.h"
+
+namespace asperity {
+namespace {
+
+constexpr double kSpacing_m = 0.025e-3;
+constexpr std::size_t kPoints = 3200;
+
+// White noise between 0.5 and 8 cycles/mm with an RMS of `rms_m`.
+TextureNoise band_noise(double rms_m) {
+  TextureNoise noise;
+  noise.frequency_cycles_per_mm = {0.5, 8.0};
+  const double density = rms_m * rms_m / 7.5;
+  noise.added_psd_m2_mm = {density, density};
+  noise.misplaced_psd_m2_mm = {0.0, 0.0};
+  noise.added_rms_m = noise.noise_rms_m = rms_m;
+  noise.added_rms_stderr_m = 0.05 * rms_m;
+  noise.snr = noise.snr_low = 10.0;
+  return noise;
+}
+
+std::vector<double> drawn(const TextureNoise& noise, std::uint64_t seed) {
+  Random random(seed);
+  return draw_noise(noise.frequency_cycles_per_mm, noise.added_psd_m2_mm, kPoints, 1e3 * kSpacing_m, random);
+}
+
+std::vector<double> sine(double amplitude_m, double pitch_m) {
+  std::vector<double> out(kPoints);
+  for (std::size_t i = 0; i < kPoints; ++i) {
+    out[i] = amplitude_m * std::sin(2.0 * std::numbers::pi * kSpacing_m * static_cast<double>(i) / pitch_m);
+  }
+  return out;
+}
+
+TEST(DrawNoise, HasThePowerOfItsDensity) {
+  double power_m2 = 0.0;
+  constexpr int kDrawn = 20;
+  for (int seed = 0; seed < kDrawn; ++seed) {
+    for (const double x : drawn(band_noise(3e-6), static_cast<std::uint64_t>(seed))) power_m2 += x * x;
+  }
+  // 1200 independent numbers a draw: 0.6 % of the power in all.
+  EXPECT_NEAR(power_m2 / kDrawn / kPoints, 9e-12, 0.03 * 9e-12);
+}
+
+// A sine of known parameters under noise of a known spectrum, many times: the values are those of the sine, and its 95
+// % intervals hold them.
+TEST(RoughnessUnderNoise, GivesTheParametersWithoutTheNoise) {
+  const std::vector<double> clean = sine(40e-6, 2e-3);
+  const RoughnessResult truth = measure_roughness(clean, kSpacing_m);
+  constexpr int kScans = 30;
+  int held_Rq = 0, held_Ra = 0, held_Rku = 0;
+  double Rq = 0.0, plain_Rq = 0.0;
+  for (int seed = 1; seed <= kScans; ++seed) {
+    const TextureNoise noise = band_noise(10e-6);
+    std::vector<double> noisy = clean;
+    const std::vector<double> more = drawn(noise, static_cast<std::uint64_t>(seed));
+    for (std::size_t i = 0; i < kPoints; ++i) noisy[i] += more[i];
+    const RoughnessResult r = measure_roughness_under_noise(noisy, kSpacing_m, noise);
+    Rq += r.Rq_m / kScans;
+    plain_Rq += measure_roughness(noisy, kSpacing_m).Rq_m / kScans;
+    held_Rq += std::abs(r.Rq_m - truth.Rq_m) < 1.96 * r.standard_error.Rq_m ? 1 : 0;
+    held_Ra += std::abs(r.Ra_m - truth.Ra_m) < 1.96 * r.standard_error.Ra_m ? 1 : 0;
+    held_Rku += std::abs(r.Rku - truth.Rku) < 1.96 * r.standard_error.Rku ? 1 : 0;
+    EXPECT_LT(r.standard_error.Rq_m, 0.05 * truth.Rq_m);
+  }
+  EXPECT_GT(plain_Rq, 1.04 * truth.Rq_m);           // √(1 + (10/28.3)²) − 1 = 6 %
+  EXPECT_NEAR(Rq, truth.Rq_m, 0.005 * truth.Rq_m);  // 30 scans of 1 % each
+  EXPECT_GE(held_Rq, 26);                           // 28.5 ± 1.2 of 30 are expected
+  EXPECT_GE(held_Ra, 26);
+  EXPECT_GE(held_Rku, 25);
+}
+
+TEST(RoughnessUnderNoise, IsNotDeterminedWhereNothingStandsOut) {
+  const std::vector<double> clean = sine(40e-6, 2e-3);
+  TextureNoise noise = band_noise(40e-6);
+  EXPECT_TRUE(std::isnan(measure_roughness_under_noise(clean, kSpacing_m, noise).Rq_m));
+  noise = band_noise(10e-6);
+  noise.snr_low = 0.3;
+  const RoughnessResult r = measure_roughness_under_noise(clean, kSpacing_m, noise);
+  EXPECT_TRUE(std::isnan(r.Ra_m));
+  EXPECT_TRUE(std::isnan(r.standard_error.Ra_m));
+  EXPECT_EQ(r.samples, kPoints);
+}
+
+TEST(RoughnessUnderNoise, WithoutANoiseIsThePlainOne) {
+  const std::vector<double> clean = sine(40e-6, 2e-3);
+  const RoughnessResult r = measure_roughness_under_noise(clean, kSpacing_m, {});
+  EXPECT_EQ(r.Rz_m, measure_roughness(clean, kSpacing_m).Rz_m);
+  EXPECT_TRUE(std::isnan(r.standard_error.Rz_m));
+}
+
+// Noise of 5 µm adds some 17 µm to the highest less the lowest point of a period.
+TEST(PeriodicityUnderNoise, TakesTheNoiseOffTheDepth) {
+  const TextureNoise noise = band_noise(5e-6);
+  std::vector<double> noisy = sine(40e-6, 2e-3);
+  const std::vector<double> more = drawn(noise, 5);
+  for (std::size_t i = 0; i < kPoints; ++i) noisy[i] += more[i];
+  const Periodicity plain = find_periodicity(noisy, kSpacing_m, {});
+  const Periodicity p = find_periodicity_under_noise(noisy, kSpacing_m, noise, {});
+  EXPECT_GT(plain.depth_m, 88e-6);
+  EXPECT_NEAR(p.depth_m, 80e-6, 3.0 * p.depth_stderr_m);
+  EXPECT_LT(p.depth_stderr_m, 6e-6);
+  EXPECT_NEAR(p.pitch_m, 2e-3, 4.0 * p.pitch_stderr_m);
+}
+
+TEST(NoiseOfSigma, HasThePowerOfTheSigmas) {
+  std::vector<double> texture_m = sine(40e-6, 2e-3), sigma_m(kPoints, 6e-6);
+  texture_m[7] = sigma_m[7] = kNan;
+  const TextureNoise noise = noise_of_sigma(texture_m, sigma_m, kSpacing_m, 0.1);
+  EXPECT_NEAR(noise.added_rms_m, 6e-6, 1e-12);
+  EXPECT_NEAR(noise.snr, (40.0 * 40.0 / 2.0 - 36.0) / 36.0, 0.05);
+  EXPECT_TRUE(noise_of_sigma(texture_m, {}, kSpacing_m, 0.1).added_psd_m2_mm.empty());
+}
+
+}  // namespace
+}  // namespace asperity

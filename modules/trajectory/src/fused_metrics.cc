@@ -1,0 +1,102 @@
+#include "fused_metrics.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "fused_setup.h"
+#include "inertial_model.h"
+
+namespace asperity::inertial_smoother {
+
+namespace {
+
+constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+
+double median_norm(const std::vector<Vector3d>& residuals, const Problem& problem) {
+  std::vector<double> sizes;
+  for (const Epoch& epoch : problem.epochs) {
+    if (epoch.pose >= 0) sizes.push_back(residuals[static_cast<std::size_t>(epoch.pose)].norm());
+  }
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle;
+}
+
+// The acceleration's noise in use over the sensors' own, mean power over time.
+double process_noise_scale(const Problem& problem) {
+  double own = 0.0, used = 0.0;
+  for (std::size_t k = 0; k + 1 < problem.knots.size(); ++k) {
+    const double dt = problem.knots[k + 1].t - problem.knots[k].t;
+    own += dt * problem.knots[k].accel_psd[0];
+    used += dt * accel_density(problem.knots[k], problem);
+  }
+  return own > 0.0 ? used / own : 0.0;
+}
+
+void append_outliers(const Problem& problem, TrajectoryResult& result) {
+  std::size_t poses = 0;
+  std::size_t outliers = 0;
+  for (const Epoch& epoch : problem.epochs) {
+    if (epoch.pose < 0) continue;
+    ++poses;
+    const auto i = static_cast<std::size_t>(epoch.pose);
+    outliers += problem.position_weight[i] < 0.5 || problem.rotation_weight[i] < 0.5;
+  }
+  if (outliers > 0) {
+    result.problems.push_back({"pose_outlier", "tracker poses far from the rest lost their weight", outliers});
+  }
+  result.metrics["poses_used"] = static_cast<double>(poses - outliers);
+  result.metrics["poses_outlying"] = static_cast<double>(outliers);
+  result.metrics["poses_outlying_share"] = static_cast<double>(outliers) / static_cast<double>(poses);
+}
+
+}  // namespace
+
+void append_learnt(const InertialStream& inertial, const Problem& problem, const Smoothed& smoothed,
+                   const Calibration& calibration, const FusedConfig& config, TrajectoryResult& result) {
+  append_outliers(problem, result);
+  const Layout& layout = problem.layout;
+  const auto root = [&](Component component) { return std::sqrt(problem.factors[component]); };
+  auto& metrics = result.metrics;
+  metrics["process_noise_scale"] = process_noise_scale(problem);
+  metrics["accel_own_noise_mps2"] = std::sqrt(problem.process_scale) * root(kAccelOwn) * inertial.accel_noise_mps2;
+  metrics["accel_motion_share"] = std::sqrt(problem.process_scale) * root(kAccelMotion) * config.inertial.scale_error;
+  metrics["probe_time_sigma_s"] = root(kAccelJitter) * config.inertial.sample_time_sigma_s;
+  metrics["accel_bias_walk_mps2_rts"] = root(kAccelWalk) * config.accel_bias_walk_mps2_per_rts;
+  if (inertial.has_gyro) {
+    metrics["gyro_own_noise_radps"] = root(kGyroOwn) * inertial.gyro_noise_radps;
+    metrics["gyro_motion_share"] = root(kGyroMotion) * config.inertial.rate_error;
+    metrics["gyro_bias_walk_radps_rts"] = root(kRateWalk) * config.gyro_bias_walk_radps_per_rts;
+  } else {
+    metrics["angular_accel_radps2_rtHz"] = std::sqrt(rate_walk_density(problem));
+  }
+  metrics["accel_bias_mps2"] = smoothed.last.ba.norm();
+  if (layout.accel_matrix >= 0) metrics["accel_matrix_error"] = smoothed.last.accel_matrix.norm();
+  if (layout.gyro_matrix >= 0) metrics["gyro_matrix_error"] = smoothed.last.gyro_matrix.norm();
+  if (layout.gravity >= 0) metrics["gravity_error_mps2"] = smoothed.last.gravity.norm();
+  metrics["tracker_time_sigma_s"] = root(kPoseTime) * problem.time_sigma;
+  if (layout.slow >= 0) {
+    metrics["tracker_slow_sigma_m"] = root(kSlow) * problem.slow_sigma.head<3>().norm() / std::sqrt(3.0);
+    metrics["tracker_slow_sigma_rad"] = root(kSlowTurn) * problem.slow_sigma.tail<3>().norm() / std::sqrt(3.0);
+  }
+  constexpr std::array<Component, 3> kPosition{kPositionX, kPositionY, kPositionZ};
+  constexpr std::array<Component, 3> kRotation{kRotationX, kRotationY, kRotationZ};
+  const Vector3d stated_m = stated_sigma_m(calibration.tracker), stated_rad = stated_sigma_rad(calibration.tracker);
+  double noise_ratio = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<Eigen::Index>(axis);
+    noise_ratio = std::max(noise_ratio, root(kPosition[axis]));
+    metrics[std::string("tracker_sigma_") + kAxes[axis] + "_m"] = root(kPosition[axis]) * stated_m[i];
+    metrics[std::string("tracker_sigma_r") + kAxes[axis] + "_rad"] = root(kRotation[axis]) * stated_rad[i];
+    if (layout.lever < 0) continue;
+    metrics[std::string("accelerometer_position_") + kAxes[axis] + "_m"] = smoothed.last.lever[i];
+    metrics[std::string("accelerometer_position_") + kAxes[axis] + "_sigma_m"] = smoothed.last_sigma[layout.lever + i];
+  }
+  metrics["tracker_noise_ratio"] = noise_ratio;
+  metrics["position_residual_median_m"] = median_norm(smoothed.position_residual, problem);
+  metrics["rotation_residual_median_rad"] = median_norm(smoothed.rotation_residual, problem);
+}
+
+}  // namespace asperity::inertial_smoother

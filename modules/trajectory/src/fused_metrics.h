@@ -1,0 +1,14 @@
+#pragma once
+
+#include "asperity/recording/calibration.h"
+#include "asperity/trajectory/calibrate_inertial.h"
+#include "asperity/trajectory/estimate_trajectory_fused.h"
+#include "inertial_smoother.h"
+
+namespace asperity::inertial_smoother {
+
+// What the last pass used and learnt, by the names of docs/trajectory.md.
+void append_learnt(const InertialStream& inertial, const Problem& problem, const Smoothed& smoothed,
+                   const Calibration& calibration, const FusedConfig& config, TrajectoryResult& result);
+
+}  // namespace asperity::inertial_smoother

@@ -1,0 +1,112 @@
+// The smoother's linearisation, its score and its likelihood against finite differences.
+
+#include "../src/inertial_smoother.h"
+
+#include <gmock/gmock.h>
+#include <cmath>
+
+#include "../src/fused_problem.h"
+#include "../src/fused_setup.h"
+#include "../src/inertial_model.h"
+#include "hand_motion.h"
+
+namespace asperity {
+namespace {
+
+using inertial_smoother::Component;
+using inertial_smoother::Knot;
+using inertial_smoother::Mounting;
+using inertial_smoother::Nominal;
+using inertial_smoother::State;
+using inertial_smoother::Step;
+using inertial_smoother::Transition;
+using SmootherProblem = inertial_smoother::Problem;
+using Eigen::Vector3d;
+
+SmootherProblem make_problem(bool has_gyro) {
+  testing_motion::RestingHand hand;
+  testing_motion::Sensors sensors;
+  sensors.duration_s = 6.0;
+  sensors.rate_Hz = 200.0;
+  sensors.tracker_rate_Hz = 30.0;
+  sensors.gyro = has_gyro;
+  sensors.accel_in_marker = Vector3d(0.005, 0.03, -0.01);
+  Recording recording = record(hand, sensors);
+  recording.calibration.accelerometer.position_sigma_m = 0.002;
+  const FusedConfig config;
+  const InertialStream inertial = calibrate_inertial(recording, config.inertial);
+  SmootherProblem out =
+      inertial_smoother::make_problem(recording, inertial, config, sensors.latency_s, inertial.t_ns.front());
+  out.layout = inertial_smoother::choose_layout(recording.calibration, has_gyro, true, config);
+  out.gravity = recording.info.gravity_world_mps2;
+  inertial_smoother::set_constants(recording.calibration, has_gyro, config, out);
+  out.start_covariance = inertial_smoother::prior(recording.calibration, has_gyro, config, out.layout);
+  out.start = inertial_smoother::first_guess(recording, out);
+  out.start.latency = -0.002;
+  out.gate_innovations = false;  // every pose with its whole weight: the likelihood is smooth
+  out.gate_chi2 = 1e9;
+  return out;
+}
+
+// Where dead reckoning ends from a start with a small error, less where it ends without, over the error.
+TEST(InertialSmoother, TheTransitionIsTheDerivativeOfDeadReckoning) {
+  const SmootherProblem problem = make_problem(true);
+  const auto& layout = problem.layout;
+  const std::size_t first = problem.epochs[100].knot, last = problem.epochs[101].knot;
+  Nominal start = problem.start;
+  start.v = Vector3d(0.1, -0.05, 0.02);
+  start.bg = Vector3d(0.3, -0.8, 0.5);
+  const auto run = [&](const State& error, Transition* transition) {
+    Nominal x = start;
+    inertial_smoother::apply_correction(error, layout, x);
+    const Mounting mounting = inertial_smoother::mounting_of(x, problem);
+    for (std::size_t k = first; k < last; ++k) {
+      const Step step = inertial_smoother::advance_state(x, problem.knots[k], problem.knots[k + 1], mounting, {});
+      if (transition != nullptr) transition->extend(step, problem.knots[k], problem.knots[k + 1], mounting, problem);
+    }
+    return x;
+  };
+  Transition transition;
+  const State none = State::Zero(layout.size);
+  const Nominal end = run(none, &transition);
+  const auto U = transition.rows(layout);
+  constexpr double kSmall = 1e-5;
+  for (int i = 0; i < layout.size; ++i) {
+    State error = none;
+    error[i] = kSmall;
+    const Nominal moved = run(error, nullptr);
+    Eigen::Matrix<double, 9, 1> difference;
+    difference << moved.p - end.p, moved.v - end.v, log_rotation(moved.q * end.q.conjugate());
+    difference /= kSmall;
+    if (i < 9) difference[i] -= 1.0;
+    // The integrals go sample by sample of 5 ms: rates of 1 rad/s leave half a percent of the interval's largest terms.
+    const double tolerance = 6e-3 * std::max(U.col(i).cwiseAbs().maxCoeff(), 1e-4);
+    EXPECT_LT((difference - U.col(i)).cwiseAbs().maxCoeff(), tolerance) << "state " << i;
+  }
+}
+
+// ∂ log L / ∂ log θ = (seen − expected)/2 for every component, by central differences of the filter's likelihood:
+// another pass, which knows nothing of the smoother.
+TEST(InertialSmoother, TheScoreIsTheDerivativeOfTheLikelihood) {
+  for (const bool has_gyro : {true, false}) {
+    SmootherProblem problem = make_problem(has_gyro);
+    const inertial_smoother::NoiseScore score =
+        inertial_smoother::smooth_motion(problem, Vector3d::Zero(), false, {}).score;
+    for (std::size_t i = 0; i < inertial_smoother::kComponents; ++i) {
+      constexpr double kStep = 0.02;
+      const auto likelihood = [&](double factor) {
+        SmootherProblem scaled = problem;
+        scaled.factors[i] *= factor;
+        return inertial_smoother::log_likelihood(scaled);
+      };
+      const double derivative = (likelihood(std::exp(kStep)) - likelihood(std::exp(-kStep))) / (2.0 * kStep);
+      // The filter linearises where it stands, which moves a little with the factor: 2 % and a tenth of an observation.
+      EXPECT_NEAR(0.5 * (score.seen[i] - score.expected[i]), derivative,
+                  0.1 + 0.02 * (score.seen[i] + score.expected[i]))
+          << "component " << i << (has_gyro ? "" : " without a gyroscope");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace asperity

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "asperity/verdict/verdict.h"
+
+namespace asperity {
+
+// What a processed scan shows of itself: numbers, no judgement. nan: not known, and then nothing is concluded from it.
+struct ScanEvidence {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  // The recording and its calibration.
+  bool calibrated = true;
+  bool has_force = true;
+  double force_ratio = kUnknown;             // measured over predicted, over windows without clipped samples
+  double force_difference_share = kUnknown;  // |measured − predicted| over predicted, as vectors, over these
+  double clipped_force_ratio = kUnknown;     // as force_ratio, over windows with clipped samples
+  double accel_bias_mps2 = kUnknown;
+  double latency_s = kUnknown;
+  double latency_prior_sigmas = kUnknown;
+  double tracker_noise_ratio = kUnknown;  // found over calibrated
+  double departure_m = kUnknown;          // of the estimated tip from the poses' tip, median
+  double departure_ratio = kUnknown;      // over what the poses' own noise makes
+  std::size_t poses_used = 0;
+  std::size_t poses_outlying = 0;
+  double repeated_share = 0.0;  // of the poses
+  double clipped_share = kUnknown;
+  std::size_t rows_kept = 0;
+  std::size_t rows_dropped = 0;
+  double recorded_s = 0.0;
+  double used_s = 0.0;
+  double tracker_gap_s = kUnknown;  // interpolated over
+  std::size_t samples_rejected = 0;
+  std::size_t samples = 0;
+
+  // What was measured. `measured`: the stages after the trajectory were run.
+  bool measured = true;
+  std::string no_profile;    // why not; empty: there is one
+  std::string no_roughness;  // likewise
+  std::string no_texture;
+  double contact_s = kUnknown;  // time that the tip touched
+  double covered = kUnknown;    // part of the profile that has heights
+  double min_coverage = 0.5;
+  bool error_known = true;     // the method gives the standard deviation of its heights
+  double length_m = kUnknown;  // of the path in contact
+  double length_stderr_m = kUnknown;
+  double tracker_length_m = kUnknown;  // by the poses alone, over the same times
+  double tracker_length_stderr_m = kUnknown;
+  double texture_rms_m = kUnknown;
+  double noise_rms_m = kUnknown;  // expected in it
+  double snr = kUnknown;          // power of the surface over that of the noise
+  double at_most_m = kUnknown;    // upper bound of the surface's RMS, 97.5 %
+};
+
+// The verdicts on a scan, the worst first; a nothing-touched scan has no other on its surface. The only place that
+// decides over one; docs/verdicts.md has the criteria.
+Verdicts judge_scan(const ScanEvidence& evidence);
+
+}  // namespace asperity

@@ -1,0 +1,191 @@
+#include "asperity/verdict/judge_scan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "asperity/verdict/verdict_codes.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr double kForceTolerance = 0.15;   // share: more than a calibration's scale, bias and alignment leave
+constexpr double kClippedTolerance = 0.1;  // share of the mean specific force that clipping has taken away
+constexpr double kNotByClipping = 2.0;     // factor: more than clipping takes away
+constexpr double kLargestBias_mps2 = 1.5;  // five times the prior of a calibrated accelerometer
+constexpr double kLatency_sigmas = 5.0;
+constexpr double kNoise_ratio = 4.0;  // of the tracker, found over stated
+constexpr double kOutlying_share = 0.2;
+constexpr double kDeparture_ratio = 2.5;  // of the path from the poses, over their noise
+constexpr double kTwoSided95 = 1.96;
+constexpr double kLeastContact_s = 0.1;
+constexpr double kInvisible_snr = 2.0;  // 1, and the expected noise is known to a factor of about 2 in power
+constexpr double kNoisy_snr = 5.0;      // a correlation with the surface of about 0.9
+constexpr double kLeastCoverageWithoutForce = 0.9;  // near one surface, as a tip on it is
+constexpr double kLost_share = 0.2;                 // clipped, or dropped in reading
+constexpr double kRepeated_share = 0.5;
+constexpr double kLeastOverlap_share = 0.7;
+constexpr double kLongestGap_s = 0.5;
+constexpr double kRejected_share = 0.1;
+
+double share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+// The accelerometer against gravity and the poses. Fast motion is in both; clipping is named as such.
+void judge_force(const ScanEvidence& e, Verdicts& out) {
+  const double clipped_factor = std::max(e.clipped_force_ratio, 1.0 / e.clipped_force_ratio);
+  const double worst_ratio = clipped_factor > kNotByClipping ? e.clipped_force_ratio : e.force_ratio;
+  if (std::abs(worst_ratio - 1.0) > kForceTolerance) {
+    out.push_back(make_verdict(
+        "wrong_unit",
+        fmt::format("the accelerometer reads {:.3g} times what gravity and the tracker's poses predict", worst_ratio)));
+  } else if (e.force_difference_share > kForceTolerance) {
+    out.push_back(make_verdict(
+        "wrong_frame", fmt::format("the accelerometer differs from gravity and the tracker's poses by {:.0f} % of what "
+                                   "they predict",
+                                   100.0 * e.force_difference_share)));
+  }
+  const bool clipped_away =
+      clipped_factor <= kNotByClipping && std::abs(e.clipped_force_ratio - 1.0) > kClippedTolerance;
+  if (clipped_away || e.clipped_share > kLost_share) {
+    const std::string taken = clipped_away ? fmt::format(", which took {:.0f} % of its mean away",
+                                                         100.0 * std::abs(1.0 - e.clipped_force_ratio))
+                                           : "";
+    out.push_back(make_verdict("clipped", fmt::format("{:.2g} % of the accelerometer's samples are at the end of its "
+                                                      "range{}",
+                                                      100.0 * e.clipped_share, taken)));
+  }
+}
+
+void judge_calibration(const ScanEvidence& e, Verdicts& out) {
+  if (!e.calibrated) out.push_back(make_verdict("uncalibrated", "it was recorded without a calibration"));
+  const std::size_t before = out.size();
+  judge_force(e, out);
+  // A bias is what clipping, a wrong unit or a wrong axis leave in the estimate: not named twice.
+  if (out.size() == before && e.accel_bias_mps2 > kLargestBias_mps2) {
+    out.push_back(
+        make_verdict("wrong_frame", fmt::format("the accelerometer's bias would be {:.2g} m/s²", e.accel_bias_mps2)));
+  }
+  if (e.latency_prior_sigmas > kLatency_sigmas) {
+    out.push_back(make_verdict("latency_off",
+                               fmt::format("the estimated latency of {:.1f} ms is {:.0f} standard deviations from the "
+                                           "calibrated one",
+                                           1e3 * e.latency_s, e.latency_prior_sigmas)));
+  }
+}
+
+void judge_streams(const ScanEvidence& e, Verdicts& out) {
+  if (e.tracker_noise_ratio > kNoise_ratio) {
+    out.push_back(make_verdict("tracker_noise", fmt::format("the tracker's residuals are {:.0f} times its calibrated "
+                                                            "noise",
+                                                            e.tracker_noise_ratio)));
+  }
+  const std::size_t poses = e.poses_used + e.poses_outlying;
+  if (e.departure_ratio > kDeparture_ratio) {
+    out.push_back(make_verdict(
+        "poses_disagree", fmt::format("the path is {:.2g} mm from the tracker's poses, {:.0f} times what their noise "
+                                      "makes",
+                                      1e3 * e.departure_m, e.departure_ratio)));
+  } else if (share(e.poses_outlying, poses) > kOutlying_share) {
+    out.push_back(make_verdict(
+        "poses_outlying", fmt::format("{} of {} tracker poses had to be given less weight", e.poses_outlying, poses)));
+  }
+  if (e.repeated_share > kRepeated_share)
+    out.push_back(make_verdict("tracker_repeats", "the tracker repeats the same pose"));
+  if (share(e.rows_dropped, e.rows_kept + e.rows_dropped) > kLost_share) {
+    out.push_back(make_verdict(
+        "rows_lost", fmt::format("{} of {} rows could not be used", e.rows_dropped, e.rows_kept + e.rows_dropped)));
+  }
+  if (e.used_s < kLeastOverlap_share * e.recorded_s) {
+    out.push_back(make_verdict("little_overlap", fmt::format("the two streams share only {:.1f} s of the {:.1f} s "
+                                                             "recorded",
+                                                             e.used_s, e.recorded_s)));
+  }
+  if (e.tracker_gap_s > kLongestGap_s) {
+    out.push_back(make_verdict("tracker_gap", fmt::format("the tracker lost the marker for {:.2f} s, which was "
+                                                          "interpolated over",
+                                                          e.tracker_gap_s)));
+  }
+  if (share(e.samples_rejected, e.samples) > kRejected_share) {
+    out.push_back(make_verdict(
+        "spikes", fmt::format("{} of {} probe samples were rejected as spikes", e.samples_rejected, e.samples)));
+  }
+}
+
+void judge_length(const ScanEvidence& e, Verdicts& out) {
+  const double own_m = std::isfinite(e.length_stderr_m) ? e.length_stderr_m : 0.0;
+  const double bound_m = kTwoSided95 * std::hypot(own_m, e.tracker_length_stderr_m);
+  if (!(std::abs(e.length_m - e.tracker_length_m) > bound_m)) return;
+  out.push_back(make_verdict("length_disagrees",
+                             fmt::format("the path is {:.2f} mm long, by the tracker's poses alone {:.2f} ± {:.2f} mm "
+                                         "(joint 95 %)",
+                                         1e3 * e.length_m, 1e3 * e.tracker_length_m, 1e3 * bound_m)));
+}
+
+void judge_noise(const ScanEvidence& e, Verdicts& out) {
+  if (!e.error_known) {
+    out.push_back(make_verdict("error_unknown", "the method states no error of its heights"));
+    return;
+  }
+  if (e.snr < kInvisible_snr) {
+    out.push_back(make_verdict(
+        "below_noise", fmt::format("the texture does not stand out of its noise: below what this probe can see, at "
+                                   "most {:.3g} µm RMS in {:.3g} µm of expected noise",
+                                   1e6 * e.at_most_m, 1e6 * e.noise_rms_m)));
+  } else if (e.snr < kNoisy_snr) {
+    out.push_back(
+        make_verdict("noisy_texture", fmt::format("of the texture's {:.3g} µm RMS {:.3g} µm are expected to be noise",
+                                                  1e6 * e.texture_rms_m, 1e6 * e.noise_rms_m)));
+  }
+}
+
+void judge_surface(const ScanEvidence& e, Verdicts& out) {
+  if (!e.measured) return;
+  if (e.contact_s < kLeastContact_s) {
+    out.push_back(make_verdict("nothing_touched", e.contact_s > 0.0
+                                                      ? fmt::format("the tip touched for {:.2g} s only", e.contact_s)
+                                                      : std::string("the tip touched nothing")));
+    return;
+  }
+  if (!e.no_profile.empty()) {
+    out.push_back(make_verdict("no_profile", "there is no profile: " + e.no_profile));
+    return;
+  }
+  if (!e.has_force && e.covered < kLeastCoverageWithoutForce) {
+    out.push_back(make_verdict(
+        "nothing_touched", fmt::format("there is no force, and only {:.0f} % of the path is near one surface: nothing "
+                                       "shows that the tip touched",
+                                       100.0 * e.covered)));
+    return;
+  }
+  if (e.covered < e.min_coverage) {
+    out.push_back(
+        make_verdict("little_coverage", fmt::format("only {:.0f} % of the profile has heights", 100.0 * e.covered)));
+  }
+  if (!e.has_force) {
+    out.push_back(
+        make_verdict("contact_unknown",
+                     "the force never changes: where the tip touched is not known, and all of the path counts "
+                     "as scanned"));
+  }
+  judge_length(e, out);
+  judge_noise(e, out);
+  if (!e.no_roughness.empty()) out.push_back(make_verdict("no_roughness", "there is no roughness: " + e.no_roughness));
+  if (!e.no_texture.empty()) out.push_back(make_verdict("no_texture", "there is no texture: " + e.no_texture));
+}
+
+}  // namespace
+
+Verdicts judge_scan(const ScanEvidence& evidence) {
+  Verdicts out;
+  judge_calibration(evidence, out);
+  judge_streams(evidence, out);
+  judge_surface(evidence, out);
+  sort_verdicts(out);
+  return out;
+}
+
+}  // namespace asperity

@@ -1,0 +1,113 @@
+#include "asperity/verdict/verdict_codes.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "asperity/base/error.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr auto kInvalid = Severity::kInvalid;
+constexpr auto kLimited = Severity::kLimited;
+constexpr auto kNote = Severity::kNote;
+
+// One list for all commands, so that a code means the same everywhere. Sorted by what is judged.
+constexpr VerdictCode kCodes[] = {
+    // A scan: what the recording and its calibration allow (judge_scan.h).
+    {"uncalibrated", kInvalid, "calibrate the probe with `asperity calibrate` and record again"},
+    {"wrong_unit", kInvalid, "check the unit of the accelerometer's calibration, and that the sensor works"},
+    {"wrong_frame", kInvalid,
+     "check the signs and axes of the accelerometer's calibration, of gravity and of the tracker's world"},
+    {"latency_off", kInvalid, "calibrate the latency with `asperity calibrate latency`"},
+    {"tracker_noise", kInvalid,
+     "calibrate the tracker with `asperity calibrate tracker`, and check what moves its cameras"},
+    {"poses_disagree", kInvalid, "check the calibration's frames and units, the latency and the clocks"},
+    {"poses_outlying", kLimited, "check the tracker's calibration, and what shakes or hides the markers"},
+    {"tracker_repeats", kInvalid, "check that the tracker's export has all of its poses"},
+    {"clipped", kInvalid, "scan slower or with less force, or use an accelerometer with a wider range"},
+    {"rows_lost", kInvalid, "check the connection and the file"},
+    {"little_overlap", kInvalid, "check that both streams have one clock, and record them together"},
+    {"tracker_gap", kInvalid, "keep the markers in view, or use the method `fused`"},
+    {"spikes", kInvalid, "check the probe's cable and power, or use the method `fused`"},
+    // A scan: what was measured.
+    {"no_profile", kInvalid, "scan one stroke along the surface in steady contact"},
+    {"nothing_touched", kInvalid, "scan with the tip in contact with the surface"},
+    {"little_coverage", kInvalid, "keep the tip in contact along the stroke"},
+    {"below_noise", kInvalid, "scan slower, or use a probe with less noise"},
+    {"length_disagrees", kInvalid, "check the calibration of the tip and of the latency, or use the method `fused`"},
+    {"error_unknown", kInvalid, "use the method `fused`"},
+    {"noisy_texture", kLimited, "scan slower, or use a probe with less noise"},
+    {"contact_unknown", kLimited, "use a probe with a force sensor, or mark the contact as a segment"},
+    {"no_roughness", kLimited, "scan a longer stroke"},
+    {"no_texture", kLimited, "scan a longer stroke"},
+    // A registration.
+    {"pose_ambiguous", kInvalid, "give a guess near the true pose, or scan a longer path with more shape"},
+    {"pose_not_converged", kInvalid, "give a guess nearer to the true pose"},
+    {"off_mesh", kInvalid, "check that it is the right mesh, and the unit of the mesh"},
+    {"pose_arbitrary", kInvalid, "give a guess with --guess, --align or --picks, or scan in more directions"},
+    {"no_path_on_mesh", kInvalid, "check the guess and the mesh's unit"},
+    {"no_haptic_coordinates", kInvalid, "scan each connected part of the mesh by itself"},
+    // A recording in progress.
+    {"no_samples", kInvalid, "check the probe's address, cable and power"},
+    {"never_touched", kInvalid, "touch the surface, or lower the force at which a touch begins"},
+    {"nothing_stored", kInvalid, "begin a segment, or record without --auto"},
+    {"samples_lost", kInvalid, "check the connection; a cable loses less than radio"},
+    {"disk_too_slow", kInvalid, "record on another disk"},
+    {"columns_missing", kInvalid, "begin to record after the probe has described itself"},
+    {"no_poses", kInvalid, "check the camera, the markers' family and size, and the light"},
+    {"markers_hidden", kInvalid, "keep the markers in view, lit and in focus"},
+    {"source_failed", kInvalid, "check the connection and record again"},
+    {"gravity_implausible", kInvalid, "use the calibration of this probe"},
+    {"gravity_assumed", kLimited, "hold the probe at rest for two seconds at the beginning"},
+    {"no_tracker", kLimited, "record with a tracker to measure positions"},
+    {"no_calibration", kLimited, "give the probe's calibration to measure in SI units"},
+    {"images_skipped", kLimited, "lower the camera's frame rate or resolution"},
+    {"frames_not_kept", kLimited, "record on a faster disk, or without --frames"},
+    {"probe_overruns", kLimited, "lower the probe's rate"},
+    {"source_interrupted", kLimited, "check the connection"},
+    // A calibration.
+    {"camera_not_converged", kInvalid, "take more images with the board tilted and in all parts of the image"},
+    {"camera_misfit", kInvalid, "take sharper images of a flat board with the focus locked"},
+    {"focal_length_uncertain", kLimited, "take more images with the board tilted by 20 to 45 degrees"},
+    {"board_coverage", kLimited, "take images with the board in the corners of the image"},
+    {"views_disagree", kNote, "check that the board does not bend and that the focus stays"},
+    {"no_noise", kInvalid, "record the poses of a tracker that measures"},
+    {"noise_not_gaussian", kLimited, "look at the figure; keep the light steady and the tags near and tilted"},
+    {"body_moved", kLimited, "clamp the probe"},
+    {"force_slope_unknown", kInvalid, "measure more forces over a wider range"},
+    {"force_saturated", kInvalid, "leave those points out"},
+    {"force_not_straight", kLimited, "use the sensor in the part of its range where it is straight"},
+    {"force_outlier", kNote, "look at it again"},
+    {"counts_coarse", kNote, "use a converter with more bits"},
+    {"gravity_missed", kInvalid, "hold the probe still, leaned on something"},
+    {"accelerometer_uncertain", kLimited, "record more poses, in more directions"},
+    {"poses_contradict", kLimited, "keep the probe still in each pose"},
+    {"too_few_poses", kLimited, "add poses"},
+    {"neighbours_alike", kLimited, "add poses, in no order of direction"},
+    {"tip_slid", kInvalid, "fix the dimple and the marker and swing again"},
+    {"tip_uncertain", kLimited, "swing wider and longer"},
+    {"little_in_dimple", kLimited, "record the swing alone"},
+    {"latency_uncertain", kLimited, "shake the probe longer, irregularly, two or three times a second"},
+    {"imu_place_uncertain", kLimited, "turn the probe by some 30 degrees about all its axes"},
+    {"imu_rotation_uncertain", kLimited, "move the probe longer, and about all axes"},
+    // Tags followed in images.
+    {"body_hardly_found", kInvalid, "check the markers' family, ids and size, the light and the focus"},
+    {"plane_ambiguous", kInvalid, "use tags in more than one plane, or nearer"},
+    {"tags_misfit", kLimited, "check the camera's calibration and the markers' places"},
+    {"camera_errors_assumed", kNote, "calibrate the camera with `asperity calibrate camera`"},
+};
+
+}  // namespace
+
+std::span<const VerdictCode> verdict_codes() { return kCodes; }
+
+Verdict make_verdict(std::string_view code, std::string message) {
+  const auto* const found =
+      std::find_if(std::begin(kCodes), std::end(kCodes), [&](const VerdictCode& entry) { return entry.code == code; });
+  if (found == std::end(kCodes)) throw Error("verdict: no code '" + std::string(code) + "'");
+  return {std::string(code), found->severity, std::move(message), std::string(found->remedy)};
+}
+
+}  // namespace asperity

@@ -1,0 +1,134 @@
+#include "asperity/verdict/judge_scan.h"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+
+namespace asperity {
+namespace {
+
+using testing::HasSubstr;
+
+// A scan of which nothing speaks against anything.
+ScanEvidence good() {
+  ScanEvidence e;
+  e.force_ratio = 1.01;
+  e.force_difference_share = 0.02;
+  e.clipped_force_ratio = 0.97;
+  e.departure_m = 0.7e-3;
+  e.departure_ratio = 1.0;
+  e.accel_bias_mps2 = 0.1;
+  e.latency_s = 0.02;
+  e.latency_prior_sigmas = 0.5;
+  e.tracker_noise_ratio = 1.1;
+  e.poses_used = 400;
+  e.poses_outlying = 3;
+  e.clipped_share = 0.0;
+  e.rows_kept = 6000;
+  e.recorded_s = 10.0;
+  e.used_s = 9.9;
+  e.samples = 5000;
+  e.contact_s = 9.0;
+  e.covered = 0.98;
+  e.length_m = 0.0801;
+  e.length_stderr_m = 0.2e-3;
+  e.tracker_length_m = 0.0803;
+  e.tracker_length_stderr_m = 0.6e-3;
+  e.texture_rms_m = 50e-6;
+  e.noise_rms_m = 5e-6;
+  e.snr = 99.0;
+  e.at_most_m = 50e-6;
+  return e;
+}
+
+std::vector<std::string> codes(const ScanEvidence& evidence) {
+  std::vector<std::string> out;
+  for (const Verdict& verdict : judge_scan(evidence)) out.push_back(verdict.code);
+  return out;
+}
+
+TEST(JudgeScan, HasNothingAgainstAGoodScan) { EXPECT_THAT(codes(good()), testing::IsEmpty()); }
+
+TEST(JudgeScan, ConcludesNothingFromWhatIsUnknown) { EXPECT_THAT(codes(ScanEvidence()), testing::IsEmpty()); }
+
+struct Case {
+  std::string code;
+  std::string message;  // a part of it
+  std::function<void(ScanEvidence&)> spoil;
+};
+
+// One fault at a time gives its own code and no other.
+TEST(JudgeScan, NamesEachFaultByItsCode) {
+  const std::vector<Case> cases{
+      {"uncalibrated", "without a calibration", [](ScanEvidence& e) { e.calibrated = false; }},
+      {"wrong_unit", "0.102 times", [](ScanEvidence& e) { e.force_ratio = 0.102; }},
+      {"wrong_unit", "0.09 times", [](ScanEvidence& e) { e.clipped_force_ratio = 0.09; }},
+      {"wrong_frame", "by 200 %", [](ScanEvidence& e) { e.force_difference_share = 2.0; }},
+      {"wrong_frame", "bias would be 20 m/s²", [](ScanEvidence& e) { e.accel_bias_mps2 = 19.6; }},
+      {"latency_off", "20.0 ms is 11 standard", [](ScanEvidence& e) { e.latency_prior_sigmas = 11.0; }},
+      {"tracker_noise", "25 times", [](ScanEvidence& e) { e.tracker_noise_ratio = 25.0; }},
+      {"poses_outlying", "150 of 550", [](ScanEvidence& e) { e.poses_outlying = 150; }},
+      {"poses_disagree", "2.1 mm from the tracker's poses, 3 times",
+       [](ScanEvidence& e) {
+         e.departure_m = 2.1e-3;
+         e.departure_ratio = 3.0;
+         e.poses_outlying = 150;  // the same fault once
+       }},
+      {"tracker_repeats", "repeats", [](ScanEvidence& e) { e.repeated_share = 0.6; }},
+      {"clipped", "60 %", [](ScanEvidence& e) { e.clipped_share = 0.6; }},
+      {"clipped", "took 16 % of its mean away",
+       [](ScanEvidence& e) {
+         e.clipped_force_ratio = 0.84;
+         e.accel_bias_mps2 = 4.2;  // by the same cause
+       }},
+      {"rows_lost", "2000 of 8000", [](ScanEvidence& e) { e.rows_dropped = 2000; }},
+      {"little_overlap", "1.5 s of the 10.0 s", [](ScanEvidence& e) { e.used_s = 1.5; }},
+      {"tracker_gap", "0.80 s", [](ScanEvidence& e) { e.tracker_gap_s = 0.8; }},
+      {"spikes", "600 of 5000", [](ScanEvidence& e) { e.samples_rejected = 600; }},
+      {"no_profile", "no profile: too short", [](ScanEvidence& e) { e.no_profile = "too short"; }},
+      {"nothing_touched", "touched nothing", [](ScanEvidence& e) { e.contact_s = 0.0; }},
+      {"nothing_touched", "only 60 %",
+       [](ScanEvidence& e) {
+         e.has_force = false;
+         e.covered = 0.6;
+         e.length_m = 13.36;
+       }},
+      {"below_noise", "at most 92 µm RMS in 52 µm",
+       [](ScanEvidence& e) {
+         e.snr = 1.4;
+         e.noise_rms_m = 52e-6;
+         e.at_most_m = 92e-6;
+       }},
+      {"noisy_texture", "50 µm RMS 19 µm",
+       [](ScanEvidence& e) {
+         e.snr = 3.0;
+         e.noise_rms_m = 19e-6;
+       }},
+      {"length_disagrees", "122.00 mm long, by the tracker's poses alone 80.30 ± 1.24 mm",
+       [](ScanEvidence& e) { e.length_m = 0.122; }},
+      {"error_unknown", "no error", [](ScanEvidence& e) { e.error_known = false; }},
+      {"little_coverage", "12 %", [](ScanEvidence& e) { e.covered = 0.12; }},
+      {"contact_unknown", "force never changes", [](ScanEvidence& e) { e.has_force = false; }},
+      {"no_roughness", "no roughness: too short", [](ScanEvidence& e) { e.no_roughness = "too short"; }},
+      {"no_texture", "no texture: too short", [](ScanEvidence& e) { e.no_texture = "too short"; }},
+  };
+  for (const Case& one : cases) {
+    ScanEvidence evidence = good();
+    one.spoil(evidence);
+    const Verdicts verdicts = judge_scan(evidence);
+    ASSERT_EQ(verdicts.size(), 1U) << one.code;
+    EXPECT_EQ(verdicts[0].code, one.code);
+    EXPECT_THAT(verdicts[0].message, HasSubstr(one.message));
+  }
+}
+
+TEST(JudgeScan, OfAMotionAloneTheSurfaceIsNotJudged) {
+  ScanEvidence evidence = good();
+  evidence.measured = false;
+  evidence.covered = 0.0;
+  evidence.has_force = false;
+  EXPECT_THAT(codes(evidence), testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace asperity
