@@ -90,7 +90,8 @@ TEST(Record, ACaptureGivesTheSameRowsAgain) {
   // Without poses it is no recording to process, but its rows are there.
   std::ifstream file(rig.dir / "again/probe.csv");
   const std::string rows{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')), first.size() + 1) << live.err << replayed.err;
+  EXPECT_EQ(static_cast<std::size_t>(std::count(rows.begin(), rows.end(), '\n')), first.size() + 1)
+      << live.err << replayed.err;
   const Outcome twice = run(rig.words({"--duration", "1s", "--capture", capture}));
   EXPECT_EQ(twice.code, 1);
 }

@@ -135,7 +135,8 @@ TEST(Usage, ManualPageAndCompletionNameEveryCommandAndOption) {
     EXPECT_THAT(manual.out, HasSubstr(".SS asperity " + command));
     EXPECT_THAT(completion.out, HasSubstr("    \"" + command + "\") words=\"--help"));
   }
-  EXPECT_THAT(completion.out, HasSubstr("    calibrate) words=\"camera tracker force accel tip imu latency --help -h\""));
+  EXPECT_THAT(completion.out,
+              HasSubstr("    calibrate) words=\"camera tracker force accel tip imu latency --help -h\""));
   EXPECT_THAT(completion.out, HasSubstr("--spacing"));
   EXPECT_THAT(completion.out, HasSubstr("    --method) values=\"fused thesis thesis_tuned raw ekf particle\" ;;"));
   EXPECT_THAT(completion.out, HasSubstr("complete -o filenames -F _asperity asperity"));
@@ -158,7 +159,10 @@ TEST(Usage, CompletionsForFishAndZshNameEveryCommand) {
     EXPECT_THAT(fish.out, HasSubstr("-n '__fish_use_subcommand' -a " + command + " -d "));
     EXPECT_THAT(zsh.out, HasSubstr("    " + command + ") choices=("));
   }
-  EXPECT_THAT(fish.out, HasSubstr("-n '__fish_seen_subcommand_from process' -l method -a 'fused thesis thesis_tuned raw ekf particle' -r -d "));
+  EXPECT_THAT(
+      fish.out,
+      HasSubstr(
+          "-n '__fish_seen_subcommand_from process' -l method -a 'fused thesis thesis_tuned raw ekf particle' -r -d "));
   EXPECT_THAT(zsh.out, HasSubstr("    'texture fit') choices=("));
   EXPECT_THAT(zsh.out, HasSubstr("    --method) values=(fused thesis thesis_tuned raw ekf particle) ;;"));
 }

@@ -7,7 +7,7 @@ namespace asperity {
 
 ProcessMethod ParticleMethod::make_method() {
   ProcessMethod out = FusedMethod::make_method();  // its other steps serve
-  out.height_errors = nullptr;  // those are of a smoothed path
+  out.height_errors = nullptr;                     // those are of a smoothed path
   out.estimate_trajectory = [](const Recording& recording, const ProcessConfig& config, const Observer& observer) {
     return estimate_trajectory_particle(recording, config.fused, config.particle, observer);
   };

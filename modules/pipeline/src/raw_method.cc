@@ -7,7 +7,7 @@ namespace asperity {
 
 ProcessMethod RawMethod::make_method() {
   ProcessMethod out = FusedMethod::make_method();  // its other steps serve
-  out.height_errors = nullptr;  // those are of a smoothed path
+  out.height_errors = nullptr;                     // those are of a smoothed path
   out.estimate_trajectory = [](const Recording& recording, const ProcessConfig& config, const Observer&) {
     return estimate_trajectory_raw(recording, config.raw);
   };

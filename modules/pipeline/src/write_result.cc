@@ -72,8 +72,8 @@ std::string format_trajectory_csv(const TipMotion& motion) {
                                             : Eigen::Vector3d(motion.cov_world_tip_m2[i].diagonal());
     const Eigen::Vector3d sigma_m = variance_m2.cwiseSqrt();
     append_number(out, motion.t_ns[i]);
-    append_cells(out, {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(), v.z(), std::sqrt(variance_m2.mean()), sigma_m.x(),
-                       sigma_m.y(), sigma_m.z()});
+    append_cells(out, {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(), v.z(),
+                       std::sqrt(variance_m2.mean()), sigma_m.x(), sigma_m.y(), sigma_m.z()});
     out += '\n';
   }
   return out;

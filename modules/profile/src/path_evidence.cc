@@ -15,8 +15,8 @@ namespace {
 constexpr double kEvidenceRate_hz = 200.0;
 constexpr double kWindow_m = 10e-3;  // four periods of a 2.5 mm texture
 constexpr double kEvidenceSpeedCutoff_hz = 3.0;
-constexpr double kFineCutoff_hz = 15.0;    // above the hand's tremor
-constexpr double kSlowBandwidth_hz = 1.0;  // of the tracker's error after smoothing
+constexpr double kFineCutoff_hz = 15.0;     // above the hand's tremor
+constexpr double kSlowBandwidth_hz = 1.0;   // of the tracker's error after smoothing
 constexpr double kLargestSpeed_mps = 20.0;  // mean in contact; no hand is as fast, and the work grows with the distance
 
 }  // namespace
@@ -74,9 +74,10 @@ PathEvidence gather_evidence(const TipMotion& motion, std::span<const double> t_
   const double total_m = out.travelled_m.back();
   if (!(total_m > 0.0)) throw Error("base path: the tip does not travel while in contact");
   if (!(total_m < kLargestSpeed_mps * out.moving_s)) {
-    throw Error(fmt::format("base path: the tip would travel {:.3g} m in {:.3g} s, faster than a hand: check the "
-                            "calibration's units and offsets",
-                            total_m, out.moving_s));
+    throw Error(
+        fmt::format("base path: the tip would travel {:.3g} m in {:.3g} s, faster than a hand: check the "
+                    "calibration's units and offsets",
+                    total_m, out.moving_s));
   }
   const double window_m = std::min(kWindow_m, total_m / 6.0);
   const auto count = static_cast<std::size_t>(std::max(5.0, std::floor(2.0 * total_m / window_m) - 1.0));

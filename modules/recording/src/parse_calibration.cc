@@ -128,7 +128,8 @@ Calibration parse_calibration(std::string_view text, const std::string& name, co
     };
     take3("tip_sigma_m", out.tip_sigma_m, {0.0, 1.0});
     take3("tracker_slow_sigma_m", out.tracker.slow_sigma_m, {0.0, 1.0});
-    if (extra->has("tracker_slow_time_s")) take("tracker_slow_time_s", out.tracker.slow_time_s.emplace(1.0), {1e-3, 1e6});
+    if (extra->has("tracker_slow_time_s"))
+      take("tracker_slow_time_s", out.tracker.slow_time_s.emplace(1.0), {1e-3, 1e6});
     take_known_extra(rest, out);
     out.extra = std::move(rest);
   }

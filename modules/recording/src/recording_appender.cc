@@ -68,7 +68,8 @@ RecordingAppender::RecordingAppender(fs::path folder, const RecordingInfo& info,
   write_calibration(folder_ / "calibration.json", calibration);
   try {
     probe_.open_new(folder_ / "probe.csv", probe_header(columns.gyro, columns.force3));
-    tracker_.open_new(folder_ / "tracker.csv", tracker_header(columns.markers, columns.reprojection, columns.sigmas, columns.sigmas));
+    tracker_.open_new(folder_ / "tracker.csv",
+                      tracker_header(columns.markers, columns.reprojection, columns.sigmas, columns.sigmas));
   } catch (...) {
     probe_.close();
     tracker_.close();

@@ -31,9 +31,9 @@ struct PoseError {
 // (docs/tracking.md):
 //   e = e_noise + a e_corner + c Φ β + (∂/∂camera) δ_camera + (∂/∂body) δ_body,
 // e_noise of the corners' covariances, e_corner independent of unit variance, Φ the Legendre polynomials up to the
-// third degree over the body's view, β independent with standard deviations 1, 0.4, 0.16, 0.064 by degree: lens, rolling
-// shutter, a board that is bent. The sizes a and c are the frame's own: their posterior means over a grid by the
-// restricted likelihood of the residuals, each with a half-t prior (4 degrees of freedom, config.unmodelled_px).
+// third degree over the body's view, β independent with standard deviations 1, 0.4, 0.16, 0.064 by degree: lens,
+// rolling shutter, a board that is bent. The sizes a and c are the frame's own: their posterior means over a grid by
+// the restricted likelihood of the residuals, each with a half-t prior (4 degrees of freedom, config.unmodelled_px).
 // `normal` is Σ JᵀWJ. The last two terms are `shared`; they are the camera's covariance, or what config assumes where
 // the camera has none, and the body's print scale, placement and bend.
 PoseError find_pose_error(const CameraCalibration& camera, const std::vector<MarkerPlacement>& body, const Pose& pose,

@@ -19,7 +19,7 @@ struct TipMotion {
   std::vector<Eigen::Matrix3d> cov_world_tip_m2;  // covariance of the position; empty if the method gives none
   // Of that, what comes from the tip's place in the marker, marker axes: one error for the whole motion.
   Eigen::Vector3d sigma_tip_in_marker_m = Eigen::Vector3d::Zero();
-  std::vector<double> force_N;                    // calibrated axial reading; nan where the sensor gave none
+  std::vector<double> force_N;  // calibrated axial reading; nan where the sensor gave none
 
   std::size_t size() const { return t_ns.size(); }
 };

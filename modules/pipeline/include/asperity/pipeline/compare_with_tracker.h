@@ -29,12 +29,12 @@ struct TrackerComparison {
 // smoothed by local parabolas with the weights (1 − (Δt/h)²)²; h is the one of 0.05 to 1.1 s at which the length's
 // standard error is least.
 //
-// The length over the times in contact is Σ Δq·u, with q the path smoothed by the next narrower h and u the direction of
-// the smoothed velocity less its part along the base path's normal: linear in the poses, so that noise does not lengthen
-// it. Where the velocity is below three of its standard deviations the tip counts as resting. Standard error: the noise
-// of q at the ends and where u turns; what noise in u adds; the time at rest; the difference from the next narrower h;
-// and 0.5 % of the length, for the base shape. σ counts twice in it: the slow part of the poses' noise is not in their
-// differences.
+// The length over the times in contact is Σ Δq·u, with q the path smoothed by the next narrower h and u the direction
+// of the smoothed velocity less its part along the base path's normal: linear in the poses, so that noise does not
+// lengthen it. Where the velocity is below three of its standard deviations the tip counts as resting. Standard error:
+// the noise of q at the ends and where u turns; what noise in u adds; the time at rest; the difference from the next
+// narrower h; and 0.5 % of the length, for the base shape. σ counts twice in it: the slow part of the poses' noise is
+// not in their differences.
 TrackerComparison compare_with_tracker(const Recording& recording, const TrajectoryResult& trajectory,
                                        const BasePathResult& base);
 

@@ -40,8 +40,9 @@ BlendedFilter blended_filter(const AutoregressiveTexture& texture, const SeriesB
 // section is a rotation, so that the filter stays bounded however fast speed and force change, and the output has the
 // mixed variance at every step; with a numerator, whose memory is of the filters before, where they change slowly
 // against its length. Between the model's samples the output is interpolated, one model sample late, and scaled so that
-// its variance remains; convert_rate() first if the rates differ, or the upper octave is softened. Fixed time but for the search in the triangulation and the number of model
-// samples in dt_s, at most 16. Realtime-safe: yes. Thread-safe: yes, with a state each.
+// its variance remains; convert_rate() first if the rates differ, or the upper octave is softened. Fixed time but for
+// the search in the triangulation and the number of model samples in dt_s, at most 16. Realtime-safe: yes. Thread-safe:
+// yes, with a state each.
 double next_acceleration_mps2(const AutoregressiveTexture& texture, SeriesState& state, double speed_mps,
                               double force_N, double dt_s) noexcept;
 
