@@ -26,6 +26,7 @@
 namespace {
 
 using asperity::Error;
+using asperity::Json;
 using namespace asperity::studio;
 using Clock = std::chrono::steady_clock;
 
@@ -101,7 +102,7 @@ void follow(int port, const std::string& cookie, Received& out) {
       }
       std::uint32_t head_bytes = 0;
       std::memcpy(&head_bytes, frame->payload.data() + 4, sizeof head_bytes);
-      const Json head = parse_json(frame->payload.substr(8, head_bytes));
+      const Json head = asperity::parse_json(frame->payload.substr(8, head_bytes));
       const double age_ms = 1e-6 * (now - head.at("newest_ns").get<double>());
       out.bytes += frame->payload.size();
       if (head.at("kind") == "image") {
