@@ -47,8 +47,7 @@ class StudioCommand : public Command {
     config_.feel = std::make_shared<const studio::FeelConfig>(feel_);
     const bool is_open_to_others = !studio::is_this_machine_only(config_.server.host);
     std::optional<studio::OpenedBrowser> browser;
-    // A signal waits until no hand has force on it and everything is saved.
-    const ForceHold force;
+    // A signal waits until no hand has force on it (feel_run.cc) and everything is saved.
     const FinishHold finish;
     const auto started = [&](const std::string& address) {
       print_address(address, is_open_to_others);

@@ -56,17 +56,20 @@ SafeForce make_safe(const SafetyConfig& config, SafetyState& state, const Safety
   if (stale) safe.limited_by |= flag(SafetyCause::kStale);
   if (input.ending) safe.limited_by |= flag(SafetyCause::kEnding);
   if (!input.permitted) safe.limited_by |= flag(SafetyCause::kNotPermitted);
+  if (!input.plausible) safe.limited_by |= flag(SafetyCause::kImplausible);
   const bool well = safe.limited_by == 0;
-  state.gain = stood_still ? 0.0 : next_gain(state.gain, well, config, dt_s);
+  const bool returned = input.plausible && !state.plausible;
+  state.plausible = input.plausible;
+  state.gain = stood_still || returned ? 0.0 : next_gain(state.gain, well, config, dt_s);
   safe.gain = state.gain;
   if (well && state.gain < 1.0) safe.limited_by |= flag(SafetyCause::kSoftStart);
 
-  if (finite) state.held_N = input.force_N;
+  if (finite && input.plausible) state.held_N = input.force_N;
   Eigen::Vector3d force_N = limit_force(state.held_N, config.max_force_N);
   if (force_N != state.held_N) safe.limited_by |= flag(SafetyCause::kForceLimit);
   force_N *= state.gain;
 
-  if (!finite || !config.passivity) {
+  if (!finite || !input.plausible || !config.passivity) {
     state.passivity = {};
   } else {
     const Eigen::Vector3d damping_N = damping(config, state, input);

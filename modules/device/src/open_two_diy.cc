@@ -168,16 +168,34 @@ class TwoDiy final : public IoDevice {
     }
   }
 
+  void beat() {
+    if (supervisor_->beat()) return;
+    throw Error("2diy: " + printable(config_.port, 200) +
+                ": this process stood still and its force was ended, or the process that watches it is gone");
+  }
+
+  // However long an answer may take, who waits for it is there.
+  bool take_answer_beating(Clock::time_point until) {
+    constexpr auto kSlice = std::chrono::milliseconds(20);
+    for (;;) {
+      const auto slice = std::min(until, Clock::now() + kSlice);
+      if (take_answer(slice)) return true;
+      if (slice == until) return false;
+      beat();
+    }
+  }
+
   void serve() {
     const auto period = seconds(1.0 / config_.rate_Hz), force_timeout = seconds(config_.force_timeout_s);
     const auto stall_after = seconds(config_.stall_after_s), lost_after = seconds(config_.lost_after_s);
     auto due = Clock::now(), last_answer = due;
     bool stalled = false;
     while (!stop_.load()) {
+      beat();
       auto now = Clock::now();
       // After a stall the first question only asks: its torques would be of a place long left.
       ask(stalled ? Eigen::Vector2d::Zero() : torque_N_m(forces_.take(now, force_timeout)), now + lost_after);
-      stalled = !take_answer(now + stall_after);
+      stalled = !take_answer_beating(now + stall_after);
       now = Clock::now();
       if (!stalled) last_answer = now;
       if (now - last_answer > lost_after) {

@@ -25,12 +25,28 @@ ServoCore::ServoCore(HapticDevice& device, SnapshotExchange<const RenderModel>& 
       step_(step),
       permit_(permit),
       duration_ticks_(static_cast<std::uint64_t>(std::llround(config.duration_s * config.rate_Hz))),
-      recorder_(static_cast<std::size_t>(std::ceil(kRecorded_s * config.rate_Hz))) {}
+      reflexes_(config.reflexes),
+      judged_(!device.info().simulated),
+      recorder_(static_cast<std::size_t>(std::ceil(kRecorded_s * config.rate_Hz))) {
+  // Not >: a device that states none has nan.
+  if (device.info().max_speed_mps < reflexes_.max_speed_mps) reflexes_.max_speed_mps = device.info().max_speed_mps;
+}
 
 void ServoCore::begin_ending(ServoEnd end) noexcept {
   if (ending_) return;
   ending_ = true;
   end_ = end;
+}
+
+void ServoCore::judge(const DeviceReading& reading, double dt_s, bool suspended) noexcept {
+  if (!judged_ || fault_ != ReflexFault::kNone) return;
+  const ReadingJudgement judgement = check_reading(reflexes_, reflex_, reading, dt_s);
+  plausible_ = judgement.plausible;
+  // What the renderer remembers is of a place where the hand is not: it begins outside of everything again.
+  if (judgement.returned) servo_ = {};
+  if (judgement.fault) fault_ = ReflexFault::kImplausible;
+  if (dt_s > reflexes_.most_lost_s) fault_ = ReflexFault::kLostTicks;
+  if (suspended) fault_ = ReflexFault::kSuspended;
 }
 
 SafeForce ServoCore::make_safe_now(SafetyInput input) noexcept {
@@ -62,8 +78,8 @@ ServoOutput ServoCore::render(const DeviceReading& reading, const Eigen::Vector3
   return output;
 }
 
-bool ServoCore::tick(std::uint64_t k, std::uint64_t ticks_since, std::int64_t late_ns, bool stop_asked,
-                     TickSink& sink) {
+bool ServoCore::tick(std::uint64_t k, std::uint64_t ticks_since, std::int64_t late_ns, bool stop_asked, TickSink& sink,
+                     bool suspended) {
   if (stop_asked) begin_ending(ServoEnd::kStopped);
   if (duration_ticks_ > 0 && k >= duration_ticks_) begin_ending(ServoEnd::kDuration);
   if (ending_ && is_at_rest(safety_)) return false;
@@ -78,13 +94,16 @@ bool ServoCore::tick(std::uint64_t k, std::uint64_t ticks_since, std::int64_t la
     return false;
   }
   const double dt_s = static_cast<double>(ticks_since) / config_.rate_Hz;
+  judge(tick.reading, dt_s, suspended);
+  if (fault_ != ReflexFault::kNone) tick.reading.status = DeviceStatus::kFault;
   Eigen::Vector3d v_device_mps = tick.reading.v_mps;
   const Eigen::Vector3d estimated_mps =
       estimate_velocity(velocity_, tick.reading.p_m, tick.reading.sequence, 1e-9 * static_cast<double>(tick.t_ns),
                         config_.velocity_noise_m);
   if (!v_device_mps.allFinite()) v_device_mps = estimated_mps;
   tick.p_world_m = config_.frame.position_m(tick.reading.p_m);
-  if (tick.reading.status != DeviceStatus::kFault) tick.output = render(tick.reading, v_device_mps, dt_s, tick);
+  if (tick.reading.status != DeviceStatus::kFault && plausible_)
+    tick.output = render(tick.reading, v_device_mps, dt_s, tick);
 
   SafetyInput input;
   input.force_N = tick.output.force_N;
@@ -94,6 +113,7 @@ bool ServoCore::tick(std::uint64_t k, std::uint64_t ticks_since, std::int64_t la
   input.hand_mps = config_.frame.R_world_device * v_device_mps;
   input.sequence = tick.reading.sequence;
   input.status = tick.reading.status;
+  input.plausible = plausible_;
   input.scene_changed = scene_changed_;
   input.ending = ending_;
   input.dt_s = dt_s;
@@ -121,6 +141,7 @@ ServoResult ServoCore::take_result() {
   const auto seconds = [](std::int64_t duration_ns) { return 1e-9 * static_cast<double>(duration_ns); };
   ServoResult result;
   result.end = end_;
+  result.fault = fault_;
   result.statistics = statistics_;
   result.statistics.late_p50_s = seconds(late_.percentile_ns(0.5));
   result.statistics.late_p99_s = seconds(late_.percentile_ns(0.99));

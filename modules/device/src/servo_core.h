@@ -4,6 +4,7 @@
 
 #include "asperity/device/duration_histogram.h"
 #include "asperity/device/make_safe.h"
+#include "asperity/device/reflexes.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/velocity_estimator.h"
 #include "flight_recorder.h"
@@ -27,8 +28,9 @@ class ServoCore {
             const ForcePermit* permit);
 
   // Tick `k`, by its schedule `ticks_since` after the tick before, started `late_ns` after it was due. True if the
-  // run goes on; if not, the device has zero force.
-  bool tick(std::uint64_t k, std::uint64_t ticks_since, std::int64_t late_ns, bool stop_asked, TickSink& sink);
+  // run goes on; if not, the device has zero force. `suspended`: the machine was, since the tick before.
+  bool tick(std::uint64_t k, std::uint64_t ticks_since, std::int64_t late_ns, bool stop_asked, TickSink& sink,
+            bool suspended = false);
 
   void count_overrun() noexcept { ++statistics_.overruns; }
   void count_skipped(std::uint64_t ticks) noexcept { statistics_.skipped += ticks; }
@@ -37,6 +39,8 @@ class ServoCore {
 
  private:
   void begin_ending(ServoEnd end) noexcept;
+  // A fault of the loop's own; the first one counts.
+  void judge(const DeviceReading& reading, double dt_s, bool suspended) noexcept;
   SafeForce make_safe_now(SafetyInput input) noexcept;
   ServoOutput render(const DeviceReading& reading, const Eigen::Vector3d& v_device_mps, double dt_s,
                      ServoTick& tick) noexcept;
@@ -52,6 +56,11 @@ class ServoCore {
 
   ServoState servo_;
   SafetyState safety_;
+  ReflexConfig reflexes_;
+  ReflexState reflex_;
+  bool judged_;  // a computed hand is not
+  bool plausible_ = true;
+  ReflexFault fault_ = ReflexFault::kNone;
   VelocityEstimator velocity_;
   const RenderModel* model_ = nullptr;
   bool scene_changed_ = false;

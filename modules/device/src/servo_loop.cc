@@ -9,7 +9,9 @@
 #include "asperity/base/error.h"
 #include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
+#include "asperity/device/supervisor.h"
 #include "real_time.h"
+#include "run_servo_on.h"
 #include "servo_core.h"
 #include "spsc_queue.h"
 
@@ -82,9 +84,10 @@ std::uint64_t last_due(std::uint64_t k, std::int64_t elapsed_ns, double rate_Hz)
 
 // The servo thread. What was missed is skipped: the tick that runs late is the last one that is due.
 void run_schedule(ServoCore& core, const ServoConfig& config, const std::atomic<bool>& stop,
-                  const std::atomic<bool>& abandon, TickSink& sink) {
+                  const std::atomic<bool>& abandon, TickSink& sink, BootClock boot_now) {
   const std::int64_t start_ns = host_now_ns() + kLead_ns;
   const auto spin_ns = static_cast<std::int64_t>(config.spin_s * 1e9);
+  SuspendWatch suspends;
   std::uint64_t done = 0;  // ticks of the schedule that are past
   for (std::uint64_t last = 0;;) {
     const std::int64_t expected_ns = start_ns + due_ns(done, config.rate_Hz);
@@ -93,7 +96,8 @@ void run_schedule(ServoCore& core, const ServoConfig& config, const std::atomic<
     core.count_skipped(k - done);
     const std::uint64_t since = done == 0 ? 1 : k - last;
     const bool stop_asked = stop.load(std::memory_order_relaxed) || abandon.load(std::memory_order_relaxed);
-    if (!core.tick(k, since, begin_ns - expected_ns, stop_asked, sink)) return;
+    const bool suspended = was_suspended(suspends, boot_now(), host_now_ns(), config.reflexes.most_suspended_s);
+    if (!core.tick(k, since, begin_ns - expected_ns, stop_asked, sink, suspended)) return;
     last = k;
     done = k + 1;
     if (host_now_ns() > start_ns + due_ns(done, config.rate_Hz)) core.count_overrun();
@@ -101,7 +105,7 @@ void run_schedule(ServoCore& core, const ServoConfig& config, const std::atomic<
 }
 
 void run_paced(ServoCore& core, const ServoConfig& config, const std::atomic<bool>& stop,
-               const std::function<void(const ServoTick&)>& on_tick) {
+               const std::function<void(const ServoTick&)>& on_tick, BootClock boot_now) {
   QueueSink sink(static_cast<std::size_t>(kQueue_s * config.rate_Hz));
   std::atomic<bool> abandon{false};
   std::atomic<bool> done{false};
@@ -112,7 +116,8 @@ void run_paced(ServoCore& core, const ServoConfig& config, const std::atomic<boo
     take_precise_timers();
     const bool granted = config.priority != RealTimePriority::kIgnore && take_real_time_priority(refused);
     core.set_real_time(granted);
-    if (granted || config.priority != RealTimePriority::kEnforce) run_schedule(core, config, stop, abandon, sink);
+    if (granted || config.priority != RealTimePriority::kEnforce)
+      run_schedule(core, config, stop, abandon, sink, boot_now);
     done.store(true, std::memory_order_release);
   });
   std::exception_ptr failure;
@@ -147,11 +152,18 @@ void run_paced(ServoCore& core, const ServoConfig& config, const std::atomic<boo
 ServoResult run_servo(HapticDevice& device, SnapshotExchange<const RenderModel>& scene, const ServoConfig& config,
                       const std::atomic<bool>& stop, const std::function<void(const ServoTick&)>& on_tick,
                       ServoStep step, const ForcePermit* permit) {
+  return run_servo_on(&boot_now_ns, device, scene, config, stop, on_tick, step, permit);
+}
+
+ServoResult run_servo_on(BootClock boot_now, HapticDevice& device, SnapshotExchange<const RenderModel>& scene,
+                         const ServoConfig& config, const std::atomic<bool>& stop,
+                         const std::function<void(const ServoTick&)>& on_tick, ServoStep step,
+                         const ForcePermit* permit) {
   const ForceGuard guard(device);
   check_servo_config(config);
   ServoCore core(device, scene, config, step, permit);
   if (config.paced) {
-    run_paced(core, config, stop, on_tick);
+    run_paced(core, config, stop, on_tick, boot_now);
   } else {
     run_unpaced(core, stop, on_tick);
   }

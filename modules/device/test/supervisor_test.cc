@@ -2,14 +2,18 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
 #include <array>
+#include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -83,6 +87,129 @@ std::string last_words(int signal) {
 TEST(Supervisor, ZeroesTheForceAfterSigkill) { EXPECT_EQ(last_words(SIGKILL), "FORCZEROZEROZERO"); }
 TEST(Supervisor, ZeroesTheForceAfterACrash) { EXPECT_EQ(last_words(SIGABRT), "FORCZEROZEROZERO"); }
 
+// A host that beats every 5 ms until beat() says no; what it then does is told by its exit code 7.
+pid_t start_beating_host(Pty& pty, int ready, const SupervisorConfig& config) {
+  const pid_t host = ::fork();
+  if (host != 0) return host;
+  {
+    Supervisor supervisor(pty.line, kZero, config);
+    (void)!::write(pty.line, "FORC", 4);
+    bool told = false;
+    while (supervisor.beat()) {
+      if (!told) (void)!::write(ready, "r", 1);
+      told = true;
+      ::poll(nullptr, 0, 5);
+    }
+  }
+  ::_exit(7);
+}
+
+double ms_until(int fd, const std::string& words) {
+  const auto start = std::chrono::steady_clock::now();
+  std::string all;
+  while (all.find(words) == std::string::npos) {
+    const std::string more = arriving(fd, 1);
+    all += more;
+    const std::chrono::duration<double, std::milli> since = std::chrono::steady_clock::now() - start;
+    if (since.count() > 5000.0) return since.count();
+  }
+  const std::chrono::duration<double, std::milli> since = std::chrono::steady_clock::now() - start;
+  return since.count();
+}
+
+// 150 ms is promised; the silence is 100 ms, a round 10 ms. The rest is this machine's.
+constexpr double kPromised_ms = 150.0;
+
+TEST(Supervisor, ZeroesTheForceOfAStoppedProcessWhichFindsAFault) {
+  Pty pty;
+  std::array<int, 2> ready{};
+  ASSERT_EQ(::pipe(ready.data()), 0);
+  const pid_t host = start_beating_host(pty, ready[1], {});
+  char byte = 0;
+  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
+  EXPECT_EQ(arriving(pty.board, 200), "FORC") << "a host that beats is left alone";
+  ::kill(host, SIGSTOP);
+  const double zero_ms = ms_until(pty.board, "ZERO");
+  RecordProperty("zero_ms", std::to_string(zero_ms));
+  EXPECT_LT(zero_ms, kPromised_ms);
+  // Whatever the host sends when it wakes up is taken back again.
+  EXPECT_LT(ms_until(pty.board, "ZERO"), kPromised_ms);
+  ::kill(host, SIGCONT);
+  int status = 0;
+  ::waitpid(host, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 7);
+  ::close(ready[0]);
+  ::close(ready[1]);
+}
+
+// The machine's clock as both processes see it: CLOCK_BOOTTIME and what a test adds.
+std::atomic<std::int64_t>* suspended_ns = nullptr;
+std::int64_t clock_with_suspends() noexcept { return boot_now_ns() + suspended_ns->load(); }
+
+TEST(Supervisor, ASuspendedMachineEndsTheForce) {
+  void* const page = ::mmap(nullptr, sizeof *suspended_ns, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(page, MAP_FAILED);
+  suspended_ns = new (page) std::atomic<std::int64_t>(0);
+  Pty pty;
+  std::array<int, 2> ready{};
+  ASSERT_EQ(::pipe(ready.data()), 0);
+  SupervisorConfig config;
+  config.now_ns = &clock_with_suspends;
+  const pid_t host = start_beating_host(pty, ready[1], config);
+  char byte = 0;
+  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
+  arriving(pty.board, 50);
+  suspended_ns->store(std::int64_t{3600} * 1'000'000'000);  // an hour
+  int status = 0;
+  ::waitpid(host, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 7) << "a resumed host finds a fault";
+  ::close(ready[0]);
+  ::close(ready[1]);
+  ::munmap(page, sizeof *suspended_ns);
+}
+
+TEST(Supervisor, AHostWhoseChildIsGoneIsTold) {
+  void* const page = ::mmap(nullptr, sizeof *suspended_ns, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  ASSERT_NE(page, MAP_FAILED);
+  suspended_ns = new (page) std::atomic<std::int64_t>(0);
+  Pty pty;
+  SupervisorConfig config;
+  config.now_ns = &clock_with_suspends;
+  std::array<int, 2> mine{};
+  ASSERT_EQ(::pipe(mine.data()), 0);
+  const pid_t host = ::fork();
+  if (host == 0) {
+    Supervisor supervisor(pty.line, kZero, config);
+    supervisor.beat();
+    (void)!::write(mine[1], "r", 1);
+    while (supervisor.beat()) ::poll(nullptr, 0, 5);
+    ::_exit(supervisor.watching() ? 1 : 7);
+  }
+  char byte = 0;
+  ASSERT_EQ(::read(mine[0], &byte, 1), 1);
+  // The host's only child.
+  pid_t child = 0;
+  for (int k = 0; k < 1000 && child == 0; ++k) {
+    std::ifstream("/proc/" + std::to_string(host) + "/task/" + std::to_string(host) + "/children") >> child;
+    if (child == 0) ::poll(nullptr, 0, 1);
+  }
+  ASSERT_GT(child, 0);
+  ::kill(child, SIGKILL);
+  const auto is_dead = [&] {
+    std::string pid, name, state;
+    std::ifstream("/proc/" + std::to_string(child) + "/stat") >> pid >> name >> state;
+    return state == "Z" || state.empty();
+  };
+  for (int k = 0; k < 5000 && !is_dead(); ++k) ::poll(nullptr, 0, 1);
+  suspended_ns->store(std::int64_t{3} * 1'000'000'000);  // rather than waiting for 2 s
+  int status = 0;
+  ::waitpid(host, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 7);
+  ::close(mine[0]);
+  ::close(mine[1]);
+  ::munmap(page, sizeof *suspended_ns);
+}
+
 TEST(Supervisor, SaysNothingWhenDisarmed) {
   Pty pty;
   {
@@ -98,8 +225,8 @@ TEST(Supervisor, OneDoesNotKeepTheOthersPipeOpen) {
   ASSERT_EQ(::pipe(ready.data()), 0);
   const pid_t host = ::fork();
   if (host == 0) {
-    const Supervisor a(first.line, kZero, 1);
-    const Supervisor b(second.line, kZero, 1);
+    const Supervisor a(first.line, kZero, SupervisorConfig{1});
+    const Supervisor b(second.line, kZero, SupervisorConfig{1});
     (void)!::write(ready[1], "r", 1);
     for (;;) ::pause();
   }

@@ -161,6 +161,39 @@ TEST(TwoDiy, AKilledProcessLeavesNoTorque) {
   EXPECT_EQ(board.torque_N_m(), Eigen::Vector2d::Zero());
 }
 
+TEST(TwoDiy, AStoppedProcessLeavesNoTorqueAndAwakesToAFault) {
+  FakeTwoDiyBoard board;
+  const pid_t host = ::fork();
+  if (host == 0) {
+    const auto device = open_two_diy(config_for(board));
+    // Until it has a fault.
+    for (;;) {
+      if (device->read(0).status == DeviceStatus::kFault) break;
+      serve(*device, 1, [](const DeviceReading&) { return Eigen::Vector3d(0.0, 0.0, -1.0); });
+    }
+    const bool told = device->fault().find("stood still") != std::string::npos;
+    ::_exit(told ? 7 : 1);
+  }
+  const auto wait_for = [&](bool torque) {
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < 5000 && (board.torque_N_m().norm() > 0.0) != torque; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    const std::chrono::duration<double, std::milli> waited = std::chrono::steady_clock::now() - start;
+    return waited.count();
+  };
+  wait_for(true);
+  ASSERT_GT(board.torque_N_m().norm(), 0.0);
+  ::kill(host, SIGSTOP);
+  EXPECT_LT(wait_for(false), 150.0);
+  EXPECT_EQ(board.torque_N_m(), Eigen::Vector2d::Zero());
+  ::kill(host, SIGCONT);
+  int status = 0;
+  ::waitpid(host, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 7);
+  EXPECT_EQ(board.torque_N_m(), Eigen::Vector2d::Zero());
+}
+
 TEST(TwoDiy, NonsenseAndLongStallsAreFaultsInWords) {
   for (const bool nonsense : {true, false}) {
     FakeTwoDiyBoard board;

@@ -32,7 +32,11 @@ RunVerdict judge_run(const FeelStatistics& statistics, const ServoResult& servo,
                      const FeelDrive& drive, const RenderModel& model, const SafetyConfig& safety) {
   RunVerdict out;
   const auto ticks = [&](SafetyCause cause) { return statistics.caused(cause); };
-  if (servo.end == ServoEnd::kFault) out.reasons.push_back("the device has a fault: " + printable(device.fault(), 300));
+  if (servo.end == ServoEnd::kFault) {
+    const auto own = kReflexFaultWords[static_cast<std::size_t>(servo.fault)];
+    out.reasons.push_back("the device has a fault: " +
+                          (own.empty() ? printable(device.fault(), 300) : std::string(own)));
+  }
   if (ticks(SafetyCause::kNonFinite) > 0) {
     out.reasons.push_back(fmt::format("the force was ramped to zero: {} ticks had numbers that are not finite",
                                       ticks(SafetyCause::kNonFinite)));
@@ -40,6 +44,11 @@ RunVerdict judge_run(const FeelStatistics& statistics, const ServoResult& servo,
   if (ticks(SafetyCause::kStale) > 0) {
     out.reasons.push_back(fmt::format("the force was ramped to zero: for {} ticks there was no news from the device",
                                       ticks(SafetyCause::kStale)));
+  }
+  if (ticks(SafetyCause::kImplausible) > 0) {
+    out.reasons.push_back(
+        fmt::format("the force was ramped to zero: on {} ticks no hand could be where the device said",
+                    ticks(SafetyCause::kImplausible)));
   }
   if (ticks(SafetyCause::kForceLimit) > 0) {
     out.warnings.push_back(

@@ -34,7 +34,7 @@ void watch_interrupts(void (*say)(std::string_view)) {
   std::signal(SIGPIPE, SIG_IGN);
   sigset_t set;
   sigemptyset(&set);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP}) {
     // A shell's background job has SIGINT ignored, nohup SIGHUP: that stays so.
     struct sigaction current {};
     sigaction(number, nullptr, &current);
@@ -43,7 +43,11 @@ void watch_interrupts(void (*say)(std::string_view)) {
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
   std::thread([set, say] {
     int number = 0;
-    if (sigwait(&set, &number) != 0) return;
+    for (;;) {
+      if (sigwait(&set, &number) != 0) return;
+      if (number != SIGTSTP || forces_held > 0) break;
+      ::kill(::getpid(), SIGSTOP);  // without a force a terminal may stop us as it stops anybody
+    }
     signal_seen = number;
     stop_asked = true;
     const timespec patience{1, 0};

@@ -16,8 +16,9 @@ struct DeviceInfo {
   double max_force_N = std::numeric_limits<double>::quiet_NaN();
   double max_continuous_force_N = std::numeric_limits<double>::quiet_NaN();
   double max_stiffness_N_per_m = std::numeric_limits<double>::quiet_NaN();
-  double bandwidth_Hz = std::numeric_limits<double>::quiet_NaN();  // up to which it renders textures faithfully
-  double rate_Hz = 1000.0;                                         // at which it wants to be served
+  double max_speed_mps = std::numeric_limits<double>::quiet_NaN();  // of the hand; nan: the config's
+  double bandwidth_Hz = std::numeric_limits<double>::quiet_NaN();   // up to which it renders textures faithfully
+  double rate_Hz = 1000.0;                                          // at which it wants to be served
   Eigen::Vector3d workspace_min_m = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   Eigen::Vector3d workspace_max_m = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   bool simulated = false;  // its hand is computed: it may be served faster than real time

@@ -18,6 +18,7 @@ struct SafetyState {
   Eigen::Vector3d held_N = Eigen::Vector3d::Zero();  // the last finite force that was rendered
   Eigen::Vector3d out_N = Eigen::Vector3d::Zero();   // let through at the tick before
   PassivityState passivity;
+  bool plausible = true;  // at the tick before
 };
 
 // One tick as the safety layer sees it. Vectors in one set of axes; positions in metres of the hand, not of the scene.
@@ -32,6 +33,7 @@ struct SafetyInput {
   bool scene_changed = false;  // rendered from another snapshot than at the tick before
   bool ending = false;         // ramp to zero, for good
   bool permitted = true;       // else ramp to zero (force_permit.h)
+  bool plausible = true;       // else the force that was there before ramps to zero, and begins softly again
   double dt_s = 1e-3;          // since the tick before
   double tick_s = 1e-3;        // between two ticks of the schedule
 };
@@ -48,11 +50,11 @@ struct SafeForce {
 SafetyConfig lower_to_device(SafetyConfig config, const DeviceInfo& info);
 
 // The force that may reach the hand at this tick, in this order (docs/safety.md): fault, the force limit, the gain
-// (non-finite numbers, a stale position, no permit, the end of the run; soft start), the passivity controller's
-// damping, the force limit of the sum, the force-rate limit. Whatever comes in, what goes out is finite, at most
-// max_force_N long, and, unless the device has a fault, at most max_force_rate_N_per_s · dt from the force before,
-// where dt is dt_s but no more than three ticks. A loop that stood still for longer than stale_after_s begins softly
-// again: the hand is elsewhere. Realtime-safe: yes.
+// (non-finite numbers, a stale or implausible position, no permit, the end of the run; soft start), the passivity
+// controller's damping, the force limit of the sum, the force-rate limit. Whatever comes in, what goes out is finite,
+// at most max_force_N long, and, unless the device has a fault, at most max_force_rate_N_per_s · dt from the force
+// before, where dt is dt_s but no more than three ticks. A loop that stood still for longer than stale_after_s begins
+// softly again: the hand is elsewhere. Realtime-safe: yes.
 SafeForce make_safe(const SafetyConfig& config, SafetyState& state, const SafetyInput& input) noexcept;
 
 // True if nothing is left to ramp down: the next force of an ending run is zero too.

@@ -58,7 +58,8 @@ struct TwoDiyConfig {
 // distal arms are nearly in line, torques are zero and the position is the last one. Velocity is estimated.
 //
 // The board holds the last torque for ever. Torques are zero after force_timeout_s without a write, on a fault and at
-// close(), which also resets the board; a second process (supervisor.h) zeroes them should this one be killed.
+// close(), which also resets the board; a second process (supervisor.h) zeroes them should this one be killed, or stand
+// still for 0.1 s: that is a fault for good.
 //
 // kStalled after stall_after_s without an answer; kFault, for good: port gone, wrong answers, lost_after_s without
 // any. Throws Error: config out of range, no such port, not a terminal, in use, no answer within a second.

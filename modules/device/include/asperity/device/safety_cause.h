@@ -19,10 +19,12 @@ enum class SafetyCause : std::uint32_t {
   kForceLimit = 1U << 6U,    // too large: shortened
   kRateLimit = 1U << 7U,     // changed too fast: follows
   kNotPermitted = 1U << 8U,  // nobody has leave to command forces (force_permit.h): ramp to zero
+  kImplausible = 1U << 9U,   // no hand can be where the device says (reflexes.h): ramp to zero
 };
 
-inline constexpr std::array<std::string_view, 9> kSafetyCauseNames{
-    "fault", "non-finite", "stale", "ending", "soft-start", "passivity", "force-limit", "rate-limit", "not-permitted"};
+inline constexpr std::array<std::string_view, 10> kSafetyCauseNames{
+    "fault",     "non-finite",  "stale",      "ending",        "soft-start",
+    "passivity", "force-limit", "rate-limit", "not-permitted", "implausible"};
 
 constexpr std::uint32_t flag(SafetyCause cause) noexcept { return static_cast<std::uint32_t>(cause); }
 

@@ -10,6 +10,7 @@
 #include "asperity/device/device_frame.h"
 #include "asperity/device/force_permit.h"
 #include "asperity/device/haptic_device.h"
+#include "asperity/device/reflexes.h"
 #include "asperity/device/safety_config.h"
 #include "asperity/device/servo_statistics.h"
 #include "asperity/device/servo_tick.h"
@@ -41,6 +42,7 @@ struct ServoConfig {
   double velocity_noise_m = 20e-6;  // of positions, for devices that give no velocity
   DeviceFrame frame;
   SafetyConfig safety;
+  ReflexConfig reflexes;
 
   template <class V>
   void visit(V& v) {
@@ -53,6 +55,7 @@ struct ServoConfig {
     v.field("velocity_noise_m", velocity_noise_m, "of positions, where a device gives no velocity", {0.0, 0.01});
     v.group("frame", frame);
     v.group("safety", safety);
+    v.group("reflexes", reflexes);
   }
 };
 
@@ -61,6 +64,7 @@ enum class ServoEnd { kDuration, kDeviceEnded, kStopped, kFault };
 
 struct ServoResult {
   ServoEnd end = ServoEnd::kDuration;
+  ReflexFault fault = ReflexFault::kNone;  // of the loop's own, with kFault
   ServoStatistics statistics;
   std::vector<ServoTick> last_ticks;  // of the last 2 s, in order: the flight recorder
 };
@@ -75,7 +79,8 @@ using ServoStep = ServoOutput (*)(const RenderModel&, ServoState&, const DeviceS
 // Tick k is due at k/rate_Hz after the start, ServoTick::t_ns = round(k · 1e9 / rate_Hz). Due times that pass while a
 // tick is late are skipped, never caught up with. A run that is stopped or whose duration is over goes on for
 // SafetyConfig::ramp_down_s until its force is zero; those ticks carry SafetyCause::kEnding. One whose device ends or
-// has a fault ends at once. If `on_tick` throws, the run is stopped and the exception passed on.
+// has a fault ends at once, as one of a device that pushes a hand does if its readings cannot be true, or the loop or
+// the machine stood still (reflexes.h). If `on_tick` throws, the run is stopped and the exception passed on.
 //
 // Not paced, everything runs on the calling thread, no tick is lost, and the same device, scene and config give
 // the same bits: DeviceState::dt_s is 1/rate_Hz.

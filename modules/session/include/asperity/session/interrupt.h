@@ -7,9 +7,10 @@ namespace asperity {
 
 inline constexpr const char* kInterrupted = "interrupted; nothing was written";
 
-// From now on SIGINT, SIGTERM and SIGHUP ask the program to stop: interrupted() turns true, and if the
+// From now on SIGINT, SIGTERM, SIGHUP and SIGQUIT ask the program to stop: interrupted() turns true, and if the
 // program has not ended within a second, unfinished output is removed, `say` is given kInterrupted, and the process
-// ends with 128 + signal. Call once, before any other thread exists.
+// ends with 128 + signal. SIGTSTP, a terminal's Ctrl-Z, does so while a ForceHold lives; else it stops the process as
+// ever. Call once, before any other thread exists.
 void watch_interrupts(void (*say)(std::string_view));
 
 bool interrupted();

@@ -141,13 +141,14 @@ const CAUSES: Record<string, string> = {
   "force-limit": "at the force limit",
   "rate-limit": "slowed",
   "not-permitted": "not permitted",
+  implausible: "no hand can be there",
 };
 
 export const causeWords = (cause: string): string => CAUSES[cause] ?? cause;
 
 /** How the watchdogs stand, in a word, and how bad that is. */
 export function watchdog(state: FeelState): { lamp: "good" | "warn" | "bad"; word: string } {
-  const serious = ["fault", "non-finite", "stale", "not-permitted", "ending"].find((cause) => state.limited.includes(cause));
+  const serious = ["fault", "non-finite", "stale", "implausible", "not-permitted", "ending"].find((cause) => state.limited.includes(cause));
   if (serious) return { lamp: serious === "not-permitted" || serious === "ending" ? "warn" : "bad", word: causeWords(serious) };
   if (state.starts_inside) return { lamp: "warn", word: "inside: leave the object first" };
   const slight = state.limited[0];
