@@ -163,7 +163,7 @@ class DemoCommand : public Command {
     const std::string json = out.dump_repaired(2);
     write_file(folder.path() / kMark, json + "\n");
     observer.update("writing", 1.0);
-    folder.commit();
+    commit_output(folder, output_);
     print_json(json);
     const std::string where = printable(output_, 200);
     say(text + fmt::format(

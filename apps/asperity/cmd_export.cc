@@ -76,7 +76,7 @@ class ExportCommand : public Command {
     for (const Problem& problem : result.problems) text += "problem: " + printable(problem.message, 300) + "\n";
     out["config"] = config_json(fields());
     out["asperity"] = kVersion;
-    folder.commit();
+    commit_output(folder, target.string());
     print_json(out.dump_repaired(2));
     say(text + "in " + printable(target.string(), 200) + "\n");
     return kDone;

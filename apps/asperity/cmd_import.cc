@@ -50,7 +50,7 @@ class ImportCommand : public Command {
     const Recording recording = import_imu_pose(input, config_);
     write_recording(folder.path(), recording);
     observer.update("importing", 1.0);
-    folder.commit();
+    commit_output(folder, output_);
     report(recording, input.problems);
     return kDone;
   }

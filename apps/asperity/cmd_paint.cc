@@ -81,7 +81,7 @@ class PaintCommand : public Command {
     const std::string json = to_json(result, object, texture).dump_repaired(2);
     write_file(folder.path() / "paint.json", json + "\n");
     write_listing(folder.path());
-    folder.commit();
+    commit_output(folder, output_);
     print_json(json);
     say(summary(result, texture) + "scene in " + printable(output_, 200) + "\n");
     return kDone;

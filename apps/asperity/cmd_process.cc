@@ -163,7 +163,7 @@ class ProcessCommand : public Command {
     }
     observer.update("writing", 1.0);
     if (!alone_) studio::write_report(folder.path(), items_);
-    folder.commit();
+    commit_output(folder, output_);
     print_json(alone_ ? results_.front().second.dump_repaired(2) : joined_results());
     say(text + "results in " + printable(output_, 200) + "\n");
     for (const std::string& why : reasons_) print_error(why);

@@ -90,7 +90,7 @@ class RegisterCommand : public Command {
     observer.update("writing", 1.0);
     write_registration(folder.path(), result, input.scans, input.mesh, unit_m);
     const std::string json = read_file(folder.path() / "registration.json", std::uint64_t{1} << 30);
-    folder.commit();
+    commit_output(folder, output_);
     print_json(trim(json));
     say(summary(result) + "results in " + printable(output_, 200) + "\n");
     for (const Verdict& verdict : result.verdicts) {

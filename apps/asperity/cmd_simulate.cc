@@ -96,7 +96,7 @@ class SimulateCommand : public Command {
     const Recording recording = simulate_recording(*config_, observer);
     write_recording(folder.path(), recording);
     observer.update("writing", 1.0);
-    folder.commit();
+    commit_output(folder, output_);
     report(recording);
     return kDone;
   }
@@ -114,7 +114,7 @@ class SimulateCommand : public Command {
       report = scan.play(observer);
       write_recording(folder.path(), scan.on_host_clock());
     }
-    folder.commit();
+    commit_output(folder, output_);
     print_json(live_json(report, output_).dump_repaired());
     say(live_line(report, output_));
     return report.probe_bytes_lost + report.frames_lost > 0 ? kNotTrustworthy : kDone;

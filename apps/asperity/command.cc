@@ -78,4 +78,11 @@ void print_error(std::string_view text) {
   std::fwrite(lines.data(), 1, lines.size(), stderr);
 }
 
+void commit_output(OutputFolder& folder, std::string_view output) {
+  for (const std::filesystem::path& name : folder.commit()) {
+    print_error(printable(output, 200) + ": " + printable(name.string(), 200) +
+                " was put there meanwhile; it was kept");
+  }
+}
+
 }  // namespace asperity::app

@@ -6,6 +6,7 @@
 
 #include "asperity/base/config.h"
 #include "asperity/base/error.h"
+#include "asperity/base/output.h"
 #include "asperity/base/progress.h"
 #include "parser.h"
 
@@ -73,5 +74,8 @@ class Command {
 void print_text(std::string_view text);
 // One line on standard error, "asperity: text".
 void print_error(std::string_view text);
+
+// Puts the folder in its target's place, and names on standard error what others put there meanwhile and was kept.
+void commit_output(OutputFolder& folder, std::string_view output);
 
 }  // namespace asperity::app

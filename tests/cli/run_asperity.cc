@@ -108,6 +108,12 @@ Outcome run_and_signal(const std::vector<std::string>& arguments, int signal, st
   return process.wait();
 }
 
+Outcome run_and_meddle(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& meddle) {
+  Process process(arguments, "");
+  meddle(process.pid());
+  return process.wait();
+}
+
 Outcome run_into(const std::filesystem::path& path, const std::vector<std::string>& arguments) {
   return Process(arguments, path.string()).wait();
 }

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,6 +21,9 @@ Outcome run(const std::vector<std::string>& arguments);
 
 // The same, but sends `signal` after `delay`.
 Outcome run_and_signal(const std::vector<std::string>& arguments, int signal, std::chrono::milliseconds delay);
+
+// The same, with what `meddle` does to the process while it runs. It must end by itself or by that.
+Outcome run_and_meddle(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& meddle);
 
 // The program with its standard output going to `path`.
 Outcome run_into(const std::filesystem::path& path, const std::vector<std::string>& arguments);

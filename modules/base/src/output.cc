@@ -3,11 +3,14 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <random>
 #include <set>
 
 #include "asperity/base/error.h"
@@ -40,12 +43,46 @@ bool is_in_unfinished_folder(const fs::path& path) {
   return false;
 }
 
-std::string template_beside(const fs::path& path) {
-  fs::path name = path.filename();
-  return (path.parent_path() / ("." + name.string() + ".tmp-XXXXXX")).string();
+std::string reason() { return std::strerror(errno); }
+
+// A name of our own beside `path`: `make` is tried until it does not fail with EEXIST. Throws Error for what else
+// fails.
+template <class Make>
+std::string make_beside(const fs::path& path, const char* what, const Make& make) {
+  constexpr int kTries = 1000;
+  std::random_device random;
+  for (int k = 0; k < kTries; ++k) {
+    std::array<char, 9> digits{};
+    std::snprintf(digits.data(), digits.size(), "%08x", random());
+    const std::string name = (path.parent_path() / ("." + path.filename().string() + ".tmp-" + digits.data())).string();
+    if (make(name)) return name;
+    if (errno != EEXIST) break;
+  }
+  throw Error(path.string() + ": cannot be " + what + ": " + reason());
 }
 
-std::string reason() { return std::strerror(errno); }
+// Forces a file, or a folder's list of names, to the disk. Throws Error naming `target`.
+void sync(const fs::path& path, const fs::path& target) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool done = file >= 0 && ::fsync(file) == 0;
+  const int error = errno;
+  if (file >= 0) ::close(file);
+  // Some file systems cannot sync a folder; they then need not.
+  if (done || (error == EINVAL && fs::is_directory(path))) return;
+  throw Error(target.string() + ": cannot be written: " + std::strerror(error));
+}
+
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+// All files and folders below `folder`, by their relative paths.
+std::set<fs::path> names_in(const fs::path& folder) {
+  std::set<fs::path> out;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    out.insert(entry->path().lexically_relative(folder));
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -55,19 +92,18 @@ void write_file(const fs::path& path, std::string_view content) {
   file.commit();
 }
 
-OutputFile::OutputFile(fs::path target) : target_(std::move(target)), temporary_(template_beside(target_)) {
+OutputFile::OutputFile(fs::path target) : target_(std::move(target)) {
   // A rename would put a file in the place of a device, for those who may.
   std::error_code ignored;
   const fs::file_status status = fs::status(target_, ignored);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     throw Error(target_.string() + ": cannot be written: it exists and is no file that could be replaced");
   }
-  file_ = ::mkstemp(temporary_.data());
-  if (file_ < 0) throw Error(target_.string() + ": cannot be written: " + reason());
+  temporary_ = make_beside(target_, "written", [this](const std::string& name) {
+    file_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    return file_ >= 0;
+  });
   mark_unfinished(temporary_);
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  ::fchmod(file_, 0666 & ~mask);
 }
 
 OutputFile::~OutputFile() {
@@ -94,11 +130,12 @@ void OutputFile::append(std::string_view content) {
 void OutputFile::commit() {
   // Forcing a file of a whole folder to disk would protect nothing before the folder is renamed, and waits
   // for whatever else the machine is writing.
-  if ((!is_in_unfinished_folder(target_) && ::fsync(file_) != 0) ||
-      ::rename(temporary_.c_str(), target_.c_str()) != 0) {
+  const bool alone = !is_in_unfinished_folder(target_);
+  if ((alone && ::fsync(file_) != 0) || ::rename(temporary_.c_str(), target_.c_str()) != 0) {
     throw Error(target_.string() + ": cannot be written: " + reason());
   }
   close();
+  if (alone) sync(folder_of(target_), target_);
 }
 
 OutputFolder::OutputFolder(fs::path target, const std::function<bool(const fs::path&)>& is_ours)
@@ -111,17 +148,13 @@ OutputFolder::OutputFolder(fs::path target, const std::function<bool(const fs::p
     if (!fs::is_empty(target_) && !is_ours(target_)) {
       throw Error(target_.string() + ": exists and was not written by asperity; nothing was changed");
     }
+    known_ = names_in(target_);
   }
   if (target_.has_parent_path()) {
     fs::create_directories(target_.parent_path(), error);
     if (error) throw Error(target_.string() + ": cannot be made: " + error.message());
   }
-  std::string temporary = template_beside(target_);
-  if (::mkdtemp(temporary.data()) == nullptr) throw Error(target_.string() + ": cannot be made: " + reason());
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  ::chmod(temporary.c_str(), 0777 & ~mask);
-  temporary_ = temporary;
+  temporary_ = make_beside(target_, "made", [](const std::string& name) { return ::mkdir(name.c_str(), 0777) == 0; });
   mark_unfinished(temporary_);
 }
 
@@ -132,27 +165,58 @@ OutputFolder::~OutputFolder() {
   mark_finished(temporary_);
 }
 
-void OutputFolder::commit() {
+std::vector<fs::path> OutputFolder::commit() {
   std::error_code ignored;
+  std::vector<fs::path> kept;
   if (fs::exists(target_, ignored)) {
+    // What is to go is whole on the disk; what comes must be, before.
+    for (const fs::path& name : names_in(temporary_)) sync(temporary_ / name, target_);
+    sync(temporary_, target_);
+    fs::path old = temporary_;
     // Exchanging the two names leaves no moment without a whole folder in place.
     if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) != 0) {
-      fs::path old = temporary_;
       old += ".old";
       if (::rename(target_.c_str(), old.c_str()) != 0 || ::rename(temporary_.c_str(), target_.c_str()) != 0) {
         const std::string why = reason();
         ::rename(old.c_str(), target_.c_str());
         throw Error(target_.string() + ": cannot be replaced: " + why);
       }
-      fs::remove_all(old, ignored);
-    } else {
-      fs::remove_all(temporary_, ignored);
     }
+    mark_finished(temporary_);
+    temporary_.clear();
+    sync(folder_of(target_), target_);
+    kept = keep_strangers(old);
+    fs::remove_all(old, ignored);
   } else if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
     throw Error(target_.string() + ": cannot be written: " + reason());
   }
-  mark_finished(temporary_);
+  if (!temporary_.empty()) mark_finished(temporary_);
   temporary_.clear();
+  return kept;
+}
+
+// Moves what came into the folder since we looked at it into the one that has taken its place.
+std::vector<fs::path> OutputFolder::keep_strangers(const fs::path& old) const {
+  std::vector<fs::path> kept;
+  for (const fs::path& name : names_in(old)) {
+    // What lies in a folder that is moved goes with it.
+    const bool moved =
+        !kept.empty() &&
+        std::mismatch(kept.back().begin(), kept.back().end(), name.begin(), name.end()).first == kept.back().end();
+    if (known_.contains(name) || moved) continue;
+    fs::path place = target_ / name;
+    std::error_code error;
+    for (int k = 1; fs::exists(fs::symlink_status(place, error)); ++k) {
+      place = target_ / (name.string() + ".kept-" + std::to_string(k));
+    }
+    fs::create_directories(place.parent_path(), error);
+    if (::rename((old / name).c_str(), place.c_str()) != 0) {
+      throw Error(target_.string() + ": was written, but " + (old / name).string() +
+                  " was put there meanwhile and cannot be moved: " + reason() + "; it is kept where it is");
+    }
+    kept.push_back(name);
+  }
+  return kept;
 }
 
 void remove_unfinished_output() {

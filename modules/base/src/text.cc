@@ -1,5 +1,6 @@
 #include "asperity/base/text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -65,13 +66,13 @@ std::string number_text(double value) {
 
 namespace {
 
-// The length of the well-formed UTF-8 sequence at the start of `text`, or 0.
-std::size_t utf8_sequence(std::string_view text) {
+// The length of the well-formed UTF-8 sequence at the start of `text`, or 0; `code` becomes its character.
+std::size_t utf8_sequence(std::string_view text, std::uint32_t& code) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);
+  code = lead;
   if (lead < 0x80) return 1;
   std::size_t length = 0;
-  std::uint32_t code = 0;
   std::uint32_t smallest = 0;
   if ((lead & 0xE0) == 0xC0) {
     length = 2, code = lead & 0x1Fu, smallest = 0x80;
@@ -91,11 +92,19 @@ std::size_t utf8_sequence(std::string_view text) {
   return code < smallest || code > 0x10FFFF || surrogate ? 0 : length;
 }
 
+// What changes a terminal or the order of what is read on it: C0 and C1 controls, bidirectional marks, embeddings and
+// isolates (Unicode 15, UAX 9), line and paragraph separators, the byte order mark.
+bool is_control(std::uint32_t code) {
+  return code < 0x20 || (code >= 0x7F && code <= 0x9F) || code == 0x61C || code == 0x200E || code == 0x200F ||
+         (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069) || code == 0xFEFF;
+}
+
 }  // namespace
 
 bool is_utf8(std::string_view text) {
   while (!text.empty()) {
-    const std::size_t length = utf8_sequence(text);
+    std::uint32_t code = 0;
+    const std::size_t length = utf8_sequence(text, code);
     if (length == 0) return false;
     text.remove_prefix(length);
   }
@@ -107,13 +116,16 @@ std::string printable(std::string_view text, std::size_t limit) {
   std::string out;
   while (!text.empty()) {
     if (out.size() >= limit) return out + "…";
-    const std::size_t length = utf8_sequence(text);
-    const auto byte = static_cast<unsigned char>(text[0]);
-    if (length == 0 || byte < 0x20 || byte == 0x7F) {
-      out += "\\x";
-      out += kHex[byte >> 4];
-      out += kHex[byte & 15];
-      text.remove_prefix(1);
+    std::uint32_t code = 0;
+    const std::size_t length = utf8_sequence(text, code);
+    if (length == 0 || is_control(code)) {
+      for (std::size_t i = 0; i < std::max<std::size_t>(length, 1); ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        out += "\\x";
+        out += kHex[byte >> 4];
+        out += kHex[byte & 15];
+      }
+      text.remove_prefix(std::max<std::size_t>(length, 1));
     } else {
       out += text.substr(0, length);
       text.remove_prefix(length);

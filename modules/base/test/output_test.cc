@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
@@ -53,6 +56,49 @@ TEST(Output, AFileInPiecesAppearsWholeOrNotAtAll) {
   ASSERT_EQ(::mkfifo((dir / "pipe").c_str(), 0600), 0);
   EXPECT_THROW(write_file(dir / "pipe", "x"), Error);
   EXPECT_TRUE(std::filesystem::is_fifo(dir / "pipe"));
+}
+
+TEST(Output, WhatCameMeanwhileIsKept) {
+  testkit::TempDir dir;
+  {
+    OutputFolder folder(dir / "out", has_mark);
+    write_file(folder.path() / "mark", "1");
+    write_file(folder.path() / "old", "1");
+    folder.commit();
+  }
+  OutputFolder folder(dir / "out", has_mark);
+  write_file(folder.path() / "mark", "2");
+  write_file(folder.path() / "notes", "ours");
+  std::ofstream(dir / "out" / "notes") << "theirs";
+  std::filesystem::create_directories(dir / "out" / "raw" / "deep");
+  std::ofstream(dir / "out" / "raw" / "deep" / "photo") << "x";
+  const std::vector<std::filesystem::path> expected{"notes", "raw"};
+  EXPECT_EQ(folder.commit(), expected);
+  EXPECT_EQ(read_file(dir / "out" / "mark", 10), "2");
+  EXPECT_EQ(read_file(dir / "out" / "notes", 10), "ours");
+  EXPECT_EQ(read_file(dir / "out" / "notes.kept-1", 10), "theirs");
+  EXPECT_EQ(read_file(dir / "out" / "raw" / "deep" / "photo", 10), "x");
+  EXPECT_FALSE(std::filesystem::exists(dir / "out" / "old"));  // ours, and replaced
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(dir.path()), {}), 1);
+}
+
+TEST(Output, ThreadsKeepTheUmask) {
+  testkit::TempDir dir;
+  const mode_t before = ::umask(027);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 3; ++t) {
+    threads.emplace_back([&, t] {
+      for (int k = 0; k < 30; ++k) {
+        const auto path = dir / ("f" + std::to_string(t) + "_" + std::to_string(k));
+        write_file(path, "x");
+        struct stat status {};
+        ::stat(path.c_str(), &status);
+        EXPECT_EQ(status.st_mode & 0777, 0640u);
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(::umask(before), 027u);
 }
 
 TEST(Output, LeavesStrangersAlone) {

@@ -32,6 +32,10 @@ TEST(Text, Utf8) {
   EXPECT_FALSE(is_utf8("\xED\xA0\x80"));      // surrogate
   EXPECT_FALSE(is_utf8("\xF5\x80\x80\x80"));  // beyond U+10FFFF
   EXPECT_EQ(printable("a\x1b\xff"), "a\\x1b\\xff");
+  EXPECT_EQ(printable("\u009b2J"), "\\xc2\\x9b2J");                              // a terminal's CSI in one character
+  EXPECT_EQ(printable("x\u202ey\u2066z"), "x\\xe2\\x80\\xaey\\xe2\\x81\\xa6z");  // text that is read backwards
+  EXPECT_EQ(printable("a\u2028b\ufeff"), "a\\xe2\\x80\\xa8b\\xef\\xbb\\xbf");
+  EXPECT_EQ(printable("µm 25°"), "µm 25°");
 }
 
 TEST(Units, NumberWithUnit) {

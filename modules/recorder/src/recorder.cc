@@ -238,6 +238,8 @@ class Recorder::Parts {
       if (events != events_) writer_->note_change();
       events_ = events;
       if (const auto info = writer_->commit()) info_writer_->put(*info);
+      // The first thing that the disk refuses ends the take: what was written before it is whole.
+      if (const std::string refused = info_writer_->failure(); !refused.empty()) throw Error(refused);
       if (last) info_writer_.reset();
       if (last) writer_->finish();
     } catch (const std::exception& error) {

@@ -2,10 +2,13 @@
 
 #include <fcntl.h>
 #include <unistd.h>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <exception>
 #include <utility>
 
+#include "asperity/base/error.h"
 #include "asperity/recording/write_recording.h"
 
 namespace asperity {
@@ -30,6 +33,11 @@ void RecordingInfoWriter::put(const RecordingInfo& info) {
   changed_.notify_all();
 }
 
+std::string RecordingInfoWriter::failure() const {
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
 void RecordingInfoWriter::run() {
   using Clock = std::chrono::steady_clock;
   const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(sync_s_));
@@ -45,25 +53,28 @@ void RecordingInfoWriter::run() {
     if (stop_) return;
     std::optional<RecordingInfo> info = std::exchange(waiting_, std::nullopt);
     lock.unlock();
+    std::string failure;
     try {
       if (info) replace_recording_info(folder_ / "recording.json", *info);
-    } catch (const std::exception&) {
-      // A disk that takes no more is found by the rows, and the end writes a last one.
-    }
-    if (sync_s_ > 0.0 && Clock::now() >= next_sync) {
-      sync();
-      next_sync = Clock::now() + period;
+      if (sync_s_ > 0.0 && Clock::now() >= next_sync) {
+        next_sync = Clock::now() + period;
+        sync();
+      }
+    } catch (const std::exception& error) {
+      failure = error.what();
     }
     lock.lock();
+    if (failure_.empty()) failure_ = std::move(failure);
   }
 }
 
 void RecordingInfoWriter::sync() const {
   for (const char* name : {"recording.json", "probe.csv", "tracker.csv", "."}) {
     const int file = ::open((folder_ / name).c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) continue;
-    ::fsync(file);  // what fails here, the writing itself finds out
-    ::close(file);
+    const bool done = file >= 0 && ::fsync(file) == 0;
+    const std::string reason = std::strerror(errno);
+    if (file >= 0) ::close(file);
+    if (!done) throw Error((folder_ / name).string() + ": cannot be forced to the disk: " + reason);
   }
 }
 

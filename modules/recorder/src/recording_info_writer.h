@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include "asperity/recording/recording.h"
@@ -23,16 +24,21 @@ class RecordingInfoWriter {
   // To be written soon; a newer one takes its place.
   void put(const RecordingInfo& info);
 
+  // The first thing that the disk refused, in words; empty: nothing.
+  std::string failure() const;
+
  private:
   void run();
+  // Throws Error for the first file that the disk refuses.
   void sync() const;
 
   std::filesystem::path folder_;
   double sync_s_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   bool stop_ = false;
   std::optional<RecordingInfo> waiting_;
+  std::string failure_;
   std::thread thread_;
 };
 

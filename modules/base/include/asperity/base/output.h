@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace asperity {
 
@@ -46,11 +48,18 @@ class OutputFolder {
   OutputFolder& operator=(const OutputFolder&) = delete;
 
   const std::filesystem::path& path() const { return temporary_; }
-  void commit();
+
+  // All is on the disk before what it replaces goes. Files that came into the target since the constructor are kept:
+  // they are in the new folder, by their names or, where it has such a one, with ".kept-1" behind it. Gives their
+  // relative paths.
+  std::vector<std::filesystem::path> commit();
 
  private:
+  std::vector<std::filesystem::path> keep_strangers(const std::filesystem::path& old) const;
+
   std::filesystem::path target_;
   std::filesystem::path temporary_;
+  std::set<std::filesystem::path> known_;  // in the target when this began
 };
 
 // Removes the temporary files and folders that are in use now. Called when the program is stopped by

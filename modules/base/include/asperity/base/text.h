@@ -23,7 +23,8 @@ void append_exact(std::string& out, double value);
 // True if `text` is well-formed UTF-8.
 bool is_utf8(std::string_view text);
 
-// `text` cut to `limit` bytes with control and non-UTF-8 bytes written as \xNN, for messages.
+// `text` cut to `limit` bytes with what is not UTF-8, and every character that controls a terminal or the
+// order of what is read (C0, C1, bidirectional, separators), written as \xNN, for messages.
 std::string printable(std::string_view text, std::size_t limit = 60);
 
 std::string_view trim(std::string_view text);
