@@ -1,6 +1,7 @@
 // The compliance coefficient k_c on the virtual bench (docs/compliance.md): the tables of that page, in Markdown.
 //
 //   compliance repeat [--seeds N] [--surfaces …]   k_c of one surface and material for several ramps and speeds
+//   compliance tilt   [--seeds N] [--surfaces …]   k_c of a leaning probe: the axial reading, corrected, three axes
 //   compliance chart  [--seeds N] [--surfaces …]   k_c over the contact's stiffness, pooled over surfaces and speeds
 
 #include <algorithm>
@@ -108,6 +109,60 @@ void repeat(const Options& options) {
   }
 }
 
+// k_c and its error against the one that the true contact force gives, of probes that lean along the path.
+void tilt(const Options& options) {
+  std::printf(
+      "| lean, rad | material | reading over contact force | k_c, contact force | axial as read | corrected | three "
+      "axes "
+      "|\n|---|---|---|---|---|---|---|\n");
+  for (const double lean : {-0.7, -0.4, 0.0, 0.4, 0.7}) {
+    for (const char* material : {"cork", "soft_rubber"}) {
+      std::vector<double> share, reference, read, corrected, three;
+      for (const std::string& surface : options.surfaces) {
+        for (int seed = 1; seed <= options.seeds; ++seed) {
+          asperity::SimulationConfig config = asperity::make_simulation_config(surface, "open", material);
+          config.seed = seed;
+          config.hand.force = asperity::HandForce::kRamp;
+          config.hand.ramp_from_N = 0.3;
+          config.hand.ramp_to_N = 2.5;
+          config.hand.tilt_rad[2] += lean;
+          config.probe.force3 = true;
+          asperity::Recording recording = asperity::simulate_recording(config);
+          const asperity::ProcessResult by_three = asperity::process_recording(recording, {});
+          recording.probe.force3_counts.clear();
+          const asperity::ProcessResult by_axial = asperity::process_recording(recording, {});
+          const auto of_force = [&](const std::vector<double>& force_N) {
+            asperity::TipMotion motion = by_axial.trajectory.motion;
+            motion.force_N = force_N;
+            return asperity::estimate_compliance(motion, motion.t_ns, by_axial.base.path.n_world, {});
+          };
+          const asperity::Truth& truth = *recording.truth;
+          std::vector<double> true_N(by_axial.trajectory.motion.size());
+          std::size_t k = 0;
+          for (std::size_t i = 0; i < true_N.size(); ++i) {
+            while (k + 1 < truth.t_ns.size() && truth.t_ns[k + 1] <= by_axial.trajectory.motion.t_ns[i]) ++k;
+            true_N[i] = truth.force_N[k];
+          }
+          const asperity::Compliance truly = of_force(true_N);
+          const asperity::Compliance axial = of_force(by_axial.trajectory.motion.axial_force_N);
+          if (!truly.determined || !axial.determined || !by_axial.compliance.determined ||
+              !by_three.compliance.determined)
+            continue;
+          share.push_back(by_axial.base.force.share);
+          reference.push_back(truly.k_c);
+          read.push_back(std::abs(std::log(axial.k_c / truly.k_c)));
+          corrected.push_back(std::abs(std::log(by_axial.compliance.k_c / truly.k_c)));
+          three.push_back(std::abs(std::log(by_three.compliance.k_c / truly.k_c)));
+        }
+      }
+      std::printf("| %.1f | %s | %.2f | %.3f | %.1f %% | %.1f %% | %.1f %% |\n", lean, material,
+                  at_percent(share, 50.0), at_percent(reference, 50.0), 100.0 * at_percent(read, 50.0),
+                  100.0 * at_percent(corrected, 50.0), 100.0 * at_percent(three, 50.0));
+      std::fflush(stdout);
+    }
+  }
+}
+
 void chart(const Options& options) {
   std::printf("| stiffness, N/mm | scans | determined | k_c: 2.5 %% | median | 97.5 %% |\n|---|---|---|---|---|---|\n");
   for (const double stiffness : {1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0, 50.0, 200.0}) {
@@ -135,12 +190,12 @@ void chart(const Options& options) {
 int main(int argc, char** argv) {
   try {
     const std::string_view table = argc > 1 ? argv[1] : "";
-    if (table != "repeat" && table != "chart") throw Error("repeat or chart?");
+    if (table != "repeat" && table != "chart" && table != "tilt") throw Error("repeat, tilt or chart?");
     Options options;
     bench::read_options(argc - 1, argv + 1,
                         {{"--seeds", [&](auto value) { options.seeds = bench::seed_count(value); }},
                          {"--surfaces", [&](auto value) { options.surfaces = bench::split_list(value); }}});
-    table == "repeat" ? repeat(options) : chart(options);
+    table == "repeat" ? repeat(options) : table == "tilt" ? tilt(options) : chart(options);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "compliance: %s\n", error.what());

@@ -83,6 +83,13 @@ Json compliance_json(const Compliance& c) {
           {"verdict", c.verdict}};
 }
 
+Json force_json(const NormalForce& f) {
+  return {{"source", kForceSourceNames.at(static_cast<std::size_t>(f.source))},
+          {"axial_share", f.share},
+          {"relative_sigma", f.relative_sigma},
+          {"friction", f.friction}};
+}
+
 Json stiffness_json(const StiffnessEstimate& s) {
   return {{"measured", s.measured},
           {"stiffness_N_per_mm", s.stiffness_N_per_mm},
@@ -159,6 +166,7 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
   out["roughness"] = result.roughness ? roughness_json(*result.roughness) : Json(nullptr);
   out["periodicity"] = periodicity_json(result.periodicity);
   out["compliance"] = compliance_json(result.compliance);
+  out["force"] = force_json(result.base.force);
   out["stiffness"] = stiffness_json(result.stiffness);
   if (result.fit) {
     out["texture"] = {{"file", "texture.json"},

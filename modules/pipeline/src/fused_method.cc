@@ -20,6 +20,7 @@ ProcessMethod FusedMethod::make_method() {
                                const BasePathResult& base) {
     return estimate_compliance(motion, motion.t_ns, base.path.n_world, config.compliance);
   };
+  out.uses_normal_force = true;
   out.high_pass_cycles_per_mm = [](const ProcessConfig& config) { return config.profile.cutoff_cycles_per_mm; };
   out.live_config = [](const ProcessConfig& config) {
     LiveProfileConfig live;

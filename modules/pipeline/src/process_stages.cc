@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <utility>
 
 #include "asperity/base/error.h"
 #include "asperity/pipeline/scan_evidence.h"
 #include "asperity/profile/apply_wiener_filter.h"
 #include "asperity/profile/estimate_texture_noise.h"
+#include "asperity/profile/find_contact.h"
 #include "asperity/profile/find_periodicity_under_noise.h"
 #include "asperity/profile/measure_roughness_under_noise.h"
 
@@ -47,6 +50,12 @@ void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise) {
     profile.texture_m[i] = expected.texture_m[i];
     profile.texture_sigma_m[i] *= left;
   }
+}
+
+// The force sensor's axis, from the tip to the hand; none where the calibration gives it no direction.
+std::optional<Eigen::Vector3d> force_axis(const Calibration& calibration) {
+  if (!calibration.force.axis_in_marker && calibration.tip_in_marker_m.isZero(0.0)) return std::nullopt;
+  return calibration.force_axis_in_marker();
 }
 
 Coverage measure_coverage(const Profile& profile) {
@@ -92,21 +101,49 @@ Outcome<TrajectoryResult> find_trajectory(const Recording& recording, const Proc
   TrajectoryResult& trajectory = out.value.emplace(method.estimate_trajectory(recording, config, observer));
   out.problems = trajectory.problems;
 
+  // Until the normal is known, a sensor of three axes is read along the probe's.
+  TipMotion& motion = trajectory.motion;
+  const std::optional<Eigen::Vector3d> axis = force_axis(recording.calibration);
+  if (method.uses_normal_force && axis) {
+    for (std::size_t i = 0; i < motion.force_world_N.size(); ++i)
+      motion.force_N[i] = (motion.q_world_marker[i] * *axis).dot(motion.force_world_N[i]);
+  }
+
   // Without a force sensor a motion need not be a scan.
-  if (!has_force(recording.probe)) {
+  if (!has_force(recording)) {
     std::vector<double>& force_N = trajectory.motion.force_N;
     std::fill(force_N.begin(), force_N.end(), std::numeric_limits<double>::quiet_NaN());
+    motion.force_world_N.clear();
     out.problems.push_back({"no_force", "the force never changes: all of the path counts as scanned", 1});
   }
   return out;
 }
 
 Outcome<BasePathResult> find_base_path(const Recording& recording, const ProcessConfig& config,
-                                       const ProcessMethod& method, const ProcessStages& before) {
-  const TipMotion& motion = before.trajectory.value->motion;
-  Outcome<BasePathResult> out = attempt_step<BasePathResult>("no_profile", "profile", [&] {
+                                       const ProcessMethod& method, ProcessStages& before) {
+  TipMotion& motion = before.trajectory.value->motion;
+  const auto find = [&] {
     return method.find_base_path ? method.find_base_path(recording, config, motion)
                                  : asperity::find_base_path(motion, recording.calibration.tip_in_marker_m, config.base);
+  };
+  Outcome<BasePathResult> out = attempt_step<BasePathResult>("no_profile", "profile", [&] {
+    if (!method.uses_normal_force) return find();
+    if (motion.axial_force_N.empty()) motion.axial_force_N = motion.force_N;
+    motion.force_N = motion.axial_force_N;
+    BasePathResult base = find();
+    const std::optional<Eigen::Vector3d> axis = force_axis(recording.calibration);
+    const auto along_normal = [&] {
+      base.force = find_normal_force(motion, motion.axial_force_N, base.path, base.contact, axis,
+                                     base.normal_sigma_deg * std::numbers::pi / 180.0);
+      motion.force_N = std::move(base.force.force_N);
+    };
+    along_normal();
+    // Where the contact is another by the force along the normal, so is the path.
+    if (base.force.source == ForceSource::kNone || find_contact(motion, config.base.contact) == base.contact)
+      return base;
+    base = find();
+    along_normal();
+    return base;
   });
   if (out.value) out.problems = out.value->problems;
   return out;

@@ -45,8 +45,9 @@ namespace stage {
 // Throws Error if the streams do not allow one, and Cancelled.
 Outcome<TrajectoryResult> find_trajectory(const Recording& recording, const ProcessConfig& config,
                                           const ProcessMethod& method, const Observer& observer);
+// Also makes the motion's force_N that along the path's normal, if the method has it so.
 Outcome<BasePathResult> find_base_path(const Recording& recording, const ProcessConfig& config,
-                                       const ProcessMethod& method, const ProcessStages& before);
+                                       const ProcessMethod& method, ProcessStages& before);
 Outcome<MeasuredProfile> find_profile(const Recording& recording, const ProcessConfig& config,
                                       const ProcessMethod& method, const ProcessStages& before);
 Outcome<RoughnessResult> measure_roughness(const ProcessConfig& config, const ProcessStages& before);

@@ -60,7 +60,7 @@ void add_streams(const Recording& recording, const TrajectoryResult& trajectory,
     return value > 0.0 ? static_cast<std::size_t>(value) : 0;
   };
   out.calibrated = !recording.calibration.uncalibrated;
-  out.has_force = has_force(recording.probe);
+  out.has_force = has_force(recording);
   const auto latency = [&](const char* name, double calibrated_s) {
     const double estimated_s = metric(name);
     return std::isfinite(estimated_s) ? estimated_s : calibrated_s;
@@ -104,12 +104,21 @@ PoseEvidence pose_evidence(const RegistrationResult& registration) {
   return out;
 }
 
-bool has_force(const ProbeStream& probe) {
+bool has_force(const Recording& recording) {
   double first = std::numeric_limits<double>::quiet_NaN();
-  for (const double counts : probe.force_counts) {
-    if (!std::isfinite(counts)) continue;
+  const auto changes = [&](double counts) {
+    if (!std::isfinite(counts)) return false;
     if (std::isfinite(first) && counts != first) return true;
     first = counts;
+    return false;
+  };
+  if (std::any_of(recording.probe.force_counts.begin(), recording.probe.force_counts.end(), changes)) return true;
+  if (!recording.calibration.force3) return false;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    first = std::numeric_limits<double>::quiet_NaN();
+    for (const Eigen::Vector3d& counts : recording.probe.force3_counts) {
+      if (changes(counts[axis])) return true;
+    }
   }
   return false;
 }

@@ -11,6 +11,7 @@
 #include "asperity/base/units.h"
 #include "asperity/profile/extract_texture.h"
 #include "asperity/profile/resample_over_path.h"
+#include "asperity/profile/surface_under_tip.h"
 #include "asperity/signal/resample.h"
 
 namespace asperity {
@@ -121,7 +122,11 @@ Profile make_profile(const TipMotion& motion, const BasePath& base, std::span<co
                      const ProfileConfig& config) {
   check_sizes(motion, base, usable);
   const std::size_t n = motion.size();
-  const Samples samples = take_samples(motion, base, config);
+  Samples samples = take_samples(motion, base, config);
+  if (config.contact_resonance_Hz > 0.0) {
+    const std::vector<double> above_m = surface_above_tip_m(motion, base, usable, config.contact_resonance_Hz);
+    for (std::size_t i = 0; i < n; ++i) samples.height_m[i] += above_m[i];
+  }
   std::vector<char> use(n, 1);
   if (!usable.empty()) std::copy(usable.begin(), usable.end(), use.begin());
   leave_out_end_rests(samples.t_s, base.s_m, use);

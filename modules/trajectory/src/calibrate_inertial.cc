@@ -145,6 +145,25 @@ std::vector<double> fill_between(const std::vector<std::int64_t>& t_ns, const st
   return out;
 }
 
+// The force on the tip in the marker frame at every sample; empty without a calibrated sensor of three axes.
+std::vector<Eigen::Vector3d> force_vectors(const Recording& recording, const std::vector<char>& spike,
+                                           const std::vector<std::int64_t>& t_ns) {
+  const std::vector<Eigen::Vector3d>& counts = recording.probe.force3_counts;
+  if (!recording.calibration.force3 || counts.size() != t_ns.size()) return {};
+  const Force3Calibration& calibration = *recording.calibration.force3;
+  calibration.force_N(calibration.C);  // throws if there is no inverse
+  const Eigen::Matrix3d inverse = calibration.B.inverse();
+  std::vector<Eigen::Vector3d> out(counts.size());
+  std::vector<double> component(counts.size());
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < counts.size(); ++i)
+      component[i] = spike[i] ? kNan : inverse.row(axis).dot(counts[i] - calibration.C);
+    component = fill_between(t_ns, component);
+    for (std::size_t i = 0; i < counts.size(); ++i) out[i][axis] = component[i];
+  }
+  return out;
+}
+
 // A gyroscope slower than a hand's turns says less than the tracker.
 constexpr double kSlowestGyro_Hz = 25.0;
 
@@ -286,6 +305,7 @@ InertialStream calibrate_inertial(const Recording& recording, const InertialConf
     force[i] = spike[i] ? kNan : calibration.force.force_N(probe.force_counts[i]);
   }
   out.force_N = fill_between(out.t_ns, force);
+  out.force3_marker_N = force_vectors(recording, spike, out.t_ns);
   if (out.spikes > 0)
     out.problems.push_back({"spike", "samples that stand off from both their neighbours were replaced", out.spikes});
   if (out.saturated > 0)

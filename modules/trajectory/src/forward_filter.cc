@@ -111,6 +111,8 @@ void CausalMotion::append(const CausalFeed& feed, std::size_t e, const std::vect
     if (!spread_m2.empty()) cov += spread_m2[i - 1];
     motion.cov_world_tip_m2.push_back(cov);
     motion.force_N.push_back(feed.stream().force_N[sample]);
+    if (!feed.stream().force3_marker_N.empty())
+      motion.force_world_N.push_back(state.q_world_marker * feed.stream().force3_marker_N[sample]);
   }
 }
 

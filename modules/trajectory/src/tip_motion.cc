@@ -41,6 +41,8 @@ TipMotion make_tip_motion(const InertialStream& inertial, const Smoothed& smooth
     out.v_world_tip_mps[i] = smoothed.v[i] + omega.cross(arm);
     out.a_world_tip_mps2[i] = smoothed.a[i] + omega.cross(omega.cross(arm)) + angular_acceleration(i).cross(arm);
     out.force_N[i] = inertial.force_N[sample];
+    if (!inertial.force3_marker_N.empty())
+      out.force_world_N.push_back(smoothed.q[i] * inertial.force3_marker_N[sample]);
     const double t = static_cast<double>(out.t_ns[i] - origin_ns) * 1e-9;
     while (epoch + 2 < smoothed.epoch_t.size() && smoothed.epoch_t[epoch + 1] <= t) ++epoch;
     if (epoch + 1 < smoothed.epoch_t.size()) {

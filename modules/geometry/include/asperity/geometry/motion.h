@@ -19,7 +19,11 @@ struct TipMotion {
   std::vector<Eigen::Matrix3d> cov_world_tip_m2;  // covariance of the position; empty if the method gives none
   // Of that, what comes from the tip's place in the marker, marker axes: one error for the whole motion.
   Eigen::Vector3d sigma_tip_in_marker_m = Eigen::Vector3d::Zero();
-  std::vector<double> force_N;  // calibrated axial reading; nan where the sensor gave none
+  // Calibrated axial reading, and the force along the surface's normal once that is known (profile/normal_force.h); nan
+  // where the sensor gave none.
+  std::vector<double> force_N;
+  std::vector<double> axial_force_N;           // the reading, where force_N is along the normal; empty: force_N is
+  std::vector<Eigen::Vector3d> force_world_N;  // on the tip, of a sensor with three axes; empty: there is none
 
   std::size_t size() const { return t_ns.size(); }
 };

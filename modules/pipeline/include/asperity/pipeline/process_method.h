@@ -42,6 +42,9 @@ struct ProcessMethod {
   std::function<Compliance(const Recording&, const ProcessConfig&, const TipMotion&, const BasePathResult&)>
       estimate_compliance;
 
+  // The force is taken along the surface's normal (normal_force.h), not along the sensor's axis.
+  bool uses_normal_force = false;
+
   // The -3 dB point of the profile's high-pass.
   std::function<double(const ProcessConfig&)> high_pass_cycles_per_mm;
 

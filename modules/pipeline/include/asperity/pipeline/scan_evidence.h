@@ -16,6 +16,6 @@ ScanEvidence scan_evidence(const Recording& recording, const ProcessResult& resu
 PoseEvidence pose_evidence(const RegistrationResult& registration);
 
 // A force sensor that never changes is none: whether the tip touched is then not known.
-bool has_force(const ProbeStream& probe);
+bool has_force(const Recording& recording);
 
 }  // namespace asperity

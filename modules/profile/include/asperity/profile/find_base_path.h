@@ -14,6 +14,7 @@
 #include "asperity/profile/base_path.h"
 #include "asperity/profile/find_contact.h"
 #include "asperity/profile/measure_arc_length.h"
+#include "asperity/profile/normal_force.h"
 
 namespace asperity {
 
@@ -82,6 +83,7 @@ struct BasePathResult {
   double probe_tilt_deg = 0.0;                               // mean angle between the probe's axis and the normal
   double base_rms_m = 0.0;                                   // of the path's 10 mm means from the base shape
   double length_m = 0.0;
+  NormalForce force;  // along n_world, without the values, which the motion has; nothing if it was not asked for
   Problems problems;
 };
 

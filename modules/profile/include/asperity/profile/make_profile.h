@@ -17,6 +17,7 @@ struct ProfileConfig {
   double max_stop_s = 1.0;
   double max_force_hole_s = 0.05;
   bool remove_noise = true;
+  double contact_resonance_Hz = 0.0;
 
   template <class V>
   void visit(V& v) {
@@ -29,6 +30,10 @@ struct ProfileConfig {
     v.field("max_force_hole_s", max_force_hole_s, "time between force readings that is still interpolated",
             {0.0, 10.0});
     v.field("remove_noise", remove_noise, "take the expected noise out of the heights (Wiener's filter)");
+    v.field("contact_resonance_Hz", contact_resonance_Hz,
+            "of the probe's mass on the contact, where it is known: heights are the surface's then, not the tip's; 0: "
+            "they are the tip's",
+            {0.0, 1e4});
   }
 };
 

@@ -12,7 +12,7 @@ struct Profile {
   std::vector<double> sigma_m;          // standard deviation of height_m; nan if the method gives none
   std::vector<double> texture_m;        // height_m after the high-pass
   std::vector<double> texture_sigma_m;  // standard deviation of texture_m (texture_noise.h); empty: not estimated
-  std::vector<double> force_N;          // calibrated axial reading
+  std::vector<double> force_N;          // of the contact, along the normal (normal_force.h)
   std::vector<double> speed_mps;        // along the base path
 
   std::size_t size() const { return s_m.size(); }

@@ -51,6 +51,7 @@ struct InertialStream {
   std::vector<double> gyro_sigma_radps;              // likewise; zero without a gyroscope
   std::vector<double> accel_moving_mps2;             // size of the specific force less its mean of late
   std::vector<double> force_N;                       // at every sample, interpolated; nan where there is none
+  std::vector<Eigen::Vector3d> force3_marker_N;      // likewise, of a sensor with three axes; empty: there is none
   bool has_gyro = false;
   double period_s = 0.0;
   double clock_jitter_s = 0.0;

@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "asperity/pipeline/process_recording.h"
+#include "asperity/simulation/simulate_recording.h"
+
+// The force of a whole scan against the contact force that the bench knows.
+namespace asperity {
+namespace {
+
+Recording scan(bool three_axes, double lean_rad) {
+  SimulationConfig config = make_simulation_config("sandpaper", "open");
+  config.seed = 4;
+  config.hand.length_m = 0.05;
+  config.hand.tilt_rad[2] += lean_rad;  // along the path
+  config.probe.force3 = three_axes;
+  config.calibration.imperfection = 0.0;
+  return simulate_recording(config);
+}
+
+double mean_true_N(const Recording& recording, const ProcessResult& result) {
+  double sum = 0.0, count = 0.0;
+  const double first = result.profile.s_m.front(), last = result.profile.s_m.back();
+  const Truth& truth = *recording.truth;
+  for (std::size_t i = 0; i < truth.s_m.size(); ++i) {
+    if (!(truth.s_m[i] - truth.s_m.front() > first + 5e-3 && truth.s_m[i] - truth.s_m.front() < last - 5e-3)) continue;
+    sum += truth.force_N[i];
+    count += 1.0;
+  }
+  return sum / count;
+}
+
+double mean_found_N(const ProcessResult& result) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < result.profile.size(); ++i) {
+    const double s_m = result.profile.s_m[i];
+    if (!(s_m > result.profile.s_m.front() + 5e-3 && s_m < result.profile.s_m.back() - 5e-3)) continue;
+    if (!std::isfinite(result.profile.force_N[i])) continue;
+    sum += result.profile.force_N[i];
+    count += 1.0;
+  }
+  return sum / count;
+}
+
+TEST(NormalForceScan, ThreeAxesGiveTheContactForceOfATiltedProbe) {
+  for (const double lean : {-0.5, 0.5}) {
+    const Recording recording = scan(true, lean);
+    const ProcessResult result = process_recording(recording, {});
+    EXPECT_EQ(result.base.force.source, ForceSource::kThreeAxes);
+    EXPECT_NEAR(mean_found_N(result) / mean_true_N(recording, result), 1.0, 0.02) << lean;
+    // The bench's surface has µ = 0.15 to 0.2, and the relief itself holds the tip back.
+    EXPECT_GT(result.base.force.friction, 0.1);
+    EXPECT_LT(result.base.force.friction, 0.4);
+  }
+}
+
+TEST(NormalForceScan, AnAxialReadingIsCorrectedByTheAngle) {
+  for (const double lean : {-0.5, 0.5}) {
+    const Recording recording = scan(false, lean);
+    const ProcessResult result = process_recording(recording, {});
+    EXPECT_EQ(result.base.force.source, ForceSource::kCorrectedAxial);
+    const double true_N = mean_true_N(recording, result);
+    const double off = mean_found_N(result) / true_N - 1.0;
+    EXPECT_LT(std::abs(off), 2.0 * result.base.force.relative_sigma + 0.02) << lean;
+    // What was read, by the share that was divided out.
+    EXPECT_GT(std::abs(result.base.force.share - 1.0), 0.0);
+  }
+}
+
+TEST(NormalForceScan, OtherForcesOfThreeAxesGiveAnotherProfile) {
+  Recording recording = scan(true, 0.3);
+  const ProcessResult before = process_recording(recording, {});
+  for (Eigen::Vector3d& counts : recording.probe.force3_counts)
+    counts = 1.2 * (counts - recording.calibration.force3->C) + recording.calibration.force3->C;
+  const ProcessResult after = process_recording(recording, {});
+  EXPECT_NEAR(mean_found_N(after) / mean_found_N(before), 1.2, 0.01);
+}
+
+}  // namespace
+}  // namespace asperity
