@@ -246,10 +246,11 @@ TEST_F(Register, TheThesisRegistersFromAGuess) {
   const Outcome outcome = run(near);
   ASSERT_THAT(outcome.code, ::testing::AnyOf(0, 3)) << outcome.err;
   const json result = json::parse(outcome.out);
-  // One arc hardly determines its rotation about itself, and point-to-point steps slide slowly: some degrees. The
-  // residual is the filtered path's error, 0.35 mm, as far as it is along the normal.
+  EXPECT_EQ(result.at("stopped_by"), "error_change");
+  // One arc hardly determines its rotation about itself: some degrees. The residual is the filtered path's error,
+  // 0.35 mm, as far as it is along the normal.
   const Pose found = pose_of(result.at("T_mesh_world"));
-  EXPECT_LT(turn_between_deg(found, truth), 8.0);
+  EXPECT_LT(turn_between_deg(found, truth), 6.0);
   EXPECT_LT(result.at("rms_m").get<double>(), 0.35e-3);
   const json process = read_json(dir_ / "out" / "result.json");
   EXPECT_EQ(process.at("method"), "thesis");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "symmetric_products.h"
+
 namespace asperity::inertial_smoother {
 
 namespace {
@@ -131,6 +133,20 @@ TopRows Transition::rows(const Layout& layout) const {
   return U;
 }
 
+namespace {
+
+// U P; most columns of U that are zero are left out.
+TopRows times_covariance(const TopRows& U, const Layout& layout, const Square& P) {
+  int last = layout.slow >= 0 ? layout.slow : layout.size;
+  int first = last;
+  for (const int at : {layout.misalignment, layout.accel_matrix, layout.gyro_matrix, layout.gravity}) {
+    if (at >= 0) first = std::min(first, at);
+  }
+  return times_symmetric<9>(U, P, kV, kBase, first, last);
+}
+
+}  // namespace
+
 double Transition::slow_decay(const Problem& problem) const { return std::exp(-T / problem.slow_time_s); }
 
 Vector6d Transition::slow_noise(const Problem& problem) const {
@@ -142,7 +158,7 @@ Vector6d Transition::slow_noise(const Problem& problem) const {
 
 void Transition::propagate(const Problem& problem, const TopRows& U, Nominal& x, Square& P) const {
   const Layout& layout = problem.layout;
-  const TopRows UP = U * P;
+  const TopRows UP = times_covariance(U, layout, P);
   const Eigen::Matrix<double, 9, 9> UPU = UP * U.transpose();
   P.topRows(9) += UP;
   P.leftCols(9) += UP.transpose();
@@ -179,11 +195,15 @@ void Transition::propagate(const Problem& problem, const TopRows& U, Nominal& x,
 void Transition::propagate_back(const Problem& problem, const TopRows& U, State& lambda, Square& Lambda) const {
   lambda += (U.transpose() * lambda.head(9)).eval();
   // With W = (Λ + Λ₉₉ U / 2) of the upper rows both outer terms are Uᵀ W and its transpose.
-  TopRows W = Lambda.topRows(9);
-  W.noalias() += 0.5 * Lambda.topLeftCorner<9, 9>() * U;
-  Square UW(Lambda.rows(), Lambda.cols());
-  UW.noalias() = U.transpose() * W;
-  Lambda += UW + UW.transpose();
+  Rows<18> A(18, Lambda.cols()), B(18, Lambda.cols());
+  const Eigen::Matrix<double, 9, 9> half = 0.5 * Lambda.topLeftCorner<9, 9>();
+  for (Eigen::Index c = 0; c < Lambda.cols(); ++c) {
+    B.col(c).head<9>() = Lambda.col(c).head<9>() + half * U.col(c);
+  }
+  A.topRows<9>() = U;
+  A.bottomRows<9>() = B.topRows<9>();
+  B.bottomRows<9>() = U;
+  add_transposed_product<18>(1.0, A, B, Lambda);
   if (problem.layout.slow >= 0) {
     const double keep = slow_decay(problem);
     lambda.segment<6>(problem.layout.slow) *= keep;
@@ -234,14 +254,59 @@ Square start_covariance(const Problem& problem) {
   return P;
 }
 
-void add_start_score(const Problem& problem, const State& lambda, const Square& Lambda, NoiseScore& score) {
-  for (const Block& block : start_blocks(problem.layout)) {
-    if (block.at < 0) continue;
-    for (int i = block.at; i < block.at + block.size; ++i) {
-      const double variance = problem.factors[block.component] * problem.start_covariance(i, i);
-      score.add(block.component, variance * lambda[i] * lambda[i], variance * Lambda(i, i));
-    }
+namespace {
+
+void add_block_score(const Problem& problem, const Block& block, const State& lambda, const Square& Lambda,
+                     NoiseScore& score) {
+  if (block.at < 0) return;
+  for (int i = block.at; i < block.at + block.size; ++i) {
+    const double variance = problem.factors[block.component] * problem.start_covariance(i, i);
+    score.add(block.component, variance * lambda[i] * lambda[i], variance * Lambda(i, i));
   }
+}
+
+bool begins_anew(const Block& block) { return block.component == kSlow || block.component == kSlowTurn; }
+
+// Φ over a restart: of the motion only the place depends on what was before, by the lever.
+Square restart_transition(const Layout& layout, const Restart& restart) {
+  Square out = Square::Identity(layout.size, layout.size);
+  out.topLeftCorner<kBase, kBase>().setZero();
+  if (layout.slow >= 0) out.block<6, 6>(layout.slow, layout.slow).setZero();
+  if (layout.lever >= 0) out.block<3, 3>(kP, layout.lever) = restart.pose.rotation.toRotationMatrix();
+  return out;
+}
+
+}  // namespace
+
+void add_start_score(const Problem& problem, const State& lambda, const Square& Lambda, NoiseScore& score) {
+  for (const Block& block : start_blocks(problem.layout)) add_block_score(problem, block, lambda, Lambda, score);
+}
+
+void restart_motion(const Problem& problem, const Restart& restart, Nominal& x, Square& P) {
+  const Layout& layout = problem.layout;
+  const Square phi = restart_transition(layout, restart);
+  P = (phi * P * phi.transpose()).eval();
+  P.topLeftCorner<kBase, kBase>() += problem.restart_covariance.topLeftCorner<kBase, kBase>();
+  for (const Block& block : start_blocks(layout)) {
+    if (block.at < 0 || !begins_anew(block)) continue;
+    P.diagonal().segment(block.at, block.size) +=
+        problem.factors[block.component] * problem.restart_covariance.diagonal().segment(block.at, block.size);
+  }
+  x.p = restart.pose * x.lever;
+  x.q = restart.pose.rotation;
+  x.v.setZero();
+  x.ba = problem.start.ba;
+  x.bg = problem.start.bg;
+  x.slow.setZero();
+}
+
+void restart_back(const Problem& problem, const Restart& restart, State& lambda, Square& Lambda, NoiseScore& score) {
+  for (const Block& block : start_blocks(problem.layout)) {
+    if (begins_anew(block)) add_block_score(problem, block, lambda, Lambda, score);
+  }
+  const Square phi = restart_transition(problem.layout, restart);
+  lambda = (phi.transpose() * lambda).eval();
+  Lambda = (phi.transpose() * Lambda * phi).eval();
 }
 
 void apply_correction(const State& d, const Layout& layout, Nominal& x) {
