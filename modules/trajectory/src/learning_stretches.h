@@ -13,10 +13,10 @@ struct Stretch {
   double end = 0.0;
 };
 
-inline constexpr double kStretchLength_s = 4.0;
+inline constexpr double kStretchLength_s = 3.0;
 inline constexpr int kStretches = 9;
 
-// Nine stretches of 4 s for a recording of more than twice their length, none for a shorter one (all of it is to be
+// Nine stretches of 3 s for a recording of more than twice their length, none for a shorter one (all of it is to be
 // learnt from). Three are evenly spaced in time from the first to the last, three in the order of how much the specific
 // force moves, three in the order of how rough the poses' path is (its fourth difference, in which a hand's motion is
 // far below a tracker's noise): the stillest and the liveliest, the best and the worst tracked are among them.
