@@ -158,13 +158,14 @@ int main(int argc, char** argv) {
           if (!pose) continue;
           const Pose& found = pose->sample.T_world_marker;
           errors.add(found, truths[i]);
+          // Board and camera are right here: what remains is the part of the error that is of this frame alone.
           Eigen::Matrix<double, 6, 1> e;
           e << found.translation_m - truths[i].translation_m,
               log_rotation(found.rotation * truths[i].rotation.conjugate());
-          errors.mahalanobis2.push_back(e.dot(pose->covariance.ldlt().solve(e)));
-          errors.sigma_degrees.push_back(std::sqrt(pose->covariance.bottomRightCorner<3, 3>().trace()) * 180.0 /
+          errors.mahalanobis2.push_back(e.dot(pose->noise.ldlt().solve(e)));
+          errors.sigma_degrees.push_back(std::sqrt(pose->noise.bottomRightCorner<3, 3>().trace()) * 180.0 /
                                          std::numbers::pi);
-          errors.sigma_mm.push_back(std::sqrt(pose->covariance.topLeftCorner<3, 3>().trace()) * 1e3);
+          errors.sigma_mm.push_back(std::sqrt(pose->noise.topLeftCorner<3, 3>().trace()) * 1e3);
         }
         if (table) {
           print_table_row(body_name, distance_m, errors);
