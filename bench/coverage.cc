@@ -81,9 +81,10 @@ int main(int argc, char** argv) {
     const std::vector<bench::ScanOutcome> scans = run(options);
     double process_s = 0.0;
     for (const bench::ScanOutcome& scan : scans) process_s += scan.process_s;
-    std::printf("%zu scans of %s, seed %llu; %.2f s of processing each\n", scans.size(),
+    std::printf("%zu scans of %s, seed %llu\n", scans.size(),
                 options.ours ? "the product's own bench" : "the second simulator",
-                static_cast<unsigned long long>(options.seed), process_s / static_cast<double>(scans.size()));
+                static_cast<unsigned long long>(options.seed));
+    std::fprintf(stderr, "%.2f s of processing each\n", process_s / static_cast<double>(scans.size()));
     bench::print_verdicts(scans);
     bench::print_sigmas(scans);
     bench::print_conditions(scans);

@@ -3,6 +3,7 @@
 //
 //   texture_noise [--seeds N] [--first N] [--speeds 20,25,45] [--probes open,what] [--surfaces …] [--materials stiff]
 //                 [--method fused] [--imperfection 1] [--spectrum yes|no]   yes: error and expectation by octaves
+//                 [--table yes|no]   yes: the scans alone, in Markdown
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +33,7 @@ using asperity::Error;
 struct Options {
   int seeds = 3, first = 1;
   double imperfection = 1.0;
-  bool spectrum = false;
+  bool spectrum = false, table = false;
   std::string method = "fused";
   std::vector<std::string> surfaces{"sine", "protoboard", "cable_tie", "sandpaper", "clay_pot"};
   std::vector<std::string> probes{"open", "what"};
@@ -48,6 +49,7 @@ Options parse_options(int argc, char** argv) {
        {"--first", [&](auto value) { out.first = static_cast<int>(bench::number_within(value, 0, 1e9)); }},
        {"--imperfection", [&](auto value) { out.imperfection = bench::number_within(value, 0, 100); }},
        {"--spectrum", [&](auto value) { out.spectrum = bench::is_first(value, "yes", "no"); }},
+       {"--table", [&](auto value) { out.table = bench::is_first(value, "yes", "no"); }},
        {"--method", [&](auto value) { out.method = value; }},
        {"--surfaces", [&](auto value) { out.surfaces = bench::split_list(value); }},
        {"--probes", [&](auto value) { out.probes = bench::split_list(value); }},
@@ -158,6 +160,12 @@ void run_one(const Options& options, const asperity::SimulationConfig& config, c
   const double expected_um = std::sqrt(expected_um2(result, result.accuracy->band_high_cycles_per_mm, 0.0, 1e9));
   const double ratio = expected_um / p.rms_um;
   const auto likely = [](double snr) { return std::sqrt(snr / (1.0 + snr)); };
+  if (options.table) {
+    std::printf("| %s | %.3f | %.3f | %.3f | %.1f | %.1f | %.1f | %.2f | %+.2f ± %.2f |\n", row.c_str(), p.correlation,
+                likely(result.noise.snr), likely(result.noise.snr_low), p.true_rms_um, p.rms_um, expected_um, ratio,
+                p.length_error_percent, 100.0 * result.noise.length_stderr_m / result.coverage.length_m);
+    return;
+  }
   std::printf(
       "%-32s r %.3f (said %.3f, at least %.3f) gain %.3f true %6.1f error %6.1f expected %6.1f um, ratio %.2f | "
       "noise %.1f±%.1f texture %.1f at most %.1f um, place %.0f um, length %+.2f ± %.2f %%%s\n",
@@ -189,6 +197,12 @@ void run_one(const Options& options, const asperity::SimulationConfig& config, c
 }
 
 void run(const Options& options) {
+  if (options.table) {
+    std::printf(
+        "| scan: probe, surface, material, mm/s, seed | r | r by the SNR | at least | true, µm | error, µm | expected, "
+        "µm "
+        "| expected / error | length error, %% |\n|---|---|---|---|---|---|---|---|---|\n");
+  }
   for (const auto& probe : options.probes) {
     Tally tally;
     for (const auto& speed : options.speeds) {

@@ -1,5 +1,5 @@
 // Speed and accuracy of the tracker on drawn images, beside OpenCV's ArUco and a pose of each tag by itself.
-//   track_bench [frames a distance] [first seed]
+//   track_bench [frames a distance] [first seed] [table]   table: errors and sigma alone, in Markdown, no speeds
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <time.h>
@@ -33,7 +34,7 @@ double now_s() {
 }
 
 struct Errors {
-  std::vector<double> mm, degrees, mahalanobis2, sigma_mm;
+  std::vector<double> mm, degrees, mahalanobis2, sigma_mm, sigma_degrees;
   double seconds = 0.0;
   int frames = 0;
 
@@ -60,6 +61,21 @@ void print_row(const char* name, const Errors& e) {
                 quantile(e.sigma_mm, 0.5));
   }
   std::printf("\n");
+}
+
+double rms(const std::vector<double>& values) {
+  double square = 0.0;
+  for (const double v : values) square += v * v;
+  return std::sqrt(square / static_cast<double>(std::max<std::size_t>(1, values.size())));
+}
+
+// A row of the table: errors, σ and error over σ by RMS, and the squared Mahalanobis distance, whose mean is 6 when σ
+// is right.
+void print_table_row(const char* body, double distance_m, const Errors& e) {
+  std::printf("| %s | %.2f | %zu of %d | %.4f, %.4f | %.4f, %.4f | %.4f | %.2f | %.4f | %.2f | %.1f |\n", body,
+              distance_m, e.mm.size(), e.frames, quantile(e.mm, 0.5), quantile(e.mm, 0.95), quantile(e.degrees, 0.5),
+              quantile(e.degrees, 0.95), quantile(e.sigma_mm, 0.5), rms(e.mm) / rms(e.sigma_mm),
+              quantile(e.sigma_degrees, 0.5), rms(e.degrees) / rms(e.sigma_degrees), quantile(e.mahalanobis2, 0.5));
 }
 
 using Solver = std::function<std::optional<Pose>(const GrayImage&)>;
@@ -95,12 +111,20 @@ int main(int argc, char** argv) {
   cv::setNumThreads(1);
   const int frames = argc > 1 ? std::atoi(argv[1]) : 60;
   const std::uint64_t first_seed = argc > 2 ? static_cast<std::uint64_t>(std::atoll(argv[2])) : 1;
+  const bool table = argc > 3 && std::string_view(argv[3]) == "table";
+  if (table) {
+    std::printf(
+        "| body | distance, m | found | error, mm: median, 95 %% | degrees: median, 95 %% | sigma, mm | error / sigma "
+        "| sigma, degrees | error / sigma | chi2, median (5.35) |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  }
   const CameraCalibration camera = test_camera();
   for (const bool flat : {true, false}) {
     const std::vector<MarkerPlacement> body = flat ? flat_pair() : sleeve();
-    std::printf("%s, 640x480, noise 2.5, defocus 0.6 px, clutter\n",
-                flat ? "two tags in a plane" : "three tags on a sleeve");
-    std::printf("  %-34s %9s %17s   %17s  %8s\n", "", "found", "mm 50 %, 95 %", "degrees", "frames/s");
+    const char* const body_name = flat ? "two tags in a plane" : "three tags on a sleeve";
+    if (!table) {
+      std::printf("%s, 640x480, noise 2.5, defocus 0.6 px, clutter\n", body_name);
+      std::printf("  %-34s %9s %17s   %17s  %8s\n", "", "found", "mm 50 %, 95 %", "degrees", "frames/s");
+    }
     for (const double distance_m : {0.25, 0.4, 0.6}) {
       // A smooth motion, so that tracking is tracking.
       std::vector<GrayImage> images;
@@ -119,8 +143,9 @@ int main(int argc, char** argv) {
                           lerp(keys[k].translation_m, keys[k + 1].translation_m, part)});
         images.push_back(draw(scene, truths.back(), first_seed * 7919 + static_cast<std::uint64_t>(i)));
       }
-      std::printf(" %.2f m\n", distance_m);
+      if (!table) std::printf(" %.2f m\n", distance_m);
       for (const bool refine : {true, false}) {
+        if (table && !refine) continue;
         TrackConfig config;
         config.refine.enabled = refine;
         BodyTracker tracker(camera, body, config);
@@ -133,14 +158,22 @@ int main(int argc, char** argv) {
           if (!pose) continue;
           const Pose& found = pose->sample.T_world_marker;
           errors.add(found, truths[i]);
+          // Board and camera are right here: what remains is the part of the error that is of this frame alone.
           Eigen::Matrix<double, 6, 1> e;
           e << found.translation_m - truths[i].translation_m,
               log_rotation(found.rotation * truths[i].rotation.conjugate());
-          errors.mahalanobis2.push_back(e.dot(pose->covariance.ldlt().solve(e)));
-          errors.sigma_mm.push_back(std::sqrt(pose->covariance.topLeftCorner<3, 3>().trace()) * 1e3);
+          errors.mahalanobis2.push_back(e.dot(pose->noise.ldlt().solve(e)));
+          errors.sigma_degrees.push_back(std::sqrt(pose->noise.bottomRightCorner<3, 3>().trace()) * 180.0 /
+                                         std::numbers::pi);
+          errors.sigma_mm.push_back(std::sqrt(pose->noise.topLeftCorner<3, 3>().trace()) * 1e3);
         }
-        print_row(refine ? "ours" : "ours on AprilTag's corners", errors);
+        if (table) {
+          print_table_row(body_name, distance_m, errors);
+        } else {
+          print_row(refine ? "ours" : "ours on AprilTag's corners", errors);
+        }
       }
+      if (table) continue;
       const auto run = [&](const char* name, const Solver& solver) {
         Errors errors;
         for (std::size_t i = 0; i < images.size(); ++i) {

@@ -238,7 +238,7 @@ TEST_F(Register, ARecordingBecomesATexturedMesh) {
 // The seed's own chain, registration included (seed §5.4, B.2).
 TEST_F(Register, TheThesisRegistersFromAGuess) {
   // Nothing in it rejects a flipped pose.
-  simulate("rec", "sandpaper", through({{0.0, -0.4}, {1.5, 0.5}}), 2, {"--set", "tracker.flip_chance=0"});
+  simulate("rec", "sandpaper", through({{0.0, -0.4}, {0.9, 0.7}, {1.8, -0.3}}), 2, {"--set", "tracker.flip_chance=0"});
   const Pose truth = pose_of(read_json(dir_ / "rec" / "recording.json").at("extra").at("T_mesh_world"));
   const Words words{"register", path("rec"), mesh(), "--mesh-unit", "mm", "--method", "thesis", "-o", path("out")};
   Words near = words;
@@ -246,10 +246,12 @@ TEST_F(Register, TheThesisRegistersFromAGuess) {
   const Outcome outcome = run(near);
   ASSERT_THAT(outcome.code, ::testing::AnyOf(0, 3)) << outcome.err;
   const json result = json::parse(outcome.out);
-  // One arc hardly determines its rotation about itself, and point-to-point steps slide slowly: some degrees. The
-  // residual is the filtered path's error, 0.35 mm, as far as it is along the normal.
+  EXPECT_EQ(result.at("stopped_by"), "error_change");
+  // Of five seeds of this bent arc the worst is 2.7 degrees off. (Along a plain one the pose of the least distance may
+  // be another one, 10 degrees off, for this method as for the other.) The residual is the filtered path's error, 0.35
+  // mm, as far as it is along the normal.
   const Pose found = pose_of(result.at("T_mesh_world"));
-  EXPECT_LT(turn_between_deg(found, truth), 8.0);
+  EXPECT_LT(turn_between_deg(found, truth), 6.0);
   EXPECT_LT(result.at("rms_m").get<double>(), 0.35e-3);
   const json process = read_json(dir_ / "out" / "result.json");
   EXPECT_EQ(process.at("method"), "thesis");

@@ -23,3 +23,18 @@ printf '<!-- figures: table 3 4 -->\n| 3 | 4 |\nthe end is missing\n' >"$work/pa
 cp "$work/page.md" "$work/stale.md"
 ! run || fail "a table without an end was written"
 cmp -s "$work/page.md" "$work/stale.md" || fail "a document without an end was changed"
+
+# Names choose tables, each command runs once, one that fails leaves its tables and is an error.
+printf '#!/bin/sh\necho run >>%s/runs\necho "| $1 |"\n' "$work" >"$work/bin/table"
+printf '#!/bin/sh\necho "| half |"\nexit 1\n' >"$work/bin/broken"
+chmod +x "$work/bin/broken"
+printf '<!-- figures: table 1 -->\n<!-- end of figures -->\n<!-- figures: table 2 -->\n<!-- end of figures -->\n<!-- figures: table 1 -->\n<!-- end of figures -->\n<!-- figures: broken -->\n| old |\n<!-- end of figures -->\n' >"$work/page.md"
+run 'table 2' || fail "a table could not be chosen by its name"
+grep -q '^| 2 |$' "$work/page.md" && ! grep -q '^| 1 |$' "$work/page.md" || fail "another table than the named one was written"
+! run 'tab' || fail "a part of a program's name was taken for it"
+rm "$work/runs"
+! run || fail "a program that fails went unnoticed"
+grep -q '^| old |$' "$work/page.md" || fail "the table of a program that fails was changed"
+(($(grep -c '^| 1 |$' "$work/page.md") == 2)) || fail "not all tables of one command were written"
+(($(wc -l <"$work/runs") == 2)) || fail "a command ran more than once"
+! env DOC_FIGURES_BIN="$work/bin" "$script" docs/nowhere.md 2>>"$work/log" || fail "a document that does not exist was taken"

@@ -62,10 +62,51 @@ std::vector<Complex> complex_dft(const std::vector<Complex>& x) {
   return largest_prime_factor(x.size()) > kLargePrime ? chirp_dft(x) : smooth_dft(x);
 }
 
+// exp(−2πi k/n)
+Complex twiddle(std::size_t k, std::size_t n) {
+  return std::polar(1.0, -2.0 * pi * static_cast<double>(k) / static_cast<double>(n));
+}
+
+// Of n real samples, n even: their pairs are the complex samples of a transform of half the length, which is the sum
+// of the even samples' transform E and i times the odd ones' O; X_k = E_k + exp(−2πi k/n) O_k.
+std::vector<Complex> even_real_dft(std::span<const double> x) {
+  const std::size_t n = x.size(), half = n / 2;
+  std::vector<Complex> pairs(half);
+  for (std::size_t i = 0; i < half; ++i) pairs[i] = {x[2 * i], x[2 * i + 1]};
+  const std::vector<Complex> z = complex_dft(pairs);
+  std::vector<Complex> out(half + 1);
+  for (std::size_t k = 0; k <= half; ++k) {
+    const Complex here = z[k % half], mirror = std::conj(z[(half - k) % half]);
+    const Complex even = 0.5 * (here + mirror), odd = Complex(0.0, -0.5) * (here - mirror);
+    out[k] = even + twiddle(k, n) * odd;
+  }
+  return out;
+}
+
+// Its inverse: E and O from X_k and the conjugate of X_{n/2−k}, then the samples' pairs.
+std::vector<double> even_inverse_real_dft(std::span<const Complex> spectrum, std::size_t n) {
+  const std::size_t half = n / 2;
+  std::vector<Complex> z(half);  // conjugated: the inverse is the conjugate of the forward transform of the conjugate
+  for (std::size_t k = 0; k < half; ++k) {
+    const Complex here = k == 0 ? spectrum[0].real() : spectrum[k];
+    const Complex mirror = k == 0 ? spectrum[half].real() : std::conj(spectrum[half - k]);
+    const Complex even = 0.5 * (here + mirror), odd = 0.5 * (here - mirror) * std::conj(twiddle(k, n));
+    z[k] = std::conj(even + Complex(0.0, 1.0) * odd);
+  }
+  const std::vector<Complex> pairs = complex_dft(z);
+  std::vector<double> x(n);
+  for (std::size_t i = 0; i < half; ++i) {
+    x[2 * i] = pairs[i].real() / static_cast<double>(half);
+    x[2 * i + 1] = -pairs[i].imag() / static_cast<double>(half);
+  }
+  return x;
+}
+
 }  // namespace
 
 std::vector<Complex> real_dft(std::span<const double> x) {
   if (x.empty()) return {};
+  if (x.size() % 2 == 0) return even_real_dft(x);
   std::vector<Complex> out = complex_dft({x.begin(), x.end()});
   out.resize(x.size() / 2 + 1);
   return out;
@@ -76,6 +117,7 @@ std::vector<double> inverse_real_dft(std::span<const Complex> half, std::size_t 
     throw Error("inverse transform to " + std::to_string(n) + " samples needs " + std::to_string(n / 2 + 1) +
                 " coefficients, not " + std::to_string(half.size()));
   }
+  if (n % 2 == 0) return even_inverse_real_dft(half, n);
   // The inverse is the conjugate of the forward transform of the conjugate, divided by n.
   std::vector<Complex> full(n);
   for (std::size_t k = 0; k < half.size(); ++k) {
@@ -83,7 +125,6 @@ std::vector<double> inverse_real_dft(std::span<const Complex> half, std::size_t 
     if (k > 0) full[n - k] = half[k];
   }
   full[0] = half[0].real();
-  if (n % 2 == 0) full[n / 2] = half[n / 2].real();
   const std::vector<Complex> out = complex_dft(full);
   std::vector<double> x(n);
   for (std::size_t i = 0; i < n; ++i) x[i] = out[i].real() / static_cast<double>(n);

@@ -9,6 +9,7 @@
 #include "fused_setup.h"
 #include "inertial_smoother.h"
 #include "learn_noise.h"
+#include "learning_stretches.h"
 #include "tip_motion.h"
 
 namespace asperity {
@@ -22,6 +23,7 @@ using inertial_smoother::Layout;
 using inertial_smoother::Nominal;
 using inertial_smoother::prior_latency_s;
 using inertial_smoother::Smoothed;
+using inertial_smoother::Stretch;
 using SmootherProblem = inertial_smoother::Problem;
 using Eigen::Vector3d;
 
@@ -41,7 +43,8 @@ struct Estimates {
   Factors factors;
   bool gyro_turns_too = true;
   Nominal guess;
-  std::vector<double> position_weight;
+  std::vector<Stretch> stretches;       // of the first passes; none: the whole
+  std::vector<double> position_weight;  // 0 where no pass had the pose yet
   std::vector<double> rotation_weight;
 };
 
@@ -73,6 +76,7 @@ SmootherProblem prepare_problem(const Recording& recording, const InertialStream
     problem.rotation_weight = estimates.rotation_weight;
   }
   problem.start.latency = prior_latency_s(recording.calibration) - estimates.latency_s;
+  problem.restart_covariance = problem.start_covariance;
   inertial_smoother::tie_place_to_lever(problem);
   return problem;
 }
@@ -141,8 +145,11 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
       if (!calibration.accelerometer.rotation_known) inertial_smoother::choose_mounting(problem, inertial.has_gyro);
       estimates.guess = problem.start;
       estimates.gyro_turns_too = problem.gyro_turns_too;
+      estimates.stretches = inertial_smoother::choose_stretches(problem);
     }
+    // The last step of learning is from all of the recording, whatever the stretches were like.
     const bool last = pass + 1 == config.passes;
+    if (pass + 2 < config.passes) problem = inertial_smoother::problem_of_stretches(problem, estimates.stretches);
     smoothed = inertial_smoother::smooth_motion(problem, calibration.tip_in_marker_m, last, observer);
     if (!last) refine(recording, inertial, config, problem, smoothed, estimates);
     weigh_poses(smoothed, problem);

@@ -88,8 +88,8 @@ Problem make_problem(const Recording& recording, const InertialStream& inertial,
   }
   problem.poses = tracker.T_world_marker;
   problem.pose_noise = stated_pose_noise(tracker, recording.calibration, recording.info);
-  problem.position_weight.assign(tracker.size(), 1.0);
-  problem.rotation_weight.assign(tracker.size(), 1.0);
+  problem.position_weight.assign(tracker.size(), 0.0);
+  problem.rotation_weight.assign(tracker.size(), 0.0);
 
   const std::size_t last_pose = first_pose + inside;
   std::size_t next_sample = static_cast<std::size_t>(
@@ -190,18 +190,22 @@ Quaterniond sensor_rotation(const Problem& problem, const Vector3d& gravity) {
 
 }  // namespace
 
-Nominal first_guess(const Recording& recording, const Problem& problem) {
-  Nominal guess;
-  const auto first = static_cast<std::size_t>(problem.epochs.front().pose);
+Pose typical_pose(const Problem& problem, std::size_t epoch) {
+  const auto first = static_cast<std::size_t>(problem.epochs[epoch].pose);
   std::size_t last = first;
-  const double t0 = problem.knots[problem.epochs.front().knot].t;
-  for (const Epoch& epoch : problem.epochs) {
-    if (epoch.pose >= 0 && (problem.knots[epoch.knot].t - t0 < 0.25 || last - first < 3)) {
-      last = static_cast<std::size_t>(epoch.pose) + 1;
-    }
+  const double t0 = problem.knots[problem.epochs[epoch].knot].t;
+  for (std::size_t e = epoch; e < problem.epochs.size(); ++e) {
+    const bool near = problem.knots[problem.epochs[e].knot].t - t0 < 0.25 || last - first < 3;
+    if (!near) break;
+    if (problem.epochs[e].pose >= 0) last = static_cast<std::size_t>(problem.epochs[e].pose) + 1;
   }
   last = std::min(last, first + 100);
-  const Pose& pose = problem.poses[medoid(problem.poses, first, last)];
+  return problem.poses[medoid(problem.poses, first, last)];
+}
+
+Nominal first_guess(const Recording& recording, const Problem& problem) {
+  Nominal guess;
+  const Pose pose = typical_pose(problem, 0);
   guess.lever = recording.calibration.accelerometer_in_marker_m();
   guess.q = pose.rotation;
   guess.p = pose * guess.lever;

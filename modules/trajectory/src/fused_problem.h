@@ -24,6 +24,9 @@ Knot between_samples(const InertialStream& inertial, const FusedConfig& config, 
 // Epochs are never further apart: it keeps first-order noise terms exact enough.
 inline constexpr double kLongestInterval_s = 0.025;
 
+// The most typical of the poses within a quarter of a second from this epoch on: no wild one.
+Pose typical_pose(const Problem& problem, std::size_t epoch);
+
 // A first state from the poses alone, robust against single wild ones; with the rotation marker ←
 // sensor from the directions of the specific force where the calibration leaves it open.
 Nominal first_guess(const Recording& recording, const Problem& problem);

@@ -5,6 +5,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "symmetric_products.h"
+
 namespace asperity::inertial_smoother {
 
 Square Record::covariance(int n) const {
@@ -40,8 +42,12 @@ Forward run_forward(const Problem& problem, bool keep, const Observer& observer)
   Square P = start_covariance(problem);
   int refused_in_a_row = problem.refused_in_a_row;
   const bool keep_transitions = keep && problem.epochs.size() <= kMostTransitions;
+  auto restart = problem.restarts.begin();
   for (std::size_t e = 0; e < problem.epochs.size(); ++e) {
-    if (e > 0) {
+    if (restart != problem.restarts.end() && restart->epoch == e) {
+      restart_motion(problem, *restart++, x, P);
+      refused_in_a_row = 0;
+    } else if (e > 0) {
       const Mounting mounting = mounting_of(x, problem);
       Transition transition;
       for (std::size_t k = problem.epochs[e - 1].knot; k < problem.epochs[e].knot; ++k) {
@@ -65,7 +71,8 @@ Forward run_forward(const Problem& problem, bool keep, const Observer& observer)
       double wp = problem.position_weight[i];
       double wr = problem.rotation_weight[i];
       const Vector6d& y = predicted.residual;
-      if (problem.gate_innovations) {
+      const bool by_innovation = problem.gate_innovations || wp == 0.0;
+      if (by_innovation) {
         const Matrix6d trial = S + noise.covariance(1.0, 1.0);
         const Vector3d yp = y.head<3>();
         const Vector3d yr = y.tail<3>();
@@ -87,13 +94,14 @@ Forward run_forward(const Problem& problem, bool keep, const Observer& observer)
       // Down-weighted poses are left out of the likelihood: their share would reward a bad model.
       if (believed) {
         out.log_likelihood -= 0.5 * std::min(d2, 2.0 * problem.gate_chi2) + diagonal.array().log().sum();
-      } else if (problem.gate_innovations) {
+      } else if (by_innovation) {
         out.log_likelihood -= problem.gate_chi2 + diagonal.array().log().sum();
       }
       apply_correction(HP.transpose() * (S_inverse * y), layout, x);
-      const Jacobian half = factor.matrixL().solve(HP);
-      P.noalias() -= half.transpose() * half;
-      P = (0.5 * (P + P.transpose())).eval();
+      const Matrix6d root = factor.matrixL().solve(Matrix6d::Identity());
+      Jacobian half(6, HP.cols());
+      for (Eigen::Index c = 0; c < HP.cols(); ++c) half.col(c) = root * HP.col(c);
+      add_transposed_product<6>(-1.0, half, half, P);
       if (keep) {
         Record& record = out.records[e];
         record.predicted = predicted;

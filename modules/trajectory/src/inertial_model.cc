@@ -3,24 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "symmetric_products.h"
+
 namespace asperity::inertial_smoother {
-
-namespace {
-
-// Components of the first state's covariance.
-struct Block {
-  Component component;
-  int at;
-  int size;
-};
-
-std::array<Block, 5> start_blocks(const Layout& layout) {
-  return {Block{kAccelMatrix, layout.accel_matrix, 9}, Block{kGyroMatrix, layout.gyro_matrix, 9},
-          Block{kGravity, layout.gravity, 3}, Block{kSlow, layout.slow, 3},
-          Block{kSlowTurn, layout.slow < 0 ? -1 : layout.slow + 3, 3}};
-}
-
-}  // namespace
 
 Mounting mounting_of(const Nominal& x, const Problem& problem) {
   const Matrix3d M = x.misalignment.toRotationMatrix();
@@ -131,6 +116,20 @@ TopRows Transition::rows(const Layout& layout) const {
   return U;
 }
 
+namespace {
+
+// U P; most columns of U that are zero are left out.
+TopRows times_covariance(const TopRows& U, const Layout& layout, const Square& P) {
+  int last = layout.slow >= 0 ? layout.slow : layout.size;
+  int first = last;
+  for (const int at : {layout.misalignment, layout.accel_matrix, layout.gyro_matrix, layout.gravity}) {
+    if (at >= 0) first = std::min(first, at);
+  }
+  return times_symmetric<9>(U, P, kV, kBase, first, last);
+}
+
+}  // namespace
+
 double Transition::slow_decay(const Problem& problem) const { return std::exp(-T / problem.slow_time_s); }
 
 Vector6d Transition::slow_noise(const Problem& problem) const {
@@ -142,7 +141,7 @@ Vector6d Transition::slow_noise(const Problem& problem) const {
 
 void Transition::propagate(const Problem& problem, const TopRows& U, Nominal& x, Square& P) const {
   const Layout& layout = problem.layout;
-  const TopRows UP = U * P;
+  const TopRows UP = times_covariance(U, layout, P);
   const Eigen::Matrix<double, 9, 9> UPU = UP * U.transpose();
   P.topRows(9) += UP;
   P.leftCols(9) += UP.transpose();
@@ -179,11 +178,15 @@ void Transition::propagate(const Problem& problem, const TopRows& U, Nominal& x,
 void Transition::propagate_back(const Problem& problem, const TopRows& U, State& lambda, Square& Lambda) const {
   lambda += (U.transpose() * lambda.head(9)).eval();
   // With W = (Λ + Λ₉₉ U / 2) of the upper rows both outer terms are Uᵀ W and its transpose.
-  TopRows W = Lambda.topRows(9);
-  W.noalias() += 0.5 * Lambda.topLeftCorner<9, 9>() * U;
-  Square UW(Lambda.rows(), Lambda.cols());
-  UW.noalias() = U.transpose() * W;
-  Lambda += UW + UW.transpose();
+  Rows<18> A(18, Lambda.cols()), B(18, Lambda.cols());
+  const Eigen::Matrix<double, 9, 9> half = 0.5 * Lambda.topLeftCorner<9, 9>();
+  for (Eigen::Index c = 0; c < Lambda.cols(); ++c) {
+    B.col(c).head<9>() = Lambda.col(c).head<9>() + half * U.col(c);
+  }
+  A.topRows<9>() = U;
+  A.bottomRows<9>() = B.topRows<9>();
+  B.bottomRows<9>() = U;
+  add_transposed_product<18>(1.0, A, B, Lambda);
   if (problem.layout.slow >= 0) {
     const double keep = slow_decay(problem);
     lambda.segment<6>(problem.layout.slow) *= keep;
@@ -223,24 +226,6 @@ void Transition::add_score(const Problem& problem, const State& lambda, const Sq
     const Vector6d expected = q.cwiseProduct(Lambda.diagonal().segment<6>(at));
     score.add(kSlow, seen.head<3>().sum(), expected.head<3>().sum());
     score.add(kSlowTurn, seen.tail<3>().sum(), expected.tail<3>().sum());
-  }
-}
-
-Square start_covariance(const Problem& problem) {
-  Square P = problem.start_covariance;
-  for (const Block& block : start_blocks(problem.layout)) {
-    if (block.at >= 0) P.block(block.at, block.at, block.size, block.size) *= problem.factors[block.component];
-  }
-  return P;
-}
-
-void add_start_score(const Problem& problem, const State& lambda, const Square& Lambda, NoiseScore& score) {
-  for (const Block& block : start_blocks(problem.layout)) {
-    if (block.at < 0) continue;
-    for (int i = block.at; i < block.at + block.size; ++i) {
-      const double variance = problem.factors[block.component] * problem.start_covariance(i, i);
-      score.add(block.component, variance * lambda[i] * lambda[i], variance * Lambda(i, i));
-    }
   }
 }
 

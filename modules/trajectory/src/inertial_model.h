@@ -89,6 +89,11 @@ struct Transition {
 Square start_covariance(const Problem& problem);
 void add_start_score(const Problem& problem, const State& lambda, const Square& Lambda, NoiseScore& score);
 
+// Where a stretch begins: the motion's error is its prior, its place tied to the lever, the constants are as they were.
+void restart_motion(const Problem& problem, const Restart& restart, Nominal& x, Square& P);
+// λ ← Φᵀ λ and Λ ← Φᵀ Λ Φ over it, and what they say of the components in the prior.
+void restart_back(const Problem& problem, const Restart& restart, State& lambda, Square& Lambda, NoiseScore& score);
+
 // Adds an error state to the nominal one.
 void apply_correction(const State& d, const Layout& layout, Nominal& x);
 

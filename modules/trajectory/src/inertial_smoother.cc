@@ -7,6 +7,7 @@
 
 #include "inertial_forward.h"
 #include "inertial_model.h"
+#include "symmetric_products.h"
 
 namespace asperity::inertial_smoother {
 
@@ -19,13 +20,13 @@ Matrix3d tip_covariance(const Problem& problem, const Nominal& smoothed, const S
                         const Vector3d& tip_in_marker) {
   const Layout& layout = problem.layout;
   const Matrix3d R = smoothed.q.toRotationMatrix();
-  TipRows J = TipRows::Zero(3, layout.size);
-  J.block<3, 3>(0, kP).setIdentity();
-  J.block<3, 3>(0, kPhi) = -skew(R * (tip_in_marker - smoothed.lever));
-  if (layout.lever >= 0) J.block<3, 3>(0, layout.lever) = -R;
-  const TipRows JP = J * P;
+  const Matrix3d turn = -skew(R * (tip_in_marker - smoothed.lever));
+  TipRows JP = P.middleRows<3>(kP) + turn * P.middleRows<3>(kPhi);
+  if (layout.lever >= 0) JP -= R * P.middleRows<3>(layout.lever);
+  Matrix3d JPJ = JP.middleCols<3>(kP) + JP.middleCols<3>(kPhi) * turn.transpose();
+  if (layout.lever >= 0) JPJ -= JP.middleCols<3>(layout.lever) * R.transpose();
   // The tip's own place in the marker shows nowhere in the data: considered, not estimated.
-  return JP * J.transpose() - JP * Lambda * JP.transpose() +
+  return JPJ - times_symmetric<3>(JP, Lambda) * JP.transpose() +
          R * problem.tip_sigma_m.cwiseAbs2().asDiagonal() * R.transpose();
 }
 
@@ -40,7 +41,7 @@ struct Adjoint {
     const Jacobian H = record.predicted.jacobian(layout);
     const Gain K = record.predicted.times(P, layout).transpose() * record.N_inverse;
     const Vector6d u = record.S_inverse * record.predicted.residual + K.transpose() * lambda;
-    const Gain LK = Lambda * K;
+    const Gain LK = times_symmetric<6>(K.transpose(), Lambda).transpose();
     const Matrix6d D = K.transpose() * LK + record.S_inverse;
     if (record.believed) add_pose_score(problem, record, pose, u, D, score);
     lambda -= H.transpose() * u;
@@ -218,13 +219,16 @@ Smoothed smooth_motion(const Problem& problem, const Vector3d& tip_in_marker, bo
   Interval interval;
   Nominal next;  // the smoothed state at the epoch after the one in hand
   std::size_t place = out.sample.size();
+  auto restart = problem.restarts.rbegin();
 
   for (std::size_t e = epochs; e-- > 0;) {
     const Record& record = records[e];
     const State lambda_end = adjoint.lambda;  // where the interval that begins here ends, before that epoch's pose
     interval.first = problem.epochs[e].knot;
     interval.last = e + 1 < epochs ? problem.epochs[e + 1].knot : interval.first;
-    if (e + 1 < epochs) {
+    if (restart != problem.restarts.rend() && restart->epoch == e + 1) {
+      restart_back(problem, *restart++, adjoint.lambda, adjoint.Lambda, out.score);
+    } else if (e + 1 < epochs) {
       const bool again = record.transition.empty();
       Transition transition;
       if (!again) transition = record.transition.front();

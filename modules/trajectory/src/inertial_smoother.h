@@ -69,6 +69,13 @@ struct PoseNoise {
   Eigen::Matrix3d rotation_rad2 = Eigen::Matrix3d::Identity();
 };
 
+// The epoch of a problem made of several stretches where a new one begins: the motion begins anew about this pose, the
+// constants go on.
+struct Restart {
+  std::size_t epoch = 0;
+  Pose pose;
+};
+
 // The filter at an epoch, after its pose: from here it can go on.
 struct Checkpoint {
   Nominal x;
@@ -82,11 +89,12 @@ struct Problem {
   std::vector<Epoch> epochs;            // the first is the first knot
   std::vector<Pose> poses;              // of the epochs that have one, by Epoch::pose
   std::vector<PoseNoise> pose_noise;    // per pose
-  std::vector<double> position_weight;  // per pose, from the residuals of the pass before; in (0, 1]
+  std::vector<Restart> restarts;        // in order of their epochs
+  std::vector<double> position_weight;  // per pose, from the residuals of the pass before; 0: by its innovation
   std::vector<double> rotation_weight;
   double time_sigma = 0.0;
   double gate_chi2 = 16.8;
-  bool gate_innovations = true;  // the first pass knows no residuals yet
+  bool gate_innovations = true;  // all: the first pass knows no residuals yet
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   bool gyro_turns_too = true;  // the misalignment is the gyroscope's as well: both on one chip
   double accel_bias_psd = 0.0;
@@ -97,7 +105,8 @@ struct Problem {
   double slow_time_s = 1.0;
   Eigen::Vector3d tip_sigma_m = Eigen::Vector3d::Zero();  // of the tip in the marker, marker axes
   Nominal start;
-  Square start_covariance;  // without the factors of its components
+  Square start_covariance;    // without the factors of its components
+  Square restart_covariance;  // likewise, the place not tied to the lever
   int refused_in_a_row = 0;
   std::size_t checkpoint_epoch = 0;  // the epoch that Smoothed::checkpoint is taken at
 };
@@ -136,7 +145,8 @@ struct Filtered {
 Filtered filter_motion(const Problem& problem);
 
 // `lever_to_tip` is computed as tip_in_marker − lever with the estimated lever. Without `path` the states at the
-// samples and the covariances are left out: residuals, score and constants cost half.
+// samples and the covariances are left out: residuals, score and constants cost less. With it the problem has no
+// restarts.
 Smoothed smooth_motion(const Problem& problem, const Eigen::Vector3d& tip_in_marker, bool path,
                        const Observer& observer);
 

@@ -8,6 +8,7 @@
 #include "../src/fused_problem.h"
 #include "../src/fused_setup.h"
 #include "../src/inertial_model.h"
+#include "../src/learning_stretches.h"
 #include "hand_motion.h"
 
 namespace asperity {
@@ -87,24 +88,39 @@ TEST(InertialSmoother, TheTransitionIsTheDerivativeOfDeadReckoning) {
 
 // ∂ log L / ∂ log θ = (seen − expected)/2 for every component, by central differences of the filter's likelihood:
 // another pass, which knows nothing of the smoother.
+void expect_score_is_derivative(const SmootherProblem& problem, const char* where) {
+  const inertial_smoother::NoiseScore score =
+      inertial_smoother::smooth_motion(problem, Vector3d::Zero(), false, {}).score;
+  for (std::size_t i = 0; i < inertial_smoother::kComponents; ++i) {
+    constexpr double kStep = 0.02;
+    const auto likelihood = [&](double factor) {
+      SmootherProblem scaled = problem;
+      scaled.factors[i] *= factor;
+      return inertial_smoother::log_likelihood(scaled);
+    };
+    const double derivative = (likelihood(std::exp(kStep)) - likelihood(std::exp(-kStep))) / (2.0 * kStep);
+    // The filter linearises where it stands, which moves a little with the factor: 2 % and a tenth of an observation.
+    EXPECT_NEAR(0.5 * (score.seen[i] - score.expected[i]), derivative, 0.1 + 0.02 * (score.seen[i] + score.expected[i]))
+        << "component " << i << where;
+  }
+}
+
 TEST(InertialSmoother, TheScoreIsTheDerivativeOfTheLikelihood) {
   for (const bool has_gyro : {true, false}) {
-    SmootherProblem problem = make_problem(has_gyro);
-    const inertial_smoother::NoiseScore score =
-        inertial_smoother::smooth_motion(problem, Vector3d::Zero(), false, {}).score;
-    for (std::size_t i = 0; i < inertial_smoother::kComponents; ++i) {
-      constexpr double kStep = 0.02;
-      const auto likelihood = [&](double factor) {
-        SmootherProblem scaled = problem;
-        scaled.factors[i] *= factor;
-        return inertial_smoother::log_likelihood(scaled);
-      };
-      const double derivative = (likelihood(std::exp(kStep)) - likelihood(std::exp(-kStep))) / (2.0 * kStep);
-      // The filter linearises where it stands, which moves a little with the factor: 2 % and a tenth of an observation.
-      EXPECT_NEAR(0.5 * (score.seen[i] - score.expected[i]), derivative,
-                  0.1 + 0.02 * (score.seen[i] + score.expected[i]))
-          << "component " << i << (has_gyro ? "" : " without a gyroscope");
-    }
+    expect_score_is_derivative(make_problem(has_gyro), has_gyro ? "" : " without a gyroscope");
+  }
+}
+
+TEST(InertialSmoother, TheScoreOfStretchesIsTheDerivativeOfTheirLikelihood) {
+  for (const bool has_gyro : {true, false}) {
+    SmootherProblem whole = make_problem(has_gyro);
+    whole.restart_covariance = whole.start_covariance;
+    const SmootherProblem problem =
+        inertial_smoother::problem_of_stretches(whole, {{0.2, 1.4}, {2.0, 3.1}, {4.0, 5.6}});
+    ASSERT_EQ(problem.restarts.size(), 2u);
+    ASSERT_GT(problem.layout.lever, 0);  // a restart ties the place to it
+    ASSERT_LT(problem.knots.size(), 0.7 * static_cast<double>(whole.knots.size()));
+    expect_score_is_derivative(problem, has_gyro ? "" : " without a gyroscope");
   }
 }
 
