@@ -92,12 +92,27 @@ std::size_t first_lasting(Iterator begin, Iterator end, std::size_t cells) {
   return at;
 }
 
-// All of s that lies in the samples [begin, end) becomes their mean.
-void hold_at_mean(std::vector<double>& s_m, std::size_t begin, std::size_t end) {
-  if (end <= begin) return;
-  const std::span<const double> part(s_m.data() + begin, end - begin);
-  const double middle_m = mean(part);
-  std::fill(s_m.begin() + static_cast<std::ptrdiff_t>(begin), s_m.begin() + static_cast<std::ptrdiff_t>(end), middle_m);
+// The rest [begin, start) before a path: s has the rest's median, up to the last sample at which it still was there. From
+// there on it is as measured, so that s has no step where the tip begins to creep.
+void hold_before(std::vector<double>& s_m, std::size_t begin, std::size_t start, std::size_t stop) {
+  if (start <= begin) return;
+  const double level_m = median(std::span<const double>(s_m.data() + begin, start - begin));
+  std::size_t leaves = start;
+  while (leaves < stop && s_m[leaves] <= level_m) ++leaves;
+  while (leaves > begin && s_m[leaves - 1] > level_m) --leaves;
+  std::fill(s_m.begin() + static_cast<std::ptrdiff_t>(begin), s_m.begin() + static_cast<std::ptrdiff_t>(leaves),
+            level_m);
+}
+
+// The same of the rest [stop, end) after it.
+void hold_after(std::vector<double>& s_m, std::size_t start, std::size_t stop, std::size_t end) {
+  if (end <= stop) return;
+  const double level_m = median(std::span<const double>(s_m.data() + stop, end - stop));
+  std::size_t arrives = stop;
+  while (arrives > start && s_m[arrives - 1] >= level_m) --arrives;
+  while (arrives < end && s_m[arrives] < level_m) ++arrives;
+  std::fill(s_m.begin() + static_cast<std::ptrdiff_t>(arrives), s_m.begin() + static_cast<std::ptrdiff_t>(end),
+            level_m);
 }
 
 }  // namespace
@@ -153,8 +168,8 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
     std::size_t start = begin, stop = end;
     while (start < end && index_at(path, t_s[start]) < starts) ++start;
     while (stop > start && index_at(path, t_s[stop - 1]) >= stops) --stop;
-    hold_at_mean(out.s_m, begin, start);
-    hold_at_mean(out.s_m, stop, end);
+    hold_before(out.s_m, begin, start, stop);
+    hold_after(out.s_m, start, stop, end);
     const double first_m = out.s_m[begin];
     const double last_m = out.s_m[end - 1] - first_m;
     for (std::size_t i = begin; i < end; ++i) {
