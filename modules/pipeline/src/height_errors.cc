@@ -10,14 +10,13 @@
 
 #include "asperity/base/units.h"
 #include "asperity/profile/measure_error_floor.h"
+#include "asperity/profile/measure_length_error.h"
 
 namespace asperity {
 
 namespace {
 
 constexpr double kStandingStill_mps = 2e-3;
-constexpr double kTipError_m =
-    0.1e-3;  // what a calibration of the tip leaves (docs/calibration.md), and some indentation
 constexpr double kUnstatedScale = 0.01;  // relative error of a calibration that states none
 
 double duration_s(const std::vector<std::int64_t>& t_ns) {
@@ -78,9 +77,10 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
   out.accel_psd_m2ps3 = std::min(acceleration_floor_m2ps3(t_s, normal_mps2, moving),
                                  largest_acceleration_noise_m2ps3(t_s, height_m, moving, out.tracker_psd_m2ps));
   out.along_accel_psd_m2ps3 = acceleration_floor_m2ps3(t_s, along_mps2, moving);
-  // The arc length over a round body is that of the tip's own circle: a tip that is misplaced along the normal moves
-  // it.
-  if (base.shape == PathShape::kCircle && base.radius_m > 0.0) out.along_scale_sigma = kTipError_m / base.radius_m;
+  const LengthErrors length =
+      measure_length_error(motion, base, recording.calibration.tip_in_marker_m, recording.calibration.tip_radius_m);
+  out.along_scale_sigma = length.scale_sigma;
+  out.length_ends_m = length.ends_m;
   // A normal that is off by φ makes heights too small by 1 − cos φ.
   const double turned = 0.5 * std::pow(base.normal_sigma_deg * std::numbers::pi / 180.0, 2);
   out.scale_sigma = std::hypot(scale_sigma(recording.calibration.accelerometer, normal_marker.normalized()), turned);
