@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <numbers>
 #include <vector>
 
 #include "asperity/base/nan.h"
+#include "asperity/profile/apply_wiener_filter.h"
 #include "asperity/signal/statistics.h"
 #include "draw_noise.h"
 #include "period_depths.h"
@@ -14,6 +17,10 @@ namespace asperity {
 
 namespace {
 
+constexpr double kNoiseBridge_m = 2e-3;  // gaps across which noise is taken out
+constexpr double kByChance = 0.01;       // of finding a line in noise
+constexpr double kSurely = 1.96;
+constexpr int kLines = 4;
 constexpr std::size_t kDepthDraws = 16;
 constexpr std::uint64_t kDepthSeed = 20'260'102;
 
@@ -22,12 +29,57 @@ double usual_depth_m(std::span<const double> height_m, double period) {
   return depths.empty() ? kNan : median(depths);
 }
 
+// The density of `psd` at a frequency, by straight lines; its last value beyond.
+double noise_density_at(const std::vector<double>& frequency, const std::vector<double>& psd, double at) {
+  const auto above = std::upper_bound(frequency.begin(), frequency.end(), at);
+  if (above == frequency.begin()) return psd.front();
+  if (above == frequency.end()) return psd.back();
+  const auto b = static_cast<std::size_t>(above - frequency.begin());
+  const double share = (at - frequency[b - 1]) / (frequency[b] - frequency[b - 1]);
+  return psd[b - 1] + share * (psd[b] - psd[b - 1]);
+}
+
+// Whether one of the pattern's first harmonics stands out of the noise: noise of the density S gives a periodogram
+// above S q with the probability exp(−q), and a search looks at as many frequencies as the profile is shortest pitches
+// long.
+bool stands_out(std::span<const double> height_m, double spacing_m, double pitch_m,
+                const std::vector<double>& frequency, const std::vector<double>& psd, double shortest_m) {
+  const double length_m = spacing_m * static_cast<double>(height_m.size());
+  const double clear = std::log(std::max(2.0, length_m / shortest_m) / kByChance);
+  double points = 0.0;
+  for (const double h : height_m) points += std::isfinite(h) ? 1.0 : 0.0;
+  for (int harmonic = 1; harmonic <= kLines; ++harmonic) {
+    const double turn = 2.0 * std::numbers::pi * harmonic * spacing_m / pitch_m;
+    if (turn > std::numbers::pi) break;
+    std::complex<double> sum = 0.0;
+    for (std::size_t i = 0; i < height_m.size(); ++i) {
+      if (std::isfinite(height_m[i])) sum += height_m[i] * std::polar(1.0, -turn * static_cast<double>(i));
+    }
+    const double periodogram_m2_mm = 2e3 * spacing_m * std::norm(sum) / points;
+    if (periodogram_m2_mm > clear * noise_density_at(frequency, psd, 1e-3 * harmonic / pitch_m)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Periodicity find_periodicity_under_noise(std::span<const double> height_m, double spacing_m, const TextureNoise& noise,
                                          const PeriodicityConfig& config) {
-  Periodicity out = find_periodicity(height_m, spacing_m, config);
-  if (!(noise.added_rms_m > 0.0) || !std::isfinite(out.pitch_m)) return out;
+  if (!(noise.added_rms_m > 0.0)) return find_periodicity(height_m, spacing_m, config);
+  std::vector<double> psd = noise.added_psd_m2_mm;
+  for (std::size_t i = 0; i < psd.size(); ++i) psd[i] += noise.misplaced_psd_m2_mm[i];
+  const std::vector<double> quiet_m =
+      apply_wiener_filter(height_m, spacing_m, noise.frequency_cycles_per_mm, psd, kNoiseBridge_m).texture_m;
+  Periodicity out = find_periodicity(quiet_m, spacing_m, config);
+  if (!std::isfinite(out.pitch_m)) return out;
+  const double most = 1.0 + kSurely * 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
+  for (double& density : psd) density *= most;
+  if (!stands_out(height_m, spacing_m, out.pitch_m, noise.frequency_cycles_per_mm, psd, config.min_pitch_m)) {
+    out.periodic = false;
+    out.pitch_stderr_m = out.depth_stderr_m = kNan;
+    return out;
+  }
+  out.depth_m = usual_depth_m(height_m, out.pitch_m / spacing_m);
   out.pitch_stderr_m = std::hypot(out.pitch_stderr_m, noise.along_sigma * out.pitch_m);
   if (!std::isfinite(out.depth_m)) return out;
 
