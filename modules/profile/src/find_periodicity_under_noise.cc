@@ -24,6 +24,14 @@ constexpr int kLines = 4;
 constexpr std::size_t kDepthDraws = 16;
 constexpr std::uint64_t kDepthSeed = 20'260'102;
 
+// The standard error of the median over the periods, as far as unlike periods show it.
+double depth_scatter_m(std::span<const double> height_m, double period) {
+  const std::vector<double> depths = period_depths(height_m, period);
+  if (depths.empty()) return kNan;
+  return std::sqrt(0.5 * std::numbers::pi / static_cast<double>(depths.size())) * kSigmaPerMad *
+         median_absolute_deviation(depths);
+}
+
 double usual_depth_m(std::span<const double> height_m, double period) {
   const std::vector<double> depths = period_depths(height_m, period);
   return depths.empty() ? kNan : median(depths);
@@ -111,7 +119,9 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
   const double relative = 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
   // Of what noise adds to extremes the extrapolation finds about half: its curve is steepest where it cannot look.
   const double doubt_m = 0.5 * (out.depth_m - before_m);
-  out.depth_stderr_m = std::hypot(std::hypot(standard_deviation(once), doubt_m),
+  // The draws know the noise that was found; what else there is, restored peaks and impacts, shows between the periods.
+  const double spread_m = std::max(standard_deviation(once), depth_scatter_m(height_m, period));
+  out.depth_stderr_m = std::hypot(std::hypot(spread_m, doubt_m),
                                   std::hypot(relative * (out.depth_m - before_m), noise.scale_sigma * out.depth_m));
   return out;
 }
