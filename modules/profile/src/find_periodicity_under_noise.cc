@@ -20,7 +20,9 @@ namespace {
 constexpr double kNoiseBridge_m = 2e-3;  // gaps across which noise is taken out
 constexpr double kByChance = 0.01;       // of finding a line in noise
 constexpr double kSurely = 1.96;
-constexpr int kLines = 4;
+constexpr int kHarmonicsSeen = 8;
+constexpr double kPitchReach = 0.02;     // relative: as far as a first pitch may be off
+constexpr double kMultipleReach = 0.06;  // the same of a multiple in noise
 constexpr std::size_t kDepthDraws = 16;
 constexpr std::uint64_t kDepthSeed = 20'260'102;
 
@@ -47,26 +49,66 @@ double noise_density_at(const std::vector<double>& frequency, const std::vector<
   return psd[b - 1] + share * (psd[b] - psd[b - 1]);
 }
 
-// Whether one of the pattern's first harmonics stands out of the noise: noise of the density S gives a periodogram
-// above S q with the probability exp(−q), and a search looks at as many frequencies as the profile is shortest pitches
-// long.
-bool stands_out(std::span<const double> height_m, double spacing_m, double pitch_m,
-                const std::vector<double>& frequency, const std::vector<double>& psd, double shortest_m) {
-  const double length_m = spacing_m * static_cast<double>(height_m.size());
-  const double clear = std::log(std::max(2.0, length_m / shortest_m) / kByChance);
-  double points = 0.0;
-  for (const double h : height_m) points += std::isfinite(h) ? 1.0 : 0.0;
-  for (int harmonic = 1; harmonic <= kLines; ++harmonic) {
-    const double turn = 2.0 * std::numbers::pi * harmonic * spacing_m / pitch_m;
-    if (turn > std::numbers::pi) break;
-    std::complex<double> sum = 0.0;
-    for (std::size_t i = 0; i < height_m.size(); ++i) {
-      if (std::isfinite(height_m[i])) sum += height_m[i] * std::polar(1.0, -turn * static_cast<double>(i));
-    }
-    const double periodogram_m2_mm = 2e3 * spacing_m * std::norm(sum) / points;
-    if (periodogram_m2_mm > clear * noise_density_at(frequency, psd, 1e-3 * harmonic / pitch_m)) return true;
+// The periodogram of a profile over the density of its noise. Of noise alone it exceeds q with the probability exp(−q).
+class LineSearch {
+ public:
+  LineSearch(std::span<const double> height_m, double spacing_m, const std::vector<double>& frequency,
+             const std::vector<double>& psd, double shortest_m)
+      : height_m_(height_m), spacing_m_(spacing_m), frequency_(frequency), psd_(psd) {
+    for (const double h : height_m) points_ += std::isfinite(h) ? 1.0 : 0.0;
+    // A search looks at as many frequencies as the profile is shortest pitches long.
+    clear_ = std::log(std::max(2.0, length_m() / shortest_m) / kByChance);
   }
-  return false;
+
+  // Whether the pattern's harmonic stands out, looked for as far as the pitch may be off.
+  bool has_line(double pitch_m, int harmonic) const {
+    const double middle = harmonic * spacing_m_ / pitch_m;
+    const double step = 0.5 * spacing_m_ / length_m();
+    const int reach = static_cast<int>(std::ceil(kPitchReach * middle / step));
+    for (int k = -reach; k <= reach; ++k) {
+      const double f = middle + k * step;
+      if (f <= 0.0 || f > 0.5) continue;
+      if (ratio(f) > clear_ + std::log(2.0 * reach + 1.0)) return true;
+    }
+    return false;
+  }
+
+ private:
+  double length_m() const { return spacing_m_ * static_cast<double>(height_m_.size()); }
+
+  double ratio(double cycles_a_point) const {
+    const std::complex<double> step = std::polar(1.0, -2.0 * std::numbers::pi * cycles_a_point);
+    std::complex<double> sum = 0.0, phasor = 1.0;
+    for (const double h : height_m_) {
+      if (std::isfinite(h)) sum += h * phasor;
+      phasor *= step;
+    }
+    const double periodogram_m2_mm = 2e3 * spacing_m_ * std::norm(sum) / points_;
+    return periodogram_m2_mm / noise_density_at(frequency_, psd_, 1e-3 * cycles_a_point / spacing_m_);
+  }
+
+  std::span<const double> height_m_;
+  double spacing_m_ = 0.0;
+  const std::vector<double>&frequency_, &psd_;
+  double points_ = 0.0, clear_ = 0.0;
+};
+
+// By how much the pitch is too long: 2, 3 or 4 if none but every so many of its harmonics are lines; 1 if it is right,
+// 0 if there is no line at all.
+int find_multiple(const LineSearch& search, double pitch_m) {
+  std::array<bool, kHarmonicsSeen + 1> line{};
+  bool any = false;
+  for (int h = 1; h <= kHarmonicsSeen; ++h) any |= line[static_cast<std::size_t>(h)] = search.has_line(pitch_m, h);
+  if (!any) return 0;
+  for (const int multiple : {4, 3, 2}) {
+    bool only = true, has = false;
+    for (int h = 1; h <= kHarmonicsSeen; ++h) {
+      (h % multiple == 0 ? has : only) =
+          h % multiple == 0 ? has || line[static_cast<std::size_t>(h)] : only && !line[static_cast<std::size_t>(h)];
+    }
+    if (only && has) return multiple;
+  }
+  return 1;
 }
 
 }  // namespace
@@ -82,7 +124,16 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
   if (!std::isfinite(out.pitch_m)) return out;
   const double most = 1.0 + kSurely * 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
   for (double& density : psd) density *= most;
-  if (!stands_out(height_m, spacing_m, out.pitch_m, noise.frequency_cycles_per_mm, psd, config.min_pitch_m)) {
+  const LineSearch search(height_m, spacing_m, noise.frequency_cycles_per_mm, psd, config.min_pitch_m);
+  const int multiple = find_multiple(search, out.pitch_m);
+  if (multiple > 1) {
+    PeriodicityConfig near = config;
+    near.min_pitch_m = std::max(config.min_pitch_m, (1.0 - kMultipleReach) * out.pitch_m / multiple);
+    near.max_pitch_m = (1.0 + kMultipleReach) * out.pitch_m / multiple;
+    const Periodicity shorter = find_periodicity(quiet_m, spacing_m, near);
+    if (std::isfinite(shorter.pitch_m)) out = shorter;
+  }
+  if (multiple == 0) {
     out.periodic = false;
     out.pitch_stderr_m = out.depth_stderr_m = kNan;
     return out;
