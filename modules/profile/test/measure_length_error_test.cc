@@ -33,8 +33,8 @@ Known know(const std::function<Point(double)>& path, double seconds) {
   return out;
 }
 
-LengthErrors errors_of(const Known& k, double tip_radius_m = 0.0) {
-  return measure_length_error(k.scan.motion, k.base, k.scan.tip_in_marker_m, tip_radius_m);
+LengthErrors errors_of(const Known& k, double tip_radius_m = 0.0, double indentation_m = 0.0) {
+  return measure_length_error(k.scan.motion, k.base, k.scan.tip_in_marker_m, tip_radius_m, indentation_m);
 }
 
 TEST(LengthError, OfAStraightStrokeIsThatOfItsTwoEnds) {
@@ -59,6 +59,13 @@ TEST(LengthError, OfAWrongTipOverACylinderIsItsShareOfTheRadius) {
       std::sqrt(kSigma_m * kSigma_m - kTip_m * kTip_m > 0.0 ? (kSigma_m * kSigma_m - kTip_m * kTip_m) / 3.0 : 0.0));
   k.scan.motion.sigma_tip_in_marker_m = Eigen::Vector3d(0.0, 0.0, kTip_m);
   EXPECT_NEAR(errors_of(k).scale_sigma, std::hypot(kTip_m, unknown_level) / kRadius_m, 0.01 * kTip_m / kRadius_m);
+}
+
+// A tip that is 0.4 mm deep goes round a radius that is 0.4 mm smaller.
+TEST(LengthError, OfAnUnknownIndentationIsItsShareOfTheRadius) {
+  const Known k = know(across_cylinder(0.05, 0.02, true), 3.0);
+  const double without = errors_of(k).scale_sigma, with = errors_of(k, 0.0, 0.4e-3).scale_sigma;
+  EXPECT_NEAR(std::sqrt(with * with - without * without), 0.4e-3 / 0.05, 0.01 * 0.4e-3 / 0.05);
 }
 
 // Measured by making the error: the tip's path recomputed with another tip, its length by small chords.
