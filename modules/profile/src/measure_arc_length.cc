@@ -77,10 +77,8 @@ Eigen::Vector2d direction(const EvenPath<2>& slow, const EvenPath<2>& quick, std
   const Eigen::Vector2d gentle = velocity_mps(slow, cell);
   if (!(gentle.norm() > 0.0)) return tight;
   // Where the speed changes the low-pass moves the path along itself: that is no bend, unless the path turns round.
-  const Eigen::Vector2d cut_m = slow.p_m[cell] - quick.p_m[cell];
-  const bool turns_round = gentle.dot(tight) <= 0.0;
-  const double bend = turns_round ? cut_m.norm() : (cut_m - cut_m.dot(tight) * tight).norm();
-  const double share = std::clamp(bend / bend_m - 1.0, 0.0, 1.0);
+  const double cut_m = (slow.p_m[cell] - quick.p_m[cell]).norm();
+  const double share = std::clamp(cut_m / bend_m - 1.0, 0.0, 1.0);
   const Eigen::Vector2d mixed = (1.0 - share) * gentle.normalized() + share * tight;
   return mixed.norm() > 0.0 ? Eigen::Vector2d(mixed.normalized()) : tight;
 }
