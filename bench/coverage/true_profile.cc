@@ -136,6 +136,8 @@ std::vector<double> times_at(const asperity::ProcessResult& result, std::int64_t
   std::vector<double> path_m, t_s;
   for (std::size_t i = 0; i < result.base.path.size(); ++i) {
     if (!result.base.contact.empty() && result.base.contact[i] == 0) continue;
+    // A rest before the path is passed when it ends.
+    if (path_m.size() == 1 && result.base.path.s_m[i] == path_m.back()) path_m.clear(), t_s.clear();
     if (!path_m.empty() && !(result.base.path.s_m[i] > path_m.back())) continue;
     path_m.push_back(result.base.path.s_m[i]);
     t_s.push_back(1e-9 * static_cast<double>(motion.t_ns[i] - origin_ns));

@@ -9,15 +9,16 @@
 #include <Eigen/LU>
 
 #include "asperity/base/units.h"
+#include "asperity/profile/estimate_stiffness.h"
 #include "asperity/profile/measure_error_floor.h"
+#include "asperity/profile/measure_length_error.h"
 
 namespace asperity {
 
 namespace {
 
 constexpr double kStandingStill_mps = 2e-3;
-constexpr double kTipError_m =
-    0.1e-3;  // what a calibration of the tip leaves (docs/calibration.md), and some indentation
+constexpr double kDeepest_m = 1e-3;      // of an indentation of which nothing is known; tips are no longer
 constexpr double kUnstatedScale = 0.01;  // relative error of a calibration that states none
 
 double duration_s(const std::vector<std::int64_t>& t_ns) {
@@ -32,6 +33,24 @@ double scale_sigma(const AccelerometerCalibration& accelerometer, const Eigen::V
   const Eigen::Matrix3d weighted = w.asDiagonal() * accelerometer.standard_errors.leftCols<3>() * n.asDiagonal();
   const double sigma = weighted.norm();
   return std::isfinite(sigma) && sigma > 0.0 ? sigma : kUnstatedScale;
+}
+
+// How deep the tip may be, by the mean force and the compliance that the force's variation shows; where that is not
+// significant, by the highest possible one, evenly spread below it.
+double indentation_m(const TipMotion& motion, const BasePathResult& base) {
+  double sum_N = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < motion.force_N.size(); ++i) {
+    if (base.contact[i] == 0 || !std::isfinite(motion.force_N[i])) continue;
+    sum_N += motion.force_N[i];
+    count += 1.0;
+  }
+  if (count == 0.0) return 0.0;
+  const StiffnessEstimate stiffness = estimate_stiffness(motion, base.path, base.contact, {});
+  const double mm_per_N = stiffness.measured
+                              ? std::hypot(stiffness.compliance_mm_per_N, stiffness.compliance_stderr_mm_per_N)
+                              : 1.0 / (std::numbers::sqrt3 * stiffness.lower_bound_N_per_mm);
+  const double out = 1e-3 * mm_per_N * std::abs(sum_N / count);
+  return std::isfinite(out) ? std::min(out, kDeepest_m) : 0.0;
 }
 
 }  // namespace
@@ -78,9 +97,12 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
   out.accel_psd_m2ps3 = std::min(acceleration_floor_m2ps3(t_s, normal_mps2, moving),
                                  largest_acceleration_noise_m2ps3(t_s, height_m, moving, out.tracker_psd_m2ps));
   out.along_accel_psd_m2ps3 = acceleration_floor_m2ps3(t_s, along_mps2, moving);
-  // The arc length over a round body is that of the tip's own circle: a tip that is misplaced along the normal moves
-  // it.
-  if (base.shape == PathShape::kCircle && base.radius_m > 0.0) out.along_scale_sigma = kTipError_m / base.radius_m;
+  const bool round = base.shape != PathShape::kPlane && base.shape != PathShape::kLine;
+  const LengthErrors length =
+      measure_length_error(motion, base, recording.calibration.tip_in_marker_m, recording.calibration.tip_radius_m,
+                           round ? indentation_m(motion, base) : 0.0);
+  out.along_scale_sigma = length.scale_sigma;
+  out.length_ends_m = length.ends_m;
   // A normal that is off by φ makes heights too small by 1 − cos φ.
   const double turned = 0.5 * std::pow(base.normal_sigma_deg * std::numbers::pi / 180.0, 2);
   out.scale_sigma = std::hypot(scale_sigma(recording.calibration.accelerometer, normal_marker.normalized()), turned);

@@ -202,7 +202,9 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   const double measured_power = 1e6 * noise.texture_rms_m * noise.texture_rms_m;
   const double noise_power = added_power + misplaced_power;
   noise.place_sigma_m = 1e-3 * std::sqrt(place.shape_mm2);
-  noise.length_stderr_m = 1e-3 * std::sqrt(2.0 * place.point_mm2 + std::pow(errors.along_scale_sigma * length_mm, 2));
+  const double ends_mm2 =
+      errors.length_ends_m > 0.0 ? 1e6 * errors.length_ends_m * errors.length_ends_m : 2.0 * place.point_mm2;
+  noise.length_stderr_m = 1e-3 * std::sqrt(ends_mm2 + std::pow(errors.along_scale_sigma * length_mm, 2));
   noise.scale_sigma = errors.scale_sigma;
   noise.along_sigma = noise.length_stderr_m / (1e-3 * length_mm);
   noise.added_rms_m = 1e-3 * std::sqrt(added_power);

@@ -157,6 +157,7 @@ Profile make_profile(const TipMotion& motion, const BasePath& base, std::span<co
   std::vector<std::size_t> breaks;
   const int parts = *std::max_element(part.begin(), part.end()) + 1;
   std::size_t begin = 0;
+  std::ptrdiff_t seam_before = -1;  // the end of the part before; -1 for none
   for (int p = 0; p < parts; ++p) {
     // Parts follow one another in time, so each is looked at once, and only where it has points.
     std::size_t end = begin;
@@ -176,7 +177,9 @@ Profile make_profile(const TipMotion& motion, const BasePath& base, std::span<co
       double& height_m = out.height_m[static_cast<std::size_t>(k)];
       if (!std::isfinite(height_m)) height_m = part_m[static_cast<std::size_t>(k - from)];
     }
-    if (p + 1 < parts) breaks.push_back(static_cast<std::size_t>(to));
+    // A rest after the path has a part of its own, without points: no seam.
+    if (seam_before >= 0) breaks.push_back(static_cast<std::size_t>(seam_before));
+    seam_before = to;
   }
   // After all parts, so that the next one does not fill the seam.
   for (const std::size_t seam : breaks) out.height_m[seam] = kNan;

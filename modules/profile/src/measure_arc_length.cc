@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <string>
 
 #include "asperity/base/error.h"
@@ -16,14 +18,51 @@ namespace {
 constexpr double kPathRate_hz = 200.0;   // ample for directions that change at a few Hz
 constexpr double kSpeedCutoff_hz = 3.0;  // for the speed that sets the direction's own cut-off
 
-constexpr double kLowestCutoff_hz = 0.5;
+constexpr double kLowestCutoff_hz = 0.2;
+constexpr double kLengthened = 2e-4;       // of the length: what noise in the direction may add
 constexpr double kLastingMotion_s = 0.25;  // shorter is noise that looks like motion
+constexpr double kClearMotion = 4.0;       // times what noise and tremor seem to move the tip: a direction within 15°
+constexpr double kMostRest = 0.5;          // of the usual speed is motion, however noisy
+constexpr double kBeyondNoise = 5.0;       // standard deviations: further no noise carries the tip
 constexpr double kUsualBend_m = 0.7e-3;    // where nothing is known of the noise
 
 std::vector<double> speeds(const EvenPath<2>& path) {
   std::vector<double> out(path.size());
   for (std::size_t i = 0; i < path.size(); ++i) out[i] = velocity_mps(path, i).norm();
   return out;
+}
+
+// How fast the quick path seems to go across the slow one: noise and tremor, usual while the tip travels (by the
+// median, so that bends do not count).
+double wandering_mps(const EvenPath<2>& slow, const EvenPath<2>& quick, const std::vector<double>& speed,
+                     double usual_mps, std::size_t first, std::size_t last) {
+  std::vector<double> aside_mps;
+  for (std::size_t i = first; i <= last; ++i) {
+    const Eigen::Vector2d v = velocity_mps(slow, i);
+    if (!(speed[i] > 0.5 * usual_mps) || !(v.norm() > 0.0)) continue;
+    const Eigen::Vector2d along = v.normalized();
+    const Eigen::Vector2d w = velocity_mps(quick, i);
+    aside_mps.push_back(std::abs(along.x() * w.y() - along.y() * w.x()));
+  }
+  return aside_mps.empty() ? 0.0 : kSigmaPerMad * median(aside_mps);
+}
+
+// Of cells that seem to move, keeps the runs that carry the tip further than `reach_m`: noise goes to and fro. All, if
+// none does.
+void leave_out_noise(const EvenPath<2>& quick, double reach_m, std::vector<char>& moving) {
+  std::vector<char> kept(moving.size(), 0);
+  bool any = false;
+  for (std::size_t i = 0; i < moving.size();) {
+    std::size_t end = i;
+    while (end < moving.size() && moving[end] != 0) ++end;
+    if (end > i && (quick.p_m[end - 1] - quick.p_m[i]).norm() > reach_m) {
+      std::fill(kept.begin() + static_cast<std::ptrdiff_t>(i), kept.begin() + static_cast<std::ptrdiff_t>(end),
+                char{1});
+      any = true;
+    }
+    i = end + 1;
+  }
+  if (any) moving = std::move(kept);
 }
 
 struct Directions {
@@ -37,6 +76,7 @@ Eigen::Vector2d direction(const EvenPath<2>& slow, const EvenPath<2>& quick, std
   Eigen::Vector2d tight = velocity_mps(quick, cell).normalized();
   const Eigen::Vector2d gentle = velocity_mps(slow, cell);
   if (!(gentle.norm() > 0.0)) return tight;
+  // Where the speed changes the low-pass moves the path along itself: that is no bend, unless the path turns round.
   const double cut_m = (slow.p_m[cell] - quick.p_m[cell]).norm();
   const double share = std::clamp(cut_m / bend_m - 1.0, 0.0, 1.0);
   const Eigen::Vector2d mixed = (1.0 - share) * gentle.normalized() + share * tight;
@@ -92,12 +132,27 @@ std::size_t first_lasting(Iterator begin, Iterator end, std::size_t cells) {
   return at;
 }
 
-// All of s that lies in the samples [begin, end) becomes their mean.
-void hold_at_mean(std::vector<double>& s_m, std::size_t begin, std::size_t end) {
-  if (end <= begin) return;
-  const std::span<const double> part(s_m.data() + begin, end - begin);
-  const double middle_m = mean(part);
-  std::fill(s_m.begin() + static_cast<std::ptrdiff_t>(begin), s_m.begin() + static_cast<std::ptrdiff_t>(end), middle_m);
+// The rest [begin, start) before a path: s has the rest's median, up to the last sample at which it still was there.
+// From there on it is as measured, so that s has no step where the tip begins to creep.
+void hold_before(std::vector<double>& s_m, std::size_t begin, std::size_t start, std::size_t stop) {
+  if (start <= begin) return;
+  const double level_m = median(std::span<const double>(s_m.data() + begin, start - begin));
+  std::size_t leaves = start;
+  while (leaves < stop && s_m[leaves] <= level_m) ++leaves;
+  while (leaves > begin && s_m[leaves - 1] > level_m) --leaves;
+  std::fill(s_m.begin() + static_cast<std::ptrdiff_t>(begin), s_m.begin() + static_cast<std::ptrdiff_t>(leaves),
+            level_m);
+}
+
+// The same of the rest [stop, end) after it.
+void hold_after(std::vector<double>& s_m, std::size_t start, std::size_t stop, std::size_t end) {
+  if (end <= stop) return;
+  const double level_m = median(std::span<const double>(s_m.data() + stop, end - stop));
+  std::size_t arrives = stop;
+  while (arrives > start && s_m[arrives - 1] >= level_m) --arrives;
+  while (arrives < end && s_m[arrives] < level_m) ++arrives;
+  std::fill(s_m.begin() + static_cast<std::ptrdiff_t>(arrives), s_m.begin() + static_cast<std::ptrdiff_t>(end),
+            level_m);
 }
 
 }  // namespace
@@ -130,12 +185,20 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
   const auto smoothed_at = [&](double cutoff_cycles_per_mm) {
     return low_pass(path, std::max(kLowestCutoff_hz, cutoff_cycles_per_mm * 1e3 * usual_mps));
   };
-  const auto slow = smoothed_at(config.direction_cutoff_cycles_per_mm);
+  // Below a cut-off f, noise of σ that reaches beyond it turns the direction by 2πfσ/√3, and lengthens by half the
+  // square.
+  const double quiet_cycles_per_mm =
+      config.noise_m > 0.0 ? std::sqrt(6.0 * kLengthened) / (2.0 * std::numbers::pi * 1e3 * config.noise_m)
+                           : config.direction_cutoff_cycles_per_mm;
+  const auto slow = smoothed_at(std::min(config.direction_cutoff_cycles_per_mm, quiet_cycles_per_mm));
   const auto quick = smoothed_at(std::max(config.bend_cutoff_cycles_per_mm, config.direction_cutoff_cycles_per_mm));
   const std::vector<double> speed = speeds(quick);
-  const double rest_mps = std::max(config.rest_speed_mps, config.rest_fraction * usual_mps);
+  const double wander_mps = wandering_mps(slow, quick, speed, usual_mps, first_cell, last_cell);
+  const double rest_mps = std::max(std::max(config.rest_speed_mps, config.rest_fraction * usual_mps),
+                                   std::min(kClearMotion * wander_mps, kMostRest * usual_mps));
   std::vector<char> moving(path.size(), 0);
   for (std::size_t i = first_cell; i <= last_cell; ++i) moving[i] = speed[i] > rest_mps ? 1 : 0;
+  leave_out_noise(quick, kBeyondNoise * config.noise_m, moving);
   const Directions directions =
       find_directions(path, slow, quick, moving, config.bend_m > 0.0 ? config.bend_m : kUsualBend_m);
 
@@ -153,8 +216,8 @@ ArcLength measure_arc_length(std::span<const double> t_s, std::span<const Eigen:
     std::size_t start = begin, stop = end;
     while (start < end && index_at(path, t_s[start]) < starts) ++start;
     while (stop > start && index_at(path, t_s[stop - 1]) >= stops) --stop;
-    hold_at_mean(out.s_m, begin, start);
-    hold_at_mean(out.s_m, stop, end);
+    hold_before(out.s_m, begin, start, stop);
+    hold_after(out.s_m, start, stop, end);
     const double first_m = out.s_m[begin];
     const double last_m = out.s_m[end - 1] - first_m;
     for (std::size_t i = begin; i < end; ++i) {

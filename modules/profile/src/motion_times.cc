@@ -25,8 +25,7 @@ double usual_sigma_m(const TipMotion& motion) {
 
 // How much a low-pass may cut a bend before it is followed. Over a plane or circle five standard deviations: noise does
 // not bend the path by more. A mesh brings its own bends, and a smoothed path's error is slow: half of one.
-double bend_m(const TipMotion& motion, PathShape shape) {
-  const double sigma_m = usual_sigma_m(motion);
+double bend_m(double sigma_m, PathShape shape) {
   if (sigma_m == 0.0) return 0.0;
   return shape == PathShape::kMesh ? std::clamp(0.5 * sigma_m, 0.02e-3, 0.3e-3)
                                    : std::clamp(5.0 * sigma_m, 0.1e-3, 1e-3);
@@ -56,7 +55,9 @@ std::vector<double> motion_times_s(const TipMotion& motion) {
 void follow_path(const TipMotion& motion, const std::vector<double>& t_s, const std::vector<Eigen::Vector2d>& developed,
                  const BasePathConfig& config, BasePathResult& out) {
   ArcLengthConfig arc_length = config.arc_length;
-  if (arc_length.bend_m == 0.0) arc_length.bend_m = bend_m(motion, out.shape);
+  const double sigma_m = usual_sigma_m(motion);
+  if (arc_length.bend_m == 0.0) arc_length.bend_m = bend_m(sigma_m, out.shape);
+  if (arc_length.noise_m == 0.0) arc_length.noise_m = sigma_m;
   ArcLength arc = measure_arc_length(t_s, developed, out.contact, arc_length);
   out.path.s_m = std::move(arc.s_m);
   out.speed_mps = std::move(arc.speed_mps);

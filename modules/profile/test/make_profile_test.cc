@@ -147,6 +147,31 @@ TEST(ExtractTexture, IsMinusThreeDecibelsAtTheCutoffAndPassesAGap) {
   EXPECT_THROW(extract_texture(x, 0.0, 0.1, 0.0), Error);
 }
 
+// s as measure_arc_length gives it: one value in the rests before and after the path.
+TEST(MakeProfile, RestsBeforeAndAfterAddNoLengthAndMoveNothing) {
+  const auto height = sine(50e-6, 0.8e-3);
+  for (const double rest_s : {0.0, 0.3, 3.0}) {
+    std::vector<double> t, s;
+    for (int i = 0; i <= static_cast<int>((2.0 + 2.0 * rest_s) * 4000.0); ++i) {
+      t.push_back(i / 4000.0);
+      s.push_back(0.02 * std::clamp(t.back() - rest_s, 0.0, 2.0));
+    }
+    Flat flat = make_flat(t, s, height);
+    // The height's slow error of the rest: 30 µm and gone 50 ms before the stroke begins, or after it ends.
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      const double away_s = std::max(rest_s - t[i], t[i] - rest_s - 2.0);
+      flat.motion.p_world_tip_m[i].z() += away_s > 0.05 ? 30e-6 : 0.0;
+    }
+    const Profile profile = make_profile(flat.motion, flat.base, {}, {});
+    ASSERT_GT(profile.size(), 1000u);
+    EXPECT_NEAR(profile.s_m.back() - profile.s_m.front(), 0.04, 1e-12) << rest_s;
+    // The first point may lie before the mean of the first samples.
+    for (std::size_t k = 1; k < profile.size(); ++k) {
+      EXPECT_NEAR(profile.height_m[k], height(profile.s_m[k]), 1.5e-6) << rest_s << " " << k;
+    }
+  }
+}
+
 // 250 km in two samples: 10 billion points.
 TEST(MakeProfile, RefusesAPathThatJumpsBeforeItTakesMemory) {
   TipMotion motion;

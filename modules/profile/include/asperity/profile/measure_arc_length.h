@@ -13,7 +13,8 @@ namespace asperity {
 struct ArcLengthConfig {
   double direction_cutoff_cycles_per_mm = 0.03;
   double bend_cutoff_cycles_per_mm = 0.14;
-  double bend_m = 0.0;  // 0: from the motion's own σ, see find_base_path.h
+  double bend_m = 0.0;   // 0: from the motion's own σ, see find_base_path.h
+  double noise_m = 0.0;  // likewise
   double along_cutoff_Hz = 0.0;
   double rest_speed_mps = 1e-3;
   double rest_fraction = 0.15;
@@ -26,6 +27,7 @@ struct ArcLengthConfig {
             "the same in bends; shorter ones are tremor, not path", {1e-3, 10.0});
     v.field("bend_m", bend_m,
             "a bend that the low-pass cuts by more than this is followed; twice this wholly; 0: by sigma", {0.0, 1.0});
+    v.field("noise_m", noise_m, "standard deviation of the path's points; 0: by sigma", {0.0, 1.0});
     v.field("along_cutoff_Hz", along_cutoff_Hz, "low-pass of the progress along the path; 0 for none", {0.0, 1e5});
     v.former("along_cutoff_hz");
     v.field("rest_speed_mps", rest_speed_mps, "slower than this the tip has no direction of its own", {0.0, 10.0});

@@ -15,6 +15,7 @@ struct HeightErrors {
   double along_tracker_psd_m2ps = 0.0;
   double scale_sigma = 0.0;        // relative, of all heights
   double along_scale_sigma = 0.0;  // relative, of the arc length
+  double length_ends_m = 0.0;      // of the arc length, by the places of its ends (measure_length_error.h)
 };
 
 // What of a profile's texture is expected to be error and not surface (docs/texture-noise.md). Nothing is determined

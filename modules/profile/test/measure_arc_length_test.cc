@@ -1,0 +1,126 @@
+#include "asperity/profile/measure_arc_length.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+
+#include "synthetic_path.h"
+
+namespace asperity {
+namespace {
+
+using namespace synthetic;
+
+constexpr double kRate_hz = 1000.0;
+
+// A stroke along x of a known way: at rest until 0.6 s, ramps of 0.3 s, 20 mm/s, at rest from 4.6 s to 5.4 s.
+struct Stroke {
+  std::vector<double> t_s, true_m;
+  std::vector<Eigen::Vector2d> u_m;
+};
+
+// The way of a speed that rises and falls over 0.3 s like (1 − cos)/2, by its closed integral.
+double way_m(double t_s) {
+  constexpr double kSpeed_mps = 0.02, kFrom_s = 0.6, kRamp_s = 0.3, kTo_s = 4.6;
+  const auto ramp = [](double t) {
+    const double u = std::clamp(t / kRamp_s, 0.0, 1.0);
+    const double inside = 0.5 * kRamp_s * (u - std::sin(std::numbers::pi * u) / std::numbers::pi);
+    return inside + std::max(0.0, t - kRamp_s);
+  };
+  return kSpeed_mps * (ramp(t_s - kFrom_s) - ramp(t_s - (kTo_s - kRamp_s)));
+}
+
+constexpr double kWay_m = 0.02 * (4.0 - 0.3);
+
+Stroke make_stroke() {
+  Stroke out;
+  for (int i = 0; i <= static_cast<int>(5.4 * kRate_hz); ++i) {
+    out.t_s.push_back(i / kRate_hz);
+    out.true_m.push_back(way_m(out.t_s.back()));
+    out.u_m.emplace_back(out.true_m.back(), 0.0);
+  }
+  return out;
+}
+
+TEST(ArcLength, OfAStrokeBetweenRestsIsItsWay) {
+  const Stroke stroke = make_stroke();
+  const ArcLength arc = measure_arc_length(stroke.t_s, stroke.u_m, {}, {});
+  EXPECT_NEAR(arc.s_m.back(), kWay_m, 1e-7);
+  for (std::size_t i = 0; i < arc.s_m.size(); ++i) EXPECT_NEAR(arc.s_m[i], stroke.true_m[i], 1e-7) << stroke.t_s[i];
+  EXPECT_TRUE(arc.turning_points.empty());
+}
+
+// s was held at the rest's mean and jumped from there to where the tip had got: 0.2 mm, at the profile's ends.
+TEST(ArcLength, HasNoStepWhereATipThatCreepsComesToRest) {
+  Stroke stroke = make_stroke();
+  for (std::size_t i = 0; i < stroke.t_s.size(); ++i) {
+    // 0.3 mm more, ever slower, as over rubber.
+    const double since_s = std::max(0.0, stroke.t_s[i] - 4.3);
+    stroke.true_m[i] += 0.3e-3 * (1.0 - std::exp(-since_s / 0.15));
+    stroke.u_m[i].x() = stroke.true_m[i];
+  }
+  const ArcLength arc = measure_arc_length(stroke.t_s, stroke.u_m, {}, {});
+  for (std::size_t i = 1; i < arc.s_m.size(); ++i)
+    EXPECT_LE(arc.s_m[i] - arc.s_m[i - 1], 2.5e-5) << stroke.t_s[i];  // 20 mm/s and the creep
+  EXPECT_NEAR(arc.s_m.back(), stroke.true_m.back(), 0.02e-3);
+}
+
+TEST(ArcLength, RestsAddNoLengthOfTheirNoise) {
+  double sum_m = 0.0;
+  constexpr int kSeeds = 20;
+  constexpr double kSigma_m = 0.05e-3;
+  for (int seed = 1; seed <= kSeeds; ++seed) {
+    Stroke stroke = make_stroke();
+    const auto of = [&](int k) { return static_cast<std::uint64_t>(10 * seed + k); };
+    SlowNoise x(kSigma_m, 1.0, kRate_hz, of(0)), y(kSigma_m, 1.0, kRate_hz, of(1));
+    for (Eigen::Vector2d& u : stroke.u_m) u += Eigen::Vector2d(x.next(), y.next());
+    ArcLengthConfig config;
+    config.noise_m = kSigma_m;
+    const double error_m = measure_arc_length(stroke.t_s, stroke.u_m, {}, config).s_m.back() - kWay_m;
+    EXPECT_LT(std::abs(error_m), 4.0 * std::numbers::sqrt2 * kSigma_m) << seed;
+    sum_m += error_m;
+  }
+  // Errors of two ends of σ each, over 20 strokes: three standard errors of the mean.
+  EXPECT_LT(std::abs(sum_m) / kSeeds, 3.0 * std::numbers::sqrt2 * kSigma_m / std::sqrt(static_cast<double>(kSeeds)));
+}
+
+// Noise of the size of the seed's probe, quick enough to look like motion while the tip rests on the way.
+TEST(ArcLength, NoiseInARestOnTheWayIsNoTravel) {
+  constexpr double kSigma_m = 0.3e-3;
+  for (int seed = 1; seed <= 8; ++seed) {
+    std::vector<double> t_s;
+    std::vector<Eigen::Vector2d> u_m;
+    const auto of = [&](int k) { return static_cast<std::uint64_t>(10 * seed + k); };
+    SlowNoise x(kSigma_m, 2.0, kRate_hz, of(0)), y(kSigma_m, 2.0, kRate_hz, of(1));
+    for (int i = 0; i <= 6000; ++i) {
+      const double t = i / kRate_hz;
+      t_s.push_back(t);
+      u_m.emplace_back(0.02 * (std::min(t, 2.0) + std::max(0.0, t - 4.0)) + x.next(), y.next());
+    }
+    ArcLengthConfig config;
+    config.noise_m = kSigma_m;
+    config.bend_m = 5.0 * kSigma_m;
+    const ArcLength arc = measure_arc_length(t_s, u_m, {}, config);
+    EXPECT_NEAR(arc.s_m.back(), 0.08, 4.0 * std::numbers::sqrt2 * kSigma_m) << seed;
+    EXPECT_TRUE(arc.turning_points.empty()) << seed;
+  }
+}
+
+TEST(ArcLength, FollowsAnArcWithRests) {
+  // The stroke bent to a radius of 60 mm.
+  Stroke stroke = make_stroke();
+  for (std::size_t i = 0; i < stroke.t_s.size(); ++i) {
+    const double a = stroke.true_m[i] / 0.06;
+    stroke.u_m[i] = 0.06 * Eigen::Vector2d(std::sin(a), 1.0 - std::cos(a));
+  }
+  for (const double noise_m : {0.0, 0.05e-3}) {
+    ArcLengthConfig config;
+    config.noise_m = noise_m;
+    EXPECT_NEAR(measure_arc_length(stroke.t_s, stroke.u_m, {}, config).s_m.back(), kWay_m, 1e-3 * kWay_m) << noise_m;
+  }
+}
+
+}  // namespace
+}  // namespace asperity

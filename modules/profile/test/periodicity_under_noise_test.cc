@@ -1,0 +1,72 @@
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+
+#include "asperity/base/random.h"
+#include "asperity/profile/find_periodicity_under_noise.h"
+#include "draw_noise.h"
+
+namespace asperity {
+namespace {
+
+constexpr double kSpacing_m = 0.025e-3;
+constexpr std::size_t kPoints = 3200;  // 80 mm
+
+// Noise that falls with the fourth power of the frequency, as twice integrated acceleration does, from 0.1 cycles/mm.
+TextureNoise make_noise(double rms_m) {
+  TextureNoise noise;
+  double power = 0.0;
+  for (double k = 0.02; k < 20.0; k *= 1.06) {
+    const double high_pass = 1.0 / (1.0 + 0.414 * std::pow(0.1 / k, 4.0));
+    noise.frequency_cycles_per_mm.push_back(k);
+    noise.added_psd_m2_mm.push_back(high_pass * high_pass / (1.0 + std::pow(k / 0.15, 4.0)));
+    power += noise.added_psd_m2_mm.back() * 0.06 * k;
+  }
+  for (double& density : noise.added_psd_m2_mm) density *= rms_m * rms_m / power;
+  noise.misplaced_psd_m2_mm.assign(noise.frequency_cycles_per_mm.size(), 0.0);
+  noise.added_rms_m = noise.noise_rms_m = rms_m;
+  noise.added_rms_stderr_m = noise.noise_rms_stderr_m = 0.1 * rms_m;
+  return noise;
+}
+
+std::vector<double> disturbed(double amplitude_m, double pitch_m, const TextureNoise& noise, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<double> out =
+      draw_noise(noise.frequency_cycles_per_mm, noise.added_psd_m2_mm, kPoints, 1e3 * kSpacing_m, random);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] += amplitude_m * std::sin(2.0 * std::numbers::pi * kSpacing_m * static_cast<double>(i) / pitch_m);
+  return out;
+}
+
+TEST(PeriodicityUnderNoise, FindsAPatternBelowItsNoise) {
+  const TextureNoise noise = make_noise(60e-6);
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Periodicity p = find_periodicity_under_noise(disturbed(40e-6, 1.3e-3, noise, seed), kSpacing_m, noise, {});
+    if (!p.periodic) continue;
+    ++found;
+    EXPECT_NEAR(p.pitch_m, 1.3e-3, 5e-6) << seed;
+  }
+  EXPECT_GE(found, 18);
+}
+
+TEST(PeriodicityUnderNoise, FindsNoPitchInNoise) {
+  const TextureNoise noise = make_noise(60e-6);
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Periodicity p = find_periodicity_under_noise(disturbed(0.0, 1.3e-3, noise, seed), kSpacing_m, noise, {});
+    EXPECT_FALSE(p.periodic) << seed << ": " << 1e3 * p.pitch_m << " mm";
+    EXPECT_FALSE(std::isfinite(p.pitch_stderr_m)) << seed;
+  }
+}
+
+TEST(PeriodicityUnderNoise, WithoutNoiseIsThePlainOne) {
+  const std::vector<double> h = disturbed(40e-6, 1.3e-3, make_noise(1e-6), 3);
+  const Periodicity plain = find_periodicity(h, kSpacing_m, {});
+  const Periodicity same = find_periodicity_under_noise(h, kSpacing_m, {}, {});
+  EXPECT_EQ(plain.pitch_m, same.pitch_m);
+  EXPECT_EQ(plain.depth_stderr_m, same.depth_stderr_m);
+}
+
+}  // namespace
+}  // namespace asperity
