@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "smooth_batches.h"
 
 namespace asperity {
 
@@ -12,6 +15,9 @@ constexpr double kRegular = 0.01;
 
 // Stamps without any clock behind them lie 1/√12 = 0.29 of a period (RMS) from the nearest of its ticks.
 constexpr double kUnexplained = 0.26;
+
+// A batch waits as one: there are far fewer waits than samples to take the mean of.
+constexpr double kBatchWindows = 2.0;
 
 double median_step_ns(const std::vector<std::int64_t>& t_ns) {
   std::vector<std::int64_t> steps(t_ns.size() - 1);
@@ -71,6 +77,7 @@ SmoothClockResult smooth_clock(const std::vector<std::int64_t>& t_ns, const Smoo
   scatter = std::sqrt(scatter / static_cast<double>(steps_counted));
   result.period_s = period * 1e-9;
   if (scatter < kRegular * period) return result;
+  if (auto batches = smooth_batches(t_ns, kBatchWindows * config.window_s)) return *std::move(batches);
 
   const std::vector<double> count = count_periods(t_ns, period);
   // Sums relative to the straight line of the nominal period keep their digits over hours.
