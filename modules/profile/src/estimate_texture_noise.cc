@@ -6,6 +6,7 @@
 #include <span>
 
 #include "asperity/base/nan.h"
+#include "asperity/profile/height_error_density.h"
 #include "asperity/profile/measure_spectrum.h"
 
 namespace asperity {
@@ -160,8 +161,7 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const double speed = blocks[b].speed_mmps;
     for (std::size_t i = 0; i < k.size(); ++i) {
-      const double omega = 2.0 * std::numbers::pi * k[i] * speed;
-      here[i] = gain[i] * speed * accel_psd * tracker_psd / (accel_psd + tracker_psd * omega * omega * omega * omega);
+      here[i] = gain[i] * speed * 1e6 * height_error_density_m2ps(errors, k[i] * speed);
       added[i] += blocks[b].points / points * here[i];
     }
     block_power[b] = integrate(k, [&](std::size_t i) { return here[i]; });

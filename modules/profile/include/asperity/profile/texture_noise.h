@@ -15,6 +15,20 @@ struct HeightErrors {
   double along_tracker_psd_m2ps = 0.0;
   double scale_sigma = 0.0;        // relative, of all heights
   double along_scale_sigma = 0.0;  // relative, of the arc length
+  // What is not white (height_error_density.h).
+  double accel_corner_Hz = 0.0;       // below it the acceleration's noise grows as 1/f
+  double accel_walk_psd_m2ps5 = 0.0;  // of its offset's random walk: density of the offset's rate
+  double tracker_slow_sigma_m = 0.0;  // of the tracker's slow error along the normal, first order
+  double tracker_slow_time_s = 0.0;
+  // Of the orientation, rad²/Hz: the tracker's, the gyroscope's (rad/s)²/Hz, or without one that of the angular
+  // acceleration; with the specific force across the normal and the lever from sensor to tip, which it turns.
+  double rotation_tracker_psd_rad2ps = 0.0;
+  double rotation_rate_psd_rad2ps3 = 0.0;
+  double rotation_accel_psd_rad2ps5 = 0.0;
+  double force_across_mps2 = 0.0;
+  double lever_m = 0.0;
+  std::vector<double> crosstalk_Hz;  // of the density of what calibration errors carry from the motion into the height
+  std::vector<double> crosstalk_m2ps;
 };
 
 // What of a profile's texture is expected to be error and not surface (docs/texture-noise.md). Nothing is determined
