@@ -83,6 +83,9 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
     samples += 1.0;
   }
   if (samples == 0.0) return out;
+  const auto first = std::find(moving.begin(), moving.end(), 1) - moving.begin();
+  const auto last = moving.rend() - std::find(moving.rbegin(), moving.rend(), 1) - 1;
+  out.duration_s = t_s[static_cast<std::size_t>(last)] - t_s[static_cast<std::size_t>(first)];
   const double frame_s = duration_s(recording.tracker.t_ns) / static_cast<double>(recording.tracker.size() - 1);
   const Eigen::Vector3d tracker_psd = 2.0 * frame_s * tracker_sigma_m.cwiseAbs2();
   out.tracker_psd_m2ps = normal_square.dot(tracker_psd) / samples;

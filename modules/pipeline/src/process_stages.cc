@@ -125,6 +125,7 @@ Outcome<MeasuredProfile> find_profile(const Recording& recording, const ProcessC
     TextureNoiseEstimate noise = estimate_texture_noise(out.profile, errors, method.high_pass_cycles_per_mm(config));
     out.noise = std::move(noise.noise);
     out.profile.texture_sigma_m = std::move(noise.texture_sigma_m);
+    if (!noise.height_sigma_m.empty()) out.profile.sigma_m = std::move(noise.height_sigma_m);
     out.measured_texture_m = out.profile.texture_m;
     if (config.profile.remove_noise) remove_noise(config.profile.bridge_m, out.profile, out.noise);
     out.coverage = measure_coverage(out.profile);

@@ -180,11 +180,19 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   }
   const double misplaced_power = integrate(k, [&](std::size_t i) { return misplaced[i]; });
 
+  // The position's own variance says where the height is known worse; the level is that of the error's spectrum.
+  const double position_m2 = mean_square(profile.sigma_m);
+  const double height_m2 = height_error_variance_m2(errors, errors.duration_s);
+  if (position_m2 > 0.0 && height_m2 > 0.0) out.height_sigma_m = profile.sigma_m;
+  for (double& sigma_m : out.height_sigma_m) sigma_m *= std::sqrt(height_m2 / position_m2);
+
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const double share = slope_square > 0.0 ? blocks[b].slope_square / slope_square : 0.0;
     const double sigma_m = 1e-3 * std::sqrt(block_power[b] + share * misplaced_power);
     for (std::size_t i = blocks[b].first; i < blocks[b].last; ++i) {
       if (std::isfinite(profile.texture_m[i])) out.texture_sigma_m[i] = sigma_m;
+      if (!out.height_sigma_m.empty())
+        out.height_sigma_m[i] = std::hypot(out.height_sigma_m[i], 1e-3 * std::sqrt(share * misplaced_power));
     }
   }
 

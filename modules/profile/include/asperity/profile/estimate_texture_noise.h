@@ -11,6 +11,9 @@ namespace asperity {
 struct TextureNoiseEstimate {
   TextureNoise noise;
   std::vector<double> texture_sigma_m;  // of texture_m, one a point; nan in gaps
+  // Of height_m less its straight line, one a point; empty where the noises are not known. An error that all heights
+  // share, or that grows evenly along them, is the base's: it is fitted to the same path.
+  std::vector<double> height_sigma_m;
 };
 
 // The error that is expected in `profile.texture_m`, as a spectrum, in all and point by point (docs/texture-noise.md).

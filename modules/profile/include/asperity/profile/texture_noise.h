@@ -27,6 +27,7 @@ struct HeightErrors {
   double rotation_accel_psd_rad2ps5 = 0.0;
   double force_across_mps2 = 0.0;
   double lever_m = 0.0;
+  double duration_s = 0.0;           // from the first to the last height
   std::vector<double> crosstalk_Hz;  // of the density of what calibration errors carry from the motion into the height
   std::vector<double> crosstalk_m2ps;
 };
