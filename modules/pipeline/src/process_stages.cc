@@ -122,7 +122,8 @@ Outcome<MeasuredProfile> find_profile(const Recording& recording, const ProcessC
     out.profile = method.make_profile(config, trajectory.motion, base);
     const HeightErrors errors =
         method.height_errors ? method.height_errors(recording, config, trajectory, base) : HeightErrors{};
-    TextureNoiseEstimate noise = estimate_texture_noise(out.profile, errors, method.high_pass_cycles_per_mm(config));
+    TextureNoiseEstimate noise = estimate_texture_noise(out.profile, errors, method.high_pass_cycles_per_mm(config),
+                                                        {config.profile.bridge_m, config.profile.max_stop_s});
     out.noise = std::move(noise.noise);
     out.profile.texture_sigma_m = std::move(noise.texture_sigma_m);
     if (!noise.height_sigma_m.empty()) out.profile.sigma_m = std::move(noise.height_sigma_m);

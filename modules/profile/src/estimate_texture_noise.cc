@@ -8,12 +8,13 @@
 #include "asperity/base/nan.h"
 #include "asperity/profile/height_error_density.h"
 #include "asperity/profile/measure_spectrum.h"
+#include "draw_height_errors.h"
 
 namespace asperity {
 
 namespace {
 
-constexpr std::size_t kBlock_points = 20;  // over which speed and slope are taken together: 0.5 mm
+constexpr std::size_t kBlock_points = 20;  // over which speeds and errors are taken together: 0.5 mm
 constexpr std::size_t kFrequencies = 128;  // of the spectrum, evenly in the logarithm
 constexpr double kBelowCutoff = 0.2;       // lowest frequency over the high-pass' cut-off: what is below is cut to 1e-5
 constexpr double kLowest_cycles_per_mm = 1e-3;
@@ -26,7 +27,6 @@ struct Block {
   std::size_t first = 0, last = 0;  // points
   double points = 0.0;              // of them with a height
   double speed_mmps = 0.0;
-  double slope_square = 0.0;  // mean over the block
 };
 
 double mean_present(std::span<const double> x) {
@@ -49,16 +49,6 @@ double mean_square(std::span<const double> x) {
   return count > 0.0 ? sum / count : kNan;
 }
 
-double mean_slope_square(std::span<const double> x, double spacing) {
-  double sum = 0.0, count = 0.0;
-  for (std::size_t i = 1; i < x.size(); ++i) {
-    if (!std::isfinite(x[i]) || !std::isfinite(x[i - 1])) continue;
-    sum += std::pow((x[i] - x[i - 1]) / spacing, 2);
-    count += 1.0;
-  }
-  return count > 0.0 ? sum / count : 0.0;
-}
-
 // The blocks of the profile that have heights and a speed.
 std::vector<Block> find_blocks(const Profile& profile) {
   std::vector<Block> out;
@@ -69,7 +59,6 @@ std::vector<Block> find_blocks(const Profile& profile) {
     const auto part = [&](std::span<const double> x) { return x.subspan(first, block.last - first); };
     for (const double h : part(profile.texture_m)) block.points += std::isfinite(h) ? 1.0 : 0.0;
     block.speed_mmps = 1e3 * std::abs(mean_present(part(profile.speed_mps)));
-    block.slope_square = mean_slope_square(part(profile.texture_m), profile.spacing_m);
     if (block.points > 0.0 && block.speed_mmps > 0.0) out.push_back(block);
   }
   return out;
@@ -104,22 +93,43 @@ double density_at(const PowerSpectrum& spectrum, double frequency) {
   return (1.0 - share) * spectrum.density[i] + share * spectrum.density[i + 1];
 }
 
-// The variance of the place along the path, mm²: of one point, and of what is not a shift of the whole.
-struct PlaceVariance {
-  double point_mm2 = 0.0;
-  double shape_mm2 = 0.0;
+// The variance of one point's place along the path, m².
+double place_variance_m2(const HeightErrors& errors) {
+  if (!(errors.along_accel_psd_m2ps3 > 0.0) || !(errors.along_tracker_psd_m2ps > 0.0)) return 0.0;
+  return errors.along_tracker_psd_m2ps * kPositionBandwidth *
+         meeting_Hz(errors.along_accel_psd_m2ps3, errors.along_tracker_psd_m2ps);
+}
+
+// Mean squares of drawn errors: over all points that have a texture, in each block, and how much one draw's differs
+// from the mean's, relative.
+struct BlockErrors {
+  double power_m2 = 0.0, spread = 0.0;
+  std::vector<double> block_m2;
 };
 
-PlaceVariance place_variance(const HeightErrors& errors, double duration_s, double length_mm) {
-  PlaceVariance out;
-  if (errors.along_accel_psd_m2ps3 > 0.0 && errors.along_tracker_psd_m2ps > 0.0) {
-    const double bandwidth_Hz =
-        kPositionBandwidth * meeting_Hz(errors.along_accel_psd_m2ps3, errors.along_tracker_psd_m2ps);
-    out.point_mm2 = 1e6 * errors.along_tracker_psd_m2ps * bandwidth_Hz;
-    out.shape_mm2 = 1e6 * errors.along_tracker_psd_m2ps * std::max(0.0, bandwidth_Hz - 0.5 / duration_s);
+BlockErrors over_blocks(const Profile& profile, const std::vector<Block>& blocks,
+                        const std::vector<std::vector<double>>& draws) {
+  BlockErrors out;
+  out.block_m2.assign(blocks.size(), 0.0);
+  const auto count = static_cast<double>(draws.size());
+  double square = 0.0;
+  for (const std::vector<double>& draw : draws) {
+    double sum = 0.0, points = 0.0;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      double block = 0.0;
+      for (std::size_t i = blocks[b].first; i < blocks[b].last; ++i) {
+        if (std::isfinite(profile.texture_m[i])) block += draw[i] * draw[i];
+      }
+      out.block_m2[b] += block / (blocks[b].points * count);
+      sum += block;
+      points += blocks[b].points;
+    }
+    out.power_m2 += sum / points / count;
+    square += std::pow(sum / points, 2) / count;
   }
-  // A wrong scale moves a point by its distance from the middle.
-  out.shape_mm2 += std::pow(errors.along_scale_sigma * length_mm, 2) / 12.0;
+  if (out.power_m2 > 0.0 && count > 1.0) {
+    out.spread = std::sqrt(std::max(0.0, square / (out.power_m2 * out.power_m2) - 1.0) * count / (count - 1.0));
+  }
   return out;
 }
 
@@ -134,7 +144,7 @@ double texture_power_gain(double cycles_per_mm, double cutoff_cycles_per_mm) {
 }
 
 TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const HeightErrors& errors,
-                                            double cutoff_cycles_per_mm) {
+                                            double cutoff_cycles_per_mm, const TextureNoiseConfig& config) {
   TextureNoiseEstimate out;
   TextureNoise& noise = out.noise;
   out.texture_sigma_m.assign(profile.size(), kNan);
@@ -143,56 +153,66 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   if (blocks.empty() || !(errors.accel_psd_m2ps3 > 0.0) || !(errors.tracker_psd_m2ps > 0.0)) return out;
 
   const double spacing_mm = 1e3 * profile.spacing_m;
-  double points = 0.0, duration_s = 0.0, slope_square = 0.0;
+  double points = 0.0, duration_s = 0.0;
   for (const Block& b : blocks) {
     points += b.points;
     duration_s += b.points * spacing_mm / b.speed_mmps;
-    slope_square += b.points * b.slope_square;
   }
-  slope_square /= points;
+  const double length_mm = points * spacing_mm;
 
-  // Added noise, in mm.
-  const double accel_psd = 1e6 * errors.accel_psd_m2ps3;
-  const double tracker_psd = 1e6 * errors.tracker_psd_m2ps;
+  // The spectrum's shape, as if each stretch were long, in mm.
   const double lowest = std::max(kLowest_cycles_per_mm, kBelowCutoff * cutoff_cycles_per_mm);
   const std::vector<double> k = frequencies(lowest, 0.5 / spacing_mm);
-  std::vector<double> gain(k.size()), added(k.size(), 0.0), here(k.size()), block_power(blocks.size());
-  for (std::size_t i = 0; i < k.size(); ++i) gain[i] = texture_power_gain(k[i], cutoff_cycles_per_mm);
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const double speed = blocks[b].speed_mmps;
-    for (std::size_t i = 0; i < k.size(); ++i) {
-      here[i] = gain[i] * speed * 1e6 * height_error_density_m2ps(errors, k[i] * speed);
-      added[i] += blocks[b].points / points * here[i];
+  std::vector<double> added(k.size(), 0.0);
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    const double gain = texture_power_gain(k[i], cutoff_cycles_per_mm);
+    for (const Block& b : blocks) {
+      added[i] +=
+          b.points / points * gain * b.speed_mmps * 1e6 * height_error_density_m2ps(errors, k[i] * b.speed_mmps);
     }
-    block_power[b] = integrate(k, [&](std::size_t i) { return here[i]; });
   }
-  const double added_power = integrate(k, [&](std::size_t i) { return added[i]; });
 
-  // Misplaced heights.
-  const double length_mm = points * spacing_mm;
-  const PlaceVariance place = place_variance(errors, duration_s, length_mm);
+  // The powers, from draws: they know of rests, slow ends and gaps.
+  std::vector<double> surface_m(profile.size());
+  const double even_power = integrate(k, [&](std::size_t i) { return added[i]; });
+  const double measured_power = 1e6 * noise.texture_rms_m * noise.texture_rms_m;
+  const double clean = std::sqrt(std::clamp(1.0 - even_power / measured_power, 0.0, 1.0));
+  for (std::size_t i = 0; i < surface_m.size(); ++i) {
+    surface_m[i] = std::isfinite(profile.texture_m[i]) ? clean * profile.texture_m[i] : 0.0;
+  }
+  const DrawnErrors drawn = draw_height_errors(profile, errors, cutoff_cycles_per_mm, config, surface_m);
+  if (drawn.added_m.empty()) return out;
+  const BlockErrors added_errors = over_blocks(profile, blocks, drawn.added_m);
+  const BlockErrors misplaced_errors = over_blocks(profile, blocks, drawn.misplaced_m);
+  const BlockErrors height_errors = over_blocks(profile, blocks, drawn.height_m);
+  const double added_power = 1e6 * added_errors.power_m2, misplaced_power = 1e6 * misplaced_errors.power_m2;
+  if (!(added_power > 0.0) || !(even_power > 0.0)) return out;
+  for (double& density : added) density *= added_power / even_power;
+
   const PowerSpectrum measured = measure_spectrum(profile.texture_m, profile.spacing_m);
+  const double shape_mm2 = 1e6 * drawn.shape_variance_m2;
   std::vector<double> misplaced(k.size());
   for (std::size_t i = 0; i < k.size(); ++i) {
     const double surface = std::max(0.0, 1e6 * density_at(measured, k[i]) - added[i]);
-    const double phase_variance = std::pow(2.0 * std::numbers::pi * k[i], 2) * place.shape_mm2;
+    const double phase_variance = std::pow(2.0 * std::numbers::pi * k[i], 2) * shape_mm2;
     misplaced[i] = 2.0 * (1.0 - std::exp(-0.5 * phase_variance)) * surface;
   }
-  const double misplaced_power = integrate(k, [&](std::size_t i) { return misplaced[i]; });
+  const double even_misplaced = integrate(k, [&](std::size_t i) { return misplaced[i]; });
+  for (double& density : misplaced) density *= even_misplaced > 0.0 ? misplaced_power / even_misplaced : 0.0;
 
-  // The position's own variance says where the height is known worse; the level is that of the error's spectrum.
-  const double position_m2 = mean_square(profile.sigma_m);
-  const double height_m2 = height_error_variance_m2(errors, errors.duration_s);
-  if (position_m2 > 0.0 && height_m2 > 0.0) out.height_sigma_m = profile.sigma_m;
-  for (double& sigma_m : out.height_sigma_m) sigma_m *= std::sqrt(height_m2 / position_m2);
-
+  out.height_sigma_m.assign(profile.size(), kNan);
+  noise.added_sigma_m.assign(profile.size(), 0.0);
+  noise.misplaced_sigma_m.assign(profile.size(), 0.0);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const double share = slope_square > 0.0 ? blocks[b].slope_square / slope_square : 0.0;
-    const double sigma_m = 1e-3 * std::sqrt(block_power[b] + share * misplaced_power);
+    const double added_m2 = added_errors.block_m2[b], misplaced_m2 = misplaced_errors.block_m2[b];
     for (std::size_t i = blocks[b].first; i < blocks[b].last; ++i) {
-      if (std::isfinite(profile.texture_m[i])) out.texture_sigma_m[i] = sigma_m;
-      if (!out.height_sigma_m.empty())
-        out.height_sigma_m[i] = std::hypot(out.height_sigma_m[i], 1e-3 * std::sqrt(share * misplaced_power));
+      if (std::isfinite(profile.height_m[i])) {
+        out.height_sigma_m[i] = std::sqrt(height_errors.block_m2[b] + misplaced_m2);
+      }
+      if (!std::isfinite(profile.texture_m[i])) continue;
+      out.texture_sigma_m[i] = std::sqrt(added_m2 + misplaced_m2);
+      noise.added_sigma_m[i] = std::sqrt(added_m2);
+      noise.misplaced_sigma_m[i] = std::sqrt(misplaced_m2);
     }
   }
 
@@ -203,14 +223,12 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
     noise.added_psd_m2_mm[i] = 1e-6 * added[i];
     noise.misplaced_psd_m2_mm[i] = 1e-6 * misplaced[i];
   }
-  const double square = integrate(k, [&](std::size_t i) { return added[i] * added[i]; });
-  const double by_chance = square / (length_mm * added_power * added_power);
-  const double information = kFisher * duration_s * meeting_Hz(accel_psd, tracker_psd);
-  const double relative = std::sqrt(by_chance + 1.0 / std::max(information, kLeastInformation));
-  const double measured_power = 1e6 * noise.texture_rms_m * noise.texture_rms_m;
+  const double information = kFisher * duration_s * meeting_Hz(errors.accel_psd_m2ps3, errors.tracker_psd_m2ps);
+  const double relative = std::hypot(added_errors.spread, 1.0 / std::sqrt(std::max(information, kLeastInformation)));
   const double noise_power = added_power + misplaced_power;
-  noise.place_sigma_m = 1e-3 * std::sqrt(place.shape_mm2);
-  noise.length_stderr_m = 1e-3 * std::sqrt(2.0 * place.point_mm2 + std::pow(errors.along_scale_sigma * length_mm, 2));
+  noise.place_sigma_m = std::sqrt(drawn.shape_variance_m2);
+  noise.length_stderr_m =
+      std::sqrt(2.0 * place_variance_m2(errors) + std::pow(1e-3 * errors.along_scale_sigma * length_mm, 2));
   noise.scale_sigma = errors.scale_sigma;
   noise.along_sigma = noise.length_stderr_m / (1e-3 * length_mm);
   noise.added_rms_m = 1e-3 * std::sqrt(added_power);

@@ -40,6 +40,9 @@ struct TextureNoise {
   // the heights, and of heights at a wrong place along the path.
   std::vector<double> added_psd_m2_mm;
   std::vector<double> misplaced_psd_m2_mm;
+  // The same two point by point, standard deviations; empty: the same everywhere.
+  std::vector<double> added_sigma_m;
+  std::vector<double> misplaced_sigma_m;
   // Of texture_m as it is given, over the points that have a height: of both, or what the removal of noise has left of
   // it (apply_wiener_filter.h).
   double noise_rms_m = kNan;
