@@ -83,9 +83,6 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
     samples += 1.0;
   }
   if (samples == 0.0) return out;
-  const auto first = std::find(moving.begin(), moving.end(), 1) - moving.begin();
-  const auto last = moving.rend() - std::find(moving.rbegin(), moving.rend(), 1) - 1;
-  out.duration_s = t_s[static_cast<std::size_t>(last)] - t_s[static_cast<std::size_t>(first)];
   const double frame_s = duration_s(recording.tracker.t_ns) / static_cast<double>(recording.tracker.size() - 1);
   const Eigen::Vector3d tracker_psd = 2.0 * frame_s * tracker_sigma_m.cwiseAbs2();
   out.tracker_psd_m2ps = normal_square.dot(tracker_psd) / samples;
@@ -123,6 +120,7 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
       recording.calibration.tip_in_marker_m - recording.calibration.accelerometer_in_marker_m();
   out.lever_m = calibration.tip_from_sensor_m.cross(normal_marker.normalized()).norm();
   add_crosstalk(motion, base.path, moving, recording.info.gravity_world_mps2, calibration, out);
+  out.base_degree = base.shape == PathShape::kCircle || base.shape == PathShape::kCurve ? 2 : 1;
   // The arc length over a round body is that of the tip's own circle: a tip that is misplaced along the normal moves
   // it.
   if (base.shape == PathShape::kCircle && base.radius_m > 0.0) out.along_scale_sigma = kTipError_m / base.radius_m;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "asperity/base/random.h"
 #include "asperity/profile/extract_texture.h"
@@ -73,17 +74,28 @@ std::vector<double> draw_at(const Density& density, const std::vector<double>& t
   return out;
 }
 
-void subtract_error_line(const std::vector<double>& like, std::vector<double>& y) {
-  double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    if (!std::isfinite(like[i])) continue;
-    const auto x = static_cast<double>(i);
-    n += 1.0, sx += x, sy += y[i], sxx += x * x, sxy += x * y[i];
+// Less the least-squares polynomial over the points that have a height.
+void subtract_polynomial(const std::vector<double>& like, int degree, std::vector<double>& y) {
+  const auto product = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+  };
+  const auto subtract = [](const std::vector<double>& from, double share, std::vector<double>& x) {
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] -= share * from[i];
+  };
+  std::vector<std::vector<double>> terms;  // orthonormal
+  for (int d = 0; d <= degree; ++d) {
+    std::vector<double> term(y.size());
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      const double x = 2.0 * static_cast<double>(i) / static_cast<double>(y.size()) - 1.0;
+      term[i] = std::isfinite(like[i]) ? std::pow(x, d) : 0.0;
+    }
+    for (const std::vector<double>& before : terms) subtract(before, product(before, term), term);
+    const double norm = std::sqrt(product(term, term));
+    if (!(norm > 1e-9)) continue;
+    for (double& value : term) value /= norm;
+    subtract(term, product(term, y), y);
+    terms.push_back(std::move(term));
   }
-  const double spread = n * sxx - sx * sx;
-  const double slope = spread > 0.0 ? (n * sxy - sx * sy) / spread : 0.0;
-  const double level = n > 0.0 ? (sy - slope * sx) / n : 0.0;
-  for (std::size_t i = 0; i < y.size(); ++i) y[i] -= level + slope * static_cast<double>(i);
 }
 
 void clear_gaps(const std::vector<double>& like, std::vector<double>& y) {
@@ -151,8 +163,8 @@ DrawnErrors draw_height_errors(const Profile& profile, const HeightErrors& error
     }
     std::vector<double> added_m =
         extract_texture(error_m, profile.spacing_m, cutoff_cycles_per_mm, config.bridge_m, seams);
-    subtract_error_line(profile.height_m, error_m);
     clear_gaps(profile.height_m, error_m);
+    subtract_polynomial(profile.height_m, errors.base_degree, error_m);
     clear_gaps(profile.texture_m, added_m);
     out.height_m.push_back(std::move(error_m));
     out.added_m.push_back(std::move(added_m));

@@ -9,7 +9,7 @@ namespace asperity {
 
 // Errors of a profile, drawn: one vector a draw, one number a point; 0 where the profile has no height.
 struct DrawnErrors {
-  std::vector<std::vector<double>> height_m;     // of heights, less the straight line through them
+  std::vector<std::vector<double>> height_m;     // of heights, less what the base takes (HeightErrors::base_degree)
   std::vector<std::vector<double>> added_m;      // the same through the texture's high-pass
   std::vector<std::vector<double>> misplaced_m;  // of a texture whose heights are at a wrong place
   double shape_variance_m2 = 0.0;                // of the place along the path, a shift of all not counted

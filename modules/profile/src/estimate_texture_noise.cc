@@ -22,6 +22,8 @@ constexpr double kFisher = 0.833;              // 3π/(8√2), the integral of (
 constexpr double kPositionBandwidth = 1.1107;  // π/(2√2), the integral of (1 + x⁴)⁻¹
 constexpr double kLeastInformation = 4.0;      // the floor is known to half its value even without a tracker
 constexpr double kSure = 1.96;
+constexpr double kStudent = 2.0;  // an error over a sigma from n draws has the variance n/(n − 2): Student's
+constexpr double kTypical = 0.9;  // of the path: slow ends and rests have another noise, and are a few of its per cent
 
 struct Block {
   std::size_t first = 0, last = 0;  // points
@@ -120,7 +122,7 @@ BlockErrors over_blocks(const Profile& profile, const std::vector<Block>& blocks
       for (std::size_t i = blocks[b].first; i < blocks[b].last; ++i) {
         if (std::isfinite(profile.texture_m[i])) block += draw[i] * draw[i];
       }
-      out.block_m2[b] += block / (blocks[b].points * count);
+      out.block_m2[b] += block / (blocks[b].points * (count - kStudent));
       sum += block;
       points += blocks[b].points;
     }
@@ -130,6 +132,32 @@ BlockErrors over_blocks(const Profile& profile, const std::vector<Block>& blocks
   if (out.power_m2 > 0.0 && count > 1.0) {
     out.spread = std::sqrt(std::max(0.0, square / (out.power_m2 * out.power_m2) - 1.0) * count / (count - 1.0));
   }
+  return out;
+}
+
+// Marks the blocks without the tenth whose noise is largest.
+std::vector<char> without_noisiest(const std::vector<Block>& blocks, const std::vector<double>& noise_m2) {
+  std::vector<double> sorted = noise_m2;
+  std::sort(sorted.begin(), sorted.end());
+  const double most_m2 = sorted[static_cast<std::size_t>(kTypical * static_cast<double>(sorted.size() - 1))];
+  std::vector<char> out(blocks.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b) out[b] = noise_m2[b] <= most_m2 ? 1 : 0;
+  return out;
+}
+
+double mean_over(const std::vector<Block>& blocks, const std::vector<char>& takes, const std::vector<double>& value) {
+  double sum = 0.0, points = 0.0;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (takes[b] == 0) continue;
+    sum += blocks[b].points * value[b];
+    points += blocks[b].points;
+  }
+  return points > 0.0 ? sum / points : 0.0;
+}
+
+std::vector<double> squares_of(const std::vector<double>& x, const std::vector<Block>& blocks) {
+  std::vector<double> out;
+  for (const Block& b : blocks) out.push_back(mean_square(std::span(x).subspan(b.first, b.last - b.first)));
   return out;
 }
 
@@ -182,12 +210,21 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   }
   const DrawnErrors drawn = draw_height_errors(profile, errors, cutoff_cycles_per_mm, config, surface_m);
   if (drawn.added_m.empty()) return out;
-  const BlockErrors added_errors = over_blocks(profile, blocks, drawn.added_m);
+  BlockErrors added_errors = over_blocks(profile, blocks, drawn.added_m);
   const BlockErrors misplaced_errors = over_blocks(profile, blocks, drawn.misplaced_m);
   const BlockErrors height_errors = over_blocks(profile, blocks, drawn.height_m);
-  const double added_power = 1e6 * added_errors.power_m2, misplaced_power = 1e6 * misplaced_errors.power_m2;
-  if (!(added_power > 0.0) || !(even_power > 0.0)) return out;
-  for (double& density : added) density *= added_power / even_power;
+  if (!(added_errors.power_m2 > 0.0) || !(even_power > 0.0)) return out;
+  const std::vector<char> typical = without_noisiest(blocks, added_errors.block_m2);
+  // What was measured is surface and noise: the noise is no larger.
+  const double measured_m2 = mean_over(blocks, typical, squares_of(profile.texture_m, blocks));
+  const double most_share = std::min(1.0, measured_m2 / mean_over(blocks, typical, added_errors.block_m2));
+  added_errors.power_m2 *= most_share;
+  for (double& block_m2 : added_errors.block_m2) block_m2 *= most_share;
+  const double added_power = 1e6 * added_errors.power_m2;
+  const double typical_added = 1e6 * mean_over(blocks, typical, added_errors.block_m2);
+  const double typical_misplaced = 1e6 * mean_over(blocks, typical, misplaced_errors.block_m2);
+  const double typical_measured = 1e6 * measured_m2;
+  for (double& density : added) density *= typical_added / even_power;
 
   const PowerSpectrum measured = measure_spectrum(profile.texture_m, profile.spacing_m);
   const double shape_mm2 = 1e6 * drawn.shape_variance_m2;
@@ -198,19 +235,20 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
     misplaced[i] = 2.0 * (1.0 - std::exp(-0.5 * phase_variance)) * surface;
   }
   const double even_misplaced = integrate(k, [&](std::size_t i) { return misplaced[i]; });
-  for (double& density : misplaced) density *= even_misplaced > 0.0 ? misplaced_power / even_misplaced : 0.0;
+  for (double& density : misplaced) density *= even_misplaced > 0.0 ? typical_misplaced / even_misplaced : 0.0;
 
   out.height_sigma_m.assign(profile.size(), kNan);
   noise.added_sigma_m.assign(profile.size(), 0.0);
   noise.misplaced_sigma_m.assign(profile.size(), 0.0);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const double added_m2 = added_errors.block_m2[b], misplaced_m2 = misplaced_errors.block_m2[b];
+    const double gain_m2 = std::pow(errors.scale_sigma * noise.texture_rms_m, 2);
     for (std::size_t i = blocks[b].first; i < blocks[b].last; ++i) {
       if (std::isfinite(profile.height_m[i])) {
-        out.height_sigma_m[i] = std::sqrt(height_errors.block_m2[b] + misplaced_m2);
+        out.height_sigma_m[i] = std::sqrt(height_errors.block_m2[b] + gain_m2);
       }
       if (!std::isfinite(profile.texture_m[i])) continue;
-      out.texture_sigma_m[i] = std::sqrt(added_m2 + misplaced_m2);
+      out.texture_sigma_m[i] = std::sqrt(added_m2 + gain_m2);
       noise.added_sigma_m[i] = std::sqrt(added_m2);
       noise.misplaced_sigma_m[i] = std::sqrt(misplaced_m2);
     }
@@ -225,7 +263,7 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   }
   const double information = kFisher * duration_s * meeting_Hz(errors.accel_psd_m2ps3, errors.tracker_psd_m2ps);
   const double relative = std::hypot(added_errors.spread, 1.0 / std::sqrt(std::max(information, kLeastInformation)));
-  const double noise_power = added_power + misplaced_power;
+  const double noise_power = added_power + measured_power * errors.scale_sigma * errors.scale_sigma;
   noise.place_sigma_m = std::sqrt(drawn.shape_variance_m2);
   noise.length_stderr_m =
       std::sqrt(2.0 * place_variance_m2(errors) + std::pow(1e-3 * errors.along_scale_sigma * length_mm, 2));
@@ -235,9 +273,14 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   noise.added_rms_stderr_m = 0.5 * relative * noise.added_rms_m;
   noise.noise_rms_m = 1e-3 * std::sqrt(noise_power);
   noise.noise_rms_stderr_m = 0.5 * relative * noise.noise_rms_m;
-  noise.snr = std::max(0.0, measured_power - added_power) / noise_power;
+  noise.typical_texture_rms_m = 1e-3 * std::sqrt(typical_measured);
+  noise.typical_added_rms_m = 1e-3 * std::sqrt(typical_added);
+  noise.typical_misplaced_rms_m = 1e-3 * std::sqrt(typical_misplaced);
+  const double typical_noise = typical_added + typical_misplaced;
+  noise.snr = std::max(0.0, typical_measured - typical_added) / typical_noise;
   const double most = 1.0 + kSure * relative;
-  noise.snr_low = std::max(0.0, measured_power - most * added_power) / (most * noise_power);
+  noise.snr_low = std::max(0.0, typical_measured - most * typical_added) / (most * typical_noise);
+  noise.measured_snr_low = noise.snr_low;
   noise.at_most_m =
       1e-3 * std::sqrt(std::max(0.0, measured_power - added_power * std::max(0.0, 1.0 - kSure * relative)));
   return out;
@@ -263,7 +306,10 @@ TextureNoise noise_of_sigma(std::span<const double> texture_m, std::span<const d
   const double most_m2 = power_m2 * (1.0 + kSure * kRelative);
   noise.texture_rms_m = std::sqrt(texture_m2);
   noise.snr = std::max(0.0, texture_m2 - power_m2) / power_m2;
-  noise.snr_low = std::max(0.0, texture_m2 - most_m2) / most_m2;
+  noise.snr_low = noise.measured_snr_low = std::max(0.0, texture_m2 - most_m2) / most_m2;
+  noise.typical_texture_rms_m = noise.texture_rms_m;
+  noise.typical_added_rms_m = noise.added_rms_m;
+  noise.typical_misplaced_rms_m = 0.0;
   noise.at_most_m = std::sqrt(std::max(0.0, texture_m2 - power_m2 * (1.0 - kSure * kRelative)));
   return noise;
 }

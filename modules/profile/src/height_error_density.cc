@@ -8,9 +8,6 @@ namespace asperity {
 
 namespace {
 
-constexpr double kHighest_Hz = 100.0;  // of a height's error: beyond it falls with the fourth power
-constexpr std::size_t kSteps = 200;    // evenly in the logarithm
-
 double crosstalk_at(const HeightErrors& errors, double frequency_Hz) {
   const auto& at = errors.crosstalk_Hz;
   const auto next = std::upper_bound(at.begin(), at.end(), frequency_Hz);
@@ -28,16 +25,6 @@ double rotation_density(const HeightErrors& errors, double omega) {
   return accel > 0.0 ? accel * tracker / (accel + tracker * std::pow(omega, 4)) : 0.0;
 }
 
-// The share of a wave's power that a least-squares line over n periods leaves, the mean over its phases: what the
-// orthonormal constant and slope on (-1/2, 1/2) take of it, sinc² and 12 times the squared first moment, is missing.
-double left_by_line(double periods) {
-  const double x = std::numbers::pi * periods;
-  if (x < 0.3) return std::pow(x, 4) / 45.0;
-  const double constant = std::sin(x) / x;
-  const double slope = std::sqrt(3.0) * (std::sin(x) / x - std::cos(x)) / x;
-  return std::max(0.0, 1.0 - constant * constant - slope * slope);
-}
-
 }  // namespace
 
 double height_error_density_m2ps(const HeightErrors& errors, double frequency_Hz) {
@@ -52,18 +39,6 @@ double height_error_density_m2ps(const HeightErrors& errors, double frequency_Hz
                       (1.0 + std::pow(omega * errors.tracker_slow_time_s, 2));
   return share * tracker + share * share * slow + (1.0 - share) * (1.0 - share) * crosstalk_at(errors, frequency_Hz) +
          std::pow(errors.lever_m, 2) * rotation;
-}
-
-double height_error_variance_m2(const HeightErrors& errors, double duration_s) {
-  if (!(duration_s > 0.0)) return 0.0;
-  const double lowest_Hz = 0.02 / duration_s;
-  const double ratio = std::pow(kHighest_Hz / lowest_Hz, 1.0 / static_cast<double>(kSteps));
-  double sum = 0.0;
-  for (std::size_t i = 0; i < kSteps; ++i) {
-    const double at = lowest_Hz * std::pow(ratio, static_cast<double>(i) + 0.5);
-    sum += at * std::log(ratio) * left_by_line(at * duration_s) * height_error_density_m2ps(errors, at);
-  }
-  return sum;
 }
 
 }  // namespace asperity

@@ -56,6 +56,30 @@ double scatter_apart(const std::vector<double>& t_ns, double period_ns) {
   return scatter_about(far, median(far));
 }
 
+// The period by the least waits of stretches: they are far more alike than single ones. The median over neighbouring
+// stretches leaves a loss as it is.
+double refine_period(const std::vector<double>& t_ns, double period_ns) {
+  std::vector<double> least_ns, at;
+  double end_ns = 0.0;
+  for (std::size_t i = 0; i < t_ns.size(); ++i) {
+    const double late_ns = t_ns[i] - period_ns * static_cast<double>(i);
+    if (least_ns.empty() || t_ns[i] >= end_ns) {
+      least_ns.push_back(late_ns);
+      at.push_back(static_cast<double>(i));
+      end_ns = t_ns[i] + 1e9 * kLook_s;
+    } else if (late_ns < least_ns.back()) {
+      least_ns.back() = late_ns;
+      at.back() = static_cast<double>(i);
+    }
+  }
+  std::vector<double> slopes;
+  const std::size_t apart = std::clamp<std::size_t>(least_ns.size() / 3, 1, 5);
+  for (std::size_t w = 0; w + apart < least_ns.size(); ++w) {
+    slopes.push_back((least_ns[w + apart] - least_ns[w]) / (at[w + apart] - at[w]));
+  }
+  return slopes.empty() ? period_ns : period_ns + median(std::move(slopes));
+}
+
 struct Batches {
   double period_ns = 0.0;
   std::vector<char> ends;  // 1: the sample is its batch's last
@@ -104,7 +128,7 @@ Batches find_batches(const std::vector<double>& t_ns, const std::vector<double>&
   for (std::size_t b = 0; b + apart < last.size(); ++b) {
     periods.push_back((t_ns[last[b + apart]] - t_ns[last[b]]) / static_cast<double>(last[b + apart] - last[b]));
   }
-  if (!periods.empty()) out.period_ns = median(std::move(periods));
+  if (!periods.empty()) out.period_ns = refine_period(t_ns, median(std::move(periods)));
   return out;
 }
 
@@ -145,14 +169,19 @@ std::vector<double> find_losses(const std::vector<double>& t_ns, const std::vect
       const double shift = ahead.least - before * period - behind.least;
       const double by_chance = kWaits * (behind.mean - behind.least) / std::min(behind.batches, ahead.batches);
       if (shift > std::max(kLost * period, by_chance)) {
-        const double count = std::max(1.0, std::round(shift / period));
-        // The batch may have waited as well, and the loss be in its midst: there the step is a whole one.
+        // The batch may have waited as well, and the loss be in its midst: from there on all are late by the whole of
+        // it, and the step itself is a whole one.
         std::size_t at = i;
-        double best = std::abs(step_ns[i - 1] / period - 1.0 - count);
-        for (std::size_t j = i + 1; j < n && best > kExact && t_ns[j] - t_ns[i] < kBatch_ns; ++j) {
-          const double misfit = std::abs(step_ns[j - 1] / period - 1.0 - count);
-          if (misfit < best) best = misfit, at = j;
+        double most = shift, best = std::abs(step_ns[i - 1] / period - 1.0 - std::round(shift / period));
+        for (std::size_t j = i + 1; j < n && t_ns[j] - t_ns[i] < kBatch_ns; ++j) {
+          if (step_ns[j - 1] < kLongStep * period) continue;
+          const double later = waits_from(t_ns, late_ns, batches.ends, j, true).least - before * period - behind.least;
+          const double misfit = std::abs(step_ns[j - 1] / period - 1.0 - std::round(later / period));
+          if (later < most - 0.5 * period || (later < most + 0.5 * period && (best < kExact || misfit > kExact)))
+            continue;
+          most = later, best = misfit, at = j;
         }
+        const double count = std::max(1.0, std::round(most / period));
         for (; i < at; ++i) late_ns[i] -= before * period;
         lost[at] = count;
         before += count;

@@ -16,7 +16,4 @@ namespace asperity {
 // gyroscope B R_θ/(B + R_θ (2πf)⁴). 0 where A or R is not known.
 double height_error_density_m2ps(const HeightErrors& errors, double frequency_Hz);
 
-// The error's variance over a time, without what a straight line through the heights takes off, m².
-double height_error_variance_m2(const HeightErrors& errors, double duration_s);
-
 }  // namespace asperity

@@ -27,7 +27,8 @@ struct HeightErrors {
   double rotation_accel_psd_rad2ps5 = 0.0;
   double force_across_mps2 = 0.0;
   double lever_m = 0.0;
-  double duration_s = 0.0;           // from the first to the last height
+  // What a base that is fitted to the same path takes of the error: a polynomial of this degree (a circle's radius: 2).
+  int base_degree = 1;
   std::vector<double> crosstalk_Hz;  // of the density of what calibration errors carry from the motion into the height
   std::vector<double> crosstalk_m2ps;
 };
@@ -54,11 +55,17 @@ struct TextureNoise {
   double length_stderr_m = kNan;  // of the profile's length, from first to last height
   double scale_sigma = 0.0;       // relative error of all heights: calibration, the normal's direction
   double along_sigma = 0.0;       // relative error of lengths along the path
-  // Power of the surface over power of the noise, none removed: texture_rms² − added_rms² over the integral of both
-  // densities; 0 where negative. A correlation of the measured texture with the true one of about √(snr/(1 + snr)) goes
-  // with it.
+  // Without the tenth of the path where the noise is largest, as at slow ends and rests; the two densities have these
+  // powers: of the measured texture, of added noise, of misplaced heights.
+  double typical_texture_rms_m = kNan;
+  double typical_added_rms_m = kNan;
+  double typical_misplaced_rms_m = kNan;
+  // Power of the surface over power of the noise, of those: typical_texture² − typical_added² over the noise's; 0 where
+  // negative. A correlation of the texture with the true one of about √(snr/(1 + snr)) goes with it, also where noise
+  // was removed.
   double snr = kNan;
-  double snr_low = kNan;  // with the largest noise that is possible, 97.5 %
+  double snr_low = kNan;           // with the largest noise that is possible, 97.5 %
+  double measured_snr_low = kNan;  // the same, none removed
   // The RMS that the surface's texture has at most, with 97.5 % of the noises that are possible.
   double at_most_m = kNan;
 };
