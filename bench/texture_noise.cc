@@ -150,6 +150,7 @@ struct Tally {
 void run_one(const Options& options, const asperity::SimulationConfig& config, const std::string& row, Tally& tally) {
   asperity::ProcessConfig process;
   asperity::set_field(asperity::list_fields("", process), "method", options.method);
+  process.profile.remove_noise = false;  // error and expectation are both of the texture as measured
   const asperity::Recording recording = asperity::simulate_recording(config);
   const asperity::ProcessResult result = asperity::process_recording(recording, process);
   if (!result.accuracy || !result.accuracy->profile || !(result.accuracy->profile->rms_um > 0.0)) {

@@ -257,8 +257,8 @@ void write_csv(const std::filesystem::path& path, const std::vector<ScanOutcome>
       out << s.seed << ',' << s.family << ',' << s.probe << ',' << s.trusted << ',' << s.failed << ',' << s.nothing
           << ',' << s.correlation << ',' << s.position_over_sigma << ',' << s.height_over_sigma << ','
           << s.texture_over_sigma << ',' << s.position_rms_m << ',' << s.texture_error_m << ',' << s.texture_rms_m
-          << ',' << s.process_s << ',' << f.name << ',' << f.value << ',' << f.low << ',' << f.high << ',' << f.truth
-          << ',' << f.oracle_sigma << '\n';
+          << ',' << s.noise_rms_m << ',' << s.snr << ',' << s.process_s << ',' << s.codes << ',' << f.name << ','
+          << f.value << ',' << f.low << ',' << f.high << ',' << f.truth << ',' << f.oracle_sigma << '\n';
     }
   }
   if (!out) throw asperity::Error(path.string() + ": cannot be written");

@@ -12,6 +12,7 @@
 #include "asperity/profile/estimate_stiffness.h"
 #include "asperity/profile/measure_error_floor.h"
 #include "asperity/profile/measure_length_error.h"
+#include "calibration_crosstalk.h"
 
 namespace asperity {
 
@@ -19,6 +20,7 @@ namespace {
 
 constexpr double kStandingStill_mps = 2e-3;
 constexpr double kDeepest_m = 1e-3;      // of an indentation of which nothing is known; tips are no longer
+constexpr double kCorner_Hz = 1.0;  // of an accelerometer's 1/f noise: such chips have a tenth to ten hertz
 constexpr double kUnstatedScale = 0.01;  // relative error of a calibration that states none
 
 double duration_s(const std::vector<std::int64_t>& t_ns) {
@@ -51,6 +53,11 @@ double indentation_m(const TipMotion& motion, const BasePathResult& base) {
                               : 1.0 / (std::numbers::sqrt3 * stiffness.lower_bound_N_per_mm);
   const double out = 1e-3 * mm_per_N * std::abs(sum_N / count);
   return std::isfinite(out) ? std::min(out, kDeepest_m) : 0.0;
+// Samples whose value was replaced by their neighbours' mean.
+std::size_t replaced_samples(const TrajectoryResult& trajectory) {
+  std::size_t out = 0;
+  for (const Problem& problem : trajectory.problems) out += problem.kind == "spike" ? problem.count : 0;
+  return out;
 }
 
 }  // namespace
@@ -62,8 +69,10 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
     const auto found = trajectory.metrics.find(name);
     return found == trajectory.metrics.end() ? 0.0 : found->second;
   };
-  const Eigen::Vector3d tracker_sigma_m(figure("tracker_sigma_x_m"), figure("tracker_sigma_y_m"),
-                                        figure("tracker_sigma_z_m"));
+  const auto axes = [&](const std::string& before, const std::string& after) {
+    return Eigen::Vector3d(figure(before + "x" + after), figure(before + "y" + after), figure(before + "z" + after));
+  };
+  const Eigen::Vector3d tracker_sigma_m = axes("tracker_sigma_", "_m");
   const std::size_t n = motion.size();
   if (n < 2 || base.path.size() != n || recording.tracker.size() < 2 || !(tracker_sigma_m.minCoeff() > 0.0)) {
     return out;
@@ -71,7 +80,7 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
 
   std::vector<double> t_s(n), normal_mps2(n), along_mps2(n), height_m(n);
   Eigen::Vector3d normal_square = Eigen::Vector3d::Zero(), along_square = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal_marker = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal_marker = Eigen::Vector3d::Zero(), mean_normal = Eigen::Vector3d::Zero();
   std::vector<char> moving(n, 0);
   double samples = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -85,6 +94,7 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
     if (base.contact[i] == 0 || !(base.speed_mps[i] > kStandingStill_mps)) continue;
     moving[i] = 1;
     normal_square += normal.cwiseAbs2();
+    mean_normal += normal;
     along_square += along.cwiseAbs2();
     normal_marker += motion.q_world_marker[i].conjugate() * normal;
     samples += 1.0;
@@ -94,15 +104,46 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
   const Eigen::Vector3d tracker_psd = 2.0 * frame_s * tracker_sigma_m.cwiseAbs2();
   out.tracker_psd_m2ps = normal_square.dot(tracker_psd) / samples;
   out.along_tracker_psd_m2ps = along_square.dot(tracker_psd) / samples;
-  out.accel_psd_m2ps3 = std::min(acceleration_floor_m2ps3(t_s, normal_mps2, moving),
-                                 largest_acceleration_noise_m2ps3(t_s, height_m, moving, out.tracker_psd_m2ps));
-  out.along_accel_psd_m2ps3 = acceleration_floor_m2ps3(t_s, along_mps2, moving);
   const bool round = base.shape != PathShape::kPlane && base.shape != PathShape::kLine;
   const LengthErrors length =
       measure_length_error(motion, base, recording.calibration.tip_in_marker_m, recording.calibration.tip_radius_m,
                            round ? indentation_m(motion, base) : 0.0);
   out.along_scale_sigma = length.scale_sigma;
   out.length_ends_m = length.ends_m;
+  // What the smoother has learnt of the sensor's own noise, at one reading a period.
+  const double period_s = duration_s(motion.t_ns) / static_cast<double>(n - 1);
+  const double own_m2ps3 = 2.0 * std::pow(figure("accel_own_noise_mps2"), 2) * period_s;
+  const auto white_m2ps3 = [&](const std::vector<double>& accel_mps2, const std::vector<double>& position_m,
+                               double tracker_m2ps) {
+    const double seen = std::min(acceleration_floor_m2ps3(t_s, accel_mps2, moving),
+                                 own_m2ps3 + folded_acceleration_m2ps3(t_s, accel_mps2, moving));
+    const double lost = gap_noise_m2ps3(t_s, accel_mps2, moving, replaced_samples(trajectory));
+    const double most = largest_acceleration_noise_m2ps3(t_s, position_m, moving, tracker_m2ps);
+    return std::max(own_m2ps3, std::min(seen + lost, most));
+  };
+  out.accel_psd_m2ps3 = white_m2ps3(normal_mps2, height_m, out.tracker_psd_m2ps);
+  // Along the path the hand's own motion fills the low frequencies: nothing bounds the noise from above.
+  out.along_accel_psd_m2ps3 = white_m2ps3(along_mps2, {}, 0.0);
+  out.accel_corner_Hz = kCorner_Hz;
+  out.accel_walk_psd_m2ps5 = 2.0 * std::pow(figure("accel_bias_walk_mps2_rts"), 2);
+  out.tracker_slow_sigma_m = std::sqrt(normal_square.dot(axes("tracker_slow_sigma_", "_m").cwiseAbs2()) / samples);
+  out.tracker_slow_time_s = figure("tracker_slow_time_s");
+  // Gravity along the surface, turned by a wrong orientation, is an acceleration along the normal.
+  const Eigen::Vector3d across = recording.info.gravity_world_mps2.cross(mean_normal.normalized());
+  out.force_across_mps2 = across.norm();
+  const Eigen::Vector3d sigma_rad = axes("tracker_sigma_r", "_rad");
+  out.rotation_tracker_psd_rad2ps = 2.0 * frame_s * across.normalized().cwiseProduct(sigma_rad).squaredNorm();
+  out.rotation_rate_psd_rad2ps3 = 2.0 * std::pow(figure("gyro_own_noise_radps"), 2) * period_s;
+  out.rotation_accel_psd_rad2ps5 = 2.0 * std::pow(figure("angular_accel_radps2_rtHz"), 2);
+  CalibrationErrors calibration;
+  calibration.accel_matrix = figure("accel_matrix_sigma");
+  calibration.gyro_matrix = figure("gyro_matrix_sigma");
+  calibration.tip_m = motion.sigma_tip_in_marker_m;
+  calibration.tip_from_sensor_m =
+      recording.calibration.tip_in_marker_m - recording.calibration.accelerometer_in_marker_m();
+  out.lever_m = calibration.tip_from_sensor_m.cross(normal_marker.normalized()).norm();
+  add_crosstalk(motion, base.path, moving, recording.info.gravity_world_mps2, calibration, out);
+  out.base_degree = base.shape == PathShape::kCircle || base.shape == PathShape::kCurve ? 2 : 1;
   // A normal that is off by φ makes heights too small by 1 − cos φ.
   const double turned = 0.5 * std::pow(base.normal_sigma_deg * std::numbers::pi / 180.0, 2);
   out.scale_sigma = std::hypot(scale_sigma(recording.calibration.accelerometer, normal_marker.normalized()), turned);

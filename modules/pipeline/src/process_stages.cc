@@ -33,22 +33,50 @@ Outcome<T> attempt_step(const char* kind, const char* what, Step step) {
   return out;
 }
 
+double square(double x) { return x * x; }
+
+// The SNR of a texture from which the noise was removed but for `error_ratio` of it: with the error e² that is left of
+// a surface of power P, the expected texture's correlation with it is √(1 − e²/P).
+double snr_after_removal(const TextureNoise& noise, double more, double error_ratio) {
+  const double surface_m2 = square(noise.typical_texture_rms_m) - more * square(noise.typical_added_rms_m);
+  const double left_m2 =
+      more * (square(error_ratio * noise.typical_added_rms_m) + square(noise.typical_misplaced_rms_m));
+  return left_m2 > 0.0 ? std::max(0.0, surface_m2 / left_m2 - 1.0) : 0.0;
+}
+
 // The heights that are expected, given the noise in them. What is left of that is the noise of the texture then.
 void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise) {
   if (noise.added_psd_m2_mm.empty()) return;
-  const WienerTexture expected = apply_wiener_filter(profile.texture_m, profile.spacing_m,
-                                                     noise.frequency_cycles_per_mm, noise.added_psd_m2_mm, bridge_m);
-  const double misplaced_m2 = noise.noise_rms_m * noise.noise_rms_m - noise.added_rms_m * noise.added_rms_m;
-  const double left =
-      std::sqrt(std::max(0.0, misplaced_m2) + expected.error_rms_m * expected.error_rms_m) / noise.noise_rms_m;
-  if (!std::isfinite(left)) return;
+  constexpr double kSure = 1.96;
+  const auto filter = [&](const std::vector<double>& psd_m2_mm) {
+    return apply_wiener_filter(profile.texture_m, profile.spacing_m, noise.frequency_cycles_per_mm, psd_m2_mm,
+                               bridge_m);
+  };
+  const WienerTexture expected = filter(noise.added_psd_m2_mm);
+  if (!std::isfinite(expected.error_ratio)) return;
+  const double most = 1.0 + kSure * 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
+  std::vector<double> most_psd_m2_mm = noise.added_psd_m2_mm;
+  for (double& density : most_psd_m2_mm) density *= most;
+  noise.snr = snr_after_removal(noise, 1.0, expected.error_ratio);
+  noise.snr_low = snr_after_removal(noise, most, filter(most_psd_m2_mm).error_ratio);
+
+  const double gain_m2 = std::max(0.0, square(noise.noise_rms_m) - square(noise.added_rms_m));
+  const double left = std::sqrt(gain_m2 + square(expected.error_ratio * noise.added_rms_m)) / noise.noise_rms_m;
   noise.noise_rms_m *= left;
   noise.noise_rms_stderr_m *= left;
   for (std::size_t i = 0; i < profile.size(); ++i) {
     if (!std::isfinite(expected.texture_m[i])) continue;
     profile.height_m[i] += expected.texture_m[i] - profile.texture_m[i];
     profile.texture_m[i] = expected.texture_m[i];
-    profile.texture_sigma_m[i] *= left;
+    if (!noise.added_sigma_m.empty()) {
+      // What is gone of the texture's noise is gone of the height's.
+      const double gone_m2 = (1.0 - square(expected.error_ratio)) * square(noise.added_sigma_m[i]);
+      profile.sigma_m[i] = std::sqrt(std::max(square(profile.sigma_m[i]) - gone_m2,
+                                              square(expected.error_ratio) * square(noise.added_sigma_m[i])));
+    }
+    profile.texture_sigma_m[i] = noise.added_sigma_m.empty()
+                                     ? profile.texture_sigma_m[i] * left
+                                     : std::sqrt(square(expected.error_ratio * noise.added_sigma_m[i]) + gain_m2);
   }
 }
 
@@ -159,9 +187,11 @@ Outcome<MeasuredProfile> find_profile(const Recording& recording, const ProcessC
     out.profile = method.make_profile(config, trajectory.motion, base);
     const HeightErrors errors =
         method.height_errors ? method.height_errors(recording, config, trajectory, base) : HeightErrors{};
-    TextureNoiseEstimate noise = estimate_texture_noise(out.profile, errors, method.high_pass_cycles_per_mm(config));
+    TextureNoiseEstimate noise = estimate_texture_noise(out.profile, errors, method.high_pass_cycles_per_mm(config),
+                                                        {config.profile.bridge_m, config.profile.max_stop_s});
     out.noise = std::move(noise.noise);
     out.profile.texture_sigma_m = std::move(noise.texture_sigma_m);
+    if (!noise.height_sigma_m.empty()) out.profile.sigma_m = std::move(noise.height_sigma_m);
     out.measured_texture_m = out.profile.texture_m;
     if (config.profile.remove_noise) remove_noise(config.profile.bridge_m, out.profile, out.noise);
     out.coverage = measure_coverage(out.profile);

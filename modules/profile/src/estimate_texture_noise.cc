@@ -6,13 +6,15 @@
 #include <span>
 
 #include "asperity/base/nan.h"
+#include "asperity/profile/height_error_density.h"
 #include "asperity/profile/measure_spectrum.h"
+#include "draw_height_errors.h"
 
 namespace asperity {
 
 namespace {
 
-constexpr std::size_t kBlock_points = 20;  // over which speed and slope are taken together: 0.5 mm
+constexpr std::size_t kBlock_points = 20;  // over which speeds and errors are taken together: 0.5 mm
 constexpr std::size_t kFrequencies = 128;  // of the spectrum, evenly in the logarithm
 constexpr double kBelowCutoff = 0.2;       // lowest frequency over the high-pass' cut-off: what is below is cut to 1e-5
 constexpr double kLowest_cycles_per_mm = 1e-3;
@@ -20,12 +22,13 @@ constexpr double kFisher = 0.833;              // 3π/(8√2), the integral of (
 constexpr double kPositionBandwidth = 1.1107;  // π/(2√2), the integral of (1 + x⁴)⁻¹
 constexpr double kLeastInformation = 4.0;      // the floor is known to half its value even without a tracker
 constexpr double kSure = 1.96;
+constexpr double kStudent = 2.0;  // an error over a sigma from n draws has the variance n/(n − 2): Student's
+constexpr double kTypical = 0.9;  // of the path: slow ends and rests have another noise, and are a few of its per cent
 
 struct Block {
   std::size_t first = 0, last = 0;  // points
   double points = 0.0;              // of them with a height
   double speed_mmps = 0.0;
-  double slope_square = 0.0;  // mean over the block
 };
 
 double mean_present(std::span<const double> x) {
@@ -48,16 +51,6 @@ double mean_square(std::span<const double> x) {
   return count > 0.0 ? sum / count : kNan;
 }
 
-double mean_slope_square(std::span<const double> x, double spacing) {
-  double sum = 0.0, count = 0.0;
-  for (std::size_t i = 1; i < x.size(); ++i) {
-    if (!std::isfinite(x[i]) || !std::isfinite(x[i - 1])) continue;
-    sum += std::pow((x[i] - x[i - 1]) / spacing, 2);
-    count += 1.0;
-  }
-  return count > 0.0 ? sum / count : 0.0;
-}
-
 // The blocks of the profile that have heights and a speed.
 std::vector<Block> find_blocks(const Profile& profile) {
   std::vector<Block> out;
@@ -68,7 +61,6 @@ std::vector<Block> find_blocks(const Profile& profile) {
     const auto part = [&](std::span<const double> x) { return x.subspan(first, block.last - first); };
     for (const double h : part(profile.texture_m)) block.points += std::isfinite(h) ? 1.0 : 0.0;
     block.speed_mmps = 1e3 * std::abs(mean_present(part(profile.speed_mps)));
-    block.slope_square = mean_slope_square(part(profile.texture_m), profile.spacing_m);
     if (block.points > 0.0 && block.speed_mmps > 0.0) out.push_back(block);
   }
   return out;
@@ -103,22 +95,69 @@ double density_at(const PowerSpectrum& spectrum, double frequency) {
   return (1.0 - share) * spectrum.density[i] + share * spectrum.density[i + 1];
 }
 
-// The variance of the place along the path, mm²: of one point, and of what is not a shift of the whole.
-struct PlaceVariance {
-  double point_mm2 = 0.0;
-  double shape_mm2 = 0.0;
+// The variance of one point's place along the path, m².
+double place_variance_m2(const HeightErrors& errors) {
+  if (!(errors.along_accel_psd_m2ps3 > 0.0) || !(errors.along_tracker_psd_m2ps > 0.0)) return 0.0;
+  return errors.along_tracker_psd_m2ps * kPositionBandwidth *
+         meeting_Hz(errors.along_accel_psd_m2ps3, errors.along_tracker_psd_m2ps);
+}
+
+// Mean squares of drawn errors: over all points that have a texture, in each block, and how much one draw's differs
+// from the mean's, relative.
+struct BlockErrors {
+  double power_m2 = 0.0, spread = 0.0;
+  std::vector<double> block_m2;
 };
 
-PlaceVariance place_variance(const HeightErrors& errors, double duration_s, double length_mm) {
-  PlaceVariance out;
-  if (errors.along_accel_psd_m2ps3 > 0.0 && errors.along_tracker_psd_m2ps > 0.0) {
-    const double bandwidth_Hz =
-        kPositionBandwidth * meeting_Hz(errors.along_accel_psd_m2ps3, errors.along_tracker_psd_m2ps);
-    out.point_mm2 = 1e6 * errors.along_tracker_psd_m2ps * bandwidth_Hz;
-    out.shape_mm2 = 1e6 * errors.along_tracker_psd_m2ps * std::max(0.0, bandwidth_Hz - 0.5 / duration_s);
+BlockErrors over_blocks(const Profile& profile, const std::vector<Block>& blocks,
+                        const std::vector<std::vector<double>>& draws) {
+  BlockErrors out;
+  out.block_m2.assign(blocks.size(), 0.0);
+  const auto count = static_cast<double>(draws.size());
+  double square = 0.0;
+  for (const std::vector<double>& draw : draws) {
+    double sum = 0.0, points = 0.0;
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      double block = 0.0;
+      for (std::size_t i = blocks[b].first; i < blocks[b].last; ++i) {
+        if (std::isfinite(profile.texture_m[i])) block += draw[i] * draw[i];
+      }
+      out.block_m2[b] += block / (blocks[b].points * (count - kStudent));
+      sum += block;
+      points += blocks[b].points;
+    }
+    out.power_m2 += sum / points / count;
+    square += std::pow(sum / points, 2) / count;
   }
-  // A wrong scale moves a point by its distance from the middle.
-  out.shape_mm2 += std::pow(errors.along_scale_sigma * length_mm, 2) / 12.0;
+  if (out.power_m2 > 0.0 && count > 1.0) {
+    out.spread = std::sqrt(std::max(0.0, square / (out.power_m2 * out.power_m2) - 1.0) * count / (count - 1.0));
+  }
+  return out;
+}
+
+// Marks the blocks without the tenth whose noise is largest.
+std::vector<char> without_noisiest(const std::vector<Block>& blocks, const std::vector<double>& noise_m2) {
+  std::vector<double> sorted = noise_m2;
+  std::sort(sorted.begin(), sorted.end());
+  const double most_m2 = sorted[static_cast<std::size_t>(kTypical * static_cast<double>(sorted.size() - 1))];
+  std::vector<char> out(blocks.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b) out[b] = noise_m2[b] <= most_m2 ? 1 : 0;
+  return out;
+}
+
+double mean_over(const std::vector<Block>& blocks, const std::vector<char>& takes, const std::vector<double>& value) {
+  double sum = 0.0, points = 0.0;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (takes[b] == 0) continue;
+    sum += blocks[b].points * value[b];
+    points += blocks[b].points;
+  }
+  return points > 0.0 ? sum / points : 0.0;
+}
+
+std::vector<double> squares_of(const std::vector<double>& x, const std::vector<Block>& blocks) {
+  std::vector<double> out;
+  for (const Block& b : blocks) out.push_back(mean_square(std::span(x).subspan(b.first, b.last - b.first)));
   return out;
 }
 
@@ -133,7 +172,7 @@ double texture_power_gain(double cycles_per_mm, double cutoff_cycles_per_mm) {
 }
 
 TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const HeightErrors& errors,
-                                            double cutoff_cycles_per_mm) {
+                                            double cutoff_cycles_per_mm, const TextureNoiseConfig& config) {
   TextureNoiseEstimate out;
   TextureNoise& noise = out.noise;
   out.texture_sigma_m.assign(profile.size(), kNan);
@@ -142,49 +181,76 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   if (blocks.empty() || !(errors.accel_psd_m2ps3 > 0.0) || !(errors.tracker_psd_m2ps > 0.0)) return out;
 
   const double spacing_mm = 1e3 * profile.spacing_m;
-  double points = 0.0, duration_s = 0.0, slope_square = 0.0;
+  double points = 0.0, duration_s = 0.0;
   for (const Block& b : blocks) {
     points += b.points;
     duration_s += b.points * spacing_mm / b.speed_mmps;
-    slope_square += b.points * b.slope_square;
   }
-  slope_square /= points;
+  const double length_mm = points * spacing_mm;
 
-  // Added noise, in mm.
-  const double accel_psd = 1e6 * errors.accel_psd_m2ps3;
-  const double tracker_psd = 1e6 * errors.tracker_psd_m2ps;
+  // The spectrum's shape, as if each stretch were long, in mm.
   const double lowest = std::max(kLowest_cycles_per_mm, kBelowCutoff * cutoff_cycles_per_mm);
   const std::vector<double> k = frequencies(lowest, 0.5 / spacing_mm);
-  std::vector<double> gain(k.size()), added(k.size(), 0.0), here(k.size()), block_power(blocks.size());
-  for (std::size_t i = 0; i < k.size(); ++i) gain[i] = texture_power_gain(k[i], cutoff_cycles_per_mm);
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const double speed = blocks[b].speed_mmps;
-    for (std::size_t i = 0; i < k.size(); ++i) {
-      const double omega = 2.0 * std::numbers::pi * k[i] * speed;
-      here[i] = gain[i] * speed * accel_psd * tracker_psd / (accel_psd + tracker_psd * omega * omega * omega * omega);
-      added[i] += blocks[b].points / points * here[i];
+  std::vector<double> added(k.size(), 0.0);
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    const double gain = texture_power_gain(k[i], cutoff_cycles_per_mm);
+    for (const Block& b : blocks) {
+      added[i] +=
+          b.points / points * gain * b.speed_mmps * 1e6 * height_error_density_m2ps(errors, k[i] * b.speed_mmps);
     }
-    block_power[b] = integrate(k, [&](std::size_t i) { return here[i]; });
   }
-  const double added_power = integrate(k, [&](std::size_t i) { return added[i]; });
 
-  // Misplaced heights.
-  const double length_mm = points * spacing_mm;
-  const PlaceVariance place = place_variance(errors, duration_s, length_mm);
+  // The powers, from draws: they know of rests, slow ends and gaps.
+  std::vector<double> surface_m(profile.size());
+  const double even_power = integrate(k, [&](std::size_t i) { return added[i]; });
+  const double measured_power = 1e6 * noise.texture_rms_m * noise.texture_rms_m;
+  const double clean = std::sqrt(std::clamp(1.0 - even_power / measured_power, 0.0, 1.0));
+  for (std::size_t i = 0; i < surface_m.size(); ++i) {
+    surface_m[i] = std::isfinite(profile.texture_m[i]) ? clean * profile.texture_m[i] : 0.0;
+  }
+  const DrawnErrors drawn = draw_height_errors(profile, errors, cutoff_cycles_per_mm, config, surface_m);
+  if (drawn.added_m.empty()) return out;
+  BlockErrors added_errors = over_blocks(profile, blocks, drawn.added_m);
+  const BlockErrors misplaced_errors = over_blocks(profile, blocks, drawn.misplaced_m);
+  const BlockErrors height_errors = over_blocks(profile, blocks, drawn.height_m);
+  if (!(added_errors.power_m2 > 0.0) || !(even_power > 0.0)) return out;
+  const std::vector<char> typical = without_noisiest(blocks, added_errors.block_m2);
+  // What was measured is surface and noise: the noise is no larger.
+  const double measured_m2 = mean_over(blocks, typical, squares_of(profile.texture_m, blocks));
+  const double most_share = std::min(1.0, measured_m2 / mean_over(blocks, typical, added_errors.block_m2));
+  added_errors.power_m2 *= most_share;
+  for (double& block_m2 : added_errors.block_m2) block_m2 *= most_share;
+  const double added_power = 1e6 * added_errors.power_m2;
+  const double typical_added = 1e6 * mean_over(blocks, typical, added_errors.block_m2);
+  const double typical_misplaced = 1e6 * mean_over(blocks, typical, misplaced_errors.block_m2);
+  const double typical_measured = 1e6 * measured_m2;
+  for (double& density : added) density *= typical_added / even_power;
+
   const PowerSpectrum measured = measure_spectrum(profile.texture_m, profile.spacing_m);
+  const double shape_mm2 = 1e6 * drawn.shape_variance_m2;
   std::vector<double> misplaced(k.size());
   for (std::size_t i = 0; i < k.size(); ++i) {
     const double surface = std::max(0.0, 1e6 * density_at(measured, k[i]) - added[i]);
-    const double phase_variance = std::pow(2.0 * std::numbers::pi * k[i], 2) * place.shape_mm2;
+    const double phase_variance = std::pow(2.0 * std::numbers::pi * k[i], 2) * shape_mm2;
     misplaced[i] = 2.0 * (1.0 - std::exp(-0.5 * phase_variance)) * surface;
   }
-  const double misplaced_power = integrate(k, [&](std::size_t i) { return misplaced[i]; });
+  const double even_misplaced = integrate(k, [&](std::size_t i) { return misplaced[i]; });
+  for (double& density : misplaced) density *= even_misplaced > 0.0 ? typical_misplaced / even_misplaced : 0.0;
 
+  out.height_sigma_m.assign(profile.size(), kNan);
+  noise.added_sigma_m.assign(profile.size(), 0.0);
+  noise.misplaced_sigma_m.assign(profile.size(), 0.0);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
-    const double share = slope_square > 0.0 ? blocks[b].slope_square / slope_square : 0.0;
-    const double sigma_m = 1e-3 * std::sqrt(block_power[b] + share * misplaced_power);
+    const double added_m2 = added_errors.block_m2[b], misplaced_m2 = misplaced_errors.block_m2[b];
+    const double gain_m2 = std::pow(errors.scale_sigma * noise.texture_rms_m, 2);
     for (std::size_t i = blocks[b].first; i < blocks[b].last; ++i) {
-      if (std::isfinite(profile.texture_m[i])) out.texture_sigma_m[i] = sigma_m;
+      if (std::isfinite(profile.height_m[i])) {
+        out.height_sigma_m[i] = std::sqrt(height_errors.block_m2[b] + gain_m2);
+      }
+      if (!std::isfinite(profile.texture_m[i])) continue;
+      out.texture_sigma_m[i] = std::sqrt(added_m2 + gain_m2);
+      noise.added_sigma_m[i] = std::sqrt(added_m2);
+      noise.misplaced_sigma_m[i] = std::sqrt(misplaced_m2);
     }
   }
 
@@ -195,25 +261,27 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
     noise.added_psd_m2_mm[i] = 1e-6 * added[i];
     noise.misplaced_psd_m2_mm[i] = 1e-6 * misplaced[i];
   }
-  const double square = integrate(k, [&](std::size_t i) { return added[i] * added[i]; });
-  const double by_chance = square / (length_mm * added_power * added_power);
-  const double information = kFisher * duration_s * meeting_Hz(accel_psd, tracker_psd);
-  const double relative = std::sqrt(by_chance + 1.0 / std::max(information, kLeastInformation));
-  const double measured_power = 1e6 * noise.texture_rms_m * noise.texture_rms_m;
-  const double noise_power = added_power + misplaced_power;
-  noise.place_sigma_m = 1e-3 * std::sqrt(place.shape_mm2);
-  const double ends_mm2 =
-      errors.length_ends_m > 0.0 ? 1e6 * errors.length_ends_m * errors.length_ends_m : 2.0 * place.point_mm2;
-  noise.length_stderr_m = 1e-3 * std::sqrt(ends_mm2 + std::pow(errors.along_scale_sigma * length_mm, 2));
+  const double information = kFisher * duration_s * meeting_Hz(errors.accel_psd_m2ps3, errors.tracker_psd_m2ps);
+  const double relative = std::hypot(added_errors.spread, 1.0 / std::sqrt(std::max(information, kLeastInformation)));
+  const double noise_power = added_power + measured_power * errors.scale_sigma * errors.scale_sigma;
+  noise.place_sigma_m = std::sqrt(drawn.shape_variance_m2);
+  const double ends_m2 =
+      errors.length_ends_m > 0.0 ? errors.length_ends_m * errors.length_ends_m : 2.0 * place_variance_m2(errors);
+  noise.length_stderr_m = std::sqrt(ends_m2 + std::pow(1e-3 * errors.along_scale_sigma * length_mm, 2));
   noise.scale_sigma = errors.scale_sigma;
   noise.along_sigma = noise.length_stderr_m / (1e-3 * length_mm);
   noise.added_rms_m = 1e-3 * std::sqrt(added_power);
   noise.added_rms_stderr_m = 0.5 * relative * noise.added_rms_m;
   noise.noise_rms_m = 1e-3 * std::sqrt(noise_power);
   noise.noise_rms_stderr_m = 0.5 * relative * noise.noise_rms_m;
-  noise.snr = std::max(0.0, measured_power - added_power) / noise_power;
+  noise.typical_texture_rms_m = 1e-3 * std::sqrt(typical_measured);
+  noise.typical_added_rms_m = 1e-3 * std::sqrt(typical_added);
+  noise.typical_misplaced_rms_m = 1e-3 * std::sqrt(typical_misplaced);
+  const double typical_noise = typical_added + typical_misplaced;
+  noise.snr = std::max(0.0, typical_measured - typical_added) / typical_noise;
   const double most = 1.0 + kSure * relative;
-  noise.snr_low = std::max(0.0, measured_power - most * added_power) / (most * noise_power);
+  noise.snr_low = std::max(0.0, typical_measured - most * typical_added) / (most * typical_noise);
+  noise.measured_snr_low = noise.snr_low;
   noise.at_most_m =
       1e-3 * std::sqrt(std::max(0.0, measured_power - added_power * std::max(0.0, 1.0 - kSure * relative)));
   return out;
@@ -239,7 +307,10 @@ TextureNoise noise_of_sigma(std::span<const double> texture_m, std::span<const d
   const double most_m2 = power_m2 * (1.0 + kSure * kRelative);
   noise.texture_rms_m = std::sqrt(texture_m2);
   noise.snr = std::max(0.0, texture_m2 - power_m2) / power_m2;
-  noise.snr_low = std::max(0.0, texture_m2 - most_m2) / most_m2;
+  noise.snr_low = noise.measured_snr_low = std::max(0.0, texture_m2 - most_m2) / most_m2;
+  noise.typical_texture_rms_m = noise.texture_rms_m;
+  noise.typical_added_rms_m = noise.added_rms_m;
+  noise.typical_misplaced_rms_m = 0.0;
   noise.at_most_m = std::sqrt(std::max(0.0, texture_m2 - power_m2 * (1.0 - kSure * kRelative)));
   return noise;
 }

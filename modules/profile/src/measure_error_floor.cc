@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -22,7 +23,8 @@ constexpr double kFloorWidth = 1.2599;  // a third of an octave
 constexpr double kPositionSegment_s = 1.3;
 constexpr double kLowestPosition_Hz = 1.6, kHighestPosition_Hz = 50.0;
 constexpr double kPause_s = 0.05;
-constexpr double kLost = 2.2;  // of the period: a longer step has lost samples, however its stamps jitter
+constexpr double kLostStep = 1.5;  // of the period, of a smoothed clock
+constexpr double kLost = 2.2;      // of the period: a longer step has lost samples, however its stamps jitter
 
 struct Run {
   std::size_t first = 0, last = 0;
@@ -100,32 +102,90 @@ std::vector<Octave> octaves(const PowerSpectrum& spectrum, double lowest_Hz, dou
   return out;
 }
 
+// Welch's spectrum of the acceleration up to half the sampling rate; none without a run that is long enough.
+PowerSpectrum acceleration_spectrum(std::span<const double> t_s, std::span<const double> accel_mps2,
+                                    std::span<const char> usable) {
+  if (t_s.size() < kFewest_samples) return {};
+  const double period_s = usual_period_s(t_s);
+  if (!(period_s > 0.0)) return {};
+  const std::vector<Run> runs = find_runs(t_s, accel_mps2, usable, kLost * period_s);
+  const auto segment = std::max(kFewest_samples, static_cast<std::size_t>(std::lround(kFloorSegment_s / period_s)));
+  PowerSpectrum spectrum = mean_spectrum(accel_mps2, runs, 1.0 / period_s, segment);
+  // Stamps of batches tell of no single sample whether it was lost: the few that were raise the floor a little.
+  if (spectrum.segments == 0) {
+    spectrum = mean_spectrum(accel_mps2, find_runs(t_s, accel_mps2, usable, kPause_s), 1.0 / period_s, segment);
+  }
+  return spectrum;
+}
+
+// The mean square of the velocity's error, (m/s)², that a straight line over so many lost samples would leave.
+double square_of_gap(std::span<const double> accel_mps2, const std::vector<Run>& runs, std::size_t lost,
+                     double period_s) {
+  double sum = 0.0, count = 0.0;
+  for (const Run& run : runs) {
+    if (run.last - run.first < lost + 2) continue;
+    double between = 0.0;
+    for (std::size_t j = 1; j <= lost; ++j) between += accel_mps2[run.first + j];
+    for (std::size_t i = run.first; i + lost + 1 < run.last; ++i) {
+      const double line = 0.5 * static_cast<double>(lost) * (accel_mps2[i] + accel_mps2[i + lost + 1]);
+      sum += std::pow(period_s * (between - line), 2);
+      count += 1.0;
+      between += accel_mps2[i + lost + 1] - accel_mps2[i + 1];
+    }
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
 }  // namespace
 
 double acceleration_floor_m2ps3(std::span<const double> t_s, std::span<const double> accel_mps2,
                                 std::span<const char> usable) {
-  if (t_s.size() < kFewest_samples) return 0.0;
-  const double period_s = usual_period_s(t_s);
-  if (!(period_s > 0.0)) return 0.0;
-  const std::vector<Run> runs = find_runs(t_s, accel_mps2, usable, kLost * period_s);
-  const auto segment = std::max(kFewest_samples, static_cast<std::size_t>(std::lround(kFloorSegment_s / period_s)));
-  PowerSpectrum spectrum = mean_spectrum(accel_mps2, runs, 1.0 / period_s, segment);
-  if (spectrum.segments == 0) {
-    // Stamps of batches tell of no single sample whether it was lost: the few that were raise the floor a little.
-    spectrum = mean_spectrum(accel_mps2, find_runs(t_s, accel_mps2, usable, kPause_s), 1.0 / period_s, segment);
-  }
+  const PowerSpectrum spectrum = acceleration_spectrum(t_s, accel_mps2, usable);
   if (spectrum.segments == 0) return 0.0;
   double lowest = std::numeric_limits<double>::infinity();
-  for (const Octave& octave : octaves(spectrum, kLowestFloor_Hz, 0.5 / period_s, kFloorWidth)) {
+  for (const Octave& octave : octaves(spectrum, kLowestFloor_Hz, spectrum.frequency.back(), kFloorWidth)) {
     lowest = std::min(lowest, octave.density);
   }
   return std::isfinite(lowest) ? lowest : 0.0;
 }
 
+double folded_acceleration_m2ps3(std::span<const double> t_s, std::span<const double> accel_mps2,
+                                 std::span<const char> usable) {
+  const PowerSpectrum spectrum = acceleration_spectrum(t_s, accel_mps2, usable);
+  if (spectrum.segments == 0) return 0.0;
+  const double highest_Hz = spectrum.frequency.back();
+  const std::vector<Octave> top = octaves(spectrum, highest_Hz / (2.0 * kFloorWidth), highest_Hz, kFloorWidth);
+  if (top.size() < 4 || !(top[3].density > 0.0)) return top.empty() ? 0.0 : top.front().density;
+  return top[0].density * std::min(1.0, top[0].density / top[3].density);
+}
+
+double gap_noise_m2ps3(std::span<const double> t_s, std::span<const double> accel_mps2, std::span<const char> usable,
+                       std::size_t replaced) {
+  if (t_s.size() < kFewest_samples) return 0.0;
+  const double period_s = usual_period_s(t_s);
+  if (!(period_s > 0.0)) return 0.0;
+  const auto is_usable = [&](std::size_t i) { return usable.empty() || usable[i] != 0; };
+  std::map<std::size_t, double> gaps;  // by the number of lost samples
+  double seen_s = 0.0;
+  for (std::size_t i = 1; i < t_s.size(); ++i) {
+    const double step_s = t_s[i] - t_s[i - 1];
+    if (!is_usable(i) || !is_usable(i - 1) || step_s > kPause_s) continue;
+    seen_s += step_s;
+    const auto lost = static_cast<std::size_t>(std::max(0L, std::lround(step_s / period_s) - 1));
+    if (lost > 0) gaps[lost] += 1.0;
+  }
+  if (!(seen_s > 0.0)) return 0.0;
+  if (replaced > 0) gaps[1] += static_cast<double>(replaced) * seen_s / (t_s.back() - t_s.front());
+  const std::vector<Run> runs = find_runs(t_s, accel_mps2, usable, kLostStep * period_s);
+  double sum = 0.0;
+  for (const auto& [lost, count] : gaps) sum += count * square_of_gap(accel_mps2, runs, lost, period_s);
+  return 2.0 * sum / seen_s;
+}
+
 double largest_acceleration_noise_m2ps3(std::span<const double> t_s, std::span<const double> position_m,
                                         std::span<const char> usable, double tracker_psd_m2ps) {
   double largest = std::numeric_limits<double>::infinity();
-  if (t_s.size() < kFewest_samples || !(tracker_psd_m2ps > 0.0)) return largest;
+  if (t_s.size() < kFewest_samples || position_m.empty() || !(tracker_psd_m2ps > 0.0)) return largest;
   const double period_s = usual_period_s(t_s);
   if (!(period_s > 0.0)) return largest;
   // A short gap does no harm to a position at these frequencies: it moves little in it.

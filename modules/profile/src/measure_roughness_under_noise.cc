@@ -37,6 +37,21 @@ class Spread {
   double count_ = 0.0, mean_ = 0.0, square_ = 0.0;
 };
 
+// Noise of the spectrum, as large at each point as it is there (empty: the same everywhere).
+std::vector<double> draw_shaped(const TextureNoise& noise, const std::vector<double>& psd_m2_mm,
+                                const std::vector<double>& sigma_m, std::size_t count, double spacing_m,
+                                Random& random) {
+  std::vector<double> out = draw_noise(noise.frequency_cycles_per_mm, psd_m2_mm, count, 1e3 * spacing_m, random);
+  double power_m2 = 0.0;
+  for (std::size_t i = 1; i < psd_m2_mm.size(); ++i) {
+    power_m2 += 0.5 * (psd_m2_mm[i] + psd_m2_mm[i - 1]) *
+                (noise.frequency_cycles_per_mm[i] - noise.frequency_cycles_per_mm[i - 1]);
+  }
+  if (sigma_m.size() != count || !(power_m2 > 0.0)) return out;
+  for (std::size_t i = 0; i < count; ++i) out[i] *= sigma_m[i] / std::sqrt(power_m2);
+  return out;
+}
+
 double signed_square(double x) { return x * std::abs(x); }
 double signed_root(double x) { return std::copysign(std::sqrt(std::abs(x)), x); }
 
@@ -61,7 +76,7 @@ Followed follow_noise(std::span<const double> height_m, double spacing_m, const 
   std::vector<double> heavier(height_m.size());
   for (std::size_t j = 0; j < draws; ++j) {
     const std::vector<double> more =
-        draw_noise(noise.frequency_cycles_per_mm, noise.added_psd_m2_mm, height_m.size(), 1e3 * spacing_m, random);
+        draw_shaped(noise, noise.added_psd_m2_mm, noise.added_sigma_m, height_m.size(), spacing_m, random);
     for (const double power : {1.0, 2.0}) {
       for (std::size_t i = 0; i < heavier.size(); ++i) heavier[i] = height_m[i] + std::sqrt(power) * more[i];
       const RoughnessResult r = measure_roughness(heavier, spacing_m, config);
@@ -91,7 +106,7 @@ std::array<double, kParameters> doubt_by_place(std::span<const double> height_m,
   std::vector<double> heavier(height_m.size());
   for (std::size_t j = 0; j < kPlaceDraws; ++j) {
     const std::vector<double> more =
-        draw_noise(noise.frequency_cycles_per_mm, noise.misplaced_psd_m2_mm, height_m.size(), 1e3 * spacing_m, random);
+        draw_shaped(noise, noise.misplaced_psd_m2_mm, noise.misplaced_sigma_m, height_m.size(), spacing_m, random);
     for (std::size_t i = 0; i < heavier.size(); ++i) heavier[i] = height_m[i] + more[i];
     const RoughnessResult r = measure_roughness(heavier, spacing_m, config);
     for (std::size_t p = 0; p < kParameters; ++p) spread[p].add(r.*kRoughnessParameters[p].value);
@@ -113,7 +128,7 @@ RoughnessResult measure_roughness_under_noise(std::span<const double> height_m, 
                                               const TextureNoise& noise, const RoughnessConfig& config) {
   RoughnessResult out = measure_roughness(height_m, spacing_m, config);
   if (!(noise.added_rms_m > 0.0)) return out;
-  if (noise.snr_low < kLeastSnr) {
+  if (noise.measured_snr_low < kLeastSnr) {
     static_cast<RoughnessParameters&>(out) = RoughnessParameters::unknown();
     return out;
   }

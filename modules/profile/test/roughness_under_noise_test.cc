@@ -26,7 +26,7 @@ TextureNoise band_noise(double rms_m) {
   noise.misplaced_psd_m2_mm = {0.0, 0.0};
   noise.added_rms_m = noise.noise_rms_m = rms_m;
   noise.added_rms_stderr_m = 0.05 * rms_m;
-  noise.snr = noise.snr_low = 10.0;
+  noise.snr = noise.snr_low = noise.measured_snr_low = 10.0;
   return noise;
 }
 
@@ -86,7 +86,7 @@ TEST(RoughnessUnderNoise, IsNotDeterminedWhereNothingStandsOut) {
   TextureNoise noise = band_noise(40e-6);
   EXPECT_TRUE(std::isnan(measure_roughness_under_noise(clean, kSpacing_m, noise).Rq_m));
   noise = band_noise(10e-6);
-  noise.snr_low = 0.3;
+  noise.measured_snr_low = 0.3;
   const RoughnessResult r = measure_roughness_under_noise(clean, kSpacing_m, noise);
   EXPECT_TRUE(std::isnan(r.Ra_m));
   EXPECT_TRUE(std::isnan(r.standard_error.Ra_m));

@@ -73,12 +73,20 @@ void append_learnt(const InertialStream& inertial, const Problem& problem, const
     metrics["angular_accel_radps2_rtHz"] = std::sqrt(rate_walk_density(problem));
   }
   metrics["accel_bias_mps2"] = smoothed.last.ba.norm();
-  if (layout.accel_matrix >= 0) metrics["accel_matrix_error"] = smoothed.last.accel_matrix.norm();
-  if (layout.gyro_matrix >= 0) metrics["gyro_matrix_error"] = smoothed.last.gyro_matrix.norm();
+  const auto mean_sigma = [&](int at) { return smoothed.last_sigma.segment<9>(at).norm() / 3.0; };
+  if (layout.accel_matrix >= 0) {
+    metrics["accel_matrix_error"] = smoothed.last.accel_matrix.norm();
+    metrics["accel_matrix_sigma"] = mean_sigma(layout.accel_matrix);
+  }
+  if (layout.gyro_matrix >= 0) {
+    metrics["gyro_matrix_error"] = smoothed.last.gyro_matrix.norm();
+    metrics["gyro_matrix_sigma"] = mean_sigma(layout.gyro_matrix);
+  }
   if (layout.gravity >= 0) metrics["gravity_error_mps2"] = smoothed.last.gravity.norm();
   metrics["tracker_time_sigma_s"] = root(kPoseTime) * problem.time_sigma;
   if (layout.slow >= 0) {
     metrics["tracker_slow_sigma_m"] = root(kSlow) * problem.slow_sigma.head<3>().norm() / std::sqrt(3.0);
+    metrics["tracker_slow_time_s"] = problem.slow_time_s;
     metrics["tracker_slow_sigma_rad"] = root(kSlowTurn) * problem.slow_sigma.tail<3>().norm() / std::sqrt(3.0);
   }
   constexpr std::array<Component, 3> kPosition{kPositionX, kPositionY, kPositionZ};
@@ -90,6 +98,9 @@ void append_learnt(const InertialStream& inertial, const Problem& problem, const
     noise_ratio = std::max(noise_ratio, root(kPosition[axis]));
     metrics[std::string("tracker_sigma_") + kAxes[axis] + "_m"] = root(kPosition[axis]) * stated_m[i];
     metrics[std::string("tracker_sigma_r") + kAxes[axis] + "_rad"] = root(kRotation[axis]) * stated_rad[i];
+    if (layout.slow >= 0) {
+      metrics[std::string("tracker_slow_sigma_") + kAxes[axis] + "_m"] = root(kSlow) * problem.slow_sigma[i];
+    }
     if (layout.lever < 0) continue;
     metrics[std::string("accelerometer_position_") + kAxes[axis] + "_m"] = smoothed.last.lever[i];
     metrics[std::string("accelerometer_position_") + kAxes[axis] + "_sigma_m"] = smoothed.last_sigma[layout.lever + i];

@@ -12,6 +12,19 @@ namespace asperity {
 double acceleration_floor_m2ps3(std::span<const double> t_s, std::span<const double> accel_mps2,
                                 std::span<const char> usable);
 
+// The density that folds about the sampling rate to low frequencies, (m/s²)²/Hz, one-sided: what is beyond half the
+// sampling rate is not seen, but the spectrum's fall over the highest octave, continued for another, says how large it
+// still is at the sampling rate itself. Where it does not fall it is that at half the rate. 0 as above.
+double folded_acceleration_m2ps3(std::span<const double> t_s, std::span<const double> accel_mps2,
+                                 std::span<const char> usable);
+
+// The noise of lost samples, (m/s²)²/Hz, one-sided: over a gap the acceleration is a straight line, and the velocity's
+// error is that of the line's integral. Gaps of the same lengths in stretches without one show how large it is; errors
+// of velocity that come at random are white noise of acceleration, 2 Σ Δv²/T. `replaced` samples in all of `t_s`, whose
+// value became their neighbours' mean, count as gaps of one.
+double gap_noise_m2ps3(std::span<const double> t_s, std::span<const double> accel_mps2, std::span<const char> usable,
+                       std::size_t replaced);
+
 // The largest white noise of acceleration, (m/s²)²/Hz, that a position smoothed from it and from a tracker's noise of
 // density `tracker_psd_m2ps` can have had: its error A R/(A + R (2πf)⁴) cannot exceed the density that the position has
 // itself, in any octave from 1.6 to 50 Hz. `position_m` may be a height or what is travelled less its line. Infinite

@@ -16,6 +16,22 @@ struct HeightErrors {
   double scale_sigma = 0.0;        // relative, of all heights
   double along_scale_sigma = 0.0;  // relative, of the arc length
   double length_ends_m = 0.0;      // of the arc length, by the places of its ends (measure_length_error.h)
+  // What is not white (height_error_density.h).
+  double accel_corner_Hz = 0.0;       // below it the acceleration's noise grows as 1/f
+  double accel_walk_psd_m2ps5 = 0.0;  // of its offset's random walk: density of the offset's rate
+  double tracker_slow_sigma_m = 0.0;  // of the tracker's slow error along the normal, first order
+  double tracker_slow_time_s = 0.0;
+  // Of the orientation, rad²/Hz: the tracker's, the gyroscope's (rad/s)²/Hz, or without one that of the angular
+  // acceleration; with the specific force across the normal and the lever from sensor to tip, which it turns.
+  double rotation_tracker_psd_rad2ps = 0.0;
+  double rotation_rate_psd_rad2ps3 = 0.0;
+  double rotation_accel_psd_rad2ps5 = 0.0;
+  double force_across_mps2 = 0.0;
+  double lever_m = 0.0;
+  // What a base that is fitted to the same path takes of the error: a polynomial of this degree (a circle's radius: 2).
+  int base_degree = 1;
+  std::vector<double> crosstalk_Hz;  // of the density of what calibration errors carry from the motion into the height
+  std::vector<double> crosstalk_m2ps;
 };
 
 // What of a profile's texture is expected to be error and not surface (docs/texture-noise.md). Nothing is determined
@@ -26,6 +42,9 @@ struct TextureNoise {
   // the heights, and of heights at a wrong place along the path.
   std::vector<double> added_psd_m2_mm;
   std::vector<double> misplaced_psd_m2_mm;
+  // The same two point by point, standard deviations; empty: the same everywhere.
+  std::vector<double> added_sigma_m;
+  std::vector<double> misplaced_sigma_m;
   // Of texture_m as it is given, over the points that have a height: of both, or what the removal of noise has left of
   // it (apply_wiener_filter.h).
   double noise_rms_m = kNan;
@@ -37,11 +56,17 @@ struct TextureNoise {
   double length_stderr_m = kNan;  // of the profile's length, from first to last height
   double scale_sigma = 0.0;       // relative error of all heights: calibration, the normal's direction
   double along_sigma = 0.0;       // relative error of lengths along the path
-  // Power of the surface over power of the noise, none removed: texture_rms² − added_rms² over the integral of both
-  // densities; 0 where negative. A correlation of the measured texture with the true one of about √(snr/(1 + snr)) goes
-  // with it.
+  // Without the tenth of the path where the noise is largest, as at slow ends and rests; the two densities have these
+  // powers: of the measured texture, of added noise, of misplaced heights.
+  double typical_texture_rms_m = kNan;
+  double typical_added_rms_m = kNan;
+  double typical_misplaced_rms_m = kNan;
+  // Power of the surface over power of the noise, of those: typical_texture² − typical_added² over the noise's; 0 where
+  // negative. A correlation of the texture with the true one of about √(snr/(1 + snr)) goes with it, also where noise
+  // was removed.
   double snr = kNan;
-  double snr_low = kNan;  // with the largest noise that is possible, 97.5 %
+  double snr_low = kNan;           // with the largest noise that is possible, 97.5 %
+  double measured_snr_low = kNan;  // the same, none removed
   // The RMS that the surface's texture has at most, with 97.5 % of the noises that are possible.
   double at_most_m = kNan;
 };

@@ -1,0 +1,44 @@
+#include "asperity/profile/height_error_density.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace asperity {
+
+namespace {
+
+double crosstalk_at(const HeightErrors& errors, double frequency_Hz) {
+  const auto& at = errors.crosstalk_Hz;
+  const auto next = std::upper_bound(at.begin(), at.end(), frequency_Hz);
+  if (next == at.begin() || next == at.end()) return 0.0;
+  const auto i = static_cast<std::size_t>(next - at.begin());
+  const double share = (frequency_Hz - at[i - 1]) / (at[i] - at[i - 1]);
+  return errors.crosstalk_m2ps[i - 1] + share * (errors.crosstalk_m2ps[i] - errors.crosstalk_m2ps[i - 1]);
+}
+
+double rotation_density(const HeightErrors& errors, double omega) {
+  const double tracker = errors.rotation_tracker_psd_rad2ps;
+  const double rate = errors.rotation_rate_psd_rad2ps3, accel = errors.rotation_accel_psd_rad2ps5;
+  if (!(tracker > 0.0)) return 0.0;
+  if (rate > 0.0) return rate * tracker / (rate + tracker * omega * omega);
+  return accel > 0.0 ? accel * tracker / (accel + tracker * std::pow(omega, 4)) : 0.0;
+}
+
+}  // namespace
+
+double height_error_density_m2ps(const HeightErrors& errors, double frequency_Hz) {
+  if (!(errors.accel_psd_m2ps3 > 0.0) || !(errors.tracker_psd_m2ps > 0.0)) return 0.0;
+  const double omega = 2.0 * std::numbers::pi * frequency_Hz;
+  const double rotation = rotation_density(errors, omega);
+  const double accel = errors.accel_psd_m2ps3 * (1.0 + errors.accel_corner_Hz / frequency_Hz) +
+                       errors.accel_walk_psd_m2ps5 / (omega * omega) + std::pow(errors.force_across_mps2, 2) * rotation;
+  const double tracker = errors.tracker_psd_m2ps;
+  const double share = accel / (accel + tracker * std::pow(omega, 4));
+  const double slow = 4.0 * std::pow(errors.tracker_slow_sigma_m, 2) * errors.tracker_slow_time_s /
+                      (1.0 + std::pow(omega * errors.tracker_slow_time_s, 2));
+  return share * tracker + share * share * slow + (1.0 - share) * (1.0 - share) * crosstalk_at(errors, frequency_Hz) +
+         std::pow(errors.lever_m, 2) * rotation;
+}
+
+}  // namespace asperity
