@@ -108,7 +108,6 @@ std::vector<WrongInput> wrong_inputs(const std::string& surface, const std::stri
                      return r;
                    }});
   };
-  add("none", "nothing", [](Recording&) {});
   add("clock", "tracker 0.1 s late", tracker_late(0.1));
   add("clock", "tracker 0.1 s early", tracker_late(-0.1));
   add("clock", "tracker 20 ms late", tracker_late(0.02));
@@ -258,18 +257,6 @@ std::vector<WrongInput> wrong_inputs(const std::string& surface, const std::stri
     while (samples < r.probe.size() && r.probe.t_ns[samples] < end) ++samples;
     while (kept < r.tracker.size() && r.tracker.t_ns[kept] < end) ++kept;
     keep_rows(r, samples, kept);
-  });
-  add("file", "noise in all columns", [](Recording& r) {
-    std::mt19937_64 random(5);
-    std::normal_distribution<double> n;
-    std::uniform_real_distribution<double> u(r.info.adc_min, r.info.adc_max);
-    for (V& c : r.probe.accel_counts) c = V(u(random), u(random), u(random)).array().round().matrix();
-    for (double& c : r.probe.force_counts) c = std::round(u(random));
-    for (V& c : r.probe.gyro_counts) c = V(u(random), u(random), u(random)).array().round().matrix();
-    for (Pose& T : r.tracker.T_world_marker) {
-      T.translation_m = 0.3 * V(n(random), n(random), n(random));
-      T.rotation = Eigen::Quaterniond(n(random), n(random), n(random), n(random)).normalized();
-    }
   });
   add("file", "all values constant", [](Recording& r) {
     for (V& c : r.probe.accel_counts) c = r.probe.accel_counts.front();
