@@ -113,7 +113,9 @@ void judge_calibration(const ScanEvidence& e, Verdicts& out) {
                                    "standard deviations",
                                    1e3 * e.latency_beyond_prior_s, 1e3 * e.latency_beyond_prior_sigma_s, late_sigmas)));
   }
-  judge_agreement(e, out);
+  // A clipped accelerometer shows another motion than the tracker: not named twice.
+  const bool clipped = std::any_of(out.begin(), out.end(), [](const Verdict& v) { return v.code == "clipped"; });
+  if (!clipped) judge_agreement(e, out);
 }
 
 void judge_streams(const ScanEvidence& e, Verdicts& out) {
