@@ -150,6 +150,33 @@ std::string direction_text(const Eigen::Vector3d& v) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", v.x(), v.y(), v.z());
 }
 
+// The direction in which the motion leaves the accelerometer's position open, in words; empty if there is none. Turning
+// by a small φ moves a point ρ by φ × ρ: the information of the turns on ρ is Σ (|φ|² 1 − φφᵀ), singular for one axis.
+std::string open_direction(const PoseSeries& poses) {
+  constexpr double kOpen_share = 0.1;  // turned across the axis, of what it was turned about it
+  const std::size_t count = poses.T_world_marker.size();
+  if (count < 2) return {};
+  const Eigen::Quaterniond& first = poses.T_world_marker[count / 2].rotation;
+  std::vector<Eigen::Vector3d> turns;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Pose& T_world_marker : poses.T_world_marker) {
+    turns.push_back(log_rotation(first.conjugate() * T_world_marker.rotation));
+    mean += turns.back() / static_cast<double>(count);
+  }
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& turn : turns)
+    squares += (turn - mean) * (turn - mean).transpose() / static_cast<double>(count);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(squares);
+  const Eigen::Vector3d rms_rad = eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  if (!(rms_rad[1] < kOpen_share * rms_rad[2])) return {};
+  const double degree = 180.0 / std::numbers::pi;
+  return fmt::format(
+      "the motion leaves the accelerometer's position along {} of the marker open: the probe was rotated about that "
+      "axis "
+      "almost alone, by {:.1f}° RMS, and by {:.1f}° across it: ",
+      direction_text(eigen.eigenvectors().col(2)), degree * rms_rad[2], degree * rms_rad[1]);
+}
+
 }  // namespace
 
 ImuCalibration calibrate_imu(const Recording& recording, const ImuConfig& config) {
@@ -195,7 +222,9 @@ ImuCalibration calibrate_imu(const Recording& recording, const ImuConfig& config
     dropped += more;
     converged = fit.poses().t_s.size() > static_cast<std::size_t>(config.least_poses) / 2 && fit.run();
   }
-  if (!converged) throw Error(fmt::format("calibrate imu: the fit did not converge: {}", kImuAdvice));
+  if (!converged) {
+    throw Error(fmt::format("calibrate imu: the fit did not converge: {}{}", open_direction(fit.poses()), kImuAdvice));
+  }
   ImuCalibration out;
   take_fit(fit, has_gyro, out);
   out.duration_s = end_s - begin_s;

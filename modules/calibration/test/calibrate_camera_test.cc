@@ -154,7 +154,7 @@ TEST(CalibrateCamera, AScaledBoardGivesTheSameCamera) {
   EXPECT_NEAR(scaled.standard_error[0], fit.standard_error[0], 1e-4 * fit.standard_error[0]);
 }
 
-// A camera that is right is not "not to be trusted" because the board has not been everywhere (Bouguet's own images
+// A camera that is right is not invalid because the board has not been everywhere (Bouguet's own images
 // cover 47 %, and give fx to 0.003 % of his value).
 TEST(CalibrateCamera, ABoardThatWasNotEverywhereLimits) {
   Random random(29);

@@ -74,7 +74,13 @@ void add_streams(const Recording& recording, const TrajectoryResult& trajectory,
   out.clipped_share = force.clipped_share;
   out.accel_bias_mps2 = metric("accel_bias_mps2");
   out.latency_s = metric("latency_s");
-  out.latency_prior_sigmas = metric("latency_prior_sigmas");
+  out.latency_beyond_prior_s = metric("latency_beyond_prior_s");
+  out.latency_beyond_prior_sigma_s = metric("latency_beyond_prior_sigma_s");
+  out.tracker_scale_error = metric("tracker_scale_error");
+  out.tracker_scale_error_sigma = metric("tracker_scale_error_sigma");
+  out.tracker_axes_chi2 = metric("tracker_axes_chi2");
+  out.accel_axes_chi2 = metric("accel_axes_chi2");
+  out.accel_motion_share = metric("accel_motion_share");
   out.tracker_noise_ratio = metric("tracker_noise_ratio");
   out.poses_used = count("poses_used");
   out.poses_outlying = count("poses_outlying");
@@ -125,6 +131,20 @@ bool has_force(const Recording& recording) {
 
 namespace {
 
+// The force never changes, and is that of a tip in the air: a quiet sensor of few bits that was never pressed.
+bool reads_no_contact(const Recording& recording, double touch_N) {
+  if (!recording.info.has_force_sensor || recording.calibration.uncalibrated || has_force(recording.probe))
+    return false;
+  for (const double counts : recording.probe.force_counts) {
+    if (std::isfinite(counts)) return recording.calibration.force.force_N(counts) < touch_N;
+  }
+  return false;
+}
+
+double length_m(const Profile& profile) {
+  return profile.size() < 2 ? ScanEvidence::kUnknown : static_cast<double>(profile.size() - 1) * profile.spacing_m;
+}
+
 void add_measured(const Recording& recording, const ProcessResult& result, ScanEvidence& out) {
   const TrackerComparison tracker = compare_with_tracker(recording, result.trajectory, result.base);
   const double stated_m = recording.calibration.tracker.sigma_position_m.norm();
@@ -143,12 +163,14 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
         static_cast<double>(std::count_if(contact.begin(), contact.end(), [](char c) { return c != 0; }));
     out.contact_s = span_s(motion.t_ns) * touching / static_cast<double>(contact.size());
   }
+  out.reads_no_contact = reads_no_contact(recording, result.config.base.contact.touch_N);
+  out.tip_radius_m = recording.calibration.tip_radius_m;
   out.covered = result.coverage.covered;
   out.min_coverage = result.config.min_coverage;
   const Profile& profile = result.profile;
   out.error_known = profile.size() == 0 || std::any_of(profile.sigma_m.begin(), profile.sigma_m.end(),
                                                        [](double sigma_m) { return std::isfinite(sigma_m); });
-  out.length_m = tracker.length_m;
+  out.length_m = std::isfinite(tracker.length_m) ? tracker.length_m : length_m(profile);
   out.length_stderr_m =
       std::isfinite(result.noise.length_stderr_m) ? result.noise.length_stderr_m : tracker.length_stderr_m;
   out.tracker_length_m = tracker.tracker_length_m;

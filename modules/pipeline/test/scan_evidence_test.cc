@@ -51,13 +51,13 @@ TEST(ScanEvidence, OfAWrongUnit) {
 
 TEST(ScanEvidence, OfTheTrajectorysMetrics) {
   Still still;
-  still.result.trajectory.metrics = {{"accel_bias_mps2", 19.6},     {"latency_prior_sigmas", 11.0},
+  still.result.trajectory.metrics = {{"accel_bias_mps2", 19.6},     {"latency_beyond_prior_s", 0.011},
                                      {"tracker_noise_ratio", 25.0}, {"poses_outlying", 30.0},
                                      {"poses_used", 70.0},          {"longest_tracker_gap_s", 0.7},
                                      {"rejected_samples", 8.0}};
   const ScanEvidence e = still.evidence();
   EXPECT_DOUBLE_EQ(e.accel_bias_mps2, 19.6);
-  EXPECT_DOUBLE_EQ(e.latency_prior_sigmas, 11.0);
+  EXPECT_DOUBLE_EQ(e.latency_beyond_prior_s, 0.011);
   EXPECT_DOUBLE_EQ(e.tracker_noise_ratio, 25.0);
   EXPECT_EQ(e.poses_outlying, 30U);
   EXPECT_EQ(e.poses_used, 70U);

@@ -66,7 +66,7 @@ class RigJudge {
         continue;
       }
       if (found->second.trustworthy == false) {
-        fault("calibration", fmt::format("The calibration of {} was not to be trusted when it was made.", kind),
+        fault("calibration", fmt::format("The calibration of {} was invalid when it was made.", kind),
               fmt::format("Repeat asperity calibrate {}.", kind));
       }
     }
@@ -79,8 +79,7 @@ class RigJudge {
         fault("stroke", fmt::format("{} gave no profile: {}", printable(stroke.name, 200), stroke.why_not),
               "Scan again, slowly and straight across the ridges, from land to land.");
       } else if (!stroke.trustworthy) {
-        fault("stroke", fmt::format("{} is not to be trusted: {}.", printable(stroke.name, 200), stroke.verdict),
-              "That sentence names it.");
+        fault("stroke", fmt::format("{}: {}.", printable(stroke.name, 200), stroke.verdict), "That sentence names it.");
       }
     }
     const auto wanted = static_cast<std::size_t>(limits_.strokes);

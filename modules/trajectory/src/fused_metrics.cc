@@ -106,6 +106,13 @@ void append_learnt(const InertialStream& inertial, const Problem& problem, const
     metrics[std::string("accelerometer_position_") + kAxes[axis] + "_sigma_m"] = smoothed.last_sigma[layout.lever + i];
   }
   metrics["tracker_noise_ratio"] = noise_ratio;
+  const StreamAgreement& agreement = smoothed.agreement;
+  metrics["tracker_scale_error"] = agreement.scale;
+  metrics["tracker_scale_error_sigma"] = agreement.scale_sigma;
+  metrics["tracker_axes_chi2"] = agreement.axes_chi2;
+  metrics["latency_beyond_prior_s"] = agreement.latency_s;
+  metrics["latency_beyond_prior_sigma_s"] = agreement.latency_sigma_s;
+  metrics["accel_axes_chi2"] = agreement.accel_axes_chi2;
   metrics["position_residual_median_m"] = median_norm(smoothed.position_residual, problem);
   metrics["rotation_residual_median_rad"] = median_norm(smoothed.rotation_residual, problem);
 }

@@ -7,6 +7,7 @@
 
 #include "inertial_forward.h"
 #include "inertial_model.h"
+#include "stream_agreement.h"
 #include "symmetric_products.h"
 
 namespace asperity::inertial_smoother {
@@ -259,6 +260,7 @@ Smoothed smooth_motion(const Problem& problem, const Vector3d& tip_in_marker, bo
     if (e % 256 == 0) observer.update("smoother", 1.0 - static_cast<double>(e) / static_cast<double>(epochs));
   }
   add_start_score(problem, adjoint.lambda, adjoint.Lambda, out.score);
+  if (path) out.agreement = compare_streams(problem, records, out);
   return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -76,6 +77,23 @@ struct Restart {
   Pose pose;
 };
 
+// Whether the two streams are of one motion: deviations that no prior allows for, by generalised least squares under
+// the model with the learnt noise. nan: the data say nothing of it.
+struct StreamAgreement {
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+  // The tracker's positions are (1 + scale) times those that the inertial sensors show.
+  double scale = kUnknown;
+  double scale_sigma = kUnknown;
+  double axes_chi2 = kUnknown;  // they are (1 + M) times: the normalised square of M, 9 degrees of freedom
+  // The tracker is later than the prior says, s; the prior's error is in the sigma.
+  double latency_s = kUnknown;
+  double latency_sigma_s = kUnknown;
+  // The specific force is (1 + E) times the calibrated one: the normalised square of E, with the prior's error in its
+  // covariance; 9 degrees of freedom.
+  double accel_axes_chi2 = kUnknown;
+};
+
 // The filter at an epoch, after its pose: from here it can go on.
 struct Checkpoint {
   Nominal x;
@@ -128,6 +146,7 @@ struct Smoothed {
   Nominal last;   // and at the last: its constants are the estimates
   State last_sigma;
   Checkpoint checkpoint;
+  StreamAgreement agreement;  // with `path`
 };
 
 // The weight of a measurement whose normalised square is d2: 1 inside the gate, falling as 1/d⁴.

@@ -16,6 +16,12 @@ constexpr double kClippedTolerance = 0.1;  // share of the mean specific force t
 constexpr double kNotByClipping = 2.0;     // factor: more than clipping takes away
 constexpr double kLargestBias_mps2 = 1.5;  // five times the prior of a calibrated accelerometer
 constexpr double kLatency_sigmas = 5.0;
+constexpr double kScale_sigmas = 3.3;          // one good scan in a thousand
+constexpr double kScaleDoubtful_sigmas = 2.6;  // one in a hundred
+constexpr double kAxes_chi2 = 27.9;            // 9 degrees of freedom, one in a thousand
+constexpr double kUnrelated_sigma = 0.5;       // two of it are the whole scale
+// Twenty times what a calibrated sensor has: heights would have that error in their gain.
+constexpr double kUnexplainedMotion_share = 0.2;
 constexpr double kNoise_ratio = 4.0;  // of the tracker, found over stated
 constexpr double kOutlying_share = 0.2;
 constexpr double kDeparture_ratio = 2.5;  // of the path from the poses, over their noise
@@ -60,6 +66,37 @@ void judge_force(const ScanEvidence& e, Verdicts& out) {
   }
 }
 
+// Whether tracker and inertial sensors show the same motion.
+void judge_agreement(const ScanEvidence& e, Verdicts& out) {
+  const double scale_sigmas = std::abs(e.tracker_scale_error) / e.tracker_scale_error_sigma;
+  const std::string scale = fmt::format("the tracker's motion is {:.3f} ± {:.3f} times that of the inertial sensors",
+                                        1.0 + e.tracker_scale_error, e.tracker_scale_error_sigma);
+  if (scale_sigmas > kScale_sigmas) {
+    out.push_back(make_verdict("scale_disagrees", scale));
+  } else if (scale_sigmas > kScaleDoubtful_sigmas) {
+    out.push_back(make_verdict("scale_doubtful", scale));
+  }
+  // A scale that could as well be none: nothing shows that both are of one motion.
+  if (e.tracker_scale_error_sigma > kUnrelated_sigma) {
+    out.push_back(
+        make_verdict("motions_disagree", fmt::format("the inertial sensors do not show the tracker's motion: its "
+                                                     "scale comes out to ± {:.0f} % only",
+                                                     100.0 * e.tracker_scale_error_sigma)));
+    return;
+  }
+  const double axes_chi2 = std::fmax(e.tracker_axes_chi2, e.accel_axes_chi2);
+  if (axes_chi2 > kAxes_chi2) {
+    out.push_back(make_verdict("motions_disagree",
+                               fmt::format("tracker and accelerometer show different motions: χ² = {:.0f} for an error "
+                                           "of their axes and scales, where 9 is expected",
+                                           axes_chi2)));
+  } else if (e.accel_motion_share > kUnexplainedMotion_share) {
+    out.push_back(make_verdict("motions_disagree", fmt::format("{:.0f} % of the accelerometer's motion is not in the "
+                                                               "tracker's",
+                                                               100.0 * e.accel_motion_share)));
+  }
+}
+
 void judge_calibration(const ScanEvidence& e, Verdicts& out) {
   if (!e.calibrated) out.push_back(make_verdict("uncalibrated", "it was recorded without a calibration"));
   const std::size_t before = out.size();
@@ -69,12 +106,16 @@ void judge_calibration(const ScanEvidence& e, Verdicts& out) {
     out.push_back(
         make_verdict("wrong_frame", fmt::format("the accelerometer's bias would be {:.2g} m/s²", e.accel_bias_mps2)));
   }
-  if (e.latency_prior_sigmas > kLatency_sigmas) {
-    out.push_back(make_verdict("latency_off",
-                               fmt::format("the estimated latency of {:.1f} ms is {:.0f} standard deviations from the "
-                                           "calibrated one",
-                                           1e3 * e.latency_s, e.latency_prior_sigmas)));
+  const double late_sigmas = std::abs(e.latency_beyond_prior_s) / e.latency_beyond_prior_sigma_s;
+  if (late_sigmas > kLatency_sigmas) {
+    out.push_back(make_verdict(
+        "latency_off", fmt::format("the two streams differ by {:.0f} ± {:.0f} ms from the calibrated latency, {:.0f} "
+                                   "standard deviations",
+                                   1e3 * e.latency_beyond_prior_s, 1e3 * e.latency_beyond_prior_sigma_s, late_sigmas)));
   }
+  // A clipped accelerometer shows another motion than the tracker: not named twice.
+  const bool clipped = std::any_of(out.begin(), out.end(), [](const Verdict& v) { return v.code == "clipped"; });
+  if (!clipped) judge_agreement(e, out);
 }
 
 void judge_streams(const ScanEvidence& e, Verdicts& out) {
@@ -144,6 +185,10 @@ void judge_noise(const ScanEvidence& e, Verdicts& out) {
 
 void judge_surface(const ScanEvidence& e, Verdicts& out) {
   if (!e.measured) return;
+  if (e.reads_no_contact) {
+    out.push_back(make_verdict("nothing_touched", "the force sensor reads no contact throughout"));
+    return;
+  }
   if (e.contact_s < kLeastContact_s) {
     out.push_back(make_verdict("nothing_touched", e.contact_s > 0.0
                                                       ? fmt::format("the tip touched for {:.2g} s only", e.contact_s)
@@ -152,6 +197,12 @@ void judge_surface(const ScanEvidence& e, Verdicts& out) {
   }
   if (!e.no_profile.empty()) {
     out.push_back(make_verdict("no_profile", "there is no profile: " + e.no_profile));
+    return;
+  }
+  // Within its own width a tip meets one place only.
+  if (e.length_m < 2.0 * e.tip_radius_m || e.length_m < kTwoSided95 * e.length_stderr_m) {
+    out.push_back(
+        make_verdict("not_moved", fmt::format("the tip moved {:.2g} mm only while it touched", 1e3 * e.length_m)));
     return;
   }
   if (!e.has_force && e.covered < kLeastCoverageWithoutForce) {

@@ -19,7 +19,14 @@ ScanEvidence good() {
   e.departure_ratio = 1.0;
   e.accel_bias_mps2 = 0.1;
   e.latency_s = 0.02;
-  e.latency_prior_sigmas = 0.5;
+  e.latency_beyond_prior_s = 1e-3;
+  e.latency_beyond_prior_sigma_s = 2e-3;
+  e.tracker_scale_error = 0.01;
+  e.tracker_scale_error_sigma = 0.02;
+  e.tracker_axes_chi2 = 9.0;
+  e.accel_axes_chi2 = 9.0;
+  e.accel_motion_share = 0.01;
+  e.tip_radius_m = 0.32e-3;
   e.tracker_noise_ratio = 1.1;
   e.poses_used = 400;
   e.poses_outlying = 3;
@@ -65,7 +72,17 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
       {"wrong_unit", "0.09 times", [](ScanEvidence& e) { e.clipped_force_ratio = 0.09; }},
       {"wrong_frame", "by 200 %", [](ScanEvidence& e) { e.force_difference_share = 2.0; }},
       {"wrong_frame", "bias would be 20 m/s²", [](ScanEvidence& e) { e.accel_bias_mps2 = 19.6; }},
-      {"latency_off", "20.0 ms is 11 standard", [](ScanEvidence& e) { e.latency_prior_sigmas = 11.0; }},
+      {"latency_off", "by 22 ± 2 ms from the calibrated latency, 11 standard",
+       [](ScanEvidence& e) { e.latency_beyond_prior_s = 22e-3; }},
+      {"latency_off", "by -22 ± 2 ms", [](ScanEvidence& e) { e.latency_beyond_prior_s = -22e-3; }},
+      {"scale_disagrees", "0.500 ± 0.020 times", [](ScanEvidence& e) { e.tracker_scale_error = -0.5; }},
+      {"scale_doubtful", "1.060 ± 0.020 times", [](ScanEvidence& e) { e.tracker_scale_error = 0.06; }},
+      {"motions_disagree", "χ² = 120", [](ScanEvidence& e) { e.tracker_axes_chi2 = 120.0; }},
+      {"motions_disagree", "χ² = 50", [](ScanEvidence& e) { e.accel_axes_chi2 = 50.0; }},
+      {"motions_disagree", "97 %", [](ScanEvidence& e) { e.accel_motion_share = 0.97; }},
+      {"motions_disagree", "to ± 90 % only", [](ScanEvidence& e) { e.tracker_scale_error_sigma = 0.9; }},
+      {"not_moved", "0.2 mm only", [](ScanEvidence& e) { e.length_m = 0.2e-3; }},
+      {"nothing_touched", "reads no contact", [](ScanEvidence& e) { e.reads_no_contact = true; }},
       {"tracker_noise", "25 times", [](ScanEvidence& e) { e.tracker_noise_ratio = 25.0; }},
       {"poses_outlying", "150 of 550", [](ScanEvidence& e) { e.poses_outlying = 150; }},
       {"poses_disagree", "2.1 mm from the tracker's poses, 3 times",

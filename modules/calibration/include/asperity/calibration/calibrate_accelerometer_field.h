@@ -33,9 +33,9 @@ struct AccelerometerFieldConfig {
             {0.0, 1.0});
     v.field("outlier_sigmas", outlier_sigmas, "a pose further off than this is left out, standard deviations",
             {3.0, 100.0});
-    v.field("residual_share", residual_share, "largest residual to be trusted, share of gravity", {0.0, 1.0});
+    v.field("residual_share", residual_share, "largest residual of a valid one, share of gravity", {0.0, 1.0});
     v.field("uncertainty_share", uncertainty_share,
-            "largest standard error of scale, bias and angles to be trusted, share (rad)", {0.0, 1.0});
+            "largest standard error of scale, bias and angles, else limited, share (rad)", {0.0, 1.0});
     v.group("poses", poses);
   }
 };

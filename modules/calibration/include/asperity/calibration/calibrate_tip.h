@@ -34,10 +34,9 @@ struct CalibrateTipConfig {
             {3.0, 100.0});
     v.field("shortest_s", shortest_s, "stretches in the dimple shorter than this are left out, s", {0.0, 60.0});
     v.field("settle_s", settle_s, "left out beside a stretch out of the dimple, s", {0.0, 60.0});
-    v.field("least_share", least_share, "share of the poses in the dimple to be trusted with", {0.0, 1.0});
-    v.field("residual_ratio", residual_ratio, "residual over the tracker's stated noise to be trusted with",
-            {0.1, 1000.0});
-    v.field("uncertainty_m", uncertainty_m, "largest standard error of the tip to be trusted, m", {0.0, 1.0});
+    v.field("least_share", least_share, "share of the poses in the dimple, else limited", {0.0, 1.0});
+    v.field("residual_ratio", residual_ratio, "residual over the tracker's stated noise of a valid one", {0.1, 1000.0});
+    v.field("uncertainty_m", uncertainty_m, "largest standard error of the tip, else limited, m", {0.0, 1.0});
     v.field("trials", trials, "random sets of poses that the search begins from", {10, 100000});
     v.field("seed", seed, "of the search", {0.0, 9e15});
   }

@@ -40,7 +40,7 @@ struct FitAccelerometerConfig {
             {0.0, 1.0});
     v.field("least_relative_singular_value", least_relative_singular_value,
             "below this share of the greatest a combination of parameters counts as not determined", {1e-12, 1.0});
-    v.field("uncertainty_share", uncertainty_share, "largest standard error to be trusted, share of the scale",
+    v.field("uncertainty_share", uncertainty_share, "largest standard error, else limited, share of the scale",
             {0.0, 1.0});
   }
 };

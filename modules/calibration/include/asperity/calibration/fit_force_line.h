@@ -25,7 +25,7 @@ struct FitForceLineConfig {
 
   template <class V>
   void visit(V& v) {
-    v.field("slope_uncertainty", slope_uncertainty, "half of the slope's 95 % interval to be trusted with, share of it",
+    v.field("slope_uncertainty", slope_uncertainty, "half of the slope's 95 % interval, else invalid, share of it",
             {0.0, 1.0});
     v.field("linearity_share", linearity_share, "bend that a line may stand for, share of the forces' span",
             {0.0, 1.0});

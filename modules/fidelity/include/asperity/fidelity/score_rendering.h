@@ -29,7 +29,7 @@ struct ScoreConfig {
     v.field("half_dB", half_dB, "distance of spectra that halves their agreement, dB", {0.1, 100.0});
     v.field("half_distribution", half_distribution,
             "distance of the heights' distributions that halves their agreement, in RMS heights", {1e-3, 100.0});
-    v.field("min_score", min_score, "a score below it is not to be trusted", {0.0, 1.0});
+    v.field("min_score", min_score, "a score below it is invalid", {0.0, 1.0});
     v.former("poor");
     v.field("min_contact_fraction", min_contact_fraction, "part of the scan's contact that must be felt", {0.0, 1.0});
     v.former("least_touched");

@@ -29,8 +29,7 @@ struct ProcessConfig : ProcessMethods {
   template <class V>
   void visit(V& v) {
     v.choice("method", method, kMethodNames, describe());
-    v.field("min_coverage", min_coverage, "part of the profile without gaps below which it is not to be trusted",
-            {0.0, 1.0});
+    v.field("min_coverage", min_coverage, "part of the profile without gaps below which it is invalid", {0.0, 1.0});
     visit_methods(v);
     v.group("base", base);
     v.group("profile", profile);

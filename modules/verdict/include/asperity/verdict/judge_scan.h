@@ -21,7 +21,13 @@ struct ScanEvidence {
   double clipped_force_ratio = kUnknown;     // as force_ratio, over windows with clipped samples
   double accel_bias_mps2 = kUnknown;
   double latency_s = kUnknown;
-  double latency_prior_sigmas = kUnknown;
+  double latency_beyond_prior_s = kUnknown;  // by which the tracker is later than calibrated, from the data alone
+  double latency_beyond_prior_sigma_s = kUnknown;
+  double tracker_scale_error = kUnknown;  // of the tracker's positions against the inertial sensors
+  double tracker_scale_error_sigma = kUnknown;
+  double tracker_axes_chi2 = kUnknown;    // of a 3×3 error of its positions, 9 degrees of freedom
+  double accel_axes_chi2 = kUnknown;      // likewise of the accelerometer's matrix
+  double accel_motion_share = kUnknown;   // unexplained acceleration over the specific force's motion
   double tracker_noise_ratio = kUnknown;  // found over calibrated
   double departure_m = kUnknown;          // of the estimated tip from the poses' tip, median
   double departure_ratio = kUnknown;      // over what the poses' own noise makes
@@ -43,7 +49,9 @@ struct ScanEvidence {
   std::string no_roughness;  // likewise
   std::string no_texture;
   double contact_s = kUnknown;  // time that the tip touched
-  double covered = kUnknown;    // part of the profile that has heights
+  double tip_radius_m = 0.0;
+  bool reads_no_contact = false;  // there is a calibrated force sensor, and its constant reading is below touching
+  double covered = kUnknown;      // part of the profile that has heights
   double min_coverage = 0.5;
   bool error_known = true;     // the method gives the standard deviation of its heights
   double length_m = kUnknown;  // of the path in contact

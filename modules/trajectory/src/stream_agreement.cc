@@ -1,0 +1,114 @@
+#include "stream_agreement.h"
+
+#include <cmath>
+#include <optional>
+
+#include <Eigen/Cholesky>
+
+namespace asperity::inertial_smoother {
+
+namespace {
+
+// The effects: the tracker's matrix with the smoothed and with the predicted positions, the latency, the
+// accelerometer's matrix.
+constexpr int kSmoothedMatrix = 0, kPredictedMatrix = 9, kLatency = 18, kAccel = 19, kEffects = 28;
+using Effects = Eigen::Matrix<double, Eigen::Dynamic, kEffects, 0, kMax, kEffects>;
+using PoseEffects = Eigen::Matrix<double, 6, kEffects>;
+using Matrix9d = Eigen::Matrix<double, 9, 9>;
+using Vector9d = Eigen::Matrix<double, 9, 1>;
+
+struct NormalEquations {
+  Eigen::Matrix<double, kEffects, kEffects> information = Eigen::Matrix<double, kEffects, kEffects>::Zero();
+  Eigen::Matrix<double, kEffects, 1> score = Eigen::Matrix<double, kEffects, 1>::Zero();
+};
+
+// Nine effects at once, with their covariance; nullopt: the data leave one open.
+struct Nine {
+  Vector9d value;
+  Matrix9d covariance;
+};
+
+std::optional<Nine> solve_nine(const NormalEquations& equations, int at) {
+  const Eigen::LDLT<Matrix9d> factor(Matrix9d(equations.information.block<9, 9>(at, at)));
+  if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0.0)) return std::nullopt;
+  return Nine{factor.solve(equations.score.segment<9>(at)), factor.solve(Matrix9d::Identity())};
+}
+
+double normalised_square(const Nine& nine) { return nine.value.dot(nine.covariance.ldlt().solve(nine.value)); }
+
+NormalEquations sum_effects(const Problem& problem, const std::vector<Record>& records, const Smoothed& smoothed) {
+  const Layout& layout = problem.layout;
+  NormalEquations out;
+  Vector3d middle_m = Vector3d::Zero();
+  for (const Pose& pose : problem.poses) middle_m += pose.translation_m / static_cast<double>(problem.poses.size());
+  // What one unit of each effect leaves in the filter's error state.
+  Effects X = Effects::Zero(layout.size, kEffects);
+  if (layout.accel_matrix >= 0) X.block<9, 9>(layout.accel_matrix, kAccel).setIdentity();
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    if (e > 0) {
+      if (records[e - 1].transition.empty()) return {};
+      const Transition& transition = records[e - 1].transition.front();
+      X.topRows<9>() += (transition.rows(layout) * X).eval();
+      if (layout.slow >= 0) X.middleRows<6>(layout.slow) *= transition.slow_decay(problem);
+    }
+    const Record& record = records[e];
+    if (!record.updated) continue;
+    const auto i = static_cast<std::size_t>(problem.epochs[e].pose);
+    PoseEffects D = record.predicted.jacobian(layout) * X;
+    const Vector3d from_middle_m = problem.poses[i].translation_m - middle_m;
+    const Vector3d smoothed_m = from_middle_m - smoothed.position_residual[i];
+    const Vector3d predicted_m = from_middle_m - record.predicted.residual.head<3>();
+    for (int axis = 0; axis < 3; ++axis) {
+      D.block<3, 3>(0, kSmoothedMatrix + 3 * axis).diagonal().array() += smoothed_m[axis];
+      D.block<3, 3>(0, kPredictedMatrix + 3 * axis).diagonal().array() += predicted_m[axis];
+    }
+    D.col(kLatency) -= record.predicted.rate;
+    if (record.believed) {
+      const PoseEffects weighted = record.S_inverse * D;
+      out.information.noalias() += D.transpose() * weighted;
+      out.score.noalias() += weighted.transpose() * record.predicted.residual;
+    }
+    X.noalias() -= record.predicted.times(record.covariance(layout.size), layout).transpose() * (record.N_inverse * D);
+  }
+  return out;
+}
+
+struct Estimate {
+  double value = StreamAgreement::kUnknown;
+  double sigma = StreamAgreement::kUnknown;
+};
+
+// Of the sum of effects with the weights `a`.
+Estimate one_effect(const NormalEquations& equations, int at, const Vector9d& a) {
+  const double information = a.dot(equations.information.block<9, 9>(at, at) * a);
+  if (!(information > 0.0)) return {};
+  return {a.dot(equations.score.segment<9>(at)) / information, 1.0 / std::sqrt(information)};
+}
+
+}  // namespace
+
+StreamAgreement compare_streams(const Problem& problem, const std::vector<Record>& records, const Smoothed& smoothed) {
+  const NormalEquations equations = sum_effects(problem, records, smoothed);
+  StreamAgreement out;
+  const Vector9d diagonal = Matrix3d::Identity().reshaped(9, 1);
+  const Estimate upper = one_effect(equations, kSmoothedMatrix, diagonal);
+  const Estimate lower = one_effect(equations, kPredictedMatrix, diagonal);
+  out.scale = 0.5 * (upper.value + lower.value);
+  out.scale_sigma = std::hypot(std::max(upper.sigma, lower.sigma), 0.5 * (upper.value - lower.value));
+  const std::optional<Nine> high = solve_nine(equations, kSmoothedMatrix),
+                            low = solve_nine(equations, kPredictedMatrix);
+  if (high && low) {
+    const Vector9d half = 0.5 * (high->value - low->value);
+    out.axes_chi2 = normalised_square(
+        {0.5 * (high->value + low->value), 0.5 * (high->covariance + low->covariance) + half * half.transpose()});
+  }
+  if (equations.information(kLatency, kLatency) > 0.0) {
+    out.latency_s = equations.score[kLatency] / equations.information(kLatency, kLatency);
+    out.latency_sigma_s = 1.0 / std::sqrt(equations.information(kLatency, kLatency));
+  }
+  if (problem.layout.accel_matrix < 0) return out;
+  if (const std::optional<Nine> accel = solve_nine(equations, kAccel)) out.accel_axes_chi2 = normalised_square(*accel);
+  return out;
+}
+
+}  // namespace asperity::inertial_smoother
