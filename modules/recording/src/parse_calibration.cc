@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::size_t kMostMarkers = 10'000;
 constexpr Range kNotNegative{0.0, 1e9};
-constexpr Range kOnProbe_m{-10.0, 10.0};      // a place on a hand-held probe, generously
-constexpr Range kLatency_s{-1.0, 1.0};  // beyond, the streams are of different clocks
+constexpr Range kOnProbe_m{-10.0, 10.0};  // a place on a hand-held probe, generously
+constexpr Range kLatency_s{-1.0, 1.0};    // beyond, the streams are of different clocks
 constexpr Range kTrackerSigma_m{0.0, 1.0};
 constexpr Range kTrackerSigma_rad{0.0, 3.2};
 constexpr Range kNewtonPerCount{-1e6, 1e6};
