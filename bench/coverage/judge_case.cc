@@ -113,7 +113,7 @@ const std::vector<FigureKind>& figure_kinds() {
        [](const ProcessResult& r) {
          return Said{r.noise.noise_rms_m, r.noise.noise_rms_stderr_m, kMissing, kMissing};
        },
-       nullptr, [](const ScanCase&, const TrueProfile& t) { return rms(t.texture_error_m); }},
+       nullptr, [](const ScanCase&, const TrueProfile& t) { return rms(t.placed_texture_error_m); }},
       // The compliance is what is measured: its interval is even, the stiffness's is not.
       {"compliance_mm_per_N",
        [](const ProcessResult& r) {
@@ -286,10 +286,10 @@ ScanOutcome judge_case(const ScanCase& scan) {
     const TrueProfile truth = find_true_profile(scan.recording, result);
     out.position_over_sigma = position_error_over_sigma(scan.recording, result.trajectory.motion);
     out.height_over_sigma = error_over_sigma(truth.error_m, result.profile.sigma_m);
-    out.texture_over_sigma = error_over_sigma(truth.texture_error_m, result.profile.texture_sigma_m.empty()
-                                                                         ? result.profile.sigma_m
-                                                                         : result.profile.texture_sigma_m);
-    out.texture_error_m = rms(truth.texture_error_m);
+    out.texture_over_sigma = error_over_sigma(truth.placed_texture_error_m, result.profile.texture_sigma_m.empty()
+                                                                                ? result.profile.sigma_m
+                                                                                : result.profile.texture_sigma_m);
+    out.texture_error_m = rms(truth.placed_texture_error_m);
     out.texture_rms_m = rms(truth.texture_m);
     out.error_m = band_rms(truth.texture_error_m, result.profile.spacing_m);
     out.surface_m = band_rms(truth.texture_m, result.profile.spacing_m);

@@ -15,9 +15,10 @@ struct TrueProfile {
   double length_m = 0.0;          // true way between the times of the first and the last measured height
   std::vector<double> height_m;   // true height under each point of the measured profile; nan where either has none
   std::vector<double> texture_m;  // the same after the high-pass
-  std::vector<double> error_m;    // measured less true heights, freed of their common straight line
-  std::vector<double> texture_error_m;
-  double shift_m = 0.0;  // of the measured arc length, which made both lie best on each other
+  std::vector<double> error_m;    // measured less true heights at the same place of the path, less their common line
+  std::vector<double> texture_error_m;         // measured less true texture when the tip passed
+  std::vector<double> placed_texture_error_m;  // and at the same place of the path
+  double shift_m = 0.0;                        // of the measured arc length, which made both lie best on each other
 };
 
 // Each point of the measured profile was passed at a time; the truth is asked for its arc length then. One shift (at

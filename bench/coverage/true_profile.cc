@@ -224,13 +224,26 @@ TrueProfile find_true_profile(const asperity::Recording& recording, const asperi
   const double part = bend < 0.0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
   out.shift_m = (static_cast<double>(best) + part) * profile.spacing_m;
 
+  // What a reader has: a height at a place along the measured path, not the time at which the tip passed there.
+  std::vector<double> offset_m(profile.size());
+  for (std::size_t i = 0; i < profile.size(); ++i) offset_m[i] = at_m[i] - profile.s_m[i];
+  const auto half = offset_m.begin() + static_cast<std::ptrdiff_t>(offset_m.size() / 2);
+  std::nth_element(offset_m.begin(), half, offset_m.end());
+  std::vector<double> placed_m(profile.size(), kNan);
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    if (std::isfinite(profile.height_m[i])) placed_m[i] = heights.at(profile.s_m[i] + *half + out.shift_m);
+  }
+  const std::vector<double> placed_texture_m = high_pass(placed_m, profile.spacing_m, cutoff, bridge_m);
+
   out.height_m = shifted(out.shift_m);
   out.texture_m = high_pass(out.height_m, profile.spacing_m, cutoff, bridge_m);
   out.error_m.resize(profile.size());
   out.texture_error_m.resize(profile.size());
+  out.placed_texture_error_m.resize(profile.size());
   for (std::size_t i = 0; i < profile.size(); ++i) {
-    out.error_m[i] = profile.height_m[i] - out.height_m[i];
+    out.error_m[i] = profile.height_m[i] - placed_m[i];
     out.texture_error_m[i] = profile.texture_m[i] - out.texture_m[i];
+    out.placed_texture_error_m[i] = profile.texture_m[i] - placed_texture_m[i];
   }
   subtract_line(out.error_m);
   return out;

@@ -53,12 +53,14 @@ double indentation_m(const TipMotion& motion, const BasePathResult& base) {
                               : 1.0 / (std::numbers::sqrt3 * stiffness.lower_bound_N_per_mm);
   const double out = 1e-3 * mm_per_N * std::abs(sum_N / count);
   return std::isfinite(out) ? std::min(out, kDeepest_m) : 0.0;
-  // Samples whose value was replaced by their neighbours' mean.
-  std::size_t replaced_samples(const TrajectoryResult& trajectory) {
-    std::size_t out = 0;
-    for (const Problem& problem : trajectory.problems) out += problem.kind == "spike" ? problem.count : 0;
-    return out;
-  }
+}
+
+// Samples whose value was replaced by their neighbours' mean.
+std::size_t replaced_samples(const TrajectoryResult& trajectory) {
+  std::size_t out = 0;
+  for (const Problem& problem : trajectory.problems) out += problem.kind == "spike" ? problem.count : 0;
+  return out;
+}
 
 }  // namespace
 

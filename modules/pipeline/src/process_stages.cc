@@ -54,14 +54,16 @@ void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise) {
   };
   const WienerTexture expected = filter(noise.added_psd_m2_mm);
   if (!std::isfinite(expected.error_ratio)) return;
+  const double scale_m2 = square(noise.scale_sigma * noise.texture_rms_m);
   const double most = 1.0 + kSure * 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
   std::vector<double> most_psd_m2_mm = noise.added_psd_m2_mm;
   for (double& density : most_psd_m2_mm) density *= most;
   noise.snr = snr_after_removal(noise, 1.0, expected.error_ratio);
   noise.snr_low = snr_after_removal(noise, most, filter(most_psd_m2_mm).error_ratio);
 
-  const double gain_m2 = std::max(0.0, square(noise.noise_rms_m) - square(noise.added_rms_m));
-  const double left = std::sqrt(gain_m2 + square(expected.error_ratio * noise.added_rms_m)) / noise.noise_rms_m;
+  // The misplaced heights and their scale.
+  const double kept_m2 = std::max(0.0, square(noise.noise_rms_m) - square(noise.added_rms_m));
+  const double left = std::sqrt(kept_m2 + square(expected.error_ratio * noise.added_rms_m)) / noise.noise_rms_m;
   noise.noise_rms_m *= left;
   noise.noise_rms_stderr_m *= left;
   for (std::size_t i = 0; i < profile.size(); ++i) {
@@ -76,7 +78,8 @@ void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise) {
     }
     profile.texture_sigma_m[i] = noise.added_sigma_m.empty()
                                      ? profile.texture_sigma_m[i] * left
-                                     : std::sqrt(square(expected.error_ratio * noise.added_sigma_m[i]) + gain_m2);
+                                     : std::sqrt(square(expected.error_ratio * noise.added_sigma_m[i]) +
+                                                 square(noise.misplaced_sigma_m[i]) + scale_m2);
   }
 }
 

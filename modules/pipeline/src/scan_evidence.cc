@@ -133,8 +133,7 @@ namespace {
 
 // The force never changes, and is that of a tip in the air: a quiet sensor of few bits that was never pressed.
 bool reads_no_contact(const Recording& recording, double touch_N) {
-  if (!recording.info.has_force_sensor || recording.calibration.uncalibrated || has_force(recording.probe))
-    return false;
+  if (!recording.info.has_force_sensor || recording.calibration.uncalibrated || has_force(recording)) return false;
   for (const double counts : recording.probe.force_counts) {
     if (std::isfinite(counts)) return recording.calibration.force.force_N(counts) < touch_N;
   }

@@ -245,10 +245,10 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
     const double gain_m2 = std::pow(errors.scale_sigma * noise.texture_rms_m, 2);
     for (std::size_t i = blocks[b].first; i < blocks[b].last; ++i) {
       if (std::isfinite(profile.height_m[i])) {
-        out.height_sigma_m[i] = std::sqrt(height_errors.block_m2[b] + gain_m2);
+        out.height_sigma_m[i] = std::sqrt(height_errors.block_m2[b] + misplaced_m2 + gain_m2);
       }
       if (!std::isfinite(profile.texture_m[i])) continue;
-      out.texture_sigma_m[i] = std::sqrt(added_m2 + gain_m2);
+      out.texture_sigma_m[i] = std::sqrt(added_m2 + misplaced_m2 + gain_m2);
       noise.added_sigma_m[i] = std::sqrt(added_m2);
       noise.misplaced_sigma_m[i] = std::sqrt(misplaced_m2);
     }
@@ -263,7 +263,7 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   }
   const double information = kFisher * duration_s * meeting_Hz(errors.accel_psd_m2ps3, errors.tracker_psd_m2ps);
   const double relative = std::hypot(added_errors.spread, 1.0 / std::sqrt(std::max(information, kLeastInformation)));
-  const double noise_power = added_power + measured_power * errors.scale_sigma * errors.scale_sigma;
+  const double noise_power = added_power + even_misplaced + measured_power * errors.scale_sigma * errors.scale_sigma;
   noise.place_sigma_m = std::sqrt(drawn.shape_variance_m2);
   const double ends_m2 =
       errors.length_ends_m > 0.0 ? errors.length_ends_m * errors.length_ends_m : 2.0 * place_variance_m2(errors);
