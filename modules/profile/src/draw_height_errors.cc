@@ -169,11 +169,11 @@ DrawnErrors draw_height_errors(const Profile& profile, const HeightErrors& error
     out.height_m.push_back(std::move(error_m));
     out.added_m.push_back(std::move(added_m));
 
+    // The arc length's scale is no noise of the texture: it stretches all of it, and is in the errors of length and
+    // pitch.
     std::vector<double> moved_m = draw_at(along, t_s, random);
-    const double scale = errors.along_scale_sigma * random.normal();
     double middle_m = 0.0;
     for (std::size_t i = 0; i < moved_m.size(); ++i) {
-      moved_m[i] += scale * profile.spacing_m * static_cast<double>(i);
       middle_m += moved_m[i] / static_cast<double>(moved_m.size());
     }
     for (double& moved : moved_m) {

@@ -93,14 +93,14 @@ class LineSearch {
   double points_ = 0.0, clear_ = 0.0;
 };
 
-// By how much the pitch is too long: 2, 3 or 4 if none but every so many of its harmonics are lines; 1 if it is right,
+// By how much the pitch is too long: 2 to 8 if none but every so many of its harmonics are lines; 1 if it is right,
 // 0 if there is no line at all.
 int find_multiple(const LineSearch& search, double pitch_m) {
   std::array<bool, kHarmonicsSeen + 1> line{};
   bool any = false;
   for (int h = 1; h <= kHarmonicsSeen; ++h) any |= line[static_cast<std::size_t>(h)] = search.has_line(pitch_m, h);
   if (!any) return 0;
-  for (const int multiple : {4, 3, 2}) {
+  for (int multiple = kHarmonicsSeen; multiple > 1; --multiple) {
     bool only = true, has = false;
     for (int h = 1; h <= kHarmonicsSeen; ++h) {
       (h % multiple == 0 ? has : only) =
@@ -123,8 +123,10 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
   Periodicity out = find_periodicity(quiet_m, spacing_m, config);
   if (!std::isfinite(out.pitch_m)) return out;
   const double most = 1.0 + kSurely * 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
-  for (double& density : psd) density *= most;
-  const LineSearch search(height_m, spacing_m, noise.frequency_cycles_per_mm, psd, config.min_pitch_m);
+  // Misplaced heights blur a line; they make none where there is none.
+  std::vector<double> most_psd = noise.added_psd_m2_mm;
+  for (double& density : most_psd) density *= most;
+  const LineSearch search(height_m, spacing_m, noise.frequency_cycles_per_mm, most_psd, config.min_pitch_m);
   const int multiple = find_multiple(search, out.pitch_m);
   if (multiple > 1) {
     PeriodicityConfig near = config;

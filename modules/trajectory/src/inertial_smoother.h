@@ -85,12 +85,13 @@ struct StreamAgreement {
   // The tracker's positions are (1 + scale) times those that the inertial sensors show.
   double scale = kUnknown;
   double scale_sigma = kUnknown;
-  double axes_chi2 = kUnknown;  // they are (1 + M) times: the normalised square of M, 9 degrees of freedom
+  double axes_chi2 =
+      kUnknown;  // they are (1 + M) times: the normalised square of M, 1 % an element allowed for, 9 degrees of freedom
   // The tracker is later than the prior says, s; the prior's error is in the sigma.
   double latency_s = kUnknown;
   double latency_sigma_s = kUnknown;
-  // The specific force is (1 + E) times the calibrated one: the normalised square of E, with the prior's error in its
-  // covariance; 9 degrees of freedom.
+  // The specific force is (1 + E) times the calibrated one: the normalised square of E likewise, with the prior's error
+  // in its covariance; 9 degrees of freedom.
   double accel_axes_chi2 = kUnknown;
 };
 

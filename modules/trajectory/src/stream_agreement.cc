@@ -34,7 +34,13 @@ std::optional<Nine> solve_nine(const NormalEquations& equations, int at) {
   return Nine{factor.solve(equations.score.segment<9>(at)), factor.solve(Matrix9d::Identity())};
 }
 
-double normalised_square(const Nine& nine) { return nine.value.dot(nine.covariance.ldlt().solve(nine.value)); }
+// What good calibrations of axes and scales leave, an element. A long scan would else find that, too.
+constexpr double kCalibrated = 0.01;
+
+double normalised_square(Nine nine) {
+  nine.covariance.diagonal().array() += kCalibrated * kCalibrated;
+  return nine.value.dot(nine.covariance.ldlt().solve(nine.value));
+}
 
 NormalEquations sum_effects(const Problem& problem, const std::vector<Record>& records, const Smoothed& smoothed) {
   const Layout& layout = problem.layout;

@@ -16,6 +16,8 @@ constexpr double kClippedTolerance = 0.1;  // share of the mean specific force t
 constexpr double kNotByClipping = 2.0;     // factor: more than clipping takes away
 constexpr double kLargestBias_mps2 = 1.5;  // five times the prior of a calibrated accelerometer
 constexpr double kLatency_sigmas = 5.0;
+constexpr double kLatencyAllowed_s = 0.5e-3;   // what a good calibration of the latency leaves
+constexpr double kScaleAllowed = 0.005;        // what markers, camera and accelerometer leave of the scale
 constexpr double kScale_sigmas = 3.3;          // one good scan in a thousand
 constexpr double kScaleDoubtful_sigmas = 2.6;  // one in a hundred
 constexpr double kAxes_chi2 = 27.9;            // 9 degrees of freedom, one in a thousand
@@ -71,7 +73,9 @@ void judge_agreement(const ScanEvidence& e, Verdicts& out) {
   const double scale_sigmas = std::abs(e.tracker_scale_error) / e.tracker_scale_error_sigma;
   const std::string scale = fmt::format("the tracker's motion is {:.3f} ± {:.3f} times that of the inertial sensors",
                                         1.0 + e.tracker_scale_error, e.tracker_scale_error_sigma);
-  if (scale_sigmas > kScale_sigmas) {
+  // Certain, and more than calibrations leave: wrong. Certain alone: lengths are off by that.
+  const double beyond_sigmas = std::abs(e.tracker_scale_error) / std::hypot(e.tracker_scale_error_sigma, kScaleAllowed);
+  if (beyond_sigmas > kScale_sigmas) {
     out.push_back(make_verdict("scale_disagrees", scale));
   } else if (scale_sigmas > kScaleDoubtful_sigmas) {
     out.push_back(make_verdict("scale_doubtful", scale));
@@ -106,10 +110,11 @@ void judge_calibration(const ScanEvidence& e, Verdicts& out) {
     out.push_back(
         make_verdict("wrong_frame", fmt::format("the accelerometer's bias would be {:.2g} m/s²", e.accel_bias_mps2)));
   }
-  const double late_sigmas = std::abs(e.latency_beyond_prior_s) / e.latency_beyond_prior_sigma_s;
+  const double late_sigmas =
+      std::abs(e.latency_beyond_prior_s) / std::hypot(e.latency_beyond_prior_sigma_s, kLatencyAllowed_s);
   if (late_sigmas > kLatency_sigmas) {
     out.push_back(make_verdict(
-        "latency_off", fmt::format("the two streams differ by {:.0f} ± {:.0f} ms from the calibrated latency, {:.0f} "
+        "latency_off", fmt::format("the two streams differ by {:.2g} ± {:.2g} ms from the calibrated latency, {:.0f} "
                                    "standard deviations",
                                    1e3 * e.latency_beyond_prior_s, 1e3 * e.latency_beyond_prior_sigma_s, late_sigmas)));
   }
