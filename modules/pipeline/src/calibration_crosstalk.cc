@@ -9,6 +9,7 @@
 #include "asperity/base/units.h"
 #include "asperity/geometry/pose.h"
 #include "asperity/signal/spectrum.h"
+#include "normal_leak.h"
 
 namespace asperity {
 
@@ -80,6 +81,11 @@ void add_crosstalk(const TipMotion& motion, const BasePath& base, std::span<cons
   const auto stretch = static_cast<std::size_t>(std::lround(kStretch_s * rate_Hz));
   const std::vector<Run> runs = find_runs(motion, moving);
   if (stretch < 8) return;
+
+  const OffBase off = off_base(motion, base);
+  const double leak = normal_leak(motion, off, moving);
+  add_density(
+      runs, rate_Hz, stretch, leak * leak, false, [&](std::size_t k) { return off.sway_m[k]; }, errors);
 
   const auto normal_in_marker = [&](std::size_t i) -> Eigen::Vector3d {
     return motion.q_world_marker[i].conjugate() * base.n_world[i];

@@ -112,6 +112,7 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
                            round ? indentation_m(motion, base) : 0.0);
   out.along_scale_sigma = length.scale_sigma;
   out.length_ends_m = length.ends_m;
+  out.along_sigma_m = length.place_m;
   // What the smoother has learnt of the sensor's own noise, at one reading a period.
   const double period_s = duration_s(motion.t_ns) / static_cast<double>(n - 1);
   const double own_m2ps3 = 2.0 * std::pow(figure("accel_own_noise_mps2"), 2) * period_s;

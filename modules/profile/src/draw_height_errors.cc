@@ -156,6 +156,7 @@ DrawnErrors draw_height_errors(const Profile& profile, const HeightErrors& error
       std::clamp(kMostDrawn / std::max(height.count, profile.size()), kFewestErrorDraws, kErrorDraws);
   Random random(kErrorSeed);
   double shape = 0.0;
+  std::vector<std::vector<double>> all_moved_m;
   for (std::size_t j = 0; j < draws; ++j) {
     std::vector<double> error_m = draw_at(height, t_s, random);
     for (std::size_t i = 0; i < error_m.size(); ++i) {
@@ -180,9 +181,17 @@ DrawnErrors draw_height_errors(const Profile& profile, const HeightErrors& error
       moved -= middle_m;
       shape += moved * moved / static_cast<double>(draws * moved_m.size());
     }
+    all_moved_m.push_back(std::move(moved_m));
+  }
+  // The acceleration along the path is full of impacts that are no noise: the smoother, which follows them, knows a
+  // place better than that floor says.
+  const double most_m2 = errors.along_sigma_m * errors.along_sigma_m;
+  const double share = most_m2 > 0.0 && shape > most_m2 ? std::sqrt(most_m2 / shape) : 1.0;
+  for (std::vector<double>& moved_m : all_moved_m) {
+    for (double& moved : moved_m) moved *= share;
     out.misplaced_m.push_back(misplace(surface_m, moved_m, profile.spacing_m));
   }
-  out.shape_variance_m2 = shape;
+  out.shape_variance_m2 = share * share * shape;
   return out;
 }
 

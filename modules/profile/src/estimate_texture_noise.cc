@@ -281,7 +281,8 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   noise.snr = std::max(0.0, typical_measured - typical_added) / typical_noise;
   const double most = 1.0 + kSure * relative;
   noise.snr_low = std::max(0.0, typical_measured - most * typical_added) / (most * typical_noise);
-  noise.measured_snr_low = noise.snr_low;
+  // Misplaced heights are as high as before: of how rough it is they tell as much.
+  noise.measured_snr_low = std::max(0.0, typical_measured - most * typical_added) / (most * typical_added);
   noise.at_most_m =
       1e-3 * std::sqrt(std::max(0.0, measured_power - added_power * std::max(0.0, 1.0 - kSure * relative)));
   return out;

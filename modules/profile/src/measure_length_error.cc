@@ -83,13 +83,14 @@ LengthErrors measure_length_error(const TipMotion& motion, const BasePathResult&
                    along_variance_m2(motion, ends.last, steps.back().along_world);
   Eigen::Vector3d turned_marker = Eigen::Vector3d::Zero();  // Σ ΔRᵀ t
   double turned_normal = 0.0;                               // Σ Δn·t
-  std::vector<double> normal_m2;
+  std::vector<double> normal_m2, along_m2;
   std::size_t turn = 0;
   for (const Step& step : steps) {
     const Eigen::Matrix3d R0 = motion.q_world_marker[step.from].toRotationMatrix();
     const Eigen::Matrix3d R1 = motion.q_world_marker[step.to].toRotationMatrix();
     turned_marker += (R1 - R0).transpose() * step.along_world;
     turned_normal += (base.path.n_world[step.to] - base.path.n_world[step.from]).dot(step.along_world);
+    along_m2.push_back(along_variance_m2(motion, step.to, step.along_world));
     const Eigen::Vector3d& normal = base.path.n_world[step.to];
     normal_m2.push_back(std::max(0.0, normal.dot(own_covariance_m2(motion, step.to) * normal)));
     for (; turn < base.turning_points.size() && base.turning_points[turn] <= step.to; ++turn) {
@@ -105,6 +106,7 @@ LengthErrors measure_length_error(const TipMotion& motion, const BasePathResult&
   const double tip_m = turned_marker.cwiseProduct(motion.sigma_tip_in_marker_m).norm();
   const double length_m = base.path.s_m[ends.last] - base.path.s_m[ends.first];
   out.ends_m = std::sqrt(ends_m2);
+  out.place_m = std::sqrt(mean(along_m2));
   out.scale_sigma = std::hypot(std::hypot(tip_m, ball_m), level_m * turned_normal) / length_m;
   return out;
 }

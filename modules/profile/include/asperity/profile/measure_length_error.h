@@ -6,6 +6,7 @@
 namespace asperity {
 
 struct LengthErrors {
+  double place_m = 0.0;      // standard deviation of a place along the path, RMS over it
   double ends_m = 0.0;       // of the places at the path's ends and turning points
   double scale_sigma = 0.0;  // relative: what lasts along the path
 };

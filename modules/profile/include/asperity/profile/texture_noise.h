@@ -15,6 +15,7 @@ struct HeightErrors {
   double along_tracker_psd_m2ps = 0.0;
   double scale_sigma = 0.0;        // relative, of all heights
   double along_scale_sigma = 0.0;  // relative, of the arc length
+  double along_sigma_m = 0.0;      // of a place along the path, by the motion's covariance; 0: not known
   double length_ends_m = 0.0;      // of the arc length, by the places of its ends (measure_length_error.h)
   // What is not white (height_error_density.h).
   double accel_corner_Hz = 0.0;       // below it the acceleration's noise grows as 1/f
@@ -66,7 +67,7 @@ struct TextureNoise {
   // was removed.
   double snr = kNan;
   double snr_low = kNan;           // with the largest noise that is possible, 97.5 %
-  double measured_snr_low = kNan;  // the same, none removed
+  double measured_snr_low = kNan;  // the same, none removed, the added noise alone
   // The RMS that the surface's texture has at most, with 97.5 % of the noises that are possible.
   double at_most_m = kNan;
 };
