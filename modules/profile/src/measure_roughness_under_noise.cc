@@ -128,7 +128,7 @@ RoughnessResult measure_roughness_under_noise(std::span<const double> height_m, 
                                               const TextureNoise& noise, const RoughnessConfig& config) {
   RoughnessResult out = measure_roughness(height_m, spacing_m, config);
   if (!(noise.added_rms_m > 0.0)) return out;
-  if (noise.measured_snr_low < kLeastSnr) {
+  if (noise.measured_snr_low < kLeastSnr || noise.snr < kLeastSnr) {
     static_cast<RoughnessParameters&>(out) = RoughnessParameters::unknown();
     return out;
   }
