@@ -111,7 +111,7 @@ std::string CalibrateCommand::text(const CalibrateOutcome& outcome) const {
   const std::string_view word = verdict_word(outcome.verdict.verdicts);
   out += (word == "valid"     ? "good: "
           : word == "limited" ? "LIMITED: "
-                              : "NOT TO BE TRUSTED: ") +
+                              : "INVALID: ") +
          outcome.verdict.text + "\n";
   if (!output_.empty()) out += printable(output_, 200) + ": " + kind_ + " written\n";
   return out;

@@ -173,7 +173,7 @@ TEST(Calibrate, WhatIsNotToBeTrustedEndsWith3AndSaysSoInTheFile) {
   const std::string to = (dir / "calibration.json").string();
   const Outcome few = run({"calibrate", "force", force, "-o", to});
   EXPECT_EQ(few.code, 3);
-  EXPECT_THAT(few.out, HasSubstr("NOT TO BE TRUSTED"));
+  EXPECT_THAT(few.out, HasSubstr("INVALID: "));
   EXPECT_EQ(read_calibration(to).calibrated.at("force").trustworthy, false);
   const json written = json::parse(read_file(to, 1 << 20))["extra"]["calibrated"]["force"];
   EXPECT_EQ(written["trustworthy"], false);
