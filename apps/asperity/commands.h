@@ -17,6 +17,7 @@ std::unique_ptr<Command> make_inspect(Parser& root);
 std::unique_ptr<Command> make_paint(Parser& root);
 std::unique_ptr<Command> make_process(Parser& root);
 std::unique_ptr<Command> make_record(Parser& root);
+std::unique_ptr<Command> make_recover(Parser& root);
 std::unique_ptr<Command> make_register(Parser& root);
 std::unique_ptr<Command> make_report(Parser& root);
 std::unique_ptr<Command> make_roughness(Parser& root);

@@ -1,5 +1,6 @@
 #include <exception>
 #include <memory>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,8 @@ struct Program {
     parser.add_option("--completion", completion, "Print completions for a shell")->one_of({"bash", "fish", "zsh"});
     parser.require_subcommand(0, 1);
     for (const auto make : {make_demo, make_simulate, make_export, make_feel, make_import, make_inspect, make_paint,
-                            make_process, make_record, make_register, make_report, make_bench, make_roughness,
-                            make_studio, make_track, make_check_rig}) {
+                            make_process, make_record, make_recover, make_register, make_report, make_bench,
+                            make_roughness, make_studio, make_track, make_check_rig}) {
       commands.push_back(make(parser));
     }
     Parser& texture = parser.add_subcommand("texture", "Fit, describe, synthesize, swap and compare textures");
@@ -74,7 +75,7 @@ int run_command(Command& command) {
   } catch (const UsageError& error) {
     return usage(name + ": " + error.what(), name);
   } catch (const Cancelled&) {
-    print_error(kInterrupted);
+    print_error(interrupted_text());
     return interrupt_exit_code();
   } catch (const ClosedPipe&) {
     return kClosedPipe;
@@ -100,21 +101,21 @@ int parse_and_run(Program& program, int argc, char** argv) {
 
 int run_command_line(int argc, char** argv) {
   try {
+    watch_interrupts(print_error);
     Program program;
     return parse_and_run(program, argc, argv);
   } catch (const ClosedPipe&) {
     return kClosedPipe;
+  } catch (const std::bad_alloc&) {
+    print_error("not enough memory");
   } catch (const std::exception& error) {
     print_error(error.what());
-    return kBadInput;
   }
+  return kBadInput;
 }
 
 }  // namespace
 
 }  // namespace asperity::app
 
-int main(int argc, char** argv) {
-  asperity::watch_interrupts(asperity::app::print_error);
-  return asperity::app::run_command_line(argc, argv);
-}
+int main(int argc, char** argv) { return asperity::app::run_command_line(argc, argv); }

@@ -13,4 +13,9 @@ std::uint32_t crc32(std::string_view bytes) noexcept {
   return crc32({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
 }
 
+std::uint32_t crc32_of_more(std::uint32_t before, std::string_view bytes) noexcept {
+  if (bytes.empty()) return before;
+  return static_cast<std::uint32_t>(::crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
 }  // namespace asperity

@@ -61,16 +61,26 @@ std::string make_beside(const fs::path& path, const char* what, const Make& make
   throw Error(path.string() + ": cannot be " + what + ": " + reason());
 }
 
-// Forces a file, or a folder's list of names, to the disk. Throws Error naming `target`.
-void sync(const fs::path& path, const fs::path& target) {
+// Forces a file, or a folder's list of names, to the disk; 0 or the error.
+int try_sync(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const bool done = file >= 0 && ::fsync(file) == 0;
   const int error = errno;
   if (file >= 0) ::close(file);
   // Some file systems cannot sync a folder; they then need not.
-  if (done || (error == EINVAL && fs::is_directory(path))) return;
-  throw Error(target.string() + ": cannot be written: " + std::strerror(error));
+  return done || (error == EINVAL && fs::is_directory(path)) ? 0 : error;
 }
+
+// The same of what is still to be put in place. Throws Error naming `target`.
+void sync(const fs::path& path, const fs::path& target) {
+  if (const int error = try_sync(path); error != 0)
+    throw Error(target.string() + ": cannot be written: " + std::strerror(error));
+}
+
+// What was put in place, for those who ask what an interrupted program leaves.
+constexpr std::size_t kMostNamed = 3;
+std::vector<fs::path> in_place;
+std::size_t in_place_count = 0;
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
@@ -135,7 +145,10 @@ void OutputFile::commit() {
     throw Error(target_.string() + ": cannot be written: " + reason());
   }
   close();
-  if (alone) sync(folder_of(target_), target_);
+  if (!alone) return;
+  note_output(target_);
+  if (const int error = try_sync(folder_of(target_)); error != 0)
+    throw Error(target_.string() + ": is written, but cannot be forced to the disk: " + std::strerror(error));
 }
 
 OutputFolder::OutputFolder(fs::path target, const std::function<bool(const fs::path&)>& is_ours)
@@ -184,11 +197,17 @@ std::vector<fs::path> OutputFolder::commit() {
     }
     mark_finished(temporary_);
     temporary_.clear();
-    sync(folder_of(target_), target_);
+    note_output(target_);
+    if (const int error = try_sync(folder_of(target_)); error != 0) {
+      throw Error(target_.string() + ": is written, but cannot be forced to the disk: " + std::strerror(error) +
+                  "; what it replaced is kept in " + old.string());
+    }
     kept = keep_strangers(old);
     fs::remove_all(old, ignored);
   } else if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
     throw Error(target_.string() + ": cannot be written: " + reason());
+  } else {
+    note_output(target_);
   }
   if (!temporary_.empty()) mark_finished(temporary_);
   temporary_.clear();
@@ -217,6 +236,21 @@ std::vector<fs::path> OutputFolder::keep_strangers(const fs::path& old) const {
     kept.push_back(name);
   }
   return kept;
+}
+
+void note_output(const fs::path& path) {
+  const std::lock_guard lock(unfinished_mutex);
+  if (std::find(in_place.begin(), in_place.end(), path) != in_place.end()) return;
+  if (in_place.size() < kMostNamed) in_place.push_back(path);
+  ++in_place_count;
+}
+
+std::string outputs_in_place() {
+  const std::lock_guard lock(unfinished_mutex);
+  std::string out;
+  for (const fs::path& path : in_place) out += (out.empty() ? "" : ", ") + path.string();
+  if (in_place_count > in_place.size()) out += " and others";
+  return out;
 }
 
 void remove_unfinished_output() {

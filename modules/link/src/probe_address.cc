@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 #include "asperity/link/open_capture.h"
 #include "asperity/transport/find_usb_serial.h"
@@ -130,6 +131,12 @@ std::unique_ptr<ByteSource> open_probe_source(const ProbeAddress& address, Probe
       UdpConfig config;
       config.address = address.address;
       config.port = address.port;
+      config.shows_sender = [protocol](std::span<const std::uint8_t> datagram) {
+        const auto decoder = make_probe_decoder(protocol);
+        std::vector<ProbeSample> samples;
+        decoder->push(datagram, host_now_ns(), samples);
+        return decoder->statistics().frames > 0 || decoder->description().has_value();
+      };
       return open_udp(config);
     }
     case ProbeLinkKind::kFile: {

@@ -34,7 +34,7 @@ TEST(ProbeAddress, IsReadAsPeopleTypeIt) {
 
   address = parse_probe_address("udp:9000");
   EXPECT_EQ(address.kind, ProbeLinkKind::kUdp);
-  EXPECT_EQ(address.address, "0.0.0.0");
+  EXPECT_EQ(address.address, "127.0.0.1");
   EXPECT_EQ(address.port, 9000);
   EXPECT_EQ(parse_probe_address("udp:127.0.0.1:9001").address, "127.0.0.1");
   EXPECT_EQ(parse_probe_address("udp:[::1]:9001").address, "::1");

@@ -40,6 +40,12 @@ std::size_t dropped_rows(const Recording& recording) {
   return dropped;
 }
 
+std::size_t changed_rows(const Recording& recording) {
+  std::size_t changed = 0;
+  for (const Problem& problem : recording.problems) changed += problem.kind == "changed" ? problem.count : 0;
+  return changed;
+}
+
 // Why a stage has no result; empty if no problem of the kind is there.
 std::string why_absent(const Problems& problems, std::string_view kind) {
   for (const Problem& problem : problems) {
@@ -86,6 +92,7 @@ void add_streams(const Recording& recording, const TrajectoryResult& trajectory,
   out.poses_outlying = count("poses_outlying");
   out.repeated_share = repeated_share(recording.tracker);
   out.rows_dropped = dropped_rows(recording);
+  out.rows_changed = changed_rows(recording);
   out.rows_kept = recording.probe.size() + recording.tracker.size();
   out.recorded_s = std::max(span_s(recording.probe.t_ns), span_s(recording.tracker.t_ns));
   out.used_s = span_s(trajectory.motion.t_ns);

@@ -69,7 +69,7 @@ void RecordingInfoWriter::run() {
 }
 
 void RecordingInfoWriter::sync() const {
-  for (const char* name : {"recording.json", "probe.csv", "tracker.csv", "."}) {
+  for (const char* name : {"recording.json", "probe.csv", "tracker.csv", "checksums.txt", "."}) {
     const int file = ::open((folder_ / name).c_str(), O_RDONLY | O_CLOEXEC);
     const bool done = file >= 0 && ::fsync(file) == 0;
     const std::string reason = std::strerror(errno);

@@ -58,9 +58,12 @@ bool pass_rows(const std::filesystem::path& path, const std::vector<Segment>& sp
 
 }  // namespace
 
+bool has_other_rows(const std::filesystem::path& path, const std::vector<Segment>& segments) {
+  return pass_rows(path, merge_overlapping(segments), [](const std::string&) {});
+}
+
 void keep_rows(const std::filesystem::path& path, const std::vector<Segment>& segments) {
   const std::vector<Segment> spans = merge_overlapping(segments);
-  if (!pass_rows(path, spans, [](const std::string&) {})) return;
   constexpr std::size_t kBatch_bytes = std::size_t{1} << 20;
   OutputFile out(path);
   std::string batch;

@@ -6,8 +6,10 @@
 #include <cstring>
 
 #include "asperity/base/error.h"
+#include "asperity/base/output.h"
 #include "asperity/recording/format_recording.h"
 #include "asperity/recording/write_recording.h"
+#include "block_checksums.h"
 #include "csv_line.h"
 #include "keep_rows.h"
 
@@ -24,6 +26,18 @@ constexpr std::size_t kBatch_bytes = 64 * 1024;
 }
 
 }  // namespace
+
+struct RecordingAppender::Stream {
+  fs::path path;
+  int file = -1;
+  std::string waiting;
+  std::uint64_t bytes = 0;  // written
+  BlockSum sum;
+
+  void open_new(const fs::path& new_path, std::string header);
+  void write();
+  void close() noexcept;
+};
 
 void RecordingAppender::Stream::open_new(const fs::path& new_path, std::string header) {
   path = new_path;
@@ -45,6 +59,7 @@ void RecordingAppender::Stream::write() {
       errno = reason;
       fail(path);
     }
+    sum.add(std::string_view(waiting).substr(done, static_cast<std::size_t>(count)));
     done += static_cast<std::size_t>(count);
     bytes += static_cast<std::uint64_t>(count);
   }
@@ -58,7 +73,11 @@ void RecordingAppender::Stream::close() noexcept {
 
 RecordingAppender::RecordingAppender(fs::path folder, const RecordingInfo& info, const Calibration& calibration,
                                      const AppendColumns& columns)
-    : folder_(std::move(folder)), columns_(columns) {
+    : folder_(std::move(folder)),
+      columns_(columns),
+      probe_(std::make_unique<Stream>()),
+      tracker_(std::make_unique<Stream>()),
+      checksums_(std::make_unique<Stream>()) {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw Error(folder_.string() + ": cannot be made: " + error.message());
@@ -67,39 +86,51 @@ RecordingAppender::RecordingAppender(fs::path folder, const RecordingInfo& info,
   write_recording_info(folder_ / "recording.json", info);
   write_calibration(folder_ / "calibration.json", calibration);
   try {
-    probe_.open_new(folder_ / "probe.csv", probe_header(columns.gyro, columns.force3));
-    tracker_.open_new(folder_ / "tracker.csv",
-                      tracker_header(columns.markers, columns.reprojection, columns.sigmas, columns.sigmas));
+    probe_->open_new(folder_ / "probe.csv", probe_header(columns.gyro, columns.force3));
+    tracker_->open_new(folder_ / "tracker.csv",
+                       tracker_header(columns.markers, columns.reprojection, columns.sigmas, columns.sigmas));
+    checksums_->open_new(folder_ / kChecksumFile, checksum_header());
+    note_output(folder_);
   } catch (...) {
-    probe_.close();
-    tracker_.close();
+    for (Stream* stream : {probe_.get(), tracker_.get(), checksums_.get()}) stream->close();
     throw;
   }
 }
 
 RecordingAppender::~RecordingAppender() {
   try {
-    if (probe_.file >= 0 && tracker_.file >= 0) flush();
+    if (probe_->file >= 0 && tracker_->file >= 0) flush();
   } catch (const Error&) {
     // A destructor cannot report; whoever needs to know calls finish().
   }
-  probe_.close();
-  tracker_.close();
+  for (Stream* stream : {probe_.get(), tracker_.get(), checksums_.get()}) stream->close();
+}
+
+std::uint64_t RecordingAppender::bytes() const { return probe_->bytes + tracker_->bytes; }
+
+void RecordingAppender::write_checksums(bool to_disk) {
+  for (Stream* stream : {probe_.get(), tracker_.get()}) {
+    const bool ends = stream->sum.is_full() || (to_disk && !stream->sum.is_empty());
+    if (ends) append_checksum(checksums_->waiting, stream->path.filename().string(), stream->sum.take());
+  }
+  checksums_->write();
 }
 
 void RecordingAppender::add(const ProbeSample& sample) {
-  std::string& out = probe_.waiting;
+  std::string& out = probe_->waiting;
   append_time(out, sample.t_ns);
   append_cells(out, sample.accel_counts);
   append_cell(out, sample.force_counts);
   if (columns_.gyro) append_cells(out, sample.gyro_counts);
   if (columns_.force3) append_cells(out, sample.force3_counts);
   out += '\n';
-  if (out.size() >= kBatch_bytes) probe_.write();
+  if (out.size() < kBatch_bytes) return;
+  probe_->write();
+  write_checksums(false);
 }
 
 void RecordingAppender::add(const TrackerSample& sample) {
-  std::string& out = tracker_.waiting;
+  std::string& out = tracker_->waiting;
   append_time(out, sample.t_ns);
   append_cells(out, sample.T_world_marker.translation_m);
   append_cells(out, sample.T_world_marker.rotation);
@@ -112,25 +143,39 @@ void RecordingAppender::add(const TrackerSample& sample) {
     append_cells(out, sample.noise_rotation_rad);
   }
   out += '\n';
-  if (out.size() >= kBatch_bytes) tracker_.write();
+  if (out.size() < kBatch_bytes) return;
+  tracker_->write();
+  write_checksums(false);
 }
 
 void RecordingAppender::flush(bool to_disk) {
-  for (Stream* stream : {&probe_, &tracker_}) {
+  for (Stream* stream : {probe_.get(), tracker_.get()}) {
     if (stream->file < 0) throw Error(folder_.string() + ": the recording is finished");
     stream->write();
-    if (to_disk && ::fdatasync(stream->file) != 0) fail(stream->path);
+  }
+  write_checksums(to_disk);
+  if (!to_disk) return;
+  for (Stream* stream : {probe_.get(), tracker_.get(), checksums_.get()}) {
+    if (::fdatasync(stream->file) != 0) fail(stream->path);
   }
 }
 
 void RecordingAppender::finish(const RecordingInfo& info, bool only_segments) {
   flush(true);
-  probe_.close();
-  tracker_.close();
+  for (Stream* stream : {probe_.get(), tracker_.get(), checksums_.get()}) stream->close();
   // First the list: whoever dies in between leaves rows that no segment claims, not segments without rows.
   write_recording_info(folder_ / "recording.json", info);
   if (!only_segments) return;
-  for (const Stream* stream : {&probe_, &tracker_}) keep_rows(stream->path, info.segments);
+  if (!has_other_rows(probe_->path, info.segments) && !has_other_rows(tracker_->path, info.segments)) return;
+  // The checksums are of the streams with those rows. Whoever dies in between leaves streams that nothing checks.
+  std::error_code error;
+  if (!fs::remove(checksums_->path, error)) throw Error(checksums_->path.string() + ": cannot be replaced");
+  std::string lines = checksum_header();
+  for (const Stream* stream : {probe_.get(), tracker_.get()}) {
+    keep_rows(stream->path, info.segments);
+    lines += checksum_lines_of_file(stream->path);
+  }
+  write_file(checksums_->path, lines);
 }
 
 }  // namespace asperity

@@ -8,6 +8,7 @@
 #include "asperity/base/output.h"
 #include "asperity/recording/format_recording.h"
 #include "asperity/recording/validate_recording.h"
+#include "block_checksums.h"
 
 namespace asperity {
 
@@ -32,8 +33,11 @@ void write_calibration(const std::filesystem::path& path, const Calibration& cal
 
 void write_recording(const std::filesystem::path& folder, const Recording& recording) {
   validate_recording(recording);
-  write_file(folder / "probe.csv", format_probe_csv(recording.probe));
-  write_file(folder / "tracker.csv", format_tracker_csv(recording.tracker));
+  const std::string probe = format_probe_csv(recording.probe), tracker = format_tracker_csv(recording.tracker);
+  write_file(folder / "probe.csv", probe);
+  write_file(folder / "tracker.csv", tracker);
+  write_file(folder / kChecksumFile,
+             checksum_header() + checksum_lines("probe.csv", probe) + checksum_lines("tracker.csv", tracker));
   if (recording.truth) write_file(folder / "truth.csv", format_truth_csv(*recording.truth));
   write_calibration(folder / "calibration.json", recording.calibration);
   write_recording_info(folder / "recording.json", recording.info);

@@ -31,7 +31,9 @@ void wait_for_zero_force() {
 
 void watch_interrupts(void (*say)(std::string_view)) {
   // A reader that closes the pipe shows up as a failed write, not as a death with output half-written.
+  // Nor does a limit on the size of files.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   sigset_t set;
   sigemptyset(&set);
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP}) {
@@ -57,7 +59,7 @@ void watch_interrupts(void (*say)(std::string_view)) {
     }
     wait_for_zero_force();
     remove_unfinished_output();
-    say(kInterrupted);
+    say(interrupted_text());
     ::_exit(128 + number);
   }).detach();
 }
@@ -67,6 +69,11 @@ ForceHold::~ForceHold() { --forces_held; }
 
 FinishHold::FinishHold() { ++finishes_held; }
 FinishHold::~FinishHold() { --finishes_held; }
+
+std::string interrupted_text() {
+  const std::string kept = outputs_in_place();
+  return kept.empty() ? "interrupted; nothing was written" : "interrupted; what was written before stays: " + kept;
+}
 
 bool interrupted() { return signal_seen != 0; }
 

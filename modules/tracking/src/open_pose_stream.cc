@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/base/host_clock.h"
 #include "asperity/base/text.h"
 #include "asperity/link/device_clock.h"
 #include "asperity/tracking/pose_lines.h"
@@ -137,6 +138,12 @@ std::unique_ptr<PoseSource> open_pose_stream(const PoseAddress& address) {
   UdpConfig udp;
   udp.address = address.address;
   udp.port = address.port;
+  udp.shows_sender = [](std::span<const std::uint8_t> datagram) {
+    PoseLines lines;
+    std::vector<TrackerSample> poses;
+    lines.push(datagram, host_now_ns(), poses);
+    return !poses.empty();
+  };
   return make_pose_stream(open_udp(udp), PoseTimes::kSendersClock);
 }
 

@@ -113,7 +113,7 @@ class UdpSource : public ByteSource {
     if (error == asio::error::connection_refused) return true;
     if (error) throw Error(name_ + ": " + error.message());
     const std::int64_t now_ns = host_now_ns();
-    if (!is_probe(from, now_ns)) return true;
+    if (!is_probe(from, now_ns) || !has_shown(from, count)) return true;
     sender_ = from;
     arrival_ns_ = now_ns;
     begin_ = 0;
@@ -124,6 +124,12 @@ class UdpSource : public ByteSource {
   bool is_probe(const udp::endpoint& from, std::int64_t now_ns) const {
     if (config_.any_sender || !sender_ || from == *sender_) return true;
     return from.address() == sender_->address() && 1e-9 * static_cast<double>(now_ns - arrival_ns_) > config_.silence_s;
+  }
+
+  // A sender that was heard before has.
+  bool has_shown(const udp::endpoint& from, std::size_t count) const {
+    if (!config_.shows_sender || (sender_ && from == *sender_)) return true;
+    return config_.shows_sender(std::span(datagram_).first(count));
   }
 
   UdpConfig config_;

@@ -105,6 +105,22 @@ TEST(Udp, OtherSendersArePassedOver) {
   EXPECT_EQ(read_once(*open_to_all), Bytes({66}));
 }
 
+TEST(Udp, AStrangerWhoDoesNotSpeakTheProtocolIsNeverTheProbe) {
+  const auto source =
+      open_udp({.shows_sender = [](std::span<const std::uint8_t> datagram) { return datagram[0] == 1; }});
+  EXPECT_THAT(source->name(), testing::StartsWith("udp:127.0.0.1:"));
+  const Sender stranger;
+  const Sender probe;
+  stranger.send(port_of(*source), {66});
+  probe.send(port_of(*source), {1, 5});
+  stranger.send(port_of(*source), {1, 66});
+  probe.send(port_of(*source), {2});
+  EXPECT_EQ(read_once(*source), Bytes({1, 5}));
+  EXPECT_EQ(read_once(*source), Bytes({2}));
+  EXPECT_TRUE(source->write(Bytes{3}));
+  EXPECT_EQ(probe.receive(), Bytes({3}));
+}
+
 TEST(Udp, AfterASilenceTheProbeMayComeFromAnotherPort) {
   const auto source = open_udp({.address = "127.0.0.1", .silence_s = 0.0});
   const Sender before;

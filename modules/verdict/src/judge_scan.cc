@@ -145,6 +145,11 @@ void judge_streams(const ScanEvidence& e, Verdicts& out) {
     out.push_back(make_verdict(
         "rows_lost", fmt::format("{} of {} rows could not be used", e.rows_dropped, e.rows_kept + e.rows_dropped)));
   }
+  if (e.rows_changed > 0) {
+    out.push_back(make_verdict("changed_bytes", fmt::format("{} rows are not as they were recorded, or lie where rows "
+                                                            "are missing, by checksums.txt",
+                                                            e.rows_changed)));
+  }
   if (e.used_s < kLeastOverlap_share * e.recorded_s) {
     out.push_back(make_verdict("little_overlap", fmt::format("the two streams share only {:.1f} s of the {:.1f} s "
                                                              "recorded",

@@ -33,6 +33,8 @@ constexpr VerdictCode kCodes[] = {
     {"tracker_repeats", kInvalid, "check that the tracker's export has all of its poses"},
     {"clipped", kInvalid, "scan slower or with less force, or use an accelerometer with a wider range"},
     {"rows_lost", kInvalid, "check the connection and the file"},
+    {"changed_bytes", kLimited,
+     "save the rows that are whole with `asperity recover`; if it was you who changed the file, remove checksums.txt"},
     {"little_overlap", kInvalid, "check that both streams have one clock, and record them together"},
     {"tracker_gap", kInvalid, "keep the markers in view, or use the method `fused`"},
     {"spikes", kInvalid, "check the probe's cable and power, or use the method `fused`"},

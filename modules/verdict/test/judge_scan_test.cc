@@ -98,6 +98,7 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
          e.clipped_force_ratio = 0.84;
          e.accel_bias_mps2 = 4.2;  // by the same cause
        }},
+      {"changed_bytes", "17 rows", [](ScanEvidence& e) { e.rows_changed = 17; }},
       {"rows_lost", "2000 of 8000", [](ScanEvidence& e) { e.rows_dropped = 2000; }},
       {"little_overlap", "1.5 s of the 10.0 s", [](ScanEvidence& e) { e.used_s = 1.5; }},
       {"tracker_gap", "0.80 s", [](ScanEvidence& e) { e.tracker_gap_s = 0.8; }},

@@ -11,4 +11,7 @@ namespace asperity {
 std::uint32_t crc32(std::span<const std::uint8_t> bytes) noexcept;
 std::uint32_t crc32(std::string_view bytes) noexcept;
 
+// Of what has the CRC-32 `before` (0: nothing yet) with `bytes` behind it.
+std::uint32_t crc32_of_more(std::uint32_t before, std::string_view bytes) noexcept;
+
 }  // namespace asperity

@@ -62,6 +62,12 @@ class OutputFolder {
   std::set<std::filesystem::path> known_;  // in the target when this began
 };
 
+// Notes that something stands at `path` whatever comes: commit() does so, and who writes in place.
+void note_output(const std::filesystem::path& path);
+
+// What was put in place by now, the first three by name; empty if nothing was.
+std::string outputs_in_place();
+
 // Removes the temporary files and folders that are in use now. Called when the program is stopped by
 // a signal; not safe inside the handler itself.
 void remove_unfinished_output();

@@ -19,7 +19,7 @@ struct ProbeAddress {
   std::uint16_t vendor = 0;         // usb
   std::uint16_t product = 0;        // usb
   std::string serial_number;        // usb; empty: any
-  std::string address = "0.0.0.0";  // udp: of this host, to bind
+  std::string address = "127.0.0.1";  // udp: of this host, to bind; 0.0.0.0 hears all who reach it
   std::uint16_t port = 0;           // udp
   int baud = 0;                     // serial, usb; 0: the protocol's
   double bytes_per_s = 0.0;         // file; 0: as its arrivals say

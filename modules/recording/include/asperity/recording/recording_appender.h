@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include "asperity/recording/recording.h"
@@ -41,7 +42,8 @@ struct TrackerSample {
 };
 
 // Writes a recording while it is made, so that a process or a machine that dies leaves a folder that
-// read_recording reads up to the last whole line. Not thread-safe.
+// read_recording reads up to the last whole line. The checksums of the streams' blocks go to checksums.txt while they
+// are written. Not thread-safe.
 class RecordingAppender {
  public:
   // Makes the folder with recording.json and calibration.json, each whole, and the headers of the two
@@ -67,23 +69,19 @@ class RecordingAppender {
   void finish(const RecordingInfo& info, bool only_segments = false);
 
   // Handed to the operating system so far, of both streams; the lines in memory are not counted.
-  std::uint64_t bytes() const { return probe_.bytes + tracker_.bytes; }
+  std::uint64_t bytes() const;
 
  private:
-  struct Stream {
-    std::filesystem::path path;
-    int file = -1;
-    std::string waiting;
-    std::uint64_t bytes = 0;  // written
-    void open_new(const std::filesystem::path& new_path, std::string header);
-    void write();
-    void close() noexcept;
-  };
+  struct Stream;
+
+  // Lists the blocks that have ended, all of them if `to_disk`.
+  void write_checksums(bool to_disk);
 
   std::filesystem::path folder_;
   AppendColumns columns_;
-  Stream probe_;
-  Stream tracker_;
+  std::unique_ptr<Stream> probe_;
+  std::unique_ptr<Stream> tracker_;
+  std::unique_ptr<Stream> checksums_;
 };
 
 }  // namespace asperity

@@ -1,16 +1,18 @@
 #pragma once
 
 #include <atomic>
+#include <string>
 #include <string_view>
 
 namespace asperity {
 
-inline constexpr const char* kInterrupted = "interrupted; nothing was written";
+// "interrupted; nothing was written", or what stays.
+std::string interrupted_text();
 
 // From now on SIGINT, SIGTERM, SIGHUP and SIGQUIT ask the program to stop: interrupted() turns true, and if the
-// program has not ended within a second, unfinished output is removed, `say` is given kInterrupted, and the process
+// program has not ended within a second, unfinished output is removed, `say` is given interrupted_text(), and the process
 // ends with 128 + signal. SIGTSTP, a terminal's Ctrl-Z, does so while a ForceHold lives; else it stops the process as
-// ever. Call once, before any other thread exists.
+// ever. SIGPIPE and SIGXFSZ become errors of the write. Call once, before any other thread exists.
 void watch_interrupts(void (*say)(std::string_view));
 
 bool interrupted();

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "asperity/transport/byte_source.h"
@@ -9,10 +11,13 @@
 namespace asperity {
 
 struct UdpConfig {
-  std::string address = "0.0.0.0";  // of this host, IPv4 or IPv6
-  std::uint16_t port = 0;           // 0: any free one, see name()
-  bool any_sender = false;          // else the first sender is the probe; others are passed over
-  double silence_s = 2.0;           // after which the probe may come back from another port of its address
+  std::string address = "127.0.0.1";  // of this host, IPv4 or IPv6; 0.0.0.0 hears all who reach it
+  std::uint16_t port = 0;             // 0: any free one, see name()
+  bool any_sender = false;            // else the first sender is the probe; others are passed over
+  double silence_s = 2.0;             // after which the probe may come back from another port of its address
+  // True of a datagram by which a sender shows that it speaks the protocol. Until one has, all are passed over, and so
+  // are those from another port after a silence. Without it the first datagram is taken.
+  std::function<bool(std::span<const std::uint8_t>)> shows_sender = {};
 };
 
 // Waits for datagrams. What is written goes to the sender heard last; false before there is one. Never throws LinkLost:

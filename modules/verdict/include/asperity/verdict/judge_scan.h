@@ -37,6 +37,7 @@ struct ScanEvidence {
   double clipped_share = kUnknown;
   std::size_t rows_kept = 0;
   std::size_t rows_dropped = 0;
+  std::size_t rows_changed = 0;  // whose bytes are not those that were recorded, by their checksums
   double recorded_s = 0.0;
   double used_s = 0.0;
   double tracker_gap_s = kUnknown;  // interpolated over

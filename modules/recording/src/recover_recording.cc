@@ -1,0 +1,300 @@
+#include "asperity/recording/recover_recording.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "asperity/base/csv.h"
+#include "asperity/base/error.h"
+#include "asperity/base/inner_path.h"
+#include "asperity/base/output.h"
+#include "asperity/recording/format_recording.h"
+#include "asperity/recording/parse_recording.h"
+#include "asperity/recording/read_recording.h"
+#include "asperity/recording/write_recording.h"
+#include "block_checksums.h"
+
+namespace asperity {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kMostMessages = 20;
+
+std::size_t cells_of(std::string_view line) {
+  return static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
+}
+
+bool is_number_or_empty(std::string_view cell) {
+  if (cell.empty()) return true;
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return error == std::errc() && end == cell.data() + cell.size();
+}
+
+// A whole number of nanoseconds, then numbers.
+bool is_row(std::string_view line, std::size_t cells) {
+  if (cells_of(line) != cells) return false;
+  std::int64_t t_ns = 0;
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), t_ns);
+  if (error != std::errc() || end == line.data() + line.size() || *end != ',') return false;
+  line.remove_prefix(static_cast<std::size_t>(end - line.data()) + 1);
+  for (;;) {
+    const std::size_t comma = line.find(',');
+    if (!is_number_or_empty(line.substr(0, comma))) return false;
+    if (comma == std::string_view::npos) return true;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+// A line and the bytes [begin, end) that it takes, its newline among them.
+struct Line {
+  std::string_view text;
+  std::uint64_t begin = 0, end = 0;
+  std::size_t number = 0;
+};
+
+template <class Take>
+void pass_lines(std::string_view content, const Take& take) {
+  Line line;
+  for (std::size_t at = 0; at < content.size();) {
+    const std::size_t newline = content.find('\n', at);
+    if (newline == std::string_view::npos) return;  // cut off
+    std::size_t length = newline - at;
+    if (length > 0 && content[newline - 1] == '\r') --length;
+    line = {content.substr(at, length), at, newline + 1, line.number + 1};
+    take(line);
+    at = newline + 1;
+  }
+}
+
+// The headers that a recorder of ours writes.
+std::vector<std::string> own_headers(std::string_view file) {
+  std::vector<std::string> out;
+  if (file == "probe.csv") {
+    for (const bool gyro : {false, true}) {
+      for (const bool force3 : {false, true}) out.push_back(probe_header(gyro, force3));
+    }
+  } else {
+    for (const auto& [seen, sigmas, noise] :
+         {std::array{false, false, false}, {true, false, false}, {true, true, false}, {true, true, true}})
+      out.push_back(tracker_header(seen, seen, sigmas, noise));
+  }
+  for (std::string& header : out) header.pop_back();  // the newline
+  return out;
+}
+
+bool is_header(std::string_view line, std::string_view file) {
+  std::string_view needed = file == "probe.csv" ? "accel_k" : "qz";
+  const std::size_t place = line.find(needed);
+  return line.starts_with("t_ns,") && place != std::string_view::npos;
+}
+
+// The header of our own that has as many columns as most of the rows. A stream of the probe with a gyroscope has as
+// many as one with three axes of force: that one is told by its first header only, so the former is taken.
+std::string header_by_rows(std::string_view content, std::string_view file) {
+  const std::vector<std::string> headers = own_headers(file);
+  std::vector<std::size_t> rows(headers.size());
+  pass_lines(content, [&](const Line& line) {
+    for (std::size_t i = 0; i < headers.size(); ++i) {
+      if (is_row(line.text, cells_of(headers[i]))) ++rows[i];
+    }
+  });
+  // The first of the largest: without force_x before with it, where both have as many columns.
+  const auto most = std::max_element(rows.begin(), rows.end());
+  const auto index = static_cast<std::size_t>(most - rows.begin());
+  if (*most == 0) return {};
+  if (file == "probe.csv" && cells_of(headers[index]) == 8) return headers[2];
+  return headers[index];
+}
+
+class ChangedRows {
+ public:
+  explicit ChangedRows(std::vector<ChangedBytes> changes) : changes_(std::move(changes)) {}
+  bool holds(const Line& line) {
+    while (next_ < changes_.size() && changes_[next_].end <= line.begin) ++next_;
+    return next_ < changes_.size() && changes_[next_].begin < line.end;
+  }
+
+ private:
+  std::vector<ChangedBytes> changes_;
+  std::size_t next_ = 0;
+};
+
+// Neighbouring lines of one kind become one message.
+class Messages {
+ public:
+  Messages(std::string file, RecoveredStream& stream) : file_(std::move(file)), stream_(stream) {}
+  ~Messages() { end(); }
+  void add(std::size_t line, const char* what) {
+    if (what == what_ && line == last_ + 1) {
+      last_ = line;
+      return;
+    }
+    end();
+    first_ = last_ = line;
+    what_ = what;
+  }
+
+ private:
+  void end() {
+    if (what_ != nullptr && stream_.messages.size() < kMostMessages) {
+      stream_.messages.push_back(first_ == last_ ? fmt::format("{}:{}: {}", file_, first_, what_)
+                                                 : fmt::format("{}:{}: to line {}: {}", file_, first_, last_, what_));
+    }
+    what_ = nullptr;
+  }
+  std::string file_;
+  RecoveredStream& stream_;
+  std::size_t first_ = 0, last_ = 0;
+  const char* what_ = nullptr;
+};
+
+// The whole rows of a stream, with its header; empty if nothing is to be had.
+std::string recover_stream(const fs::path& folder, const char* file, std::string_view checksums,
+                           const RecoverOptions& options, const ReadLimits& limits, RecoveredStream& stream) {
+  stream.file = file;
+  std::error_code error;
+  if (!inner_file(folder, file) || !fs::is_regular_file(folder / file, error)) {
+    stream.messages.push_back(std::string(file) + ": is not there");
+    return {};
+  }
+  const std::string content = read_file(folder / file, limits.csv_bytes);
+  const std::vector<BlockChecksum> blocks = parse_checksums(checksums, file);
+  stream.checked = !blocks.empty();
+  ChangedRows changed(find_changes(content, blocks));
+
+  const std::string_view first = std::string_view(content).substr(0, content.find('\n'));
+  std::string header(first.ends_with('\r') ? first.substr(0, first.size() - 1) : first);
+  if (!is_header(header, file)) {
+    header = header_by_rows(content, file);
+    stream.header_replaced = true;
+    stream.messages.push_back(fmt::format("{}:1: the header cannot be read{}", file,
+                                          header.empty() ? "" : "; taken by the number of columns: " + header));
+    if (header.empty()) return {};
+  }
+  stream.found = true;
+
+  const std::size_t cells = cells_of(header);
+  std::string out = header + '\n';
+  Messages messages(file, stream);
+  pass_lines(content, [&](const Line& line) {
+    if (line.number == 1 && (!stream.header_replaced || !is_row(line.text, cells))) return;
+    if (line.text.empty() || line.text.front() == '#') return;
+    const bool row = is_row(line.text, cells), differs = changed.holds(line);
+    if (!row) {
+      ++stream.unreadable_rows;
+      messages.add(line.number, "not a row of this file; left out");
+      return;
+    }
+    if (differs) {
+      ++stream.changed_rows;
+      messages.add(line.number, options.keep_changed ? "not the bytes that were recorded; kept"
+                                                     : "not the bytes that were recorded; left out");
+      if (!options.keep_changed) return;
+    }
+    ++stream.rows;
+    out.append(line.text);
+    out += '\n';
+  });
+  return out;
+}
+
+// `parse` of the file, or of the one of `like` where that throws.
+template <class Parse>
+auto read_or_like(const fs::path& folder, const char* file, const RecoverOptions& options, const ReadLimits& limits,
+                  RecoveredRecording& out, const Parse& parse) {
+  try {
+    if (!inner_file(folder, file)) throw Error((folder / file).string() + ": is a link out of the recording");
+    return parse(folder / file, read_file(folder / file, limits.json_bytes));
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    if (options.like.empty()) {
+      throw Error(std::string(error.what()) +
+                  "; --like REC takes it from another recording of the same probe and tracker");
+    }
+    out.taken_from_like.emplace_back(file);
+    return parse(options.like / file, read_file(options.like / file, limits.json_bytes));
+  }
+}
+
+void copy_others(const fs::path& folder, const fs::path& to, RecoveredRecording& out) {
+  for (const char* name : {"truth.csv", "camera.json", "markers.json", "frames"}) {
+    std::error_code error;
+    const fs::file_status status = fs::symlink_status(folder / name, error);
+    if (error || !(fs::is_regular_file(status) || fs::is_directory(status))) continue;
+    fs::copy(folder / name, to / name, fs::copy_options::recursive | fs::copy_options::skip_symlinks, error);
+    if (error) throw Error((folder / name).string() + ": cannot be copied: " + error.message());
+    out.copied.emplace_back(name);
+  }
+}
+
+Json stream_json(const RecoveredStream& stream) {
+  Json out = Json::object();
+  out["rows"] = stream.rows;
+  out["changed_rows"] = stream.changed_rows;
+  out["unreadable_rows"] = stream.unreadable_rows;
+  out["header_replaced"] = stream.header_replaced;
+  return out;
+}
+
+}  // namespace
+
+bool RecoveredRecording::lost_nothing() const {
+  const auto whole = [](const RecoveredStream& stream) {
+    return stream.found && stream.changed_rows == 0 && stream.unreadable_rows == 0 && !stream.header_replaced;
+  };
+  return whole(probe) && whole(tracker) && taken_from_like.empty();
+}
+
+RecoveredRecording recover_recording(const fs::path& folder, const fs::path& out, const RecoverOptions& options,
+                                     const ReadLimits& limits, const Observer& observer) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) throw Error(folder.string() + ": not a folder");
+  RecoveredRecording result;
+  RecordingInfo info = read_or_like(folder, "recording.json", options, limits, result,
+                                    [&](const fs::path& path, const std::string& text) {
+                                      return parse_recording_info(text, path.string(), limits, observer);
+                                    });
+  // Another take's segments are of other times.
+  if (!result.taken_from_like.empty()) {
+    info.segments.clear();
+    info.recorder.reset();
+    info.simulation.reset();
+  }
+  const Calibration calibration = read_or_like(folder, "calibration.json", options, limits, result,
+                                               [&](const fs::path& path, const std::string& text) {
+                                                 return parse_calibration(text, path.string(), limits, observer);
+                                               });
+
+  std::string checksums;
+  if (inner_file(folder, kChecksumFile) && fs::is_regular_file(folder / kChecksumFile, error))
+    checksums = read_file(folder / kChecksumFile, limits.json_bytes);
+  const std::string probe = recover_stream(folder, "probe.csv", checksums, options, limits, result.probe);
+  observer.update("recovering", 0.5);
+  const std::string tracker = recover_stream(folder, "tracker.csv", checksums, options, limits, result.tracker);
+  if (result.probe.rows == 0 && result.tracker.rows == 0)
+    throw Error(folder.string() + ": neither probe.csv nor tracker.csv has a row that can be saved");
+
+  if (!probe.empty()) write_file(out / "probe.csv", probe);
+  if (!tracker.empty()) write_file(out / "tracker.csv", tracker);
+  write_file(out / kChecksumFile,
+             checksum_header() + checksum_lines("probe.csv", probe) + checksum_lines("tracker.csv", tracker));
+  copy_others(folder, out, result);
+  write_calibration(out / "calibration.json", calibration);
+  info.extra["recovered"] = {{"probe", stream_json(result.probe)},
+                             {"tracker", stream_json(result.tracker)},
+                             {"taken_from_another", result.taken_from_like}};
+  write_recording_info(out / "recording.json", info);
+  observer.update("recovering", 1.0);
+  return result;
+}
+
+}  // namespace asperity
