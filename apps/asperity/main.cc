@@ -66,6 +66,13 @@ int usage(const std::string& message, const std::string& command) {
   return kUsage;
 }
 
+// What went wrong, and what stands all the same.
+void tell_failure(const std::string& what) {
+  const std::string kept = outputs_in_place();
+  const bool named = kept.empty() || what.find("is written") != std::string::npos;
+  print_error(what + (named ? "" : "; what was written before stays: " + kept));
+}
+
 int run_command(Command& command) {
   const std::string name = command.parser().full_name();
   try {
@@ -80,9 +87,9 @@ int run_command(Command& command) {
   } catch (const ClosedPipe&) {
     return kClosedPipe;
   } catch (const std::bad_alloc&) {
-    print_error(name + ": not enough memory");
+    tell_failure(name + ": not enough memory");
   } catch (const std::exception& error) {
-    print_error(error.what());
+    tell_failure(error.what());
   }
   return kBadInput;
 }

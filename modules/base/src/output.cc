@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <new>
 #include <random>
 #include <set>
 
@@ -29,7 +30,8 @@ void mark_unfinished(const fs::path& path) {
   unfinished.insert(path);
 }
 
-void mark_finished(const fs::path& path) {
+// Takes no memory: destructors call it.
+void mark_finished(const fs::path& path) noexcept {
   const std::lock_guard lock(unfinished_mutex);
   unfinished.erase(path);
 }
@@ -48,14 +50,18 @@ std::string reason() { return std::strerror(errno); }
 // A name of our own beside `path`: `make` is tried until it does not fail with EEXIST. Throws Error for what else
 // fails.
 template <class Make>
-std::string make_beside(const fs::path& path, const char* what, const Make& make) {
+fs::path make_beside(const fs::path& path, const char* what, const Make& make) {
   constexpr int kTries = 1000;
   std::random_device random;
   for (int k = 0; k < kTries; ++k) {
     std::array<char, 9> digits{};
     std::snprintf(digits.data(), digits.size(), "%08x", random());
-    const std::string name = (path.parent_path() / ("." + path.filename().string() + ".tmp-" + digits.data())).string();
+    fs::path name = path.parent_path() / ("." + path.filename().string() + ".tmp-" + digits.data());
+    mark_unfinished(name);  // before it is there, or a signal could come in between
     if (make(name)) return name;
+    const int error = errno;
+    mark_finished(name);
+    errno = error;
     if (errno != EEXIST) break;
   }
   throw Error(path.string() + ": cannot be " + what + ": " + reason());
@@ -109,11 +115,10 @@ OutputFile::OutputFile(fs::path target) : target_(std::move(target)) {
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     throw Error(target_.string() + ": cannot be written: it exists and is no file that could be replaced");
   }
-  temporary_ = make_beside(target_, "written", [this](const std::string& name) {
+  temporary_ = make_beside(target_, "written", [this](const fs::path& name) {
     file_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     return file_ >= 0;
   });
-  mark_unfinished(temporary_);
 }
 
 OutputFile::~OutputFile() {
@@ -167,14 +172,17 @@ OutputFolder::OutputFolder(fs::path target, const std::function<bool(const fs::p
     fs::create_directories(target_.parent_path(), error);
     if (error) throw Error(target_.string() + ": cannot be made: " + error.message());
   }
-  temporary_ = make_beside(target_, "made", [](const std::string& name) { return ::mkdir(name.c_str(), 0777) == 0; });
-  mark_unfinished(temporary_);
+  temporary_ = make_beside(target_, "made", [](const fs::path& name) { return ::mkdir(name.c_str(), 0777) == 0; });
 }
 
 OutputFolder::~OutputFolder() {
   if (temporary_.empty()) return;
-  std::error_code ignored;
-  fs::remove_all(temporary_, ignored);
+  try {
+    std::error_code ignored;
+    fs::remove_all(temporary_, ignored);
+  } catch (const std::bad_alloc&) {
+    // It stays, under a name that says what it is.
+  }
   mark_finished(temporary_);
 }
 

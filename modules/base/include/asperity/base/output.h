@@ -32,7 +32,7 @@ class OutputFile {
   void close() noexcept;
 
   std::filesystem::path target_;
-  std::string temporary_;
+  std::filesystem::path temporary_;
   int file_ = -1;
 };
 
