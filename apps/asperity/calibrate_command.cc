@@ -109,10 +109,7 @@ std::string CalibrateCommand::text(const CalibrateOutcome& outcome) const {
   }
   for (const std::string& note : outcome.notes) out += "note: " + note + "\n";
   const std::string_view word = verdict_word(outcome.verdict.verdicts);
-  out += (word == "valid"     ? "good: "
-          : word == "limited" ? "LIMITED: "
-                              : "INVALID: ") +
-         outcome.verdict.text + "\n";
+  out += (word == "valid" ? "good: " : word == "limited" ? "LIMITED: " : "INVALID: ") + outcome.verdict.text + "\n";
   if (!output_.empty()) out += printable(output_, 200) + ": " + kind_ + " written\n";
   return out;
 }

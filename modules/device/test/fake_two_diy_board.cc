@@ -9,9 +9,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
 #include <mutex>
 #include <numbers>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <Eigen/LU>
@@ -89,6 +91,8 @@ struct FakeTwoDiyBoard::Impl {
         while (take()) {
         }
       }
+      const std::lock_guard lock(mutex);
+      flush();
     }
   }
 
@@ -140,7 +144,40 @@ struct FakeTwoDiyBoard::Impl {
       std::memcpy(bytes + 1 + sizeof(float) * static_cast<std::size_t>(i), &degrees, sizeof degrees);
     }
     if (nonsense) std::memset(bytes, 0xff, sizeof bytes);
-    if (::write(master, bytes, sizeof bytes) < 0) gone = true;
+    send({bytes, bytes + sizeof bytes});
+  }
+
+  using Bytes = std::vector<unsigned char>;
+
+  void send(Bytes bytes) {
+    const BoardTrouble kind = trouble;
+    if (kind == BoardTrouble::kMute) return;
+    if (kind == BoardTrouble::kGlitch && glitches < 8) {
+      ++glitches;
+      for (const std::size_t place : {1U, 5U}) {
+        float degrees = 0.0F;
+        std::memcpy(&degrees, &bytes[place], sizeof degrees);
+        degrees += place == 1U ? -25.0F : 25.0F;  // both arms: some 30 mm
+        std::memcpy(&bytes[place], &degrees, sizeof degrees);
+      }
+    }
+    if (kind == BoardTrouble::kOutOfOrder && held.empty()) {
+      held = std::move(bytes);
+      return;
+    }
+    const auto due = Clock::now() + std::chrono::milliseconds(kind == BoardTrouble::kLate ? 60 : 0);
+    const int copies = kind == BoardTrouble::kDuplicate ? 2 : kind == BoardTrouble::kFast ? 4 : 1;
+    for (int i = 0; i < copies; ++i) outbox.emplace_back(due, bytes);
+    if (!held.empty()) outbox.emplace_back(due, std::move(held));
+    held.clear();
+    flush();
+  }
+
+  void flush() {
+    while (!outbox.empty() && outbox.front().first <= Clock::now()) {
+      if (::write(master, outbox.front().second.data(), outbox.front().second.size()) < 0) gone = true;
+      outbox.pop_front();
+    }
   }
 
   void move() {
@@ -166,6 +203,11 @@ struct FakeTwoDiyBoard::Impl {
   std::thread thread;
   std::atomic<bool> stopping{false}, stalled{false}, gone{false}, nonsense{false};
   std::vector<unsigned char> came;
+
+  std::atomic<BoardTrouble> trouble{BoardTrouble::kNone};
+  int glitches = 0;
+  Bytes held;
+  std::deque<std::pair<Clock::time_point, Bytes>> outbox;
 
   mutable std::mutex mutex;
   bool set_up = false;
@@ -206,5 +248,6 @@ int FakeTwoDiyBoard::resets() const {
 void FakeTwoDiyBoard::unplug() { impl_->gone = true; }
 void FakeTwoDiyBoard::stall(bool on) { impl_->stalled = on; }
 void FakeTwoDiyBoard::answer_nonsense() { impl_->nonsense = true; }
+void FakeTwoDiyBoard::trouble(BoardTrouble kind) { impl_->trouble = kind; }
 
 }  // namespace asperity

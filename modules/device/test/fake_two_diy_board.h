@@ -14,6 +14,17 @@ struct FakeBoardConfig {
   Eigen::Vector2d pull_N{0.0, 1.0};  // away from the motors
 };
 
+// What a board or its line can do to answers. The messages are obeyed all the same.
+enum class BoardTrouble {
+  kNone,
+  kMute,        // no answer
+  kGlitch,      // eight answers state a place far away
+  kDuplicate,   // each answer comes twice
+  kLate,        // each comes 60 ms late
+  kFast,        // three more that nobody asked for
+  kOutOfOrder,  // every other one comes after its follower
+};
+
 // A hAPI board on a pseudo-terminal, with a pantograph of l 0.05, L 0.07, d 0.02 m whose tip is a damped mass. It
 // starts as a 2diy is calibrated, arms at 180° and 0°; its encoders count from there. It speaks only when asked, holds
 // the last torques for ever, and needs to be set up first. Its mechanics are another derivation than the driver's:
@@ -32,6 +43,7 @@ class FakeTwoDiyBoard {
   void unplug();
   void stall(bool on);
   void answer_nonsense();
+  void trouble(BoardTrouble kind);
 
  private:
   struct Impl;

@@ -10,9 +10,9 @@ namespace asperity {
 std::string interrupted_text();
 
 // From now on SIGINT, SIGTERM, SIGHUP and SIGQUIT ask the program to stop: interrupted() turns true, and if the
-// program has not ended within a second, unfinished output is removed, `say` is given interrupted_text(), and the process
-// ends with 128 + signal. SIGTSTP, a terminal's Ctrl-Z, does so while a ForceHold lives; else it stops the process as
-// ever. SIGPIPE and SIGXFSZ become errors of the write. Call once, before any other thread exists.
+// program has not ended within a second, unfinished output is removed, `say` is given interrupted_text(), and the
+// process ends with 128 + signal. SIGTSTP, a terminal's Ctrl-Z, does so while a ForceHold lives; else it stops the
+// process as ever. SIGPIPE and SIGXFSZ become errors of the write. Call once, before any other thread exists.
 void watch_interrupts(void (*say)(std::string_view));
 
 bool interrupted();

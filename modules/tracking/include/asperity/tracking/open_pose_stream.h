@@ -16,8 +16,8 @@ struct PoseAddress {
   enum class Kind { kUdp, kFile, kPipe };
   Kind kind = Kind::kUdp;
   std::string address = "127.0.0.1";  // udp; 0.0.0.0 hears all who reach it
-  std::uint16_t port = 0;           // udp
-  std::string path;                 // file, pipe
+  std::uint16_t port = 0;             // udp
+  std::string path;                   // file, pipe
 };
 
 // Throws Error naming the text and what is allowed.
