@@ -148,6 +148,7 @@ TEST_F(FaultMatrix, Haply) {
       {"unplugged", Demand::kZeroInTime, [&](pid_t) { service->unplug(); }},
       {"connection cut", Demand::kZeroInTime, [&](pid_t) { service->drop(); }},
       {"garbage", Demand::kZeroInTime, [&](pid_t) { service->answer_with("not json"); }},
+      {"60 ms late", Demand::kBounded, [&](pid_t) { service->answer_after(std::chrono::milliseconds(60)); }},
       {"20 ms late", Demand::kBounded, [&](pid_t) { service->answer_after(std::chrono::milliseconds(20)); }},
   };
   for (const Fault& fault : faults) {

@@ -52,8 +52,9 @@ SafeForce make_safe(const SafetyConfig& config, SafetyState& state, const Safety
   const bool stood_still = input.dt_s > config.stale_after_s && state.staleness.heard;
   const bool silent = is_stale(state.staleness, input.sequence, input.status, config.stale_after_s, input.dt_s);
   const bool stale = silent || stood_still;
+  const bool stammering = is_stammering(state.stammer, stale, dt_s);
   if (!finite) safe.limited_by |= flag(SafetyCause::kNonFinite);
-  if (stale) safe.limited_by |= flag(SafetyCause::kStale);
+  if (stale || stammering) safe.limited_by |= flag(SafetyCause::kStale);
   if (input.ending) safe.limited_by |= flag(SafetyCause::kEnding);
   if (!input.permitted) safe.limited_by |= flag(SafetyCause::kNotPermitted);
   if (!input.plausible) safe.limited_by |= flag(SafetyCause::kImplausible);

@@ -14,4 +14,15 @@ bool is_stale(Staleness& staleness, std::uint64_t sequence, DeviceStatus status,
   return staleness.silent_s + 0.5 * dt_s >= stale_after_s;
 }
 
+bool is_stammering(Stammer& stammer, bool stale, double dt_s) noexcept {
+  stammer.since_onset_s += dt_s;
+  stammer.hold_s -= dt_s;
+  if (stale && !stammer.stale) {
+    if (stammer.since_onset_s < kStammerWindow_s) stammer.hold_s = kStammerHold_s;
+    stammer.since_onset_s = 0.0;
+  }
+  stammer.stale = stale;
+  return stammer.hold_s > 0.0;
+}
+
 }  // namespace asperity

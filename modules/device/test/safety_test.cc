@@ -76,6 +76,30 @@ TEST(Staleness, CountsFromTheLastNews) {
     EXPECT_FALSE(is_stale(staleness, 9 + k / 10, DeviceStatus::kReady, 0.02, kTick_s));
 }
 
+TEST(Staleness, ASecondSilenceWithinASecondHoldsTheForceAtZero) {
+  Stammer stammer;
+  int held = 0;
+  const auto pass = [&](bool stale, int ticks) {
+    for (int k = 0; k < ticks; ++k) held += is_stammering(stammer, stale, kTick_s) ? 1 : 0;
+  };
+  pass(false, 100);
+  pass(true, 30);
+  pass(false, 500);
+  EXPECT_EQ(held, 0);  // one silence costs nothing more
+  pass(true, 30);
+  pass(false, 2000);
+  EXPECT_NEAR(held, 250, 1);
+  pass(true, 30);
+  pass(false, 100);
+  EXPECT_NEAR(held, 250, 1);  // more than a second later
+  held = 0;
+  for (int k = 0; k < 20; ++k) {  // answers that are 60 ms late
+    pass(true, 40);
+    pass(false, 20);
+  }
+  EXPECT_NEAR(held, 1200, 2);
+}
+
 TEST(MakeSafe, PassesWhatIsSafe) {
   SafetyState state;
   for (std::uint64_t k = 0; k < 100; ++k) {

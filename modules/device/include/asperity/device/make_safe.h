@@ -15,6 +15,7 @@ namespace asperity {
 struct SafetyState {
   double gain = 0.0;  // of the soft start and of the ramps to zero, within 0 and 1
   Staleness staleness;
+  Stammer stammer;
   Eigen::Vector3d held_N = Eigen::Vector3d::Zero();  // the last finite force that was rendered
   Eigen::Vector3d out_N = Eigen::Vector3d::Zero();   // let through at the tick before
   PassivityState passivity;

@@ -18,4 +18,18 @@ struct Staleness {
 bool is_stale(Staleness& staleness, std::uint64_t sequence, DeviceStatus status, double stale_after_s,
               double dt_s) noexcept;
 
+// What is remembered of silences that are over. Begin with Stammer{}.
+struct Stammer {
+  bool stale = false;          // at the tick before
+  double since_onset_s = 1e9;  // of the last silence
+  double hold_s = 0.0;         // the force is held at zero for so long yet
+};
+
+// One tick of a device that falls silent again and again, as one whose answers come late: true while its force is to be
+// zero, which is for kStammerHold_s from the last of at least two silences that began within kStammerWindow_s. Without
+// it the force would come back softly after each of them, against a hand that is felt where it was. Realtime-safe: yes.
+inline constexpr double kStammerWindow_s = 1.0;
+inline constexpr double kStammerHold_s = 0.25;
+bool is_stammering(Stammer& stammer, bool stale, double dt_s) noexcept;
+
 }  // namespace asperity
