@@ -235,10 +235,24 @@ TEST_F(Register, ARecordingBecomesATexturedMesh) {
   EXPECT_TRUE(fs::exists(dir_ / "out" / scene.at("textures").at(0).at("file").get<std::string>()));
 }
 
+// A guess that is stated to be much better than it is ends at a pose that its own numbers refuse.
+TEST_F(Register, AGuessThatIsWrongByManyOfItsSigmasIsRefused) {
+  simulate("rec", "sandpaper", through({{0.0, -0.4}, {0.9, 0.7}, {1.8, -0.3}}), 2);
+  const Pose truth = pose_of(read_json(dir_ / "rec" / "recording.json").at("extra").at("T_mesh_world"));
+  const Outcome outcome =
+      run({"register", path("rec"), mesh(), "--mesh-unit", "mm", "-o", path("out"), "--json", "--guess",
+           text_of(off_by(truth, 50e-3, 0.17)), "--set", "search.registration.guess_sigma_m=0.002", "--set",
+           "search.registration.guess_sigma_deg=3"});
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  std::vector<std::string> codes;
+  for (const json& verdict : json::parse(outcome.out).at("verdicts")) codes.push_back(verdict.at("code"));
+  EXPECT_THAT(codes, ::testing::AnyOf(::testing::Contains("pose_misfit"), ::testing::Contains("guess_contradicted")));
+}
+
 // The seed's own chain, registration included (seed §5.4, B.2).
 TEST_F(Register, TheThesisRegistersFromAGuess) {
-  // Nothing in it rejects a flipped pose.
-  simulate("rec", "sandpaper", through({{0.0, -0.4}, {0.9, 0.7}, {1.8, -0.3}}), 2, {"--set", "tracker.flip_chance=0"});
+  // With the tracker's flips.
+  simulate("rec", "sandpaper", through({{0.0, -0.4}, {0.9, 0.7}, {1.8, -0.3}}), 2);
   const Pose truth = pose_of(read_json(dir_ / "rec" / "recording.json").at("extra").at("T_mesh_world"));
   const Words words{"register", path("rec"), mesh(), "--mesh-unit", "mm", "--method", "thesis", "-o", path("out")};
   Words near = words;

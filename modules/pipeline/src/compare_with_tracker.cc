@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "asperity/base/units.h"
+#include "pose_path.h"
 
 namespace asperity {
 
@@ -20,11 +21,6 @@ constexpr double kResting_sigmas = 3.0;
 constexpr double kMaxPoseGap_s = 0.3;
 constexpr double kShapeError = 0.005;  // of the length
 constexpr double kSlowNoise = 2.0;     // all of the poses' noise over the white part, which the differences show
-
-struct PosePath {
-  std::vector<double> t_s;  // true time, from the motion's first sample
-  std::vector<Eigen::Vector3d> p_world_tip_m;
-};
 
 // A path smoothed by local parabolas: position, velocity, and what noise of unit size becomes in them.
 struct SmoothedPoses {
@@ -47,40 +43,6 @@ PosePath tip_by_poses(const Recording& recording, const TrajectoryResult& trajec
     out.t_s.push_back(static_cast<double>(recording.tracker.t_ns[i] - trajectory.motion.t_ns.front()) * kNanosecond_s -
                       latency_s);
     out.p_world_tip_m.emplace_back(recording.tracker.T_world_marker[i] * calibration.tip_in_marker_m);
-  }
-  return out;
-}
-
-// By the fourth differences of evenly spaced poses; zero if there are too few.
-Eigen::Vector3d white_noise_m(const PosePath& path) {
-  constexpr std::size_t kWindow = 32;
-  constexpr double kGain2 = 70.0;  // 1² + 4² + 6² + 4² + 1²
-  std::vector<double> steps_s;
-  for (std::size_t i = 1; i < path.t_s.size(); ++i) steps_s.push_back(path.t_s[i] - path.t_s[i - 1]);
-  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
-  std::nth_element(steps_s.begin(), middle, steps_s.end());
-  const double longest_s = 1.5 * *middle;
-  std::array<std::vector<double>, 3> levels;
-  Eigen::Array3d sum = Eigen::Array3d::Zero();
-  std::size_t count = 0;
-  for (std::size_t i = 2; i + 2 < path.t_s.size(); ++i) {
-    if (path.t_s[i + 2] - path.t_s[i - 2] > 4.0 * longest_s) continue;
-    const auto& p = path.p_world_tip_m;
-    const Eigen::Vector3d fourth_m = p[i - 2] - 4.0 * p[i - 1] + 6.0 * p[i] - 4.0 * p[i + 1] + p[i + 2];
-    sum += fourth_m.array().square() / kGain2;
-    if (++count < kWindow) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      levels[axis].push_back(std::sqrt(sum[static_cast<Eigen::Index>(axis)] / static_cast<double>(count)));
-    }
-    sum.setZero();
-    count = 0;
-  }
-  Eigen::Vector3d out = Eigen::Vector3d::Zero();
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (levels[axis].empty()) continue;
-    const auto usual = levels[axis].begin() + static_cast<std::ptrdiff_t>(levels[axis].size() / 2);
-    std::nth_element(levels[axis].begin(), usual, levels[axis].end());
-    out[static_cast<Eigen::Index>(axis)] = *usual;
   }
   return out;
 }
@@ -123,40 +85,6 @@ SmoothedPoses smooth_poses(const PosePath& path, double half_width_s) {
     out.v_mps.emplace_back(fitted.row(1).transpose() / reach_s);
     out.p_gain.push_back(std::sqrt(covariance(0, 0)));
     out.v_gain_per_s.push_back(std::sqrt(covariance(1, 1)) / reach_s);
-  }
-  return out;
-}
-
-double median_of_poses(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// The poses without those that are far from the median of their neighbours, in an axis. A steady motion, which spreads
-// the neighbours, leaves their median where the pose is.
-PosePath without_outliers(const PosePath& path, const Eigen::Vector3d& sigma_m) {
-  constexpr double kReach_s = 0.15;
-  constexpr double kOutlying = 6.0;  // standard deviations of the poses, or of what the neighbours spread over
-  PosePath out;
-  std::size_t first = 0, last = 0;
-  std::vector<double> values, distances;
-  for (std::size_t i = 0; i < path.t_s.size(); ++i) {
-    while (path.t_s[i] - path.t_s[first] > kReach_s) ++first;
-    while (last < path.t_s.size() && path.t_s[last] - path.t_s[i] <= kReach_s) ++last;
-    bool outlying = false;
-    for (int axis = 0; axis < 3; ++axis) {
-      values.clear();
-      distances.clear();
-      for (std::size_t j = first; j < last; ++j) values.push_back(path.p_world_tip_m[j][axis]);
-      const double middle_m = median_of_poses(values);
-      for (const double value : values) distances.push_back(std::abs(value - middle_m));
-      const double spread_m = std::max(sigma_m[axis], 1.48 * median_of_poses(distances));
-      outlying |= std::abs(path.p_world_tip_m[i][axis] - middle_m) > kOutlying * spread_m;
-    }
-    if (outlying) continue;
-    out.t_s.push_back(path.t_s[i]);
-    out.p_world_tip_m.push_back(path.p_world_tip_m[i]);
   }
   return out;
 }

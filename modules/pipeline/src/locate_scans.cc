@@ -7,6 +7,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/registration/find_registration.h"
+#include "asperity/registration/pose_misfit.h"
 #include "asperity/registration/refine_registration.h"
 #include "asperity/registration/register_path.h"
 
@@ -83,6 +84,9 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
   if (scans.in_sequence && search.registration.error_length_m == 0.0) {
     search.registration.error_length_m = config.refinement.slow_length_m;
   }
+  const PoseMisfitConfig misfit{config.refinement.slow_length_m, search.registration.surface_error_m,
+                                search.registration.guess_sigma_m,
+                                search.registration.guess_sigma_deg * std::numbers::pi / 180.0};
   LocatedScans out;
   const ProcessMethod& method = ProcessMethods::get(config.process.method);
   if (method.register_paths) {
@@ -92,6 +96,8 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
           "--picks)");
     out.registration = method.register_paths(config.process, paths, surface, *guess);
     out.slow_error_world_m.resize(scans.points.size());
+    // The baseline's method knows no error of its guess.
+    out.registration.misfit = measure_pose_misfit(paths, ready, {}, misfit, out.registration);
     return out;
   }
   out.registration = guess ? register_path(smooth, ready, *guess, search.registration, observer)
@@ -102,9 +108,10 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
     const std::vector<Pose> others = other_fits(smooth, ready, guess, search.registration, config.refinement, observer);
     observer.update("refinement", 0.0);
     RefinedRegistration refined =
-        refine_registration(paths, surface, out.registration, others, config.refinement, observer);
+        refine_registration(paths, surface, out.registration, guess, others, config.refinement, observer);
     out.registration = std::move(refined.registration);
     out.slow_error_world_m = std::move(refined.slow_error_world_m);
+    out.registration.misfit = measure_pose_misfit(paths, ready, guess, misfit, out.registration);
   }
   return out;
 }

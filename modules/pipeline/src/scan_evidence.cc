@@ -86,6 +86,7 @@ void add_streams(const Recording& recording, const TrajectoryResult& trajectory,
   out.tracker_scale_error_sigma = metric("tracker_scale_error_sigma");
   out.tracker_axes_chi2 = metric("tracker_axes_chi2");
   out.accel_axes_chi2 = metric("accel_axes_chi2");
+  out.other_axes_log_ratio = metric("other_axes_log_ratio");
   out.accel_motion_share = metric("accel_motion_share");
   out.tracker_noise_ratio = metric("tracker_noise_ratio");
   out.poses_used = count("poses_used");
@@ -114,6 +115,14 @@ PoseEvidence pose_evidence(const RegistrationResult& registration) {
     out.rival_distance_m = registration.runner_up->distance_m;
     out.rival_rotation_rad = registration.runner_up->rotation_rad;
   }
+  const PoseMisfit& misfit = registration.misfit;
+  out.slow_m = misfit.slow_m;
+  out.explained_m = misfit.explained_m;
+  out.extent_m = misfit.extent_m;
+  out.guess_shift_m = misfit.guess_shift_m;
+  out.guess_rotation_rad = misfit.guess_rotation_rad;
+  out.guess_sigma_m = misfit.guess_sigma_m;
+  out.guess_sigma_rad = misfit.guess_sigma_rad;
   return out;
 }
 

@@ -5,6 +5,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/pipeline/process_methods.h"
 #include "asperity/pipeline/process_motion.h"
 #include "asperity/profile/find_contact.h"
 
@@ -27,7 +28,11 @@ void spread_times(TipMotion& motion) {
 }
 
 ProcessResult motion_of(const Scan& scan, const RegisterConfig& config, const Observer& observer) {
-  if (scan.recording) return estimate_motion(*scan.recording, config.process, observer);
+  if (scan.recording) {
+    const ProcessMethod& method = ProcessMethods::get(config.process.method);
+    if (!method.prepare_registration) return estimate_motion(*scan.recording, config.process, observer);
+    return estimate_motion(method.prepare_registration(config.process, *scan.recording), config.process, observer);
+  }
   ProcessResult out;
   out.trajectory.motion = scan.path.motion;
   out.problems = scan.path.problems;

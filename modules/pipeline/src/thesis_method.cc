@@ -5,6 +5,7 @@
 #include "asperity/profile/thesis_steps.h"
 #include "asperity/trajectory/reject_outliers.h"
 #include "asperity/trajectory/sample_at_probe.h"
+#include "without_flips.h"
 
 namespace asperity {
 
@@ -51,6 +52,9 @@ ProcessMethod ThesisMethod::make_method() {
   out.register_paths = [](const ProcessConfig& config, std::span<const MeasuredPath> paths, const MeshSurface& surface,
                           const Pose& guess) {
     return register_thesis(paths, surface.bvh, guess, config.thesis.registration);
+  };
+  out.prepare_registration = [](const ProcessConfig& config, const Recording& recording) {
+    return config.thesis.registration.reject_flips ? without_flips(recording) : recording;
   };
   out.measure_arc_length = [](BasePath& path) { path.s_m = path_length_m(path.p_world_m); };
   out.live_config = thesis_live_config;

@@ -104,8 +104,12 @@ std::vector<Scored> score_poses(const RegistrationSurface& surface, const PointS
 }  // namespace
 
 RegistrationResult find_registration(std::span<const MeasuredPath> paths, const RegistrationSurface& surface,
-                                     const SearchConfig& config, const RegistrationObserver& observer) {
+                                     const SearchConfig& given, const RegistrationObserver& observer) {
   check_surface(surface);
+  // No guess is given, so that nothing is known of its error.
+  SearchConfig config = given;
+  config.registration.guess_sigma_m = RegistrationConfig{}.guess_sigma_m;
+  config.registration.guess_sigma_deg = RegistrationConfig{}.guess_sigma_deg;
   if (static_cast<double>(config.rotations) * config.positions > 1e8) {
     throw Error(
         fmt::format("registration: {} rotations at {} positions are too many", config.rotations, config.positions));

@@ -190,8 +190,9 @@ void report_rival_minimum(const PathChain& chain, const std::vector<LocalMinimum
 }  // namespace
 
 RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, const MeshSurface& surface,
-                                        const RegistrationResult& start, std::span<const Pose> others,
-                                        const RefineConfig& given, const RegistrationObserver& observer) {
+                                        const RegistrationResult& start, const std::optional<Pose>& guess,
+                                        std::span<const Pose> others, const RefineConfig& given,
+                                        const RegistrationObserver& observer) {
   IterationWatch watch(observer);
   watch.begin(RegistrationPhase::kRefinement);
   RefinedRegistration out;
@@ -205,7 +206,7 @@ RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, con
   };
 
   const PathChain chain = registration::make_chain(paths, config.knot_m);
-  const Refinement problem(chain, surface, start, config);
+  const Refinement problem(chain, surface, start, guess, config);
   const State first{start.T_mesh_world, Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(chain.knot_count)),
                     Eigen::VectorXd::Zero(static_cast<Eigen::Index>(chain.parts.size()))};
   const FacetHeights heights = problem.heights(first);

@@ -51,12 +51,12 @@ bool has_slow_error(const PathChain& chain, const RefineConfig& config) {
 
 }  // namespace
 
-Refinement::Refinement(const PathChain& chain, const MeshSurface& surface, const RegistrationResult& guess,
-                       const RefineConfig& config)
+Refinement::Refinement(const PathChain& chain, const MeshSurface& surface, const RegistrationResult& start,
+                       const std::optional<Pose>& guess, const RefineConfig& config)
     : chain_(chain),
       surface_(surface),
-      guess_(guess.T_mesh_world),
-      centre_m_(guess.centre_mesh_m),
+      guess_(guess.value_or(start.T_mesh_world)),
+      centre_m_(start.centre_mesh_m),
       config_(config),
       slow_(has_slow_error(chain, config)),
       knots_at_(6 + static_cast<Eigen::Index>(chain.parts.size())) {

@@ -30,9 +30,9 @@ struct Equations {
 // The equations of refine_registration.h.
 class Refinement {
  public:
-  // The start's pose and middle count as a weak guess.
-  Refinement(const PathChain& chain, const MeshSurface& surface, const RegistrationResult& guess,
-             const RefineConfig& config);
+  // The guess counts as a weak prior, without one the start's pose.
+  Refinement(const PathChain& chain, const MeshSurface& surface, const RegistrationResult& start,
+             const std::optional<Pose>& guess, const RefineConfig& config);
 
   bool slow() const { return slow_; }
   FacetHeights heights(const State& state) const {

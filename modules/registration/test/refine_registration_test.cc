@@ -91,7 +91,7 @@ Fits fit(const MeshSurface& surface, const MeasuredPath& path) {
   const std::vector<MeasuredPath> paths{path};
   Fits out;
   out.start = register_path(paths, ready, kMeshFromWorld, {});
-  out.refined = refine_registration(paths, surface, out.start, {}, {}).registration;
+  out.refined = refine_registration(paths, surface, out.start, {}, {}, {}).registration;
   return out;
 }
 
@@ -142,7 +142,7 @@ TEST(RefineRegistration, AVeryLongPathHasFewKnots) {
   MeasuredPath path = scan(surface, {50e-6, 30e-6}, 7);
   const Fits near = fit(surface, path);
   for (int i = 0; i < 4; ++i) path.p_world_m.emplace_back(1e6 * i, 0.0, 0.0);
-  const RefinedRegistration far = refine_registration({&path, 1}, surface, near.start, {}, {});
+  const RefinedRegistration far = refine_registration({&path, 1}, surface, near.start, {}, {}, {});
   EXPECT_TRUE(std::any_of(far.registration.problems.begin(), far.registration.problems.end(),
                           [](const Problem& problem) { return problem.kind == "wide_knots"; }));
 }

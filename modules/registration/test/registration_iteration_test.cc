@@ -91,9 +91,9 @@ TEST(RegistrationIteration, WithoutAGuessAndInTheRefinementToo) {
   const RegistrationResult start = register_path({&c.path, 1}, test::bumpy_body().surface, c.guess, {});
   iterations.clear();
   const RegistrationResult refined =
-      refine_registration({&c.path, 1}, surface, start, {}, {}, keeping(iterations)).registration;
+      refine_registration({&c.path, 1}, surface, start, {}, {}, {}, keeping(iterations)).registration;
   EXPECT_TRUE(same_bits(refined.T_mesh_world,
-                        refine_registration({&c.path, 1}, surface, start, {}, {}).registration.T_mesh_world));
+                        refine_registration({&c.path, 1}, surface, start, {}, {}, {}).registration.T_mesh_world));
   EXPECT_EQ(static_cast<int>(iterations.size()), refined.iterations - start.iterations);
   EXPECT_EQ(iterations.front().phase, RegistrationPhase::kRefinement);
 }
@@ -109,7 +109,7 @@ TEST(RegistrationIteration, ItIsCancelledFromOneToTheNext) {
   EXPECT_THROW(register_path({&c.path, 1}, test::bumpy_body().surface, c.guess, {}, observer), Cancelled);
   EXPECT_EQ(seen, 3u);
   seen = 0;
-  EXPECT_THROW(refine_registration({&c.path, 1}, surface, start, {}, {}, observer), Cancelled);
+  EXPECT_THROW(refine_registration({&c.path, 1}, surface, start, {}, {}, {}, observer), Cancelled);
   EXPECT_EQ(seen, 3u);
   seen = 3;
   EXPECT_THROW(find_registration({&c.path, 1}, test::bumpy_body().surface, {}, observer), Cancelled);

@@ -11,6 +11,12 @@ namespace asperity {
 namespace {
 
 constexpr double kLeastInliers = 0.5;  // with fewer the path is not on this mesh
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kMisfit = 5.0;  // residual over what is explained; a path has few independent centimetres
+// A mesh made by photogrammetry or a handheld scanner can be wrong by some tenths of a percent of its size, which the
+// settings do not state unless the user does. Beyond this share of the path's extent it is no error of a mesh.
+constexpr double kMeshError = 0.03;
+constexpr double kGuessSigmas = 4.0;  // 0.1 % of right guesses are farther off (χ², three coordinates)
 
 }  // namespace
 
@@ -27,12 +33,28 @@ Verdicts judge_registration(const PoseEvidence& evidence) {
     out.push_back(
         make_verdict("off_mesh", fmt::format("only {:.0f} % of the points are on the mesh", 100.0 * (1.0 - outlying))));
   }
-  if (evidence.ambiguous) {
+  if (evidence.slow_m > kMisfit * evidence.explained_m) {
+    const bool beyond = evidence.slow_m > kMeshError * evidence.extent_m;
     out.push_back(make_verdict(
-        "pose_ambiguous",
-        fmt::format("another pose, {:.1f} mm and {:.1f} degrees away, fits as well", 1e3 * evidence.rival_distance_m,
-                    180.0 / std::numbers::pi * evidence.rival_rotation_rad)));
+        beyond ? "pose_misfit" : "mesh_misfit",
+        fmt::format("the path is {:.2g} mm RMS from the mesh over centimetres, where its errors explain {:.2g} mm",
+                    1e3 * evidence.slow_m, 1e3 * evidence.explained_m)));
   }
+  if (evidence.guess_shift_m > kGuessSigmas * evidence.guess_sigma_m ||
+      evidence.guess_rotation_rad > kGuessSigmas * evidence.guess_sigma_rad) {
+    out.push_back(make_verdict(
+        "guess_contradicted",
+        fmt::format("the pose is {:.3g} mm and {:.3g} degrees from the guess, which was stated to be known to {:.3g} "
+                    "mm and {:.3g} degrees",
+                    1e3 * evidence.guess_shift_m, kDegrees * evidence.guess_rotation_rad, 1e3 * evidence.guess_sigma_m,
+                    kDegrees * evidence.guess_sigma_rad)));
+  }
+  if (evidence.ambiguous) {
+    out.push_back(make_verdict("pose_ambiguous",
+                               fmt::format("another pose, {:.1f} mm and {:.1f} degrees away, fits as well",
+                                           1e3 * evidence.rival_distance_m, kDegrees * evidence.rival_rotation_rad)));
+  }
+  sort_verdicts(out);
   return out;
 }
 

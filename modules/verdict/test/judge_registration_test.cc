@@ -24,8 +24,48 @@ TEST(JudgeRegistration, NamesWhatIsWrongWithAPose) {
   EXPECT_EQ(verdicts[1].code, "off_mesh");
   EXPECT_THAT(verdicts[1].message, testing::HasSubstr("only 49 %"));
   EXPECT_EQ(verdicts[2].code, "pose_ambiguous");
+  EXPECT_THAT(verdicts[2].remedy, testing::HasSubstr("refinement.guess_sigma_m"));
   EXPECT_THAT(verdicts[2].message, testing::HasSubstr("41.5 mm and 171.9 degrees"));
   EXPECT_FALSE(is_trustworthy(verdicts));
+}
+
+TEST(JudgeRegistration, RefusesAResidualThatNoErrorExplains) {
+  PoseEvidence evidence;
+  evidence.points = 100;
+  evidence.extent_m = 0.03;
+  evidence.explained_m = 0.1e-3;
+  const auto codes = [&] {
+    std::vector<std::string> out;
+    for (const Verdict& verdict : judge_registration(evidence)) out.push_back(verdict.code);
+    return out;
+  };
+  evidence.slow_m = 0.45e-3;
+  EXPECT_THAT(codes(), testing::IsEmpty());
+  // A mesh can be wrong by that.
+  evidence.slow_m = 0.55e-3;
+  EXPECT_THAT(codes(), testing::ElementsAre("mesh_misfit"));
+  EXPECT_TRUE(is_trustworthy(judge_registration(evidence)));
+  evidence.slow_m = 6.2e-3;
+  EXPECT_THAT(codes(), testing::ElementsAre("pose_misfit"));
+  EXPECT_FALSE(is_trustworthy(judge_registration(evidence)));
+  // A relief of that height explains it.
+  evidence.explained_m = 2e-3;
+  EXPECT_THAT(codes(), testing::IsEmpty());
+}
+
+TEST(JudgeRegistration, RefusesAPoseFarFromAGuessOfStatedError) {
+  PoseEvidence evidence;
+  evidence.points = 100;
+  evidence.guess_shift_m = 15e-3;
+  evidence.guess_rotation_rad = 0.2;
+  evidence.guess_sigma_m = 20e-3;
+  evidence.guess_sigma_rad = 0.35;
+  EXPECT_TRUE(judge_registration(evidence).empty());
+  evidence.guess_sigma_m = 2e-3;
+  const Verdicts verdicts = judge_registration(evidence);
+  ASSERT_EQ(verdicts.size(), 1U);
+  EXPECT_EQ(verdicts[0].code, "guess_contradicted");
+  EXPECT_THAT(verdicts[0].message, testing::HasSubstr("15 mm"));
 }
 
 }  // namespace

@@ -58,6 +58,8 @@ struct ProcessMethod {
                                    const Pose& T_mesh_world_guess)>
       register_paths;
   std::function<void(BasePath&)> measure_arc_length;
+  // The recording that a registration goes by. Empty: as it is.
+  std::function<Recording(const ProcessConfig&, const Recording&)> prepare_registration;
 
   // The live settings (live_profile.h) that match these.
   std::function<LiveProfileConfig(const ProcessConfig&)> live_config;

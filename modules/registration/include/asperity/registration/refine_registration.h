@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,7 +37,7 @@ struct RefineConfig {
             {0.0, 100.0});
     v.field("knot_m", knot_m, "distance of the points between which the slow error is interpolated", {1e-6, 1.0});
     v.field("outlier_sigmas", outlier_sigmas, "heights beyond this many standard deviations do not count", {2.0, 1e6});
-    v.field("guess_sigma_m", guess_sigma_m, "how well the start is known before, m", {1e-9, 1e6});
+    v.field("guess_sigma_m", guess_sigma_m, "how well the guess is known, without one the start, m", {1e-9, 1e6});
     v.field("guess_sigma_deg", guess_sigma_deg, "how well its turn is, degrees", {1e-6, 1e6});
     v.field("other_starts", other_starts, "guesses about the given one from which fits are tried", {0, 10000});
     v.field("other_shift_m", other_shift_m, "largest shift of these, m", {0.0, 10.0});
@@ -65,13 +66,15 @@ struct RefinedRegistration {
 // as much as it is worth, and tells where along and across the mesh the tip was.
 //
 // `paths` are those that gave `start`, evenly spaced (to a factor of two); steps of more than three times the
-// median part them. Of paths longer than 500 knots the knots lie farther apart, with a Problem. `others` are further
+// median part them. The pose has `guess`, if one was given, as a prior of guess_sigma_m and guess_sigma_deg, otherwise
+// `start`. Of paths longer than 500 knots the knots lie farther apart, with a Problem. `others` are further
 // poses to begin from: a path has several valleys near a guess (Fig. 25), and with the same whitening for all, the cost
 // says which is the deepest. Motions that `start` lists as undetermined stay as they are. The result has the refined
 // pose, residual and covariance, and lists turns that are less certain than undetermined_deg as undetermined. Where
 // fewer than 30 points are usable, `start` is given back with a Problem. Throws Cancelled.
 RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, const MeshSurface& surface,
-                                        const RegistrationResult& start, std::span<const Pose> others,
-                                        const RefineConfig& config, const RegistrationObserver& observer = {});
+                                        const RegistrationResult& start, const std::optional<Pose>& guess,
+                                        std::span<const Pose> others, const RefineConfig& config,
+                                        const RegistrationObserver& observer = {});
 
 }  // namespace asperity

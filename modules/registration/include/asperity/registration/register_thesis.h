@@ -15,12 +15,16 @@ struct ThesisRegistrationConfig {
   // the distance is least.
   double relative_change = 1e-5;
   int max_iterations = 5000;
+  // The seed has no such step. Resampled at equal distances, the centimetres of path that lead to a flipped pose and
+  // back have as many points as the scan.
+  bool reject_flips = true;
 
   template <class V>
   void visit(V& v) {
     v.field("spacing_m", spacing_m, "between the points of the resampled path, m", {1e-9, 1e3});
     v.field("relative_change", relative_change, "of the mean distance from step to step at which it stops", {0.0, 1.0});
     v.field("max_iterations", max_iterations, "limit", {1, 100000});
+    v.field("reject_flips", reject_flips, "poses far from the median of their neighbours are left out before");
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,6 +47,18 @@ struct RunnerUp {
   double rotation_rad = 0.0;  // angle between the two
 };
 
+// What keeps the paths from the mesh, and from the guess (pose_misfit.h); nan: not known.
+struct PoseMisfit {
+  double slow_m = std::numeric_limits<double>::quiet_NaN();         // of the distances, over centimetres of path, RMS
+  double relief_m = std::numeric_limits<double>::quiet_NaN();       // the rest of them, RMS
+  double explained_m = std::numeric_limits<double>::quiet_NaN();    // of slow_m, by all known errors, RMS
+  double extent_m = std::numeric_limits<double>::quiet_NaN();       // RMS distance of the points from their mean
+  double guess_shift_m = std::numeric_limits<double>::quiet_NaN();  // of the points' mean from where the guess has it
+  double guess_rotation_rad = std::numeric_limits<double>::quiet_NaN();
+  double guess_sigma_m = std::numeric_limits<double>::quiet_NaN();  // as the settings state the guess's error
+  double guess_sigma_rad = std::numeric_limits<double>::quiet_NaN();
+};
+
 // Where a scan path lies on a mesh.
 struct RegistrationResult {
   Pose T_mesh_world;
@@ -60,6 +73,7 @@ struct RegistrationResult {
   Eigen::Vector3d centre_mesh_m = Eigen::Vector3d::Zero();                       // the points' mean, mesh frame
   std::vector<UndeterminedMotion> undetermined;
   std::optional<RunnerUp> runner_up;
+  PoseMisfit misfit;
   bool ambiguous = false;  // the runner-up fits as well
   bool trustworthy = true;
   std::string verdict;  // in words

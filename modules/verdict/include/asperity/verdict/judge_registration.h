@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
+#include <limits>
 
 #include "asperity/verdict/verdict.h"
 
@@ -16,6 +16,16 @@ struct PoseEvidence {
   bool ambiguous = false;    // another pose fits as well
   double rival_distance_m = 0.0;
   double rival_rotation_rad = 0.0;
+
+  // nan: not known, and then nothing is concluded from it.
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  double slow_m = kUnknown;       // RMS distance from the mesh over centimetres of path
+  double explained_m = kUnknown;  // of it, by all known errors of path and mesh and by the relief, RMS
+  double extent_m = kUnknown;     // of the path, RMS about its mean
+  double guess_shift_m = kUnknown;
+  double guess_rotation_rad = kUnknown;
+  double guess_sigma_m = kUnknown;  // as the settings state it
+  double guess_sigma_rad = kUnknown;
 };
 
 // The verdicts on the pose of scans on a mesh, the worst first.
