@@ -13,7 +13,6 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t kErrorDraws = 24;
 constexpr std::size_t kFewestErrorDraws = 6;
 constexpr std::size_t kMostDrawn = 2'000'000;  // numbers in all: a long profile's noise varies little between draws
 constexpr double kStep_s = 1e-3;               // of the noise: beyond 500 Hz no height has any
@@ -152,8 +151,8 @@ DrawnErrors draw_height_errors(const Profile& profile, const HeightErrors& error
   if (t_s.size() < 2) return out;
   const Density height = density_over(errors, t_s.back()), along = density_over(errors_along(errors), t_s.back());
   const std::vector<std::size_t> seams = find_seams(profile, t_s, config.max_stop_s);
-  const std::size_t draws =
-      std::clamp(kMostDrawn / std::max(height.count, profile.size()), kFewestErrorDraws, kErrorDraws);
+  const std::size_t draws = std::clamp(kMostDrawn / std::max(height.count, profile.size()), kFewestErrorDraws,
+                                       std::max(config.draws, kFewestErrorDraws));
   Random random(kErrorSeed);
   double shape = 0.0;
   std::vector<std::vector<double>> all_moved_m;

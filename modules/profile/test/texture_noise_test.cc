@@ -42,43 +42,61 @@ HeightErrors errors_of(double accel_psd, double tracker_psd, double along_accel_
   return out;
 }
 
+// With so many draws that their chance is some percent.
+TextureNoiseEstimate many(const HeightErrors& errors) {
+  TextureNoiseConfig config;
+  config.draws = 600;
+  return estimate_texture_noise(even_stretch(), errors, kCutoff_cycles_per_mm, config);
+}
+
+// Over the middle half, where the high-pass has both its sides.
+double inner_rms_m(const std::vector<double>& sigma_m) {
+  double sum = 0.0;
+  for (std::size_t i = 800; i < 2400; ++i) sum += sigma_m[i] * sigma_m[i];
+  return std::sqrt(sum / 1600.0);
+}
+
 // ∫ v A (2πkv)⁻⁴ (1 + c (k₀/k)⁴)⁻² dk over all k, with ∫ x⁴ (1 + x⁴)⁻² dx = π √2/16.
 TEST(TextureNoise, OfAnAccelerometerAloneHasAClosedForm) {
   const double accel_psd = 1e-5;
-  const TextureNoiseEstimate estimate =
-      estimate_texture_noise(even_stretch(), errors_of(accel_psd, 1e3), kCutoff_cycles_per_mm);
+  const TextureNoiseEstimate estimate = many(errors_of(accel_psd, 1e3));
   const double corner_Hz = 1e3 * kCutoff_cycles_per_mm * kSpeed_mps * std::pow(std::numbers::sqrt2 - 1.0, 0.25);
   const double power_m2 = accel_psd / std::pow(2.0 * std::numbers::pi, 4) / std::pow(corner_Hz, 3) * std::numbers::pi *
                           std::numbers::sqrt2 / 16.0;
-  // 24 draws of some eight waves each, without the profile's ends, where a filter has one side only.
-  EXPECT_NEAR(estimate.noise.typical_added_rms_m, std::sqrt(power_m2), 0.3 * std::sqrt(power_m2));
+  // 1.6 s of noise about 2 Hz have some four independent values: √(2/4) of the power a draw, 1.4 % of the RMS in all.
+  EXPECT_NEAR(inner_rms_m(estimate.noise.added_sigma_m), std::sqrt(power_m2), 0.04 * std::sqrt(power_m2));
+  // Over all of the path, without the noisiest tenth: the ends, where the filter has one side only.
+  EXPECT_NEAR(estimate.noise.typical_added_rms_m, std::sqrt(power_m2), 0.1 * std::sqrt(power_m2));
   const double snr = 2500e-12 / power_m2 - 1.0;
-  EXPECT_NEAR(estimate.noise.snr, snr, 0.5 * (snr + 1.0));
+  EXPECT_NEAR(estimate.noise.snr, snr, 0.2 * (snr + 1.0));
+  // The draws of a usual run differ by their chance: √(2/8/24) of the power.
+  const TextureNoiseEstimate usual =
+      estimate_texture_noise(even_stretch(), errors_of(accel_psd, 1e3), kCutoff_cycles_per_mm);
+  EXPECT_NEAR(inner_rms_m(usual.noise.added_sigma_m), std::sqrt(power_m2), 0.2 * std::sqrt(power_m2));
 }
 
 // Where the accelerometer says nothing, the tracker's white noise goes through from the cut-off to 20 cycles/mm.
 TEST(TextureNoise, OfATrackerAloneIsWhite) {
   const double tracker_psd = 1e-12;
-  const TextureNoiseEstimate estimate =
-      estimate_texture_noise(even_stretch(), errors_of(1e12, tracker_psd), kCutoff_cycles_per_mm);
+  const TextureNoiseEstimate estimate = many(errors_of(1e12, tracker_psd));
   const double power_m2 = tracker_psd * 1e3 * kSpeed_mps * (20.0 - 0.1);
-  // Straight lines between numbers of 1 ms lose a part of what is beyond 200 Hz.
-  EXPECT_NEAR(estimate.noise.noise_rms_m, std::sqrt(power_m2), 0.3 * std::sqrt(power_m2));
+  // A thousand independent values a draw: 0.1 % in all. Points are 1 ms apart, as the noise's numbers are.
+  EXPECT_NEAR(inner_rms_m(estimate.noise.added_sigma_m), std::sqrt(power_m2), 0.01 * std::sqrt(power_m2));
 }
 
 // A sine seen where it is not: σ² = R f_c π/(2√2), and 2 (1 − exp(−(2πkσ)²/2)) of its power are wrong.
 TEST(TextureNoise, OfHeightsAtAWrongPlaceGrowsWithTheFrequency) {
   const double accel_psd = 1e-6, tracker_psd = 4e-10;
-  const TextureNoiseEstimate estimate =
-      estimate_texture_noise(even_stretch(), errors_of(1e-12, 1e-9, accel_psd, tracker_psd), kCutoff_cycles_per_mm);
+  const TextureNoiseEstimate estimate = many(errors_of(1e-12, 1e-9, accel_psd, tracker_psd));
   const double meeting_Hz = std::pow(accel_psd / tracker_psd, 0.25) / (2.0 * std::numbers::pi);
   const double bandwidth_Hz = meeting_Hz * std::numbers::pi / (2.0 * std::numbers::sqrt2);
   const double shape_mm = 1e3 * std::sqrt(tracker_psd * (bandwidth_Hz - 0.5 / (0.08 / kSpeed_mps)));
-  EXPECT_NEAR(1e3 * estimate.noise.place_sigma_m, shape_mm, 0.1 * shape_mm);
+  EXPECT_NEAR(1e3 * estimate.noise.place_sigma_m, shape_mm, 0.02 * shape_mm);
   const double phase = 2.0 * std::numbers::pi * shape_mm;
   const double expected_m = 50e-6 * std::sqrt(2.0 * (1.0 - std::exp(-0.5 * phase * phase)));
-  // The spectrum's lines spread the sine by 0.04 cycles/mm to either side.
-  EXPECT_NEAR(estimate.noise.typical_misplaced_rms_m, expected_m, 0.15 * expected_m);
+  EXPECT_NEAR(inner_rms_m(estimate.noise.misplaced_sigma_m), expected_m, 0.02 * expected_m);
+  // Over all of the path, by the blocks' points.
+  EXPECT_NEAR(estimate.noise.typical_misplaced_rms_m, expected_m, 0.05 * expected_m);
   EXPECT_LT(estimate.noise.added_rms_m, 0.01 * expected_m);
   EXPECT_NEAR(1e3 * estimate.noise.length_stderr_m, 1e3 * std::sqrt(2.0 * tracker_psd * bandwidth_Hz), 1e-4);
 }
@@ -87,8 +105,14 @@ TEST(TextureNoise, OfHeightsAtAWrongPlaceGrowsWithTheFrequency) {
 TEST(TextureNoise, FollowsTheSpeedPointByPoint) {
   Profile profile = even_stretch();
   for (std::size_t i = 1600; i < profile.size(); ++i) profile.speed_mps[i] = 2.0 * kSpeed_mps;
-  const TextureNoiseEstimate estimate = estimate_texture_noise(profile, errors_of(1e-5, 1e3), kCutoff_cycles_per_mm);
-  EXPECT_NEAR(estimate.texture_sigma_m[800] / estimate.texture_sigma_m[2400], std::pow(2.0, 1.5), 0.5);
+  TextureNoiseConfig config;
+  config.draws = 600;
+  const TextureNoiseEstimate estimate =
+      estimate_texture_noise(profile, errors_of(1e-5, 1e3), kCutoff_cycles_per_mm, config);
+  for (const std::size_t from : {600U, 800U, 1000U, 1200U}) {
+    EXPECT_NEAR(estimate.texture_sigma_m[from] / estimate.texture_sigma_m[3200 - from], std::pow(2.0, 1.5),
+                0.05 * std::pow(2.0, 1.5));
+  }
 }
 
 TEST(TextureNoise, SaysNothingWhereNoNoiseIsKnown) {

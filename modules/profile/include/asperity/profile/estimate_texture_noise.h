@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace asperity {
 struct TextureNoiseConfig {
   double bridge_m = 2e-3;   // gap across which the high-pass goes on
   double max_stop_s = 1.0;  // a longer rest parts the profile
+  std::size_t draws = 24;   // of errors; fewer of a long profile, whose noise varies little between draws
 };
 
 struct TextureNoiseEstimate {
