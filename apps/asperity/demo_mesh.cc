@@ -153,11 +153,11 @@ MeshDemo demonstrate_mesh(const fs::path& folder, const ProcessConfig& process, 
       {"correlation", "rendered, correlation", "", 1.0, score.correlation, DemoMetric::kNone, DemoMetric::kNone, 1.0},
       {"score", "rendered, score", "", 1.0, score.score, DemoMetric::kNone, DemoMetric::kNone, 1.0}};
   out.json["real_against_rendered"] = metrics_json(repeated);
-  out.json["real_against_rendered"]["verdict"] = score.verdict;
+  out.json["real_against_rendered"]["verdict"] = verdict_sentence(score.verdicts);
   for (const DemoMetric& metric : repeated) out.text += metric_line(metric);
   if (!score.trustworthy) {
     out.trustworthy = false;
-    out.verdict += (out.verdict.empty() ? "" : "; ") + ("rendered: " + score.verdict);
+    out.verdict += (out.verdict.empty() ? "" : "; ") + verdict_sentence(score.verdicts);
   }
 
   const PaintResult painted = paint_beside(scene, other, folder / "painted");
