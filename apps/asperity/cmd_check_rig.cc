@@ -64,9 +64,10 @@ class CheckRigCommand : public Command {
     if (!output_.empty()) write_file(output_, json + "\n");
     print_json(json);
     say(rig_check_text(check, config_));
-    if (check.right) return kDone;
-    print_error("check-rig: " + check.verdict);
-    return kNotTrustworthy;
+    for (const Verdict& verdict : check.verdicts) {
+      if (verdict.severity != Severity::kNote) print_error(verdict_line(verdict));
+    }
+    return check.right ? kDone : kNotTrustworthy;
   }
 
  private:

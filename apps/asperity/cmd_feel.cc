@@ -26,11 +26,12 @@
 #include "asperity/session/feel_report.h"
 #include "asperity/session/feel_scene.h"
 #include "asperity/session/feel_settings.h"
-#include "asperity/session/feel_verdict.h"
 #include "asperity/session/interrupt.h"
 #include "asperity/session/mesh_unit.h"
 #include "asperity/session/our_file.h"
 #include "asperity/session/our_folder.h"
+#include "asperity/session/run_evidence.h"
+#include "asperity/verdict/verdict_json.h"
 #include "commands.h"
 #include "option_units.h"
 #include "scene_options.h"
@@ -153,17 +154,16 @@ class FeelCommand : public Command {
     SnapshotExchange<const RenderModel> model(std::move(prepared.model));
     const fs::path log = !log_.empty() ? fs::path(log_) : folder ? folder->path() / "log.csv" : fs::path();
     const ServoResult servo = feel(*device, model, log, observer);
-    const RunVerdict run = judge_run(statistics_, servo, *device, drive, *model.acquire(), settings_.servo.safety);
-    warnings_.insert(warnings_.end(), run.warnings.begin(), run.warnings.end());
+    verdicts_ = judge_run(run_evidence(statistics_, servo, *device, drive, *model.acquire(), settings_.servo.safety));
     warnings_.insert(warnings_.end(), notes_.begin(), notes_.end());
-    for (const std::string& reason : run.reasons) add_reason(reason);
     std::optional<RenderingScore> score;
     const bool whole = device_ != "sim" && !(settings_.servo.duration_s > 0.0) && servo.end == ServoEnd::kDeviceEnded;
     if (drive.scan && !whole) warnings_.push_back("real and rendered are compared over a whole replay only");
     if (drive.scan && whole) {
       score = score_rendering(drive.scan->measured, drive.scan->pressed, *model.acquire(), settings_.servo.rate_Hz,
                               settings_.score, observer);
-      if (!score->trustworthy) add_reason("real against rendered: " + score->verdict);
+      verdicts_.insert(verdicts_.end(), score->verdicts.begin(), score->verdicts.end());
+      sort_verdicts(verdicts_);
     }
     const std::string json = to_json(servo, *device, score).dump_repaired(2);
     if (folder) {
@@ -174,7 +174,7 @@ class FeelCommand : public Command {
     print_json(json);
     report(servo, score);
     if (servo.end == ServoEnd::kStopped) return interrupt_exit_code();
-    return verdict_.empty() ? kDone : kNotTrustworthy;
+    return is_trustworthy(verdicts_) ? kDone : kNotTrustworthy;
   }
 
  private:
@@ -260,8 +260,6 @@ class FeelCommand : public Command {
     }
   }
 
-  void add_reason(const std::string& why) { verdict_ += (verdict_.empty() ? "" : "; ") + why; }
-
   void warn_of(const Problems& problems) {
     for (const Problem& problem : problems) notes_.push_back(problem.message);
   }
@@ -285,8 +283,9 @@ class FeelCommand : public Command {
       out["timing"] = timing_json(servo.statistics, settings_.servo);
     }
     if (score) out["real_against_rendered"] = score_json(*score);
-    out["trustworthy"] = verdict_.empty();
-    out["verdict"] = verdict_;
+    out["trustworthy"] = is_trustworthy(verdicts_);
+    out["verdict"] = verdict_sentence(verdicts_);
+    out["verdicts"] = verdicts_json(verdicts_);
     out["warnings"] = warnings_;
     out["config"] = config_json(fields());
     out["asperity"] = kVersion;
@@ -306,7 +305,9 @@ class FeelCommand : public Command {
     if (!quiet()) {
       for (const std::string& warning : warnings_) print_error(warning);
     }
-    if (!verdict_.empty()) print_error("invalid: " + verdict_);
+    for (const Verdict& verdict : verdicts_) {
+      if (verdict.severity == Severity::kInvalid || !quiet()) print_error(verdict_line(verdict));
+    }
   }
 
   std::string device_, replay_, rate_, log_, duration_, tip_, model_, stiffness_, friction_;
@@ -318,7 +319,7 @@ class FeelCommand : public Command {
   FeelSettings settings_;
   FeelStatistics statistics_;
   std::vector<std::string> warnings_, notes_;
-  std::string verdict_;
+  Verdicts verdicts_;
 };
 
 }  // namespace

@@ -145,7 +145,8 @@ class TrackCommand : public Command {
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
 
-    std::string text = fmt::format("{}: {}\n", printable(output_, 200), tracked.verdict);
+    std::string text = fmt::format("{}: the body was found in {} of {} images\n", printable(output_, 200),
+                                   tracked.poses.size(), tracked.frames);
     if (!tracked.poses.empty()) {
       text += fmt::format(
           "residual      {:.3f} px\n"

@@ -32,15 +32,20 @@ TEST(CheckRig, JudgesAStrokeByItsSegments) {
   const auto json = nlohmann::json::parse(right.out);
   EXPECT_EQ(json["format"], "asperity-rig-check");
   EXPECT_TRUE(json["right"]);
-  EXPECT_THAT(std::string(json["verdict"]), HasSubstr("as far as one stroke can tell"));
+  EXPECT_THAT(std::string(json["verdict"]), HasSubstr("limited: 1 stroke of 5"));
+  EXPECT_THAT(right.err, HasSubstr("limited: 1 stroke of 5"));
   // The recording's folder and the report, nothing else.
   EXPECT_EQ(contents(dir.path()).size(), contents(stroke).size() + 2);
 
   // A grating of another pitch than the one that was scanned; the report of before is ours to replace.
   const Outcome wrong = run({"check-rig", stroke, "--pitch", "1.9mm", "-o", report});
   EXPECT_EQ(wrong.code, 3);
-  EXPECT_THAT(wrong.err, HasSubstr("The pitch is"));
+  EXPECT_THAT(wrong.err, HasSubstr("invalid: the pitch is"));
   EXPECT_THAT(wrong.out, HasSubstr("NOT RIGHT"));
+  const auto judged = nlohmann::json::parse(run({"check-rig", stroke, "--pitch", "1.9mm", "--json"}).out);
+  EXPECT_EQ(judged["trustworthy"], false);
+  EXPECT_EQ(judged["verdicts"][0]["code"], "pitch_off");
+  EXPECT_EQ(judged["verdicts"][0]["severity"], "invalid");
 }
 
 }  // namespace

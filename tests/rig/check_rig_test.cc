@@ -22,18 +22,18 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-std::vector<std::string> kinds(const RigCheck& check) {
+std::vector<std::string> codes(const RigCheck& check) {
   std::vector<std::string> out;
-  for (const RigFault& fault : check.faults) out.push_back(fault.kind);
+  for (const Verdict& verdict : check.verdicts) out.push_back(verdict.code);
   return out;
 }
 
-const RigFault& fault_of(const RigCheck& check, const std::string& kind) {
-  for (const RigFault& fault : check.faults) {
-    if (fault.kind == kind) return fault;
+const Verdict& verdict_of(const RigCheck& check, const std::string& code) {
+  for (const Verdict& verdict : check.verdicts) {
+    if (verdict.code == code) return verdict;
   }
-  static const RigFault none;
-  ADD_FAILURE() << "no fault " << kind << ": " << check.verdict;
+  static const Verdict none;
+  ADD_FAILURE() << "no verdict " << code << ": " << check.verdict;
   return none;
 }
 
@@ -46,8 +46,8 @@ TEST(CheckRig, AGoodRigIsRight) {
     const RigCheck check = check_rig(grating_strokes(5, seed, {}), {});
     std::printf("%s", rig_check_text(check, {}).c_str());
     EXPECT_TRUE(check.right) << check.verdict;
-    EXPECT_THAT(check.faults, IsEmpty());
-    EXPECT_EQ(check.verdict, "the rig is right");
+    EXPECT_EQ(verdict_word(check.verdicts), "valid") << check.verdict;
+    EXPECT_THAT(check.verdict, IsEmpty());
     EXPECT_EQ(check.pitch_m.count, 5U);
     // Three times the mean's standard error as the strokes scatter (0.1 % of the pitch); three times the
     // accelerometer's 0.15 %, and the contact's 0.3 µm.
@@ -65,8 +65,8 @@ TEST(CheckRig, ATagOfTheWrongSizeIsNamed) {
   });
   EXPECT_FALSE(check.right);
   EXPECT_NEAR(check.pitch_m.mean, 2.04e-3, 0.01e-3);
-  EXPECT_THAT(fault_of(check, "pitch").cause, AllOf(HasSubstr("printed tag"), HasSubstr("focal length")));
-  EXPECT_THAT(kinds(check), Not(Contains("depth")));  // the accelerometer knows nothing of tags
+  EXPECT_THAT(verdict_of(check, "pitch_off").remedy, AllOf(HasSubstr("printed tag"), HasSubstr("calibrate camera")));
+  EXPECT_THAT(codes(check), Not(Contains("depth_off")));  // the accelerometer knows nothing of tags
 }
 
 TEST(CheckRig, ALatencyOfFiveMillisecondsIsNamed) {
@@ -76,24 +76,24 @@ TEST(CheckRig, ALatencyOfFiveMillisecondsIsNamed) {
     for (NamedRecording& stroke : strokes) stroke.recording.calibration.tracker.latency_sigma_s = sigma_s;
     const RigCheck check = check_rig(strokes, {});
     EXPECT_FALSE(check.right);
-    EXPECT_THAT(fault_of(check, "latency").cause, HasSubstr("calibrate latency"));
-    EXPECT_THAT(kinds(check), Not(Contains("pitch")));
+    EXPECT_THAT(verdict_of(check, "latency_off").remedy, HasSubstr("calibrate latency"));
+    EXPECT_THAT(codes(check), Not(Contains("pitch_off")));
   }
 }
 
 TEST(CheckRig, AnAccelerometersWrongScaleIsNamed) {
   const RigCheck check = check_wrong([](Recording& r) { r.calibration.accelerometer.B *= 1.06; });
   EXPECT_FALSE(check.right);
-  EXPECT_THAT(fault_of(check, "depth").cause, HasSubstr("calibrate accel"));
-  EXPECT_THAT(fault_of(check, "gravity").what, HasSubstr("-5."));
-  EXPECT_THAT(kinds(check), Not(Contains("pitch")));
+  EXPECT_THAT(verdict_of(check, "depth_off").remedy, HasSubstr("calibrate accel"));
+  EXPECT_THAT(verdict_of(check, "gravity_off").message, HasSubstr("-5."));
+  EXPECT_THAT(codes(check), Not(Contains("pitch_off")));
 }
 
 TEST(CheckRig, AnotherDepthThanStatedIsNotBlamedOnTheAccelerometer) {
   CheckRigConfig config;
   config.grating.depth_m = 0.22e-3;
   const RigCheck check = check_rig(grating_strokes(2, 100, {}), config);
-  EXPECT_THAT(fault_of(check, "depth").cause, HasSubstr("print of another depth"));
+  EXPECT_THAT(verdict_of(check, "depth_off").remedy, HasSubstr("measure the depth of the print"));
 }
 
 // Turns about the marker's own axes by some degrees, for a fifth of a second or so.
@@ -107,28 +107,31 @@ TEST(CheckRig, AMarkerThatRattlesIsNamed) {
     }
   });
   EXPECT_FALSE(check.right);
-  EXPECT_THAT(check.verdict + fault_of(check, "gravity_angle").cause, HasSubstr("marker is loose"));
+  EXPECT_THAT(verdict_of(check, "gravity_tilted").remedy, HasSubstr("marker is not loose"));
 }
 
 TEST(CheckRig, ATipInTheWrongPlaceIsNamed) {
   const RigCheck check = check_wrong([](Recording& r) { r.calibration.tip_in_marker_m.y() += 10e-3; });
   EXPECT_FALSE(check.right);
-  EXPECT_THAT(fault_of(check, "along").cause, HasSubstr("calibrate tip"));
-  EXPECT_THAT(fault_of(check, "pitch").cause, HasSubstr("First mend"));
+  EXPECT_THAT(verdict_of(check, "length_wanders").remedy, HasSubstr("calibrate tip"));
+  EXPECT_THAT(verdict_of(check, "pitch_off").remedy, HasSubstr("first correct"));
 }
 
 TEST(CheckRig, FewerStrokesLimitTheVerdict) {
   const RigCheck one = check_rig(grating_strokes(1, 100, {}), {});
   EXPECT_TRUE(one.right);
-  EXPECT_THAT(one.verdict, HasSubstr("as far as one stroke can tell"));
-  EXPECT_THAT(one.remarks, Contains(HasSubstr("1 strokes of 5: repeatability is not known")));
+  EXPECT_EQ(verdict_word(one.verdicts), "limited") << one.verdict;
+  EXPECT_THAT(one.verdict, HasSubstr("limited: 1 stroke of 5: repeatability is not known; scan more strokes"));
   EXPECT_TRUE(std::isnan(one.pitch_m.deviation));
   const auto json = nlohmann::json::parse(rig_check_json(one, {}));
   EXPECT_EQ(json["format"], "asperity-rig-check");
   EXPECT_TRUE(json["pitch_m"]["standard_deviation"].is_null());
   EXPECT_EQ(json["strokes"].size(), 1U);
   EXPECT_EQ(json["config"]["grating"]["pitch_m"], 2e-3);
-  EXPECT_THAT(rig_check_text(one, {}), HasSubstr("RIGHT: the rig is right, as far as"));
+  EXPECT_EQ(json["trustworthy"], true);
+  EXPECT_EQ(json["verdicts"].size(), one.verdicts.size());
+  EXPECT_THAT(rig_check_text(one, {}), HasSubstr("limited: 1 stroke of 5"));
+  EXPECT_THAT(rig_check_text(one, {}), HasSubstr("\nRIGHT\n"));
 }
 
 TEST(CheckRig, WhatIsNoStrokeOverAGratingIsSaid) {
@@ -137,13 +140,13 @@ TEST(CheckRig, WhatIsNoStrokeOverAGratingIsSaid) {
   strokes[0].recording.calibration = make_uncalibrated(2048.0, 16.4, 0.01);
   const RigCheck check = check_rig(strokes, {});
   EXPECT_FALSE(check.right);
-  EXPECT_THAT(kinds(check), Contains("calibration"));
+  EXPECT_THAT(codes(check), Contains("uncalibrated"));
 
   const std::vector<NamedRecording> smooth =
       grating_strokes(1, 100, {}, [](SimulationConfig& config) { config.surface.amplitude_m = 0.0; });
   const RigCheck none = check_rig(smooth, {});
   EXPECT_FALSE(none.right);
-  EXPECT_THAT(kinds(none), Contains("stroke"));
+  EXPECT_THAT(codes(none), Contains("stroke_not_measured"));
   EXPECT_EQ(none.pitch_m.count, 0U);
 }
 

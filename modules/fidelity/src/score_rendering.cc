@@ -16,6 +16,7 @@
 #include "asperity/signal/statistics.h"
 #include "asperity/texture/compare_textures.h"
 #include "asperity/texture/evaluate_height.h"
+#include "asperity/verdict/judge_rendering.h"
 
 namespace asperity {
 
@@ -191,18 +192,13 @@ void judge_score(RenderingScore& out, const ScoreConfig& config) {
                                      "{}, so spectra and distributions alone are compared; the heights' are {:.2f} RMS "
                                      "heights apart",
                                      out.phase_unknown, out.distribution_distance);
-  out.verdict = fmt::format(
+  out.comparison = fmt::format(
       "{}, rendered ones are {:.2f} of the real; spectra of height are {:.1f} dB apart, of force "
       "{:.1f} dB",
       what, ratio, out.height.distance_dB, out.force.distance_dB);
-  if (out.contact_fraction < config.min_contact_fraction) {
-    out.trustworthy = false;
-    out.verdict += fmt::format("; only {:.0f} % of the scan touched the surface", 100.0 * out.contact_fraction);
-  }
-  if (out.score < config.min_score) {
-    out.trustworthy = false;
-    out.verdict += fmt::format("; a score of {:.2f} is poor", out.score);
-  }
+  out.verdicts =
+      judge_rendering({out.score, config.min_score, out.contact_fraction, config.min_contact_fraction, out.comparison});
+  out.trustworthy = is_trustworthy(out.verdicts);
 }
 
 }  // namespace

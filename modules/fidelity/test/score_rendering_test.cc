@@ -126,7 +126,8 @@ TEST(ScoreRendering, OtherHeightsAreNoticed) {
     const RenderingScore result = score(plate_times(80.0, factor), measured);
     EXPECT_LT(result.score, most) << factor;
     EXPECT_FALSE(result.trustworthy);
-    EXPECT_THAT(result.verdict, ::testing::HasSubstr("poor"));
+    ASSERT_FALSE(result.verdicts.empty());
+    EXPECT_EQ(result.verdicts.front().code, "rendering_poor");
     EXPECT_NEAR(result.height.distance_dB, std::abs(20.0 * std::log10(std::abs(factor))), 0.1) << factor;
   }
   const RenderingScore pitch =
@@ -170,7 +171,7 @@ TEST(ScoreRendering, ARepeatingTextureIsJudgedBySpectrumAndDistribution) {
   const ProcessResult measured = scan(kTracker, [](double x_m) { return holes_m(x_m + 0.625e-3); });
   const RenderingScore faithful = score(board(1.0), measured);
   EXPECT_FALSE(faithful.phase_known);
-  EXPECT_THAT(faithful.verdict, ::testing::HasSubstr("the texture repeats after 10.0 mm"));
+  EXPECT_THAT(faithful.comparison, ::testing::HasSubstr("the texture repeats after 10.0 mm"));
   EXPECT_GT(faithful.score, 0.85);
   for (const double factor : {0.5, 2.0, -1.0}) EXPECT_LT(score(board(factor), measured).score, 0.45) << factor;
 }
@@ -181,7 +182,7 @@ TEST(ScoreRendering, APlateWithoutTextureIsCalledSo) {
   scene.objects[0].textures.clear();
   const RenderingScore result = score(scene, scan(kTracker, feel_test::wave_m));
   EXPECT_EQ(result.score, 0.0);
-  EXPECT_THAT(result.verdict, ::testing::HasSubstr("no texture"));
+  EXPECT_THAT(result.comparison, ::testing::HasSubstr("no texture"));
 }
 
 TEST(ScoreRendering, AScanBesideTheSceneIsRefused) {

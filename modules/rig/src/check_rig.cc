@@ -11,7 +11,6 @@
 #include "asperity/base/error.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/signal/statistics.h"
-#include "judge_rig.h"
 
 namespace asperity {
 
@@ -103,8 +102,7 @@ void summarise_strokes(RigCheck& check) {
 void measure_stroke(const Recording& recording, const CheckRigConfig& config, const Observer& observer,
                     RigStroke& out) {
   const ProcessResult result = process_recording(recording, config.process, observer);
-  out.trustworthy = result.trustworthy;
-  out.verdict = result.verdict;
+  out.verdicts = result.verdicts;
   out.latency_s = find_metric(result.trajectory, "latency_s") - recording.calibration.tracker.latency_s;
   out.accel_bias_mps2 = find_metric(result.trajectory, "accel_bias_mps2");
   out.tracker_noise_ratio = find_metric(result.trajectory, "tracker_noise_ratio");
@@ -127,6 +125,44 @@ void measure_stroke(const Recording& recording, const CheckRigConfig& config, co
   out.measured = true;
 }
 
+RigEvidence evidence_of(const RigCheck& check, const Calibration& calibration, const CheckRigConfig& config) {
+  RigEvidence out;
+  for (const RigStroke& stroke : check.strokes) {
+    out.strokes.push_back({stroke.name, stroke.measured, stroke.why_not, stroke.verdicts});
+  }
+  out.measured = check.pitch_m.count;
+  out.calibrated = !calibration.uncalibrated;
+  for (const char* kind : {"camera", "tracker", "force", "accel", "tip", "latency"}) {
+    const auto found = calibration.calibrated.find(kind);
+    if (found == calibration.calibrated.end()) {
+      out.calibrations_unstated.emplace_back(kind);
+    } else if (found->second.trustworthy == false) {
+      out.calibrations_invalid.emplace_back(kind);
+    }
+  }
+  out.pitch_m = check.pitch_m.mean;
+  out.pitch_deviation_m = check.pitch_m.deviation;
+  out.true_pitch_m = config.grating.pitch_m;
+  out.depth_m = check.depth_m.mean;
+  out.depth_deviation_m = check.depth_m.deviation;
+  out.true_depth_m = config.grating.depth_m;
+  out.along_rms_m = check.along_rms_m.mean;
+  out.correlation = check.correlation.mean;
+  out.shape_rms_m = check.shape_rms_m.mean;
+  out.latency_s = check.latency_s.mean;
+  out.latency_deviation_s = check.latency_s.deviation;
+  out.latency_half_width_s = check.latency_s.half_width;
+  out.calibrated_latency_s = calibration.tracker.latency_s;
+  out.calibrated_latency_sigma_s = calibration.tracker.latency_sigma_s;
+  out.strokes_at_rest = check.gravity_share.count;
+  out.gravity_share = check.gravity_share.mean;
+  out.gravity_angle_rad = check.median_gravity_angle_rad;
+  out.noise_ratio = check.median_noise_ratio;
+  out.outlying_share = check.outlying_share.mean;
+  out.lost_share = check.lost_share.mean;
+  return out;
+}
+
 }  // namespace
 
 RigCheck check_rig(std::span<const NamedRecording> strokes, const CheckRigConfig& config, const Observer& observer) {
@@ -147,7 +183,9 @@ RigCheck check_rig(std::span<const NamedRecording> strokes, const CheckRigConfig
     }
   }
   summarise_strokes(check);
-  judge_rig(strokes, config, check);
+  check.verdicts = judge_rig(evidence_of(check, strokes.front().recording.calibration, config), config.limits);
+  check.right = is_trustworthy(check.verdicts);
+  check.verdict = verdict_sentence(check.verdicts);
   return check;
 }
 

@@ -8,6 +8,7 @@
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
 #include "asperity/rig/check_rig.h"
+#include "asperity/verdict/verdict_json.h"
 
 namespace asperity {
 
@@ -25,8 +26,9 @@ Json stroke_json(const RigStroke& stroke, const RigCheck& check) {
   out["name"] = is_utf8(stroke.name) ? stroke.name : printable(stroke.name, 200);
   out["measured"] = stroke.measured;
   if (!stroke.measured) out["why_not"] = stroke.why_not;
-  out["trustworthy"] = stroke.trustworthy;
-  out["verdict"] = stroke.verdict;
+  out["trustworthy"] = stroke.measured && is_trustworthy(stroke.verdicts);
+  out["verdict"] = verdict_sentence(stroke.verdicts);
+  out["verdicts"] = verdicts_json(stroke.verdicts);
   const GratingMetrics& grating = stroke.grating;
   out["pitch_m"] = number_or_null(grating.pitch_m);
   out["pitch_stderr_m"] = number_or_null(grating.pitch_stderr_m);
@@ -72,12 +74,9 @@ std::string rig_check_json(const RigCheck& check, const CheckRigConfig& config) 
   out["format"] = "asperity-rig-check";
   out["version"] = 1;
   out["right"] = check.right;
+  out["trustworthy"] = check.right;
   out["verdict"] = check.verdict;
-  out["faults"] = Json::array();
-  for (const RigFault& fault : check.faults) {
-    out["faults"].push_back({{"kind", fault.kind}, {"what", fault.what}, {"cause", fault.cause}});
-  }
-  out["remarks"] = check.remarks;
+  out["verdicts"] = verdicts_json(check.verdicts);
   out["true"] = {
       {"pitch_m", config.grating.pitch_m}, {"depth_m", config.grating.depth_m}, {"traced_Rq_m", check.true_Rq_m}};
   out["pitch_m"] = repeated_json(check.pitch_m);
@@ -125,9 +124,9 @@ std::string rig_check_text(const RigCheck& check, const CheckRigConfig& config) 
     out += format_row("latency error", check.latency_s, 1e3, "ms", kUnknown);
     out += format_row("gravity", check.gravity_share, 100.0, "%", kUnknown);
   }
-  for (const std::string& remark : check.remarks) out += "note: " + remark + "\n";
-  for (const RigFault& fault : check.faults) out += fault.what + "\n  " + fault.cause + "\n";
-  return out + (check.right ? "RIGHT: " : "NOT RIGHT: ") + check.verdict + "\n";
+  if (check.verdicts.empty()) out += "valid\n";
+  for (const Verdict& verdict : check.verdicts) out += verdict_line(verdict) + "\n";
+  return out + (check.right ? "RIGHT\n" : "NOT RIGHT\n");
 }
 
 }  // namespace asperity

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "asperity/json/json.h"
+#include "asperity/verdict/verdict_json.h"
 
 namespace asperity {
 
@@ -95,8 +96,10 @@ Json score_json(const RenderingScore& score) {
   out["score"] = score.score;
   out["height_score"] = score.height_score;
   out["force_score"] = score.force_score;
-  out["verdict"] = score.verdict;
+  out["comparison"] = score.comparison;
   out["trustworthy"] = score.trustworthy;
+  out["verdict"] = verdict_sentence(score.verdicts);
+  out["verdicts"] = verdicts_json(score.verdicts);
   out["band_cycles_per_mm"] = {score.low_cycles_per_mm, score.high_cycles_per_mm};
   out["speed_mps"] = score.speed_mps;
   out["compared_m"] = number_or_null(score.compared_m);
@@ -119,7 +122,7 @@ std::string score_text(const RenderingScore& score) {
       "score      {:.3f} of 1 (heights {:.3f}, force {:.3f}), over {:.1f} mm from {:.2f} to {:.2f} "
       "cycles/mm: {}\n",
       score.score, score.height_score, score.force_score, score.compared_m * 1e3, score.low_cycles_per_mm,
-      score.high_cycles_per_mm, score.verdict);
+      score.high_cycles_per_mm, score.comparison);
   out += fmt::format("  heights  real {:.1f} µm RMS, rendered {:.1f} µm, correlation {:.3f}, gain {:.3f}\n",
                      score.height.real_rms * 1e6, score.height.rendered_rms * 1e6, score.correlation, score.gain);
   return out +

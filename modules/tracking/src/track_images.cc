@@ -72,23 +72,20 @@ void judge_tracking(const CameraCalibration& camera, const BodyPoseConfig& confi
   constexpr double kLargeResidual_px = 0.5;  // sound calibrations leave a few hundredths
   constexpr double kOften = 0.2;
   const double found = out.frames == 0 ? 0.0 : static_cast<double>(out.poses.size()) / static_cast<double>(out.frames);
-  out.verdict = fmt::format("the body was found in {} of {} images", out.poses.size(), out.frames);
   if (found < kHardlyAny) {
-    out.verdicts.push_back(make_verdict("body_hardly_found", out.verdict));
-    out.verdict = verdict_text(out.verdicts.back());
+    out.verdicts.push_back(make_verdict(
+        "body_hardly_found", fmt::format("the body was found in {} of {} images", out.poses.size(), out.frames)));
   }
   if (out.median_reprojection_px > kLargeResidual_px) {
     out.verdicts.push_back(make_verdict(
         "tags_misfit",
         fmt::format("the tags' corners are off by {:.2f} px in the median, and the sigmas are larger by it",
                     out.median_reprojection_px)));
-    out.verdict += ", but " + verdict_text(out.verdicts.back());
   }
   if (static_cast<double>(out.ambiguous) > kOften * static_cast<double>(out.poses.size())) {
     out.verdicts.push_back(
         make_verdict("plane_ambiguous", fmt::format("in {} of {} poses the tags' plane could lie the other way as well",
                                                     out.ambiguous, out.poses.size())));
-    out.verdict += ", but " + verdict_text(out.verdicts.back());
   }
   if (!camera.covariance) {
     out.verdicts.push_back(make_verdict(
@@ -98,6 +95,7 @@ void judge_tracking(const CameraCalibration& camera, const BodyPoseConfig& confi
   }
   sort_verdicts(out.verdicts);
   out.trustworthy = is_trustworthy(out.verdicts);
+  out.verdict = verdict_sentence(out.verdicts);
 }
 
 }  // namespace

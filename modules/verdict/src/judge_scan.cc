@@ -68,6 +68,9 @@ void judge_force(const ScanEvidence& e, Verdicts& out) {
   }
 }
 
+// A log-likelihood ratio of e⁹ : 1 decides, as between two poses on a mesh.
+constexpr double kDecisive = 9.0;
+
 // Whether tracker and inertial sensors show the same motion.
 void judge_agreement(const ScanEvidence& e, Verdicts& out) {
   const double scale_sigmas = std::abs(e.tracker_scale_error) / e.tracker_scale_error_sigma;
@@ -87,6 +90,16 @@ void judge_agreement(const ScanEvidence& e, Verdicts& out) {
                                                      "scale comes out to ± {:.0f} % only",
                                                      100.0 * e.tracker_scale_error_sigma)));
     return;
+  }
+  if (e.other_axes_log_ratio > kDecisive) {
+    out.push_back(make_verdict(
+        "motions_disagree", fmt::format("with exchanged or negative axes the tracker's motion is likelier by e^{:.0f}",
+                                        e.other_axes_log_ratio)));
+    return;
+  }
+  if (e.other_axes_log_ratio > -kDecisive) {
+    out.push_back(make_verdict(
+        "axes_unseen", "the inertial sensors do not show whether the tracker's axes are exchanged or negative"));
   }
   const double axes_chi2 = std::fmax(e.tracker_axes_chi2, e.accel_axes_chi2);
   if (axes_chi2 > kAxes_chi2) {

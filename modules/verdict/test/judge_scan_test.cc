@@ -79,6 +79,8 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
       {"scale_doubtful", "1.060 ± 0.020 times", [](ScanEvidence& e) { e.tracker_scale_error = 0.06; }},
       {"motions_disagree", "χ² = 120", [](ScanEvidence& e) { e.tracker_axes_chi2 = 120.0; }},
       {"motions_disagree", "χ² = 50", [](ScanEvidence& e) { e.accel_axes_chi2 = 50.0; }},
+      {"motions_disagree", "likelier by e^19", [](ScanEvidence& e) { e.other_axes_log_ratio = 19.0; }},
+      {"axes_unseen", "do not show", [](ScanEvidence& e) { e.other_axes_log_ratio = -3.0; }},
       {"motions_disagree", "97 %", [](ScanEvidence& e) { e.accel_motion_share = 0.97; }},
       {"motions_disagree", "to ± 90 % only", [](ScanEvidence& e) { e.tracker_scale_error_sigma = 0.9; }},
       {"not_moved", "0.2 mm only", [](ScanEvidence& e) { e.length_m = 0.2e-3; }},

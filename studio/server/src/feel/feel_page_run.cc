@@ -10,6 +10,7 @@
 #include "asperity/base/host_clock.h"
 #include "asperity/device/write_flight_record.h"
 #include "asperity/session/our_file.h"
+#include "asperity/verdict/verdict_json.h"
 #include "feel/feel_run.h"
 #include "feel/finished_logs.h"
 
@@ -21,12 +22,11 @@ namespace {
 
 constexpr std::array<const char*, 4> kEnds{"its time was over", "the way was at its end", "stopped", "fault"};
 
-// How a run went: its end, statistics, reasons and warnings in words, and how well the schedule of `servo` was kept.
+// How a run went: its end, statistics, verdicts, and how well the schedule of `servo` was kept.
 Json outcome_json(const FeelOutcome& outcome, const ServoConfig& servo) {
   Json out;
   out["end"] = kEnds.at(static_cast<std::size_t>(outcome.servo.end));
-  out["doubts"] = outcome.verdict.reasons;
-  out["warnings"] = outcome.verdict.warnings;
+  out["verdicts"] = verdicts_json(outcome.verdicts);
   out["duration_s"] = static_cast<double>(outcome.statistics.ticks()) / servo.rate_Hz;
   out["figures"] = outcome.statistics.json();
   out["timing"] = timing_json(outcome.servo.statistics, servo);

@@ -43,8 +43,8 @@ void FeelRun::run(Hub& hub, std::uint64_t number) {
     parts_.device->close();
     hold.reset();
     stream.flush();
-    outcome_.verdict = judge_run(outcome_.statistics, outcome_.servo, *parts_.device, parts_.drive, *scene_.acquire(),
-                                 parts_.servo.safety);
+    outcome_.verdicts = judge_run(run_evidence(outcome_.statistics, outcome_.servo, *parts_.device, parts_.drive,
+                                               *scene_.acquire(), parts_.servo.safety));
   } catch (...) {
     outcome_.failure = std::current_exception();
   }

@@ -13,7 +13,7 @@
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/snapshot_exchange.h"
 #include "asperity/session/feel_report.h"
-#include "asperity/session/feel_verdict.h"
+#include "asperity/session/run_evidence.h"
 #include "asperity/studio/hub.h"
 #include "feel/run_log.h"
 
@@ -34,7 +34,7 @@ struct FeelRunParts {
 struct FeelOutcome {
   ServoResult servo;
   FeelStatistics statistics;
-  RunVerdict verdict;
+  Verdicts verdicts;
   std::exception_ptr failure;  // what the loop or the log threw, with zero force
 };
 

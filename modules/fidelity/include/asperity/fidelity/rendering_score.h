@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "asperity/verdict/verdict.h"
+
 namespace asperity {
 
 // Real against rendered in one octave.
@@ -48,8 +50,9 @@ struct RenderingScore {
   double height_score = 0.0;  // each from 0 to 1 (score_rendering.h)
   double force_score = 0.0;
   double score = 0.0;
-  std::string verdict;
-  bool trustworthy = true;
+  std::string comparison;   // what was compared, in words with the values
+  Verdicts verdicts;        // judge_rendering.h
+  bool trustworthy = true;  // none is invalid
 };
 
 }  // namespace asperity

@@ -7,16 +7,16 @@
 
 #include "asperity/recording/inspection.h"
 #include "asperity/rig/measure_grating.h"
+#include "asperity/verdict/verdict.h"
 
 namespace asperity {
 
 // One stroke over the grating, processed as `process` does.
 struct RigStroke {
   std::string name;
-  bool measured = false;  // false: `why_not` tells
+  bool measured = false;  // false: `why_not` states why
   std::string why_not;
-  bool trustworthy = true;  // what process says
-  std::string verdict;      // in words, if not
+  Verdicts verdicts;  // of the stroke as a scan (judge_scan.h); empty if not measured
   GratingMetrics grating;
   double median_depth_m = std::numeric_limits<double>::quiet_NaN();  // find_periodicity's, of highest and lowest points
   double Rq_m = std::numeric_limits<double>::quiet_NaN();
@@ -38,14 +38,6 @@ struct RepeatedMeasurement {
   double half_width = std::numeric_limits<double>::quiet_NaN();  // of the mean's 95 % interval by Student's t
 };
 
-// What is wrong, and what most likely is its cause.
-struct RigFault {
-  std::string kind;   // pitch, depth, shape, pitch_repeatability, depth_repeatability, along, latency,
-                      // latency_repeatability, gravity, gravity_angle, noise, outlying, lost, calibration, stroke
-  std::string what;   // a sentence with the figures
-  std::string cause;  // a sentence on what to look at first
-};
-
 struct RigCheck {
   std::vector<RigStroke> strokes;
   RepeatedMeasurement pitch_m, depth_m, Rq_m, shape_rms_m, along_rms_m, correlation, latency_s;
@@ -54,10 +46,9 @@ struct RigCheck {
   double median_gravity_angle_rad = std::numeric_limits<double>::quiet_NaN();
   double median_noise_ratio = std::numeric_limits<double>::quiet_NaN();
   double true_Rq_m = 0.0;  // of the traced sine
-  std::vector<RigFault> faults;
-  std::vector<std::string> remarks;  // what limits the verdict
-  bool right = false;
-  std::string verdict;
+  Verdicts verdicts;       // the worst first (judge_rig.h)
+  bool right = false;      // none is invalid
+  std::string verdict;     // the list as one sentence
 };
 
 }  // namespace asperity

@@ -24,7 +24,7 @@ struct TrackedImages {
   std::vector<MarkerPlacement> body;  // in terms of our tag frame, as it was found to be meant
   Problems problems;
   bool trustworthy = true;  // none of `verdicts` is invalid
-  std::string verdict;      // in words: what was found, then what limits it
+  std::string verdict;      // the list as one sentence; empty: valid
   Verdicts verdicts;
 };
 

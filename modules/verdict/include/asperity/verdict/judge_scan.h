@@ -27,6 +27,7 @@ struct ScanEvidence {
   double tracker_scale_error_sigma = kUnknown;
   double tracker_axes_chi2 = kUnknown;    // of a 3×3 error of its positions, 9 degrees of freedom
   double accel_axes_chi2 = kUnknown;      // likewise of the accelerometer's matrix
+  double other_axes_log_ratio = kUnknown;  // log-likelihood that another convention of the tracker's axes gains
   double accel_motion_share = kUnknown;   // unexplained acceleration over the specific force's motion
   double tracker_noise_ratio = kUnknown;  // found over calibrated
   double departure_m = kUnknown;          // of the estimated tip from the poses' tip, median

@@ -1,3 +1,4 @@
+import { VerdictList } from "../../measured/VerdictList";
 import { call, link } from "../../net/connection";
 import { leaseIsMine } from "../../state/lease";
 import { Button } from "../../ui/Button";
@@ -57,11 +58,7 @@ function LastRun() {
       <p data-testid="feel-last-run">
         {run.duration_s.toFixed(1)} s, then {run.end}. At most {run.figures.force.peak_out_N.toFixed(2)} N on the hand.
       </p>
-      {[...run.doubts, ...run.warnings].map((words) => (
-        <p key={words} class="field-hint">
-          {words}
-        </p>
-      ))}
+      {run.verdicts.length > 0 && <VerdictList verdicts={run.verdicts} />}
     </>
   );
 }

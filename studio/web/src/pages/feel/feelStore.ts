@@ -1,5 +1,6 @@
 // What the server says of the run: its status, and the newest state while it goes on. The same for all pages.
 import { effect, signal, type ReadonlySignal } from "@preact/signals";
+import type { VerdictEntry } from "../../measured/verdicts";
 import type { Block } from "../../net/block";
 import { call, link, onEvent, subscribe } from "../../net/connection";
 import { followLease, leaseIsMine, takeForce, thisClient } from "../../state/lease";
@@ -37,8 +38,7 @@ export interface LastRun {
   end: string;
   text: string;
   duration_s: number;
-  doubts: string[];
-  warnings: string[];
+  verdicts: VerdictEntry[];
   figures: { force: { peak_N: number; rms_N: number; peak_out_N: number }; safety: Record<string, number> };
 }
 
