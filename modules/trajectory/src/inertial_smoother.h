@@ -93,6 +93,9 @@ struct StreamAgreement {
   // The specific force is (1 + E) times the calibrated one: the normalised square of E likewise, with the prior's error
   // in its covariance; 9 degrees of freedom.
   double accel_axes_chi2 = kUnknown;
+  // Where axes_chi2 knows an element of M to worse than 15 %: the log-likelihood that the best other convention of the
+  // tracker's axes gains (axes_hypotheses.h).
+  double other_axes_log_ratio = kUnknown;
 };
 
 // The filter at an epoch, after its pose: from here it can go on.

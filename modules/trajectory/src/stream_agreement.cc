@@ -5,6 +5,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "axes_hypotheses.h"
+
 namespace asperity::inertial_smoother {
 
 namespace {
@@ -36,6 +38,9 @@ std::optional<Nine> solve_nine(const NormalEquations& equations, int at) {
 
 // What good calibrations of axes and scales leave, an element. A long scan would else find that, too.
 constexpr double kCalibrated = 0.01;
+
+// An element of M that is known to this shows an exchanged or a negative axis, an error of 1 or 2, by itself.
+constexpr double kLinear = 0.15;
 
 double normalised_square(Nine nine) {
   nine.covariance.diagonal().array() += kCalibrated * kCalibrated;
@@ -101,13 +106,17 @@ StreamAgreement compare_streams(const Problem& problem, const std::vector<Record
   const Estimate lower = one_effect(equations, kPredictedMatrix, diagonal);
   out.scale = 0.5 * (upper.value + lower.value);
   out.scale_sigma = std::hypot(std::max(upper.sigma, lower.sigma), 0.5 * (upper.value - lower.value));
+  bool known = false;
   const std::optional<Nine> high = solve_nine(equations, kSmoothedMatrix),
                             low = solve_nine(equations, kPredictedMatrix);
   if (high && low) {
     const Vector9d half = 0.5 * (high->value - low->value);
+    const Vector9d variance = 0.5 * (high->covariance + low->covariance).diagonal() + half.cwiseAbs2();
+    known = std::sqrt(variance.maxCoeff()) < kLinear;
     out.axes_chi2 = normalised_square(
         {0.5 * (high->value + low->value), 0.5 * (high->covariance + low->covariance) + half * half.transpose()});
   }
+  if (!known && problem.restarts.empty()) out.other_axes_log_ratio = best_other_axes(problem);
   if (equations.information(kLatency, kLatency) > 0.0) {
     out.latency_s = equations.score[kLatency] / equations.information(kLatency, kLatency);
     out.latency_sigma_s = 1.0 / std::sqrt(equations.information(kLatency, kLatency));
