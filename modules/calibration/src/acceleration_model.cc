@@ -6,7 +6,12 @@ namespace asperity {
 
 namespace {
 
-using Columns = Eigen::Matrix<double, 3, 10>;  // acceleration, then its slopes by bias, gravity and rotation
+// Acceleration, then its slopes by bias, gravity, rotation and the matrix.
+using Columns = Eigen::Matrix<double, 3, 19>;
+constexpr Eigen::Index kRotation = 7, kMatrix = 10;
+
+// What a good calibration of the accelerometer leaves: scale and axes to half a percent.
+constexpr double kMatrixSigma = 0.005;
 
 // A sample's world acceleration, its integral and double integral.
 struct Integral {
@@ -24,13 +29,15 @@ void advance_integral(Integral& s, const Columns& next, double step_s) {
 
 AccelerationModel::AccelerationModel(const SensorSeries& sensor, const PoseSeries& poses,
                                      const PoseInterpolator& tracker, const Eigen::Vector3d& lever_arm_m,
-                                     const Eigen::Vector3d& gravity, bool solve_rotation)
+                                     const Eigen::Vector3d& gravity, bool solve_rotation, double lever_sigma_m)
     : gravity_world_mps2(gravity),
       sensor_(sensor),
       poses_(poses),
       tracker_(tracker),
       lever_arm_m_(lever_arm_m),
+      stated_gravity_mps2_(gravity),
       solve_rotation_(solve_rotation),
+      lever_sigma_m_(lever_sigma_m),
       least_drift_rate_(integral_noise_rate(sensor)) {}
 
 Eigen::VectorXd AccelerationModel::residuals(double latency, Eigen::MatrixXd* slopes) const {
@@ -39,12 +46,14 @@ Eigen::VectorXd AccelerationModel::residuals(double latency, Eigen::MatrixXd* sl
   PoseInterpolator::Cursor cursor;
   const auto columns_at = [&](std::size_t row) {
     const Eigen::Matrix3d R = tracker_.at(sensor_.t_s[row] + latency, cursor).rotation.toRotationMatrix();
-    const Eigen::Vector3d f = R_marker_sensor * sensor_.x[row];
+    const Eigen::Vector3d sensed = R_marker_sensor * sensor_.x[row];
+    const Eigen::Vector3d f = sensed + matrix_error * sensed;
     Columns c;
     c.col(0) = R * (f - bias_mps2) + gravity_world_mps2;
     c.middleCols<3>(1) = -R;
     c.middleCols<3>(4).setIdentity();
-    c.rightCols<3>() = -R * skew(f);
+    c.middleCols<3>(kRotation) = -R * skew(sensed);
+    for (int k = 0; k < 3; ++k) c.middleCols<3>(kMatrix + 3 * k) = sensed[k] * R;
     return c;
   };
   // From the row before the first pose: earlier samples have no rotation.
@@ -65,10 +74,14 @@ Eigen::VectorXd AccelerationModel::residuals(double latency, Eigen::MatrixXd* sl
     Integral there = at;
     // The next sample's columns are needed for the part of a step only.
     advance_integral(there, at.acceleration + share * (columns_at(row + 1) - at.acceleration), part_s);
-    const Eigen::Vector3d seen = poses_.T_world_marker[i] * lever_arm_m_;
+    const Eigen::Vector3d seen = poses_.T_world_marker[i] * Eigen::Vector3d(lever_arm_m_ + lever_error_m);
     const auto k = static_cast<Eigen::Index>(3 * i);
     out.segment<3>(k) = seen - there.position.col(0);
-    if (slopes != nullptr) slopes->block(k, 1, 3, parameters() - 1) = -there.position.middleCols(1, parameters() - 1);
+    if (slopes == nullptr) continue;
+    const Eigen::Index rotation = solve_rotation_ ? 3 : 0;
+    slopes->block(k, 1, 3, 6 + rotation) = -there.position.middleCols(1, 6 + rotation);
+    slopes->block<3, 9>(k, 7 + rotation) = -there.position.middleCols<9>(kMatrix);
+    slopes->block<3, 3>(k, 16 + rotation) = poses_.T_world_marker[i].rotation.toRotationMatrix();
   }
   return out;
 }
@@ -89,6 +102,8 @@ void AccelerationModel::step(const Eigen::VectorXd& delta) {
   bias_mps2 += delta.segment<3>(1);
   gravity_world_mps2 += delta.segment<3>(4);
   if (solve_rotation_) R_marker_sensor = (exp_rotation(delta.segment<3>(7)) * R_marker_sensor).normalized();
+  matrix_error.reshaped() += delta.segment<9>(parameters() - 12);
+  lever_error_m += delta.tail<3>();
 }
 
 Eigen::VectorXd AccelerationModel::prior_sigma() const {
@@ -96,6 +111,17 @@ Eigen::VectorXd AccelerationModel::prior_sigma() const {
   Eigen::VectorXd out = Eigen::VectorXd::Constant(parameters(), std::numeric_limits<double>::infinity());
   out.segment<3>(1).setConstant(2.0);
   out.segment<3>(4).setConstant(1.0);
+  out.segment<9>(parameters() - 12).setConstant(kMatrixSigma);
+  out.tail<3>().setConstant(lever_sigma_m_);
+  return out;
+}
+
+Eigen::VectorXd AccelerationModel::from_prior() const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(parameters());
+  out.segment<3>(1) = bias_mps2;
+  out.segment<3>(4) = gravity_world_mps2 - stated_gravity_mps2_;
+  out.segment<9>(parameters() - 12) = matrix_error.reshaped();
+  out.tail<3>() = lever_error_m;
   return out;
 }
 

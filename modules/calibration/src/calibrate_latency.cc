@@ -172,7 +172,11 @@ LatencyFit by_accelerometer(const Recording& recording, const LatencyConfig& con
   const Eigen::Vector3d gravity = recording.info.gravity_world_mps2;
   const LatencyScan scan = scan_accelerometer(sensor, poses, tracker, lever_m, gravity, config, out.rotation_solved);
   refuse_scan(scan, config, "accelerometer");
-  AccelerationModel model(sensor, poses, tracker, lever_m, gravity, out.rotation_solved);
+  // A place whose error is not stated is one measured with callipers.
+  constexpr double kPlaceSigma_m = 1e-3;
+  const double stated_m = recording.calibration.accelerometer.position_sigma_m;
+  AccelerationModel model(sensor, poses, tracker, lever_m, gravity, out.rotation_solved,
+                          stated_m > 0.0 ? stated_m : kPlaceSigma_m);
   model.latency_s = scan.latency_s[scan.best];
   model.R_marker_sensor = scan.R_marker_sensor;
   const LatencyEstimate estimate = estimate_robustly(model, poses, config, out);

@@ -30,7 +30,8 @@ struct Solution {
 };
 
 Solution solve_latency(const LatencyModel& model, const std::array<Eigen::MatrixXd, 3>& columns,
-                       const Eigen::Vector3d& ratio, const Eigen::VectorXd& prior_sigma) {
+                       const Eigen::Vector3d& ratio, const Eigen::VectorXd& prior_sigma,
+                       const Eigen::VectorXd& from_prior) {
   const Eigen::Index parameters = columns[0].cols() - 1;
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(parameters, parameters);
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(parameters);
@@ -49,7 +50,9 @@ Solution solve_latency(const LatencyModel& model, const std::array<Eigen::Matrix
     information.setZero();
     gradient.setZero();
     for (Eigen::Index p = 0; p < parameters; ++p) {
-      if (std::isfinite(prior_sigma[p])) information(p, p) = 1.0 / (prior_sigma[p] * prior_sigma[p]);
+      if (!std::isfinite(prior_sigma[p])) continue;
+      information(p, p) = 1.0 / (prior_sigma[p] * prior_sigma[p]);
+      gradient[p] = -from_prior[p] / (prior_sigma[p] * prior_sigma[p]);
     }
     for (int axis = 0; axis < 3; ++axis) {
       const auto& r = rows[static_cast<std::size_t>(axis)];
@@ -90,7 +93,9 @@ void fit_clock_rate(const LatencyModel& model, const std::array<Eigen::MatrixXd,
   }
   Eigen::VectorXd sigma(prior.size() + 1);
   sigma << prior, std::numeric_limits<double>::infinity();
-  const Solution solution = solve_latency(model, wider, out.ratio, sigma);
+  Eigen::VectorXd from_prior(prior.size() + 1);
+  from_prior << model.from_prior(), 0.0;
+  const Solution solution = solve_latency(model, wider, out.ratio, sigma, from_prior);
   out.clock_rate = solution.step[prior.size()];
   out.clock_rate_error = std::sqrt(solution.covariance(prior.size(), prior.size()));
 }
@@ -113,7 +118,7 @@ LatencyEstimate estimate_latency(LatencyModel& model) {
   for (int round = 0; round < kRounds; ++round) {
     out.converged = false;
     for (int i = 0; i < kMostSteps && !out.converged; ++i) {
-      const Solution solution = solve_latency(model, columns, out.ratio, prior);
+      const Solution solution = solve_latency(model, columns, out.ratio, prior, model.from_prior());
       if (!solution.step.allFinite()) return out;
       out.covariance = solution.covariance;
       out.white = solution.white;
@@ -129,7 +134,7 @@ LatencyEstimate estimate_latency(LatencyModel& model) {
       out.ratio[axis] = std::isfinite(least) ? std::max(likely, least) : likely;
     }
   }
-  const Solution last = solve_latency(model, columns, out.ratio, prior);
+  const Solution last = solve_latency(model, columns, out.ratio, prior, model.from_prior());
   out.covariance = last.covariance;
   out.white = last.white;
   fit_clock_rate(model, columns, prior, out);

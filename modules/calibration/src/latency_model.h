@@ -30,6 +30,8 @@ class LatencyModel {
   virtual void step(const Eigen::VectorXd& delta) = 0;
   // Standard deviations of what is known beforehand; infinite for what is not.
   virtual Eigen::VectorXd prior_sigma() const = 0;
+  // The parameters less what is known of them beforehand.
+  virtual Eigen::VectorXd from_prior() const { return Eigen::VectorXd::Zero(parameters()); }
 };
 
 // The most likely parameters by Gauss–Newton, their covariance, and the noise: white per world axis, and drift.
