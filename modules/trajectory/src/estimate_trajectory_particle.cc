@@ -31,7 +31,7 @@ const double kLogTwoPi = std::log(2.0 * std::numbers::pi);
 struct Particle {
   Checkpoint at;
   double process_scale = 1.0;
-  double rate_scale = 1.0;  // without a gyroscope, on the angular acceleration
+  double rate_scale = 1.0;  // on the gyroscope's noise; without one, on the angular acceleration
   bool wild = false;
   double log_weight = 0.0;
 };
@@ -51,6 +51,7 @@ class ParticleFilter {
 
  private:
   void set(const Particle& particle, StepFilter& filter) const;
+  std::size_t rate_factor() const { return has_gyro_ ? inertial_smoother::kGyroOwn : inertial_smoother::kRateWalk; }
   void update(const Window& window, std::size_t e, StepFilter& filter);
   void normalise();
   void resample();
@@ -72,13 +73,15 @@ class ParticleFilter {
 
 void ParticleFilter::set(const Particle& particle, StepFilter& filter) const {
   filter.settings.process_scale = particle.process_scale;
-  filter.settings.factors[inertial_smoother::kRateWalk] = particle.rate_scale;
+  filter.settings.factors[rate_factor()] = particle.rate_scale;
 }
 
 // The factors of a particle that knows nothing of them, `part` of the logarithm's range for the first.
 void ParticleFilter::draw_scales(double part, Particle& particle) {
   particle.process_scale = kLowestScale * std::pow(config_.largest_scale / kLowestScale, part);
-  if (!has_gyro_) particle.rate_scale = std::pow(10.0, random_.uniform(-3.0, 3.0));
+  // A gyroscope's own noise is a floor; what its scale and axes are wrong by is noise where the probe turns.
+  particle.rate_scale = has_gyro_ ? kLowestScale * std::pow(config_.largest_scale / kLowestScale, random_.uniform())
+                                  : std::pow(10.0, random_.uniform(-3.0, 3.0));
 }
 
 void ParticleFilter::begin(const CausalFeed& feed) {
@@ -91,7 +94,7 @@ void ParticleFilter::begin(const CausalFeed& feed) {
     particle.at.x = window.start;
     particle.at.P = window.start_covariance;
     particle.process_scale = window.process_scale;
-    particle.rate_scale = window.factors[inertial_smoother::kRateWalk];
+    particle.rate_scale = window.factors[rate_factor()];
     if (scales_fixed_) continue;
     // Evenly over the logarithm, one in each stratum.
     const double part = (static_cast<double>(i) + random_.uniform()) / static_cast<double>(particles_.size());
@@ -182,9 +185,8 @@ void ParticleFilter::walk(double interval_s) {
   for (Particle& particle : particles_) {
     if (random_.chance(config_.scale_jumps_Hz * interval_s)) draw_scales(random_.uniform(), particle);
     particle.process_scale = std::clamp(particle.process_scale * std::exp(size * random_.normal()), kLowestScale, 1e6);
-    if (!has_gyro_) {
-      particle.rate_scale = std::clamp(particle.rate_scale * std::exp(size * random_.normal()), 1e-4, 1e6);
-    }
+    particle.rate_scale =
+        std::clamp(particle.rate_scale * std::exp(size * random_.normal()), has_gyro_ ? kLowestScale : 1e-4, 1e6);
   }
 }
 
