@@ -1,5 +1,6 @@
 #include "acceleration_model.h"
 
+#include <array>
 #include <limits>
 
 namespace asperity {
@@ -7,10 +8,13 @@ namespace asperity {
 namespace {
 
 // Acceleration, then its slopes by bias, gravity, rotation and the matrix.
-using Columns = Eigen::Matrix<double, 3, 19>;
-constexpr Eigen::Index kRotation = 7, kMatrix = 10;
+using Columns = Eigen::Matrix<double, 3, 16>;
+constexpr Eigen::Index kRotation = 7, kMatrix = 10, kLever = 16;  // of the parameters, and of the columns
 
-// What a good calibration of the accelerometer leaves: scale and axes to half a percent.
+// The scales and the three angles between the axes of a symmetric matrix.
+constexpr std::array<std::array<int, 2>, 6> kSymmetric{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+
+// What a good calibration of the accelerometer leaves: scales, angles and rotation to half a percent.
 constexpr double kMatrixSigma = 0.005;
 
 // A sample's world acceleration, its integral and double integral.
@@ -53,7 +57,13 @@ Eigen::VectorXd AccelerationModel::residuals(double latency, Eigen::MatrixXd* sl
     c.middleCols<3>(1) = -R;
     c.middleCols<3>(4).setIdentity();
     c.middleCols<3>(kRotation) = -R * skew(sensed);
-    for (int k = 0; k < 3; ++k) c.middleCols<3>(kMatrix + 3 * k) = sensed[k] * R;
+    for (std::size_t k = 0; k < kSymmetric.size(); ++k) {
+      const auto [a, b] = kSymmetric[k];
+      Eigen::Vector3d effect = Eigen::Vector3d::Zero();
+      effect[a] += sensed[b];
+      if (a != b) effect[b] += sensed[a];
+      c.col(kMatrix + static_cast<Eigen::Index>(k)) = R * effect;
+    }
     return c;
   };
   // From the row before the first pose: earlier samples have no rotation.
@@ -78,10 +88,8 @@ Eigen::VectorXd AccelerationModel::residuals(double latency, Eigen::MatrixXd* sl
     const auto k = static_cast<Eigen::Index>(3 * i);
     out.segment<3>(k) = seen - there.position.col(0);
     if (slopes == nullptr) continue;
-    const Eigen::Index rotation = solve_rotation_ ? 3 : 0;
-    slopes->block(k, 1, 3, 6 + rotation) = -there.position.middleCols(1, 6 + rotation);
-    slopes->block<3, 9>(k, 7 + rotation) = -there.position.middleCols<9>(kMatrix);
-    slopes->block<3, 3>(k, 16 + rotation) = poses_.T_world_marker[i].rotation.toRotationMatrix();
+    slopes->block<3, 15>(k, 1) = -there.position.rightCols<15>();
+    slopes->block<3, 3>(k, kLever) = poses_.T_world_marker[i].rotation.toRotationMatrix();
   }
   return out;
 }
@@ -101,9 +109,14 @@ void AccelerationModel::step(const Eigen::VectorXd& delta) {
   latency_s += delta[0];
   bias_mps2 += delta.segment<3>(1);
   gravity_world_mps2 += delta.segment<3>(4);
-  if (solve_rotation_) R_marker_sensor = (exp_rotation(delta.segment<3>(7)) * R_marker_sensor).normalized();
-  matrix_error.reshaped() += delta.segment<9>(parameters() - 12);
-  lever_error_m += delta.tail<3>();
+  R_marker_sensor = (exp_rotation(delta.segment<3>(kRotation)) * R_marker_sensor).normalized();
+  for (std::size_t k = 0; k < kSymmetric.size(); ++k) {
+    const auto [a, b] = kSymmetric[k];
+    const double change = delta[kMatrix + static_cast<Eigen::Index>(k)];
+    matrix_error(a, b) += change;
+    if (a != b) matrix_error(b, a) += change;
+  }
+  lever_error_m += delta.segment<3>(kLever);
 }
 
 Eigen::VectorXd AccelerationModel::prior_sigma() const {
@@ -111,8 +124,9 @@ Eigen::VectorXd AccelerationModel::prior_sigma() const {
   Eigen::VectorXd out = Eigen::VectorXd::Constant(parameters(), std::numeric_limits<double>::infinity());
   out.segment<3>(1).setConstant(2.0);
   out.segment<3>(4).setConstant(1.0);
-  out.segment<9>(parameters() - 12).setConstant(kMatrixSigma);
-  out.tail<3>().setConstant(lever_sigma_m_);
+  if (!solve_rotation_) out.segment<3>(kRotation).setConstant(kMatrixSigma);
+  out.segment<6>(kMatrix).setConstant(kMatrixSigma);
+  out.segment<3>(kLever).setConstant(lever_sigma_m_);
   return out;
 }
 
@@ -120,8 +134,12 @@ Eigen::VectorXd AccelerationModel::from_prior() const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(parameters());
   out.segment<3>(1) = bias_mps2;
   out.segment<3>(4) = gravity_world_mps2 - stated_gravity_mps2_;
-  out.segment<9>(parameters() - 12) = matrix_error.reshaped();
-  out.tail<3>() = lever_error_m;
+  // The calibrated rotation is the identity: the samples are in the marker's frame already.
+  if (!solve_rotation_) out.segment<3>(kRotation) = log_rotation(R_marker_sensor);
+  for (std::size_t k = 0; k < kSymmetric.size(); ++k) {
+    out[kMatrix + static_cast<Eigen::Index>(k)] = matrix_error(kSymmetric[k][0], kSymmetric[k][1]);
+  }
+  out.segment<3>(kLever) = lever_error_m;
   return out;
 }
 

@@ -10,8 +10,9 @@ namespace asperity {
 
 // The accelerometer's place predicted from its twice integrated signal, turned into the world by the tracker's own
 // rotations. Parameters: latency; bias (3, m/s², marker frame); an error of the world's gravity (3); the sensor's
-// rotation (3) where it is to be solved; what the calibrations of the accelerometer's matrix (9, by columns) and of its
-// place (3) are wrong by, within their standard errors: f_marker = (1 + E) R_marker_sensor f_sensor − bias.
+// rotation (3), free where it is to be solved, otherwise within its standard error; what the calibrations of the
+// accelerometer's scales and angles (6, a symmetric E) and of its place (3) are wrong by, within their standard errors:
+// f_marker = (1 + E) R_marker_sensor f_sensor − bias.
 class AccelerationModel : public LatencyModel {
  public:
   AccelerationModel(const SensorSeries& sensor, const PoseSeries& poses, const PoseInterpolator& tracker,
@@ -28,7 +29,7 @@ class AccelerationModel : public LatencyModel {
   DriftKind drift() const override { return DriftKind::kIntegratedRandomWalk; }
   const std::vector<double>& pose_t_s() const override { return poses_.t_s; }
   const std::vector<std::uint8_t>& starts() const override { return poses_.starts; }
-  int parameters() const override { return 7 + (solve_rotation_ ? 3 : 0) + 12; }
+  int parameters() const override { return 19; }
   LatencyRows rows() const override;
   double least_drift_rate() const override { return least_drift_rate_; }
   void step(const Eigen::VectorXd& delta) override;

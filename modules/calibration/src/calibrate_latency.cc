@@ -184,7 +184,7 @@ LatencyFit by_accelerometer(const Recording& recording, const LatencyConfig& con
   take_estimate(estimate, scan, poses, out);
   out.latency_s = model.latency_s;
   out.bias = model.bias_mps2;
-  out.R_marker_sensor = model.R_marker_sensor;
+  if (out.rotation_solved) out.R_marker_sensor = model.R_marker_sensor;
   if (out.rotation_solved) out.rotation_error_rad = estimate.covariance.diagonal().segment<3>(7).cwiseSqrt();
   return out;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include <Eigen/LU>
@@ -20,15 +21,40 @@ constexpr double kNoiseFloor_m = 1e-6;  // an axis
 constexpr double kResting_sigmas = 3.0;
 constexpr double kMaxPoseGap_s = 0.3;
 constexpr double kShapeError = 0.005;  // of the length
-constexpr double kSlowNoise = 2.0;     // all of the poses' noise over the white part, which the differences show
 
-// A path smoothed by local parabolas: position, velocity, and what noise of unit size becomes in them.
+// The poses' noise at the tip: white, and a slow part whose correlation falls as exp(−Δt/time).
+struct PoseNoise {
+  Eigen::Vector3d white_m = Eigen::Vector3d::Zero(), slow_m = Eigen::Vector3d::Zero();
+  double slow_time_s = 1.0;
+};
+
+// A path smoothed by local parabolas: position, velocity, and what noise of unit size becomes in them: standard
+// deviation over that of a pose.
 struct SmoothedPoses {
   std::vector<Eigen::Vector3d> p_m;
   std::vector<Eigen::Vector3d> v_mps;
-  std::vector<double> p_gain;        // standard deviation of p over that of a pose
-  std::vector<double> v_gain_per_s;  // likewise of v
+  std::vector<double> p_white, p_slow;              // of p
+  std::vector<double> v_white_per_s, v_slow_per_s;  // of v
+
+  Eigen::Vector3d p_sigma_m(std::size_t i, const PoseNoise& noise) const {
+    return (p_white[i] * p_white[i] * noise.white_m.cwiseAbs2() + p_slow[i] * p_slow[i] * noise.slow_m.cwiseAbs2())
+        .cwiseSqrt();
+  }
+  // The mean of the axes.
+  double v_sigma_mps(std::size_t i, const PoseNoise& noise) const {
+    return std::hypot(v_white_per_s[i] * noise.white_m.norm(), v_slow_per_s[i] * noise.slow_m.norm()) / std::sqrt(3.0);
+  }
 };
+
+// The standard deviation of Σ w x of a slow noise x of unit size.
+double slow_gain(std::span<const double> weights, std::span<const double> t_s, double time_s) {
+  double square = 0.0, before = 0.0;  // Σ_{j<i} w_j exp(−(t_i − t_j)/time)
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (i > 0) before = (before + weights[i - 1]) * std::exp(-(t_s[i] - t_s[i - 1]) / time_s);
+    square += weights[i] * (weights[i] + 2.0 * before);
+  }
+  return std::sqrt(std::max(0.0, square));
+}
 
 double metric_or(const TrajectoryResult& trajectory, const char* name, double otherwise) {
   const auto found = trajectory.metrics.find(name);
@@ -47,11 +73,11 @@ PosePath tip_by_poses(const Recording& recording, const TrajectoryResult& trajec
   return out;
 }
 
-SmoothedPoses smooth_poses(const PosePath& path, double half_width_s) {
+SmoothedPoses smooth_poses(const PosePath& path, double half_width_s, double slow_time_s) {
   const std::size_t n = path.t_s.size();
   SmoothedPoses out;
   std::size_t first = 0, last = 0;
-  std::vector<double> weights;
+  std::vector<double> of_p, of_v;  // each pose's weight in p and in v
   for (std::size_t i = 0; i < n; ++i) {
     double reach_s = half_width_s;
     // A parabola needs poses, three on the average on either side.
@@ -65,7 +91,6 @@ SmoothedPoses smooth_poses(const PosePath& path, double half_width_s) {
     reach_s /= 1.4;
     Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
     Eigen::Matrix3d products = Eigen::Matrix3d::Zero();  // a row a power, a column an axis
-    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
     const auto weight_at = [&](std::size_t j) {
       const double u = (path.t_s[j] - path.t_s[i]) / reach_s;
       return (1.0 - u * u) * (1.0 - u * u);
@@ -75,16 +100,28 @@ SmoothedPoses smooth_poses(const PosePath& path, double half_width_s) {
       const double w = weight_at(j);
       const Eigen::Vector3d powers(1.0, dt_s, dt_s * dt_s);
       moments += w * powers * powers.transpose();
-      squares += w * w * powers * powers.transpose();
       products += w * powers * (path.p_world_tip_m[j] - path.p_world_tip_m[i]).transpose();
     }
     const Eigen::Matrix3d inverse = moments.inverse();
     const Eigen::Matrix3d fitted = inverse * products;
-    const Eigen::Matrix3d covariance = inverse * squares * inverse;
     out.p_m.emplace_back(path.p_world_tip_m[i] + fitted.row(0).transpose());
     out.v_mps.emplace_back(fitted.row(1).transpose() / reach_s);
-    out.p_gain.push_back(std::sqrt(covariance(0, 0)));
-    out.v_gain_per_s.push_back(std::sqrt(covariance(1, 1)) / reach_s);
+    of_p.clear();
+    of_v.clear();
+    double p_square = 0.0, v_square = 0.0;
+    for (std::size_t j = first; j < last; ++j) {
+      const double dt_s = (path.t_s[j] - path.t_s[i]) / reach_s;
+      const Eigen::Vector3d share = weight_at(j) * inverse * Eigen::Vector3d(1.0, dt_s, dt_s * dt_s);
+      of_p.push_back(share[0]);
+      of_v.push_back(share[1] / reach_s);
+      p_square += of_p.back() * of_p.back();
+      v_square += of_v.back() * of_v.back();
+    }
+    const std::span<const double> t_s(path.t_s.data() + first, last - first);
+    out.p_white.push_back(std::sqrt(p_square));
+    out.v_white_per_s.push_back(std::sqrt(v_square));
+    out.p_slow.push_back(slow_gain(of_p, t_s, slow_time_s));
+    out.v_slow_per_s.push_back(slow_gain(of_v, t_s, slow_time_s));
   }
   return out;
 }
@@ -145,9 +182,8 @@ std::vector<ContactRun> contact_runs(const PosePath& path, const TipMotion& moti
 // Σ Δq·u over a run, u from `direction`, q from `position`.
 PathLength measure_run(const PosePath& path, const ContactRun& run, const SmoothedPoses& direction,
                        const SmoothedPoses& position, const TipMotion& motion, const BasePathResult& base,
-                       const Eigen::Vector3d& sigma_m, double half_width_s) {
+                       const PoseNoise& noise, double half_width_s) {
   PathLength out;
-  const double sigma_mean_m = sigma_m.norm() / std::sqrt(3.0);
   Eigen::Vector3d u_before = Eigen::Vector3d::Zero();
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   double turn_begins_s = path.t_s[run.first];
@@ -157,7 +193,7 @@ PathLength measure_run(const PosePath& path, const ContactRun& run, const Smooth
     Eigen::Vector3d v_mps = 0.5 * (direction.v_mps[i] + direction.v_mps[i + 1]);
     v_mps -= v_mps.dot(n) * n;
     const double speed_mps = v_mps.norm();
-    const double sigma_v_mps = sigma_mean_m * direction.v_gain_per_s[i];
+    const double sigma_v_mps = direction.v_sigma_mps(i, noise);
     Eigen::Vector3d u = Eigen::Vector3d::Zero();
     if (speed_mps > kResting_sigmas * sigma_v_mps) {
       u = v_mps / speed_mps;
@@ -170,13 +206,12 @@ PathLength measure_run(const PosePath& path, const ContactRun& run, const Smooth
     u_before = u;
     // The noise of q lasts for about the smoothing's width: what u turns within it counts together.
     if (path.t_s[i] - turn_begins_s > half_width_s || i + 2 == run.last) {
-      const Eigen::Vector3d error_m = sigma_m * position.p_gain[i];
-      out.variance_m2 += turn.cwiseProduct(error_m).squaredNorm();
+      out.variance_m2 += turn.cwiseProduct(position.p_sigma_m(i, noise)).squaredNorm();
       turn.setZero();
       turn_begins_s = path.t_s[i];
     }
   }
-  out.variance_m2 += u_before.cwiseProduct(sigma_m * position.p_gain[run.last - 1]).squaredNorm();
+  out.variance_m2 += u_before.cwiseProduct(position.p_sigma_m(run.last - 1, noise)).squaredNorm();
   return out;
 }
 
@@ -200,15 +235,15 @@ void measure_own(const PosePath& path, const std::vector<ContactRun>& runs, cons
 
 // The poses' length at the smoothing at which its standard error is least.
 void measure_tracker(const PosePath& path, const std::vector<ContactRun>& runs, const TipMotion& motion,
-                     const BasePathResult& base, const Eigen::Vector3d& sigma_m, TrackerComparison& out) {
+                     const BasePathResult& base, const PoseNoise& noise, TrackerComparison& out) {
   SmoothedPoses narrower;
   double narrower_m = TrackerComparison::kUnknown;
   for (const double half_width_s : kHalfWidths_s) {
-    SmoothedPoses smoothed = smooth_poses(path, half_width_s);
+    SmoothedPoses smoothed = smooth_poses(path, half_width_s, noise.slow_time_s);
     PathLength total;
     for (const ContactRun& run : runs) {
       const PathLength part = measure_run(path, run, smoothed, narrower.p_m.empty() ? smoothed : narrower, motion, base,
-                                          sigma_m, half_width_s);
+                                          noise, half_width_s);
       total.length_m += part.length_m;
       total.variance_m2 += part.variance_m2;
       total.noise_m += part.noise_m;
@@ -225,6 +260,20 @@ void measure_tracker(const PosePath& path, const std::vector<ContactRun>& runs, 
     narrower_m = total.length_m;
     narrower = std::move(smoothed);
   }
+}
+
+// The slow part is what the trajectory has learnt of it, otherwise what the calibration states; rotations move the tip
+// about the marker.
+PoseNoise pose_noise(const Recording& recording, const TrajectoryResult& trajectory, const Eigen::Vector3d& white_m) {
+  const TrackerCalibration& tracker = recording.calibration.tracker;
+  PoseNoise out;
+  out.white_m = white_m;
+  out.slow_time_s = metric_or(trajectory, "tracker_slow_time_s", tracker.slow_time_s.value_or(1.0));
+  const double lever_m = recording.calibration.tip_in_marker_m.norm();
+  const double turn_rad = metric_or(trajectory, "tracker_slow_sigma_rad", 0.0);
+  const double stated_m = tracker.slow_sigma_m ? tracker.slow_sigma_m->norm() / std::sqrt(3.0) : 0.0;
+  out.slow_m.setConstant(std::hypot(metric_or(trajectory, "tracker_slow_sigma_m", stated_m), lever_m * turn_rad));
+  return out;
 }
 
 }  // namespace
@@ -245,7 +294,7 @@ TrackerComparison compare_with_tracker(const Recording& recording, const Traject
   const std::vector<ContactRun> runs = contact_runs(path, motion, base);
   if (runs.empty()) return out;
   measure_own(path, runs, motion, base, out);
-  measure_tracker(path, runs, motion, base, kSlowNoise * sigma_m, out);
+  measure_tracker(path, runs, motion, base, pose_noise(recording, trajectory, sigma_m), out);
   return out;
 }
 

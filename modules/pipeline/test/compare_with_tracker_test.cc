@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "asperity/base/random.h"
@@ -88,6 +90,37 @@ TEST(CompareWithTracker, FindsTheLengthUnderTheNoise) {
   EXPECT_LT(c.tracker_length_stderr_m, 0.03 * true_m);
   EXPECT_NEAR(c.pose_noise_m, 0.5e-3, 0.05e-3);  // 10 %: medians of 18 windows
   EXPECT_NEAR(c.departure_ratio, 1.1, 0.2);      // the median length of three equal axes over 0.8 of their RMS
+}
+
+// Noise that lasts for half a second is not in the poses' differences: the trajectory has learnt it, and each of the
+// turns of the path counts it twice.
+TEST(CompareWithTracker, TheSlowNoiseIsInTheLengthsError) {
+  constexpr double kSlow_m = 1e-3, kTime_s = 0.5;
+  constexpr int kScans = 40;
+  const double true_m = 4.0 * 0.04 * 0.25 * 11.98;
+  double squares = 0.0;
+  for (std::uint64_t seed = 1; seed <= kScans; ++seed) {
+    Sweep sweep(0.04, 0.25, 0.1e-3);
+    Random random(seed, 3);
+    Eigen::Vector3d slow_m = kSlow_m * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    std::int64_t before_ns = sweep.recording.tracker.t_ns.front();
+    for (std::size_t i = 0; i < sweep.recording.tracker.size(); ++i) {
+      const std::int64_t t_ns = sweep.recording.tracker.t_ns[i];
+      const double keep = std::exp(-1e-9 * static_cast<double>(t_ns - before_ns) / kTime_s);
+      before_ns = t_ns;
+      slow_m = keep * slow_m + std::sqrt(1.0 - keep * keep) * kSlow_m *
+                                   Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+      sweep.recording.tracker.T_world_marker[i].translation_m += slow_m;
+    }
+    sweep.trajectory.metrics["tracker_slow_sigma_m"] = kSlow_m;
+    sweep.trajectory.metrics["tracker_slow_time_s"] = kTime_s;
+    const TrackerComparison c = compare_with_tracker(sweep.recording, sweep.trajectory, sweep.base);
+    squares += std::pow((c.tracker_length_m - true_m) / c.tracker_length_stderr_m, 2);
+  }
+  const double rms = std::sqrt(squares / kScans);
+  std::printf("length's error over its standard error, RMS of %d: %.2f\n", kScans, rms);
+  EXPECT_GT(rms, 0.5);
+  EXPECT_LT(rms, 1.3);
 }
 
 TEST(CompareWithTracker, PosesFarOffDoNotLengthenThePath) {
