@@ -21,6 +21,10 @@ constexpr double kNoiseFloor_m = 1e-6;  // an axis
 constexpr double kResting_sigmas = 3.0;
 constexpr double kMaxPoseGap_s = 0.3;
 constexpr double kShapeError = 0.005;  // of the length
+// On the white noise, measured: on scans of 80 mm at an even speed the error over the standard error is 0.23 RMS
+// without it and 0.19 with it (the other parts are larger), but where the tip comes to rest or touches for a moment
+// only the direction's noise is no small one: there it was 2.3 without it, and right scans were refused.
+constexpr double kWhiteMargin = 2.0;
 
 // The poses' noise at the tip: white, and a slow part whose correlation falls as exp(−Δt/time).
 struct PoseNoise {
@@ -267,7 +271,7 @@ void measure_tracker(const PosePath& path, const std::vector<ContactRun>& runs, 
 PoseNoise pose_noise(const Recording& recording, const TrajectoryResult& trajectory, const Eigen::Vector3d& white_m) {
   const TrackerCalibration& tracker = recording.calibration.tracker;
   PoseNoise out;
-  out.white_m = white_m;
+  out.white_m = kWhiteMargin * white_m;
   out.slow_time_s = metric_or(trajectory, "tracker_slow_time_s", tracker.slow_time_s.value_or(1.0));
   const double lever_m = recording.calibration.tip_in_marker_m.norm();
   const double turn_rad = metric_or(trajectory, "tracker_slow_sigma_rad", 0.0);

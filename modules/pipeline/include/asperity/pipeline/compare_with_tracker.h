@@ -33,10 +33,10 @@ struct TrackerComparison {
 // of the smoothed velocity less its part along the base path's normal: linear in the poses, so that noise does not
 // lengthen it. Where the velocity is below three of its standard deviations the tip counts as resting. Standard error:
 // the noise of q at the ends and where u turns; what noise in u adds; the time at rest; the difference from the next
-// narrower h; and 0.5 % of the length, for the base shape. The slow part of the poses' noise, which is not in their
-// differences, goes through the same smoothing with its own correlation exp(−Δt/time): its size and time are those that
-// the trajectory has learnt (tracker_slow_sigma_m, …_rad times the tip's distance, tracker_slow_time_s), otherwise
-// those that the calibration states.
+// narrower h; and 0.5 % of the length, for the base shape. The white noise counts twice, a measured margin for rests.
+// The slow part of the poses' noise, which is not in their differences, goes through the same smoothing with its own
+// correlation exp(−Δt/time): its size and time are those that the trajectory has learnt (tracker_slow_sigma_m, …_rad
+// times the tip's distance, tracker_slow_time_s), otherwise those that the calibration states.
 TrackerComparison compare_with_tracker(const Recording& recording, const TrajectoryResult& trajectory,
                                        const BasePathResult& base);
 
