@@ -245,7 +245,8 @@ TEST_F(Register, AGuessThatIsWrongByManyOfItsSigmasIsRefused) {
            "search.registration.guess_sigma_deg=3"});
   EXPECT_EQ(outcome.code, 3) << outcome.err;
   std::vector<std::string> codes;
-  for (const json& verdict : json::parse(outcome.out).at("verdicts")) codes.push_back(verdict.at("code"));
+  const json result = json::parse(outcome.out);
+  for (const json& verdict : result.at("verdicts")) codes.push_back(verdict.at("code"));
   EXPECT_THAT(codes, ::testing::AnyOf(::testing::Contains("pose_misfit"), ::testing::Contains("guess_contradicted")));
 }
 

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include "asperity/base/csv.h"
 #include "asperity/testkit/temp_dir.h"
 #include "study_rig.h"
 

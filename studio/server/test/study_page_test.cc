@@ -2,7 +2,6 @@
 
 #include <fstream>
 
-#include "asperity/base/csv.h"
 #include "asperity/study/study_file.h"
 #include "read_block.h"
 #include "study_page_fixture.h"
