@@ -9,6 +9,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/signal/statistics.h"
 #include "base_curve.h"
 #include "estimate_lean.h"
 #include "fit_base_shape.h"
@@ -90,17 +91,38 @@ std::vector<Eigen::Vector3d> find_across(const PathEvidence& evidence, const std
 }
 
 // Normals turned by the lean; the base is then what has them and holds the line that it had.
-void turn_normals(const TipMotion& motion, const std::vector<Eigen::Vector3d>& across, double lean_rad,
-                  const Eigen::Vector3d* centre_m, BasePath& path) {
-  const double c = std::cos(lean_rad), s = std::sin(lean_rad);
+void turn_normals(const TipMotion& motion, const LeanAxes& axes, const Lean& lean, const Eigen::Vector3d* centre_m,
+                  BasePath& path) {
   for (std::size_t i = 0; i < path.size(); ++i) {
+    const double phi = lean.lean_rad + (axes.change.empty() ? 0.0 : lean.change_rad * axes.change[i]);
+    const double c = std::cos(phi), s = std::sin(phi);
     const Eigen::Vector3d& p = motion.p_world_tip_m[i];
     const Eigen::Vector3d from_base_m = p - path.p_world_m[i];
     const double rise_m = path.n_world[i].dot(from_base_m);
-    const double side_m = across[i].dot(centre_m == nullptr ? from_base_m : Eigen::Vector3d(p - *centre_m));
-    path.n_world[i] = (c * path.n_world[i] + s * across[i]).normalized();
+    const double side_m = axes.across[i].dot(centre_m == nullptr ? from_base_m : Eigen::Vector3d(p - *centre_m));
+    path.n_world[i] = (c * path.n_world[i] + s * axes.across[i]).normalized();
     path.p_world_m[i] = p - (c * rise_m + s * side_m) * path.n_world[i];
   }
+}
+
+// Across a circle's path is its axis. An axis that is turned about the path's middle normal lets the normals lean one
+// way at its begin and the other at its end.
+LeanAxes axes_of(const CircleCandidate& circle, const PathEvidence& evidence, const BasePath& path) {
+  LeanAxes out{std::vector<Eigen::Vector3d>(path.size(), circle.axis), {}};
+  const auto radial = [&](const Eigen::Vector3d& p_m) -> Eigen::Vector3d {
+    const Eigen::Vector3d d = p_m - circle.centre_m;
+    return (d - d.dot(circle.axis) * circle.axis).normalized();
+  };
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  const double count = static_cast<double>(evidence.coarse_m.size());
+  for (const Eigen::Vector3d& p_m : evidence.coarse_m) middle += radial(p_m) / count;
+  const Eigen::Vector3d along = circle.axis.cross(middle).normalized();
+  double square = 0.0;
+  for (const Eigen::Vector3d& p_m : evidence.coarse_m) square += std::pow(along.dot(radial(p_m)), 2) / count;
+  if (!(square > 0.0)) return out;
+  for (const Eigen::Vector3d& n : path.n_world)
+    out.change.push_back(std::clamp(along.dot(n) / std::sqrt(square), -3.0, 3.0));
+  return out;
 }
 
 // The circle's centre where the path in contact is about, along its axis.
@@ -127,10 +149,21 @@ PathShape choose_shape(const PlaneCandidate& plane, const CircleCandidate& circl
   return round ? PathShape::kCircle : PathShape::kPlane;
 }
 
+// An axis' standard deviation by the motion's own covariance, median; without the tip's place in the marker, which is
+// one error of all samples. 0 if the method gives none.
+double position_sigma_m(const TipMotion& motion) {
+  std::vector<double> variance_m2;
+  for (const Eigen::Matrix3d& cov : motion.cov_world_tip_m2) variance_m2.push_back(cov.trace() / 3.0);
+  if (variance_m2.empty()) return 0.0;
+  return std::sqrt(std::max(0.0, median(variance_m2) - motion.sigma_tip_in_marker_m.squaredNorm() / 3.0));
+}
+
 }  // namespace
 
 BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& tip_in_marker_m,
-                              const BasePathConfig& config) {
+                              const BasePathConfig& stated) {
+  BasePathConfig config = stated;
+  config.slow_error_m = std::max(stated.slow_error_m, position_sigma_m(motion));
   const std::vector<double> t_s = motion_times_s(motion);
   if (!tip_in_marker_m.allFinite()) throw Error("base path: tip_in_marker_m is not finite");
   if (config.shape == PathShape::kMesh) throw Error("base path: the shape 'mesh' needs a registered mesh");
@@ -152,17 +185,18 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
   std::vector<Eigen::Vector2d> developed;
   // What the motion itself says of the normals, over what the shape's fit does.
   const double texture_axis_sigma_rad = config.texture_axis_sigma_deg / kRadian_deg;
-  const auto find_lean = [&](const std::vector<Eigen::Vector3d>& across, double prior_rad) {
-    return estimate_lean(motion, t_s, out.contact, evidence, out.path, across, {prior_rad, texture_axis_sigma_rad});
+  const auto find_lean = [&](const LeanAxes& axes, double prior_rad, double change_rad = 0.0) {
+    return estimate_lean(motion, t_s, out.contact, evidence, out.path, axes,
+                         {prior_rad, change_rad, texture_axis_sigma_rad});
   };
   if (out.shape == PathShape::kCircle) {
     if (!(circle.radius_m > 0.0) || !(circle.significance > 0.0))
       throw Error("base path: no circle fits a path without curvature");
     centre_along_axis(evidence, circle);
     developed = develop_circle(circle, motion, out.path);
-    const std::vector<Eigen::Vector3d> across(motion.size(), circle.axis);
-    const Lean lean = find_lean(across, circle.lean_sigma_rad);
-    turn_normals(motion, across, lean.lean_rad, &circle.centre_m, out.path);
+    const LeanAxes axes = axes_of(circle, evidence, out.path);
+    const Lean lean = find_lean(axes, circle.lean_sigma_rad, circle.lean_change_rad);
+    turn_normals(motion, axes, lean, &circle.centre_m, out.path);
     out.lean_rad = lean.lean_rad;
     out.centre_world_m = circle.centre_m;
     out.axis_world = circle.axis;
@@ -174,12 +208,12 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
     // A radius that is off by δ over a chord L turns the normals at its ends by about L/2 · δ/R².
     const double half_m = 0.5 * (evidence.coarse_m.back() - evidence.coarse_m.front()).norm();
     const double ends_rad = half_m * circle.radius_stderr_m / (circle.radius_m * circle.radius_m);
-    out.normal_sigma_deg = kRadian_deg * std::hypot(lean.sigma_rad, circle.lean_change_rad, ends_rad);
+    out.normal_sigma_deg = kRadian_deg * std::hypot(lean.sigma_rad, ends_rad);
   } else if (out.shape == PathShape::kCurve) {
     developed = develop_curve(evidence, t_s, motion, config.curve_cutoff_cycles_per_mm, out.path);
-    const std::vector<Eigen::Vector3d> across = find_across(evidence, t_s, out.path);
-    const Lean lean = find_lean(across, config.probe_axis_sigma_deg / kRadian_deg);
-    turn_normals(motion, across, lean.lean_rad, nullptr, out.path);
+    const LeanAxes axes{find_across(evidence, t_s, out.path), {}};
+    const Lean lean = find_lean(axes, config.probe_axis_sigma_deg / kRadian_deg);
+    turn_normals(motion, axes, lean, nullptr, out.path);
     out.lean_rad = lean.lean_rad;
     out.normal_sigma_deg = kRadian_deg * lean.sigma_rad;
     double square = 0.0;
@@ -188,7 +222,7 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
   } else {
     developed = develop_plane(plane, motion, out.path);
     const Eigen::Vector3d across = plane.normal.cross(plane.stroke).normalized();
-    const Lean lean = find_lean(std::vector<Eigen::Vector3d>(motion.size(), across), plane.sigma_rad);
+    const Lean lean = find_lean({std::vector<Eigen::Vector3d>(motion.size(), across), {}}, plane.sigma_rad);
     plane.normal = (std::cos(lean.lean_rad) * plane.normal + std::sin(lean.lean_rad) * across).normalized();
     plane.sigma_rad = lean.sigma_rad;
     out.path.p_world_m.clear();
