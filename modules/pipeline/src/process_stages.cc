@@ -36,12 +36,9 @@ Outcome<T> attempt_step(const char* kind, const char* what, Step step) {
 double square(double x) { return x * x; }
 
 // The SNR of a texture from which the noise was removed but for `error_ratio` of it: with the error e² that is left of
-// a surface of power P, the expected texture's correlation with it is √(1 − e²/P). P is the measured power less the
-// noise's, or what surely stands above the noise frequency by frequency if that is more (`surely_m`, RMS): noise that
-// is overestimated where there is no texture takes nothing from it elsewhere.
-double snr_after_removal(const TextureNoise& noise, double more, double error_ratio, double surely_m) {
-  const double in_all_m2 = square(noise.typical_texture_rms_m) - more * square(noise.typical_added_rms_m);
-  const double surface_m2 = std::max(in_all_m2, square(surely_m));
+// a surface of power P, the expected texture's correlation with it is √(1 − e²/P).
+double snr_after_removal(const TextureNoise& noise, double more, double error_ratio) {
+  const double surface_m2 = square(noise.typical_texture_rms_m) - more * square(noise.typical_added_rms_m);
   const double left_m2 =
       more * (square(error_ratio * noise.typical_added_rms_m) + square(noise.typical_misplaced_rms_m));
   return left_m2 > 0.0 ? std::max(0.0, surface_m2 / left_m2 - 1.0) : 0.0;
@@ -61,9 +58,8 @@ void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise) {
   const double most = 1.0 + kSure * 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
   std::vector<double> most_psd_m2_mm = noise.added_psd_m2_mm;
   for (double& density : most_psd_m2_mm) density *= most;
-  const WienerTexture surely = filter(most_psd_m2_mm);
-  noise.snr = snr_after_removal(noise, 1.0, expected.error_ratio, surely.surface_rms_m);
-  noise.snr_low = snr_after_removal(noise, most, surely.error_ratio, surely.surface_rms_m);
+  noise.snr = snr_after_removal(noise, 1.0, expected.error_ratio);
+  noise.snr_low = snr_after_removal(noise, most, filter(most_psd_m2_mm).error_ratio);
 
   // The misplaced heights and their scale.
   const double kept_m2 = std::max(0.0, square(noise.noise_rms_m) - square(noise.added_rms_m));

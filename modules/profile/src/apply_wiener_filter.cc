@@ -108,7 +108,6 @@ WienerTexture apply_wiener_filter(std::span<const double> texture_m, double spac
   for (const double h : out.texture_m) points += std::isfinite(h) ? 1.0 : 0.0;
   out.error_ratio = all.noise > 0.0 ? std::sqrt(all.noise_kept / all.noise) : 0.0;
   out.error_rms_m = points > 0.0 ? std::sqrt(all.noise_kept / points) : 0.0;
-  out.surface_rms_m = points > 0.0 ? std::sqrt(all.surface / points) : 0.0;
   out.expected_correlation = all.surface > 0.0 ? std::sqrt(all.surface_kept / all.surface) : 0.0;
   return out;
 }

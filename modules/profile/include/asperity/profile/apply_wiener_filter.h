@@ -9,8 +9,7 @@ namespace asperity {
 struct WienerTexture {
   std::vector<double> texture_m;      // the expected texture, given what was measured
   double error_rms_m = 0.0;           // of texture_m, expected
-  double surface_rms_m = 0.0;         // of the surface, by its density: ∫ (P − S_n)₊ dk
-  double error_ratio = 0.0;           // of error_rms_m to the measured texture's
+  double error_ratio = 0.0;           // of that to the measured texture's
   double expected_correlation = 0.0;  // of texture_m with the true texture
 };
 
