@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 #include "asperity/base/units.h"
 #include "asperity/geometry/pose.h"
@@ -72,7 +73,7 @@ void add_density(const std::vector<Run>& runs, double rate_Hz, std::size_t stret
 }  // namespace
 
 void add_crosstalk(const TipMotion& motion, const BasePath& base, std::span<const char> moving,
-                   const Eigen::Vector3d& gravity_world_mps2, const CalibrationErrors& calibration,
+                   const Eigen::Vector3d& gravity_world_mps2, const CalibrationErrors& calibration, double lean_rad,
                    HeightErrors& errors) {
   const std::size_t n = motion.size();
   if (n < 3 || base.size() != n || moving.size() != n) return;
@@ -83,9 +84,10 @@ void add_crosstalk(const TipMotion& motion, const BasePath& base, std::span<cons
   if (stretch < 8) return;
 
   const OffBase off = off_base(motion, base);
-  const double leak = normal_leak(motion, off, moving);
   add_density(
-      runs, rate_Hz, stretch, leak * leak, false, [&](std::size_t k) { return off.sway_m[k]; }, errors);
+      runs, rate_Hz, stretch, std::pow(std::tan(lean_rad), 2), false, [&](std::size_t k) { return off.sway_m[k]; },
+      errors);
+  errors.leaning_m2ps = std::exchange(errors.crosstalk_m2ps, std::vector<double>(errors.crosstalk_m2ps.size(), 0.0));
 
   const auto normal_in_marker = [&](std::size_t i) -> Eigen::Vector3d {
     return motion.q_world_marker[i].conjugate() * base.n_world[i];

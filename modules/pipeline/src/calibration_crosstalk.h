@@ -19,11 +19,12 @@ struct CalibrationErrors {
 
 // The one-sided density, over time frequency, of what the errors carry from the measured motion into the height, before
 // a tracker corrects it: of the specific force across the normal through E_a, nᵀ R E_a f twice integrated; of rotations
-// through E_g, nᵀ (R E_g θ × arm); of rotations through the tip's place, nᵀ R δτ; of the hand's sway through a
-// normal that leans (normal_leak.h). Over the samples with `moving` set.
-// Writes errors.crosstalk_*; leaves them empty where the motion is shorter than two stretches of 1.3 s.
+// through E_g, nᵀ (R E_g θ × arm); of rotations through the tip's place, nᵀ R δτ. And that of the sway across the path
+// times the tangent of `lean_rad`, the standard deviation of the normals' lean. Over the samples with `moving` set.
+// Writes errors.crosstalk_* and leaning_m2ps; leaves them empty where the motion is shorter than two stretches of 1.3
+// s.
 void add_crosstalk(const TipMotion& motion, const BasePath& base, std::span<const char> moving,
-                   const Eigen::Vector3d& gravity_world_mps2, const CalibrationErrors& calibration,
+                   const Eigen::Vector3d& gravity_world_mps2, const CalibrationErrors& calibration, double lean_rad,
                    HeightErrors& errors);
 
 }  // namespace asperity

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "asperity/base/units.h"
@@ -28,6 +29,9 @@ Json base_json(const BasePathResult& base) {
     out["radius_m"] = base.radius_m;
     out["radius_stderr_m"] = base.radius_stderr_m;
     out["outside"] = base.outside;
+  }
+  if (base.shape == PathShape::kCircle || base.shape == PathShape::kCurve) {
+    out["lean_deg"] = base.lean_rad * 180.0 / std::numbers::pi;
   }
   out["normal_sigma_deg"] = base.normal_sigma_deg;
   out["probe_tilt_deg"] = base.probe_tilt_deg;

@@ -13,15 +13,17 @@
 #include "asperity/profile/measure_error_floor.h"
 #include "asperity/profile/measure_length_error.h"
 #include "calibration_crosstalk.h"
+#include "normal_leak.h"
 
 namespace asperity {
 
 namespace {
 
 constexpr double kStandingStill_mps = 2e-3;
-constexpr double kDeepest_m = 1e-3;      // of an indentation of which nothing is known; tips are no longer
-constexpr double kCorner_Hz = 1.0;       // of an accelerometer's 1/f noise: such chips have a tenth to ten hertz
-constexpr double kUnstatedScale = 0.01;  // relative error of a calibration that states none
+constexpr double kDeepest_m = 1e-3;       // of an indentation of which nothing is known; tips are no longer
+constexpr double kLargestLean_rad = 0.7;  // its tangent is a normal error's no more
+constexpr double kCorner_Hz = 1.0;        // of an accelerometer's 1/f noise: such chips have a tenth to ten hertz
+constexpr double kUnstatedScale = 0.01;   // relative error of a calibration that states none
 
 double duration_s(const std::vector<std::int64_t>& t_ns) {
   return static_cast<double>(t_ns.back() - t_ns.front()) * kNanosecond_s;
@@ -60,6 +62,14 @@ std::size_t replaced_samples(const TrajectoryResult& trajectory) {
   std::size_t out = 0;
   for (const Problem& problem : trajectory.problems) out += problem.kind == "spike" ? problem.count : 0;
   return out;
+}
+
+// How far the normals may lean about the path. A fitted base's lean was corrected by the motion itself
+// (find_base_path.h); a mesh's normals are those of the mesh, and what the motion shows against them is their error.
+double lean_rad(const TipMotion& motion, const BasePathResult& base, const std::vector<char>& moving) {
+  const double sigma_rad = base.normal_sigma_deg * std::numbers::pi / 180.0;
+  if (base.shape != PathShape::kMesh) return std::min(sigma_rad, kLargestLean_rad);
+  return std::atan(normal_leak(motion, off_base(motion, base.path), moving));
 }
 
 }  // namespace
@@ -145,7 +155,8 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
   calibration.tip_from_sensor_m =
       recording.calibration.tip_in_marker_m - recording.calibration.accelerometer_in_marker_m();
   out.lever_m = calibration.tip_from_sensor_m.cross(normal_marker.normalized()).norm();
-  add_crosstalk(motion, base.path, moving, recording.info.gravity_world_mps2, calibration, out);
+  add_crosstalk(motion, base.path, moving, recording.info.gravity_world_mps2, calibration,
+                lean_rad(motion, base, moving), out);
   out.base_degree = base.shape == PathShape::kCircle || base.shape == PathShape::kCurve ? 2 : 1;
   // A normal that is off by φ makes heights too small by 1 − cos φ.
   const double turned = 0.5 * std::pow(base.normal_sigma_deg * std::numbers::pi / 180.0, 2);

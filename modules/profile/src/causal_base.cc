@@ -31,14 +31,14 @@ Eigen::Vector3d CausalBase::normal_at(const Eigen::Vector3d& p_world_m) const {
   const Eigen::Vector3d d = p_world_m - centre_m_;
   const Eigen::Vector3d across = d - d.dot(axis_) * axis_;
   if (!(across.norm() > 0.0)) return axis_.unitOrthogonal();
-  return outside_ ? Eigen::Vector3d(across.normalized()) : Eigen::Vector3d(-across.normalized());
+  return (outside_ ? 1.0 : -1.0) * std::cos(lean_rad_) * across.normalized() + std::sin(lean_rad_) * axis_;
 }
 
 double CausalBase::distance_m(const Eigen::Vector3d& p_world_m) const {
   const Eigen::Vector3d d = p_world_m - centre_m_;
   if (shape_ != PathShape::kCircle) return axis_.dot(d);
   const double r_m = (d - d.dot(axis_) * axis_).norm();
-  return outside_ ? r_m - radius_m_ : radius_m_ - r_m;
+  return std::cos(lean_rad_) * (outside_ ? r_m - radius_m_ : radius_m_ - r_m) + std::sin(lean_rad_) * d.dot(axis_);
 }
 
 double CausalBase::height_m(const Eigen::Vector3d& p_world_m) const { return distance_m(p_world_m) + remainder_m_; }
@@ -58,6 +58,7 @@ void CausalBase::refit(const Eigen::Vector3d& here_m) {
       centre_m_ = base.centre_world_m;
       axis_ = base.axis_world;
       radius_m_ = base.radius_m;
+      lean_rad_ = base.lean_rad;
       outside_ = base.outside;
     }
     normal_sigma_deg_ = base.normal_sigma_deg;

@@ -20,6 +20,7 @@ constexpr double kMostStep_share = 1e-5;       // of the duration, for recording
 constexpr double kSlowest_periods = 0.25;      // over the duration: what is slower is a straight line
 constexpr std::size_t kWaves = 256;
 constexpr std::uint64_t kErrorSeed = 20'260'301;
+constexpr std::uint64_t kLeanSeed = 20'260'302;
 
 // When each point was passed, s after the first.
 std::vector<double> passing_times(const Profile& profile) {
@@ -131,6 +132,27 @@ std::vector<double> misplace(std::span<const double> surface_m, const std::vecto
   return out;
 }
 
+// One number a draw, normal, with a mean square of 1.
+std::vector<double> draw_sizes(std::size_t count) {
+  Random random(kLeanSeed);
+  std::vector<double> out(count);
+  double square = 0.0;
+  for (double& x : out) {
+    x = random.normal();
+    square += x * x / static_cast<double>(count);
+  }
+  for (double& x : out) x /= std::sqrt(square);
+  return out;
+}
+
+// Only the part of the density that comes from the normals' lean.
+Density leaning_over(const HeightErrors& errors, const Density& rest, double duration_s) {
+  Density out = density_over(errors, duration_s);
+  for (std::size_t i = 0; i < out.density_m2ps.size(); ++i)
+    out.density_m2ps[i] = std::max(0.0, out.density_m2ps[i] - rest.density_m2ps[i]);
+  return out;
+}
+
 HeightErrors errors_along(const HeightErrors& errors) {
   HeightErrors out;
   out.accel_psd_m2ps3 = errors.along_accel_psd_m2ps3;
@@ -149,15 +171,24 @@ DrawnErrors draw_height_errors(const Profile& profile, const HeightErrors& error
   DrawnErrors out;
   const std::vector<double> t_s = passing_times(profile);
   if (t_s.size() < 2) return out;
-  const Density height = density_over(errors, t_s.back()), along = density_over(errors_along(errors), t_s.back());
+  HeightErrors upright = errors;
+  upright.leaning_m2ps.clear();
+  const Density height = density_over(upright, t_s.back()), along = density_over(errors_along(errors), t_s.back());
   const std::vector<std::size_t> seams = find_seams(profile, t_s, config.max_stop_s);
   const std::size_t draws = std::clamp(kMostDrawn / std::max(height.count, profile.size()), kFewestErrorDraws,
                                        std::max(config.draws, kFewestErrorDraws));
+  const bool leans = !errors.leaning_m2ps.empty();
+  const Density leaning = leans ? leaning_over(errors, height, t_s.back()) : Density{};
+  const std::vector<double> lean = draw_sizes(draws);
   Random random(kErrorSeed);
   double shape = 0.0;
   std::vector<std::vector<double>> all_moved_m;
   for (std::size_t j = 0; j < draws; ++j) {
     std::vector<double> error_m = draw_at(height, t_s, random);
+    if (leans) {
+      const std::vector<double> leant_m = draw_at(leaning, t_s, random);
+      for (std::size_t i = 0; i < error_m.size(); ++i) error_m[i] += lean[j] * leant_m[i];
+    }
     for (std::size_t i = 0; i < error_m.size(); ++i) {
       if (!std::isfinite(profile.height_m[i])) error_m[i] = profile.height_m[i];
     }

@@ -9,7 +9,9 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/signal/statistics.h"
 #include "base_curve.h"
+#include "estimate_lean.h"
 #include "fit_base_shape.h"
 #include "motion_times.h"
 #include "path_evidence.h"
@@ -68,6 +70,71 @@ std::vector<Eigen::Vector2d> develop_curve(const PathEvidence& evidence, const s
   return u;
 }
 
+// The unit vector across travel and normal of each sample, along the path's slow motion and on one side of it.
+std::vector<Eigen::Vector3d> find_across(const PathEvidence& evidence, const std::vector<double>& t_s,
+                                         const BasePath& path) {
+  constexpr double kSlow_Hz = 3.0;  // below a hand's tremor
+  const EvenPath<3> slow = low_pass(evidence.path, kSlow_Hz);
+  std::vector<Eigen::Vector3d> out;
+  out.reserve(t_s.size());
+  Eigen::Vector3d before = path.n_world.front().unitOrthogonal();
+  for (std::size_t i = 0; i < t_s.size(); ++i) {
+    const std::size_t c = index_at(evidence.path, t_s[i]);
+    const Eigen::Vector3d side = path.n_world[i].cross(velocity_mps(slow, c));
+    // Where the tip rests it is as before; forth and back are one line.
+    if (evidence.weight[c] > 0.0 && side.norm() > 0.0) before = (side.dot(before) < 0.0 ? -side : side).normalized();
+    Eigen::Vector3d across = before - before.dot(path.n_world[i]) * path.n_world[i];
+    if (!(across.norm() > 1e-6)) across = path.n_world[i].unitOrthogonal();
+    out.push_back(across.normalized());
+  }
+  return out;
+}
+
+// Normals turned by the lean; the base is then what has them and holds the line that it had.
+void turn_normals(const TipMotion& motion, const LeanAxes& axes, const Lean& lean, const Eigen::Vector3d* centre_m,
+                  BasePath& path) {
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const double phi = lean.lean_rad + (axes.change.empty() ? 0.0 : lean.change_rad * axes.change[i]);
+    const double c = std::cos(phi), s = std::sin(phi);
+    const Eigen::Vector3d& p = motion.p_world_tip_m[i];
+    const Eigen::Vector3d from_base_m = p - path.p_world_m[i];
+    const double rise_m = path.n_world[i].dot(from_base_m);
+    const double side_m = axes.across[i].dot(centre_m == nullptr ? from_base_m : Eigen::Vector3d(p - *centre_m));
+    path.n_world[i] = (c * path.n_world[i] + s * axes.across[i]).normalized();
+    path.p_world_m[i] = p - (c * rise_m + s * side_m) * path.n_world[i];
+  }
+}
+
+// Across a circle's path is its axis. An axis that is turned about the path's middle normal lets the normals lean one
+// way at its begin and the other at its end.
+LeanAxes axes_of(const CircleCandidate& circle, const PathEvidence& evidence, const BasePath& path) {
+  LeanAxes out{std::vector<Eigen::Vector3d>(path.size(), circle.axis), {}};
+  const auto radial = [&](const Eigen::Vector3d& p_m) -> Eigen::Vector3d {
+    const Eigen::Vector3d d = p_m - circle.centre_m;
+    return (d - d.dot(circle.axis) * circle.axis).normalized();
+  };
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  const double count = static_cast<double>(evidence.coarse_m.size());
+  for (const Eigen::Vector3d& p_m : evidence.coarse_m) middle += radial(p_m) / count;
+  const Eigen::Vector3d along = circle.axis.cross(middle).normalized();
+  double square = 0.0;
+  for (const Eigen::Vector3d& p_m : evidence.coarse_m) square += std::pow(along.dot(radial(p_m)), 2) / count;
+  if (!(square > 0.0)) return out;
+  for (const Eigen::Vector3d& n : path.n_world)
+    out.change.push_back(std::clamp(along.dot(n) / std::sqrt(square), -3.0, 3.0));
+  return out;
+}
+
+// The circle's centre where the path in contact is about, along its axis.
+void centre_along_axis(const PathEvidence& evidence, CircleCandidate& circle) {
+  double sum_m = 0.0, weight = 0.0;
+  for (std::size_t c = 0; c < evidence.path.size(); ++c) {
+    sum_m += evidence.weight[c] * circle.axis.dot(evidence.path.p_m[c] - circle.centre_m);
+    weight += evidence.weight[c];
+  }
+  if (weight > 0.0) circle.centre_m += sum_m / weight * circle.axis;
+}
+
 PathShape choose_shape(const PlaneCandidate& plane, const CircleCandidate& circle, const PathEvidence& evidence,
                        const BasePathConfig& config, double& probability) {
   if (config.shape != PathShape::kAuto) return config.shape == PathShape::kLine ? PathShape::kLine : config.shape;
@@ -82,10 +149,21 @@ PathShape choose_shape(const PlaneCandidate& plane, const CircleCandidate& circl
   return round ? PathShape::kCircle : PathShape::kPlane;
 }
 
+// An axis' standard deviation by the motion's own covariance, median; without the tip's place in the marker, which is
+// one error of all samples. 0 if the method gives none.
+double position_sigma_m(const TipMotion& motion) {
+  std::vector<double> variance_m2;
+  for (const Eigen::Matrix3d& cov : motion.cov_world_tip_m2) variance_m2.push_back(cov.trace() / 3.0);
+  if (variance_m2.empty()) return 0.0;
+  return std::sqrt(std::max(0.0, median(variance_m2) - motion.sigma_tip_in_marker_m.squaredNorm() / 3.0));
+}
+
 }  // namespace
 
 BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& tip_in_marker_m,
-                              const BasePathConfig& config) {
+                              const BasePathConfig& stated) {
+  BasePathConfig config = stated;
+  config.slow_error_m = std::max(stated.slow_error_m, position_sigma_m(motion));
   const std::vector<double> t_s = motion_times_s(motion);
   if (!tip_in_marker_m.allFinite()) throw Error("base path: tip_in_marker_m is not finite");
   if (config.shape == PathShape::kMesh) throw Error("base path: the shape 'mesh' needs a registered mesh");
@@ -98,17 +176,28 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
         {"no_probe_axis", "the tip lies at the marker's origin: which side is outward is not known"});
   }
 
-  const PlaneCandidate plane = fit_plane_candidate(evidence, config);
-  const CircleCandidate circle = fit_circle_candidate(evidence, config);
+  PlaneCandidate plane = fit_plane_candidate(evidence, config);
+  CircleCandidate circle = fit_circle_candidate(evidence, config);
   out.shape = choose_shape(plane, circle, evidence, config, out.shape_probability);
 
   out.path.p_world_m.reserve(motion.size());
   out.path.n_world.reserve(motion.size());
   std::vector<Eigen::Vector2d> developed;
+  // What the motion itself says of the normals, over what the shape's fit does.
+  const double texture_axis_sigma_rad = config.texture_axis_sigma_deg / kRadian_deg;
+  const auto find_lean = [&](const LeanAxes& axes, double prior_rad, double change_rad = 0.0) {
+    return estimate_lean(motion, t_s, out.contact, evidence, out.path, axes,
+                         {prior_rad, change_rad, texture_axis_sigma_rad});
+  };
   if (out.shape == PathShape::kCircle) {
     if (!(circle.radius_m > 0.0) || !(circle.significance > 0.0))
       throw Error("base path: no circle fits a path without curvature");
+    centre_along_axis(evidence, circle);
     developed = develop_circle(circle, motion, out.path);
+    const LeanAxes axes = axes_of(circle, evidence, out.path);
+    const Lean lean = find_lean(axes, circle.lean_sigma_rad, circle.lean_change_rad);
+    turn_normals(motion, axes, lean, &circle.centre_m, out.path);
+    out.lean_rad = lean.lean_rad;
     out.centre_world_m = circle.centre_m;
     out.axis_world = circle.axis;
     out.radius_m = circle.radius_m;
@@ -118,16 +207,26 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
     out.base_rms_m = circle.rms_m;
     // A radius that is off by δ over a chord L turns the normals at its ends by about L/2 · δ/R².
     const double half_m = 0.5 * (evidence.coarse_m.back() - evidence.coarse_m.front()).norm();
-    out.normal_sigma_deg = kRadian_deg * half_m * circle.radius_stderr_m / (circle.radius_m * circle.radius_m);
+    const double ends_rad = half_m * circle.radius_stderr_m / (circle.radius_m * circle.radius_m);
+    out.normal_sigma_deg = kRadian_deg * std::hypot(lean.sigma_rad, ends_rad);
   } else if (out.shape == PathShape::kCurve) {
     developed = develop_curve(evidence, t_s, motion, config.curve_cutoff_cycles_per_mm, out.path);
-    out.normal_sigma_deg = config.probe_axis_sigma_deg;
-    out.undetermined.push_back(
-        {"normal about the direction of travel (from the probe's axis)", config.probe_axis_sigma_deg});
+    const LeanAxes axes{find_across(evidence, t_s, out.path), {}};
+    const Lean lean = find_lean(axes, config.probe_axis_sigma_deg / kRadian_deg);
+    turn_normals(motion, axes, lean, nullptr, out.path);
+    out.lean_rad = lean.lean_rad;
+    out.normal_sigma_deg = kRadian_deg * lean.sigma_rad;
     double square = 0.0;
     for (const Eigen::Vector3d& p : evidence.coarse_m) square += std::pow(plane.normal.dot(p - plane.point_m), 2);
     out.base_rms_m = std::sqrt(square / static_cast<double>(evidence.coarse_m.size()));
   } else {
+    developed = develop_plane(plane, motion, out.path);
+    const Eigen::Vector3d across = plane.normal.cross(plane.stroke).normalized();
+    const Lean lean = find_lean({std::vector<Eigen::Vector3d>(motion.size(), across), {}}, plane.sigma_rad);
+    plane.normal = (std::cos(lean.lean_rad) * plane.normal + std::sin(lean.lean_rad) * across).normalized();
+    plane.sigma_rad = lean.sigma_rad;
+    out.path.p_world_m.clear();
+    out.path.n_world.clear();
     developed = develop_plane(plane, motion, out.path);
     out.centre_world_m = plane.point_m;
     out.axis_world = plane.normal;
@@ -135,7 +234,7 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
     out.probe_tilt_deg = kRadian_deg * plane.tilt_rad;
     out.base_rms_m = plane.rms_m;
   }
-  if (out.shape != PathShape::kCurve && out.normal_sigma_deg > config.undetermined_deg) {
+  if (out.normal_sigma_deg > config.undetermined_deg) {
     out.undetermined.push_back({"normal about the direction of travel", out.normal_sigma_deg});
   }
   for (const UndeterminedRotation& u : out.undetermined) {

@@ -53,21 +53,7 @@ Eigen::Vector3d mean_axis(const PathEvidence& evidence) {
 }
 
 // Smallest rotation from b to a for directions without a sign, in (-π/2, π/2].
-double axial_difference(double a, double b) {
-  const double d = std::remainder(a - b, kPi);
-  return d;
-}
-
-}  // namespace
-
-namespace {
-
-// The logarithm of the density of the fine motion's direction, x standard deviations from the normal. On
-// a smooth surface it is the hand's tremor and may point anywhere, so it can be outvoted.
-double log_plausible(double x) {
-  constexpr double kTremor = 0.1;  // how often it is that
-  return std::log(kTremor + (1.0 - kTremor) * std::exp(-0.5 * x * x));
-}
+double axial_difference(double a, double b) { return std::remainder(a - b, kPi); }
 
 }  // namespace
 
@@ -82,14 +68,6 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
   const double axis_phi = std::atan2(axis_2, axis_3);
 
   const Eigen::Matrix3d fine = mean_fine(evidence);
-  Eigen::Matrix2d fine_across;
-  fine_across << e3.dot(fine * e3), e3.dot(fine * e2), e2.dot(fine * e3), e2.dot(fine * e2);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> fine_axes(fine_across);
-  const double minor = std::max(fine_axes.eigenvalues()(0), 0.0), major = fine_axes.eigenvalues()(1);
-  // Without a clear direction the fine motion says nothing.
-  const bool fine_known = config.texture_axis_sigma_deg > 0.0 && major > 4.0 * minor && major > 1e-14;
-  const double fine_phi = std::atan2(fine_axes.eigenvectors()(1, 1), fine_axes.eigenvectors()(0, 1));
-  const double fine_sigma = (config.texture_axis_sigma_deg + 30.0 * minor / std::max(major, 1e-300)) * kDegree_rad;
   const double axis_sigma = config.probe_axis_sigma_deg * kDegree_rad;
 
   const bool use_path = config.shape != PathShape::kLine;
@@ -106,7 +84,6 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
     if (use_path)
       value -= 0.5 * evidence.independent * (c * c * fit.scatter_m2.z() + s * s * fit.scatter_m2.y()) / error_m2;
     if (axis_known) value -= 0.5 * std::pow(axial_difference(phi, axis_phi) / axis_sigma, 2);
-    if (fine_known) value += log_plausible(axial_difference(phi, fine_phi) / fine_sigma);
     log_density[static_cast<std::size_t>(k)] = value;
     if (value > log_density[static_cast<std::size_t>(best)]) best = k;
   }
@@ -128,6 +105,7 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
 
   PlaneCandidate out;
   out.normal = std::cos(phi) * e3 + std::sin(phi) * e2;
+  out.stroke = fit.axes.col(0);
   if (axis.dot(out.normal) < 0.0) out.normal *= -1.0;
   out.sigma_rad = std::sqrt(std::max(second / sum - shift * shift, 0.0));
   double square = 0.0, tilt = 0.0, weight = 0.0;
@@ -163,30 +141,51 @@ namespace {
 
 constexpr double kAxisTilt_rad = 30.0 * kDegree_rad;  // of the cylinder's axis from the path's normal, a weak prior
 
-// vᵀMv: how badly a unit axis v agrees with the probe's axis and the fine motion, which both lie along the
-// normals and so across it.
-Eigen::Matrix3d across_information(const PathEvidence& evidence, const BasePathConfig& config) {
+// A stroke with the forearm about the elbow is an arc of 0.33 m: what a hand's stroke bends sideways on the body.
+constexpr double kSideways_per_m = 3.0;
+
+// vᵀMv: how badly a unit axis v agrees with the probe's axis, which lies along the normals and so across it, and with
+// the path's curvature 1/R. That is the normal's but for the geodesic curvature, so v is across the radii within
+// kSideways_per_m R.
+Eigen::Matrix3d across_information(const CircleCandidate& circle, const PathEvidence& evidence,
+                                   const BasePathConfig& config) {
   const double axis_sigma = config.probe_axis_sigma_deg * kDegree_rad,
-               fine_sigma = config.texture_axis_sigma_deg * kDegree_rad;
+               curvature_sigma = kSideways_per_m * circle.radius_m;
   const double count = static_cast<double>(evidence.coarse_m.size());
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < evidence.coarse_m.size(); ++i) {
     const Eigen::Vector3d& axis = evidence.coarse_axis[i];
     information += axis * axis.transpose() / (count * axis_sigma * axis_sigma);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> fine(evidence.coarse_fine_m2[i]);
-    if (fine_sigma > 0.0 && fine.eigenvalues()(2) > std::max(4.0 * fine.eigenvalues()(1), 1e-14)) {
-      const Eigen::Vector3d direction = fine.eigenvectors().col(2);
-      information += direction * direction.transpose() / (count * fine_sigma * fine_sigma);
-    }
+    const Eigen::Vector3d d = evidence.coarse_m[i] - circle.centre_m;
+    const Eigen::Vector3d radial = (d - d.dot(circle.axis) * circle.axis).normalized();
+    information += radial * radial.transpose() / (count * curvature_sigma * curvature_sigma);
   }
   return information;
+}
+
+// How well the lean of the normals is known, by the covariance of the axis' slopes towards e1 and e2.
+void find_lean_sigma(CircleCandidate& circle, const PathEvidence& evidence, const Eigen::Matrix2d& covariance,
+                     const Eigen::Vector3d& e1, const Eigen::Vector3d& e2) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  double square = 0.0;
+  const double count = static_cast<double>(evidence.coarse_m.size());
+  for (const Eigen::Vector3d& p : evidence.coarse_m) {
+    const Eigen::Vector3d d = p - circle.centre_m;
+    const Eigen::Vector3d radial = (d - d.dot(circle.axis) * circle.axis).normalized();
+    const Eigen::Vector2d slope(radial.dot(e1), radial.dot(e2));
+    mean += slope / count;
+    square += slope.dot(covariance * slope) / count;
+  }
+  const double of_mean = std::max(mean.dot(covariance * mean), 0.0);
+  circle.lean_sigma_rad = std::sqrt(of_mean);
+  circle.lean_change_rad = std::sqrt(std::max(square - of_mean, 0.0));
 }
 
 // Turns the axis of a circle's cylinder, and fits centre and radius with it, so that a path that also moves
 // along the axis lies on the cylinder. Gauss-Newton with a step control on the cells of the path.
 void refine_cylinder(CircleCandidate& circle, const PathEvidence& evidence, const BasePathConfig& config) {
   const double error_m = config.slow_error_m;
-  const Eigen::Matrix3d across = across_information(evidence, config);
+  const Eigen::Matrix3d across = across_information(circle, evidence, config);
   using Vector5 = Eigen::Matrix<double, 5, 1>;
   using Matrix5 = Eigen::Matrix<double, 5, 5>;
   const Eigen::Vector3d e1 = circle.axis.unitOrthogonal(), e2 = circle.axis.cross(e1);
@@ -251,9 +250,14 @@ void refine_cylinder(CircleCandidate& circle, const PathEvidence& evidence, cons
     }
     if (!improved) break;
   }
+  Matrix5 information;
+  Vector5 gradient;
+  linearise(x, &information, &gradient);
   circle.centre_m += scale_m * (x(2) * e1 + x(3) * e2);
   circle.axis = (circle.axis + x(0) * e1 + x(1) * e2).normalized();
   circle.radius_m = scale_m * (1.0 + x(4));
+  const Eigen::MatrixXd covariance = inverse_of(information);
+  find_lean_sigma(circle, evidence, covariance.topLeftCorner<2, 2>(), e1, e2);
 }
 
 }  // namespace
@@ -279,7 +283,15 @@ CircleCandidate fit_circle_candidate(const PathEvidence& evidence, const BasePat
   if (!fit.converged || !(fit.radius_m > 0.0)) return out;
   // A nearly straight path has no cylinder to rotate.
   const double extent_m = std::sqrt(plane.scatter_m2.x());
-  if (fit.radius_m < 50.0 * extent_m) refine_cylinder(out, evidence, config);
+  if (fit.radius_m < 50.0 * extent_m) {
+    refine_cylinder(out, evidence, config);
+  } else {
+    const Eigen::Matrix3d across = across_information(out, evidence, config);
+    Eigen::Matrix2d information;
+    information << e1.dot(across * e1), e1.dot(across * e2), e2.dot(across * e1), e2.dot(across * e2);
+    information.diagonal().array() += 1.0 / (kAxisTilt_rad * kAxisTilt_rad);
+    find_lean_sigma(out, evidence, information.inverse(), e1, e2);
+  }
 
   double square = 0.0, side = 0.0;
   std::vector<Eigen::Vector3d> radial;

@@ -9,7 +9,8 @@ namespace asperity {
 struct PlaneCandidate {
   Eigen::Vector3d point_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  // outward
-  double sigma_rad = 0.0;                             // of its rotation about the stroke
+  Eigen::Vector3d stroke = Eigen::Vector3d::UnitX();  // the path's main direction, in the plane
+  double sigma_rad = 0.0;                             // of its rotation about the stroke, by path and probe
   double rms_m = 0.0;                                 // of the coarse points
   double tilt_rad = 0.0;                              // RMS angle between probe axis and normal
   double fine_m2 = 0.0;                               // mean square fine motion along the normal
@@ -25,6 +26,9 @@ struct CircleCandidate {
   double rms_m = 0.0;
   double tilt_rad = 0.0;
   double fine_m2 = 0.0;
+  // Of the normals' lean about the direction of travel: its mean over the path, and what changes along it.
+  double lean_sigma_rad = 0.0;
+  double lean_change_rad = 0.0;
 };
 
 PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathConfig& config);

@@ -8,13 +8,14 @@ namespace asperity {
 
 namespace {
 
-double crosstalk_at(const HeightErrors& errors, double frequency_Hz) {
-  const auto& at = errors.crosstalk_Hz;
+double interpolated_density(const std::vector<double>& at, const std::vector<double>& density_m2ps,
+                            double frequency_Hz) {
+  if (density_m2ps.size() != at.size()) return 0.0;
   const auto next = std::upper_bound(at.begin(), at.end(), frequency_Hz);
   if (next == at.begin() || next == at.end()) return 0.0;
   const auto i = static_cast<std::size_t>(next - at.begin());
   const double share = (frequency_Hz - at[i - 1]) / (at[i] - at[i - 1]);
-  return errors.crosstalk_m2ps[i - 1] + share * (errors.crosstalk_m2ps[i] - errors.crosstalk_m2ps[i - 1]);
+  return density_m2ps[i - 1] + share * (density_m2ps[i] - density_m2ps[i - 1]);
 }
 
 double rotation_density(const HeightErrors& errors, double omega) {
@@ -37,8 +38,10 @@ double height_error_density_m2ps(const HeightErrors& errors, double frequency_Hz
   const double share = accel / (accel + tracker * std::pow(omega, 4));
   const double slow = 4.0 * std::pow(errors.tracker_slow_sigma_m, 2) * errors.tracker_slow_time_s /
                       (1.0 + std::pow(omega * errors.tracker_slow_time_s, 2));
-  return share * tracker + share * share * slow + (1.0 - share) * (1.0 - share) * crosstalk_at(errors, frequency_Hz) +
-         std::pow(errors.lever_m, 2) * rotation;
+  const double crosstalk = interpolated_density(errors.crosstalk_Hz, errors.crosstalk_m2ps, frequency_Hz);
+  return share * tracker + share * share * slow + (1.0 - share) * (1.0 - share) * crosstalk +
+         std::pow(errors.lever_m, 2) * rotation +
+         interpolated_density(errors.crosstalk_Hz, errors.leaning_m2ps, frequency_Hz);
 }
 
 }  // namespace asperity

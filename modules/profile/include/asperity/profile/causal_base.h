@@ -62,6 +62,7 @@ class CausalBase {
   Eigen::Vector3d axis_ = Eigen::Vector3d::Zero();      // the plane's outward normal, or the circle's axis
   double radius_m_ = 0.0;
   bool outside_ = true;
+  double lean_rad_ = 0.0;  // of the circle's normals towards its axis
   double normal_sigma_deg_ = 0.0;
 };
 

@@ -79,9 +79,13 @@ struct BasePathResult {
   double radius_m = 0.0;                                     // circle
   double radius_stderr_m = 0.0;                              // allowing for errors that last
   bool outside = true;                                       // circle: the probe is on its outside
-  double normal_sigma_deg = 0.0;                             // of the normal about the direction of travel
-  double probe_tilt_deg = 0.0;                               // mean angle between the probe's axis and the normal
-  double base_rms_m = 0.0;                                   // of the path's 10 mm means from the base shape
+  // Circle and curve: n_world is turned by this from the shape's own normals; the circle's towards its axis, about its
+  // centre: n_world = n cos + axis_world sin, and so the height of a point p is cos · (n·(p − centre) − radius) + sin ·
+  // axis·(p − centre).
+  double lean_rad = 0.0;
+  double normal_sigma_deg = 0.0;  // of the normal about the direction of travel
+  double probe_tilt_deg = 0.0;    // mean angle between the probe's axis and the normal
+  double base_rms_m = 0.0;        // of the path's 10 mm means from the base shape
   double length_m = 0.0;
   NormalForce force;  // along n_world, without the values, which the motion has; nothing if it was not asked for
   Problems problems;
@@ -92,10 +96,12 @@ struct BasePathResult {
 // rests and the approach do not count. Outward is where the probe is: (p_marker - p_tip)·n > 0 with
 // p_marker = p_tip - R tip_in_marker_m.
 //
-// How far the plane turns about the stroke is found in a Bayesian way from three sources: the path's
-// lateral extent against `slow_error_m`; the probe's axis; and the direction in which the tip moves
-// above 15 Hz, where the texture moves it along the normal. Between plane and circle decide the
-// curvature's significance, the probe's axis, the fine motion's direction and the residuals.
+// How far the plane turns about the stroke is found from the path's lateral extent against `slow_error_m` (no smaller
+// than the motion's own standard deviation) and from the probe's axis; how far a circle's normals lean, from the same
+// and from the sideways curvature of a hand's stroke. Both are then corrected by the motion above 4 Hz, in which tremor
+// across the path and texture along the normal are not correlated, and by a force with three axes (docs/profile.md,
+// "How far the normals lean"). Between plane and circle decide the curvature's significance, the probe's axis, the fine
+// motion's direction and the residuals.
 // Throws Error for fewer than 20 samples, sizes that differ, or numbers that are not finite.
 BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& tip_in_marker_m,
                               const BasePathConfig& config);

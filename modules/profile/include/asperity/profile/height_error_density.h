@@ -9,11 +9,12 @@ namespace asperity {
 // and the specific force F across the normal that a wrong orientation turns into it. With the tracker's white error R
 // and its slow one S_s(f) = 4 σ² τ/(1 + (2πfτ)²), and its share W = A(f)/(A(f) + R (2πf)⁴) in the height, it is
 //
-//   W R + W² S_s + (1 − W)² C(f) + l² S_θ(f),
+//   W R + W² S_s + (1 − W)² C(f) + l² S_θ(f) + σ_φ² S_w(f),
 //
-// C what calibration errors carry from the motion into the height, l the lever from the sensor to the tip. The
-// orientation's own error is that of the tracker's and the gyroscope's best, S_θ = G R_θ/(G + R_θ (2πf)²), or without a
-// gyroscope B R_θ/(B + R_θ (2πf)⁴). 0 where A or R is not known.
+// σ_φ² S_w what the sway across the path leaves in the height, the normals' lean being known to σ_φ; C what calibration
+// errors carry from the motion into the height, l the lever from the sensor to the tip. The orientation's own error is
+// that of the tracker's and the gyroscope's best, S_θ = G R_θ/(G + R_θ (2πf)²), or without a gyroscope B R_θ/(B + R_θ
+// (2πf)⁴). 0 where A or R is not known.
 double height_error_density_m2ps(const HeightErrors& errors, double frequency_Hz);
 
 }  // namespace asperity

@@ -33,6 +33,9 @@ struct HeightErrors {
   int base_degree = 1;
   std::vector<double> crosstalk_Hz;  // of the density of what calibration errors carry from the motion into the height
   std::vector<double> crosstalk_m2ps;
+  // Of the sway across the path times the variance of the normals' lean, at the same frequencies. All of it comes from
+  // one angle that is not known: the error is one draw of it times the sway.
+  std::vector<double> leaning_m2ps;
 };
 
 // What of a profile's texture is expected to be error and not surface (docs/texture-noise.md). Nothing is determined
