@@ -161,6 +161,18 @@ std::vector<double> squares_of(const std::vector<double>& x, const std::vector<B
   return out;
 }
 
+// How much the power of a texture changes by being misplaced, relative: RMS over the draws.
+double power_spread(const std::vector<double>& surface_m, const std::vector<std::vector<double>>& misplaced_m) {
+  double power = 0.0, square = 0.0;
+  for (const double h : surface_m) power += h * h;
+  for (const std::vector<double>& draw : misplaced_m) {
+    double change = 0.0;
+    for (std::size_t i = 0; i < surface_m.size(); ++i) change += draw[i] * (2.0 * surface_m[i] + draw[i]);
+    square += change * change / static_cast<double>(misplaced_m.size());
+  }
+  return power > 0.0 ? std::sqrt(square) / power : 0.0;
+}
+
 }  // namespace
 
 double texture_power_gain(double cycles_per_mm, double cutoff_cycles_per_mm) {
@@ -191,18 +203,26 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   // The spectrum's shape, as if each stretch were long, in mm.
   const double lowest = std::max(kLowest_cycles_per_mm, kBelowCutoff * cutoff_cycles_per_mm);
   const std::vector<double> k = frequencies(lowest, 0.5 / spacing_mm);
-  std::vector<double> added(k.size(), 0.0);
-  for (std::size_t i = 0; i < k.size(); ++i) {
-    const double gain = texture_power_gain(k[i], cutoff_cycles_per_mm);
-    for (const Block& b : blocks) {
-      added[i] +=
-          b.points / points * gain * b.speed_mmps * 1e6 * height_error_density_m2ps(errors, k[i] * b.speed_mmps);
+  const auto even_density = [&](const HeightErrors& of) {
+    std::vector<double> density(k.size(), 0.0);
+    for (std::size_t i = 0; i < k.size(); ++i) {
+      const double gain = texture_power_gain(k[i], cutoff_cycles_per_mm);
+      for (const Block& b : blocks) {
+        density[i] += b.points / points * gain * b.speed_mmps * 1e6 * height_error_density_m2ps(of, k[i] * b.speed_mmps);
+      }
     }
-  }
+    return density;
+  };
+  std::vector<double> added = even_density(errors);
+  const double even_power = integrate(k, [&](std::size_t i) { return added[i]; });
+  // The same with the sensor's own noise alone.
+  HeightErrors own_errors = errors;
+  own_errors.accel_psd_m2ps3 = errors.accel_own_psd_m2ps3;
+  const std::vector<double> own = even_density(own_errors);
+  const double own_power = integrate(k, [&](std::size_t i) { return own[i]; });
 
   // The powers, from draws: they know of rests, slow ends and gaps.
   std::vector<double> surface_m(profile.size());
-  const double even_power = integrate(k, [&](std::size_t i) { return added[i]; });
   const double measured_power = 1e6 * noise.texture_rms_m * noise.texture_rms_m;
   const double clean = std::sqrt(std::clamp(1.0 - even_power / measured_power, 0.0, 1.0));
   for (std::size_t i = 0; i < surface_m.size(); ++i) {
@@ -271,6 +291,10 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   noise.scale_sigma = errors.scale_sigma;
   noise.along_sigma = noise.length_stderr_m / (1e-3 * length_mm);
   noise.added_rms_m = 1e-3 * std::sqrt(added_power);
+  if (errors.accel_own_psd_m2ps3 > 0.0) {
+    noise.contact_rms_m = noise.added_rms_m * std::sqrt(std::max(0.0, 1.0 - own_power / even_power));
+  }
+  noise.stretch_sigma = power_spread(surface_m, drawn.misplaced_m);
   noise.added_rms_stderr_m = 0.5 * relative * noise.added_rms_m;
   noise.noise_rms_m = 1e-3 * std::sqrt(noise_power);
   noise.noise_rms_stderr_m = 0.5 * relative * noise.noise_rms_m;
