@@ -70,16 +70,13 @@ void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise) {
     if (!std::isfinite(expected.texture_m[i])) continue;
     profile.height_m[i] += expected.texture_m[i] - profile.texture_m[i];
     profile.texture_m[i] = expected.texture_m[i];
-    if (!noise.added_sigma_m.empty()) {
-      // What is gone of the texture's noise is gone of the height's.
-      const double gone_m2 = (1.0 - square(expected.error_ratio)) * square(noise.added_sigma_m[i]);
-      profile.sigma_m[i] = std::sqrt(std::max(square(profile.sigma_m[i]) - gone_m2,
-                                              square(expected.error_ratio) * square(noise.added_sigma_m[i])));
-    }
     profile.texture_sigma_m[i] = noise.added_sigma_m.empty()
                                      ? profile.texture_sigma_m[i] * left
                                      : std::sqrt(square(expected.error_ratio * noise.added_sigma_m[i]) +
                                                  square(noise.misplaced_sigma_m[i]) + scale_m2);
+    // Waves about the cut-off are in the texture and below it, in phase: what is left of heights is no difference of
+    // powers.
+    if (!noise.slow_sigma_m.empty()) profile.sigma_m[i] = std::hypot(noise.slow_sigma_m[i], profile.texture_sigma_m[i]);
   }
 }
 

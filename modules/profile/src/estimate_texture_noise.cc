@@ -51,18 +51,25 @@ double mean_square(std::span<const double> x) {
   return count > 0.0 ? sum / count : kNan;
 }
 
-// The blocks of the profile that have heights and a speed.
+// The blocks of the profile that have heights. Single points beside gaps may have no speed: theirs is the last known.
 std::vector<Block> find_blocks(const Profile& profile) {
   std::vector<Block> out;
+  double known_mmps = 0.0;
   for (std::size_t first = 0; first < profile.size(); first += kBlock_points) {
     Block block;
     block.first = first;
     block.last = std::min(first + kBlock_points, profile.size());
     const auto part = [&](std::span<const double> x) { return x.subspan(first, block.last - first); };
     for (const double h : part(profile.texture_m)) block.points += std::isfinite(h) ? 1.0 : 0.0;
-    block.speed_mmps = 1e3 * std::abs(mean_present(part(profile.speed_mps)));
-    if (block.points > 0.0 && block.speed_mmps > 0.0) out.push_back(block);
+    const double speed_mmps = 1e3 * std::abs(mean_present(part(profile.speed_mps)));
+    if (speed_mmps > 0.0) {
+      if (known_mmps == 0.0) std::for_each(out.begin(), out.end(), [&](Block& b) { b.speed_mmps = speed_mmps; });
+      known_mmps = speed_mmps;
+    }
+    block.speed_mmps = known_mmps;
+    if (block.points > 0.0) out.push_back(block);
   }
+  if (known_mmps == 0.0) out.clear();
   return out;
 }
 
@@ -161,6 +168,14 @@ std::vector<double> squares_of(const std::vector<double>& x, const std::vector<B
   return out;
 }
 
+std::vector<std::vector<double>> difference(std::vector<std::vector<double>> a,
+                                            const std::vector<std::vector<double>>& b) {
+  for (std::size_t j = 0; j < a.size(); ++j) {
+    for (std::size_t i = 0; i < a[j].size(); ++i) a[j][i] -= b[j][i];
+  }
+  return a;
+}
+
 // How much the power of a texture changes by being misplaced, relative: RMS over the draws.
 double power_spread(const std::vector<double>& surface_m, const std::vector<std::vector<double>>& misplaced_m) {
   double power = 0.0, square = 0.0;
@@ -233,6 +248,7 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   BlockErrors added_errors = over_blocks(profile, blocks, drawn.added_m);
   const BlockErrors misplaced_errors = over_blocks(profile, blocks, drawn.misplaced_m);
   const BlockErrors height_errors = over_blocks(profile, blocks, drawn.height_m);
+  const BlockErrors slow_errors = over_blocks(profile, blocks, difference(drawn.height_m, drawn.added_m));
   if (!(added_errors.power_m2 > 0.0) || !(even_power > 0.0)) return out;
   const std::vector<char> typical = without_noisiest(blocks, added_errors.block_m2);
   // What was measured is surface and noise: the noise is no larger.
@@ -260,6 +276,7 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   out.height_sigma_m.assign(profile.size(), kNan);
   noise.added_sigma_m.assign(profile.size(), 0.0);
   noise.misplaced_sigma_m.assign(profile.size(), 0.0);
+  noise.slow_sigma_m.assign(profile.size(), 0.0);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const double added_m2 = added_errors.block_m2[b], misplaced_m2 = misplaced_errors.block_m2[b];
     const double gain_m2 = std::pow(errors.scale_sigma * noise.texture_rms_m, 2);
@@ -267,6 +284,7 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
       if (std::isfinite(profile.height_m[i])) {
         out.height_sigma_m[i] = std::sqrt(height_errors.block_m2[b] + misplaced_m2 + gain_m2);
       }
+      noise.slow_sigma_m[i] = std::sqrt(slow_errors.block_m2[b]);
       if (!std::isfinite(profile.texture_m[i])) continue;
       out.texture_sigma_m[i] = std::sqrt(added_m2 + misplaced_m2 + gain_m2);
       noise.added_sigma_m[i] = std::sqrt(added_m2);

@@ -47,6 +47,8 @@ struct TextureNoise {
   // The same two point by point, standard deviations; empty: the same everywhere.
   std::vector<double> added_sigma_m;
   std::vector<double> misplaced_sigma_m;
+  // Of height_m less its straight line, without what is in the texture: it remains where the texture's noise is removed.
+  std::vector<double> slow_sigma_m;
   // Of texture_m as it is given, over the points that have a height: of both, or what the removal of noise has left of
   // it (apply_wiener_filter.h).
   double noise_rms_m = kNan;
