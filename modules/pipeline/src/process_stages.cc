@@ -14,6 +14,7 @@
 #include "asperity/profile/find_contact.h"
 #include "asperity/profile/find_periodicity_under_noise.h"
 #include "asperity/profile/measure_roughness_under_noise.h"
+#include "asperity/profile/measure_surface_spectrum.h"
 
 namespace asperity::stage {
 
@@ -216,6 +217,13 @@ Outcome<Periodicity> find_periodicity(const ProcessConfig& config, const Process
   return {find_periodicity_under_noise(measured.measured_texture_m, measured.profile.spacing_m, measured.noise,
                                        config.periodicity),
           {}};
+}
+
+Outcome<SurfaceSpectrum> measure_spectrum(const ProcessStages& before) {
+  if (!before.profile.value) return {};
+  const MeasuredProfile& measured = *before.profile.value;
+  if (measured.profile.size() < 2) return {};
+  return {measure_surface_spectrum(measured.measured_texture_m, measured.profile.spacing_m, measured.noise), {}};
 }
 
 Outcome<Compliance> estimate_compliance(const Recording& recording, const ProcessConfig& config,

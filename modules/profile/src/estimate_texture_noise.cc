@@ -223,7 +223,8 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
     for (std::size_t i = 0; i < k.size(); ++i) {
       const double gain = texture_power_gain(k[i], cutoff_cycles_per_mm);
       for (const Block& b : blocks) {
-        density[i] += b.points / points * gain * b.speed_mmps * 1e6 * height_error_density_m2ps(of, k[i] * b.speed_mmps);
+        density[i] +=
+            b.points / points * gain * b.speed_mmps * 1e6 * height_error_density_m2ps(of, k[i] * b.speed_mmps);
       }
     }
     return density;

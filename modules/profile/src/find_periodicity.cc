@@ -177,6 +177,22 @@ Periodicity follow_from(std::span<const double> x, double spacing_m, double f, c
   return out;
 }
 
+// Less the mean over one period about each point, at the ends the first and the last whole one: a pattern has none in
+// it, and keeps all of its harmonics; longer waves go.
+void subtract_running_mean(std::size_t period, std::vector<double>& x) {
+  std::vector<double> sums(x.size() + 1, 0.0), counts(x.size() + 1, 0.0);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const bool present = std::isfinite(x[i]);
+    sums[i + 1] = sums[i] + (present ? x[i] : 0.0);
+    counts[i + 1] = counts[i] + (present ? 1.0 : 0.0);
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const std::size_t from = std::min(i - std::min(i, period / 2), x.size() - period);
+    const double count = counts[from + period] - counts[from];
+    if (count > 0.0) x[i] -= (sums[from + period] - sums[from]) / count;
+  }
+}
+
 // The heights without their mean; empty if there are too few.
 std::vector<double> without_mean(std::span<const double> height_m) {
   double sum = 0.0, count = 0.0;
@@ -210,8 +226,10 @@ std::vector<double> period_depths(std::span<const double> x, double period) {
 
 Periodicity follow_pattern(std::span<const double> height_m, double spacing_m, double pitch_m,
                            const PeriodicityConfig& config) {
-  const std::vector<double> x = without_mean(height_m);
-  if (x.empty()) return {};
+  std::vector<double> x = without_mean(height_m);
+  const auto period = static_cast<std::size_t>(std::lround(pitch_m / spacing_m));
+  if (x.empty() || period < 2 || period > x.size()) return {};
+  for (int k = 0; k < 2; ++k) subtract_running_mean(period, x);
   return follow_from(x, spacing_m, refine_frequency(search_part(x), spacing_m / pitch_m, kReachOfLag), config);
 }
 

@@ -10,8 +10,8 @@
 #include "asperity/profile/apply_wiener_filter.h"
 #include "asperity/signal/statistics.h"
 #include "draw_noise.h"
-#include "line_search.h"
 #include "follow_pattern.h"
+#include "line_search.h"
 #include "period_depths.h"
 #include "root_of_power.h"
 
@@ -37,6 +37,16 @@ double depth_scatter_m(std::span<const double> height_m, double period) {
 double usual_depth_m(std::span<const double> height_m, double period) {
   const std::vector<double> depths = period_depths(height_m, period);
   return depths.empty() ? kNan : median(depths);
+}
+
+double root_mean_square(std::span<const double> x) {
+  double sum = 0.0, count = 0.0;
+  for (const double v : x) {
+    if (!std::isfinite(v)) continue;
+    sum += v * v;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : kNan;
 }
 
 // By how much the pitch is too long: 2 to 8 if none but every so many of its harmonics are lines; 1 if it is right,
@@ -74,23 +84,24 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
   for (double& density : most_psd) density *= most;
   const double longest_m = std::min(config.max_pitch_m, spacing_m * static_cast<double>(height_m.size()) / 3.0);
   const LineSearch search(height_m, spacing_m, noise.frequency_cycles_per_mm, most_psd, config.min_pitch_m);
+  // At its line and not by the correlation, which follows what is strongest, as the hand's tremor on a smooth pattern.
+  const auto follow_line = [&](double shortest_m, double most_m) {
+    const double line_m = search.find_line_m(shortest_m, most_m);
+    const Periodicity found = line_m > 0.0 ? follow_pattern(quiet_m, spacing_m, line_m, config) : Periodicity{};
+    if (std::isfinite(found.pitch_m)) out = found;
+    return std::isfinite(found.pitch_m);
+  };
   const auto find_near = [&](double pitch_m) {
     PeriodicityConfig near = config;
     near.min_pitch_m = std::max(config.min_pitch_m, (1.0 - kMultipleReach) * pitch_m);
     near.max_pitch_m = (1.0 + kMultipleReach) * pitch_m;
+    if (follow_line(near.min_pitch_m, near.max_pitch_m)) return;
     const Periodicity found = find_periodicity(quiet_m, spacing_m, near);
     if (std::isfinite(found.pitch_m)) out = found;
   };
   int multiple = find_multiple(search, out.pitch_m);
   if (multiple > 1) find_near(out.pitch_m / multiple);
-  if (multiple == 0) {
-    // The correlation follows what is strongest, as the hand's tremor on a smooth pattern.
-    const double line_m = search.find_line_m(config.min_pitch_m, longest_m);
-    if (line_m > 0.0) {
-      out = follow_pattern(quiet_m, spacing_m, line_m, config);
-      multiple = std::isfinite(out.pitch_m) ? find_multiple(search, out.pitch_m) : 0;
-    }
-  }
+  if (multiple == 0 && follow_line(config.min_pitch_m, longest_m)) multiple = find_multiple(search, out.pitch_m);
   if (multiple == 0) {
     out.periodic = false;
     out.pitch_stderr_m = out.depth_stderr_m = kNan;
@@ -124,7 +135,8 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
   // The draws know the noise that was found; what else there is, restored peaks and impacts, shows between the periods.
   const double scatter_m = depth_scatter_m(height_m, period);
   const double spread_m2 = std::max(standard_deviation(squares[0]), 2.0 * before_m * scatter_m);
-  const double height = std::hypot(noise.scale_sigma, noise.contact_rms_m / std::numbers::sqrt3 / noise.texture_rms_m);
+  const double height =
+      std::hypot(noise.scale_sigma, noise.contact_rms_m / std::numbers::sqrt3 / root_mean_square(height_m));
   const Root depth = root_of_power(parabola, std::hypot(std::hypot(spread_m2, doubt_m2),
                                                         std::hypot(relative * (parabola - none), 2.0 * height * none)));
   out.depth_m = depth.value;

@@ -6,8 +6,8 @@
 
 namespace asperity {
 
-// find_periodicity() of a pattern whose pitch is known to 3 %, however weak its correlation is: refined, followed by
-// its phase, with the depth of its periods.
+// find_periodicity() of a pattern whose pitch is known to 3 %, in heights less their mean over one period, twice: waves
+// that are longer than the pattern, as a tremor's, do not count.
 Periodicity follow_pattern(std::span<const double> height_m, double spacing_m, double pitch_m,
                            const PeriodicityConfig& config);
 

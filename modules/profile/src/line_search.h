@@ -11,7 +11,7 @@ namespace asperity {
 //
 // The periodogram of Gaussian noise over its density exceeds q with the probability exp(−q); over the median of m
 // independent neighbours, which scatters as χ² with about m degrees of freedom, with (1 + 2q/m)^(−m/2). A line exceeds
-// both, at one in a hundred for all that is searched together.
+// both, at one in a hundred for all that is searched together; of the neighbours the higher side counts.
 class LineSearch {
  public:
   // Heights in m, nan in gaps; the density of the noise in m²/(cycles/mm) at rising frequencies in cycles/mm. A search
@@ -29,10 +29,10 @@ class LineSearch {
   // Among so many frequencies for noise, and for what the neighbours have.
   bool is_line(std::size_t bin, double trials, double near_trials) const;
 
-  double length_m_ = 0.0;         // of the padded profile: a bin is 1/length
-  double searched_ = 0.0;         // frequencies
-  std::vector<double> power_;     // periodogram, m²/(cycles/mm)
-  std::vector<double> noise_;     // at the same bins
+  double length_m_ = 0.0;      // of the padded profile: a bin is 1/length
+  double searched_ = 0.0;      // frequencies
+  std::vector<double> power_;  // periodogram, m²/(cycles/mm)
+  std::vector<double> noise_;  // at the same bins
 };
 
 }  // namespace asperity

@@ -154,8 +154,8 @@ RoughnessResult measure_roughness_under_noise(std::span<const double> height_m, 
     }
     // Of squares: relative errors of the height count twice.
     const double height = std::hypot(noise.scale_sigma, contact, hangs_on_extremes(parameter) ? 0.0 : stretch);
-    const double error_m2 = std::hypot(std::hypot(spread, doubt), std::hypot(known, 2.0 * height * none),
-                                       2.0 * place[p] * before);
+    const double error_m2 =
+        std::hypot(std::hypot(spread, doubt), std::hypot(known, 2.0 * height * none), 2.0 * place[p] * before);
     const double sign = none < 0.0 ? -1.0 : 1.0;  // of levels below the mean line
     const Root root = root_of_power(sign * parabola, error_m2);
     value = sign * root.value;

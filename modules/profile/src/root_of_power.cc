@@ -13,8 +13,8 @@ Root root_of_power(double square, double square_stderr) {
   if (!std::isfinite(square) || !std::isfinite(square_stderr) || !(square_stderr > 0.0)) return {kNan, kNan};
   const double low = std::sqrt(std::max(0.0, square - kReach * square_stderr));
   // With a square far below zero what is left is near zero: exp(−square x²/σ²).
-  const double width = square < 0.0 ? std::min(square_stderr, kReach * square_stderr * square_stderr / -square)
-                                    : square_stderr;
+  const double width =
+      square < 0.0 ? std::min(square_stderr, kReach * square_stderr * square_stderr / -square) : square_stderr;
   const double high = std::sqrt(std::max(square, 0.0) + kReach * width);
   const double nearest = std::max(square, 0.0);
   double sum = 0.0, first = 0.0, second = 0.0;

@@ -47,7 +47,8 @@ struct TextureNoise {
   // The same two point by point, standard deviations; empty: the same everywhere.
   std::vector<double> added_sigma_m;
   std::vector<double> misplaced_sigma_m;
-  // Of height_m less its straight line, without what is in the texture: it remains where the texture's noise is removed.
+  // Of height_m less its straight line, without what is in the texture: it remains where the texture's noise is
+  // removed.
   std::vector<double> slow_sigma_m;
   // Of texture_m as it is given, over the points that have a height: of both, or what the removal of noise has left of
   // it (apply_wiener_filter.h).
@@ -60,9 +61,9 @@ struct TextureNoise {
   double length_stderr_m = kNan;  // of the profile's length, from first to last height
   // The part of the added noise that comes with the contact, RMS: it may go with the surface or against it.
   double contact_rms_m = 0.0;
-  double stretch_sigma = 0.0;     // relative, of the texture's power: what heights at a wrong place do to it
-  double scale_sigma = 0.0;       // relative error of all heights: calibration, the normal's direction
-  double along_sigma = 0.0;       // relative error of lengths along the path
+  double stretch_sigma = 0.0;  // relative, of the texture's power: what heights at a wrong place do to it
+  double scale_sigma = 0.0;    // relative error of all heights: calibration, the normal's direction
+  double along_sigma = 0.0;    // relative error of lengths along the path
   // Without the tenth of the path where the noise is largest, as at slow ends and rests; the two densities have these
   // powers: of the measured texture, of added noise, of misplaced heights.
   double typical_texture_rms_m = kNan;
