@@ -9,12 +9,12 @@
 #include "asperity/profile/height_error_density.h"
 #include "asperity/profile/measure_spectrum.h"
 #include "draw_height_errors.h"
+#include "noise_blocks.h"
 
 namespace asperity {
 
 namespace {
 
-constexpr std::size_t kBlock_points = 20;  // over which speeds and errors are taken together: 0.5 mm
 constexpr std::size_t kFrequencies = 128;  // of the spectrum, evenly in the logarithm
 constexpr double kBelowCutoff = 0.2;       // lowest frequency over the high-pass' cut-off: what is below is cut to 1e-5
 constexpr double kLowest_cycles_per_mm = 1e-3;
@@ -22,56 +22,6 @@ constexpr double kFisher = 0.833;              // 3π/(8√2), the integral of (
 constexpr double kPositionBandwidth = 1.1107;  // π/(2√2), the integral of (1 + x⁴)⁻¹
 constexpr double kLeastInformation = 4.0;      // the floor is known to half its value even without a tracker
 constexpr double kSure = 1.96;
-constexpr double kStudent = 2.0;  // an error over a sigma from n draws has the variance n/(n − 2): Student's
-constexpr double kTypical = 0.9;  // of the path: slow ends and rests have another noise, and are a few of its per cent
-
-struct Block {
-  std::size_t first = 0, last = 0;  // points
-  double points = 0.0;              // of them with a height
-  double speed_mmps = 0.0;
-};
-
-double mean_present(std::span<const double> x) {
-  double sum = 0.0, count = 0.0;
-  for (const double v : x) {
-    if (!std::isfinite(v)) continue;
-    sum += v;
-    count += 1.0;
-  }
-  return count > 0.0 ? sum / count : kNan;
-}
-
-double mean_square(std::span<const double> x) {
-  double sum = 0.0, count = 0.0;
-  for (const double v : x) {
-    if (!std::isfinite(v)) continue;
-    sum += v * v;
-    count += 1.0;
-  }
-  return count > 0.0 ? sum / count : kNan;
-}
-
-// The blocks of the profile that have heights. Single points beside gaps may have no speed: theirs is the last known.
-std::vector<Block> find_blocks(const Profile& profile) {
-  std::vector<Block> out;
-  double known_mmps = 0.0;
-  for (std::size_t first = 0; first < profile.size(); first += kBlock_points) {
-    Block block;
-    block.first = first;
-    block.last = std::min(first + kBlock_points, profile.size());
-    const auto part = [&](std::span<const double> x) { return x.subspan(first, block.last - first); };
-    for (const double h : part(profile.texture_m)) block.points += std::isfinite(h) ? 1.0 : 0.0;
-    const double speed_mmps = 1e3 * std::abs(mean_present(part(profile.speed_mps)));
-    if (speed_mmps > 0.0) {
-      if (known_mmps == 0.0) std::for_each(out.begin(), out.end(), [&](Block& b) { b.speed_mmps = speed_mmps; });
-      known_mmps = speed_mmps;
-    }
-    block.speed_mmps = known_mmps;
-    if (block.points > 0.0) out.push_back(block);
-  }
-  if (known_mmps == 0.0) out.clear();
-  return out;
-}
 
 std::vector<double> frequencies(double lowest, double highest) {
   std::vector<double> out(kFrequencies);
@@ -107,73 +57,6 @@ double place_variance_m2(const HeightErrors& errors) {
   if (!(errors.along_accel_psd_m2ps3 > 0.0) || !(errors.along_tracker_psd_m2ps > 0.0)) return 0.0;
   return errors.along_tracker_psd_m2ps * kPositionBandwidth *
          meeting_Hz(errors.along_accel_psd_m2ps3, errors.along_tracker_psd_m2ps);
-}
-
-// Mean squares of drawn errors: over all points that have a texture, in each block, and how much one draw's differs
-// from the mean's, relative.
-struct BlockErrors {
-  double power_m2 = 0.0, spread = 0.0;
-  std::vector<double> block_m2;
-};
-
-BlockErrors over_blocks(const Profile& profile, const std::vector<Block>& blocks,
-                        const std::vector<std::vector<double>>& draws) {
-  BlockErrors out;
-  out.block_m2.assign(blocks.size(), 0.0);
-  const auto count = static_cast<double>(draws.size());
-  double square = 0.0;
-  for (const std::vector<double>& draw : draws) {
-    double sum = 0.0, points = 0.0;
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      double block = 0.0;
-      for (std::size_t i = blocks[b].first; i < blocks[b].last; ++i) {
-        if (std::isfinite(profile.texture_m[i])) block += draw[i] * draw[i];
-      }
-      out.block_m2[b] += block / (blocks[b].points * (count - kStudent));
-      sum += block;
-      points += blocks[b].points;
-    }
-    out.power_m2 += sum / points / count;
-    square += std::pow(sum / points, 2) / count;
-  }
-  if (out.power_m2 > 0.0 && count > 1.0) {
-    out.spread = std::sqrt(std::max(0.0, square / (out.power_m2 * out.power_m2) - 1.0) * count / (count - 1.0));
-  }
-  return out;
-}
-
-// Marks the blocks without the tenth whose noise is largest.
-std::vector<char> without_noisiest(const std::vector<Block>& blocks, const std::vector<double>& noise_m2) {
-  std::vector<double> sorted = noise_m2;
-  std::sort(sorted.begin(), sorted.end());
-  const double most_m2 = sorted[static_cast<std::size_t>(kTypical * static_cast<double>(sorted.size() - 1))];
-  std::vector<char> out(blocks.size());
-  for (std::size_t b = 0; b < blocks.size(); ++b) out[b] = noise_m2[b] <= most_m2 ? 1 : 0;
-  return out;
-}
-
-double mean_over(const std::vector<Block>& blocks, const std::vector<char>& takes, const std::vector<double>& value) {
-  double sum = 0.0, points = 0.0;
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    if (takes[b] == 0) continue;
-    sum += blocks[b].points * value[b];
-    points += blocks[b].points;
-  }
-  return points > 0.0 ? sum / points : 0.0;
-}
-
-std::vector<double> squares_of(const std::vector<double>& x, const std::vector<Block>& blocks) {
-  std::vector<double> out;
-  for (const Block& b : blocks) out.push_back(mean_square(std::span(x).subspan(b.first, b.last - b.first)));
-  return out;
-}
-
-std::vector<std::vector<double>> difference(std::vector<std::vector<double>> a,
-                                            const std::vector<std::vector<double>>& b) {
-  for (std::size_t j = 0; j < a.size(); ++j) {
-    for (std::size_t i = 0; i < a[j].size(); ++i) a[j][i] -= b[j][i];
-  }
-  return a;
 }
 
 // How much the power of a texture changes by being misplaced, relative: RMS over the draws.
