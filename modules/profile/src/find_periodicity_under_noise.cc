@@ -22,6 +22,7 @@ namespace {
 constexpr double kNoiseBridge_m = 2e-3;  // gaps across which noise is taken out
 constexpr double kSurely = 1.96;
 constexpr int kHarmonicsSeen = 8;
+constexpr std::size_t kFewestPeriods = 3;
 constexpr double kMultipleReach = 0.06;  // the same of a multiple in noise
 constexpr std::size_t kDepthDraws = 16;
 constexpr std::uint64_t kDepthSeed = 20'260'102;
@@ -88,8 +89,10 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
   const auto follow_line = [&](double shortest_m, double most_m) {
     const double line_m = search.find_line_m(shortest_m, most_m);
     const Periodicity found = line_m > 0.0 ? follow_pattern(quiet_m, spacing_m, line_m, config) : Periodicity{};
-    if (std::isfinite(found.pitch_m)) out = found;
-    return std::isfinite(found.pitch_m);
+    if (!std::isfinite(found.pitch_m)) return false;
+    out = found;
+    out.periodic = out.periods >= kFewestPeriods;  // the line is the evidence, however weak its correlation is in noise
+    return true;
   };
   const auto find_near = [&](double pitch_m) {
     PeriodicityConfig near = config;
