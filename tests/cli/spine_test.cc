@@ -52,13 +52,15 @@ TEST(Spine, ARecordingBecomesATexture) {
   std::map<std::string, std::string> files;
   for (auto& [name, text] : contents(dir / "out")) files[name] = text;
   // The report needs the studio's app, which a machine without Node.js leaves out.
-  EXPECT_EQ(files.size(), files.contains("report.html") ? 5U : 4U);
+  EXPECT_EQ(files.size(), files.contains("report.html") ? 6U : 5U);
   EXPECT_EQ(files["result.json"], outcome.out);
   EXPECT_THAT(files["profile.csv"],
               ::testing::StartsWith("s_m,height_m,sigma_m,texture_m,force_N,speed_mps,texture_sigma_m\n"));
   EXPECT_THAT(files["trajectory.csv"],
               ::testing::StartsWith(
                   "t_ns,px_m,py_m,pz_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,sigma_m,sigma_x_m,sigma_y_m,sigma_z_m\n"));
+  EXPECT_THAT(files["spectrum.csv"],
+              ::testing::StartsWith("cycles_per_mm,density_m2_mm,low_m2_mm,high_m2_mm,noise_m2_mm\n0,"));
   EXPECT_EQ(nlohmann::json::parse(files["texture.json"])["model"], "fourier1d");
   EXPECT_EQ(run({"roughness", (dir / "out" / "profile.csv").string()}).code, 0);
 }

@@ -135,6 +135,7 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
     return std::max(own_m2ps3, std::min(seen + lost, most));
   };
   out.accel_psd_m2ps3 = white_m2ps3(normal_mps2, height_m, out.tracker_psd_m2ps);
+  out.accel_own_psd_m2ps3 = std::min(own_m2ps3, out.accel_psd_m2ps3);
   // Along the path the hand's own motion fills the low frequencies: nothing bounds the noise from above.
   out.along_accel_psd_m2ps3 = white_m2ps3(along_mps2, {}, 0.0);
   out.accel_corner_Hz = kCorner_Hz;

@@ -75,6 +75,7 @@ void add_surface(const Recording& recording, const ProcessMethod& method, Proces
   result.noise = std::move(stages.profile.value->noise);
   result.roughness = std::move(stages.roughness.value);
   result.periodicity = std::move(stages.periodicity.value).value_or(Periodicity{});
+  result.spectrum = std::move(stages.spectrum.value).value_or(SurfaceSpectrum{});
   result.compliance = std::move(stages.compliance.value).value_or(Compliance{});
   result.stiffness = std::move(stages.stiffness.value).value_or(StiffnessEstimate{});
   result.fit = std::move(stages.fit.value);

@@ -27,6 +27,7 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
   observer.update("roughness", 0.85);
   s.roughness = stage::measure_roughness(config, s);
   s.periodicity = stage::find_periodicity(config, s);
+  s.spectrum = stage::measure_spectrum(s);
 
   // How it yields (seed §5.3, erratum 15).
   observer.update("compliance", 0.9);

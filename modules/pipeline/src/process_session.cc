@@ -83,6 +83,7 @@ const ProcessResult& ProcessSession::process(const ProcessConfig& config, const 
               [&] { return stage::measure_roughness(config, s); });
   kept.update(s.periodicity, kept.periodicity, config, same_config(&ProcessConfig::periodicity), of_profile,
               [&] { return stage::find_periodicity(config, s); });
+  s.spectrum = stage::measure_spectrum(s);
 
   // Of the profile they ask only whether there is one.
   const std::vector<std::size_t> of_base{kept.trajectory.runs, kept.base.runs, s.profile.value ? 1U : 0U};

@@ -14,6 +14,7 @@
 #include "asperity/profile/find_contact.h"
 #include "asperity/profile/find_periodicity_under_noise.h"
 #include "asperity/profile/measure_roughness_under_noise.h"
+#include "asperity/profile/measure_surface_spectrum.h"
 
 namespace asperity::stage {
 
@@ -70,16 +71,13 @@ void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise) {
     if (!std::isfinite(expected.texture_m[i])) continue;
     profile.height_m[i] += expected.texture_m[i] - profile.texture_m[i];
     profile.texture_m[i] = expected.texture_m[i];
-    if (!noise.added_sigma_m.empty()) {
-      // What is gone of the texture's noise is gone of the height's.
-      const double gone_m2 = (1.0 - square(expected.error_ratio)) * square(noise.added_sigma_m[i]);
-      profile.sigma_m[i] = std::sqrt(std::max(square(profile.sigma_m[i]) - gone_m2,
-                                              square(expected.error_ratio) * square(noise.added_sigma_m[i])));
-    }
     profile.texture_sigma_m[i] = noise.added_sigma_m.empty()
                                      ? profile.texture_sigma_m[i] * left
                                      : std::sqrt(square(expected.error_ratio * noise.added_sigma_m[i]) +
                                                  square(noise.misplaced_sigma_m[i]) + scale_m2);
+    // Waves about the cut-off are in the texture and below it, in phase: what is left of heights is no difference of
+    // powers.
+    if (!noise.slow_sigma_m.empty()) profile.sigma_m[i] = std::hypot(noise.slow_sigma_m[i], profile.texture_sigma_m[i]);
   }
 }
 
@@ -219,6 +217,13 @@ Outcome<Periodicity> find_periodicity(const ProcessConfig& config, const Process
   return {find_periodicity_under_noise(measured.measured_texture_m, measured.profile.spacing_m, measured.noise,
                                        config.periodicity),
           {}};
+}
+
+Outcome<SurfaceSpectrum> measure_spectrum(const ProcessStages& before) {
+  if (!before.profile.value) return {};
+  const MeasuredProfile& measured = *before.profile.value;
+  if (measured.profile.size() < 2) return {};
+  return {measure_surface_spectrum(measured.measured_texture_m, measured.profile.spacing_m, measured.noise), {}};
 }
 
 Outcome<Compliance> estimate_compliance(const Recording& recording, const ProcessConfig& config,

@@ -32,6 +32,7 @@ struct ProcessStages {
   Outcome<MeasuredProfile> profile;
   Outcome<RoughnessResult> roughness;
   Outcome<Periodicity> periodicity;
+  Outcome<SurfaceSpectrum> spectrum;
   Outcome<Compliance> compliance;
   Outcome<StiffnessEstimate> stiffness;
   Outcome<FourierFit> fit;
@@ -52,6 +53,7 @@ Outcome<MeasuredProfile> find_profile(const Recording& recording, const ProcessC
                                       const ProcessMethod& method, const ProcessStages& before);
 Outcome<RoughnessResult> measure_roughness(const ProcessConfig& config, const ProcessStages& before);
 Outcome<Periodicity> find_periodicity(const ProcessConfig& config, const ProcessStages& before);
+Outcome<SurfaceSpectrum> measure_spectrum(const ProcessStages& before);
 Outcome<Compliance> estimate_compliance(const Recording& recording, const ProcessConfig& config,
                                         const ProcessMethod& method, const ProcessStages& before);
 Outcome<StiffnessEstimate> estimate_stiffness(const ProcessConfig& config, const ProcessStages& before);

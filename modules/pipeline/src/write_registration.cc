@@ -213,6 +213,7 @@ void write_registration(const fs::path& folder, const ScansOnMesh& result, const
       write_result(place, scan.process, *scans[i].recording, scan.name);
     } else if (scan.process.profile.size() > 0) {
       write_file(place / "profile.csv", format_profile_csv(scan.process.profile));
+      write_file(place / "spectrum.csv", format_spectrum_csv(scan.process.spectrum));
     }
   }
   std::vector<std::string> files;

@@ -37,8 +37,8 @@ bool is_result_file(const fs::path& file) {
 
 // Nothing but the files of one result.
 bool is_one_result(const fs::path& folder) {
-  constexpr std::array<std::string_view, 5> kOurs{"trajectory.csv", "profile.csv", "texture.json", "result.json",
-                                                  "report.html"};
+  constexpr std::array<std::string_view, 6> kOurs{"trajectory.csv", "profile.csv", "spectrum.csv",
+                                                  "texture.json",   "result.json", "report.html"};
   if (!fs::is_regular_file(folder / "result.json") || !is_result_file(folder / "result.json")) return false;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (std::find(kOurs.begin(), kOurs.end(), entry.path().filename().string()) == kOurs.end()) return false;
@@ -92,10 +92,23 @@ std::string format_profile_csv(const Profile& profile) {
   return out;
 }
 
+std::string format_spectrum_csv(const SurfaceSpectrum& spectrum) {
+  std::string out = "cycles_per_mm,density_m2_mm,low_m2_mm,high_m2_mm,noise_m2_mm\n";
+  out.reserve(out.size() + spectrum.size() * 5 * kCell_bytes);
+  for (std::size_t i = 0; i < spectrum.size(); ++i) {
+    append_number(out, spectrum.frequency_cycles_per_mm[i]);
+    append_cells(out,
+                 {spectrum.density_m2_mm[i], spectrum.low_m2_mm[i], spectrum.high_m2_mm[i], spectrum.noise_m2_mm[i]});
+    out += '\n';
+  }
+  return out;
+}
+
 void write_result(const fs::path& folder, const ProcessResult& result, const Recording& recording,
                   const std::string& name) {
   write_file(folder / "trajectory.csv", format_trajectory_csv(result.trajectory.motion));
   write_file(folder / "profile.csv", format_profile_csv(result.profile));
+  write_file(folder / "spectrum.csv", format_spectrum_csv(result.spectrum));
   if (result.texture) {
     Texture texture = *result.texture;
     texture.source.recording = name;

@@ -52,6 +52,18 @@ TEST(WriteResult, ProfileColumnsReadBackExactly) {
   EXPECT_EQ(reader.number(1), profile.height_m[0]);
 }
 
+TEST(WriteResult, ASpectrumHasItsInterval) {
+  SurfaceSpectrum spectrum;
+  spectrum.frequency_cycles_per_mm = {0.0, 0.5};
+  spectrum.density_m2_mm = {0.0, 2e-12};
+  spectrum.low_m2_mm = {0.0, kNan};
+  spectrum.high_m2_mm = {1e-12, 4e-12};
+  spectrum.noise_m2_mm = {1e-12, 0.5e-12};
+  EXPECT_EQ(
+      format_spectrum_csv(spectrum),
+      "cycles_per_mm,density_m2_mm,low_m2_mm,high_m2_mm,noise_m2_mm\n0,0,0,1e-12,1e-12\n0.5,2e-12,nan,4e-12,5e-13\n");
+}
+
 TEST(WriteResult, KnowsItsOwnFolders) {
   namespace fs = std::filesystem;
   const testkit::TempDir dir;

@@ -9,12 +9,12 @@
 #include "asperity/profile/height_error_density.h"
 #include "asperity/profile/measure_spectrum.h"
 #include "draw_height_errors.h"
+#include "noise_blocks.h"
 
 namespace asperity {
 
 namespace {
 
-constexpr std::size_t kBlock_points = 20;  // over which speeds and errors are taken together: 0.5 mm
 constexpr std::size_t kFrequencies = 128;  // of the spectrum, evenly in the logarithm
 constexpr double kBelowCutoff = 0.2;       // lowest frequency over the high-pass' cut-off: what is below is cut to 1e-5
 constexpr double kLowest_cycles_per_mm = 1e-3;
@@ -22,49 +22,6 @@ constexpr double kFisher = 0.833;              // 3π/(8√2), the integral of (
 constexpr double kPositionBandwidth = 1.1107;  // π/(2√2), the integral of (1 + x⁴)⁻¹
 constexpr double kLeastInformation = 4.0;      // the floor is known to half its value even without a tracker
 constexpr double kSure = 1.96;
-constexpr double kStudent = 2.0;  // an error over a sigma from n draws has the variance n/(n − 2): Student's
-constexpr double kTypical = 0.9;  // of the path: slow ends and rests have another noise, and are a few of its per cent
-
-struct Block {
-  std::size_t first = 0, last = 0;  // points
-  double points = 0.0;              // of them with a height
-  double speed_mmps = 0.0;
-};
-
-double mean_present(std::span<const double> x) {
-  double sum = 0.0, count = 0.0;
-  for (const double v : x) {
-    if (!std::isfinite(v)) continue;
-    sum += v;
-    count += 1.0;
-  }
-  return count > 0.0 ? sum / count : kNan;
-}
-
-double mean_square(std::span<const double> x) {
-  double sum = 0.0, count = 0.0;
-  for (const double v : x) {
-    if (!std::isfinite(v)) continue;
-    sum += v * v;
-    count += 1.0;
-  }
-  return count > 0.0 ? sum / count : kNan;
-}
-
-// The blocks of the profile that have heights and a speed.
-std::vector<Block> find_blocks(const Profile& profile) {
-  std::vector<Block> out;
-  for (std::size_t first = 0; first < profile.size(); first += kBlock_points) {
-    Block block;
-    block.first = first;
-    block.last = std::min(first + kBlock_points, profile.size());
-    const auto part = [&](std::span<const double> x) { return x.subspan(first, block.last - first); };
-    for (const double h : part(profile.texture_m)) block.points += std::isfinite(h) ? 1.0 : 0.0;
-    block.speed_mmps = 1e3 * std::abs(mean_present(part(profile.speed_mps)));
-    if (block.points > 0.0 && block.speed_mmps > 0.0) out.push_back(block);
-  }
-  return out;
-}
 
 std::vector<double> frequencies(double lowest, double highest) {
   std::vector<double> out(kFrequencies);
@@ -102,63 +59,16 @@ double place_variance_m2(const HeightErrors& errors) {
          meeting_Hz(errors.along_accel_psd_m2ps3, errors.along_tracker_psd_m2ps);
 }
 
-// Mean squares of drawn errors: over all points that have a texture, in each block, and how much one draw's differs
-// from the mean's, relative.
-struct BlockErrors {
-  double power_m2 = 0.0, spread = 0.0;
-  std::vector<double> block_m2;
-};
-
-BlockErrors over_blocks(const Profile& profile, const std::vector<Block>& blocks,
-                        const std::vector<std::vector<double>>& draws) {
-  BlockErrors out;
-  out.block_m2.assign(blocks.size(), 0.0);
-  const auto count = static_cast<double>(draws.size());
-  double square = 0.0;
-  for (const std::vector<double>& draw : draws) {
-    double sum = 0.0, points = 0.0;
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      double block = 0.0;
-      for (std::size_t i = blocks[b].first; i < blocks[b].last; ++i) {
-        if (std::isfinite(profile.texture_m[i])) block += draw[i] * draw[i];
-      }
-      out.block_m2[b] += block / (blocks[b].points * (count - kStudent));
-      sum += block;
-      points += blocks[b].points;
-    }
-    out.power_m2 += sum / points / count;
-    square += std::pow(sum / points, 2) / count;
+// How much the power of a texture changes by being misplaced, relative: RMS over the draws.
+double power_spread(const std::vector<double>& surface_m, const std::vector<std::vector<double>>& misplaced_m) {
+  double power = 0.0, square = 0.0;
+  for (const double h : surface_m) power += h * h;
+  for (const std::vector<double>& draw : misplaced_m) {
+    double change = 0.0;
+    for (std::size_t i = 0; i < surface_m.size(); ++i) change += draw[i] * (2.0 * surface_m[i] + draw[i]);
+    square += change * change / static_cast<double>(misplaced_m.size());
   }
-  if (out.power_m2 > 0.0 && count > 1.0) {
-    out.spread = std::sqrt(std::max(0.0, square / (out.power_m2 * out.power_m2) - 1.0) * count / (count - 1.0));
-  }
-  return out;
-}
-
-// Marks the blocks without the tenth whose noise is largest.
-std::vector<char> without_noisiest(const std::vector<Block>& blocks, const std::vector<double>& noise_m2) {
-  std::vector<double> sorted = noise_m2;
-  std::sort(sorted.begin(), sorted.end());
-  const double most_m2 = sorted[static_cast<std::size_t>(kTypical * static_cast<double>(sorted.size() - 1))];
-  std::vector<char> out(blocks.size());
-  for (std::size_t b = 0; b < blocks.size(); ++b) out[b] = noise_m2[b] <= most_m2 ? 1 : 0;
-  return out;
-}
-
-double mean_over(const std::vector<Block>& blocks, const std::vector<char>& takes, const std::vector<double>& value) {
-  double sum = 0.0, points = 0.0;
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
-    if (takes[b] == 0) continue;
-    sum += blocks[b].points * value[b];
-    points += blocks[b].points;
-  }
-  return points > 0.0 ? sum / points : 0.0;
-}
-
-std::vector<double> squares_of(const std::vector<double>& x, const std::vector<Block>& blocks) {
-  std::vector<double> out;
-  for (const Block& b : blocks) out.push_back(mean_square(std::span(x).subspan(b.first, b.last - b.first)));
-  return out;
+  return power > 0.0 ? std::sqrt(square) / power : 0.0;
 }
 
 }  // namespace
@@ -191,18 +101,27 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   // The spectrum's shape, as if each stretch were long, in mm.
   const double lowest = std::max(kLowest_cycles_per_mm, kBelowCutoff * cutoff_cycles_per_mm);
   const std::vector<double> k = frequencies(lowest, 0.5 / spacing_mm);
-  std::vector<double> added(k.size(), 0.0);
-  for (std::size_t i = 0; i < k.size(); ++i) {
-    const double gain = texture_power_gain(k[i], cutoff_cycles_per_mm);
-    for (const Block& b : blocks) {
-      added[i] +=
-          b.points / points * gain * b.speed_mmps * 1e6 * height_error_density_m2ps(errors, k[i] * b.speed_mmps);
+  const auto even_density = [&](const HeightErrors& of) {
+    std::vector<double> density(k.size(), 0.0);
+    for (std::size_t i = 0; i < k.size(); ++i) {
+      const double gain = texture_power_gain(k[i], cutoff_cycles_per_mm);
+      for (const Block& b : blocks) {
+        density[i] +=
+            b.points / points * gain * b.speed_mmps * 1e6 * height_error_density_m2ps(of, k[i] * b.speed_mmps);
+      }
     }
-  }
+    return density;
+  };
+  std::vector<double> added = even_density(errors);
+  const double even_power = integrate(k, [&](std::size_t i) { return added[i]; });
+  // The same with the sensor's own noise alone.
+  HeightErrors own_errors = errors;
+  own_errors.accel_psd_m2ps3 = errors.accel_own_psd_m2ps3;
+  const std::vector<double> own = even_density(own_errors);
+  const double own_power = integrate(k, [&](std::size_t i) { return own[i]; });
 
   // The powers, from draws: they know of rests, slow ends and gaps.
   std::vector<double> surface_m(profile.size());
-  const double even_power = integrate(k, [&](std::size_t i) { return added[i]; });
   const double measured_power = 1e6 * noise.texture_rms_m * noise.texture_rms_m;
   const double clean = std::sqrt(std::clamp(1.0 - even_power / measured_power, 0.0, 1.0));
   for (std::size_t i = 0; i < surface_m.size(); ++i) {
@@ -213,6 +132,7 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   BlockErrors added_errors = over_blocks(profile, blocks, drawn.added_m);
   const BlockErrors misplaced_errors = over_blocks(profile, blocks, drawn.misplaced_m);
   const BlockErrors height_errors = over_blocks(profile, blocks, drawn.height_m);
+  const BlockErrors slow_errors = over_blocks(profile, blocks, difference(drawn.height_m, drawn.added_m));
   if (!(added_errors.power_m2 > 0.0) || !(even_power > 0.0)) return out;
   const std::vector<char> typical = without_noisiest(blocks, added_errors.block_m2);
   // What was measured is surface and noise: the noise is no larger.
@@ -240,6 +160,7 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   out.height_sigma_m.assign(profile.size(), kNan);
   noise.added_sigma_m.assign(profile.size(), 0.0);
   noise.misplaced_sigma_m.assign(profile.size(), 0.0);
+  noise.slow_sigma_m.assign(profile.size(), 0.0);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const double added_m2 = added_errors.block_m2[b], misplaced_m2 = misplaced_errors.block_m2[b];
     const double gain_m2 = std::pow(errors.scale_sigma * noise.texture_rms_m, 2);
@@ -247,6 +168,7 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
       if (std::isfinite(profile.height_m[i])) {
         out.height_sigma_m[i] = std::sqrt(height_errors.block_m2[b] + misplaced_m2 + gain_m2);
       }
+      noise.slow_sigma_m[i] = std::sqrt(slow_errors.block_m2[b]);
       if (!std::isfinite(profile.texture_m[i])) continue;
       out.texture_sigma_m[i] = std::sqrt(added_m2 + misplaced_m2 + gain_m2);
       noise.added_sigma_m[i] = std::sqrt(added_m2);
@@ -271,6 +193,10 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   noise.scale_sigma = errors.scale_sigma;
   noise.along_sigma = noise.length_stderr_m / (1e-3 * length_mm);
   noise.added_rms_m = 1e-3 * std::sqrt(added_power);
+  if (errors.accel_own_psd_m2ps3 > 0.0) {
+    noise.contact_rms_m = noise.added_rms_m * std::sqrt(std::max(0.0, 1.0 - own_power / even_power));
+  }
+  noise.stretch_sigma = power_spread(surface_m, drawn.misplaced_m);
   noise.added_rms_stderr_m = 0.5 * relative * noise.added_rms_m;
   noise.noise_rms_m = 1e-3 * std::sqrt(noise_power);
   noise.noise_rms_stderr_m = 0.5 * relative * noise.noise_rms_m;

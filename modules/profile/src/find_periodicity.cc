@@ -9,6 +9,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/signal/statistics.h"
+#include "follow_pattern.h"
 #include "period_depths.h"
 
 namespace asperity {
@@ -155,6 +156,57 @@ std::span<const double> search_part(std::span<const double> x) {
   return x.subspan(best, kSearchPoints);
 }
 
+// Of heights without their mean, from a first frequency in cycles a point.
+Periodicity follow_from(std::span<const double> x, double spacing_m, double f, const PeriodicityConfig& config) {
+  Periodicity out;
+  const double relative = follow_phase(x, f);
+  const double period = 1.0 / f;
+  out.pitch_m = spacing_m * period;
+  out.pitch_stderr_m = out.pitch_m * relative;
+  out.strength = autocorrelation(x, static_cast<std::size_t>(std::lround(period)));
+
+  const std::vector<double> depths = period_depths(x, period);
+  out.periods = depths.size();
+  if (!depths.empty()) {
+    out.depth_m = median(depths);
+    // The standard error of a median of normal values is √(π/2) that of their mean.
+    out.depth_stderr_m = std::sqrt(0.5 * std::numbers::pi / static_cast<double>(depths.size())) * kSigmaPerMad *
+                         median_absolute_deviation(depths);
+  }
+  out.periodic = out.strength >= config.min_strength && out.periods >= 3;
+  return out;
+}
+
+// Less the mean over one period about each point, at the ends the first and the last whole one: a pattern has none in
+// it, and keeps all of its harmonics; longer waves go.
+void subtract_running_mean(std::size_t period, std::vector<double>& x) {
+  std::vector<double> sums(x.size() + 1, 0.0), counts(x.size() + 1, 0.0);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const bool present = std::isfinite(x[i]);
+    sums[i + 1] = sums[i] + (present ? x[i] : 0.0);
+    counts[i + 1] = counts[i] + (present ? 1.0 : 0.0);
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const std::size_t from = std::min(i - std::min(i, period / 2), x.size() - period);
+    const double count = counts[from + period] - counts[from];
+    if (count > 0.0) x[i] -= (sums[from + period] - sums[from]) / count;
+  }
+}
+
+// The heights without their mean; empty if there are too few.
+std::vector<double> without_mean(std::span<const double> height_m) {
+  double sum = 0.0, count = 0.0;
+  for (const double h : height_m) {
+    if (!std::isfinite(h)) continue;
+    sum += h;
+    count += 1.0;
+  }
+  if (count < 16.0) return {};
+  std::vector<double> x(height_m.begin(), height_m.end());
+  for (double& h : x) h -= sum / count;
+  return x;
+}
+
 }  // namespace
 
 std::vector<double> period_depths(std::span<const double> x, double period) {
@@ -172,44 +224,30 @@ std::vector<double> period_depths(std::span<const double> x, double period) {
   return out;
 }
 
+Periodicity follow_pattern(std::span<const double> height_m, double spacing_m, double pitch_m,
+                           const PeriodicityConfig& config) {
+  std::vector<double> x = without_mean(height_m);
+  const auto period = static_cast<std::size_t>(std::lround(pitch_m / spacing_m));
+  if (x.empty() || period < 2 || period > x.size()) return {};
+  for (int k = 0; k < 2; ++k) subtract_running_mean(period, x);
+  return follow_from(x, spacing_m, refine_frequency(search_part(x), spacing_m / pitch_m, kReachOfLag), config);
+}
+
 Periodicity find_periodicity(std::span<const double> height_m, double spacing_m, const PeriodicityConfig& config) {
   if (!(spacing_m > 0.0) || !(config.min_pitch_m > 2.0 * spacing_m) || !(config.max_pitch_m > config.min_pitch_m)) {
     throw Error("periodicity: spacing " + number_text(spacing_m) + " m, pitch " + number_text(config.min_pitch_m) +
                 " to " + number_text(config.max_pitch_m) + " m");
   }
   Periodicity out;
-  double sum = 0.0, count = 0.0;
-  for (const double h : height_m) {
-    if (!std::isfinite(h)) continue;
-    sum += h;
-    count += 1.0;
-  }
   const auto shortest = static_cast<std::size_t>(config.min_pitch_m / spacing_m);
   const auto longest = std::min(static_cast<std::size_t>(config.max_pitch_m / spacing_m), height_m.size() / 3);
-  if (count < 16.0 || longest <= shortest) return out;
-  std::vector<double> x(height_m.begin(), height_m.end());
-  for (double& h : x) h -= sum / count;
+  const std::vector<double> x = without_mean(height_m);
+  if (x.empty() || longest <= shortest) return out;
 
   const std::span<const double> part = search_part(x);
   const double lag = find_lag(part, shortest, std::min(longest, part.size() / 3));
   if (!(lag > 0.0)) return out;
-  double f = undo_multiple(part, refine_frequency(part, 1.0 / lag, kReachOfLag));
-  const double relative = follow_phase(x, f);
-  const double period = 1.0 / f;
-  out.pitch_m = spacing_m * period;
-  out.pitch_stderr_m = out.pitch_m * relative;
-  out.strength = autocorrelation(x, static_cast<std::size_t>(std::lround(period)));
-
-  const std::vector<double> depths = period_depths(x, period);
-  out.periods = depths.size();
-  if (!depths.empty()) {
-    out.depth_m = median(depths);
-    // The standard error of a median of normal values is √(π/2) that of their mean.
-    out.depth_stderr_m = std::sqrt(0.5 * std::numbers::pi / static_cast<double>(depths.size())) * kSigmaPerMad *
-                         median_absolute_deviation(depths);
-  }
-  out.periodic = out.strength >= config.min_strength && out.periods >= 3;
-  return out;
+  return follow_from(x, spacing_m, undo_multiple(part, refine_frequency(part, 1.0 / lag, kReachOfLag)), config);
 }
 
 }  // namespace asperity

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <vector>
 
@@ -11,17 +10,19 @@
 #include "asperity/profile/apply_wiener_filter.h"
 #include "asperity/signal/statistics.h"
 #include "draw_noise.h"
+#include "follow_pattern.h"
+#include "line_search.h"
 #include "period_depths.h"
+#include "root_of_power.h"
 
 namespace asperity {
 
 namespace {
 
 constexpr double kNoiseBridge_m = 2e-3;  // gaps across which noise is taken out
-constexpr double kByChance = 0.01;       // of finding a line in noise
 constexpr double kSurely = 1.96;
 constexpr int kHarmonicsSeen = 8;
-constexpr double kPitchReach = 0.02;     // relative: as far as a first pitch may be off
+constexpr std::size_t kFewestPeriods = 3;
 constexpr double kMultipleReach = 0.06;  // the same of a multiple in noise
 constexpr std::size_t kDepthDraws = 16;
 constexpr std::uint64_t kDepthSeed = 20'260'102;
@@ -39,59 +40,15 @@ double usual_depth_m(std::span<const double> height_m, double period) {
   return depths.empty() ? kNan : median(depths);
 }
 
-// The density of `psd` at a frequency, by straight lines; its last value beyond.
-double noise_density_at(const std::vector<double>& frequency, const std::vector<double>& psd, double at) {
-  const auto above = std::upper_bound(frequency.begin(), frequency.end(), at);
-  if (above == frequency.begin()) return psd.front();
-  if (above == frequency.end()) return psd.back();
-  const auto b = static_cast<std::size_t>(above - frequency.begin());
-  const double share = (at - frequency[b - 1]) / (frequency[b] - frequency[b - 1]);
-  return psd[b - 1] + share * (psd[b] - psd[b - 1]);
+double root_mean_square(std::span<const double> x) {
+  double sum = 0.0, count = 0.0;
+  for (const double v : x) {
+    if (!std::isfinite(v)) continue;
+    sum += v * v;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : kNan;
 }
-
-// The periodogram of a profile over the density of its noise. Of noise alone it exceeds q with the probability exp(−q).
-class LineSearch {
- public:
-  LineSearch(std::span<const double> height_m, double spacing_m, const std::vector<double>& frequency,
-             const std::vector<double>& psd, double shortest_m)
-      : height_m_(height_m), spacing_m_(spacing_m), frequency_(frequency), psd_(psd) {
-    for (const double h : height_m) points_ += std::isfinite(h) ? 1.0 : 0.0;
-    // A search looks at as many frequencies as the profile is shortest pitches long.
-    clear_ = std::log(std::max(2.0, length_m() / shortest_m) / kByChance);
-  }
-
-  // Whether the pattern's harmonic stands out, looked for as far as the pitch may be off.
-  bool has_line(double pitch_m, int harmonic) const {
-    const double middle = harmonic * spacing_m_ / pitch_m;
-    const double step = 0.5 * spacing_m_ / length_m();
-    const int reach = static_cast<int>(std::ceil(kPitchReach * middle / step));
-    for (int k = -reach; k <= reach; ++k) {
-      const double f = middle + k * step;
-      if (f <= 0.0 || f > 0.5) continue;
-      if (ratio(f) > clear_ + std::log(2.0 * reach + 1.0)) return true;
-    }
-    return false;
-  }
-
- private:
-  double length_m() const { return spacing_m_ * static_cast<double>(height_m_.size()); }
-
-  double ratio(double cycles_a_point) const {
-    const std::complex<double> step = std::polar(1.0, -2.0 * std::numbers::pi * cycles_a_point);
-    std::complex<double> sum = 0.0, phasor = 1.0;
-    for (const double h : height_m_) {
-      if (std::isfinite(h)) sum += h * phasor;
-      phasor *= step;
-    }
-    const double periodogram_m2_mm = 2e3 * spacing_m_ * std::norm(sum) / points_;
-    return periodogram_m2_mm / noise_density_at(frequency_, psd_, 1e-3 * cycles_a_point / spacing_m_);
-  }
-
-  std::span<const double> height_m_;
-  double spacing_m_ = 0.0;
-  const std::vector<double>&frequency_, &psd_;
-  double points_ = 0.0, clear_ = 0.0;
-};
 
 // By how much the pitch is too long: 2 to 8 if none but every so many of its harmonics are lines; 1 if it is right,
 // 0 if there is no line at all.
@@ -126,15 +83,28 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
   // Misplaced heights blur a line; they make none where there is none.
   std::vector<double> most_psd = noise.added_psd_m2_mm;
   for (double& density : most_psd) density *= most;
+  const double longest_m = std::min(config.max_pitch_m, spacing_m * static_cast<double>(height_m.size()) / 3.0);
   const LineSearch search(height_m, spacing_m, noise.frequency_cycles_per_mm, most_psd, config.min_pitch_m);
-  const int multiple = find_multiple(search, out.pitch_m);
-  if (multiple > 1) {
+  // At its line and not by the correlation, which follows what is strongest, as the hand's tremor on a smooth pattern.
+  const auto follow_line = [&](double shortest_m, double most_m) {
+    const double line_m = search.find_line_m(shortest_m, most_m);
+    const Periodicity found = line_m > 0.0 ? follow_pattern(quiet_m, spacing_m, line_m, config) : Periodicity{};
+    if (!std::isfinite(found.pitch_m)) return false;
+    out = found;
+    out.periodic = out.periods >= kFewestPeriods;  // the line is the evidence, however weak its correlation is in noise
+    return true;
+  };
+  const auto find_near = [&](double pitch_m) {
     PeriodicityConfig near = config;
-    near.min_pitch_m = std::max(config.min_pitch_m, (1.0 - kMultipleReach) * out.pitch_m / multiple);
-    near.max_pitch_m = (1.0 + kMultipleReach) * out.pitch_m / multiple;
-    const Periodicity shorter = find_periodicity(quiet_m, spacing_m, near);
-    if (std::isfinite(shorter.pitch_m)) out = shorter;
-  }
+    near.min_pitch_m = std::max(config.min_pitch_m, (1.0 - kMultipleReach) * pitch_m);
+    near.max_pitch_m = (1.0 + kMultipleReach) * pitch_m;
+    if (follow_line(near.min_pitch_m, near.max_pitch_m)) return;
+    const Periodicity found = find_periodicity(quiet_m, spacing_m, near);
+    if (std::isfinite(found.pitch_m)) out = found;
+  };
+  int multiple = find_multiple(search, out.pitch_m);
+  if (multiple > 1) find_near(out.pitch_m / multiple);
+  if (multiple == 0 && follow_line(config.min_pitch_m, longest_m)) multiple = find_multiple(search, out.pitch_m);
   if (multiple == 0) {
     out.periodic = false;
     out.pitch_stderr_m = out.depth_stderr_m = kNan;
@@ -148,7 +118,6 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
   Random random(kDepthSeed);
   std::vector<double> heavier(height_m.size());
   std::array<std::vector<double>, 2> squares;
-  std::vector<double> once;
   for (std::size_t j = 0; j < kDepthDraws; ++j) {
     const std::vector<double> more =
         draw_noise(noise.frequency_cycles_per_mm, noise.added_psd_m2_mm, height_m.size(), 1e3 * spacing_m, random);
@@ -158,24 +127,23 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
       const double depth_m = usual_depth_m(heavier, period);
       if (!std::isfinite(depth_m)) return out;
       squares[power - 1].push_back(depth_m * depth_m);
-      if (power == 1) once.push_back(depth_m);
     }
   }
   const double before_m = out.depth_m;
   const double none = before_m * before_m, with = mean(squares[0]), twice = mean(squares[1]);
-  const double line = 2.0 * none - with, parabola = 3.0 * none - 3.0 * with + twice;
-  if (!(line > 0.0) || !(parabola > 0.0)) {
-    out.depth_m = out.depth_stderr_m = kNan;
-    return out;
-  }
-  out.depth_m = std::sqrt(parabola);
+  const double parabola = 3.0 * none - 3.0 * with + twice;
   const double relative = 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
   // Of what noise adds to extremes the extrapolation finds about half: its curve is steepest where it cannot look.
-  const double doubt_m = 0.5 * (out.depth_m - before_m);
+  const double doubt_m2 = 0.5 * (parabola - none);
   // The draws know the noise that was found; what else there is, restored peaks and impacts, shows between the periods.
-  const double spread_m = std::max(standard_deviation(once), depth_scatter_m(height_m, period));
-  out.depth_stderr_m = std::hypot(std::hypot(spread_m, doubt_m),
-                                  std::hypot(relative * (out.depth_m - before_m), noise.scale_sigma * out.depth_m));
+  const double scatter_m = depth_scatter_m(height_m, period);
+  const double spread_m2 = std::max(standard_deviation(squares[0]), 2.0 * before_m * scatter_m);
+  const double height =
+      std::hypot(noise.scale_sigma, noise.contact_rms_m / std::numbers::sqrt3 / root_mean_square(height_m));
+  const Root depth = root_of_power(parabola, std::hypot(std::hypot(spread_m2, doubt_m2),
+                                                        std::hypot(relative * (parabola - none), 2.0 * height * none)));
+  out.depth_m = depth.value;
+  out.depth_stderr_m = depth.standard_error;
   return out;
 }
 

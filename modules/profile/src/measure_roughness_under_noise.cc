@@ -3,10 +3,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 #include "asperity/base/nan.h"
 #include "draw_noise.h"
+#include "root_of_power.h"
 
 namespace asperity {
 
@@ -53,18 +55,13 @@ std::vector<double> draw_shaped(const TextureNoise& noise, const std::vector<dou
 }
 
 double signed_square(double x) { return x * std::abs(x); }
-double signed_root(double x) { return std::copysign(std::sqrt(std::abs(x)), x); }
 
 struct Followed {
   std::array<Spread, kParameters> once, twice;  // lengths squared
-  std::array<Spread, kParameters> plain;        // once, not squared
 };
 
 double along_power(const RoughnessParameter& p, double value) {
   return p.is_length && p.name != "RSm" ? signed_square(value) : value;
-}
-double back_from_power(const RoughnessParameter& p, double value) {
-  return p.is_length && p.name != "RSm" ? signed_root(value) : value;
 }
 
 Followed follow_noise(std::span<const double> height_m, double spacing_m, const TextureNoise& noise,
@@ -83,7 +80,6 @@ Followed follow_noise(std::span<const double> height_m, double spacing_m, const 
       for (std::size_t p = 0; p < kParameters; ++p) {
         const double value = r.*kRoughnessParameters[p].value;
         (power < 1.5 ? out.once : out.twice)[p].add(along_power(kRoughnessParameters[p], value));
-        if (power < 1.5) out.plain[p].add(value);
       }
     }
   }
@@ -128,39 +124,42 @@ RoughnessResult measure_roughness_under_noise(std::span<const double> height_m, 
                                               const TextureNoise& noise, const RoughnessConfig& config) {
   RoughnessResult out = measure_roughness(height_m, spacing_m, config);
   if (!(noise.added_rms_m > 0.0)) return out;
-  if (noise.measured_snr_low < kLeastSnr || noise.snr < kLeastSnr) {
-    static_cast<RoughnessParameters&>(out) = RoughnessParameters::unknown();
-    return out;
-  }
   const RoughnessParameters measured = out;
   const Followed followed = follow_noise(height_m, spacing_m, noise, config);
   const std::array<double, kParameters> place = doubt_by_place(height_m, spacing_m, noise, config, measured);
   const double relative = 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;  // of the power
+  const double stretch = 0.5 * noise.stretch_sigma;
 
+  const bool stands_out = noise.measured_snr_low >= kLeastSnr && noise.snr >= kLeastSnr;
+  const double contact = noise.contact_rms_m / std::numbers::sqrt3 / measured.Rq_m;
   for (std::size_t p = 0; p < kParameters; ++p) {
     const RoughnessParameter& parameter = kRoughnessParameters[p];
     double& value = out.*parameter.value;
     double& error = out.standard_error.*parameter.value;
-    const double none = along_power(parameter, measured.*parameter.value);
+    const double before = value, none = along_power(parameter, before);
     const double once = followed.once[p].mean(), twice = followed.twice[p].mean();
     const bool is_rq = parameter.value == &RoughnessParameters::Rq_m;
+    const bool is_height = parameter.is_length && parameter.value != &RoughnessParameters::RSm_m;
     const double line = is_rq ? none - noise.added_rms_m * noise.added_rms_m : 2.0 * none - once;
     const double parabola = is_rq ? line : 3.0 * none - 3.0 * once + twice;
-    const bool gone = parameter.is_length && (parabola * none <= 0.0 || line * none <= 0.0);
-    const double before = value;
-    value = gone ? kNan : back_from_power(parameter, parabola);
-    if (!std::isfinite(value)) continue;
     // Of what noise adds to extremes the extrapolation finds about half: its curve is steepest where it cannot look.
-    const double doubt =
-        hangs_on_extremes(parameter) ? 0.5 * (value - before) : 0.5 * (value - back_from_power(parameter, line));
-    const double known = relative * (value - before);
-    double scale = 0.0;
-    if (parameter.value == &RoughnessParameters::RSm_m) {
-      scale = noise.along_sigma * value;
-    } else if (parameter.is_length) {
-      scale = noise.scale_sigma * value;
+    const double doubt = 0.5 * (hangs_on_extremes(parameter) ? parabola - none : parabola - line);
+    const double known = relative * (parabola - none);
+    const double spread = followed.once[p].deviation();
+    if (!is_height) {
+      value = stands_out ? parabola : kNan;
+      const double scale = parameter.is_length ? noise.along_sigma * value : 0.0;
+      error = std::isfinite(value) ? std::hypot(std::hypot(spread, doubt), std::hypot(known, scale, place[p])) : kNan;
+      continue;
     }
-    error = std::hypot(std::hypot(followed.plain[p].deviation(), doubt), std::hypot(known, scale, place[p]));
+    // Of squares: relative errors of the height count twice.
+    const double height = std::hypot(noise.scale_sigma, contact, hangs_on_extremes(parameter) ? 0.0 : stretch);
+    const double error_m2 =
+        std::hypot(std::hypot(spread, doubt), std::hypot(known, 2.0 * height * none), 2.0 * place[p] * before);
+    const double sign = none < 0.0 ? -1.0 : 1.0;  // of levels below the mean line
+    const Root root = root_of_power(sign * parabola, error_m2);
+    value = sign * root.value;
+    error = root.standard_error;
   }
   if (!std::isfinite(out.Rq_m)) {
     static_cast<RoughnessParameters&>(out) = RoughnessParameters::unknown();

@@ -60,6 +60,34 @@ TEST(PeriodicityUnderNoise, FindsNoPitchInNoise) {
   }
 }
 
+// A hand's tremor at 25 mm/s: waves of 8 to 12 Hz, five times as high as the pattern, that are no noise.
+std::vector<double> with_tremor(double amplitude_m, double pitch_m, const TextureNoise& noise, std::uint64_t seed) {
+  std::vector<double> out = disturbed(amplitude_m, pitch_m, noise, seed);
+  Random random(seed, 1);
+  const std::vector<double> tremor = draw_noise(std::vector{0.32, 0.33, 0.47, 0.48}, std::vector{0.0, 1.0, 1.0, 0.0},
+                                                kPoints, 1e3 * kSpacing_m, random);
+  double power = 0.0;
+  for (const double x : tremor) power += x * x / kPoints;
+  for (std::size_t i = 0; i < kPoints; ++i) out[i] += 20e-6 / std::sqrt(power) * tremor[i];
+  return out;
+}
+
+TEST(PeriodicityUnderNoise, TremorIsNoPattern) {
+  const TextureNoise noise = make_noise(2e-6);
+  int found = 0, right = 0, wrong = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const Periodicity p = find_periodicity_under_noise(with_tremor(5.6e-6, 0.8e-3, noise, seed), kSpacing_m, noise, {});
+    if (p.periodic) {
+      ++found;
+      right += std::abs(p.pitch_m - 0.8e-3) < 0.4e-6 ? 1 : 0;  // 0.05 %
+    }
+    wrong += find_periodicity_under_noise(with_tremor(0.0, 1e-3, noise, seed), kSpacing_m, noise, {}).periodic ? 1 : 0;
+  }
+  EXPECT_GE(found, 25);
+  EXPECT_GE(right, found - 4);
+  EXPECT_LE(wrong, 4);
+}
+
 TEST(PeriodicityUnderNoise, WithoutNoiseIsThePlainOne) {
   const std::vector<double> h = disturbed(40e-6, 1.3e-3, make_noise(1e-6), 3);
   const Periodicity plain = find_periodicity(h, kSpacing_m, {});

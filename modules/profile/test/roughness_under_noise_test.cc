@@ -81,16 +81,45 @@ TEST(RoughnessUnderNoise, GivesTheParametersWithoutTheNoise) {
   EXPECT_GE(held_Rku, 25);
 }
 
-TEST(RoughnessUnderNoise, IsNotDeterminedWhereNothingStandsOut) {
+// Noise as large as the surface, its power off by as much as is stated, and a surface without any height.
+TEST(RoughnessUnderNoise, HoldsWhereNothingStandsOut) {
+  constexpr int kScans = 40;
+  constexpr double kRelative = 0.3;  // of the noise's power
+  for (const double amplitude_m : {14e-6, 0.0}) {
+    const std::vector<double> clean = sine(amplitude_m, 2e-3);
+    const double truth = amplitude_m / std::numbers::sqrt2;
+    int held = 0, holds_nothing = 0;
+    for (int seed = 1; seed <= kScans; ++seed) {
+      TextureNoise noise = band_noise(10e-6);
+      noise.added_rms_stderr_m = 0.5 * kRelative * noise.added_rms_m;
+      noise.snr = noise.snr_low = noise.measured_snr_low = 0.0;
+      Random random(static_cast<std::uint64_t>(seed), 7);
+      const double level = std::max(0.0, 1.0 + kRelative * random.normal());
+      std::vector<double> noisy = drawn(noise, static_cast<std::uint64_t>(seed));
+      for (std::size_t i = 0; i < kPoints; ++i) noisy[i] = std::sqrt(level) * noisy[i] + clean[i];
+      const RoughnessResult r = measure_roughness_under_noise(noisy, kSpacing_m, noise);
+      held += std::abs(r.Rq_m - truth) < 1.96 * r.standard_error.Rq_m ? 1 : 0;
+      holds_nothing += r.Rq_m < 1.96 * r.standard_error.Rq_m ? 1 : 0;
+      EXPECT_TRUE(std::isnan(r.Rku) && std::isnan(r.standard_error.Rku));
+    }
+    EXPECT_GE(held, 36) << amplitude_m;
+    if (amplitude_m == 0.0) {
+      EXPECT_GE(holds_nothing, 34);
+    }
+  }
+}
+
+// Noise that goes with the surface or against it is not squared away: an amplitude's share is a height's share.
+TEST(RoughnessUnderNoise, NoiseOfTheContactIsInTheError) {
+  TextureNoise noise = band_noise(4e-6);
   const std::vector<double> clean = sine(40e-6, 2e-3);
-  TextureNoise noise = band_noise(40e-6);
-  EXPECT_TRUE(std::isnan(measure_roughness_under_noise(clean, kSpacing_m, noise).Rq_m));
-  noise = band_noise(10e-6);
-  noise.measured_snr_low = 0.3;
-  const RoughnessResult r = measure_roughness_under_noise(clean, kSpacing_m, noise);
-  EXPECT_TRUE(std::isnan(r.Ra_m));
-  EXPECT_TRUE(std::isnan(r.standard_error.Ra_m));
-  EXPECT_EQ(r.samples, kPoints);
+  const RoughnessResult apart = measure_roughness_under_noise(clean, kSpacing_m, noise);
+  noise.contact_rms_m = noise.added_rms_m;
+  const RoughnessResult with = measure_roughness_under_noise(clean, kSpacing_m, noise);
+  EXPECT_NEAR(with.standard_error.Rq_m, std::hypot(apart.standard_error.Rq_m, 4e-6 / std::numbers::sqrt3), 0.1e-6);
+  noise.stretch_sigma = 0.1;
+  EXPECT_NEAR(measure_roughness_under_noise(clean, kSpacing_m, noise).standard_error.Rq_m,
+              std::hypot(with.standard_error.Rq_m, 0.05 * with.Rq_m), 0.15e-6);
 }
 
 TEST(RoughnessUnderNoise, WithoutANoiseIsThePlainOne) {

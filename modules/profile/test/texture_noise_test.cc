@@ -75,6 +75,16 @@ TEST(TextureNoise, OfAnAccelerometerAloneHasAClosedForm) {
   EXPECT_NEAR(inner_rms_m(usual.noise.added_sigma_m), std::sqrt(power_m2), 0.2 * std::sqrt(power_m2));
 }
 
+// Single points beside a gap have no speed: their error is like that of their neighbours.
+TEST(TextureNoise, PointsWithoutASpeedHaveASigma) {
+  Profile profile = even_stretch();
+  for (std::size_t i = 1000; i < 1060; ++i) profile.height_m[i] = profile.texture_m[i] = profile.speed_mps[i] = kNan;
+  profile.height_m[1030] = profile.texture_m[1030] = 1e-6;
+  const TextureNoiseEstimate estimate = estimate_texture_noise(profile, errors_of(1e-5, 1e-9), kCutoff_cycles_per_mm);
+  EXPECT_GT(estimate.texture_sigma_m[1030], 0.3 * estimate.texture_sigma_m[900]);
+  EXPECT_TRUE(std::isnan(estimate.texture_sigma_m[1010]));
+}
+
 // Where the accelerometer says nothing, the tracker's white noise goes through from the cut-off to 20 cycles/mm.
 TEST(TextureNoise, OfATrackerAloneIsWhite) {
   const double tracker_psd = 1e-12;

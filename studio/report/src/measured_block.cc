@@ -117,6 +117,7 @@ BlockWriter measured_block(const ProcessResult& result, const Recording& recordi
   add_dropped(result, config.max_gaps, block);
   add_trajectory(result, config.max_trajectory_points, block);
   add_profile(result.profile, config.max_profile_points, block);
+  add_spectrum(result.spectrum, block);
   add_compliance(result.compliance, block);
   if (result.accuracy) add_compared(result.accuracy->heights, block);
   return block;

@@ -3,22 +3,17 @@
 #include <string_view>
 #include <vector>
 
-#include "asperity/profile/measure_spectrum.h"
 #include "thinned.h"
 
 namespace asperity::studio {
 
-namespace {
-
-void add_spectrum(const Profile& profile, BlockWriter& block) {
-  const PowerSpectrum spectrum =
-      profile.size() > 1 ? measure_spectrum(profile.texture_m, profile.spacing_m) : PowerSpectrum{};
+void add_spectrum(const SurfaceSpectrum& spectrum, BlockWriter& block) {
   block.head()["spectrum"] = {{"segments", spectrum.segments}};
-  block.add("spectrum_cycles_per_mm", spectrum.frequency);
-  block.add("spectrum_density_m2_mm", spectrum.density);
+  block.add("spectrum_cycles_per_mm", spectrum.frequency_cycles_per_mm);
+  block.add("spectrum_density_m2_mm", spectrum.density_m2_mm);
+  block.add("spectrum_low_m2_mm", spectrum.low_m2_mm);
+  block.add("spectrum_high_m2_mm", spectrum.high_m2_mm);
 }
-
-}  // namespace
 
 void add_profile(const Profile& profile, std::size_t max_points, BlockWriter& block) {
   const Chosen chosen = choose_samples(profile.size(), max_points);
@@ -35,7 +30,6 @@ void add_profile(const Profile& profile, std::size_t max_points, BlockWriter& bl
   add("profile_texture_m", profile.texture_m);
   add("profile_force_N", profile.force_N);
   add("profile_speed_mps", profile.speed_mps);
-  add_spectrum(profile, block);
 }
 
 }  // namespace asperity::studio

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "asperity/base/csv.h"
@@ -15,6 +16,7 @@
 #include "asperity/base/units.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/pipeline/read_path.h"
+#include "asperity/profile/measure_surface_spectrum.h"
 #include "asperity/studio/block.h"
 #include "asperity/studio/measured_metrics.h"
 #include "kept_block.h"
@@ -75,6 +77,30 @@ Profile parse_profile(std::string_view text, const std::string& name) {
   return out;
 }
 
+SurfaceSpectrum parse_spectrum(std::string_view text, const std::string& name) {
+  CsvReader csv(text, name);
+  csv.accept_unterminated();
+  SurfaceSpectrum out;
+  const std::size_t frequency = csv.require("cycles_per_mm"), density = csv.require("density_m2_mm"),
+                    low = csv.require("low_m2_mm"), high = csv.require("high_m2_mm");
+  while (csv.next()) {
+    out.frequency_cycles_per_mm.push_back(csv.number(frequency));
+    out.density_m2_mm.push_back(csv.number(density));
+    out.low_m2_mm.push_back(csv.number(low));
+    out.high_m2_mm.push_back(csv.number(high));
+    for (const auto& [place, value] :
+         {std::pair{frequency, out.frequency_cycles_per_mm.back()}, std::pair{density, out.density_m2_mm.back()}}) {
+      if (!std::isfinite(value)) csv.fail(place, "is not finite");
+    }
+  }
+  return out;
+}
+
+// Of results that were written before there was a file of it: as it is drawn, without intervals.
+SurfaceSpectrum spectrum_of(const Profile& profile) {
+  return profile.size() > 1 ? measure_surface_spectrum(profile.texture_m, profile.spacing_m, {}) : SurfaceSpectrum{};
+}
+
 void add_path(const std::optional<std::string_view>& text, const std::string& name, BlockWriter& block) {
   TipMotion motion;
   if (text) motion = parse_path(*text, name).motion;
@@ -105,7 +131,7 @@ void find_in(const fs::path& folder, int deepest, std::vector<fs::path>& out) {
 std::string called(const fs::path& folder, const char* file) { return printable((folder / file).string(), 200); }
 
 ReportItem make_item(const Json& result, std::string_view profile, const std::optional<std::string_view>& trajectory,
-                     const fs::path& folder, const std::string& name) {
+                     const std::optional<std::string_view>& spectrum, const fs::path& folder, const std::string& name) {
   BlockWriter block("measured");
   block.head()["result"] = result;
   block.head()["world"] = "camera";
@@ -114,7 +140,9 @@ ReportItem make_item(const Json& result, std::string_view profile, const std::op
   block.head()["gaps"] = Json::array();
   block.head()["gap_count"] = 0;
   block.head()["compliance"] = result.value("compliance", Json::object());
-  add_profile(parse_profile(profile, called(folder, "profile.csv")), kMostProfilePoints, block);
+  const Profile measured = parse_profile(profile, called(folder, "profile.csv"));
+  add_profile(measured, kMostProfilePoints, block);
+  add_spectrum(spectrum ? parse_spectrum(*spectrum, called(folder, "spectrum.csv")) : spectrum_of(measured), block);
   add_path(trajectory, called(folder, "trajectory.csv"), block);
   return {title_of(result, name), block.take()};
 }
@@ -145,13 +173,16 @@ ReportItem read_report_item(const fs::path& folder, const std::string& name) {
   std::optional<std::string> trajectory;
   if (fs::is_regular_file(folder / "trajectory.csv"))
     trajectory = read_file(folder / "trajectory.csv", kLargestTrajectory_bytes);
-  return make_item(result, profile, trajectory, folder, name);
+  std::optional<std::string> spectrum;
+  if (fs::is_regular_file(folder / "spectrum.csv"))
+    spectrum = read_file(folder / "spectrum.csv", kLargestProfile_bytes);
+  return make_item(result, profile, trajectory, spectrum, folder, name);
 }
 
 ReportItem parse_report_item(std::string_view result, std::string_view profile,
                              const std::optional<std::string_view>& trajectory, const fs::path& folder,
                              const std::string& name) {
-  return make_item(parse_result(result, called(folder, "result.json")), profile, trajectory, folder, name);
+  return make_item(parse_result(result, called(folder, "result.json")), profile, trajectory, {}, folder, name);
 }
 
 }  // namespace asperity::studio

@@ -140,6 +140,8 @@ TEST(MeasuredBlock, TheSpectrumIsThatOfTheHoles) {
   const auto& frequency = block.arrays.at("spectrum_cycles_per_mm");
   const auto peak = static_cast<std::size_t>(std::max_element(density.begin(), density.end()) - density.begin());
   EXPECT_NEAR(frequency.at(peak), 1.0 / 2.5, 1.5 / 25.6);  // a hole each 2.5 mm, by segments of 25.6 mm
+  EXPECT_LT(block.arrays.at("spectrum_low_m2_mm").at(peak), density.at(peak));
+  EXPECT_GT(block.arrays.at("spectrum_high_m2_mm").at(peak), density.at(peak));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { Block } from "../src/net/block";
 import { powerLine } from "../src/measured/ComplianceScatter";
-import { band, configRows, figureGroups, figureValue, measuredOf, positivePoints, profileX_mm, sortedByX, thinnedWords } from "../src/measured/measured";
+import { band, configRows, figureGroups, figureValue, measuredOf, positivePoints, profileX_mm, sortedByX, spectrumPoints, thinnedWords } from "../src/measured/measured";
 import { repeatedRows } from "../src/measured/repeated";
 import { colourAt, colourRange, pathColours } from "../src/measured/pathColours";
 
@@ -71,6 +71,14 @@ it("a config's leaves have dotted paths", () => {
 it("logarithmic axes get positive points only", () => {
   const { x, y } = positivePoints([0, 1, 2, 3], [5, 0, 7, NaN]);
   expect([Array.from(x), Array.from(y)]).toEqual([[2], [7]]);
+});
+
+it("a spectrum is drawn with its interval where there is one", () => {
+  const known = spectrumPoints([0, 1, 2, 3], [5, 4, 0, 2], [3, 2, 0, 1], [9, 8, 6, 0]);
+  expect([known.x, known.y, known.lo!, known.hi!].map((values) => Array.from(values))).toEqual([[1, 2], [4, 2], [2, 2], [8, 6]]);
+  const unknown = spectrumPoints([1, 2], [3, 0], [NaN, NaN], [NaN, NaN]);
+  expect(Array.from(unknown.x)).toEqual([1]);
+  expect(unknown.lo).toBeNull();
 });
 
 it("points are sorted by x", () => {

@@ -1,15 +1,16 @@
 import { useMemo } from "preact/hooks";
 import { Plot } from "../plot/Plot";
-import { positivePoints, scaled, type Measured } from "./measured";
+import { scaled, spectrumPoints, type Measured } from "./measured";
 
 const kSquareMicrometres = 1e12;
 
-/** The texture's power over spatial frequency; the pattern's pitch is marked. */
+/** The texture's power over spatial frequency with its 95 % interval; the pattern's pitch is marked. */
 export function SpectrumPlot({ measured }: { measured: Measured }) {
-  const spectrum = useMemo(
-    () => positivePoints(measured.array("spectrum_cycles_per_mm"), scaled(measured.array("spectrum_density_m2_mm"), kSquareMicrometres)),
-    [measured],
-  );
+  const spectrum = useMemo(() => {
+    const frequency = measured.array("spectrum_cycles_per_mm");
+    const scaledArray = (name: string) => scaled(measured.array(name), kSquareMicrometres);
+    return spectrumPoints(frequency, scaledArray("spectrum_density_m2_mm"), scaledArray("spectrum_low_m2_mm"), scaledArray("spectrum_high_m2_mm"));
+  }, [measured]);
   const pitch_mm = measured.figures.find((figure) => figure.key === "periodicity.pitch_m")?.value;
   const periodic = measured.figures.some((figure) => figure.key === "periodicity.periodic" && figure.value === "yes");
   const marks = useMemo(
@@ -20,7 +21,10 @@ export function SpectrumPlot({ measured }: { measured: Measured }) {
     <Plot
       label="Power spectral density of the texture over spatial frequency, both logarithmic"
       x={spectrum.x}
-      series={useMemo(() => [{ label: "Density", y: spectrum.y, colour: 1 as const }], [spectrum])}
+      series={useMemo(() => {
+        const { y, lo, hi } = spectrum;
+        return [{ label: lo ? "Density, 95\u202f% interval" : "Density", y, ...(lo && hi ? { lo, hi } : {}), colour: 1 as const }];
+      }, [spectrum])}
       xAxis={{ label: "Spatial frequency", unit: "cycles/mm" }}
       yAxis={{ label: "Density", unit: "µm²·mm" }}
       logX

@@ -139,6 +139,21 @@ export function positivePoints(x: ArrayLike<number>, y: ArrayLike<number>): { x:
   return { x: Float64Array.from(at, (i) => x[i]!), y: Float64Array.from(at, (i) => y[i]!) };
 }
 
+/** A spectrum as logarithmic axes can show it: what is 0, as where there is no more than noise, is drawn at the lowest value above it. */
+export function spectrumPoints(
+  x: ArrayLike<number>,
+  y: ArrayLike<number>,
+  lo: ArrayLike<number>,
+  hi: ArrayLike<number>,
+): { x: Float64Array; y: Float64Array; lo: Float64Array | null; hi: Float64Array | null } {
+  const known = lo.length === x.length && hi.length === x.length && Array.prototype.some.call(hi, (v: number) => v > 0);
+  if (!known) return { ...positivePoints(x, y), lo: null, hi: null };
+  const at = Array.from({ length: x.length }, (_, i) => i).filter((i) => x[i]! > 0 && hi[i]! > 0);
+  const lowest = Math.min(...at.flatMap((i) => [y[i]!, lo[i]!, hi[i]!]).filter((v) => v > 0));
+  const of = (values: ArrayLike<number>) => Float64Array.from(at, (i) => Math.max(values[i]!, lowest));
+  return { x: Float64Array.from(at, (i) => x[i]!), y: of(y), lo: of(lo), hi: of(hi) };
+}
+
 /** Both sorted by x, as plots want their points. */
 export function sortedByX(x: ArrayLike<number>, y: ArrayLike<number>): { x: Float64Array; y: Float64Array } {
   const at = Array.from({ length: x.length }, (_, i) => i).sort((a, b) => x[a]! - x[b]!);

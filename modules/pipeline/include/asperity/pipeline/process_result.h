@@ -12,6 +12,7 @@
 #include "asperity/profile/find_periodicity.h"
 #include "asperity/profile/profile.h"
 #include "asperity/profile/roughness.h"
+#include "asperity/profile/surface_spectrum.h"
 #include "asperity/profile/texture_noise.h"
 #include "asperity/texture/fit_fourier1d.h"
 #include "asperity/texture/texture.h"
@@ -44,6 +45,7 @@ struct ProcessResult {
   TextureNoise noise;                        // of profile.texture_m
   std::optional<RoughnessResult> roughness;  // of profile.texture_m
   Periodicity periodicity;                   // of profile.height_m
+  SurfaceSpectrum spectrum;                  // of the texture, its noise taken off
   Compliance compliance;
   StiffnessEstimate stiffness;
   std::optional<FourierFit> fit;

@@ -12,11 +12,12 @@ namespace asperity {
 // recording's. nan is null. The same result gives the same bytes.
 std::string format_result(const ProcessResult& result, const Recording& recording, const std::string& name);
 
-// trajectory.csv (sigma_m: the root of a third of the covariance's trace) and profile.csv.
+// trajectory.csv (sigma_m: the root of a third of the covariance's trace), profile.csv and spectrum.csv.
 std::string format_trajectory_csv(const TipMotion& motion);
 std::string format_profile_csv(const Profile& profile);
+std::string format_spectrum_csv(const SurfaceSpectrum& spectrum);
 
-// Writes trajectory.csv, profile.csv, texture.json (if there is a texture) and result.json into `folder`,
+// Writes trajectory.csv, profile.csv, spectrum.csv, texture.json (if there is a texture) and result.json into `folder`,
 // which exists. Throws Error if a file cannot be written.
 void write_result(const std::filesystem::path& folder, const ProcessResult& result, const Recording& recording,
                   const std::string& name);

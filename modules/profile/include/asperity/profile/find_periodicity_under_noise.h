@@ -9,11 +9,14 @@ namespace asperity {
 
 // find_periodicity() of what a noisy profile is of: the depth without what noise adds to the highest less the lowest
 // point of a period, and standard errors of the measurement of this stretch.
+// A pattern has a line: one of its first eight harmonics stands out of the noise and of its neighbours in the
+// periodogram (docs/texture-noise.md); without one it is not periodic.
 //
 // The depth is followed over added noise as the roughness is (measure_roughness_under_noise.h), at the pitch that was
 // found; in its error are the draws' spread, the extrapolation's doubt, that of the noise's power and
-// `noise.scale_sigma`. The pitch's error has `noise.along_sigma` added: an error of the length that phases cannot show.
-// Without a noise it is find_periodicity(), whose depth's error is that of a median over unlike periods.
+// `noise.scale_sigma`, and noise of the contact. The pitch's error has `noise.along_sigma` added: an error of the
+// length that phases cannot show. Without a noise it is find_periodicity(), whose depth's error is that of a median
+// over unlike periods.
 Periodicity find_periodicity_under_noise(std::span<const double> height_m, double spacing_m, const TextureNoise& noise,
                                          const PeriodicityConfig& config);
 

@@ -11,6 +11,7 @@ namespace asperity {
 struct HeightErrors {
   double accel_psd_m2ps3 = 0.0;        // of the acceleration along the normal, (m/s²)²/Hz
   double tracker_psd_m2ps = 0.0;       // of the tracker along the normal, m²/Hz
+  double accel_own_psd_m2ps3 = 0.0;    // of the first, the sensor's own; the rest comes with the contact
   double along_accel_psd_m2ps3 = 0.0;  // the same two along the path
   double along_tracker_psd_m2ps = 0.0;
   double scale_sigma = 0.0;        // relative, of all heights
@@ -49,6 +50,9 @@ struct TextureNoise {
   // The same two point by point, standard deviations; empty: the same everywhere.
   std::vector<double> added_sigma_m;
   std::vector<double> misplaced_sigma_m;
+  // Of height_m less its straight line, without what is in the texture: it remains where the texture's noise is
+  // removed.
+  std::vector<double> slow_sigma_m;
   // Of texture_m as it is given, over the points that have a height: of both, or what the removal of noise has left of
   // it (apply_wiener_filter.h).
   double noise_rms_m = kNan;
@@ -58,8 +62,11 @@ struct TextureNoise {
   double place_sigma_m = kNan;    // standard deviation of the place along the path
   double texture_rms_m = kNan;    // as measured: surface and noise, none removed
   double length_stderr_m = kNan;  // of the profile's length, from first to last height
-  double scale_sigma = 0.0;       // relative error of all heights: calibration, the normal's direction
-  double along_sigma = 0.0;       // relative error of lengths along the path
+  // The part of the added noise that comes with the contact, RMS: it may go with the surface or against it.
+  double contact_rms_m = 0.0;
+  double stretch_sigma = 0.0;  // relative, of the texture's power: what heights at a wrong place do to it
+  double scale_sigma = 0.0;    // relative error of all heights: calibration, the normal's direction
+  double along_sigma = 0.0;    // relative error of lengths along the path
   // Without the tenth of the path where the noise is largest, as at slow ends and rests; the two densities have these
   // powers: of the measured texture, of added noise, of misplaced heights.
   double typical_texture_rms_m = kNan;

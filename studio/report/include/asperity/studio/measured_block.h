@@ -29,7 +29,8 @@ struct MeasuredBlockConfig {
 //   trajectory_speed_mps f32, along the base path; trajectory_force_N f32, held over samples without a reading;
 //   trajectory_sigma_m f32; trajectory_height_m f32, over the base path; trajectory_contact u8
 //   profile_height_m, profile_sigma_m, profile_texture_m, profile_force_N, profile_speed_mps f32
-//   spectrum_cycles_per_mm, spectrum_density_m2_mm f64: of the texture
+//   spectrum_cycles_per_mm, spectrum_density_m2_mm f64: of the texture, its noise taken off (surface_spectrum.h);
+//   spectrum_low_m2_mm, spectrum_high_m2_mm f64: its 95 % interval
 //   compliance_force_N, compliance_ratio, compliance_speed_mps, compliance_amplitude_mps2 f64: a window each
 //   compared_s_m f64, compared_measured_m, compared_true_m f32: with a truth, in the band of the comparison, aligned
 BlockWriter measured_block(const ProcessResult& result, const Recording& recording, const std::string& name,
