@@ -132,7 +132,9 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
     PeriodicityConfig near = config;
     near.min_pitch_m = std::max(config.min_pitch_m, (1.0 - kMultipleReach) * out.pitch_m / multiple);
     near.max_pitch_m = (1.0 + kMultipleReach) * out.pitch_m / multiple;
-    const Periodicity shorter = find_periodicity(quiet_m, spacing_m, near);
+    // A pitch below the shortest is not looked for.
+    const Periodicity shorter =
+        near.max_pitch_m > near.min_pitch_m ? find_periodicity(quiet_m, spacing_m, near) : Periodicity{};
     if (std::isfinite(shorter.pitch_m)) out = shorter;
   }
   if (multiple == 0) {
