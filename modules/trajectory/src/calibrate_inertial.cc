@@ -212,15 +212,16 @@ std::vector<double> moving_part(const std::vector<Eigen::Vector3d>& x, std::size
   return out;
 }
 
-// What is as fast as the sampling itself, each sample less its neighbours' mean, of the size of white noise that leaves
-// as much: means of its products over `reach` samples to either side.
+// What is as fast as the sampling itself: the sixth difference, of the size of white noise that leaves as much. At a
+// tenth of the rate its gain is 1e-3 of that at half of it. Means of its products over `reach` samples to either side.
 std::vector<Eigen::Matrix<float, 6, 1>> fast_part(const std::vector<Eigen::Vector3d>& x, std::size_t reach) {
   using Products = Eigen::Matrix<double, 6, 1>;
   const std::size_t n = x.size();
   const auto products = [&](std::size_t i) -> Products {
-    if (i == 0 || i + 1 >= n) return Products::Zero();
-    const Eigen::Vector3d u = x[i] - 0.5 * (x[i - 1] + x[i + 1]);
-    return (2.0 / 3.0) *
+    if (i < 3 || i + 3 >= n) return Products::Zero();
+    const Eigen::Vector3d u =
+        20.0 * x[i] - 15.0 * (x[i - 1] + x[i + 1]) + 6.0 * (x[i - 2] + x[i + 2]) - (x[i - 3] + x[i + 3]);
+    return (1.0 / 924.0) *
            (Products() << u[0] * u[0], u[1] * u[1], u[2] * u[2], u[0] * u[1], u[0] * u[2], u[1] * u[2]).finished();
   };
   std::vector<Eigen::Matrix<float, 6, 1>> out(n);
