@@ -7,7 +7,8 @@
 // acceleration of the tip (A), and the force. It knows the surface's density S, each channel's error density as it is
 // in this very scan, and the impedance that relates force to height, m(2πf)² …, fitted to the truth. Its height is the
 // best linear estimate from the channels as if their errors did not depend on one another; the position along the path
-// is the true one. Calibration exact. "of A and R": without the force, which is what `fused` uses.
+// is the true one, or, as no recording contains that, the product's. Calibration exact. "of A and R": without the
+// force, which is what `fused` uses.
 
 #include <algorithm>
 #include <array>
@@ -90,7 +91,7 @@ struct Channel {
 };
 
 struct Shares {
-  double product, own_heights, two_noises, without_force, with_force, length_error_percent;
+  double product, own_heights, two_noises, without_force, without_force_at_own, with_force, length_error_percent;
 };
 
 double correlation(const asperity::Recording& recording, const asperity::TipMotion& motion) {
@@ -183,6 +184,18 @@ Shares judge(const asperity::Recording& recording) {
     }
     return correlation(recording, oracle);
   };
+  std::vector<double> own_m(n);
+  for (std::size_t i = 0; i < n; ++i)
+    own_m[i] = result.base.path.n_world[i].dot(motion.p_world_tip_m[i] - result.base.path.p_world_m[i]);
+  // The same at the product's own positions.
+  const auto judge_at_own = [&](const std::vector<double>& estimate_m) {
+    asperity::TipMotion oracle = motion;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (std::isfinite(estimate_m[i]))
+        oracle.p_world_tip_m[i] += (estimate_m[i] - own_m[i]) * result.base.path.n_world[i];
+    }
+    return correlation(recording, oracle);
+  };
   const auto with_channels = [&](std::size_t count, bool knows_surface) {
     Spectrum best(2 * lines, 0.0);
     for (std::size_t i = 0; i < lines; ++i) {
@@ -195,16 +208,15 @@ Shares judge(const asperity::Recording& recording) {
       best[i] = sum / information;
       if (i > 0) best[2 * lines - i] = std::conj(best[i]);
     }
-    return judge_heights(grid.back(best, t_s));
+    return grid.back(best, t_s);
   };
-  std::vector<double> own_m(n);
-  for (std::size_t i = 0; i < n; ++i)
-    own_m[i] = result.base.path.n_world[i].dot(motion.p_world_tip_m[i] - result.base.path.p_world_m[i]);
+  const std::vector<double> knows_surface = with_channels(2, true);
   return {result.accuracy->profile->correlation,
           judge_heights(own_m),
-          with_channels(2, false),
-          with_channels(2, true),
-          with_channels(3, true),
+          judge_heights(with_channels(2, false)),
+          judge_heights(knows_surface),
+          judge_at_own(knows_surface),
+          judge_heights(with_channels(3, true)),
           std::abs(result.accuracy->profile->length_error_percent)};
 }
 
@@ -231,11 +243,11 @@ int main(int argc, char** argv) {
     }
     std::printf(
         "| surface | probe | scans | product r | its heights, true positions | oracle: A and R | A, R and S | share, "
-        "median | "
-        "lowest | A, R, S and force | length error, %% |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+        "median | lowest | A, R and S, product's positions | share, median | A, R, S and force | length error, %% |\n"
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (const std::string& probe : choice.probes) {
       for (const std::string& family : choice.families) {
-        std::vector<double> product, own, two, oracle, share, force, length;
+        std::vector<double> product, own, two, oracle, share, at_own, own_share, force, length;
         for (int i = 0; i < scans; ++i) {
           asperity::Recording recording;
           if (ours) {
@@ -256,16 +268,19 @@ int main(int argc, char** argv) {
             two.push_back(s.two_noises);
             oracle.push_back(s.without_force);
             share.push_back(s.product / s.without_force);
+            at_own.push_back(s.without_force_at_own);
+            own_share.push_back(s.product / s.without_force_at_own);
             force.push_back(s.with_force);
             length.push_back(s.length_error_percent);
           } catch (const asperity::Error&) {
           }
         }
         if (product.empty()) continue;
-        std::printf("| %s | %s | %zu | %.3f | %.3f | %.3f | %.3f | %.3f | %.3f | %.3f | %.2f |\n", family.c_str(),
-                    probe.c_str(), product.size(), asperity::median(product), asperity::median(own),
+        std::printf("| %s | %s | %zu | %.3f | %.3f | %.3f | %.3f | %.3f | %.3f | %.3f | %.3f | %.3f | %.2f |\n",
+                    family.c_str(), probe.c_str(), product.size(), asperity::median(product), asperity::median(own),
                     asperity::median(two), asperity::median(oracle), asperity::median(share),
-                    *std::min_element(share.begin(), share.end()), asperity::median(force), asperity::median(length));
+                    *std::min_element(share.begin(), share.end()), asperity::median(at_own),
+                    asperity::median(own_share), asperity::median(force), asperity::median(length));
         std::fflush(stdout);
       }
     }

@@ -98,6 +98,7 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
     PeriodicityConfig near = config;
     near.min_pitch_m = std::max(config.min_pitch_m, (1.0 - kMultipleReach) * pitch_m);
     near.max_pitch_m = (1.0 + kMultipleReach) * pitch_m;
+    if (!(near.max_pitch_m > near.min_pitch_m)) return;  // a pitch below the shortest is not looked for
     if (follow_line(near.min_pitch_m, near.max_pitch_m)) return;
     const Periodicity found = find_periodicity(quiet_m, spacing_m, near);
     if (std::isfinite(found.pitch_m)) out = found;

@@ -88,6 +88,14 @@ TEST(PeriodicityUnderNoise, TremorIsNoPattern) {
   EXPECT_LE(wrong, 4);
 }
 
+// The autocorrelation of a pattern shorter than the shortest pitch peaks at twice its pitch, of which only every second
+// harmonic is a line: no error, and no pitch is looked for below the limit.
+TEST(PeriodicityUnderNoise, APatternBelowTheShortestPitchIsNoError) {
+  const TextureNoise noise = make_noise(1e-6);
+  const Periodicity p = find_periodicity_under_noise(disturbed(40e-6, 0.25e-3, noise, 1), kSpacing_m, noise, {});
+  EXPECT_TRUE(std::isnan(p.pitch_m) || p.pitch_m >= 0.3e-3) << p.pitch_m;
+}
+
 TEST(PeriodicityUnderNoise, WithoutNoiseIsThePlainOne) {
   const std::vector<double> h = disturbed(40e-6, 1.3e-3, make_noise(1e-6), 3);
   const Periodicity plain = find_periodicity(h, kSpacing_m, {});

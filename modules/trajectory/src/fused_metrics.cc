@@ -30,7 +30,8 @@ double process_noise_scale(const Problem& problem) {
   for (std::size_t k = 0; k + 1 < problem.knots.size(); ++k) {
     const double dt = problem.knots[k + 1].t - problem.knots[k].t;
     own += dt * problem.knots[k].accel_psd[0];
-    used += dt * accel_density(problem.knots[k], problem);
+    used += dt * (accel_density(problem.knots[k], problem) +
+                  fast_density_factor(problem) * problem.knots[k].accel_fast.head<3>().sum() / 3.0);
   }
   return own > 0.0 ? used / own : 0.0;
 }
@@ -63,6 +64,7 @@ void append_learnt(const InertialStream& inertial, const Problem& problem, const
   metrics["process_noise_scale"] = process_noise_scale(problem);
   metrics["accel_own_noise_mps2"] = std::sqrt(problem.process_scale) * root(kAccelOwn) * inertial.accel_noise_mps2;
   metrics["accel_motion_share"] = std::sqrt(problem.process_scale) * root(kAccelMotion) * config.inertial.scale_error;
+  metrics["accel_fast_share"] = std::sqrt(problem.process_scale) * root(kAccelFast);
   metrics["probe_time_sigma_s"] = root(kAccelJitter) * config.inertial.sample_time_sigma_s;
   metrics["accel_bias_walk_mps2_rts"] = root(kAccelWalk) * config.accel_bias_walk_mps2_per_rts;
   if (inertial.has_gyro) {

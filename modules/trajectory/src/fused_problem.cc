@@ -49,6 +49,7 @@ void set_noise(const InertialStream& inertial, const FusedConfig& config, std::s
   const double jitter = dt > 0.0 ? config.inertial.sample_time_sigma_s * change / dt : 0.0;
   const double turning = inertial.has_gyro ? config.inertial.rate_error * inertial.angular_rate_radps[i].norm() : 0.0;
   knot.accel_psd = {accel * accel * correlation, moving * moving * correlation, jitter * jitter * correlation};
+  knot.accel_fast = static_cast<float>(correlation) * inertial.accel_fast_m2ps4[i];
   knot.gyro_psd = {gyro * gyro * correlation, turning * turning * correlation};
   if (inertial.has_gyro && dt > 5.0 * period) knot.gyro_psd[0] = std::max(knot.gyro_psd[0], 0.25 * correlation);
 }

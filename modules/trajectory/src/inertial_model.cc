@@ -19,6 +19,12 @@ double accel_density(const Knot& knot, const Problem& problem) {
                                   factors[kAccelJitter] * knot.accel_psd[2]);
 }
 
+double fast_density_factor(const Problem& problem) { return problem.process_scale * problem.factors[kAccelFast]; }
+
+Matrix3d symmetric(const Eigen::Matrix<double, 6, 1>& e) {
+  return (Matrix3d() << e[0], e[3], e[4], e[3], e[1], e[5], e[4], e[5], e[2]).finished();
+}
+
 double gyro_density(const Knot& knot, const Problem& problem) {
   return problem.factors[kGyroOwn] * knot.gyro_psd[0] + problem.factors[kGyroMotion] * knot.gyro_psd[1];
 }
@@ -81,6 +87,8 @@ void Transition::extend(const Step& s, const Knot& k0, const Knot& k1, const Mou
   sp += dt * sv + half * s.A;
   sv += dt * s.A;
   for (std::size_t c = 0; c < accel.size(); ++c) accel[c].add(k0.accel_psd[c] * dt, dt);
+  fast.add(dt * k0.accel_fast.cast<double>(), dt);
+  marker_from_sensor = mounting.accel;
   for (std::size_t c = 0; c < turn.size(); ++c) turn[c] += k0.gyro_psd[c] * dt;
   T += dt;
 }
@@ -139,6 +147,16 @@ Vector6d Transition::slow_noise(const Problem& problem) const {
   return out;
 }
 
+Transition::Fast Transition::fast_noise(const Problem& problem) const {
+  if (!(T > 0.0)) return {Matrix3d::Zero(), Matrix3d::Zero(), Matrix3d::Zero()};
+  const double factor = fast_density_factor(problem);
+  const Matrix3d world = g1 / T * marker_from_sensor;
+  const auto turned = [&](const Eigen::Matrix<double, 6, 1>& elements) -> Matrix3d {
+    return factor * (world * symmetric(elements) * world.transpose());
+  };
+  return {turned(fast.pp), turned(fast.pv), turned(fast.vv)};
+}
+
 void Transition::propagate(const Problem& problem, const TopRows& U, Nominal& x, Square& P) const {
   const Layout& layout = problem.layout;
   const TopRows UP = times_covariance(U, layout, P);
@@ -168,6 +186,11 @@ void Transition::propagate(const Problem& problem, const TopRows& U, Nominal& x,
   P.block<3, 3>(kP, kV).diagonal().array() += q.pv;
   P.block<3, 3>(kV, kP).diagonal().array() += q.pv;
   P.block<3, 3>(kV, kV).diagonal().array() += q.vv;
+  const Fast uneven = fast_noise(problem);
+  P.block<3, 3>(kP, kP) += uneven.pp;
+  P.block<3, 3>(kP, kV) += uneven.pv;
+  P.block<3, 3>(kV, kP) += uneven.pv;
+  P.block<3, 3>(kV, kV) += uneven.vv;
   P.block<3, 3>(kPhi, kPhi).diagonal().array() += qphi + rate * T * T * T / 3.0;
   P.block<3, 3>(kPhi, kBg) -= 0.5 * rate * T * T * mean_R;
   P.block<3, 3>(kBg, kPhi) -= 0.5 * rate * T * T * mean_R.transpose();
@@ -207,6 +230,11 @@ void Transition::add_score(const Problem& problem, const State& lambda, const Sq
     score.add(kAccel[c], factor * (accel[c].pp * seen_pp + 2.0 * accel[c].pv * seen_pv + accel[c].vv * seen_vv),
               factor * (accel[c].pp * mean_pp + 2.0 * accel[c].pv * mean_pv + accel[c].vv * mean_vv));
   }
+  const Fast uneven = fast_noise(problem);
+  score.add(kAccelFast, lp.dot(uneven.pp * lp) + 2.0 * lp.dot(uneven.pv * lv) + lv.dot(uneven.vv * lv),
+            uneven.pp.cwiseProduct(Lambda.block<3, 3>(kP, kP)).sum() +
+                2.0 * uneven.pv.cwiseProduct(Lambda.block<3, 3>(kP, kV)).sum() +
+                uneven.vv.cwiseProduct(Lambda.block<3, 3>(kV, kV)).sum());
   const double seen_phi = lphi.squaredNorm();
   const double mean_phi = Lambda.block<3, 3>(kPhi, kPhi).trace();
   score.add(kGyroOwn, problem.factors[kGyroOwn] * turn[0] * seen_phi, problem.factors[kGyroOwn] * turn[0] * mean_phi);

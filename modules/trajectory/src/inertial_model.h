@@ -43,7 +43,8 @@ struct Mounting {
 Mounting mounting_of(const Nominal& x, const Problem& problem);
 
 // The densities of a segment with all factors.
-double accel_density(const Knot& knot, const Problem& problem);
+double accel_density(const Knot& knot, const Problem& problem);  // the same for each axis
+double fast_density_factor(const Problem& problem);              // of Knot::accel_fast
 double gyro_density(const Knot& knot, const Problem& problem);
 double rate_walk_density(const Problem& problem);
 
@@ -60,6 +61,19 @@ struct NoiseIntegral {
   }
 };
 
+// The same of noise that is not alike along the axes, as the elements xx, yy, zz, xy, xz, yz.
+struct UnevenNoiseIntegral {
+  using Elements = Eigen::Matrix<double, 6, 1>;
+  Elements pp = Elements::Zero(), pv = Elements::Zero(), vv = Elements::Zero();
+  void add(const Elements& white, double dt) {
+    pp += dt * (2.0 * pv + dt * vv) + (0.25 * dt * dt) * white;
+    pv += dt * vv + (0.5 * dt) * white;
+    vv += white;
+  }
+};
+
+Matrix3d symmetric(const Eigen::Matrix<double, 6, 1>& elements);
+
 // Φ of an interval, summed segment by segment: Φ − I has the rows of p, v and φ; the slow error decays besides.
 struct Transition {
   Vector3d sv = Vector3d::Zero(), sp = Vector3d::Zero();  // ∫A, ∬A: the effect of φ is −[s]×
@@ -69,13 +83,21 @@ struct Transition {
   Matrix39d vEa = Matrix39d::Zero(), pEa = Matrix39d::Zero();  // of the accelerometer's matrix
   Matrix39d phiEg = Matrix39d::Zero(), vEg = Matrix39d::Zero(), pEg = Matrix39d::Zero();
   double T = 0.0;
-  std::array<NoiseIntegral, 3> accel;  // by component, without factors
+  std::array<NoiseIntegral, 3> accel;                  // by component, without factors
+  UnevenNoiseIntegral fast;                            // sensor axes, which turn little within an interval
+  Matrix3d marker_from_sensor = Matrix3d::Identity();  // (1 + E) M of the accelerometer
   std::array<double, 2> turn{};
 
   void extend(const Step& s, const Knot& k0, const Knot& k1, const Mounting& mounting, const Problem& problem);
   TopRows rows(const Layout& layout) const;
   double slow_decay(const Problem& problem) const;
   Vector6d slow_noise(const Problem& problem) const;  // variances that it gains
+
+  // The fast component's three integrals, world axes, with its factor.
+  struct Fast {
+    Matrix3d pp, pv, vv;
+  };
+  Fast fast_noise(const Problem& problem) const;
 
   // P ← Φ P Φᵀ + Q, with U of rows().
   void propagate(const Problem& problem, const TopRows& U, Nominal& x, Square& P) const;

@@ -119,13 +119,17 @@ void write_interval(const Problem& problem, const State& lambda_end, const Nomin
   Vector3d lphi = lambda_end.segment<3>(kPhi);
   Vector3d lbg = lambda_end.segment<3>(kBg);
   interval.noises.resize(steps.size());
-  const double rate = rate_walk_density(problem);
+  const double rate = rate_walk_density(problem), along = fast_density_factor(problem);
+  const Mounting mounting = mounting_of(start, problem);
   for (std::size_t k = steps.size(); k-- > 0;) {
     const Knot& knot = problem.knots[first + k];
     const double dt = problem.knots[first + k + 1].t - knot.t;
     const Step& step = steps[k];
     Noise& noise = interval.noises[k];
-    noise.dv = -accel_density(knot, problem) * dt * (lv + 0.5 * dt * lp);
+    const Vector3d middle = lv + 0.5 * dt * lp;
+    const Matrix3d world = step.R0 * mounting.accel;
+    const Vector3d fast = world * (symmetric(knot.accel_fast.cast<double>()) * (world.transpose() * middle));
+    noise.dv = -dt * (accel_density(knot, problem) * middle + along * fast);
     noise.dphi = -gyro_density(knot, problem) * dt * lphi;
     noise.dbg = -rate * dt * (lbg - 0.5 * dt * (step.R0.transpose() * lphi));
     lbg -= dt * (step.R0.transpose() * lphi);
@@ -134,7 +138,6 @@ void write_interval(const Problem& problem, const State& lambda_end, const Nomin
   }
   Nominal x = start;
   interval.path.resize(steps.size());
-  const Mounting mounting = mounting_of(start, problem);
   for (std::size_t k = 0; k < steps.size(); ++k) {
     interval.path[k] = x;
     steps[k] = advance_state(x, problem.knots[first + k], problem.knots[first + k + 1], mounting, interval.noises[k]);

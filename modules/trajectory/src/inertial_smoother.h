@@ -54,7 +54,9 @@ struct Knot {
   Eigen::Vector3d f = Eigen::Vector3d::Zero();
   Eigen::Vector3d w = Eigen::Vector3d::Zero();
   std::array<double, 3> accel_psd{};  // own, motion, jitter; (m/s²)²/Hz
-  std::array<double, 2> gyro_psd{};   // own, motion; (rad/s)²/Hz
+  // Of kAccelFast, sensor axes: the elements xx, yy, zz, xy, xz, yz.
+  Eigen::Matrix<float, 6, 1> accel_fast = Eigen::Matrix<float, 6, 1>::Zero();
+  std::array<double, 2> gyro_psd{};  // own, motion; (rad/s)²/Hz
   std::int64_t sample = -1;
 };
 

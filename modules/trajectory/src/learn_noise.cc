@@ -48,7 +48,7 @@ bool is_tracker(Component component) { return component >= kPositionX && compone
 Factors first_factors(bool has_gyro, const FusedConfig& config) {
   Factors out = kUnitFactors;
   if (config.process_noise_scale > 0.0) return out;
-  out[kAccelOwn] = out[kGyroOwn] = 4.0;
+  out[kAccelOwn] = out[kGyroOwn] = out[kAccelFast] = 4.0;
   out[kAccelMotion] = out[kGyroMotion] = 25.0;
   if (!has_gyro) out[kRateWalk] = 10.0;
   return out;

@@ -11,6 +11,7 @@ enum Component : std::size_t {
   kAccelOwn,     // the sensor's own noise, white
   kAccelMotion,  // grows with the moving part of the specific force
   kAccelJitter,  // of the samples' stamps: grows with the specific force's slope
+  kAccelFast,    // along the fastest part of the specific force, as large as that: what folds about the sampling rate
   kGyroOwn,
   kGyroMotion,  // grows with the angular rate
   kAccelWalk,   // of the accelerometer's bias

@@ -12,9 +12,10 @@
 namespace asperity {
 
 struct InertialConfig {
-  double spike_sigmas = 8.0;  // a sample this far from its neighbours, which agree, in two channels is a spike
-  double scale_error = 0.01;  // noise that grows with the motion: share of the moving specific force, each sample
-  double rate_error = 0.003;  // likewise of the angular rate
+  double spike_sigmas = 8.0;   // a sample this far from its neighbours, which agree, in two channels is a spike
+  double fast_reach_s = 0.01;  // over which the fast part of the specific force is averaged: a contact's ringing lasts
+  double scale_error = 0.01;   // noise that grows with the motion: share of the moving specific force, each sample
+  double rate_error = 0.003;   // likewise of the angular rate
   double sample_time_sigma_s = 2e-6;    // jitter that smoothing the clock leaves in a sample's time
   double saturation_sigma = 0.5;        // standard deviation of a clipped sample, share of the restored or hidden peak
   double gap_sigma_mps2 = 3.0;          // standard deviation of the specific force across a gap
@@ -26,6 +27,8 @@ struct InertialConfig {
   void visit(V& v) {
     v.field("spike_sigmas", spike_sigmas,
             "a sample this far from its neighbours, which agree, in two channels is a spike", {3, 1000});
+    v.field("fast_reach_s", fast_reach_s,
+            "time to either side over which the specific force's fast part is averaged, s", {0, 1});
     v.field("scale_error", scale_error, "noise of a sample as a share of the moving specific force; learnt from here",
             {0, 1});
     v.field("rate_error", rate_error, "noise of a sample as a share of the angular rate; learnt from here", {0, 1});
@@ -50,8 +53,11 @@ struct InertialStream {
   std::vector<double> accel_sigma_mps2;              // standard deviation of one sample
   std::vector<double> gyro_sigma_radps;              // likewise; zero without a gyroscope
   std::vector<double> accel_moving_mps2;             // size of the specific force less its mean of late
-  std::vector<double> force_N;                       // at every sample, interpolated; nan where there is none
-  std::vector<Eigen::Vector3d> force3_marker_N;      // likewise, of a sensor with three axes; empty: there is none
+  // Mean products xx, yy, zz, xy, xz, yz of what in the specific force is as fast as the sampling, (m/s²)², over
+  // `fast_reach_s` to either side: of the size of white noise that would leave as much.
+  std::vector<Eigen::Matrix<float, 6, 1>> accel_fast_m2ps4;
+  std::vector<double> force_N;                   // at every sample, interpolated; nan where there is none
+  std::vector<Eigen::Vector3d> force3_marker_N;  // likewise, of a sensor with three axes; empty: there is none
   bool has_gyro = false;
   double period_s = 0.0;
   double clock_jitter_s = 0.0;
