@@ -23,6 +23,7 @@ Json stream_json(const RecoveredStream& stream) {
   out["rows"] = stream.rows;
   out["changed_rows"] = stream.changed_rows;
   out["unreadable_rows"] = stream.unreadable_rows;
+  out["rows_missing"] = stream.rows_missing;
   out["header_replaced"] = stream.header_replaced;
   out["messages"] = stream.messages;
   return out;
@@ -32,6 +33,7 @@ std::string stream_text(const RecoveredStream& stream, bool keep_changed) {
   std::string out = fmt::format("{}: {} rows saved", stream.file, stream.rows);
   const std::size_t lost = stream.unreadable_rows + (keep_changed ? 0 : stream.changed_rows);
   out += lost > 0 ? fmt::format(", {} left out", lost) : ", none left out";
+  if (stream.rows_missing) out += ", others are missing";
   if (keep_changed && stream.changed_rows > 0) out += fmt::format(", {} of them changed", stream.changed_rows);
   out += stream.checked ? " (checked by checksums.txt)\n" : " (no checksums to check by)\n";
   for (const std::string& message : stream.messages) out += "  " + printable(message, 300) + "\n";

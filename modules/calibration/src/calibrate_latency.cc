@@ -172,11 +172,15 @@ LatencyFit by_accelerometer(const Recording& recording, const LatencyConfig& con
   const Eigen::Vector3d gravity = recording.info.gravity_world_mps2;
   const LatencyScan scan = scan_accelerometer(sensor, poses, tracker, lever_m, gravity, config, out.rotation_solved);
   refuse_scan(scan, config, "accelerometer");
-  // A place whose error is not stated is one measured with callipers.
-  constexpr double kPlaceSigma_m = 1e-3;
-  const double stated_m = recording.calibration.accelerometer.position_sigma_m;
-  AccelerationModel model(sensor, poses, tracker, lever_m, gravity, out.rotation_solved,
-                          stated_m > 0.0 ? stated_m : kPlaceSigma_m);
+  // A place whose error is not stated is one measured with callipers; one that is not stated is that of the tip, and
+  // may be anywhere in the probe.
+  constexpr double kMeasured_m = 1e-3, kAnywhere_m = 50e-3;
+  const AccelerometerCalibration& accelerometer = recording.calibration.accelerometer;
+  const double stated_m = accelerometer.position_sigma_m;
+  const double place_sigma_m = !accelerometer.position_in_marker_m ? std::max(stated_m, kAnywhere_m)
+                               : stated_m > 0.0                    ? stated_m
+                                                                   : kMeasured_m;
+  AccelerationModel model(sensor, poses, tracker, lever_m, gravity, out.rotation_solved, place_sigma_m);
   model.latency_s = scan.latency_s[scan.best];
   model.R_marker_sensor = scan.R_marker_sensor;
   const LatencyEstimate estimate = estimate_robustly(model, poses, config, out);

@@ -27,6 +27,7 @@ MemoryLock::MemoryLock(bool wanted) noexcept {
   // With a limit, memory that is asked for later would be refused instead of just not being locked.
   const bool unlimited = limit.rlim_cur == RLIM_INFINITY || ::geteuid() == 0;
   held_ = ::mlockall(unlimited ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT) == 0;
+  if (!held_) error_ = errno;
 }
 
 MemoryLock::~MemoryLock() {

@@ -14,9 +14,11 @@ class MemoryLock {
   MemoryLock& operator=(const MemoryLock&) = delete;
 
   bool held() const noexcept { return held_; }
+  int error() const noexcept { return error_; }  // errno of a refusal; 0 if held or not wanted
 
  private:
   bool held_ = false;
+  int error_ = 0;
 };
 
 // Asks for SCHED_FIFO for the calling thread; false if it is not granted, `why` then says why.

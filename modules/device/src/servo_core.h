@@ -35,6 +35,10 @@ class ServoCore {
   void count_overrun() noexcept { ++statistics_.overruns; }
   void count_skipped(std::uint64_t ticks) noexcept { statistics_.skipped += ticks; }
   void set_real_time(bool granted) noexcept { statistics_.real_time = granted; }
+  void set_memory_lock(bool held, int error) noexcept {
+    statistics_.memory_locked = held;
+    statistics_.memory_error = error;
+  }
   ServoResult take_result();
 
  private:

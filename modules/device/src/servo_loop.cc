@@ -113,6 +113,7 @@ void run_paced(ServoCore& core, const ServoConfig& config, const std::atomic<boo
   std::thread servo([&] {
     // Here, so that the queue and this thread's stack are locked too where later memory cannot be.
     const MemoryLock memory(config.priority != RealTimePriority::kIgnore);
+    core.set_memory_lock(memory.held(), memory.error());
     take_precise_timers();
     const bool granted = config.priority != RealTimePriority::kIgnore && take_real_time_priority(refused);
     core.set_real_time(granted);

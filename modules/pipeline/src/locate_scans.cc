@@ -84,9 +84,16 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
   if (scans.in_sequence && search.registration.error_length_m == 0.0) {
     search.registration.error_length_m = config.refinement.slow_length_m;
   }
-  const PoseMisfitConfig misfit{config.refinement.slow_length_m, search.registration.surface_error_m,
-                                search.registration.guess_sigma_m,
-                                search.registration.guess_sigma_deg * std::numbers::pi / 180.0};
+  // A guess that is stated to be better known for the refinement than that takes for granted is held to it.
+  const RefineConfig usual;
+  const auto stated = [](double by_search, double by_refinement, double usually) {
+    return by_refinement < usually ? std::min(by_search, by_refinement) : by_search;
+  };
+  const PoseMisfitConfig misfit{
+      config.refinement.slow_length_m, search.registration.surface_error_m,
+      stated(search.registration.guess_sigma_m, config.refinement.guess_sigma_m, usual.guess_sigma_m),
+      stated(search.registration.guess_sigma_deg, config.refinement.guess_sigma_deg, usual.guess_sigma_deg) *
+          std::numbers::pi / 180.0};
   LocatedScans out;
   const ProcessMethod& method = ProcessMethods::get(config.process.method);
   if (method.register_paths) {

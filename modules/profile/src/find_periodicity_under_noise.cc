@@ -104,7 +104,11 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
     if (std::isfinite(found.pitch_m)) out = found;
   };
   int multiple = find_multiple(search, out.pitch_m);
-  if (multiple > 1) find_near(out.pitch_m / multiple);
+  if (multiple > 1 && out.pitch_m / multiple < config.min_pitch_m) {
+    multiple = 0;  // the pattern is shorter than what is looked for, and a multiple of its pitch is no pitch
+  } else if (multiple > 1) {
+    find_near(out.pitch_m / multiple);
+  }
   if (multiple == 0 && follow_line(config.min_pitch_m, longest_m)) multiple = find_multiple(search, out.pitch_m);
   if (multiple == 0) {
     out.periodic = false;

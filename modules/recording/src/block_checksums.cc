@@ -110,8 +110,10 @@ std::vector<BlockChecksum> parse_checksums(std::string_view text, std::string_vi
         !take_number(line, block.crc, 16) || !line.empty())
       continue;
     const std::uint64_t end_of_last = out.empty() ? 0 : out.back().begin + out.back().bytes;
-    constexpr std::uint64_t kLargest = std::uint64_t{1} << 60;
-    if (block.bytes > 0 && block.begin >= end_of_last && block.begin < kLargest && block.bytes < kLargest)
+    // A block of ours is little above 64 KiB: a larger one is not, and would cost as much at each place it is looked
+    // for.
+    constexpr std::uint64_t kLastBegin = std::uint64_t{1} << 60, kLargest_bytes = std::uint64_t{1} << 20;
+    if (block.bytes > 0 && block.begin >= end_of_last && block.begin < kLastBegin && block.bytes <= kLargest_bytes)
       out.push_back(block);
   }
   return out;

@@ -100,7 +100,7 @@ RecordingAppender::RecordingAppender(fs::path folder, const RecordingInfo& info,
 RecordingAppender::~RecordingAppender() {
   try {
     if (probe_->file >= 0 && tracker_->file >= 0) flush();
-  } catch (const Error&) {
+  } catch (...) {
     // A destructor cannot report; whoever needs to know calls finish().
   }
   for (Stream* stream : {probe_.get(), tracker_.get(), checksums_.get()}) stream->close();

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -31,6 +32,23 @@ std::size_t cells_of(std::string_view line) {
   return static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
 }
 
+std::string_view trim(std::string_view cell) {
+  while (!cell.empty() && (cell.front() == ' ' || cell.front() == '\t')) cell.remove_prefix(1);
+  while (!cell.empty() && (cell.back() == ' ' || cell.back() == '\t')) cell.remove_suffix(1);
+  return cell;
+}
+
+// Hands each cell of `line` to `take`, until it says no.
+template <class Take>
+bool pass_cells(std::string_view line, const Take& take) {
+  for (;;) {
+    const std::size_t comma = line.find(',');
+    if (!take(trim(line.substr(0, comma)))) return false;
+    if (comma == std::string_view::npos) return true;
+    line.remove_prefix(comma + 1);
+  }
+}
+
 bool is_number_or_empty(std::string_view cell) {
   if (cell.empty()) return true;
   double value = 0.0;
@@ -38,19 +56,19 @@ bool is_number_or_empty(std::string_view cell) {
   return error == std::errc() && end == cell.data() + cell.size();
 }
 
-// A whole number of nanoseconds, then numbers.
-bool is_row(std::string_view line, std::size_t cells) {
+bool is_whole_number(std::string_view cell) {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return error == std::errc() && end == cell.data() + cell.size();
+}
+
+// Numbers in each of `cells` columns, a whole one in the column of the time.
+bool is_row(std::string_view line, std::size_t cells, std::size_t time_column) {
   if (cells_of(line) != cells) return false;
-  std::int64_t t_ns = 0;
-  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), t_ns);
-  if (error != std::errc() || end == line.data() + line.size() || *end != ',') return false;
-  line.remove_prefix(static_cast<std::size_t>(end - line.data()) + 1);
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    if (!is_number_or_empty(line.substr(0, comma))) return false;
-    if (comma == std::string_view::npos) return true;
-    line.remove_prefix(comma + 1);
-  }
+  std::size_t column = 0;
+  return pass_cells(line, [&](std::string_view cell) {
+    return column++ == time_column ? is_whole_number(cell) : is_number_or_empty(cell);
+  });
 }
 
 // A line and the bytes [begin, end) that it takes, its newline among them.
@@ -90,10 +108,17 @@ std::vector<std::string> own_headers(std::string_view file) {
   return out;
 }
 
-bool is_header(std::string_view line, std::string_view file) {
-  std::string_view needed = file == "probe.csv" ? "accel_k" : "qz";
-  const std::size_t place = line.find(needed);
-  return line.starts_with("t_ns,") && place != std::string_view::npos;
+// All columns that a reader needs, in any order; gives the place of the time.
+std::optional<std::size_t> time_column_of(std::string_view header, std::string_view file) {
+  static constexpr std::array kProbe{"t_ns", "accel_i", "accel_j", "accel_k", "force"};
+  static constexpr std::array kTracker{"t_ns", "px_m", "py_m", "pz_m", "qw", "qx", "qy", "qz"};
+  std::vector<std::string_view> columns;
+  pass_cells(header, [&](std::string_view cell) { return columns.push_back(cell), true; });
+  const auto has = [&](std::string_view name) { return std::count(columns.begin(), columns.end(), name) == 1; };
+  const bool all = file == "probe.csv" ? std::all_of(kProbe.begin(), kProbe.end(), has)
+                                       : std::all_of(kTracker.begin(), kTracker.end(), has);
+  if (!all) return std::nullopt;
+  return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "t_ns") - columns.begin());
 }
 
 // The header of our own that has as many columns as most of the rows. A stream of the probe with a gyroscope has as
@@ -103,7 +128,7 @@ std::string header_by_rows(std::string_view content, std::string_view file) {
   std::vector<std::size_t> rows(headers.size());
   pass_lines(content, [&](const Line& line) {
     for (std::size_t i = 0; i < headers.size(); ++i) {
-      if (is_row(line.text, cells_of(headers[i]))) ++rows[i];
+      if (is_row(line.text, cells_of(headers[i]), 0)) ++rows[i];
     }
   });
   // The first of the largest: without force_x before with it, where both have as many columns.
@@ -131,7 +156,6 @@ class ChangedRows {
 class Messages {
  public:
   Messages(std::string file, RecoveredStream& stream) : file_(std::move(file)), stream_(stream) {}
-  ~Messages() { end(); }
   void add(std::size_t line, const char* what) {
     if (what == what_ && line == last_ + 1) {
       last_ = line;
@@ -142,14 +166,15 @@ class Messages {
     what_ = what;
   }
 
- private:
   void end() {
     if (what_ != nullptr && stream_.messages.size() < kMostMessages) {
       stream_.messages.push_back(first_ == last_ ? fmt::format("{}:{}: {}", file_, first_, what_)
-                                                 : fmt::format("{}:{}: to line {}: {}", file_, first_, last_, what_));
+                                                 : fmt::format("{}:{}-{}: {}", file_, first_, last_, what_));
     }
     what_ = nullptr;
   }
+
+ private:
   std::string file_;
   RecoveredStream& stream_;
   std::size_t first_ = 0, last_ = 0;
@@ -168,15 +193,33 @@ std::string recover_stream(const fs::path& folder, const char* file, std::string
   const std::string content = read_file(folder / file, limits.csv_bytes);
   const std::vector<BlockChecksum> blocks = parse_checksums(checksums, file);
   stream.checked = !blocks.empty();
-  ChangedRows changed(find_changes(content, blocks));
+  const std::vector<ChangedBytes> changes = find_changes(content, blocks);
+  const bool gone =
+      std::any_of(changes.begin(), changes.end(), [](const auto& change) { return change.begin == change.end; });
+  if (gone || (stream.checked && blocks.back().begin + blocks.back().bytes > content.size())) {
+    stream.rows_missing = true;
+    stream.messages.push_back(std::string(file) + ": rows that were recorded are missing, by checksums.txt");
+  }
+  if (!content.empty() && content.back() != '\n') {
+    ++stream.unreadable_rows;
+    stream.messages.push_back(std::string(file) + ": the last line has no end; left out");
+  }
+  ChangedRows changed(changes);
 
-  const std::string_view first = std::string_view(content).substr(0, content.find('\n'));
-  std::string header(first.ends_with('\r') ? first.substr(0, first.size() - 1) : first);
-  if (!is_header(header, file)) {
+  std::string header;
+  std::size_t header_line = 0, time_column = 0;
+  pass_lines(content, [&](const Line& line) {
+    if (header_line > 0 || line.text.empty() || line.text.front() == '#') return;
+    header_line = line.number;
+    header = line.text;
+  });
+  if (const auto found = time_column_of(header, file)) {
+    time_column = *found;
+  } else {
     header = header_by_rows(content, file);
     stream.header_replaced = true;
-    stream.messages.push_back(fmt::format("{}:1: the header cannot be read{}", file,
-                                          header.empty() ? "" : "; taken by the number of columns: " + header));
+    stream.messages.push_back(fmt::format("{}:{}: the header cannot be read{}", file, header_line,
+                                          header.empty() ? "" : "; replaced by the number of columns: " + header));
     if (header.empty()) return {};
   }
   stream.found = true;
@@ -185,9 +228,9 @@ std::string recover_stream(const fs::path& folder, const char* file, std::string
   std::string out = header + '\n';
   Messages messages(file, stream);
   pass_lines(content, [&](const Line& line) {
-    if (line.number == 1 && (!stream.header_replaced || !is_row(line.text, cells))) return;
     if (line.text.empty() || line.text.front() == '#') return;
-    const bool row = is_row(line.text, cells), differs = changed.holds(line);
+    const bool row = is_row(line.text, cells, time_column), differs = changed.holds(line);
+    if (line.number == header_line && !row) return;
     if (!row) {
       ++stream.unreadable_rows;
       messages.add(line.number, "not a row of this file; left out");
@@ -203,6 +246,7 @@ std::string recover_stream(const fs::path& folder, const char* file, std::string
     out.append(line.text);
     out += '\n';
   });
+  messages.end();
   return out;
 }
 
@@ -241,6 +285,7 @@ Json stream_json(const RecoveredStream& stream) {
   out["rows"] = stream.rows;
   out["changed_rows"] = stream.changed_rows;
   out["unreadable_rows"] = stream.unreadable_rows;
+  out["rows_missing"] = stream.rows_missing;
   out["header_replaced"] = stream.header_replaced;
   return out;
 }
@@ -249,7 +294,8 @@ Json stream_json(const RecoveredStream& stream) {
 
 bool RecoveredRecording::lost_nothing() const {
   const auto whole = [](const RecoveredStream& stream) {
-    return stream.found && stream.changed_rows == 0 && stream.unreadable_rows == 0 && !stream.header_replaced;
+    return stream.found && stream.changed_rows == 0 && stream.unreadable_rows == 0 && !stream.rows_missing &&
+           !stream.header_replaced;
   };
   return whole(probe) && whole(tracker) && taken_from_like.empty();
 }

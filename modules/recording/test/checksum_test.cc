@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 
 #include "asperity/base/crc32.h"
@@ -166,6 +168,44 @@ TEST(Recover, SavesTheRowsThatAreRows) {
   const Recording recording = read_recording(saved.path());
   EXPECT_EQ(recording.probe.size(), recovered.probe.rows);
   EXPECT_EQ(recording.info.extra["recovered"]["probe"]["unreadable_rows"].get<int>(), 1);
+}
+
+TEST(Recover, SaysThatRowsAreMissingWhereNoneIsLeftToShowIt) {
+  const testkit::TempDir dir;
+  record(dir / "rec");
+  const std::string whole = text_of(dir / "rec/probe.csv");
+  std::ifstream list(dir / "rec/checksums.txt");
+  std::string line, file;
+  std::getline(list, line);
+  std::uint64_t begin = 0, bytes = 0;
+  list >> file >> begin >> bytes;
+  const std::size_t edge = begin + bytes;  // of the first block
+  const std::size_t next = whole.find('\n', edge + 70'000) + 1;
+  for (const std::string& text : {whole.substr(0, edge), whole.substr(0, whole.size() - 1), whole.substr(0, next)}) {
+    write_file(dir / "rec/probe.csv", text);
+    const testkit::TempDir saved;
+    const RecoveredRecording recovered = recover_recording(dir / "rec", saved.path());
+    EXPECT_FALSE(recovered.lost_nothing()) << text.size();
+    EXPECT_FALSE(recovered.probe.messages.empty());
+  }
+}
+
+TEST(Recover, AHeaderThatReadsIsKept) {
+  const testkit::TempDir dir;
+  record(dir / "rec");
+  fs::remove(dir / "rec/checksums.txt");
+  write_file(dir / "rec/probe.csv",
+             "# by hand\nforce, accel_k ,accel_j,accel_i,t_ns\n1, 2,3,4,5\n6,7,8,9,10\n6,7,8,9,x\n");
+  const testkit::TempDir saved;
+  const RecoveredRecording recovered = recover_recording(dir / "rec", saved.path());
+  EXPECT_FALSE(recovered.probe.header_replaced);
+  EXPECT_EQ(recovered.probe.rows, 2u);
+  EXPECT_EQ(recovered.probe.unreadable_rows, 1u);
+  EXPECT_EQ(text_of(saved.path() / "probe.csv"), "force, accel_k ,accel_j,accel_i,t_ns\n1, 2,3,4,5\n6,7,8,9,10\n");
+  // A column that is spelt wrongly is one that no reader finds.
+  write_file(dir / "rec/probe.csv", "t_ns,accel_X,accel_j,accel_k,force\n1,2,3,4,5\n");
+  const testkit::TempDir again;
+  EXPECT_TRUE(recover_recording(dir / "rec", again.path()).probe.header_replaced);
 }
 
 TEST(Recover, AnUnreadableHeaderIsToldByTheColumns) {

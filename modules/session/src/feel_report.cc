@@ -1,6 +1,7 @@
 #include "asperity/session/feel_report.h"
 
 #include <fmt/format.h>
+#include <cstring>
 
 #include <algorithm>
 #include <cmath>
@@ -140,6 +141,7 @@ Json timing_json(const ServoStatistics& statistics, const ServoConfig& config) {
                       {"p99", statistics.late_p99_s * 1e6},
                       {"max", statistics.late_max_s * 1e6}};
     out["real_time"] = statistics.real_time;
+    out["memory_locked"] = statistics.memory_locked;
   }
   if (config.timed) {
     out["step_us"] = {{"p50", statistics.step_p50_s * 1e6},
@@ -155,6 +157,12 @@ std::string timing_text(const ServoStatistics& statistics, const ServoConfig& co
     out += fmt::format("schedule   {} overruns, {} skipped, late by {:.1f} µs at 99 %, at most {:.1f} µs{}\n",
                        statistics.overruns, statistics.skipped, statistics.late_p99_s * 1e6,
                        statistics.late_max_s * 1e6, statistics.real_time ? "" : ", without real-time priority");
+    if (statistics.memory_error != 0) {
+      out += fmt::format(
+          "memory     not locked ({}): a page that was swapped out makes a tick late; raise the limit by `ulimit -l "
+          "unlimited`, or memlock in /etc/security/limits.conf\n",
+          std::strerror(statistics.memory_error));
+    }
   }
   if (config.timed) {
     out += fmt::format("step       {:.2f} µs at 50 %, {:.2f} µs at 99 %, at most {:.2f} µs\n",

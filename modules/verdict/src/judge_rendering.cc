@@ -26,8 +26,9 @@ Verdicts judge_run(const RunEvidence& evidence) {
                                         ticks(evidence.ticks_not_finite)));
   }
   if (evidence.ticks_stale > 0) {
-    say("device_stale", fmt::format("the force was ramped to zero: for {} the device gave no new position",
-                                    ticks(evidence.ticks_stale)));
+    say("device_stale",
+        fmt::format("the force was ramped to zero for {}: the device's positions came late or not at all",
+                    ticks(evidence.ticks_stale)));
   }
   if (evidence.ticks_implausible > 0) {
     say("position_implausible",
@@ -64,7 +65,7 @@ Verdicts judge_rendering(const RenderingEvidence& evidence) {
   Verdicts out;
   if (evidence.contact_fraction < evidence.min_contact_fraction) {
     out.push_back(make_verdict("scan_not_rendered",
-                               fmt::format("real against rendered: only {:.0f} % of the scan touched the surface",
+                               fmt::format("real against rendered: only {:.0f} % of the scan's contact was rendered",
                                            100.0 * evidence.contact_fraction)));
   }
   if (evidence.score < evidence.min_score) {

@@ -153,8 +153,8 @@ class RigJudge {
     const double sure_s = std::abs(e_.latency_s) - (e_.measured > 1 ? e_.latency_half_width_s : 0.0);
     if (sure_s > limits_.latency_s && sure_s > limits_.latency_sigmas * e_.calibrated_latency_sigma_s) {
       say("latency_off",
-          fmt::format("the tracker is {:.1f} ms later than calibrated ({:.1f} ± {:.1f} ms)", 1e3 * e_.latency_s,
-                      1e3 * e_.calibrated_latency_s, 1e3 * e_.calibrated_latency_sigma_s));
+          fmt::format("the tracker's latency is {:+.1f} ms from the calibrated one ({:.1f} ± {:.1f} ms)",
+                      1e3 * e_.latency_s, 1e3 * e_.calibrated_latency_s, 1e3 * e_.calibrated_latency_sigma_s));
     }
     if (e_.latency_deviation_s > limits_.latency_repeatability_s) {
       say("latency_scatters", fmt::format("the tracker's latency differs from stroke to stroke by {:.1f} ms",

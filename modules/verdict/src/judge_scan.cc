@@ -157,9 +157,10 @@ void judge_streams(const ScanEvidence& e, Verdicts& out) {
         "rows_lost", fmt::format("{} of {} rows could not be used", e.rows_dropped, e.rows_kept + e.rows_dropped)));
   }
   if (e.rows_changed > 0) {
-    out.push_back(make_verdict("changed_bytes", fmt::format("{} rows are not as they were recorded, or lie where rows "
-                                                            "are missing, by checksums.txt",
-                                                            e.rows_changed)));
+    out.push_back(make_verdict("changed_bytes", fmt::format("at least {} row{} {} not as recorded, or missing, by "
+                                                            "checksums.txt",
+                                                            e.rows_changed, e.rows_changed == 1 ? "" : "s",
+                                                            e.rows_changed == 1 ? "is" : "are")));
   }
   if (e.used_s < kLeastOverlap_share * e.recorded_s) {
     out.push_back(make_verdict("little_overlap", fmt::format("the two streams share only {:.1f} s of the {:.1f} s "

@@ -57,7 +57,9 @@ constexpr VerdictCode kCodes[] = {
      "and state how well it is known with refinement.guess_sigma_m and refinement.guess_sigma_deg"},
     {"pose_misfit", kInvalid, "check that it is the right mesh, its unit, and the guess"},
     {"guess_contradicted", kInvalid,
-     "check the guess, or state how well it is known with search.registration.guess_sigma_m and guess_sigma_deg"},
+     "check the guess, or state how well it is known with search.registration.guess_sigma_m and guess_sigma_deg, and "
+     "the "
+     "same of refinement"},
     {"mesh_misfit", kLimited,
      "check the mesh against the object, and state its error with search.registration.surface_error_m"},
     {"pose_not_converged", kInvalid, "give a guess nearer to the true pose"},

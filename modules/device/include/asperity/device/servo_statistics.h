@@ -19,6 +19,8 @@ struct ServoStatistics {
   double dissipated_J = 0.0;        // by the passivity controller
   std::uint64_t limited_ticks = 0;  // on which the safety layer changed the force
   bool real_time = false;           // priority was granted
+  bool memory_locked = false;       // no page of the process can be swapped out
+  int memory_error = 0;             // errno where that was asked for and refused
 };
 
 }  // namespace asperity

@@ -79,9 +79,8 @@ struct BasePathResult {
   double radius_m = 0.0;                                     // circle
   double radius_stderr_m = 0.0;                              // allowing for errors that last
   bool outside = true;                                       // circle: the probe is on its outside
-  // Circle and curve: n_world is turned by this from the shape's own normals; the circle's towards its axis, about its
-  // centre: n_world = n cos + axis_world sin, and so the height of a point p is cos · (n·(p − centre) − radius) + sin ·
-  // axis·(p − centre).
+  // Circle and curve: the mean by which n_world is turned from the shape's own normals, the circle's towards its axis,
+  // about its centre; the change of the lean along the path comes to it (docs/profile.md).
   double lean_rad = 0.0;
   double normal_sigma_deg = 0.0;  // of the normal about the direction of travel
   double probe_tilt_deg = 0.0;    // mean angle between the probe's axis and the normal

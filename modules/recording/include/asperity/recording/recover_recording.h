@@ -23,6 +23,7 @@ struct RecoveredStream {
   std::size_t rows = 0;               // saved
   std::size_t changed_rows = 0;       // not the bytes that were recorded: left out, or kept if asked for
   std::size_t unreadable_rows = 0;    // no rows of this stream: left out
+  bool rows_missing = false;          // rows that were recorded are not there, how many is not known
   bool header_replaced = false;       // the header was unreadable; the one of as many columns was put in its place
   std::vector<std::string> messages;  // where, a line each
 };
@@ -37,7 +38,7 @@ struct RecoveredRecording {
 };
 
 // Saves what a damaged recording holds: writes into `out`, an existing folder, the rows of probe.csv and tracker.csv
-// that are whole, byte for byte, with new checksums, and copies the other files. A row is whole if its block's checksum
+// that are whole, byte for byte, with new checksums, and copies truth.csv, camera.json, markers.json and frames/. A row is whole if its block's checksum
 // holds, where there is one, and if it has as many cells as the header, each a number or empty, and a time. Files of
 // `folder` are only read. recording.json gets extra.recovered: what was left out.
 // Throws Error if there is no row to save, or if recording.json or calibration.json cannot be read and `like` does

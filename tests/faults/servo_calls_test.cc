@@ -1,0 +1,89 @@
+// The servo thread of the program, paced, with a scene of each texture model: no allocation, no mapping of memory, no
+// lock and no page fault between its 200th wait and its last. Counted from outside (servo_shim.c), Eigen's and the
+// C library's own included.
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "asperity/testkit/temp_dir.h"
+#include "plane_obj.h"
+#include "run_asperity.h"
+
+namespace asperity::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+struct Felt {
+  const char* name;
+  Words fit;   // how the texture is made; @ stands for the inputs
+  Words feel;  // further options
+};
+
+void PrintTo(const Felt& felt, std::ostream* out) { *out << felt.name; }
+
+class ServoCalls : public testing::TestWithParam<Felt> {};
+
+const fs::path& inputs() {
+  static const testkit::TempDir dir;
+  static const fs::path path = [] {
+    const fs::path folder = dir.path();
+    run({"simulate", "--surface", "sandpaper", "--seed", "3", "--set", "hand.length_m=0.04", "-o", folder / "rec",
+         "--quiet"});
+    run({"process", folder / "rec", "-o", folder / "processed", "--quiet"});
+    write_text(folder / "plane.obj", plane_obj());
+    return folder;
+  }();
+  return path;
+}
+
+TEST_P(ServoCalls, NoneThatCouldBlock) {
+  const testkit::TempDir dir;
+  Words fit{"texture", "fit"};
+  for (std::string word : GetParam().fit) {
+    if (word.starts_with('@')) word = inputs().string() + word.substr(1);
+    fit.push_back(word);
+  }
+  for (const std::string& word : Words{"-o", dir / "x.texture.json", "--quiet"}) fit.push_back(word);
+  const Outcome fitted = run(fit);
+  ASSERT_EQ(fitted.code, 0) << fitted.err;
+  const Outcome painted = run({"paint", inputs() / "plane.obj", "--through", "5,7,0;35,7,0", "--texture",
+                               dir / "x.texture.json", "--mesh-unit", "mm", "-o", dir / "scene", "--quiet"});
+  ASSERT_EQ(painted.code, 0) << painted.err;
+  Words feel{"feel", dir / "scene", "--realtime", "--duration", "1.2s", "--quiet", "-o", dir / "felt"};
+  feel.insert(feel.end(), GetParam().feel.begin(), GetParam().feel.end());
+  ::setenv("LD_PRELOAD", SERVO_SHIM, 1);
+  ::setenv("SERVO_COUNTS", (dir / "counts").c_str(), 1);
+  const Outcome felt = run(feel);
+  ::unsetenv("LD_PRELOAD");
+  ::unsetenv("SERVO_COUNTS");
+  ASSERT_TRUE(felt.code == 0 || felt.code == 3) << felt.err;
+  long waits = 0, allocations = -1, maps = -1, locks = -1, faults = -1;
+  std::ifstream(dir / "counts") >> waits >> allocations >> maps >> locks >> faults;
+  EXPECT_GT(waits, 300) << "of some 1000";
+  EXPECT_EQ(allocations, 0);
+  EXPECT_EQ(maps, 0);
+  EXPECT_EQ(locks, 0);
+  EXPECT_EQ(faults, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Textures, ServoCalls,
+    testing::Values(
+        Felt{"fourier1d", {"@/processed/profile.csv"}, {}},
+        Felt{"normal_perturbation", {"@/processed/profile.csv"}, {"--texture-model", "normal-perturbation"}},
+        Felt{"lateral_gradient", {"@/processed/profile.csv"}, {"--texture-model", "lateral-gradient"}},
+        Felt{"fourier2d", {"@/processed/profile.csv", "--model", "fourier2d"}, {}},
+        Felt{"heightmap", {"@/processed/profile.csv", "--model", "heightmap"}, {}},
+        Felt{"stochastic", {"@/processed/profile.csv", "--model", "stochastic"}, {}},
+        Felt{"autoregressive", {"@/rec", "--model", "autoregressive"}, {}},
+        Felt{"areal", {"@/processed/profile.csv", "--model", "areal", "--set", "fit.stroke_spacing_mm=0.5"}, {}}),
+    [](const auto& one) { return std::string(one.param.name); });
+
+}  // namespace
+}  // namespace asperity::cli
