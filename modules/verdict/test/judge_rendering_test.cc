@@ -32,7 +32,7 @@ TEST(JudgeRun, WhatRampsTheForceDownIsInvalid) {
   EXPECT_THAT(line_of(run), HasSubstr("invalid: the force was ramped to zero: 1 tick had numbers"));
   run = good_run();
   run.ticks_stale = 3;
-  EXPECT_THAT(line_of(run), HasSubstr("invalid: the force was ramped to zero: for 3 ticks"));
+  EXPECT_THAT(line_of(run), HasSubstr("invalid: the force was ramped to zero for 3 ticks"));
   run = good_run();
   run.ticks_implausible = 3;
   EXPECT_THAT(line_of(run), HasSubstr("invalid: the force was ramped to zero: on 3 ticks no hand"));
