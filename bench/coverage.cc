@@ -10,12 +10,14 @@
 #include <atomic>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "asperity/base/error.h"
+#include "asperity/recording/write_recording.h"
 #include "coverage/judge_case.h"
 #include "coverage/scan_case.h"
 #include "coverage/tables.h"
@@ -30,6 +32,7 @@ struct Options {
   bool ours = true;
   bench::CaseChoice choice;
   std::string csv;
+  std::string scan, folder;  // one scan by its own number, to look at: `process` it
 };
 
 Options parse_options(int argc, char** argv) {
@@ -43,6 +46,8 @@ Options parse_options(int argc, char** argv) {
        {"--families", [&](auto value) { out.choice.families = bench::split_list(value); }},
        {"--probes", [&](auto value) { out.choice.probes = bench::split_list(value); }},
        {"--calibration", [&](auto value) { out.choice.exact_calibration = bench::is_first(value, "exact", "stated"); }},
+       {"--scan", [&](auto value) { out.scan = value; }},
+       {"--folder", [&](auto value) { out.folder = value; }},
        {"--csv", [&](auto value) { out.csv = value; }}});
   return out;
 }
@@ -78,6 +83,14 @@ std::vector<bench::ScanOutcome> run(const Options& options) {
 int main(int argc, char** argv) {
   try {
     const Options options = parse_options(argc, argv);
+    if (!options.scan.empty()) {
+      const auto seed = static_cast<std::uint64_t>(bench::number_within(options.scan, 0.0, 1e15));
+      std::filesystem::create_directories(options.folder);
+      asperity::write_recording(options.folder, (options.ours ? bench::simulate_own_case(seed, options.choice)
+                                                              : bench::simulate_second_case(seed, options.choice))
+                                                    .recording);
+      return 0;
+    }
     const std::vector<bench::ScanOutcome> scans = run(options);
     double process_s = 0.0;
     for (const bench::ScanOutcome& scan : scans) process_s += scan.process_s;

@@ -20,6 +20,8 @@ namespace asperity {
 
 namespace {
 
+constexpr double kSureShape = 0.9;
+constexpr double kLeaningSigmas = 1.5;  // of how far a probe is held from the normal: 30 degrees by default
 constexpr double kRadian_deg = 180.0 / std::numbers::pi;
 
 // Base points and normals on the plane; returns the developed coordinates.
@@ -146,6 +148,10 @@ PathShape choose_shape(const PlaneCandidate& plane, const CircleCandidate& circl
     probability = 1.0;
     return PathShape::kCurve;
   }
+  // A path that bends on a plane and one around a body are the same points with normals far apart. Where neither is
+  // certain and the likelier one has the probe lean more than hands do, the normals are the probe's.
+  const double tilt_deg = kRadian_deg * (round ? circle.tilt_rad : plane.tilt_rad);
+  if (probability < kSureShape && tilt_deg > kLeaningSigmas * config.probe_axis_sigma_deg) return PathShape::kCurve;
   return round ? PathShape::kCircle : PathShape::kPlane;
 }
 
@@ -242,7 +248,11 @@ BasePathResult find_base_path(const TipMotion& motion, const Eigen::Vector3d& ti
         {"undetermined_normal",
          u.description + ": standard deviation " + number_text(std::round(u.sigma_deg * 10.0) / 10.0) + " degrees"});
   }
-  if (out.shape_probability < 0.9) {
+  if (out.shape_probability < kSureShape && out.shape == PathShape::kCurve) {
+    out.problems.push_back({"uncertain_shape", "neither a plane nor a circle is certain (probability " +
+                                                   number_text(std::round(out.shape_probability * 100.0) / 100.0) +
+                                                   "), and the probe leans far: the normals are the probe's"});
+  } else if (out.shape_probability < kSureShape) {
     out.problems.push_back({"uncertain_shape", "base shape " +
                                                    std::string(kPathShapeNames[static_cast<std::size_t>(out.shape)]) +
                                                    " chosen with probability " +
