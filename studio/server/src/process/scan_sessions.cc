@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 // Changes with every file of a recording.
 std::string stamp_of(const fs::path& recording) {
   std::string out;
-  for (const char* name : {"recording.json", "probe.csv", "tracker.csv", "calibration.json", "truth.csv", "checksums.txt"}) {
+  for (const char* name :
+       {"recording.json", "probe.csv", "tracker.csv", "calibration.json", "truth.csv", "checksums.txt"}) {
     std::error_code error;
     const auto written = fs::last_write_time(recording / name, error);
     out += error ? "-" : std::to_string(written.time_since_epoch().count());
