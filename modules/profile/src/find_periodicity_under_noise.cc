@@ -55,6 +55,8 @@ double root_mean_square(std::span<const double> x) {
 int find_multiple(const LineSearch& search, double pitch_m) {
   std::array<bool, kHarmonicsSeen + 1> line{};
   bool any = false;
+  // h is at most kHarmonicsSeen, the array one longer.
+  // cppcheck-suppress containerOutOfBounds
   for (int h = 1; h <= kHarmonicsSeen; ++h) any |= line[static_cast<std::size_t>(h)] = search.has_line(pitch_m, h);
   if (!any) return 0;
   for (int multiple = kHarmonicsSeen; multiple > 1; --multiple) {
