@@ -91,7 +91,8 @@ std::vector<Stretch> choose_stretches(const Problem& problem) {
   std::vector<bool> chosen(count, false);
   const auto in_order = [&](double Character::*of) {
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return like[a].*of < like[b].*of || (like[a].*of == like[b].*of && a < b);
+      if (like[a].*of != like[b].*of) return like[a].*of < like[b].*of;
+      return a < b;
     });
   };
   choose(order, chosen);
