@@ -88,7 +88,7 @@ std::string manual_page(const Parser& root) {
       "wrong\n";
   out +=
       ".TP\n3\ndone, but the result is invalid; standard error says why\n.TP\n128 + signal\nstopped by a "
-      "signal, 130 for Ctrl\\-C; the output is not written, or as told\n";
+      "signal, 130 for Ctrl\\-C; standard error says what was written\n";
   return out;
 }
 

@@ -190,6 +190,15 @@ TEST(Recover, SaysThatRowsAreMissingWhereNoneIsLeftToShowIt) {
   }
 }
 
+TEST(Recover, WithoutChecksumsNothingIsSaidToBeWhole) {
+  const testkit::TempDir dir;
+  record(dir / "rec");
+  const testkit::TempDir checked, unchecked;
+  EXPECT_TRUE(recover_recording(dir / "rec", checked.path()).lost_nothing());
+  fs::remove(dir / "rec/checksums.txt");
+  EXPECT_FALSE(recover_recording(dir / "rec", unchecked.path()).lost_nothing());
+}
+
 TEST(Recover, AHeaderThatReadsIsKept) {
   const testkit::TempDir dir;
   record(dir / "rec");

@@ -1,4 +1,4 @@
-// A study that goes on after a restart, its logs and its results' names.
+// A study that continues after a restart, its logs and its results' names.
 
 #include <cstdint>
 #include <cstdio>

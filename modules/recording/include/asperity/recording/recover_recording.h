@@ -34,6 +34,7 @@ struct RecoveredRecording {
   std::vector<std::string> taken_from_like;  // files
   std::vector<std::string> copied;           // files and folders that are as they were
 
+  // By the checksums of both streams: without them nobody knows what is missing.
   bool lost_nothing() const;
 };
 
