@@ -294,8 +294,8 @@ Json stream_json(const RecoveredStream& stream) {
 
 bool RecoveredRecording::lost_nothing() const {
   const auto whole = [](const RecoveredStream& stream) {
-    return stream.found && stream.checked && stream.changed_rows == 0 && stream.unreadable_rows == 0 && !stream.rows_missing &&
-           !stream.header_replaced;
+    return stream.found && stream.checked && stream.changed_rows == 0 && stream.unreadable_rows == 0 &&
+           !stream.rows_missing && !stream.header_replaced;
   };
   return whole(probe) && whole(tracker) && taken_from_like.empty();
 }
