@@ -59,20 +59,40 @@ Density density_over(const HeightErrors& errors, double duration_s) {
   return out;
 }
 
-// One draw, read at the times.
-std::vector<double> draw_at(const Density& density, const std::vector<double>& t_s, Random& random) {
-  const auto longer = static_cast<std::size_t>(std::ceil(static_cast<double>(density.count) / kSlowest_periods));
-  const std::vector<double> noise =
-      draw_noise(density.frequency_Hz, density.density_m2ps, longer, density.step_s, random);
-  std::vector<double> out(t_s.size());
-  for (std::size_t i = 0; i < t_s.size(); ++i) {
-    const double place = t_s[i] / density.step_s;
-    const auto k = static_cast<std::size_t>(place);
-    const double share = place - static_cast<double>(k);
-    out[i] = (1.0 - share) * noise[k] + share * noise[k + 1];
+// Draws of one density, read at the times. A drawn noise is 1/kSlowest_periods times as long as the profile; each of
+// its parts is a draw of its own: they have only the waves that are slower than the profile in common.
+class NoiseDraws {
+ public:
+  NoiseDraws(const Density& density, const std::vector<double>& t_s, Random& random)
+      : density_(density), t_s_(t_s), random_(random) {}
+
+  std::vector<double> next() {
+    if (part_ == kParts) {
+      noise_ =
+          draw_noise(density_.frequency_Hz, density_.density_m2ps, kParts * density_.count, density_.step_s, random_);
+      part_ = 0;
+    }
+    const double* noise = noise_.data() + part_++ * density_.count;
+    std::vector<double> out(t_s_.size());
+    for (std::size_t i = 0; i < t_s_.size(); ++i) {
+      const double place = t_s_[i] / density_.step_s;
+      const auto k = static_cast<std::size_t>(place);
+      const double share = place - static_cast<double>(k);
+      out[i] = (1.0 - share) * noise[k] + share * noise[k + 1];
+    }
+    return out;
   }
-  return out;
-}
+
+ private:
+  static constexpr std::size_t kParts = 4;
+  static_assert(kSlowest_periods * kParts == 1.0);
+
+  const Density& density_;
+  const std::vector<double>& t_s_;
+  Random& random_;
+  std::vector<double> noise_;
+  std::size_t part_ = kParts;
+};
 
 // Less the least-squares polynomial over the points that have a height.
 void subtract_polynomial(const std::vector<double>& like, int degree, std::vector<double>& y) {
@@ -181,12 +201,13 @@ DrawnErrors draw_height_errors(const Profile& profile, const HeightErrors& error
   const Density leaning = leans ? leaning_over(errors, height, t_s.back()) : Density{};
   const std::vector<double> lean = draw_sizes(draws);
   Random random(kErrorSeed);
+  NoiseDraws heights(height, t_s, random), places(along, t_s, random), leanings(leaning, t_s, random);
   double shape = 0.0;
   std::vector<std::vector<double>> all_moved_m;
   for (std::size_t j = 0; j < draws; ++j) {
-    std::vector<double> error_m = draw_at(height, t_s, random);
+    std::vector<double> error_m = heights.next();
     if (leans) {
-      const std::vector<double> leant_m = draw_at(leaning, t_s, random);
+      const std::vector<double> leant_m = leanings.next();
       for (std::size_t i = 0; i < error_m.size(); ++i) error_m[i] += lean[j] * leant_m[i];
     }
     for (std::size_t i = 0; i < error_m.size(); ++i) {
@@ -202,7 +223,7 @@ DrawnErrors draw_height_errors(const Profile& profile, const HeightErrors& error
 
     // The arc length's scale is no noise of the texture: it stretches all of it, and is in the errors of length and
     // pitch.
-    std::vector<double> moved_m = draw_at(along, t_s, random);
+    std::vector<double> moved_m = places.next();
     double middle_m = 0.0;
     for (std::size_t i = 0; i < moved_m.size(); ++i) {
       middle_m += moved_m[i] / static_cast<double>(moved_m.size());

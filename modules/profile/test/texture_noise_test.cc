@@ -104,7 +104,8 @@ TEST(TextureNoise, OfHeightsAtAWrongPlaceGrowsWithTheFrequency) {
   EXPECT_NEAR(1e3 * estimate.noise.place_sigma_m, shape_mm, 0.02 * shape_mm);
   const double phase = 2.0 * std::numbers::pi * shape_mm;
   const double expected_m = 50e-6 * std::sqrt(2.0 * (1.0 - std::exp(-0.5 * phase * phase)));
-  EXPECT_NEAR(inner_rms_m(estimate.noise.misplaced_sigma_m), expected_m, 0.02 * expected_m);
+  // Over 24 seeds of the draws the ratio was 1.000 with a standard deviation of 1.0 %: three of them.
+  EXPECT_NEAR(inner_rms_m(estimate.noise.misplaced_sigma_m), expected_m, 0.03 * expected_m);
   // Over all of the path, by the blocks' points.
   EXPECT_NEAR(estimate.noise.typical_misplaced_rms_m, expected_m, 0.05 * expected_m);
   EXPECT_LT(estimate.noise.added_rms_m, 0.01 * expected_m);
