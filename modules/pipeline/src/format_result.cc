@@ -161,6 +161,7 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
                     {"place_sigma_m", result.noise.place_sigma_m},
                     {"snr", result.noise.snr},
                     {"snr_low", result.noise.snr_low},
+                    {"expected_correlation", result.noise.expected_correlation},
                     {"at_most_m", result.noise.at_most_m},
                     {"high_pass_cycles_per_mm", ProcessMethods::get(config.method).high_pass_cycles_per_mm(config)}};
   out["speed_mps"] = {

@@ -67,8 +67,11 @@ void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise) {
   const double left = std::sqrt(kept_m2 + square(expected.error_ratio * noise.added_rms_m)) / noise.noise_rms_m;
   noise.noise_rms_m *= left;
   noise.noise_rms_stderr_m *= left;
+  double expected_m2 = 0.0, points = 0.0;
   for (std::size_t i = 0; i < profile.size(); ++i) {
     if (!std::isfinite(expected.texture_m[i])) continue;
+    expected_m2 += square(expected.texture_m[i]);
+    points += 1.0;
     profile.height_m[i] += expected.texture_m[i] - profile.texture_m[i];
     profile.texture_m[i] = expected.texture_m[i];
     profile.texture_sigma_m[i] = noise.added_sigma_m.empty()
@@ -78,6 +81,9 @@ void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise) {
     // Waves about the cut-off are in the texture and below it, in phase: what is left of heights is no difference of
     // powers.
     if (!noise.slow_sigma_m.empty()) profile.sigma_m[i] = std::hypot(noise.slow_sigma_m[i], profile.texture_sigma_m[i]);
+  }
+  if (points > 0.0) {
+    noise.expected_correlation = std::sqrt(expected_m2 / (expected_m2 + points * square(noise.noise_rms_m)));
   }
 }
 

@@ -193,6 +193,7 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
   out.texture_rms_m = result.noise.texture_rms_m;
   out.noise_rms_m = result.noise.noise_rms_m;
   out.snr = result.noise.snr;
+  out.expected_correlation = result.noise.expected_correlation;
   out.at_most_m = result.noise.at_most_m;
 }
 

@@ -29,8 +29,9 @@ constexpr double kOutlying_share = 0.2;
 constexpr double kDeparture_ratio = 2.5;  // of the path from the poses, over their noise
 constexpr double kTwoSided95 = 1.96;
 constexpr double kLeastContact_s = 0.1;
-constexpr double kInvisible_snr = 2.0;  // 1, and the expected noise is known to a factor of about 2 in power
-constexpr double kNoisy_snr = 5.0;      // a correlation with the surface of about 0.9
+constexpr double kInvisible_snr = 2.0;     // 1, and the expected noise is known to a factor of about 2 in power
+constexpr double kSeen_correlation = 0.9;  // of what the noise filter leaves with the surface
+constexpr double kNoisy_snr = 5.0;         // a correlation with the surface of about 0.9
 constexpr double kLeastCoverageWithoutForce = 0.9;  // near one surface, as a tip on it is
 constexpr double kLost_share = 0.2;                 // clipped, or dropped in reading
 constexpr double kRepeated_share = 0.5;
@@ -193,7 +194,7 @@ void judge_noise(const ScanEvidence& e, Verdicts& out) {
     out.push_back(make_verdict("error_unknown", "the method states no error of its heights"));
     return;
   }
-  if (e.snr < kInvisible_snr) {
+  if (e.snr < kInvisible_snr && !(e.expected_correlation >= kSeen_correlation)) {
     out.push_back(make_verdict(
         "below_noise", fmt::format("the texture does not stand out of its noise: below what this probe can see, at "
                                    "most {:.3g} µm RMS in {:.3g} µm of expected noise",

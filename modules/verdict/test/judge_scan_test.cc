@@ -119,6 +119,18 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
          e.noise_rms_m = 52e-6;
          e.at_most_m = 92e-6;
        }},
+      {"below_noise", "at most 92 µm RMS",
+       [](ScanEvidence& e) {
+         e.snr = 1.4;
+         e.expected_correlation = 0.89;
+         e.at_most_m = 92e-6;
+       }},
+      {"noisy_texture", "50 µm RMS 19 µm",
+       [](ScanEvidence& e) {
+         e.snr = 1.4;
+         e.expected_correlation = 0.91;
+         e.noise_rms_m = 19e-6;
+       }},
       {"noisy_texture", "50 µm RMS 19 µm",
        [](ScanEvidence& e) {
          e.snr = 3.0;

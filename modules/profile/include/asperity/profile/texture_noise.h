@@ -78,6 +78,10 @@ struct TextureNoise {
   double snr = kNan;
   double snr_low = kNan;           // with the largest noise that is possible, 97.5 %
   double measured_snr_low = kNan;  // the same, none removed, the added noise alone
+  // Where noise was removed: the correlation with the surface that the expected texture has by its own RMS t and its
+  // noise e, t/√(t² + e²). It counts frequency by frequency, so a line that stands out of noise which is as strong in
+  // all is seen.
+  double expected_correlation = kNan;
   // The RMS that the surface's texture has at most, with 97.5 % of the noises that are possible.
   double at_most_m = kNan;
 };

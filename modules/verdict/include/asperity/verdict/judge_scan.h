@@ -61,9 +61,10 @@ struct ScanEvidence {
   double tracker_length_m = kUnknown;  // by the poses alone, over the same times
   double tracker_length_stderr_m = kUnknown;
   double texture_rms_m = kUnknown;
-  double noise_rms_m = kUnknown;  // expected in it
-  double snr = kUnknown;          // power of the surface over that of the noise
-  double at_most_m = kUnknown;    // upper bound of the surface's RMS, 97.5 %
+  double noise_rms_m = kUnknown;           // expected in it
+  double snr = kUnknown;                   // power of the surface over that of the noise
+  double expected_correlation = kUnknown;  // of the texture, noise removed, with the surface
+  double at_most_m = kUnknown;             // upper bound of the surface's RMS, 97.5 %
 };
 
 // The verdicts on a scan, the worst first; a nothing-touched scan has no other on its surface. The only place that
