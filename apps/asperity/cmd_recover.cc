@@ -16,15 +16,10 @@ namespace asperity::app {
 namespace {
 
 Json stream_json(const RecoveredStream& stream) {
-  Json out = Json::object();
+  Json out = losses_json(stream);
   out["file"] = stream.file;
   out["found"] = stream.found;
   out["checked"] = stream.checked;
-  out["rows"] = stream.rows;
-  out["changed_rows"] = stream.changed_rows;
-  out["unreadable_rows"] = stream.unreadable_rows;
-  out["rows_missing"] = stream.rows_missing;
-  out["header_replaced"] = stream.header_replaced;
   out["messages"] = stream.messages;
   return out;
 }

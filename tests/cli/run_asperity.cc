@@ -10,6 +10,7 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -22,11 +23,17 @@ namespace asperity::cli {
 
 namespace {
 
+// The built program, or the one that ASPERITY_OTHER_PROGRAM names while ASPERITY_USE_OTHER is set.
+std::string program() {
+  const char* other = ::getenv("ASPERITY_OTHER_PROGRAM");
+  return other != nullptr && ::getenv("ASPERITY_USE_OTHER") != nullptr ? other : ASPERITY_BINARY;
+}
+
 class Process {
  public:
   Process(const std::vector<std::string>& arguments, const std::string& out_path) {
     std::vector<char*> argv;
-    std::vector<std::string> words{ASPERITY_BINARY};
+    std::vector<std::string> words{program()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
@@ -40,11 +47,11 @@ class Process {
       posix_spawn_file_actions_addopen(&actions, 1, out_path.c_str(), O_WRONLY | O_CREAT, 0644);
     }
     posix_spawn_file_actions_adddup2(&actions, err_[1], 2);
-    const int error = ::posix_spawn(&id_, ASPERITY_BINARY, &actions, nullptr, argv.data(), environ);
+    const int error = ::posix_spawn(&id_, words.front().c_str(), &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     ::close(out_[1]);
     ::close(err_[1]);
-    if (error != 0) throw std::runtime_error("cannot start " ASPERITY_BINARY);
+    if (error != 0) throw std::runtime_error("cannot start " + words.front());
   }
 
   void send(int signal) const { ::kill(id_, signal); }

@@ -8,8 +8,8 @@
 
 #include "asperity/algebra/solve.h"
 #include "asperity/base/error.h"
+#include "asperity/signal/student.h"
 #include "fit_accelerometer_model.h"
-#include "student.h"
 
 namespace asperity {
 

@@ -9,7 +9,7 @@
 
 #include "asperity/algebra/solve.h"
 #include "asperity/base/error.h"
-#include "student.h"
+#include "asperity/signal/student.h"
 
 namespace asperity {
 

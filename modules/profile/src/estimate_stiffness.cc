@@ -173,13 +173,15 @@ StiffnessEstimate estimate_stiffness(const TipMotion& motion, const BasePath& ba
     out.verdict = "the recording is too short for the band below the texture";
     return out;
   }
-  const double sigma = std::sqrt(slope.variance);
-  out.compliance_mm_per_N = 1e3 * slope.compliance;
-  out.compliance_stderr_mm_per_N = 1e3 * sigma;
+  double sigma = std::sqrt(slope.variance);
   if (slope.compliance < -config.significance * sigma) {
     out.verdict = "height and force rise together below the texture's band: the relief hides any sinking";
     return out;
   }
+  // No surface rises under the force: what the slope is below 0 by is an error that was seen.
+  sigma = std::hypot(sigma, std::min(slope.compliance, 0.0));
+  out.compliance_mm_per_N = 1e3 * slope.compliance;
+  out.compliance_stderr_mm_per_N = 1e3 * sigma;
   out.lower_bound_N_per_mm = 1e-3 / (std::max(slope.compliance, 0.0) + kBoundSigmas * sigma);
   out.measured = slope.compliance > config.significance * sigma;
   if (out.measured) {

@@ -280,7 +280,9 @@ void copy_others(const fs::path& folder, const fs::path& to, RecoveredRecording&
   }
 }
 
-Json stream_json(const RecoveredStream& stream) {
+}  // namespace
+
+Json losses_json(const RecoveredStream& stream) {
   Json out = Json::object();
   out["rows"] = stream.rows;
   out["changed_rows"] = stream.changed_rows;
@@ -289,8 +291,6 @@ Json stream_json(const RecoveredStream& stream) {
   out["header_replaced"] = stream.header_replaced;
   return out;
 }
-
-}  // namespace
 
 bool RecoveredRecording::lost_nothing() const {
   const auto whole = [](const RecoveredStream& stream) {
@@ -335,8 +335,8 @@ RecoveredRecording recover_recording(const fs::path& folder, const fs::path& out
              checksum_header() + checksum_lines("probe.csv", probe) + checksum_lines("tracker.csv", tracker));
   copy_others(folder, out, result);
   write_calibration(out / "calibration.json", calibration);
-  info.extra["recovered"] = {{"probe", stream_json(result.probe)},
-                             {"tracker", stream_json(result.tracker)},
+  info.extra["recovered"] = {{"probe", losses_json(result.probe)},
+                             {"tracker", losses_json(result.tracker)},
                              {"taken_from_another", result.taken_from_like}};
   write_recording_info(out / "recording.json", info);
   observer.update("recovering", 1.0);

@@ -1,7 +1,6 @@
 #include "asperity/rig/check_rig.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -11,19 +10,11 @@
 #include "asperity/base/error.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/signal/statistics.h"
+#include "asperity/signal/student.h"
 
 namespace asperity {
 
 namespace {
-
-// 97.5 % of Student's t; beyond the table by the first terms of its expansion, right to 1e-3.
-double student_t(std::size_t freedom) {
-  constexpr std::array<double, 10> kTable{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
-  if (freedom <= kTable.size()) return kTable[freedom - 1];
-  constexpr double z = 1.959964;
-  const auto n = static_cast<double>(freedom);
-  return z + (z * z * z + z) / (4.0 * n) + (5.0 * std::pow(z, 5) + 16.0 * z * z * z + 3.0 * z) / (96.0 * n * n);
-}
 
 template <class ValueOf>
 std::vector<double> values_of(const std::vector<RigStroke>& strokes, ValueOf value_of) {
@@ -44,7 +35,8 @@ RepeatedMeasurement repeated(const std::vector<RigStroke>& strokes, ValueOf valu
   out.mean = mean(values);
   if (values.size() < 2) return out;
   out.deviation = standard_deviation(values);
-  out.half_width = student_t(values.size() - 1) * out.deviation / std::sqrt(static_cast<double>(values.size()));
+  const auto count = static_cast<double>(values.size());
+  out.half_width = student_quantile(0.95, count - 1.0) * out.deviation / std::sqrt(count);
   return out;
 }
 

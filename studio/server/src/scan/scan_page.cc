@@ -20,6 +20,7 @@
 #include "scan/refine_scan.h"
 #include "scan/replay_source.h"
 #include "scan/scan_choices.h"
+#include "scan/scan_devices.h"
 #include "scan/scan_session.h"
 #include "scan/temporary_folder.h"
 
@@ -30,23 +31,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t kClosedStatePeriod_ns = 500'000'000;
-
-// The devices that are there, by name alone: none is opened.
-Json devices_json() {
-  std::vector<std::string> serial, cameras;
-  std::error_code error;
-  for (fs::directory_iterator entry("/dev", error), end; !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    if (name.starts_with("ttyUSB") || name.starts_with("ttyACM")) serial.push_back("serial:/dev/" + name);
-    if (name.starts_with("video")) cameras.push_back("v4l2:/dev/" + name);
-  }
-  std::sort(serial.begin(), serial.end());
-  std::sort(cameras.begin(), cameras.end());
-  Json out;
-  out["serial"] = serial;
-  out["cameras"] = cameras;
-  return out;
-}
 
 std::unique_ptr<ScanSource> open_source(const ScanChoices& choices, const ScanConfig& config,
                                         const std::optional<fs::path>& recording, const Observer& observer) {

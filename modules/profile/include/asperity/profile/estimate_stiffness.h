@@ -52,9 +52,10 @@ struct StiffnessEstimate {
 // freed of a straight line (a tilt of the base cannot be told from a force that rises evenly: a ramp helps by
 // what it is not straight), tapered (Hann) and transformed; the compliance is the weighted least squares
 // slope of -h on F with the inverse of the residual's own smoothed spectrum as weight. The standard error is
-// that regression's with the taper's correlation between neighbours; it is honest for drift of any colour. If
-// it is not significant, only the lower bound of the stiffness is to be used. A significantly negative
-// slope shows that texture dominates the band: nothing is then given. Throws Error if the sizes differ.
+// that regression's with the taper's correlation between neighbours; it is honest for drift of any colour. What
+// the slope is below 0 by is in it too: no surface rises under the force, so that much error was seen. If the slope is
+// not significant, only the lower bound of the stiffness is to be used. A significantly negative one shows that
+// texture dominates the band: nothing is then given. Throws Error if the sizes differ.
 StiffnessEstimate estimate_stiffness(const TipMotion& motion, const BasePath& base, std::span<const char> contact,
                                      const StiffnessConfig& config);
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "asperity/base/progress.h"
+#include "asperity/json/json.h"
 #include "asperity/recording/read_limits.h"
 
 namespace asperity {
@@ -27,6 +28,9 @@ struct RecoveredStream {
   bool header_replaced = false;       // the header was unreadable; the one of as many columns was put in its place
   std::vector<std::string> messages;  // where, a line each
 };
+
+// Its counts, as extra.recovered of recording.json has them.
+Json losses_json(const RecoveredStream& stream);
 
 struct RecoveredRecording {
   RecoveredStream probe;

@@ -1,4 +1,4 @@
-#include "student.h"
+#include "asperity/signal/student.h"
 
 #include <cmath>
 
