@@ -20,4 +20,11 @@ std::filesystem::path write_target(const Project& project, const Request& reques
   return target;
 }
 
+void put_in_place(OutputFolder& folder, const std::string& name, Hub& hub) {
+  for (const std::filesystem::path& kept : folder.commit()) {
+    const std::string file = printable(name, 200) + "/" + printable(kept.string(), 200);
+    hub.broadcast("note", Json{{"message", file + " was put there meanwhile; it was kept"}, {"hint", ""}});
+  }
+}
+
 }  // namespace asperity::studio

@@ -279,9 +279,8 @@ void AlignPage::write(const Request& request) {
   const std::string name = request.text("name");
   write_target(shared_.project, request);
   answer_by_job(shared_.jobs, request, "Writing " + name, "align.write",
-                [taken = std::move(taken), name, project = shared_.project](const Observer& observer) {
-                  return write_alignment(taken, project, name, observer);
-                });
+                [taken = std::move(taken), name, project = shared_.project, hub = &shared_.hub](
+                    const Observer& observer) { return write_alignment(taken, project, name, *hub, observer); });
 }
 
 void AlignPage::send_iterations() {

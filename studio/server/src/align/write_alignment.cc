@@ -12,6 +12,7 @@
 #include "asperity/studio/calls.h"
 #include "asperity/verdict/verdict_json.h"
 #include "json_pose.h"
+#include "write_target.h"
 
 namespace asperity::studio {
 
@@ -60,7 +61,7 @@ std::string command_of(const AlignChoice& choice, const Start& start, const std:
 
 }  // namespace
 
-Json write_alignment(const AlignChoice& choice, const Project& project, const std::string& name,
+Json write_alignment(const AlignChoice& choice, const Project& project, const std::string& name, Hub& hub,
                      const Observer& observer) {
   const Start start = start_of(choice);
   OutputFolder folder(project.writable(name), is_registration_folder);
@@ -73,7 +74,7 @@ Json write_alignment(const AlignChoice& choice, const Project& project, const st
   const ScansOnMesh result = register_input(input, start.guess, run_config(choice, start.near), observer);
   observer.update("writing", 1.0);
   write_registration(folder.path(), result, input.scans, input.mesh, input.unit_m);
-  folder.commit();
+  put_in_place(folder, name, hub);
 
   Json out;
   out["name"] = name;

@@ -7,6 +7,7 @@
 #include "align/align_choice.h"
 #include "asperity/base/progress.h"
 #include "asperity/studio/block.h"
+#include "asperity/studio/hub.h"
 #include "asperity/studio/project.h"
 
 namespace asperity::studio {
@@ -15,7 +16,7 @@ namespace asperity::studio {
 // does: from where the choice's registration began if the pose is its own, else from the pose. Gives {"name","scene",
 // "trustworthy","verdict","T_mesh_world","command"}, the command being the line that writes the same. Throws Advice
 // without a pose, Error as register_scans and OutputFolder do, and Cancelled: then nothing is written.
-Json write_alignment(const AlignChoice& choice, const Project& project, const std::string& name,
+Json write_alignment(const AlignChoice& choice, const Project& project, const std::string& name, Hub& hub,
                      const Observer& observer);
 
 }  // namespace asperity::studio

@@ -163,7 +163,8 @@ class PaintPage : public Page {
     const std::string name = request.text("name");
     const fs::path target = write_target(shared_.project, request);
     answer_by_job(shared_.jobs, request, "Writing " + name, "paint.write",
-                  [cache = cache_, project = &shared_.project, painting, file, target, name](const Observer& observer) {
+                  [cache = cache_, project = &shared_.project, hub = &shared_.hub, painting, file, target,
+                   name](const Observer& observer) {
                     OutputFolder folder(target, is_our_folder);
                     const PaintedScene painted =
                         paint_all(cache->read(file, painting.unit_m, observer), painting, *project, observer);
@@ -174,7 +175,7 @@ class PaintPage : public Page {
                     write_scene(folder.path() / "scene.json", painted.scene);
                     write_file(folder.path() / "paint.json", painting_json(painted, painting).dump_repaired(2) + "\n");
                     write_listing(folder.path());
-                    folder.commit();
+                    put_in_place(folder, name, *hub);
                     return Json{{"scene", name + "/scene.json"}};
                   });
   }
@@ -188,13 +189,13 @@ class PaintPage : public Page {
     const std::string name = request.text("name");
     const fs::path target = write_target(shared_.project, request);
     answer_by_job(shared_.jobs, request, "Exporting " + name, "paint.export",
-                  [source, format, target, name](const Observer& observer) {
+                  [source, format, target, name, hub = &shared_.hub](const Observer& observer) {
                     OutputFolder folder(target, is_our_folder);
                     observer.update("reading", 0.0);
                     const Scene scene = read_export_source(source, observer);
                     observer.update("exporting", 0.3);
                     Json out = write_export(folder.path(), export_scene(scene, format, {}));
-                    folder.commit();
+                    put_in_place(folder, name, *hub);
                     out["folder"] = name;
                     return out;
                   });

@@ -78,7 +78,9 @@ Json write_results(const fs::path& target, const std::vector<NamedScan>& scans, 
   if (files.empty() && first_fault) std::rethrow_exception(first_fault);
   observer.update("writing", 1.0);
   if (items.size() > 1) write_report(folder.path(), items);
-  folder.commit();
+  for (const fs::path& kept : folder.commit()) {
+    notes.push_back(printable(kept.string(), 200) + " was put there meanwhile; it was kept");
+  }
   return {{"files", std::move(files)}, {"notes", std::move(notes)}};
 }
 
