@@ -18,6 +18,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -242,10 +243,21 @@ bool soak(double minutes, const std::filesystem::path& programs) {
   Child record("record", {(programs / "record_soak").string(), std::to_string(minutes), dir / "recording"},
                dir / "record.txt");
   Child studio("studio", {asperity, "studio", dir / "project", "--port", "0", "--no-open"}, dir / "studio.txt");
-  Child feel("feel",
-             {asperity, "feel", dir / "block.obj", "--mesh-unit", "m", "--device", "2diy", "--set",
-              "2diy.port=" + board.port(), "--set", "servo.frame.translation_m=[1e-9, 0, 0]", "--duration", "36000s"},
-             dir / "feel.txt");
+  const std::vector<std::string> feel_words{asperity,
+                                            "feel",
+                                            dir / "block.obj",
+                                            "--mesh-unit",
+                                            "m",
+                                            "--device",
+                                            "2diy",
+                                            "--set",
+                                            "2diy.port=" + board.port(),
+                                            "--set",
+                                            "servo.frame.translation_m=[1e-9, 0, 0]",
+                                            "--duration",
+                                            "36000s"};
+  auto feel = std::make_unique<Child>("feel", feel_words, dir / "feel.txt");
+  int begun_again = 0;
   const std::string address = address_of(dir / "studio.txt");
   const int port = std::stoi(address.substr(std::string("http://127.0.0.1:").size()));
   const std::string cookie = asperity::studio::session_cookie(port, address);
@@ -255,7 +267,7 @@ bool soak(double minutes, const std::filesystem::path& programs) {
   for (std::size_t i = 0; i < windows.size(); ++i)
     threads.emplace_back([&, i] { watch(port, cookie, i == 0, stop, windows[i]); });
 
-  const std::array<Child*, 3> children{&record, &studio, &feel};
+  std::array<Child*, 3> children{&record, &studio, feel.get()};
   std::array<std::vector<Child::Reading>, 3> readings;
   bool well = true;
   double held = 0.0, looked = 0.0, most_N = 0.0;
@@ -266,6 +278,13 @@ bool soak(double minutes, const std::filesystem::path& programs) {
   for (int reading = 1; reading <= kReadings && well; ++reading) {
     while (s_since(start) < duration_s * (reading - 0.2) / kReadings) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      // A machine too busy for the loop ends the force, as it must; that is told, and it is no pass.
+      if (feel->wait(0.0) >= 0) {
+        std::printf("feel ended:\n%s\n", last_lines(dir / "feel.txt").c_str());
+        feel = std::make_unique<Child>("feel", feel_words, dir / "feel.txt");
+        children[2] = feel.get();
+        ++begun_again;
+      }
       if (s_since(start) < 20.0) continue;
       const double force_N = board.force_N().norm();
       looked += 1.0;
@@ -290,9 +309,9 @@ bool soak(double minutes, const std::filesystem::path& programs) {
   const int recorded = well ? record.wait(0.1 * duration_s + 60.0) : -1;
   stop = true;
   for (std::thread& thread : threads) thread.join();
-  feel.send(SIGINT);
+  feel->send(SIGINT);
   studio.send(SIGINT);
-  feel.wait(10.0);
+  feel->wait(10.0);
   studio.wait(20.0);
 
   std::printf("\n%s\n", last_lines(dir / "record.txt").c_str());
@@ -307,7 +326,7 @@ bool soak(double minutes, const std::filesystem::path& programs) {
     well = well && w.failure.empty() && w.lost_rows == 0 && w.rows > 0 && w.ticks > 0 && w.errors == 0;
   }
   // A machine that stands still ends the force, and a point that comes back inside an object feels nothing.
-  std::printf("feel: force at the board in %.1f %% of the time, %.2f N at most\n%s",
+  std::printf("feel: begun again %d times; force at the board in %.1f %% of the time, %.2f N at most\n%s", begun_again,
               100.0 * held / std::max(1.0, looked), most_N, last_lines(dir / "feel.txt").c_str());
   for (std::size_t i = 0; i < children.size(); ++i) {
     if (readings[i].size() < 2) continue;
@@ -318,6 +337,7 @@ bool soak(double minutes, const std::filesystem::path& programs) {
     well = well && last.memory_MiB - first.memory_MiB < kMostGrowth_MiB && last.descriptors <= first.descriptors &&
            last.threads <= first.threads;
   }
+  well = well && begun_again == 0;
   std::printf("%s\n", well ? "passed" : "FAILED");
   return well;
 }
