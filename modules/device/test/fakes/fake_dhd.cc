@@ -19,6 +19,9 @@ struct State {
   bool open = false;
   bool force_enabled = false;
   bool wrong_device = false;
+  bool expert = false;
+  bool no_watchdog = false;
+  unsigned char watchdog_steps = 0;     // of 125 µs
   long forces_left = -1;                // until it is unplugged, told by FAKE_DHD_UNPLUG_AFTER; negative: it never is
   double motor_N[3] = {0.0, 0.0, 0.0};  // as commanded, x right, y up, z toward the user
   const char* error = "no error";
@@ -111,6 +114,30 @@ int dhdSetForce(double x, double y, double z, char id) {
   return norm_N > kMaxForce_N ? 2 : 0;
 }
 
+int dhdEnableExpertMode() {
+  state().expert = true;
+  return 0;
+}
+
+int dhdDisableExpertMode() {
+  state().expert = false;
+  return 0;
+}
+
+int dhdSetWatchdog(unsigned char steps, char id) {
+  if (refusal(id) < 0) return -1;
+  if (!state().expert) return fail("expert mode is off");
+  if (state().no_watchdog) return fail("not available");
+  state().watchdog_steps = steps;
+  return 0;
+}
+
+int dhdGetWatchdog(unsigned char* steps, char id) {
+  if (refusal(id) < 0) return -1;
+  *steps = state().watchdog_steps;
+  return 0;
+}
+
 int dhdGetButtonMask(char id) { return refusal(id) < 0 ? -1 : 5; }
 
 #ifndef FAKE_DHD_INCOMPLETE
@@ -127,6 +154,7 @@ void fake_dhd_set(const char* what, int value) {
   if (std::strcmp(what, "stalled") == 0) state().stalled = value != 0;
   if (std::strcmp(what, "refuses_force") == 0) state().refuses_force = value != 0;
   if (std::strcmp(what, "refuses_position") == 0) state().refuses_position = value != 0;
+  if (std::strcmp(what, "no_watchdog") == 0) state().no_watchdog = value != 0;
   if (std::strcmp(what, "failures") == 0) state().failures_to_come = value;
 }
 void fake_dhd_move(double x, double y, double z) {
@@ -136,6 +164,8 @@ void fake_dhd_move(double x, double y, double z) {
 }
 void fake_dhd_motor(double* out_N) { std::memcpy(out_N, state().motor_N, sizeof state().motor_N); }
 int fake_dhd_wrong_device() { return state().wrong_device ? 1 : 0; }
+int fake_dhd_watchdog_steps() { return state().watchdog_steps; }
+int fake_dhd_expert() { return state().expert ? 1 : 0; }
 int fake_dhd_force_enabled() { return state().force_enabled ? 1 : 0; }
 int fake_dhd_open() { return state().open ? 1 : 0; }
 }
