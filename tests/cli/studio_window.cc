@@ -49,7 +49,7 @@ Json StudioWindow::call(const std::string& name, const Json& arguments) {
 }
 
 void StudioWindow::edit(const std::string& path, const Json& value) {
-  call("document.edit", {{"path", path}, {"value", value}, {"label", "test"}});
+  call("document.edit", {{"path", path}, {"value", value}, {"label", "test"}, {"gesture", ""}});
 }
 
 void StudioWindow::keep_lease() {

@@ -119,7 +119,7 @@ class HaplyDevice final : public IoDevice {
         }
       }
       now = Clock::now();
-      if (now - last_current > lost_after) fail_late(now - last_state > stall_after);
+      if (now - last_current > lost_after) fail_late(last_state == last_current);
       if (questions_.open() > 0 && now - last_state >= stall_after && !zero_sent) {
         // A service that wakes finds a zero force behind the stale one. Its answers are then two.
         send(Eigen::Vector3d::Zero(), false, last_state + lost_after);

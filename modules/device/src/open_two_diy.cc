@@ -225,7 +225,7 @@ class TwoDiy final : public IoDevice {
       if (!answered && !stalled) zero_asked = false;
       stalled = !answered || (stalled && !questions_.trusted());
       if (questions_.trusted() && answered) last_current = now;
-      if (now - last_current > lost_after) fail_late(now - heard_at_ > stall_after);
+      if (now - last_current > lost_after) fail_late(heard_at_ <= last_current);
       due = std::max(due + period, now);
       std::this_thread::sleep_until(due);
     }
