@@ -1,6 +1,8 @@
 // Program × device × fault: the force is at zero in time, or no larger than before. Each cell prints a row;
 // FAULT_MATRIX=FILE appends them to a file, from which scripts/fault_matrix makes the table of docs/safety.md.
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sched.h>
 
 #include <chrono>
 #include <csignal>
@@ -25,7 +27,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr double kPromised_ms = 150.0;
 constexpr double kKick_N = 0.1;
-constexpr double kHolds_N = 0.3;  // the hand is against the block
+constexpr double kHolds_N = 0.3;   // the hand is against the block
+constexpr double kSteady_N = 0.2;  // and rests there: the force varies by no more
+// A machine that is busy with other things may itself make answers late. Such an attempt proves nothing: the test's own
+// thread was not run for so long, or the hand did not come to rest. The last attempt counts in any case.
+constexpr double kBusy_ms = 8.0;
+constexpr int kAttempts = 6;
 
 struct Cell {
   std::string program;  // "feel" or "studio"
@@ -47,10 +54,35 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
+// The played devices and who looks at them answer in time on a busy machine too, where the system permits it: threads
+// that this one starts while the object lives have a priority below the servo's.
+class InTime {
+ public:
+  InTime() { set(SCHED_FIFO, 60); }
+  ~InTime() { set(SCHED_OTHER, 0); }
+  InTime(const InTime&) = delete;
+  InTime& operator=(const InTime&) = delete;
+
+ private:
+  static void set(int policy, int priority) {
+    sched_param parameters{};
+    parameters.sched_priority = priority;
+    ::pthread_setschedparam(::pthread_self(), policy, &parameters);
+  }
+};
+
+std::unique_ptr<PlayedDevice> play_in_time(const std::string& name) {
+  const InTime threads;
+  return play_device(name);
+}
+
 // What the device gave from 0.3 s before the fault to 1 s after it.
 struct Course {
   double before_N = 0.0, most_N = 0.0, last_N = -1.0;
   double zero_ms = -1.0;  // from when on it is zero
+  double gap_ms = 0.0;    // the longest for which nobody looked
+
+  bool proves() const { return before_N > kHolds_N && gap_ms < kBusy_ms; }
 };
 
 void tell(const Cell& cell, const Course& course) {
@@ -90,23 +122,67 @@ class FaultMatrix : public testing::TestWithParam<Cell> {
 
   Course watch(PlayedDevice& device, pid_t program) const {
     Course out;
-    // Held without a gap: a machine that is loaded may have lost it in between.
+    double least_N = 0.0;
     const auto start = Clock::now();
-    for (auto held = start; ms_since(held) < 300.0 && ms_since(start) < 20e3;) {
+    for (auto rests = start; ms_since(rests) < 300.0;) {
+      if (ms_since(start) > 8e3) return out;
       const double now_N = device.force_N();
-      if (!(now_N > kHolds_N)) held = Clock::now();
-      out.before_N = now_N > kHolds_N ? std::max(out.before_N, now_N) : 0.0;
+      if (out.before_N == 0.0) least_N = now_N;
+      least_N = std::min(least_N, now_N);
+      out.before_N = std::max(out.before_N, now_N);
+      if (!(least_N > kHolds_N) || out.before_N - least_N > kSteady_N) {
+        rests = Clock::now();
+        out.before_N = 0.0;
+      }
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     const auto begins = Clock::now();
     device.begin(GetParam().fault, program, path("clock_ahead"));
-    while (ms_since(begins) < 1000.0) {
+    for (double last_ms = 0.0; last_ms < 1000.0;) {
       out.last_N = device.force_N();
       out.most_N = std::max(out.most_N, out.last_N);
+      const double now_ms = ms_since(begins);
       if (out.last_N > 0.0) out.zero_ms = -1.0;
-      if (out.last_N == 0.0 && out.zero_ms < 0.0) out.zero_ms = ms_since(begins);
+      if (out.last_N == 0.0 && out.zero_ms < 0.0) out.zero_ms = now_ms;
+      out.gap_ms = std::max(out.gap_ms, now_ms - last_ms);
+      last_ms = now_ms;
       std::this_thread::sleep_for(std::chrono::microseconds(500));
     }
+    return out;
+  }
+
+  struct Attempt {
+    Course course;
+    Outcome outcome;
+    std::string refused;
+  };
+
+  Attempt attempt(const Cell& cell) const {
+    const bool suspends = cell.fault == FaultKind::kSuspend;
+    const std::unique_ptr<PlayedDevice> device = play_in_time(cell.device);
+    write_text(path("block.obj"), block_obj(device->low_m, device->high_m));
+    write_text(path("clock_ahead"), std::string(8, '\0'));
+    std::filesystem::remove(path("out"));
+    if (suspends) {
+      ::setenv("LD_PRELOAD", CLOCK_SHIM, 1);
+      ::setenv("CLOCK_AHEAD", path("clock_ahead").c_str(), 1);
+    }
+    Attempt out;
+    const auto meddle = [&](pid_t program) {
+      ::unsetenv("LD_PRELOAD");
+      ::unsetenv("CLOCK_AHEAD");
+      const InTime us;
+      std::unique_ptr<StudioWindow> window;
+      try {
+        if (cell.program == "studio") window = begin_in_studio();
+        out.course = watch(*device, program);
+      } catch (const std::exception& error) {
+        out.refused = error.what();
+      }
+      ::kill(program, SIGCONT);
+      ::kill(program, SIGTERM);
+    };
+    out.outcome = run_and_meddle(words(*device), meddle, path("out"));
     return out;
   }
 
@@ -115,31 +191,11 @@ class FaultMatrix : public testing::TestWithParam<Cell> {
 
 TEST_P(FaultMatrix, Cell) {
   const Cell& cell = GetParam();
-  const bool suspends = cell.fault == FaultKind::kSuspend;
-  if (suspends && std::string_view(CLOCK_SHIM).empty()) GTEST_SKIP() << "a sanitizer's runtime bears no preloaded shim";
-  const std::unique_ptr<PlayedDevice> device = play_device(cell.device);
-  write_text(path("block.obj"), block_obj(device->low_m, device->high_m));
-  write_text(path("clock_ahead"), std::string(8, '\0'));
-  if (suspends) {
-    ::setenv("LD_PRELOAD", CLOCK_SHIM, 1);
-    ::setenv("CLOCK_AHEAD", path("clock_ahead").c_str(), 1);
-  }
-  Course course;
-  std::string refused;
-  const auto meddle = [&](pid_t program) {
-    ::unsetenv("LD_PRELOAD");
-    ::unsetenv("CLOCK_AHEAD");
-    std::unique_ptr<StudioWindow> window;
-    try {
-      if (cell.program == "studio") window = begin_in_studio();
-      course = watch(*device, program);
-    } catch (const std::exception& error) {
-      refused = error.what();
-    }
-    ::kill(program, SIGCONT);
-    ::kill(program, SIGTERM);
-  };
-  const Outcome outcome = run_and_meddle(words(*device), meddle, path("out"));
+  if (cell.fault == FaultKind::kSuspend && std::string_view(CLOCK_SHIM).empty())
+    GTEST_SKIP() << "a sanitizer's runtime bears no preloaded shim";
+  Attempt tried = attempt(cell);
+  for (int i = 1; i < kAttempts && !tried.course.proves(); ++i) tried = attempt(cell);
+  const auto& [course, outcome, refused] = tried;
   ASSERT_EQ(refused, "") << outcome.err;
   ASSERT_GT(course.before_N, kHolds_N) << outcome.err;
   EXPECT_TRUE(outcome.code < 128 || outcome.code == 128 + SIGTERM) << outcome.code << outcome.err;
@@ -154,9 +210,15 @@ TEST_P(FaultMatrix, Cell) {
 
 std::vector<Cell> cells() {
   std::vector<Cell> out;
-  for (const char* device : {"2diy", "haply"}) {
+  // Its calls return one position each: there is no answer that could come twice, late or in another order.
+  const auto dhd_has = [](FaultKind kind) {
+    return kind == FaultKind::kStop || kind == FaultKind::kSuspend || kind == FaultKind::kHang ||
+           kind == FaultKind::kUnplug || kind == FaultKind::kGlitch || kind == FaultKind::kGarbage;
+  };
+  for (const char* device : {"2diy", "haply", "dhd"}) {
     for (std::size_t i = 0; i < kFaultNames.size(); ++i) {
       const auto kind = static_cast<FaultKind>(i);
+      if (device == std::string("dhd") && !dhd_has(kind)) continue;
       if (kind == FaultKind::kCut && device == std::string("2diy")) continue;  // its cable is the plug
       for (const char* program : {"feel", "studio"}) out.push_back({program, device, kind});
     }

@@ -1,14 +1,22 @@
 #include "played_device.h"
 
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "asperity/testkit/temp_dir.h"
 #include "fake_inverse_service.h"
 #include "fake_two_diy_board.h"
+#include "fakes/fake_controller.h"
 
 namespace asperity::cli {
 
@@ -94,6 +102,51 @@ class PlayedHaply final : public PlayedDevice {
   FakeInverseService service_;
 };
 
+// The driver is a fake in the program itself; its controller is a page that both see, and obeys its watchdog here.
+class PlayedDhd final : public PlayedDevice {
+ public:
+  PlayedDhd() {
+    low_m = {-0.1, -0.1, -0.1};
+    high_m = {0.1, kStart_m - kAway_m, 0.1};
+    const std::string path = (dir_ / "controller").string();
+    std::ofstream(path, std::ios::binary) << std::string(sizeof(fake::Controller), '\0');
+    const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
+    void* const at = ::mmap(nullptr, sizeof(fake::Controller), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    ::close(file);
+    if (at == MAP_FAILED) throw std::runtime_error("no shared page");
+    controller_ = static_cast<fake::Controller*>(at);
+    ::setenv("FAKE_DHD_CONTROLLER", path.c_str(), 1);
+  }
+  ~PlayedDhd() override {
+    ::unsetenv("FAKE_DHD_CONTROLLER");
+    ::munmap(controller_, sizeof(fake::Controller));
+  }
+
+  std::string setting() const override { return std::string("dhd.library=") + FAKE_DHD; }
+
+  double force_N() const override {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    const std::chrono::nanoseconds silence = now - std::chrono::nanoseconds(controller_->set_at_ns);
+    const auto patience = std::chrono::microseconds(125) * controller_->watchdog_steps;
+    const bool off = controller_->enabled == 0 || controller_->trouble == fake::Controller::kUnplugged ||
+                     (controller_->watchdog_steps > 0 && silence > patience);
+    return off ? 0.0 : Eigen::Vector3d(controller_->force_N).norm();
+  }
+
+ private:
+  static constexpr double kStart_m = 0.02;  // where the fake's hand begins
+
+  void trouble(FaultKind kind) override {
+    controller_->trouble = kind == FaultKind::kHang     ? fake::Controller::kHangs
+                           : kind == FaultKind::kUnplug ? fake::Controller::kUnplugged
+                           : kind == FaultKind::kGlitch ? fake::Controller::kGlitch
+                                                        : fake::Controller::kGarbage;
+  }
+
+  testkit::TempDir dir_;
+  fake::Controller* controller_ = nullptr;
+};
+
 }  // namespace
 
 void PlayedDevice::begin(FaultKind kind, pid_t program, const std::filesystem::path& clock_ahead) {
@@ -110,6 +163,7 @@ void PlayedDevice::begin(FaultKind kind, pid_t program, const std::filesystem::p
 
 std::unique_ptr<PlayedDevice> play_device(std::string_view name) {
   if (name == "2diy") return std::make_unique<PlayedTwoDiy>();
+  if (name == "dhd") return std::make_unique<PlayedDhd>();
   return std::make_unique<PlayedHaply>();
 }
 

@@ -57,7 +57,7 @@ class PlayedDevice {
   virtual void trouble(FaultKind kind) = 0;  // of the device's own
 };
 
-// "2diy" or "haply".
+// "2diy", "haply" or "dhd".
 std::unique_ptr<PlayedDevice> play_device(std::string_view name);
 
 // Of a block in metres, an OBJ file.

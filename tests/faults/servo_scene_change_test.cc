@@ -74,6 +74,7 @@ TEST(ServoSceneChange, NothingThatCouldBlock) {
         const Json next = await_other_world(window, felt);
         changed += next != felt ? 1 : 0;
         felt = next;
+        while (!window.call("job.list").empty()) pause_ms(10);
         pause_ms(200);  // and it is felt
       }
       state = window.call("feel.status")["state"].get<std::string>();
