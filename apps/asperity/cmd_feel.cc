@@ -151,6 +151,7 @@ class FeelCommand : public Command {
     observer.update("scene", 0.0);
     PreparedModel prepared = prepare_render_model(scene, device->info(), kind_.driven(), settings_);
     warnings_ = prepared.warnings;
+    if (const std::string told = device->fault(); !told.empty()) warnings_.push_back(device_ + ": " + told);
     SnapshotExchange<const RenderModel> model(std::move(prepared.model));
     const fs::path log = !log_.empty() ? fs::path(log_) : folder ? folder->path() / "log.csv" : fs::path();
     const ServoResult servo = feel(*device, model, log, observer);

@@ -115,8 +115,9 @@ Outcome run_and_signal(const std::vector<std::string>& arguments, int signal, st
   return process.wait();
 }
 
-Outcome run_and_meddle(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& meddle) {
-  Process process(arguments, "");
+Outcome run_and_meddle(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& meddle,
+                       const std::filesystem::path& out) {
+  Process process(arguments, out.string());
   meddle(process.pid());
   return process.wait();
 }

@@ -23,7 +23,9 @@ Outcome run(const std::vector<std::string>& arguments);
 Outcome run_and_signal(const std::vector<std::string>& arguments, int signal, std::chrono::milliseconds delay);
 
 // The same, with what `meddle` does to the process while it runs. It must end by itself or by that.
-Outcome run_and_meddle(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& meddle);
+// Its standard output goes to `out` if that is not empty.
+Outcome run_and_meddle(const std::vector<std::string>& arguments, const std::function<void(pid_t)>& meddle,
+                       const std::filesystem::path& out = {});
 
 // The program with its standard output going to `path`.
 Outcome run_into(const std::filesystem::path& path, const std::vector<std::string>& arguments);

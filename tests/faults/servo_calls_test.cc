@@ -72,6 +72,21 @@ TEST_P(ServoCalls, NoneThatCouldBlock) {
   EXPECT_EQ(faults, 0);
 }
 
+TEST(ServoMemory, ThatCannotBeLockedIsToldWithItsRemedy) {
+  const testkit::TempDir dir;
+  write_text(dir / "plane.obj", plane_obj());
+  ::setenv("LD_PRELOAD", SERVO_SHIM, 1);
+  ::setenv("SERVO_NO_LOCK", "1", 1);
+  const Outcome felt = run({"feel", dir / "plane.obj", "--mesh-unit", "mm", "--realtime", "--duration", "0.2s"});
+  ::unsetenv("LD_PRELOAD");
+  ::unsetenv("SERVO_NO_LOCK");
+  const std::string told = felt.out + felt.err;
+  EXPECT_NE(told.find("memory     not locked (Cannot allocate memory)"), std::string::npos) << told;
+  EXPECT_NE(told.find("raise the limit by `ulimit -l unlimited`, or memlock in /etc/security/limits.conf"),
+            std::string::npos)
+      << told;
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Textures, ServoCalls,
     testing::Values(Felt{"fourier1d", {"@/processed/profile.csv"}, {}},

@@ -2,7 +2,7 @@
  * absolute times of CLOCK_MONOTONIC; it is counted from its SERVO_FROM-th wait on (200: it has warmed up by then) to
  * its last one. At the end SERVO_COUNTS=FILE gets: waits, allocations (malloc, calloc, realloc, aligned_alloc,
  * posix_memalign, and free), mmap and munmap, mutex locks (also trylock and condition waits), page faults of that
- * thread. */
+ * thread. With SERVO_NO_LOCK set mlockall fails. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -68,6 +68,12 @@ void* mmap(void* at, size_t size, int protection, int flags, int file, off_t off
 int munmap(void* at, size_t size) {
   if (s_counting) ++s_now.maps;
   return (int)syscall(SYS_munmap, at, size);
+}
+
+int mlockall(int flags) {
+  if (getenv("SERVO_NO_LOCK") == NULL) return (int)syscall(SYS_mlockall, flags);
+  errno = ENOMEM;
+  return -1;
 }
 
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))

@@ -30,7 +30,11 @@ Api load_api(const std::string& library) {
        library_symbol("dhdEnableForce", api.enable_force), library_symbol("dhdGetPosition", api.get_position),
        library_symbol("dhdGetLinearVelocity", api.get_linear_velocity), library_symbol("dhdSetForce", api.set_force),
        library_symbol("dhdGetButtonMask", api.get_button_mask), library_symbol("dhdErrorGetLastStr", api.last_error),
-       library_symbol("dhdGetSystemName", api.system_name, false)});
+       library_symbol("dhdGetSystemName", api.system_name, false),
+       library_symbol("dhdEnableExpertMode", api.enable_expert_mode, false),
+       library_symbol("dhdDisableExpertMode", api.disable_expert_mode, false),
+       library_symbol("dhdSetWatchdog", api.set_watchdog, false),
+       library_symbol("dhdGetWatchdog", api.get_watchdog, false)});
   return api;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 
 #include "asperity/base/error.h"
@@ -34,6 +35,7 @@ class DhdDevice final : public HapticDevice {
       if (model != nullptr) info_.model = printable(model);
     }
     info_.rate_Hz = config.rate_Hz;
+    watched_ = set_watchdog(config.watchdog_s);
     const bool enabled = api_.enable_force(1, dhd::kDefaultDevice) >= 0;
     if (!enabled || api_.set_force(0.0, 0.0, 0.0, dhd::kDefaultDevice) < 0) {
       const std::string why = words();
@@ -70,7 +72,11 @@ class DhdDevice final : public HapticDevice {
   }
 
   std::string fault() const override {
-    if (!faulty_.load(std::memory_order_acquire)) return {};
+    if (!faulty_.load(std::memory_order_acquire)) {
+      return watched_ ? ""
+                      : "its controller has no watchdog that this driver can set: if this program stops, "
+                        "the last force stays until the controller's own time-out";
+    }
     return "its calls fail: " + printable(what_.data(), what_.size());
   }
 
@@ -78,6 +84,21 @@ class DhdDevice final : public HapticDevice {
   std::string words() const {
     const char* const text = api_.last_error();
     return text == nullptr ? "the driver does not say why" : printable(text, 200);
+  }
+
+  // True if the controller turns forces off by itself when none comes for so long, and said so.
+  bool set_watchdog(double watchdog_s) {
+    if (api_.enable_expert_mode == nullptr || api_.disable_expert_mode == nullptr || api_.set_watchdog == nullptr ||
+        api_.get_watchdog == nullptr) {
+      return false;
+    }
+    const auto steps = static_cast<unsigned char>(std::lround(watchdog_s / dhd::kWatchdogStep_s));
+    unsigned char told = 0;
+    api_.enable_expert_mode();
+    const bool set = api_.set_watchdog(steps, dhd::kDefaultDevice) >= 0 &&
+                     api_.get_watchdog(&told, dhd::kDefaultDevice) >= 0 && told == steps;
+    api_.disable_expert_mode();
+    return set;
   }
 
   void take_reading() noexcept {
@@ -119,6 +140,7 @@ class DhdDevice final : public HapticDevice {
   int position_failures_ = 0;
   int force_failures_ = 0;
   bool closed_ = false;
+  bool watched_ = false;
   std::atomic<bool> faulty_{false};
   std::array<char, 200> what_{};
 };

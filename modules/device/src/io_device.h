@@ -11,6 +11,7 @@
 
 #include "asperity/device/haptic_device.h"
 #include "asperity/device/latest_value.h"
+#include "real_time.h"
 #include "stall_watch.h"
 
 namespace asperity {
@@ -81,10 +82,14 @@ class IoDevice : public HapticDevice {
     return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
   }
 
-  // The I/O thread's: `serve` until it returns; what it throws is the device's fault.
+  // The I/O thread's: `serve` until it returns; what it throws is the device's fault. Real-time priority is asked for,
+  // as the servo thread does: a position that this thread is late with is as old as one that the device is late with.
   template <class Serve>
   void run(const Serve& serve) {
     try {
+      std::string refused;
+      take_real_time_priority(refused);
+      take_precise_timers();
       serve();
     } catch (const std::exception& error) {
       const std::lock_guard lock(fault_mutex_);

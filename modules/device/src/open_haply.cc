@@ -13,10 +13,13 @@
 #include "haply_protocol.h"
 #include "inverse_service_client.h"
 #include "io_device.h"
+#include "open_questions.h"
 
 namespace asperity {
 
 namespace {
+
+constexpr int kMostUnasked = 100;  // at a time
 
 class HaplyDevice final : public IoDevice {
  public:
@@ -33,8 +36,11 @@ class HaplyDevice final : public IoDevice {
     info_.name = "haply";
     info_.model = (state_.model.empty() ? "Inverse3" : state_.model) + " " + device_id_;
     // The session's first message, with zero force; its answer is the first state of this session.
-    send(Eigen::Vector3d::Zero(), true, until);
-    await_state(until);
+    for (bool first = true; first || !current_; first = false) {
+      if (Clock::now() >= until) fail_late(false);
+      send(Eigen::Vector3d::Zero(), first, until);
+      await_state(until);
+    }
     pass_on();
     thread_ = std::thread([this] { serve_and_leave(); });
   }
@@ -50,11 +56,20 @@ class HaplyDevice final : public IoDevice {
  private:
   // All below: the thread that opens, then the I/O thread.
 
+  // True if a state came; `current_` says whether it may be used as the position now.
   bool receive_state(Clock::time_point until) {
     if (!client_.receive(text_, until, stop_)) return false;
-    outstanding_ = std::max(outstanding_ - 1, 0);
+    current_ = questions_.answer(Clock::now());
     state_ = parse_haply_frame(text_, device_id_.empty() ? config_.device_id : device_id_);
     return true;
+  }
+
+  // States that nobody asked for would be taken for the answers to later messages, each older than the one before.
+  void drop_unasked() {
+    for (int dropped = 0; client_.receive(text_, Clock::now(), stop_); ++dropped) {
+      if (dropped == kMostUnasked)
+        throw Error(fmt::format("haply: device '{}': states that nobody asked for", device_id_));
+    }
   }
 
   void await_state(Clock::time_point until) {
@@ -66,7 +81,7 @@ class HaplyDevice final : public IoDevice {
   void send(const Eigen::Vector3d& force_N, bool first, Clock::time_point until) {
     write_haply_command(text_, device_id_, R_device_service_.transpose() * force_N, force_key_, first);
     client_.send(text_, until);
-    ++outstanding_;
+    questions_.ask(Clock::now());
   }
 
   void pass_on() { news_.publish({R_device_service_ * state_.p_m, R_device_service_ * state_.v_mps, ++sequence_}); }
@@ -83,28 +98,29 @@ class HaplyDevice final : public IoDevice {
 
   void serve() {
     const auto lost_after = seconds(config_.lost_after_s), period = seconds(1.0 / config_.max_rate_Hz);
-    const auto force_timeout = seconds(config_.force_timeout_s);
-    auto last_state = Clock::now(), next_send = last_state;
+    const auto force_timeout = seconds(config_.force_timeout_s), stall_after = seconds(config_.stall_after_s);
+    auto last_state = Clock::now(), last_current = last_state, next_send = last_state;
     bool zero_sent = false;
     while (!stop_.load()) {
       auto now = Clock::now();
-      if (outstanding_ == 0 && now >= next_send) {
-        send(forces_.take(now, force_timeout), false, now + lost_after);
+      if (now - last_state > OpenQuestions::kGiveUpAfter) questions_.give_up();
+      if (questions_.open() == 0 && now >= next_send) {
+        drop_unasked();
+        send(zero_sent ? Eigen::Vector3d::Zero() : forces_.take(now, force_timeout), false, now + lost_after);
         next_send = std::max(next_send + period, now);
       }
-      const auto silent_at = last_state + (zero_sent ? lost_after : seconds(config_.stall_after_s));
-      if (receive_state(outstanding_ == 0 ? next_send : silent_at)) {
-        pass_on();
+      const auto silent_at = (zero_sent ? now : last_state) + stall_after;
+      if (receive_state(questions_.open() > 0 ? silent_at : next_send)) {
         last_state = Clock::now();
-        zero_sent = false;
-        continue;
+        if (current_) {
+          pass_on();
+          last_current = last_state;
+          zero_sent = false;
+        }
       }
       now = Clock::now();
-      if (now - last_state > lost_after) {
-        throw Error(
-            fmt::format("haply: device '{}': no state for {} s", device_id_, number_text(config_.lost_after_s)));
-      }
-      if (outstanding_ > 0 && now >= silent_at && !zero_sent) {
+      if (now - last_current > lost_after) fail_late(last_state == last_current);
+      if (questions_.open() > 0 && now - last_state >= stall_after && !zero_sent) {
         // A service that wakes finds a zero force behind the stale one. Its answers are then two.
         send(Eigen::Vector3d::Zero(), false, last_state + lost_after);
         zero_sent = true;
@@ -112,11 +128,19 @@ class HaplyDevice final : public IoDevice {
     }
   }
 
+  [[noreturn]] void fail_late(bool silent) const {
+    if (silent) {
+      throw Error(fmt::format("haply: device '{}': no state for {} s", device_id_, number_text(config_.lost_after_s)));
+    }
+    throw Error(fmt::format("haply: device '{}': its states come {} ms late", device_id_,
+                            std::chrono::round<std::chrono::milliseconds>(questions_.last_age()).count()));
+  }
+
   void send_last_force() {
     const auto until = Clock::now() + seconds(0.2);
     const std::atomic<bool> never = false;
     send(Eigen::Vector3d::Zero(), false, until);
-    while (outstanding_ > 0 && client_.receive(text_, until, never)) --outstanding_;
+    while (questions_.open() > 0 && client_.receive(text_, until, never)) questions_.answer(Clock::now());
   }
 
   HaplyConfig config_;
@@ -127,7 +151,8 @@ class HaplyDevice final : public IoDevice {
   HaplyForceKey force_key_ = HaplyForceKey::kVector;
   std::string device_id_, text_;
   HaplyState state_;
-  int outstanding_ = 0;  // messages sent and not yet answered
+  OpenQuestions questions_{seconds(config_.late_after_s)};
+  bool current_ = false;
   std::uint64_t sequence_ = 0;
   std::thread thread_;
 };

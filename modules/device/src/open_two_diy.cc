@@ -18,6 +18,7 @@
 #include "asperity/transport/serial_port.h"
 #include "check_config.h"
 #include "io_device.h"
+#include "open_questions.h"
 #include "pantograph.h"
 
 namespace asperity {
@@ -61,13 +62,10 @@ class TwoDiy final : public IoDevice {
     const auto until = Clock::now() + std::chrono::seconds(1);
     set_up(until);
     while (news_sequence_ == 0) {
-      ask(Eigen::Vector2d::Zero(), until);
-      take_answer(std::min(until, Clock::now() + std::chrono::milliseconds(100)));
-      if (news_sequence_ == 0 && Clock::now() >= until) {
-        throw Error("2diy: " + printable(config.port, 200) +
-                    (theta_deg_ ? ": its arms are in line, where its place is not known: move the handle"
-                                : ": no answer within a second"));
-      }
+      if (questions_.open() == 0) ask(Eigen::Vector2d::Zero(), until);
+      // A board that is being reset loses questions.
+      if (!take_answer(std::min(until, Clock::now() + OpenQuestions::kGiveUpAfter))) questions_.give_up();
+      if (news_sequence_ == 0 && Clock::now() >= until) fail_to_open();
     }
     supervisor_.emplace(port_.descriptor(), std::as_bytes(std::span(bytes_)));  // the last question had no torque
     thread_ = std::thread([this] { serve_and_leave(); });
@@ -82,6 +80,18 @@ class TwoDiy final : public IoDevice {
   }
 
  private:
+  [[noreturn]] void fail_to_open() const {
+    std::string why = ": no answer within a second";
+    if (questions_.last_age() > Clock::duration::zero()) why = ": its answers come " + age_text() + " late";
+    if (theta_deg_) why = ": its arms are in line, where its place is not known: move the handle";
+    throw Error("2diy: " + printable(config_.port, 200) + why);
+  }
+
+  std::string age_text() const {
+    const double age_ms = std::chrono::duration<double, std::milli>(questions_.last_age()).count();
+    return number_text(std::round(age_ms)) + " ms";
+  }
+
   unsigned char id() const { return static_cast<unsigned char>(config_.device_id); }
 
   void set_up(Clock::time_point until) {
@@ -104,22 +114,27 @@ class TwoDiy final : public IoDevice {
     bytes_ = {kTorques, id()};
     append_float(bytes_, torque_N_m.x());
     append_float(bytes_, torque_N_m.y());
-    answered_ = 0;
-    port_.flush_input();  // a late answer to an earlier question is not this one's
+    if (questions_.open() == 0) {
+      answered_ = 0;
+      port_.flush_input();  // nobody asked for what is there
+    }
     port_.write(bytes_, until);
+    questions_.ask(Clock::now());
   }
 
-  // The answer to ask(), if it is complete by `until`.
+  // The next answer, if it is complete by `until`.
   bool take_answer(Clock::time_point until) {
     while (answered_ < kAnswer_bytes) {
       const std::size_t count = port_.read(std::span(answer_).subspan(answered_), until);
       if (count == 0) return false;
       answered_ += count;
     }
+    answered_ = 0;
+    const auto now = Clock::now();
+    const bool current = questions_.answer(now);
     float degrees[2];
     std::memcpy(degrees, answer_.data() + 1, sizeof degrees);
     const Eigen::Vector2d theta_deg(static_cast<double>(degrees[0]), static_cast<double>(degrees[1]));
-    const auto now = Clock::now();
     if (answer_[0] != id() || !(theta_deg.cwiseAbs().maxCoeff() <= kMostDegrees) || is_a_jump(theta_deg, now)) {
       if (++wrong_answers_ >= kWrongAnswersUntilFault) {
         throw Error("2diy: " + printable(config_.port, 200) + ": its answers make no sense");
@@ -127,6 +142,7 @@ class TwoDiy final : public IoDevice {
       return true;
     }
     wrong_answers_ = 0;
+    if (!current) return true;
     theta_deg_ = theta_deg;
     theta_at_ = now;
     state_ = pantograph_state(linkage_, theta_deg * (std::numbers::pi / 180.0));
@@ -174,37 +190,51 @@ class TwoDiy final : public IoDevice {
                 ": this process stood still and its force was ended, or the process that watches it is gone");
   }
 
-  // However long an answer may take, who waits for it is there.
-  bool take_answer_beating(Clock::time_point until) {
+  // Until every question was answered; false if one was not by `until`. Who waits is there, however long it takes.
+  bool take_answers_beating(Clock::time_point until) {
     constexpr auto kSlice = std::chrono::milliseconds(20);
-    for (;;) {
+    while (questions_.open() > 0) {
       const auto slice = std::min(until, Clock::now() + kSlice);
-      if (take_answer(slice)) return true;
-      if (slice == until) return false;
+      if (take_answer(slice)) {
+        heard_at_ = Clock::now();
+      } else if (slice == until) {
+        return false;
+      }
       beat();
     }
+    return true;
   }
 
   void serve() {
     const auto period = seconds(1.0 / config_.rate_Hz), force_timeout = seconds(config_.force_timeout_s);
     const auto stall_after = seconds(config_.stall_after_s), lost_after = seconds(config_.lost_after_s);
-    auto due = Clock::now(), last_answer = due;
-    bool stalled = false;
+    auto due = Clock::now(), last_current = due;
+    heard_at_ = due;
+    bool stalled = false, zero_asked = false;
     while (!stop_.load()) {
       beat();
       auto now = Clock::now();
-      // After a stall the first question only asks: its torques would be of a place long left.
-      ask(stalled ? Eigen::Vector2d::Zero() : torque_N_m(forces_.take(now, force_timeout)), now + lost_after);
-      stalled = !take_answer_beating(now + stall_after);
-      now = Clock::now();
-      if (!stalled) last_answer = now;
-      if (now - last_answer > lost_after) {
-        throw Error("2diy: " + printable(config_.port, 200) + ": no answer for " + number_text(config_.lost_after_s) +
-                    " s");
+      if (now - heard_at_ > OpenQuestions::kGiveUpAfter) questions_.give_up();
+      if (questions_.open() == 0 || (stalled && !zero_asked)) {
+        // After a stall a question only asks: its torques would be of a place long left.
+        ask(stalled ? Eigen::Vector2d::Zero() : torque_N_m(forces_.take(now, force_timeout)), now + lost_after);
+        zero_asked = stalled;
       }
+      const bool answered = take_answers_beating(now + stall_after);
+      now = Clock::now();
+      if (!answered && !stalled) zero_asked = false;
+      stalled = !answered || (stalled && !questions_.trusted());
+      if (questions_.trusted() && answered) last_current = now;
+      if (now - last_current > lost_after) fail_late(heard_at_ <= last_current);
       due = std::max(due + period, now);
       std::this_thread::sleep_until(due);
     }
+  }
+
+  [[noreturn]] void fail_late(bool silent) const {
+    throw Error("2diy: " + printable(config_.port, 200) +
+                (silent ? ": no answer for " + number_text(config_.lost_after_s) + " s"
+                        : ": its answers come " + age_text() + " late"));
   }
 
   TwoDiyConfig config_;
@@ -217,7 +247,9 @@ class TwoDiy final : public IoDevice {
   std::optional<Supervisor> supervisor_;
   Bytes bytes_;
   std::array<unsigned char, kAnswer_bytes> answer_{};
-  std::size_t answered_ = 0;
+  std::size_t answered_ = 0;  // bytes of the next answer
+  OpenQuestions questions_{seconds(config_.late_after_s)};
+  Clock::time_point heard_at_;
   int wrong_answers_ = 0;
   std::optional<Eigen::Vector2d> theta_deg_;  // of the last answer
   Clock::time_point theta_at_;

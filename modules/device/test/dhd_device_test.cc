@@ -62,6 +62,20 @@ TEST_F(Dhd, TurnsItsAxesIntoOurs) {
   EXPECT_EQ(fake_.motor_N(), Eigen::Vector3d(0.1, 0.2, 0.3));
 }
 
+TEST_F(Dhd, SetsTheControllersWatchdog) {
+  const auto device = open_dhd(fake_config());
+  EXPECT_EQ(fake_.function<int()>("watchdog_steps")(), 240);  // 30 ms in steps of 125 µs
+  EXPECT_EQ(fake_.function<int()>("expert")(), 0);
+  EXPECT_EQ(device->fault(), "");
+}
+
+TEST_F(Dhd, SaysThatThereIsNoWatchdog) {
+  fake_.set("no_watchdog", 1);
+  const auto device = open_dhd(fake_config());
+  EXPECT_EQ(device->read(0).status, DeviceStatus::kReady);
+  EXPECT_THAT(device->fault(), testing::HasSubstr("has no watchdog"));
+}
+
 TEST_F(Dhd, SaturatedMotorsAreNoError) {
   const auto device = open_dhd(fake_config());
   for (std::int64_t t_ns = 0; t_ns < 50'000'000; t_ns += 1'000'000) {

@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <thread>
+#include <vector>
 
 namespace asperity {
 
@@ -119,14 +120,28 @@ struct FakeInverseService::Impl {
       }
       take(beast::buffers_to_string(buffer.data()), first);
       while (stalled && !stopping) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      std::this_thread::sleep_for(std::chrono::microseconds(delay_us));
-      const std::string answer = frame(false);
-      {
-        const std::lock_guard lock(mutex);
-        ++counted.answers;
+      // What it states is of now, whenever it comes.
+      for (const std::string& answer : answers()) {
+        std::this_thread::sleep_for(std::chrono::microseconds(delay_us));
+        stream.write(asio::buffer(answer));
       }
-      stream.write(asio::buffer(answer));
     }
+  }
+
+  // The states that one message gets.
+  std::vector<std::string> answers() {
+    const ServiceTrouble kind = trouble;
+    std::string answer = frame(false, kind == ServiceTrouble::kGlitch && glitches++ < 8);
+    const std::lock_guard lock(mutex);
+    ++counted.answers;
+    if (kind == ServiceTrouble::kOutOfOrder && held.empty()) {
+      held = std::move(answer);
+      return {};
+    }
+    const std::size_t copies = kind == ServiceTrouble::kDuplicate ? 2 : kind == ServiceTrouble::kFast ? 4 : 1;
+    std::vector<std::string> out(copies, answer);
+    if (!held.empty()) out.push_back(std::exchange(held, {}));
+    return out;
   }
 
   void take(const std::string& text, bool first) {
@@ -166,15 +181,16 @@ struct FakeInverseService::Impl {
     }
   }
 
-  std::string frame(bool inventory) {
+  std::string frame(bool inventory, bool glitch = false) {
     const std::lock_guard lock(mutex);
     if (!inventory && !canned.empty()) return canned;
     move_to(Clock::now());
+    const Eigen::Vector3d stated_m = p_m - (glitch ? 30e-3 : 0.0) * Eigen::Vector3d::UnitZ();
     json devices = json::array();
     if (plugged) {
       devices.push_back({{"device_id", config.device_id},
                          {"state",
-                          {{"cursor_position", vector_json(p_m)},
+                          {{"cursor_position", vector_json(stated_m)},
                            {"cursor_velocity", vector_json(v_mps)},
                            {"current_cursor_force", vector_json(force_N)},
                            {"body_orientation", {{"w", 1.0}, {"x", 0.0}, {"y", 0.0}, {"z", 0.0}}}}},
@@ -191,12 +207,14 @@ struct FakeInverseService::Impl {
   std::list<std::thread> sessions;
   std::atomic<bool> stopping{false}, stalled{false};
   std::atomic<int> delay_us{0};
+  std::atomic<ServiceTrouble> trouble{ServiceTrouble::kNone};
+  std::atomic<int> glitches{0};
 
   mutable std::mutex mutex;
   std::set<int> open_handles;
   FakeInverseLog counted;
   bool plugged = true;
-  std::string canned;
+  std::string canned, held;
   Eigen::Vector3d p_m, v_mps = Eigen::Vector3d::Zero(), force_N = Eigen::Vector3d::Zero();
   Clock::time_point moved_to = Clock::now(), force_until{};
 };
@@ -235,6 +253,8 @@ void FakeInverseService::stall(bool on) { impl_->stalled = on; }
 void FakeInverseService::answer_after(std::chrono::microseconds time) {
   impl_->delay_us = static_cast<int>(time.count());
 }
+
+void FakeInverseService::trouble(ServiceTrouble kind) { impl_->trouble = kind; }
 
 void FakeInverseService::answer_with(const std::string& text) {
   const std::lock_guard lock(impl_->mutex);

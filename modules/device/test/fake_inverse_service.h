@@ -31,6 +31,15 @@ struct FakeInverseLog {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  // of the last message
 };
 
+// What a service or its line can do to states. The messages are obeyed all the same.
+enum class ServiceTrouble {
+  kNone,
+  kGlitch,      // eight states are 30 mm too low
+  kDuplicate,   // each comes twice
+  kFast,        // three more that nobody asked for
+  kOutOfOrder,  // every other one comes after its follower
+};
+
 // An Inverse Service on a loopback port of its own, as docs.haply.co describes 3.x: GET /version and /devices, a
 // WebSocket whose first message is the inventory and which answers each message by exactly one state. It serves in
 // real time. All methods may be called from any thread.
@@ -48,7 +57,8 @@ class FakeInverseService {
   void drop();                                        // connections are cut without a word
   void stall(bool on);                                // messages are taken but not answered until it ends
   void answer_with(const std::string& text);          // instead of states
-  void answer_after(std::chrono::microseconds time);  // each state comes this late
+  void answer_after(std::chrono::microseconds time);  // each state comes this late, and is as old
+  void trouble(ServiceTrouble kind);
 
  private:
   struct Impl;

@@ -165,7 +165,8 @@ struct FakeTwoDiyBoard::Impl {
       held = std::move(bytes);
       return;
     }
-    const auto due = Clock::now() + std::chrono::milliseconds(kind == BoardTrouble::kLate ? 60 : 0);
+    const int late_ms = kind == BoardTrouble::kLate ? 60 : kind == BoardTrouble::kSlow ? 15 : 0;
+    const auto due = Clock::now() + std::chrono::milliseconds(late_ms);
     const int copies = kind == BoardTrouble::kDuplicate ? 2 : kind == BoardTrouble::kFast ? 4 : 1;
     for (int i = 0; i < copies; ++i) outbox.emplace_back(due, bytes);
     if (!held.empty()) outbox.emplace_back(due, std::move(held));

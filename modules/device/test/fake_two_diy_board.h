@@ -21,6 +21,7 @@ enum class BoardTrouble {
   kGlitch,      // eight answers state a place far away
   kDuplicate,   // each answer comes twice
   kLate,        // each comes 60 ms late
+  kSlow,        // each comes 15 ms late
   kFast,        // three more that nobody asked for
   kOutOfOrder,  // every other one comes after its follower
 };

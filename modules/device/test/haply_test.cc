@@ -237,6 +237,37 @@ TEST(Haply, ASlowServiceIsServedAtItsRate) {
   EXPECT_LT(last, 70U);
 }
 
+TEST(Haply, LateStatesAreNoNewsAndInTheEndAFault) {
+  FakeInverseService service;
+  HaplyConfig config = config_for(service);
+  config.lost_after_s = 0.3;
+  const auto device = open_haply(config);
+  service.answer_after(milliseconds(30));
+  serve(*device, 5, [](const DeviceReading&) { return Eigen::Vector3d::Zero(); });  // one may be under way
+  const std::uint64_t last = device->read(0).sequence;
+  const DeviceReading reading = await(*device, DeviceStatus::kFault);
+  EXPECT_EQ(reading.status, DeviceStatus::kFault);
+  EXPECT_EQ(reading.sequence, last);
+  EXPECT_THAT(device->fault(), testing::ContainsRegex("its states come [0-9]+ ms late"));
+}
+
+TEST(Haply, StatesThatNobodyAskedForAreDropped) {
+  FakeInverseService service;
+  const auto device = open_haply(config_for(service));
+  service.trouble(ServiceTrouble::kFast);
+  // Each state would be older than the one before if the three too many were taken for answers.
+  std::uint64_t first = device->read(0).sequence, last = first;
+  double worst_m = 0.0;
+  serve(*device, 500, [&](const DeviceReading& reading) {
+    last = reading.sequence;
+    worst_m = std::max(worst_m, std::abs(reading.p_m.y() - service.position_m().z()));
+    return Eigen::Vector3d::Zero();
+  });
+  EXPECT_GT(last, first + 50);
+  EXPECT_LT(worst_m, 1.5e-3);  // 60 ms of the hand's 25 mm/s, on a machine that is loaded
+  EXPECT_EQ(device->fault(), "");
+}
+
 TEST(Haply, RefusalsAreInWords) {
   FakeInverseService service;
   HaplyConfig config = config_for(service);

@@ -214,6 +214,31 @@ TEST(TwoDiy, NonsenseAndLongStallsAreFaultsInWords) {
   }
 }
 
+TEST(TwoDiy, LateAnswersAreNoNewsAndInTheEndAFault) {
+  for (const BoardTrouble kind : {BoardTrouble::kSlow, BoardTrouble::kLate}) {
+    FakeTwoDiyBoard board;
+    TwoDiyConfig config = config_for(board);
+    config.lost_after_s = 0.3;
+    const auto device = open_two_diy(config);
+    serve(*device, 20, [](const DeviceReading&) { return Eigen::Vector3d::Zero(); });
+    board.trouble(kind);
+    // What was under way when the trouble began may still come in time.
+    serve(*device, 5, [](const DeviceReading&) { return Eigen::Vector3d::Zero(); });
+    const std::uint64_t last = device->read(0).sequence;
+    DeviceReading reading;
+    for (int i = 0; i < 3000 && reading.status != DeviceStatus::kFault; ++i) {
+      serve(*device, 1, [&](const DeviceReading& now) {
+        reading = now;
+        return Eigen::Vector3d(0.0, 0.0, -1.0);
+      });
+    }
+    EXPECT_EQ(reading.status, DeviceStatus::kFault);
+    EXPECT_EQ(reading.sequence, last);
+    EXPECT_THAT(device->fault(), testing::ContainsRegex("its answers come [0-9]+ ms late"));
+    EXPECT_EQ(board.torque_N_m(), Eigen::Vector2d::Zero());
+  }
+}
+
 TEST(TwoDiy, RefusalsAreInWords) {
   EXPECT_THAT(message_of({}), HasSubstr("2diy.port"));
   TwoDiyConfig config;

@@ -1,10 +1,15 @@
 // A stand-in for Force Dimension's libdhd.so: the symbols and the behaviour that we rely on, over a simulated device
 // that lives by a millisecond at each dhdSetForce.
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <time.h>
+#include <unistd.h>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 
 #include "damped_mass.h"
+#include "fake_controller.h"
 
 namespace {
 
@@ -19,6 +24,9 @@ struct State {
   bool open = false;
   bool force_enabled = false;
   bool wrong_device = false;
+  bool expert = false;
+  bool no_watchdog = false;
+  unsigned char watchdog_steps = 0;     // of 125 µs
   long forces_left = -1;                // until it is unplugged, told by FAKE_DHD_UNPLUG_AFTER; negative: it never is
   double motor_N[3] = {0.0, 0.0, 0.0};  // as commanded, x right, y up, z toward the user
   const char* error = "no error";
@@ -36,6 +44,31 @@ int fail(const char* why) {
   return -1;
 }
 
+// What a test outside sees, if one looks.
+fake::Controller* controller() {
+  static fake::Controller* const mapped = []() -> fake::Controller* {
+    const char* const path = std::getenv("FAKE_DHD_CONTROLLER");
+    const int file = path != nullptr ? ::open(path, O_RDWR | O_CLOEXEC) : -1;
+    if (file < 0) return nullptr;
+    void* const at = ::mmap(nullptr, sizeof(fake::Controller), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    ::close(file);
+    return at == MAP_FAILED ? nullptr : static_cast<fake::Controller*>(at);
+  }();
+  return mapped;
+}
+
+int trouble() { return controller() != nullptr ? controller()->trouble : fake::Controller::kNone; }
+
+void tell_controller() {
+  if (controller() == nullptr) return;
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  std::memcpy(controller()->force_N, state().motor_N, sizeof state().motor_N);
+  controller()->set_at_ns = std::int64_t{1'000'000'000} * now.tv_sec + now.tv_nsec;
+  controller()->watchdog_steps = state().watchdog_steps;
+  controller()->enabled = state().force_enabled ? 1 : 0;
+}
+
 // 0, or the error of a call to the device `id`.
 int refusal(char id) {
   if (id != -1) {
@@ -47,7 +80,8 @@ int refusal(char id) {
     --state().failures_to_come;
     return fail("timeout");
   }
-  return state().unplugged ? fail("communication error") : 0;
+  if (trouble() == fake::Controller::kHangs) ::sleep(2);
+  return state().unplugged || trouble() == fake::Controller::kUnplugged ? fail("communication error") : 0;
 }
 
 }  // namespace
@@ -73,6 +107,7 @@ int dhdClose(char id) {
 int dhdEnableForce(unsigned char on, char id) {
   if (refusal(id) < 0) return -1;
   state().force_enabled = on != 0;
+  tell_controller();
   return 0;
 }
 
@@ -82,6 +117,9 @@ int dhdGetPosition(double* x, double* y, double* z, char id) {
   *x = state().hand.p_m[2];
   *y = state().hand.p_m[0];
   *z = state().hand.p_m[1];
+  static int glitches = 0;
+  if (trouble() == fake::Controller::kGlitch && glitches++ < 8) *z -= 30e-3;
+  if (trouble() == fake::Controller::kGarbage) *z = std::nan("");
   return state().stalled ? 1 : 0;
 }
 
@@ -107,8 +145,33 @@ int dhdSetForce(double x, double y, double z, char id) {
   if (norm_N > kMaxForce_N) {
     for (double& f_N : state().motor_N) f_N *= kMaxForce_N / norm_N;
   }
+  tell_controller();
   if (!state().stalled) state().hand.step(state().motor_N);
   return norm_N > kMaxForce_N ? 2 : 0;
+}
+
+int dhdEnableExpertMode() {
+  state().expert = true;
+  return 0;
+}
+
+int dhdDisableExpertMode() {
+  state().expert = false;
+  return 0;
+}
+
+int dhdSetWatchdog(unsigned char steps, char id) {
+  if (refusal(id) < 0) return -1;
+  if (!state().expert) return fail("expert mode is off");
+  if (state().no_watchdog) return fail("not available");
+  state().watchdog_steps = steps;
+  return 0;
+}
+
+int dhdGetWatchdog(unsigned char* steps, char id) {
+  if (refusal(id) < 0) return -1;
+  *steps = state().watchdog_steps;
+  return 0;
 }
 
 int dhdGetButtonMask(char id) { return refusal(id) < 0 ? -1 : 5; }
@@ -127,6 +190,7 @@ void fake_dhd_set(const char* what, int value) {
   if (std::strcmp(what, "stalled") == 0) state().stalled = value != 0;
   if (std::strcmp(what, "refuses_force") == 0) state().refuses_force = value != 0;
   if (std::strcmp(what, "refuses_position") == 0) state().refuses_position = value != 0;
+  if (std::strcmp(what, "no_watchdog") == 0) state().no_watchdog = value != 0;
   if (std::strcmp(what, "failures") == 0) state().failures_to_come = value;
 }
 void fake_dhd_move(double x, double y, double z) {
@@ -136,6 +200,8 @@ void fake_dhd_move(double x, double y, double z) {
 }
 void fake_dhd_motor(double* out_N) { std::memcpy(out_N, state().motor_N, sizeof state().motor_N); }
 int fake_dhd_wrong_device() { return state().wrong_device ? 1 : 0; }
+int fake_dhd_watchdog_steps() { return state().watchdog_steps; }
+int fake_dhd_expert() { return state().expert ? 1 : 0; }
 int fake_dhd_force_enabled() { return state().force_enabled ? 1 : 0; }
 int fake_dhd_open() { return state().open ? 1 : 0; }
 }

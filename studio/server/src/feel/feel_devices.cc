@@ -119,9 +119,11 @@ OpenedFeel open_feel(const FeelSetup& setup, const Scene& scene, const Observer&
   out.drive = drive_of(setup, out.kind, scene, observer);
   const bool mouse = out.kind.name == kMouse;
   observer.update("the device", 0.3);
+  std::string device_told;  // of a device that goes on
   if (!mouse) {
     out.device = open_device(setup.device, out.drive, out.config.feel);
     out.info = out.device->info();
+    device_told = out.device->fault();
   }
   observer.update("the scene", 0.6);
   // Nobody's motors are at the pointer's end: the scene is left as it is.
@@ -137,6 +139,7 @@ OpenedFeel open_feel(const FeelSetup& setup, const Scene& scene, const Observer&
   if (out.kind.driven()) out.config.feel.servo.frame = DeviceFrame();
   out.model = std::move(prepared.model);
   out.warnings = std::move(prepared.warnings);
+  if (!device_told.empty()) out.warnings.push_back(setup.device + ": " + device_told);
   for (const Problem& problem : out.drive.problems) out.warnings.push_back(problem.message);
   return out;
 }

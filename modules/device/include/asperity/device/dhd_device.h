@@ -12,16 +12,20 @@ struct DhdConfig {
   std::string library;          // path of the driver; empty: the system's, then $FDSDK's. Never taken from a scene.
   double rate_Hz = 1000.0;      // at which it wants to be served
   double stall_after_s = 0.02;  // without a new position for so long, the device is stalled
+  double watchdog_s = 0.03;     // without a new force for so long, the controller itself turns forces off
 
   template <class V>
   void visit(V& v) {
     v.field("library", library, "path of the driver; empty: the system's, then $FDSDK's");
     v.field("rate_Hz", rate_Hz, "at which it wants to be served, Hz", {100.0, 4000.0});
     v.field("stall_after_s", stall_after_s, "without news for so long the device is stalled, s", {0.002, 1.0});
+    v.field("watchdog_s", watchdog_s, "without a new force for so long the controller turns forces off, s",
+            {0.002, 0.031875});
   }
 };
 
-// Opens the first device and enables its force at zero. Its calls are made by the servo thread itself. Its axes
+// Opens the first device, sets its controller's watchdog, and enables its force at zero. Where the driver or the device
+// has no watchdog, fault() says so while the device goes on. Its calls are made by the servo thread itself. Its axes
 // (x toward the user, y right, z up) are turned into ours. A few calls that fail one after another are kFault; the
 // driver's positive answers (too soon for a new position, motors saturated) are not errors. One device a process.
 // Throws Error naming the libraries searched for, or the driver's error in its words.

@@ -15,6 +15,7 @@ struct HaplyConfig {
   double max_rate_Hz = 4000.0;  // messages to the service
   double open_timeout_s = 3.0;
   double force_timeout_s = 0.05;  // a force older than this is not sent again: zero is
+  double late_after_s = 0.01;  // a state this old is no news
   double stall_after_s = 0.02;
   double lost_after_s = 2.0;
   template <class V>
@@ -26,6 +27,7 @@ struct HaplyConfig {
     v.field("max_rate_Hz", max_rate_Hz, "most messages a second to the service, Hz", {10.0, 20000.0});
     v.field("open_timeout_s", open_timeout_s, "for connecting and the first state, s", {0.01, 60.0});
     v.field("force_timeout_s", force_timeout_s, "older forces become zero, s", {0.001, 1.0});
+    v.field("late_after_s", late_after_s, "a later state is not used, s", {0.001, 1.0});
     v.field("stall_after_s", stall_after_s, "without a state: stalled, s", {0.001, 1.0});
     v.field("lost_after_s", lost_after_s, "without a state: a fault, s", {0.01, 60.0});
   }

@@ -30,6 +30,7 @@ struct TwoDiyConfig {
   double max_torque_N_m = 0.25;                  // of a motor; ours, the maker states none
   double rate_Hz = 1000.0;                       // of questions to the board
   double force_timeout_s = 0.05;
+  double late_after_s = 0.01;  // an answer this old is no news
   double stall_after_s = 0.02;
   double lost_after_s = 1.0;
   template <class V>
@@ -47,6 +48,7 @@ struct TwoDiyConfig {
     v.field("max_torque_N_m", max_torque_N_m, "of a motor, N m", {0.001, 10.0});
     v.field("rate_Hz", rate_Hz, "questions to the board, Hz", {50.0, 4000.0});
     v.field("force_timeout_s", force_timeout_s, "older forces become zero, s", {0.001, 1.0});
+    v.field("late_after_s", late_after_s, "a later answer is not used, s", {0.001, 1.0});
     v.field("stall_after_s", stall_after_s, "without an answer: stalled, s", {0.001, 1.0});
     v.field("lost_after_s", lost_after_s, "without an answer: a fault, s", {0.01, 60.0});
   }
