@@ -7,6 +7,7 @@
 
 #include "asperity/base/text.h"
 #include "config_file.h"
+#include "terminal_text.h"
 
 namespace asperity::app {
 
@@ -51,12 +52,12 @@ bool Command::resolve() {
 }
 
 void Command::say(std::string_view text) const {
-  if (!json_ && !quiet_) print_text(text);
+  if (!json_ && !quiet_) print_text(terminal_text(text));
 }
 
 void Command::print_json(std::string_view object) const {
   if (!json_) return;
-  print_text(object);
+  print_text(terminal_json(object));
   if (!object.ends_with('\n')) print_text("\n");
 }
 

@@ -80,27 +80,30 @@ def replaced(word, value):
 
 
 def mutations(text, is_json, most, all_values):
-    """(what was done, the text) for every scalar and every value, then for every column of a table as a whole. Without
+    """(what was done, a function that gives the text) for every scalar and every value, then for every column of a table as a whole. Without
     `all_values` only numbers that a reader may take, for the commands that read the same by the same function."""
     scalars = json_scalars(text) if is_json else table_scalars(text)
     # What a simulation and the settings of a result say of themselves is shown at most: one of a kind.
     scalars = [s for s in scalars if not re.search(r"extra\.simulation|(^|\.)config\.|\.problems", s[3]) or "hand.speed" in s[3]]
     if not all_values:
         scalars = [s for s in scalars if not s[3].endswith("(key)")]
+    def put(begin, end, new):
+        return lambda: text[:begin] + new + text[end:]
+
     for begin, end, kind, path in thinned(scalars, most):
         word = text[begin:end]
         if kind == "string":
             for value in STRINGS:
                 new = "7" if value == "NUMBER" else ('"%s"' % ESCAPED.get(value, value) if is_json else value.replace("\n", " "))
-                yield f"{path} = {value[:20]!r}", text[:begin] + new + text[end:]
+                yield f"{path} = {value[:20]!r}", put(begin, end, new)
             if is_json:  # as they are, not escaped
-                yield f"{path} = raw U+202E", text[:begin] + '"\u202eraw"' + text[end:]
+                yield f"{path} = raw U+202E", put(begin, end, '"\u202eraw"')
         elif kind == "number":
             for value in NUMBERS if all_values else PARSED:
-                yield f"{path} = {value[:20]}", text[:begin] + replaced(word, value) + text[end:]
+                yield f"{path} = {value[:20]}", put(begin, end, replaced(word, value))
         else:
             for value in ["7", '"text"', "null", "{}"]:
-                yield f"{path} = {value}", text[:begin] + value + text[end:]
+                yield f"{path} = {value}", put(begin, end, value)
     if is_json:
         return
     columns = {}
@@ -111,8 +114,12 @@ def mutations(text, is_json, most, all_values):
         if len(cells) < 3:
             continue
         for value in ["1e20", "1e12", "-1e20", "1e-300", "0", "nan", "1e308", "TIMES_1e6", "TIMES_1e-6", "NEGATED", ""]:
-            pieces, at = [], 0
-            for begin, end in cells:
-                pieces += [text[at:begin], replaced(text[begin:end], value)]
-                at = end
-            yield f"column {path} = {value}", "".join(pieces) + text[at:]
+            yield f"column {path} = {value}", lambda cells=cells, value=value: with_column(text, cells, value)
+
+
+def with_column(text, cells, value):
+    pieces, at = [], 0
+    for begin, end in cells:
+        pieces += [text[at:begin], replaced(text[begin:end], value)]
+        at = end
+    return "".join(pieces) + text[at:]

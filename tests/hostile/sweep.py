@@ -14,7 +14,6 @@ import concurrent.futures
 import os
 import random
 import re
-import resource
 import shutil
 import subprocess
 import sys
@@ -29,11 +28,6 @@ EXCEPTIONS = re.compile(r"json\.exception|std::|\bstoi\b|\bstod\b|bad_alloc|\[to
 NOT_FINITE = re.compile(r"(?<![A-Za-z_/.\-'\"])[-+±]?(nan|inf|infinity)(?![A-Za-z_])", re.IGNORECASE)
 HUGE = re.compile(r"\d[eE]\+?(\d{2,3})|(?<![.\d])\d{16,}")
 CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff]")
-
-
-def limits():
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
 def texts_below(path):
@@ -53,7 +47,8 @@ def faults_of(reader, program, root, text):
             file.write(text)
         words = [w.replace("#", f"{work}/in").replace("@", root).replace("%", f"{work}/out") for w in reader.words]
         try:
-            done = subprocess.run([program, *words], capture_output=True, timeout=TIME_S, preexec_fn=limits, stdin=subprocess.DEVNULL)
+            done = subprocess.run(["prlimit", f"--as={MEMORY}", "--core=0", program, *words], capture_output=True, timeout=TIME_S,
+                                  stdin=subprocess.DEVNULL)
         except subprocess.TimeoutExpired:
             return [("time", f"more than {TIME_S} s")], None
         code, faults = done.returncode, []
@@ -119,13 +114,15 @@ def main():
                 print(f"{reader.name}: as it is: {base}")
             cases += [(reader, what, new) for what, new in mutations.mutations(text, reader.is_json, asked.each, reader.is_first)]
         total = len(cases)
+        random.Random(1).shuffle(cases)
         if asked.sample:
             known = open(os.path.join(os.path.dirname(__file__), "failed.txt"), encoding="utf-8").read().splitlines()
             chosen = [c for c in cases if f"{c[0].name}: {c[1]}" in known]
-            cases = chosen + random.Random(1).sample(cases, min(asked.sample, total))
+            cases = chosen + cases[:asked.sample]
+        kept = open(asked.list, "w", encoding="utf-8") if asked.list else None
         counts, kinds, lines = collections.Counter(), collections.Counter(), []
         with concurrent.futures.ThreadPoolExecutor(asked.jobs) as pool:
-            running = {pool.submit(faults_of, reader, program, root, text): (reader, what) for reader, what, text in cases}
+            running = {pool.submit(lambda case: faults_of(case[0], program, root, case[2]()), case): case[:2] for case in cases}
             for done in concurrent.futures.as_completed(running):
                 reader, what = running[done]
                 faults, code = done.result()
@@ -133,10 +130,11 @@ def main():
                 for kind, words in faults:
                     kinds[kind] += 1
                     lines.append(f"{kind}\t{reader.name}: {what}\t{words}")
+                    if kept:
+                        print(lines[-1].replace("\n", " | "), file=kept, flush=True)
+                if kept and sum(counts.values()) % 500 == 0:
+                    print(f"done\t{sum(counts.values())} of {len(cases)}", file=kept, flush=True)
         lines.sort()
-        if asked.list:
-            with open(asked.list, "w", encoding="utf-8") as file:
-                file.write("\n".join(line.replace("\n", " | ") for line in lines) + "\n")
         for line in lines[:40]:
             print(line.encode("unicode_escape").decode())
         codes = ", ".join(f"{n} ended with {code}" for code, n in sorted(counts.items(), key=lambda item: str(item[0])))
