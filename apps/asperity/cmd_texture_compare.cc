@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,13 +46,15 @@ Json to_json(const Difference& d) {
   return {{"a", number_or_null(d.a)},
           {"b", number_or_null(d.b)},
           {"percent", number_or_null(d.percent)},
-          {"jnd_percent", d.jnd_percent},
+          {"jnd_percent", number_or_null(d.jnd_percent)},
           {"verdict", verdict_of(d.noticeable)}};
 }
 
 std::string format_row(const std::string& name, const Difference& d, double unit, const std::string& note) {
-  return fmt::format("{:<22} {:>11.5g} {:>11.5g} {:>+9.2f} % {:>7.3g} %  {}\n", name, d.a * unit, d.b * unit, d.percent,
-                     d.jnd_percent, note);
+  // Of nothing there is no percentage.
+  const std::string percent = std::isfinite(d.percent) ? fmt::format("{:>+9.2f} %", d.percent) : "          –";
+  const std::string jnd = std::isfinite(d.jnd_percent) ? fmt::format("{:>7.3g} %", d.jnd_percent) : "        –";
+  return fmt::format("{:<22} {:>11.5g} {:>11.5g} {} {}  {}\n", name, d.a * unit, d.b * unit, percent, jnd, note);
 }
 
 class TextureCompareCommand : public Command {

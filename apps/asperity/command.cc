@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include "asperity/base/text.h"
 #include "config_file.h"
@@ -49,6 +50,13 @@ bool Command::resolve() {
   }
   if (print_config_) print_text(json_ ? fields_to_json(all) + "\n" : to_toml(all, true));
   return !print_config_;
+}
+
+std::string Command::with_input(const std::string& message) const {
+  const std::filesystem::path path(read_from_);
+  const std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
+  if (name.empty() || message.find(printable(name, 200)) != std::string::npos) return message;
+  return printable(read_from_, 200) + ": " + message;
 }
 
 void Command::say(std::string_view text) const {
