@@ -30,6 +30,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     must(marker.T_marker_tag.translation_m.allFinite() && marker.T_marker_tag.rotation.coeffs().allFinite());
     must(marker.size_m > 0.0);
   }
-  must(written(parse_markers(written(file), "again.json")) == written(file));
+  // A rotation is normalised when it is read: its last digit may change.
+  const MarkerFile again = parse_markers(written(file), "again.json");
+  must(again.markers.size() == file.markers.size());
+  for (std::size_t i = 0; i < file.markers.size(); ++i) {
+    const MarkerPlacement &one = file.markers[i], &other = again.markers[i];
+    must(one.id == other.id && one.family == other.family && one.size_m == other.size_m);
+    must(one.T_marker_tag.translation_m == other.T_marker_tag.translation_m);
+    must(one.T_marker_tag.rotation.angularDistance(other.T_marker_tag.rotation) < 1e-7);
+  }
   return 0;
 }

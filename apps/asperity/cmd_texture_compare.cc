@@ -51,10 +51,15 @@ Json to_json(const Difference& d) {
 }
 
 std::string format_row(const std::string& name, const Difference& d, double unit, const std::string& note) {
-  // Of nothing there is no percentage.
-  const std::string percent = std::isfinite(d.percent) ? fmt::format("{:>+9.2f} %", d.percent) : "          –";
-  const std::string jnd = std::isfinite(d.jnd_percent) ? fmt::format("{:>7.3g} %", d.jnd_percent) : "        –";
-  return fmt::format("{:<22} {:>11.5g} {:>11.5g} {} {}  {}\n", name, d.a * unit, d.b * unit, percent, jnd, note);
+  // Of nothing there is no percentage, and no mean.
+  const auto cell = [](const char* form, double value, const char* unit_text, std::size_t width) {
+    std::string out = std::isfinite(value) ? fmt::format(fmt::runtime(form), value) + unit_text : "–";
+    const std::size_t letters = std::isfinite(value) ? out.size() : 1;
+    return letters < width ? std::string(width - letters, ' ') + out : out;
+  };
+  return fmt::format("{:<22} {} {} {} {}  {}\n", name, cell("{:.5g}", d.a * unit, "", 11),
+                     cell("{:.5g}", d.b * unit, "", 11), cell("{:+.2f}", d.percent, " %", 11),
+                     cell("{:.3g}", d.jnd_percent, " %", 9), note);
 }
 
 class TextureCompareCommand : public Command {
