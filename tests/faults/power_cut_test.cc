@@ -142,7 +142,8 @@ TEST_F(PowerCuts, OfProcessLeaveOldOrNew) {
       0);
   for (const bool replaces : {false, true}) {
     const Tree before = tree_below(work());
-    const Words words{"process", dir_ / "rec",  "--set", replaces ? "profile.ds_m=5e-5" : "profile.ds_m=2.5e-5",
+    const Words words{"process", dir_ / "rec",
+                      "--set",   replaces ? "profile.cutoff_cycles_per_mm=0.2" : "profile.cutoff_cycles_per_mm=0.1",
                       "-o",      work() / "out"};
     const PowerCut cut = note([&] {
       const Outcome outcome = run(words);
@@ -169,11 +170,11 @@ TEST_F(PowerCuts, OfACalibrationLeaveOldOrNew) {
 TEST_F(PowerCuts, OfTheStudiosDocumentLeaveOldOrNew) {
   const std::string file = (work() / ".asperity-studio.json").string();
   const std::string program = SAVE_DOCUMENT;
-  for (int round = 0; round < 5; ++round) {
+  for (int save = 1; save <= 5; ++save) {
     const Tree before = tree_below(work());
     const PowerCut cut =
-        note([&] { EXPECT_EQ(std::system((program + " " + file + " " + std::to_string(1 + round % 2)).c_str()), 0); });
-    if (round % 2 == 0) expect_old_or_new(cut, before, "document");
+        note([&] { EXPECT_EQ(std::system((program + " " + file + " " + std::to_string(save)).c_str()), 0); });
+    expect_old_or_new(cut, before, "document, save " + std::to_string(save));
   }
 }
 

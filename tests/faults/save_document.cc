@@ -1,5 +1,4 @@
-// Edits a project's file as the studio does, one save after another, each forced through before the next:
-//   save_document FILE COUNT
+// Edits a project's file and saves it as the studio does: save_document FILE NUMBER
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -10,12 +9,12 @@
 int main(int argc, char** argv) {
   using namespace asperity::studio;
   if (argc != 3) return 2;
+  Document document(argv[1]);
+  document.add_section("page", asperity::Json::object(), [](const asperity::Json&) {});
+  document.load();
+  document.edit("/page/number", std::atoi(argv[2]), "count");
   int failures = 0;
-  for (int k = 1; k <= std::atoi(argv[2]); ++k) {
-    Document document(argv[1]);
-    document.add_section("page", asperity::Json::object(), [](const asperity::Json&) {});
-    document.load();
-    document.edit("/page/number", k, "count");
+  {
     FileSaver saver(document.file(), [&failures](const std::string& why) {
       std::fprintf(stderr, "%s\n", why.c_str());
       ++failures;

@@ -89,7 +89,7 @@ def faults_of(reader, program, root, text):
                     found = NOT_FINITE.search(file.read())
                 if found:
                     faults.append(("finite", f"in {os.path.basename(path)}"))
-            for found in HUGE.finditer(out):
+            for found in HUGE.finditer(out.replace(work, "")):
                 if found.group(1) is None or int(found.group(1)) > 15:
                     faults.append(("huge", repr(out[max(0, found.start() - 60):found.end() + 20])))
                     break
