@@ -1,8 +1,10 @@
 // Runs a fuzz target over every file of the folders given, as it is and with seeded damage, for compilers without
-// libFuzzer.
+// libFuzzer:
+//   fuzz_NAME FOLDER… [--damages N]     N damaged copies of each file, 12 unless given
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -16,7 +18,6 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::size_t kDamagesEach = 12;
 constexpr std::size_t kLargestDamaged_bytes = 64 * 1024;
 
 // One to four bits, bytes, pieces or numbers of `bytes` changed. std::mt19937 gives the same everywhere.
@@ -65,7 +66,12 @@ void run(const Bytes& bytes) { LLVMFuzzerTestOneInput(bytes.data(), bytes.size()
 int main(int argc, char** argv) {
   int files = 0, damages = 0;
   std::vector<std::filesystem::path> paths;
+  std::size_t damages_each = 12;
   for (int i = 1; i < argc; ++i) {
+    if (std::string_view(argv[i]) == "--damages" && i + 1 < argc) {
+      damages_each = std::strtoul(argv[++i], nullptr, 10);
+      continue;
+    }
     for (const auto& entry : std::filesystem::recursive_directory_iterator(argv[i])) {
       if (entry.is_regular_file()) paths.push_back(entry.path());
     }
@@ -78,7 +84,7 @@ int main(int argc, char** argv) {
     run(bytes);
     ++files;
     if (bytes.size() > kLargestDamaged_bytes) continue;
-    for (std::size_t k = 0; k < kDamagesEach; ++k, ++damages) run(damaged(bytes, random));
+    for (std::size_t k = 0; k < damages_each; ++k, ++damages) run(damaged(bytes, random));
   }
   std::printf("%d inputs replayed, %d damaged ones\n", files, damages);
   return files > 0 ? 0 : 1;
