@@ -55,7 +55,9 @@ int CalibrateCommand::run(const Observer& observer) {
     refuse_stranger(output_, begins_as_calibration, inputs());
     before = calibration_before(output_);
   }
+  if (const std::vector<std::string> read = inputs(); read.size() == 1) reads(read.front());
   const CalibrateOutcome outcome = calibrate(observer);
+  reads("");
   if (!output_.empty()) write(before, outcome);
   print_json(report(outcome).dump_repaired(2));
   say(text(outcome));

@@ -22,6 +22,7 @@ class CalibrateTipCommand : public CalibrateCommand {
 
  private:
   CalibrateOutcome calibrate(const Observer& observer) override {
+    reads(recording_);
     const Recording recording = read_recording(recording_, {}, observer);
     observer.update("fitting", 0.3);
     const TipCalibration tip = calibrate_tip(recording.tracker, recording.calibration.tracker, config_);

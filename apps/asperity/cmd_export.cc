@@ -55,6 +55,7 @@ class ExportCommand : public Command {
     }
     OutputFolder folder(target, is_our_folder);
     observer.update("reading", 0.0);
+    reads(source_);
     Scene scene = read_export_source(source_, observer);
     if (!mesh_unit_.empty()) {
       if (fs::path(source_).extension() == ".json" || fs::is_directory(source_))
@@ -63,6 +64,7 @@ class ExportCommand : public Command {
     }
     observer.update("exporting", 0.0);
     const ExportResult result = export_scene(scene, format, config_);
+    reads("");
     observer.update("writing", 1.0);
     Json out;
     out["format"] = "asperity-export";

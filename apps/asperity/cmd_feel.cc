@@ -134,6 +134,7 @@ class FeelCommand : public Command {
     std::optional<OutputFolder> folder;
     if (!output_.empty()) folder.emplace(output_, is_our_folder);
     observer.update("reading", 0.0);
+    reads(replay_.empty() ? input_.scene : replay_);
     const Scene scene = read_scene(observer);
     FeelDrive drive;
     if (!replay_.empty()) {
@@ -144,6 +145,7 @@ class FeelCommand : public Command {
       drive = make_drive(scene, point("--from", from_), point("--to", to_), settings_);
     }
     if (settings_.servo.duration_s > 0.0) cut_drive(drive, settings_.servo.duration_s, settings_.servo.rate_Hz);
+    reads("");
     check_length(drive);
     warn_of(scene.problems);
     warn_of(drive.problems);

@@ -70,12 +70,14 @@ class PaintCommand : public Command {
     if (picks.size() < 2) throw UsageError("--through: at least two points x,y,z are needed, with ; between");
     OutputFolder folder(output_, is_our_folder);
     observer.update("reading", 0.0);
+    reads(mesh_);
     Scene scene = read(unit_m, observer);
     SceneObject& object = scene.objects.front();
     const SceneTexture texture = choose_texture(scene, texture_, index_, observer);
 
     observer.update("painting", 0.0);
     const PaintResult result = paint(object, picks, texture, settings_.coordinates);
+    reads("");
     observer.update("writing", 1.0);
     write_scene(folder.path() / "scene.json", scene);
     const std::string json = to_json(result, object, texture).dump_repaired(2);

@@ -102,7 +102,9 @@ std::string result_summary(const ProcessResult& result) {
     const Accuracy& a = *result.accuracy;
     out += fmt::format("  truth       position {:.0f} µm RMS (raw tracker {:.0f} µm)", a.position_rms_m * 1e6,
                        a.tracker_rms_m * 1e6);
-    if (a.profile) {
+    if (a.profile && !std::isfinite(a.profile->correlation)) {
+      out += ", profile: nothing to compare";
+    } else if (a.profile) {
       out += fmt::format(", profile: correlation {:.3f}, gain {:.3f}, {:.1f} µm RMS, length {:+.2f} %",
                          a.profile->correlation, a.profile->gain, a.profile->rms_um, a.profile->length_error_percent);
     }
@@ -161,6 +163,7 @@ class ProcessCommand : public Command {
       const std::string name = folder_name(path);
       process_pieces(path, name, recordings_.size() == 1 ? folder.path() : folder.path() / name, observer, text);
     }
+    reads("");
     observer.update("writing", 1.0);
     if (!alone_) studio::write_report(folder.path(), items_);
     commit_output(folder, output_);
@@ -175,6 +178,7 @@ class ProcessCommand : public Command {
   void process_pieces(const std::string& path, const std::string& name, const fs::path& place, const Observer& observer,
                       std::string& text) {
     observer.update("reading", 0.0);
+    reads(path);
     const Recording recording = read_recording(path, {}, observer);
     const std::vector<Segment> pieces = chosen_segments(path, recording);
     alone_ = recordings_.size() == 1 && pieces.size() < 2;

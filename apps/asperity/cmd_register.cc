@@ -85,8 +85,10 @@ class RegisterCommand : public Command {
 
     OutputFolder folder(output_, is_registration_folder);
     observer.update("reading", 0.0);
+    reads(files_.front());
     const RegisterInput input = read_register_input(files_, mesh_path, unit_m, textures_, observer);
     const ScansOnMesh result = register_input(input, guess, config_, observer);
+    reads("");
     observer.update("writing", 1.0);
     write_registration(folder.path(), result, input.scans, input.mesh, unit_m);
     const std::string json = read_file(folder.path() / "registration.json", std::uint64_t{1} << 30);
@@ -155,8 +157,10 @@ class RegisterCommand : public Command {
       out += "\n";
       if (scan.process.accuracy && scan.process.accuracy->profile) {
         const ProfileComparison& truth = *scan.process.accuracy->profile;
-        out += fmt::format("  truth       correlation {:.3f}, gain {:.3f}, {:.1f} µm RMS, length {:+.2f} %\n",
-                           truth.correlation, truth.gain, truth.rms_um, truth.length_error_percent);
+        out += !std::isfinite(truth.correlation)
+                   ? "  truth       nothing to compare\n"
+                   : fmt::format("  truth       correlation {:.3f}, gain {:.3f}, {:.1f} µm RMS, length {:+.2f} %\n",
+                                 truth.correlation, truth.gain, truth.rms_um, truth.length_error_percent);
       }
       for (const Problem& problem : scan.process.problems) out += "  note        " + problem.message + "\n";
     }

@@ -83,6 +83,7 @@ class RoughnessCommand : public Command {
   }
 
   int run(const Observer&) override {
+    reads(file_);
     const Heights heights = read_heights(file_, settings_.input);
     if (const auto* profile = std::get_if<HeightProfile>(&heights)) {
       report_profile(*profile);

@@ -24,6 +24,7 @@ class StudySummarizeCommand : public Command {
 
   int run(const Observer& observer) override {
     observer.update("reading", 0.0);
+    reads(log_);
     const std::string name = printable(log_, 200);
     if (std::filesystem::is_directory(log_)) throw Error(name + ": a folder, where the log of a study is needed");
     const StudyLog log = parse_study_log(read_file(log_, kLargestStudyLog_bytes), name);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -45,13 +46,20 @@ Json to_json(const Difference& d) {
   return {{"a", number_or_null(d.a)},
           {"b", number_or_null(d.b)},
           {"percent", number_or_null(d.percent)},
-          {"jnd_percent", d.jnd_percent},
+          {"jnd_percent", number_or_null(d.jnd_percent)},
           {"verdict", verdict_of(d.noticeable)}};
 }
 
 std::string format_row(const std::string& name, const Difference& d, double unit, const std::string& note) {
-  return fmt::format("{:<22} {:>11.5g} {:>11.5g} {:>+9.2f} % {:>7.3g} %  {}\n", name, d.a * unit, d.b * unit, d.percent,
-                     d.jnd_percent, note);
+  // Of nothing there is no percentage, and no mean.
+  const auto cell = [](const char* form, double value, const char* unit_text, std::size_t width) {
+    std::string out = std::isfinite(value) ? fmt::format(fmt::runtime(form), value) + unit_text : "–";
+    const std::size_t letters = std::isfinite(value) ? out.size() : 1;
+    return letters < width ? std::string(width - letters, ' ') + out : out;
+  };
+  return fmt::format("{:<22} {} {} {} {}  {}\n", name, cell("{:.5g}", d.a * unit, "", 11),
+                     cell("{:.5g}", d.b * unit, "", 11), cell("{:+.2f}", d.percent, " %", 11),
+                     cell("{:.3g}", d.jnd_percent, " %", 9), note);
 }
 
 class TextureCompareCommand : public Command {

@@ -146,7 +146,9 @@ class TextureFitCommand : public Command {
   int run(const Observer&) override {
     if (!output_.ends_with(".json")) throw UsageError("-o: a texture's file is called *.texture.json");
     refuse_stranger(output_, begins_as_texture, files_);
+    if (files_.size() == 1) reads(files_.front());
     FittedTexture fitted = fit();
+    reads("");
     finish(fitted);
     return kDone;
   }

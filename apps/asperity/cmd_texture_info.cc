@@ -31,6 +31,7 @@ class TextureInfoCommand : public Command {
   }
 
   int run(const Observer& observer) override {
+    reads(file_);
     const Texture texture = read_texture(file_, {}, observer);
     Json out;
     out["format"] = "asperity-texture-info";

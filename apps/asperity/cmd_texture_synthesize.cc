@@ -62,8 +62,10 @@ class TextureSynthesizeCommand : public Command {
   }
 
   int run(const Observer& observer) override {
+    reads(file_);
     Texture texture = read_texture(file_, {}, observer);
     if (seed_option_->count() > 0) reseed(texture);
+    reads("");
     refuse_stranger(output_,
                     [](std::string_view begin) {
                       return begin.starts_with(kLineColumns) || begin.starts_with(kStrokeColumns) ||

@@ -4,9 +4,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include "asperity/base/text.h"
 #include "config_file.h"
+#include "terminal_text.h"
 
 namespace asperity::app {
 
@@ -50,13 +52,24 @@ bool Command::resolve() {
   return !print_config_;
 }
 
+std::string Command::with_input(const std::string& message) const {
+  const std::filesystem::path path(read_from_);
+  const std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
+  if (name.empty()) return message;
+  // As a file is named: at the end of a path, before a colon, or in quotes.
+  for (const std::string& named : {"/" + name, name + ":", "'" + name + "'"}) {
+    if (message.find(printable(named, 200)) != std::string::npos) return message;
+  }
+  return printable(read_from_, 200) + ": " + message;
+}
+
 void Command::say(std::string_view text) const {
-  if (!json_ && !quiet_) print_text(text);
+  if (!json_ && !quiet_) print_text(terminal_text(text));
 }
 
 void Command::print_json(std::string_view object) const {
   if (!json_) return;
-  print_text(object);
+  print_text(terminal_json(object));
   if (!object.ends_with('\n')) print_text("\n");
 }
 

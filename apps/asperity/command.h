@@ -46,6 +46,8 @@ class Command {
   virtual int run(const Observer& observer) = 0;
 
   Parser& parser() { return *parser_; }
+  // `message` with what was being read before it, unless it names that already.
+  std::string with_input(const std::string& message) const;
   // Brings the settings to what the command line says; true if the command is then to be run,
   // false if --print-config has printed them. Throws UsageError for a missing required option.
   bool resolve();
@@ -55,6 +57,8 @@ class Command {
   // Required unless --print-config is given.
   Option* require(Option* option);
   bool json() const { return json_; }
+  // From now on an error is one of this file or folder: for what is found out behind the reader, which knows no names.
+  void reads(std::string path) { read_from_ = std::move(path); }
   // For a person: prints unless --json or --quiet.
   void say(std::string_view text) const;
   // The result: prints `object` if --json. One line break is added.
@@ -63,6 +67,7 @@ class Command {
  private:
   Parser* parser_;
   std::vector<Option*> required_;
+  std::string read_from_;
   bool json_ = false;
   bool quiet_ = false;
   bool print_config_ = false;

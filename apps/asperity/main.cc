@@ -89,7 +89,7 @@ int run_command(Command& command) {
   } catch (const std::bad_alloc&) {
     tell_failure(name + ": not enough memory");
   } catch (const std::exception& error) {
-    tell_failure(error.what());
+    tell_failure(command.with_input(error.what()));
   }
   return kBadInput;
 }

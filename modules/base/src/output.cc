@@ -189,10 +189,10 @@ OutputFolder::~OutputFolder() {
 std::vector<fs::path> OutputFolder::commit() {
   std::error_code ignored;
   std::vector<fs::path> kept;
+  // What gets the name must be whole on the disk before, or a power cut leaves the name with half of it.
+  for (const fs::path& name : names_in(temporary_)) sync(temporary_ / name, target_);
+  sync(temporary_, target_);
   if (fs::exists(target_, ignored)) {
-    // What is to go is whole on the disk; what comes must be, before.
-    for (const fs::path& name : names_in(temporary_)) sync(temporary_ / name, target_);
-    sync(temporary_, target_);
     fs::path old = temporary_;
     // Exchanging the two names leaves no moment without a whole folder in place.
     if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) != 0) {
@@ -206,20 +206,25 @@ std::vector<fs::path> OutputFolder::commit() {
     mark_finished(temporary_);
     temporary_.clear();
     note_output(target_);
-    if (const int error = try_sync(folder_of(target_)); error != 0) {
-      throw Error(target_.string() + ": is written, but cannot be forced to the disk: " + std::strerror(error) +
-                  "; what it replaced is kept in " + old.string());
-    }
+    sync_name("; what it replaced is kept in " + old.string());
     kept = keep_strangers(old);
     fs::remove_all(old, ignored);
   } else if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
     throw Error(target_.string() + ": cannot be written: " + reason());
   } else {
+    mark_finished(temporary_);
+    temporary_.clear();
     note_output(target_);
+    sync_name();
   }
-  if (!temporary_.empty()) mark_finished(temporary_);
-  temporary_.clear();
   return kept;
+}
+
+// The name that the folder has now, and what was kept in it, on the disk.
+void OutputFolder::sync_name(const std::string& besides) const {
+  if (const int error = try_sync(folder_of(target_)); error != 0) {
+    throw Error(target_.string() + ": is written, but cannot be forced to the disk: " + std::strerror(error) + besides);
+  }
 }
 
 // Moves what came into the folder since we looked at it into the one that has taken its place.
@@ -241,6 +246,7 @@ std::vector<fs::path> OutputFolder::keep_strangers(const fs::path& old) const {
       throw Error(target_.string() + ": was written, but " + (old / name).string() +
                   " was put there meanwhile and cannot be moved: " + reason() + "; it is kept where it is");
     }
+    sync(place.parent_path(), target_);  // before its old folder goes
     kept.push_back(name);
   }
   return kept;

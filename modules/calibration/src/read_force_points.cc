@@ -1,5 +1,7 @@
 #include "asperity/calibration/read_force_points.h"
 
+#include <cmath>
+
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
@@ -10,6 +12,14 @@ namespace {
 
 constexpr std::uint64_t kLargestPointsFile_bytes = std::uint64_t{64} << 20;
 constexpr std::size_t kMostPoints = 1'000'000;
+
+constexpr double kMostCounts = 1e12, kMostForce_N = 1e4;
+
+double plausible(const CsvReader& reader, std::size_t column, double most, const char* what) {
+  const double value = reader.finite(column);
+  if (std::abs(value) > most) reader.fail(column, "'" + printable(reader.cell(column)) + "' is not " + what);
+  return value;
+}
 
 }  // namespace
 
@@ -23,8 +33,8 @@ ForcePoints read_force_points(const std::filesystem::path& file) {
   ForcePoints out;
   while (reader.next()) {
     if (out.size() == kMostPoints) throw Error(name + ": more than a million readings");
-    out.counts.push_back(reader.finite(counts));
-    out.force_N.push_back(reader.finite(force));
+    out.counts.push_back(plausible(reader, counts, kMostCounts, "counts of a converter"));
+    out.force_N.push_back(plausible(reader, force, kMostForce_N, "a force in newtons that a hand gives"));
   }
   return out;
 }

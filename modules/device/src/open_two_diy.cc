@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
 #include <cstring>
 #include <numbers>
 #include <optional>
@@ -20,6 +18,7 @@
 #include "io_device.h"
 #include "open_questions.h"
 #include "pantograph.h"
+#include "two_diy_answer.h"
 
 namespace asperity {
 
@@ -29,13 +28,6 @@ using Bytes = std::vector<unsigned char>;
 
 constexpr unsigned char kReset = 0, kSetUp = 1, kTorques = 2;
 constexpr unsigned char kBothPorts = 3;  // ports 1 and 2, a bit each
-constexpr std::size_t kAnswer_bytes = 1 + 2 * sizeof(float);
-constexpr int kWrongAnswersUntilFault = 5;  // one after another
-constexpr double kMostDegrees = 3600.0;
-// A hand does not turn an arm faster, and a jump within noise is none.
-constexpr double kFastest_deg_per_s = 3600.0, kLeastJump_deg = 5.0;
-
-static_assert(std::endian::native == std::endian::little, "the board's floats are little-endian");
 
 void append_float(Bytes& bytes, double value) {
   const auto number = static_cast<float>(value);
@@ -49,7 +41,8 @@ class TwoDiy final : public IoDevice {
   explicit TwoDiy(const TwoDiyConfig& config)
       : IoDevice(config.stall_after_s),
         config_(config),
-        port_({config.port, 115200, "2diy: " + printable(config.port, 200), "the board"}) {
+        port_({config.port, 115200, "2diy: " + printable(config.port, 200), "the board"}),
+        answers_(id()) {
     linkage_ = {config.proximal_m, config.distal_m, config.base_m};
     noise_m_ = 2.0 * std::numbers::pi / config.encoder_counts * (config.proximal_m + config.distal_m);
     const double side = config.mirror_x ? -1.0 : 1.0;
@@ -83,7 +76,7 @@ class TwoDiy final : public IoDevice {
   [[noreturn]] void fail_to_open() const {
     std::string why = ": no answer within a second";
     if (questions_.last_age() > Clock::duration::zero()) why = ": its answers come " + age_text() + " late";
-    if (theta_deg_) why = ": its arms are in line, where its place is not known: move the handle";
+    if (answers_.theta_deg()) why = ": its arms are in line, where its place is not known: move the handle";
     throw Error("2diy: " + printable(config_.port, 200) + why);
   }
 
@@ -124,7 +117,7 @@ class TwoDiy final : public IoDevice {
 
   // The next answer, if it is complete by `until`.
   bool take_answer(Clock::time_point until) {
-    while (answered_ < kAnswer_bytes) {
+    while (answered_ < answer_.size()) {
       const std::size_t count = port_.read(std::span(answer_).subspan(answered_), until);
       if (count == 0) return false;
       answered_ += count;
@@ -132,35 +125,19 @@ class TwoDiy final : public IoDevice {
     answered_ = 0;
     const auto now = Clock::now();
     const bool current = questions_.answer(now);
-    float degrees[2];
-    std::memcpy(degrees, answer_.data() + 1, sizeof degrees);
-    const Eigen::Vector2d theta_deg(static_cast<double>(degrees[0]), static_cast<double>(degrees[1]));
-    if (answer_[0] != id() || !(theta_deg.cwiseAbs().maxCoeff() <= kMostDegrees) || is_a_jump(theta_deg, now)) {
-      if (++wrong_answers_ >= kWrongAnswersUntilFault) {
-        throw Error("2diy: " + printable(config_.port, 200) + ": its answers make no sense");
-      }
-      return true;
+    const double t_s = std::chrono::duration<double>(now - begin_).count();
+    const TwoDiyAnswers::Kind kind = answers_.take(answer_, t_s, current);
+    if (kind == TwoDiyAnswers::Kind::kFault) {
+      throw Error("2diy: " + printable(config_.port, 200) + ": its answers make no sense");
     }
-    wrong_answers_ = 0;
-    if (!current) return true;
-    theta_deg_ = theta_deg;
-    theta_at_ = now;
-    state_ = pantograph_state(linkage_, theta_deg * (std::numbers::pi / 180.0));
+    if (kind == TwoDiyAnswers::Kind::kRefused || !current) return true;
+    state_ = pantograph_state(linkage_, *answers_.theta_deg() * (std::numbers::pi / 180.0));
     // With its arms in line the place is not known: no news, so that the servo ramps down and starts softly again.
     if (!state_) return true;
     p_m_ = axes_ * state_->p_m;
     ++news_sequence_;
-    const double t_s = std::chrono::duration<double>(now - begin_).count();
     news_.publish({p_m_, estimate_velocity(velocity_, p_m_, news_sequence_, t_s, noise_m_), news_sequence_});
     return true;
-  }
-
-  // Answers are framed by the id alone: the tail of a late one before the next may look like one, with other angles.
-  bool is_a_jump(const Eigen::Vector2d& theta_deg, Clock::time_point now) const {
-    if (!theta_deg_) return false;
-    const double since_s = std::chrono::duration<double>(now - theta_at_).count();
-    const double most_deg = kFastest_deg_per_s * since_s + kLeastJump_deg;
-    return !((theta_deg - *theta_deg_).cwiseAbs().maxCoeff() <= most_deg);
   }
 
   Eigen::Vector2d torque_N_m(const Eigen::Vector3d& force_N) const {
@@ -246,13 +223,11 @@ class TwoDiy final : public IoDevice {
   SerialPort port_;
   std::optional<Supervisor> supervisor_;
   Bytes bytes_;
-  std::array<unsigned char, kAnswer_bytes> answer_{};
+  std::array<unsigned char, kTwoDiyAnswer_bytes> answer_{};
   std::size_t answered_ = 0;  // bytes of the next answer
   OpenQuestions questions_{seconds(config_.late_after_s)};
   Clock::time_point heard_at_;
-  int wrong_answers_ = 0;
-  std::optional<Eigen::Vector2d> theta_deg_;  // of the last answer
-  Clock::time_point theta_at_;
+  TwoDiyAnswers answers_;
   std::optional<PantographState> state_;
   Eigen::Vector3d p_m_ = Eigen::Vector3d::Zero();
   VelocityEstimator velocity_;

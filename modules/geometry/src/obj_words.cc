@@ -5,6 +5,7 @@
 #include <string>
 
 #include "asperity/base/text.h"
+#include "plausible_coordinate.h"
 
 namespace asperity {
 
@@ -41,6 +42,7 @@ double finite_number(const StatementLines& lines, std::string_view word) {
     lines.fail("'" + printable(word) + "' is not a number");
   }
   if (!std::isfinite(value)) lines.fail("'" + printable(word) + "' is not a finite number");
+  if (!is_plausible_coordinate(value)) lines.fail("'" + printable(word) + "' is beyond 1e12");
   return value;
 }
 

@@ -11,6 +11,7 @@
 #include "gltf_document.h"
 #include "gltf_scene.h"
 #include "load_gltf_model.h"
+#include "plausible_coordinate.h"
 #include "problem_counter.h"
 #include "tinygltf_config.h"
 #include "vertex_merger.h"
@@ -201,6 +202,7 @@ class GltfReader {
     for (std::size_t i = 0; i < vertex.size(); ++i) {
       const Eigen::Vector3d p = T_scene_node * vector3(positions, i);
       if (!p.allFinite()) throw Error(what + ": POSITION " + std::to_string(i) + " is not finite");
+      if (!has_plausible_coordinates(p)) throw Error(what + ": POSITION " + std::to_string(i) + " is beyond 1e12");
       vertex[i] = merger_.add(p);
     }
     const std::size_t before = mesh_.triangles.size();

@@ -8,6 +8,7 @@
 #include "asperity/base/little_endian.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/triangulate_polygon.h"
+#include "plausible_coordinate.h"
 #include "ply_header.h"
 #include "ply_numbers.h"
 #include "problem_counter.h"
@@ -147,7 +148,10 @@ class PlyParser {
           continue;
         }
         double value = numbers_.next(property.type);
-        if (!std::isfinite(value)) numbers_.fail("'" + property.name + "' is " + number_text(value));
+        if (!is_plausible_coordinate(value)) {
+          numbers_.fail("'" + property.name + "' is " + number_text(value) +
+                        (std::isfinite(value) ? ", beyond 1e12" : ""));
+        }
         if (places[i] >= 6 && places[i] < 9) value /= full_scale(property.type);
         values[static_cast<std::size_t>(places[i])] = value;
       }

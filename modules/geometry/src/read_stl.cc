@@ -8,6 +8,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/little_endian.h"
 #include "asperity/base/text.h"
+#include "plausible_coordinate.h"
 #include "problem_counter.h"
 #include "statement_lines.h"
 #include "vertex_merger.h"
@@ -81,6 +82,7 @@ class StlParser {
       for (std::size_t k = 0; k < 3; ++k) {
         corners_[k] = vector(k + 1);
         if (!corners_[k].allFinite()) throw Error(place() + ": a coordinate is not finite");
+        if (!has_plausible_coordinates(corners_[k])) throw Error(place() + ": a coordinate is beyond 1e12");
       }
       add_triangle(vector(0), place);
       if (facet[48] != 0 || facet[49] != 0) {
@@ -142,6 +144,7 @@ class StlParser {
       const std::string_view word = next_word(rest);
       const std::optional<double> value = parse_double(word);
       if (!value || (finite && !std::isfinite(*value))) lines.fail("'" + printable(word) + "' is not a coordinate");
+      if (finite && !is_plausible_coordinate(*value)) lines.fail("'" + printable(word) + "' is beyond 1e12");
       v[i] = *value;
     }
     if (!rest.empty()) lines.fail("'" + printable(rest) + "' after three numbers");

@@ -36,7 +36,7 @@ std::size_t check_areal_map(const ArealMap& map, const ArealRoughnessConfig& con
   if (missing + 3 > map.height_m.size() ||
       static_cast<double>(missing) > config.max_missing * static_cast<double>(map.height_m.size())) {
     throw Error("areal roughness: " + std::to_string(missing) + " of " + std::to_string(map.height_m.size()) +
-                " heights are missing (nan); allowed is a part of " + number_text(config.max_missing));
+                " heights are missing; allowed is a part of " + number_text(config.max_missing));
   }
   return missing;
 }

@@ -37,7 +37,7 @@ void check_profile(std::span<const double> height_m, double spacing_m, const Rou
   if (missing + 2 > height_m.size() ||
       static_cast<double>(missing) > config.max_missing * static_cast<double>(height_m.size())) {
     throw Error("roughness: " + std::to_string(missing) + " of " + std::to_string(height_m.size()) +
-                " heights are missing (nan); allowed is a part of " + number_text(config.max_missing));
+                " heights are missing; allowed is a part of " + number_text(config.max_missing));
   }
 }
 

@@ -52,6 +52,17 @@ void take_spacing(const std::vector<double>& s_m, const ReadHeightsConfig& confi
   }
 }
 
+// What is finite and still no height, or no error of one, of anything that a hand strokes.
+constexpr double kLargestHeight_m = 1.0;
+
+double plausible_m(const CsvReader& table, std::size_t column, double unit_m) {
+  const double value_m = table.finite_or_nan(column) * unit_m;
+  if (std::abs(value_m) > kLargestHeight_m) {
+    table.fail(column, "'" + printable(table.cell(column)) + "' is more than a metre");
+  }
+  return value_m;
+}
+
 HeightProfile read_profile_heights(CsvReader& table, const ReadHeightsConfig& config, bool ends_in_newline) {
   HeightProfile profile;
   const auto position = table.find("s_m");
@@ -65,9 +76,9 @@ HeightProfile read_profile_heights(CsvReader& table, const ReadHeightsConfig& co
     table.fail("the file has no positions (s_m): the spacing of its heights must be given");
   std::vector<double> s_m;
   while (table.next()) {
-    profile.height_m.push_back(table.finite_or_nan(column) * unit_m);
+    profile.height_m.push_back(plausible_m(table, column, unit_m));
     if (position) s_m.push_back(table.finite_or_nan(*position));
-    if (sigma) profile.sigma_m.push_back(table.finite_or_nan(*sigma));
+    if (sigma) profile.sigma_m.push_back(plausible_m(table, *sigma, 1.0));
   }
   if (profile.height_m.size() < 2) table.fail("fewer than two heights");
   if (position) {

@@ -55,7 +55,7 @@ void RecordingInfoWriter::run() {
     lock.unlock();
     std::string failure;
     try {
-      if (info) replace_recording_info(folder_ / "recording.json", *info);
+      if (info) write_recording_info(folder_ / "recording.json", *info);
       if (sync_s_ > 0.0 && Clock::now() >= next_sync) {
         next_sync = Clock::now() + period;
         sync();

@@ -48,7 +48,7 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& folder, RecordingI
       appender_(folder, info_, calibration, columns_of(description, has_poses)),
       segments_(appender_, nanoseconds(config.pre_roll_s)) {
   if (config.mode == StoreMode::kSegments && config.start_at_once) begin("segment_", SegmentWriter::kFromFirstRow);
-  replace_recording_info(folder / "recording.json", current_info(false));
+  write_recording_info(folder / "recording.json", current_info(false));
 }
 
 void RecordingWriter::add(std::span<const ProbeSample> samples) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include "asperity/base/crc32.h"
 #include "asperity/base/error.h"
+#include "find_block.h"
 
 namespace asperity {
 
@@ -27,23 +28,10 @@ bool take_number(std::string_view& line, T& value, int base) {
   return true;
 }
 
-bool fits(std::string_view content, std::uint64_t begin, const BlockChecksum& block) {
+bool fits(std::string_view content, std::uint64_t begin, const BlockChecksum& block, std::uint64_t& bytes_summed) {
   if (begin > content.size() || block.bytes > content.size() - begin) return false;
+  bytes_summed += block.bytes;
   return crc32(content.substr(begin, block.bytes)) == block.crc;
-}
-
-// Where the block begins, among the lines around the place where it should.
-std::optional<std::uint64_t> search(std::string_view content, std::uint64_t expected, std::uint64_t earliest,
-                                    const BlockChecksum& block) {
-  const std::uint64_t last = std::min<std::uint64_t>(content.size(), expected + kReach_bytes);
-  std::uint64_t at = std::max(earliest, expected > kReach_bytes ? expected - kReach_bytes : 0);
-  for (bool at_line = at == earliest; at < last; at_line = true) {
-    if (at_line && fits(content, at, block)) return at;
-    const std::size_t newline = content.find('\n', at);
-    if (newline == std::string_view::npos) break;
-    at = newline + 1;
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -119,8 +107,10 @@ std::vector<BlockChecksum> parse_checksums(std::string_view text, std::string_vi
   return out;
 }
 
-std::vector<ChangedBytes> find_changes(std::string_view content, const std::vector<BlockChecksum>& blocks) {
+std::vector<ChangedBytes> find_changes(std::string_view content, const std::vector<BlockChecksum>& blocks,
+                                       std::uint64_t* bytes_summed) {
   std::vector<ChangedBytes> out;
+  std::uint64_t summed = 0;
   std::uint64_t found_end = 0;      // behind the last block that was found, here
   std::uint64_t found_end_was = 0;  // and there, where it was written
   bool missed = false;              // a block since then was not found
@@ -141,12 +131,15 @@ std::vector<ChangedBytes> find_changes(std::string_view content, const std::vect
     std::optional<std::uint64_t> at;
     // A block whose follower lies where it should has other bytes, as many as before: it need not be looked for.
     const bool follower_fits =
-        i + 1 < blocks.size() && fits(content, expected + (blocks[i + 1].begin - block.begin), blocks[i + 1]);
-    if (fits(content, expected, block)) {
+        i + 1 < blocks.size() && fits(content, expected + (blocks[i + 1].begin - block.begin), blocks[i + 1], summed);
+    if (fits(content, expected, block, summed)) {
       at = expected;
     } else if (!follower_fits && searches < kMostSearches) {
       ++searches;
-      at = search(content, expected, found_end, block);
+      // Among the lines around the place where it should be.
+      const std::uint64_t last = std::min<std::uint64_t>(content.size(), expected + kReach_bytes);
+      const std::uint64_t first = std::max(found_end, expected > kReach_bytes ? expected - kReach_bytes : 0);
+      at = find_block(content, first, last, block, summed);
     }
     if (!at) {
       missed = true;
@@ -160,6 +153,7 @@ std::vector<ChangedBytes> find_changes(std::string_view content, const std::vect
     missed = false;
   }
   if (missed) note(found_end, missed_end);
+  if (bytes_summed != nullptr) *bytes_summed += summed;
   return out;
 }
 

@@ -53,7 +53,9 @@ struct ChangedBytes {
 
 // Where `content` differs from its blocks, in order, neighbours joined. Where bytes have gone or come in between, the
 // blocks behind are looked for at the lines nearby, at most 16 times: only what lies between blocks that were found is
-// changed. Bytes behind the last listed block are not judged.
-std::vector<ChangedBytes> find_changes(std::string_view content, const std::vector<BlockChecksum>& blocks);
+// changed. Bytes behind the last listed block are not judged. `bytes_summed` gets what was summed for that: a few times
+// the content at most.
+std::vector<ChangedBytes> find_changes(std::string_view content, const std::vector<BlockChecksum>& blocks,
+                                       std::uint64_t* bytes_summed = nullptr);
 
 }  // namespace asperity

@@ -30,11 +30,17 @@ constexpr double kMostZero_mps2 = 1e6, kMostZero_radps = 1e3;
 
 // Far below any usable sensor: such a matrix would turn noise into signal.
 constexpr double kLeastRelativeSingularValue = 1e-9;
+// No maker gives the axes of one sensor sensitivities that differ by more, and noise along the dullest would be motion.
+constexpr double kLeastPlausibleRatio = 1e-2;
 
 void require_invertible(const JsonObject& object, const Eigen::Matrix3d& B) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(B);
   const auto& values = svd.singularValues();
   if (!(values[2] > kLeastRelativeSingularValue * values[0])) object.fail("B", "its linear part is singular");
+  if (!(values[2] >= kLeastPlausibleRatio * values[0])) {
+    object.fail("B", fmt::format("sensitivities from {:.3g} to {:.3g} counts a unit in one sensor are not plausible",
+                                 values[2], values[0]));
+  }
   if (!(values[0] <= kMostSensitivity && values[2] >= kLeastSensitivity)) {
     object.fail("B",
                 fmt::format("a sensitivity of {:.3g} counts a unit is not plausible: {:.0e} to {:.0e}",

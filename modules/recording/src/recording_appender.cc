@@ -7,6 +7,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
+#include "asperity/base/sync_folder.h"
 #include "asperity/recording/format_recording.h"
 #include "asperity/recording/write_recording.h"
 #include "block_checksums.h"
@@ -23,6 +24,23 @@ constexpr std::size_t kBatch_bytes = 64 * 1024;
 
 [[noreturn]] void fail(const fs::path& path) {
   throw Error(path.string() + ": cannot be written: " + std::strerror(errno));
+}
+
+// The innermost folder of `path` that is there.
+fs::path existing_part(const fs::path& path) {
+  std::error_code error;
+  fs::path there = fs::absolute(path).lexically_normal();
+  while (!fs::exists(there, error) && there.has_relative_path()) there = there.parent_path();
+  return there;
+}
+
+// Rows that are forced to the disk are of no use under names that are not: those of the folders from `there` on.
+void sync_names(const fs::path& folder, const fs::path& there) {
+  const fs::path whole = fs::absolute(folder).lexically_normal();
+  for (fs::path part = whole; part.has_relative_path(); part = part.parent_path()) {
+    sync_folder(part);
+    if (part == there) return;
+  }
 }
 
 }  // namespace
@@ -78,6 +96,7 @@ RecordingAppender::RecordingAppender(fs::path folder, const RecordingInfo& info,
       probe_(std::make_unique<Stream>()),
       tracker_(std::make_unique<Stream>()),
       checksums_(std::make_unique<Stream>()) {
+  const fs::path there = existing_part(folder_);
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw Error(folder_.string() + ": cannot be made: " + error.message());
@@ -91,6 +110,7 @@ RecordingAppender::RecordingAppender(fs::path folder, const RecordingInfo& info,
                        tracker_header(columns.markers, columns.reprojection, columns.sigmas, columns.sigmas));
     checksums_->open_new(folder_ / kChecksumFile, checksum_header());
     note_output(folder_);
+    sync_names(folder_, there);
   } catch (...) {
     for (Stream* stream : {probe_.get(), tracker_.get(), checksums_.get()}) stream->close();
     throw;
@@ -170,6 +190,7 @@ void RecordingAppender::finish(const RecordingInfo& info, bool only_segments) {
   // The checksums are of the streams with those rows. Whoever dies in between leaves streams that nothing checks.
   std::error_code error;
   if (!fs::remove(checksums_->path, error)) throw Error(checksums_->path.string() + ": cannot be replaced");
+  sync_folder(folder_);
   std::string lines = checksum_header();
   for (const Stream* stream : {probe_.get(), tracker_.get()}) {
     keep_rows(stream->path, info.segments);

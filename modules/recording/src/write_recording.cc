@@ -1,8 +1,6 @@
 #include "asperity/recording/write_recording.h"
 
-#include <fstream>
 #include <string>
-#include <system_error>
 
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
@@ -14,17 +12,6 @@ namespace asperity {
 
 void write_recording_info(const std::filesystem::path& path, const RecordingInfo& info) {
   write_file(path, format_recording_info(info));
-}
-
-void replace_recording_info(const std::filesystem::path& path, const RecordingInfo& info) {
-  const std::string text = format_recording_info(info);
-  const std::filesystem::path temporary = path.parent_path() / ("." + path.filename().string() + ".new");
-  std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-  out << text;
-  out.close();
-  std::error_code error;
-  if (out) std::filesystem::rename(temporary, path, error);
-  if (!out || error) throw Error(path.string() + ": cannot be written: " + (error ? error.message() : "no room?"));
 }
 
 void write_calibration(const std::filesystem::path& path, const Calibration& calibration) {

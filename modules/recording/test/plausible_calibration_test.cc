@@ -36,6 +36,7 @@ TEST(PlausibleCalibration, AbsurdValuesAreNamed) {
         Case{"[0,0,800]],\"C\":[32768", "[0,0,800]],\"C\":[-1e20", "accelerometer", "-1e+20"},
         Case{"[[800,0,0],[0,800,0],[0,0,800]]", "[[1e20,0,0],[0,1e20,0],[0,0,1e20]]", "accelerometer.B", "1e+20"},
         Case{"[[800,0,0],[0,800,0],[0,0,800]]", "[[1e-9,0,0],[0,1e-9,0],[0,0,1e-9]]", "accelerometer.B", "1e-09"},
+        Case{"[[938,0,0],", "[[0.5,0,0],", "gyroscope.B", "0.5"},
         Case{"[0,0.12,0]", "[0,120,0]", "tip_in_marker_m", "120"},
         Case{"[0,0.07,0]", "[0,70,0]", "position_in_marker_m", "70"},
         Case{"\"latency_s\":0.012", "\"latency_s\":12", "latency_s", "12"},

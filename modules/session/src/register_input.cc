@@ -36,17 +36,16 @@ Scan read_scan(const std::string& path, const Observer& observer) {
   return scan;
 }
 
-// Nothing that a hand scans is as large as a house: the unit was forgotten.
-void warn_of_size(const MeshFile& mesh, double unit_m, ScansOnMesh& result) {
-  constexpr double kLarge_m = 5.0;
+double size_of_mesh_m(const MeshFile& mesh, double unit_m) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& vertex : mesh.vertices) box.extend(vertex);
-  const double size_m = box.isEmpty() ? 0.0 : box.diagonal().norm() * unit_m;
-  if (size_m > kLarge_m) {
-    result.problems.push_back(
-        {"large_mesh", fmt::format("the mesh is {:.0f} m large; is --mesh-unit right?", size_m), 1});
-  }
+  return box.isEmpty() ? 0.0 : box.diagonal().norm() * unit_m;
 }
+
+// No object is as large as the Earth.
+constexpr double kAbsurd_m = 1e7;
+// Nothing that a hand scans is as large as a house: the unit was forgotten.
+constexpr double kLarge_m = 5.0;
 
 }  // namespace
 
@@ -70,6 +69,9 @@ RegisterInput read_register_input(const std::vector<std::string>& scans, const s
   RegisterInput out;
   out.mesh = read_mesh(mesh, {}, observer);
   out.unit_m = unit_m;
+  if (const double size_m = size_of_mesh_m(out.mesh, unit_m); !(size_m <= kAbsurd_m)) {
+    throw Error(fmt::format("{}: the mesh is {:.3g} m large; is --mesh-unit right?", printable(mesh, 200), size_m));
+  }
   for (std::size_t i = 0; i < scans.size(); ++i) {
     Scan& scan = out.scans.emplace_back(read_scan(scans[i], observer));
     if (!textures.empty()) scan.texture = read_texture(textures[textures.size() == 1 ? 0 : i], {}, observer);
@@ -81,7 +83,10 @@ ScansOnMesh register_input(const RegisterInput& input, const std::optional<Pose>
                            const RegistrationObserver& observer) {
   ScansOnMesh result = register_scans(input.scans, to_metres(input.mesh, input.unit_m), guess, config, observer);
   result.problems.insert(result.problems.begin(), input.mesh.problems.begin(), input.mesh.problems.end());
-  warn_of_size(input.mesh, input.unit_m, result);
+  if (const double size_m = size_of_mesh_m(input.mesh, input.unit_m); size_m > kLarge_m) {
+    result.problems.push_back(
+        {"large_mesh", fmt::format("the mesh is {:.0f} m large; is --mesh-unit right?", size_m), 1});
+  }
   return result;
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostASide = 4096;
 constexpr std::size_t kMostNodes = 1 << 22;
-constexpr double kTolerance = 1e-8;
+constexpr double kSolveTolerance = 1e-8;
 
 struct Extent {
   double low_x = std::numeric_limits<double>::infinity();
@@ -156,7 +156,7 @@ ArealFit fit_areal(std::span<const ArealSample> samples, const FitArealConfig& c
     if (!grid.coefficient_m.empty()) resample_grid(grid, finer);
     grid = std::move(finer);
     const ArealSystem system(grid, present, mean_m, config.smoothness);
-    fit.relative_residual = system.solve(grid.coefficient_m, config.iterations, level == 0 ? kTolerance : 1e-4);
+    fit.relative_residual = system.solve(grid.coefficient_m, config.iterations, level == 0 ? kSolveTolerance : 1e-4);
     if (level == 0) fit.texture.supported = system.supported();
   }
   for (double& c : grid.coefficient_m) c += mean_m;

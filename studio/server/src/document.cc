@@ -117,23 +117,7 @@ void Document::load() {
   std::error_code error;
   if (!std::filesystem::exists(file_, error)) return;
   try {
-    const Json file = parse_json(read_file(file_, kLargestFile), file_.filename().string(), file_limits());
-    if (file.at("format") != "asperity-studio" || file.at("version") != 1) throw Error("is of another version");
-    bool whole = true;
-    for (const auto& [name, first] : first_) {
-      const Json* found = file.at("document").find(name);
-      if (found == nullptr) continue;
-      try {
-        Json section = *found;
-        if (updaters_.at(name)) updaters_.at(name)(section);
-        validators_.at(name)(section);
-        value_[name] = std::move(section);
-      } catch (const std::exception& fault) {
-        whole = false;
-        problems_.push_back("the page '" + name + "' begins anew: " + printable(fault.what(), 300));
-      }
-    }
-    if (whole) read_steps(file);
+    read(read_file(file_, kLargestFile));
   } catch (const std::exception& fault) {
     for (const auto& [name, first] : first_) value_[name] = first;
     undo_.clear();
@@ -144,6 +128,26 @@ void Document::load() {
     problems_.push_back(printable(file_.filename().string()) + " could not be read and was put aside as " +
                         printable(aside.filename().string()) + ": " + printable(fault.what(), 300));
   }
+}
+
+void Document::read(std::string_view text) {
+  const Json file = parse_json(text, file_.filename().string(), file_limits());
+  if (file.at("format") != "asperity-studio" || file.at("version") != 1) throw Error("is of another version");
+  bool whole = true;
+  for (const auto& [name, first] : first_) {
+    const Json* found = file.at("document").find(name);
+    if (found == nullptr) continue;
+    try {
+      Json section = *found;
+      if (updaters_.at(name)) updaters_.at(name)(section);
+      validators_.at(name)(section);
+      value_[name] = std::move(section);
+    } catch (const std::exception& fault) {
+      whole = false;
+      problems_.push_back("the page '" + name + "' begins anew: " + printable(fault.what(), 300));
+    }
+  }
+  if (whole) read_steps(file);
 }
 
 const Json& Document::section(std::string_view name) const { return value_.at(std::string(name)); }

@@ -56,6 +56,7 @@ class OutputFolder {
 
  private:
   std::vector<std::filesystem::path> keep_strangers(const std::filesystem::path& old) const;
+  void sync_name(const std::string& besides = {}) const;
 
   std::filesystem::path target_;
   std::filesystem::path temporary_;

@@ -14,8 +14,6 @@ void write_recording(const std::filesystem::path& folder, const Recording& recor
 
 // One file, replaced as a whole.
 void write_recording_info(const std::filesystem::path& path, const RecordingInfo& info);
-// The same for a recording under way: without waiting for the disk. A process that dies leaves the old one or the new.
-void replace_recording_info(const std::filesystem::path& path, const RecordingInfo& info);
 void write_calibration(const std::filesystem::path& path, const Calibration& calibration);
 
 }  // namespace asperity

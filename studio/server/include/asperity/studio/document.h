@@ -41,6 +41,8 @@ class Document {
   void add_section(const std::string& name, Json first, Validator validator, Updater updater = {});
   // Reads the file. A section that its page does not take begins with its first value, and a note is left.
   void load();
+  // The same of the file's content. Throws Error if it is not a document at all; the value is then of no use.
+  void read(std::string_view text);
 
   const Json& value() const { return value_; }
   const Json& section(std::string_view name) const;
