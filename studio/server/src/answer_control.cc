@@ -11,19 +11,6 @@ namespace asperity::studio {
 
 namespace {
 
-Json list_json(const WebServer& server, const std::filesystem::path& folder) {
-  const std::string address = server.address();
-  Json out = Json::object();
-  out["address"] = address.substr(0, address.find("/#"));
-  out["folder"] = folder.string();
-  out["port"] = server.port();
-  out["process"] = static_cast<int>(::getpid());
-  out["sessions"] = sessions_json(server.sessions());
-  return out;
-}
-
-}  // namespace
-
 Json sessions_json(const std::vector<SessionInfo>& sessions) {
   Json out = Json::array();
   for (const SessionInfo& session : sessions) {
@@ -37,6 +24,19 @@ Json sessions_json(const std::vector<SessionInfo>& sessions) {
   }
   return out;
 }
+
+Json list_json(const WebServer& server, const std::filesystem::path& folder) {
+  const std::string address = server.address();
+  Json out = Json::object();
+  out["address"] = address.substr(0, address.find("/#"));
+  out["folder"] = folder.string();
+  out["port"] = server.port();
+  out["process"] = static_cast<int>(::getpid());
+  out["sessions"] = sessions_json(server.sessions());
+  return out;
+}
+
+}  // namespace
 
 Json answer_control(const Json& request, WebServer& server, const std::filesystem::path& folder) {
   const Json* name = request.is_object() ? request.find("request") : nullptr;
@@ -55,6 +55,22 @@ Json answer_control(const Json& request, WebServer& server, const std::filesyste
     throw Error("there is no session " + number->dump() + "; --sessions lists them");
   }
   return out;
+}
+
+void bind_sessions(Calls& calls, WebServer& server) {
+  calls.add("studio.sessions", [&server](const Request& request) {
+    Json out = Json::object();
+    out["mine"] = server.session_of(request.client());
+    out["sessions"] = sessions_json(server.sessions());
+    request.answer(out);
+  });
+  calls.add("studio.close_session", [&server](const Request& request) {
+    const std::int64_t number = request.integer("number");
+    if (number < 1 || !server.close_session(static_cast<std::uint64_t>(number))) {
+      throw Advice("there is no session " + std::to_string(number), "It may have ended: open the list again.");
+    }
+    request.done();
+  });
 }
 
 }  // namespace asperity::studio

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "asperity/json/json.h"
+#include "asperity/studio/calls.h"
 #include "asperity/studio/web_server.h"
 
 namespace asperity::studio {
@@ -14,7 +15,7 @@ namespace asperity::studio {
 // Throws Error for anything else. Thread-safe.
 Json answer_control(const Json& request, WebServer& server, const std::filesystem::path& folder);
 
-// As in the list and in the page's call studio.sessions.
-Json sessions_json(const std::vector<SessionInfo>& sessions);
+// What a page may ask: `studio.sessions` gives {"mine":1,"sessions":[…]}, `studio.close_session` {"number":2} ends one.
+void bind_sessions(Calls& calls, WebServer& server);
 
 }  // namespace asperity::studio

@@ -79,6 +79,14 @@ void Sessions::remove_window(ClientId client) {
   for (auto& [number, session] : sessions_) session.windows.erase(client);
 }
 
+std::uint64_t Sessions::session_of(ClientId client) const {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [number, session] : sessions_) {
+    if (session.windows.contains(client)) return number;
+  }
+  return 0;
+}
+
 void Sessions::renew() {
   std::string fresh = random_secret();
   std::map<std::uint64_t, Session> ended;

@@ -43,6 +43,8 @@ class Sessions {
   // session is closed; must only hand it on.
   bool add_window(std::uint64_t session, ClientId client, std::function<void()> close);
   void remove_window(ClientId client);
+  // The session that has this window; 0 if none has.
+  std::uint64_t session_of(ClientId client) const;
 
   // A new token: the old one and all sessions end.
   void renew();

@@ -49,6 +49,7 @@ class Studio {
     };
     for (const auto& page : pages_) page->bind(document_, calls_);
     jobs_->bind(calls_);
+    bind_sessions(calls_, *server_);
     document_.load();
     document_.on_change([this](const Edit& edit) {
       for (const auto& page : pages_) page->edited(edit);

@@ -116,6 +116,7 @@ class BeastServer : public WebServer {
   std::vector<std::string> warnings() const override { return warnings_; }
   void renew_token() override { state_->sessions.renew(); }
   std::vector<SessionInfo> sessions() const override { return state_->sessions.list(); }
+  std::uint64_t session_of(ClientId client) const override { return state_->sessions.session_of(client); }
   bool close_session(std::uint64_t number) override { return state_->sessions.close(number); }
   std::uint64_t dropped_frames() const override { return state_->clients.dropped(); }
 

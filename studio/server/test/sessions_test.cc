@@ -89,6 +89,8 @@ TEST(Sessions, EndOneByOneOrAllTogether) {
   EXPECT_FALSE(sessions.close(9));
   EXPECT_EQ(sessions.find(cookies[1]), std::nullopt);
   EXPECT_FALSE(sessions.add_window(2, 22, [] {})) << "a WebSocket that was being opened";
+  EXPECT_EQ(sessions.session_of(31), 3u);
+  EXPECT_EQ(sessions.session_of(20), 0u);
   sessions.remove_window(30);
   const std::string before = sessions.token();
   sessions.renew();
@@ -192,7 +194,9 @@ TEST_F(WebServerSessions, TakeOrdersFromOtherThreads) {
     client.send(upgrade_request(port_, "Origin: http://" + host_ + "\r\nCookie: " + cookie + "\r\n"));
     if (client.response().status != 101) continue;
     ++seen;
-    if (i % 2 == 0) EXPECT_TRUE(client.closes());
+    if (i % 2 == 0) {
+      EXPECT_TRUE(client.closes());
+    }
   }
   over = true;
   orders.join();

@@ -50,6 +50,8 @@ class WebServer : public Hub {
   // A new token: the old address and all sessions end, their WebSockets are closed with 4401.
   virtual void renew_token() = 0;
   virtual std::vector<SessionInfo> sessions() const = 0;
+  // The session of a window; 0 if it has gone.
+  virtual std::uint64_t session_of(ClientId client) const = 0;
   // Ends one session; false if there is none of that number.
   virtual bool close_session(std::uint64_t number) = 0;
   // Frames of series that were dropped for slow browsers, over all time.
