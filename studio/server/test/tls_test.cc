@@ -191,7 +191,7 @@ TEST_F(TlsServer, CarriesMuchBothWays) {
 }
 
 TEST_F(TlsServer, TellsWhoSpeaksPlainHttp) {
-  for (const std::string request : {"GET / HTTP/1.1\r\nHost: " + host_ + "\r\n\r\n", std::string("nonsense\r\n\r\n")}) {
+  for (const std::string& request : {"GET / HTTP/1.1\r\nHost: " + host_ + "\r\n\r\n", std::string("nonsense\r\n\r\n")}) {
     RawClient client(port_);
     client.send(request);
     const auto answer = client.response();
