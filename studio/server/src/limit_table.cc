@@ -37,6 +37,10 @@ double in_seconds(std::chrono::nanoseconds time) { return std::chrono::duration<
 std::vector<LimitRow> connection_rows() {
   const WebServerConfig config;
   return {
+      {"TLS handshakes",
+       fmt::format("{:.0f} a second, {} at once", 1.0 / in_seconds(kHandshakesApart), kMostHandshakesAhead),
+       "the others wait for their turn; closed if it comes later than the time for a handshake",
+       {"TlsServer.SpreadsHandshakes"}},
       {"a request's header", bytes_text(kMostHeaderBytes), "431", {"WebServerLimits.HeaderAndBody"}},
       {"a request's body", bytes_text(kMostBodyBytes), "413", {"WebServerLimits.HeaderAndBody"}},
       {"time for a TLS handshake; for a request; for its answer; for a WebSocket's handshake; each",

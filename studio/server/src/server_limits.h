@@ -14,6 +14,10 @@ inline constexpr std::uint64_t kMostBodyBytes = 4U << 10U;
 inline constexpr auto kGuessDelay = std::chrono::milliseconds(250);
 // Open connections that are no WebSockets, or not yet.
 inline constexpr int kMostHttpConnections = 64;
+// TLS handshakes that are begun: at most one in this time, in heaps of at most so many. Each costs a signature, which a
+// connected window must not wait for.
+inline constexpr auto kHandshakesApart = std::chrono::milliseconds(50);
+inline constexpr int kMostHandshakesAhead = 8;
 inline constexpr std::size_t kMostSessions = 64;
 // Pointers of one browser: at most one in this time, in heaps of at most so many.
 inline constexpr auto kPointersApart = std::chrono::milliseconds(1);

@@ -41,8 +41,9 @@ struct ServerState {
   Site site;
   Sessions sessions{kMostSessions};
   ClientTable clients;
-  int connections = 0;   // open ones, of either kind; the server's thread alone
-  bool is_over = false;  // after its thread's end: no event any more
+  std::chrono::steady_clock::time_point next_handshake;  // the server's thread alone
+  int connections = 0;                                   // open ones, of either kind; the server's thread alone
+  bool is_over = false;                                  // after its thread's end: no event any more
 };
 
 inline std::chrono::nanoseconds seconds(double s) {

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <ctime>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "asperity/base/output.h"
 #include "asperity/testkit/temp_dir.h"
 #include "make_certificate.h"
+#include "server_limits.h"
 #include "tls_context.h"
 #include "web_server_fixture.h"
 
@@ -191,7 +193,8 @@ TEST_F(TlsServer, CarriesMuchBothWays) {
 }
 
 TEST_F(TlsServer, TellsWhoSpeaksPlainHttp) {
-  for (const std::string& request : {"GET / HTTP/1.1\r\nHost: " + host_ + "\r\n\r\n", std::string("nonsense\r\n\r\n")}) {
+  for (const std::string& request :
+       {"GET / HTTP/1.1\r\nHost: " + host_ + "\r\n\r\n", std::string("nonsense\r\n\r\n")}) {
     RawClient client(port_);
     client.send(request);
     const auto answer = client.response();
@@ -224,6 +227,32 @@ TEST_F(TlsServer, EndsHandshakesThatDoNotEnd) {
   EXPECT_TRUE(silent.closes());
   EXPECT_TRUE(truncated.closes());
   EXPECT_TRUE(answers(good));
+}
+
+// Each handshake costs a signature: a flood of them comes one by one, and a window that is connected is answered.
+TEST_F(TlsServer, SpreadsHandshakes) {
+  RawClient good = browser();
+  constexpr int kMany = kMostHandshakesAhead + 12;
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < kMany; ++i) {
+    RawClient client(port_);
+    ASSERT_TRUE(client.start_tls());
+    ASSERT_TRUE(answers(good));
+  }
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, (kMany - kMostHandshakesAhead - 1) * kHandshakesApart);
+  // Who would have to wait longer than a handshake may take is not kept.
+  WebServerConfig quick = config();
+  quick.request_timeout_s = 0.3;
+  start(quick);
+  std::vector<RawClient> many;
+  for (int i = 0; i < 40; ++i) {
+    many.emplace_back(port_);
+    many.back().send(half_a_hello());
+  }
+  for (RawClient& one : many) EXPECT_TRUE(one.closes());
+  // Strangers that have gone leave no queue behind that is longer than that.
+  const auto after = std::chrono::steady_clock::now();
+  while (!RawClient(port_).start_tls()) ASSERT_LT(std::chrono::steady_clock::now() - after, std::chrono::seconds(5));
 }
 
 TEST_F(TlsServer, EndsMalformedHandshakesAtOnce) {
