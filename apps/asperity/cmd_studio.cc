@@ -45,6 +45,7 @@ class StudioCommand : public Command {
                                       "Renew the address of your studio that runs, end all its sessions; end");
     Option* close = parser()
                         .add_option("--close-session", close_, "Close this session of your studio that runs; end")
+                        ->in_range(1, 1'000'000'000)
                         ->type_name("N");
     sessions->excludes(token);
     sessions->excludes(close);
@@ -99,7 +100,7 @@ class StudioCommand : public Command {
       say("studio     " + printable(address, 300) + "\n");
       return kDone;
     }
-    studio::close_session(chosen, close_);
+    studio::close_session(chosen, static_cast<std::uint64_t>(close_));
     print_json("{\"closed\":" + std::to_string(close_) + "}");
     say("closed     session " + std::to_string(close_) + "\n");
     return kDone;
@@ -140,7 +141,7 @@ class StudioCommand : public Command {
   std::string what_;
   std::string certificate_, key_;
   bool list_ = false, new_token_ = false;
-  std::uint64_t close_ = 0;
+  int close_ = 0;
   bool no_open_ = false;
   studio::StudioConfig config_;
   studio::FeelConfig feel_;
