@@ -179,6 +179,23 @@ TEST_F(Control, WaitsForNobodyLong) {
   ::close(silent);
 }
 
+TEST_F(Control, IsInTheTemporaryFolderWhereThereIsNoOther) {
+  unsetenv("XDG_RUNTIME_DIR");
+  const char* before = std::getenv("TMPDIR");
+  const std::string kept = before == nullptr ? "" : before;
+  setenv("TMPDIR", runtime_.path().c_str(), 1);
+  open();
+  EXPECT_EQ(running_studios().size(), 1u);
+  struct stat status {};
+  EXPECT_EQ(::stat((runtime_ / ("asperity-" + std::to_string(::geteuid()))).c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 07777U, 0700u);
+  if (before == nullptr) {
+    unsetenv("TMPDIR");
+  } else {
+    setenv("TMPDIR", kept.c_str(), 1);
+  }
+}
+
 TEST_F(Control, ANameMayBeLong) {
   const fs::path deep = runtime_ / std::string(100, 'd') / std::string(100, 'e');
   fs::create_directories(deep);
