@@ -114,8 +114,8 @@ TEST_F(TlsFiles, UnreadableKeysAreNamed) {
   // The administrator reads everything: as nobody, then.
   constexpr uid_t kNobody = 65534;
   const uid_t self = geteuid();
-  fs::permissions(dir_.path(), fs::perms::owner_all | fs::perms::others_exec);
-  fs::permissions(certificate_, fs::perms::owner_read | fs::perms::others_read);
+  fs::permissions(dir_.path(), fs::perms::owner_all | fs::perms::group_exec | fs::perms::others_exec);
+  fs::permissions(certificate_, fs::perms::owner_read | fs::perms::group_read | fs::perms::others_read);
   fs::permissions(key_, fs::perms::none);
   ASSERT_TRUE(self != 0 || seteuid(kNobody) == 0);
   expect_refused("server.key: cannot be read: Permission denied");
