@@ -13,6 +13,7 @@
 #include "asperity/studio/web_server.h"
 #include "asperity/web/assets.h"
 #include "commands.h"
+#include "studio_sessions.h"
 
 namespace asperity::app {
 
@@ -32,18 +33,39 @@ class StudioCommand : public Command {
     parser().add_option("--host", config_.server.host, "Address to listen at; 127.0.0.1")->type_name("ADDRESS");
     parser().add_flag("--remote-force", config_.remote_force,
                       "With --host: browsers of other machines may command forces too");
+    parser()
+        .add_option("--tls-cert", certificate_, "Certificate (PEM) to speak https with; needs --tls-key")
+        ->type_name("FILE");
+    parser()
+        .add_option("--tls-key", key_, "Key (PEM) of the certificate, for its owner's eyes alone")
+        ->type_name("FILE");
     parser().add_flag("--no-open", no_open_, "Do not open a browser");
+    Option* sessions = parser().add_flag("--sessions", list_, "List your studios that run and who was let in; end");
+    Option* token = parser().add_flag("--new-token", new_token_,
+                                      "Renew the address of your studio that runs, end all its sessions; end");
+    Option* close = parser()
+                        .add_option("--close-session", close_, "Close this session of your studio that runs; end")
+                        ->in_range(1, 1'000'000'000)
+                        ->type_name("N");
+    sessions->excludes(token);
+    sessions->excludes(close);
+    token->excludes(close);
   }
 
   // With what the Feel page starts: devices, ports, drivers and limits are set here, never from a browser.
   std::vector<ConfigField> fields() override { return studio::feel_config_fields(feel_); }
 
   int run(const Observer&) override {
+    if (list_ || new_token_ || parser().count("--close-session") > 0) return manage_running();
     if (!web::built()) {
       throw Error("this asperity was built without the studio. " + std::string(web::why_not_built()) +
                   ", and build again");
     }
     choose_folder();
+    if (certificate_.empty() != key_.empty()) throw UsageError("--tls-cert and --tls-key go together");
+    config_.server.tls_certificate = certificate_;
+    config_.server.tls_key = key_;
+    config_.notice = [](const std::string& sentence) { print_error(sentence); };
     config_.feel = std::make_shared<const studio::FeelConfig>(feel_);
     const bool is_open_to_others = !studio::is_this_machine_only(config_.server.host);
     std::optional<studio::OpenedBrowser> browser;
@@ -58,6 +80,32 @@ class StudioCommand : public Command {
   }
 
  private:
+  int manage_running() {
+    StudioChoice choice;
+    choice.port = config_.server.port;
+    if (!what_.empty()) {
+      choose_folder();
+      choice.folder = config_.folder;
+    }
+    if (list_) {
+      const auto studios = chosen_studios(choice);
+      print_json(sessions_json(studios));
+      say(sessions_text(studios));
+      return kDone;
+    }
+    const studio::RunningStudio chosen = chosen_studio(choice);
+    if (new_token_) {
+      const std::string address = studio::renew_token(chosen);
+      print_address_json(address);
+      say("studio     " + printable(address, 300) + "\n");
+      return kDone;
+    }
+    studio::close_session(chosen, static_cast<std::uint64_t>(close_));
+    print_json("{\"closed\":" + std::to_string(close_) + "}");
+    say("closed     session " + std::to_string(close_) + "\n");
+    return kDone;
+  }
+
   void choose_folder() {
     config_.folder = fs::current_path();
     if (what_.empty()) return;
@@ -72,21 +120,28 @@ class StudioCommand : public Command {
     config_.open = whole.filename().string();
   }
 
-  void print_address(const std::string& address, bool is_open_to_others) const {
+  void print_address_json(const std::string& address) const {
     const std::string bare = address.substr(0, address.find("/#"));
     Json told;
     told["address"] = address;
     told["port"] = std::stoi(bare.substr(bare.rfind(':') + 1));
     print_json(told.dump());
+  }
+
+  void print_address(const std::string& address, bool is_open_to_others) const {
+    print_address_json(address);
     say("studio     " + address + "\n");
     if (!is_open_to_others) return;
-    say("           other machines that reach " + printable(config_.server.host) +
-        " and have this address can use it, and it is not encrypted\n");
+    say("           other machines that reach " + printable(config_.server.host) + " and have this address can use it" +
+        (certificate_.empty() ? ", and it is not encrypted\n" : "\n"));
     say(config_.remote_force ? "           browsers may command forces, other machines' too (--remote-force)\n"
                              : "           forces are shown, not commanded; --remote-force allows it\n");
   }
 
   std::string what_;
+  std::string certificate_, key_;
+  bool list_ = false, new_token_ = false;
+  int close_ = 0;
   bool no_open_ = false;
   studio::StudioConfig config_;
   studio::FeelConfig feel_;

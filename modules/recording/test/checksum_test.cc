@@ -301,5 +301,31 @@ TEST(ReadRecording, ALinkOutOfTheFolderIsNotFollowed) {
   EXPECT_NO_THROW(read_recording(dir / "rec"));
 }
 
+TEST(ReadRecording, NoFileOfARecordingIsALinkOut) {
+  const testkit::TempDir dir;
+  record(dir / "rec");
+  fs::create_directory(dir / "other");
+  for (const char* name : {"recording.json", "calibration.json", "probe.csv", "tracker.csv", "checksums.txt"}) {
+    const fs::path file = dir / "rec" / name;
+    fs::rename(file, dir / "other" / name);
+    // By its whole path, by one that climbs, and by a link within that leads on to one outside.
+    for (const fs::path& target : {dir / "other" / name, fs::path("../other") / name, fs::path("hop")}) {
+      if (target == "hop") fs::create_symlink(fs::path("..") / "other" / name, dir / "rec/hop");
+      fs::create_symlink(target, file);
+      EXPECT_THAT([&] { read_recording(dir / "rec"); },
+                  testing::ThrowsMessage<Error>(HasSubstr(std::string(name) + ": is a link out of the recording")));
+      fs::remove(file);
+    }
+    fs::remove(dir / "rec/hop");
+    fs::rename(dir / "other" / name, file);
+  }
+  fs::create_symlink("/etc/passwd", dir / "rec/truth.csv");
+  EXPECT_THAT([&] { read_recording(dir / "rec"); }, testing::ThrowsMessage<Error>(HasSubstr("truth.csv: is a link")));
+  fs::remove(dir / "rec/truth.csv");
+  // The recording itself may be reached by a link: that one the user named.
+  fs::create_directory_symlink("rec", dir / "named");
+  EXPECT_NO_THROW(read_recording(dir / "named"));
+}
+
 }  // namespace
 }  // namespace asperity

@@ -7,6 +7,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
+#include "asperity/testkit/udp_sender.h"
 #include "asperity/tracking/open_pose_stream.h"
 
 namespace asperity {
@@ -73,6 +74,22 @@ TEST(PoseAddress, ReadsWhatPeopleType) {
   for (const char* wrong : {"", "udp", "udp:", "udp:0", "udp:70000", "udp::9000", "vrpn:x", "file:"}) {
     EXPECT_THROW(parse_pose_address(wrong), Error) << wrong;
   }
+}
+
+TEST(PoseStream, OverUdpIsOfTheFirstWhoSendsAPose) {
+  using namespace std::chrono_literals;
+  const auto poses = open_pose_stream(PoseAddress{});
+  EXPECT_THAT(poses->name(), testing::HasSubstr("udp:127.0.0.1:"));
+  const int port = testkit::port_in(poses->name());
+  const testkit::UdpSender stranger;
+  const testkit::UdpSender tracker;
+  stranger.send_text(port, "1,2,3\n");
+  stranger.send_text(port, "1,nan,0,0,1,0,0,0\n");
+  tracker.send_text(port, "1000000,0.1,0,0,1,0,0,0\n");
+  stranger.send_text(port, "2000000,0.9,0,0,1,0,0,0\n");
+  tracker.send_text(port, "2000000,0.2,0,0,1,0,0,0\n");
+  EXPECT_EQ(poses->read(20s)->sample.T_world_marker.translation_m.x(), 0.1);
+  EXPECT_EQ(poses->read(20s)->sample.T_world_marker.translation_m.x(), 0.2);
 }
 
 }  // namespace

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <deque>
+#include <iterator>
 #include <optional>
+#include <vector>
 
 // Asio of Boost 1.74 uses std::exchange without its header.
 #include <utility>
@@ -42,6 +45,8 @@ void run_within(asio::io_context& context, const bool& done, std::chrono::millis
 
 constexpr std::size_t kLargestDatagram_bytes = 65536;
 constexpr int kReceiveBuffer_bytes = 1 << 20;
+constexpr std::size_t kMostCandidates = 8;
+constexpr std::ptrdiff_t kCandidate_bytes = 4096;
 
 std::string endpoint_text(const std::string& address, unsigned port) {
   const bool is_v6 = address.find(':') != std::string::npos;
@@ -126,14 +131,35 @@ class UdpSource : public ByteSource {
     return from.address() == sender_->address() && 1e-9 * static_cast<double>(now_ns - arrival_ns_) > config_.silence_s;
   }
 
-  // A sender that was heard before has.
-  bool has_shown(const udp::endpoint& from, std::size_t count) const {
+  // A sender that was heard before has. Of others the newest bytes of the newest few are kept: a frame of a protocol
+  // may take several datagrams.
+  bool has_shown(const udp::endpoint& from, std::size_t count) {
     if (!config_.shows_sender || (sender_ && from == *sender_)) return true;
-    return config_.shows_sender(std::span(datagram_).first(count));
+    auto candidate = std::find_if(candidates_.begin(), candidates_.end(),
+                                  [&](const Candidate& known) { return known.endpoint == from; });
+    if (candidate == candidates_.end()) {
+      if (candidates_.size() >= kMostCandidates) candidates_.pop_front();
+      candidate = candidates_.insert(candidates_.end(), Candidate{from, {}});
+    }
+    std::vector<std::uint8_t>& bytes = candidate->bytes;
+    bytes.insert(bytes.end(), datagram_.begin(), datagram_.begin() + static_cast<std::ptrdiff_t>(count));
+    const bool shown = config_.shows_sender(bytes);
+    if (shown) {
+      candidates_.clear();
+    } else if (std::ssize(bytes) > kCandidate_bytes) {
+      bytes.erase(bytes.begin(), bytes.end() - kCandidate_bytes);
+    }
+    return shown;
   }
+
+  struct Candidate {
+    udp::endpoint endpoint;
+    std::vector<std::uint8_t> bytes;
+  };
 
   UdpConfig config_;
   std::string name_;
+  std::deque<Candidate> candidates_;  // who have not shown that they are the probe
   asio::io_context context_{1};
   udp::socket socket_;
   std::optional<udp::endpoint> sender_;

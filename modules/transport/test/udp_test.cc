@@ -1,12 +1,12 @@
 #include "asperity/transport/open_udp.h"
 
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
+
+#include <algorithm>
+#include <deque>
 
 #include "asperity/base/host_clock.h"
+#include "asperity/testkit/udp_sender.h"
 
 namespace asperity {
 namespace {
@@ -15,44 +15,11 @@ using namespace std::chrono_literals;
 using Bytes = std::vector<std::uint8_t>;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
+using Sender = testkit::UdpSender;
 
 constexpr auto kLong = 20s;
 
-// A sender on the loopback.
-class Sender {
- public:
-  Sender() : file_(::socket(AF_INET, SOCK_DGRAM, 0)) {
-    sockaddr_in any{};
-    any.sin_family = AF_INET;
-    any.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    if (::bind(file_, reinterpret_cast<const sockaddr*>(&any), sizeof(any)) != 0) throw Error("no socket");
-  }
-  ~Sender() { ::close(file_); }
-  Sender(const Sender&) = delete;
-  Sender& operator=(const Sender&) = delete;
-
-  void send(int port, const Bytes& bytes) const {
-    sockaddr_in to{};
-    to.sin_family = AF_INET;
-    to.sin_port = htons(static_cast<std::uint16_t>(port));
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    ASSERT_EQ(::sendto(file_, bytes.data(), bytes.size(), 0, reinterpret_cast<const sockaddr*>(&to), sizeof(to)),
-              static_cast<ssize_t>(bytes.size()));
-  }
-  Bytes receive() const {
-    Bytes out(100);
-    out.resize(static_cast<std::size_t>(::recv(file_, out.data(), out.size(), 0)));
-    return out;
-  }
-
- private:
-  int file_;
-};
-
-int port_of(const ByteSource& source) {
-  const std::string name = source.name();
-  return std::stoi(name.substr(name.rfind(':') + 1));
-}
+int port_of(const ByteSource& source) { return testkit::port_in(source.name()); }
 
 Bytes read_once(ByteSource& source, std::size_t room = 2000) {
   Bytes buffer(room);
@@ -119,6 +86,50 @@ TEST(Udp, AStrangerWhoDoesNotSpeakTheProtocolIsNeverTheProbe) {
   EXPECT_EQ(read_once(*source), Bytes({2}));
   EXPECT_TRUE(source->write(Bytes{3}));
   EXPECT_EQ(probe.receive(), Bytes({3}));
+}
+
+// A probe whose frames come in pieces shows itself by several datagrams, whoever else sends between them.
+TEST(Udp, ASenderShowsItselfByAllThatItHasSent) {
+  const Bytes word = {1, 2, 3};
+  const auto source = open_udp(
+      {.shows_sender = [&word](std::span<const std::uint8_t> bytes) { return std::ranges::equal(bytes, word); }});
+  const Sender stranger;
+  const Sender probe;
+  probe.send(port_of(*source), {1});
+  stranger.send(port_of(*source), {2});
+  probe.send(port_of(*source), {2});
+  stranger.send(port_of(*source), {3});
+  probe.send(port_of(*source), {3});
+  stranger.send(port_of(*source), {1, 2, 3});
+  probe.send(port_of(*source), {4});
+  EXPECT_EQ(read_once(*source), Bytes({3}));
+  EXPECT_EQ(read_once(*source), Bytes({4}));
+}
+
+TEST(Udp, KeepsLittleOfStrangers) {
+  std::size_t most = 0;
+  const auto source = open_udp({.shows_sender = [&most](std::span<const std::uint8_t> bytes) {
+    most = std::max(most, bytes.size());
+    return bytes.back() == 1;
+  }});
+  std::deque<Sender> strangers(20);
+  Bytes buffer(10);
+  for (int round = 0; round < 4; ++round) {
+    for (const Sender& stranger : strangers) {
+      stranger.send(port_of(*source), Bytes(4000, 7));
+      EXPECT_EQ(source->read(buffer, 1ms).count, 0u);
+    }
+  }
+  // Of eight senders at a time the newest are remembered; these had all been forgotten before they came again.
+  EXPECT_EQ(most, 4000u);
+  for (int round = 0; round < 4; ++round) {
+    strangers[0].send(port_of(*source), Bytes(4000, 7));
+    EXPECT_EQ(source->read(buffer, 1ms).count, 0u);
+  }
+  EXPECT_GT(most, 4096u);
+  EXPECT_LE(most, 4096u + 4000u);
+  strangers[0].send(port_of(*source), {1});
+  EXPECT_EQ(read_once(*source), Bytes({1}));
 }
 
 TEST(Udp, AfterASilenceTheProbeMayComeFromAnotherPort) {

@@ -8,24 +8,19 @@
 #include "asperity/json/parse_json.h"
 #include "asperity/studio/calls.h"
 #include "json_pointer.h"
+#include "server_limits.h"
 
 namespace asperity::studio {
 
 namespace {
 
-constexpr std::size_t kMostSteps = 200;
-constexpr std::size_t kLargestSection = 4U << 20U;
 constexpr std::uint64_t kLargestFile = std::uint64_t{64} << 20U;
-constexpr std::size_t kMostUndoBytes = 8U << 20U;
-constexpr std::size_t kLongestPath = 1000;
-constexpr std::size_t kMostParts = 32;
-constexpr std::size_t kLongestLabel = 200;
 // A message and a path are 32 deep at most; a file has two levels about a section.
 constexpr std::size_t kDeepestValue = 80;
 
 JsonPointer pointer_of(std::string_view path) {
   const auto parts = static_cast<std::size_t>(std::count(path.begin(), path.end(), '/'));
-  if (path.size() > kLongestPath || parts > kMostParts) throw Error("'" + printable(path) + "' is too long a path");
+  if (path.size() > kLongestPath || parts > kMostPathParts) throw Error("'" + printable(path) + "' is too long a path");
   return parse_json_pointer(path);
 }
 
@@ -174,7 +169,7 @@ Json Document::changed_section(const Edit& edit) const {
   } else {
     put_value(holder, pointer_of(edit.path), edit.after, edit.path);
   }
-  if (holder[name].dump_repaired().size() > kLargestSection) {
+  if (holder[name].dump_repaired().size() > kLargestSectionBytes) {
     throw Advice("the page '" + name + "' would hold too much", "Take something out of it before you add more.");
   }
   validators_.at(name)(holder[name]);
@@ -186,7 +181,7 @@ void Document::remember(Edit edit) {
   undo_.push_back({std::move(edit), bytes});
   std::size_t total = 0;
   std::size_t kept = 0;
-  while (kept < undo_.size() && kept < kMostSteps) {
+  while (kept < undo_.size() && kept < kMostUndoSteps) {
     total += undo_[undo_.size() - 1 - kept].bytes;
     if (total > kMostUndoBytes && kept > 0) break;
     ++kept;

@@ -9,10 +9,10 @@ namespace asperity::studio {
 
 namespace {
 
-bool has_session(const HttpRequest& request, const Site& site) {
-  if (!request.cookie) return false;
+std::optional<std::string> session_cookie(const HttpRequest& request, const Site& site) {
+  if (!request.cookie) return std::nullopt;
   const auto value = cookie_value(*request.cookie, site.cookie_name);
-  return value && same_secret(*value, site.session);
+  return value ? std::optional<std::string>(*value) : std::nullopt;
 }
 
 bool takes_gzip(const HttpRequest& request) {
@@ -39,7 +39,7 @@ HttpAnswer answer_asset(const HttpRequest& request, std::string_view path, const
   if (!asset) return refusal(404, "there is nothing here");
   const bool unpacked = asset->compressed && !takes_gzip(request);
   HttpAnswer answer;
-  answer.headers = safety_headers(request.host);
+  answer.headers = safety_headers(site.hosts.socket_origin(*request.host));
   answer.headers.emplace_back("Content-Type", asset->content_type);
   if (asset->compressed && !unpacked) answer.headers.emplace_back("Content-Encoding", "gzip");
   answer.body = unpacked ? site.unpack(asset->content) : std::string(asset->content);
@@ -60,27 +60,30 @@ HttpAnswer answer_session(const HttpRequest& request, const Site& site) {
   }
   const auto token = token_of(request.body);
   if (!token) return refusal(400, "this is no {\"token\":…}");
-  if (!same_secret(*token, site.token)) {
+  const auto [kind, cookie] =
+      site.sessions->admit(*token, {request.from, request.agent, session_cookie(request, site)});
+  if (kind == Sessions::Answer::kWrongToken) {
     HttpAnswer answer = refusal(403, "this token is not this server's; open the address that it printed");
     answer.late = true;
     return answer;
   }
+  if (kind == Sessions::Answer::kFull) return refusal(503, "too many sessions have a window open; close one");
   HttpAnswer answer;
   answer.status = 204;
-  answer.headers = safety_headers(request.host);
-  answer.headers.emplace_back("Set-Cookie",
-                              site.cookie_name + "=" + site.session + "; HttpOnly; SameSite=Strict; Path=/");
+  answer.headers = safety_headers(site.hosts.socket_origin(*request.host));
+  answer.headers.emplace_back("Set-Cookie", site.cookie_name + "=" + cookie + "; HttpOnly; SameSite=Strict; Path=/" +
+                                                (site.hosts.is_encrypted() ? "; Secure" : ""));
   return answer;
 }
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> safety_headers(const std::optional<std::string>& host) {
+std::vector<std::pair<std::string, std::string>> safety_headers(const std::optional<std::string>& socket_origin) {
   std::string policy =
       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; worker-src 'self'; "
       "font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'; connect-src 'self'";
   // Not all browsers take a WebSocket of the same origin for 'self'.
-  if (host) policy += " ws://" + *host;
+  if (socket_origin) policy += " " + *socket_origin;
   return {
       {"Content-Security-Policy", policy},
       {"Referrer-Policy", "no-referrer"},
@@ -119,10 +122,13 @@ HttpAnswer answer_http(const HttpRequest& request, const Site& site) {
   return answer_asset(request, path, site);
 }
 
-Admission admit_websocket(const HttpRequest& request, const Site& site) {
+Admitted admit_websocket(const HttpRequest& request, const Site& site) {
   const bool own = request.host && request.origin && site.hosts.is_own_origin(*request.origin, *request.host);
-  if (!own || request.method != "GET" || request.target != "/ws") return Admission::kForeign;
-  return has_session(request, site) ? Admission::kWelcome : Admission::kStranger;
+  if (!own || request.method != "GET" || request.target != "/ws") return {};
+  const auto cookie = session_cookie(request, site);
+  const auto session = cookie ? site.sessions->find(*cookie) : std::nullopt;
+  if (!session) return {Admission::kStranger, 0};
+  return {Admission::kWelcome, *session};
 }
 
 }  // namespace asperity::studio

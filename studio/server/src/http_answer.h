@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "asperity/web/assets.h"
 #include "own_hosts.h"
+#include "sessions.h"
 
 namespace asperity::studio {
 
@@ -16,6 +18,7 @@ namespace asperity::studio {
 struct HttpRequest {
   std::string method, target, body;
   std::optional<std::string> host, origin, cookie, accept_encoding;
+  std::string from, agent;  // the address that it comes from, and what the browser calls itself
 };
 
 struct HttpAnswer {
@@ -25,11 +28,10 @@ struct HttpAnswer {
   bool late = false;  // to be held back for a while: a guess should cost time
 };
 
-// A server's secrets and what it serves.
+// What a server is and what it serves.
 struct Site {
   OwnHosts hosts;
-  std::string token;    // in the address that is printed
-  std::string session;  // in the cookie that is given for it
+  Sessions* sessions = nullptr;  // not null
   std::string cookie_name;
   std::function<std::optional<web::Asset>(std::string_view path)> asset;
   std::function<std::string(std::string_view gzip)> unpack;  // for who takes no gzip
@@ -41,14 +43,19 @@ HttpAnswer answer_http(const HttpRequest& request, const Site& site);
 // A refusal with the headers that all answers have.
 HttpAnswer refusal(unsigned status, std::string_view words);
 
-// The headers of every answer, a refused one's too; `host` is the request's if it is one of the site's own.
-std::vector<std::pair<std::string, std::string>> safety_headers(const std::optional<std::string>& host);
+// The headers of every answer, a refused one's too; `socket_origin` is where the page may open its WebSocket,
+// "ws://127.0.0.1:8137", if the request's Host is one of the site's own.
+std::vector<std::pair<std::string, std::string>> safety_headers(const std::optional<std::string>& socket_origin);
 
 enum class Admission {
   kForeign,   // of another host or origin, or for another path: no WebSocket
   kStranger,  // our own page, without the cookie: to be told so by close code 4401
   kWelcome,
 };
-Admission admit_websocket(const HttpRequest& request, const Site& site);
+struct Admitted {
+  Admission admission = Admission::kForeign;
+  std::uint64_t session = 0;  // of one that is welcome
+};
+Admitted admit_websocket(const HttpRequest& request, const Site& site);
 
 }  // namespace asperity::studio

@@ -45,15 +45,17 @@ bool is_this_machine_only(const std::string& host) {
   return inet_pton(AF_INET6, host.c_str(), &v6) == 1 && IN6_IS_ADDR_LOOPBACK(&v6);
 }
 
-OwnHosts::OwnHosts(const std::string& host, int port) : port_(":" + std::to_string(port)) {
+OwnHosts::OwnHosts(const std::string& host, int port, bool encrypted)
+    : encrypted_(encrypted), port_(":" + std::to_string(port)) {
+  const int default_port = encrypted ? 443 : 80;
   in6_addr v6{};
   any_number_ = host == "0.0.0.0" || (inet_pton(AF_INET6, host.c_str(), &v6) == 1 && IN6_IS_ADDR_UNSPECIFIED(&v6));
   for (const std::string& name :
        {std::string("127.0.0.1"), std::string("localhost"), std::string("[::1]"), to_lower(as_in_address(host))}) {
     names_.push_back(name + port_);
-    if (port == 80) names_.push_back(name);
+    if (port == default_port) names_.push_back(name);
   }
-  address_ = "http://" + (any_number_ ? "127.0.0.1" : as_in_address(host)) + port_;
+  address_ = (encrypted ? "https://" : "http://") + (any_number_ ? "127.0.0.1" : as_in_address(host)) + port_;
 }
 
 bool OwnHosts::contains(std::string_view host_header) const {
@@ -64,7 +66,11 @@ bool OwnHosts::contains(std::string_view host_header) const {
 }
 
 bool OwnHosts::is_own_origin(std::string_view origin, std::string_view host_header) const {
-  return contains(host_header) && to_lower(origin) == "http://" + to_lower(host_header);
+  return contains(host_header) && to_lower(origin) == (encrypted_ ? "https://" : "http://") + to_lower(host_header);
+}
+
+std::string OwnHosts::socket_origin(std::string_view host_header) const {
+  return (encrypted_ ? "wss://" : "ws://") + std::string(host_header);
 }
 
 std::string OwnHosts::address() const { return address_; }

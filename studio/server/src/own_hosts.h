@@ -10,8 +10,8 @@ namespace asperity::studio {
 // to resolve to this machine (DNS rebinding) has its own name there.
 class OwnHosts {
  public:
-  // `host` is the address or name that the server listens at.
-  OwnHosts(const std::string& host, int port);
+  // `host` is the address or name that the server listens at; encrypted, its pages are of https.
+  OwnHosts(const std::string& host, int port, bool encrypted = false);
 
   // The exact text of a Host header: "127.0.0.1:8137". Where the server listens at all addresses, any number is its
   // own, for a number cannot be made to resolve elsewhere.
@@ -19,11 +19,16 @@ class OwnHosts {
   // The Origin of a page that was served under that Host.
   bool is_own_origin(std::string_view origin, std::string_view host_header) const;
 
+  // Where a page that was served under that Host opens its WebSocket: "ws://127.0.0.1:8137".
+  std::string socket_origin(std::string_view host_header) const;
+
   // "http://127.0.0.1:8137", to be opened on this machine.
   std::string address() const;
+  bool is_encrypted() const { return encrypted_; }
 
  private:
   bool any_number_ = false;
+  bool encrypted_ = false;
   std::string port_;
   std::vector<std::string> names_;  // with the port
   std::string address_;

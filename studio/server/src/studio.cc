@@ -6,8 +6,10 @@
 #include <utility>
 #include <variant>
 
+#include "answer_control.h"
 #include "asperity/base/host_clock.h"
 #include "asperity/studio/calls.h"
+#include "control_socket.h"
 #include "file_saver.h"
 #include "folder_lock.h"
 #include "inbox.h"
@@ -47,15 +49,19 @@ class Studio {
     };
     for (const auto& page : pages_) page->bind(document_, calls_);
     jobs_->bind(calls_);
+    bind_sessions(calls_, *server_);
     document_.load();
     document_.on_change([this](const Edit& edit) {
       for (const auto& page : pages_) page->edited(edit);
     });
     for (const auto& page : pages_) page->start();
+    for (const std::string& warning : server_->warnings()) notice(warning);
+    open_control();
   }
 
   // Sensors closed and forces at zero first; then nothing that still waits may run, for its pages are going.
   ~Studio() {
+    control_.reset();
     for (const auto& page : pages_) guarded([&] { page->stop(); });
     jobs_.reset();
     inbox_.close();
@@ -86,6 +92,25 @@ class Studio {
   }
 
  private:
+  void notice(const std::string& sentence) const {
+    if (config_.notice) config_.notice(sentence);
+  }
+
+  // Without a place for its socket the studio runs all the same.
+  void open_control() {
+    try {
+      control_.emplace([this](const Json& request) {
+        Json answer = answer_control(request, *server_, project_.folder());
+        if (answer.contains("address") && !answer.contains("sessions")) {
+          notice("the token was renewed: the address printed before and all sessions have ended");
+        }
+        return answer;
+      });
+    } catch (const Error& error) {
+      notice("--sessions and --new-token do not reach this studio: " + std::string(error.what()));
+    }
+  }
+
   WebServerEvents events() {
     WebServerEvents out;
     out.joined = [](ClientId) {};
@@ -155,6 +180,7 @@ class Studio {
   std::vector<std::unique_ptr<Page>> pages_;
   bool save_failed_ = false;
   FileSaver saver_;
+  std::optional<ControlSocket> control_;
 };
 
 }  // namespace

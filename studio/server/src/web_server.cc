@@ -11,25 +11,31 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/ssl.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
+#include <boost/beast/ssl.hpp>
 #include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/ssl.hpp>
 #include <boost/beast/zlib/inflate_stream.hpp>
+#include <ctime>
 #include <optional>
 #include <thread>
+#include <vector>
 
 #include "answer_text.h"
 #include "asperity/web/assets.h"
-#include "secret.h"
-#include "web_connection.h"
+#include "http_connection.h"
+#include "server_limits.h"
+#include "server_state.h"
+#include "tls_context.h"
+#include "tls_door.h"
 
 namespace asperity::studio {
 
 namespace {
 
-// Open connections that are no WebSockets, or not yet.
-constexpr int kMostHttpConnections = 64;
 constexpr auto kAcceptPause = std::chrono::milliseconds(100);
 
 std::string place(const WebServerConfig& config) { return config.host + ", port " + std::to_string(config.port); }
@@ -85,9 +91,11 @@ std::string unpack_gzip(std::string_view gzip) {
 }
 
 Site make_site(const WebServerConfig& config, int port) {
-  Site site{OwnHosts(config.host, port), random_secret(), random_secret(), {}, {}, unpack_gzip};
-  // Cookies know no ports: a second studio's would take this one's place.
-  site.cookie_name = "asperity_" + std::to_string(port);
+  const bool encrypted = !config.tls_certificate.empty();
+  Site site{OwnHosts(config.host, port, encrypted), nullptr, {}, {}, unpack_gzip};
+  // Cookies know no ports: a second studio's would take this one's place. Of a name with the prefix browsers take a
+  // cookie from an encrypted page alone.
+  site.cookie_name = (encrypted ? "__Host-asperity_" : "asperity_") + std::to_string(port);
   site.asset = [](std::string_view path) { return web::find_asset(path); };
   return site;
 }
@@ -96,6 +104,7 @@ class BeastServer : public WebServer {
  public:
   BeastServer(const WebServerConfig& config, const WebServerEvents& events)
       : acceptor_(listen_on(context_, config)), pause_(context_), port_(acceptor_.local_endpoint().port()) {
+    set_up_tls(config);
     state_.emplace(config, events, make_site(config, port_));
     accept();
     thread_ = std::thread([this] { run(); });
@@ -103,7 +112,12 @@ class BeastServer : public WebServer {
   ~BeastServer() override { BeastServer::stop(); }
 
   int port() const override { return port_; }
-  std::string address() const override { return state_->site.hosts.address() + "/#token=" + state_->site.token; }
+  std::string address() const override { return state_->site.hosts.address() + "/#token=" + state_->sessions.token(); }
+  std::vector<std::string> warnings() const override { return warnings_; }
+  void renew_token() override { state_->sessions.renew(); }
+  std::vector<SessionInfo> sessions() const override { return state_->sessions.list(); }
+  std::uint64_t session_of(ClientId client) const override { return state_->sessions.session_of(client); }
+  bool close_session(std::uint64_t number) override { return state_->sessions.close(number); }
   std::uint64_t dropped_frames() const override { return state_->clients.dropped(); }
 
   void stop() override {
@@ -134,6 +148,16 @@ class BeastServer : public WebServer {
   }
 
  private:
+  void set_up_tls(const WebServerConfig& config) {
+    if (config.tls_certificate.empty() != config.tls_key.empty()) {
+      throw Error("a certificate and its key go together: --tls-cert and --tls-key");
+    }
+    if (config.tls_certificate.empty()) return;
+    TlsContext loaded = load_tls(config.tls_certificate, config.tls_key, config.host, std::time(nullptr));
+    warnings_ = std::move(loaded.warnings);
+    tls_.emplace(loaded.context.release());
+  }
+
   void end_call(ClientId client, std::uint64_t id, std::string bytes, bool is_text) {
     state_->clients.end_call(client, id);
     state_->clients.send(client, std::move(bytes), is_text);
@@ -181,9 +205,15 @@ class BeastServer : public WebServer {
     if (state_->connections >= state_->config.max_clients + kMostHttpConnections) return;
     error_code ignored;
     socket.set_option(tcp::no_delay(true), ignored);
-    std::make_shared<HttpConnection>(std::move(socket), *state_)->read();
+    if (tls_) {
+      std::make_shared<TlsDoor>(std::move(socket), *state_, *tls_)->open();
+    } else {
+      std::make_shared<HttpConnection<PlainStream>>(PlainStream(std::move(socket)), *state_)->read();
+    }
   }
 
+  std::optional<asio::ssl::context> tls_;
+  std::vector<std::string> warnings_;
   std::optional<ServerState> state_;  // outlives the connections, which go with the context
   asio::io_context context_{1};
   tcp::acceptor acceptor_;

@@ -9,6 +9,7 @@
 #include "asperity/json/parse_json.h"
 #include "asperity/testkit/temp_dir.h"
 #include "config_fields.h"
+#include "server_limits.h"
 
 namespace asperity::studio {
 namespace {
@@ -118,6 +119,17 @@ TEST_F(DocumentTest, LongPathsAndLabelsAreRefusedAtOnce) {
   EXPECT_THROW(document_->edit(deep, 1, "deep"), Error);
   EXPECT_THROW(document_->edit("/page/a", 2, std::string(10'000, 'x')), Error);
   EXPECT_EQ(document_->value(), first_);
+}
+
+TEST_F(DocumentTest, BoundsASectionAndItsSteps) {
+  EXPECT_THROW(document_->edit("/page/deep/x", std::string(kLargestSectionBytes, 'x'), "large"), Error);
+  EXPECT_EQ(document_->value(), first_);
+  document_->edit("/page/deep/x", std::string(kLargestSectionBytes / 2, 'x'), "half");
+  EXPECT_THROW(document_->edit("/page/deep/y", std::string(kLargestSectionBytes / 2, 'y'), "the other half"), Error);
+  for (std::size_t i = 0; i < kMostUndoSteps + 50; ++i) document_->edit("/page/a", i, "step");
+  std::size_t undone = 0;
+  while (document_->undo()) ++undone;
+  EXPECT_EQ(undone, kMostUndoSteps);
 }
 
 TEST_F(DocumentTest, ManyLargeEditsStayWithinWhatIsReadAgain) {

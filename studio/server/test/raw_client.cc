@@ -1,6 +1,7 @@
 #include "raw_client.h"
 
 #include <netinet/in.h>
+#include <openssl/ssl.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -37,13 +38,33 @@ RawClient::RawClient(int port, int receive_buffer_bytes) : socket_(::socket(AF_I
 }
 
 RawClient::~RawClient() {
+  SSL_free(tls_);
   if (socket_ >= 0) close(socket_);
 }
 
 RawClient::RawClient(RawClient&& other) noexcept
-    : socket_(std::exchange(other.socket_, -1)), received_(std::move(other.received_)) {}
+    : socket_(std::exchange(other.socket_, -1)),
+      tls_(std::exchange(other.tls_, nullptr)),
+      received_(std::move(other.received_)) {}
+
+bool RawClient::start_tls(int version) {
+  const timeval patience{kPatience_ms / 1000, 0};
+  setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+  SSL_CTX* context = SSL_CTX_new(TLS_client_method());
+  SSL_CTX_set_security_level(context, 0);  // old versions too: it is the server who must refuse them
+  tls_ = SSL_new(context);
+  SSL_CTX_free(context);
+  if (version != 0) {
+    SSL_set_min_proto_version(tls_, version);
+    SSL_set_max_proto_version(tls_, version);
+  }
+  SSL_set_fd(tls_, socket_);
+  return SSL_connect(tls_) == 1;
+}
 
 bool RawClient::send(std::string_view bytes) {
+  if (tls_ != nullptr) return bytes.empty() || SSL_write(tls_, bytes.data(), static_cast<int>(bytes.size())) > 0;
   while (!bytes.empty()) {
     const ssize_t sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     if (sent < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) {
@@ -57,9 +78,9 @@ bool RawClient::send(std::string_view bytes) {
 }
 
 bool RawClient::fill() {
-  wait_for(socket_, POLLIN);
   char buffer[65536];
-  const ssize_t got = recv(socket_, buffer, sizeof buffer, 0);
+  if (tls_ == nullptr || SSL_pending(tls_) == 0) wait_for(socket_, POLLIN);
+  const ssize_t got = tls_ != nullptr ? SSL_read(tls_, buffer, sizeof buffer) : recv(socket_, buffer, sizeof buffer, 0);
   if (got <= 0) return false;
   received_.append(buffer, static_cast<std::size_t>(got));
   return true;
@@ -152,18 +173,21 @@ std::string upgrade_request(int port, std::string_view headers) {
 
 std::string session_cookie(int port, const std::string& address) {
   const std::string host = "127.0.0.1:" + std::to_string(port);
+  const bool is_tls = address.starts_with("https:");
   const std::string body = "{\"token\":\"" + address.substr(address.find("token=") + 6) + "\"}";
   RawClient client(port);
-  client.send("POST /session HTTP/1.1\r\nHost: " + host + "\r\nOrigin: http://" + host +
+  if (is_tls && !client.start_tls()) throw std::runtime_error("no TLS");
+  client.send("POST /session HTTP/1.1\r\nHost: " + host + "\r\nOrigin: " + (is_tls ? "https://" : "http://") + host +
               "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
   const std::string cookie = client.response().header("Set-Cookie");
   return cookie.substr(0, cookie.find(';'));
 }
 
-RawClient open_websocket(int port, const std::string& cookie, int receive_buffer_bytes) {
+RawClient open_websocket(int port, const std::string& cookie, int receive_buffer_bytes, bool is_tls) {
   RawClient client(port, receive_buffer_bytes);
-  client.send(
-      upgrade_request(port, "Origin: http://127.0.0.1:" + std::to_string(port) + "\r\nCookie: " + cookie + "\r\n"));
+  if (is_tls && !client.start_tls()) throw std::runtime_error("no TLS");
+  client.send(upgrade_request(port, std::string("Origin: ") + (is_tls ? "https" : "http") +
+                                        "://127.0.0.1:" + std::to_string(port) + "\r\nCookie: " + cookie + "\r\n"));
   if (client.response().status != 101) throw std::runtime_error("no WebSocket");
   return client;
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+struct ssl_st;
+
 namespace asperity::studio {
 
 // A browser's end of a connection over plain sockets, which sends whatever it is told. Waits at most ten seconds for
@@ -12,6 +14,9 @@ namespace asperity::studio {
 class RawClient {
  public:
   explicit RawClient(int port, int receive_buffer_bytes = 0);
+  // Speaks TLS from here on, taking any certificate; `version` TLS1_2_VERSION or another, 0: what both can. False if
+  // the handshake fails.
+  bool start_tls(int version = 0);
   ~RawClient();
   RawClient(RawClient&& other) noexcept;
   RawClient(const RawClient&) = delete;
@@ -48,15 +53,16 @@ class RawClient {
   bool need(std::size_t bytes);
 
   int socket_ = -1;
+  ssl_st* tls_ = nullptr;
   std::string received_;
 };
 
 // The request for a WebSocket at `port`; `headers` are lines with their ends.
 std::string upgrade_request(int port, std::string_view headers);
 
-// A browser as it should be: it has changed the token of `address` for a cookie.
+// A browser as it should be: it has changed the token of `address`, of http or https, for a cookie.
 std::string session_cookie(int port, const std::string& address);
 // And has opened its WebSocket.
-RawClient open_websocket(int port, const std::string& cookie, int receive_buffer_bytes = 0);
+RawClient open_websocket(int port, const std::string& cookie, int receive_buffer_bytes = 0, bool is_tls = false);
 
 }  // namespace asperity::studio

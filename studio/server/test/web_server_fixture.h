@@ -5,6 +5,7 @@
 #include <atomic>
 #include <memory>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <variant>
 
@@ -19,6 +20,7 @@ class WebServerSocket : public testing::Test {
   void SetUp() override { start({}); }
   void start(const WebServerConfig& config) {
     server_.reset();
+    is_tls_ = !config.tls_certificate.empty();
     WebServerEvents events;
     events.joined = [this](ClientId client) {
       ++joined_;
@@ -30,6 +32,7 @@ class WebServerSocket : public testing::Test {
       const Call* call = std::get_if<Call>(&message);
       if (call == nullptr) {
         pointer_sequence_ = std::get<Pointer>(message).sequence;
+        ++pointers_;
       } else if (call->name == "big") {
         server_->answer(client, call->id, std::string(1U << 20U, 'b'));
       } else if (call->name == "never") {
@@ -45,13 +48,14 @@ class WebServerSocket : public testing::Test {
   }
   RawClient::Response ask(const std::string& request) const {
     RawClient client(port_);
+    if (is_tls_ && !client.start_tls()) throw std::runtime_error("no TLS");
     client.send(request);
     return client.response();
   }
   RawClient::Response get(const std::string& target, const std::string& headers = "") const {
     return ask("GET " + target + " HTTP/1.1\r\nHost: " + host_ + "\r\nAccept-Encoding: gzip\r\n" + headers + "\r\n");
   }
-  RawClient browser() const { return open_websocket(port_, cookie_); }
+  RawClient browser() const { return open_websocket(port_, cookie_, 0, is_tls_); }
   // True if calls of a browser are answered.
   bool answers(RawClient& client) const {
     client.send(RawClient::frame(1, R"({"id":9,"call":"echo","args":{}})"));
@@ -61,8 +65,9 @@ class WebServerSocket : public testing::Test {
 
   std::unique_ptr<WebServer> server_;
   int port_ = 0;
+  bool is_tls_ = false;
   std::string host_, cookie_;
-  std::atomic<int> joined_{0}, left_{0}, unanswered_{0};
+  std::atomic<int> joined_{0}, left_{0}, unanswered_{0}, pointers_{0};
   std::atomic<ClientId> newest_{0};
   std::atomic<bool> joining_fails_{false};
   std::atomic<std::uint32_t> pointer_sequence_{0};

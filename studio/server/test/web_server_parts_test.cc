@@ -240,9 +240,9 @@ class WebServerAnswers : public testing::Test {
     }
     return {};
   }
+  Sessions sessions_{2};
   Site site_{OwnHosts("127.0.0.1", 8137),
-             "token",
-             "secret",
+             &sessions_,
              "c",
              [](std::string_view path) -> std::optional<web::Asset> {
                if (path == "/index.html") return web::Asset{"<html>", "text/html", false};

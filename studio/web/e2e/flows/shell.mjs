@@ -71,6 +71,23 @@ export default async function shell({ page, step, restart, studio, expectComplai
     await stranger.context.close();
   });
 
+  await step("another session is listed, and closed", async () => {
+    const other = await openPage(browser);
+    await other.page.goto(studio().address);
+    await other.page.getByTestId("link").filter({ hasText: "connected" }).waitFor();
+    await page.getByTestId("show-sessions").click();
+    const rows = page.getByTestId("sessions").locator("tbody tr");
+    await rows.nth(1).waitFor();
+    await rows.filter({ hasText: "this browser" }).waitFor();
+    await rows.getByRole("button", { name: "Close session" }).click();
+    await until(async () => (await rows.count()) === 1, "one session");
+    await other.page.locator('[role="alert"]').filter({ hasText: "Open the address" }).waitFor();
+    equal(other.complaints, [], "complaints of the other browser");
+    await other.context.close();
+    await page.keyboard.press("Escape");
+    equal(await page.getByTestId("link").textContent().then((text) => text.includes("connected")), true, "this browser is connected");
+  });
+
   await step("the page waits for a server that starts again, and says what to do", async () => {
     expectComplaints(/WebSocket connection/, /ERR_CONNECTION/, /40[13]/);
     await restart();

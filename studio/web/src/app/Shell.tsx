@@ -3,6 +3,7 @@ import { link } from "../net/connection";
 import { ForceStatus } from "../pages/feel/ForceStatus";
 import { about } from "../state/about";
 import { redo, redoLabel, undo, undoLabel } from "../state/document";
+import { Button } from "../ui/Button";
 import { IconButton } from "../ui/IconButton";
 import { useKeys } from "../ui/keys";
 import { Lamp, type LampState } from "../ui/Lamp";
@@ -12,6 +13,7 @@ import { JobBar } from "./JobBar";
 import { PageFrame } from "./PageFrame";
 import { go } from "./go";
 import { route, routes } from "./routes";
+import { Sessions } from "./Sessions";
 import { nextTheme, theme } from "./settings";
 import { WaitingKey } from "./WaitingKey";
 
@@ -25,6 +27,7 @@ const LINKS: Record<string, [LampState, string]> = {
 /** Header, page and messages. */
 export function Shell() {
   const [help, setHelp] = useState(false);
+  const [sessions, setSessions] = useState(false);
   useKeys(
     [
       { key: "ctrl+z", label: "undo", run: () => undoLabel.value && undo() },
@@ -78,10 +81,14 @@ export function Shell() {
             Folder {about.value.folder}, version {about.value.version}
           </span>
         )}
+        <Button kind="quiet" onClick={() => setSessions(true)} disabled={link.value !== "open"} testId="show-sessions">
+          Sessions
+        </Button>
       </footer>
       <Toasts />
       <WaitingKey />
       <Help open={help} onClose={() => setHelp(false)} />
+      <Sessions open={sessions} onClose={() => setSessions(false)} />
     </div>
   );
 }

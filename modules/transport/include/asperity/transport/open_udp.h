@@ -15,8 +15,9 @@ struct UdpConfig {
   std::uint16_t port = 0;             // 0: any free one, see name()
   bool any_sender = false;            // else the first sender is the probe; others are passed over
   double silence_s = 2.0;             // after which the probe may come back from another port of its address
-  // True of a datagram by which a sender shows that it speaks the protocol. Until one has, all are passed over, and so
-  // are those from another port after a silence. Without it the first datagram is taken.
+  // True of bytes by which a sender shows that it speaks the protocol: its datagrams so far, one behind another, of
+  // which the newest 4 KiB are kept. Until one has, all are passed over, and so are those from another port after a
+  // silence. Without it the first datagram is taken.
   std::function<bool(std::span<const std::uint8_t>)> shows_sender = {};
 };
 

@@ -19,6 +19,8 @@ struct StudioConfig {
   std::filesystem::path folder;
   std::optional<std::string> open;         // recording, scene or mesh in it that is opened first
   std::shared_ptr<const FeelConfig> feel;  // with what the Feel page starts (feel_config.h); null: the defaults
+  // What the person who started it should know, in a sentence; called on any thread. May be empty.
+  std::function<void(const std::string& sentence)> notice;
 };
 
 // Runs the studio until `stop`. `started` is given the address. Throws Error if it cannot begin.
