@@ -142,6 +142,14 @@ asp_icm42688_status asp_icm42688_start(asp_icm42688* device, const asp_spi* spi)
   return read_register(device, kIntStatus, &value) ? ASP_ICM42688_OK : ASP_ICM42688_BUS_FAILED;
 }
 
+void asp_icm42688_continue(asp_icm42688* device, const asp_icm42688* before) {
+  device->clock = before->clock;
+  asp_row_clock_restart(&device->clock);
+  device->found_row = before->found_row;
+  device->lost_rows = before->lost_rows;
+  device->recovering = true;
+}
+
 static int16_t big_endian(const uint8_t* bytes) {
   const uint32_t value = ((uint32_t)bytes[0] << 8) | bytes[1];
   return (int16_t)(value < 0x8000u ? (int32_t)value : (int32_t)value - 0x10000);
