@@ -15,8 +15,8 @@ class SimulatedAds1220 {
     asp_ads1220_model_init(&model_);
     model_.context = this;
     model_.during_read = [](void* self) {
-      const auto& during_read = static_cast<SimulatedAds1220*>(self)->during_read;
-      if (during_read) during_read();
+      const auto& happen = static_cast<SimulatedAds1220*>(self)->during_read;
+      if (happen) happen();
     };
     spi_ = {&model_,
             [](void* model, const std::uint8_t* out, std::uint8_t* in, std::size_t count) {

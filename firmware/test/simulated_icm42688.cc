@@ -21,8 +21,8 @@ SimulatedIcm42688::SimulatedIcm42688(double period_us) {
   model_.context = this;
   model_.row = put_row;
   model_.interrupt = [](void* self, std::uint64_t time_ns) {
-    const auto& on_interrupt = static_cast<SimulatedIcm42688*>(self)->on_interrupt;
-    if (on_interrupt) on_interrupt(1e-3 * static_cast<double>(time_ns));
+    const auto& pulse = static_cast<SimulatedIcm42688*>(self)->on_interrupt;
+    if (pulse) pulse(1e-3 * static_cast<double>(time_ns));
   };
   model_.byte_time = [](void* self) { static_cast<SimulatedIcm42688*>(self)->advance(1.0); };
   spi_ = {&model_,

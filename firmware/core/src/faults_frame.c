@@ -2,7 +2,7 @@
 
 enum { kPause_us = 100000 };
 
-static bool is_same(const asp_faults* a, const asp_faults* b) {
+static bool same_faults(const asp_faults* a, const asp_faults* b) {
   bool same = a->imu_state == b->imu_state && a->force_state == b->force_state;
   for (unsigned i = 0; i < ASP_FAULTS_COUNTS; ++i) {
     same = same && a->counts[i] == b->counts[i];
@@ -10,9 +10,9 @@ static bool is_same(const asp_faults* a, const asp_faults* b) {
   return same;
 }
 
-static bool is_due(const asp_probe* probe, const asp_faults* faults, uint64_t now_us) {
+static bool faults_are_due(const asp_probe* probe, const asp_faults* faults, uint64_t now_us) {
   static const asp_faults kNone = {0};
-  return !is_same(faults, &probe->faults) || (now_us >= probe->faults_repeat_us && !is_same(faults, &kNone));
+  return !same_faults(faults, &probe->faults) || (now_us >= probe->faults_repeat_us && !same_faults(faults, &kNone));
 }
 
 bool asp_make_faults_frame(asp_probe* probe, uint64_t now_us) {
@@ -22,7 +22,7 @@ bool asp_make_faults_frame(asp_probe* probe, uint64_t now_us) {
   probe->faults_due_us = now_us + kPause_us;
   asp_faults faults = {0};
   probe->board->read_faults(probe->board->context, &faults);
-  if (!is_due(probe, &faults, now_us)) {
+  if (!faults_are_due(probe, &faults, now_us)) {
     return false;
   }
   probe->faults = faults;

@@ -65,7 +65,7 @@ void asp_icm42688_model_init(asp_icm42688_model* model, uint32_t period_ns, uint
 }
 
 uint64_t asp_icm42688_model_row_ns(const asp_icm42688_model* model, uint64_t n) {
-  return model->first_row_ns + n * model->period_ns;
+  return model->next_row_ns - (model->rows_made - n) * model->period_ns;
 }
 
 static void put_values(uint8_t* out, const int16_t* values, bool invalid) {
@@ -103,7 +103,7 @@ static void make_row(asp_icm42688_model* model) {
   const uint32_t watermark = bank0[kFifoConfig2] + 256u * bank0[kFifoConfig3];
   const bool pulses = (bank0[kIntSource0] & 0x04u) != 0 && (bank0[kFifoConfig1] & 0x20u) != 0;
   if (pulses && model->fifo_count >= watermark && model->interrupt != NULL) {
-    model->interrupt(model->context, asp_icm42688_model_row_ns(model, n));
+    model->interrupt(model->context, model->next_row_ns);
   }
 }
 
@@ -111,8 +111,9 @@ void asp_icm42688_model_advance_to(asp_icm42688_model* model, uint64_t now_ns) {
   if (now_ns > model->now_ns) {
     model->now_ns = now_ns;
   }
-  while (model->running && asp_icm42688_model_row_ns(model, model->rows_made) <= model->now_ns) {
+  while (model->running && model->next_row_ns <= model->now_ns) {
     make_row(model);
+    model->next_row_ns += model->period_ns;
   }
 }
 
@@ -172,7 +173,7 @@ static void start_if_on(asp_icm42688_model* model) {
   const uint8_t* bank0 = model->registers[0];
   if (!model->running && bank0[kPwrMgmt0] == 0x0F && (bank0[kFifoConfig] & 0xC0u) != 0) {
     model->running = true;
-    model->first_row_ns = model->now_ns + kStartUp_ns - model->period_ns * model->rows_made;
+    model->next_row_ns = model->now_ns + kStartUp_ns;
   }
 }
 

@@ -19,7 +19,7 @@ extern "C" {
 typedef enum { ASP_MODEL_LINE_WORKS, ASP_MODEL_LINE_LOW, ASP_MODEL_LINE_HIGH } asp_model_line;
 
 typedef struct {
-  // The world. Row n was taken at first_row_ns + n · period_ns.
+  // The world.
   uint32_t period_ns;
   void* context;  // of the functions below
   void (*row)(void* context, uint64_t n, int16_t accel[3], int16_t gyro[3]);
@@ -39,7 +39,7 @@ typedef struct {
 
   // State.
   uint64_t now_ns;
-  uint64_t first_row_ns;
+  uint64_t next_row_ns;  // while it runs
   uint64_t rows_made;
   bool running;
   uint8_t bank;
@@ -59,6 +59,7 @@ void asp_icm42688_model_power_cycle(asp_icm42688_model* model);
 // Makes the rows up to now_ns. Earlier times than before do nothing.
 void asp_icm42688_model_advance_to(asp_icm42688_model* model, uint64_t now_ns);
 
+// When row `n` was or will be taken, if the sensor runs without a break.
 uint64_t asp_icm42688_model_row_ns(const asp_icm42688_model* model, uint64_t n);
 
 // For asp_spi.transfer.
