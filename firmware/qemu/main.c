@@ -24,6 +24,7 @@ static uint64_t s_room_us;
 static uint32_t s_bytes;
 static measured s_steps;
 static measured s_link;
+static uint32_t s_longest_own;
 
 static uint64_t clock_us(void* context) {
   (void)context;
@@ -108,9 +109,12 @@ static void run_until(uint64_t end_us) {
       world_spin_us(stall_us);
     }
     world_wait();
+    const uint64_t before = s_steps.ticks - world_bus.ticks - s_link.ticks;
     const measure_mark begin = measure_begin();
     asp_probe_step(&s_probe);
     measure_end(&s_steps, begin);
+    const uint32_t own = (uint32_t)(s_steps.ticks - world_bus.ticks - s_link.ticks - before);
+    s_longest_own = own > s_longest_own ? own : s_longest_own;
   }
 }
 
@@ -157,6 +161,7 @@ static void print_all(uint32_t stack_used) {
   semihost_write_number("measure_own_q6", measure_own_q6);
   semihost_write_number("measure_outer_q6", measure_outer_q6);
   print_measured("step", &s_steps);
+  semihost_write_number("step_longest_own", s_longest_own);
   print_measured("link", &s_link);
   print_measured("bus", &world_bus);
 }

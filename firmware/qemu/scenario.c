@@ -28,8 +28,8 @@ static const event kFaults[] = {
     {2000, kBusRefuses, 0},       {2100, kBusWorks, 0},                                 // 100 ms
     {4000, kLoopStalls, 60},                                                            // ms; the FIFO holds 32
     {6000, kByteLost, 1},                                                               //
-    {8000, kLineLow, 0},          {9000, kLineWorks, 0},                                //
-    {11000, kLineHigh, 0},        {12000, kLineWorks, 0},                               //
+    {8000, kLineLow, 0},          {8300, kLineWorks, 0},                                //
+    {11000, kLineHigh, 0},        {11300, kLineWorks, 0},                               //
     {14000, kSupplyGone, 0},                                                            //
     {17000, kInvalidRows, 5},                                                           //
     {18000, kForceBusRefuses, 0}, {18020, kForceBusWorks, 0}, {19000, kForceStops, 0},  //

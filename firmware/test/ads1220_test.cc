@@ -119,6 +119,21 @@ TEST(Ads1220, DoesNotGiveAValueOfWhichTheTimeIsNotKnown) {
   EXPECT_EQ(device.skipped, 1u);
 }
 
+TEST(Ads1220, CountsConversionsThatTheLoopCameTooLateFor) {
+  SimulatedAds1220 converter;
+  asp_ads1220 device;
+  ASSERT_EQ(asp_ads1220_start(&device, converter.spi(), ASP_ADS1220_2000_SPS), ASP_ADS1220_OK);
+  asp_force_sample sample;
+  converter.finish_conversion(1, 1000, &device);
+  converter.finish_conversion(2, 1500, &device);
+  converter.finish_conversion(3, 2000, &device);
+  ASSERT_TRUE(asp_ads1220_read(&device, &sample));
+  EXPECT_EQ(sample.counts[0], 3);
+  EXPECT_EQ(sample.time_us, 1750u);  // of the value that was read, not of the first that was announced
+  EXPECT_EQ(device.skipped, 2u);
+  EXPECT_FALSE(asp_ads1220_read(&device, &sample));
+}
+
 TEST(Ads1220, GoesOnAfterTheBusFailed) {
   SimulatedAds1220 converter;
   asp_ads1220 device;

@@ -52,8 +52,6 @@ class Sensors {
     asp_sensors_read_faults(&sensors, &out);
     return out;
   }
-  // The number of the row that was read last, by its time.
-  double newest_row() const { return (1e-3 * static_cast<double>(newest_ns) - imu.row_time_us(0)) / 250.0; }
   std::uint64_t now_us() const { return static_cast<std::uint64_t>(imu.now_us()); }
 
   SimulatedIcm42688 imu;
@@ -90,7 +88,7 @@ TEST(FirmwareSensors, AreTriedAgainUntilTheyAnswer) {
   EXPECT_EQ(board.read + board.forces, 0u);
   EXPECT_EQ(board.faults().imu_state, ASP_SENSOR_NOT_FOUND);
   EXPECT_EQ(board.faults().force_state, ASP_SENSOR_NOT_AS_WRITTEN);
-  EXPECT_EQ(board.faults().counts[ASP_FAULTS_IMU_RESTARTS], 2u);
+  EXPECT_GE(board.faults().counts[ASP_FAULTS_IMU_RESTARTS], 4u);
   board.imu.identity = 0x47;
   board.force.present = true;
   board.run_ms(2500);
@@ -106,7 +104,7 @@ TEST(FirmwareSensors, AStuckLineIsFoundAndItsRowsAreCounted) {
     Sensors board;
     board.start();
     board.run_ms(2000);
-    const double before = board.newest_row();
+    const std::uint64_t before_ns = board.newest_ns;
     const std::uint64_t read = board.read;
     board.imu.line = line;
     board.run_ms(1500);
@@ -116,13 +114,10 @@ TEST(FirmwareSensors, AStuckLineIsFoundAndItsRowsAreCounted) {
     EXPECT_EQ(board.faults().imu_state, ASP_SENSOR_WORKS);
     EXPECT_GE(board.faults().counts[ASP_FAULTS_IMU_RESTARTS], 2u);
     EXPECT_EQ(board.faults().counts[ASP_FAULTS_IMU_OVERFLOWS] > 0, line == ASP_MODEL_LINE_HIGH);
-    // The sensor began anew, so its own numbers say nothing: time does. A row at each period, read or counted as lost.
-    const auto time_rows = static_cast<double>(board.newest_ns) / 250e3;
-    board.run_ms(100);
-    EXPECT_GT(before, 0.0);
-    EXPECT_GT(board.lost, 5000u);
-    EXPECT_NEAR(static_cast<double>(board.newest_ns) / 250e3 - time_rows, 400.0, 17.0);
-    EXPECT_GT(board.read, read);
+    // The sensor began anew, so its own numbers say nothing: time does. Each period's row was read or counted as lost.
+    const double periods = static_cast<double>(board.newest_ns - before_ns) / 250e3;
+    EXPECT_NEAR(static_cast<double>(board.read - read + board.lost), periods, 2.0);
+    EXPECT_GT(board.lost, 6000u);
   }
 }
 
@@ -146,10 +141,12 @@ TEST(FirmwareSensors, AConverterThatStopsIsStartedAgain) {
   board.start();
   board.run_ms(500);
   board.force.converting = false;
+  const std::uint64_t stopped_us = board.now_us();
   board.run_ms(1000);
+  const double turn_us = static_cast<double>(board.now_us() - stopped_us) / 1000.0;  // with the bus's own time
   EXPECT_EQ(board.faults().counts[ASP_FAULTS_FORCE_RESTARTS], 1u);
   EXPECT_EQ(board.faults().force_state, ASP_SENSOR_WORKS);
-  EXPECT_NEAR(static_cast<double>(board.forces), 1300.0, 5.0);
+  EXPECT_NEAR((1500.0 - static_cast<double>(board.forces)) * turn_us, ASP_FORCE_SILENCE_US, 3.0 * turn_us);
 }
 
 }  // namespace

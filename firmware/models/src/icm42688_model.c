@@ -141,6 +141,9 @@ static uint8_t read_fifo(asp_icm42688_model* model) {
 
 static uint8_t read_register(asp_icm42688_model* model, uint8_t address) {
   uint8_t* bank0 = model->registers[0];
+  if (address == kFifoData && model->bank == 0) {
+    return read_fifo(model);
+  }
   if (address == kBankSel) {
     return model->bank;
   }
@@ -161,8 +164,6 @@ static uint8_t read_register(asp_icm42688_model* model, uint8_t address) {
       return (uint8_t)(count >> 8);
     case kFifoCountLow:
       return (uint8_t)(count & 0xFFu);
-    case kFifoData:
-      return read_fifo(model);
     default:
       return bank0[address];
   }

@@ -10,10 +10,10 @@ extern "C" {
 #endif
 
 // Both sensors behind asp_board: starts them, and starts one again that gives nothing for a time (a stuck line, a lost
-// supply: an SPI bus cannot report these), then once a second until it gives something. Counts their faults.
+// supply: an SPI bus cannot report these), then twice a second until it gives something. Counts their faults.
 #define ASP_IMU_SILENCE_US 200000u
 #define ASP_FORCE_SILENCE_US 200000u
-#define ASP_RETRY_US 1000000u
+#define ASP_RETRY_US 500000u
 
 typedef struct {
   asp_icm42688 imu;
