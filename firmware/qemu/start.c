@@ -57,5 +57,5 @@ __attribute__((section(".vectors"), used)) static const vector kVectors[16 + 32]
     [4] = on_fault,
     [5] = on_fault,
     [6] = on_fault,
-    [16 + MACHINE_TIMER_INTERRUPT] = machine_timer_handler,
+    [16 ... 47] = machine_timer_handler,  // the only interrupt that is enabled
 };

@@ -39,7 +39,7 @@ static inline void asp_edge_fire(asp_edge* edge, uint64_t now_us) {
     edge->state = ASP_EDGE_SEEN;
   } else if (edge->state == ASP_EDGE_SEEN) {
     edge->latest_us = now_us;
-    ++edge->more;
+    edge->more = edge->more + 1u;
   }
 }
 
