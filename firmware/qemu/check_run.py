@@ -78,7 +78,8 @@ def check_faults(check, guest, host, rows, log):
         check.holds('%s is not in the report: %s' % (name, link['sensor_faults']),
                     guest[name] > 0 and '%d %s' % (guest[name], word) in link['sensor_faults'] or
                     '%d ' % guest[name] in link['sensor_faults'] and word in link['sensor_faults'])
-    for name, expected in [('imu_lost_sync', 1), ('imu_invalid_rows', 5), ('imu_restarts', 5), ('force_restarts', 1),
+    check.holds('imu_lost_sync is %d' % guest['imu_lost_sync'], 1 <= guest['imu_lost_sync'] <= 3)  # a line that is stuck may begin in a read
+    for name, expected in [('imu_invalid_rows', 5), ('imu_restarts', 5), ('force_restarts', 1),
                            ('imu_state', 0), ('force_state', 0)]:
         check.equal(name, guest[name], expected)
     check.equal('damaged frames', link['damaged_frames'], 3)
