@@ -136,6 +136,17 @@ TEST(FirmwareSensors, ALostSupplyCostsTheRowsThatTimeSays) {
   EXPECT_GT(board.lost, 800u);
 }
 
+// Without INT1 the rows have no time: none is given.
+TEST(FirmwareSensors, AMissingInterruptIsReported) {
+  Sensors board;
+  board.imu.on_interrupt = nullptr;
+  board.start();
+  board.run_ms(3000);
+  EXPECT_EQ(board.read, 0u);
+  EXPECT_EQ(board.faults().imu_state, ASP_SENSOR_NO_SAMPLES);
+  EXPECT_GE(board.faults().counts[ASP_FAULTS_IMU_RESTARTS], 4u);
+}
+
 TEST(FirmwareSensors, AConverterThatStopsIsStartedAgain) {
   Sensors board;
   board.start();
