@@ -25,6 +25,8 @@ static uint32_t s_bytes;
 static measured s_steps;
 static measured s_link;
 static uint32_t s_longest_own;
+static uint64_t s_first_row_ns;
+static uint64_t s_last_row_ns;
 
 static uint64_t clock_us(void* context) {
   (void)context;
@@ -33,7 +35,12 @@ static uint64_t clock_us(void* context) {
 
 static size_t read_imu(void* context, asp_imu_row* rows, size_t capacity) {
   (void)context;
-  return asp_sensors_read_imu(&s_sensors, world_us(), rows, capacity);
+  const size_t count = asp_sensors_read_imu(&s_sensors, world_us(), rows, capacity);
+  if (count > 0) {
+    s_first_row_ns = s_first_row_ns == 0 ? rows[0].time_ns : s_first_row_ns;
+    s_last_row_ns = rows[count - 1].time_ns;
+  }
+  return count;
 }
 
 static bool read_force(void* context, asp_force_sample* sample) {
@@ -145,6 +152,7 @@ static void print_all(uint32_t stack_used) {
   semihost_write_number("rows_numbered", s_probe.next_index);
   semihost_write_number("rows_dropped", s_probe.statistics.rows_dropped);
   semihost_write_number("rows_waiting", s_probe.rows_put - s_probe.rows_taken);
+  semihost_write_number("rows_span_ns", s_last_row_ns - s_first_row_ns);
   semihost_write_number("conversions_made", world_conversions);
   semihost_write_number("forces_sent", s_probe.forces_taken);
   semihost_write_number("forces_dropped", s_probe.statistics.forces_dropped);

@@ -14,7 +14,6 @@ import json
 import os
 import select
 import shutil
-import signal
 import socket
 import subprocess
 import sys
@@ -138,10 +137,10 @@ def run(options):
                           options.out)
         line = accept(listener, qemu)
         began = time.monotonic()
-        received = bridge(line, master, qemu, record, 3 * options.seconds + 60)
+        received = bridge(line, master, qemu, record, 5 * options.seconds + 120)
         elapsed = time.monotonic() - began
         drain(master)
-        record.send_signal(signal.SIGINT)
+        record.terminate()  # not SIGINT: a shell has what it runs in the background ignore it
         record.wait(60)
         qemu.wait(10)
     finally:
