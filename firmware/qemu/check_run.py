@@ -132,7 +132,7 @@ def check_run(options, ends, guest, host, shift):
            guest['bytes']))
     if host['link']['sensor_faults']:
         print('  reported: ' + host['link']['sensor_faults'])
-    print('  stack %d of %d bytes; core and drivers %.0f instructions a row, longest turn %d; UART %.0f a byte' %
-          (guest['stack_used'], guest['stack_size'], cost['instructions_a_row'], cost['longest_turn_instructions'],
+    print('  state of core %d and drivers %d bytes; stack %d of %d bytes; core and drivers %.0f instructions a row, longest turn %d; UART %.0f a byte' %
+          (guest['probe_state'], guest['sensors_state'], guest['stack_used'], guest['stack_size'], cost['instructions_a_row'], cost['longest_turn_instructions'],
            cost['uart_instructions_a_byte']))
     return failures

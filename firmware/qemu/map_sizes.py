@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""Prints the flash and RAM that each part of a linked program takes, by the linker's map: map_sizes.py probe.map"""
+"""Prints the flash that each part of a linked program takes, by the linker's map: map_sizes.py probe.map"""
 import re
 import sys
 
 FLASH = ('.text', '.rodata', '.vectors', '.ARM.exidx', '.ARM.extab')
-RAM = ('.data', '.bss', '.world', 'COMMON')
 PARTS = ['core', 'drivers', 'libgcc', 'picolibc', 'models', 'board']
 
 
@@ -19,24 +18,18 @@ def part_of(path):
 
 def read_map(path):
     flash = dict.fromkeys(PARTS, 0)
-    ram = dict.fromkeys(PARTS, 0)
     text = open(path).read().split('Linker script and memory map', 1)[1]
     # A long name of a section has a line of its own.
-    for name, address, size, file in re.findall(r'^ (\S+)\s+0x([0-9a-f]+)\s+0x([0-9a-f]+)\s+(\S+)$', text, re.M):
+    for name, address, size, file in re.findall(r'^ (\S+)\n?[ \t]+0x([0-9a-f]+)[ \t]+0x([0-9a-f]+)[ \t]+(\S+)$', text, re.M):
         part = part_of(file)
-        if part is None:
-            continue
-        if name.startswith(FLASH):
+        if part is not None and name.startswith(FLASH):
             flash[part] += int(size, 16)
-        elif name.startswith(RAM):
-            ram[part] += int(size, 16)
-    return flash, ram
+    return flash
 
 
 def main():
-    flash, ram = read_map(sys.argv[1])
+    flash = read_map(sys.argv[1])
     print('  flash: ' + ', '.join('%s %d' % (part, flash[part]) for part in PARTS) + ' bytes')
-    print('  RAM without stack: ' + ', '.join('%s %d' % (part, ram[part]) for part in PARTS if ram[part]) + ' bytes')
 
 
 if __name__ == '__main__':

@@ -29,7 +29,10 @@ INSTRUCTION_SHIFT = 4  # an instruction takes 2**4 ns: 62.5 million a second
 def start_record(asperity, port, out):
     log = open(out + '/record.log', 'w')
     report = open(out + '/report.json', 'w')
-    command = [asperity, 'record', '--probe', 'serial:%s@921600' % port, '--uncalibrated', '--json', '-o', out + '/recording']
+    # A silent port is opened again after a second, and what comes meanwhile is lost. An emulator on a busy host may be late by
+    # as much: here it is given a minute.
+    command = [asperity, 'record', '--probe', 'serial:%s@921600' % port, '--set', 'recorder.stale_s=60', '--uncalibrated',
+               '--json', '-o', out + '/recording']
     return subprocess.Popen(command, stdout=report, stderr=log, stdin=subprocess.DEVNULL)
 
 
