@@ -46,7 +46,7 @@ std::size_t write(void* context, const std::uint8_t*, std::size_t count) {
 
 void probe_step(benchmark::State& state) {
   EndlessBoard endless;
-  const asp_board board = {&endless, clock_us, read_imu, read_force, write, nullptr};
+  const asp_board board = {&endless, clock_us, read_imu, read_force, write, nullptr, nullptr};
   const asp_description description = {"bench", "1.0.0", 4000, -32768, 32767, 208.8, true, 939.6, 1, 1000, 1e-6};
   const auto probe = std::make_unique<asp_probe>();
   asp_probe_init(probe.get(), &board, &description, nullptr);

@@ -37,6 +37,7 @@ Json link_json(const LinkStatistics& link) {
   out["resyncs"] = link.resyncs;
   out["restarts"] = link.restarts;
   out["overruns"] = link.overruns;
+  out["sensor_faults"] = describe_faults(link.faults);
   return out;
 }
 
@@ -92,6 +93,7 @@ std::string record_text(const RecordOutcome& outcome) {
     out += fmt::format("  link        {} samples lost{}, {} frames damaged\n", f.link.lost_samples,
                        f.link.losses_are_estimated ? " (estimated)" : "", f.link.damaged_frames);
   }
+  if (f.link.faults.any()) out += fmt::format("  sensors     {}\n", describe_faults(f.link.faults));
   if (f.gravity.measured) {
     const Eigen::Vector3d& g = f.gravity.gravity_world_mps2;
     out += fmt::format("  gravity     ({:.3f}, {:.3f}, {:.3f}) m/s² in the world, from {} moments at rest\n", g.x(),

@@ -56,6 +56,7 @@ std::string record_line(const RecorderSnapshot& now) {
   out += now.storing ? "● " + printable(now.segment, 30) : fmt::format("○ {} segments", now.segments);
   out += rate_text("probe", now.probe);
   if (now.link.lost_samples > 0) out += fmt::format(" {} lost", now.link.lost_samples);
+  if (now.link.faults.imu_state != 0 || now.link.faults.force_state != 0) out += " SENSOR FAULT";
   out += rate_text("poses", now.poses);
   if (now.pose && now.poses.state == SensorState::kRunning && now.pose->markers > 0)
     out += fmt::format(" {} markers", now.pose->markers);
@@ -100,6 +101,11 @@ void RecordStatus::show(const RecorderSnapshot& now) {
   using namespace std::chrono_literals;
   print_changes("the probe", now.probe, probe_);
   print_changes("the tracker", now.poses, poses_);
+  if (!(now.link.faults == faults_)) {
+    faults_ = now.link.faults;
+    const std::string text = describe_faults(faults_);
+    if (printed_.insert(without_digits(text)).second) print_line("the probe reports: " + text);
+  }
   if (quiet_ || Clock::now() < next_) return;
   next_ = Clock::now() + (terminal_ ? Clock::duration(200ms) : Clock::duration(2s));
   const std::string line = record_line(now);

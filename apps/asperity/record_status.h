@@ -35,6 +35,7 @@ class RecordStatus {
   Clock::time_point next_ = Clock::now();
   SensorSnapshot probe_;
   SensorSnapshot poses_;
+  ProbeFaults faults_;
   std::set<std::string> printed_;  // warnings, without their digits
 };
 

@@ -22,6 +22,7 @@ RecordingEvidence recording_evidence(const RecorderSnapshot& end, const FrameWri
   out.samples_overflowed = end.probe.overflowed;
   out.rows_stored = end.probe_rows;
   out.overruns = end.link.overruns;
+  out.sensor_faults = describe_faults(end.link.faults);
   out.columns_missing = end.columns_missing;
   out.probe_message = end.probe.message;
   out.awaits_contact = awaits_contact;

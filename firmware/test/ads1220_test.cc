@@ -1,62 +1,47 @@
 #include "asperity_firmware/ads1220.h"
 
 #include <gmock/gmock.h>
-#include <array>
-#include <vector>
+#include <functional>
 
-#include "fake_board.h"
+#include "asperity_firmware/ads1220_model.h"
 
 namespace asperity {
 namespace {
 
-// The converter's commands as its datasheet has them.
+// The register model, with DRDY.
 class SimulatedAds1220 {
  public:
   SimulatedAds1220() {
-    spi_ = {this, transfer, [](void*, std::uint32_t) {}};
+    asp_ads1220_model_init(&model_);
+    model_.context = this;
+    model_.during_read = [](void* self) {
+      const auto& happen = static_cast<SimulatedAds1220*>(self)->during_read;
+      if (happen) happen();
+    };
+    spi_ = {&model_,
+            [](void* model, const std::uint8_t* out, std::uint8_t* in, std::size_t count) {
+              return asp_ads1220_model_transfer(static_cast<asp_ads1220_model*>(model), out, in, count);
+            },
+            [](void*, std::uint32_t) {}};
   }
+  SimulatedAds1220(const SimulatedAds1220&) = delete;
+  SimulatedAds1220& operator=(const SimulatedAds1220&) = delete;
   const asp_spi* spi() const { return &spi_; }
 
   void finish_conversion(std::int32_t counts, std::uint64_t now_us, asp_ads1220* device) {
-    if (!converting) return;
-    data_ = static_cast<std::uint32_t>(counts) & 0xFFFFFFu;
-    asp_edge_fire(&device->edge, now_us);
+    if (asp_ads1220_model_finish(&model_, counts)) asp_edge_fire(&device->edge, now_us);
   }
-
-  std::array<std::uint8_t, 4> registers{};
-  bool converting = false;
-  bool present = true;
-  bool bus_works = true;
-  std::function<void()> during_read;
 
  private:
-  static bool transfer(void* context, const std::uint8_t* out, std::uint8_t* in, std::size_t count) {
-    auto& self = *static_cast<SimulatedAds1220*>(context);
-    if (!self.bus_works) return false;
-    const std::vector<std::uint8_t> sent(out, out + count);
-    std::fill_n(in, count, std::uint8_t{0xFF});
-    if (!self.present) return true;
-    const std::uint8_t command = sent[0];
-    const std::size_t first = (command >> 2) & 3;
-    const std::size_t number = (command & 3) + 1u;
-    if ((command & 0xFE) == 0x06) {
-      self.registers = {};
-      self.converting = false;
-    } else if ((command & 0xFE) == 0x08) {
-      self.converting = (self.registers[1] & 0x04) != 0;
-    } else if ((command & 0xF0) == 0x40) {
-      for (std::size_t i = 0; i < number && i + 1 < count; ++i) self.registers[first + i] = sent[i + 1];
-    } else if ((command & 0xF0) == 0x20) {
-      for (std::size_t i = 0; i < number && i + 1 < count; ++i) in[i + 1] = self.registers[first + i];
-    } else if ((command & 0xF0) == 0x10) {
-      for (std::size_t i = 1; i < count && i < 4; ++i) in[i] = static_cast<std::uint8_t>(self.data_ >> (24 - 8 * i));
-      if (self.during_read) self.during_read();
-    }
-    return true;
-  }
-
+  asp_ads1220_model model_{};
   asp_spi spi_{};
-  std::uint32_t data_ = 0;
+
+ public:
+  std::uint8_t (&registers)[4] = model_.registers;
+  bool& converting = model_.converting;
+  bool& present = model_.present;
+  bool& bus_works = model_.bus_works;
+  std::function<void()> during_read;
 };
 
 TEST(Ads1220, IsConfiguredAsTheDatasheetSays) {
@@ -132,6 +117,21 @@ TEST(Ads1220, DoesNotGiveAValueOfWhichTheTimeIsNotKnown) {
   EXPECT_EQ(sample.counts[0], 2);
   EXPECT_EQ(sample.time_us, 1250u);
   EXPECT_EQ(device.skipped, 1u);
+}
+
+TEST(Ads1220, CountsConversionsThatTheLoopCameTooLateFor) {
+  SimulatedAds1220 converter;
+  asp_ads1220 device;
+  ASSERT_EQ(asp_ads1220_start(&device, converter.spi(), ASP_ADS1220_2000_SPS), ASP_ADS1220_OK);
+  asp_force_sample sample;
+  converter.finish_conversion(1, 1000, &device);
+  converter.finish_conversion(2, 1500, &device);
+  converter.finish_conversion(3, 2000, &device);
+  ASSERT_TRUE(asp_ads1220_read(&device, &sample));
+  EXPECT_EQ(sample.counts[0], 3);
+  EXPECT_EQ(sample.time_us, 1750u);  // of the value that was read, not of the first that was announced
+  EXPECT_EQ(device.skipped, 2u);
+  EXPECT_FALSE(asp_ads1220_read(&device, &sample));
 }
 
 TEST(Ads1220, GoesOnAfterTheBusFailed) {

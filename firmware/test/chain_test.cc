@@ -58,6 +58,7 @@ class Chain {
                         line.insert(line.end(), bytes, bytes + taken);
                         return taken;
                       },
+                      nullptr,
                       nullptr};
 };
 

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -93,6 +95,33 @@ TEST(FirmwareDescription, WritesFiguresToNineDigits) {
     asp_description description = bench_probe();
     description.rate_hz = value;
     EXPECT_EQ(json::parse(written(description))["rate_hz"].get<double>(), value);
+  }
+}
+
+// printf rounds correctly; ours may differ by one in the ninth digit where the tenth is half a digit to 1e-15.
+TEST(FirmwareDescription, WritesFiguresAsPrintfDoes) {
+  Random random(11);
+  int different = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double value = std::pow(10.0, random.uniform() * 24.0 - 12.0) * (1.0 + random.uniform());
+    if (value > 1e12) continue;
+    asp_description description = bench_probe();
+    description.force_newton_per_count = value;
+    char digits[40];
+    std::snprintf(digits, sizeof digits, "%.8e", value);
+    const double got = json::parse(written(description))["force_newton_per_count"].get<double>();
+    different += got == std::strtod(digits, nullptr) ? 0 : 1;
+    ASSERT_NEAR(got / value, 1.0, 5.1e-9) << value;
+  }
+  EXPECT_LE(different, 1);
+}
+
+TEST(FirmwareDescription, WritesTheSmallestFigures) {
+  for (const double value : {5e-324, 2.2250738585072014e-308, 1e-300, 4.9e-200}) {
+    asp_description description = bench_probe();
+    description.force_newton_per_count = value;
+    const double got = json::parse(written(description))["force_newton_per_count"].get<double>();
+    EXPECT_NEAR(got / value, 1.0, 1e-8) << value;
   }
 }
 

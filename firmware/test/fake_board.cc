@@ -32,7 +32,7 @@ std::array<std::int32_t, 3> fake_force(std::uint64_t n) {
 }
 
 FakeBoard::FakeBoard(const Options& options) : options_(options) {
-  board_ = {this, clock, read_imu, options.force_rate_Hz > 0.0 ? read_force : nullptr, write, read_host};
+  board_ = {this, clock, read_imu, options.force_rate_Hz > 0.0 ? read_force : nullptr, write, read_host, nullptr};
 }
 
 double FakeBoard::row_time_ns(std::uint64_t n) const {

@@ -188,6 +188,7 @@ TEST(FirmwareProbe, SendsForcesFarFromTheRowsInFramesOfTheirOwn) {
                              sent.insert(sent.end(), bytes, bytes + count);
                              return count;
                            },
+                           nullptr,
                            nullptr};
   auto probe = std::make_unique<asp_probe>();
   const asp_description description = description_of(true, false);

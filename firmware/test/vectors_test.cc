@@ -29,7 +29,7 @@ struct ListBoard {
   std::deque<asp_force_sample> forces;
   std::uint64_t now_us = 0;
   Bytes written;
-  asp_board board = {this, clock, read_imu, read_force, write, nullptr};
+  asp_board board = {this, clock, read_imu, read_force, write, nullptr, nullptr};
 
   ListBoard() = default;
   ListBoard(const ListBoard&) = delete;

@@ -1,5 +1,7 @@
 #include "asperity_firmware/description.h"
 
+#include "decimal.h"
+
 typedef struct {
   uint8_t* out;
   size_t capacity;
@@ -42,22 +44,13 @@ static void put_integer(sink* s, int64_t value) {
 
 // As mantissa and exponent, 208848e-3: JSON allows it, and it needs no printf.
 static void put_number(sink* s, double value, double max) {
-  if (!(value >= 0.0 && value <= max)) {
+  asp_decimal number;
+  if (!asp_to_decimal(value, max, &number)) {
     s->bad = true;
     return;
   }
-  int exponent = 0;
-  if (value > 0.0) {
-    while (value < 1e8 && exponent > -300) {
-      value *= 10.0;
-      --exponent;
-    }
-    while (value >= 1e9) {
-      value /= 10.0;
-      ++exponent;
-    }
-  }
-  int64_t mantissa = (int64_t)(value + 0.5);
+  int64_t mantissa = (int64_t)number.digits;
+  int32_t exponent = number.exponent;
   while (mantissa != 0 && mantissa % 10 == 0) {
     mantissa /= 10;
     ++exponent;

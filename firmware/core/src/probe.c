@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "faults_frame.h"
 #include "sample_frame.h"
 
 enum { kHostBytesAStep = 64, kFramesAStep = 8, kAskedPause_us = 100000 };
@@ -127,7 +128,8 @@ static bool send(asp_probe* probe, uint64_t now_us) {
         return worked;
       }
     }
-    if (!make_description_if_due(probe, now_us) && !asp_make_sample_frame(probe, now_us)) {
+    if (!make_description_if_due(probe, now_us) && !asp_make_faults_frame(probe, now_us) &&
+        !asp_make_sample_frame(probe, now_us)) {
       return worked;
     }
     worked = true;

@@ -55,14 +55,22 @@ bool asp_ads1220_read(asp_ads1220* device, asp_force_sample* sample) {
   if (device->edge.state != ASP_EDGE_SEEN) {
     return false;
   }
-  const uint64_t edge_us = device->edge.time_us;
+  uint32_t more = 0;
+  uint64_t edge_us = 0;
+  // An interrupt may come between the two halves of the time.
+  do {
+    more = device->edge.more;
+    edge_us = device->edge.latest_us;
+  } while (more != device->edge.more);
   device->edge.state = ASP_EDGE_ARMED;
+  device->skipped += more;
   uint8_t bytes[4] = {kReadData, 0, 0, 0};
   if (!transfer(device, bytes, sizeof bytes)) {
     ++device->bus_failures;
     return false;
   }
-  if (device->edge.state == ASP_EDGE_SEEN) {
+  // The next was ready meanwhile: which of the two was read is not known.
+  if (device->edge.state == ASP_EDGE_SEEN || device->edge.more != more) {
     ++device->skipped;
     return false;
   }

@@ -14,10 +14,12 @@ static asp_probe s_probe;
 static asp_board s_board;
 
 #ifdef CONFIG_PROBE_LINK_UDP
-static const asp_board kBoard = {NULL, sensors_clock_us, sensors_read_imu, NULL, link_udp_write, link_udp_read};
+static const asp_board kBoard = {NULL,           sensors_clock_us, sensors_read_imu,   NULL,
+                                 link_udp_write, link_udp_read,    sensors_read_faults};
 static bool start_link(void) { return link_udp_start(); }
 #else
-static const asp_board kBoard = {NULL, sensors_clock_us, sensors_read_imu, NULL, link_serial_write, link_serial_read};
+static const asp_board kBoard = {
+    NULL, sensors_clock_us, sensors_read_imu, NULL, link_serial_write, link_serial_read, sensors_read_faults};
 static bool start_link(void) { return link_serial_start(); }
 #endif
 

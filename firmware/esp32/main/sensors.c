@@ -3,8 +3,7 @@
 
 #include <string.h>
 
-#include "asperity_firmware/ads1220.h"
-#include "asperity_firmware/icm42688.h"
+#include "asperity_firmware/sensors.h"
 #include "driver/gpio.h"
 #include "driver/spi_master.h"
 #include "esp_attr.h"
@@ -21,9 +20,7 @@ typedef struct {
 static TaskHandle_t s_task;
 static spi_target s_imu_target;
 static spi_target s_adc_target;
-static asp_icm42688 s_imu;
-static asp_ads1220 s_adc;
-static bool s_have_force;
+static asp_sensors s_sensors;
 
 // The bus's memory access wants whole words of its own memory.
 static DMA_ATTR uint8_t s_out[(kLongestTransfer + 3) / 4 * 4];
@@ -86,17 +83,20 @@ bool sensors_start(TaskHandle_t task) {
     s_bus_ready = spi_bus_initialize(SPI3_HOST, &bus, SPI_DMA_CH_AUTO) == ESP_OK &&
                   add_target(&s_imu_target, kPinImuSelect, 0, 8000000) &&
                   add_target(&s_adc_target, kPinAdcSelect, 1, 4000000) && gpio_install_isr_service(0) == ESP_OK &&
-                  add_interrupt(kPinImuInterrupt, GPIO_INTR_POSEDGE, &s_imu.edge) &&
-                  add_interrupt(kPinAdcReady, GPIO_INTR_NEGEDGE, &s_adc.edge);
+                  add_interrupt(kPinImuInterrupt, GPIO_INTR_POSEDGE, &s_sensors.imu.edge) &&
+                  add_interrupt(kPinAdcReady, GPIO_INTR_NEGEDGE, &s_sensors.force.edge);
   }
-  if (!s_bus_ready || asp_icm42688_start(&s_imu, &s_imu_spi) != ASP_ICM42688_OK) {
+  if (!s_bus_ready) {
     return false;
   }
-  s_have_force = asp_ads1220_start(&s_adc, &s_adc_spi, ASP_ADS1220_660_SPS) == ASP_ADS1220_OK;
+  // A probe may have no load cell: what does not answer at first is not tried again.
+  const bool have_force = asp_ads1220_start(&s_sensors.force, &s_adc_spi, ASP_ADS1220_660_SPS) == ASP_ADS1220_OK;
+  asp_sensors_start(&s_sensors, &s_imu_spi, have_force ? &s_adc_spi : NULL, ASP_ADS1220_660_SPS,
+                    (uint64_t)esp_timer_get_time());
   return true;
 }
 
-bool sensors_have_force(void) { return s_have_force; }
+bool sensors_have_force(void) { return s_sensors.force_spi != NULL; }
 
 uint64_t sensors_clock_us(void* context) {
   (void)context;
@@ -105,10 +105,15 @@ uint64_t sensors_clock_us(void* context) {
 
 size_t sensors_read_imu(void* context, asp_imu_row* rows, size_t capacity) {
   (void)context;
-  return asp_icm42688_read(&s_imu, rows, capacity);
+  return asp_sensors_read_imu(&s_sensors, (uint64_t)esp_timer_get_time(), rows, capacity);
 }
 
 bool sensors_read_force(void* context, asp_force_sample* sample) {
   (void)context;
-  return asp_ads1220_read(&s_adc, sample);
+  return asp_sensors_read_force(&s_sensors, (uint64_t)esp_timer_get_time(), sample);
+}
+
+void sensors_read_faults(void* context, asp_faults* faults) {
+  (void)context;
+  asp_sensors_read_faults(&s_sensors, faults);
 }

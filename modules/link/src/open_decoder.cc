@@ -67,6 +67,10 @@ void OpenDecoder::take_block(std::span<const std::uint8_t> block, std::int64_t a
       if (sound) {
         description_ = std::move(description);
       }
+    } else if (version == kOpenVersion && type == kOpenFaultsType) {
+      const auto faults = parse_open_faults(*payload);
+      sound = faults.has_value();
+      if (sound) statistics_.faults = *faults;
     } else {
       ++statistics_.foreign_frames;
     }

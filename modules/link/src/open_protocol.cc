@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::size_t kHeader_bytes = 28;
 constexpr std::size_t kCrc_bytes = 4;
+constexpr std::size_t kFaults_bytes = 36;
 
 constexpr std::uint8_t kStart = 0x01;
 constexpr std::uint8_t kOverrun = 0x02;
@@ -67,6 +68,20 @@ bool parse_open_samples(std::span<const std::uint8_t> payload, OpenSamples& out)
     }
   }
   return true;
+}
+
+std::optional<ProbeFaults> parse_open_faults(std::span<const std::uint8_t> payload) noexcept {
+  if (payload.size() < kFaults_bytes || payload[0] != kOpenVersion || payload[1] != kOpenFaultsType)
+    return std::nullopt;
+  ProbeFaults out;
+  out.imu_state = payload[2];
+  out.force_state = payload[3];
+  std::size_t at = 4;
+  for (std::uint32_t* count : {&out.imu_bus_failures, &out.imu_overflows, &out.imu_lost_sync, &out.imu_invalid_rows,
+                               &out.imu_restarts, &out.force_bus_failures, &out.force_skipped, &out.force_restarts}) {
+    *count = take_little_endian<std::uint32_t>(payload, at);
+  }
+  return out;
 }
 
 void append_open_frame(std::span<const std::uint8_t> payload, std::vector<std::uint8_t>& out) {

@@ -40,6 +40,13 @@ json as_json(const LinkStatistics& statistics) {
           {"resyncs", statistics.resyncs}};
 }
 
+// State and counts in the document's order; all zero where the file has none.
+json faults_of(const LinkStatistics& statistics) {
+  const ProbeFaults& f = statistics.faults;
+  return {f.imu_state,        f.force_state,  f.imu_bus_failures,   f.imu_overflows, f.imu_lost_sync,
+          f.imu_invalid_rows, f.imu_restarts, f.force_bus_failures, f.force_skipped, f.force_restarts};
+}
+
 json as_row(const ProbeSample& sample, bool gyro, int force_axes) {
   json row;
   for (int axis = 0; axis < 3; ++axis) row.push_back(static_cast<int>(sample.accel_counts[axis]));
@@ -81,6 +88,7 @@ TEST_P(Conformance, DecoderGivesWhatTheFileSays) {
       arrival_ns += 1'000;
     }
     EXPECT_EQ(as_json(decoder->statistics()), expected.at("statistics"));
+    EXPECT_EQ(faults_of(decoder->statistics()), expected.value("faults", json(std::vector<int>(10, 0))));
     EXPECT_EQ(decoder->statistics().bytes, bytes.size());
     EXPECT_FALSE(decoder->statistics().losses_are_estimated);
     EXPECT_EQ(as_json(decoder->description(), expected.at("description")), expected.at("description"));

@@ -80,6 +80,14 @@ std::map<std::string, std::int64_t> sensor_problems(const RecorderSnapshot& now)
   count("probe_resyncs", now.link.resyncs);
   count("probe_restarts", now.link.restarts);
   count("probe_overruns", now.link.overruns);
+  count("probe_imu_bus_failures", now.link.faults.imu_bus_failures);
+  count("probe_imu_overflows", now.link.faults.imu_overflows);
+  count("probe_imu_lost_sync", now.link.faults.imu_lost_sync);
+  count("probe_imu_invalid_rows", now.link.faults.imu_invalid_rows);
+  count("probe_imu_restarts", now.link.faults.imu_restarts);
+  count("probe_force_bus_failures", now.link.faults.force_bus_failures);
+  count("probe_force_skipped", now.link.faults.force_skipped);
+  count("probe_force_restarts", now.link.faults.force_restarts);
   count("probe_queue_overflow", now.probe.overflowed);
   count("probe_disappeared", now.probe.lost);
   count("tracker_skipped_frames", now.tracking.skipped_frames);

@@ -43,6 +43,10 @@ void judge_probe(const RecordingEvidence& e, const JudgeRecordingConfig& config,
   }
   if (e.overruns > 0)
     out.push_back(make_verdict("probe_overruns", "the probe dropped samples itself " + times(e.overruns)));
+  if (!e.sensor_faults.empty()) {
+    out.push_back(make_verdict(
+        "sensor_faults", "the probe reports faults of its sensors: " + printable(e.sensor_faults, kLongestMessage)));
+  }
 }
 
 void judge_tracker(const RecordingEvidence& e, const JudgeRecordingConfig& config, Verdicts& out) {

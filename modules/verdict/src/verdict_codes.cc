@@ -84,6 +84,7 @@ constexpr VerdictCode kCodes[] = {
     {"images_skipped", kLimited, "lower the camera's frame rate or resolution"},
     {"frames_not_kept", kLimited, "record on a faster disk, or without --frames"},
     {"probe_overruns", kLimited, "lower the probe's rate"},
+    {"sensor_faults", kLimited, "check the wiring and supply of the probe's sensors"},
     {"source_interrupted", kLimited, "check the connection"},
     // A calibration.
     {"camera_not_converged", kInvalid, "take more images with the board tilted and in all parts of the image"},

@@ -38,6 +38,7 @@ TEST(JudgeRecording, NamesEachFaultByItsCode) {
       {"disk_too_slow", "8 poses", [](Evidence& e) { e.poses_overflowed = 8; }},
       {"columns_missing", "too late", [](Evidence& e) { e.columns_missing = true; }},
       {"probe_overruns", "itself once", [](Evidence& e) { e.overruns = 1; }},
+      {"sensor_faults", "not found", [](Evidence& e) { e.sensor_faults = "inertial sensor: not found"; }},
       {"no_tracker", "no tracker", [](Evidence& e) { e.has_tracker = false; }},
       {"no_poses", "no pose was found", [](Evidence& e) { e.poses = 0; }},
       {"no_poses", "in what was stored", [](Evidence& e) { e.poses_stored = 0; }},

@@ -5,6 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "asperity_firmware/faults.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -25,7 +27,8 @@ typedef struct {
 // Rows for which the core asks at a time.
 #define ASP_ROWS_A_READ 16u
 
-// What the core needs of the hardware. No function may wait. All are called from asp_probe_step() only.
+// What the core needs of the hardware. No function may wait, except to start a failed sensor again. All are called from
+// asp_probe_step() only.
 typedef struct {
   void* context;  // handed to each
 
@@ -44,6 +47,9 @@ typedef struct {
 
   // Up to `capacity` bytes from the host. NULL: no way back.
   size_t (*read_host)(void* context, uint8_t* bytes, size_t capacity);
+
+  // The sensors' states and counts, asked for ten times a second. NULL: they are not reported.
+  void (*read_faults)(void* context, asp_faults* faults);
 } asp_board;
 
 #ifdef __cplusplus

@@ -11,7 +11,14 @@ extern "C" {
 // asp_crc32_result() at the end: "123456789" gives CBF43926h.
 #define ASP_CRC32_START 0xFFFFFFFFu
 
-uint32_t asp_crc32_put(uint32_t state, uint8_t byte);
+extern const uint32_t asp_crc32_nibbles[16];
+
+// Half a byte at a time: 64 bytes of table instead of 1024. In the header, as it is done for each byte on the line.
+static inline uint32_t asp_crc32_put(uint32_t state, uint8_t byte) {
+  state ^= byte;
+  state = (state >> 4) ^ asp_crc32_nibbles[state & 15u];
+  return (state >> 4) ^ asp_crc32_nibbles[state & 15u];
+}
 
 static inline uint32_t asp_crc32_result(uint32_t state) { return state ^ 0xFFFFFFFFu; }
 

@@ -15,6 +15,7 @@ extern "C" {
 #define ASP_PROTOCOL_VERSION 1u
 #define ASP_TYPE_SAMPLES 0x01u
 #define ASP_TYPE_DESCRIPTION 0x02u
+#define ASP_TYPE_FAULTS 0x03u
 #define ASP_TYPE_ASK_DESCRIPTION 0x81u
 
 // Bytes on the line of a frame with this payload, at most: the CRC, one code byte for each 254 bytes begun (one

@@ -31,6 +31,7 @@ typedef struct {
   uint32_t rows_dropped;    // by the sensor, or as the queue was full
   uint32_t forces_dropped;  // as the queue was full
   uint32_t requests;
+  uint32_t faults;  // frames of them
 } asp_probe_statistics;
 
 typedef struct {
@@ -66,6 +67,10 @@ typedef struct {
   uint64_t asked_due_us;  // no earlier than this after the last one
   bool asked;
   asp_request_reader request;
+
+  asp_faults faults;  // as last sent
+  uint64_t faults_due_us;
+  uint64_t faults_repeat_us;
 
   uint8_t line[ASP_LINE_BYTES];  // the frame under way
   uint32_t line_size;

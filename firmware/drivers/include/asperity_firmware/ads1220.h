@@ -27,8 +27,7 @@ typedef struct {
   asp_edge edge;  // DRDY's interrupt, at its falling edge, calls asp_edge_fire(&device.edge, now)
   uint32_t period_us;
   uint32_t bus_failures;
-  uint32_t
-      skipped;  // values during whose reading the next was ready, so that it is not known which of the two they were
+  uint32_t skipped;  // conversions that the loop came too late for, or of which the time is not known
 } asp_ads1220;
 
 // Samples a second, nominal.
@@ -37,8 +36,8 @@ uint32_t asp_ads1220_rate_sps(asp_ads1220_rate rate);
 // Resets and configures the converter, reads its registers back and starts it. Takes some 0.2 ms.
 asp_ads1220_status asp_ads1220_start(asp_ads1220* device, const asp_spi* spi, asp_ads1220_rate rate);
 
-// For asp_board.read_force: the conversion that DRDY has announced, if any. Its filter is as long as one conversion, so
-// its middle was half a period before the edge.
+// For asp_board.read_force: the last conversion that DRDY has announced, if any. Its filter is as long as one
+// conversion, so its middle was half a period before the edge.
 bool asp_ads1220_read(asp_ads1220* device, asp_force_sample* sample);
 
 // Three bytes, the highest first, two's complement.

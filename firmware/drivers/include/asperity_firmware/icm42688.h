@@ -66,6 +66,10 @@ typedef struct {
 // Resets and configures the sensor, reads every register back and starts it. Takes some 60 ms.
 asp_icm42688_status asp_icm42688_start(asp_icm42688* device, const asp_spi* spi);
 
+// After asp_icm42688_start() of a sensor that had worked: takes the clock over from `before`, so that the rows lost
+// since are counted by time, and leaves the statistics at zero.
+void asp_icm42688_continue(asp_icm42688* device, const asp_icm42688* before);
+
 // For asp_board.read_imu: once the FIFO has ASP_ICM42688_WATERMARK rows, gives so many (fewer where some are invalid),
 // else none. `capacity` must be so much at least. A full FIFO, bytes out of step or a failed bus: the FIFO is emptied,
 // and the rows lost are counted by the time until the next.

@@ -20,10 +20,12 @@ typedef struct {
 } asp_spi;
 
 // The time of an interrupt, handed from the interrupt to the loop on the same core: the first edge since the loop armed
-// it, later ones are not seen.
+// it, the latest one, and how many came after the first.
 typedef struct {
   volatile uint64_t time_us;  // valid while `state` is ASP_EDGE_SEEN
+  volatile uint64_t latest_us;
   volatile uint32_t state;
+  volatile uint32_t more;
 } asp_edge;
 
 enum { ASP_EDGE_OFF = 0, ASP_EDGE_ARMED = 1, ASP_EDGE_SEEN = 2 };
@@ -32,7 +34,12 @@ enum { ASP_EDGE_OFF = 0, ASP_EDGE_ARMED = 1, ASP_EDGE_SEEN = 2 };
 static inline void asp_edge_fire(asp_edge* edge, uint64_t now_us) {
   if (edge->state == ASP_EDGE_ARMED) {
     edge->time_us = now_us;
+    edge->latest_us = now_us;
+    edge->more = 0;
     edge->state = ASP_EDGE_SEEN;
+  } else if (edge->state == ASP_EDGE_SEEN) {
+    edge->latest_us = now_us;
+    edge->more = edge->more + 1u;
   }
 }
 

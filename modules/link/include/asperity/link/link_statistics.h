@@ -2,9 +2,11 @@
 
 #include <cstdint>
 
+#include "asperity/link/probe_faults.h"
+
 namespace asperity {
 
-// What a probe's link has carried so far. All counts only rise.
+// What a probe's link has carried so far. All counts only rise, except those of `faults`.
 struct LinkStatistics {
   std::uint64_t bytes = 0;
   std::uint64_t frames = 0;         // of samples, accepted
@@ -20,6 +22,7 @@ struct LinkStatistics {
   std::uint64_t restarts = 0;        // times that the probe began to count anew
   std::uint64_t overruns = 0;        // times that the probe said that it had dropped samples itself
   bool losses_are_estimated = false;
+  ProbeFaults faults;  // as last stated by the probe
 };
 
 // Of both, one after the other.
@@ -37,6 +40,7 @@ inline LinkStatistics& operator+=(LinkStatistics& a, const LinkStatistics& b) {
   a.restarts += b.restarts;
   a.overruns += b.overruns;
   a.losses_are_estimated = a.losses_are_estimated || b.losses_are_estimated;
+  if (b.faults.any()) a.faults = b.faults;
   return a;
 }
 inline LinkStatistics operator+(LinkStatistics a, const LinkStatistics& b) { return a += b; }

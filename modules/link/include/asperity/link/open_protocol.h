@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "asperity/link/probe_description.h"
+#include "asperity/link/probe_faults.h"
 
 namespace asperity {
 
@@ -18,6 +19,7 @@ namespace asperity {
 inline constexpr std::uint8_t kOpenVersion = 1;
 inline constexpr std::uint8_t kOpenSamplesType = 0x01;
 inline constexpr std::uint8_t kOpenDescriptionType = 0x02;
+inline constexpr std::uint8_t kOpenFaultsType = 0x03;
 inline constexpr std::uint8_t kOpenRequestType = 0x81;
 
 inline constexpr std::size_t kOpenMaxPayload_bytes = 1200;
@@ -63,6 +65,10 @@ std::optional<std::span<const std::uint8_t>> open_block_payload(std::span<const 
 // Reads a payload of version 1 and type 01h; false, with `out` unspecified, if it is none or its length is not
 // what its counts and flags say, or a count is above its limit, or two rows or more have no period.
 bool parse_open_samples(std::span<const std::uint8_t> payload, OpenSamples& out) noexcept;
+
+// Reads a payload of version 1 and type 03h; nullopt if it is none or is shorter than the document's 36 bytes. What
+// follows these is ignored.
+std::optional<ProbeFaults> parse_open_faults(std::span<const std::uint8_t> payload) noexcept;
 
 // Appends a whole frame: COBS of `payload` and its CRC, and the delimiter. Throws Error if the payload has not 2 to
 // 1200 bytes.

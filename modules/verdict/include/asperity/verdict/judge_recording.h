@@ -18,6 +18,7 @@ struct RecordingEvidence {
   std::uint64_t samples_overflowed = 0;  // did not reach the disk
   std::uint64_t rows_stored = 0;
   std::uint64_t overruns = 0;  // samples that the probe itself dropped, occasions
+  std::string sensor_faults;   // what the probe states about its sensors; empty: nothing
   bool columns_missing = false;
   std::string probe_message;
   bool awaits_contact = false;  // stores while the tip touches only
