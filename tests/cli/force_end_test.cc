@@ -22,10 +22,10 @@ constexpr double kPromised_ms = 150.0;
 
 class ForceEnd : public FeelCommands, public testing::WithParamInterface<int> {
  protected:
-  // A block 3 mm before the hand, which is pulled against it.
+  // A block 12 mm before the hand, which is pulled against it: half a second, so that the loop runs before.
   void SetUp() override {
     FeelCommands::SetUp();
-    const double near_m = board_.p_m().y() + 3e-3;
+    const double near_m = board_.p_m().y() + 12e-3;
     std::string obj;
     for (const double z : {near_m, near_m + 0.1}) {
       for (const double y : {-0.1, 0.1}) {

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sched.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -42,6 +43,7 @@ constexpr int kPause_ms = 5;
 constexpr int kWriteLimit_ms = 200;  // for a device that takes nothing
 constexpr int kRound_ms = 10;        // between two looks at the beats
 constexpr int kSayAgain_ms = 20;     // to a host that may wake up
+constexpr int kChildPriority = 71;   // real-time: above the threads that it watches
 constexpr std::int64_t kChildGone_ns = 2'000'000'000;
 
 struct Farewell {
@@ -102,6 +104,10 @@ void Supervisor::watch(Shared& shared, int pipe, int device_fd, std::span<const 
   ::setsid();
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP}) ::signal(signal, SIG_IGN);
   keep_only(pipe, device_fd);
+  // On a busy machine too it must be run in time; where that is not permitted it is run as others are.
+  sched_param priority{};
+  priority.sched_priority = kChildPriority;
+  ::sched_setscheduler(0, SCHED_FIFO, &priority);
   const auto silence_ns = static_cast<std::int64_t>(config.silence_s * 1e9);
   std::uint32_t beats = 0;
   std::int64_t heard_ns = config.now_ns();
