@@ -65,17 +65,7 @@ std::string sessions_json(const std::vector<studio::RunningStudio>& studios) {
     each["folder"] = studio.folder;
     each["port"] = studio.port;
     each["process"] = studio.process;
-    Json sessions = Json::array();
-    for (const studio::SessionInfo& session : studio.sessions) {
-      Json one = Json::object();
-      one["number"] = session.number;
-      one["opened"] = session.opened;
-      one["from"] = session.from;
-      one["agent"] = session.agent;
-      one["windows"] = session.windows;
-      sessions.push_back(std::move(one));
-    }
-    each["sessions"] = std::move(sessions);
+    each["sessions"] = studio::sessions_json(studio.sessions);
     list.push_back(std::move(each));
   }
   Json out = Json::object();

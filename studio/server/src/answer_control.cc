@@ -6,24 +6,11 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/studio/running_studios.h"
 
 namespace asperity::studio {
 
 namespace {
-
-Json sessions_json(const std::vector<SessionInfo>& sessions) {
-  Json out = Json::array();
-  for (const SessionInfo& session : sessions) {
-    Json each = Json::object();
-    each["number"] = session.number;
-    each["opened"] = session.opened;
-    each["from"] = session.from;
-    each["agent"] = session.agent;
-    each["windows"] = session.windows;
-    out.push_back(std::move(each));
-  }
-  return out;
-}
 
 Json list_json(const WebServer& server, const std::filesystem::path& folder) {
   const std::string address = server.address();

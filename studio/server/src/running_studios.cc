@@ -109,6 +109,20 @@ Json ask_or_throw(const RunningStudio& studio, const Json& request) {
 
 }  // namespace
 
+Json sessions_json(const std::vector<SessionInfo>& sessions) {
+  Json out = Json::array();
+  for (const SessionInfo& session : sessions) {
+    Json each = Json::object();
+    each["number"] = session.number;
+    each["opened"] = session.opened;
+    each["from"] = session.from;
+    each["agent"] = session.agent;
+    each["windows"] = session.windows;
+    out.push_back(std::move(each));
+  }
+  return out;
+}
+
 std::vector<RunningStudio> running_studios() {
   std::vector<RunningStudio> out;
   const Descriptor folder(open_control_folder(false));

@@ -70,7 +70,8 @@ class PemFile {
       if (got == 0) break;
       size += static_cast<std::size_t>(got);
     }
-    if (size > kMostPemBytes) refuse_file(path_, "is longer than 256 KiB, which no PEM file of a certificate or key is");
+    if (size > kMostPemBytes)
+      refuse_file(path_, "is longer than 256 KiB, which no PEM file of a certificate or key is");
     out.resize(size);
     return out;
   }
@@ -128,10 +129,11 @@ void use_key(SSL_CTX* context, const fs::path& path, const fs::path& certificate
   if (!key) {
     const std::string why = last_reason();
     refuse_file(path, asked ? "this key has a password; write it without one: openssl pkey -in … -out …"
-                       : "no private key in PEM form (-----BEGIN PRIVATE KEY-----): " + why);
+                            : "no private key in PEM form (-----BEGIN PRIVATE KEY-----): " + why);
   }
   if (SSL_CTX_use_PrivateKey(context, key.get()) != 1 || SSL_CTX_check_private_key(context) != 1) {
-    refuse_file(path, "does not belong to the certificate " + printable(certificate.string(), 200) + ": " + last_reason());
+    refuse_file(path,
+                "does not belong to the certificate " + printable(certificate.string(), 200) + ": " + last_reason());
   }
 }
 

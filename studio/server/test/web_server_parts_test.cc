@@ -241,9 +241,7 @@ class WebServerAnswers : public testing::Test {
     return {};
   }
   Sessions sessions_{2};
-  Site site_{OwnHosts("127.0.0.1", 8137),
-             &sessions_,
-             "c",
+  Site site_{OwnHosts("127.0.0.1", 8137), &sessions_, "c",
              [](std::string_view path) -> std::optional<web::Asset> {
                if (path == "/index.html") return web::Asset{"<html>", "text/html", false};
                if (path == "/assets/app.js") return web::Asset{"zipped", "text/javascript", true};

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "asperity/json/json.h"
 #include "asperity/studio/session_info.h"
 
 namespace asperity::studio {
@@ -17,6 +18,9 @@ struct RunningStudio {
   int process = 0;
   std::vector<SessionInfo> sessions;
 };
+
+// As they are told to commands and pages: [{"number","opened","from","agent","windows"}].
+Json sessions_json(const std::vector<SessionInfo>& sessions);
 
 // In the order of their ports. Those that do not answer within two seconds are left out; what a crashed one left
 // behind is removed. Throws Error if the folder of their sockets is not this user's alone.
