@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "asperity/base/host_clock.h"
 #include "asperity/link/open_protocol.h"
 #include "run_asperity.h"
 
@@ -94,7 +95,10 @@ void LiveProbe::run() {
     if (sent % kFramesPerDescription == 0) append_description(bytes);
     add_frame(tick, sent++, std::lround(force_counts_.load()), bytes);
     const ssize_t written = ::write(master_, bytes.data(), bytes.size());
-    if (written > 0) bytes.erase(bytes.begin(), bytes.begin() + written);
+    if (written > 0) {
+      bytes.erase(bytes.begin(), bytes.begin() + written);
+      delivered_ns_ = host_now_ns();
+    }
     std::array<char, 256> heard;
     while (::read(master_, heard.data(), heard.size()) > 0) {
     }

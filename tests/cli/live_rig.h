@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -17,6 +18,8 @@ class LiveProbe {
   LiveProbe& operator=(const LiveProbe&) = delete;
 
   const std::string& port() const { return port_; }
+  // When it last handed bytes to the line, by the host's clock; 0: never.
+  std::int64_t delivered_ns() const { return delivered_ns_; }
   void press(double force_N) { force_counts_ = 100.0 * force_N; }
 
  private:
@@ -25,6 +28,7 @@ class LiveProbe {
   int master_ = -1;
   std::string port_;
   std::atomic<double> force_counts_{0.0};
+  std::atomic<std::int64_t> delivered_ns_{0};
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };

@@ -53,12 +53,12 @@ void take_spacing(const std::vector<double>& s_m, const ReadHeightsConfig& confi
 }
 
 // What is finite and still no height, or no error of one, of anything that a hand strokes.
-constexpr double kLargestHeight_m = 1.0;
+constexpr double kLargestHeight_m = 10.0;
 
 double plausible_m(const CsvReader& table, std::size_t column, double unit_m) {
   const double value_m = table.finite_or_nan(column) * unit_m;
   if (std::abs(value_m) > kLargestHeight_m) {
-    table.fail(column, "'" + printable(table.cell(column)) + "' is more than a metre");
+    table.fail(column, "'" + printable(table.cell(column)) + "' is more than ten metres");
   }
   return value_m;
 }
