@@ -161,8 +161,10 @@ class TwoDiy final : public IoDevice {
     }
   }
 
+  // The watch begins with the first force: until then the board holds none, and locking the program's memory may stop
+  // this thread for longer than the watch allows.
   void beat() {
-    if (supervisor_->beat()) return;
+    if (!has_pushed_ || supervisor_->beat()) return;
     throw Error("2diy: " + printable(config_.port, 200) +
                 ": this process stood still and its force was ended, or the process that watches it is gone");
   }
@@ -194,7 +196,12 @@ class TwoDiy final : public IoDevice {
       if (now - heard_at_ > OpenQuestions::kGiveUpAfter) questions_.give_up();
       if (questions_.open() == 0 || (stalled && !zero_asked)) {
         // After a stall a question only asks: its torques would be of a place long left.
-        ask(stalled ? Eigen::Vector2d::Zero() : torque_N_m(forces_.take(now, force_timeout)), now + lost_after);
+        const Eigen::Vector2d torque = stalled ? Eigen::Vector2d::Zero() : torque_N_m(forces_.take(now, force_timeout));
+        if (!has_pushed_ && !torque.isZero(0.0)) {
+          has_pushed_ = true;
+          beat();
+        }
+        ask(torque, now + lost_after);
         zero_asked = stalled;
       }
       const bool answered = take_answers_beating(now + stall_after);
@@ -227,6 +234,7 @@ class TwoDiy final : public IoDevice {
   std::size_t answered_ = 0;  // bytes of the next answer
   OpenQuestions questions_{seconds(config_.late_after_s)};
   Clock::time_point heard_at_;
+  bool has_pushed_ = false;
   TwoDiyAnswers answers_;
   std::optional<PantographState> state_;
   Eigen::Vector3d p_m_ = Eigen::Vector3d::Zero();
