@@ -3,9 +3,6 @@
 // process of its own; once a tenth of the time its memory, descriptors and threads are read from /proc.
 //   house_soak [MINUTES]     60 if not given; fails if one ends early, loses something, or grows
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -29,13 +26,13 @@
 #include "asperity/testkit/temp_dir.h"
 #include "fake_two_diy_board.h"
 #include "raw_client.h"
-
-extern char** environ;
+#include "watched_process.h"
 
 namespace {
 
 using asperity::Error;
 using asperity::Json;
+using asperity::WatchedProcess;
 using asperity::studio::RawClient;
 using Clock = std::chrono::steady_clock;
 
@@ -45,70 +42,6 @@ constexpr double kMostGrowth_MiB = 8.0;
 constexpr double kStroke_s = 30.0;  // how often the bench's hand strokes again
 
 double s_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-class Child {
- public:
-  Child(std::string name, std::vector<std::string> words, const std::filesystem::path& output)
-      : name_(std::move(name)) {
-    std::vector<char*> argv;
-    for (std::string& word : words) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, 1, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    posix_spawn_file_actions_adddup2(&actions, 1, 2);
-    const int error = ::posix_spawn(&id_, words.front().c_str(), &actions, nullptr, argv.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (error != 0) throw Error("cannot start " + words.front());
-  }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-  ~Child() {
-    if (!ended_) ::kill(id_, SIGKILL);
-    wait(5.0);
-  }
-
-  const std::string& name() const { return name_; }
-  void send(int signal) const { ::kill(id_, signal); }
-  // Its exit code, 128 + signal, or -1 while it runs.
-  int wait(double limit_s) {
-    for (const auto start = Clock::now(); !ended_;) {
-      int status = 0;
-      if (::waitpid(id_, &status, WNOHANG) == id_) {
-        ended_ = true;
-        code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-      } else if (s_since(start) >= limit_s) {
-        return -1;
-      } else {
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-      }
-    }
-    return code_;
-  }
-
-  struct Reading {
-    double memory_MiB = 0.0;
-    int descriptors = 0, threads = 0;
-  };
-  Reading read() const {
-    const std::filesystem::path proc = "/proc/" + std::to_string(id_);
-    Reading out;
-    std::ifstream status(proc / "status");
-    for (std::string line; std::getline(status, line);) {
-      if (line.starts_with("VmRSS:")) out.memory_MiB = std::stod(line.substr(6)) / 1024.0;
-      if (line.starts_with("Threads:")) out.threads = std::stoi(line.substr(8));
-    }
-    for ([[maybe_unused]] const auto& file : std::filesystem::directory_iterator(proc / "fd")) ++out.descriptors;
-    return out;
-  }
-
- private:
-  std::string name_;
-  pid_t id_ = 0;
-  bool ended_ = false;
-  int code_ = -1;
-};
 
 struct Window {
   std::uint64_t frames = 0, bytes = 0, ticks = 0, rows = 0, lost_rows = 0, errors = 0;
@@ -240,9 +173,10 @@ bool soak(double minutes, const std::filesystem::path& programs) {
   write_block(dir / "block.obj", board.p_m().y() + 0.012);
   const double duration_s = 60.0 * minutes;
 
-  Child record("record", {(programs / "record_soak").string(), std::to_string(minutes), dir / "recording"},
-               dir / "record.txt");
-  Child studio("studio", {asperity, "studio", dir / "project", "--port", "0", "--no-open"}, dir / "studio.txt");
+  WatchedProcess record("record", {(programs / "record_soak").string(), std::to_string(minutes), dir / "recording"},
+                        dir / "record.txt");
+  WatchedProcess studio("studio", {asperity, "studio", dir / "project", "--port", "0", "--no-open"},
+                        dir / "studio.txt");
   const std::vector<std::string> feel_words{asperity,
                                             "feel",
                                             dir / "block.obj",
@@ -256,7 +190,7 @@ bool soak(double minutes, const std::filesystem::path& programs) {
                                             "servo.frame.translation_m=[1e-9, 0, 0]",
                                             "--duration",
                                             "36000s"};
-  auto feel = std::make_unique<Child>("feel", feel_words, dir / "feel.txt");
+  auto feel = std::make_unique<WatchedProcess>("feel", feel_words, dir / "feel.txt");
   int begun_again = 0;
   const std::string address = address_of(dir / "studio.txt");
   const int port = std::stoi(address.substr(std::string("http://127.0.0.1:").size()));
@@ -267,13 +201,13 @@ bool soak(double minutes, const std::filesystem::path& programs) {
   for (std::size_t i = 0; i < windows.size(); ++i)
     threads.emplace_back([&, i] { watch(port, cookie, i == 0, stop, windows[i]); });
 
-  std::array<Child*, 3> children{&record, &studio, feel.get()};
-  std::array<std::vector<Child::Reading>, 3> readings;
+  std::array<WatchedProcess*, 3> children{&record, &studio, feel.get()};
+  std::array<std::vector<WatchedProcess::Reading>, 3> readings;
   bool well = true;
   double held = 0.0, looked = 0.0, most_N = 0.0;
   const auto start = Clock::now();
   std::printf("%8s", "min");
-  for (const Child* child : children) std::printf(" | %-6s  MiB  files  threads", child->name().c_str());
+  for (const WatchedProcess* child : children) std::printf(" | %-6s  MiB  files  threads", child->name().c_str());
   std::printf("\n");
   for (int reading = 1; reading <= kReadings && well; ++reading) {
     while (s_since(start) < duration_s * (reading - 0.2) / kReadings) {
@@ -281,7 +215,7 @@ bool soak(double minutes, const std::filesystem::path& programs) {
       // A machine too busy for the loop ends the force, as it must; that is told, and it is no pass.
       if (feel->wait(0.0) >= 0) {
         std::printf("feel ended:\n%s\n", last_lines(dir / "feel.txt").c_str());
-        feel = std::make_unique<Child>("feel", feel_words, dir / "feel.txt");
+        feel = std::make_unique<WatchedProcess>("feel", feel_words, dir / "feel.txt");
         children[2] = feel.get();
         ++begun_again;
       }
