@@ -90,7 +90,7 @@ const std::vector<Writer>& writers() {
       {"export", {"export", "@/painted", "--to", "gltf", "-o", "#"}, {}},
       {"texture_fit",
        {"texture", "fit", "@/processed/profile.csv", "-o", "#.texture.json"},
-       {"texture", "fit", "@/processed/profile.csv", "--components", "5", "-o", "#.texture.json"}},
+       {"texture", "fit", "@/processed/profile.csv", "--name", "another", "-o", "#.texture.json"}},
       {"calibrate_force", {"calibrate", "force", "@/force.csv", "-o", "#.json"}, {}},
   };
   return all;

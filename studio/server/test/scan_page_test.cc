@@ -13,6 +13,7 @@
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
 #include "asperity/simulation/simulate_recording.h"
+#include "asperity/testkit/temp_dir.h"
 #include "scan_bench.h"
 
 namespace asperity::studio {
@@ -20,15 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-
-std::set<std::string> temporary_folders() {
-  std::set<std::string> out;
-  for (const auto& entry : fs::directory_iterator(fs::temp_directory_path())) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with("asperity-studio-")) out.insert(name);
-  }
-  return out;
-}
 
 // A stroke over a sine; of 15 mm it is 0.8 s long.
 Recording short_scan(double length_m = 0.015) {
@@ -59,7 +51,8 @@ void scan_once(ScanBench& bench, const std::string& command = "scan.start") {
 }
 
 TEST(ScanPage, ScansTheBenchFromEndToEnd) {
-  const std::set<std::string> before = temporary_folders();
+  const testkit::TempDir temporary;  // of this test alone: what it leaves there is seen
+  ::setenv("TMPDIR", temporary.path().c_str(), 1);
   {
     ScanBench bench;
     bench.set("bench.surface", "sine");
@@ -86,7 +79,8 @@ TEST(ScanPage, ScansTheBenchFromEndToEnd) {
     EXPECT_GT(made.probe.size(), 4000U);
     EXPECT_GT(made.tracker.size(), 10U);
   }
-  EXPECT_EQ(temporary_folders(), before);
+  ::unsetenv("TMPDIR");
+  EXPECT_TRUE(fs::is_empty(temporary.path()));
 }
 
 TEST(ScanPage, ShowsEachRowOfAReplayOnceAndInOrder) {
