@@ -208,7 +208,8 @@ TEST_P(FaultMatrix, Cell) {
   const auto& [course, outcome, refused] = tried;
   ASSERT_EQ(refused, "") << outcome.err;
   ASSERT_GE(course.last_N, 0.0) << "the hand did not come to rest: " << outcome.err;
-  EXPECT_TRUE(outcome.code < 128 || outcome.code == 128 + SIGTERM) << outcome.code << outcome.err;
+  const int ends_by = cell.fault == FaultKind::kKill ? SIGKILL : SIGTERM;
+  EXPECT_TRUE(outcome.code < 128 || outcome.code == 128 + ends_by) << outcome.code << outcome.err;
   EXPECT_LT(course.most_N, course.before_N + kKick_N)
       << course.turns << "; the test was late by " << course.gap_ms << " ms; " << outcome.err;
   if (cell.zero_in_time()) {
@@ -222,16 +223,28 @@ TEST_P(FaultMatrix, Cell) {
 
 std::vector<Cell> cells() {
   std::vector<Cell> out;
-  // Its calls return one position each: there is no answer that could come twice, late or in another order.
-  const auto dhd_has = [](FaultKind kind) {
-    return kind == FaultKind::kStop || kind == FaultKind::kSuspend || kind == FaultKind::kHang ||
-           kind == FaultKind::kUnplug || kind == FaultKind::kGlitch || kind == FaultKind::kGarbage;
+  // A maker's call returns one position: there is no answer that could come twice, late or in another order.
+  const auto has = [](const std::string& device, FaultKind kind) {
+    switch (kind) {
+      case FaultKind::kDuplicate:
+      case FaultKind::kLate:
+      case FaultKind::kSlow:
+      case FaultKind::kFast:
+      case FaultKind::kOutOfOrder:
+        return device == "2diy" || device == "haply";
+      case FaultKind::kCut:
+        return device == "haply";  // a 2diy's cable is the plug
+      case FaultKind::kDriverStopped:
+      case FaultKind::kDriverKilled:
+        return device == "openhaptics";
+      default:
+        return true;
+    }
   };
-  for (const char* device : {"2diy", "haply", "dhd"}) {
+  for (const char* device : {"2diy", "haply", "dhd", "openhaptics"}) {
     for (std::size_t i = 0; i < kFaultNames.size(); ++i) {
       const auto kind = static_cast<FaultKind>(i);
-      if (device == std::string("dhd") && !dhd_has(kind)) continue;
-      if (kind == FaultKind::kCut && device == std::string("2diy")) continue;  // its cable is the plug
+      if (!has(device, kind)) continue;
       for (const char* program : {"feel", "studio"}) out.push_back({program, device, kind});
     }
   }

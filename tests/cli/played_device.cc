@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "asperity/testkit/temp_dir.h"
+#include "fake_drivers.h"
 #include "fake_inverse_service.h"
 #include "fake_two_diy_board.h"
 #include "fakes/fake_controller.h"
@@ -147,11 +148,50 @@ class PlayedDhd final : public PlayedDevice {
   fake::Controller* controller_ = nullptr;
 };
 
+// The driver is a fake in a process of its own, whose state is a file that the test sees too. Its device holds the last
+// force while the connection lasts.
+class PlayedOpenHaptics final : public PlayedDevice {
+ public:
+  PlayedOpenHaptics() {
+    low_m = {-0.1, -0.1, -0.1};
+    high_m = {0.1, kStart_m - kAway_m, 0.1};
+  }
+
+  std::string setting() const override { return std::string("openhaptics.library=") + FAKE_HD; }
+  double force_N() const override { return fake_.motor_N().norm(); }
+
+ private:
+  static constexpr double kStart_m = 0.02;  // where the fake's hand begins
+
+  void trouble(FaultKind kind) override {
+    switch (kind) {
+      case FaultKind::kDriverStopped:
+        ::kill(fake_.process(), SIGSTOP);
+        return;
+      case FaultKind::kDriverKilled:
+        ::kill(fake_.process(), SIGKILL);
+        return;
+      case FaultKind::kHang:
+        return fake_.set("hangs", 1);
+      case FaultKind::kUnplug:
+        return fake_.set("unplugged", 1);
+      case FaultKind::kGlitch:
+        return fake_.set("glitch", 1);
+      default:
+        return fake_.set("garbage", 1);
+    }
+  }
+
+  testing_devices::FakeOpenHaptics fake_{FAKE_HD};
+};
+
 }  // namespace
 
 void PlayedDevice::begin(FaultKind kind, pid_t program, const std::filesystem::path& clock_ahead) {
   if (kind == FaultKind::kStop) {
     ::kill(program, SIGSTOP);
+  } else if (kind == FaultKind::kKill) {
+    ::kill(program, SIGKILL);
   } else if (kind == FaultKind::kSuspend) {
     // In place: the program has the file mapped.
     std::fstream file(clock_ahead, std::ios::binary | std::ios::in | std::ios::out);
@@ -164,6 +204,7 @@ void PlayedDevice::begin(FaultKind kind, pid_t program, const std::filesystem::p
 std::unique_ptr<PlayedDevice> play_device(std::string_view name) {
   if (name == "2diy") return std::make_unique<PlayedTwoDiy>();
   if (name == "dhd") return std::make_unique<PlayedDhd>();
+  if (name == "openhaptics") return std::make_unique<PlayedOpenHaptics>();
   return std::make_unique<PlayedHaply>();
 }
 
