@@ -16,6 +16,7 @@
 #include "fake_drivers.h"
 #include "hd_server.h"
 #include "openhaptics_in_time.h"
+#include "serve_device.h"
 
 namespace asperity::testing_devices {
 
@@ -54,14 +55,6 @@ std::string refusal(const OpenHapticsConfig& config) {
     return error.what();
   }
   return "";
-}
-
-bool comes_true(const std::function<bool()>& condition) {
-  for (int i = 0; i < 5000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return false;
 }
 
 class OpenHaptics : public testing::Test {
