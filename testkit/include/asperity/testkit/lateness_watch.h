@@ -40,13 +40,14 @@ class LatenessWatch {
   std::thread thread_;
 };
 
-// `measure` returns ms; repeated, six times at most, while it exceeds `bound_ms` on a machine that was busy.
+// What `measure` returns must stay below `bound`. Repeated, six times at most, while it does not on a machine that was
+// busy.
 template <class Measure>
-double measure_on_a_free_machine(double bound_ms, const Measure& measure) {
+double measure_on_a_free_machine(double bound, const Measure& measure) {
   for (int attempt = 1;; ++attempt) {
     const LatenessWatch lateness;
-    const double measured_ms = measure();
-    if (measured_ms < bound_ms || !lateness.was_busy() || attempt == 6) return measured_ms;
+    const double measured = measure();
+    if (measured < bound || !lateness.was_busy() || attempt == 6) return measured;
   }
 }
 
