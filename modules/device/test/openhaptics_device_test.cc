@@ -80,9 +80,14 @@ TEST_F(OpenHaptics, SaysWhatTheDriverSaysInMetres) {
   EXPECT_TRUE(info.workspace_max_m.isApprox(Eigen::Vector3d(0.21, 0.205, 0.13)));
   EXPECT_DOUBLE_EQ(info.rate_Hz, 1000.0);
   EXPECT_FALSE(info.simulated);
-  const DeviceReading reading = device->read(0);
-  EXPECT_NEAR(reading.p_m.y(), 0.02, 2e-3);
-  EXPECT_EQ(reading.buttons, 2u);
+  fake_.set("stalled", 1);  // the hand stays where it is, once a frame that had begun has ended
+  Eigen::Vector3d hand_m = Eigen::Vector3d::Zero();
+  EXPECT_TRUE(comes_true([&] {
+    fake_.function<void(double*)>("position")(hand_m.data());
+    return (device->read(0).p_m - hand_m).norm() < 1e-4;  // moved since by one frame
+  })) << hand_m.transpose();
+  EXPECT_LT(hand_m.y(), 0.02);
+  EXPECT_EQ(device->read(0).buttons, 2u);
 }
 
 TEST_F(OpenHaptics, CallsEverythingInItsFrame) {

@@ -415,6 +415,10 @@ void fake_hd_motor(double* out_N) {
   std::memcpy(out_N, state().motor_N, sizeof state().motor_N);
   if (state().open && !is_connected()) std::fill(out_N, out_N + 3, 0.0);
 }
+void fake_hd_position(double* out_m) {
+  const Lock lock;
+  std::memcpy(out_m, state().hand.p_m, sizeof state().hand.p_m);
+}
 unsigned fake_hd_calls_out_of_order() {
   const Lock lock;
   return state().calls_out_of_order;
