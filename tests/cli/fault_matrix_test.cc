@@ -31,10 +31,9 @@ constexpr double kKick_N = 0.1;
 constexpr double kHolds_N = 0.3;   // the hand is against the block
 constexpr double kSteady_N = 0.2;  // and rests there: the force varies by no more
 // A machine that is busy with other things may itself make answers late. Such an attempt proves nothing: the test's own
-// thread was not run, or its own line was late, for so long, or the hand did not come to rest. The last attempt counts
-// in any case.
+// thread was not run, or its own line was late, for so long. What fails on such a machine alone is left open.
 constexpr double kBusy_ms = 8.0;
-constexpr int kAttempts = 6;
+constexpr int kAttempts = 4;
 
 struct Cell {
   std::string program;  // "feel" or "studio"
@@ -90,6 +89,12 @@ struct Course {
   bool proves() const { return last_N >= 0.0 && gap_ms < kBusy_ms; }
 };
 
+// Whether it is what is promised.
+bool holds(const Cell& cell, const Course& course) {
+  if (course.last_N < 0.0 || course.most_N >= course.before_N + kKick_N) return false;
+  return !cell.zero_in_time() || (course.last_N == 0.0 && course.zero_ms >= 0.0 && course.zero_ms < kPromised_ms);
+}
+
 void tell(const Cell& cell, const Course& course) {
   const std::string kick = fmt::format("{:+.2f} N", course.most_N - course.before_N);
   const std::string zero = course.zero_ms >= 0.0 ? fmt::format("zero after {:.0f} ms", course.zero_ms) : "";
@@ -127,10 +132,16 @@ class FaultMatrix : public testing::TestWithParam<Cell> {
 
   Course watch(PlayedDevice& device, pid_t program) const {
     Course out;
-    double least_N = 0.0;
+    double least_N = 0.0, late_ms = 0.0;
     const auto start = Clock::now();
+    auto looked = start;
     for (auto rests = start; ms_since(rests) < 300.0;) {
-      if (ms_since(start) > 8e3) return out;
+      late_ms = std::max(late_ms, ms_since(looked));
+      looked = Clock::now();
+      if (ms_since(start) > 8e3) {
+        out.gap_ms = late_ms;
+        return out;
+      }
       const double now_N = device.force_N();
       if (out.before_N == 0.0) least_N = now_N;
       least_N = std::min(least_N, now_N);
@@ -207,6 +218,8 @@ TEST_P(FaultMatrix, Cell) {
   for (int i = 1; i < kAttempts && !tried.course.proves(); ++i) tried = attempt(cell);
   const auto& [course, outcome, refused] = tried;
   ASSERT_EQ(refused, "") << outcome.err;
+  if (course.gap_ms >= kBusy_ms && !holds(cell, course))
+    GTEST_SKIP() << "the machine was busy: the test was late by " << course.gap_ms << " ms";
   ASSERT_GE(course.last_N, 0.0) << "the hand did not come to rest: " << outcome.err;
   const int ends_by = cell.fault == FaultKind::kKill ? SIGKILL : SIGTERM;
   EXPECT_TRUE(outcome.code < 128 || outcome.code == 128 + ends_by) << outcome.code << outcome.err;
