@@ -63,8 +63,8 @@ class PlayedDevice {
   virtual void trouble(FaultKind kind) = 0;  // of the device's own
 };
 
-// "2diy", "haply", "dhd" or "openhaptics".
-std::unique_ptr<PlayedDevice> play_device(std::string_view name);
+// "2diy", "haply", "dhd" or "openhaptics", with the block `away_m` from the hand, which takes 40 ms for each mm.
+std::unique_ptr<PlayedDevice> play_device(std::string_view name, double away_m);
 
 // Of a block in metres, an OBJ file.
 std::string block_obj(const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m);

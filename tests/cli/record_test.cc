@@ -35,10 +35,10 @@ struct Rig {
 
   Rig() { write_live_calibration(dir / "calibration.json"); }
 
-  // Until a second of the probe and half a second of poses are on the disk; 30 s at most.
+  // Until four seconds of the probe, in which the status is printed, and of poses are on the disk; a minute at most.
   void wait_for_rows() const {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-    while (std::chrono::steady_clock::now() < end && (rows("probe.csv") < 1000 || rows("tracker.csv") < 50)) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (std::chrono::steady_clock::now() < end && (rows("probe.csv") < 4000 || rows("tracker.csv") < 200)) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
   }

@@ -11,7 +11,7 @@ namespace asperity::testkit {
 // was missed while others were late too proves nothing.
 class LatenessWatch {
  public:
-  static constexpr double kBusy_ms = 8.0;
+  static constexpr double kBusy_ms = 3.0;
 
   LatenessWatch() : thread_([this] { watch(); }) {}
   ~LatenessWatch() {
