@@ -74,6 +74,8 @@ void Command::print_json(std::string_view object) const {
 }
 
 void print_text(std::string_view text) {
+  // It lives until the caller's whole expression ends.
+  // cppcheck-suppress danglingTemporaryLifetime
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
     if (errno == EPIPE) throw ClosedPipe();
     throw Error(std::string("standard output cannot be written: ") + std::strerror(errno));
