@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "asperity/recording/recording.h"
 
@@ -46,8 +47,9 @@ struct TrackerSample {
 // are written. Not thread-safe.
 class RecordingAppender {
  public:
-  // Makes the folder with recording.json and calibration.json, each whole, and the headers of the two
-  // streams. Throws Error if the folder exists and is not empty: a measurement is never overwritten.
+  // Makes the folder with recording.json and calibration.json, each whole, and the headers of the streams: the
+  // probe's, the tracker's and one for each of info.bodies. Throws Error if the folder exists and is not empty: a
+  // measurement is never overwritten.
   RecordingAppender(std::filesystem::path folder, const RecordingInfo& info, const Calibration& calibration,
                     const AppendColumns& columns = {});
   ~RecordingAppender();
@@ -57,23 +59,29 @@ class RecordingAppender {
   // Keeps whole lines in memory until 64 KiB have gathered or flush() is called.
   void add(const ProbeSample& sample);
   void add(const TrackerSample& sample);
+  // A pose of info.bodies[body].
+  void add(std::size_t body, const TrackerSample& sample);
 
   // Hands all whole lines to the operating system, where the death of this process cannot harm them;
   // with `to_disk`, waits until a power cut cannot either. Throws Error if the disk is full.
   void flush(bool to_disk = false);
 
   // Flushes to disk, closes the streams and replaces recording.json by `info` with its final segments
-  // and problems. With `only_segments` the rows that lie in none of info.segments are taken out of both streams
+  // and problems. With `only_segments` the rows that lie in none of info.segments are taken out of all streams
   // afterwards, each stream replaced by rename. Throws Error if a stream cannot be written; the rows so far
   // remain readable.
   void finish(const RecordingInfo& info, bool only_segments = false);
 
-  // Handed to the operating system so far, of both streams; the lines in memory are not counted.
+  // Handed to the operating system so far, of all streams; the lines in memory are not counted.
   std::uint64_t bytes() const;
 
  private:
   struct Stream;
 
+  void add_pose(Stream& stream, const TrackerSample& sample);
+  // The probe's, the tracker's and the bodies'.
+  std::vector<Stream*> streams() const;
+  void close() noexcept;
   // Lists the blocks that have ended, all of them if `to_disk`.
   void write_checksums(bool to_disk);
 
@@ -81,6 +89,8 @@ class RecordingAppender {
   AppendColumns columns_;
   std::unique_ptr<Stream> probe_;
   std::unique_ptr<Stream> tracker_;
+  std::vector<std::string> body_files_;
+  std::vector<std::unique_ptr<Stream>> bodies_;
   std::unique_ptr<Stream> checksums_;
 };
 
