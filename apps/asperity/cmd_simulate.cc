@@ -91,8 +91,6 @@ class SimulateCommand : public Command {
     } catch (const Error& error) {
       throw UsageError(std::string("--object-motion: ") + error.what());
     }
-    if (live_ && config_->object.motion != SimulatedObjectMotion::kNone)
-      throw UsageError("--live has no moving object: the rendered camera shows the probe's body alone");
     if (seed_.empty()) return;
     try {
       set_field(fields(), "seed", seed_);

@@ -73,7 +73,7 @@ void refer_trajectory(const Recording& recording, Reference reference, const Obj
   const TrackerStream* poses = recording.poses_of(kObjectBody);
   if (poses == nullptr) {
     if (reference == Reference::kAuto) return;
-    throw Error("process.reference: object, but the recording has no body 'object'");
+    throw Error("reference: object, but the recording has no body 'object'");
   }
   trajectory.metrics["object_seen_share"] = 0.0;
   if (poses->size() < kFewestPoses || trajectory.motion.size() == 0) {

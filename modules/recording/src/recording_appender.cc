@@ -177,11 +177,8 @@ void RecordingAppender::add(const ProbeSample& sample) {
   write_checksums(false);
 }
 
-void RecordingAppender::add(const TrackerSample& sample) { add_pose(*tracker_, sample); }
-
-void RecordingAppender::add(std::size_t body, const TrackerSample& sample) { add_pose(*bodies_.at(body), sample); }
-
-void RecordingAppender::add_pose(Stream& stream, const TrackerSample& sample) {
+void RecordingAppender::add(const TrackerSample& sample) {
+  Stream& stream = sample.body == 0 ? *tracker_ : *bodies_.at(sample.body - 1);
   std::string& out = stream.waiting;
   append_time(out, sample.t_ns);
   append_cells(out, sample.T_world_marker.translation_m);

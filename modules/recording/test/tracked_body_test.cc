@@ -58,7 +58,8 @@ void record_with_object(const fs::path& folder, RecordingInfo info = info_with_o
     appender.add(body_pose(i));
     TrackerSample object = body_pose(i);
     object.t_ns += 5'000'000;
-    appender.add(0, object);
+    object.body = 1;
+    appender.add(object);
   }
   appender.finish(info, only_segments);
 }

@@ -30,6 +30,7 @@ struct ProbeSample {
 
 struct TrackerSample {
   std::int64_t t_ns = 0;
+  std::size_t body = 0;  // 0: the probe's; k: info.bodies[k − 1] of the recording
   Pose T_world_marker;
   int markers = 0;
   double reprojection_px = std::numeric_limits<double>::quiet_NaN();
@@ -59,8 +60,6 @@ class RecordingAppender {
   // Keeps whole lines in memory until 64 KiB have gathered or flush() is called.
   void add(const ProbeSample& sample);
   void add(const TrackerSample& sample);
-  // A pose of info.bodies[body].
-  void add(std::size_t body, const TrackerSample& sample);
 
   // Hands all whole lines to the operating system, where the death of this process cannot harm them;
   // with `to_disk`, waits until a power cut cannot either. Throws Error if the disk is full.
@@ -78,7 +77,6 @@ class RecordingAppender {
  private:
   struct Stream;
 
-  void add_pose(Stream& stream, const TrackerSample& sample);
   // The probe's, the tracker's and the bodies'.
   std::vector<Stream*> streams() const;
   void close() noexcept;
