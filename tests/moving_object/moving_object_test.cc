@@ -37,7 +37,7 @@ std::vector<std::string> codes(const ProcessResult& result, Severity severity) {
   return out;
 }
 
-void print(const char* what, const ProcessResult& result) {
+void print(const char* what, ProcessResult result) {
   const ProfileComparison& p = result.accuracy->profile.value();
   std::printf("%-8s correlation %.3f length %+.3f %% (stderr %.3f mm) rms %.2f of %.2f um, noise %.2f um, position %.3f mm, "
               "over sigma %.2f, moved %.1f mm %.1f deg, %s\n",
