@@ -135,7 +135,7 @@ export function bodyWords(body: BodyState): Words {
 
 /** What a person should know where the object moves. */
 export const objectHint = (recorder: RecorderState | undefined): string =>
-  recorder?.bodies?.some((body) => body.name === "object") ? "The recording is processed relative to the object. The live path and profile are in the tracker's world: keep the object at rest to read them." : "";
+  recorder?.bodies?.some((body) => body.name === "object") ? "Path and profile on this page are in the tracker's world and hold while the object is at rest. The Process page shows the scan relative to the object." : "";
 
 export function gravityWords(recorder: RecorderState | undefined): Words {
   if (!recorder) return { lamp: "off", word: "–" };
