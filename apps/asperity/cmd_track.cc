@@ -86,7 +86,8 @@ class TrackCommand : public Command {
     const MarkerFile markers = read_markers(markers_);
     const std::vector<MarkerPlacement> body = markers_of_body(markers.markers, "");
     const std::vector<std::string> others = bodies_of(markers.markers);
-    for (const std::string& other : others) refuse_stranger(body_output(other), tracked_csv_header(), {camera_, markers_});
+    for (const std::string& other : others)
+      refuse_stranger(body_output(other), tracked_csv_header(), {camera_, markers_});
     const std::vector<fs::path> files = list_images(images_);
     ImageFolderConfig images;
     if (rate_Hz_) {
@@ -119,7 +120,8 @@ class TrackCommand : public Command {
           track_images(open, camera, markers_of_body(markers.markers, other), config_, observer, files.size());
       write_file(body_output(other), format_tracked_csv(one.poses));
       followed.push_back({other, one.poses.size()});
-      for (const Problem& problem : one.problems) tracked.problems.push_back({problem.kind, other + ": " + problem.message, problem.count});
+      for (const Problem& problem : one.problems)
+        tracked.problems.push_back({problem.kind, other + ": " + problem.message, problem.count});
       append_verdicts(tracked.verdicts, one.verdicts, other);
     }
     if (!others.empty()) {

@@ -18,7 +18,8 @@
 namespace asperity {
 namespace {
 
-// Sandpaper under a slow short stroke, seen by a tracker of several tags (docs/tracking.md: hundredths of a millimetre).
+// Sandpaper under a slow short stroke, seen by a tracker of several tags (docs/tracking.md: hundredths of a
+// millimetre).
 SimulationConfig held_sandpaper(SimulatedObjectMotion motion) {
   SimulationConfig out = make_simulation_config("sandpaper", "open");
   out.seed = 5;
@@ -39,12 +40,13 @@ std::vector<std::string> codes(const ProcessResult& result, Severity severity) {
 
 void print(const char* what, ProcessResult result) {
   const ProfileComparison& p = result.accuracy->profile.value();
-  std::printf("%-8s correlation %.3f length %+.3f %% (stderr %.3f mm) rms %.2f of %.2f um, noise %.2f um, position %.3f mm, "
-              "over sigma %.2f, moved %.1f mm %.1f deg, %s\n",
-              what, p.correlation, p.length_error_percent, 1e3 * result.noise.length_stderr_m, p.rms_um, p.true_rms_um,
-              1e6 * result.noise.noise_rms_m, 1e3 * result.accuracy->position_rms_m,
-              result.accuracy->position_error_over_sigma, 1e3 * result.trajectory.metrics["object_moved_m"],
-              57.3 * result.trajectory.metrics["object_turned_rad"], result.verdict.c_str());
+  std::printf(
+      "%-8s correlation %.3f length %+.3f %% (stderr %.3f mm) rms %.2f of %.2f um, noise %.2f um, position %.3f mm, "
+      "over sigma %.2f, moved %.1f mm %.1f deg, %s\n",
+      what, p.correlation, p.length_error_percent, 1e3 * result.noise.length_stderr_m, p.rms_um, p.true_rms_um,
+      1e6 * result.noise.noise_rms_m, 1e3 * result.accuracy->position_rms_m, result.accuracy->position_error_over_sigma,
+      1e3 * result.trajectory.metrics["object_moved_m"], 57.3 * result.trajectory.metrics["object_turned_rad"],
+      result.verdict.c_str());
 }
 
 class HeldObject : public testing::TestWithParam<SimulatedObjectMotion> {};
@@ -113,9 +115,9 @@ TEST(MovingObject, AnObjectAtRestInTheCameraIsTheWorldInAnotherFrame) {
     const auto& t_ns = world.trajectory.motion.t_ns;
     const auto k = static_cast<std::size_t>(
         std::lower_bound(t_ns.begin(), t_ns.end(), object.trajectory.motion.t_ns[i]) - t_ns.begin());
-    EXPECT_LT((T_world_object * object.trajectory.motion.p_world_tip_m[i] - world.trajectory.motion.p_world_tip_m[k])
-                  .norm(),
-              1e-6);
+    EXPECT_LT(
+        (T_world_object * object.trajectory.motion.p_world_tip_m[i] - world.trajectory.motion.p_world_tip_m[k]).norm(),
+        1e-6);
   }
 }
 
@@ -144,7 +146,8 @@ TEST(MovingObject, ATrackerThatJittersMakesNoValidTexture) {
   Random random(1);
   for (Pose& pose : recording.body_poses[0].T_world_marker) {
     pose.translation_m += 3e-3 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
-    pose.rotation = exp_rotation(0.05 * Eigen::Vector3d(random.normal(), random.normal(), random.normal())) * pose.rotation;
+    pose.rotation =
+        exp_rotation(0.05 * Eigen::Vector3d(random.normal(), random.normal(), random.normal())) * pose.rotation;
   }
   const ProcessResult result = process_recording(recording, ProcessConfig{});
   EXPECT_FALSE(result.trustworthy) << result.verdict;

@@ -78,10 +78,9 @@ TEST(TwoBodies, AreBothFollowedInOneCamera) {
   TrackConfig config;
   CameraPoseConfig every;
   every.newest = false;
-  const auto source = make_camera_pose_source(
-      std::make_unique<DrawnCamera>(std::move(images)),
-      BodyTracker(test_camera(), markers_of_body(markers, ""), config), every, {},
-      make_further_trackers(test_camera(), markers, config));
+  const auto source = make_camera_pose_source(std::make_unique<DrawnCamera>(std::move(images)),
+                                              BodyTracker(test_camera(), markers_of_body(markers, ""), config), every,
+                                              {}, make_further_trackers(test_camera(), markers, config));
   std::vector<TrackerSample> samples;
   try {
     for (;;) {
@@ -94,7 +93,7 @@ TEST(TwoBodies, AreBothFollowedInOneCamera) {
     std::int64_t frame;
     Pose pose;
   };
-  const std::vector<Expected> expected{{0, 1, probe},   {1, 1, object},   {0, 2, probe_2},
+  const std::vector<Expected> expected{{0, 1, probe},    {1, 1, object},  {0, 2, probe_2},
                                        {1, 2, object_2}, {0, 3, probe_2}, {1, 4, object_2}};
   ASSERT_EQ(samples.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {

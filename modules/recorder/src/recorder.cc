@@ -135,8 +135,8 @@ class Recorder::Parts {
     if (sensors.probe_describes_itself) probe_->wait_for_description(config.describe_s);
     start_ns_ = host_now_ns();  // the wait is none of the recording's time
     const auto description = probe_->description();
-    writer_.emplace(folder, with_tracker(info, calibration), calibration ? *calibration : nominal(description), description,
-                    poses_.has_value(), config);
+    writer_.emplace(folder, with_tracker(info, calibration), calibration ? *calibration : nominal(description),
+                    description, poses_.has_value(), config);
     info_writer_.emplace(folder, with_tracker(info, calibration).bodies, config.sync_s);
     thread_ = std::thread([this] { run(); });
   }

@@ -15,7 +15,8 @@ namespace asperity {
 
 RecordingInfoWriter::RecordingInfoWriter(std::filesystem::path folder, const std::vector<TrackedBody>& bodies,
                                          double sync_s)
-    : folder_(std::move(folder)), files_{"recording.json", "probe.csv", "tracker.csv", "checksums.txt", "."},
+    : folder_(std::move(folder)),
+      files_{"recording.json", "probe.csv", "tracker.csv", "checksums.txt", "."},
       sync_s_(sync_s) {
   for (const TrackedBody& body : bodies) files_.push_back(body_file(body.name));
   thread_ = std::thread([this] { run(); });

@@ -55,7 +55,7 @@ void add_camera(RecorderSensors& sensors, const RecordInput& input, const Calibr
   CameraPoseConfig config;
   config.newest = is_live(address);
   config.nominal_rate_Hz = address.kind == CameraKind::kV4l2 ? address.v4l2.rate_Hz : address.images.rate_Hz;
-  BodyTracker(camera, body, track);                             // throws now, not in a thread
+  BodyTracker(camera, body, track);  // throws now, not in a thread
   make_further_trackers(camera, markers, track);
   sensors.reopen_poses = config.newest && address.path != "-";  // standard input does not come back
   sensors.reopen_silent_poses = address.kind == CameraKind::kV4l2;
@@ -91,7 +91,8 @@ std::vector<TrackedBody> record_bodies(const RecordInput& input, const std::opti
   if (input.poses.empty()) return out;
   for (const std::string& name : input.bodies) {
     if (!is_body_name(name)) {
-      throw Error("--body: '" + printable(name) + "' is not a body's name: 1 to 32 lower-case letters, digits, _ and -");
+      throw Error("--body: '" + printable(name) +
+                  "' is not a body's name: 1 to 32 lower-case letters, digits, _ and -");
     }
     out.push_back({name, {}});
   }

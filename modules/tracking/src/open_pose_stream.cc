@@ -132,7 +132,8 @@ PoseAddress parse_pose_address(std::string_view text) {
 }
 
 std::unique_ptr<PoseSource> open_pose_stream(const PoseAddress& address, const std::vector<std::string>& bodies) {
-  if (address.kind == PoseAddress::Kind::kFile) return make_pose_stream(open_path(address.path), PoseTimes::kAsWritten, bodies);
+  if (address.kind == PoseAddress::Kind::kFile)
+    return make_pose_stream(open_path(address.path), PoseTimes::kAsWritten, bodies);
   if (address.kind == PoseAddress::Kind::kPipe) {
     return make_pose_stream(open_path(address.path), PoseTimes::kHostClock, bodies);
   }

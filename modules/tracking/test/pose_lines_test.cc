@@ -38,7 +38,8 @@ TEST(PoseLines, ReadsLinesOfATrackerCsvInAnyPieces) {
 
 TEST(PoseLines, ALineMayBeginWithABodysName) {
   constexpr std::string_view kText =
-      "object,100,0.1,0,0.3,1,0,0,0\n100,0.2,0,0.3,1,0,0,0\nobjects,101,0.1,0,0.3,1,0,0,0\ntable,102,0.4,0,0.3,1,0,0,0\n";
+      "object,100,0.1,0,0.3,1,0,0,0\n100,0.2,0,0.3,1,0,0,0\nobjects,101,0.1,0,0.3,1,0,0,0\ntable,102,0.4,0,0.3,1,0,0,"
+      "0\n";
   PoseLines lines({"table", "object"});
   std::vector<TrackerSample> poses;
   lines.push(bytes_of(kText), 1, poses);

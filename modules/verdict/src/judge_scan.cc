@@ -191,9 +191,10 @@ void judge_object(const ScanEvidence& e, Verdicts& out) {
     out.push_back(make_verdict("object_hidden", seen + "; the rest was left out"));
   }
   if (std::isfinite(e.object_moved_m)) {
-    out.push_back(make_verdict("object_moved", fmt::format("the scan is relative to the object, which moved by up to "
-                                                           "{:.3g} mm and {:.2g}°",
-                                                           1e3 * e.object_moved_m, e.object_turned_rad / kTurned_rad_per_deg)));
+    out.push_back(
+        make_verdict("object_moved", fmt::format("the scan is relative to the object, which moved by up to "
+                                                 "{:.3g} mm and {:.2g}°",
+                                                 1e3 * e.object_moved_m, e.object_turned_rad / kTurned_rad_per_deg)));
   }
 }
 

@@ -11,9 +11,9 @@
 
 namespace asperity {
 
-// Decides which rows of the streams (the probe's, its poses, those of further bodies) go to disk: those within segments.
-// Rows that no segment has claimed yet wait in
-// rings for a segment that begins in the past. Works on the rows' own times; no clock, no thread.
+// Decides which rows of the streams (the probe's, its poses, those of further bodies) go to disk: those within
+// segments. Rows that no segment has claimed yet wait in rings for a segment that begins in the past. Works on the
+// rows' own times; no clock, no thread.
 class SegmentWriter {
  public:
   // `keep_ns`: how far back a segment may begin. The appender must live longer.

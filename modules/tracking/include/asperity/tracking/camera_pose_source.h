@@ -16,8 +16,8 @@ struct CameraPoseConfig {
 };
 
 // The poses of a marker body in a camera's images, and of `further` bodies in the same ones: of a frame the first
-// body's pose comes first, then theirs in order, `sample.body` saying whose. The statistics are the first body's. `on_frame`, if not empty, is given every frame that was read, the
-// ones passed over too, in the thread that reads.
+// body's pose comes first, then theirs in order, `sample.body` saying whose. The statistics are the first body's.
+// `on_frame`, if not empty, is given every frame that was read, the ones passed over too, in the thread that reads.
 std::unique_ptr<PoseSource> make_camera_pose_source(std::unique_ptr<CameraSource> camera, BodyTracker tracker,
                                                     const CameraPoseConfig& config = {},
                                                     std::function<void(const CameraFrame&)> on_frame = {},

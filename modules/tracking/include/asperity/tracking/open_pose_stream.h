@@ -37,8 +37,7 @@ enum class PoseTimes {
 
 // The poses in the lines that `bytes` gives. Over UDP open_pose_stream takes the sender's clock: another machine has
 // another one.
-std::unique_ptr<PoseSource> make_pose_stream(std::unique_ptr<ByteSource> bytes,
-                                             PoseTimes times = PoseTimes::kAsWritten,
+std::unique_ptr<PoseSource> make_pose_stream(std::unique_ptr<ByteSource> bytes, PoseTimes times = PoseTimes::kAsWritten,
                                              const std::vector<std::string>& bodies = {});
 
 }  // namespace asperity
