@@ -167,6 +167,7 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
   out["speed_mps"] = {
       {"mean", result.speed.mean_mps}, {"lowest", result.speed.lowest_mps}, {"highest", result.speed.highest_mps}};
   out["base"] = base_json(result.base);
+  if (result.trajectory.object) out["frame"] = "object";
   out["trajectory"] = Json(result.trajectory.metrics);
   out["roughness"] = result.roughness ? roughness_json(*result.roughness) : Json(nullptr);
   out["periodicity"] = periodicity_json(result.periodicity);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "asperity/base/error.h"
+#include "asperity/pipeline/reference.h"
 #include "asperity/pipeline/scan_evidence.h"
 #include "asperity/profile/apply_wiener_filter.h"
 #include "asperity/profile/estimate_texture_noise.h"
@@ -134,6 +135,7 @@ Outcome<TrajectoryResult> find_trajectory(const Recording& recording, const Proc
                                           const ProcessMethod& method, const Observer& observer) {
   Outcome<TrajectoryResult> out;
   TrajectoryResult& trajectory = out.value.emplace(method.estimate_trajectory(recording, config, observer));
+  if (!trajectory.object) refer_trajectory(recording, config.reference, config.object, trajectory);
   out.problems = trajectory.problems;
 
   // Until the normal is known, a sensor of three axes is read along the probe's.
@@ -152,6 +154,12 @@ Outcome<TrajectoryResult> find_trajectory(const Recording& recording, const Proc
     out.problems.push_back({"no_force", "the force never changes: all of the path counts as scanned", 1});
   }
   return out;
+}
+
+const Recording& in_frame(const Recording& recording, ProcessStages& s) {
+  if (!s.trajectory.value->object) return recording;
+  if (!s.on_object) s.on_object = recording_on_object(recording, *s.trajectory.value);
+  return *s.on_object;
 }
 
 Outcome<BasePathResult> find_base_path(const Recording& recording, const ProcessConfig& config,

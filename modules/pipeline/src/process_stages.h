@@ -28,6 +28,7 @@ struct MeasuredProfile {
 // have no value and nothing to say.
 struct ProcessStages {
   Outcome<TrajectoryResult> trajectory;  // has a value
+  std::optional<Recording> on_object;    // the recording relative to the object, if the trajectory is
   Outcome<BasePathResult> base;
   Outcome<MeasuredProfile> profile;
   Outcome<RoughnessResult> roughness;
@@ -43,9 +44,12 @@ struct ProcessStages {
 // recording may not allow, such as roughness of too short a profile, is in the outcome.
 namespace stage {
 
-// Throws Error if the streams do not allow one, and Cancelled.
+// Relative to the object if there is one. Throws Error if the streams do not allow one, and Cancelled.
 Outcome<TrajectoryResult> find_trajectory(const Recording& recording, const ProcessConfig& config,
                                           const ProcessMethod& method, const Observer& observer);
+// The recording in the frame of the trajectory, for the stages behind it: of an object that moves `s.on_object`, made
+// at the first call.
+const Recording& in_frame(const Recording& recording, ProcessStages& s);
 // Also makes the motion's force_N that along the path's normal, if the method has it so.
 Outcome<BasePathResult> find_base_path(const Recording& recording, const ProcessConfig& config,
                                        const ProcessMethod& method, ProcessStages& before);

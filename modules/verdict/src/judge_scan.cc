@@ -38,6 +38,9 @@ constexpr double kRepeated_share = 0.5;
 constexpr double kLeastOverlap_share = 0.7;
 constexpr double kLongestGap_s = 0.5;
 constexpr double kRejected_share = 0.1;
+constexpr double kLeastSeen_share = 0.5;  // of the time, the object's body
+constexpr double kMostlySeen_share = 0.95;
+constexpr double kTurned_rad_per_deg = 0.017453292519943295;
 
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
@@ -179,6 +182,22 @@ void judge_streams(const ScanEvidence& e, Verdicts& out) {
   }
 }
 
+void judge_object(const ScanEvidence& e, Verdicts& out) {
+  const std::string seen =
+      fmt::format("the object's markers were seen in {:.0f} % of the scan", std::floor(100.0 * e.object_seen_share));
+  if (e.object_seen_share < kLeastSeen_share) {
+    out.push_back(make_verdict("object_unseen", seen));
+  } else if (e.object_seen_share < kMostlySeen_share) {
+    out.push_back(make_verdict("object_hidden", seen + "; the rest was left out"));
+  }
+  if (std::isfinite(e.object_moved_m)) {
+    out.push_back(
+        make_verdict("object_moved", fmt::format("the scan is relative to the object, which moved by up to "
+                                                 "{:.3g} mm and {:.2g}°",
+                                                 1e3 * e.object_moved_m, e.object_turned_rad / kTurned_rad_per_deg)));
+  }
+}
+
 void judge_length(const ScanEvidence& e, Verdicts& out) {
   const double own_m = std::isfinite(e.length_stderr_m) ? e.length_stderr_m : 0.0;
   const double bound_m = kTwoSided95 * std::hypot(own_m, e.tracker_length_stderr_m);
@@ -257,6 +276,7 @@ Verdicts judge_scan(const ScanEvidence& evidence) {
   Verdicts out;
   judge_calibration(evidence, out);
   judge_streams(evidence, out);
+  judge_object(evidence, out);
   judge_surface(evidence, out);
   sort_verdicts(out);
   return out;

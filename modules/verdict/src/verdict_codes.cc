@@ -39,6 +39,9 @@ constexpr VerdictCode kCodes[] = {
     {"little_overlap", kInvalid, "check that both streams have one clock, and record them together"},
     {"tracker_gap", kInvalid, "keep the markers in view, or use the method `fused`"},
     {"spikes", kInvalid, "check the probe's cable and power, or use the method `fused`"},
+    {"object_unseen", kInvalid, "keep the markers on the object in view, or process with `--set reference=world`"},
+    {"object_hidden", kLimited, "keep the markers on the object in view"},
+    {"object_moved", kNote, ""},
     // A scan: what was measured.
     {"no_profile", kInvalid, "scan one stroke along the surface in steady contact"},
     {"nothing_touched", kInvalid, "scan with the tip in contact with the surface"},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "asperity/pipeline/process_methods.h"
+#include "asperity/pipeline/reference.h"
 #include "asperity/profile/compare_profiles.h"
 #include "asperity/profile/estimate_compliance.h"
 #include "asperity/profile/estimate_stiffness.h"
@@ -16,6 +17,8 @@ namespace asperity {
 // serve any. `profile` is the method fused's.
 struct ProcessConfig : ProcessMethods {
   Method method = ProcessMethods::method<FusedMethod>();
+  Reference reference = Reference::kAuto;
+  ObjectSmootherConfig object;
   double min_coverage = 0.5;
   BasePathConfig base;
   ProfileConfig profile;
@@ -29,8 +32,11 @@ struct ProcessConfig : ProcessMethods {
   template <class V>
   void visit(V& v) {
     v.choice("method", method, kMethodNames, describe());
+    v.choice("reference", reference, kReferenceNames,
+             "what the scan is relative to: object, where its marker body was recorded; world; auto: object if it was");
     v.field("min_coverage", min_coverage, "part of the profile without gaps below which it is invalid", {0.0, 1.0});
     visit_methods(v);
+    v.group("object", object);
     v.group("base", base);
     v.group("profile", profile);
     v.group("roughness", roughness);

@@ -41,7 +41,10 @@ struct ScanEvidence {
   std::size_t rows_changed = 0;  // whose bytes are not those that were recorded, by their checksums
   double recorded_s = 0.0;
   double used_s = 0.0;
-  double tracker_gap_s = kUnknown;  // interpolated over
+  double tracker_gap_s = kUnknown;      // interpolated over
+  double object_seen_share = kUnknown;  // of the samples, those at which the object's own body was seen
+  double object_moved_m = kUnknown;     // its scanned part, from where it was at first
+  double object_turned_rad = kUnknown;
   std::size_t samples_rejected = 0;
   std::size_t samples = 0;
 
