@@ -82,9 +82,12 @@ ProfilePass read_pass(const fs::path& folder, const std::string& name) {
   const auto wrong = [&](const std::string& what) { throw Error(printable(file.string(), 200) + ": " + what); };
   if (!result.is_object() || result.value("format", "") != "asperity-result") wrong("not a result of asperity");
   if (!result.contains("profile") || !result.at("profile").is_object()) wrong("without a profile");
-  const bool removed = result.contains("config") && result.at("config").is_object() &&
-                       result.at("config").contains("profile.remove_noise") &&
-                       result.at("config").at("profile.remove_noise") == Json(true);
+  const Json* group = result.contains("config") ? &result.at("config") : nullptr;
+  for (const char* name_of : {"process", "profile"}) {
+    if (group != nullptr && group->is_object() && group->contains(name_of)) group = &group->at(name_of);
+  }
+  const bool removed = group != nullptr && group->is_object() && group->contains("remove_noise") &&
+                       group->at("remove_noise") == Json(true);
   if (removed) {
     wrong("the noise was removed from its heights; merge the recording, or process it with "
           "--set profile.remove_noise=false");

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 
+#include "asperity/algebra/solve.h"
 #include "asperity/signal/spectrum.h"
 #include "spectrum_at.h"
 
@@ -128,7 +128,7 @@ PassDifferences compare_passes(std::span<const PassOnGrid> passes, double spacin
   Eigen::MatrixXd mixing = Eigen::MatrixXd::Constant(size, size, 1.0 / ((count - 1.0) * (count - 1.0)));
   mixing.diagonal().setOnes();
   const Eigen::VectorXd solved =
-      mixing.partialPivLu().solve(Eigen::Map<const Eigen::VectorXd>(difference_m2.data(), size));
+      solve_symmetric(mixing, Eigen::Map<const Eigen::VectorXd>(difference_m2.data(), size));
   for (Eigen::Index k = 0; k < size; ++k) out.noise_m2.push_back(std::max(0.0, solved[k]));
   return out;
 }

@@ -5,9 +5,9 @@
 #include <complex>
 #include <numbers>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include "asperity/algebra/solve.h"
 #include "asperity/signal/spectrum.h"
 #include "spectrum_at.h"
 
@@ -100,7 +100,7 @@ std::vector<double> warp_pass(const WarpTarget& target, const PassSignal& pass, 
     // them.
     normal(0, 0) += 1e-9 * (1.0 + normal(0, 0));
     normal(1, 1) += 1e-9 * (1.0 + normal(1, 1));
-    const Eigen::VectorXd change = -normal.ldlt().solve(gradient);
+    const Eigen::VectorXd change = -solve_symmetric(normal, gradient);
     if (!change.allFinite()) break;
     double most = 0.0;
     for (std::size_t i = 0; i < points; ++i) {
