@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uint64_t kLargestFile_bytes = 512ULL << 20;
+constexpr std::uint64_t kLargestPassFile_bytes = 512ULL << 20;
 constexpr double kInvisible_snr = 2.0;  // as judge_scan() has it
 
 double number_or(const Json& json, const char* key, double otherwise) {
@@ -34,7 +34,7 @@ double number_or(const Json& json, const char* key, double otherwise) {
 
 // Heights and texture, evenly spaced.
 Profile read_profile(const fs::path& file) {
-  const std::string text = read_file(file, kLargestFile_bytes);
+  const std::string text = read_file(file, kLargestPassFile_bytes);
   CsvReader table(text, printable(file.string(), 200));
   const std::size_t s = table.require("s_m"), height = table.require("height_m"), texture = table.require("texture_m");
   Profile out;
@@ -78,7 +78,7 @@ ProfilePass pass_of_result(const ProcessResult& result, const std::string& name)
 
 ProfilePass read_pass(const fs::path& folder, const std::string& name) {
   const fs::path file = folder / "result.json";
-  const Json result = parse_json(read_file(file, kLargestFile_bytes), printable(file.string(), 200));
+  const Json result = parse_json(read_file(file, kLargestPassFile_bytes), printable(file.string(), 200));
   const auto wrong = [&](const std::string& what) { throw Error(printable(file.string(), 200) + ": " + what); };
   if (!result.is_object() || result.value("format", "") != "asperity-result") wrong("not a result of asperity");
   if (!result.contains("profile") || !result.at("profile").is_object()) wrong("without a profile");
@@ -101,7 +101,7 @@ ProfilePass read_pass(const fs::path& folder, const std::string& name) {
   if (!std::isfinite(noise.added_rms_stderr_m)) noise.added_rms_m = 0.0;
   noise.place_sigma_m = number_or(stated, "place_sigma_m", kNan);
   noise.along_sigma = number_or(stated, "length_stderr_m", kNan) / number_or(stated, "length_m", kNan);
-  const std::string text = read_file(folder / "spectrum.csv", kLargestFile_bytes);
+  const std::string text = read_file(folder / "spectrum.csv", kLargestPassFile_bytes);
   CsvReader spectrum(text, printable((folder / "spectrum.csv").string(), 200));
   const std::size_t frequency = spectrum.require("cycles_per_mm"), density = spectrum.require("noise_m2_mm");
   while (spectrum.next()) {

@@ -15,7 +15,6 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t kSegment_points = 512;
 
 // Weights of frequencies, by the coherence that is possible there.
 class Weights {
@@ -106,7 +105,7 @@ Place best_lag(const std::vector<std::complex<double>>& reference, std::size_t r
 // Σ a cos φ over segments with half overlap, in standard deviations of even phases.
 double agreement(const std::vector<double>& reference, const std::vector<double>& pass, double spacing_mm,
                  const Weights& weights) {
-  const std::size_t segment = std::min(kSegment_points, reference.size());
+  const std::size_t segment = std::min(kPassSegment_points, reference.size());
   double sum = 0.0, square = 0.0;
   for (std::size_t begin = 0; begin + segment <= reference.size(); begin += std::max<std::size_t>(segment / 2, 1)) {
     std::vector<double> a(segment), b(segment);

@@ -15,12 +15,12 @@ namespace asperity {
 namespace {
 
 constexpr double kLowestBand_cycles_per_mm = 0.2;  // all below is one band
-constexpr double kBandRatio = 2.0;
+constexpr double kPassBandRatio = 2.0;
 constexpr double kDensities_per_band = 8.0;
 
 // Share of a frequency that is in a band: bands overlap with cosines over the logarithm, and add up to 1.
 double band_share(double frequency, std::size_t band, std::size_t bands) {
-  const double place = frequency > 0.0 ? std::log(frequency / kLowestBand_cycles_per_mm) / std::log(kBandRatio) : -1e9;
+  const double place = frequency > 0.0 ? std::log(frequency / kLowestBand_cycles_per_mm) / std::log(kPassBandRatio) : -1e9;
   const double clamped = std::clamp(place, 0.0, static_cast<double>(bands - 1));
   const double away = std::abs(clamped - static_cast<double>(band));
   return away >= 1.0 ? 0.0 : 0.5 + 0.5 * std::cos(std::numbers::pi * away);
@@ -66,9 +66,9 @@ AveragedPasses average_passes(std::span<const PassOnGrid> passes, double spacing
   AveragedPasses out;
   const double highest = 0.5 / spacing_mm;
   const auto bands = static_cast<std::size_t>(
-      std::max(1.0, std::ceil(std::log(highest / kLowestBand_cycles_per_mm) / std::log(kBandRatio)) + 1.0));
+      std::max(1.0, std::ceil(std::log(highest / kLowestBand_cycles_per_mm) / std::log(kPassBandRatio)) + 1.0));
   for (double f = 0.05 * kLowestBand_cycles_per_mm; f < highest * 1.0001;
-       f *= std::pow(kBandRatio, 1.0 / kDensities_per_band))
+       f *= std::pow(kPassBandRatio, 1.0 / kDensities_per_band))
     out.frequency_cycles_per_mm.push_back(std::min(f, highest));
   out.noise_psd_m2_mm.assign(out.frequency_cycles_per_mm.size(), 0.0);
 

@@ -8,14 +8,14 @@
 
 #include "asperity/algebra/solve.h"
 #include "asperity/signal/spectrum.h"
+#include "pass_signal.h"
 #include "spectrum_at.h"
 
 namespace asperity {
 
 namespace {
 
-constexpr std::size_t kSegment_points = 512;
-constexpr double kSure = 1.96;
+constexpr double kSure95 = 1.96;
 
 // The longest stretch in which all passes are known.
 std::pair<std::size_t, std::size_t> shared_stretch(std::span<const PassOnGrid> passes) {
@@ -51,7 +51,7 @@ double power(const PowerSpectrum& spectrum, const Band& band) {
 PassDifferences compare_passes(std::span<const PassOnGrid> passes, double spacing_mm, const AlignPassesConfig& config) {
   PassDifferences out;
   const auto [begin, end] = shared_stretch(passes);
-  if (end < begin + kSegment_points) return out;
+  if (end < begin + kPassSegment_points) return out;
   const std::size_t points = end - begin;
   const double count = static_cast<double>(passes.size());
   const Band band{config.low_cycles_per_mm, config.high_cycles_per_mm};
@@ -62,7 +62,7 @@ PassDifferences compare_passes(std::span<const PassOnGrid> passes, double spacin
   const auto spectrum_of = [&](const auto& value) {
     std::vector<double> x(points);
     for (std::size_t i = 0; i < points; ++i) x[i] = value(i);
-    return welch(x, 1.0 / spacing_mm, kSegment_points);
+    return welch(x, 1.0 / spacing_mm, kPassSegment_points);
   };
   const PowerSpectrum of_mean = spectrum_of([&](std::size_t i) { return all[i] / count; });
   out.frequency_cycles_per_mm = of_mean.frequency;
@@ -110,12 +110,12 @@ PassDifferences compare_passes(std::span<const PassOnGrid> passes, double spacin
     return out;
   }
   // A line of the spectrum holds two squares a segment of independent length.
-  const double independent = static_cast<double>(points) / static_cast<double>(kSegment_points);
+  const double independent = static_cast<double>(points) / static_cast<double>(kPassSegment_points);
   const double freedom = 2.0 * (count - 1.0) * independent * scatter_m2 * scatter_m2 / scatter_square;
   const double error = std::hypot(relative, std::sqrt(2.0 / freedom));
   out.ratio = scatter_m2 / stated_sum_m2;
-  out.ratio_low = out.ratio * std::exp(-kSure * error);
-  out.ratio_high = out.ratio * std::exp(kSure * error);
+  out.ratio_low = out.ratio * std::exp(-kSure95 * error);
+  out.ratio_high = out.ratio * std::exp(kSure95 * error);
 
   // D_k = V_k + Σ_{j≠k} V_j/(K−1)² (Grubbs 1948); of two passes only the sum is known.
   if (passes.size() == 2) {

@@ -11,7 +11,7 @@ namespace asperity {
 
 namespace {
 
-constexpr double kSurely = 1.96;
+constexpr double kSureOfMerge = 1.96;
 
 double density_integral(const std::vector<double>& frequency, const std::vector<double>& density) {
   double sum = 0.0;
@@ -66,7 +66,7 @@ TextureNoise noise_of_merge(const AveragedPasses& mean, std::span<const PassOnGr
   out.misplaced_sigma_m.assign(mean.sigma_m.size(), std::sqrt(misplaced_m2));
 
   const double noise_m2 = added_m2 + misplaced_m2 + texture_m2 * out.scale_sigma * out.scale_sigma;
-  const double most = 1.0 + kSurely * relative;
+  const double most = 1.0 + kSureOfMerge * relative;
   out.noise_rms_m = std::sqrt(noise_m2);
   out.noise_rms_stderr_m = 0.5 * relative * out.noise_rms_m;
   out.added_rms_m = std::sqrt(added_m2);
@@ -81,7 +81,7 @@ TextureNoise noise_of_merge(const AveragedPasses& mean, std::span<const PassOnGr
   out.snr = std::max(0.0, texture_m2 - added_m2) / apart_m2;
   out.snr_low = std::max(0.0, texture_m2 - most * added_m2) / (most * apart_m2);
   out.measured_snr_low = std::max(0.0, texture_m2 - most * added_m2) / (most * added_m2);
-  out.at_most_m = std::sqrt(std::max(0.0, texture_m2 - added_m2 * std::max(0.0, 1.0 - kSurely * relative)));
+  out.at_most_m = std::sqrt(std::max(0.0, texture_m2 - added_m2 * std::max(0.0, 1.0 - kSureOfMerge * relative)));
   return out;
 }
 

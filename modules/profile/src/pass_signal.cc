@@ -13,7 +13,6 @@ namespace asperity {
 namespace {
 
 constexpr std::size_t kLeast_points = 64;
-constexpr std::size_t kSegment_points = 512;
 // Of the density: two passes never agree better, for their tips did not take the same way.
 constexpr double kLeastNoise = 0.01;
 
@@ -35,7 +34,7 @@ PassSignal pass_signal(const ProfilePass& pass) {
   }
   out.first = first;
   out.height_m = bridge_gaps(std::span<const double>(pass.texture_m).subspan(first, last - first));
-  const PowerSpectrum spectrum = welch(out.height_m, 1.0 / out.spacing_mm, std::min(kSegment_points, out.size()));
+  const PowerSpectrum spectrum = welch(out.height_m, 1.0 / out.spacing_mm, std::min(kPassSegment_points, out.size()));
   out.frequency = spectrum.frequency;
   out.density = spectrum.density;
   out.noise.resize(out.density.size());

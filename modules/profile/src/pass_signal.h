@@ -9,6 +9,8 @@
 
 namespace asperity {
 
+inline constexpr std::size_t kPassSegment_points = 512;  // of the densities and the test
+
 // Heights without gaps from the first to the last that is known, by straight lines over the gaps.
 struct PassSignal {
   double spacing_mm = 0.025;

@@ -16,7 +16,7 @@ namespace asperity {
 namespace {
 
 constexpr int kBlurredSteps = 4;
-constexpr int kSteps = 12;
+constexpr int kWarpSteps = 12;
 constexpr double kSmallStep_points = 1e-3;
 
 // A filter that makes noise of a density white, with unit variance a sample.
@@ -75,7 +75,7 @@ std::vector<double> warp_pass(const WarpTarget& target, const PassSignal& pass, 
   const double sigma_points = prior.place_sigma_mm / pass.spacing_mm;
   const double last = static_cast<double>(pass.size() - 1);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(unknowns);
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kWarpSteps; ++step) {
     const Whitening whiten(target, pass, points, step < kBlurredSteps ? prior.place_sigma_mm : 0.0, config);
     std::vector<double> difference_m(points, 0.0), slope_m(points, 0.0);
     for (std::size_t i = 0; i < points; ++i) {
