@@ -62,8 +62,8 @@ void run(const Choice& choice, const std::string& surface, std::int64_t line) {
     const asperity::ProcessResult removed = asperity::process_recording(recording, config.process);
     asperity::ProcessConfig as_measured = config.process;
     as_measured.profile.remove_noise = false;
-    passes.push_back(asperity::pass_of_result(asperity::process_recording(recording, as_measured),
-                                              std::to_string(k + 1)));
+    passes.push_back(
+        asperity::pass_of_result(asperity::process_recording(recording, as_measured), std::to_string(k + 1)));
     truths.push_back(*recording.truth);
     accuracies.push_back(*removed.accuracy);
     if (removed.accuracy->profile) single_um.push_back(removed.accuracy->profile->rms_um);
@@ -99,12 +99,14 @@ int main(int argc, char** argv) {
         {{"--surfaces", [&](auto value) { choice.surfaces = bench::split_list(value); }},
          {"--strokes", [&](auto value) { choice.strokes = static_cast<int>(bench::number_within(value, 2.0, 50.0)); }},
          {"--repeats", [&](auto value) { choice.repeats = static_cast<int>(bench::number_within(value, 1.0, 1e4)); }},
-         {"--seed", [&](auto value) { choice.seed = static_cast<std::int64_t>(bench::number_within(value, 1.0, 1e9)); }},
+         {"--seed",
+          [&](auto value) { choice.seed = static_cast<std::int64_t>(bench::number_within(value, 1.0, 1e9)); }},
          {"--wander_m", [&](auto value) { choice.wander_m = bench::number_within(value, 0.0, 0.01); }},
          {"--probe", [&](auto value) { choice.probe = std::string(value); }},
          {"--lines", [&](auto value) { choice.lines = std::string(value); }}});
-    std::printf("| surface, seed | merged | one stroke, µm RMS error | merge, µm | ratio | one, expected µm | merge, "
-                "expected µm | differences over stated noise, power (95 %%) | coherence |\n");
+    std::printf(
+        "| surface, seed | merged | one stroke, µm RMS error | merge, µm | ratio | one, expected µm | merge, "
+        "expected µm | differences over stated noise, power (95 %%) | coherence |\n");
     std::printf("|---|---|---|---|---|---|---|---|---|\n");
     for (const std::string& surface : choice.surfaces) {
       for (int i = 0; i < choice.repeats; ++i) run(choice, surface, choice.seed + i);

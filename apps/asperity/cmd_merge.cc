@@ -39,15 +39,17 @@ std::string merge_summary(const ProcessResult& result) {
                          pass.alignment.threshold);
       continue;
     }
-    out += fmt::format("{}, from {:.3f} mm, stretch {:+.2f} %, weight {:.2f}", pass.alignment.reversed ? "back" : "forth",
-                       1e3 * pass.shift_m, 100.0 * pass.stretch, pass.weight);
+    out +=
+        fmt::format("{}, from {:.3f} mm, stretch {:+.2f} %, weight {:.2f}", pass.alignment.reversed ? "back" : "forth",
+                    1e3 * pass.shift_m, 100.0 * pass.stretch, pass.weight);
     if (std::isfinite(pass.coherence)) out += fmt::format(", coherence {:.3f}", pass.coherence);
     out += "\n";
   }
   if (!merged.agrees) return out;
   if (std::isfinite(merged.noise_ratio)) {
-    out += fmt::format("  noise of a stroke by their differences: {:.2g} times the power stated, 95 %: {:.2g} to {:.2g}\n",
-                       merged.noise_ratio, merged.noise_ratio_low, merged.noise_ratio_high);
+    out +=
+        fmt::format("  noise of a stroke by their differences: {:.2g} times the power stated, 95 %: {:.2g} to {:.2g}\n",
+                    merged.noise_ratio, merged.noise_ratio_low, merged.noise_ratio_high);
   }
   out += fmt::format("  merged: {:.2f} mm", 1e3 * result.coverage.length_m);
   if (std::isfinite(result.noise.noise_rms_m))

@@ -17,10 +17,9 @@ namespace fs = std::filesystem;
 
 // A stroke of 40 mm over sandpaper; `line` is the relief's and the path's.
 void simulate_stroke(const fs::path& folder, int line, int seed) {
-  const Outcome outcome =
-      run({"simulate", "--surface", "sandpaper", "--seed", std::to_string(seed), "--set", "hand.length_m=0.04", "--set",
-           "surface.seed=" + std::to_string(line), "--set", "hand.path_seed=" + std::to_string(line), "-o",
-           folder.string()});
+  const Outcome outcome = run({"simulate", "--surface", "sandpaper", "--seed", std::to_string(seed), "--set",
+                               "hand.length_m=0.04", "--set", "surface.seed=" + std::to_string(line), "--set",
+                               "hand.path_seed=" + std::to_string(line), "-o", folder.string()});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
 }
 

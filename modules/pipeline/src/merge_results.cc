@@ -62,10 +62,10 @@ Verdicts judge_merge(const MergedProfile& merged, const TextureNoise& noise) {
     out.push_back(make_verdict("below_noise", "the merged texture does not stand out of its noise"));
   if (!left.empty()) out.push_back(make_verdict("passes_left_out", "not over the same line as the others: " + left));
   if (merged.noise_ratio_low > 1.0) {
-    out.push_back(make_verdict(
-        "passes_disagree", fmt::format("the strokes differ by {:.2g} times the power of the noise that they state, "
-                                       "95 %: {:.2g} to {:.2g}",
-                                       merged.noise_ratio, merged.noise_ratio_low, merged.noise_ratio_high)));
+    out.push_back(make_verdict("passes_disagree",
+                               fmt::format("the strokes differ by {:.2g} times the power of the noise that they state, "
+                                           "95 %: {:.2g} to {:.2g}",
+                                           merged.noise_ratio, merged.noise_ratio_low, merged.noise_ratio_high)));
   }
   return out;
 }
@@ -89,8 +89,9 @@ ProfilePass read_pass(const fs::path& folder, const std::string& name) {
   const bool removed = group != nullptr && group->is_object() && group->contains("remove_noise") &&
                        group->at("remove_noise") == Json(true);
   if (removed) {
-    wrong("the noise was removed from its heights; merge the recording, or process it with "
-          "--set profile.remove_noise=false");
+    wrong(
+        "the noise was removed from its heights; merge the recording, or process it with "
+        "--set profile.remove_noise=false");
   }
   const Profile profile = read_profile(folder / "profile.csv");
   const Json& stated = result.at("profile");

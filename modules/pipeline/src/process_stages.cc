@@ -64,7 +64,8 @@ void erode(const Calibration& calibration, const TipConfig& config, MeasuredProf
   measured.surface = erode_profile(profile, measured.noise, radius_m);
   // Twice the highest of so many normal numbers.
   if (!std::isfinite(measured.noise.noise_rms_m) || profile.size() < 2) return;
-  const double tolerance_m = 2.0 * measured.noise.noise_rms_m * std::sqrt(2.0 * std::log(static_cast<double>(profile.size())));
+  const double tolerance_m =
+      2.0 * measured.noise.noise_rms_m * std::sqrt(2.0 * std::log(static_cast<double>(profile.size())));
   measured.blind_tip = estimate_tip_radius(profile.height_m, profile.spacing_m, tolerance_m);
 }
 

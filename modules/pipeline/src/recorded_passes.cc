@@ -12,10 +12,10 @@ namespace asperity {
 
 namespace {
 
-constexpr double kDirection_m = 1e-3;     // over which a direction is measured
-constexpr double kAlong = 0.8;            // cosine to the strokes' axis that counts as a stroke
+constexpr double kDirection_m = 1e-3;  // over which a direction is measured
+constexpr double kAlong = 0.8;         // cosine to the strokes' axis that counts as a stroke
 constexpr double kShortestStroke_m = 10e-3;
-constexpr double kEnd_m = 1e-3;           // left out beside a turn
+constexpr double kEnd_m = 1e-3;  // left out beside a turn
 
 // Points of the base path at even arc lengths.
 std::vector<Eigen::Vector3d> even_points(const BasePath& path, const Profile& profile) {
@@ -71,7 +71,9 @@ ProfilePass profile_pass(std::string name, const Profile& profile, std::span<con
 
 void merge_recorded_passes(const BasePathResult& base, MeasuredProfile& measured) {
   const Profile& profile = measured.profile;
-  const auto points_in = [&](double length_m) { return static_cast<std::size_t>(std::lround(length_m / profile.spacing_m)); };
+  const auto points_in = [&](double length_m) {
+    return static_cast<std::size_t>(std::lround(length_m / profile.spacing_m));
+  };
   const std::vector<int> direction = directions(even_points(base.path, profile), points_in(0.5 * kDirection_m));
   std::vector<ProfilePass> passes;
   std::vector<std::size_t> starts;
@@ -80,8 +82,8 @@ void merge_recorded_passes(const BasePathResult& base, MeasuredProfile& measured
     while (end < direction.size() && direction[end] == direction[begin]) ++end;
     if (direction[begin] != 0 && end - begin >= points_in(kShortestStroke_m)) {
       const std::size_t first = begin + points_in(kEnd_m), last = end - points_in(kEnd_m);
-      passes.push_back(profile_pass("stroke " + std::to_string(passes.size() + 1), profile,
-                                    measured.measured_texture_m, measured.noise, first, last));
+      passes.push_back(profile_pass("stroke " + std::to_string(passes.size() + 1), profile, measured.measured_texture_m,
+                                    measured.noise, first, last));
       starts.push_back(first);
     }
     begin = end;
@@ -90,8 +92,7 @@ void merge_recorded_passes(const BasePathResult& base, MeasuredProfile& measured
   MergedProfile merged = merge_passes(passes, {});
   if (merged.agrees) {
     const MergedPass& first = merged.passes.front();
-    const double start_m =
-        first.used && !first.alignment.reversed ? profile.s_m[starts.front()] + first.shift_m : 0.0;
+    const double start_m = first.used && !first.alignment.reversed ? profile.s_m[starts.front()] + first.shift_m : 0.0;
     measured.profile = std::move(merged.profile);
     for (double& s_m : measured.profile.s_m) s_m += start_m;
     measured.noise = merged.noise;

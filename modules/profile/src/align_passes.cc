@@ -15,7 +15,6 @@ namespace asperity {
 
 namespace {
 
-
 // Weights of frequencies, by the coherence that is possible there.
 class Weights {
  public:
@@ -110,8 +109,8 @@ double agreement(const std::vector<double>& reference, const std::vector<double>
   for (std::size_t begin = 0; begin + segment <= reference.size(); begin += std::max<std::size_t>(segment / 2, 1)) {
     std::vector<double> a(segment), b(segment);
     for (std::size_t i = 0; i < segment; ++i) {
-      const double hann = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) /
-                                               static_cast<double>(segment));
+      const double hann =
+          0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(segment));
       a[i] = hann * reference[begin + i];
       b[i] = hann * pass[begin + i];
     }
@@ -177,8 +176,7 @@ PassAlignment align_passes(const ProfilePass& reference, const ProfilePass& pass
   const double last = static_cast<double>(pass.size() - 1);
   const double first = best.reversed ? last - static_cast<double>(forward.first + forward.size() - 1)
                                      : static_cast<double>(forward.first);
-  out.shift_m = pass.spacing_m *
-                (first + (best.lag - static_cast<double>(a.first)) * (1.0 + best.stretch));
+  out.shift_m = pass.spacing_m * (first + (best.lag - static_cast<double>(a.first)) * (1.0 + best.stretch));
   out.score = agreement(on_a, on_pass, a.spacing_mm, weights);
   const double lags = 2.0 * config.high_cycles_per_mm * a.spacing_mm *
                       (static_cast<double>(a.size() + forward.size()) -

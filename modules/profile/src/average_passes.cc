@@ -20,7 +20,8 @@ constexpr double kDensities_per_band = 8.0;
 
 // Share of a frequency that is in a band: bands overlap with cosines over the logarithm, and add up to 1.
 double band_share(double frequency, std::size_t band, std::size_t bands) {
-  const double place = frequency > 0.0 ? std::log(frequency / kLowestBand_cycles_per_mm) / std::log(kPassBandRatio) : -1e9;
+  const double place =
+      frequency > 0.0 ? std::log(frequency / kLowestBand_cycles_per_mm) / std::log(kPassBandRatio) : -1e9;
   const double clamped = std::clamp(place, 0.0, static_cast<double>(bands - 1));
   const double away = std::abs(clamped - static_cast<double>(band));
   return away >= 1.0 ? 0.0 : 0.5 + 0.5 * std::cos(std::numbers::pi * away);
@@ -88,8 +89,8 @@ AveragedPasses average_passes(std::span<const PassOnGrid> passes, double spacing
     std::vector<double> power_m2(passes.size());
     double least_m2 = 0.0;
     for (std::size_t k = 0; k < passes.size(); ++k) {
-      power_m2[k] = band_power(out.frequency_cycles_per_mm, band, bands,
-                               [&](double f) { return noise_m2_mm(passes[k], f); });
+      power_m2[k] =
+          band_power(out.frequency_cycles_per_mm, band, bands, [&](double f) { return noise_m2_mm(passes[k], f); });
       least_m2 = least_m2 > 0.0 ? std::min(least_m2, power_m2[k]) : power_m2[k];
     }
     const bool known_noise = least_m2 > 0.0;
@@ -119,7 +120,8 @@ AveragedPasses average_passes(std::span<const PassOnGrid> passes, double spacing
       out.weight[k] += mean_weight[k] / counted / static_cast<double>(bands);
       for (std::size_t i = 0; i < out.frequency_cycles_per_mm.size(); ++i) {
         const double f = out.frequency_cycles_per_mm[i];
-        out.noise_psd_m2_mm[i] += band_share(f, band, bands) * square_of_weight[k] / counted * noise_m2_mm(passes[k], f);
+        out.noise_psd_m2_mm[i] +=
+            band_share(f, band, bands) * square_of_weight[k] / counted * noise_m2_mm(passes[k], f);
       }
     }
   }

@@ -120,15 +120,13 @@ PassDifferences compare_passes(std::span<const PassOnGrid> passes, double spacin
   // D_k = V_k + Σ_{j≠k} V_j/(K−1)² (Grubbs 1948); of two passes only the sum is known.
   if (passes.size() == 2) {
     const double stated_both_m2 = out.stated_m2[0] + out.stated_m2[1];
-    for (const double stated_m2 : out.stated_m2)
-      out.noise_m2.push_back(difference_m2[0] * stated_m2 / stated_both_m2);
+    for (const double stated_m2 : out.stated_m2) out.noise_m2.push_back(difference_m2[0] * stated_m2 / stated_both_m2);
     return out;
   }
   const auto size = static_cast<Eigen::Index>(passes.size());
   Eigen::MatrixXd mixing = Eigen::MatrixXd::Constant(size, size, 1.0 / ((count - 1.0) * (count - 1.0)));
   mixing.diagonal().setOnes();
-  const Eigen::VectorXd solved =
-      solve_symmetric(mixing, Eigen::Map<const Eigen::VectorXd>(difference_m2.data(), size));
+  const Eigen::VectorXd solved = solve_symmetric(mixing, Eigen::Map<const Eigen::VectorXd>(difference_m2.data(), size));
   for (Eigen::Index k = 0; k < size; ++k) out.noise_m2.push_back(std::max(0.0, solved[k]));
   return out;
 }

@@ -139,7 +139,8 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
 
 namespace {
 
-constexpr double kAxisTilt_rad = 30.0 * kDegreeOfFit_rad;  // of the cylinder's axis from the path's normal, a weak prior
+constexpr double kAxisTilt_rad =
+    30.0 * kDegreeOfFit_rad;  // of the cylinder's axis from the path's normal, a weak prior
 
 // A stroke with the forearm about the elbow is an arc of 0.33 m: what a hand's stroke bends sideways on the body.
 constexpr double kSideways_per_m = 3.0;

@@ -145,8 +145,8 @@ PassOnGrid on_grid(const LaidPass& laid) {
   const double usual_m = count > 0.0 ? std::sqrt(mean_m2 / count) : 0.0;
   for (const double place : laid.places) {
     const double point = point_of(laid, place);
-    const auto nearest = static_cast<std::size_t>(
-        std::clamp(std::round(point), 0.0, static_cast<double>(laid.pass->size() - 1)));
+    const auto nearest =
+        static_cast<std::size_t>(std::clamp(std::round(point), 0.0, static_cast<double>(laid.pass->size() - 1)));
     const bool known = is_known(laid.signal, place);
     out.texture_m.push_back(height_at(laid.signal.height_m, place));
     out.known.push_back(known ? 1 : 0);
@@ -168,10 +168,9 @@ void set_noise(PassOnGrid& pass, const PassDifferences& differences, std::size_t
     mean_m2 += noise_m2 / static_cast<double>(differences.noise_m2.size());
   const double own = differences.noise_m2[k] / mean_m2;
   for (std::size_t i = 0; i < pass.noise_psd_m2_mm.size(); ++i) {
-    pass.noise_psd_m2_mm[i] =
-        std::max(pass.noise_psd_m2_mm[i],
-                 own * spectrum_at(differences.frequency_cycles_per_mm, differences.scatter_psd_m2_mm,
-                                   pass.frequency_cycles_per_mm[i]));
+    pass.noise_psd_m2_mm[i] = std::max(
+        pass.noise_psd_m2_mm[i], own * spectrum_at(differences.frequency_cycles_per_mm, differences.scatter_psd_m2_mm,
+                                                   pass.frequency_cycles_per_mm[i]));
   }
 }
 
@@ -183,9 +182,9 @@ void describe_places(const LaidPass& laid, double spacing_m, MergedPass& out) {
   double square = 0.0;
   for (std::size_t i = 0; i < points; ++i)
     square += std::pow(laid.places[i] - begin - slope * static_cast<double>(i), 2);
-  const double first = laid.is_reversed ? static_cast<double>(laid.pass->size() - laid.signal.first -
-                                                              laid.signal.size())
-                                        : static_cast<double>(laid.signal.first);
+  const double first = laid.is_reversed
+                           ? static_cast<double>(laid.pass->size() - laid.signal.first - laid.signal.size())
+                           : static_cast<double>(laid.signal.first);
   out.shift_m = spacing_m * (begin + first);
   out.stretch = slope - 1.0;
   out.warp_rms_m = spacing_m * std::sqrt(square / static_cast<double>(points));
@@ -207,14 +206,12 @@ std::vector<LaidPass> lay_passes(std::span<const ProfilePass> passes, const Chos
     if (at.reversed) one.signal = reversed(std::move(one.signal));
     one.is_reversed = at.reversed;
     one.places.resize(reference.size());
-    const double first = at.reversed
-                             ? static_cast<double>(passes[k].size() - one.signal.first - one.signal.size())
-                             : static_cast<double>(one.signal.first);
+    const double first = at.reversed ? static_cast<double>(passes[k].size() - one.signal.first - one.signal.size())
+                                     : static_cast<double>(one.signal.first);
     for (std::size_t i = 0; i < one.places.size(); ++i) {
-      one.places[i] = k == chosen.reference
-                          ? static_cast<double>(i)
-                          : at.shift_m / passes[k].spacing_m - first +
-                                static_cast<double>(i + reference.first) * (1.0 + at.stretch);
+      one.places[i] = k == chosen.reference ? static_cast<double>(i)
+                                            : at.shift_m / passes[k].spacing_m - first +
+                                                  static_cast<double>(i + reference.first) * (1.0 + at.stretch);
     }
     if (k == chosen.reference) continue;
     const WarpTarget target{reference.height_m, reference.known, reference.frequency, reference.noise};

@@ -55,8 +55,7 @@ TextureNoise noise_of_merge(const AveragedPasses& mean, std::span<const PassOnGr
   const PowerSpectrum measured = measure_spectrum(mean.texture_m, 1e-3 * spacing_mm);
   for (std::size_t i = 0; i < out.frequency_cycles_per_mm.size(); ++i) {
     const double f = out.frequency_cycles_per_mm[i];
-    const double surface =
-        std::max(0.0, spectrum_at(measured.frequency, measured.density, f) - out.added_psd_m2_mm[i]);
+    const double surface = std::max(0.0, spectrum_at(measured.frequency, measured.density, f) - out.added_psd_m2_mm[i]);
     const double phase = 2.0 * std::numbers::pi * f * 1e3 * out.place_sigma_m;
     out.misplaced_psd_m2_mm.push_back(2.0 * (1.0 - std::exp(-0.5 * phase * phase)) * surface);
   }

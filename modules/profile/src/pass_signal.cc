@@ -58,7 +58,9 @@ double height_at(std::span<const double> height_m, double place) {
   if (!(place >= 0.0) || !(place <= static_cast<double>(n - 1))) return 0.0;
   const auto i = std::min(static_cast<std::ptrdiff_t>(place), n - 2);
   const double u = place - static_cast<double>(i);
-  const auto at = [&](std::ptrdiff_t k) { return height_m[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(k, 0, n - 1))]; };
+  const auto at = [&](std::ptrdiff_t k) {
+    return height_m[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(k, 0, n - 1))];
+  };
   // Lagrange's.
   return -u * (u - 1.0) * (u - 2.0) / 6.0 * at(i - 1) + (u + 1.0) * (u - 1.0) * (u - 2.0) / 2.0 * at(i) -
          (u + 1.0) * u * (u - 2.0) / 2.0 * at(i + 1) + (u + 1.0) * u * (u - 1.0) / 6.0 * at(i + 2);

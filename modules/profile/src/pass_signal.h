@@ -14,12 +14,12 @@ inline constexpr std::size_t kPassSegment_points = 512;  // of the densities and
 // Heights without gaps from the first to the last that is known, by straight lines over the gaps.
 struct PassSignal {
   double spacing_mm = 0.025;
-  std::size_t first = 0;             // index in the pass
-  std::vector<double> height_m;      // gaps bridged
-  std::vector<char> known;           // one a height
-  std::vector<double> frequency;     // cycles/mm, of the densities
-  std::vector<double> density;       // one-sided, of surface and noise
-  std::vector<double> noise;         // of the noise alone, at least a share of the density
+  std::size_t first = 0;          // index in the pass
+  std::vector<double> height_m;   // gaps bridged
+  std::vector<char> known;        // one a height
+  std::vector<double> frequency;  // cycles/mm, of the densities
+  std::vector<double> density;    // one-sided, of surface and noise
+  std::vector<double> noise;      // of the noise alone, at least a share of the density
 
   std::size_t size() const { return height_m.size(); }
 };

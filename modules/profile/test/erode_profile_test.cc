@@ -90,7 +90,8 @@ TEST(ErodeProfile, IsNotDeterminedWithoutATip) {
 }
 
 TEST(BlindTip, IsTheTipWhereTheSurfaceIsSharperThanIt) {
-  const BlindTip tip = estimate_tip_radius(traced_ridges(1500, 0.3e-3, 1.2e-3, kTip_m), kStep_m, 0.0);
+  const BlindTip tip =
+      estimate_tip_radius(traced_ridges(1500, 0.3e-3, 1.2e-3, kTip_m), kStep_m, 0.1e-6);  // a²/8 (1/r − 1/R)
   ASSERT_TRUE(tip.determined);
   EXPECT_GE(tip.radius_at_most_m, kTip_m * (1.0 - 1e-3));
   EXPECT_LE(tip.radius_at_most_m, 1.1 * kTip_m);
@@ -108,7 +109,7 @@ TEST(BlindTip, IsAnUpperBoundUnderNoiseAndNotDeterminedOnASmoothSurface) {
 
   std::vector<double> smooth_m(1500);
   for (std::size_t i = 0; i < smooth_m.size(); ++i) smooth_m[i] = 5e-6 * std::sin(0.02 * static_cast<double>(i));
-  EXPECT_FALSE(estimate_tip_radius(smooth_m, kStep_m, 1e-8).determined);
+  EXPECT_FALSE(estimate_tip_radius(smooth_m, kStep_m, 1e-7).determined);
 }
 
 }  // namespace

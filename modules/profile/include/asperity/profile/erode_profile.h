@@ -30,11 +30,11 @@ struct TipConfig {
 // The surface under the tip's heights.
 struct ErodedProfile {
   bool determined = false;
-  std::string reason;             // why not
-  double radius_m = kNan;         // of the tip
-  std::vector<double> surface_m;  // one a point; nan in gaps
-  std::vector<char> touched;      // one a point: tip_morphology.h
-  double touched_share = kNan;    // of the points with a height
+  std::string reason;              // why not
+  double radius_m = kNan;          // of the tip
+  std::vector<double> surface_m;   // one a point; nan in gaps
+  std::vector<char> touched;       // one a point: tip_morphology.h
+  double touched_share = kNan;     // of the points with a height
   double correction_rms_m = kNan;  // of the tip's height less the surface's, less its mean
   double noise_rms_m = kNan;       // of what noise does to the surface
   double bias_m = kNan;            // mean of it: taken off
@@ -54,10 +54,10 @@ struct BlindTip {
 };
 
 // The largest ball that can have measured these heights: the largest radius at which the opening (open_by_tip) takes no
-// more than `tolerance_m` off any of them, by bisection up to `largest_m`; Villarrubia's blind estimate for balls. A tip
-// is no larger than this; it is as large only where the surface has a feature sharper than the tip. With heights whose
-// noise has the standard deviation σ the tolerance is to be above what noise alone does, about 2σ√(2 ln n). Not
-// determined where even the largest ball fits.
+// more than `tolerance_m` off any of them, by bisection up to `largest_m`; Villarrubia's blind estimate for balls. A
+// tip is no larger than this; it is as large only where the surface has a feature sharper than the tip. With heights
+// whose noise has the standard deviation σ the tolerance is to be above what noise alone does, about 2σ√(2 ln n), and
+// above what the spacing a of the heights does, a²/8R. Not determined where even the largest ball fits.
 BlindTip estimate_tip_radius(std::span<const double> height_m, double spacing_m, double tolerance_m,
                              double largest_m = 5e-3);
 
