@@ -108,6 +108,37 @@ Json stiffness_json(const StiffnessEstimate& s) {
           {"verdict", s.verdict}};
 }
 
+Json tip_json(const ErodedProfile& surface, const BlindTip& blind) {
+  return {{"determined", surface.determined},
+          {"reason", surface.reason},
+          {"radius_m", surface.radius_m},
+          {"touched_share", surface.touched_share},
+          {"correction_rms_m", surface.correction_rms_m},
+          {"noise_rms_m", surface.noise_rms_m},
+          {"bias_m", surface.bias_m},
+          {"blind_determined", blind.determined},
+          {"blind_radius_at_most_m", blind.radius_at_most_m}};
+}
+
+Json passes_json(const MergedProfile& merged) {
+  Json passes = Json::array();
+  for (const MergedPass& pass : merged.passes) {
+    passes.push_back({{"name", pass.name},
+                      {"used", pass.used},
+                      {"direction", pass.alignment.reversed ? "backward" : "forward"},
+                      {"shift_m", pass.shift_m},
+                      {"stretch", pass.stretch},
+                      {"warp_rms_m", pass.warp_rms_m},
+                      {"coherence", pass.coherence},
+                      {"weight", pass.weight},
+                      {"noise_rms_m", pass.noise_rms_m},
+                      {"stated_noise_rms_m", pass.stated_noise_rms_m},
+                      {"score", pass.alignment.score},
+                      {"threshold", pass.alignment.threshold}});
+  }
+  return passes;
+}
+
 Json accuracy_json(const Accuracy& accuracy) {
   Json out;
   out["position_rms_m"] = accuracy.position_rms_m;
@@ -183,6 +214,15 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
                       {"lift_m", result.fit->height_offset_m}};
   } else {
     out["texture"] = nullptr;
+  }
+  if (result.surface) out["tip"] = tip_json(*result.surface, result.blind_tip);
+  if (result.passes) {
+    out["passes"] = passes_json(*result.passes);
+    out["merge"] = {{"agrees", result.passes->agrees},
+                    {"used", result.passes->used},
+                    {"noise_ratio", result.passes->noise_ratio},
+                    {"noise_ratio_low", result.passes->noise_ratio_low},
+                    {"noise_ratio_high", result.passes->noise_ratio_high}};
   }
   if (result.accuracy) out["accuracy"] = accuracy_json(*result.accuracy);
   out["problems"] = problems_json(result.problems);

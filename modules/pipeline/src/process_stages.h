@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "asperity/base/progress.h"
 #include "asperity/pipeline/process_config.h"
@@ -22,6 +23,9 @@ struct MeasuredProfile {
   Coverage coverage;
   SpeedStatistics speed;
   TextureNoise noise;
+  std::optional<MergedProfile> passes;  // without its profile
+  std::optional<ErodedProfile> surface;
+  BlindTip blind_tip;
 };
 
 // The outcomes of all stages between a recording and its texture. Without a base path or a profile those that need it
@@ -67,6 +71,15 @@ Outcome<Accuracy> compare_with_truth(const Recording& recording, const ProcessCo
                                      const ProcessMethod& method, const ProcessStages& before);
 
 }  // namespace stage
+
+// The heights that are expected, given the noise in them (apply_wiener_filter.h); what is left of that is the noise of
+// the texture then. Without a density nothing changes.
+void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise);
+
+Coverage measure_coverage(const Profile& profile);
+
+// The texture of what was measured, `result.fit` among it.
+Texture join_texture(const std::string& object, const ProcessMethod& method, const ProcessResult& result);
 
 // The result of the stages' outcomes: their values, the texture made from them, and the verdict over all.
 ProcessResult join_stages(const Recording& recording, const ProcessConfig& config, const ProcessMethod& method,

@@ -54,6 +54,10 @@ constexpr VerdictCode kCodes[] = {
     {"contact_unknown", kLimited, "use a probe with a force sensor, or mark the contact as a segment"},
     {"no_roughness", kLimited, "scan a longer stroke"},
     {"no_texture", kLimited, "scan a longer stroke"},
+    // Strokes over one line (merge_results.h).
+    {"no_common_line", kInvalid, "scan along a guide, and merge strokes over one line alone"},
+    {"passes_left_out", kLimited, "check that they are of the same line, or leave them out"},
+    {"passes_disagree", kLimited, "scan along a guide, so that the strokes pass over the same line"},
     // A registration.
     {"pose_ambiguous", kInvalid,
      "scan a path with a bend or several strokes in different directions and register them together, or give a guess "

@@ -3,6 +3,7 @@
 #include "asperity/pipeline/process_methods.h"
 #include "asperity/pipeline/reference.h"
 #include "asperity/profile/compare_profiles.h"
+#include "asperity/profile/erode_profile.h"
 #include "asperity/profile/estimate_compliance.h"
 #include "asperity/profile/estimate_stiffness.h"
 #include "asperity/profile/find_base_path.h"
@@ -13,6 +14,19 @@
 
 namespace asperity {
 
+// The profile's settings and what is made of it: strokes over one line merged, the surface under the tip.
+struct ProcessProfileConfig : ProfileConfig {
+  bool merge_passes = false;
+  TipConfig tip;
+
+  template <class V>
+  void visit(V& v) {
+    ProfileConfig::visit(v);
+    v.field("merge_passes", merge_passes, "strokes back and forth over one line become one profile, where they agree");
+    v.group("tip", tip);
+  }
+};
+
 // The settings of all stages from a recording to a texture: those of the methods, and those that
 // serve any. `profile` is the method fused's.
 struct ProcessConfig : ProcessMethods {
@@ -21,7 +35,7 @@ struct ProcessConfig : ProcessMethods {
   ObjectSmootherConfig object;
   double min_coverage = 0.5;
   BasePathConfig base;
-  ProfileConfig profile;
+  ProcessProfileConfig profile;
   RoughnessConfig roughness;
   PeriodicityConfig periodicity;
   ComplianceConfig compliance;
