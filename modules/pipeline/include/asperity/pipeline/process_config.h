@@ -3,6 +3,7 @@
 #include "asperity/pipeline/process_methods.h"
 #include "asperity/profile/compare_profiles.h"
 #include "asperity/profile/estimate_compliance.h"
+#include "asperity/profile/estimate_friction.h"
 #include "asperity/profile/estimate_stiffness.h"
 #include "asperity/profile/find_base_path.h"
 #include "asperity/profile/find_periodicity.h"
@@ -23,6 +24,7 @@ struct ProcessConfig : ProcessMethods {
   PeriodicityConfig periodicity;
   ComplianceConfig compliance;
   StiffnessConfig stiffness;
+  FrictionConfig friction;
   FitFourier1dConfig texture;
   ComparisonConfig comparison;
 
@@ -37,6 +39,7 @@ struct ProcessConfig : ProcessMethods {
     v.group("periodicity", periodicity);
     v.group("compliance", compliance);
     v.group("stiffness", stiffness);
+    v.group("friction", friction);
     v.group("texture", texture);
     v.group("comparison", comparison);
   }
