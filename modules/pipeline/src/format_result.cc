@@ -91,7 +91,35 @@ Json force_json(const NormalForce& f) {
   return {{"source", kForceSourceNames.at(static_cast<std::size_t>(f.source))},
           {"axial_share", f.share},
           {"relative_sigma", f.relative_sigma},
-          {"friction", f.friction}};
+          {"tangential_share", f.tangential_share}};
+}
+
+Json friction_json(const FrictionEstimate& f) {
+  Json out = {{"determined", f.determined},
+              {"coefficient", f.coefficient},
+              {"coefficient_stderr", f.standard_error},
+              {"low", f.low},
+              {"high", f.high},
+              {"speed_mps", f.speed_mps},
+              {"force_N", f.force_N},
+              {"per_mps", f.per_mps},
+              {"per_mps_stderr", f.per_mps_stderr},
+              {"per_log_force", f.per_log_force},
+              {"per_log_force_stderr", f.per_log_force_stderr},
+              {"spread_rad", f.spread_rad},
+              {"sensor_delay_s", f.sensor_delay_s},
+              {"sticks", f.sticks},
+              {"stuck_share", f.stuck_share},
+              {"breakaway", f.breakaway},
+              {"breakaway_stderr", f.breakaway_stderr},
+              {"windows", f.windows.size()},
+              {"verdict", f.verdict}};
+  out["stribeck"] = nullptr;
+  if (f.stribeck) {
+    out["stribeck"] = {
+        {"at_rest", f.stribeck->at_rest}, {"sliding", f.stribeck->sliding}, {"speed_mps", f.stribeck->speed_mps}};
+  }
+  return out;
 }
 
 Json stiffness_json(const StiffnessEstimate& s) {
@@ -205,6 +233,7 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
   out["compliance"] = compliance_json(result.compliance);
   out["force"] = force_json(result.base.force);
   out["stiffness"] = stiffness_json(result.stiffness);
+  out["friction"] = friction_json(result.friction);
   if (result.fit) {
     out["texture"] = {{"file", "texture.json"},
                       {"length_mm", result.fit->texture.length_mm},

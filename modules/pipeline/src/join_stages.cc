@@ -38,6 +38,7 @@ Texture join_texture(const std::string& object, const ProcessMethod& method, con
   texture.height_offset_m = result.fit->height_offset_m;
   if (std::isfinite(result.compliance.k_c)) texture.compliance_kc = result.compliance.k_c;
   texture.stiffness_N_per_m = rendered_stiffness_N_per_m(result);
+  if (result.friction.determined) texture.friction = result.friction.coefficient;
   if (result.roughness) {
     const RoughnessResult& r = *result.roughness;
     for (const auto& [key, value] : {std::pair{"Ra_m", r.Ra_m},
@@ -85,6 +86,7 @@ void add_surface(const Recording& recording, const ProcessMethod& method, Proces
   result.spectrum = std::move(stages.spectrum.value).value_or(SurfaceSpectrum{});
   result.compliance = std::move(stages.compliance.value).value_or(Compliance{});
   result.stiffness = std::move(stages.stiffness.value).value_or(StiffnessEstimate{});
+  result.friction = std::move(stages.friction.value).value_or(FrictionEstimate{});
   result.fit = std::move(stages.fit.value);
   if (result.fit) result.texture = join_texture(recording.info.object, method, result);
 }

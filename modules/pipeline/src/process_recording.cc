@@ -37,6 +37,9 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
   s.compliance = stage::estimate_compliance(in_frame, config, method, s);
   s.stiffness = stage::estimate_stiffness(config, s);
 
+  // How it rubs (seed §7.2: "a tri-axial force sensor").
+  s.friction = stage::estimate_friction(config, s);
+
   // What a hand is to feel of it (seed §6.5, erratum 18).
   observer.update("texture", 0.95);
   s.fit = stage::fit_texture(config, s);

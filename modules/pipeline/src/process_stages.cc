@@ -195,6 +195,12 @@ Outcome<StiffnessEstimate> estimate_stiffness(const ProcessConfig& config, const
   return {asperity::estimate_stiffness(before.trajectory.value->motion, base.path, base.contact, config.stiffness), {}};
 }
 
+Outcome<FrictionEstimate> estimate_friction(const ProcessConfig& config, const ProcessStages& before) {
+  if (!before.profile.value) return {};
+  const BasePathResult& base = *before.base.value;
+  return {asperity::estimate_friction(before.trajectory.value->motion, base.path, base.contact, config.friction), {}};
+}
+
 Outcome<FourierFit> fit_texture(const ProcessConfig& config, const ProcessStages& before) {
   if (!before.profile.value) return {};
   const Profile& profile = before.profile.value->profile;

@@ -40,6 +40,7 @@ struct ProcessStages {
   Outcome<SurfaceSpectrum> spectrum;
   Outcome<Compliance> compliance;
   Outcome<StiffnessEstimate> stiffness;
+  Outcome<FrictionEstimate> friction;
   Outcome<FourierFit> fit;
   Outcome<Accuracy> accuracy;
 };
@@ -65,6 +66,7 @@ Outcome<SurfaceSpectrum> measure_spectrum(const ProcessStages& before);
 Outcome<Compliance> estimate_compliance(const Recording& recording, const ProcessConfig& config,
                                         const ProcessMethod& method, const ProcessStages& before);
 Outcome<StiffnessEstimate> estimate_stiffness(const ProcessConfig& config, const ProcessStages& before);
+Outcome<FrictionEstimate> estimate_friction(const ProcessConfig& config, const ProcessStages& before);
 Outcome<FourierFit> fit_texture(const ProcessConfig& config, const ProcessStages& before);
 // No value without a truth. One that does not fit says nothing against the measurement.
 Outcome<Accuracy> compare_with_truth(const Recording& recording, const ProcessConfig& config,

@@ -198,6 +198,8 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
   out.snr = result.noise.snr;
   out.expected_correlation = result.noise.expected_correlation;
   out.at_most_m = result.noise.at_most_m;
+  out.sticks = result.friction.sticks;
+  out.stuck_share = result.friction.stuck_share;
 }
 
 }  // namespace

@@ -31,7 +31,9 @@ constexpr double kTwoSided95 = 1.96;
 constexpr double kLeastContact_s = 0.1;
 constexpr double kInvisible_snr = 2.0;     // 1, and the expected noise is known to a factor of about 2 in power
 constexpr double kSeen_correlation = 0.9;  // of what the noise filter leaves with the surface
-constexpr double kNoisy_snr = 5.0;         // a correlation with the surface of about 0.9
+constexpr std::size_t kFewSticks = 5;
+constexpr double kStuck_share = 0.05;
+constexpr double kNoisy_snr = 5.0;                  // a correlation with the surface of about 0.9
 constexpr double kLeastCoverageWithoutForce = 0.9;  // near one surface, as a tip on it is
 constexpr double kLost_share = 0.2;                 // clipped, or dropped in reading
 constexpr double kRepeated_share = 0.5;
@@ -225,6 +227,13 @@ void judge_noise(const ScanEvidence& e, Verdicts& out) {
   }
 }
 
+void judge_sticking(const ScanEvidence& e, Verdicts& out) {
+  if (e.sticks < kFewSticks || !(e.stuck_share >= kStuck_share)) return;
+  out.push_back(make_verdict("stick_slip", fmt::format("the tip stuck and slipped {} times ({:.0f} % of the contact): "
+                                                       "what the jumps shake is in the heights",
+                                                       e.sticks, 100.0 * e.stuck_share)));
+}
+
 void judge_surface(const ScanEvidence& e, Verdicts& out) {
   if (!e.measured) return;
   if (e.reads_no_contact) {
@@ -266,6 +275,7 @@ void judge_surface(const ScanEvidence& e, Verdicts& out) {
   }
   judge_length(e, out);
   judge_noise(e, out);
+  judge_sticking(e, out);
   if (!e.no_roughness.empty()) out.push_back(make_verdict("no_roughness", "there is no roughness: " + e.no_roughness));
   if (!e.no_texture.empty()) out.push_back(make_verdict("no_texture", "there is no texture: " + e.no_texture));
 }

@@ -51,6 +51,7 @@ constexpr VerdictCode kCodes[] = {
     {"length_disagrees", kInvalid, "check the calibration of the tip and of the latency, or use the method `fused`"},
     {"error_unknown", kInvalid, "use the method `fused`"},
     {"noisy_texture", kLimited, "scan slower, or use a probe with less noise"},
+    {"stick_slip", kLimited, "press more lightly, or move faster"},
     {"contact_unknown", kLimited, "use a probe with a force sensor, or mark the contact as a segment"},
     {"no_roughness", kLimited, "scan a longer stroke"},
     {"no_texture", kLimited, "scan a longer stroke"},

@@ -5,6 +5,7 @@
 #include "asperity/profile/compare_profiles.h"
 #include "asperity/profile/erode_profile.h"
 #include "asperity/profile/estimate_compliance.h"
+#include "asperity/profile/estimate_friction.h"
 #include "asperity/profile/estimate_stiffness.h"
 #include "asperity/profile/find_base_path.h"
 #include "asperity/profile/find_periodicity.h"
@@ -40,6 +41,7 @@ struct ProcessConfig : ProcessMethods {
   PeriodicityConfig periodicity;
   ComplianceConfig compliance;
   StiffnessConfig stiffness;
+  FrictionConfig friction;
   FitFourier1dConfig texture;
   ComparisonConfig comparison;
 
@@ -57,6 +59,7 @@ struct ProcessConfig : ProcessMethods {
     v.group("periodicity", periodicity);
     v.group("compliance", compliance);
     v.group("stiffness", stiffness);
+    v.group("friction", friction);
     v.group("texture", texture);
     v.group("comparison", comparison);
   }

@@ -8,6 +8,7 @@
 #include "asperity/pipeline/process_config.h"
 #include "asperity/profile/erode_profile.h"
 #include "asperity/profile/estimate_compliance.h"
+#include "asperity/profile/estimate_friction.h"
 #include "asperity/profile/estimate_stiffness.h"
 #include "asperity/profile/find_base_path.h"
 #include "asperity/profile/find_periodicity.h"
@@ -53,6 +54,7 @@ struct ProcessResult {
   SurfaceSpectrum spectrum;                  // of the texture, its noise taken off
   Compliance compliance;
   StiffnessEstimate stiffness;
+  FrictionEstimate friction;
   std::optional<FourierFit> fit;
   std::optional<Texture> texture;
   std::optional<Accuracy> accuracy;  // where the recording knows the truth
