@@ -192,6 +192,25 @@ std::vector<const SceneTexture*> scans_of(const Scene& scene) {
   return out;
 }
 
+std::map<int, Json> stored_scans(const EarlierScene& earlier) {
+  std::map<int, Json> out;
+  if (earlier.registration.is_object()) {
+    for (const Json& scan : earlier.registration.at("scans")) out[scan.at("texture").get<int>()] = scan;
+  }
+  for (const SceneTexture* texture : scans_of(earlier.scene)) {
+    const auto [found, is_new] = out.try_emplace(texture->index);
+    Json& scan = found->second;
+    if (is_new) {
+      scan["name"] = texture->origin->name;
+      scan["texture"] = texture->index;
+      scan["order"] = texture->order;
+    }
+    if (texture->origin->T_mesh_world && !scan.contains("T_mesh_world"))
+      scan["T_mesh_world"] = pose_json(*texture->origin->T_mesh_world);
+  }
+  return out;
+}
+
 std::vector<ScanPlace> place_scans(const EarlierScene& earlier, const std::vector<std::string>& names) {
   const SceneObject& object = earlier.object();
   const int order = further_order(object, earlier.at);

@@ -152,26 +152,6 @@ std::vector<CoveredTriangle> claims_of(const HapticCoordinates& coordinates, con
   return out;
 }
 
-// What is stored of a scene's scans, by their textures' index.
-std::map<int, Json> earlier_scans(const EarlierScene& earlier) {
-  std::map<int, Json> out;
-  if (earlier.registration.is_object()) {
-    for (const Json& scan : earlier.registration.at("scans")) out[scan.at("texture").get<int>()] = scan;
-  }
-  for (const SceneTexture* texture : scans_of(earlier.scene)) {
-    const auto [found, is_new] = out.try_emplace(texture->index);
-    Json& scan = found->second;
-    if (is_new) {
-      scan["name"] = texture->origin->name;
-      scan["texture"] = texture->index;
-      scan["order"] = texture->order;
-    }
-    if (texture->origin->T_mesh_world && !scan.contains("T_mesh_world"))
-      scan["T_mesh_world"] = pose_json(*texture->origin->T_mesh_world);
-  }
-  return out;
-}
-
 std::vector<std::string> files_below(const fs::path& folder, const fs::path& root) {
   std::vector<std::string> out;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -232,7 +212,7 @@ Json registration_json(const ScansOnMesh& result, const std::vector<ScanPlace>& 
                        {"centre_mesh_m", vector_json(registration.centre_mesh_m)},
                        {"matrix", covariance_json(registration)}};
   out["registered"] = names_of(result);
-  std::map<int, Json> scans = earlier_scans(earlier);
+  std::map<int, Json> scans = stored_scans(earlier);
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     const HapticWarp* warp = i < result.coordinates.warps.size() ? &result.coordinates.warps[i] : nullptr;
     scans[places[i].texture] = scan_json(result.scans[i], places[i], files[i], warp);

@@ -276,9 +276,10 @@ void AlignPage::accept(const Request& request) {
 
 void AlignPage::write(const Request& request) {
   AlignChoice taken = choice();
-  const std::string name = request.text("name");
-  write_target(shared_.project, request);
-  answer_by_job(shared_.jobs, request, "Writing " + name, "align.write",
+  const bool into = request.has("into") && request.flag("into");
+  const std::optional<std::string> name = into ? std::nullopt : std::optional(request.text("name"));
+  if (name) write_target(shared_.project, request);
+  answer_by_job(shared_.jobs, request, "Writing " + name.value_or(taken.mesh), "align.write",
                 [taken = std::move(taken), name, project = shared_.project, hub = &shared_.hub](
                     const Observer& observer) { return write_alignment(taken, project, name, *hub, observer); });
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -49,6 +50,10 @@ std::vector<const SceneTexture*> scans_of(const Scene& scene);
 // What was measured of a scan, by registration.json; where that has no list, its folder or what a single scan has
 // beside the scene.
 std::set<std::string> files_of_scan(const EarlierScene& earlier, const std::string& name);
+
+// What is stored of a scene's scans, as in registration.json, by their textures' index; of those that it does not list
+// what the scene has.
+std::map<int, Json> stored_scans(const EarlierScene& earlier);
 
 // Where a scan goes in a scene.
 struct ScanPlace {
