@@ -57,9 +57,48 @@ Json covariance_json(const RegistrationResult& registration) {
   return out;
 }
 
-Json scan_json(const RegisteredScan& scan, std::size_t index) {
+// Of the pose that the scan shares with those of its placement, and of what was measured along it.
+Verdicts verdicts_of(const ScansOnMesh& result, const RegisteredScan& scan) {
+  Verdicts out = result.placements[scan.placement].verdicts;
+  out.insert(out.end(), scan.process.verdicts.begin(), scan.process.verdicts.end());
+  sort_verdicts(out);
+  return out;
+}
+
+Json pose_with_error_json(const RegistrationResult& registration) {
   Json out;
+  out["T_mesh_world"] = pose_json(registration.T_mesh_world);
+  out["rms_m"] = number_or_null(registration.rms_m);
+  out["covariance"] = {{"of", "turn about centre_mesh_m (rad), then shift (m)"},
+                       {"centre_mesh_m", vector_json(registration.centre_mesh_m)},
+                       {"matrix", covariance_json(registration)}};
+  return out;
+}
+
+Json placement_json(const ScansOnMesh& result, const Placement& placement) {
+  const RegistrationResult& registration = placement.registration;
+  Json out = pose_with_error_json(registration);
+  out["scans"] = Json::array();
+  for (const std::size_t i : placement.scans) out["scans"].push_back(result.scans[i].name);
+  out["mean_m"] = number_or_null(registration.mean_m);
+  out["converged"] = registration.converged;
+  out["points"] = registration.points;
+  out["outliers"] = registration.outliers;
+  out["undetermined"] = undetermined_json(registration);
+  out["runner_up"] = runner_up_json(registration);
+  out["verdict"] = verdict_word(placement.verdicts);
+  out["verdicts"] = verdicts_json(placement.verdicts);
+  return out;
+}
+
+Json scan_json(const ScansOnMesh& result, std::size_t index) {
+  const RegisteredScan& scan = result.scans[index - 1];
+  Json out = pose_with_error_json(result.registration_of(scan));
+  const Verdicts verdicts = verdicts_of(result, scan);
   out["name"] = scan.name;
+  out["placement"] = scan.placement + 1;
+  out["verdict"] = verdict_word(verdicts);
+  out["verdicts"] = verdicts_json(verdicts);
   out["texture"] = index;
   out["length_m"] = scan.path.s_m.empty() ? 0.0 : scan.path.s_m.back() - scan.path.s_m.front();
   out["points"] = scan.path.size();
@@ -145,12 +184,12 @@ Scene make_scene(const ScansOnMesh& result, const MeshFile& mesh, double unit_m)
   }
   Scene scene;
   scene.objects.push_back(std::move(object));
-  scene.T_mesh_world = result.registration.T_mesh_world;
+  scene.T_mesh_world = result.placements.front().registration.T_mesh_world;
   return scene;
 }
 
 std::string format_registration(const ScansOnMesh& result, std::span<const std::string> files) {
-  const RegistrationResult& registration = result.registration;
+  const RegistrationResult& registration = result.placements.front().registration;
   Json out;
   out["format"] = "asperity-registration";
   out["version"] = 1;
@@ -167,11 +206,11 @@ std::string format_registration(const ScansOnMesh& result, std::span<const std::
   out["trustworthy"] = result.trustworthy;
   out["verdict"] = result.verdict.empty() ? registration.verdict : result.verdict;
   out["verdicts"] = verdicts_json(result.verdicts);
-  out["covariance"] = {{"of", "turn about centre_mesh_m (rad), then shift (m)"},
-                       {"centre_mesh_m", vector_json(registration.centre_mesh_m)},
-                       {"matrix", covariance_json(registration)}};
+  out["covariance"] = pose_with_error_json(registration).at("covariance");
+  out["placements"] = Json::array();
+  for (const Placement& placement : result.placements) out["placements"].push_back(placement_json(result, placement));
   out["scans"] = Json::array();
-  for (std::size_t i = 0; i < result.scans.size(); ++i) out["scans"].push_back(scan_json(result.scans[i], i + 1));
+  for (std::size_t i = 0; i < result.scans.size(); ++i) out["scans"].push_back(scan_json(result, i + 1));
   out["coordinates"] = coordinates_json(result.coordinates);
   out["problems"] = problems_json(result.problems);
   out["files"] = files;

@@ -12,7 +12,8 @@
 namespace asperity {
 
 // registration.json: T_mesh_world as [x, y, z, qw, qx, qy, qz] (m), the residual, what ended the fit, what the
-// scans do not determine, the runner-up, the coordinates' warp, problems, settings and version; `files` are the
+// scans do not determine and the runner-up, all of the first placement; the same of each in `placements`; of each scan
+// its placement, pose, covariance and verdicts; the coordinates' warp, problems, settings and version; `files` are the
 // others in its folder. nan is null. The same result gives the same bytes.
 std::string format_registration(const ScansOnMesh& result, std::span<const std::string> files);
 
