@@ -83,6 +83,11 @@ class RegisterCommand : public Command {
                     "Texture to lay along a path instead of its own; one for all, or one a path")
         ->type_name("FILE");
     parser()
+        .add_option("--placement", placement_,
+                    "Which scans lay in the same placement of the object: same, each (its own), or a list with one "
+                    "number a path, such as 1,1,2")
+        ->type_name("LIST");
+    parser()
         .add_option("-o,--output", output_, "Folder of the results (required without --into)")
         ->type_name("OUT")
         ->excludes(into);
@@ -96,9 +101,9 @@ class RegisterCommand : public Command {
   std::vector<ConfigField> fields() override { return list_fields("", config_); }
 
   void apply_options() override {
-    if (method_.empty()) return;
     try {
-      set_field(fields(), "process.method", method_);
+      if (!method_.empty()) set_field(fields(), "process.method", method_);
+      if (is_placement_mode(placement_)) set_field(fields(), "placement.mode", placement_);
     } catch (const Error& error) {
       throw UsageError(std::string("--") + error.what());
     }
@@ -117,6 +122,7 @@ class RegisterCommand : public Command {
     const std::optional<double> unit_m =
         mesh_unit_.empty() ? std::nullopt : std::optional(unit_option_m("--mesh-unit", mesh_unit_));
     check_paths();
+    const std::vector<int> placements = placements_option();
 
     std::optional<OutputFolder> folder;
     if (into_.empty()) folder.emplace(output_, is_registration_folder);
@@ -127,6 +133,7 @@ class RegisterCommand : public Command {
     std::optional<SceneFolder> scene_folder;
     if (!into_.empty()) scene_folder.emplace(input.onto);
     reads(files_.front());
+    for (std::size_t i = 0; i < placements.size(); ++i) input.scans[i].placement = placements[i];
     const ScansOnMesh result = register_input(input, guess, config_, observer);
     reads("");
     observer.update("writing", 1.0);
@@ -229,6 +236,20 @@ class RegisterCommand : public Command {
     }
   }
 
+  static bool is_placement_mode(const std::string& text) {
+    return std::find(kPlacementModeNames.begin(), kPlacementModeNames.end(), text) != kPlacementModeNames.end();
+  }
+
+  // One number a path; none if they were not listed.
+  std::vector<int> placements_option() const {
+    if (placement_.empty() || is_placement_mode(placement_)) return {};
+    const std::vector<int> out = counts_option("--placement", placement_);
+    if (out.size() != files_.size()) {
+      throw UsageError(fmt::format("--placement: {} numbers for {} paths", out.size(), files_.size()));
+    }
+    return out;
+  }
+
   // Where to begin, however it was said.
   std::optional<Pose> first_pose(double unit_m) const {
     if (!guess_.empty()) return pose_option("--guess", guess_);
@@ -242,17 +263,20 @@ class RegisterCommand : public Command {
     }
   }
 
-  static std::string summary(const ScansOnMesh& result) {
-    const RegistrationResult& registration = result.registration;
-    const Eigen::Vector3d& p = registration.T_mesh_world.translation_m;
-    const Eigen::Quaterniond& q = registration.T_mesh_world.rotation;
+  static std::string pose_text(const Pose& pose) {
+    const Eigen::Vector3d& p = pose.translation_m;
+    const Eigen::Quaterniond& q = pose.rotation;
+    return fmt::format("{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}", p.x(), p.y(), p.z(), q.w(), q.x(), q.y(),
+                       q.z());
+  }
+
+  static std::string pose_lines(const RegistrationResult& registration) {
     std::string out = fmt::format(
         "registration  {} points, {} outliers, residual {:.3f} mm RMS, {} after {} iterations ({})\n"
-        "T_mesh_world  {:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n",
+        "T_mesh_world  {}\n",
         registration.points, registration.outliers, registration.rms_m * 1e3,
         registration.converged ? "converged" : "not converged", registration.iterations,
-        kStopRuleNames.at(static_cast<std::size_t>(registration.stopped_by)), p.x(), p.y(), p.z(), q.w(), q.x(), q.y(),
-        q.z());
+        kStopRuleNames.at(static_cast<std::size_t>(registration.stopped_by)), pose_text(registration.T_mesh_world));
     for (const UndeterminedMotion& motion : registration.undetermined) {
       out += "undetermined  " + motion.description + "\n";
     }
@@ -262,6 +286,18 @@ class RegisterCommand : public Command {
                          other.distance_m * 1e3, other.rotation_rad * 180.0 / std::numbers::pi);
     }
     if (!registration.verdict.empty()) out += "verdict       " + registration.verdict + "\n";
+    return out;
+  }
+
+  static std::string summary(const ScansOnMesh& result) {
+    std::string out;
+    for (std::size_t k = 0; k < result.placements.size(); ++k) {
+      if (result.placements.size() > 1) {
+        const std::size_t count = result.placements[k].scans.size();
+        out += fmt::format("placement {}   {} {}\n", k + 1, count, count == 1 ? "scan" : "scans");
+      }
+      out += pose_lines(result.placements[k].registration);
+    }
     for (std::size_t i = 0; i < result.scans.size(); ++i) {
       const RegisteredScan& scan = result.scans[i];
       const double length_mm = scan.path.s_m.empty() ? 0.0 : (scan.path.s_m.back() - scan.path.s_m.front()) * 1e3;
@@ -274,6 +310,10 @@ class RegisterCommand : public Command {
                            scan.path_texture->series.fit.rms_error_m * 1e6);
       }
       out += "\n";
+      if (result.placements.size() > 1) {
+        out += fmt::format("  placement   {}, T_mesh_world {}\n", scan.placement + 1,
+                           pose_text(result.registration_of(scan).T_mesh_world));
+      }
       if (scan.process.accuracy && scan.process.accuracy->profile) {
         const ProfileComparison& truth = *scan.process.accuracy->profile;
         out += !std::isfinite(truth.correlation)
@@ -289,7 +329,7 @@ class RegisterCommand : public Command {
 
   std::vector<std::string> files_, textures_;
   std::vector<std::string> remove_;
-  std::string mesh_unit_, guess_, align_, picks_, output_, method_, into_, date_;
+  std::string mesh_unit_, guess_, align_, picks_, output_, method_, placement_, into_, date_;
   bool under_ = false;
   RegisterConfig config_;
 };

@@ -102,7 +102,7 @@ void forget_run(EarlierScene& earlier, const std::string& name) {
     if (earlier.scene.T_mesh_world) registration["T_mesh_world"] = pose_json(*earlier.scene.T_mesh_world);
   }
   bool trustworthy = true;
-  for (const Json& scan : registration.at("scans")) trustworthy = trustworthy && scan.value("trustworthy", true);
+  for (const Json& scan : registration.at("scans")) trustworthy = trustworthy && scan.value("verdict", "") != "invalid";
   registration["trustworthy"] = trustworthy;
 }
 
@@ -204,9 +204,38 @@ std::map<int, Json> stored_scans(const EarlierScene& earlier) {
       scan["name"] = texture->origin->name;
       scan["texture"] = texture->index;
       scan["order"] = texture->order;
+      if (texture->origin->placement) scan["placement"] = *texture->origin->placement;
     }
     if (texture->origin->T_mesh_world && !scan.contains("T_mesh_world"))
       scan["T_mesh_world"] = pose_json(*texture->origin->T_mesh_world);
+  }
+  return out;
+}
+
+Json stored_placements(const EarlierScene& earlier, const std::vector<std::string>& gone) {
+  Json out = Json::array();
+  if (const Json* listed = earlier.registration.find("placements")) out = *listed;
+  std::size_t count = out.size();
+  for (const SceneTexture* scan : scans_of(earlier.scene))
+    count = std::max(count, static_cast<std::size_t>(scan->origin->placement.value_or(1)));
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    Json left = Json::array();
+    for (const Json& name : out[k].at("scans")) {
+      if (std::none_of(gone.begin(), gone.end(), [&](const std::string& other) { return name == Json(other); }))
+        left.push_back(name);
+    }
+    out[k]["scans"] = std::move(left);
+  }
+  // Not listed: of a scene whose registration.json is gone, or from before there were placements.
+  while (out.size() < count) {
+    Json placement;
+    placement["scans"] = Json::array();
+    for (const SceneTexture* scan : scans_of(earlier.scene)) {
+      if (scan->origin->placement.value_or(1) != static_cast<int>(out.size()) + 1) continue;
+      if (std::find(gone.begin(), gone.end(), scan->origin->name) != gone.end()) continue;
+      placement["scans"].push_back(scan->origin->name);
+    }
+    out.push_back(std::move(placement));
   }
   return out;
 }
@@ -271,6 +300,7 @@ std::set<std::string> take_out_scan(EarlierScene& earlier, const std::string& na
   if (entry != nullptr) {
     Json& entries = earlier.registration["scans"];
     entries.erase_at(static_cast<std::size_t>(entry - entries.begin()));
+    earlier.registration["placements"] = stored_placements(earlier, {name});
     forget_run(earlier, name);
   }
   return out;

@@ -70,10 +70,48 @@ Json warp_json(const HapticWarp& warp) {
           {"length_ratio", number_or_null(warp.length_ratio)}};
 }
 
-Json scan_json(const RegisteredScan& scan, const ScanPlace& place, const std::vector<std::string>& files,
-               const HapticWarp* warp) {
+// Of the pose that the scan shares with those of its placement, and of what was measured along it.
+Verdicts verdicts_of(const ScansOnMesh& result, const RegisteredScan& scan) {
+  Verdicts out = result.placements[scan.placement].verdicts;
+  out.insert(out.end(), scan.process.verdicts.begin(), scan.process.verdicts.end());
+  sort_verdicts(out);
+  return out;
+}
+
+Json pose_with_error_json(const RegistrationResult& registration) {
   Json out;
+  out["T_mesh_world"] = pose_json(registration.T_mesh_world);
+  out["rms_m"] = number_or_null(registration.rms_m);
+  out["covariance"] = {{"of", "turn about centre_mesh_m (rad), then shift (m)"},
+                       {"centre_mesh_m", vector_json(registration.centre_mesh_m)},
+                       {"matrix", covariance_json(registration)}};
+  return out;
+}
+
+Json placement_json(const ScansOnMesh& result, const Placement& placement) {
+  const RegistrationResult& registration = placement.registration;
+  Json out = pose_with_error_json(registration);
+  out["scans"] = Json::array();
+  for (const std::size_t i : placement.scans) out["scans"].push_back(result.scans[i].name);
+  out["mean_m"] = number_or_null(registration.mean_m);
+  out["converged"] = registration.converged;
+  out["points"] = registration.points;
+  out["outliers"] = registration.outliers;
+  out["undetermined"] = undetermined_json(registration);
+  out["runner_up"] = runner_up_json(registration);
+  out["verdict"] = verdict_word(placement.verdicts);
+  out["verdicts"] = verdicts_json(placement.verdicts);
+  return out;
+}
+
+Json scan_json(const ScansOnMesh& result, const RegisteredScan& scan, const ScanPlace& place,
+               const std::vector<std::string>& files, const HapticWarp* warp) {
+  Json out = pose_with_error_json(result.registration_of(scan));
+  const Verdicts verdicts = verdicts_of(result, scan);
   out["name"] = scan.name;
+  out["placement"] = place.placement;
+  out["verdict"] = verdict_word(verdicts);
+  out["verdicts"] = verdicts_json(verdicts);
   out["texture"] = place.texture;
   out["order"] = place.order;
   out["length_m"] = scan.path.s_m.empty() ? 0.0 : scan.path.s_m.back() - scan.path.s_m.front();
@@ -126,7 +164,8 @@ std::vector<SceneTexture> textures_of(const ScansOnMesh& result, const std::vect
     origin.kind = kScanOrigin;
     origin.name = printable(result.scans[i].name, 1000);
     if (i < scans.size()) origin.checksum = scans[i].checksum;
-    origin.T_mesh_world = result.registration.T_mesh_world;
+    origin.T_mesh_world = result.registration_of(result.scans[i]).T_mesh_world;
+    origin.placement = places[i].placement;
     origin.date = date;
     origin.version = kVersion;
     origin.settings = settings;
@@ -167,6 +206,15 @@ std::vector<std::string> names_of(const ScansOnMesh& result) {
   return out;
 }
 
+// The places with the placements of this call, numbered on from those that the scene has.
+std::vector<ScanPlace> places_of(const EarlierScene& earlier, const ScansOnMesh& result) {
+  std::vector<ScanPlace> out = place_scans(earlier, names_of(result));
+  const auto stored = static_cast<int>(stored_placements(earlier, {}).size());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i].placement = stored + static_cast<int>(result.scans[i].placement) + 1;
+  return out;
+}
+
 }  // namespace
 
 void add_scans(Scene& scene, const ScansOnMesh& result, const std::vector<ScanPlace>& places,
@@ -180,18 +228,19 @@ void add_scans(Scene& scene, const ScansOnMesh& result, const std::vector<ScanPl
   lay_triangles(object, claims_of(result.coordinates, places));
   if (measured) set_scan_materials(object, free_file_name(scene, "material.csv"));
   const std::vector<const SceneTexture*> all = scans_of(scene);
-  scene.T_mesh_world = all.empty() ? result.registration.T_mesh_world : all.front()->origin->T_mesh_world;
+  scene.T_mesh_world =
+      all.empty() ? result.placements.front().registration.T_mesh_world : all.front()->origin->T_mesh_world;
 }
 
 Scene make_scene(const ScansOnMesh& result, const MeshFile& mesh, double unit_m) {
   EarlierScene earlier = scene_of_mesh(mesh, unit_m);
-  add_scans(earlier.scene, result, place_scans(earlier, names_of(result)), {}, {});
+  add_scans(earlier.scene, result, places_of(earlier, result), {}, {});
   return std::move(earlier.scene);
 }
 
 Json registration_json(const ScansOnMesh& result, const std::vector<ScanPlace>& places,
                        const std::vector<std::vector<std::string>>& files, const EarlierScene& earlier) {
-  const RegistrationResult& registration = result.registration;
+  const RegistrationResult& registration = result.placements.front().registration;
   Json out;
   out["format"] = "asperity-registration";
   out["version"] = 1;
@@ -208,20 +257,18 @@ Json registration_json(const ScansOnMesh& result, const std::vector<ScanPlace>& 
   out["trustworthy"] = result.trustworthy;
   out["verdict"] = result.verdict.empty() ? registration.verdict : result.verdict;
   out["verdicts"] = verdicts_json(result.verdicts);
-  out["covariance"] = {{"of", "turn about centre_mesh_m (rad), then shift (m)"},
-                       {"centre_mesh_m", vector_json(registration.centre_mesh_m)},
-                       {"matrix", covariance_json(registration)}};
+  out["covariance"] = pose_with_error_json(registration).at("covariance");
+  out["placements"] = stored_placements(earlier, names_of(result));
+  for (const Placement& placement : result.placements) out["placements"].push_back(placement_json(result, placement));
   out["registered"] = names_of(result);
   std::map<int, Json> scans = stored_scans(earlier);
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     const HapticWarp* warp = i < result.coordinates.warps.size() ? &result.coordinates.warps[i] : nullptr;
-    scans[places[i].texture] = scan_json(result.scans[i], places[i], files[i], warp);
-    scans[places[i].texture]["T_mesh_world"] = pose_json(registration.T_mesh_world);
-    scans[places[i].texture]["trustworthy"] = result.trustworthy;
+    scans[places[i].texture] = scan_json(result, result.scans[i], places[i], files[i], warp);
   }
   out["scans"] = Json::array();
   for (auto& [index, scan] : scans) {
-    if (!scan.value("trustworthy", true)) out["trustworthy"] = false;
+    if (scan.value("verdict", "") == "invalid") out["trustworthy"] = false;
     out["scans"].push_back(std::move(scan));
   }
   out["coordinates"] = coordinates_json(result.coordinates);
@@ -250,7 +297,7 @@ bool is_registration_folder(const fs::path& folder) noexcept {
 
 void write_registration(const fs::path& folder, const ScansOnMesh& result, const std::vector<Scan>& scans,
                         EarlierScene earlier, bool listing) {
-  const std::vector<ScanPlace> places = place_scans(earlier, names_of(result));
+  const std::vector<ScanPlace> places = places_of(earlier, result);
   std::set<std::string> dropped;
   std::vector<std::vector<std::string>> files;
   for (std::size_t i = 0; i < result.scans.size(); ++i) {

@@ -27,7 +27,7 @@ TextureOrigin parse_texture_origin(const JsonItem& item) {
   in.read_text("name", out.name);
   in.read_text("checksum", out.checksum);
   if (const auto pose = in.optional("T_mesh_world")) out.T_mesh_world = parse_pose(*pose);
-  in.read_text("placement", out.placement);
+  if (const auto placement = in.optional("placement")) out.placement = static_cast<int>(placement->integer(1, kMostPicks));
   if (const auto strokes = in.optional("strokes_mesh_m")) {
     for (const JsonItem& stroke : strokes->elements(kMostPicks)) {
       std::vector<Eigen::Vector3d>& picks_m = out.strokes_mesh_m.emplace_back();
@@ -64,7 +64,7 @@ Json format_texture_origin(const TextureOrigin& origin) {
   add("name", origin.name);
   add("checksum", origin.checksum);
   if (origin.T_mesh_world) out["T_mesh_world"] = format_pose(*origin.T_mesh_world);
-  add("placement", origin.placement);
+  if (origin.placement) out["placement"] = *origin.placement;
   for (const auto& stroke : origin.strokes_mesh_m) {
     Json picks = Json::array();
     for (const Eigen::Vector3d& p_m : stroke) picks.push_back({p_m.x(), p_m.y(), p_m.z()});

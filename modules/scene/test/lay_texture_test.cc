@@ -202,7 +202,7 @@ TEST(LayTexture, OrderCoveredAndOriginReadBackAsTheyWereWritten) {
   TextureOrigin& origin = *object.textures[0].origin;
   origin.checksum = "md5:00112233445566778899aabbccddeeff";
   origin.T_mesh_world = Pose{Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {0.1, -0.2, 0.3}};
-  origin.placement = "upright";
+  origin.placement = 2;
   origin.date = "2026-11-24";
   origin.version = "0.1.0";
   origin.settings["points.smoothing_m"] = 0.003;

@@ -51,7 +51,9 @@ AlignRun run_align(std::uint64_t number, const std::shared_ptr<const AlignScene>
   AlignRun out;
   out.number = number;
   out.scene = scene;
-  out.result = locate_scans(scene->scans, scene->surface, guess, run_config(choice, false), observer).registration;
+  out.result = locate_scans(scene->scans, scene->surface, guess, run_config(choice, false), observer)
+                   .placements.front()
+                   .registration;
   out.how = {guess, false, out.result.T_mesh_world};
   out.certainty = certainty_of(out.result);
   return out;

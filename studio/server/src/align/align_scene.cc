@@ -37,7 +37,7 @@ std::map<std::string, std::string> point_settings(const AlignChoice& choice) {
 void show_stored(const EarlierScene& earlier, AlignScene& scene) {
   for (const auto& [index, scan] : stored_scans(earlier)) {
     Json one;
-    for (const char* key : {"name", "texture", "order", "T_mesh_world", "placement", "trustworthy", "verdict"}) {
+    for (const char* key : {"name", "texture", "order", "T_mesh_world", "placement", "verdict", "rms_m"}) {
       if (const Json* value = scan.find(key)) one[key] = *value;
     }
     scene.stored.push_back(std::move(one));

@@ -28,7 +28,7 @@ struct AlignScene {
   Eigen::Vector3d middle_world_m = Eigen::Vector3d::Zero();
   std::size_t registered_points = 0;  // before they were thinned
   // Of a scene to which the scans are added: what is stored of its scans ({"name","texture","order","T_mesh_world",
-  // "placement","trustworthy","verdict"}, what is known of it), its textured triangles and those with several textures.
+  // "placement","verdict","rms_m"}, what is known of it), its textured triangles and those with several textures.
   Json stored = Json::array();
   std::vector<std::uint32_t> laid_triangle;
   std::vector<std::int32_t> laid_texture;

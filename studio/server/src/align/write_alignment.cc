@@ -97,9 +97,9 @@ Json write_alignment(const AlignChoice& choice, const Project& project, const st
   out["name"] = name ? *name : std::filesystem::path(choice.mesh).parent_path().string();
   out["scene"] = scene;
   out["trustworthy"] = result.trustworthy;
-  out["verdict"] = result.verdict.empty() ? result.registration.verdict : result.verdict;
+  out["verdict"] = result.verdict.empty() ? result.placements.front().registration.verdict : result.verdict;
   out["verdicts"] = verdicts_json(result.verdicts);
-  out["T_mesh_world"] = json_of_pose(result.registration.T_mesh_world);
+  out["T_mesh_world"] = json_of_pose(result.placements.front().registration.T_mesh_world);
   out["command"] = command_of(choice, start, name);
   return out;
 }

@@ -55,11 +55,16 @@ std::set<std::string> files_of_scan(const EarlierScene& earlier, const std::stri
 // what the scene has.
 std::map<int, Json> stored_scans(const EarlierScene& earlier);
 
+// What is stored of a scene's placements, the first for number 1, without the scans called `gone`; a placement whose
+// scans are all gone stays, so that numbers do not change.
+Json stored_placements(const EarlierScene& earlier, const std::vector<std::string>& gone);
+
 // Where a scan goes in a scene.
 struct ScanPlace {
   int texture = 1;           // its index: that of the scan of the same name, or a free one
   int order = 0;
   std::string file;          // of the texture
+  int placement = 1;         // its number in the scene, from 1
   std::string folder;        // of what was measured; empty: beside the scene
   bool replaces = false;     // a scan of this name is there
 };

@@ -13,9 +13,10 @@
 namespace asperity {
 
 // registration.json: T_mesh_world as [x, y, z, qw, qx, qy, qz] (m), the residual, what ended the fit, what the
-// scans do not determine, the runner-up, the coordinates' warp, problems, settings and version; scans that `earlier` has
-// and this call has not are listed with what was stored of them. `files` has of each scan those that were measured.
-// nan is null. The same result gives the same bytes.
+// scans do not determine and the runner-up, all of the first placement; the same of each in `placements`; of each scan
+// its placement, pose, covariance and verdicts; the coordinates' warp, problems, settings and version. Scans that
+// `earlier` has and this call has not are listed with what was stored of them. `files` has of each scan those that were
+// measured. nan is null. The same result gives the same bytes.
 Json registration_json(const ScansOnMesh& result, const std::vector<ScanPlace>& places,
                        const std::vector<std::vector<std::string>>& files, const EarlierScene& earlier);
 
