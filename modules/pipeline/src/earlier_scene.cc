@@ -237,6 +237,7 @@ Json stored_placements(const EarlierScene& earlier, const std::vector<std::strin
     }
     out.push_back(std::move(placement));
   }
+  while (!out.empty() && out.back().at("scans").empty()) out.erase_at(out.size() - 1);
   return out;
 }
 

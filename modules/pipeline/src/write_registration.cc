@@ -209,7 +209,7 @@ std::vector<std::string> names_of(const ScansOnMesh& result) {
 // The places with the placements of this call, numbered on from those that the scene has.
 std::vector<ScanPlace> places_of(const EarlierScene& earlier, const ScansOnMesh& result) {
   std::vector<ScanPlace> out = place_scans(earlier, names_of(result));
-  const auto stored = static_cast<int>(stored_placements(earlier, {}).size());
+  const auto stored = static_cast<int>(stored_placements(earlier, names_of(result)).size());
   for (std::size_t i = 0; i < out.size(); ++i)
     out[i].placement = stored + static_cast<int>(result.scans[i].placement) + 1;
   return out;

@@ -8,6 +8,8 @@
 #include "align/list_paths.h"
 #include "align/path_residuals.h"
 #include "align/write_alignment.h"
+#include "asperity/base/error.h"
+#include "asperity/pipeline/earlier_scene.h"
 #include "asperity/registration/manual_alignment.h"
 #include "config_fields.h"
 #include "json_pose.h"
@@ -38,6 +40,16 @@ BlockWriter residual_block(const AlignScene& scene, const Pose& pose, std::vecto
   out.head()["most_m"] = residuals.most_m;
   out.add("distance_m", std::span<const float>(residuals.distance_m));
   return out;
+}
+
+// The checksum of a scene as it is now; "" if it cannot be read.
+std::string scene_version(const Project& project, const std::string& name) {
+  try {
+    const std::filesystem::path file = project.existing(name);
+    return scene_checksum(file.parent_path(), file.filename().string());
+  } catch (const Error&) {
+    return "";
+  }
 }
 
 }  // namespace
@@ -89,7 +101,9 @@ std::shared_ptr<const AlignScene> AlignPage::scene() const {
 
 void AlignPage::open(const Request& request) {
   const AlignChoice wanted = choice();
-  if (scene_ && is_same_scene(scene_->of, wanted)) {
+  // A scene to which scans were added is another one.
+  const std::string version = is_of_scene(wanted) ? scene_version(shared_.project, wanted.mesh) : "";
+  if (scene_ && scene_->version == version && is_same_scene(scene_->of, wanted)) {
     request.answer(BlockWriter(*block_));
     return follow_document();
   }

@@ -96,6 +96,7 @@ std::shared_ptr<const AlignScene> load_align_scene(const AlignChoice& choice, co
                                                      {},
                                                      {},
                                                      0,
+                                                     input.onto.checksum,
                                                      Json::array(),
                                                      {},
                                                      {},

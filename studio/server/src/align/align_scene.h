@@ -29,6 +29,7 @@ struct AlignScene {
   std::size_t registered_points = 0;  // before they were thinned
   // Of a scene to which the scans are added: what is stored of its scans ({"name","texture","order","T_mesh_world",
   // "placement","verdict","rms_m"}, what is known of it), its textured triangles and those with several textures.
+  std::string version{};  // its checksum
   Json stored = Json::array();
   std::vector<std::uint32_t> laid_triangle;
   std::vector<std::int32_t> laid_texture;

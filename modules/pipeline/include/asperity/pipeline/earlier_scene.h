@@ -56,7 +56,7 @@ std::set<std::string> files_of_scan(const EarlierScene& earlier, const std::stri
 std::map<int, Json> stored_scans(const EarlierScene& earlier);
 
 // What is stored of a scene's placements, the first for number 1, without the scans called `gone`; a placement whose
-// scans are all gone stays, so that numbers do not change.
+// scans are all gone stays if others follow, so that their numbers do not change.
 Json stored_placements(const EarlierScene& earlier, const std::vector<std::string>& gone);
 
 // Where a scan goes in a scene.
