@@ -32,8 +32,9 @@ std::array<double, 3> three(const Request& request, std::string_view name) {
   return {v[0], v[1], v[2]};
 }
 
-BlockWriter residual_block(const AlignScene& scene, const Pose& pose, std::vector<ClosestPoint>& closest) {
-  const PathResiduals residuals = path_residuals(scene.p_world_m, scene.surface, pose, closest);
+BlockWriter residual_block(const AlignScene& scene, const std::vector<Eigen::Vector3d>& p_world_m, const Pose& pose,
+                           std::vector<ClosestPoint>& closest) {
+  const PathResiduals residuals = path_residuals(p_world_m, scene.surface, pose, closest);
   BlockWriter out("align.residuals");
   out.head()["mean_m"] = residuals.mean_m;
   out.head()["rms_m"] = residuals.rms_m;
@@ -174,12 +175,25 @@ void AlignPage::pick(const Request& request) {
   request.answer(out);
 }
 
-// On a lane of its own, for the path is moved while a registration runs.
+// On a lane of its own, for the path is moved while a registration runs. Scans of other placements have poses of their
+// own: their points are measured where those put them.
 void AlignPage::measure(const Request& request) {
-  answer_in_lane(shared_.jobs, "align residuals", request, "", "",
-                 [scene = scene(), closest = closest_, pose = pose_argument(request, "pose")](const Observer&) {
-                   return residual_block(*scene, pose, *closest);
-                 });
+  const std::shared_ptr<const AlignScene> scene = this->scene();
+  std::vector<Pose> poses;
+  if (const Json* given = request.args().find("poses")) {
+    if (!given->is_array() || given->size() != scene->of.paths.size())
+      throw Error("align.residuals: poses: not one for each path");
+    for (const Json& pose : *given) poses.push_back(pose_of_json(pose, "align.residuals: poses"));
+  }
+  answer_in_lane(
+      shared_.jobs, "align residuals", request, "", "",
+      [scene, closest = closest_, pose = pose_argument(request, "pose"), poses = std::move(poses)](const Observer&) {
+        if (poses.empty()) return residual_block(*scene, scene->p_world_m, pose, *closest);
+        std::vector<Eigen::Vector3d> p_world_m = scene->p_world_m;
+        const Pose back = pose.inverse();
+        for (std::size_t i = 0; i < p_world_m.size(); ++i) p_world_m[i] = back * (poses[scene->path[i]] * p_world_m[i]);
+        return residual_block(*scene, p_world_m, pose, *closest);
+      });
 }
 
 void AlignPage::run(const Request& request) {
