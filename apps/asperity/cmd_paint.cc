@@ -13,8 +13,8 @@
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
-#include "asperity/scene/paint.h"
 #include "asperity/pipeline/earlier_scene.h"
+#include "asperity/scene/paint.h"
 #include "asperity/session/mesh_unit.h"
 #include "asperity/session/our_folder.h"
 #include "asperity/session/paint_scene.h"
@@ -40,8 +40,7 @@ class PaintCommand : public Command {
  public:
   explicit PaintCommand(Parser& root)
       : Command(root, "paint", "Lay a texture on a mesh along a path through picked points") {
-    Option* mesh =
-        parser().add_option("MESH", mesh_, "A mesh (.obj .ply .stl .gltf .glb) or a scene.json to paint on");
+    Option* mesh = parser().add_option("MESH", mesh_, "A mesh (.obj .ply .stl .gltf .glb) or a scene.json to paint on");
     Option* into = parser()
                        .add_option("--into", into_,
                                    "Scene of an earlier registration or painting to paint into; all else in it stays")

@@ -187,8 +187,7 @@ class RegisterCommand : public Command {
 
   RegisterInput read(const std::string& mesh_path, std::optional<double> unit_m, const Observer& observer) const {
     try {
-      RegisterInput input =
-          read_register_input(files_, into_.empty() ? mesh_path : into_, unit_m, textures_, observer);
+      RegisterInput input = read_register_input(files_, into_.empty() ? mesh_path : into_, unit_m, textures_, observer);
       if (!into_.empty() && mesh_path != into_) {
         const MeshFile other = read_register_mesh(mesh_path, observer);
         if (!is_same_mesh(other, input.mesh()))

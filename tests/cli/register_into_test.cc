@@ -59,9 +59,9 @@ class RegisterInto : public testing::Test {
   std::string own(const std::string& name) const { return (dir_ / name).string(); }
 
   static void simulate(const std::string& name, const std::string& surface, const std::string& points, int seed) {
-    const Outcome outcome = run({"simulate", "--surface", surface, "--probe", "open", "--speed", "40mm/s", "--seed",
-                                 std::to_string(seed), "--mesh", at("pebble.obj"), "--mesh-unit", "mm",
-                                 "--through=" + points, "-o", at(name)});
+    const Outcome outcome =
+        run({"simulate", "--surface", surface, "--probe", "open", "--speed", "40mm/s", "--seed", std::to_string(seed),
+             "--mesh", at("pebble.obj"), "--mesh-unit", "mm", "--through=" + points, "-o", at(name)});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
   }
   // Registers from the true pose of the recording `guess`; 3 (invalid) is an outcome too.
@@ -277,7 +277,8 @@ TEST_F(RegisterInto, WhatDoesNotFitIsRefusedAndNothingIsChanged) {
 TEST_F(RegisterInto, InterruptedTheOldSceneIsWhole) {
   const std::string scene = copy();
   const std::vector<std::pair<std::string, std::string>> before = contents(own("scene"));
-  const Outcome stopped = run_and_signal({"register", at("b"), "--into", scene}, SIGTERM, std::chrono::milliseconds(50));
+  const Outcome stopped =
+      run_and_signal({"register", at("b"), "--into", scene}, SIGTERM, std::chrono::milliseconds(50));
   if (stopped.code != 0 && stopped.code != 3) {
     EXPECT_EQ(contents(own("scene")), before);
   } else {

@@ -5,10 +5,10 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
-#include "asperity/scene/md5.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/json/parse_json.h"
+#include "asperity/scene/md5.h"
 #include "asperity/scene/read_scene.h"
 #include "asperity/scene/scan_materials.h"
 #include "asperity/scene/write_scene.h"
@@ -95,9 +95,9 @@ void forget_run(EarlierScene& earlier, const std::string& name) {
   }
   registration["registered"] = left;
   if (left.empty()) {
-    for (const char* key : {"T_mesh_world", "rms_m", "mean_m", "converged", "stopped_by", "iterations", "points",
-                            "outliers", "undetermined", "runner_up", "covariance", "coordinates", "problems", "verdict",
-                            "verdicts"})
+    for (const char* key :
+         {"T_mesh_world", "rms_m", "mean_m", "converged", "stopped_by", "iterations", "points", "outliers",
+          "undetermined", "runner_up", "covariance", "coordinates", "problems", "verdict", "verdicts"})
       registration.erase(key);
     if (earlier.scene.T_mesh_world) registration["T_mesh_world"] = pose_json(*earlier.scene.T_mesh_world);
   }
@@ -245,6 +245,7 @@ std::vector<ScanPlace> place_scans(const EarlierScene& earlier, const std::vecto
   const SceneObject& object = earlier.object();
   const int order = further_order(object, earlier.at);
   const bool alone = names.size() == 1 && earlier.folder.empty();
+  const std::map<int, Json> stored = stored_scans(earlier);
   std::vector<ScanPlace> out;
   std::set<int> indices;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -270,6 +271,7 @@ std::vector<ScanPlace> place_scans(const EarlierScene& earlier, const std::vecto
       place.replaces = true;
     } else if (!place.replaces) {
       place.texture = std::max(free_texture_index(object), indices.empty() ? 1 : *indices.rbegin() + 1);
+      if (!stored.empty()) place.texture = std::max(place.texture, stored.rbegin()->first + 1);
       place.order = order;
     }
     if (place.file.empty())
@@ -282,8 +284,8 @@ std::vector<ScanPlace> place_scans(const EarlierScene& earlier, const std::vecto
 
 std::set<std::string> take_out_scan(EarlierScene& earlier, const std::string& name) {
   const std::vector<const SceneTexture*> scans = scans_of(earlier.scene);
-  const auto found = std::find_if(scans.begin(), scans.end(),
-                                  [&](const SceneTexture* scan) { return scan->origin->name == name; });
+  const auto found =
+      std::find_if(scans.begin(), scans.end(), [&](const SceneTexture* scan) { return scan->origin->name == name; });
   const Json* entry = find_entry(earlier.registration, name);
   if (found == scans.end() && entry == nullptr) {
     std::string all;

@@ -162,7 +162,8 @@ std::vector<SceneTexture> textures_of(const ScansOnMesh& result, const std::vect
     if (!result.scans[i].texture) continue;
     TextureOrigin origin;
     origin.kind = kScanOrigin;
-    origin.name = printable(result.scans[i].name, 1000);
+    const std::string& name = result.scans[i].name;
+    origin.name = is_utf8(name) ? name : printable(name, 1000);
     if (i < scans.size()) origin.checksum = scans[i].checksum;
     origin.T_mesh_world = result.registration_of(result.scans[i]).T_mesh_world;
     origin.placement = places[i].placement;

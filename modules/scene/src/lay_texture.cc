@@ -162,7 +162,8 @@ int free_texture_index(const SceneObject& object) {
 
 std::string free_file_name(const Scene& scene, const std::string& wanted, int number, int except) {
   const auto taken = [&](const std::string& name) {
-    if (name == "scene.json" || name == "paint.json" || name == "files.json" || name == "registration.json") return true;
+    if (name == "scene.json" || name == "paint.json" || name == "files.json" || name == "registration.json")
+      return true;
     for (const SceneObject& object : scene.objects) {
       if (name == object.mesh_file || name == object.material_file || name == object.covered_file) return true;
       for (const SceneTexture& texture : object.textures) {

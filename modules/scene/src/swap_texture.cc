@@ -16,7 +16,8 @@ TextureOrigin swapped_origin(const Texture& texture, const std::optional<Texture
   out.kind = kSwappedOrigin;
   out.name = texture.name;
   out.version = kVersion;
-  if (before) out.rest["replaced"] = before->rest.contains("replaced") ? before->rest.at("replaced") : Json(before->name);
+  if (before)
+    out.rest["replaced"] = before->rest.contains("replaced") ? before->rest.at("replaced") : Json(before->name);
   return out;
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMostPicks = 100'000;
 constexpr double kFarthestPick_m = 1e6;
-constexpr std::array<std::string_view, 9> kOriginKeys{"kind", "name", "checksum", "T_mesh_world", "placement",
+constexpr std::array<std::string_view, 9> kOriginKeys{"kind",           "name", "checksum", "T_mesh_world", "placement",
                                                       "strokes_mesh_m", "date", "asperity", "settings"};
 
 }  // namespace
@@ -27,7 +27,8 @@ TextureOrigin parse_texture_origin(const JsonItem& item) {
   in.read_text("name", out.name);
   in.read_text("checksum", out.checksum);
   if (const auto pose = in.optional("T_mesh_world")) out.T_mesh_world = parse_pose(*pose);
-  if (const auto placement = in.optional("placement")) out.placement = static_cast<int>(placement->integer(1, kMostPicks));
+  if (const auto placement = in.optional("placement"))
+    out.placement = static_cast<int>(placement->integer(1, kMostPicks));
   if (const auto strokes = in.optional("strokes_mesh_m")) {
     for (const JsonItem& stroke : strokes->elements(kMostPicks)) {
       std::vector<Eigen::Vector3d>& picks_m = out.strokes_mesh_m.emplace_back();

@@ -92,7 +92,8 @@ TEST(LayTexture, TheGreaterOrderIsRenderedWhateverIsLaidFirst) {
     EXPECT_TRUE(take_out_texture(object, gone));
     for (std::size_t t = 0; t < lists.size(); ++t) {
       std::erase_if(lists[t], [gone](const auto& one) { return one.second == gone; });
-      std::stable_sort(lists[t].begin(), lists[t].end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+      std::stable_sort(lists[t].begin(), lists[t].end(),
+                       [](const auto& a, const auto& b) { return a.first < b.first; });
       EXPECT_EQ(object.mesh.haptic[t].texture, lists[t].empty() ? -1 : lists[t].back().second) << run << ": " << t;
     }
   }

@@ -9,10 +9,10 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
-#include "asperity/scene/md5.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/read_mesh.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/scene/md5.h"
 #include "asperity/scene/read_scene.h"
 #include "asperity/session/mesh_unit.h"
 #include "asperity/texture/texture_file.h"
@@ -93,7 +93,8 @@ bool is_same_mesh(const MeshFile& a, const MeshFile& b) {
 }
 
 RegisterInput read_register_input(const std::vector<std::string>& scans, const std::string& mesh,
-                                  std::optional<double> unit_m, const std::vector<std::string>& textures, const Observer& observer) {
+                                  std::optional<double> unit_m, const std::vector<std::string>& textures,
+                                  const Observer& observer) {
   check_register_input(scans, textures);
   RegisterInput out;
   if (fs::path(mesh).extension() == ".json") {
@@ -114,6 +115,9 @@ RegisterInput read_register_input(const std::vector<std::string>& scans, const s
 
 ScansOnMesh register_input(const RegisterInput& input, const std::optional<Pose>& guess, const RegisterConfig& config,
                            const RegistrationObserver& observer) {
+  std::vector<std::string> names;
+  for (const Scan& scan : input.scans) names.push_back(scan.name);
+  place_scans(input.onto, names);  // throws before the long part
   ScansOnMesh result = register_scans(input.scans, to_metres(input.mesh(), input.unit_m()), guess, config, observer);
   result.problems.insert(result.problems.begin(), input.mesh().problems.begin(), input.mesh().problems.end());
   if (const double size_m = size_of_mesh_m(input.mesh(), input.unit_m()); size_m > kLarge_m) {

@@ -16,7 +16,8 @@ namespace {
 std::set<std::string> replaceable_files(const EarlierScene& earlier) {
   const std::string name = printable(earlier.folder.string(), 200);
   if (!earlier.files.contains(earlier.file)) {
-    throw Error(name + ": was not written by asperity and cannot be replaced; write the scene into another folder (-o)");
+    throw Error(name +
+                ": was not written by asperity and cannot be replaced; write the scene into another folder (-o)");
   }
   std::error_code error;
   if (fs::equivalent(earlier.folder, fs::current_path(error), error))
@@ -45,8 +46,8 @@ std::vector<fs::path> keep_strangers(const fs::path& folder, const std::set<std:
       if (error && entry.is_regular_file()) fs::copy_file(entry.path(), place, error);
     }
     if (error) {
-      throw Error(printable(entry.path().string(), 200) + ": is not a file of asperity and cannot be kept: " +
-                  error.message() + "; nothing was replaced");
+      throw Error(printable(entry.path().string(), 200) +
+                  ": is not a file of asperity and cannot be kept: " + error.message() + "; nothing was replaced");
     }
     kept.push_back(name);
   }

@@ -51,14 +51,14 @@ AlignRun run_align(std::uint64_t number, const std::shared_ptr<const AlignScene>
   AlignRun out;
   out.number = number;
   out.scene = scene;
-  const LocatedScans located =
-      locate_scans(scene->scans, scene->surface, guess, run_config(choice, false), observer);
+  const LocatedScans located = locate_scans(scene->scans, scene->surface, guess, run_config(choice, false), observer);
   out.result = located.placements.front().registration;
   for (std::size_t i = 0; i < located.placement_of.size(); ++i) {
     const std::size_t k = located.placement_of[i];
     const RegistrationResult& registration = located.placements[k].registration;
     out.scans.push_back({i < choice.paths.size() ? choice.paths[i] : "", k + 1, registration.T_mesh_world,
-                         registration.rms_m, verdict_word(judge_registration(pose_evidence(registration)))});
+                         registration.rms_m,
+                         std::string(verdict_word(judge_registration(pose_evidence(registration))))});
   }
   out.how = {guess, false, out.result.T_mesh_world};
   out.certainty = certainty_of(out.result);

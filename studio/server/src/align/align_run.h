@@ -17,7 +17,7 @@ struct AlignedScan {
   std::string name;
   std::size_t placement = 1;  // from 1
   Pose T_mesh_world;
-  double rms_m = 0.0;  // of its placement
+  double rms_m = 0.0;   // of its placement
   std::string verdict;  // "valid", "limited" or "invalid", of its pose
 };
 
@@ -26,7 +26,7 @@ struct AlignRun {
   std::uint64_t number = 0;
   std::shared_ptr<const AlignScene> scene;
   AlignChoice::Registered how;  // its T_mesh_world is where it ended
-  RegistrationResult result;  // of the first placement
+  RegistrationResult result;    // of the first placement
   std::vector<AlignedScan> scans;
   std::string certainty;  // how well the pose is known, in words
 };

@@ -86,8 +86,8 @@ std::shared_ptr<const AlignScene> load_align_scene(const AlignChoice& choice, co
   if (choice.mesh.empty()) throw Advice("no mesh is chosen", "Choose a mesh file of the project's folder.");
   if (choice.paths.empty()) throw Advice("no scan is chosen", "Choose a recording, or a CSV file of a path.");
   observer.update("reading", 0.0);
-  const RegisterInput input = read_register_input(files_of(choice.paths, project),
-                                                  project.existing(choice.mesh).string(), unit_to_read_m(choice), {}, observer);
+  const RegisterInput input = read_register_input(
+      files_of(choice.paths, project), project.existing(choice.mesh).string(), unit_to_read_m(choice), {}, observer);
   observer.update("mesh", 0.2);
   auto out = std::make_shared<AlignScene>(AlignScene{choice,
                                                      MeshSurface(to_metres(input.mesh(), input.unit_m())),

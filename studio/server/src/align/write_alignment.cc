@@ -76,8 +76,8 @@ Json write_alignment(const AlignChoice& choice, const Project& project, const st
   std::vector<std::string> scans, textures;
   for (const std::string& path : choice.paths) scans.push_back(project.existing(path).string());
   for (const std::string& texture : choice.textures) textures.push_back(project.existing(texture).string());
-  RegisterInput input = read_register_input(scans, project.existing(choice.mesh).string(), unit_to_read_m(choice),
-                                            textures, observer);
+  RegisterInput input =
+      read_register_input(scans, project.existing(choice.mesh).string(), unit_to_read_m(choice), textures, observer);
   std::optional<SceneFolder> scene_folder;
   if (!name) scene_folder.emplace(input.onto);
   const ScansOnMesh result = register_input(input, start.guess, run_config(choice, start.near), observer);

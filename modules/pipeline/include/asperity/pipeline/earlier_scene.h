@@ -37,7 +37,8 @@ EarlierScene scene_of_mesh(MeshFile mesh, double unit_m);
 // cannot be read.
 EarlierScene read_earlier_scene(const std::filesystem::path& scene, const Observer& observer = {});
 
-// The checksum of a scene.json and the registration.json beside it, as they are now. Throws Error if one cannot be read.
+// The checksum of a scene.json and the registration.json beside it, as they are now. Throws Error if one cannot be
+// read.
 std::string scene_checksum(const std::filesystem::path& folder, const std::string& scene);
 
 // All files of a folder that asperity has written into it, by what its registration.json and files.json list, with
@@ -61,12 +62,12 @@ Json stored_placements(const EarlierScene& earlier, const std::vector<std::strin
 
 // Where a scan goes in a scene.
 struct ScanPlace {
-  int texture = 1;           // its index: that of the scan of the same name, or a free one
+  int texture = 1;  // its index: that of the scan of the same name, or a free one
   int order = 0;
-  std::string file;          // of the texture
-  int placement = 1;         // its number in the scene, from 1
-  std::string folder;        // of what was measured; empty: beside the scene
-  bool replaces = false;     // a scan of this name is there
+  std::string file;       // of the texture
+  int placement = 1;      // its number in the scene, from 1
+  std::string folder;     // of what was measured; empty: beside the scene
+  bool replaces = false;  // a scan of this name is there
 };
 
 // The places of scans in a scene. Throws Error if two have one name, or a folder cannot be called so.

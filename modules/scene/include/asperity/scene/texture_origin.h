@@ -19,15 +19,15 @@ inline constexpr std::string_view kScanOrigin = "scan", kPaintedOrigin = "painte
 // Where a texture of a scene came from: textures[].source of scene.json. What is empty is not known.
 struct TextureOrigin {
   std::string kind;
-  std::string name;      // of the recording or path, of the painted texture
-  std::string checksum;  // of the recording: "md5:" and 32 digits. No path: scenes are passed on
-  std::optional<Pose> T_mesh_world;           // of a scan: tracker's world to mesh
-  std::optional<int> placement;               // its number in the scene, from 1: scans of one share their pose
+  std::string name;                  // of the recording or path, of the painted texture
+  std::string checksum;              // of the recording: "md5:" and 32 digits. No path: scenes are passed on
+  std::optional<Pose> T_mesh_world;  // of a scan: tracker's world to mesh
+  std::optional<int> placement;      // its number in the scene, from 1: scans of one share their pose
   std::vector<std::vector<Eigen::Vector3d>> strokes_mesh_m;  // of a painted texture: the points of each stroke
-  std::string date;                           // only if it was given
-  std::string version;                        // of the program
-  Json settings = Json::object();             // that differ from the usual ones, by their paths
-  Json rest = Json::object();                 // what others have put there, kept as it is
+  std::string date;                                          // only if it was given
+  std::string version;                                       // of the program
+  Json settings = Json::object();                            // that differ from the usual ones, by their paths
+  Json rest = Json::object();                                // what others have put there, kept as it is
 
   bool is_scan() const { return kind == kScanOrigin; }
 };

@@ -29,8 +29,8 @@ void check_register_input(const std::vector<std::string>& scans, const std::vect
 // is that of the scene, or of a mesh 1 m. Throws Error as check_register_input does, and for what cannot be read;
 // WrongUnit (mesh_unit.h) for a scene of another unit.
 RegisterInput read_register_input(const std::vector<std::string>& scans, const std::string& mesh,
-                                  std::optional<double> unit_m,
-                                  const std::vector<std::string>& textures, const Observer& observer = {});
+                                  std::optional<double> unit_m, const std::vector<std::string>& textures,
+                                  const Observer& observer = {});
 
 // The MD5 sum of a recording's files, or of a path's: "md5:" and 32 digits. The same wherever they lie. Throws Error if
 // one cannot be read.
