@@ -52,12 +52,11 @@ const Json* find_entry(const Json& registration, const std::string& name) {
   return nullptr;
 }
 
-// Scenes had no origins once; their registration.json had names and one pose.
+// Scenes had no origins once; their registration.json had names and one pose. Throws Error for what is not one.
 void add_origins(EarlierScene& earlier) {
-  const Json* scans = earlier.registration.find("scans");
-  if (scans == nullptr) return;
-  for (const Json& scan : *scans) {
+  for (const Json& scan : earlier.registration.at("scans").list()) {
     const int index = scan.at("texture").get<int>();
+    if (index < 0 || scan.at("name").text().empty()) throw Error("a scan without name or texture");
     for (SceneTexture& texture : earlier.object().textures) {
       if (texture.index != index || texture.origin) continue;
       TextureOrigin& origin = texture.origin.emplace();
@@ -141,8 +140,11 @@ EarlierScene read_earlier_scene(const fs::path& scene, const Observer& observer)
                                 observer.without_progress());
   try {
     add_origins(out);
+    if (const Json* placements = out.registration.find("placements")) {
+      for (const Json& placement : placements->list()) placement.at("scans").list();
+    }
   } catch (const Error& error) {
-    throw Error(printable(registration.string()) + ": key 'scans': " + error.what());
+    throw Error(printable(registration.string()) + ": is not a registration: " + error.what());
   }
   return out;
 }
