@@ -100,4 +100,11 @@ void commit_output(OutputFolder& folder, std::string_view output) {
   }
 }
 
+void name_kept(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& kept) {
+  for (const std::filesystem::path& name : kept) {
+    print_error(printable(folder.string(), 200) + ": " + printable(name.string(), 200) +
+                " is not a file of asperity; it was kept");
+  }
+}
+
 }  // namespace asperity::app

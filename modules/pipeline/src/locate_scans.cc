@@ -69,16 +69,17 @@ std::vector<Pose> other_fits(const std::vector<MeasuredPath>& paths, const Regis
   return out;
 }
 
-}  // namespace
-
-LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, const std::optional<Pose>& guess,
-                          const RegisterConfig& config, const RegistrationObserver& observer) {
-  const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
+// Scans of one placement.
+RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<std::size_t>& members,
+                                    const MeshSurface& surface, const RegistrationSurface& ready,
+                                    const std::optional<Pose>& guess, const RegisterConfig& config,
+                                    const RegistrationObserver& observer) {
   observer.update("registration", 0.0);
   std::vector<MeasuredPath> paths, smooth;
-  for (const PathPoints& points : scans.points) {
-    paths.push_back(points.path);
-    smooth.push_back(scans.in_sequence ? smooth_path(points.path, config.points.smoothing_m) : points.path);
+  for (const std::size_t i : members) {
+    const MeasuredPath& path = scans.points[i].path;
+    paths.push_back(path);
+    smooth.push_back(scans.in_sequence ? smooth_path(path, config.points.smoothing_m) : path);
   }
   SearchConfig search = config.search;
   if (scans.in_sequence && search.registration.error_length_m == 0.0) {
@@ -94,7 +95,7 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
       stated(search.registration.guess_sigma_m, config.refinement.guess_sigma_m, usual.guess_sigma_m),
       stated(search.registration.guess_sigma_deg, config.refinement.guess_sigma_deg, usual.guess_sigma_deg) *
           std::numbers::pi / 180.0};
-  LocatedScans out;
+  RefinedRegistration out;
   const ProcessMethod& method = ProcessMethods::get(config.process.method);
   if (method.register_paths) {
     if (!guess)
@@ -102,7 +103,7 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
           "registration by this method begins from a pose near the right one: give a guess (--guess, --align or "
           "--picks)");
     out.registration = method.register_paths(config.process, paths, surface, *guess);
-    out.slow_error_world_m.resize(scans.points.size());
+    out.slow_error_world_m.resize(members.size());
     // The baseline's method knows no error of its guess.
     out.registration.misfit = measure_pose_misfit(paths, ready, {}, misfit, out.registration);
     return out;
@@ -110,15 +111,39 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
   out.registration = guess ? register_path(smooth, ready, *guess, search.registration, observer)
                            : find_registration(smooth, ready, search, observer);
   // Scans have errors that last along the path; points without a sequence have none that is known.
-  out.slow_error_world_m.resize(scans.points.size());
+  out.slow_error_world_m.resize(members.size());
   if (scans.in_sequence) {
     const std::vector<Pose> others = other_fits(smooth, ready, guess, search.registration, config.refinement, observer);
     observer.update("refinement", 0.0);
     RefinedRegistration refined =
         refine_registration(paths, surface, out.registration, guess, others, config.refinement, observer);
-    out.registration = std::move(refined.registration);
-    out.slow_error_world_m = std::move(refined.slow_error_world_m);
+    out = std::move(refined);
     out.registration.misfit = measure_pose_misfit(paths, ready, guess, misfit, out.registration);
+  }
+  return out;
+}
+
+}  // namespace
+
+LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, const std::optional<Pose>& guess,
+                          const RegisterConfig& config, const RegistrationObserver& observer) {
+  const std::size_t count = scans.points.size();
+  std::vector<std::size_t> stated = scans.placement;
+  if (stated.empty()) {
+    for (std::size_t i = 0; i < count; ++i) stated.push_back(config.placement.mode == PlacementMode::kEach ? i : 0);
+  }
+  if (stated.size() != count) throw Error("registration: the placement is stated of some scans only");
+  const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
+  LocatedScans out;
+  out.placement_of.resize(count);
+  out.slow_error_world_m.resize(count);
+  for (std::vector<std::size_t>& members : group_placements(stated)) {
+    RefinedRegistration located = locate_together(scans, members, surface, ready, guess, config, observer);
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      out.placement_of[members[k]] = out.placements.size();
+      out.slow_error_world_m[members[k]] = std::move(located.slow_error_world_m[k]);
+    }
+    out.placements.push_back({std::move(located.registration), std::move(members), {}});
   }
   return out;
 }
