@@ -268,11 +268,13 @@ double error_with_states_unasked_for_m() {
   const std::uint64_t first = device->read(0).sequence;
   std::uint64_t last = first;
   double worst_m = 0.0;
-  serve(*device, 500, [&](const DeviceReading& reading) {
+  const auto look = [&](const DeviceReading& reading) {
     last = reading.sequence;
     worst_m = std::max(worst_m, std::abs(reading.p_m.y() - service.position_m().z()));
-    return Eigen::Vector3d::Zero();
-  });
+    return Eigen::Vector3d(Eigen::Vector3d::Zero());
+  };
+  serve(*device, 500, look);
+  serve_until(*device, look, [&] { return last > first + 50 || !device->fault().empty(); });
   return last > first + 50 && device->fault().empty() ? worst_m : 1.0;
 }
 
