@@ -200,9 +200,9 @@ TEST(SmoothObjectMotion, LearnsTheNoiseAndStatesItsError) {
   for (int run = 0; run < kRuns; ++run) {
     const DrawnMotion drawn =
         draw_motion(100 + static_cast<std::uint64_t>(run), 12.0, accel, angular, sigma_m, sigma_rad);
-    // Stated twice as large as it is: what is stated weighs ten poses of 720.
+    // Stated as 0.2 mm and 2 mrad on all axes, wrong by a factor of two on two of them: that weighs ten poses of 720.
     const ObjectMotion motion =
-        smooth_object_motion(drawn.poses, calibration_of(4e-4, 4e-3), {}, 0.0, without_slow_error());
+        smooth_object_motion(drawn.poses, calibration_of(2e-4, 2e-3), {}, 0.0, without_slow_error());
     accel_ratio += motion.noise.accel_m2ps3.cwiseQuotient(accel) / kRuns;
     angular_ratio += motion.noise.angular_rad2ps3.cwiseQuotient(angular) / kRuns;
     noise_ratio += motion.noise.pose_m.cwiseQuotient(sigma_m) / kRuns;
