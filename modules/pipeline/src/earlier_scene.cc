@@ -94,9 +94,9 @@ void forget_run(EarlierScene& earlier, const std::string& name) {
   }
   registration["registered"] = left;
   if (left.empty()) {
-    for (const char* key :
-         {"T_mesh_world", "rms_m", "mean_m", "converged", "stopped_by", "iterations", "points", "outliers",
-          "undetermined", "runner_up", "covariance", "coordinates", "problems", "verdict", "verdicts"})
+    for (const char* key : {"T_mesh_world", "rms_m", "mean_m", "converged", "stopped_by", "iterations", "points",
+                            "outliers", "undetermined", "runner_up", "covariance", "bulge", "overlaps", "coordinates",
+                            "problems", "verdict", "verdicts"})
       registration.erase(key);
     if (earlier.scene.T_mesh_world) registration["T_mesh_world"] = pose_json(*earlier.scene.T_mesh_world);
   }
