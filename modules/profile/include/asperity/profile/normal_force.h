@@ -28,8 +28,8 @@ struct FrictionAssumption {
 struct NormalForce {
   std::vector<double> force_N;  // one a sample of the motion; nan where the sensor gave none
   ForceSource source = ForceSource::kNone;
-  double share = kNan;           // axial reading over normal force, mean over the samples in contact and motion
-  double relative_sigma = kNan;  // standard error of force_N that all samples have in common, relative to it
+  double share = kNan;             // axial reading over normal force, mean over the samples in contact and motion
+  double relative_sigma = kNan;    // standard error of force_N that all samples have in common, relative to it
   double tangential_share = kNan;  // force against the motion over that along the normal, sums; three axes only
 };
 
