@@ -229,6 +229,7 @@ TEST_F(RegisterInto, PaintingAndScansStayWhenTheOtherIsAdded) {
 TEST_F(RegisterInto, StrangersFilesAreKeptAndNamed) {
   const std::string scene = copy();
   write_text(dir_ / "scene" / "notes.txt", "mine");
+  fs::create_directories(dir_ / "scene" / "b");
   write_text(dir_ / "scene" / "b" / "photo.txt", "mine too");
   Outcome outcome;
   ASSERT_EQ(add({at("b"), "--into", scene}, "b", &outcome), 0) << outcome.err;
