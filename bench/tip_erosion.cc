@@ -42,12 +42,10 @@ void run(const std::string& name, std::int64_t seed, double imperfection) {
     return asperity::compare_profiles(result.profile.s_m, height_m, s_m, z_m, comparison).rms_um;
   };
   const asperity::ErodedProfile& eroded = *result.surface;
-  std::printf(
-      "| %s %lld | %.1f | %.1f | %s | %.2f | %.1f | %.1f | %.2f | %s |\n", name.c_str(), static_cast<long long>(seed),
-      error_um(result.profile.height_m), error_um(eroded.surface_m), eroded.determined ? "yes" : "no",
-      1e6 * eroded.correction_rms_m, 1e6 * eroded.noise_rms_m, 1e6 * eroded.bias_m, eroded.touched_share,
-      result.blind_tip.determined ? asperity::number_text(1e3 * result.blind_tip.radius_at_most_m).substr(0, 5).c_str()
-                                  : "not determined");
+  std::printf("| %s %lld | %.1f | %.1f | %s | %.2f | %.1f | %.1f | %.2f |\n", name.c_str(),
+              static_cast<long long>(seed), error_um(result.profile.height_m), error_um(eroded.surface_m),
+              eroded.determined ? "yes" : "no", 1e6 * eroded.correction_rms_m, 1e6 * eroded.noise_rms_m,
+              1e6 * eroded.bias_m, eroded.touched_share);
 }
 
 }  // namespace
@@ -66,8 +64,8 @@ int main(int argc, char** argv) {
          {"--imperfection", [&](auto value) { imperfection = bench::number_within(value, 0.0, 10.0); }}});
     std::printf(
         "| surface, seed | tip's height from surface, µm RMS | eroded, µm | applied | correction, µm | noise of "
-        "the erosion, µm | its mean, µm | touched | blind radius at most, mm |\n");
-    std::printf("|---|---|---|---|---|---|---|---|---|\n");
+        "the erosion, µm | its mean, µm | touched |\n");
+    std::printf("|---|---|---|---|---|---|---|---|\n");
     for (const std::string& surface : surfaces) {
       for (int i = 0; i < repeats; ++i) run(surface, seed + i, imperfection);
     }

@@ -136,16 +136,14 @@ Json stiffness_json(const StiffnessEstimate& s) {
           {"verdict", s.verdict}};
 }
 
-Json tip_json(const ErodedProfile& surface, const BlindTip& blind) {
+Json tip_json(const ErodedProfile& surface) {
   return {{"determined", surface.determined},
           {"reason", surface.reason},
           {"radius_m", surface.radius_m},
           {"touched_share", surface.touched_share},
           {"correction_rms_m", surface.correction_rms_m},
           {"noise_rms_m", surface.noise_rms_m},
-          {"bias_m", surface.bias_m},
-          {"blind_determined", blind.determined},
-          {"blind_radius_at_most_m", blind.radius_at_most_m}};
+          {"bias_m", surface.bias_m}};
 }
 
 Json passes_json(const MergedProfile& merged) {
@@ -244,7 +242,7 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
   } else {
     out["texture"] = nullptr;
   }
-  if (result.surface) out["tip"] = tip_json(*result.surface, result.blind_tip);
+  if (result.surface) out["tip"] = tip_json(*result.surface);
   if (result.passes) {
     out["passes"] = passes_json(*result.passes);
     out["merge"] = {{"agrees", result.passes->agrees},

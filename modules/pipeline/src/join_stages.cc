@@ -80,7 +80,6 @@ void add_surface(const Recording& recording, const ProcessMethod& method, Proces
   result.noise = std::move(stages.profile.value->noise);
   result.passes = std::move(stages.profile.value->passes);
   result.surface = std::move(stages.profile.value->surface);
-  result.blind_tip = stages.profile.value->blind_tip;
   result.roughness = std::move(stages.roughness.value);
   result.periodicity = std::move(stages.periodicity.value).value_or(Periodicity{});
   result.spectrum = std::move(stages.spectrum.value).value_or(SurfaceSpectrum{});

@@ -60,14 +60,8 @@ SpeedStatistics measure_speed(const Profile& profile) {
 
 // The surface under the tip; the tip's radius is the calibration's unless one is given.
 void erode(const Calibration& calibration, const TipConfig& config, MeasuredProfile& measured) {
-  const Profile& profile = measured.profile;
   const double radius_m = config.radius_m > 0.0 ? config.radius_m : calibration.tip_radius_m;
-  measured.surface = erode_profile(profile, measured.noise, radius_m);
-  // Twice the highest of so many normal numbers.
-  if (!std::isfinite(measured.noise.noise_rms_m) || profile.size() < 2) return;
-  const double tolerance_m =
-      2.0 * measured.noise.noise_rms_m * std::sqrt(2.0 * std::log(static_cast<double>(profile.size())));
-  measured.blind_tip = estimate_tip_radius(profile.height_m, profile.spacing_m, tolerance_m);
+  measured.surface = erode_profile(measured.profile, measured.noise, radius_m);
 }
 
 }  // namespace

@@ -25,7 +25,6 @@ struct MeasuredProfile {
   TextureNoise noise;
   std::optional<MergedProfile> passes;  // without its profile
   std::optional<ErodedProfile> surface;
-  BlindTip blind_tip;
 };
 
 // The outcomes of all stages between a recording and its texture. Without a base path or a profile those that need it

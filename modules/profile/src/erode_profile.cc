@@ -14,7 +14,6 @@ namespace {
 constexpr int kErosionDraws = 8;
 constexpr std::uint64_t kErosionSeed = 20;
 constexpr double kResolution_spacings = 2.0;
-constexpr int kRadiusSteps = 40;
 
 struct MeanAndRms {
   double mean = 0.0, rms = 0.0;
@@ -90,29 +89,10 @@ ErodedProfile erode_profile(const Profile& profile, const TextureNoise& noise, d
   out.touched_share = touched / known;
   const MeanAndRms correction = mean_and_rms(correction_m);
   out.correction_rms_m = std::sqrt(std::max(0.0, correction.rms * correction.rms - correction.mean * correction.mean));
-  out.determined = !(out.noise_rms_m >= out.correction_rms_m);
+  // The heights' own noise is in the correction too.
+  const double left_m = std::isfinite(noise.noise_rms_m) ? noise.noise_rms_m : 0.0;
+  out.determined = !(std::hypot(out.noise_rms_m, left_m) >= out.correction_rms_m);
   if (!out.determined) out.reason = "what noise does to the erosion is as large as the correction";
-  return out;
-}
-
-BlindTip estimate_tip_radius(std::span<const double> height_m, double spacing_m, double tolerance_m, double largest_m) {
-  const HeightGridShape shape{1, height_m.size(), spacing_m, spacing_m};
-  const auto fits = [&](double radius_m) {
-    const std::vector<double> opened_m = open_by_tip(height_m, shape, radius_m);
-    for (std::size_t i = 0; i < opened_m.size(); ++i) {
-      if (height_m[i] - opened_m[i] > tolerance_m) return false;
-    }
-    return true;
-  };
-  BlindTip out;
-  if (fits(largest_m)) return out;
-  double low_m = 0.0, high_m = largest_m;
-  for (int step = 0; step < kRadiusSteps && high_m - low_m > 1e-4 * high_m; ++step) {
-    const double middle_m = 0.5 * (low_m + high_m);
-    (fits(middle_m) ? low_m : high_m) = middle_m;
-  }
-  out.determined = true;
-  out.radius_at_most_m = high_m;
   return out;
 }
 

@@ -167,10 +167,15 @@ void set_noise(PassOnGrid& pass, const PassDifferences& differences, std::size_t
   for (const double noise_m2 : differences.noise_m2)
     mean_m2 += noise_m2 / static_cast<double>(differences.noise_m2.size());
   const double own = differences.noise_m2[k] / mean_m2;
-  for (std::size_t i = 0; i < pass.noise_psd_m2_mm.size(); ++i) {
-    pass.noise_psd_m2_mm[i] = std::max(
-        pass.noise_psd_m2_mm[i], own * spectrum_at(differences.frequency_cycles_per_mm, differences.scatter_psd_m2_mm,
-                                                   pass.frequency_cycles_per_mm[i]));
+  std::vector<double>& frequency = pass.frequency_cycles_per_mm;
+  frequency.insert(frequency.end(), differences.frequency_cycles_per_mm.begin(),
+                   differences.frequency_cycles_per_mm.end());
+  std::sort(frequency.begin(), frequency.end());
+  frequency.erase(std::unique(frequency.begin(), frequency.end()), frequency.end());
+  pass.noise_psd_m2_mm.clear();
+  for (const double f : frequency) {
+    const double shown_m2_mm = own * spectrum_at(differences.frequency_cycles_per_mm, differences.scatter_psd_m2_mm, f);
+    pass.noise_psd_m2_mm.push_back(std::max(stated_noise_m2_mm(*pass.pass, f), shown_m2_mm));
   }
 }
 

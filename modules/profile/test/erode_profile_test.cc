@@ -59,7 +59,7 @@ TEST(ErodeProfile, FindsTheSurfaceUnderSharpRidges) {
   EXPECT_GT(eroded.correction_rms_m, 5e-6);
 }
 
-TEST(ErodeProfile, TakesOffWhatNoiseDoesAndSaysWhereItIsTooMuch) {
+TEST(ErodeProfile, TakesOffWhatNoiseDoes) {
   const std::vector<double> d_m = traced_ridges(2000, 0.1e-3, 1e-3, kTip_m);
   const auto with_noise = [&](double rms_m) {
     Random random(5, 0);
@@ -80,36 +80,12 @@ TEST(ErodeProfile, TakesOffWhatNoiseDoesAndSaysWhereItIsTooMuch) {
     uncorrected_m += (quiet.surface_m[i] + quiet.bias_m - clean.surface_m[i]) / 1920.0;
   }
   EXPECT_LT(std::abs(error_m), 0.5 * std::abs(uncorrected_m));
-  EXPECT_FALSE(with_noise(30e-6).determined);
 }
 
 TEST(ErodeProfile, IsNotDeterminedWithoutATip) {
   const ErodedProfile eroded = erode_profile(profile_of(std::vector<double>(100, 0.0)), {}, 0.0);
   EXPECT_FALSE(eroded.determined);
   EXPECT_FALSE(eroded.reason.empty());
-}
-
-TEST(BlindTip, IsTheTipWhereTheSurfaceIsSharperThanIt) {
-  const BlindTip tip =
-      estimate_tip_radius(traced_ridges(1500, 0.3e-3, 1.2e-3, kTip_m), kStep_m, 0.1e-6);  // a²/8 (1/r − 1/R)
-  ASSERT_TRUE(tip.determined);
-  EXPECT_GE(tip.radius_at_most_m, kTip_m * (1.0 - 1e-3));
-  EXPECT_LE(tip.radius_at_most_m, 1.1 * kTip_m);
-}
-
-TEST(BlindTip, IsAnUpperBoundUnderNoiseAndNotDeterminedOnASmoothSurface) {
-  std::vector<double> noisy_m = traced_ridges(1500, 0.3e-3, 1.2e-3, kTip_m);
-  Random random(6, 0);
-  for (double& h : noisy_m) h += 0.5e-6 * random.normal();
-  const double tolerance_m = 2.0 * 0.5e-6 * std::sqrt(2.0 * std::log(1500.0));
-  const BlindTip tip = estimate_tip_radius(noisy_m, kStep_m, tolerance_m);
-  ASSERT_TRUE(tip.determined);
-  EXPECT_GE(tip.radius_at_most_m, kTip_m);
-  EXPECT_LE(tip.radius_at_most_m, 2.0 * kTip_m);
-
-  std::vector<double> smooth_m(1500);
-  for (std::size_t i = 0; i < smooth_m.size(); ++i) smooth_m[i] = 5e-6 * std::sin(0.02 * static_cast<double>(i));
-  EXPECT_FALSE(estimate_tip_radius(smooth_m, kStep_m, 1e-7).determined);
 }
 
 }  // namespace

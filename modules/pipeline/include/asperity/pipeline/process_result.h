@@ -49,7 +49,6 @@ struct ProcessResult {
   std::optional<RoughnessResult> roughness;  // of profile.texture_m
   std::optional<MergedProfile> passes;       // strokes over one line; its profile is empty, for it is the one above
   std::optional<ErodedProfile> surface;      // under profile.height_m, if it was asked for
-  BlindTip blind_tip;                        // likewise
   Periodicity periodicity;                   // of profile.height_m
   SurfaceSpectrum spectrum;                  // of the texture, its noise taken off
   Compliance compliance;
