@@ -38,17 +38,6 @@ std::vector<std::string> codes(const ProcessResult& result, Severity severity) {
   return out;
 }
 
-void print(const char* what, ProcessResult result) {
-  const ProfileComparison& p = result.accuracy->profile.value();
-  std::printf(
-      "%-8s correlation %.3f length %+.3f %% (stderr %.3f mm) rms %.2f of %.2f um, noise %.2f um, position %.3f mm, "
-      "over sigma %.2f, moved %.1f mm %.1f deg, %s\n",
-      what, p.correlation, p.length_error_percent, 1e3 * result.noise.length_stderr_m, p.rms_um, p.true_rms_um,
-      1e6 * result.noise.noise_rms_m, 1e3 * result.accuracy->position_rms_m, result.accuracy->position_error_over_sigma,
-      1e3 * result.trajectory.metrics["object_moved_m"], 57.3 * result.trajectory.metrics["object_turned_rad"],
-      result.verdict.c_str());
-}
-
 class HeldObject : public testing::TestWithParam<SimulatedObjectMotion> {};
 
 TEST_P(HeldObject, IsScannedAsIfItLayStill) {
@@ -56,8 +45,6 @@ TEST_P(HeldObject, IsScannedAsIfItLayStill) {
       process_recording(simulate_recording(held_sandpaper(SimulatedObjectMotion::kNone)), ProcessConfig{});
   const Recording recording = simulate_recording(held_sandpaper(GetParam()));
   const ProcessResult held = process_recording(recording, ProcessConfig{});
-  print("still", still);
-  print("held", held);
   EXPECT_FALSE(still.trajectory.object);
   ASSERT_TRUE(held.trajectory.object);
   EXPECT_THAT(codes(held, Severity::kNote), testing::Contains("object_moved"));
@@ -91,7 +78,6 @@ TEST(MovingObject, RelativeToTheWorldTheSameScanIsWrong) {
   const std::vector<double>& s_m = recording.truth->s_m;
   const double true_m = s_m.back() - s_m.front();
   const double world_m = std::abs(world.base.length_m - true_m), object_m = std::abs(object.base.length_m - true_m);
-  std::printf("length %.2f mm: world off by %.3f mm, object by %.3f mm\n", 1e3 * true_m, 1e3 * world_m, 1e3 * object_m);
   EXPECT_GT(world_m, 3.0 * object_m);
 }
 
