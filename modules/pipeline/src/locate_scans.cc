@@ -6,8 +6,9 @@
 #include <numbers>
 
 #include "asperity/base/error.h"
-#include "asperity/registration/find_registration.h"
+#include "asperity/pipeline/scan_placements.h"
 #include "asperity/registration/pose_misfit.h"
+#include "asperity/registration/pose_rivals.h"
 #include "asperity/registration/refine_registration.h"
 #include "asperity/registration/register_path.h"
 
@@ -69,6 +70,14 @@ std::vector<Pose> other_fits(const std::vector<MeasuredPath>& paths, const Regis
   return out;
 }
 
+bool is_near(const Pose& guess, const Pose& pose, const Eigen::Vector3d& centre_mesh_m, const RefineConfig& config) {
+  constexpr double kSigmas = 3.0;
+  const Pose motion = pose * guess.inverse();
+  const Eigen::Vector3d before_m = motion.inverse() * centre_mesh_m;
+  return (centre_mesh_m - before_m).norm() < kSigmas * config.guess_sigma_m &&
+         rotation_between_rad(guess, pose) < kSigmas * config.guess_sigma_deg * std::numbers::pi / 180.0;
+}
+
 }  // namespace
 
 LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, const std::optional<Pose>& guess,
@@ -107,19 +116,41 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
     out.registration.misfit = measure_pose_misfit(paths, ready, {}, misfit, out.registration);
     return out;
   }
-  out.registration = guess ? register_path(smooth, ready, *guess, search.registration, observer)
-                           : find_registration(smooth, ready, search, observer);
+  // All poses at which the paths may lie: those near the guess and those anywhere.
+  std::vector<Pose> near;
+  if (guess) {
+    out.registration = register_path(smooth, ready, *guess, search.registration, observer);
+    near = other_fits(smooth, ready, guess, search.registration, config.refinement, observer);
+    near.push_back(out.registration.T_mesh_world);
+    if (out.registration.runner_up) near.push_back(out.registration.runner_up->T_mesh_world);
+  }
+  RegisterConfig searched = config;
+  searched.search = search;
+  out.placements = find_placements(scans, surface, guess, near, searched, observer);
+  const bool keeps_guess =
+      guess && search.registration.starts.when == OtherStarts::kNever && config.refinement.other_starts == 0;
+  if (!keeps_guess) {
+    RegistrationConfig local = search.registration;
+    local.starts.when = OtherStarts::kNever;
+    out.registration = register_path(smooth, ready, out.placements.found.front().T_mesh_world, local, observer);
+  }
+  // A guess that the paths contradict has no say in the refinement.
+  const std::optional<Pose> believed =
+      guess && is_near(*guess, out.registration.T_mesh_world, out.registration.centre_mesh_m, config.refinement)
+          ? guess
+          : std::nullopt;
   // Scans have errors that last along the path; points without a sequence have none that is known.
   out.slow_error_world_m.resize(scans.points.size());
   if (scans.in_sequence) {
-    const std::vector<Pose> others = other_fits(smooth, ready, guess, search.registration, config.refinement, observer);
     observer.update("refinement", 0.0);
     RefinedRegistration refined =
-        refine_registration(paths, surface, out.registration, guess, others, config.refinement, observer);
+        refine_registration(paths, surface, out.registration, believed, {}, config.refinement, observer);
     out.registration = std::move(refined.registration);
     out.slow_error_world_m = std::move(refined.slow_error_world_m);
     out.registration.misfit = measure_pose_misfit(paths, ready, guess, misfit, out.registration);
   }
+  state_rivals(judge_placement(scans, surface, out.registration.T_mesh_world, guess, out.placements, searched),
+               out.registration);
   return out;
 }
 

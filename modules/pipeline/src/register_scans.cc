@@ -14,7 +14,6 @@
 #include "asperity/pipeline/scan_points.h"
 #include "asperity/profile/base_path_on_mesh.h"
 #include "asperity/profile/make_profile.h"
-#include "asperity/verdict/judge_registration.h"
 #include "asperity/verdict/verdict_codes.h"
 
 namespace asperity {
@@ -73,13 +72,6 @@ void make_own_texture(const RegisterConfig& config, RegisteredScan& scan) {
                                 std::min(config.texture.coefficients_per_mm, nyquist)};
   texture.source.version = kVersion;
   scan.texture = std::move(texture);
-}
-
-// A motion known less well than a guess by hand.
-bool is_arbitrary(const RegistrationResult& registration) {
-  constexpr double kGuess_m = 5e-3;
-  return std::any_of(registration.undetermined.begin(), registration.undetermined.end(),
-                     [](const UndeterminedMotion& motion) { return !(motion.sigma_m < kGuess_m); });
 }
 
 // The motion without its slow error, which is known at some of its samples.
@@ -143,11 +135,7 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
   LocatedScans located = locate_scans(begun, surface, guess, config, observer);
   out.registration = std::move(located.registration);
   append_problems(out.problems, out.registration.problems);
-  out.verdicts = judge_registration(pose_evidence(out.registration));
-  // Where the scans say nothing the guess counts; without one the place is arbitrary.
-  if (!guess && is_arbitrary(out.registration)) {
-    add_verdict(out, "pose_arbitrary", "without a guess, where the scans lie along undetermined motions is arbitrary");
-  }
+  out.verdicts = judge_pose(out.registration, guess.has_value());
 
   // What they met there.
   std::vector<MeshPath> mesh_paths;
