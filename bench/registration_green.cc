@@ -7,7 +7,8 @@
 // Wrong: more than 3 mm (RMS over the points) or 5° from the truth, modulo the motions that map the body onto itself,
 // and each result on another mesh. Good: within 1 mm and 2°, where the least possible standard deviations (bound.h) are
 // below 0.3 mm and 0.7°. `--whole N` adds N cases whose points come from simulated
-// recordings (whole_case.h), to compare with. `--each yes` prints a line a case on standard error, `--only N` runs the cases of one class.
+// recordings (whole_case.h), to compare with. `--each yes` prints a line a case on standard error, `--only N` runs the
+// cases of one class.
 
 #include <algorithm>
 #include <atomic>
@@ -76,8 +77,11 @@ Outcome run_case(const bench::RegistrationCase& given, const asperity::ScanPoint
     for (const asperity::MeasuredPath& path : given.paths) {
       p_m.insert(p_m.end(), path.p_world_m.begin(), path.p_world_m.end());
     }
+    // On a mesh of another size the path's middle is where it is, in proportion.
+    Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& p : p_m) middle_m += p / static_cast<double>(p_m.size());
     asperity::Pose scaled = result.T_mesh_world;
-    scaled.translation_m /= given.scale;
+    scaled.translation_m = (scaled * middle_m) / given.scale - scaled.rotation * middle_m;
     off = bench::difference_modulo(given.symmetry, scaled, *given.T_mesh_world, p_m, kWrong_m, kWrong_rad);
     bound = bench::pose_bound(given.lines, given.errors, given.symmetry);
   }
@@ -89,7 +93,9 @@ Outcome run_case(const bench::RegistrationCase& given, const asperity::ScanPoint
   for (const auto& line : given.lines) length_m += bench::kPathSpacing_m * static_cast<double>(line.p_m.size());
   std::string codes;
   for (const asperity::Verdict& verdict : verdicts) codes += " " + verdict.code;
-  std::fprintf(stderr, "%4d %-38s %-14s %zu paths %3.0f mm slow %.2f relief %.3f | off %7.3f mm %7.2f° bound %.3f mm %.2f° rms %.3f | %s%s%s |%s | %.2f s\n",
+  std::fprintf(stderr,
+               "%4d %-38s %-14s %zu paths %3.0f mm slow %.2f relief %.3f | off %7.3f mm %7.2f° bound %.3f mm %.2f° rms "
+               "%.3f | %s%s%s |%s | %.2f s\n",
                number, std::string(bench::kCaseClassNames.at(static_cast<std::size_t>(given.kind))).c_str(),
                given.body.c_str(), given.lines.size(), 1e3 * length_m, 1e3 * given.errors.slow_m,
                1e3 * given.errors.relief_m, 1e3 * off.rms_m, off.rotation_rad / kDegree, 1e3 * bound.rms_m,
@@ -100,15 +106,18 @@ Outcome run_case(const bench::RegistrationCase& given, const asperity::ScanPoint
 }
 
 void print_row(const std::string& name, const std::vector<const Outcome*>& outcomes) {
-  const auto count = [&](auto is) { return std::count_if(outcomes.begin(), outcomes.end(), [&](auto* o) { return is(*o); }); };
+  const auto count = [&](auto is) {
+    return std::count_if(outcomes.begin(), outcomes.end(), [&](auto* o) { return is(*o); });
+  };
   std::vector<double> times_s;
   for (const Outcome* outcome : outcomes) times_s.push_back(outcome->time_s);
   std::sort(times_s.begin(), times_s.end());
-  std::printf("| %s | %zu | %td | %td | %td | %td |", name.c_str(), outcomes.size(), count([](auto& o) { return o.wrong; }),
-              count([](auto& o) { return o.wrong && o.trusted; }), count([](auto& o) { return o.good; }),
-              count([](auto& o) { return o.good && o.trusted; }));
+  std::printf("| %s | %zu | %td | %td | %td | %td |", name.c_str(), outcomes.size(),
+              count([](auto& o) { return o.wrong; }), count([](auto& o) { return o.wrong && o.trusted; }),
+              count([](auto& o) { return o.good; }), count([](auto& o) { return o.good && o.trusted; }));
   std::printf(" %td |\n", count([](auto& o) { return o.trusted; }));
-  std::fprintf(stderr, "%s: %.2f s in the median, %.2f s at most\n", name.c_str(), times_s[times_s.size() / 2], times_s.back());
+  std::fprintf(stderr, "%s: %.2f s in the median, %.2f s at most\n", name.c_str(), times_s[times_s.size() / 2],
+               times_s.back());
 }
 
 void run(const Options& options) {
@@ -135,7 +144,9 @@ void run(const Options& options) {
   for (std::thread& worker : workers) worker.join();
   if (failed) std::rethrow_exception(failed);
 
-  std::printf("| case | cases | wrong | of them trusted | good | of them trusted | trusted in all |\n|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| case | cases | wrong | of them trusted | good | of them trusted | trusted in all "
+      "|\n|---|---|---|---|---|---|---|\n");
   std::vector<const Outcome*> all;
   for (std::size_t kind = 0; kind < bench::kCaseClassNames.size(); ++kind) {
     std::vector<const Outcome*> of_kind;

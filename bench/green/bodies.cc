@@ -136,8 +136,8 @@ Body read_body(const std::string& file, double longest_m) {
   const asperity::MeshFile read = asperity::read_mesh(file);
   Eigen::AlignedBox3d box;
   for (const Vector3d& vertex : read.vertices) box.extend(vertex);
-  Body out{std::filesystem::path(file).stem().string(), asperity::to_metres(read, longest_m / box.sizes().maxCoeff()),
-           {}};
+  Body out{
+      std::filesystem::path(file).stem().string(), asperity::to_metres(read, longest_m / box.sizes().maxCoeff()), {}};
   const Vector3d centre_m = longest_m / box.sizes().maxCoeff() * box.center();
   for (Vector3d& vertex_m : out.mesh.vertices_m) vertex_m -= centre_m;
   return out;

@@ -40,10 +40,10 @@ PoseDifference pose_bound(const std::vector<LineOnMesh>& lines, const PathErrors
       const Point& b = points[static_cast<std::size_t>(k)];
       const double same = a.line == b.line ? 1.0 : 0.0;
       // The probe leans as the normals do: the tip's place turns with them.
-      covariance_m2(i, k) =
-          same * a.n.dot(b.n) * errors.slow_m * errors.slow_m * std::exp(-std::abs(a.s_m - b.s_m) / errors.slow_length_m) +
-          errors.tip_sigma_m * errors.tip_sigma_m + same * errors.relief_m * errors.relief_m / 3.0 +
-          (i == k ? averaged_m2 : 0.0);
+      covariance_m2(i, k) = same * a.n.dot(b.n) * errors.slow_m * errors.slow_m *
+                                std::exp(-std::abs(a.s_m - b.s_m) / errors.slow_length_m) +
+                            errors.tip_sigma_m * errors.tip_sigma_m + same * errors.relief_m * errors.relief_m / 3.0 +
+                            (i == k ? averaged_m2 : 0.0);
     }
   }
   Eigen::Matrix<double, 6, 6> information = rows.transpose() * covariance_m2.llt().solve(rows);

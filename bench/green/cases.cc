@@ -30,7 +30,8 @@ const PreparedBody& draw(const std::vector<PreparedBody>& bodies, Random& random
   return bodies[static_cast<std::size_t>(random.uniform() * static_cast<double>(bodies.size()))];
 }
 
-Pose guess_off(const RegistrationCase& of, double least_m, double most_m, double least_deg, double most_deg, Random& random) {
+Pose guess_off(const RegistrationCase& of, double least_m, double most_m, double least_deg, double most_deg,
+               Random& random) {
   Vector3d centre_m = Vector3d::Zero();
   for (const Vector3d& p_m : of.lines.front().p_m) centre_m += p_m / static_cast<double>(of.lines.front().p_m.size());
   const Eigen::Quaterniond turn =

@@ -17,10 +17,15 @@ namespace bench {
 
 // How a case begins, and what is wrong with it.
 enum class CaseClass { kNear, kFar, kBadGuess, kNoGuess, kSymmetric, kWrongMesh, kWrongScale, kFewStarts, kByHand };
-inline constexpr std::array<std::string_view, 9> kCaseClassNames{
-    "guess within 5 mm, 5°", "guess within 15 mm, 20°", "guess wrong by 20 to 80 mm, 20 to 180°",
-    "no guess",              "symmetric body",          "wrong mesh",
-    "wrong scale",           "no guess, few starts",    "moved by hand, no search"};
+inline constexpr std::array<std::string_view, 9> kCaseClassNames{"guess within 5 mm, 5°",
+                                                                 "guess within 15 mm, 20°",
+                                                                 "guess wrong by 20 to 80 mm, 20 to 180°",
+                                                                 "no guess",
+                                                                 "symmetric body",
+                                                                 "wrong mesh",
+                                                                 "wrong scale",
+                                                                 "no guess, few starts",
+                                                                 "moved by hand, no search"};
 
 struct PreparedBody {
   Body body;

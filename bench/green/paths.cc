@@ -1,5 +1,6 @@
 #include "paths.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -25,8 +26,9 @@ asperity::ClosestPoint random_point(const asperity::MeshSurface& surface, Random
   for (const Vector3d& vertex_m : surface.mesh.vertices_m) box.extend(vertex_m);
   while (true) {
     const Vector3d outside_m = box.center() + box.diagonal().norm() * direction(random);
-    const Vector3d aim_m = box.center() + 0.4 * box.sizes().cwiseProduct(Vector3d(
-                                                    random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5));
+    const Vector3d aim_m =
+        box.center() + 0.4 * box.sizes().cwiseProduct(
+                                 Vector3d(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5));
     const asperity::RayHit hit = surface.bvh.cast_ray(outside_m, aim_m - outside_m, 2.0);
     if (hit.found()) return surface.bvh.closest_point(outside_m + hit.t * (aim_m - outside_m));
   }
@@ -48,7 +50,8 @@ std::vector<double> wander(std::size_t count, double sigma, double length_m, Ran
 
 LineOnMesh walk_over(const asperity::MeshSurface& surface, LineKind kind, double length_m, Random& random) {
   const auto count = static_cast<std::size_t>(length_m / kPathSpacing_m);
-  const double bend = kind == LineKind::kStraight ? 0.0 : (random.chance(0.5) ? 1.0 : -1.0) / random.uniform(12e-3, 45e-3);
+  const double bend =
+      kind == LineKind::kStraight ? 0.0 : (random.chance(0.5) ? 1.0 : -1.0) / random.uniform(12e-3, 45e-3);
   const double wave_m = random.uniform(30e-3, 80e-3), phase = random.uniform(0.0, 2.0 * std::numbers::pi);
   const std::vector<double> unsteady = wander(count, 3.0, 15e-3, random);
   LineOnMesh out;
@@ -97,16 +100,19 @@ asperity::MeasuredPath measure_line(const LineOnMesh& line, const PathErrors& er
   const double stated_m2 = std::pow(errors.stated_ratio * errors.slow_m, 2);
   out.slow_covariance_world_m2 = stated_m2 * Eigen::Matrix3d::Identity();
   out.sigma_m = std::sqrt(stated_m2);
-  Eigen::Quaterniond marker = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), T_world_mesh.rotation * line.normal[0]);
+  Eigen::Quaterniond marker =
+      Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), T_world_mesh.rotation * line.normal[0]);
   Vector3d outward = (line.normal[0] + lean).normalized();
   for (std::size_t i = 0; i < n; ++i) {
     // The hand follows the normal over some millimetres.
     outward = (outward + 0.06 * ((line.normal[i] + lean).normalized() - outward)).normalized();
     const Vector3d outward_world = T_world_mesh.rotation * outward;
     marker = asperity::shortest_rotation(marker * Vector3d::UnitZ(), outward_world) * marker;
-    const Vector3d error_m(slow_m[0][i] + errors.white_m * random.normal(), slow_m[1][i] + errors.white_m * random.normal(),
+    const Vector3d error_m(slow_m[0][i] + errors.white_m * random.normal(),
+                           slow_m[1][i] + errors.white_m * random.normal(),
                            slow_m[2][i] + errors.white_m * random.normal());
-    out.p_world_m.push_back(T_world_mesh * Vector3d(line.p_m[i] + (relief_m[i] + errors.relief_mean_m) * line.normal[i]) +
+    out.p_world_m.push_back(T_world_mesh *
+                                Vector3d(line.p_m[i] + (relief_m[i] + errors.relief_mean_m) * line.normal[i]) +
                             error_m + marker * errors.tip_m);
     out.outward_world.push_back(outward_world);
   }

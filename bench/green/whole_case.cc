@@ -20,7 +20,8 @@ WholeCase simulate_case(const BodyPool& pool, std::uint64_t seed, std::uint64_t 
   asperity::Random random(seed, 500000 + number);
   WholeCase out;
   const PreparedBody& body = pool.plain[number % kPebbles];
-  const LineOnMesh line = walk_over(*body.surface, static_cast<LineKind>(number % 3), random.uniform(60e-3, 160e-3), random);
+  const LineOnMesh line =
+      walk_over(*body.surface, static_cast<LineKind>(number % 3), random.uniform(60e-3, 160e-3), random);
   asperity::SimulationConfig config = asperity::make_simulation_config("sandpaper", "open");
   config.seed = static_cast<std::int64_t>(1000 * seed + number);
   config.shape.kind = asperity::BaseShapeKind::kMesh;

@@ -70,6 +70,14 @@ std::vector<Pose> other_fits(const std::vector<MeasuredPath>& paths, const Regis
   return out;
 }
 
+// The user has said how well the guess is known.
+bool is_stated(const RegistrationConfig& search, const RefineConfig& refine) {
+  const RegistrationConfig usual_search;
+  const RefineConfig usual_refine;
+  return search.guess_sigma_m < usual_search.guess_sigma_m || search.guess_sigma_deg < usual_search.guess_sigma_deg ||
+         refine.guess_sigma_m < usual_refine.guess_sigma_m || refine.guess_sigma_deg < usual_refine.guess_sigma_deg;
+}
+
 bool is_near(const Pose& guess, const Pose& pose, const Eigen::Vector3d& centre_mesh_m, const RefineConfig& config) {
   constexpr double kSigmas = 3.0;
   const Pose motion = pose * guess.inverse();
@@ -102,7 +110,8 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
       config.refinement.slow_length_m, search.registration.surface_error_m,
       stated(search.registration.guess_sigma_m, config.refinement.guess_sigma_m, usual.guess_sigma_m),
       stated(search.registration.guess_sigma_deg, config.refinement.guess_sigma_deg, usual.guess_sigma_deg) *
-          std::numbers::pi / 180.0};
+          std::numbers::pi / 180.0,
+      is_stated(search.registration, config.refinement)};
   LocatedScans out;
   const ProcessMethod& method = ProcessMethods::get(config.process.method);
   if (method.register_paths) {

@@ -134,6 +134,7 @@ PoseEvidence pose_evidence(const RegistrationResult& registration) {
   out.guess_rotation_rad = misfit.guess_rotation_rad;
   out.guess_sigma_m = misfit.guess_sigma_m;
   out.guess_sigma_rad = misfit.guess_sigma_rad;
+  out.guess_stated = misfit.guess_stated;
   return out;
 }
 
@@ -143,8 +144,8 @@ Verdicts judge_pose(const RegistrationResult& registration, bool guessed) {
   const bool arbitrary = std::any_of(registration.undetermined.begin(), registration.undetermined.end(),
                                      [](const UndeterminedMotion& motion) { return !(motion.sigma_m < kGuess_m); });
   if (!guessed && arbitrary) {
-    out.push_back(make_verdict("pose_arbitrary",
-                               "without a guess, where the scans lie along undetermined motions is arbitrary"));
+    out.push_back(
+        make_verdict("pose_arbitrary", "without a guess, where the scans lie along undetermined motions is arbitrary"));
     sort_verdicts(out);
   }
   return out;

@@ -29,15 +29,14 @@ DistanceGrid::DistanceGrid(const RegistrationSurface& surface, int cells, const 
     for (std::size_t y = 0; y < count_[1]; ++y) {
       ClosestPoint closest;
       for (std::size_t x = 0; x < count_[0]; ++x, ++at) {
-        const Eigen::Vector3d p_m = least_m + cell_m * Eigen::Vector3d(static_cast<double>(x), static_cast<double>(y),
-                                                                       static_cast<double>(z));
+        const Eigen::Vector3d p_m =
+            least_m + cell_m * Eigen::Vector3d(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
         closest = closest.found() ? surface.bvh->closest_point(p_m, closest) : surface.bvh->closest_point(p_m);
         const RegistrationFacet& facet = surface.facets[closest.triangle];
         const Eigen::Vector3d b = closest.barycentric;
         const Eigen::Vector3d n = b[0] * facet.corner_normal[0].cast<double>() +
                                   b[1] * facet.corner_normal[1].cast<double>() +
-                                  b[2] * facet.corner_normal[2].cast<double>() +
-                                  1e-3 * facet.normal.cast<double>();
+                                  b[2] * facet.corner_normal[2].cast<double>() + 1e-3 * facet.normal.cast<double>();
         distance_m_[at] = static_cast<float>(std::copysign(closest.distance_m, (p_m - closest.p_m).dot(n)));
       }
     }

@@ -34,8 +34,7 @@ class DistanceGrid {
     const float* c = &distance_m_[(z * count_[1] + y) * count_[0] + x];
     const std::size_t up = count_[0], back = count_[0] * count_[1];
     const float c00 = c[0] + u * (c[1] - c[0]), c10 = c[up] + u * (c[up + 1] - c[up]);
-    const float c01 = c[back] + u * (c[back + 1] - c[back]),
-                c11 = c[back + up] + u * (c[back + up + 1] - c[back + up]);
+    const float c01 = c[back] + u * (c[back + 1] - c[back]), c11 = c[back + up] + u * (c[back + up + 1] - c[back + up]);
     const float c0 = c00 + v * (c10 - c00), c1 = c01 + v * (c11 - c01);
     const float along_x = (1 - w) * ((1 - v) * (c[1] - c[0]) + v * (c[up + 1] - c[up])) +
                           w * ((1 - v) * (c[back + 1] - c[back]) + v * (c[back + up + 1] - c[back + up]));

@@ -59,8 +59,8 @@ Search search_everywhere(std::span<const MeasuredPath> paths, const Registration
   watch.begin(RegistrationPhase::kSearch);
   Matcher sparse(surface, out.points, choose_uniform(out.points, static_cast<std::size_t>(config.coarse_points)),
                  out.rules);
-  out.runs = run_coarse_fits(sparse, out.points, starts, out.options, 0.0, static_cast<std::size_t>(config.distinct),
-                             watch);
+  out.runs =
+      run_coarse_fits(sparse, out.points, starts, out.options, 0.0, static_cast<std::size_t>(config.distinct), watch);
   if (out.runs.empty()) throw Error("registration: too few points of the path meet the mesh at any pose");
   return out;
 }

@@ -119,9 +119,8 @@ PathLikelihood::Sums PathLikelihood::filter(const Scales& scales) const {
       P(3, 3) = config_.relief_mean_ratio * config_.relief_mean_ratio * noise_m2;
       X.setZero();
     } else {
-      const double keep = config_.slow_length_m > 0.0
-                              ? std::exp(-(blocks_[b].s_m - blocks_[b - 1].s_m) / config_.slow_length_m)
-                              : 0.0;
+      const double keep =
+          config_.slow_length_m > 0.0 ? std::exp(-(blocks_[b].s_m - blocks_[b - 1].s_m) / config_.slow_length_m) : 0.0;
       P.topLeftCorner<3, 3>() = keep * keep * P.topLeftCorner<3, 3>() + (1.0 - keep * keep) * C_m2;
       P.topRightCorner<3, 1>() *= keep;
       P.bottomLeftCorner<1, 3>() *= keep;

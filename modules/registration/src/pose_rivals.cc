@@ -44,12 +44,12 @@ bool is_symmetric_motion(const RegistrationSurface& surface, const PointSet& poi
 // Of the points within four times their scale.
 double residual_m(const RegistrationSurface& surface, const PointSet& points, const Pose& pose) {
   constexpr std::size_t kPoints = 500;
-  constexpr double kOutlier = 4.0;
+  constexpr double kFar = 4.0;
   Matcher matcher(surface, points, choose_uniform(points, kPoints), {});
   matcher.match(centred(pose, points));
   double square_m2 = 0.0, count = 0.0;
   for (const Match& m : matcher.matches()) {
-    if (!m.usable || std::abs(m.distance_m) > kOutlier * matcher.scale_m()) continue;
+    if (!m.usable || std::abs(m.distance_m) > kFar * matcher.scale_m()) continue;
     square_m2 += m.distance_m * m.distance_m;
     count += 1.0;
   }
@@ -85,8 +85,7 @@ PoseRivals find_rivals(std::span<const MeasuredPath> paths, const RegistrationSu
     if (are_one(points, pose, other.T_mesh_world, config)) continue;
     const bool likely = log_odds > -kNegligible;
     if (!likely && out.rival) break;
-    const auto symmetry =
-        find_symmetry(surface, other.T_mesh_world * pose.inverse(), config.surface_error_m);
+    const auto symmetry = find_symmetry(surface, other.T_mesh_world * pose.inverse(), config.surface_error_m);
     if (symmetry && are_one(points, *symmetry * pose, other.T_mesh_world, config)) {
       if (likely) ++out.symmetric_copies;
       continue;
@@ -101,14 +100,14 @@ PoseRivals find_rivals(std::span<const MeasuredPath> paths, const RegistrationSu
   // The standard deviations, without the motions along which the mesh is its own image.
   const Matrix6 metric = motion_metric(points, centred(pose, points));
   const SymmetricEigen modes = symmetric_eigen(at.information, metric);
-  constexpr double kKnown_m = 0.2e-3, kKnown_rad = 2e-3;
+  constexpr double kSmall_m = 0.3e-3, kSmall_rad = 5e-3;
   const double most_m = 0.5 * points.radius_m;
   double square_m2 = 0.0, square_rad2 = 0.0;
   for (int k = 0; k < 6; ++k) {
     const Vector6 v = modes.vectors.col(k);
     const double sigma_m = modes.values[k] > 0.0 ? std::min(1.0 / std::sqrt(modes.values[k]), most_m) : most_m;
     const double sigma_rad = sigma_m * v.head<3>().norm();
-    const bool known = sigma_m < kKnown_m && sigma_rad < kKnown_rad;
+    const bool known = sigma_m < kSmall_m && sigma_rad < kSmall_rad;
     if (!known) {
       const double reach_m = std::min({3e-3, 0.2 / std::max(v.head<3>().norm(), 1e-9), 0.1 * points.radius_m});
       if (is_symmetric_motion(surface, points, pose, v, reach_m, config.surface_error_m)) {
@@ -128,7 +127,8 @@ void state_rivals(const PoseRivals& rivals, RegistrationResult& result) {
   result.rivals = rivals;
   result.ambiguous = rivals.odds > kAmbiguousOdds;
   result.runner_up = rivals.rival;
-  for (const std::string_view old : {" Ambiguous:", " The next best pose", " No other pose", " Other starts were not"}) {
+  for (const std::string_view old :
+       {" Ambiguous:", " The next best pose", " No other pose", " Other starts were not"}) {
     cut_sentence(result.verdict, old);
   }
   const char* const where = rivals.searched ? "anywhere on the mesh" : "near the guess";
@@ -138,11 +138,12 @@ void state_rivals(const PoseRivals& rivals, RegistrationResult& result) {
     const std::string place =
         fmt::format("{:.2f} mm and {:.2f} degrees away ({:.4f} mm RMS)", 1e3 * rivals.rival->distance_m,
                     180.0 / std::numbers::pi * rivals.rival->rotation_rad, 1e3 * rivals.rival->rms_m);
-    result.verdict += result.ambiguous
-                          ? fmt::format(" Ambiguous: poses {}, the likeliest {}, are as likely by a factor of e^{:.1f}.",
-                                        where, place, std::log(rivals.odds))
-                          : fmt::format(" All other poses {}, the likeliest {}, are less likely by a factor of e^{:.1f}.",
-                                        where, place, -std::log(rivals.odds));
+    result.verdict +=
+        result.ambiguous
+            ? fmt::format(" Ambiguous: poses {}, the likeliest {}, are as likely by a factor of e^{:.1f}.", where,
+                          place, std::log(rivals.odds))
+            : fmt::format(" All other poses {}, the likeliest {}, are less likely by a factor of e^{:.1f}.", where,
+                          place, -std::log(rivals.odds));
   }
   if (rivals.symmetric_copies > 0 || rivals.symmetric_motion) result.verdict += " The mesh maps onto itself.";
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -52,7 +51,8 @@ struct GridSums {
   float weight = 0.0F;
 };
 
-float grid_cost(const DistanceGrid& grid, const FewPoints& few, const CentredPose& pose, float width_m, GridSums* sums) {
+float grid_cost(const DistanceGrid& grid, const FewPoints& few, const CentredPose& pose, float width_m,
+                GridSums* sums) {
   const Eigen::Matrix3f R = pose.rotation.toRotationMatrix().cast<float>();
   const Eigen::Vector3f centre_m = pose.centre_m.cast<float>();
   const float inverse = 1.0F / (width_m * width_m);
@@ -83,12 +83,12 @@ struct GridRun {
 // Steps with a width that narrows by the factor `narrow` from `width_m`, and the cost at the last.
 void descend_on_grid(const DistanceGrid& grid, const FewPoints& few, const Matrix6& metric, float width_m, float narrow,
                      int steps, GridRun& run) {
-  constexpr double kDamping = 0.01, kMostTurn = 0.35;
+  constexpr double kGridDamping = 0.01, kMostTurn = 0.35;
   for (int k = 0; k < steps; ++k, width_m *= narrow) {
     GridSums sums;
     grid_cost(grid, few, run.pose, width_m, &sums);
     if (!(sums.weight > 0.0F)) break;
-    const Matrix6 hessian = sums.hessian.cast<double>() + kDamping * static_cast<double>(sums.weight) * metric;
+    const Matrix6 hessian = sums.hessian.cast<double>() + kGridDamping * static_cast<double>(sums.weight) * metric;
     Vector6 step = -hessian.llt().solve(sums.gradient.cast<double>());
     if (!step.allFinite()) break;
     const double turn = step.head<3>().norm(), shift_m = step.tail<3>().norm();
@@ -123,8 +123,8 @@ std::vector<SearchEnd> search_poses(const RegistrationSurface& surface, const Po
                                     double facing_cos, const SearchConfig& config, std::size_t keep,
                                     const Observer& observer) {
   constexpr int kCells = 56;
-  constexpr double kLean = 0.5;           // of the probe from the normal: 60°
-  constexpr float kScored = 0.06F;        // widths, of the mesh's diagonal
+  constexpr double kLean = 0.5;     // of the probe from the normal: 60°
+  constexpr float kScored = 0.06F;  // widths, of the mesh's diagonal
   constexpr float kNarrowest = 0.004F;
   constexpr double kSame = 0.012;
   const DistanceGrid grid(surface, kCells, observer);
@@ -163,7 +163,8 @@ std::vector<SearchEnd> search_poses(const RegistrationSurface& surface, const Po
     if (i % 256 == 0) observer.update("search", 0.5 + 0.3 * static_cast<double>(i) / static_cast<double>(runs.size()));
     descend_on_grid(grid, few, metric, kScored * size_m, narrow, 10, runs[i]);
   }
-  runs = distinct_runs(std::move(runs), points, kSame * grid.size_m(), 4 * static_cast<std::size_t>(config.coarse_runs));
+  runs =
+      distinct_runs(std::move(runs), points, kSame * grid.size_m(), 4 * static_cast<std::size_t>(config.coarse_runs));
   const FewPoints more = few_points(points, static_cast<std::size_t>(config.coarse_points), use_outward, facing_cos);
   for (GridRun& run : runs) {
     observer.update("search", 0.8);

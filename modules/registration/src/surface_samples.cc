@@ -27,7 +27,8 @@ std::vector<SurfaceSample> spread_over(const TriangleMesh& mesh, int count) {
     const Eigen::Vector3d& p = mesh.vertices_m[a];
     const double before = t == 0 ? 0.0 : area[t - 1];
     // Large triangles hold many of them: a sequence of low discrepancy, folded into the triangle (Roberts 2018).
-    double u = std::fmod(0.5 + 0.7548776662466927 * (i + 1), 1.0), v = std::fmod(0.5 + 0.5698402909980532 * (i + 1), 1.0);
+    double u = std::fmod(0.5 + 0.7548776662466927 * (i + 1), 1.0),
+           v = std::fmod(0.5 + 0.5698402909980532 * (i + 1), 1.0);
     if (u + v > 1.0) {
       u = 1.0 - u;
       v = 1.0 - v;

@@ -37,8 +37,8 @@ WeighedPose weighed(const PathLikelihood::Evaluation& at, const PointSet& points
   // Where the path says nothing, a valley is as wide as the path.
   const Matrix6 metric = motion_metric(points, at.pose) / std::pow(0.5 * points.radius_m, 2);
   const Matrix6 precision = at.information + metric;
-  const double log_volume = 0.5 * (metric.ldlt().vectorD().array().log().sum() -
-                                   precision.ldlt().vectorD().array().log().sum());
+  const double log_volume =
+      0.5 * (metric.ldlt().vectorD().array().log().sum() - precision.ldlt().vectorD().array().log().sum());
   out.log_mass = -0.5 * (at.cost + guess_cost(points, guess, at.pose, config)) + log_volume;
   return out;
 }
@@ -81,7 +81,8 @@ std::vector<WeighedPose> weigh_poses(std::span<const MeasuredPath> paths, const 
   std::vector<PathLikelihood::Evaluation> ends;
   for (const auto& begun : first) {
     if (begun.cost > least + kHopeless && ends.size() >= 2) break;
-    if (std::any_of(ends.begin(), ends.end(), [&](const auto& end) { return same_place(points, end, begun); })) continue;
+    if (std::any_of(ends.begin(), ends.end(), [&](const auto& end) { return same_place(points, end, begun); }))
+      continue;
     observer.update("comparison", 0.5);
     const PathLikelihood::Evaluation end = likelihood.descend(begun.pose, 3, 6);
     const auto known =

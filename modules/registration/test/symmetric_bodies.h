@@ -44,8 +44,8 @@ inline TriangleMesh sphere_mesh(double radius_m, double bump_m) {
   });
 }
 
-// A path with an error that lasts: along each axis a Gauss–Markov process of `slow_m` over 20 mm of path, stated as such;
-// 10 µm of white noise.
+// A path with an error that lasts: along each axis a Gauss–Markov process of `slow_m` over 20 mm of path, stated as
+// such; 10 µm of white noise.
 inline MeasuredPath measured(const std::vector<Eigen::Vector3d>& p_mesh_m, double slow_m, Random& random) {
   MeasuredPath out;
   Eigen::Vector3d slow = slow_m * normal3(random);

@@ -20,7 +20,8 @@ using test::kWorldMesh;
 // Over a plane the heights are the points' z: the likelihood is that of a normal distribution with the covariance that
 // weigh_poses.h describes, written out.
 TEST(WeighPoses, TheLikelihoodOverAPlaneIsThatOfADenseCovariance) {
-  const Body plane(test::grid(4, 4, [](double u, double v) { return Eigen::Vector3d(0.4 * u - 0.2, 0.4 * v - 0.2, 0.0); }));
+  const Body plane(
+      test::grid(4, 4, [](double u, double v) { return Eigen::Vector3d(0.4 * u - 0.2, 0.4 * v - 0.2, 0.0); }));
   Random random(4);
   MeasuredPath path;
   double slow_m = 0.1e-3 * random.normal();

@@ -65,6 +65,7 @@ constexpr VerdictCode kCodes[] = {
      "check the guess, or state how well it is known with search.registration.guess_sigma_m and guess_sigma_deg, and "
      "the "
      "same of refinement"},
+    {"guess_overruled", kLimited, "check the pose: the paths fit the mesh better there than near the guess"},
     {"mesh_misfit", kLimited,
      "check the mesh against the object, and state its error with search.registration.surface_error_m"},
     {"pose_not_converged", kInvalid, "give a guess nearer to the true pose"},

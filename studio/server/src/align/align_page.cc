@@ -175,10 +175,8 @@ void AlignPage::judge(const Request& request) {
   std::optional<Placements> known;
   if (last_ && last_->scene == scene && !last_->placements.found.empty()) known = last_->placements;
   answer_in_lane(shared_.jobs, "align verdict", request, "", "",
-                 [scene, wanted = choice(), known = std::move(known),
-                  pose = pose_argument(request, "pose")](const Observer& observer) {
-                   return judge_by_hand(*scene, wanted, pose, known, observer);
-                 });
+                 [scene, wanted = choice(), known = std::move(known), pose = pose_argument(request, "pose")](
+                     const Observer& observer) { return judge_by_hand(*scene, wanted, pose, known, observer); });
 }
 
 void AlignPage::run(const Request& request) {

@@ -31,13 +31,13 @@ struct WeighedPose {
   double slow_ratio = 1.0;  // of the slow error that it needs over the stated one, standard deviations
   double noise_m = 0.0;     // of the averages
   double outlying = 0.0;    // share of the path that is no such error
-  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();  // of (rotation rad, shift m) about the
-                                                                                  // points' mean, mesh frame
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();  // of (rotation rad, shift m) about
+                                                                                  // the points' mean, mesh frame
 };
 
-// The posterior probabilities of poses. Heights over the mesh, averaged over memory_m of path, are the slow error of the
-// path along the normal (Gauss–Markov along the path with the stated covariance, times the square of a ratio that is not
-// known exactly), the mean of the relief, and white noise: correlated points count as the few that they are. The
+// The posterior probabilities of poses. Heights over the mesh, averaged over memory_m of path, are the slow error of
+// the path along the normal (Gauss–Markov along the path with the stated covariance, times the square of a ratio that
+// is not known exactly), the mean of the relief, and white noise: correlated points count as the few that they are. The
 // likelihood comes from a Kalman filter along the path (Schweppe 1965) and is maximised at each pose over the ratio,
 // which has a log-normal prior about one, and the noise. A pose that lies badly needs a large ratio and pays for it
 // with the logarithm of it for each stretch of slow_length_m, and with the prior. Beyond four standard deviations a

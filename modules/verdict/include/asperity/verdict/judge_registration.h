@@ -26,6 +26,7 @@ struct PoseEvidence {
   double guess_rotation_rad = kUnknown;
   double guess_sigma_m = kUnknown;  // as the settings state it
   double guess_sigma_rad = kUnknown;
+  bool guess_stated = true;  // by the user; a guess of unknown error can be wrong without the pose being so
 
   double sigma_m = kUnknown;     // of the points' RMS position, motions along which the mesh is its own image left out
   double sigma_rad = kUnknown;   // and of the rotation
