@@ -143,7 +143,8 @@ Verdicts judge_pose(const RegistrationResult& registration, bool guessed) {
   constexpr double kGuess_m = 5e-3;  // known less well than this, a motion is known less well than from a guess by hand
   const bool arbitrary = std::any_of(registration.undetermined.begin(), registration.undetermined.end(),
                                      [](const UndeterminedMotion& motion) { return !(motion.sigma_m < kGuess_m); });
-  if (!guessed && arbitrary) {
+  // Where the pose was weighed, the standard deviations say it, and leave out what the mesh is its own image along.
+  if (!guessed && arbitrary && !registration.rivals.judged) {
     out.push_back(
         make_verdict("pose_arbitrary", "without a guess, where the scans lie along undetermined motions is arbitrary"));
     sort_verdicts(out);
