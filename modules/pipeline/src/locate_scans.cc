@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "asperity/base/error.h"
-#include "asperity/pipeline/scan_placements.h"
+#include "asperity/pipeline/pose_candidates.h"
 #include "asperity/registration/pose_misfit.h"
 #include "asperity/registration/pose_rivals.h"
 #include "asperity/registration/refine_registration.h"
@@ -135,13 +135,13 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
   }
   RegisterConfig searched = config;
   searched.search = search;
-  out.placements = find_placements(scans, surface, guess, near, searched, observer);
+  out.candidates = find_pose_candidates(scans, surface, guess, near, searched, observer);
   const bool keeps_guess =
       guess && search.registration.starts.when == OtherStarts::kNever && config.refinement.other_starts == 0;
   if (!keeps_guess) {
     RegistrationConfig local = search.registration;
     local.starts.when = OtherStarts::kNever;
-    out.registration = register_path(smooth, ready, out.placements.found.front().T_mesh_world, local, observer);
+    out.registration = register_path(smooth, ready, out.candidates.found.front().T_mesh_world, local, observer);
   }
   // A guess that the paths contradict has no say in the refinement.
   const std::optional<Pose> believed =
@@ -158,7 +158,7 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
     out.slow_error_world_m = std::move(refined.slow_error_world_m);
     out.registration.misfit = measure_pose_misfit(paths, ready, guess, misfit, out.registration);
   }
-  state_rivals(judge_placement(scans, surface, out.registration.T_mesh_world, guess, out.placements, searched),
+  state_rivals(judge_candidate(scans, surface, out.registration.T_mesh_world, guess, out.candidates, searched),
                out.registration);
   return out;
 }

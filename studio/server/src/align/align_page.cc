@@ -172,8 +172,8 @@ void AlignPage::measure(const Request& request) {
 // A verdict belongs to a pose: one that is placed by hand has its own.
 void AlignPage::judge(const Request& request) {
   const std::shared_ptr<const AlignScene> scene = this->scene();
-  std::optional<Placements> known;
-  if (last_ && last_->scene == scene && !last_->placements.found.empty()) known = last_->placements;
+  std::optional<PoseCandidates> known;
+  if (last_ && last_->scene == scene && !last_->candidates.found.empty()) known = last_->candidates;
   answer_in_lane(shared_.jobs, "align verdict", request, "", "",
                  [scene, wanted = choice(), known = std::move(known), pose = pose_argument(request, "pose")](
                      const Observer& observer) { return judge_by_hand(*scene, wanted, pose, known, observer); });

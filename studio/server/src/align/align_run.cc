@@ -52,17 +52,17 @@ AlignRun run_align(std::uint64_t number, const std::shared_ptr<const AlignScene>
   out.scene = scene;
   LocatedScans located = locate_scans(scene->scans, scene->surface, guess, run_config(choice, false), observer);
   out.result = std::move(located.registration);
-  out.placements = std::move(located.placements);
+  out.candidates = std::move(located.candidates);
   out.how = {guess, false, out.result.T_mesh_world};
   out.certainty = certainty_of(out.result);
   return out;
 }
 
 Json judge_by_hand(const AlignScene& scene, const AlignChoice& choice, const Pose& pose,
-                   const std::optional<Placements>& placements, const RegistrationObserver& observer) {
+                   const std::optional<PoseCandidates>& candidates, const RegistrationObserver& observer) {
   const RegisterConfig config = config_of(choice);
-  const Placements compared =
-      placements ? *placements : find_placements(scene.scans, scene.surface, std::nullopt, {}, config, observer);
+  const PoseCandidates compared =
+      candidates ? *candidates : find_pose_candidates(scene.scans, scene.surface, std::nullopt, {}, config, observer);
   const RegistrationResult result = judge_pose_by_hand(scene.scans, scene.surface, pose, compared, config);
   const Verdicts verdicts = judge_pose(result, true);
   Json out;

@@ -7,7 +7,7 @@
 
 #include "align/align_scene.h"
 #include "align/iteration_log.h"
-#include "asperity/pipeline/scan_placements.h"
+#include "asperity/pipeline/pose_candidates.h"
 #include "asperity/registration/registration_result.h"
 
 namespace asperity::studio {
@@ -18,8 +18,8 @@ struct AlignRun {
   std::shared_ptr<const AlignScene> scene;
   AlignChoice::Registered how;  // its T_mesh_world is where it ended
   RegistrationResult result;
-  Placements placements;  // what the pose was compared with
-  std::string certainty;  // how well the pose is known, in words
+  PoseCandidates candidates;  // what the pose was compared with
+  std::string certainty;      // how well the pose is known, in words
 };
 
 // The choice's settings; where the guess is to be kept to, without other places about it.
@@ -32,7 +32,7 @@ AlignRun run_align(std::uint64_t number, const std::shared_ptr<const AlignScene>
 // What is to be said of a pose that was placed by hand, beside all that a run has found or, without one, that is found
 // now. {"T_mesh_world","rms_m","trustworthy","verdict","verdicts"}.
 Json judge_by_hand(const AlignScene& scene, const AlignChoice& choice, const Pose& pose,
-                   const std::optional<Placements>& placements, const RegistrationObserver& observer);
+                   const std::optional<PoseCandidates>& candidates, const RegistrationObserver& observer);
 
 // {"run","guess","T_mesh_world","rms_m","mean_m","points","outliers","iterations","converged","trustworthy",
 // "ambiguous","verdict","verdicts","certainty","undetermined":[{"description","sigma_m"}],"runner_up","problems"}; what

@@ -7,7 +7,7 @@
 
 #include "asperity/geometry/mesh_surface.h"
 #include "asperity/geometry/pose.h"
-#include "asperity/pipeline/scan_placements.h"
+#include "asperity/pipeline/pose_candidates.h"
 #include "asperity/pipeline/scan_points.h"
 #include "asperity/registration/registration_iteration.h"
 #include "asperity/registration/registration_result.h"
@@ -18,7 +18,7 @@ namespace asperity {
 struct LocatedScans {
   RegistrationResult registration;
   std::vector<std::vector<Eigen::Vector3d>> slow_error_world_m;  // [scan][point]; empty scans if none was estimated
-  Placements placements;                                         // all that was compared; empty by another method
+  PoseCandidates candidates;                                     // all that was compared; empty by another method
 };
 
 // The pose of the mesh to which all scans fit (seed §5.4), from `guess` or from anywhere; refined by what is known of

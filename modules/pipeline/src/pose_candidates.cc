@@ -1,4 +1,4 @@
-#include "asperity/pipeline/scan_placements.h"
+#include "asperity/pipeline/pose_candidates.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,13 +35,13 @@ WeighConfig weigh_config(const ScanPoints& scans, const std::optional<Pose>& gue
 
 }  // namespace
 
-Placements find_placements(const ScanPoints& scans, const MeshSurface& surface, const std::optional<Pose>& guess,
-                           std::span<const Pose> near, const RegisterConfig& config,
-                           const RegistrationObserver& observer) {
+PoseCandidates find_pose_candidates(const ScanPoints& scans, const MeshSurface& surface,
+                                    const std::optional<Pose>& guess, std::span<const Pose> near,
+                                    const RegisterConfig& config, const RegistrationObserver& observer) {
   const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
   const std::vector<MeasuredPath> paths = paths_of(scans);
   std::vector<Pose> candidates(near.begin(), near.end());
-  Placements out;
+  PoseCandidates out;
   out.everywhere = !guess || config.search.rivals;
   if (out.everywhere) {
     std::vector<MeasuredPath> smooth = paths;
@@ -57,8 +57,8 @@ Placements find_placements(const ScanPoints& scans, const MeshSurface& surface, 
   return out;
 }
 
-PoseRivals judge_placement(const ScanPoints& scans, const MeshSurface& surface, const Pose& T_mesh_world,
-                           const std::optional<Pose>& guess, const Placements& placements,
+PoseRivals judge_candidate(const ScanPoints& scans, const MeshSurface& surface, const Pose& T_mesh_world,
+                           const std::optional<Pose>& guess, const PoseCandidates& candidates,
                            const RegisterConfig& config) {
   const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
   const std::vector<MeasuredPath> paths = paths_of(scans);
@@ -66,11 +66,11 @@ PoseRivals judge_placement(const ScanPoints& scans, const MeshSurface& surface, 
                                     config.search.registration);
   RivalConfig rivals;
   rivals.surface_error_m = config.search.registration.surface_error_m;
-  return find_rivals(paths, ready, at, placements.found, placements.everywhere, rivals);
+  return find_rivals(paths, ready, at, candidates.found, candidates.everywhere, rivals);
 }
 
 RegistrationResult judge_pose_by_hand(const ScanPoints& scans, const MeshSurface& surface, const Pose& T_mesh_world,
-                                      const Placements& placements, const RegisterConfig& config) {
+                                      const PoseCandidates& candidates, const RegisterConfig& config) {
   const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
   const std::vector<MeasuredPath> paths = paths_of(scans);
   RegistrationResult out;
@@ -98,7 +98,7 @@ RegistrationResult judge_pose_by_hand(const ScanPoints& scans, const MeshSurface
   misfit.surface_error_m = config.search.registration.surface_error_m;
   out.misfit = measure_pose_misfit(paths, ready, {}, misfit, out);
   out.verdict = fmt::format("placed by hand. Residual {:.4f} mm RMS over {} points.", 1e3 * out.rms_m, out.points);
-  state_rivals(judge_placement(scans, surface, T_mesh_world, {}, placements, config), out);
+  state_rivals(judge_candidate(scans, surface, T_mesh_world, {}, candidates, config), out);
   return out;
 }
 
