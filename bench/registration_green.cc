@@ -93,15 +93,16 @@ Outcome run_case(const bench::RegistrationCase& given, const asperity::ScanPoint
   for (const auto& line : given.lines) length_m += bench::kPathSpacing_m * static_cast<double>(line.p_m.size());
   std::string codes;
   for (const asperity::Verdict& verdict : verdicts) codes += " " + verdict.code;
-  std::fprintf(stderr,
-               "%4d %-38s %-14s %zu paths %3.0f mm slow %.2f relief %.3f | off %7.3f mm %7.2f° bound %.3f mm %.2f° rms "
-               "%.3f | %s%s%s |%s | %.2f s\n",
-               number, std::string(bench::kCaseClassNames.at(static_cast<std::size_t>(given.kind))).c_str(),
-               given.body.c_str(), given.lines.size(), 1e3 * length_m, 1e3 * given.errors.slow_m,
-               1e3 * given.errors.relief_m, 1e3 * off.rms_m, off.rotation_rad / kDegree, 1e3 * bound.rms_m,
-               bound.rotation_rad / kDegree, 1e3 * result.rms_m, out.wrong ? "WRONG" : "", out.good ? "good" : "",
-               out.wrong && out.trusted ? " TRUSTED" : (out.good && !out.trusted ? " REFUSED" : ""), codes.c_str(),
-               out.time_s);
+  std::fprintf(
+      stderr,
+      "%4d %-38s %-14s %zu paths %3.0f mm slow %.2f relief %.3f | off %7.3f mm %7.2f° bound %.3f mm %.2f° rms "
+      "%.3f slow ratio %.2f odds %.1e sigma %.2f mm %.2f° | %s%s%s |%s | %.2f s\n",
+      number, std::string(bench::kCaseClassNames.at(static_cast<std::size_t>(given.kind))).c_str(), given.body.c_str(),
+      given.lines.size(), 1e3 * length_m, 1e3 * given.errors.slow_m, 1e3 * given.errors.relief_m, 1e3 * off.rms_m,
+      off.rotation_rad / kDegree, 1e3 * bound.rms_m, bound.rotation_rad / kDegree, 1e3 * result.rms_m,
+      result.rivals.slow_ratio, result.rivals.odds, 1e3 * result.rivals.sigma_m, result.rivals.sigma_rad / kDegree,
+      out.wrong ? "WRONG" : "", out.good ? "good" : "",
+      out.wrong && out.trusted ? " TRUSTED" : (out.good && !out.trusted ? " REFUSED" : ""), codes.c_str(), out.time_s);
   return out;
 }
 
