@@ -98,7 +98,8 @@ std::optional<PoseMetrics> measure_pose(const Options& options, const asperity::
   const asperity::ScansOnMesh result = asperity::register_scans({scan}, mesh, guess, {});
   const asperity::RegisteredScan& registered = result.scans.front();
   if (registered.path.size() == 0 || !registered.process.accuracy || !registered.process.accuracy->profile) return {};
-  const asperity::PoseError error = asperity::pose_error(result.registration, truth, registered.path.p_mesh_m);
+  const asperity::PoseError error =
+      asperity::pose_error(result.placements.front().registration, truth, registered.path.p_mesh_m);
   const asperity::ProfileComparison& profile = *registered.process.accuracy->profile;
   return PoseMetrics{1e3 * error.rms_m,
                      error.rotation_rad / kDegree,
@@ -106,7 +107,7 @@ std::optional<PoseMetrics> measure_pose(const Options& options, const asperity::
                      error.sigma_rad / kDegree,
                      profile.correlation,
                      std::abs(profile.length_error_percent),
-                     !result.registration.undetermined.empty(),
+                     !result.placements.front().registration.undetermined.empty(),
                      result.trustworthy};
 }
 

@@ -64,7 +64,7 @@ asperity::ScanPoints points_of(const bench::RegistrationCase& given) {
 Outcome run_case(const bench::RegistrationCase& given, const asperity::ScanPoints& scans, int number, bool each) {
   const auto begin = std::chrono::steady_clock::now();
   const asperity::RegistrationResult result =
-      asperity::locate_scans(scans, *given.surface, given.guess, given.config).registration;
+      asperity::locate_scans(scans, *given.surface, given.guess, given.config).placements.front().registration;
   Outcome out;
   out.time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   out.kind = given.kind;

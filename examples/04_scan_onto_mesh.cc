@@ -59,12 +59,13 @@ int main(int argc, char** argv) try {
   const asperity::RegisterConfig config;
   const asperity::ScansOnMesh result = asperity::register_scans({scan}, mesh, guess, config);
   for (const asperity::Problem& problem : result.problems) std::printf("note: %s\n", problem.message.c_str());
-  for (const asperity::UndeterminedMotion& motion : result.registration.undetermined) {
+  for (const asperity::UndeterminedMotion& motion : result.placements.front().registration.undetermined) {
     std::printf("undetermined %s\n", motion.description.c_str());
   }
 
   const asperity::RegisteredScan& on_mesh = result.scans.front();
-  const asperity::PoseError error = asperity::pose_error(result.registration, truth, on_mesh.path.p_mesh_m);
+  const asperity::PoseError error =
+      asperity::pose_error(result.placements.front().registration, truth, on_mesh.path.p_mesh_m);
   std::printf("moved        %.2f mm from the truth, expected %.2f\n", 1e3 * error.rms_m, 1e3 * error.sigma_m);
   std::printf("turned       %.2f degrees, expected %.2f\n", error.rotation_rad * 180.0 / std::numbers::pi,
               error.sigma_rad * 180.0 / std::numbers::pi);

@@ -60,7 +60,7 @@ Scan scan_over(const TriangleMesh& mesh, SimulationConfig& config, const Observe
 std::vector<DemoMetric> compare_scans(const Recording& recording, const ScansOnMesh& result,
                                       const Pose& true_T_mesh_world, const ProcessConfig& config) {
   const RegisteredScan& scan = result.scans.front();
-  const PoseError error = pose_error(result.registration, true_T_mesh_world, scan.path.p_mesh_m);
+  const PoseError error = pose_error(result.placements.front().registration, true_T_mesh_world, scan.path.p_mesh_m);
   std::vector<DemoMetric> out;
   out.push_back({"pose_m", "pose, its points", "mm", 1e3, error.rms_m, error.sigma_m, DemoMetric::kNone, 0.0});
   out.push_back({"turn_rad", "pose, its turn", "degrees", 1.0 / kDegree, error.rotation_rad, error.sigma_rad,
@@ -136,12 +136,12 @@ MeshDemo demonstrate_mesh(const fs::path& folder, const ProcessConfig& process, 
   const std::vector<DemoMetric> metrics = compare_scans(*scan.recording, result, truth, process);
   out.json["registration"] = metrics_json(metrics);
   out.json["registration"]["undetermined"] = Json::array();
-  for (const UndeterminedMotion& motion : result.registration.undetermined) {
+  for (const UndeterminedMotion& motion : result.placements.front().registration.undetermined) {
     out.json["registration"]["undetermined"].push_back(motion.description);
   }
   out.text = "sandpaper on a pebble, registered from 5 mm and 5 degrees off\n";
   for (const DemoMetric& metric : metrics) out.text += metric_line(metric);
-  out.text += undetermined_lines(result.registration);
+  out.text += undetermined_lines(result.placements.front().registration);
   out.trustworthy = result.trustworthy;
   out.verdict = result.verdict;
 

@@ -109,6 +109,23 @@ double number_option(const std::string& option, const std::string& text, const s
   return *number;
 }
 
+std::vector<int> counts_option(const std::string& option, const std::string& text) {
+  std::vector<int> out;
+  std::string_view rest = text;
+  for (bool more = true; more;) {
+    const auto comma = rest.find(',');
+    const auto number = parse_double(trim(rest.substr(0, comma)));
+    if (!number || !(*number >= 1.0 && *number <= 1e6) || *number != std::floor(*number)) {
+      throw UsageError(option + ": '" + printable(text, 200) +
+                       "' is not a list of whole numbers from 1, such as 1,1,2");
+    }
+    out.push_back(static_cast<int>(*number));
+    more = comma != std::string_view::npos;
+    if (more) rest.remove_prefix(comma + 1);
+  }
+  return out;
+}
+
 double force_option_N(const std::string& option, const std::string& text, double most_N) {
   if (!trim(text).ends_with('N')) throw UsageError(option + ": '" + printable(text) + "' is no force, such as 1N");
   return number_option(option, text, "N", 0.0, most_N);

@@ -24,6 +24,8 @@ double duration_option_s(const std::string& option, const std::string& text, dou
 // A number within [low, high], with or without its unit behind it: "1.5" or "1.5N".
 double number_option(const std::string& option, const std::string& text, const std::string& unit, double low,
                      double high);
+// Whole numbers from 1 with commas between, such as 1,1,2.
+std::vector<int> counts_option(const std::string& option, const std::string& text);
 // A force such as 1.5N, from 0 to `most_N`.
 double force_option_N(const std::string& option, const std::string& text, double most_N);
 // x,y,z in metres, or each with a unit of length.

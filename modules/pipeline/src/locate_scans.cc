@@ -86,16 +86,25 @@ bool is_near(const Pose& guess, const Pose& pose, const Eigen::Vector3d& centre_
          rotation_between_rad(guess, pose) < kSigmas * config.guess_sigma_deg * std::numbers::pi / 180.0;
 }
 
-}  // namespace
+// The points of some of the scans.
+ScanPoints points_of(const ScanPoints& scans, const std::vector<std::size_t>& members) {
+  ScanPoints out;
+  out.in_sequence = scans.in_sequence;
+  for (const std::size_t i : members) out.points.push_back(scans.points[i]);
+  return out;
+}
 
-LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, const std::optional<Pose>& guess,
-                          const RegisterConfig& config, const RegistrationObserver& observer) {
-  const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
+// Scans of one placement; `candidates` gets all poses that were compared.
+RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<std::size_t>& members,
+                                    const MeshSurface& surface, const RegistrationSurface& ready,
+                                    const std::optional<Pose>& guess, const RegisterConfig& config,
+                                    const RegistrationObserver& observer, PoseCandidates& candidates) {
   observer.update("registration", 0.0);
   std::vector<MeasuredPath> paths, smooth;
-  for (const PathPoints& points : scans.points) {
-    paths.push_back(points.path);
-    smooth.push_back(scans.in_sequence ? smooth_path(points.path, config.points.smoothing_m) : points.path);
+  for (const std::size_t i : members) {
+    const MeasuredPath& path = scans.points[i].path;
+    paths.push_back(path);
+    smooth.push_back(scans.in_sequence ? smooth_path(path, config.points.smoothing_m) : path);
   }
   SearchConfig search = config.search;
   if (scans.in_sequence && search.registration.error_length_m == 0.0) {
@@ -112,7 +121,7 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
       stated(search.registration.guess_sigma_deg, config.refinement.guess_sigma_deg, usual.guess_sigma_deg) *
           std::numbers::pi / 180.0,
       is_stated(search.registration, config.refinement)};
-  LocatedScans out;
+  RefinedRegistration out;
   const ProcessMethod& method = ProcessMethods::get(config.process.method);
   if (method.register_paths) {
     if (!guess)
@@ -120,7 +129,7 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
           "registration by this method begins from a pose near the right one: give a guess (--guess, --align or "
           "--picks)");
     out.registration = method.register_paths(config.process, paths, surface, *guess);
-    out.slow_error_world_m.resize(scans.points.size());
+    out.slow_error_world_m.resize(members.size());
     // The baseline's method knows no error of its guess.
     out.registration.misfit = measure_pose_misfit(paths, ready, {}, misfit, out.registration);
     return out;
@@ -135,13 +144,14 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
   }
   RegisterConfig searched = config;
   searched.search = search;
-  out.candidates = find_pose_candidates(scans, surface, guess, near, searched, observer);
+  const ScanPoints together = points_of(scans, members);
+  candidates = find_pose_candidates(together, surface, guess, near, searched, observer);
   const bool keeps_guess =
       guess && search.registration.starts.when == OtherStarts::kNever && config.refinement.other_starts == 0;
   if (!keeps_guess) {
     RegistrationConfig local = search.registration;
     local.starts.when = OtherStarts::kNever;
-    out.registration = register_path(smooth, ready, out.candidates.found.front().T_mesh_world, local, observer);
+    out.registration = register_path(smooth, ready, candidates.found.front().T_mesh_world, local, observer);
   }
   // A guess that the paths contradict has no say in the refinement.
   const std::optional<Pose> believed =
@@ -149,17 +159,43 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
           ? guess
           : std::nullopt;
   // Scans have errors that last along the path; points without a sequence have none that is known.
-  out.slow_error_world_m.resize(scans.points.size());
+  out.slow_error_world_m.resize(members.size());
   if (scans.in_sequence) {
     observer.update("refinement", 0.0);
     RefinedRegistration refined =
         refine_registration(paths, surface, out.registration, believed, {}, config.refinement, observer);
-    out.registration = std::move(refined.registration);
-    out.slow_error_world_m = std::move(refined.slow_error_world_m);
+    out = std::move(refined);
     out.registration.misfit = measure_pose_misfit(paths, ready, guess, misfit, out.registration);
   }
-  state_rivals(judge_candidate(scans, surface, out.registration.T_mesh_world, guess, out.candidates, searched),
+  state_rivals(judge_candidate(together, surface, out.registration.T_mesh_world, guess, candidates, searched),
                out.registration);
+  return out;
+}
+
+}  // namespace
+
+LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, const std::optional<Pose>& guess,
+                          const RegisterConfig& config, const RegistrationObserver& observer) {
+  const std::size_t count = scans.points.size();
+  std::vector<std::size_t> stated = scans.placement;
+  if (stated.empty()) {
+    for (std::size_t i = 0; i < count; ++i) stated.push_back(config.placement.mode == PlacementMode::kEach ? i : 0);
+  }
+  if (stated.size() != count) throw Error("registration: the placement is stated of some scans only");
+  const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
+  LocatedScans out;
+  out.placement_of.resize(count);
+  out.slow_error_world_m.resize(count);
+  for (std::vector<std::size_t>& members : group_placements(stated)) {
+    PoseCandidates candidates;
+    RefinedRegistration located = locate_together(scans, members, surface, ready, guess, config, observer, candidates);
+    out.candidates.push_back(std::move(candidates));
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      out.placement_of[members[k]] = out.placements.size();
+      out.slow_error_world_m[members[k]] = std::move(located.slow_error_world_m[k]);
+    }
+    out.placements.push_back({std::move(located.registration), std::move(members), {}});
+  }
   return out;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -133,16 +135,25 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
   observer.update("mesh", 0.0);
   const MeshSurface surface(mesh);
   LocatedScans located = locate_scans(begun, surface, guess, config, observer);
-  out.registration = std::move(located.registration);
-  append_problems(out.problems, out.registration.problems);
-  out.verdicts = judge_pose(out.registration, guess.has_value());
+  out.placements = std::move(located.placements);
+  for (std::size_t k = 0; k < out.placements.size(); ++k) {
+    Placement& placement = out.placements[k];
+    append_problems(out.problems, placement.registration.problems);
+    placement.verdicts = judge_pose(placement.registration, guess.has_value());
+    for (const std::size_t i : placement.scans) out.scans[i].placement = k;
+    if (out.placements.size() == 1) {
+      out.verdicts = placement.verdicts;
+    } else {
+      append_verdicts(out.verdicts, placement.verdicts, fmt::format("placement {}", k + 1));
+    }
+  }
 
   // What they met there.
   std::vector<MeshPath> mesh_paths;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     RegisteredScan& scan = out.scans[i];
     named(scan.name, [&] {
-      measure_scan(scans[i], surface, out.registration.T_mesh_world, config, begun.points[i],
+      measure_scan(scans[i], surface, out.registration_of(scan).T_mesh_world, config, begun.points[i],
                    located.slow_error_world_m[i], scan, observer);
       return 0;
     });

@@ -9,6 +9,7 @@
 #include "asperity/base/units.h"
 #include "asperity/pipeline/compare_specific_force.h"
 #include "asperity/pipeline/compare_with_tracker.h"
+#include "asperity/pipeline/reference.h"
 #include "asperity/profile/find_contact.h"
 #include "asperity/verdict/verdict_codes.h"
 
@@ -57,11 +58,13 @@ std::string why_absent(const Problems& problems, std::string_view kind) {
   return {};
 }
 
+double metric_of(const TrajectoryResult& trajectory, const char* name) {
+  const auto found = trajectory.metrics.find(name);
+  return found == trajectory.metrics.end() ? ScanEvidence::kUnknown : found->second;
+}
+
 void add_streams(const Recording& recording, const TrajectoryResult& trajectory, ScanEvidence& out) {
-  const auto metric = [&](const char* name) {
-    const auto found = trajectory.metrics.find(name);
-    return found == trajectory.metrics.end() ? ScanEvidence::kUnknown : found->second;
-  };
+  const auto metric = [&](const char* name) { return metric_of(trajectory, name); };
   const auto count = [&](const char* name) {
     const double value = metric(name);
     return value > 0.0 ? static_cast<std::size_t>(value) : 0;
@@ -221,6 +224,8 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
   out.snr = result.noise.snr;
   out.expected_correlation = result.noise.expected_correlation;
   out.at_most_m = result.noise.at_most_m;
+  out.sticks = result.friction.sticks;
+  out.stuck_share = result.friction.stuck_share;
 }
 
 }  // namespace
@@ -228,7 +233,14 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
 ScanEvidence scan_evidence(const Recording& recording, const ProcessResult& result) {
   ScanEvidence out;
   add_streams(recording, result.trajectory, out);
-  add_measured(recording, result, out);
+  out.object_seen_share = metric_of(result.trajectory, "object_seen_share");
+  out.object_moved_m = metric_of(result.trajectory, "object_moved_m");
+  out.object_turned_rad = metric_of(result.trajectory, "object_turned_rad");
+  if (result.trajectory.object) {
+    add_measured(recording_on_object(recording, result.trajectory), result, out);
+  } else {
+    add_measured(recording, result, out);
+  }
   return out;
 }
 

@@ -65,6 +65,7 @@ ScanPoints find_scan_points(const std::vector<Scan>& scans, const RegisterConfig
       throw Error(printable(scan.name, 200) + ": " + error.what());
     }
     out.points.push_back(points_of(scan, out.motions.back().trajectory.motion, config));
+    if (scan.placement) out.placement.push_back(static_cast<std::size_t>(*scan.placement));
     out.in_sequence = out.in_sequence && (scan.recording.has_value() || scan.path.timed);
   }
   return out;

@@ -39,6 +39,9 @@ constexpr VerdictCode kCodes[] = {
     {"little_overlap", kInvalid, "check that both streams have one clock, and record them together"},
     {"tracker_gap", kInvalid, "keep the markers in view, or use the method `fused`"},
     {"spikes", kInvalid, "check the probe's cable and power, or use the method `fused`"},
+    {"object_unseen", kInvalid, "keep the markers on the object in view, or process with `--set reference=world`"},
+    {"object_hidden", kLimited, "keep the markers on the object in view"},
+    {"object_moved", kNote, ""},
     // A scan: what was measured.
     {"no_profile", kInvalid, "scan one stroke along the surface in steady contact"},
     {"nothing_touched", kInvalid, "scan with the tip in contact with the surface"},
@@ -48,9 +51,14 @@ constexpr VerdictCode kCodes[] = {
     {"length_disagrees", kInvalid, "check the calibration of the tip and of the latency, or use the method `fused`"},
     {"error_unknown", kInvalid, "use the method `fused`"},
     {"noisy_texture", kLimited, "scan slower, or use a probe with less noise"},
+    {"stick_slip", kLimited, "press more lightly, or move faster"},
     {"contact_unknown", kLimited, "use a probe with a force sensor, or mark the contact as a segment"},
     {"no_roughness", kLimited, "scan a longer stroke"},
     {"no_texture", kLimited, "scan a longer stroke"},
+    // Strokes over one line (merge_results.h).
+    {"no_common_line", kInvalid, "scan along a guide, and merge strokes over one line alone"},
+    {"passes_left_out", kLimited, "check that they are of the same line, or leave them out"},
+    {"passes_disagree", kLimited, "scan along a guide, so that the strokes pass over the same line"},
     // A registration.
     {"pose_ambiguous", kInvalid,
      "scan a path with a bend or several strokes in different directions and register them together, or give a guess "

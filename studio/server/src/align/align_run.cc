@@ -51,8 +51,14 @@ AlignRun run_align(std::uint64_t number, const std::shared_ptr<const AlignScene>
   out.number = number;
   out.scene = scene;
   LocatedScans located = locate_scans(scene->scans, scene->surface, guess, run_config(choice, false), observer);
-  out.result = std::move(located.registration);
-  out.candidates = std::move(located.candidates);
+  out.result = located.placements.front().registration;
+  for (std::size_t i = 0; i < located.placement_of.size(); ++i) {
+    const std::size_t k = located.placement_of[i];
+    const RegistrationResult& registration = located.placements[k].registration;
+    out.scans.push_back({i < choice.paths.size() ? choice.paths[i] : "", k + 1, registration.T_mesh_world,
+                         registration.rms_m, std::string(verdict_word(judge_pose(registration, guess.has_value())))});
+  }
+  if (located.candidates.size() == 1) out.candidates = std::move(located.candidates.front());
   out.how = {guess, false, out.result.T_mesh_world};
   out.certainty = certainty_of(out.result);
   return out;
@@ -107,6 +113,16 @@ Json json_of_run(const AlignRun& run) {
     other["distance_m"] = number_or_null(result.runner_up->distance_m);
     other["turn_deg"] = number_or_null(result.runner_up->rotation_rad / kDegree);
     out["runner_up"] = std::move(other);
+  }
+  out["scans"] = Json::array();
+  for (const AlignedScan& scan : run.scans) {
+    Json each;
+    each["name"] = scan.name;
+    each["placement"] = scan.placement;
+    each["T_mesh_world"] = json_of_pose(scan.T_mesh_world);
+    each["rms_m"] = number_or_null(scan.rms_m);
+    each["verdict"] = scan.verdict;
+    out["scans"].push_back(std::move(each));
   }
   out["problems"] = Json::array();
   for (const Problem& problem : result.problems) out["problems"].push_back(problem.message);

@@ -2,6 +2,7 @@
 
 #include "asperity/pipeline/measured_path.h"
 #include "asperity/pipeline/path_texture.h"
+#include "asperity/pipeline/placement.h"
 #include "asperity/pipeline/process_config.h"
 #include "asperity/pipeline/scan_on_mesh.h"
 #include "asperity/registration/find_registration.h"
@@ -14,6 +15,7 @@ namespace asperity {
 struct RegisterConfig {
   ProcessConfig process;
   MeasuredPathConfig points;
+  PlacementConfig placement;
   SearchConfig search;  // its `registration` serves also where there is a guess
   RefineConfig refinement;
   ScanOnMeshConfig path;
@@ -24,6 +26,7 @@ struct RegisterConfig {
   void visit(V& v) {
     v.group("process", process);
     v.group("points", points);
+    v.group("placement", placement);
     v.group("search", search);
     v.group("refinement", refinement);
     v.group("path", path);

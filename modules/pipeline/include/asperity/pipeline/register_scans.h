@@ -10,6 +10,7 @@
 #include "asperity/geometry/pose.h"
 #include "asperity/geometry/triangle_mesh.h"
 #include "asperity/pipeline/path_texture.h"
+#include "asperity/pipeline/placement.h"
 #include "asperity/pipeline/process_result.h"
 #include "asperity/pipeline/register_config.h"
 #include "asperity/pipeline/scan.h"
@@ -25,6 +26,7 @@ namespace asperity {
 struct RegisteredScan {
   std::string name;
   bool is_recording = false;
+  std::size_t placement = 0;                // index of its placement
   ProcessResult process;                    // of a path alone: motion, base path and profile
   MeshPath path;                            // its s_m is the profile's
   std::optional<PathTexture> path_texture;  // the whole profile; nullopt if a texture was given or none could be made
@@ -33,7 +35,7 @@ struct RegisteredScan {
 
 // Scans registered to a mesh, measured over it, and its haptic coordinates: texture i + 1 is that of scan i.
 struct ScansOnMesh {
-  RegistrationResult registration;
+  std::vector<Placement> placements;  // at least one, in the order of their first scans
   std::vector<RegisteredScan> scans;
   HapticCoordinates coordinates;
   Problems problems;
@@ -41,12 +43,16 @@ struct ScansOnMesh {
   bool trustworthy = true;  // none of them is invalid
   std::string verdict;      // they in a sentence; empty if none is invalid or limited
   RegisterConfig config;    // the settings that gave it
+
+  const RegistrationResult& registration_of(const RegisteredScan& scan) const {
+    return placements[scan.placement].registration;
+  }
 };
 
 // From scans and a mesh to a textured mesh (seed §5.4, §6.3, B.2): the tips' trajectories; the pose of the mesh to
-// which all of them fit, from `guess` or from anywhere; the profiles over the mesh (seed §4.3); textures and
-// haptic coordinates. `mesh` is in metres. Throws Error if a scan or a setting does not allow it at all, naming
-// the scan, and Cancelled.
+// which all scans of a placement fit, from `guess` or from anywhere; the profiles over the mesh (seed §4.3); textures
+// and haptic coordinates. `mesh` is in metres. Throws Error if a scan or a setting does not allow it at all, naming the
+// scan, and Cancelled.
 ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& mesh, const std::optional<Pose>& guess,
                            const RegisterConfig& config, const RegistrationObserver& observer = {});
 

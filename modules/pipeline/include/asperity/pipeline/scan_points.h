@@ -14,6 +14,7 @@ namespace asperity {
 struct ScanPoints {
   std::vector<ProcessResult> motions;  // the trajectory and what is doubtful about it; the rest is empty
   std::vector<PathPoints> points;
+  std::vector<std::size_t> placement;  // the stated number of each scan's placement; empty: not stated
   bool in_sequence = true;  // all scans have times: their points follow one another, and errors last along them
 };
 

@@ -11,6 +11,7 @@ import { latest } from "./latest";
 import { missingWords } from "./missing";
 import type { Pick } from "./picks";
 import { samePose, type Frame, type Point, type Pose } from "./pose";
+import { ownPoses, type ScanPose } from "./scans";
 
 export interface AlignSection {
   paths: string[];
@@ -45,6 +46,7 @@ export interface RunResult extends Solution {
   undetermined: { description: string; sigma_m: number | null }[];
   runner_up: (Solution & { distance_m: number | null; turn_deg: number | null }) | null;
   problems: string[];
+  scans?: ScanPose[];
 }
 
 /** What is to be said of a pose that was placed by hand. */
@@ -89,6 +91,10 @@ export const showing = signal<Showing>("placed");
 /** The iteration that is shown, from 0. */
 export const scrub = signal(0);
 export const ghost = signal(false);
+/** What the path's colours stand for. */
+export const colouring = signal<"distance" | "scan">("distance");
+/** Whether the areas of a scene that have a texture are drawn. */
+export const showAreas = signal(true);
 export const tool = signal<Tool>("look");
 /** The point of the path, in the world, that waits for its point of the mesh. */
 export const half = signal<Point | null>(null);
@@ -116,6 +122,11 @@ export const shown = computed<Pose | null>(() => {
   if (showing.value === "runner_up") return result.value?.runner_up?.T_mesh_world ?? placed.value;
   return placed.value;
 });
+
+/** Poses of the scans of a registration with several placements, while it is shown: one a path. */
+export const shownPoses = computed<Pose[] | null>(() =>
+  showing.value === "best" ? ownPoses(result.value?.scans, align.value?.paths.length ?? 0) : null,
+);
 
 /** The other solution of the two, while one of them is shown. */
 export const ghostPose = computed<Pose | null>(() => {
@@ -189,7 +200,7 @@ const quietly = (error: unknown): void => {
 let openings = 0;
 
 /** Opens what the document names, again when that changes. */
-async function open(): Promise<void> {
+export async function open(): Promise<void> {
   const number = ++openings;
   const isNewest = () => number === openings;
   opening.value = true;
@@ -254,9 +265,9 @@ export async function take(solution: "best" | "runner_up"): Promise<void> {
 
 /** Follows server and document while the page is shown; the function that it returns ends it. */
 export function followAlign(): () => void {
-  const measurer = latest(async (pose: Pose) => {
+  const measurer = latest(async ({ pose, poses }: { pose: Pose; poses: Pose[] | null }) => {
     try {
-      const block = await call<Block>("align.residuals", { pose });
+      const block = await call<Block>("align.residuals", poses ? { pose, poses } : { pose });
       const { mean_m, rms_m, most_m } = block.head as Residuals;
       residuals.value = { distance_m: block.arrays.distance_m as Float32Array, mean_m, rms_m, most_m };
     } catch (error) {
@@ -300,7 +311,7 @@ export function followAlign(): () => void {
       else close();
     }),
     effect(() => {
-      if (opened.value && shown.value) measurer(shown.value);
+      if (opened.value && shown.value) measurer({ pose: shown.value, poses: shownPoses.value });
       else residuals.value = null;
     }),
     effect(() => {
