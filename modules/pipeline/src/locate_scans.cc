@@ -6,8 +6,9 @@
 #include <numbers>
 
 #include "asperity/base/error.h"
-#include "asperity/registration/find_registration.h"
+#include "asperity/pipeline/pose_candidates.h"
 #include "asperity/registration/pose_misfit.h"
+#include "asperity/registration/pose_rivals.h"
 #include "asperity/registration/refine_registration.h"
 #include "asperity/registration/register_path.h"
 
@@ -69,11 +70,35 @@ std::vector<Pose> other_fits(const std::vector<MeasuredPath>& paths, const Regis
   return out;
 }
 
-// Scans of one placement.
+// The user has said how well the guess is known.
+bool is_stated(const RegistrationConfig& search, const RefineConfig& refine) {
+  const RegistrationConfig usual_search;
+  const RefineConfig usual_refine;
+  return search.guess_sigma_m < usual_search.guess_sigma_m || search.guess_sigma_deg < usual_search.guess_sigma_deg ||
+         refine.guess_sigma_m < usual_refine.guess_sigma_m || refine.guess_sigma_deg < usual_refine.guess_sigma_deg;
+}
+
+bool is_near(const Pose& guess, const Pose& pose, const Eigen::Vector3d& centre_mesh_m, const RefineConfig& config) {
+  constexpr double kSigmas = 3.0;
+  const Pose motion = pose * guess.inverse();
+  const Eigen::Vector3d before_m = motion.inverse() * centre_mesh_m;
+  return (centre_mesh_m - before_m).norm() < kSigmas * config.guess_sigma_m &&
+         rotation_between_rad(guess, pose) < kSigmas * config.guess_sigma_deg * std::numbers::pi / 180.0;
+}
+
+// The points of some of the scans.
+ScanPoints points_of(const ScanPoints& scans, const std::vector<std::size_t>& members) {
+  ScanPoints out;
+  out.in_sequence = scans.in_sequence;
+  for (const std::size_t i : members) out.points.push_back(scans.points[i]);
+  return out;
+}
+
+// Scans of one placement; `candidates` gets all poses that were compared.
 RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<std::size_t>& members,
                                     const MeshSurface& surface, const RegistrationSurface& ready,
                                     const std::optional<Pose>& guess, const RegisterConfig& config,
-                                    const RegistrationObserver& observer) {
+                                    const RegistrationObserver& observer, PoseCandidates& candidates) {
   observer.update("registration", 0.0);
   std::vector<MeasuredPath> paths, smooth;
   for (const std::size_t i : members) {
@@ -94,7 +119,8 @@ RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<s
       config.refinement.slow_length_m, search.registration.surface_error_m,
       stated(search.registration.guess_sigma_m, config.refinement.guess_sigma_m, usual.guess_sigma_m),
       stated(search.registration.guess_sigma_deg, config.refinement.guess_sigma_deg, usual.guess_sigma_deg) *
-          std::numbers::pi / 180.0};
+          std::numbers::pi / 180.0,
+      is_stated(search.registration, config.refinement)};
   RefinedRegistration out;
   const ProcessMethod& method = ProcessMethods::get(config.process.method);
   if (method.register_paths) {
@@ -108,18 +134,41 @@ RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<s
     out.registration.misfit = measure_pose_misfit(paths, ready, {}, misfit, out.registration);
     return out;
   }
-  out.registration = guess ? register_path(smooth, ready, *guess, search.registration, observer)
-                           : find_registration(smooth, ready, search, observer);
+  // All poses at which the paths may lie: those near the guess and those anywhere.
+  std::vector<Pose> near;
+  if (guess) {
+    out.registration = register_path(smooth, ready, *guess, search.registration, observer);
+    near = other_fits(smooth, ready, guess, search.registration, config.refinement, observer);
+    near.push_back(out.registration.T_mesh_world);
+    if (out.registration.runner_up) near.push_back(out.registration.runner_up->T_mesh_world);
+  }
+  RegisterConfig searched = config;
+  searched.search = search;
+  const ScanPoints together = points_of(scans, members);
+  candidates = find_pose_candidates(together, surface, guess, near, searched, observer);
+  const bool keeps_guess =
+      guess && search.registration.starts.when == OtherStarts::kNever && config.refinement.other_starts == 0;
+  if (!keeps_guess) {
+    RegistrationConfig local = search.registration;
+    local.starts.when = OtherStarts::kNever;
+    out.registration = register_path(smooth, ready, candidates.found.front().T_mesh_world, local, observer);
+  }
+  // A guess that the paths contradict has no say in the refinement.
+  const std::optional<Pose> believed =
+      guess && is_near(*guess, out.registration.T_mesh_world, out.registration.centre_mesh_m, config.refinement)
+          ? guess
+          : std::nullopt;
   // Scans have errors that last along the path; points without a sequence have none that is known.
   out.slow_error_world_m.resize(members.size());
   if (scans.in_sequence) {
-    const std::vector<Pose> others = other_fits(smooth, ready, guess, search.registration, config.refinement, observer);
     observer.update("refinement", 0.0);
     RefinedRegistration refined =
-        refine_registration(paths, surface, out.registration, guess, others, config.refinement, observer);
+        refine_registration(paths, surface, out.registration, believed, {}, config.refinement, observer);
     out = std::move(refined);
     out.registration.misfit = measure_pose_misfit(paths, ready, guess, misfit, out.registration);
   }
+  state_rivals(judge_candidate(together, surface, out.registration.T_mesh_world, guess, candidates, searched),
+               out.registration);
   return out;
 }
 
@@ -138,7 +187,9 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
   out.placement_of.resize(count);
   out.slow_error_world_m.resize(count);
   for (std::vector<std::size_t>& members : group_placements(stated)) {
-    RefinedRegistration located = locate_together(scans, members, surface, ready, guess, config, observer);
+    PoseCandidates candidates;
+    RefinedRegistration located = locate_together(scans, members, surface, ready, guess, config, observer, candidates);
+    out.candidates.push_back(std::move(candidates));
     for (std::size_t k = 0; k < members.size(); ++k) {
       out.placement_of[members[k]] = out.placements.size();
       out.slow_error_world_m[members[k]] = std::move(located.slow_error_world_m[k]);

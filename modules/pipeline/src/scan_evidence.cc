@@ -11,6 +11,7 @@
 #include "asperity/pipeline/compare_with_tracker.h"
 #include "asperity/pipeline/reference.h"
 #include "asperity/profile/find_contact.h"
+#include "asperity/verdict/verdict_codes.h"
 
 namespace asperity {
 
@@ -118,6 +119,16 @@ PoseEvidence pose_evidence(const RegistrationResult& registration) {
     out.rival_distance_m = registration.runner_up->distance_m;
     out.rival_rotation_rad = registration.runner_up->rotation_rad;
   }
+  const PoseRivals& rivals = registration.rivals;
+  if (rivals.judged) {
+    out.sigma_m = rivals.sigma_m;
+    out.sigma_rad = rivals.sigma_rad;
+    out.slow_ratio = rivals.slow_ratio;
+    out.outlying = rivals.outlying;
+    out.searched = rivals.searched;
+    out.symmetric_copies = rivals.symmetric_copies;
+    out.symmetric_motion = rivals.symmetric_motion;
+  }
   const PoseMisfit& misfit = registration.misfit;
   out.slow_m = misfit.slow_m;
   out.explained_m = misfit.explained_m;
@@ -126,6 +137,21 @@ PoseEvidence pose_evidence(const RegistrationResult& registration) {
   out.guess_rotation_rad = misfit.guess_rotation_rad;
   out.guess_sigma_m = misfit.guess_sigma_m;
   out.guess_sigma_rad = misfit.guess_sigma_rad;
+  out.guess_stated = misfit.guess_stated;
+  return out;
+}
+
+Verdicts judge_pose(const RegistrationResult& registration, bool guessed) {
+  Verdicts out = judge_registration(pose_evidence(registration));
+  constexpr double kGuess_m = 5e-3;  // known less well than this, a motion is known less well than from a guess by hand
+  const bool arbitrary = std::any_of(registration.undetermined.begin(), registration.undetermined.end(),
+                                     [](const UndeterminedMotion& motion) { return !(motion.sigma_m < kGuess_m); });
+  // Where the pose was weighed, the standard deviations say it, and leave out what the mesh is its own image along.
+  if (!guessed && arbitrary && !registration.rivals.judged) {
+    out.push_back(
+        make_verdict("pose_arbitrary", "without a guess, where the scans lie along undetermined motions is arbitrary"));
+    sort_verdicts(out);
+  }
   return out;
 }
 

@@ -63,11 +63,17 @@ constexpr VerdictCode kCodes[] = {
     {"pose_ambiguous", kInvalid,
      "scan a path with a bend or several strokes in different directions and register them together, or give a guess "
      "and state how well it is known with refinement.guess_sigma_m and refinement.guess_sigma_deg"},
+    {"pose_uncertain", kInvalid,
+     "scan a path with bends in several directions, or several strokes, and register them together"},
+    {"other_shape", kInvalid, "check that it is the right mesh, and its unit"},
+    {"rivals_unknown", kInvalid, "let poses elsewhere be compared (search.rivals)"},
+    {"mesh_symmetric", kNote, ""},
     {"pose_misfit", kInvalid, "check that it is the right mesh, its unit, and the guess"},
     {"guess_contradicted", kInvalid,
      "check the guess, or state how well it is known with search.registration.guess_sigma_m and guess_sigma_deg, and "
      "the "
      "same of refinement"},
+    {"guess_overruled", kLimited, "check the pose: the paths fit the mesh better there than near the guess"},
     {"mesh_misfit", kLimited,
      "check the mesh against the object, and state its error with search.registration.surface_error_m"},
     {"pose_not_converged", kInvalid, "give a guess nearer to the true pose"},

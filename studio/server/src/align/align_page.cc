@@ -74,6 +74,7 @@ void AlignPage::bind(Document& document, Calls& calls) {
   calls.add("align.sliders", [this](const Request& request) { turn_sliders(request); });
   calls.add("align.pick", [this](const Request& request) { pick(request); });
   calls.add("align.residuals", [this](const Request& request) { measure(request); });
+  calls.add("align.judge", [this](const Request& request) { judge(request); });
   calls.add("align.run", [this](const Request& request) { run(request); });
   calls.add("align.iterations",
             [this](const Request& request) { request.answer(log_ ? log_->all() : IterationLog(0).all()); });
@@ -194,6 +195,16 @@ void AlignPage::measure(const Request& request) {
         for (std::size_t i = 0; i < p_world_m.size(); ++i) p_world_m[i] = back * (poses[scene->path[i]] * p_world_m[i]);
         return residual_block(*scene, p_world_m, pose, *closest);
       });
+}
+
+// A verdict belongs to a pose: one that is placed by hand has its own.
+void AlignPage::judge(const Request& request) {
+  const std::shared_ptr<const AlignScene> scene = this->scene();
+  std::optional<PoseCandidates> known;
+  if (last_ && last_->scene == scene && !last_->candidates.found.empty()) known = last_->candidates;
+  answer_in_lane(shared_.jobs, "align verdict", request, "", "",
+                 [scene, wanted = choice(), known = std::move(known), pose = pose_argument(request, "pose")](
+                     const Observer& observer) { return judge_by_hand(*scene, wanted, pose, known, observer); });
 }
 
 void AlignPage::run(const Request& request) {

@@ -8,6 +8,7 @@
 
 #include "align/align_scene.h"
 #include "align/iteration_log.h"
+#include "asperity/pipeline/pose_candidates.h"
 #include "asperity/registration/registration_result.h"
 
 namespace asperity::studio {
@@ -28,7 +29,8 @@ struct AlignRun {
   AlignChoice::Registered how;  // its T_mesh_world is where it ended
   RegistrationResult result;    // of the first placement
   std::vector<AlignedScan> scans;
-  std::string certainty;  // how well the pose is known, in words
+  PoseCandidates candidates;  // what the pose was compared with; empty where there are several placements
+  std::string certainty;      // how well the pose is known, in words
 };
 
 // The choice's settings; where the guess is to be kept to, without other places about it.
@@ -37,6 +39,11 @@ RegisterConfig run_config(const AlignChoice& choice, bool near);
 // Registers, as register_scans does. Throws as locate_scans does.
 AlignRun run_align(std::uint64_t number, const std::shared_ptr<const AlignScene>& scene, const AlignChoice& choice,
                    const std::optional<Pose>& guess, const RegistrationObserver& observer);
+
+// What is to be said of a pose that was placed by hand, beside all that a run has found or, without one, that is found
+// now. {"T_mesh_world","rms_m","trustworthy","verdict","verdicts"}.
+Json judge_by_hand(const AlignScene& scene, const AlignChoice& choice, const Pose& pose,
+                   const std::optional<PoseCandidates>& candidates, const RegistrationObserver& observer);
 
 // {"run","guess","T_mesh_world","rms_m","mean_m","points","outliers","iterations","converged","trustworthy",
 // "ambiguous","verdict","verdicts","certainty","undetermined":[{"description","sigma_m"}],"runner_up","problems",

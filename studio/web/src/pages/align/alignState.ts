@@ -49,6 +49,15 @@ export interface RunResult extends Solution {
   scans?: ScanPose[];
 }
 
+/** What is to be said of a pose that was placed by hand. */
+export interface Judged {
+  T_mesh_world: Pose;
+  rms_m: number | null;
+  trustworthy: boolean;
+  verdict: string;
+  verdicts: VerdictEntry[];
+}
+
 export interface Residuals {
   distance_m: Float32Array;
   mean_m: number;
@@ -72,6 +81,8 @@ export const opening = signal(true);
 export const residuals = signal<Residuals | null>(null);
 export const iterations = signal<Iterations>(noIterations);
 export const result = signal<RunResult | null>(null);
+/** The verdict on the pose that the path was moved to, once it is known; null while it is not. */
+export const judged = signal<Judged | null>(null);
 const registering = signal(false);
 /** The registration under way, also one that another window or the studio itself has begun. */
 export const runningJob = computed(() => jobs.value.find(({ title }) => title.startsWith("Registering")));
@@ -127,6 +138,11 @@ export const ghostPose = computed<Pose | null>(() => {
 /** True where the pose is still that of the registration it was taken from. */
 export const isRegistered = computed(() => samePose(align.value?.T_mesh_world, align.value?.registered?.T_mesh_world));
 
+/** True where the path was moved to another pose than the registered one: the registration's verdict is not about it. */
+export const isMoved = computed(
+  () => result.value !== null && align.value?.T_mesh_world !== undefined && !samePose(align.value.T_mesh_world, result.value.T_mesh_world),
+);
+
 /** Changes what turns leave in its place; the six numbers are then others. */
 export function turnAbout(what: "middle" | "origin"): void {
   six.value = null;
@@ -138,6 +154,8 @@ export const shownSix = computed<Six | null>(() => draftSix.value ?? six.value);
 
 /** Iterations come faster than plots and 3D pictures are worth drawing. */
 const kPicture_ms = 150;
+/** A pose is judged once it has been left alone for this long. */
+const kSettled_ms = 500;
 const POSE_PATH = "/align/T_mesh_world";
 const mover = latest(
   ({ pose, gesture }: { pose: Pose; gesture: string }) => edit(POSE_PATH, pose, "move the path", gesture).catch(complain),
@@ -261,6 +279,15 @@ export function followAlign(): () => void {
     const { shift_m, turn_deg } = await call<Six>("align.sliders", { pose, about_world_m: pivot() });
     six.value = { shift_m, turn_deg };
   });
+  const judge = latest(async (pose: Pose) => {
+    try {
+      const found = await call<Judged>("align.judge", { pose });
+      if (samePose(found.T_mesh_world, align.value?.T_mesh_world)) judged.value = found;
+    } catch (error) {
+      quietly(error);
+    }
+  });
+  let judging: ReturnType<typeof setTimeout> | undefined;
   const news: Block[] = [];
   let timer: ReturnType<typeof setTimeout> | undefined;
   const takeNews = () => {
@@ -292,11 +319,19 @@ export function followAlign(): () => void {
       const isOpen = opened.value && about.value;
       if (isOpen && pose && !draftSix.value) reader(pose);
     }),
+    effect(() => {
+      clearTimeout(judging);
+      judged.value = null;
+      const pose = align.value?.T_mesh_world;
+      if (!pose || !opened.value || !isMoved.value || running.value) return;
+      judging = setTimeout(() => judge(pose), kSettled_ms);
+    }),
     subscribe("align.iteration", (block) => {
       news.push(block);
       timer ||= setTimeout(takeNews, kPicture_ms);
     }),
     () => clearTimeout(timer),
+    () => clearTimeout(judging),
     onEvent("align.result", (found: RunResult | null) => {
       result.value = found;
       if (found) return;
