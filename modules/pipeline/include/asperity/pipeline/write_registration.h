@@ -21,7 +21,8 @@ std::string format_registration(const ScansOnMesh& result, std::span<const std::
 Scene make_scene(const ScansOnMesh& result, const MeshFile& mesh, double unit_m);
 
 // Writes registration.json, scene.json, textured.obj (augmented by `h` lines, seed §6.3), the textures and the
-// material map, and what write_result writes of each recording (of a path alone its profile.csv): in `folder`
+// material map, and what write_result writes of each recording (of a path alone its profile.csv), and each
+// path on the mesh as path.csv (mesh frame): in `folder`
 // if there is one scan, in a folder of the scan's name below it if there are several. `folder` exists and is empty.
 // Throws Error for a name that is not that of a folder in it, or if a file cannot be written.
 void write_registration(const std::filesystem::path& folder, const ScansOnMesh& result, const std::vector<Scan>& scans,
