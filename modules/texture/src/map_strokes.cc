@@ -118,11 +118,11 @@ Prediction predict_stroke(const Model& model, const StrokeField& all, std::uint3
   return out;
 }
 
-Prediction predict_strokes(const Model& model, const StrokeField& field, std::size_t strokes, int held_out,
-                           std::size_t& count, const Observer& observer) {
+Prediction predict_strokes(const Model& model, const StrokeField& field, std::size_t strokes,
+                           const MapStrokesConfig& config, std::size_t& count, const Observer& observer) {
   Prediction sum;
-  const double claim_m = 0.6 * std::sqrt(model.prior.spectrum.variance_m2());
-  const std::size_t tries = std::min<std::size_t>(strokes, static_cast<std::size_t>(std::max(held_out, 0)));
+  const double claim_m = config.hole_share * std::sqrt(model.prior.spectrum.variance_m2());
+  const std::size_t tries = std::min<std::size_t>(strokes, static_cast<std::size_t>(std::max(config.held_out, 0)));
   count = 0;
   for (std::size_t i = 0; i < tries; ++i) {
     observer.update("held-out strokes", static_cast<double>(i) / static_cast<double>(tries));
@@ -254,11 +254,12 @@ StrokeMap map_strokes(std::span<const AreaStroke> strokes, const MapStrokesConfi
       s.x_mm += field.shift_mm[s.stroke].x();
       s.y_mm += field.shift_mm[s.stroke].y();
     }
-    take(compare_strokes(shifted, model.prior.spectrum));
+    const StrokeAgreement after = compare_strokes(shifted, model.prior.spectrum);
+    if (after.shared_m2 > 2.0 * after.sigma_m2) take(after);
   }
   if (config.held_out > 0) {
     std::size_t count = 0;
-    Prediction sum = predict_strokes(model, field, given.size(), config.held_out, count, observer);
+    Prediction sum = predict_strokes(model, field, given.size(), config, count, observer);
     if (sum.samples > 0.0) {
       // What the others could not predict and do not admit is this stroke's own.
       const double seen_m2 = (sum.error_m2 - sum.map_m2) / sum.samples;
@@ -268,7 +269,7 @@ StrokeMap map_strokes(std::span<const AreaStroke> strokes, const MapStrokesConfi
     prior = model.prior;
     prior.noise_m2 = model.sample_noise_m2();
     field = solve_field(model.grid, model.samples, model.basis, prior, field.shift_mm, config.shift_mm > 0.0 ? 2 : 1, true);
-    sum = predict_strokes(model, field, given.size(), config.held_out, count, observer);
+    sum = predict_strokes(model, field, given.size(), config, count, observer);
     out.held_out.strokes = count;
     out.held_out.samples = sum.samples;
     if (sum.samples > 0.0) {
