@@ -136,6 +136,12 @@ StrokeSpectrum measure_strokes(std::span<const AreaStroke> strokes, double drift
     }
   }
   if (runs == 0.0) return out;
+  // What the upper half of the frequencies has is noise, and white: waves that short are no surface under a tip.
+  std::vector<double> upper(sum.begin() + static_cast<std::ptrdiff_t>(sum.size() / 2), sum.end());
+  std::nth_element(upper.begin(), upper.begin() + static_cast<std::ptrdiff_t>(upper.size() / 2), upper.end());
+  const double floor = upper[upper.size() / 2];
+  constexpr double kLeastShare = 0.05;  // of a frequency's power is the surface's
+  for (double& density : sum) density = std::max(density - floor, kLeastShare * density);
   const double lowest = 1.9 / drift_mm;
   double all = 0.0, so_far = 0.0;
   for (std::size_t i = 0; i < sum.size(); ++i) all += frequency[i] >= lowest ? sum[i] : 0.0;
