@@ -1,5 +1,5 @@
-// Maps of many strokes beside the truth: strokes over a known relief with the errors that scans have (an offset, a drift,
-// noise with the texture's waves, a position that is off by a constant and wanders). Prints a table in Markdown;
+// Maps of many strokes beside the truth: strokes over a known relief with the errors that scans have (an offset, a
+// drift, noise with the texture's waves, a position that is off by a constant and wanders). Prints a table in Markdown;
 // docs/areas.md says what it means.
 //
 //   area_map [--seeds N] [--surfaces rough,steep,pattern,noise] [--layouts cross,lanes,mixed,wide] [--shift-mm 0.1]
@@ -57,8 +57,8 @@ Relief random_relief(double low, double high, double slope, double rms_m, asperi
   for (int i = 0; i < kWaves; ++i) {
     const double f = low * std::pow(high / low, (i + random.uniform(0.0, 1.0)) / kWaves);
     const double angle = random.uniform(0.0, 2.0 * kPi), amplitude = std::pow(f, 0.5 * (1.0 - slope));
-    out.waves.push_back({2.0 * kPi * f * std::cos(angle), 2.0 * kPi * f * std::sin(angle),
-                         random.uniform(0.0, 2.0 * kPi), amplitude});
+    out.waves.push_back(
+        {2.0 * kPi * f * std::cos(angle), 2.0 * kPi * f * std::sin(angle), random.uniform(0.0, 2.0 * kPi), amplitude});
     square += 0.5 * amplitude * amplitude;
   }
   for (auto& w : out.waves) w.height_m *= rms_m / std::sqrt(square);
@@ -97,8 +97,10 @@ std::vector<Line> make_layout(const std::string& name, asperity::Random& random)
     for (int i = 0; i < count; ++i) {
       const double at = (i - 0.5 * (count - 1)) * pitch + random.uniform(-0.1, 0.1) * pitch;
       const double lean = random.uniform(-0.15, 0.15) * pitch;
-      if (across) out.push_back({at - lean, -0.5 * length, at + lean, 0.5 * length});
-      else out.push_back({-0.5 * length, at - lean, 0.5 * length, at + lean});
+      if (across)
+        out.push_back({at - lean, -0.5 * length, at + lean, 0.5 * length});
+      else
+        out.push_back({-0.5 * length, at - lean, 0.5 * length, at + lean});
     }
   };
   if (name == "cross") {  // 12 and 12, 0.8 mm apart
@@ -110,8 +112,8 @@ std::vector<Line> make_layout(const std::string& name, asperity::Random& random)
   } else if (name == "mixed") {  // 20 anywhere
     for (int i = 0; i < 20; ++i) {
       const double angle = random.uniform(0.0, kPi), x = random.uniform(-4.0, 4.0), y = random.uniform(-4.0, 4.0);
-      out.push_back({x - 9.0 * std::cos(angle), y - 9.0 * std::sin(angle), x + 9.0 * std::cos(angle),
-                     y + 9.0 * std::sin(angle)});
+      out.push_back(
+          {x - 9.0 * std::cos(angle), y - 9.0 * std::sin(angle), x + 9.0 * std::cos(angle), y + 9.0 * std::sin(angle)});
     }
   } else {  // wide: 10 and 10, 3 mm apart
     lanes(10, 3.0, 32.0, false);
@@ -224,8 +226,8 @@ void print_row(const std::string& name, const std::vector<Metrics>& all) {
   };
   int maps = 0;
   for (const Metrics& m : all) maps += m.mapped ? 1 : 0;
-  std::printf("| %s | %d of %zu | %.2f | %.2f | %.1f | %.1f | %.1f | %.2f | %.2f | %.2f | %.2f | %.1f |\n", name.c_str(), maps,
-              all.size(), middle([](const Metrics& m) { return m.agreement; }),
+  std::printf("| %s | %d of %zu | %.2f | %.2f | %.1f | %.1f | %.1f | %.2f | %.2f | %.2f | %.2f | %.1f |\n",
+              name.c_str(), maps, all.size(), middle([](const Metrics& m) { return m.agreement; }),
               middle([](const Metrics& m) { return m.agreement_sigma; }),
               middle([](const Metrics& m) { return m.rms_um; }), middle([](const Metrics& m) { return m.error_um; }),
               middle([](const Metrics& m) { return m.sigma_um; }), middle([](const Metrics& m) { return m.ratio; }),
@@ -236,8 +238,10 @@ void print_row(const std::string& name, const std::vector<Metrics>& all) {
 
 void run(const Options& options) {
   std::printf(
-      "| surface | strokes | maps | shared | its σ | surface RMS, µm | error RMS, µm | its σ, µm | error over σ | covered "
-      "| error in holes over RMS | left out: error over σ | s |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "| surface | strokes | maps | shared | its σ | surface RMS, µm | error RMS, µm | its σ, µm | error over σ | "
+      "covered "
+      "| error in holes over RMS | left out: error over σ | s "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& surface : options.surfaces) {
     for (const std::string& layout : options.layouts) {
       std::vector<Metrics> all;
@@ -255,14 +259,14 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   try {
     Options options;
-    bench::read_options(argc, argv,
-                        {{"--seeds", [&](auto value) { options.seeds = bench::seed_count(value); }},
-                         {"--surfaces", [&](auto value) { options.surfaces = bench::split_list(value); }},
-                         {"--layouts", [&](auto value) { options.layouts = bench::split_list(value); }},
-                         {"--shift-mm", [&](auto value) { options.shift_mm = bench::number_within(value, 0.0, 10.0); }},
-                         {"--set-shift",
-                          [&](auto value) { options.prior_shift_mm = bench::number_within(value, 0.0, 10.0); }},
-                         {"--each", [&](auto value) { options.each = bench::is_first(value, "yes", "no"); }}});
+    bench::read_options(
+        argc, argv,
+        {{"--seeds", [&](auto value) { options.seeds = bench::seed_count(value); }},
+         {"--surfaces", [&](auto value) { options.surfaces = bench::split_list(value); }},
+         {"--layouts", [&](auto value) { options.layouts = bench::split_list(value); }},
+         {"--shift-mm", [&](auto value) { options.shift_mm = bench::number_within(value, 0.0, 10.0); }},
+         {"--set-shift", [&](auto value) { options.prior_shift_mm = bench::number_within(value, 0.0, 10.0); }},
+         {"--each", [&](auto value) { options.each = bench::is_first(value, "yes", "no"); }}});
     run(options);
     return 0;
   } catch (const std::exception& error) {

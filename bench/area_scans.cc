@@ -63,7 +63,8 @@ class Relief {
     constexpr int kWaves = 200;
     for (int i = 0; i < kWaves; ++i) {
       const double f = 250.0 * std::pow(4.0, random.uniform(0.0, 1.0)), angle = random.uniform(0.0, 2.0 * kPi);
-      waves_.push_back({2.0 * kPi * f * std::cos(angle), 2.0 * kPi * f * std::sin(angle), random.uniform(0.0, 2.0 * kPi)});
+      waves_.push_back(
+          {2.0 * kPi * f * std::cos(angle), 2.0 * kPi * f * std::sin(angle), random.uniform(0.0, 2.0 * kPi)});
     }
     height_m_ = rms_m * std::sqrt(2.0 / kWaves);
   }
@@ -89,7 +90,8 @@ asperity::TriangleMesh rough_top(const asperity::MeshSurface& pebble, const Reli
       const asperity::RayHit hit = pebble.bvh.cast_ray({x, y, 0.1}, {0.0, 0.0, -1.0});
       const auto& normals = pebble.normals[hit.triangle];
       const Vector3d n_mesh =
-          (hit.barycentric[0] * normals[0] + hit.barycentric[1] * normals[1] + hit.barycentric[2] * normals[2]).normalized();
+          (hit.barycentric[0] * normals[0] + hit.barycentric[1] * normals[1] + hit.barycentric[2] * normals[2])
+              .normalized();
       out.vertices_m.push_back(Vector3d(x, y, 0.1 - hit.t) + relief.at(x, y) * n_mesh);
     }
   }
@@ -167,7 +169,8 @@ std::vector<MapPoint> map_points(const asperity::AreaResult& area, const asperit
           point.p_mesh_m += weight[c] * mesh.vertices_m[v[corner]];
           xy_m += 1e-3 * weight[c] * area.coordinates[i].xy_mm[corner];
         }
-        const double u = std::round((xy_m.x() - g.origin_x_m) / g.spacing_x_m), t = std::round((xy_m.y() - g.origin_y_m) / g.spacing_y_m);
+        const double u = std::round((xy_m.x() - g.origin_x_m) / g.spacing_x_m),
+                     t = std::round((xy_m.y() - g.origin_y_m) / g.spacing_y_m);
         if (u < 0 || t < 0 || u >= static_cast<double>(g.columns) || t >= static_cast<double>(g.rows)) continue;
         const std::size_t at = static_cast<std::size_t>(t) * g.columns + static_cast<std::size_t>(u);
         point.height_m = asperity::evaluate_height(g, xy_m.x(), xy_m.y()).height_m;
@@ -181,7 +184,8 @@ std::vector<MapPoint> map_points(const asperity::AreaResult& area, const asperit
 }
 
 struct Comparison {
-  double error_m = std::numeric_limits<double>::infinity(), ratio = 0.0, sigma_m = 0.0, truth_m = 0.0, correlation = 0.0;
+  double error_m = std::numeric_limits<double>::infinity(), ratio = 0.0, sigma_m = 0.0, truth_m = 0.0,
+         correlation = 0.0;
 };
 
 // Map less truth, the truth moved by `shift_m`, a quadratic over the patch taken off: that is the pose's share and the
@@ -261,7 +265,8 @@ void run_seed(const Options& options, int seed) {
   std::vector<asperity::Scan> scans;
   const auto flat = asperity::make_surface(config.surface, 1);
   for (int k = 0; k < 2 * options.lanes; ++k) {
-    const double lane = (k % options.lanes - 0.5 * (options.lanes - 1)) * options.pitch_m, half = 0.5 * options.length_m;
+    const double lane = (k % options.lanes - 0.5 * (options.lanes - 1)) * options.pitch_m,
+                 half = 0.5 * options.length_m;
     const bool across = k >= options.lanes;
     config.seed = 100 * seed + k;
     config.shape.through = across ? text_of(on_ground(lane, -half)) + ";" + text_of(on_ground(lane, half))
@@ -273,8 +278,10 @@ void run_seed(const Options& options, int seed) {
   }
   const std::clock_t simulated = std::clock();
   const asperity::Pose truth = asperity::true_pose(*scans.front().recording).value();
-  const asperity::Pose guess = asperity::random_motion(options.guess_m, 0.3 / 180.0 * kPi,
-                                                       vector(config.shape.centre_m), static_cast<std::uint64_t>(seed)) * truth;
+  const asperity::Pose guess =
+      asperity::random_motion(options.guess_m, 0.3 / 180.0 * kPi, vector(config.shape.centre_m),
+                              static_cast<std::uint64_t>(seed)) *
+      truth;
   const asperity::ScansOnMesh registered = asperity::register_scans(scans, mesh, guess, {});
   const std::clock_t laid = std::clock();
   if (!options.save.empty()) {
@@ -290,9 +297,12 @@ void run_seed(const Options& options, int seed) {
       strokes.push_back({scan.name, scan.path, scan.process.profile});
   const asperity::AreaResult area = asperity::make_area(mesh, strokes, registered.trustworthy);
   const std::clock_t mapped = std::clock();
-  const auto seconds = [](std::clock_t from, std::clock_t to) { return static_cast<double>(to - from) / CLOCKS_PER_SEC; };
+  const auto seconds = [](std::clock_t from, std::clock_t to) {
+    return static_cast<double>(to - from) / CLOCKS_PER_SEC;
+  };
   const asperity::StrokeMap& map = area.map;
-  std::printf("| %d | %d | %.2f ± %.2f | %.2f | ", seed, 2 * options.lanes, map.agreement, map.agreement_sigma, area.covered);
+  std::printf("| %d | %d | %.2f ± %.2f | %.2f | ", seed, 2 * options.lanes, map.agreement, map.agreement_sigma,
+              area.covered);
   if (map.texture.supported.empty() || area.triangle.empty()) {
     std::printf("| | | | | | ");
   } else {
@@ -325,7 +335,8 @@ void run_seed(const Options& options, int seed) {
 
 void run(const Options& options) {
   std::printf(
-      "| seed | strokes | shared | covered | surface RMS, µm | error RMS, µm | the same, moved | error over σ | correlation | moved "
+      "| seed | strokes | shared | covered | surface RMS, µm | error RMS, µm | the same, moved | error over σ | "
+      "correlation | moved "
       "by x, y, mm | σ, µm | left out: error over σ | s: simulate, register, map | verdict |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int seed = 1; seed <= options.seeds; ++seed) run_seed(options, seed);

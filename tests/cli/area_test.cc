@@ -56,7 +56,8 @@ class Area : public testing::Test {
     write_text(folder / "plate.obj", mesh_);
     write_text(folder / "scene.json",
                R"({"format": "asperity-scene", "version": 1, "mesh": "plate.obj", "unit_m": 0.001, "textures": []})");
-    json registration{{"format", "asperity-registration"}, {"version", 1}, {"trustworthy", true}, {"scans", json::array()}};
+    json registration{
+        {"format", "asperity-registration"}, {"version", 1}, {"trustworthy", true}, {"scans", json::array()}};
     for (int k = 0; k < 16; ++k) {
       const std::string scan = "scan" + std::to_string(k);
       registration["scans"].push_back({{"name", scan}});
@@ -88,8 +89,8 @@ class Area : public testing::Test {
 
 TEST_F(Area, ManyStrokesBecomeOneTexture) {
   write_registered("registered", false);
-  const Outcome outcome =
-      run({"area", path("registered"), "-o", path("out"), "--set", "map.shift_mm=0", "--set", "map.held_out=2", "--json"});
+  const Outcome outcome = run(
+      {"area", path("registered"), "-o", path("out"), "--set", "map.shift_mm=0", "--set", "map.held_out=2", "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const json area = json::parse(outcome.out);
   EXPECT_EQ(area.at("texture"), "area.texture.json");
@@ -116,7 +117,9 @@ TEST_F(Area, ManyStrokesBecomeOneTexture) {
   }
   EXPECT_TRUE(fs::exists(dir_ / "as-png" / "area.sigma.png"));
   // The same again: the same bytes.
-  ASSERT_EQ(run({"area", path("registered"), "-o", path("again"), "--set", "map.shift_mm=0", "--set", "map.held_out=2"}).code, 0);
+  ASSERT_EQ(
+      run({"area", path("registered"), "-o", path("again"), "--set", "map.shift_mm=0", "--set", "map.held_out=2"}).code,
+      0);
   const auto bytes = [&](const std::string& name) {
     std::ifstream in(dir_ / name, std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(in), {});

@@ -19,9 +19,8 @@ constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
 
 double triangle_area_m2(const TriangleMesh& mesh, std::uint32_t t) {
   const Triangle& v = mesh.triangles[t];
-  return 0.5 * (mesh.vertices_m[v[1]] - mesh.vertices_m[v[0]])
-                   .cross(mesh.vertices_m[v[2]] - mesh.vertices_m[v[0]])
-                   .norm();
+  return 0.5 *
+         (mesh.vertices_m[v[1]] - mesh.vertices_m[v[0]]).cross(mesh.vertices_m[v[2]] - mesh.vertices_m[v[0]]).norm();
 }
 
 struct PatchSearch {};  // names the instruction set of nearest_on_triangle: this file's
@@ -103,8 +102,8 @@ void keep_largest(const MeshSurface& surface, std::span<const MeshPath> paths, s
   const auto largest = static_cast<std::uint32_t>(std::max_element(points.begin(), points.end()) - points.begin());
   for (std::size_t t = 0; t < in.size(); ++t) in[t] = piece[t] == largest ? 1 : 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
-    const bool touches = std::any_of(paths[i].triangle.begin(), paths[i].triangle.end(),
-                                     [&](std::uint32_t t) { return in[t] != 0; });
+    const bool touches =
+        std::any_of(paths[i].triangle.begin(), paths[i].triangle.end(), [&](std::uint32_t t) { return in[t] != 0; });
     if (!touches) out.paths_apart.push_back(i);
   }
 }

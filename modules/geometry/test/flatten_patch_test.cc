@@ -124,7 +124,9 @@ TEST(FlattenPatch, ReachesTheLeastEnergyOfASphericalCap) {
       mesh.vertices_m.push_back({std::sin(phi) * std::cos(angle), std::sin(phi) * std::sin(angle), std::cos(phi)});
     }
   }
-  const auto at = [](int ring, int k) { return static_cast<std::uint32_t>(1 + (ring - 1) * kRound + (k + kRound) % kRound); };
+  const auto at = [](int ring, int k) {
+    return static_cast<std::uint32_t>(1 + (ring - 1) * kRound + (k + kRound) % kRound);
+  };
   for (int k = 0; k < kRound; ++k) mesh.triangles.push_back({0, at(1, k), at(1, k + 1)});
   for (int ring = 1; ring < kRings; ++ring) {
     const int shift = ring % 2;  // odd rings are turned by half a step
@@ -171,7 +173,7 @@ TEST(FlattenPatch, IsFreeOfScale) {
 TEST(SurfacePatch, TakesTheTrianglesNearAndFillsTheGaps) {
   const TriangleMesh mesh = grid_mesh(60, 60, [](double i, double j) { return Vector3d(1e-3 * i, 1e-3 * j, 0.0); });
   const MeshSurface surface(mesh);
-  // The sides of a square from 10 to 50 mm: its middle is enclosed.
+  // The sides of a square of 12 mm: its middle is enclosed.
   MeshPath path;
   const auto add = [&](double x_mm, double y_mm) {
     const Vector3d p(1e-3 * x_mm, 1e-3 * y_mm, 0.0);
@@ -180,17 +182,19 @@ TEST(SurfacePatch, TakesTheTrianglesNearAndFillsTheGaps) {
     path.triangle.push_back(c.triangle);
     path.s_m.push_back(static_cast<double>(path.s_m.size()));
   };
-  for (double u = 20; u <= 40; u += 0.5) add(u, 20);
-  for (double u = 20; u <= 40; u += 0.5) add(40, u);
-  for (double u = 40; u >= 20; u -= 0.5) add(u, 40);
-  for (double u = 40; u >= 20; u -= 0.5) add(20, u);
+  for (double u = 24; u <= 36; u += 0.5) add(u, 24);
+  for (double u = 24; u <= 36; u += 0.5) add(36, u);
+  for (double u = 36; u >= 24; u -= 0.5) add(u, 36);
+  for (double u = 36; u >= 24; u -= 0.5) add(24, u);
   EXPECT_THAT([&] { find_surface_patch(surface, {}, {}); }, ThrowsMessage<Error>(HasSubstr("no stroke")));
   const SurfacePatch patch = find_surface_patch(surface, std::vector{path}, {1.0});
-  EXPECT_GT(patch.filled, 500u);
+  // Between 1 mm inside of the sides: 10 mm squared, two triangles a mm², those cut by the reach left out.
+  EXPECT_GT(patch.filled, 100u);
+  EXPECT_LE(patch.filled, 200u);
   EXPECT_TRUE(patch.paths_apart.empty());
   for (const Vector3d& p : patch.mesh.vertices_m) {
-    EXPECT_GE(p.x(), 0.017);
-    EXPECT_LE(p.x(), 0.043);
+    EXPECT_GE(p.x(), 0.021);
+    EXPECT_LE(p.x(), 0.039);
   }
   // A path far from it on the same mesh is another piece.
   MeshPath far;
@@ -211,7 +215,8 @@ TEST(SurfacePatch, RefusesAStrokeRoundATube) {
   }
   for (int j = 0; j < 60; ++j) {
     for (int i = 0; i < kRound; ++i) {
-      const auto a = static_cast<std::uint32_t>(j * kRound + i), b = static_cast<std::uint32_t>(j * kRound + (i + 1) % kRound);
+      const auto a = static_cast<std::uint32_t>(j * kRound + i),
+                 b = static_cast<std::uint32_t>(j * kRound + (i + 1) % kRound);
       mesh.triangles.push_back({a, b, b + kRound});
       mesh.triangles.push_back({a, b + kRound, a + kRound});
     }

@@ -36,7 +36,8 @@ std::vector<Eigen::Vector2d> path_in_plane(const MeshSurface& surface, const Sur
     if (t == kOutside) continue;
     const Eigen::Vector3d weight = weights_of(surface.mesh, path.triangle[i], path.p_mesh_m[i]);
     out.back().setZero();
-    for (int c = 0; c < 3; ++c) out.back() += weight[c] * flat.uv_m[patch.mesh.triangles[t][static_cast<std::size_t>(c)]];
+    for (int c = 0; c < 3; ++c)
+      out.back() += weight[c] * flat.uv_m[patch.mesh.triangles[t][static_cast<std::size_t>(c)]];
   }
   return out;
 }
@@ -125,9 +126,8 @@ double covered_part(const ArealTexture& texture, const std::array<Eigen::Vector2
 
 double area_of(const TriangleMesh& mesh, std::uint32_t t) {
   const Triangle& v = mesh.triangles[t];
-  return 0.5 * (mesh.vertices_m[v[1]] - mesh.vertices_m[v[0]])
-                   .cross(mesh.vertices_m[v[2]] - mesh.vertices_m[v[0]])
-                   .norm();
+  return 0.5 *
+         (mesh.vertices_m[v[1]] - mesh.vertices_m[v[0]]).cross(mesh.vertices_m[v[2]] - mesh.vertices_m[v[0]]).norm();
 }
 
 // The texture's place on the mesh, its coordinates moved so that the map begins at 0.
@@ -186,7 +186,8 @@ AreaResult make_area(const TriangleMesh& mesh, const std::vector<AreaScan>& scan
   for (std::uint32_t t = 0; t < patch.mesh.triangles.size(); ++t) out.area_m2 += area_of(patch.mesh, t);
   for (const std::size_t i : patch.paths_apart) out.apart.push_back(scans[i].name);
   if (!out.apart.empty()) {
-    out.problems.push_back({"not_on_patch", std::to_string(out.apart.size()) + " scans are not on the patch of the others",
+    out.problems.push_back({"not_on_patch",
+                            std::to_string(out.apart.size()) + " scans are not on the patch of the others",
                             out.apart.size()});
   }
 
@@ -252,14 +253,10 @@ std::string format_area(const AreaResult& result, const std::vector<AreaScan>& s
                   {"covered", number_or_null(result.covered)},
                   {"textured_triangles", result.triangle.size()},
                   {"apart", result.apart}};
-  out["parametrisation"] = {{"energy", result.flat.energy},
-                            {"stretch_min", result.flat.stretch_min},
-                            {"stretch_max", result.flat.stretch_max},
-                            {"stretch_rms", result.flat.stretch_rms},
-                            {"flipped", result.flat.flipped},
-                            {"without_area", result.flat.without_area},
-                            {"iterations", result.flat.iterations},
-                            {"converged", result.flat.converged}};
+  out["parametrisation"] = {{"energy", result.flat.energy},           {"stretch_min", result.flat.stretch_min},
+                            {"stretch_max", result.flat.stretch_max}, {"stretch_rms", result.flat.stretch_rms},
+                            {"flipped", result.flat.flipped},         {"without_area", result.flat.without_area},
+                            {"iterations", result.flat.iterations},   {"converged", result.flat.converged}};
   const SplineGrid& grid = map.texture.surface;
   out["map"] = {{"columns", grid.columns},
                 {"rows", grid.rows},

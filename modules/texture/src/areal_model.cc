@@ -24,7 +24,8 @@ Json ArealTraits::describe(const ArealTexture& t) {
            {"border", kBorderNames.at(static_cast<std::size_t>(t.surface.border))}};
   if (!t.sigma_m.empty() && supported > 0) {
     double square = 0.0;
-    for (std::size_t i = 0; i < t.sigma_m.size(); ++i) square += t.supported[i] != 0 ? t.sigma_m[i] * t.sigma_m[i] : 0.0;
+    for (std::size_t i = 0; i < t.sigma_m.size(); ++i)
+      square += t.supported[i] != 0 ? t.sigma_m[i] * t.sigma_m[i] : 0.0;
     out["sigma_rms_m"] = std::sqrt(square / static_cast<double>(supported));
   }
   return out;

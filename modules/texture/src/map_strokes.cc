@@ -15,7 +15,7 @@ namespace asperity {
 namespace {
 
 constexpr int kShiftSteps = 4;
-constexpr double kPowerPart = 0.98;   // of a stroke's, up to where its waves are resolved
+constexpr double kPowerPart = 0.98;     // of a stroke's, up to where its waves are resolved
 constexpr double kMarginLengths = 1.0;  // correlation lengths of grid beyond the samples
 
 struct Model {
@@ -28,9 +28,7 @@ struct Model {
   double noise_m2 = 0.0;  // as the scans state it
 
   // A stroke's error has waves as the surface has; white noise of the same density does the same to them.
-  double sample_noise_m2() const {
-    return disagreement_m2 * std::max(1.0, prior.spectrum.independent_mm() / step_mm);
-  }
+  double sample_noise_m2() const { return disagreement_m2 * std::max(1.0, prior.spectrum.independent_mm() / step_mm); }
 };
 
 // Errors of one stroke against the map of all others, its own drift and shift taken off as far as their priors let.
@@ -49,14 +47,16 @@ Prediction predict_stroke(const Model& model, const StrokeField& all, std::uint3
   Prediction out;
   if (own.size() < 16) return out;
   // Strokes further than this have nothing to say.
-  const double margin_mm = std::max(4.0 * model.prior.spectrum.distance_mm(std::exp(-1.0)), 6.0 * model.grid.spacing_mm);
+  const double margin_mm =
+      std::max(4.0 * model.prior.spectrum.distance_mm(std::exp(-1.0)), 6.0 * model.grid.spacing_mm);
   const MapGrid grid = make_map_grid(own, model.grid.spacing_mm, margin_mm + 5.0 * model.prior.shift_mm);
   const double high_x = grid.x_mm + (grid.columns - 3) * grid.spacing_mm - 4.0 * model.prior.shift_mm;
   const double high_y = grid.y_mm + (grid.rows - 3) * grid.spacing_mm - 4.0 * model.prior.shift_mm;
   const double low_x = grid.x_mm + 2 * grid.spacing_mm + 4.0 * model.prior.shift_mm;
   const double low_y = grid.y_mm + 2 * grid.spacing_mm + 4.0 * model.prior.shift_mm;
   for (const StrokeSample& s : model.samples)
-    if (s.stroke != stroke && s.x_mm > low_x && s.x_mm < high_x && s.y_mm > low_y && s.y_mm < high_y) others.push_back(s);
+    if (s.stroke != stroke && s.x_mm > low_x && s.x_mm < high_x && s.y_mm > low_y && s.y_mm < high_y)
+      others.push_back(s);
   if (others.empty()) return out;
   FieldPrior prior = model.prior;
   prior.noise_m2 = model.sample_noise_m2();
@@ -263,12 +263,12 @@ StrokeMap map_strokes(std::span<const AreaStroke> strokes, const MapStrokesConfi
     if (sum.samples > 0.0) {
       // What the others could not predict and do not admit is this stroke's own.
       const double seen_m2 = (sum.error_m2 - sum.map_m2) / sum.samples;
-      model.disagreement_m2 =
-          std::clamp(seen_m2, std::max(model.noise_m2, 0.1 * model.disagreement_m2), before.own_m2);
+      model.disagreement_m2 = std::clamp(seen_m2, std::max(model.noise_m2, 0.1 * model.disagreement_m2), before.own_m2);
     }
     prior = model.prior;
     prior.noise_m2 = model.sample_noise_m2();
-    field = solve_field(model.grid, model.samples, model.basis, prior, field.shift_mm, config.shift_mm > 0.0 ? 2 : 1, true);
+    field =
+        solve_field(model.grid, model.samples, model.basis, prior, field.shift_mm, config.shift_mm > 0.0 ? 2 : 1, true);
     sum = predict_strokes(model, field, given.size(), config, count, observer);
     out.held_out.strokes = count;
     out.held_out.samples = sum.samples;

@@ -34,8 +34,8 @@ SplinePatch spline_patch(const MapGrid& grid, double x_mm, double y_mm) {
   for (std::size_t r = 0; r < 4; ++r) {
     for (std::size_t c = 0; c < 4; ++c) {
       const std::size_t i = 4 * r + c;
-      out.index[i] = static_cast<Eigen::Index>(row - 1 + static_cast<int>(r)) * grid.columns + column - 1 +
-                     static_cast<int>(c);
+      out.index[i] =
+          static_cast<Eigen::Index>(row - 1 + static_cast<int>(r)) * grid.columns + column - 1 + static_cast<int>(c);
       out.weight[i] = wx[c] * wy[r];
       out.slope_x[i] = sx[c] * wy[r] / grid.spacing_mm;
       out.slope_y[i] = wx[c] * sy[r] / grid.spacing_mm;
@@ -66,7 +66,8 @@ void add_surface_prior(const MapGrid& grid, const ArealSpectrum& s, Entries& ent
   const double k2 = s.kappa_per_mm * s.kappa_per_mm;
   Matrix identity(grid.size(), grid.size());
   identity.setIdentity();
-  const Matrix Q = (grid.spacing_mm * grid.spacing_mm / s.A) * (k2 * k2 * identity + 2.0 * s.t * k2 * L + Matrix(L * L));
+  const Matrix Q =
+      (grid.spacing_mm * grid.spacing_mm / s.A) * (k2 * k2 * identity + 2.0 * s.t * k2 * L + Matrix(L * L));
   for (int j = 0; j < Q.outerSize(); ++j)
     for (Matrix::InnerIterator it(Q, j); it; ++it)
       if (it.row() >= it.col()) entries.emplace_back(it.row(), it.col(), it.value());
@@ -128,7 +129,8 @@ Eigen::Vector3d StrokeField::at(double x_mm, double y_mm) const {
 }
 
 double StrokeField::sigma_at(double x_mm, double y_mm) const {
-  const auto column = std::clamp(static_cast<int>(std::lround((x_mm - grid.x_mm) / grid.spacing_mm)), 0, grid.columns - 1);
+  const auto column =
+      std::clamp(static_cast<int>(std::lround((x_mm - grid.x_mm) / grid.spacing_mm)), 0, grid.columns - 1);
   const auto row = std::clamp(static_cast<int>(std::lround((y_mm - grid.y_mm) / grid.spacing_mm)), 0, grid.rows - 1);
   return sigma_m[static_cast<std::size_t>(static_cast<Eigen::Index>(row) * grid.columns + column)];
 }
@@ -176,7 +178,8 @@ StrokeField solve_field(const MapGrid& grid, const std::vector<StrokeSample>& sa
     if (unknowns.shifts) {
       for (Eigen::Index k = 0; k < unknowns.strokes; ++k)
         for (const int axis : {0, 1})
-          entries.emplace_back(unknowns.shift(k, axis), unknowns.shift(k, axis), 1.0 / (prior.shift_mm * prior.shift_mm));
+          entries.emplace_back(unknowns.shift(k, axis), unknowns.shift(k, axis),
+                               1.0 / (prior.shift_mm * prior.shift_mm));
     }
     Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns.size());
     std::array<std::pair<Eigen::Index, double>, 21> row{};
@@ -218,7 +221,8 @@ StrokeField solve_field(const MapGrid& grid, const std::vector<StrokeSample>& sa
     out.coefficient_m = x.head(unknowns.splines);
     out.hat_m = x.segment(unknowns.splines, unknowns.hats);
     for (Eigen::Index k = 0; k < unknowns.strokes; ++k) {
-      for (Eigen::Index i = basis.first[static_cast<std::size_t>(k)]; i < basis.first[static_cast<std::size_t>(k) + 1]; ++i)
+      for (Eigen::Index i = basis.first[static_cast<std::size_t>(k)]; i < basis.first[static_cast<std::size_t>(k) + 1];
+           ++i)
         out.hat_m[i] += x[unknowns.offset(k)];
       if (!unknowns.shifts) continue;
       // Within the reach for which the grid has a margin.

@@ -34,10 +34,10 @@ struct FieldPrior {
 // Surface and strokes as the samples show them.
 struct StrokeField {
   MapGrid grid;
-  Eigen::VectorXd coefficient_m;               // of the splines
-  Eigen::VectorXd hat_m;                       // of all strokes, their offsets in it
-  std::vector<Eigen::Vector2d> shift_mm;       // [stroke]: what is added to its positions
-  std::vector<double> sigma_m;                 // [grid point] of the height there; empty: not asked for
+  Eigen::VectorXd coefficient_m;          // of the splines
+  Eigen::VectorXd hat_m;                  // of all strokes, their offsets in it
+  std::vector<Eigen::Vector2d> shift_mm;  // [stroke]: what is added to its positions
+  std::vector<double> sigma_m;            // [grid point] of the height there; empty: not asked for
 
   // Height and gradient (m, m/mm) at a place that is inside the grid.
   Eigen::Vector3d at(double x_mm, double y_mm) const;

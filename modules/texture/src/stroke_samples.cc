@@ -120,7 +120,8 @@ StrokeSpectrum measure_strokes(std::span<const AreaStroke> strokes, double drift
       std::size_t end = begin;
       while (end < stroke.height_m.size() && std::isfinite(stroke.height_m[end])) ++end;
       if (end - begin >= segment && segment >= 16) {
-        const PowerSpectrum spectrum = welch(std::span(stroke.height_m).subspan(begin, end - begin), rate_per_mm, segment);
+        const PowerSpectrum spectrum =
+            welch(std::span(stroke.height_m).subspan(begin, end - begin), rate_per_mm, segment);
         if (sum.empty()) {
           sum.assign(spectrum.density.size(), 0.0);
           frequency = spectrum.frequency;
@@ -169,7 +170,8 @@ StrokeAgreement compare_strokes(const std::vector<StrokeSample>& samples, const 
   const auto key = [](std::int64_t x, std::int64_t y) { return x * 4000037 + y; };
   std::unordered_map<std::int64_t, std::vector<std::uint32_t>> cells;
   const auto cell = [&](double v_mm) { return static_cast<std::int64_t>(std::floor(v_mm / reach_mm)); };
-  for (std::uint32_t i = 0; i < samples.size(); ++i) cells[key(cell(samples[i].x_mm), cell(samples[i].y_mm))].push_back(i);
+  for (std::uint32_t i = 0; i < samples.size(); ++i)
+    cells[key(cell(samples[i].x_mm), cell(samples[i].y_mm))].push_back(i);
 
   struct Sums {
     double product = 0.0, weight = 0.0;

@@ -28,7 +28,8 @@ Relief random_waves(std::uint64_t seed) {
   }
   return [waves](double x_mm, double y_mm) {
     double out = 0.0;
-    for (const auto& [kx, ky, phase] : waves) out += 30e-6 * std::sqrt(2.0 / 200.0) * std::cos(kx * x_mm + ky * y_mm + phase);
+    for (const auto& [kx, ky, phase] : waves)
+      out += 30e-6 * std::sqrt(2.0 / 200.0) * std::cos(kx * x_mm + ky * y_mm + phase);
     return out;
   };
 }
@@ -79,7 +80,8 @@ TEST(MapStrokes, ErrorsAreAsLargeAsTheirSigma) {
       ratio += std::pow(error / sigma, 2);
       count += 1.0;
       // To the nearest stroke, mm.
-      const double dx = std::abs(1e3 * x - 0.5 - std::round(1e3 * x - 0.5)), dy = std::abs(1e3 * y - 0.5 - std::round(1e3 * y - 0.5));
+      const double dx = std::abs(1e3 * x - 0.5 - std::round(1e3 * x - 0.5)),
+                   dy = std::abs(1e3 * y - 0.5 - std::round(1e3 * y - 0.5));
       if (std::min(dx, dy) < 0.08) {
         on_strokes += error * error;
         near += 1.0;
@@ -124,7 +126,8 @@ TEST(MapStrokes, FindsShiftsOfStrokes) {
 
 TEST(MapStrokes, StrokesOfDifferentSurfacesDoNotAgree) {
   Random random(7);
-  const StrokeMap map = map_strokes(crossing([](int k) { return random_waves(static_cast<std::uint64_t>(100 + k)); }, random));
+  const StrokeMap map =
+      map_strokes(crossing([](int k) { return random_waves(static_cast<std::uint64_t>(100 + k)); }, random));
   EXPECT_LT(map.agreement + 2.0 * map.agreement_sigma, 0.5);
   EXPECT_LT(std::abs(map.agreement), 3.0 * map.agreement_sigma);
 }

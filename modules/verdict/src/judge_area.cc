@@ -31,8 +31,8 @@ Verdicts judge_area(const AreaEvidence& e) {
   const std::string shared = fmt::format("the strokes share {:.0f} ± {:.0f} % of their variance where they meet",
                                          100.0 * e.agreement, 100.0 * e.agreement_sigma);
   if (e.ties == 0) {
-    say("strokes_untied", fmt::format("none of the {} stroke{} crosses another or comes near it", e.strokes,
-                                      e.strokes == 1 ? "" : "s"));
+    say("strokes_untied",
+        fmt::format("none of the {} stroke{} crosses another or comes near it", e.strokes, e.strokes == 1 ? "" : "s"));
   } else if (high < kLeastAgreement || !(e.agreement > 0.0)) {
     say("strokes_disagree", "the strokes do not agree: " + shared);
   } else if (!(low > 0.0)) {
@@ -56,9 +56,10 @@ Verdicts judge_area(const AreaEvidence& e) {
     }
   }
   if (e.stretch_max > 1.0 + kStretch || e.stretch_min < 1.0 - kStretch) {
-    say("area_stretched", fmt::format("the patch is curved: lengths in its plane are {:.2f} to {:.2f} times those of the "
-                                      "surface",
-                                      e.stretch_min, e.stretch_max));
+    say("area_stretched",
+        fmt::format("the patch is curved: lengths in its plane are {:.2f} to {:.2f} times those of the "
+                    "surface",
+                    e.stretch_min, e.stretch_max));
   }
   sort_verdicts(out);
   return out;

@@ -24,11 +24,11 @@ struct FlattenConfig {
 // A patch in the plane.
 struct FlatPatch {
   std::vector<Eigen::Vector2d> uv_m;  // [patch vertex], metres of the surface; the patch as seen from outside
-  double energy = 0.0;                // mean over the area of ½ (σ₁² + σ₂² + σ₁⁻² + σ₂⁻²); 2 for an isometry
-  double stretch_min = 1.0;           // singular values of the triangles' maps from the surface
+  double energy = 0.0;  // mean over the area of ½ (σ₁² + σ₂² + σ₁⁻² + σ₂⁻²); 2 for an isometry
+  double stretch_min = 1.0;  // singular values of the triangles' maps from the surface
   double stretch_max = 1.0;
-  double stretch_rms = 0.0;  // from 1, by area
-  std::size_t flipped = 0;   // triangles turned over: 0
+  double stretch_rms = 0.0;      // from 1, by area
+  std::size_t flipped = 0;       // triangles turned over: 0
   std::size_t without_area = 0;  // triangles of the mesh without area, which no map can keep
   int iterations = 0;
   bool converged = false;

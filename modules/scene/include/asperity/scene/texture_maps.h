@@ -39,8 +39,8 @@ TextureMaps make_texture_maps(const Texture& texture, const TextureMapsConfig& c
 // (up the image), blue outwards, as glTF 2.0 takes a normal map. The slopes are those of the texture as it is rendered.
 std::string format_normal_png(const HeightMap& heights);
 
-// The standard deviations of an area's heights at the pixels of its height map, grey of 16 bits: black is 0, level 65534
-// is `white_m`, and level 65535 is a hole, where nothing is known of the height.
+// The standard deviations of an area's heights at the pixels of its height map, grey of 16 bits: black is 0, level
+// 65534 is `white_m`, and level 65535 is a hole, where nothing is known of the height.
 std::string format_sigma_png(const ArealTexture& areal, const HeightMap& heights, double white_m);
 
 }  // namespace asperity

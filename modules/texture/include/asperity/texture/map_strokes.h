@@ -61,9 +61,9 @@ struct StrokeMap {
   double disagreement_m = 0.0;  // standard deviation of one stroke's heights about the surface, its drift taken off
   double agreement = std::numeric_limits<double>::quiet_NaN();  // part of the strokes' variance that they share
   double agreement_sigma = std::numeric_limits<double>::quiet_NaN();
-  std::size_t ties = 0;            // pairs of strokes that come near enough to be compared
-  double correlation_mm = 0.0;     // length over which heights correlate by 1/e
-  double sigma_rms_m = 0.0;        // over the map without its holes
+  std::size_t ties = 0;             // pairs of strokes that come near enough to be compared
+  double correlation_mm = 0.0;      // length over which heights correlate by 1/e
+  double sigma_rms_m = 0.0;         // over the map without its holes
   std::vector<double> drift_rms_m;  // [stroke]
   std::vector<double> shift_x_m;    // [stroke]: by which the stroke is displaced on the surface
   std::vector<double> shift_y_m;
@@ -72,10 +72,10 @@ struct StrokeMap {
 };
 
 // The height over the plane that explains the strokes best: a random surface with the spectrum that the strokes show
-// along themselves (a Gaussian Markov random field on a grid of cubic B-splines), each stroke displaced by an offset and
-// a drift of its own, and by a shift on the surface; strokes that cross or lie side by side determine them. `held_out`
-// strokes are then predicted from the others. Without a tie between two strokes there is no map: `texture` stays empty
-// and `agreement` nan. Throws Error for no stroke with 16 heights, and positions that are not finite.
+// along themselves (a Gaussian Markov random field on a grid of cubic B-splines), each stroke displaced by an offset
+// and a drift of its own, and by a shift on the surface; strokes that cross or lie side by side determine them.
+// `held_out` strokes are then predicted from the others. Without a tie between two strokes there is no map: `texture`
+// stays empty and `agreement` nan. Throws Error for no stroke with 16 heights, and positions that are not finite.
 StrokeMap map_strokes(std::span<const AreaStroke> strokes, const MapStrokesConfig& config = {},
                       const Observer& observer = {});
 
