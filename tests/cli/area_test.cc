@@ -90,7 +90,7 @@ class Area : public testing::Test {
 TEST_F(Area, ManyStrokesBecomeOneTexture) {
   write_registered("registered", false);
   const Outcome outcome = run(
-      {"area", path("registered"), "-o", path("out"), "--set", "map.shift_mm=0", "--set", "map.held_out=2", "--json"});
+      {"area", path("registered"), "-o", path("out"), "--set", "map.shift_mm=0", "--set", "map.held_out=4", "--json"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const json area = json::parse(outcome.out);
   EXPECT_EQ(area.at("texture"), "area.texture.json");
@@ -118,7 +118,7 @@ TEST_F(Area, ManyStrokesBecomeOneTexture) {
   EXPECT_TRUE(fs::exists(dir_ / "as-png" / "area.sigma.png"));
   // The same again: the same bytes.
   ASSERT_EQ(
-      run({"area", path("registered"), "-o", path("again"), "--set", "map.shift_mm=0", "--set", "map.held_out=2"}).code,
+      run({"area", path("registered"), "-o", path("again"), "--set", "map.shift_mm=0", "--set", "map.held_out=4"}).code,
       0);
   const auto bytes = [&](const std::string& name) {
     std::ifstream in(dir_ / name, std::ios::binary);

@@ -14,7 +14,10 @@
 namespace asperity {
 namespace {
 
+constexpr int kRounds = 3;  // of map and predictions
 constexpr int kShiftSteps = 4;
+constexpr double kTieCorrelation = 0.6;  // nearer than this strokes see much the same
+constexpr double kLeastAgreement = 0.1;
 constexpr double kPowerPart = 0.98;     // of a stroke's, up to where its waves are resolved
 constexpr double kMarginLengths = 1.0;  // correlation lengths of grid beyond the samples
 
@@ -38,6 +41,7 @@ struct Prediction {
   double map_m2 = 0.0;
   double height_m2 = 0.0;
   double ratio2 = 0.0;
+  std::vector<double> own_m2;  // of each stroke, what the map's σ does not explain
 };
 
 Prediction predict_stroke(const Model& model, const StrokeField& all, std::uint32_t stroke, double claim_m) {
@@ -135,6 +139,7 @@ Prediction predict_strokes(const Model& model, const StrokeField& field, std::si
     sum.map_m2 += one.map_m2;
     sum.height_m2 += one.height_m2;
     sum.ratio2 += one.ratio2;
+    sum.own_m2.push_back((one.error_m2 - one.map_m2) / one.samples);
   }
   return sum;
 }
@@ -218,65 +223,48 @@ StrokeMap map_strokes(std::span<const AreaStroke> strokes, const MapStrokesConfi
     }
   }
   model.prior.drift_m = detrend(model.samples, model.basis);
-  const StrokeAgreement before = compare_strokes(model.samples, model.prior.spectrum);
-  out.ties = before.ties;
   out.correlation_mm = model.prior.spectrum.distance_mm(std::exp(-1.0));
-  const double own_m = std::sqrt(before.own_m2);
-  model.prior.drift_m = std::max(model.prior.drift_m, 0.05 * own_m);
-  model.prior.offset_m = 10.0 * (own_m + model.prior.drift_m);
+  out.ties = count_ties(model.samples, model.prior.spectrum.distance_mm(kTieCorrelation));
+  if (out.ties == 0) return out;
+  double own_m2 = 0.0;
+  for (const StrokeSample& s : model.samples)
+    own_m2 += s.texture_m * s.texture_m / static_cast<double>(model.samples.size());
+  const double whole_A = model.prior.spectrum.A;
+  model.prior.drift_m = std::max(model.prior.drift_m, 0.05 * std::sqrt(own_m2));
+  model.prior.offset_m = 10.0 * (std::sqrt(own_m2) + model.prior.drift_m);
   model.prior.shift_mm = config.shift_mm;
-  const auto take = [&](const StrokeAgreement& agreement) {
-    const double own_m2 = agreement.own_m2, shared_m2 = std::min(agreement.shared_m2, 0.999 * own_m2);
-    out.agreement = agreement.shared_m2 / own_m2;
-    out.agreement_sigma = agreement.sigma_m2 / own_m2;
-    model.prior.spectrum.A *= shared_m2 / model.prior.spectrum.variance_m2();
-    model.disagreement_m2 = std::max({own_m2 - shared_m2, model.noise_m2, 1e-4 * own_m2});
-  };
-  if (before.ties == 0) return out;
-  out.agreement = before.shared_m2 / before.own_m2;
-  out.agreement_sigma = before.sigma_m2 / before.own_m2;
-  out.rms_m = std::sqrt(std::max(before.shared_m2, 0.0));
-  out.disagreement_m = std::sqrt(std::max(before.own_m2 - before.shared_m2, 0.0));
-  out.spectrum = model.prior.spectrum;
-  // Strokes that share nothing have no surface in common.
-  if (!(before.shared_m2 > 2.0 * before.sigma_m2)) return out;
-  take(before);
+  // At first strokes are taken to agree, so that the map claims enough to be proved wrong.
+  model.disagreement_m2 = std::max(model.noise_m2, 0.05 * own_m2);
 
-  observer.update("map", 0.0);
-  std::vector<Eigen::Vector2d> shift_mm(given.size(), Eigen::Vector2d::Zero());
-  FieldPrior prior = model.prior;
-  prior.noise_m2 = model.sample_noise_m2();
-  StrokeField field = solve_field(model.grid, model.samples, model.basis, prior, shift_mm,
-                                  config.shift_mm > 0.0 ? kShiftSteps : 1, config.held_out == 0);
-  if (config.shift_mm > 0.0) {
-    std::vector<StrokeSample> shifted = model.samples;
-    for (StrokeSample& s : shifted) {
-      s.x_mm += field.shift_mm[s.stroke].x();
-      s.y_mm += field.shift_mm[s.stroke].y();
-    }
-    const StrokeAgreement after = compare_strokes(shifted, model.prior.spectrum);
-    if (after.shared_m2 > 2.0 * after.sigma_m2) take(after);
-  }
-  if (config.held_out > 0) {
-    std::size_t count = 0;
-    Prediction sum = predict_strokes(model, field, given.size(), config, count, observer);
-    if (sum.samples > 0.0) {
-      // What the others could not predict and do not admit is this stroke's own.
-      const double seen_m2 = (sum.error_m2 - sum.map_m2) / sum.samples;
-      model.disagreement_m2 = std::clamp(seen_m2, std::max(model.noise_m2, 0.1 * model.disagreement_m2), before.own_m2);
-    }
-    prior = model.prior;
+  StrokeField field;
+  field.shift_mm.assign(given.size(), Eigen::Vector2d::Zero());
+  for (int round = 0; round < kRounds; ++round) {
+    observer.update("map", static_cast<double>(round) / kRounds);
+    FieldPrior prior = model.prior;
     prior.noise_m2 = model.sample_noise_m2();
-    field =
-        solve_field(model.grid, model.samples, model.basis, prior, field.shift_mm, config.shift_mm > 0.0 ? 2 : 1, true);
-    sum = predict_strokes(model, field, given.size(), config, count, observer);
+    const bool last = round + 1 == kRounds;
+    field = solve_field(model.grid, model.samples, model.basis, prior, field.shift_mm,
+                        config.shift_mm > 0.0 ? kShiftSteps : 1, last);
+    std::size_t count = 0;
+    const Prediction sum = predict_strokes(model, field, given.size(), config, count, observer);
     out.held_out.strokes = count;
     out.held_out.samples = sum.samples;
-    if (sum.samples > 0.0) {
-      out.held_out.error_rms_m = std::sqrt(sum.error_m2 / sum.samples);
-      out.held_out.error_over_sigma = std::sqrt(sum.ratio2 / sum.samples);
-      out.held_out.explained = 1.0 - sum.error_m2 / sum.height_m2;
-    }
+    if (count < 2) return out;
+    out.held_out.error_rms_m = std::sqrt(sum.error_m2 / sum.samples);
+    out.held_out.error_over_sigma = std::sqrt(sum.ratio2 / sum.samples);
+    out.held_out.explained = 1.0 - sum.error_m2 / sum.height_m2;
+    const double seen_m2 = (sum.error_m2 - sum.map_m2) / sum.samples;
+    double scatter = 0.0;
+    for (const double one_m2 : sum.own_m2) scatter += std::pow(one_m2 - seen_m2, 2);
+    const auto strokes_held = static_cast<double>(count);
+    out.agreement = 1.0 - seen_m2 / own_m2;
+    out.agreement_sigma = std::sqrt(scatter / (strokes_held - 1.0) / strokes_held) / own_m2;
+    out.disagreement_m = std::sqrt(std::max(seen_m2, 0.0));
+    // Strokes that do not predict each other have no surface in common.
+    if (!(out.agreement > std::max(2.0 * out.agreement_sigma, kLeastAgreement))) return out;
+    if (last) break;
+    model.disagreement_m2 = std::clamp(seen_m2, std::max(model.noise_m2, 0.01 * own_m2), own_m2);
+    model.prior.spectrum.A = whole_A * std::clamp(1.0 - model.disagreement_m2 / own_m2, kLeastAgreement, 1.0);
   }
   out.spectrum = model.prior.spectrum;
   out.rms_m = std::sqrt(model.prior.spectrum.variance_m2());

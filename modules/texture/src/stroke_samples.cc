@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 #include "asperity/algebra/solve.h"
@@ -155,69 +155,25 @@ StrokeSpectrum measure_strokes(std::span<const AreaStroke> strokes, double drift
   return out;
 }
 
-StrokeAgreement compare_strokes(const std::vector<StrokeSample>& samples, const ArealSpectrum& spectrum) {
-  // Nearer than this strokes see much the same.
-  constexpr double kCorrelation = 0.6;
-  const double reach_mm = spectrum.distance_mm(kCorrelation);
-  const double variance = spectrum.variance_m2();
-  std::vector<double> correlation;  // over distances up to the reach
-  constexpr int kTable = 64;
-  for (int i = 0; i <= kTable; ++i) correlation.push_back(spectrum.covariance_m2(reach_mm * i / kTable) / variance);
-
-  StrokeAgreement out;
-  for (const StrokeSample& s : samples)
-    out.own_m2 += s.texture_m * s.texture_m / static_cast<double>(std::max<std::size_t>(samples.size(), 1));
-  const auto key = [](std::int64_t x, std::int64_t y) { return x * 4000037 + y; };
-  std::unordered_map<std::int64_t, std::vector<std::uint32_t>> cells;
+std::size_t count_ties(const std::vector<StrokeSample>& samples, double reach_mm) {
   const auto cell = [&](double v_mm) { return static_cast<std::int64_t>(std::floor(v_mm / reach_mm)); };
-  for (std::uint32_t i = 0; i < samples.size(); ++i)
-    cells[key(cell(samples[i].x_mm), cell(samples[i].y_mm))].push_back(i);
-
-  struct Sums {
-    double product = 0.0, weight = 0.0;
-  };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, Sums> pairs;
-  std::map<std::uint32_t, std::pair<double, std::uint32_t>> nearest;  // of each other stroke
-  for (std::uint32_t i = 0; i < samples.size(); ++i) {
-    const StrokeSample& a = samples[i];
-    nearest.clear();
+  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::uint32_t>> cells;
+  for (std::uint32_t i = 0; i < samples.size(); ++i) cells[{cell(samples[i].x_mm), cell(samples[i].y_mm)}].push_back(i);
+  std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (const StrokeSample& a : samples) {
     for (std::int64_t dx = -1; dx <= 1; ++dx) {
       for (std::int64_t dy = -1; dy <= 1; ++dy) {
-        const auto found = cells.find(key(cell(a.x_mm) + dx, cell(a.y_mm) + dy));
+        const auto found = cells.find({cell(a.x_mm) + dx, cell(a.y_mm) + dy});
         if (found == cells.end()) continue;
         for (const std::uint32_t j : found->second) {
           const StrokeSample& b = samples[j];
-          if (b.stroke <= a.stroke) continue;
-          const double distance_mm = std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm);
-          if (distance_mm > reach_mm) continue;
-          const auto [it, fresh] = nearest.try_emplace(b.stroke, distance_mm, j);
-          if (!fresh && distance_mm < it->second.first) it->second = {distance_mm, j};
+          if (b.stroke > a.stroke && std::hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm) <= reach_mm)
+            pairs.emplace(a.stroke, b.stroke);
         }
       }
     }
-    for (const auto& [stroke, near] : nearest) {
-      const double rho = correlation[static_cast<std::size_t>(near.first / reach_mm * kTable)];
-      Sums& sums = pairs[{a.stroke, stroke}];
-      sums.product += rho * a.texture_m * samples[near.second].texture_m;
-      sums.weight += rho * rho;
-    }
   }
-  double product = 0.0, weight = 0.0;
-  for (const auto& [pair, sums] : pairs) {
-    product += sums.product;
-    weight += sums.weight;
-  }
-  out.ties = pairs.size();
-  if (!(weight > 0.0)) return out;
-  out.shared_m2 = product / weight;
-  double square = 0.0;
-  for (const auto& [pair, sums] : pairs) square += std::pow(sums.product - out.shared_m2 * sums.weight, 2);
-  out.sigma_m2 = std::sqrt(square * static_cast<double>(pairs.size()) /
-                           static_cast<double>(std::max<std::size_t>(pairs.size(), 2) - 1)) /
-                 weight;
-  // One pair has no scatter of its own.
-  if (pairs.size() < 3) out.sigma_m2 = std::max(out.sigma_m2, std::abs(out.own_m2));
-  return out;
+  return pairs.size();
 }
 
 }  // namespace asperity

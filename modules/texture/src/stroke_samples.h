@@ -44,14 +44,7 @@ struct StrokeSpectrum {
 };
 StrokeSpectrum measure_strokes(std::span<const AreaStroke> strokes, double drift_mm, double part);
 
-// How far the strokes agree where they come near: their covariance over `spectrum`'s correlation. Pairs of strokes are
-// independent of each other, which gives the standard error.
-struct StrokeAgreement {
-  double shared_m2 = 0.0;  // variance that the strokes have in common
-  double sigma_m2 = 0.0;
-  double own_m2 = 0.0;  // mean variance of the strokes' texture
-  std::size_t ties = 0;
-};
-StrokeAgreement compare_strokes(const std::vector<StrokeSample>& samples, const ArealSpectrum& spectrum);
+// How many pairs of strokes come nearer to each other than `reach_mm`.
+std::size_t count_ties(const std::vector<StrokeSample>& samples, double reach_mm);
 
 }  // namespace asperity

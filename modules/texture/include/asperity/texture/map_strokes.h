@@ -39,7 +39,7 @@ struct MapStrokesConfig {
     v.field("hole_share", hole_share,
             "the map has a hole where its standard deviation exceeds this share of the texture's RMS height",
             {0.01, 0.99});
-    v.field("held_out", held_out, "strokes that are predicted from the others, one after another", {0, 1000});
+    v.field("held_out", held_out, "strokes that are predicted from the others, one after another", {2, 1000});
     v.field("most_points", most_points, "of the grid", {1000, 1000000});
   }
 };
