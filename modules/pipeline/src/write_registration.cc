@@ -216,6 +216,20 @@ std::vector<ScanPlace> places_of(const EarlierScene& earlier, const ScansOnMesh&
   return out;
 }
 
+// A scan's path on the mesh, mesh frame.
+std::string format_path_csv(const MeshPath& path) {
+  std::string out = "s_m,px_m,py_m,pz_m,triangle\n";
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    append_number(out, path.s_m[i]);
+    for (const double p : path.p_mesh_m[i]) {
+      out += ',';
+      append_number(out, p);
+    }
+    out += ',' + std::to_string(path.triangle[i]) + '\n';
+  }
+  return out;
+}
+
 }  // namespace
 
 void add_scans(Scene& scene, const ScansOnMesh& result, const std::vector<ScanPlace>& places,
@@ -312,6 +326,7 @@ void write_registration(const fs::path& folder, const ScansOnMesh& result, const
       write_file(place / "profile.csv", format_profile_csv(scan.process.profile));
       write_file(place / "spectrum.csv", format_spectrum_csv(scan.process.spectrum));
     }
+    if (scan.path.size() > 0) write_file(place / "path.csv", format_path_csv(scan.path));
     files.push_back(files_below(place, folder));
   }
   earlier.registration = registration_json(result, places, files, earlier);

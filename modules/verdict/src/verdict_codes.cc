@@ -81,6 +81,15 @@ constexpr VerdictCode kCodes[] = {
     {"pose_arbitrary", kInvalid, "give a guess with --guess, --align or --picks, or scan in more directions"},
     {"no_path_on_mesh", kInvalid, "check the guess and the mesh's unit"},
     {"no_haptic_coordinates", kInvalid, "scan each connected part of the mesh by itself"},
+    // An area of many strokes (judge_area.h).
+    {"area_unregistered", kInvalid, "register the scans again, as their verdicts say"},
+    {"strokes_disagree", kInvalid, "check the scans' verdicts and their poses on the mesh, and scan slower"},
+    {"strokes_untied", kInvalid, "scan strokes that cross the others, or nearer to each other"},
+    {"area_below_noise", kInvalid, "scan slower, or use a probe with less noise"},
+    {"strokes_differ", kLimited, "scan more strokes, or register them better"},
+    {"area_sparse", kLimited, "scan strokes nearer to each other, or use the textures along them"},
+    {"area_sigma_doubtful", kLimited, "scan more strokes that cross"},
+    {"area_stretched", kLimited, "map a smaller or flatter part of the surface"},
     // A recording in progress.
     {"no_samples", kInvalid, "check the probe's address, cable and power"},
     {"never_touched", kInvalid, "touch the surface, or lower the force at which a touch begins"},

@@ -31,10 +31,11 @@ void add_scans(Scene& scene, const ScansOnMesh& result, const std::vector<ScanPl
 Scene make_scene(const ScansOnMesh& result, const MeshFile& mesh, double unit_m);
 
 // Writes registration.json, scene.json, textured.obj (augmented by `h` lines, seed §6.3), the textures and the
-// material map, and what write_result writes of each recording (of a path alone its profile.csv): in `folder`
-// if there is one scan on a mesh alone, else in a folder of the scan's name below it. What is beside `earlier` is
-// written too, but for what was measured of scans that are replaced. `folder` exists and is empty. With `listing` a
-// files.json is to follow. Throws Error for a name that is not that of a folder in it, or if a file cannot be written.
+// material map, and what write_result writes of each recording (of a path alone its profile.csv), and each path on the
+// mesh as path.csv (mesh frame): in `folder` if there is one scan on a mesh alone, else in a folder of the scan's name
+// below it. What is beside `earlier` is written too, but for what was measured of scans that are replaced. `folder`
+// exists and is empty. With `listing` a files.json is to follow. Throws Error for a name that is not that of a folder
+// in it, or if a file cannot be written.
 void write_registration(const std::filesystem::path& folder, const ScansOnMesh& result, const std::vector<Scan>& scans,
                         EarlierScene earlier, bool listing = false);
 void write_registration(const std::filesystem::path& folder, const ScansOnMesh& result, const std::vector<Scan>& scans,
