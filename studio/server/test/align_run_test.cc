@@ -118,6 +118,19 @@ TEST_F(AlignRunTest, AScanIsAddedToASceneAndListedWithItsPose) {
   EXPECT_EQ(registration.at("scans")[1].at("texture"), 2);
 }
 
+TEST_F(AlignRunTest, APoseMovedByHandHasAVerdictOfItsOwn) {
+  const Json result = bench_.call("align.run", args_of({{"guess", true}})).result;
+  ASSERT_TRUE(result["trustworthy"].get<bool>()) << result["verdict"];
+  const Json same = bench_.call("align.judge", args_of({{"pose", result["T_mesh_world"]}})).result;
+  EXPECT_TRUE(same["trustworthy"].get<bool>()) << same.dump();
+  Json pose = result["T_mesh_world"];
+  pose[0] = pose[0].get<double>() + 0.02;
+  const Json moved = bench_.call("align.judge", args_of({{"pose", pose}})).result;
+  EXPECT_FALSE(moved["trustworthy"].get<bool>()) << moved.dump();
+  // The registration's own verdict is still about its own pose.
+  EXPECT_EQ(bench_.call("align.result").result, result);
+}
+
 TEST_F(AlignRunTest, TheRunnerUpIsTakenAndKept) {
   // From anywhere there is nearly always another place that is next best.
   bench_.document.edit("/align/config", parse_json(R"({"search.rotations":"200","search.positions":"20"})"), "");
