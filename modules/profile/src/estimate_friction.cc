@@ -250,8 +250,10 @@ void find_sticks(const Rubbing& r, const FrictionConfig& config, FrictionEstimat
   }
   out.stuck_share = contact_s > 0.0 ? stuck_s / contact_s : 0.0;
   if (breakaways.size() < 3) return;
+  const double error = standard_deviation(breakaways) / std::sqrt(static_cast<double>(breakaways.size()));
+  if (!(error <= config.max_stderr)) return;
   out.breakaway = mean(breakaways);
-  out.breakaway_stderr = standard_deviation(breakaways) / std::sqrt(static_cast<double>(breakaways.size()));
+  out.breakaway_stderr = error;
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ struct FrictionEstimate {
   double sensor_delay_s = kNan;         // time constant by which the force follows the slope
   std::size_t sticks = 0;               // between two times of sliding
   double stuck_share = 0.0;             // of the time in contact, in these
-  double breakaway = kNan;              // coefficient at the end of a stick, mean
+  double breakaway = kNan;              // coefficient at the end of a stick, mean; of at least three
   double breakaway_stderr = kNan;
   std::string verdict;  // in words: "determined", or what is missing
   std::vector<FrictionWindow> windows;
