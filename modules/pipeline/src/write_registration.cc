@@ -96,6 +96,10 @@ Json scan_json(const ScansOnMesh& result, std::size_t index) {
   Json out = pose_with_error_json(result.registration_of(scan));
   const Verdicts verdicts = verdicts_of(result, scan);
   out["name"] = scan.name;
+  out["rms_m"] = number_or_null(scan.rms_m);
+  if (scan.tip_sigma_m) {
+    out["tip"] = {{"shift_m", vector_json(scan.tip_shift_m)}, {"sigma_m", vector_json(*scan.tip_sigma_m)}};
+  }
   out["placement"] = scan.placement + 1;
   out["verdict"] = verdict_word(verdicts);
   out["verdicts"] = verdicts_json(verdicts);
@@ -209,6 +213,8 @@ std::string format_registration(const ScansOnMesh& result, std::span<const std::
   out["covariance"] = pose_with_error_json(registration).at("covariance");
   out["placements"] = Json::array();
   for (const Placement& placement : result.placements) out["placements"].push_back(placement_json(result, placement));
+  out["bulge"] = {{"share", number_or_null(result.bulge_share)}, {"sigma", number_or_null(result.bulge_sigma)}};
+  out["overlaps"] = {{"crossings", result.crossings}, {"shifts", result.matched_shifts}};
   out["scans"] = Json::array();
   for (std::size_t i = 0; i < result.scans.size(); ++i) out["scans"].push_back(scan_json(result, i + 1));
   out["coordinates"] = coordinates_json(result.coordinates);
