@@ -145,7 +145,7 @@ TEST(RefinePlacements, StrokesBesideEachOtherAreAlignedByTheirTexture) {
   const MeshSurface surface(bumpy_ball());
   const auto shift_between = [&](std::uint64_t seed, double overlap_m) {
     BallStroke stroke;
-    stroke.slow_m = 0.15e-3;
+    stroke.relief_m = 0.1e-3;  // above what the slow error, which is rough in this model, makes over a few millimetres
     std::vector<MeasuredPath> paths{stroke_over_ball(surface, kPlaces[0], stroke, seed)};
     stroke.across_m = 0.05e-3;
     paths.push_back(stroke_over_ball(surface, kPlaces[0], stroke, seed + 50));
@@ -176,7 +176,7 @@ TEST(RefinePlacements, StrokesBesideEachOtherAreAlignedByTheirTexture) {
     with_m += shift_between(seed, 0.3e-3) / 3.0;
     without_m += shift_between(seed, 0.0) / 3.0;
   }
-  EXPECT_GT(without_m, 80e-6);  // 0.15 mm each, both kept
+  EXPECT_GT(without_m, 80e-6);  // 0.1 mm each, both kept
   EXPECT_LT(with_m, 0.5 * without_m);
 }
 
