@@ -1,6 +1,6 @@
 // Twelve scans of a pebble, three surfaces, between which the object was moved once, registered from scratch by one
 // call: which scans it puts into one placement, how far the poses are off beside their standard deviations, and the
-// processor time of each step. docs/performance.md and docs/accuracy.md say what the numbers mean.
+// processor time of each step.
 //
 //   many_scans [--seeds N] [--scans 12] [--moved yes|no] [--surfaces sandpaper,protoboard,clay_pot]
 
