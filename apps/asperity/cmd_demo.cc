@@ -76,8 +76,7 @@ std::vector<DemoMetric> compare_scan(const Scan& scan, const Recording& recordin
     metrics.push_back({"depth_m", "depth", "µm", 1e6, result.periodicity.depth_m, result.periodicity.depth_stderr_m,
                        DemoMetric::kNone, pattern.depth_m});
   }
-  metrics.push_back({"Rq_m", "Rq", "µm", 1e6, result.roughness ? result.roughness->Rq_m : DemoMetric::kNone,
-                     DemoMetric::kNone, DemoMetric::kNone, roughness.Rq_m});
+  metrics.push_back(rq_metric(result, roughness.Rq_m));
   const StiffnessEstimate& stiffness = result.stiffness;
   const double k_N_per_m = scan.simulation.contact.stiffness_N_per_m;
   if (stiffness.measured) {
@@ -92,8 +91,7 @@ std::vector<DemoMetric> compare_scan(const Scan& scan, const Recording& recordin
                        DemoMetric::kNone, 1.0});
     metrics.push_back(
         {"gain", "gain", "", 1.0, result.accuracy->profile->gain, DemoMetric::kNone, DemoMetric::kNone, 1.0});
-    metrics.push_back({"length_error", "length error", "%", 1e2, 1e-2 * result.accuracy->profile->length_error_percent,
-                       DemoMetric::kNone, DemoMetric::kNone, 0.0});
+    metrics.push_back(length_error_metric(result));
   }
   return metrics;
 }

@@ -67,15 +67,13 @@ std::vector<DemoMetric> compare_scans(const Recording& recording, const ScansOnM
                  DemoMetric::kNone, 0.0});
   const Profile truth = true_profile(*recording.truth, config.profile);
   const RoughnessResult roughness = measure_roughness(truth.texture_m, truth.spacing_m, config.roughness);
-  const double Rq_m = scan.process.roughness ? scan.process.roughness->Rq_m : DemoMetric::kNone;
-  out.push_back({"Rq_m", "Rq", "µm", 1e6, Rq_m, DemoMetric::kNone, DemoMetric::kNone, roughness.Rq_m});
+  out.push_back(rq_metric(scan.process, roughness.Rq_m));
   if (scan.process.accuracy && scan.process.accuracy->profile) {
     const ProfileComparison& profile = *scan.process.accuracy->profile;
     out.push_back(
         {"correlation", "correlation", "", 1.0, profile.correlation, DemoMetric::kNone, DemoMetric::kNone, 1.0});
     out.push_back({"gain", "gain", "", 1.0, profile.gain, DemoMetric::kNone, DemoMetric::kNone, 1.0});
-    out.push_back({"length_error", "length error", "%", 1e2, 1e-2 * profile.length_error_percent, DemoMetric::kNone,
-                   DemoMetric::kNone, 0.0});
+    out.push_back(length_error_metric(scan.process));
   }
   return out;
 }

@@ -6,6 +6,23 @@
 
 namespace asperity::app {
 
+DemoMetric rq_metric(const ProcessResult& result, double true_Rq_m) {
+  DemoMetric metric{"Rq_m", "Rq", "µm", 1e6};
+  metric.truth = true_Rq_m;
+  if (!result.roughness) return metric;
+  metric.measured = result.roughness->Rq_m;
+  metric.standard_error = result.roughness->standard_error.Rq_m;
+  return metric;
+}
+
+DemoMetric length_error_metric(const ProcessResult& result) {
+  DemoMetric metric{"length_error", "length error", "%", 1e2};
+  metric.measured = 1e-2 * result.accuracy->profile->length_error_percent;
+  metric.standard_error = result.noise.length_stderr_m / result.coverage.length_m;
+  metric.truth = 0.0;
+  return metric;
+}
+
 std::string metric_line(const DemoMetric& metric) {
   std::string measured = fmt::format("{:.4g}", metric.measured * metric.scale);
   if (std::isfinite(metric.standard_error)) measured += fmt::format(" ± {:.2g}", metric.standard_error * metric.scale);

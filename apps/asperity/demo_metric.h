@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "asperity/json/json.h"
+#include "asperity/pipeline/process_result.h"
 
 namespace asperity::app {
 
@@ -21,6 +22,13 @@ struct DemoMetric {
   double lower_bound = kNone;  // instead of `measured`
   double truth = kNone;
 };
+
+// Rq of a scan's texture, with its standard error; `true_Rq_m` is that of the true profile.
+DemoMetric rq_metric(const ProcessResult& result, double true_Rq_m);
+
+// How far a scan's length is off, of itself, with the length's standard error. The result must have been compared with
+// the truth (`accuracy->profile`).
+DemoMetric length_error_metric(const ProcessResult& result);
 
 // One line of the table.
 std::string metric_line(const DemoMetric& metric);

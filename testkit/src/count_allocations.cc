@@ -7,9 +7,15 @@
 namespace {
 
 std::atomic<std::size_t> allocations{0};
+thread_local std::size_t own_allocations = 0;
+
+void count() {
+  ++allocations;
+  ++own_allocations;
+}
 
 void* counted(std::size_t size, std::size_t alignment) {
-  ++allocations;
+  count();
   const std::size_t whole = (size + alignment - 1) / alignment * alignment;
   if (void* const p = std::aligned_alloc(alignment, whole > 0 ? whole : alignment)) return p;
   throw std::bad_alloc();
@@ -22,7 +28,7 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
   return counted(size, static_cast<std::size_t>(alignment));
 }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
+  count();
   return std::malloc(size > 0 ? size : 1);
 }
 void operator delete(void* p, const std::nothrow_t&) noexcept { std::free(p); }
@@ -34,5 +40,7 @@ void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::fre
 namespace asperity::testkit {
 
 std::size_t count_allocations() { return allocations; }
+
+std::size_t count_own_allocations() { return own_allocations; }
 
 }  // namespace asperity::testkit

@@ -8,4 +8,7 @@ namespace asperity::testkit {
 // operators new and delete replaced by counting ones.
 std::size_t count_allocations();
 
+// The same of the calling thread alone: where other threads of the program may allocate meanwhile.
+std::size_t count_own_allocations();
+
 }  // namespace asperity::testkit
