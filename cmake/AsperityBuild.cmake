@@ -165,6 +165,18 @@ function(add_own_library name)
   install(TARGETS ${target} LIBRARY DESTINATION lib/asperity)
 endfunction()
 
+# add_own_program(name USED_BY target SOURCES … LIBRARIES target…)
+#   A program that ours start, found in the same places.
+function(add_own_program name)
+  cmake_parse_arguments(P "" "USED_BY" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${P_SOURCES})
+  target_link_libraries(${name} PRIVATE ${P_LIBRARIES} asperity_flags)
+  target_compile_features(${name} PRIVATE cxx_std_20)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
+  add_dependencies(${P_USED_BY} ${name})
+  install(TARGETS ${name} RUNTIME DESTINATION lib/asperity)
+endfunction()
+
 # declare_includes(place DEPENDS name…)
 #   What a place outside modules/ may include: a folder with its own headers (apps/asperity), its tests
 #   (studio/server/test), or one file of it that may include more (apps/asperity/cmd_studio.cc). Names are those of modules

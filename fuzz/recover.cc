@@ -1,6 +1,6 @@
-// A damaged recording, its five files one behind the other, each after a line "%%%": recording.json, calibration.json,
-// probe.csv, tracker.csv, checksums.txt. Recovering refuses with an Error, or saves rows that are there, in a folder
-// whose streams agree with their new checksums.
+// A damaged recording, its files one behind the other, each after a line "%%%": recording.json, calibration.json,
+// probe.csv, tracker.csv, checksums.txt, tracker_object.csv. Recovering refuses with an Error, or saves rows that are
+// there, in a folder whose streams agree with their new checksums.
 #include <stdlib.h>
 
 #include <algorithm>
@@ -33,8 +33,8 @@ struct Folder {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Folder folder;
   constexpr std::string_view kMark = "%%%\n";
-  constexpr std::array<const char*, 5> kNames{"recording.json", "calibration.json", "probe.csv", "tracker.csv",
-                                              kChecksumFile};
+  constexpr std::array<const char*, 6> kNames{"recording.json", "calibration.json", "probe.csv",
+                                              "tracker.csv",    kChecksumFile,      "tracker_object.csv"};
   const std::filesystem::path in = folder.path + "/in", out = folder.path + "/out";
   std::filesystem::remove_all(out);
   std::filesystem::create_directories(in);
@@ -52,7 +52,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   const std::string sums = read_file(out / kChecksumFile, 1 << 24);
-  for (const RecoveredStream* stream : {&recovered.probe, &recovered.tracker}) {
+  std::vector<const RecoveredStream*> streams{&recovered.probe, &recovered.tracker};
+  for (const RecoveredStream& body : recovered.bodies) streams.push_back(&body);
+  for (const RecoveredStream* stream : streams) {
     if (!std::filesystem::exists(out / stream->file)) continue;
     const std::string saved = read_file(out / stream->file, 1 << 24);
     must(static_cast<std::size_t>(std::count(saved.begin(), saved.end(), '\n')) == stream->rows + 1);

@@ -25,6 +25,9 @@ class ImportCommand : public Command {
     require(parser().add_option("--imu", imu_, "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps"))
         ->type_name("FILE.csv");
     require(parser().add_option("--pose", pose_, "t_s,px_m,py_m,pz_m,qw,qx,qy,qz"))->type_name("FILE.csv");
+    parser()
+        .add_option("--object-pose", object_pose_, "The same of the object, where it moves: the scan is relative to it")
+        ->type_name("FILE.csv");
     parser().add_option("--pose-rate", rate_, "Thin the poses to this rate, Hz")->type_name("HZ");
     parser().add_option("--pose-noise", noise_, "Add noise along the world's axes")->type_name("X,Y,Z");
     parser().add_option("--seed", seed_, "Of the noise")->type_name("N");
@@ -45,7 +48,7 @@ class ImportCommand : public Command {
 
   int run(const Observer& observer) override {
     OutputFolder folder(output_, is_replaceable_recording);
-    const ImportInput input = read_imu_pose(imu_, pose_);
+    const ImportInput input = read_imu_pose(imu_, pose_, object_pose_);
     observer.update("importing", 0.5);
     const Recording recording = import_imu_pose(input, config_);
     write_recording(folder.path(), recording);
@@ -63,9 +66,12 @@ class ImportCommand : public Command {
     out["recording"] = output_;
     out["probe_rows"] = recording.probe.size();
     out["tracker_rows"] = recording.tracker.size();
+    if (!recording.body_poses.empty()) out["object_rows"] = recording.body_poses.front().size();
     out["problems"] = Json::array();
     std::string text = fmt::format("{}: {} probe rows, {} poses\n", printable(output_, 200), recording.probe.size(),
                                    recording.tracker.size());
+    if (!recording.body_poses.empty())
+      text += fmt::format("{} poses of the object\n", recording.body_poses.front().size());
     for (const Problem& problem : problems) {
       out["problems"].push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});
       text += problem.message + "\n";
@@ -78,6 +84,7 @@ class ImportCommand : public Command {
 
   std::string imu_;
   std::string pose_;
+  std::string object_pose_;
   std::string rate_;
   std::string noise_;
   std::string seed_;

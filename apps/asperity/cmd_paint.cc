@@ -13,11 +13,12 @@
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
+#include "asperity/pipeline/earlier_scene.h"
 #include "asperity/scene/paint.h"
-#include "asperity/scene/write_scene.h"
 #include "asperity/session/mesh_unit.h"
 #include "asperity/session/our_folder.h"
 #include "asperity/session/paint_scene.h"
+#include "asperity/session/scene_folder.h"
 #include "commands.h"
 #include "option_units.h"
 
@@ -39,14 +40,23 @@ class PaintCommand : public Command {
  public:
   explicit PaintCommand(Parser& root)
       : Command(root, "paint", "Lay a texture on a mesh along a path through picked points") {
-    require(parser().add_option("MESH", mesh_, "A mesh (.obj .ply .stl .gltf .glb) or a scene.json to paint on"));
+    Option* mesh = parser().add_option("MESH", mesh_, "A mesh (.obj .ply .stl .gltf .glb) or a scene.json to paint on");
+    Option* into = parser()
+                       .add_option("--into", into_,
+                                   "Scene of an earlier registration or painting to paint into; all else in it stays")
+                       ->type_name("scene.json")
+                       ->excludes(mesh);
     require(parser().add_option(
                 "--through", through_,
                 "Points x,y,z;x,y,z;… near the surface, in the mesh's frame: in the mesh's unit if --mesh-unit is "
                 "given, else in metres"))
         ->type_name("POINTS");
     require(parser().add_option("--texture", texture_, "What to paint with, a *.texture.json"))->type_name("FILE");
-    require(parser().add_option("-o,--output", output_, "Folder of the scene"))->type_name("OUT");
+    parser()
+        .add_option("-o,--output", output_, "Folder of the scene (required without --into)")
+        ->type_name("OUT")
+        ->excludes(into);
+    parser().add_flag("--under", under_, "Lay the texture under those that the scene has, not over them");
     parser()
         .add_option("--mesh-unit", mesh_unit_, "Length of the mesh's unit: m (the default), mm, cm, or such as 0.06m")
         ->type_name("LENGTH");
@@ -68,31 +78,55 @@ class PaintCommand : public Command {
     const double unit_m = mesh_unit_.empty() ? 1.0 : unit_option_m("--mesh-unit", mesh_unit_);
     const std::vector<Eigen::Vector3d> picks = points_option_m("--through", through_, unit_m);
     if (picks.size() < 2) throw UsageError("--through: at least two points x,y,z are needed, with ; between");
-    OutputFolder folder(output_, is_our_folder);
+    if (mesh_.empty() && into_.empty()) throw UsageError("MESH is missing, or --into");
+    if (output_.empty() && into_.empty()) throw UsageError("-o is missing: the folder of the scene, or --into");
+    std::optional<OutputFolder> folder;
+    if (into_.empty()) folder.emplace(output_, is_our_folder);
     observer.update("reading", 0.0);
-    reads(mesh_);
-    Scene scene = read(unit_m, observer);
-    SceneObject& object = scene.objects.front();
-    const SceneTexture texture = choose_texture(scene, texture_, index_, observer);
+    reads(into_.empty() ? mesh_ : into_);
+    EarlierScene earlier = read(unit_m, observer);
+    std::optional<SceneFolder> scene_folder;
+    if (!into_.empty()) scene_folder.emplace(earlier);
+    SceneObject& object = earlier.object();
+    SceneTexture texture = choose_texture(earlier.scene, texture_, index_, observer);
+    PaintSettings usual;
+    texture.origin->settings = changed_settings(fields(), list_fields("", usual));
 
     observer.update("painting", 0.0);
-    const PaintResult result = paint(object, picks, texture, settings_.coordinates);
+    const PaintResult result =
+        paint(object, picks, texture, settings_.coordinates, under_ ? LayAt::kUnder : LayAt::kOver);
     reads("");
     observer.update("writing", 1.0);
-    write_scene(folder.path() / "scene.json", scene);
+    const fs::path target = into_.empty() ? fs::path(output_) : earlier.folder;
+    const fs::path place = folder ? folder->path() : scene_folder->path();
     const std::string json = to_json(result, object, texture).dump_repaired(2);
-    write_file(folder.path() / "paint.json", json + "\n");
-    write_listing(folder.path());
-    commit_output(folder, output_);
+    write_file(place / "paint.json", json + "\n");
+    write_scene_again(place, earlier, {}, true);
+    write_listing(place);
+    if (folder) {
+      commit_output(*folder, output_);
+    } else {
+      name_kept(target, scene_folder->commit());
+    }
     print_json(json);
-    say(summary(result, texture) + "scene in " + printable(output_, 200) + "\n");
+    say(summary(result, texture) + "scene in " + printable(target.string(), 200) + "\n");
     return kDone;
   }
 
  private:
-  Scene read(double unit_m, const Observer& observer) const {
+  // With --into all that is beside the scene, else the scene alone.
+  EarlierScene read(double unit_m, const Observer& observer) const {
+    const std::optional<double> unit = mesh_unit_.empty() ? std::nullopt : std::optional(unit_m);
     try {
-      return read_painted_scene(mesh_, mesh_unit_.empty() ? std::nullopt : std::optional(unit_m), observer);
+      EarlierScene out;
+      if (into_.empty()) {
+        out.scene = read_painted_scene(mesh_, unit, observer);
+      } else {
+        if (fs::path(into_).extension() != ".json") throw UsageError("--into: a scene's file is called *.json");
+        out = read_earlier_scene(into_, observer);
+        if (unit) set_mesh_unit(out.scene, into_, *unit);
+      }
+      return out;
     } catch (const WrongUnit& error) {
       throw UsageError(std::string("--mesh-unit: ") + error.what());
     }
@@ -119,6 +153,7 @@ class PaintCommand : public Command {
   }
 
   std::string mesh_;
+  std::string into_;
   std::string through_;
   std::string texture_;
   std::string output_;
@@ -126,6 +161,7 @@ class PaintCommand : public Command {
   std::string width_;
   int rings_ = -1;
   int index_ = -1;
+  bool under_ = false;
   PaintSettings settings_;
 };
 

@@ -42,6 +42,28 @@ std::string with_error(double value, double error, int decimals) {
   return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, error, decimals);
 }
 
+std::string friction_lines(const FrictionEstimate& f) {
+  if (f.verdict.empty()) return "";
+  std::string out;
+  if (f.determined) {
+    out = fmt::format("  friction    {:.3f} ± {:.3f} sliding at {:.1f} mm/s under {:.2g} N\n", f.coefficient,
+                      f.standard_error, 1e3 * f.speed_mps, f.force_N);
+  } else {
+    out = "  friction    " + f.verdict + "\n";
+  }
+  if (f.stribeck) {
+    out += fmt::format("              {:.3f} at rest, {:.3f} sliding, Stribeck speed {:.1f} mm/s\n",
+                       f.stribeck->at_rest, f.stribeck->sliding, 1e3 * f.stribeck->speed_mps);
+  }
+  if (f.sticks > 0) {
+    out += fmt::format("              stuck {} times, {:.1f} % of the contact", f.sticks, 100.0 * f.stuck_share);
+    out += std::isfinite(f.breakaway)
+               ? fmt::format(", breaking away at {:.3f} ± {:.3f}\n", f.breakaway, f.breakaway_stderr)
+               : "\n";
+  }
+  return out;
+}
+
 // A few lines for a person on what was measured.
 std::string result_summary(const ProcessResult& result) {
   const auto shape = kPathShapeNames.at(static_cast<std::size_t>(result.base.shape));
@@ -93,6 +115,7 @@ std::string result_summary(const ProcessResult& result) {
   } else if (!result.compliance.verdict.empty()) {
     out += "  compliance  " + result.compliance.verdict + "\n";
   }
+  out += friction_lines(result.friction);
   if (result.fit) {
     out += fmt::format("  texture     {:.4g} mm, {} harmonics, {:.1f} µm RMS, model error {:.1f} µm\n",
                        result.fit->texture.length_mm, result.fit->texture.a_m.size(), result.fit->rms_height_m * 1e6,

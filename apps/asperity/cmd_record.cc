@@ -63,6 +63,10 @@ class RecordCommand : public Command {
         .add_option("--poses", input_.poses,
                     "Instead of a camera another tracker's lines t_ns,px_m,…: udp:PORT, pipe:PATH or file:PATH")
         ->type_name("ADDRESS");
+    parser()
+        .add_option("--body", input_.bodies,
+                    "A further body of --poses, whose lines begin with its name: object makes the scan relative to it")
+        ->type_name("NAME");
     parser().add_option("--world", info_.world, "The poses' world: camera (the default) or z_up")->type_name("NAME");
     parser()
         .add_option("--calibration", input_.calibration, "Of the probe, the camera and the tracker")
@@ -90,9 +94,11 @@ class RecordCommand : public Command {
     if (!is_utf8(info_.object)) throw UsageError("--object: is not UTF-8");
     if (frames_ && input_.camera.empty()) throw UsageError("--frames needs --camera");
     if (info_.world == "z_up") info_.gravity_world_mps2 = {0.0, 0.0, -info_.gravity_world_mps2.norm()};
+    if (!input_.bodies.empty() && input_.poses.empty()) throw UsageError("--body needs --poses");
     info_.created = utc_now();
     const std::optional<Calibration> calibration = read_record_calibration(input_);
 
+    info_.bodies = record_bodies(input_, calibration);
     std::optional<FrameWriter> kept;
     if (frames_) kept.emplace(fs::path(output_) / "frames");
     const auto on_frame = [&](const CameraFrame& frame) {

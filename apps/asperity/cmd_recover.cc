@@ -67,11 +67,13 @@ class RecoverCommand : public Command {
     out["recording"] = output_;
     out["lost_nothing"] = result.lost_nothing();
     out["streams"] = {stream_json(result.probe), stream_json(result.tracker)};
+    for (const RecoveredStream& body : result.bodies) out["streams"].push_back(stream_json(body));
     out["taken_from_another"] = result.taken_from_like;
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
     std::string text =
         stream_text(result.probe, options_.keep_changed) + stream_text(result.tracker, options_.keep_changed);
+    for (const RecoveredStream& body : result.bodies) text += stream_text(body, options_.keep_changed);
     for (const std::string& file : result.taken_from_like)
       text += fmt::format("{}: could not be read; taken from {}\n", file, printable(like_, 200));
     text += fmt::format("saved in {}{}\n", printable(output_, 200), result.lost_nothing() ? "; nothing is lost" : "");

@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,10 +17,15 @@
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/base/version.h"
+#include "asperity/json/json.h"
 #include "asperity/pipeline/register_scans.h"
 #include "asperity/pipeline/write_registration.h"
 #include "asperity/registration/manual_alignment.h"
+#include "asperity/session/mesh_unit.h"
+#include "asperity/session/our_folder.h"
 #include "asperity/session/register_input.h"
+#include "asperity/session/scene_folder.h"
 #include "commands.h"
 #include "option_units.h"
 
@@ -24,13 +33,29 @@ namespace asperity::app {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 class RegisterCommand : public Command {
  public:
   explicit RegisterCommand(Parser& root)
       : Command(root, "register", "Lay scans on a 3D mesh and give it their textures") {
-    require(parser().add_option("PATH... MESH", files_,
-                                "Recordings, trajectory.csv files or any CSV with px_m,py_m,pz_m; then the mesh "
-                                "(.obj .ply .stl .gltf .glb)"));
+    parser().add_option("PATH... MESH", files_,
+                        "Recordings, trajectory.csv files or any CSV with px_m,py_m,pz_m; then the mesh (.obj .ply "
+                        ".stl .gltf .glb) or the scene.json to whose mesh they are added; with --into the mesh is that "
+                        "of the scene");
+    Option* into = parser()
+                       .add_option("--into", into_,
+                                   "Scene of an earlier registration or painting to add the scans to; one of the same "
+                                   "name is replaced. All else in it stays")
+                       ->type_name("scene.json");
+    parser()
+        .add_option("--remove", remove_, "Take the scan of this name out of the scene of --into; may be repeated")
+        ->type_name("NAME")
+        ->one_value_each();
+    parser().add_flag("--under", under_, "Lay the scans under the textures that the scene has, not over them");
+    parser()
+        .add_option("--date", date_, "Stored as the date of the scans, such as 2026-11-24; none is stored without it")
+        ->type_name("YYYY-MM-DD");
     parser()
         .add_option("--mesh-unit", mesh_unit_, "Length of the mesh's unit: m (the default), mm, cm, or such as 0.06m")
         ->type_name("LENGTH");
@@ -63,7 +88,10 @@ class RegisterCommand : public Command {
             "Which scans lay in the same placement of the object: auto (the default; found by their likelihood), "
             "same, each (its own), or a list with one number a path, such as 1,1,2")
         ->type_name("LIST");
-    require(parser().add_option("-o,--output", output_, "Folder of the results"))->type_name("OUT");
+    parser()
+        .add_option("-o,--output", output_, "Folder of the results (required without --into)")
+        ->type_name("OUT")
+        ->excludes(into);
     parser()
         .add_option("--method", method_,
                     "Of measuring, and of thesis also of registering, which needs a guess; the first is the default: " +
@@ -83,27 +111,48 @@ class RegisterCommand : public Command {
   }
 
   int run(const Observer& observer) override {
-    if (files_.size() < 2) throw UsageError("PATH... MESH: at least one path and the mesh are needed");
-    const std::string mesh_path = files_.back();
-    files_.pop_back();
-    const double unit_m = mesh_unit_.empty() ? 1.0 : unit_option_m("--mesh-unit", mesh_unit_);
-    const std::optional<Pose> guess = first_pose(unit_m);
+    if (!into_.empty() && fs::path(into_).extension() != ".json")
+      throw UsageError("--into: a scene's file is called *.json");
+    if (!remove_.empty()) return remove_scans(observer);
+    check_words();
+    std::string mesh_path = into_;
+    if (into_.empty() || has_mesh(files_.back())) {
+      mesh_path = files_.back();
+      files_.pop_back();
+    }
+    const std::optional<double> unit_m =
+        mesh_unit_.empty() ? std::nullopt : std::optional(unit_option_m("--mesh-unit", mesh_unit_));
     check_paths();
     const std::vector<int> placements = placements_option();
 
-    OutputFolder folder(output_, is_registration_folder);
+    std::optional<OutputFolder> folder;
+    if (into_.empty()) folder.emplace(output_, is_registration_folder);
     observer.update("reading", 0.0);
+    reads(into_.empty() ? files_.front() : into_);
+    RegisterInput input = read(mesh_path, unit_m, observer);
+    const std::optional<Pose> guess = first_pose(input.unit_m());
+    std::optional<SceneFolder> scene_folder;
+    if (!into_.empty()) scene_folder.emplace(input.onto);
     reads(files_.front());
-    RegisterInput input = read_register_input(files_, mesh_path, unit_m, textures_, observer);
     for (std::size_t i = 0; i < placements.size(); ++i) input.scans[i].placement = placements[i];
     const ScansOnMesh result = register_input(input, guess, config_, observer);
     reads("");
     observer.update("writing", 1.0);
-    write_registration(folder.path(), result, input.scans, input.mesh, unit_m);
-    const std::string json = read_file(folder.path() / "registration.json", std::uint64_t{1} << 30);
-    commit_output(folder, output_);
+    input.onto.at = under_ ? LayAt::kUnder : LayAt::kOver;
+    input.onto.date = date_;
+    const fs::path target = into_.empty() ? fs::path(output_) : input.onto.folder;
+    const fs::path place = folder ? folder->path() : scene_folder->path();
+    const bool listing = input.onto.files.contains("files.json");
+    write_registration(place, result, input.scans, std::move(input.onto), listing);
+    if (listing) write_listing(place);
+    const std::string json = read_file(place / "registration.json", std::uint64_t{1} << 30);
+    if (folder) {
+      commit_output(*folder, output_);
+    } else {
+      name_kept(target, scene_folder->commit());
+    }
     print_json(trim(json));
-    say(summary(result) + "results in " + printable(output_, 200) + "\n");
+    say(summary(result) + "results in " + printable(target.string(), 200) + "\n");
     for (const Verdict& verdict : result.verdicts) {
       if (verdict.severity != Severity::kNote) print_error(verdict_line(verdict));
     }
@@ -111,6 +160,74 @@ class RegisterCommand : public Command {
   }
 
  private:
+  // Paths and their mesh, or paths and the scene that has it.
+  void check_words() const {
+    if (into_.empty() && output_.empty()) throw UsageError("-o is missing: the folder of the results, or --into");
+    if (into_.empty() && files_.size() < 2) throw UsageError("PATH... MESH: at least one path and the mesh are needed");
+    if (files_.empty() || (files_.size() == 1 && has_mesh(files_.back())))
+      throw UsageError("PATH...: at least one path is needed");
+    if (!is_date(date_)) throw UsageError("--date: '" + printable(date_, 200) + "' is not a date as 2026-11-24");
+  }
+
+  static bool is_date(const std::string& text) {
+    if (text.empty()) return true;
+    constexpr std::string_view kForm = "dddd-dd-dd";
+    if (text.size() != kForm.size()) return false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      const bool digit = text[i] >= '0' && text[i] <= '9';
+      if (kForm[i] == 'd' ? !digit : text[i] != kForm[i]) return false;
+    }
+    return true;
+  }
+
+  static bool has_mesh(const std::string& file) {
+    const std::string ending = fs::path(file).extension().string();
+    constexpr std::array<std::string_view, 6> kMeshes{".obj", ".ply", ".stl", ".gltf", ".glb", ".json"};
+    return std::find(kMeshes.begin(), kMeshes.end(), ending) != kMeshes.end() && !fs::is_directory(file);
+  }
+
+  RegisterInput read(const std::string& mesh_path, std::optional<double> unit_m, const Observer& observer) const {
+    try {
+      RegisterInput input = read_register_input(files_, into_.empty() ? mesh_path : into_, unit_m, textures_, observer);
+      if (!into_.empty() && mesh_path != into_) {
+        const MeshFile other = read_register_mesh(mesh_path, observer);
+        if (!is_same_mesh(other, input.mesh()))
+          throw Error(printable(mesh_path, 200) + ": is not the mesh of " + printable(into_, 200) +
+                      "; nothing was changed");
+      }
+      return input;
+    } catch (const WrongUnit& error) {
+      throw UsageError(std::string("--mesh-unit: ") + error.what());
+    }
+  }
+
+  int remove_scans(const Observer& observer) {
+    if (into_.empty()) throw UsageError("--remove needs --into, the scene");
+    if (!files_.empty()) throw UsageError("--remove takes scans out, and none are added with it");
+    observer.update("reading", 0.0);
+    reads(into_);
+    EarlierScene earlier = read_earlier_scene(into_, observer);
+    SceneFolder folder(earlier);
+    std::set<std::string> dropped;
+    for (const std::string& name : remove_) dropped.merge(take_out_scan(earlier, name));
+    reads("");
+    observer.update("writing", 1.0);
+    write_scene_again(folder.path(), earlier, dropped, folder.has_listing());
+    if (folder.has_listing()) write_listing(folder.path());
+    name_kept(earlier.folder, folder.commit());
+    Json out;
+    out["format"] = "asperity-register-remove";
+    out["version"] = 1;
+    out["removed"] = remove_;
+    out["scans"] = Json::array();
+    for (const SceneTexture* scan : scans_of(earlier.scene)) out["scans"].push_back(scan->origin->name);
+    out["asperity"] = kVersion;
+    print_json(out.dump_repaired(2));
+    say(fmt::format("{}: {} {} taken out, {} left\n", printable(into_, 200), remove_.size(),
+                    remove_.size() == 1 ? "scan" : "scans", out["scans"].size()));
+    return kDone;
+  }
+
   void check_paths() const {
     try {
       check_register_input(files_, textures_);
@@ -211,7 +328,9 @@ class RegisterCommand : public Command {
   }
 
   std::vector<std::string> files_, textures_;
-  std::string mesh_unit_, guess_, align_, picks_, output_, method_, placement_;
+  std::vector<std::string> remove_;
+  std::string mesh_unit_, guess_, align_, picks_, output_, method_, placement_, into_, date_;
+  bool under_ = false;
   RegisterConfig config_;
 };
 

@@ -45,6 +45,10 @@ class SimulateCommand : public Command {
     parser()
         .add_option("--through", through_, "Points of the path over the mesh, in its own frame, m; else one is chosen")
         ->type_name("\"X,Y,Z;X,Y,Z\"");
+    parser()
+        .add_option("--object-motion", object_motion_,
+                    "none, held (in the other hand, with a marker body on it) or turned (rotated in it as well); none")
+        ->type_name("NAME");
     parser().add_option("--speed", speed_, "Mean speed of the hand")->type_name("SPEED");
     parser().add_option("--seed", seed_, "Of all randomness; the same seed gives the same bytes")->type_name("N");
     parser().add_flag("--live", live_,
@@ -82,6 +86,11 @@ class SimulateCommand : public Command {
       config_->shape.through = through_;
     }
     if (!speed_.empty()) config_->hand.speed_mps = speed_option_mps("--speed", speed_);
+    try {
+      if (!object_motion_.empty()) set_field(fields(), "object.motion", object_motion_);
+    } catch (const Error& error) {
+      throw UsageError(std::string("--object-motion: ") + error.what());
+    }
     if (seed_.empty()) return;
     try {
       set_field(fields(), "seed", seed_);
@@ -131,6 +140,7 @@ class SimulateCommand : public Command {
     out["duration_s"] = duration_s;
     out["probe_rows"] = probe.size();
     out["tracker_rows"] = recording.tracker.size();
+    if (!recording.body_poses.empty()) out["object_rows"] = recording.body_poses.front().size();
     out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     print_json(out.dump_repaired(2));
@@ -145,6 +155,7 @@ class SimulateCommand : public Command {
   std::string mesh_unit_;
   std::string through_;
   std::string speed_;
+  std::string object_motion_;
   std::string seed_;
   std::string output_;
   bool live_ = false;

@@ -16,7 +16,9 @@
 #include "asperity/camera/open_image_folder.h"
 #include "asperity/json/config_json.h"
 #include "asperity/recording/read_markers.h"
+#include "asperity/recording/tracked_body.h"
 #include "asperity/session/our_file.h"
+#include "asperity/tracking/camera_pose_source.h"
 #include "asperity/tracking/track_images.h"
 #include "asperity/verdict/verdict_json.h"
 #include "commands.h"
@@ -82,6 +84,10 @@ class TrackCommand : public Command {
     refuse_stranger(output_, tracked_csv_header(), {camera_, markers_});
     const CameraCalibration camera = read_camera(camera_);
     const MarkerFile markers = read_markers(markers_);
+    const std::vector<MarkerPlacement> body = markers_of_body(markers.markers, "");
+    const std::vector<std::string> others = bodies_of(markers.markers);
+    for (const std::string& other : others)
+      refuse_stranger(body_output(other), tracked_csv_header(), {camera_, markers_});
     const std::vector<fs::path> files = list_images(images_);
     ImageFolderConfig images;
     if (rate_Hz_) {
@@ -99,15 +105,31 @@ class TrackCommand : public Command {
       return one_folder ? open_image_folder(images_.front(), images) : open_image_list(files, images);
     };
     try {
-      BodyTracker check(camera, markers.markers, config_);
+      BodyTracker check(camera, body, config_);
+      make_further_trackers(camera, markers.markers, config_);
     } catch (const Error& error) {
       throw Error(markers_ + ": " + error.what());
     }
     const double start_s = processor_s();
-    TrackedImages tracked = track_images(open, camera, markers.markers, config_, observer, files.size());
+    TrackedImages tracked = track_images(open, camera, body, config_, observer, files.size());
     const double frames_per_s = static_cast<double>(tracked.frames) / std::max(1e-9, processor_s() - start_s);
     write_file(output_, format_tracked_csv(tracked.poses));
-    report(tracked, markers.declared, frames_per_s);
+    std::vector<Followed> followed;
+    for (const std::string& other : others) {
+      const TrackedImages one =
+          track_images(open, camera, markers_of_body(markers.markers, other), config_, observer, files.size());
+      write_file(body_output(other), format_tracked_csv(one.poses));
+      followed.push_back({other, one.poses.size()});
+      for (const Problem& problem : one.problems)
+        tracked.problems.push_back({problem.kind, other + ": " + problem.message, problem.count});
+      append_verdicts(tracked.verdicts, one.verdicts, other);
+    }
+    if (!others.empty()) {
+      sort_verdicts(tracked.verdicts);
+      tracked.trustworthy = is_trustworthy(tracked.verdicts);
+      tracked.verdict = verdict_sentence(tracked.verdicts);
+    }
+    report(tracked, markers.declared, frames_per_s, followed);
     for (const Problem& problem : tracked.problems) print_error("warning: " + problem.message);
     for (const Verdict& verdict : tracked.verdicts) {
       if (verdict.severity != Severity::kNote) print_error(verdict_line(verdict));
@@ -116,12 +138,25 @@ class TrackCommand : public Command {
   }
 
  private:
+  // A further body and the images it was found in.
+  struct Followed {
+    std::string name;
+    std::size_t poses = 0;
+  };
+
+  // Of a further body: poses.csv becomes poses_object.csv.
+  std::string body_output(const std::string& name) const {
+    const fs::path whole(output_);
+    return (whole.parent_path() / (whole.stem().string() + "_" + name + whole.extension().string())).string();
+  }
+
   static Json numbers(const Eigen::Vector3d& v) {
     if (!v.allFinite()) return nullptr;
     return {v.x(), v.y(), v.z()};
   }
 
-  void report(const TrackedImages& tracked, TagFrame declared, double frames_per_s) {
+  void report(const TrackedImages& tracked, TagFrame declared, double frames_per_s,
+              const std::vector<Followed>& followed) {
     Json out;
     out["format"] = "asperity-tracked";
     out["version"] = 1;
@@ -129,6 +164,8 @@ class TrackCommand : public Command {
     out["frames"] = tracked.frames;
     out["poses"] = tracked.poses.size();
     out["ambiguous"] = tracked.ambiguous;
+    for (const Followed& one : followed)
+      out["bodies"][one.name] = {{"output", body_output(one.name)}, {"poses", one.poses}};
     if (timing_) out["frames_per_s"] = frames_per_s;
     out["median_reprojection_px"] = tracked.median_reprojection_px;  // null if nan
     out["median_sigma_m"] = numbers(tracked.median_sigma_m);
@@ -154,6 +191,10 @@ class TrackCommand : public Command {
           tracked.median_reprojection_px, tracked.median_sigma_m.x() * 1e3, tracked.median_sigma_m.y() * 1e3,
           tracked.median_sigma_m.z() * 1e3, tracked.median_sigma_rad.x() * 1e3, tracked.median_sigma_rad.y() * 1e3,
           tracked.median_sigma_rad.z() * 1e3);
+    }
+    for (const Followed& one : followed) {
+      text += fmt::format("{}: {} was found in {} of {} images\n", printable(body_output(one.name), 200), one.name,
+                          one.poses, tracked.frames);
     }
     if (timing_) text += fmt::format("speed         {:.0f} frames/s of one core\n", frames_per_s);
     say(text);

@@ -74,6 +74,8 @@ void Command::print_json(std::string_view object) const {
 }
 
 void print_text(std::string_view text) {
+  // It lives until the caller's whole expression ends.
+  // cppcheck-suppress danglingTemporaryLifetime
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
     if (errno == EPIPE) throw ClosedPipe();
     throw Error(std::string("standard output cannot be written: ") + std::strerror(errno));
@@ -95,6 +97,13 @@ void commit_output(OutputFolder& folder, std::string_view output) {
   for (const std::filesystem::path& name : folder.commit()) {
     print_error(printable(output, 200) + ": " + printable(name.string(), 200) +
                 " was put there meanwhile; it was kept");
+  }
+}
+
+void name_kept(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& kept) {
+  for (const std::filesystem::path& name : kept) {
+    print_error(printable(folder.string(), 200) + ": " + printable(name.string(), 200) +
+                " is not a file of asperity; it was kept");
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -82,5 +83,7 @@ void print_error(std::string_view text);
 
 // Puts the folder in its target's place, and names on standard error what others put there meanwhile and was kept.
 void commit_output(OutputFolder& folder, std::string_view output);
+// The same for files in `folder` that are not of asperity and were kept.
+void name_kept(const std::filesystem::path& folder, const std::vector<std::filesystem::path>& kept);
 
 }  // namespace asperity::app

@@ -6,6 +6,7 @@
 
 namespace asperity::app {
 
+std::unique_ptr<Command> make_area_command(Parser& root);
 std::unique_ptr<Command> make_bench(Parser& root);
 std::unique_ptr<Command> make_check_rig(Parser& root);
 std::unique_ptr<Command> make_demo(Parser& root);
@@ -14,6 +15,7 @@ std::unique_ptr<Command> make_feel(Parser& root);
 std::unique_ptr<Command> make_import(Parser& root);
 std::unique_ptr<Command> make_export(Parser& root);
 std::unique_ptr<Command> make_inspect(Parser& root);
+std::unique_ptr<Command> make_merge(Parser& root);
 std::unique_ptr<Command> make_paint(Parser& root);
 std::unique_ptr<Command> make_process(Parser& root);
 std::unique_ptr<Command> make_record(Parser& root);

@@ -61,6 +61,10 @@ std::string record_line(const RecorderSnapshot& now) {
   if (now.pose && now.poses.state == SensorState::kRunning && now.pose->markers > 0)
     out += fmt::format(" {} markers", now.pose->markers);
   if (now.poses.state == SensorState::kRunning && now.pose_age_s > 0.5) out += " NOT SEEN";
+  for (const BodySnapshot& body : now.bodies) {
+    if (now.poses.state != SensorState::kRunning) break;
+    out += "  " + body.name + (body.pose_age_s <= 0.5 ? fmt::format(" {} markers", body.pose->markers) : " NOT SEEN");
+  }
   if (std::isfinite(now.force_N))
     out += now.force_is_calibrated ? fmt::format("  {:5.2f} N", now.force_N) : fmt::format("  {:.0f}", now.force_N);
   if (now.touching) out += " touching";

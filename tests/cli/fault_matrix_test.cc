@@ -31,10 +31,11 @@ constexpr double kKick_N = 0.1;
 constexpr double kHolds_N = 0.3;   // the hand is against the block
 constexpr double kSteady_N = 0.2;  // and rests there: the force varies by no more
 // A machine that is busy with other things may itself make answers late. Such an attempt proves nothing: the test's own
-// thread was not run, or its own line was late, for so long, or the hand did not come to rest. The last attempt counts
-// in any case.
+// thread was not run, or its own line was late, for so long. What fails on such a machine alone is left open.
 constexpr double kBusy_ms = 8.0;
-constexpr int kAttempts = 6;
+constexpr int kAttempts = 4;
+// The hand moves for half a second before it meets the block, so that the loop runs; a busy machine needs longer.
+constexpr double kAway_m = 12e-3;
 
 struct Cell {
   std::string program;  // "feel" or "studio"
@@ -73,9 +74,9 @@ class InTime {
   }
 };
 
-std::unique_ptr<PlayedDevice> play_in_time(const std::string& name) {
+std::unique_ptr<PlayedDevice> play_in_time(const std::string& name, double away_m) {
   const InTime threads;
-  return play_device(name);
+  return play_device(name, away_m);
 }
 
 // What the device gave from 0.3 s before the fault to 1 s after it.
@@ -89,6 +90,12 @@ struct Course {
 
   bool proves() const { return last_N >= 0.0 && gap_ms < kBusy_ms; }
 };
+
+// Whether it is what is promised.
+bool holds(const Cell& cell, const Course& course) {
+  if (course.last_N < 0.0 || course.most_N >= course.before_N + kKick_N) return false;
+  return !cell.zero_in_time() || (course.last_N == 0.0 && course.zero_ms >= 0.0 && course.zero_ms < kPromised_ms);
+}
 
 void tell(const Cell& cell, const Course& course) {
   const std::string kick = fmt::format("{:+.2f} N", course.most_N - course.before_N);
@@ -127,10 +134,16 @@ class FaultMatrix : public testing::TestWithParam<Cell> {
 
   Course watch(PlayedDevice& device, pid_t program) const {
     Course out;
-    double least_N = 0.0;
+    double least_N = 0.0, late_ms = 0.0;
     const auto start = Clock::now();
+    auto looked = start;
     for (auto rests = start; ms_since(rests) < 300.0;) {
-      if (ms_since(start) > 8e3) return out;
+      late_ms = std::max(late_ms, ms_since(looked));
+      looked = Clock::now();
+      if (ms_since(start) > 8e3) {
+        out.gap_ms = late_ms;
+        return out;
+      }
       const double now_N = device.force_N();
       if (out.before_N == 0.0) least_N = now_N;
       least_N = std::min(least_N, now_N);
@@ -167,9 +180,9 @@ class FaultMatrix : public testing::TestWithParam<Cell> {
     std::string refused;
   };
 
-  Attempt attempt(const Cell& cell) const {
+  Attempt attempt(const Cell& cell, double away_m) const {
     const bool suspends = cell.fault == FaultKind::kSuspend;
-    const std::unique_ptr<PlayedDevice> device = play_in_time(cell.device);
+    const std::unique_ptr<PlayedDevice> device = play_in_time(cell.device, away_m);
     write_text(path("block.obj"), block_obj(device->low_m, device->high_m));
     write_text(path("clock_ahead"), std::string(8, '\0'));
     std::filesystem::remove(path("out"));
@@ -203,12 +216,15 @@ TEST_P(FaultMatrix, Cell) {
   const Cell& cell = GetParam();
   if (cell.fault == FaultKind::kSuspend && std::string_view(CLOCK_SHIM).empty())
     GTEST_SKIP() << "a sanitizer's runtime bears no preloaded shim";
-  Attempt tried = attempt(cell);
-  for (int i = 1; i < kAttempts && !tried.course.proves(); ++i) tried = attempt(cell);
+  Attempt tried = attempt(cell, kAway_m);
+  for (int i = 1; i < kAttempts && !tried.course.proves(); ++i) tried = attempt(cell, (1 + i) * kAway_m);
   const auto& [course, outcome, refused] = tried;
   ASSERT_EQ(refused, "") << outcome.err;
+  if (course.gap_ms >= kBusy_ms && !holds(cell, course))
+    GTEST_SKIP() << "the machine was busy: the test was late by " << course.gap_ms << " ms";
   ASSERT_GE(course.last_N, 0.0) << "the hand did not come to rest: " << outcome.err;
-  EXPECT_TRUE(outcome.code < 128 || outcome.code == 128 + SIGTERM) << outcome.code << outcome.err;
+  const int ends_by = cell.fault == FaultKind::kKill ? SIGKILL : SIGTERM;
+  EXPECT_TRUE(outcome.code < 128 || outcome.code == 128 + ends_by) << outcome.code << outcome.err;
   EXPECT_LT(course.most_N, course.before_N + kKick_N)
       << course.turns << "; the test was late by " << course.gap_ms << " ms; " << outcome.err;
   if (cell.zero_in_time()) {
@@ -222,16 +238,28 @@ TEST_P(FaultMatrix, Cell) {
 
 std::vector<Cell> cells() {
   std::vector<Cell> out;
-  // Its calls return one position each: there is no answer that could come twice, late or in another order.
-  const auto dhd_has = [](FaultKind kind) {
-    return kind == FaultKind::kStop || kind == FaultKind::kSuspend || kind == FaultKind::kHang ||
-           kind == FaultKind::kUnplug || kind == FaultKind::kGlitch || kind == FaultKind::kGarbage;
+  // A maker's call returns one position: there is no answer that could come twice, late or in another order.
+  const auto has = [](const std::string& device, FaultKind kind) {
+    switch (kind) {
+      case FaultKind::kDuplicate:
+      case FaultKind::kLate:
+      case FaultKind::kSlow:
+      case FaultKind::kFast:
+      case FaultKind::kOutOfOrder:
+        return device == "2diy" || device == "haply";
+      case FaultKind::kCut:
+        return device == "haply";  // a 2diy's cable is the plug
+      case FaultKind::kDriverStopped:
+      case FaultKind::kDriverKilled:
+        return device == "openhaptics";
+      default:
+        return true;
+    }
   };
-  for (const char* device : {"2diy", "haply", "dhd"}) {
+  for (const char* device : {"2diy", "haply", "dhd", "openhaptics"}) {
     for (std::size_t i = 0; i < kFaultNames.size(); ++i) {
       const auto kind = static_cast<FaultKind>(i);
-      if (device == std::string("dhd") && !dhd_has(kind)) continue;
-      if (kind == FaultKind::kCut && device == std::string("2diy")) continue;  // its cable is the plug
+      if (!has(device, kind)) continue;
       for (const char* program : {"feel", "studio"}) out.push_back({program, device, kind});
     }
   }

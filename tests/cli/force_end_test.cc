@@ -6,11 +6,13 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "asperity/base/text.h"
+#include "asperity/testkit/lateness_watch.h"
 #include "fake_two_diy_board.h"
 #include "feel_fixture.h"
 
@@ -19,13 +21,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr double kPromised_ms = 150.0;
+constexpr double kNotHeld_ms =
+    1e9;  // on a busy machine the hand is in the block before the loop runs, and feels nothing
 
 class ForceEnd : public FeelCommands, public testing::WithParamInterface<int> {
  protected:
-  // A block 12 mm before the hand, which is pulled against it: half a second, so that the loop runs before.
-  void SetUp() override {
-    FeelCommands::SetUp();
-    const double near_m = board_.p_m().y() + 12e-3;
+  // A new hand and a block 12 mm before it, against which it is pulled: half a second, so that the loop runs before.
+  // Farther away each time: a busy machine needs longer.
+  void begin() {
+    board_ = std::make_unique<FakeTwoDiyBoard>();
+    const double near_m = board_->p_m().y() + 12e-3 * ++begun_;
     std::string obj;
     for (const double z : {near_m, near_m + 0.1}) {
       for (const double y : {-0.1, 0.1}) {
@@ -42,7 +47,7 @@ class ForceEnd : public FeelCommands, public testing::WithParamInterface<int> {
     return {"feel",        path("block.obj"),
             "--mesh-unit", "m",
             "--device",    "2diy",
-            "--set",       "2diy.port=" + board_.port(),
+            "--set",       "2diy.port=" + board_->port(),
             "--duration",  "60s",
             "--set",       "servo.frame.translation_m=[1e-9, 0, 0]"};
   }
@@ -51,27 +56,34 @@ class ForceEnd : public FeelCommands, public testing::WithParamInterface<int> {
   double wait_for(bool torque) const {
     const auto start = Clock::now();
     const auto since_ms = [&] { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); };
-    while (since_ms() < 10e3 && (board_.torque_N_m().norm() > 0.0) != torque) {
+    while (since_ms() < 10e3 && (board_->torque_N_m().norm() > 0.0) != torque) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     return since_ms();
   }
 
-  FakeTwoDiyBoard board_;
+  std::unique_ptr<FakeTwoDiyBoard> board_;
+  int begun_ = 0;
 };
 
 class StoppedForce : public ForceEnd {};
 
 TEST_P(ForceEnd, ASignalThatEndsUs) {
-  double zero_ms = -1.0;
-  const Outcome outcome = run_and_meddle(words(), [&](pid_t process) {
-    wait_for(true);
-    EXPECT_GT(board_.torque_N_m().norm(), 0.0);
-    ::kill(process, GetParam());
-    zero_ms = wait_for(false);
-  });
-  EXPECT_EQ(outcome.code, 128 + GetParam()) << outcome.err;
-  EXPECT_LT(zero_ms, kPromised_ms);
+  const auto measure_ms = [&] {
+    begin();
+    double zero_ms = -1.0;
+    bool held = false;
+    const Outcome outcome = run_and_meddle(words(), [&](pid_t process) {
+      wait_for(true);
+      held = board_->torque_N_m().norm() > 0.0;
+      ::kill(process, GetParam());
+      zero_ms = wait_for(false);
+    });
+    if (!held) return kNotHeld_ms;
+    EXPECT_EQ(outcome.code, 128 + GetParam()) << outcome.err;
+    return zero_ms;
+  };
+  EXPECT_LT(testkit::measure_on_a_free_machine(kPromised_ms, measure_ms), kPromised_ms);
 }
 
 std::string signal_name(const testing::TestParamInfo<int>& info) {
@@ -83,21 +95,28 @@ INSTANTIATE_TEST_SUITE_P(TwoDiy, ForceEnd,
 
 INSTANTIATE_TEST_SUITE_P(TwoDiyStops, StoppedForce, testing::Values(SIGSTOP), signal_name);
 TEST_P(StoppedForce, WakesUpToAFault) {
-  double zero_ms = -1.0, later_N_m = -1.0;
-  const Outcome outcome = run_and_meddle(words(), [&](pid_t process) {
-    wait_for(true);
-    EXPECT_GT(board_.torque_N_m().norm(), 0.0);
-    ::kill(process, SIGSTOP);
-    zero_ms = wait_for(false);
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));
-    later_N_m = board_.torque_N_m().norm();
-    ::kill(process, SIGCONT);
-  });
-  EXPECT_LT(zero_ms, kPromised_ms);
-  EXPECT_EQ(later_N_m, 0.0);
-  EXPECT_EQ(board_.torque_N_m().norm(), 0.0);
-  EXPECT_NE(outcome.code, 0);
-  EXPECT_THAT(outcome.err, testing::HasSubstr("fault"));
+  const auto measure_ms = [&] {
+    begin();
+    double zero_ms = -1.0, later_N_m = -1.0;
+    bool held = false;
+    const Outcome outcome = run_and_meddle(words(), [&](pid_t process) {
+      wait_for(true);
+      held = board_->torque_N_m().norm() > 0.0;
+      ::kill(process, held ? SIGSTOP : SIGTERM);
+      if (!held) return;
+      zero_ms = wait_for(false);
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      later_N_m = board_->torque_N_m().norm();
+      ::kill(process, SIGCONT);
+    });
+    if (!held) return kNotHeld_ms;
+    EXPECT_EQ(later_N_m, 0.0);
+    EXPECT_EQ(board_->torque_N_m().norm(), 0.0);
+    EXPECT_NE(outcome.code, 0);
+    EXPECT_THAT(outcome.err, testing::HasSubstr("fault"));
+    return zero_ms;
+  };
+  EXPECT_LT(testkit::measure_on_a_free_machine(kPromised_ms, measure_ms), kPromised_ms);
 }
 
 }  // namespace

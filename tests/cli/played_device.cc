@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "asperity/testkit/temp_dir.h"
+#include "fake_drivers.h"
 #include "fake_inverse_service.h"
 #include "fake_two_diy_board.h"
 #include "fakes/fake_controller.h"
@@ -22,13 +23,12 @@ namespace asperity::cli {
 
 namespace {
 
-constexpr double kAway_m = 12e-3;  // half a second for the pulled hand, so that the loop runs before
 constexpr std::int64_t kSuspended_ns = 10'000'000'000;
 
 class PlayedTwoDiy final : public PlayedDevice {
  public:
-  PlayedTwoDiy() {
-    const double near_m = board_.p_m().y() + kAway_m;
+  explicit PlayedTwoDiy(double away_m) {
+    const double near_m = board_.p_m().y() + away_m;
     low_m = {-0.1, -0.1, near_m};
     high_m = {0.1, 0.1, near_m + 0.1};
   }
@@ -65,9 +65,9 @@ class PlayedTwoDiy final : public PlayedDevice {
 
 class PlayedHaply final : public PlayedDevice {
  public:
-  PlayedHaply() {
+  explicit PlayedHaply(double away_m) {
     low_m = {-0.1, -0.1, -0.1};
-    high_m = {0.1, -kAway_m, 0.1};
+    high_m = {0.1, -away_m, 0.1};
   }
 
   std::string setting() const override { return fmt::format("haply.port={}", service_.port()); }
@@ -105,9 +105,9 @@ class PlayedHaply final : public PlayedDevice {
 // The driver is a fake in the program itself; its controller is a page that both see, and obeys its watchdog here.
 class PlayedDhd final : public PlayedDevice {
  public:
-  PlayedDhd() {
+  explicit PlayedDhd(double away_m) {
     low_m = {-0.1, -0.1, -0.1};
-    high_m = {0.1, kStart_m - kAway_m, 0.1};
+    high_m = {0.1, kStart_m - away_m, 0.1};
     const std::string path = (dir_ / "controller").string();
     std::ofstream(path, std::ios::binary) << std::string(sizeof(fake::Controller), '\0');
     const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
@@ -147,11 +147,50 @@ class PlayedDhd final : public PlayedDevice {
   fake::Controller* controller_ = nullptr;
 };
 
+// The driver is a fake in a process of its own, whose state is a file that the test sees too. Its device holds the last
+// force while the connection lasts.
+class PlayedOpenHaptics final : public PlayedDevice {
+ public:
+  explicit PlayedOpenHaptics(double away_m) {
+    low_m = {-0.1, -0.1, -0.1};
+    high_m = {0.1, kStart_m - away_m, 0.1};
+  }
+
+  std::string setting() const override { return std::string("openhaptics.library=") + FAKE_HD; }
+  double force_N() const override { return fake_.motor_N().norm(); }
+
+ private:
+  static constexpr double kStart_m = 0.02;  // where the fake's hand begins
+
+  void trouble(FaultKind kind) override {
+    switch (kind) {
+      case FaultKind::kDriverStopped:
+        ::kill(fake_.process(), SIGSTOP);
+        return;
+      case FaultKind::kDriverKilled:
+        ::kill(fake_.process(), SIGKILL);
+        return;
+      case FaultKind::kHang:
+        return fake_.set("hangs", 1);
+      case FaultKind::kUnplug:
+        return fake_.set("unplugged", 1);
+      case FaultKind::kGlitch:
+        return fake_.set("glitch", 1);
+      default:
+        return fake_.set("garbage", 1);
+    }
+  }
+
+  testing_devices::FakeOpenHaptics fake_{FAKE_HD};
+};
+
 }  // namespace
 
 void PlayedDevice::begin(FaultKind kind, pid_t program, const std::filesystem::path& clock_ahead) {
   if (kind == FaultKind::kStop) {
     ::kill(program, SIGSTOP);
+  } else if (kind == FaultKind::kKill) {
+    ::kill(program, SIGKILL);
   } else if (kind == FaultKind::kSuspend) {
     // In place: the program has the file mapped.
     std::fstream file(clock_ahead, std::ios::binary | std::ios::in | std::ios::out);
@@ -161,10 +200,11 @@ void PlayedDevice::begin(FaultKind kind, pid_t program, const std::filesystem::p
   }
 }
 
-std::unique_ptr<PlayedDevice> play_device(std::string_view name) {
-  if (name == "2diy") return std::make_unique<PlayedTwoDiy>();
-  if (name == "dhd") return std::make_unique<PlayedDhd>();
-  return std::make_unique<PlayedHaply>();
+std::unique_ptr<PlayedDevice> play_device(std::string_view name, double away_m) {
+  if (name == "2diy") return std::make_unique<PlayedTwoDiy>(away_m);
+  if (name == "dhd") return std::make_unique<PlayedDhd>(away_m);
+  if (name == "openhaptics") return std::make_unique<PlayedOpenHaptics>(away_m);
+  return std::make_unique<PlayedHaply>(away_m);
 }
 
 std::string block_obj(const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m) {

@@ -26,8 +26,11 @@ enum class FaultKind {
   kSlow,
   kFast,
   kOutOfOrder,
+  kKill,
+  kDriverStopped,
+  kDriverKilled,
 };
-inline constexpr std::array<std::string_view, 12> kFaultNames{"SIGSTOP",
+inline constexpr std::array<std::string_view, 15> kFaultNames{"SIGSTOP",
                                                               "suspended, as CLOCK_BOOTTIME tells",
                                                               "does not answer",
                                                               "unplugged",
@@ -38,7 +41,10 @@ inline constexpr std::array<std::string_view, 12> kFaultNames{"SIGSTOP",
                                                               "60 ms late",
                                                               "15 ms late",
                                                               "four answers for one",
-                                                              "out of order"};
+                                                              "out of order",
+                                                              "SIGKILL",
+                                                              "SIGSTOP to the driver's process",
+                                                              "SIGKILL to the driver's process"};
 
 // A device that is played: behind it a hand is pulled toward a block a little away.
 class PlayedDevice {
@@ -57,8 +63,8 @@ class PlayedDevice {
   virtual void trouble(FaultKind kind) = 0;  // of the device's own
 };
 
-// "2diy", "haply" or "dhd".
-std::unique_ptr<PlayedDevice> play_device(std::string_view name);
+// "2diy", "haply", "dhd" or "openhaptics", with the block `away_m` from the hand, which takes 40 ms for each mm.
+std::unique_ptr<PlayedDevice> play_device(std::string_view name, double away_m);
 
 // Of a block in metres, an OBJ file.
 std::string block_obj(const Eigen::Vector3d& low_m, const Eigen::Vector3d& high_m);

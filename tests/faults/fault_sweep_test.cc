@@ -64,8 +64,9 @@ class Shimmed {
 // A command that writes to `work/out`, and how its results of another time came to be.
 struct Writer {
   const char* name;
-  Words words;   // @ stands for the folder of the inputs, # for the output
-  Words before;  // the same with other settings; empty: the output is never replaced
+  Words words;                  // @ stands for the folder of the inputs, # for the output
+  Words before;                 // the same with other settings; empty: the output is never replaced
+  const char* start = nullptr;  // of the inputs, the folder that is the output when the command begins
 };
 
 void PrintTo(const Writer& writer, std::ostream* out) { *out << writer.name; }
@@ -87,6 +88,10 @@ const std::vector<Writer>& writers() {
       {"register",
        {"register", "@/path.csv", "@/plane.obj", "--mesh-unit", "mm", "--guess", "0,0,0,1,0,0,0", "-o", "#"},
        {"register", "@/path.csv", "@/plane.obj", "--mesh-unit", "mm", "--guess", "0,0,0.0001,1,0,0,0", "-o", "#"}},
+      {"register_into",
+       {"register", "@/path.csv", "--into", "#/scene.json", "--guess", "0,0,0,1,0,0,0"},
+       {},
+       "painted"},
       {"export", {"export", "@/painted", "--to", "gltf", "-o", "#"}, {}},
       {"texture_fit",
        {"texture", "fit", "@/processed/profile.csv", "-o", "#.texture.json"},
@@ -140,8 +145,14 @@ void restore(const fs::path& folder, const fs::path& from) {
 class Faults : public testing::TestWithParam<Writer> {
  protected:
   Faults() {
-    fs::create_directories(dir_ / "work");
+    begin();
     fs::create_directories(dir_ / "before");
+  }
+  // As it is before the command.
+  void begin() {
+    fs::remove_all(work());
+    fs::create_directories(work());
+    if (GetParam().start != nullptr) fs::copy(inputs() / GetParam().start, work() / "out", fs::copy_options::recursive);
   }
   fs::path work() const { return dir_ / "work"; }
 
@@ -199,8 +210,7 @@ TEST_P(Faults, OldOrNewIsWholeAndToldSo) {
   long tried = 0;
   for (const bool replaces : {false, true}) {
     if (replaces && writer.before.empty()) continue;
-    fs::remove_all(work());
-    fs::create_directories(work());
+    begin();
     if (replaces) {
       const Outcome made = run(with_places(writer.before, work() / "out"));
       ASSERT_TRUE(made.code == 0 || made.code == 3) << made.err;
@@ -239,8 +249,7 @@ TEST_P(Faults, MemoryThatRunsOut) {
   const long calls = program.calls().memory;
   ASSERT_GT(calls, 100);
   const Contents after = contents(work());
-  fs::remove_all(work());
-  fs::create_directories(work());
+  begin();
   const Contents before = contents(work());
   restore(dir_ / "before", work());
   std::vector<long> positions;

@@ -49,9 +49,17 @@ TEST(NormalForceScan, ThreeAxesGiveTheContactForceOfATiltedProbe) {
     const ProcessResult result = process_recording(recording, {});
     EXPECT_EQ(result.base.force.source, ForceSource::kThreeAxes);
     EXPECT_NEAR(mean_found_N(result) / mean_true_N(recording, result), 1.0, 0.02) << lean;
-    // The bench's surface has µ = 0.15 to 0.2, and the relief itself holds the tip back.
-    EXPECT_GT(result.base.force.friction, 0.1);
-    EXPECT_LT(result.base.force.friction, 0.4);
+    const ContactConfig contact = make_simulation_config("sandpaper", "open").contact;
+    // The relief itself holds the tip back: the forces' ratio is above the bench's coefficient.
+    const double true_friction =
+        contact.friction_dynamic + contact.friction_viscous_s_per_m * result.friction.speed_mps;
+    EXPECT_GT(result.base.force.tangential_share, true_friction);
+    EXPECT_TRUE(result.friction.determined) << result.friction.verdict;
+    EXPECT_LT(result.friction.low, true_friction);
+    EXPECT_GT(result.friction.high, true_friction);
+    EXPECT_NEAR(result.friction.coefficient, true_friction, 0.04);  // two standard errors
+    ASSERT_TRUE(result.texture);
+    EXPECT_EQ(result.texture->friction, result.friction.coefficient);
   }
 }
 

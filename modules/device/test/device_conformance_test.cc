@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "asperity/base/error.h"
+#include "asperity/testkit/lateness_watch.h"
 #include "conformance.h"
 
 namespace asperity::testing_devices {
@@ -70,28 +71,37 @@ TEST_P(DeviceConformance, ReadsFinitePositionsWithRisingSequence) {
 
 TEST_P(DeviceConformance, RestsAtTheExpectedDepthOnAWall) {
   if (!rig_->has_position()) return;
-  const auto device = rig_->open();
-  DeviceReading first;
-  ASSERT_TRUE(tick_until(*device, kPatience_s, no_force, [&](const DeviceReading& r) {
-    first = r;
-    return r.sequence > 0;
-  }));
-  const double wall_y_m = first.p_m.y() - 2e-3;
-  const auto wall = [&](const DeviceReading& r) {
-    return Eigen::Vector3d(0.0, kWall_N_per_m * std::max(0.0, wall_y_m - r.p_m.y()), 0.0);
-  };
-  const double depth_m = DeviceRig::kPull_N / kWall_N_per_m;
-  constexpr double kTolerance_m = 5e-6;  // 10 mN on that wall
-  int resting = 0;
   double y_m = 0.0;
-  EXPECT_TRUE(tick_until(*device, kPatience_s, wall,
-                         [&](const DeviceReading& r) {
-                           y_m = r.p_m.y() - wall_y_m;
-                           resting = std::abs(y_m + depth_m) < kTolerance_m ? resting + 1 : 0;
-                           return resting >= 50;
-                         }))
-      << "it is " << y_m * 1e3 << " mm above the wall's face";
-  EXPECT_NEAR(rig_->motor_output().y(), DeviceRig::kPull_N, 0.02);
+  Eigen::Vector3d output = Eigen::Vector3d::Zero();
+  // True if the hand rests there. A busy machine's answers come late, which is the device's fault in the end.
+  const auto rests = [&] {
+    rig_.reset();
+    rig_ = GetParam().make();
+    t_ns_ = 0;
+    const auto device = rig_->open();
+    DeviceReading first;
+    if (!tick_until(*device, kPatience_s, no_force, [&](const DeviceReading& r) {
+          first = r;
+          return r.sequence > 0;
+        }))
+      return false;
+    const double wall_y_m = first.p_m.y() - 2e-3;
+    const auto wall = [&](const DeviceReading& r) {
+      return Eigen::Vector3d(0.0, kWall_N_per_m * std::max(0.0, wall_y_m - r.p_m.y()), 0.0);
+    };
+    const double depth_m = DeviceRig::kPull_N / kWall_N_per_m;
+    constexpr double kTolerance_m = 5e-6;  // 10 mN on that wall
+    int resting = 0;
+    tick_until(*device, kPatience_s, wall, [&](const DeviceReading& r) {
+      y_m = r.p_m.y() - wall_y_m;
+      resting = std::abs(y_m + depth_m) < kTolerance_m ? resting + 1 : 0;
+      return resting >= 50 || r.status == DeviceStatus::kFault;
+    });
+    output = rig_->motor_output();
+    return resting >= 50 && std::abs(output.y() - DeviceRig::kPull_N) < 0.02;
+  };
+  EXPECT_TRUE(testkit::holds_on_a_free_machine(rests))
+      << "it is " << y_m * 1e3 << " mm above the wall's face, at " << output.y() << " N";
 }
 
 // A driver may ramp the first forces after its start.

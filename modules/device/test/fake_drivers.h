@@ -2,10 +2,14 @@
 
 #include <dlfcn.h>
 
+#include <cstdlib>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 
 #include <Eigen/Core>
+
+#include "asperity/testkit/temp_dir.h"
 
 namespace asperity::testing_devices {
 
@@ -39,6 +43,22 @@ class FakeDriver {
  private:
   void* handle_;
   std::string prefix_;
+};
+
+// OpenHaptics' fake, which is loaded by a process of its own: its state is in a file that both have mapped, one of this
+// program.
+class FakeOpenHaptics : public FakeDriver {
+ public:
+  explicit FakeOpenHaptics(const char* library) : FakeDriver((share(), library), "fake_hd_") {}
+
+  pid_t process() const { return function<int()>("process")(); }
+
+ private:
+  static void share() {
+    static const testkit::TempDir dir;
+    const std::string path = (dir.path() / "hd_state").string();
+    if (::setenv("FAKE_HD_STATE", path.c_str(), 0) == 0) std::ofstream(path, std::ios::app);
+  }
 };
 
 }  // namespace asperity::testing_devices

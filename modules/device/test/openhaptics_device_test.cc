@@ -1,6 +1,9 @@
 #include "asperity/device/openhaptics_device.h"
 
+#include <signal.h>
+
 #include <chrono>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <thread>
@@ -11,6 +14,9 @@
 #include "asperity/testkit/count_allocations.h"
 #include "conformance.h"
 #include "fake_drivers.h"
+#include "hd_server.h"
+#include "openhaptics_in_time.h"
+#include "serve_device.h"
 
 namespace asperity::testing_devices {
 
@@ -21,41 +27,39 @@ OpenHapticsConfig fake_config() {
   config.library = FAKE_HD;
   // The tests' own loop may be held up on a loaded machine.
   config.stall_after_s = 0.1;
-  config.force_timeout_s = 0.2;
+  config.force_timeout_s = 0.1;
   return config;
+}
+
+constexpr double kPatient_s = 20.0;
+
+std::unique_ptr<HapticDevice> open_patiently(const OpenHapticsConfig& config) {
+  return open_openhaptics_in_time(config, kPatient_s);
 }
 
 class OpenHapticsRig final : public DeviceRig {
  public:
-  std::unique_ptr<HapticDevice> open() override { return open_openhaptics(fake_config()); }
+  std::unique_ptr<HapticDevice> open() override { return open_patiently(fake_config()); }
   Eigen::Vector3d motor_output() override { return fake_.motor_N(); }
   void unplug() override { fake_.set("unplugged", 1); }
   void stall() override { fake_.set("stalled", 1); }
 
  private:
-  FakeDriver fake_{FAKE_HD, "fake_hd_"};
+  FakeOpenHaptics fake_{FAKE_HD};
 };
 
 std::string refusal(const OpenHapticsConfig& config) {
   try {
-    open_openhaptics(config);
+    open_patiently(config);
   } catch (const Error& error) {
     return error.what();
   }
   return "";
 }
 
-bool comes_true(const std::function<bool()>& condition) {
-  for (int i = 0; i < 5000; ++i) {
-    if (condition()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return false;
-}
-
 class OpenHaptics : public testing::Test {
  protected:
-  FakeDriver fake_{FAKE_HD, "fake_hd_"};
+  FakeOpenHaptics fake_{FAKE_HD};
 };
 
 }  // namespace
@@ -66,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(OpenHaptics, DeviceConformance,
                          case_name);
 
 TEST_F(OpenHaptics, SaysWhatTheDriverSaysInMetres) {
-  const auto device = open_openhaptics(fake_config());
+  const auto device = open_patiently(fake_config());
   const DeviceInfo& info = device->info();
   EXPECT_EQ(info.model, "Fake Touch");
   EXPECT_DOUBLE_EQ(info.max_force_N, 3.3);
@@ -76,14 +80,19 @@ TEST_F(OpenHaptics, SaysWhatTheDriverSaysInMetres) {
   EXPECT_TRUE(info.workspace_max_m.isApprox(Eigen::Vector3d(0.21, 0.205, 0.13)));
   EXPECT_DOUBLE_EQ(info.rate_Hz, 1000.0);
   EXPECT_FALSE(info.simulated);
-  const DeviceReading reading = device->read(0);
-  EXPECT_NEAR(reading.p_m.y(), 0.02, 2e-3);
-  EXPECT_EQ(reading.buttons, 2u);
+  fake_.set("stalled", 1);  // the hand stays where it is, once a frame that had begun has ended
+  Eigen::Vector3d hand_m = Eigen::Vector3d::Zero();
+  EXPECT_TRUE(comes_true([&] {
+    fake_.function<void(double*)>("position")(hand_m.data());
+    return (device->read(0).p_m - hand_m).norm() < 1e-4;  // moved since by one frame
+  })) << hand_m.transpose();
+  EXPECT_LT(hand_m.y(), 0.02);
+  EXPECT_EQ(device->read(0).buttons, 2u);
 }
 
 TEST_F(OpenHaptics, CallsEverythingInItsFrame) {
   {
-    const auto device = open_openhaptics(fake_config());
+    const auto device = open_patiently(fake_config());
     EXPECT_TRUE(comes_true([&] { return fake_.function<unsigned long()>("frames")() > 20; }));
   }
   EXPECT_EQ(fake_.function<unsigned()>("calls_out_of_order")(), 0u);
@@ -93,7 +102,7 @@ TEST_F(OpenHaptics, CallsEverythingInItsFrame) {
 TEST_F(OpenHaptics, AForceThatIsNotRenewedEnds) {
   OpenHapticsConfig config = fake_config();
   config.force_timeout_s = 0.01;
-  const auto device = open_openhaptics(config);
+  const auto device = open_patiently(config);
   EXPECT_TRUE(comes_true([&] {
     device->write({0.0, 1.0, 0.0});
     return fake_.motor_N().y() > 0.0;
@@ -106,18 +115,28 @@ TEST_F(OpenHaptics, AForceThatIsNotRenewedEnds) {
   })) << "it did not come back";
 }
 
-TEST_F(OpenHaptics, NeitherTheServoNorTheCallbackAllocates) {
-  const auto device = open_openhaptics(fake_config());
+TEST_F(OpenHaptics, TheServoDoesNotAllocate) {
+  const auto device = open_patiently(fake_config());
   const std::size_t before = testkit::count_allocations();
-  for (std::int64_t i = 0; i < 100; ++i) {
-    device->write(device->read(i * 1'000'000).v_mps);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  for (std::int64_t i = 0; i < 1000; ++i) device->write(device->read(i * 1'000'000).v_mps);
+  EXPECT_EQ(testkit::count_allocations(), before);
+}
+
+// In this process, where it can be counted.
+TEST_F(OpenHaptics, TheCallbackDoesNotAllocate) {
+  auto mailbox = std::make_unique<hd::Mailbox>();
+  std::strcpy(mailbox->library.data(), FAKE_HD);
+  hd::Server server(*mailbox);
+  const auto frames = [&] { return mailbox->frames.load(); };
+  const std::uint64_t first = frames();
+  ASSERT_TRUE(comes_true([&] { return frames() > first + 2; }));  // its first frame asks for its priority
+  const std::size_t before = testkit::count_allocations();
+  EXPECT_TRUE(comes_true([&] { return frames() > first + 100; }));
   EXPECT_EQ(testkit::count_allocations(), before);
 }
 
 TEST_F(OpenHaptics, TheDriverClampsItsForce) {
-  const auto device = open_openhaptics(fake_config());
+  const auto device = open_patiently(fake_config());
   EXPECT_TRUE(comes_true([&] {
     device->write({0.0, 0.0, 30.0});
     return fake_.motor_N().z() > 3.29;
@@ -126,7 +145,7 @@ TEST_F(OpenHaptics, TheDriverClampsItsForce) {
 }
 
 TEST_F(OpenHaptics, WarmMotorsAreReportedAndItGoesOn) {
-  const auto device = open_openhaptics(fake_config());
+  const auto device = open_patiently(fake_config());
   for (const unsigned code : {0x200u, 0x201u, 0x203u}) fake_.function<void(unsigned)>("complain")(code);
   EXPECT_TRUE(comes_true([&] { return !device->fault().empty(); }));
   EXPECT_TRUE(comes_true([&] { return device->fault().find("0x203") != std::string::npos; }));
@@ -137,24 +156,68 @@ TEST_F(OpenHaptics, WarmMotorsAreReportedAndItGoesOn) {
 }
 
 TEST_F(OpenHaptics, LostCommunicationIsAFaultThatStays) {
-  const auto device = open_openhaptics(fake_config());
+  const auto device = open_patiently(fake_config());
   fake_.function<void(unsigned)>("complain")(0x302);
   EXPECT_TRUE(comes_true([&] { return device->read(0).status == DeviceStatus::kFault; }));
   EXPECT_THAT(device->fault(), testing::HasSubstr("connection"));
   device->write({0.0, 1.0, 0.0});
-  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const auto frames = [&] { return fake_.function<unsigned long()>("frames")(); };
+  const unsigned long then = frames();
+  EXPECT_TRUE(comes_true([&] { return frames() > then + 20; }));
   EXPECT_EQ(fake_.motor_N(), Eigen::Vector3d::Zero());
   EXPECT_EQ(device->read(1'000'000).status, DeviceStatus::kFault);
 }
 
 TEST_F(OpenHaptics, AStallEnds) {
-  const auto device = open_openhaptics(fake_config());
+  const auto device = open_patiently(fake_config());
   fake_.set("stalled", 1);
-  std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  device->read(0);
-  EXPECT_EQ(device->read(1'000'000'000).status, DeviceStatus::kStalled);
+  EXPECT_TRUE(comes_true([&] {  // a frame that had begun is still to come
+    device->read(0);
+    return device->read(1'000'000'000).status == DeviceStatus::kStalled;
+  }));
   fake_.set("stalled", 0);
   EXPECT_TRUE(comes_true([&] { return device->read(1'001'000'000).status == DeviceStatus::kReady; }));
+}
+
+TEST_F(OpenHaptics, AnswersThatAreNoNumbersAreNoNews) {
+  const auto device = open_patiently(fake_config());
+  fake_.set("garbage", 1);
+  const auto frames = [&] { return fake_.function<unsigned long()>("frames")(); };
+  const unsigned long then = frames();
+  EXPECT_TRUE(comes_true([&] { return frames() > then + 2; }));
+  const std::uint64_t before = device->read(0).sequence;
+  EXPECT_TRUE(comes_true([&] { return frames() > then + 20; }));
+  EXPECT_EQ(device->read(0).sequence, before);
+}
+
+// The driver's process is ended, and with it the connection; what the device does then is the driver's and its own.
+TEST_F(OpenHaptics, ADriverThatDoesNotReturnIsAFault) {
+  const auto device = open_openhaptics(fake_config());
+  const pid_t process = fake_.process();
+  fake_.set("hangs", 1);
+  EXPECT_TRUE(comes_true([&] { return device->read(0).status == DeviceStatus::kFault; }));
+  EXPECT_THAT(device->fault(), testing::HasSubstr("has not returned for 0.1 s"));
+  EXPECT_FALSE(fake_.open());
+  EXPECT_NE(::kill(process, 0), 0);
+  device->close();
+}
+
+TEST_F(OpenHaptics, AStoppedProcessIsEnded) {
+  const auto device = open_openhaptics(fake_config());
+  ::kill(fake_.process(), SIGSTOP);
+  EXPECT_TRUE(comes_true([&] { return device->read(0).status == DeviceStatus::kFault; }));
+  EXPECT_THAT(device->fault(), testing::HasSubstr("has not returned for 0.1 s"));
+  EXPECT_TRUE(comes_true([&] { return !fake_.open(); }));
+}
+
+TEST_F(OpenHaptics, AKilledProcessIsAFault) {
+  const auto device = open_patiently(fake_config());
+  ::kill(fake_.process(), SIGKILL);
+  EXPECT_TRUE(comes_true([&] { return device->read(0).status == DeviceStatus::kFault; }));
+  EXPECT_EQ(device->fault(), "the driver's process ended by signal 9");
+  device->write({0.0, 1.0, 0.0});
+  device->close();
+  EXPECT_EQ(device->read(0).status, DeviceStatus::kFault);
 }
 
 TEST_F(OpenHaptics, RefusalsNameTheirCause) {

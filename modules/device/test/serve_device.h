@@ -20,4 +20,26 @@ inline void serve(HapticDevice& device, int ticks, const std::function<Eigen::Ve
   }
 }
 
+// Serves it until `condition`, which is asked after each tick; false if that takes more than 10 s. For what a busy
+// machine may delay: the device's thread is late, or this one was and the force has ended meanwhile.
+inline bool serve_until(HapticDevice& device, const std::function<Eigen::Vector3d(const DeviceReading&)>& force,
+                        const std::function<bool()>& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    serve(device, 1, force);
+  }
+  return true;
+}
+
+// Waits for `condition`; false if that takes more than 10 s.
+inline bool comes_true(const std::function<bool()>& condition) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
 }  // namespace asperity

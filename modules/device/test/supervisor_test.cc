@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <termios.h>
 #include <unistd.h>
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -19,6 +20,7 @@
 #include <gtest/gtest.h>
 
 #include "asperity/base/error.h"
+#include "asperity/testkit/lateness_watch.h"
 
 namespace asperity {
 namespace {
@@ -120,26 +122,29 @@ double ms_until(int fd, const std::string& words) {
 // 150 ms is promised; the silence is 100 ms, a round 10 ms. The rest is this machine's.
 constexpr double kPromised_ms = 150.0;
 
-TEST(Supervisor, ZeroesTheForceOfAStoppedProcessWhichFindsAFault) {
+// ms until the farewell comes, and until it comes again: whatever the host sends when it wakes up is taken back.
+double longest_silence_ms() {
   Pty pty;
   std::array<int, 2> ready{};
-  ASSERT_EQ(::pipe(ready.data()), 0);
+  EXPECT_EQ(::pipe(ready.data()), 0);
   const pid_t host = start_beating_host(pty, ready[1], {});
   char byte = 0;
-  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
-  EXPECT_EQ(arriving(pty.board, 200), "FORC") << "a host that beats is left alone";
+  EXPECT_EQ(::read(ready[0], &byte, 1), 1);
+  const bool left_alone = arriving(pty.board, 200) == "FORC";  // while it beats
   ::kill(host, SIGSTOP);
-  const double zero_ms = ms_until(pty.board, "ZERO");
-  RecordProperty("zero_ms", std::to_string(zero_ms));
-  EXPECT_LT(zero_ms, kPromised_ms);
-  // Whatever the host sends when it wakes up is taken back again.
-  EXPECT_LT(ms_until(pty.board, "ZERO"), kPromised_ms);
+  const double first_ms = ms_until(pty.board, "ZERO");
+  const double again_ms = ms_until(pty.board, "ZERO");
   ::kill(host, SIGCONT);
   int status = 0;
   ::waitpid(host, &status, 0);
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 7);
   ::close(ready[0]);
   ::close(ready[1]);
+  return left_alone ? std::max(first_ms, again_ms) : 1e9;
+}
+
+TEST(Supervisor, ZeroesTheForceOfAStoppedProcessWhichFindsAFault) {
+  EXPECT_LT(testkit::measure_on_a_free_machine(kPromised_ms, longest_silence_ms), kPromised_ms);
 }
 
 // The machine's clock as both processes see it: CLOCK_BOOTTIME and what a test adds.

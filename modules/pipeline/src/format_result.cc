@@ -91,7 +91,35 @@ Json force_json(const NormalForce& f) {
   return {{"source", kForceSourceNames.at(static_cast<std::size_t>(f.source))},
           {"axial_share", f.share},
           {"relative_sigma", f.relative_sigma},
-          {"friction", f.friction}};
+          {"tangential_share", f.tangential_share}};
+}
+
+Json friction_json(const FrictionEstimate& f) {
+  Json out = {{"determined", f.determined},
+              {"coefficient", f.coefficient},
+              {"coefficient_stderr", f.standard_error},
+              {"low", f.low},
+              {"high", f.high},
+              {"speed_mps", f.speed_mps},
+              {"force_N", f.force_N},
+              {"per_mps", f.per_mps},
+              {"per_mps_stderr", f.per_mps_stderr},
+              {"per_log_force", f.per_log_force},
+              {"per_log_force_stderr", f.per_log_force_stderr},
+              {"spread_rad", f.spread_rad},
+              {"sensor_delay_s", f.sensor_delay_s},
+              {"sticks", f.sticks},
+              {"stuck_share", f.stuck_share},
+              {"breakaway", f.breakaway},
+              {"breakaway_stderr", f.breakaway_stderr},
+              {"windows", f.windows.size()},
+              {"verdict", f.verdict}};
+  out["stribeck"] = nullptr;
+  if (f.stribeck) {
+    out["stribeck"] = {
+        {"at_rest", f.stribeck->at_rest}, {"sliding", f.stribeck->sliding}, {"speed_mps", f.stribeck->speed_mps}};
+  }
+  return out;
 }
 
 Json stiffness_json(const StiffnessEstimate& s) {
@@ -106,6 +134,35 @@ Json stiffness_json(const StiffnessEstimate& s) {
           {"band_high_hz", s.band_high_hz},
           {"used_s", s.used_s},
           {"verdict", s.verdict}};
+}
+
+Json tip_json(const ErodedProfile& surface) {
+  return {{"determined", surface.determined},
+          {"reason", surface.reason},
+          {"radius_m", surface.radius_m},
+          {"touched_share", surface.touched_share},
+          {"correction_rms_m", surface.correction_rms_m},
+          {"noise_rms_m", surface.noise_rms_m},
+          {"bias_m", surface.bias_m}};
+}
+
+Json passes_json(const MergedProfile& merged) {
+  Json passes = Json::array();
+  for (const MergedPass& pass : merged.passes) {
+    passes.push_back({{"name", pass.name},
+                      {"used", pass.used},
+                      {"direction", pass.alignment.reversed ? "backward" : "forward"},
+                      {"shift_m", pass.shift_m},
+                      {"stretch", pass.stretch},
+                      {"warp_rms_m", pass.warp_rms_m},
+                      {"coherence", pass.coherence},
+                      {"weight", pass.weight},
+                      {"noise_rms_m", pass.noise_rms_m},
+                      {"stated_noise_rms_m", pass.stated_noise_rms_m},
+                      {"score", pass.alignment.score},
+                      {"threshold", pass.alignment.threshold}});
+  }
+  return passes;
 }
 
 Json accuracy_json(const Accuracy& accuracy) {
@@ -167,12 +224,14 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
   out["speed_mps"] = {
       {"mean", result.speed.mean_mps}, {"lowest", result.speed.lowest_mps}, {"highest", result.speed.highest_mps}};
   out["base"] = base_json(result.base);
+  if (result.trajectory.object) out["frame"] = "object";
   out["trajectory"] = Json(result.trajectory.metrics);
   out["roughness"] = result.roughness ? roughness_json(*result.roughness) : Json(nullptr);
   out["periodicity"] = periodicity_json(result.periodicity);
   out["compliance"] = compliance_json(result.compliance);
   out["force"] = force_json(result.base.force);
   out["stiffness"] = stiffness_json(result.stiffness);
+  out["friction"] = friction_json(result.friction);
   if (result.fit) {
     out["texture"] = {{"file", "texture.json"},
                       {"length_mm", result.fit->texture.length_mm},
@@ -182,6 +241,15 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
                       {"lift_m", result.fit->height_offset_m}};
   } else {
     out["texture"] = nullptr;
+  }
+  if (result.surface) out["tip"] = tip_json(*result.surface);
+  if (result.passes) {
+    out["passes"] = passes_json(*result.passes);
+    out["merge"] = {{"agrees", result.passes->agrees},
+                    {"used", result.passes->used},
+                    {"noise_ratio", result.passes->noise_ratio},
+                    {"noise_ratio_low", result.passes->noise_ratio_low},
+                    {"noise_ratio_high", result.passes->noise_ratio_high}};
   }
   if (result.accuracy) out["accuracy"] = accuracy_json(*result.accuracy);
   out["problems"] = problems_json(result.problems);

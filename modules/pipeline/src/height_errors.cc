@@ -72,6 +72,44 @@ double lean_rad(const TipMotion& motion, const BasePathResult& base, const std::
   return std::atan(normal_leak(motion, off_base(motion, base.path), moving));
 }
 
+// Of the object's own motion: weights along the normals and along the path. A rotation φ of the object moves the tip
+// relative to it by −φ × r, so the height by φ·(n × r).
+void add_object(const ObjectMotion& object, const TipMotion& motion, const BasePathResult& base,
+                const std::vector<char>& moving, HeightErrors& out) {
+  Eigen::Matrix<double, 6, 1> normal_weight = Eigen::Matrix<double, 6, 1>::Zero(), along_weight = normal_weight;
+  double samples = 0.0;
+  constexpr std::size_t kStride = 8;  // the object's orientation does not change faster
+  for (std::size_t i = 0; i < motion.size(); i += kStride) {
+    if (moving[i] == 0) continue;
+    const Eigen::Quaterniond R = object.at(motion.t_ns[i]).T_world_object.rotation;
+    const Eigen::Vector3d arm = R * motion.p_world_tip_m[i], normal = R * base.path.n_world[i];
+    const Eigen::Vector3d v = R * motion.v_world_tip_mps[i];
+    const Eigen::Vector3d along = (v - normal * normal.dot(v)).normalized();
+    const auto add = [&](const Eigen::Vector3d& direction, Eigen::Matrix<double, 6, 1>& weight) {
+      weight.head<3>() += direction.cwiseAbs2();
+      weight.tail<3>() += direction.cross(arm).cwiseAbs2();
+    };
+    add(normal, normal_weight);
+    add(along, along_weight);
+    samples += 1.0;
+  }
+  if (samples == 0.0) return;
+  const ObjectNoise& noise = object.noise;
+  for (Eigen::Index axis = 0; axis < 6; ++axis) {
+    const bool turns = axis >= 3;
+    const Eigen::Index k = axis % 3;
+    ObjectAxisError error;
+    error.pose_psd = 2.0 * noise.frame_s * std::pow((turns ? noise.pose_rad : noise.pose_m)[k], 2);
+    error.motion_psd = 2.0 * (turns ? noise.angular_rad2ps3 : noise.accel_m2ps3)[k];
+    error.slow_sigma = (turns ? noise.slow_rad : noise.slow_m)[k];
+    error.weight = normal_weight[axis] / samples;
+    out.object.push_back(error);
+    error.weight = along_weight[axis] / samples;
+    out.along_object.push_back(error);
+  }
+  out.object_slow_time_s = noise.slow_time_s;
+}
+
 }  // namespace
 
 HeightErrors height_errors(const Recording& recording, const TrajectoryResult& trajectory, const BasePathResult& base) {
@@ -158,6 +196,7 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
   out.lever_m = calibration.tip_from_sensor_m.cross(normal_marker.normalized()).norm();
   add_crosstalk(motion, base.path, moving, recording.info.gravity_world_mps2, calibration,
                 lean_rad(motion, base, moving), out);
+  if (trajectory.object) add_object(*trajectory.object, motion, base, moving, out);
   out.base_degree = base.shape == PathShape::kCircle || base.shape == PathShape::kCurve ? 2 : 1;
   // A normal that is off by φ makes heights too small by 1 − cos φ.
   const double turned = 0.5 * std::pow(base.normal_sigma_deg * std::numbers::pi / 180.0, 2);

@@ -29,13 +29,16 @@ std::optional<double> rendered_stiffness_N_per_m(const ProcessResult& result) {
   return 1e3 * (bound_N_per_mm > charted->stiffness_N_per_mm ? bound_N_per_mm : charted->stiffness_N_per_mm);
 }
 
-Texture join_texture(const Recording& recording, const ProcessMethod& method, const ProcessResult& result) {
+}  // namespace
+
+Texture join_texture(const std::string& object, const ProcessMethod& method, const ProcessResult& result) {
   Texture texture;
-  texture.name = recording.info.object;
+  texture.name = object;
   texture.model = result.fit->texture;
   texture.height_offset_m = result.fit->height_offset_m;
   if (std::isfinite(result.compliance.k_c)) texture.compliance_kc = result.compliance.k_c;
   texture.stiffness_N_per_m = rendered_stiffness_N_per_m(result);
+  if (result.friction.determined) texture.friction = result.friction.coefficient;
   if (result.roughness) {
     const RoughnessResult& r = *result.roughness;
     for (const auto& [key, value] : {std::pair{"Ra_m", r.Ra_m},
@@ -60,6 +63,8 @@ Texture join_texture(const Recording& recording, const ProcessMethod& method, co
   return texture;
 }
 
+namespace {
+
 // What was measured on the surface.
 void add_surface(const Recording& recording, const ProcessMethod& method, ProcessStages& stages,
                  ProcessResult& result) {
@@ -73,13 +78,16 @@ void add_surface(const Recording& recording, const ProcessMethod& method, Proces
   result.coverage = stages.profile.value->coverage;
   result.speed = stages.profile.value->speed;
   result.noise = std::move(stages.profile.value->noise);
+  result.passes = std::move(stages.profile.value->passes);
+  result.surface = std::move(stages.profile.value->surface);
   result.roughness = std::move(stages.roughness.value);
   result.periodicity = std::move(stages.periodicity.value).value_or(Periodicity{});
   result.spectrum = std::move(stages.spectrum.value).value_or(SurfaceSpectrum{});
   result.compliance = std::move(stages.compliance.value).value_or(Compliance{});
   result.stiffness = std::move(stages.stiffness.value).value_or(StiffnessEstimate{});
+  result.friction = std::move(stages.friction.value).value_or(FrictionEstimate{});
   result.fit = std::move(stages.fit.value);
-  if (result.fit) result.texture = join_texture(recording, method, result);
+  if (result.fit) result.texture = join_texture(recording.info.object, method, result);
 }
 
 }  // namespace

@@ -9,9 +9,11 @@
 
 #include "asperity/base/error.h"
 #include "asperity/pipeline/find_placements.h"
-#include "asperity/registration/find_registration.h"
+#include "asperity/pipeline/pose_candidates.h"
 #include "asperity/registration/pose_misfit.h"
+#include "asperity/registration/pose_rivals.h"
 #include "asperity/registration/refine_placements.h"
+#include "asperity/registration/refine_registration.h"
 #include "asperity/registration/register_path.h"
 
 namespace asperity {
@@ -72,6 +74,30 @@ std::vector<Pose> other_fits(const std::vector<MeasuredPath>& paths, const Regis
   return out;
 }
 
+// The user has said how well the guess is known.
+bool is_stated(const RegistrationConfig& search, const RefineConfig& refine) {
+  const RegistrationConfig usual_search;
+  const RefineConfig usual_refine;
+  return search.guess_sigma_m < usual_search.guess_sigma_m || search.guess_sigma_deg < usual_search.guess_sigma_deg ||
+         refine.guess_sigma_m < usual_refine.guess_sigma_m || refine.guess_sigma_deg < usual_refine.guess_sigma_deg;
+}
+
+bool is_near(const Pose& guess, const Pose& pose, const Eigen::Vector3d& centre_mesh_m, const RefineConfig& config) {
+  constexpr double kSigmas = 3.0;
+  const Pose motion = pose * guess.inverse();
+  const Eigen::Vector3d before_m = motion.inverse() * centre_mesh_m;
+  return (centre_mesh_m - before_m).norm() < kSigmas * config.guess_sigma_m &&
+         rotation_between_rad(guess, pose) < kSigmas * config.guess_sigma_deg * std::numbers::pi / 180.0;
+}
+
+// The points of some of the scans.
+ScanPoints points_of(const ScanPoints& scans, const std::vector<std::size_t>& members) {
+  ScanPoints out;
+  out.in_sequence = scans.in_sequence;
+  for (const std::size_t i : members) out.points.push_back(scans.points[i]);
+  return out;
+}
+
 PoseMisfitConfig misfit_config(const RegisterConfig& config) {
   // A guess that is stated to be better known for the refinement than that takes for granted is held to it.
   const RefineConfig usual;
@@ -82,14 +108,25 @@ PoseMisfitConfig misfit_config(const RegisterConfig& config) {
   return {config.refinement.slow_length_m, search.surface_error_m,
           stated(search.guess_sigma_m, config.refinement.guess_sigma_m, usual.guess_sigma_m),
           stated(search.guess_sigma_deg, config.refinement.guess_sigma_deg, usual.guess_sigma_deg) * std::numbers::pi /
-              180.0};
+              180.0,
+          is_stated(search, config.refinement)};
 }
 
-// Scans of one placement, from a guess or from anywhere; `known` is a pose that fits as well as any that was found.
+// The settings of the search, with the errors that last along a scan.
+RegisterConfig search_config(const ScanPoints& scans, const RegisterConfig& config) {
+  RegisterConfig out = config;
+  double& error_length_m = out.search.registration.error_length_m;
+  if (scans.in_sequence && error_length_m == 0.0) error_length_m = config.refinement.slow_length_m;
+  return out;
+}
+
+// Scans of one placement, from a guess or from anywhere; `known` is a pose that fits as well as any that was found,
+// `candidates` gets all poses that were compared.
 RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<std::size_t>& members,
                                     const MeshSurface& surface, const RegistrationSurface& ready,
                                     const std::optional<Pose>& guess, const std::optional<Pose>& known,
-                                    const RegisterConfig& config, const RegistrationObserver& observer) {
+                                    const RegisterConfig& config, const RegistrationObserver& observer,
+                                    PoseCandidates& candidates) {
   observer.update("registration", 0.0);
   std::vector<MeasuredPath> paths, smooth;
   for (const std::size_t i : members) {
@@ -97,10 +134,8 @@ RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<s
     paths.push_back(path);
     smooth.push_back(scans.in_sequence ? smooth_path(path, config.points.smoothing_m) : path);
   }
-  SearchConfig search = config.search;
-  if (scans.in_sequence && search.registration.error_length_m == 0.0) {
-    search.registration.error_length_m = config.refinement.slow_length_m;
-  }
+  const RegisterConfig searched = search_config(scans, config);
+  const RegistrationConfig& search = searched.search.registration;
   RefinedRegistration out;
   const ProcessMethod& method = ProcessMethods::get(config.process.method);
   if (method.register_paths) {
@@ -114,15 +149,32 @@ RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<s
     out.registration.misfit = measure_pose_misfit(paths, ready, {}, misfit_config(config), out.registration);
     return out;
   }
-  out.registration = guess ? register_path(smooth, ready, *guess, search.registration, observer)
-                           : find_registration(smooth, ready, search, observer);
+  // All poses at which the paths may lie: those near the guess and those anywhere.
+  std::vector<Pose> near;
+  if (guess) {
+    out.registration = register_path(smooth, ready, *guess, search, observer);
+    near = other_fits(smooth, ready, guess, search, config.refinement, observer);
+    near.push_back(out.registration.T_mesh_world);
+    if (out.registration.runner_up) near.push_back(out.registration.runner_up->T_mesh_world);
+  }
+  if (known) near.push_back(*known);
+  candidates = find_pose_candidates(points_of(scans, members), surface, guess, near, searched, observer);
+  const bool keeps_guess = guess && search.starts.when == OtherStarts::kNever && config.refinement.other_starts == 0;
+  if (!keeps_guess) {
+    RegistrationConfig local = search;
+    local.starts.when = OtherStarts::kNever;
+    out.registration = register_path(smooth, ready, candidates.found.front().T_mesh_world, local, observer);
+  }
+  // A guess that the paths contradict has no say in the refinement.
+  const std::optional<Pose> believed =
+      guess && is_near(*guess, out.registration.T_mesh_world, out.registration.centre_mesh_m, config.refinement)
+          ? guess
+          : std::nullopt;
   // Scans have errors that last along the path; points without a sequence have none that is known.
   out.slow_error_world_m.resize(members.size());
   if (!scans.in_sequence) return out;
-  std::vector<Pose> others = other_fits(smooth, ready, guess, search.registration, config.refinement, observer);
-  if (known) others.push_back(*known);
   observer.update("refinement", 0.0);
-  return refine_registration(paths, surface, out.registration, guess, others, config.refinement, observer);
+  return refine_registration(paths, surface, out.registration, believed, {}, config.refinement, observer);
 }
 
 // The scans of each placement, its guess, and a pose that is known to fit.
@@ -131,8 +183,8 @@ struct Groups {
   std::vector<std::optional<Pose>> guesses, known;
 };
 
-bool is_near(const Pose& pose, const Pose& guess, const std::vector<std::size_t>& members, const ScanPoints& scans,
-             const PoseMisfitConfig& misfit) {
+bool fits_guess(const Pose& pose, const Pose& guess, const std::vector<std::size_t>& members, const ScanPoints& scans,
+                const PoseMisfitConfig& misfit) {
   constexpr double kSigmas = 4.0;
   Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();
   double count = 0.0;
@@ -173,8 +225,8 @@ Groups group_scans(const ScanPoints& scans, const MeshSurface& surface, const Re
   out.scans = std::move(found.groups);
   for (std::size_t k = 0; k < out.scans.size(); ++k) {
     // A guess is that of the placements that it fits; one placement is as if it had been stated.
-    const bool guessed =
-        guess && (out.scans.size() == 1 || is_near(found.poses[k], *guess, out.scans[k], scans, misfit_config(config)));
+    const bool guessed = guess && (out.scans.size() == 1 ||
+                                   fits_guess(found.poses[k], *guess, out.scans[k], scans, misfit_config(config)));
     out.guesses.push_back(guessed ? guess : std::nullopt);
     out.known.emplace_back(found.poses[k]);
   }
@@ -231,11 +283,17 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
   out.placement_of.resize(count);
   out.slow_error_world_m.resize(count);
   out.rms_m.assign(count, std::numeric_limits<double>::quiet_NaN());
-  std::vector<std::optional<Pose>> guesses;
+  std::vector<std::optional<Pose>> believed;
   for (std::size_t k = 0; k < groups.scans.size(); ++k) {
-    guesses.push_back(groups.guesses[k]);
-    RefinedRegistration located =
-        locate_together(scans, groups.scans[k], surface, ready, groups.guesses[k], groups.known[k], config, observer);
+    PoseCandidates candidates;
+    RefinedRegistration located = locate_together(scans, groups.scans[k], surface, ready, groups.guesses[k],
+                                                  groups.known[k], config, observer, candidates);
+    out.candidates.push_back(std::move(candidates));
+    const RegistrationResult& found = located.registration;
+    const std::optional<Pose>& guessed = groups.guesses[k];
+    believed.push_back(guessed && is_near(*guessed, found.T_mesh_world, found.centre_mesh_m, config.refinement)
+                           ? guessed
+                           : std::nullopt);
     for (std::size_t i = 0; i < groups.scans[k].size(); ++i) {
       const std::size_t scan = groups.scans[k][i];
       out.placement_of[scan] = k;
@@ -245,9 +303,16 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
     out.placements.push_back({std::move(located.registration), groups.scans[k], {}});
   }
   if (ProcessMethods::get(config.process.method).register_paths) return out;
-  if (scans.in_sequence) refine_together(scans, surface, guesses, config, observer, out);
-  for (std::size_t k = 0; k < out.placements.size(); ++k)
-    measure_misfit(scans, ready, guesses[k], config, out, out.placements[k]);
+  if (scans.in_sequence) refine_together(scans, surface, believed, config, observer, out);
+  const RegisterConfig searched = search_config(scans, config);
+  for (std::size_t k = 0; k < out.placements.size(); ++k) {
+    Placement& placement = out.placements[k];
+    measure_misfit(scans, ready, groups.guesses[k], config, out, placement);
+    const Pose& pose = placement.registration.T_mesh_world;
+    state_rivals(judge_candidate(points_of(scans, placement.scans), surface, pose, groups.guesses[k], out.candidates[k],
+                                 searched),
+                 placement.registration);
+  }
   return out;
 }
 

@@ -15,13 +15,16 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
   observer.update("trajectory", 0.0);
   s.trajectory = stage::find_trajectory(recording, config, method, observer);
 
+  // An object that moved has taken its frame along: from here on that is the world.
+  const Recording& in_frame = stage::in_frame(recording, s);
+
   // The path without the fine motion, and its normals (seed §1.4, §6.2; errata 23 and 24).
   observer.update("base path", 0.7);
-  s.base = stage::find_base_path(recording, config, method, s);
+  s.base = stage::find_base_path(in_frame, config, method, s);
 
   // The height along it (seed §5.1).
   observer.update("profile", 0.8);
-  s.profile = stage::find_profile(recording, config, method, s);
+  s.profile = stage::find_profile(in_frame, config, method, s);
 
   // What it says of the surface (seed §5.2).
   observer.update("roughness", 0.85);
@@ -31,15 +34,18 @@ ProcessResult process_recording(const Recording& recording, const ProcessConfig&
 
   // How it yields (seed §5.3, erratum 15).
   observer.update("compliance", 0.9);
-  s.compliance = stage::estimate_compliance(recording, config, method, s);
+  s.compliance = stage::estimate_compliance(in_frame, config, method, s);
   s.stiffness = stage::estimate_stiffness(config, s);
+
+  // How it rubs (seed §7.2: "a tri-axial force sensor").
+  s.friction = stage::estimate_friction(config, s);
 
   // What a hand is to feel of it (seed §6.5, erratum 18).
   observer.update("texture", 0.95);
   s.fit = stage::fit_texture(config, s);
 
   // How far it is from the truth, where the recording knows it.
-  s.accuracy = stage::compare_with_truth(recording, config, method, s);
+  s.accuracy = stage::compare_with_truth(in_frame, config, method, s);
 
   observer.update("texture", 1.0);
   return join_stages(recording, config, method, std::move(s));

@@ -65,17 +65,21 @@ const ProcessResult& ProcessSession::process(const ProcessConfig& config, const 
   const ProcessMethod& method = ProcessMethods::get(config.method);
 
   const IsSame same_trajectory = [&](const ProcessConfig& a, const ProcessConfig& b) {
-    return a.method == b.method && method.is_same_trajectory(a, b);
+    return a.method == b.method && a.reference == b.reference && is_same_config(a.object, b.object) &&
+           method.is_same_trajectory(a, b);
   };
   observer.update("trajectory", 0.0);
-  kept.update(s.trajectory, kept.trajectory, config, same_trajectory, {},
-              [&] { return stage::find_trajectory(recording, config, method, observer); });
+  kept.update(s.trajectory, kept.trajectory, config, same_trajectory, {}, [&] {
+    s.on_object.reset();
+    return stage::find_trajectory(recording, config, method, observer);
+  });
+  const Recording& in_frame = stage::in_frame(recording, s);
   observer.update("base path", 0.7);
   kept.update(s.base, kept.base, config, same_config(&ProcessConfig::base), {kept.trajectory.runs},
-              [&] { return stage::find_base_path(recording, config, method, s); });
+              [&] { return stage::find_base_path(in_frame, config, method, s); });
   observer.update("profile", 0.8);
   kept.update(s.profile, kept.profile, config, method.is_same_profile, {kept.trajectory.runs, kept.base.runs},
-              [&] { return stage::find_profile(recording, config, method, s); });
+              [&] { return stage::find_profile(in_frame, config, method, s); });
 
   const std::vector<std::size_t> of_profile{kept.profile.runs};
   observer.update("roughness", 0.85);
@@ -89,7 +93,7 @@ const ProcessResult& ProcessSession::process(const ProcessConfig& config, const 
   const std::vector<std::size_t> of_base{kept.trajectory.runs, kept.base.runs, s.profile.value ? 1U : 0U};
   observer.update("compliance", 0.9);
   kept.update(s.compliance, kept.compliance, config, same_config(&ProcessConfig::compliance), of_base,
-              [&] { return stage::estimate_compliance(recording, config, method, s); });
+              [&] { return stage::estimate_compliance(in_frame, config, method, s); });
   kept.update(s.stiffness, kept.stiffness, config, same_config(&ProcessConfig::stiffness), of_base,
               [&] { return stage::estimate_stiffness(config, s); });
 
@@ -98,7 +102,7 @@ const ProcessResult& ProcessSession::process(const ProcessConfig& config, const 
               [&] { return stage::fit_texture(config, s); });
   kept.update(s.accuracy, kept.accuracy, config, same_config(&ProcessConfig::comparison),
               {kept.trajectory.runs, kept.base.runs, kept.profile.runs},
-              [&] { return stage::compare_with_truth(recording, config, method, s); });
+              [&] { return stage::compare_with_truth(in_frame, config, method, s); });
   observer.update("texture", 1.0);
   kept.result = join_stages(recording, config, method, s);
   return kept.result;

@@ -8,13 +8,14 @@
 #include <utility>
 
 #include "asperity/base/error.h"
+#include "asperity/pipeline/reference.h"
 #include "asperity/pipeline/scan_evidence.h"
-#include "asperity/profile/apply_wiener_filter.h"
 #include "asperity/profile/estimate_texture_noise.h"
 #include "asperity/profile/find_contact.h"
 #include "asperity/profile/find_periodicity_under_noise.h"
 #include "asperity/profile/measure_roughness_under_noise.h"
 #include "asperity/profile/measure_surface_spectrum.h"
+#include "recorded_passes.h"
 
 namespace asperity::stage {
 
@@ -34,81 +35,10 @@ Outcome<T> attempt_step(const char* kind, const char* what, Step step) {
   return out;
 }
 
-double square(double x) { return x * x; }
-
-// The SNR of a texture from which the noise was removed but for `error_ratio` of it: with the error e² that is left of
-// a surface of power P, the expected texture's correlation with it is √(1 − e²/P).
-double snr_after_removal(const TextureNoise& noise, double more, double error_ratio) {
-  const double surface_m2 = square(noise.typical_texture_rms_m) - more * square(noise.typical_added_rms_m);
-  const double left_m2 =
-      more * (square(error_ratio * noise.typical_added_rms_m) + square(noise.typical_misplaced_rms_m));
-  return left_m2 > 0.0 ? std::max(0.0, surface_m2 / left_m2 - 1.0) : 0.0;
-}
-
-// The heights that are expected, given the noise in them. What is left of that is the noise of the texture then.
-void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise) {
-  if (noise.added_psd_m2_mm.empty()) return;
-  constexpr double kSure = 1.96;
-  const auto filter = [&](const std::vector<double>& psd_m2_mm) {
-    return apply_wiener_filter(profile.texture_m, profile.spacing_m, noise.frequency_cycles_per_mm, psd_m2_mm,
-                               bridge_m);
-  };
-  const WienerTexture expected = filter(noise.added_psd_m2_mm);
-  if (!std::isfinite(expected.error_ratio)) return;
-  const double scale_m2 = square(noise.scale_sigma * noise.texture_rms_m);
-  const double most = 1.0 + kSure * 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
-  std::vector<double> most_psd_m2_mm = noise.added_psd_m2_mm;
-  for (double& density : most_psd_m2_mm) density *= most;
-  noise.snr = snr_after_removal(noise, 1.0, expected.error_ratio);
-  noise.snr_low = snr_after_removal(noise, most, filter(most_psd_m2_mm).error_ratio);
-
-  // The misplaced heights and their scale.
-  const double kept_m2 = std::max(0.0, square(noise.noise_rms_m) - square(noise.added_rms_m));
-  const double left = std::sqrt(kept_m2 + square(expected.error_ratio * noise.added_rms_m)) / noise.noise_rms_m;
-  noise.noise_rms_m *= left;
-  noise.noise_rms_stderr_m *= left;
-  double expected_m2 = 0.0, points = 0.0;
-  for (std::size_t i = 0; i < profile.size(); ++i) {
-    if (!std::isfinite(expected.texture_m[i])) continue;
-    expected_m2 += square(expected.texture_m[i]);
-    points += 1.0;
-    profile.height_m[i] += expected.texture_m[i] - profile.texture_m[i];
-    profile.texture_m[i] = expected.texture_m[i];
-    profile.texture_sigma_m[i] = noise.added_sigma_m.empty()
-                                     ? profile.texture_sigma_m[i] * left
-                                     : std::sqrt(square(expected.error_ratio * noise.added_sigma_m[i]) +
-                                                 square(noise.misplaced_sigma_m[i]) + scale_m2);
-    // Waves about the cut-off are in the texture and below it, in phase: what is left of heights is no difference of
-    // powers.
-    if (!noise.slow_sigma_m.empty()) profile.sigma_m[i] = std::hypot(noise.slow_sigma_m[i], profile.texture_sigma_m[i]);
-  }
-  if (points > 0.0) {
-    noise.expected_correlation = std::sqrt(expected_m2 / (expected_m2 + points * square(noise.noise_rms_m)));
-  }
-}
-
 // The force sensor's axis, from the tip to the hand; none where the calibration gives it no direction.
 std::optional<Eigen::Vector3d> force_axis(const Calibration& calibration) {
   if (!calibration.force.axis_in_marker && calibration.tip_in_marker_m.isZero(0.0)) return std::nullopt;
   return calibration.force_axis_in_marker();
-}
-
-Coverage measure_coverage(const Profile& profile) {
-  Coverage out;
-  const auto present = [&](std::size_t i) { return std::isfinite(profile.height_m[i]); };
-  std::size_t first = 0;
-  std::size_t last = profile.size();
-  while (first < last && !present(first)) ++first;
-  while (last > first && !present(last - 1)) --last;
-  std::size_t covered = 0;
-  for (std::size_t i = first; i < last; ++i) {
-    covered += present(i) ? 1 : 0;
-    out.gaps += !present(i) && present(i - 1) ? 1 : 0;
-  }
-  if (last == first) return out;
-  out.length_m = static_cast<double>(last - 1 - first) * profile.spacing_m;
-  out.covered = static_cast<double>(covered) / static_cast<double>(last - first);
-  return out;
 }
 
 SpeedStatistics measure_speed(const Profile& profile) {
@@ -128,12 +58,19 @@ SpeedStatistics measure_speed(const Profile& profile) {
   return out;
 }
 
+// The surface under the tip; the tip's radius is the calibration's unless one is given.
+void erode(const Calibration& calibration, const TipConfig& config, MeasuredProfile& measured) {
+  const double radius_m = config.radius_m > 0.0 ? config.radius_m : calibration.tip_radius_m;
+  measured.surface = erode_profile(measured.profile, measured.noise, radius_m);
+}
+
 }  // namespace
 
 Outcome<TrajectoryResult> find_trajectory(const Recording& recording, const ProcessConfig& config,
                                           const ProcessMethod& method, const Observer& observer) {
   Outcome<TrajectoryResult> out;
   TrajectoryResult& trajectory = out.value.emplace(method.estimate_trajectory(recording, config, observer));
+  if (!trajectory.object) refer_trajectory(recording, config.reference, config.object, trajectory);
   out.problems = trajectory.problems;
 
   // Until the normal is known, a sensor of three axes is read along the probe's.
@@ -152,6 +89,12 @@ Outcome<TrajectoryResult> find_trajectory(const Recording& recording, const Proc
     out.problems.push_back({"no_force", "the force never changes: all of the path counts as scanned", 1});
   }
   return out;
+}
+
+const Recording& in_frame(const Recording& recording, ProcessStages& s) {
+  if (!s.trajectory.value->object) return recording;
+  if (!s.on_object) s.on_object = recording_on_object(recording, *s.trajectory.value);
+  return *s.on_object;
 }
 
 Outcome<BasePathResult> find_base_path(const Recording& recording, const ProcessConfig& config,
@@ -192,6 +135,7 @@ Outcome<MeasuredProfile> find_profile(const Recording& recording, const ProcessC
     const TrajectoryResult& trajectory = *before.trajectory.value;
     const BasePathResult& base = *before.base.value;
     out.profile = method.make_profile(config, trajectory.motion, base);
+    out.speed = measure_speed(out.profile);
     const HeightErrors errors =
         method.height_errors ? method.height_errors(recording, config, trajectory, base) : HeightErrors{};
     TextureNoiseEstimate noise = estimate_texture_noise(out.profile, errors, method.high_pass_cycles_per_mm(config),
@@ -200,9 +144,10 @@ Outcome<MeasuredProfile> find_profile(const Recording& recording, const ProcessC
     out.profile.texture_sigma_m = std::move(noise.texture_sigma_m);
     if (!noise.height_sigma_m.empty()) out.profile.sigma_m = std::move(noise.height_sigma_m);
     out.measured_texture_m = out.profile.texture_m;
+    if (config.profile.merge_passes) merge_recorded_passes(base, out);
     if (config.profile.remove_noise) remove_noise(config.profile.bridge_m, out.profile, out.noise);
     out.coverage = measure_coverage(out.profile);
-    out.speed = measure_speed(out.profile);
+    if (config.profile.tip.mode == TipMode::kErode) erode(recording.calibration, config.profile.tip, out);
     return out;
   });
 }
@@ -244,6 +189,12 @@ Outcome<StiffnessEstimate> estimate_stiffness(const ProcessConfig& config, const
   return {asperity::estimate_stiffness(before.trajectory.value->motion, base.path, base.contact, config.stiffness), {}};
 }
 
+Outcome<FrictionEstimate> estimate_friction(const ProcessConfig& config, const ProcessStages& before) {
+  if (!before.profile.value) return {};
+  const BasePathResult& base = *before.base.value;
+  return {asperity::estimate_friction(before.trajectory.value->motion, base.path, base.contact, config.friction), {}};
+}
+
 Outcome<FourierFit> fit_texture(const ProcessConfig& config, const ProcessStages& before) {
   if (!before.profile.value) return {};
   const Profile& profile = before.profile.value->profile;
@@ -264,6 +215,9 @@ Outcome<Accuracy> compare_with_truth(const Recording& recording, const ProcessCo
       texture_of = [&](const std::vector<double>& height_m) { return method.comparable_texture(config, height_m); };
     }
     out.value = measure_accuracy(recording, before.trajectory.value->motion, profile, config.comparison, texture_of);
+    // The truth goes along all strokes.
+    if (before.profile.value && before.profile.value->passes && before.profile.value->passes->agrees)
+      out.value->profile.reset();
   } catch (const Error& error) {
     out.problems.push_back({"no_accuracy", std::string("not compared with the truth: ") + error.what(), 1});
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "asperity/base/progress.h"
 #include "asperity/pipeline/process_config.h"
@@ -22,12 +23,15 @@ struct MeasuredProfile {
   Coverage coverage;
   SpeedStatistics speed;
   TextureNoise noise;
+  std::optional<MergedProfile> passes;  // without its profile
+  std::optional<ErodedProfile> surface;
 };
 
 // The outcomes of all stages between a recording and its texture. Without a base path or a profile those that need it
 // have no value and nothing to say.
 struct ProcessStages {
   Outcome<TrajectoryResult> trajectory;  // has a value
+  std::optional<Recording> on_object;    // the recording relative to the object, if the trajectory is
   Outcome<BasePathResult> base;
   Outcome<MeasuredProfile> profile;
   Outcome<RoughnessResult> roughness;
@@ -35,6 +39,7 @@ struct ProcessStages {
   Outcome<SurfaceSpectrum> spectrum;
   Outcome<Compliance> compliance;
   Outcome<StiffnessEstimate> stiffness;
+  Outcome<FrictionEstimate> friction;
   Outcome<FourierFit> fit;
   Outcome<Accuracy> accuracy;
 };
@@ -43,9 +48,12 @@ struct ProcessStages {
 // recording may not allow, such as roughness of too short a profile, is in the outcome.
 namespace stage {
 
-// Throws Error if the streams do not allow one, and Cancelled.
+// Relative to the object if there is one. Throws Error if the streams do not allow one, and Cancelled.
 Outcome<TrajectoryResult> find_trajectory(const Recording& recording, const ProcessConfig& config,
                                           const ProcessMethod& method, const Observer& observer);
+// The recording in the frame of the trajectory, for the stages behind it: of an object that moves `s.on_object`, made
+// at the first call.
+const Recording& in_frame(const Recording& recording, ProcessStages& s);
 // Also makes the motion's force_N that along the path's normal, if the method has it so.
 Outcome<BasePathResult> find_base_path(const Recording& recording, const ProcessConfig& config,
                                        const ProcessMethod& method, ProcessStages& before);
@@ -57,12 +65,22 @@ Outcome<SurfaceSpectrum> measure_spectrum(const ProcessStages& before);
 Outcome<Compliance> estimate_compliance(const Recording& recording, const ProcessConfig& config,
                                         const ProcessMethod& method, const ProcessStages& before);
 Outcome<StiffnessEstimate> estimate_stiffness(const ProcessConfig& config, const ProcessStages& before);
+Outcome<FrictionEstimate> estimate_friction(const ProcessConfig& config, const ProcessStages& before);
 Outcome<FourierFit> fit_texture(const ProcessConfig& config, const ProcessStages& before);
 // No value without a truth. One that does not fit says nothing against the measurement.
 Outcome<Accuracy> compare_with_truth(const Recording& recording, const ProcessConfig& config,
                                      const ProcessMethod& method, const ProcessStages& before);
 
 }  // namespace stage
+
+// The heights that are expected, given the noise in them (apply_wiener_filter.h); what is left of that is the noise of
+// the texture then. Without a density nothing changes.
+void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise);
+
+Coverage measure_coverage(const Profile& profile);
+
+// The texture of what was measured, `result.fit` among it.
+Texture join_texture(const std::string& object, const ProcessMethod& method, const ProcessResult& result);
 
 // The result of the stages' outcomes: their values, the texture made from them, and the verdict over all.
 ProcessResult join_stages(const Recording& recording, const ProcessConfig& config, const ProcessMethod& method,

@@ -16,7 +16,6 @@
 #include "asperity/pipeline/scan_points.h"
 #include "asperity/profile/base_path_on_mesh.h"
 #include "asperity/profile/make_profile.h"
-#include "asperity/verdict/judge_registration.h"
 #include "asperity/verdict/verdict_codes.h"
 
 namespace asperity {
@@ -75,13 +74,6 @@ void make_own_texture(const RegisterConfig& config, RegisteredScan& scan) {
                                 std::min(config.texture.coefficients_per_mm, nyquist)};
   texture.source.version = kVersion;
   scan.texture = std::move(texture);
-}
-
-// A motion known less well than a guess by hand.
-bool is_arbitrary(const RegistrationResult& registration) {
-  constexpr double kGuess_m = 5e-3;
-  return std::any_of(registration.undetermined.begin(), registration.undetermined.end(),
-                     [](const UndeterminedMotion& motion) { return !(motion.sigma_m < kGuess_m); });
 }
 
 // The motion with the tip where the registration has found it in the marker.
@@ -172,13 +164,7 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
   for (std::size_t k = 0; k < out.placements.size(); ++k) {
     Placement& placement = out.placements[k];
     append_problems(out.problems, placement.registration.problems);
-    placement.verdicts = judge_registration(pose_evidence(placement.registration));
-    // Where the scans say nothing the guess counts; without one the place is arbitrary.
-    if (!guess && is_arbitrary(placement.registration)) {
-      placement.verdicts.push_back(make_verdict(
-          "pose_arbitrary", "without a guess, where the scans lie along undetermined motions is arbitrary"));
-    }
-    sort_verdicts(placement.verdicts);
+    placement.verdicts = judge_pose(placement.registration, guess.has_value());
     for (const std::size_t i : placement.scans) out.scans[i].placement = k;
     if (out.placements.size() == 1) {
       out.verdicts = placement.verdicts;

@@ -9,7 +9,9 @@
 #include "asperity/base/units.h"
 #include "asperity/pipeline/compare_specific_force.h"
 #include "asperity/pipeline/compare_with_tracker.h"
+#include "asperity/pipeline/reference.h"
 #include "asperity/profile/find_contact.h"
+#include "asperity/verdict/verdict_codes.h"
 
 namespace asperity {
 
@@ -56,11 +58,13 @@ std::string why_absent(const Problems& problems, std::string_view kind) {
   return {};
 }
 
+double metric_of(const TrajectoryResult& trajectory, const char* name) {
+  const auto found = trajectory.metrics.find(name);
+  return found == trajectory.metrics.end() ? ScanEvidence::kUnknown : found->second;
+}
+
 void add_streams(const Recording& recording, const TrajectoryResult& trajectory, ScanEvidence& out) {
-  const auto metric = [&](const char* name) {
-    const auto found = trajectory.metrics.find(name);
-    return found == trajectory.metrics.end() ? ScanEvidence::kUnknown : found->second;
-  };
+  const auto metric = [&](const char* name) { return metric_of(trajectory, name); };
   const auto count = [&](const char* name) {
     const double value = metric(name);
     return value > 0.0 ? static_cast<std::size_t>(value) : 0;
@@ -115,6 +119,16 @@ PoseEvidence pose_evidence(const RegistrationResult& registration) {
     out.rival_distance_m = registration.runner_up->distance_m;
     out.rival_rotation_rad = registration.runner_up->rotation_rad;
   }
+  const PoseRivals& rivals = registration.rivals;
+  if (rivals.judged) {
+    out.sigma_m = rivals.sigma_m;
+    out.sigma_rad = rivals.sigma_rad;
+    out.slow_ratio = rivals.slow_ratio;
+    out.outlying = rivals.outlying;
+    out.searched = rivals.searched;
+    out.symmetric_copies = rivals.symmetric_copies;
+    out.symmetric_motion = rivals.symmetric_motion;
+  }
   const PoseMisfit& misfit = registration.misfit;
   out.slow_m = misfit.slow_m;
   out.explained_m = misfit.explained_m;
@@ -123,6 +137,21 @@ PoseEvidence pose_evidence(const RegistrationResult& registration) {
   out.guess_rotation_rad = misfit.guess_rotation_rad;
   out.guess_sigma_m = misfit.guess_sigma_m;
   out.guess_sigma_rad = misfit.guess_sigma_rad;
+  out.guess_stated = misfit.guess_stated;
+  return out;
+}
+
+Verdicts judge_pose(const RegistrationResult& registration, bool guessed) {
+  Verdicts out = judge_registration(pose_evidence(registration));
+  constexpr double kGuess_m = 5e-3;  // known less well than this, a motion is known less well than from a guess by hand
+  const bool arbitrary = std::any_of(registration.undetermined.begin(), registration.undetermined.end(),
+                                     [](const UndeterminedMotion& motion) { return !(motion.sigma_m < kGuess_m); });
+  // Where the pose was weighed, the standard deviations say it, and leave out what the mesh is its own image along.
+  if (!guessed && arbitrary && !registration.rivals.judged) {
+    out.push_back(
+        make_verdict("pose_arbitrary", "without a guess, where the scans lie along undetermined motions is arbitrary"));
+    sort_verdicts(out);
+  }
   return out;
 }
 
@@ -195,6 +224,8 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
   out.snr = result.noise.snr;
   out.expected_correlation = result.noise.expected_correlation;
   out.at_most_m = result.noise.at_most_m;
+  out.sticks = result.friction.sticks;
+  out.stuck_share = result.friction.stuck_share;
 }
 
 }  // namespace
@@ -202,7 +233,14 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
 ScanEvidence scan_evidence(const Recording& recording, const ProcessResult& result) {
   ScanEvidence out;
   add_streams(recording, result.trajectory, out);
-  add_measured(recording, result, out);
+  out.object_seen_share = metric_of(result.trajectory, "object_seen_share");
+  out.object_moved_m = metric_of(result.trajectory, "object_moved_m");
+  out.object_turned_rad = metric_of(result.trajectory, "object_turned_rad");
+  if (result.trajectory.object) {
+    add_measured(recording_on_object(recording, result.trajectory), result, out);
+  } else {
+    add_measured(recording, result, out);
+  }
   return out;
 }
 

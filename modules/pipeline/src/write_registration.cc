@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -15,8 +15,7 @@
 #include "asperity/json/config_json.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/pipeline/write_result.h"
-#include "asperity/scene/read_scene.h"
-#include "asperity/scene/write_scene.h"
+#include "asperity/scene/scan_materials.h"
 #include "asperity/verdict/verdict_json.h"
 #include "json.h"
 
@@ -57,6 +56,20 @@ Json covariance_json(const RegistrationResult& registration) {
   return out;
 }
 
+Json warp_json(const HapticWarp& warp) {
+  return {{"triangles", warp.triangles},
+          {"stretch_min", number_or_null(warp.stretch_min)},
+          {"stretch_max", number_or_null(warp.stretch_max)},
+          {"stretch_rms", number_or_null(warp.stretch_rms)},
+          {"folded", warp.folded.size()},
+          {"stretched", warp.stretched.size()},
+          {"overlapping", warp.overlapping.size()},
+          {"along_rms_m", number_or_null(warp.along_rms_m)},
+          {"along_max_m", number_or_null(warp.along_max_m)},
+          {"across_rms_m", number_or_null(warp.across_rms_m)},
+          {"length_ratio", number_or_null(warp.length_ratio)}};
+}
+
 // Of the pose that the scan shares with those of its placement, and of what was measured along it.
 Verdicts verdicts_of(const ScansOnMesh& result, const RegisteredScan& scan) {
   Verdicts out = result.placements[scan.placement].verdicts;
@@ -91,8 +104,8 @@ Json placement_json(const ScansOnMesh& result, const Placement& placement) {
   return out;
 }
 
-Json scan_json(const ScansOnMesh& result, std::size_t index) {
-  const RegisteredScan& scan = result.scans[index - 1];
+Json scan_json(const ScansOnMesh& result, const RegisteredScan& scan, const ScanPlace& place,
+               const std::vector<std::string>& files, const HapticWarp* warp) {
   Json out = pose_with_error_json(result.registration_of(scan));
   const Verdicts verdicts = verdicts_of(result, scan);
   out["name"] = scan.name;
@@ -100,10 +113,11 @@ Json scan_json(const ScansOnMesh& result, std::size_t index) {
   if (scan.tip_sigma_m) {
     out["tip"] = {{"shift_m", vector_json(scan.tip_shift_m)}, {"sigma_m", vector_json(*scan.tip_sigma_m)}};
   }
-  out["placement"] = scan.placement + 1;
+  out["placement"] = place.placement;
   out["verdict"] = verdict_word(verdicts);
   out["verdicts"] = verdicts_json(verdicts);
-  out["texture"] = index;
+  out["texture"] = place.texture;
+  out["order"] = place.order;
   out["length_m"] = scan.path.s_m.empty() ? 0.0 : scan.path.s_m.back() - scan.path.s_m.front();
   out["points"] = scan.path.size();
   if (scan.path_texture) {
@@ -115,7 +129,9 @@ Json scan_json(const ScansOnMesh& result, std::size_t index) {
                           {"rms_error_m", fit.rms_error_m}};
   }
   out["base_rms_m"] = scan.process.base.base_rms_m;
+  if (warp != nullptr) out["warp"] = warp_json(*warp);
   out["problems"] = problems_json(scan.process.problems);
+  out["files"] = files;
   return out;
 }
 
@@ -126,19 +142,7 @@ Json coordinates_json(const HapticCoordinates& coordinates) {
   out["triangles"] = textured;
   out["contested"] = coordinates.contested;
   out["warps"] = Json::array();
-  for (const HapticWarp& warp : coordinates.warps) {
-    out["warps"].push_back({{"triangles", warp.triangles},
-                            {"stretch_min", number_or_null(warp.stretch_min)},
-                            {"stretch_max", number_or_null(warp.stretch_max)},
-                            {"stretch_rms", number_or_null(warp.stretch_rms)},
-                            {"folded", warp.folded.size()},
-                            {"stretched", warp.stretched.size()},
-                            {"overlapping", warp.overlapping.size()},
-                            {"along_rms_m", number_or_null(warp.along_rms_m)},
-                            {"along_max_m", number_or_null(warp.along_max_m)},
-                            {"across_rms_m", number_or_null(warp.across_rms_m)},
-                            {"length_ratio", number_or_null(warp.length_ratio)}});
-  }
+  for (const HapticWarp& warp : coordinates.warps) out["warps"].push_back(warp_json(warp));
   return out;
 }
 
@@ -152,47 +156,109 @@ std::set<std::string> listed_files(const fs::path& file) {
   return out;
 }
 
-Material material_of(const Texture& texture) {
-  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  return {texture.compliance_kc.value_or(kUnknown), texture.stiffness_N_per_m.value_or(kUnknown),
-          texture.friction.value_or(kUnknown)};
+// The textures of this call, with what is known of where they came from.
+std::vector<SceneTexture> textures_of(const ScansOnMesh& result, const std::vector<ScanPlace>& places,
+                                      const std::vector<Scan>& scans, const std::string& date) {
+  RegisterConfig config = result.config, usual;
+  const Json settings = changed_settings(list_fields("", config), list_fields("", usual));
+  std::vector<SceneTexture> out;
+  for (std::size_t i = 0; i < result.scans.size(); ++i) {
+    if (!result.scans[i].texture) continue;
+    TextureOrigin origin;
+    origin.kind = kScanOrigin;
+    const std::string& name = result.scans[i].name;
+    origin.name = is_utf8(name) ? name : printable(name, 1000);
+    if (i < scans.size()) origin.checksum = scans[i].checksum;
+    origin.T_mesh_world = result.registration_of(result.scans[i]).T_mesh_world;
+    origin.placement = places[i].placement;
+    origin.date = date;
+    origin.version = kVersion;
+    origin.settings = settings;
+    out.push_back({places[i].texture, places[i].file, *result.scans[i].texture, places[i].order, std::move(origin)});
+  }
+  return out;
 }
 
-bool is_known(const Material& material) {
-  return std::isfinite(material.compliance_kc) || std::isfinite(material.stiffness_N_per_m) ||
-         std::isfinite(material.friction);
+// The coordinates of this call by the scene's indices.
+std::vector<CoveredTriangle> claims_of(const HapticCoordinates& coordinates, const std::vector<ScanPlace>& places) {
+  std::vector<CoveredTriangle> out;
+  const auto add = [&](std::uint32_t triangle, HapticTriangle haptic) {
+    if (haptic.texture < 1) return;
+    const auto scan = static_cast<std::size_t>(haptic.texture - 1);
+    haptic.texture = places[scan].texture;
+    out.push_back({triangle, haptic});
+  };
+  auto covered = coordinates.covered.begin();
+  for (std::uint32_t t = 0; t < coordinates.triangles.size(); ++t) {
+    for (; covered != coordinates.covered.end() && covered->triangle == t; ++covered) add(t, covered->haptic);
+    add(t, coordinates.triangles[t]);
+  }
+  return out;
+}
+
+std::vector<std::string> files_below(const fs::path& folder, const fs::path& root) {
+  std::vector<std::string> out;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_directory()) out.push_back(fs::relative(entry.path(), root).generic_string());
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+std::vector<std::string> names_of(const ScansOnMesh& result) {
+  std::vector<std::string> out;
+  for (const RegisteredScan& scan : result.scans) out.push_back(scan.name);
+  return out;
+}
+
+// The places with the placements of this call, numbered on from those that the scene has.
+std::vector<ScanPlace> places_of(const EarlierScene& earlier, const ScansOnMesh& result) {
+  std::vector<ScanPlace> out = place_scans(earlier, names_of(result));
+  const auto stored = static_cast<int>(stored_placements(earlier, names_of(result)).size());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i].placement = stored + static_cast<int>(result.scans[i].placement) + 1;
+  return out;
+}
+
+// A scan's path on the mesh, mesh frame.
+std::string format_path_csv(const MeshPath& path) {
+  std::string out = "s_m,px_m,py_m,pz_m,triangle\n";
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    append_number(out, path.s_m[i]);
+    for (const double p : path.p_mesh_m[i]) {
+      out += ',';
+      append_number(out, p);
+    }
+    out += ',' + std::to_string(path.triangle[i]) + '\n';
+  }
+  return out;
 }
 
 }  // namespace
 
-Scene make_scene(const ScansOnMesh& result, const MeshFile& mesh, double unit_m) {
-  SceneObject object;
-  object.mesh_file = "textured.obj";
-  object.unit_m = unit_m;
-  object.mesh = mesh;
-  object.mesh.haptic = result.coordinates.triangles;
-  std::vector<int> textures;
-  std::vector<Material> materials;
-  bool any = false;
-  for (std::size_t i = 0; i < result.scans.size(); ++i) {
-    if (!result.scans[i].texture) continue;
-    const int index = static_cast<int>(i) + 1;
-    object.textures.push_back({index, "scan" + std::to_string(index) + ".texture.json", *result.scans[i].texture});
-    textures.push_back(index);
-    materials.push_back(material_of(*result.scans[i].texture));
-    any = any || is_known(materials.back());
+void add_scans(Scene& scene, const ScansOnMesh& result, const std::vector<ScanPlace>& places,
+               const std::vector<Scan>& scans, const std::string& date) {
+  SceneObject& object = scene.objects.front();
+  const bool measured = is_of_scans(object);
+  for (const ScanPlace& place : places) {
+    if (place.replaces) take_out_texture(object, place.texture);
   }
-  if (any) {
-    object.material = spread_materials(mesh.vertices.size(), mesh.triangles, object.mesh.haptic, textures, materials);
-    object.material_file = "material.csv";
-  }
-  Scene scene;
-  scene.objects.push_back(std::move(object));
-  scene.T_mesh_world = result.placements.front().registration.T_mesh_world;
-  return scene;
+  for (SceneTexture& texture : textures_of(result, places, scans, date)) put_texture(object, std::move(texture));
+  lay_triangles(object, claims_of(result.coordinates, places));
+  if (measured) set_scan_materials(object, free_file_name(scene, "material.csv"));
+  const std::vector<const SceneTexture*> all = scans_of(scene);
+  scene.T_mesh_world =
+      all.empty() ? result.placements.front().registration.T_mesh_world : all.front()->origin->T_mesh_world;
 }
 
-std::string format_registration(const ScansOnMesh& result, std::span<const std::string> files) {
+Scene make_scene(const ScansOnMesh& result, const MeshFile& mesh, double unit_m) {
+  EarlierScene earlier = scene_of_mesh(mesh, unit_m);
+  add_scans(earlier.scene, result, places_of(earlier, result), {}, {});
+  return std::move(earlier.scene);
+}
+
+Json registration_json(const ScansOnMesh& result, const std::vector<ScanPlace>& places,
+                       const std::vector<std::vector<std::string>>& files, const EarlierScene& earlier) {
   const RegistrationResult& registration = result.placements.front().registration;
   Json out;
   out["format"] = "asperity-registration";
@@ -211,20 +277,28 @@ std::string format_registration(const ScansOnMesh& result, std::span<const std::
   out["verdict"] = result.verdict.empty() ? registration.verdict : result.verdict;
   out["verdicts"] = verdicts_json(result.verdicts);
   out["covariance"] = pose_with_error_json(registration).at("covariance");
-  out["placements"] = Json::array();
+  out["placements"] = stored_placements(earlier, names_of(result));
   for (const Placement& placement : result.placements) out["placements"].push_back(placement_json(result, placement));
   out["bulge"] = {{"share", number_or_null(result.bulge_share)}, {"sigma", number_or_null(result.bulge_sigma)}};
   out["overlaps"] = {{"crossings", result.crossings}, {"shifts", result.matched_shifts}};
+  out["registered"] = names_of(result);
+  std::map<int, Json> scans = stored_scans(earlier);
+  for (std::size_t i = 0; i < result.scans.size(); ++i) {
+    const HapticWarp* warp = i < result.coordinates.warps.size() ? &result.coordinates.warps[i] : nullptr;
+    scans[places[i].texture] = scan_json(result, result.scans[i], places[i], files[i], warp);
+  }
   out["scans"] = Json::array();
-  for (std::size_t i = 0; i < result.scans.size(); ++i) out["scans"].push_back(scan_json(result, i + 1));
+  for (auto& [index, scan] : scans) {
+    if (scan.value("verdict", "") == "invalid") out["trustworthy"] = false;
+    out["scans"].push_back(std::move(scan));
+  }
   out["coordinates"] = coordinates_json(result.coordinates);
   out["problems"] = problems_json(result.problems);
-  out["files"] = files;
+  out["files"] = Json::array();
   RegisterConfig config = result.config;
   out["config"] = config_json(list_fields("", config));
   out["asperity"] = kVersion;
-  // Names come from files; what is not UTF-8 in them must not stop the writing.
-  return out.dump_repaired(2) + "\n";
+  return out;
 }
 
 bool is_registration_folder(const fs::path& folder) noexcept {
@@ -243,16 +317,14 @@ bool is_registration_folder(const fs::path& folder) noexcept {
 }
 
 void write_registration(const fs::path& folder, const ScansOnMesh& result, const std::vector<Scan>& scans,
-                        const MeshFile& mesh, double unit_m) {
-  for (const RegisteredScan& scan : result.scans) {
-    const bool one_name = stays_inside(scan.name) && !fs::path(scan.name).has_parent_path();
-    if (result.scans.size() > 1 && !one_name)
-      throw Error("registration: '" + printable(scan.name) + "' cannot be the name of a scan's folder");
-  }
-  write_scene(folder / "scene.json", make_scene(result, mesh, unit_m));
+                        EarlierScene earlier, bool listing) {
+  const std::vector<ScanPlace> places = places_of(earlier, result);
+  std::set<std::string> dropped;
+  std::vector<std::vector<std::string>> files;
   for (std::size_t i = 0; i < result.scans.size(); ++i) {
     const RegisteredScan& scan = result.scans[i];
-    const fs::path place = result.scans.size() == 1 ? folder : folder / scan.name;
+    if (places[i].replaces) dropped.merge(files_of_scan(earlier, scan.name));
+    const fs::path place = folder / places[i].folder;
     fs::create_directories(place);
     if (scan.is_recording) {
       write_result(place, scan.process, *scans[i].recording, scan.name);
@@ -260,13 +332,17 @@ void write_registration(const fs::path& folder, const ScansOnMesh& result, const
       write_file(place / "profile.csv", format_profile_csv(scan.process.profile));
       write_file(place / "spectrum.csv", format_spectrum_csv(scan.process.spectrum));
     }
+    if (scan.path.size() > 0) write_file(place / "path.csv", format_path_csv(scan.path));
+    files.push_back(files_below(place, folder));
   }
-  std::vector<std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_directory()) files.push_back(fs::relative(entry.path(), folder).generic_string());
-  }
-  std::sort(files.begin(), files.end());
-  write_file(folder / "registration.json", format_registration(result, files));
+  earlier.registration = registration_json(result, places, files, earlier);
+  add_scans(earlier.scene, result, places, scans, earlier.date);
+  write_scene_again(folder, earlier, dropped, listing);
+}
+
+void write_registration(const fs::path& folder, const ScansOnMesh& result, const std::vector<Scan>& scans,
+                        const MeshFile& mesh, double unit_m) {
+  write_registration(folder, result, scans, scene_of_mesh(mesh, unit_m));
 }
 
 }  // namespace asperity

@@ -79,14 +79,17 @@ std::string format_trajectory_csv(const TipMotion& motion) {
   return out;
 }
 
-std::string format_profile_csv(const Profile& profile) {
-  std::string out = "s_m,height_m,sigma_m,texture_m,force_N,speed_mps,texture_sigma_m\n";
-  out.reserve(out.size() + profile.size() * 7 * kCell_bytes);
+std::string format_profile_csv(const Profile& profile, const ErodedProfile* surface) {
+  const bool eroded = surface != nullptr && surface->determined;
+  std::string out = "s_m,height_m,sigma_m,texture_m,force_N,speed_mps,texture_sigma_m";
+  out += eroded ? ",surface_m,touched\n" : "\n";
+  out.reserve(out.size() + profile.size() * (eroded ? 9 : 7) * kCell_bytes);
   for (std::size_t i = 0; i < profile.size(); ++i) {
     append_number(out, profile.s_m[i]);
     const double texture_sigma_m = profile.texture_sigma_m.empty() ? kNan : profile.texture_sigma_m[i];
     append_cells(out, {profile.height_m[i], profile.sigma_m[i], profile.texture_m[i], profile.force_N[i],
                        profile.speed_mps[i], texture_sigma_m});
+    if (eroded) append_cells(out, {surface->surface_m[i], surface->touched[i] != 0 ? 1.0 : 0.0});
     out += '\n';
   }
   return out;
@@ -107,7 +110,7 @@ std::string format_spectrum_csv(const SurfaceSpectrum& spectrum) {
 void write_result(const fs::path& folder, const ProcessResult& result, const Recording& recording,
                   const std::string& name) {
   write_file(folder / "trajectory.csv", format_trajectory_csv(result.trajectory.motion));
-  write_file(folder / "profile.csv", format_profile_csv(result.profile));
+  write_file(folder / "profile.csv", format_profile_csv(result.profile, result.surface ? &*result.surface : nullptr));
   write_file(folder / "spectrum.csv", format_spectrum_csv(result.spectrum));
   if (result.texture) {
     Texture texture = *result.texture;

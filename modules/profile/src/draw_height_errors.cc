@@ -181,6 +181,8 @@ HeightErrors errors_along(const HeightErrors& errors) {
   out.accel_walk_psd_m2ps5 = errors.accel_walk_psd_m2ps5;
   out.tracker_slow_sigma_m = errors.tracker_slow_sigma_m;
   out.tracker_slow_time_s = errors.tracker_slow_time_s;
+  out.object = errors.along_object;
+  out.object_slow_time_s = errors.object_slow_time_s;
   return out;
 }
 

@@ -15,8 +15,8 @@ namespace asperity {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kDegree_rad = kPi / 180.0;
+constexpr double kPiOfFit = std::numbers::pi;
+constexpr double kDegreeOfFit_rad = kPiOfFit / 180.0;
 
 // The plane through the coarse points that most of them agree on: first by the sum of distances, then
 // by Tukey's weights, so that an approach without a force sensor to mark it does not tilt it.
@@ -53,7 +53,7 @@ Eigen::Vector3d mean_axis(const PathEvidence& evidence) {
 }
 
 // Smallest rotation from b to a for directions without a sign, in (-π/2, π/2].
-double axial_difference(double a, double b) { return std::remainder(a - b, kPi); }
+double axial_difference(double a, double b) { return std::remainder(a - b, kPiOfFit); }
 
 }  // namespace
 
@@ -68,7 +68,7 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
   const double axis_phi = std::atan2(axis_2, axis_3);
 
   const Eigen::Matrix3d fine = mean_fine(evidence);
-  const double axis_sigma = config.probe_axis_sigma_deg * kDegree_rad;
+  const double axis_sigma = config.probe_axis_sigma_deg * kDegreeOfFit_rad;
 
   const bool use_path = config.shape != PathShape::kLine;
   // A path that leaves the plane by more than the slow error says less about it.
@@ -78,7 +78,7 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
   std::vector<double> log_density(kSteps);
   int best = 0;
   for (int k = 0; k < kSteps; ++k) {
-    const double phi = (static_cast<double>(k) / kSteps - 0.5) * kPi;
+    const double phi = (static_cast<double>(k) / kSteps - 0.5) * kPiOfFit;
     const double c = std::cos(phi), s = std::sin(phi);
     double value = 0.0;
     if (use_path)
@@ -87,12 +87,12 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
     log_density[static_cast<std::size_t>(k)] = value;
     if (value > log_density[static_cast<std::size_t>(best)]) best = k;
   }
-  constexpr double kHump_rad = 30.0 * kDegree_rad;
+  constexpr double kHump_rad = 30.0 * kDegreeOfFit_rad;
   double sum = 0.0, near = 0.0, first = 0.0, second = 0.0;
   for (int d = -kSteps / 2; d < kSteps / 2; ++d) {
     const auto k = static_cast<std::size_t>((best + d + kSteps) % kSteps);
     const double density = std::exp(log_density[k] - log_density[static_cast<std::size_t>(best)]);
-    const double x = d * kPi / kSteps;
+    const double x = d * kPiOfFit / kSteps;
     sum += density;
     second += density * x * x;
     if (std::abs(x) > kHump_rad) continue;
@@ -101,7 +101,7 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
   }
   // The mean of the hump about the mode: the mean over two humps would lie in neither.
   const double shift = first / near;
-  const double phi = (static_cast<double>(best) / kSteps - 0.5) * kPi + shift;
+  const double phi = (static_cast<double>(best) / kSteps - 0.5) * kPiOfFit + shift;
 
   PlaneCandidate out;
   out.normal = std::cos(phi) * e3 + std::sin(phi) * e2;
@@ -139,7 +139,8 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
 
 namespace {
 
-constexpr double kAxisTilt_rad = 30.0 * kDegree_rad;  // of the cylinder's axis from the path's normal, a weak prior
+constexpr double kAxisTilt_rad =
+    30.0 * kDegreeOfFit_rad;  // of the cylinder's axis from the path's normal, a weak prior
 
 // A stroke with the forearm about the elbow is an arc of 0.33 m: what a hand's stroke bends sideways on the body.
 constexpr double kSideways_per_m = 3.0;
@@ -149,7 +150,7 @@ constexpr double kSideways_per_m = 3.0;
 // kSideways_per_m R.
 Eigen::Matrix3d across_information(const CircleCandidate& circle, const PathEvidence& evidence,
                                    const BasePathConfig& config) {
-  const double axis_sigma = config.probe_axis_sigma_deg * kDegree_rad,
+  const double axis_sigma = config.probe_axis_sigma_deg * kDegreeOfFit_rad,
                curvature_sigma = kSideways_per_m * circle.radius_m;
   const double count = static_cast<double>(evidence.coarse_m.size());
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
@@ -325,7 +326,7 @@ double circle_log_odds(const PlaneCandidate& plane, const CircleCandidate& circl
                        const BasePathConfig& config) {
   constexpr double kNever = -50.0;
   if (!(circle.significance > 4.0)) return kNever;
-  const double axis_sigma = std::max(config.probe_axis_sigma_deg, 25.0) * kDegree_rad;
+  const double axis_sigma = std::max(config.probe_axis_sigma_deg, 25.0) * kDegreeOfFit_rad;
   double odds = 0.0;
   if (mean_axis(evidence).norm() > 0.1) {
     odds += 0.5 * (plane.tilt_rad * plane.tilt_rad - circle.tilt_rad * circle.tilt_rad) / (axis_sigma * axis_sigma);

@@ -26,6 +26,17 @@ double rotation_density(const HeightErrors& errors, double omega) {
   return accel > 0.0 ? accel * tracker / (accel + tracker * std::pow(omega, 4)) : 0.0;
 }
 
+double object_density(const std::vector<ObjectAxisError>& axes, double slow_time_s, double omega) {
+  double out = 0.0;
+  for (const ObjectAxisError& axis : axes) {
+    if (!(axis.pose_psd > 0.0) || !(axis.motion_psd > 0.0)) continue;
+    const double share = axis.motion_psd / (axis.motion_psd + axis.pose_psd * std::pow(omega, 4));
+    const double slow = 4.0 * std::pow(axis.slow_sigma, 2) * slow_time_s / (1.0 + std::pow(omega * slow_time_s, 2));
+    out += axis.weight * (share * axis.pose_psd + share * share * slow);
+  }
+  return out;
+}
+
 }  // namespace
 
 double height_error_density_m2ps(const HeightErrors& errors, double frequency_Hz) {
@@ -40,7 +51,7 @@ double height_error_density_m2ps(const HeightErrors& errors, double frequency_Hz
                       (1.0 + std::pow(omega * errors.tracker_slow_time_s, 2));
   const double crosstalk = interpolated_density(errors.crosstalk_Hz, errors.crosstalk_m2ps, frequency_Hz);
   return share * tracker + share * share * slow + (1.0 - share) * (1.0 - share) * crosstalk +
-         std::pow(errors.lever_m, 2) * rotation +
+         std::pow(errors.lever_m, 2) * rotation + object_density(errors.object, errors.object_slow_time_s, omega) +
          interpolated_density(errors.crosstalk_Hz, errors.leaning_m2ps, frequency_Hz);
 }
 

@@ -67,8 +67,8 @@ NormalForce find_normal_force(const TipMotion& motion, std::span<const double> a
   if (samples == 0.0) return out;
   out.share = share_sum / samples;
   if (three_axes) {
-    out.friction = against_sum_N / normal_sum_N / (travel_sum / samples);
-    out.relative_sigma = std::abs(out.friction) * normal_sigma_rad;
+    out.tangential_share = against_sum_N / normal_sum_N / (travel_sum / samples);
+    out.relative_sigma = std::abs(out.tangential_share) * normal_sigma_rad;
   } else if (axis_in_marker && out.share >= assumed.least_share) {
     // A normal turned by φ changes a·n by up to sin(angle) φ.
     const double turned = std::sqrt(std::max(0.0, 1.0 - out.share * out.share)) * normal_sigma_rad / out.share;

@@ -48,7 +48,7 @@ TEST(NormalForce, ThreeAxesGiveItWhateverTheAngleAndTheFriction) {
         find_normal_force(rub.motion, rub.axial_N, rub.path, rub.contact, rub.axis_in_marker, 0.0);
     EXPECT_EQ(found.source, ForceSource::kThreeAxes);
     for (const double force : found.force_N) ASSERT_NEAR(force, Rub::kNormal_N, 1e-12);
-    EXPECT_NEAR(found.friction, 0.4, 1e-9);
+    EXPECT_NEAR(found.tangential_share, 0.4, 1e-9);
   }
 }
 

@@ -135,9 +135,9 @@ class Recorder::Parts {
     if (sensors.probe_describes_itself) probe_->wait_for_description(config.describe_s);
     start_ns_ = host_now_ns();  // the wait is none of the recording's time
     const auto description = probe_->description();
-    writer_.emplace(folder, with_rates(info), calibration ? *calibration : nominal(description), description,
-                    poses_.has_value(), config);
-    info_writer_.emplace(folder, config.sync_s);
+    writer_.emplace(folder, with_tracker(info, calibration), calibration ? *calibration : nominal(description),
+                    description, poses_.has_value(), config);
+    info_writer_.emplace(folder, with_tracker(info, calibration).bodies, config.sync_s);
     thread_ = std::thread([this] { run(); });
   }
 
@@ -160,7 +160,8 @@ class Recorder::Parts {
   }
 
  private:
-  RecordingInfo with_rates(RecordingInfo info) const {
+  RecordingInfo with_tracker(RecordingInfo info, const std::optional<Calibration>& calibration) const {
+    if (poses_ && calibration && info.bodies.empty()) info.bodies = tracked_bodies(calibration->markers);
     if (poses_ && poses_->nominal_rate_Hz() > 0.0) info.tracker_rate_Hz = poses_->nominal_rate_Hz();
     return info;
   }
@@ -258,6 +259,9 @@ class Recorder::Parts {
   void publish(RecorderSnapshot now) {
     writer_->describe(now);
     if (now.pose) now.pose_age_s = seconds(host_now_ns() - now.pose->t_ns);
+    for (BodySnapshot& body : now.bodies) {
+      if (body.pose) body.pose_age_s = seconds(host_now_ns() - body.pose->t_ns);
+    }
     now.highest_write_s = highest_write_s_;
     now.failure = failure_;
     const std::lock_guard lock(snapshot_mutex_);

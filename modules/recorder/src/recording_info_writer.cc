@@ -13,8 +13,14 @@
 
 namespace asperity {
 
-RecordingInfoWriter::RecordingInfoWriter(std::filesystem::path folder, double sync_s)
-    : folder_(std::move(folder)), sync_s_(sync_s), thread_([this] { run(); }) {}
+RecordingInfoWriter::RecordingInfoWriter(std::filesystem::path folder, const std::vector<TrackedBody>& bodies,
+                                         double sync_s)
+    : folder_(std::move(folder)),
+      files_{"recording.json", "probe.csv", "tracker.csv", "checksums.txt", "."},
+      sync_s_(sync_s) {
+  for (const TrackedBody& body : bodies) files_.push_back(body_file(body.name));
+  thread_ = std::thread([this] { run(); });
+}
 
 RecordingInfoWriter::~RecordingInfoWriter() {
   {
@@ -69,7 +75,7 @@ void RecordingInfoWriter::run() {
 }
 
 void RecordingInfoWriter::sync() const {
-  for (const char* name : {"recording.json", "probe.csv", "tracker.csv", "checksums.txt", "."}) {
+  for (const std::string& name : files_) {
     const int file = ::open((folder_ / name).c_str(), O_RDONLY | O_CLOEXEC);
     const bool done = file >= 0 && ::fsync(file) == 0;
     const std::string reason = std::strerror(errno);

@@ -6,16 +6,17 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "asperity/recording/recording.h"
 
 namespace asperity {
 
 // Does in a thread of its own what may wait for the disk while rows are written: replaces recording.json, and forces
-// the files to the disk every `sync_s`.
+// the files, those of `bodies` too, to the disk every `sync_s`.
 class RecordingInfoWriter {
  public:
-  RecordingInfoWriter(std::filesystem::path folder, double sync_s);  // 0: never
+  RecordingInfoWriter(std::filesystem::path folder, const std::vector<TrackedBody>& bodies, double sync_s);  // 0: never
   // Ends; an info that is not yet written is left.
   ~RecordingInfoWriter();
   RecordingInfoWriter(const RecordingInfoWriter&) = delete;
@@ -33,6 +34,7 @@ class RecordingInfoWriter {
   void sync() const;
 
   std::filesystem::path folder_;
+  std::vector<std::string> files_;
   double sync_s_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;

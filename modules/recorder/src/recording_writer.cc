@@ -47,6 +47,7 @@ RecordingWriter::RecordingWriter(const std::filesystem::path& folder, RecordingI
       gravity_(config.rest, calibration),
       appender_(folder, info_, calibration, columns_of(description, has_poses)),
       segments_(appender_, nanoseconds(config.pre_roll_s)) {
+  for (const TrackedBody& body : info_.bodies) bodies_.emplace_back().name = body.name;
   if (config.mode == StoreMode::kSegments && config.start_at_once) begin("segment_", SegmentWriter::kFromFirstRow);
   write_recording_info(folder / "recording.json", current_info(false));
 }
@@ -64,10 +65,15 @@ void RecordingWriter::add(std::span<const ProbeSample> samples) {
 
 void RecordingWriter::add(std::span<const TrackerSample> poses) {
   for (const TrackerSample& pose : poses) {
+    if (pose.body > bodies_.size()) continue;  // a body that this recording does not have
     segments_.add(pose);
+    if (pose.body > 0) {
+      bodies_[pose.body - 1].pose = pose;
+      continue;
+    }
     gravity_.add_pose(pose.t_ns, pose.T_world_marker);
+    pose_ = pose;
   }
-  if (!poses.empty()) pose_ = poses.back();
   if (segments_.settle()) changed_ = true;
 }
 
@@ -188,6 +194,8 @@ void RecordingWriter::describe(RecorderSnapshot& out) const {
   out.contact_ready = contact_.ready();
   out.touches = touches_;
   out.pose = pose_;
+  out.bodies = bodies_;
+  for (std::size_t i = 0; i < out.bodies.size(); ++i) out.bodies[i].rows = segments_.body_rows(i + 1);
   out.storing = segments_.is_open();
   out.segments = segments_.count();
   out.segment_list = segments_.segments();

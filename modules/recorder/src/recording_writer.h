@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "asperity/link/probe_description.h"
 #include "asperity/recorder/contact_detector.h"
@@ -71,6 +72,7 @@ class RecordingWriter {
   bool gravity_written_ = false;
   double force_N_ = std::numeric_limits<double>::quiet_NaN();
   std::optional<TrackerSample> pose_;
+  std::vector<BodySnapshot> bodies_;
   std::uint64_t touches_ = 0;
   std::uint64_t refused_ = 0;  // segments beyond the most
 };

@@ -72,7 +72,22 @@ void SegmentWriter::claim(Stream<Sample>& stream, std::int64_t start_ns) {
 }
 
 void SegmentWriter::add(const ProbeSample& sample) { take(probe_, sample); }
-void SegmentWriter::add(const TrackerSample& sample) { take(tracker_, sample); }
+void SegmentWriter::add(const TrackerSample& sample) {
+  if (sample.body > bodies_.size()) bodies_.resize(sample.body);
+  take(sample.body == 0 ? tracker_ : bodies_[sample.body - 1], sample);
+}
+
+std::uint64_t SegmentWriter::late_rows() const {
+  std::uint64_t out = probe_.late + tracker_.late;
+  for (const auto& body : bodies_) out += body.late;
+  return out;
+}
+
+void SegmentWriter::claim_all(std::int64_t start_ns) {
+  claim(probe_, start_ns);
+  claim(tracker_, start_ns);
+  for (auto& body : bodies_) claim(body, start_ns);
+}
 
 bool SegmentWriter::start(std::string name, std::int64_t t_ns, std::int64_t pre_roll_ns) {
   if (open_ || segments_.size() >= kMostSegments) return false;
@@ -81,8 +96,7 @@ bool SegmentWriter::start(std::string name, std::int64_t t_ns, std::int64_t pre_
   const std::int64_t start_ns = std::min(t_ns, std::max(t_ns - pre_roll_ns, earliest_ns));
   segments_.push_back({std::move(name), start_ns, kNoEnd});
   open_ = true;
-  claim(probe_, start_ns);
-  claim(tracker_, start_ns);
+  claim_all(start_ns);
   return true;
 }
 
@@ -93,8 +107,7 @@ void SegmentWriter::end_at(std::int64_t t_ns) {
 bool SegmentWriter::reopen() {
   if (!is_ending()) return false;
   segments_.back().end_ns = kNoEnd;
-  claim(probe_, segments_.back().start_ns);
-  claim(tracker_, segments_.back().start_ns);
+  claim_all(segments_.back().start_ns);
   return true;
 }
 

@@ -102,6 +102,32 @@ TEST(SegmentWriter, ThePreRollReachesIntoTheSegmentBeforeWithoutWritingTwice) {
   EXPECT_THAT(recording.problems, testing::IsEmpty());
 }
 
+TEST(SegmentWriter, AFurtherBodysPosesAreStoredAsTheProbes) {
+  testkit::TempDir dir;
+  RecordingInfo info;
+  info.bodies = {{"object", {}}};
+  RecordingAppender appender(dir / "rec", info, unit_calibration());
+  SegmentWriter writer(appender, 1000 * kMs);
+  for (std::int64_t t_ms = 10; t_ms <= 3000; t_ms += 10) {
+    writer.add(probe_at(t_ms));
+    TrackerSample pose = pose_at(t_ms);
+    writer.add(pose);
+    pose.t_ns += 3 * kMs;
+    pose.body = 1;
+    writer.add(pose);
+    if (t_ms == 1000) writer.start("a", 1000 * kMs, 500 * kMs);
+    if (t_ms == 2000) writer.end_at(2000 * kMs);
+    writer.settle();
+  }
+  EXPECT_EQ(writer.late_rows(), 0u);
+  EXPECT_EQ(writer.body_rows(1), 150u);
+  EXPECT_EQ(writer.body_rows(2), 0u);
+  info.segments = writer.segments();
+  appender.finish(info);
+  const Recording recording = read_recording(dir / "rec");
+  EXPECT_EQ(in_ms(recording.body_poses[0].t_ns), range(503, 1993, 10));
+}
+
 TEST(SegmentWriter, ReopeningGoesOn) {
   Rig rig;
   rig.run_to(1000);

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "asperity/base/text.h"
+#include "asperity/recording/tracked_body.h"
 #include "quaternion_check.h"
 
 namespace asperity {
@@ -12,6 +14,14 @@ int required_int(JsonObject& object, const std::string& key, std::int64_t low, s
 }
 
 }  // namespace
+
+std::string read_body_name(JsonObject& object, std::string_view key) {
+  std::string name = object.required(key).text();
+  if (!is_body_name(name)) {
+    object.fail(key, "'" + printable(name) + "' is not a body's name: 1 to 32 lower-case letters, digits, _ and -");
+  }
+  return name;
+}
 
 CameraCalibration read_camera_object(JsonObject object) {
   CameraCalibration out;
@@ -41,6 +51,7 @@ MarkerPlacement read_marker_object(JsonObject object) {
   if (make_unit(out.T_marker_tag.rotation) == QuaternionState::kUnusable) {
     object.fail("T_marker_tag", "its quaternion is not of length one");
   }
+  if (object.has("body")) out.body = read_body_name(object, "body");
   object.finish();
   return out;
 }

@@ -32,6 +32,18 @@ std::vector<T> cut_column(const std::vector<T>& column, const Rows& rows) {
           column.begin() + static_cast<std::ptrdiff_t>(rows.last)};
 }
 
+TrackerStream cut_poses(const TrackerStream& tracker, std::int64_t start_ns, std::int64_t end_ns) {
+  const Rows poses = rows_between(tracker.t_ns, start_ns, end_ns);
+  return {cut_column(tracker.t_ns, poses),
+          cut_column(tracker.T_world_marker, poses),
+          cut_column(tracker.markers, poses),
+          cut_column(tracker.reprojection_px, poses),
+          cut_column(tracker.sigma_position_m, poses),
+          cut_column(tracker.sigma_rotation_rad, poses),
+          cut_column(tracker.noise_position_m, poses),
+          cut_column(tracker.noise_rotation_rad, poses)};
+}
+
 std::vector<Segment> join_near_segments(std::vector<Segment> segments) {
   std::stable_sort(segments.begin(), segments.end(),
                    [](const Segment& a, const Segment& b) { return a.start_ns < b.start_ns; });
@@ -81,22 +93,15 @@ Recording cut_recording(const Recording& recording, std::int64_t start_ns, std::
   out.probe = {cut_column(probe.t_ns, samples), cut_column(probe.accel_counts, samples),
                cut_column(probe.force_counts, samples), cut_column(probe.gyro_counts, samples),
                cut_column(probe.force3_counts, samples)};
-  const TrackerStream& tracker = recording.tracker;
-  const Rows poses = rows_between(tracker.t_ns, start_ns, end_ns);
-  out.tracker = {cut_column(tracker.t_ns, poses),
-                 cut_column(tracker.T_world_marker, poses),
-                 cut_column(tracker.markers, poses),
-                 cut_column(tracker.reprojection_px, poses),
-                 cut_column(tracker.sigma_position_m, poses),
-                 cut_column(tracker.sigma_rotation_rad, poses),
-                 cut_column(tracker.noise_position_m, poses),
-                 cut_column(tracker.noise_rotation_rad, poses)};
+  out.tracker = cut_poses(recording.tracker, start_ns, end_ns);
+  for (const TrackerStream& poses : recording.body_poses) out.body_poses.push_back(cut_poses(poses, start_ns, end_ns));
   if (!recording.truth) return out;
   const Truth& truth = *recording.truth;
   const Rows known = rows_between(truth.t_ns, start_ns, end_ns);
   out.truth = {cut_column(truth.t_ns, known),           cut_column(truth.s_m, known),
                cut_column(truth.height_m, known),       cut_column(truth.p_world_tip_m, known),
-               cut_column(truth.q_world_marker, known), cut_column(truth.force_N, known)};
+               cut_column(truth.q_world_marker, known), cut_column(truth.force_N, known),
+               cut_column(truth.T_world_object, known)};
   return out;
 }
 

@@ -75,7 +75,10 @@ std::string format_tracker_csv(const TrackerStream& tracker) {
 }
 
 std::string format_truth_csv(const Truth& truth) {
-  std::string out = "t_ns,s_m,height_m,px_m,py_m,pz_m,qw,qx,qy,qz,force_N\n";
+  const bool has_object = !truth.T_world_object.empty();
+  std::string out = "t_ns,s_m,height_m,px_m,py_m,pz_m,qw,qx,qy,qz,force_N";
+  if (has_object) out += ",object_px_m,object_py_m,object_pz_m,object_qw,object_qx,object_qy,object_qz";
+  out += '\n';
   const auto cell_or_nan = [&](double value) {
     out += ',';
     append_exact(out, value);
@@ -87,6 +90,10 @@ std::string format_truth_csv(const Truth& truth) {
     append_cells(out, truth.p_world_tip_m[i]);
     append_cells(out, truth.q_world_marker[i]);
     cell_or_nan(truth.force_N[i]);
+    if (has_object) {
+      append_cells(out, truth.T_world_object[i].translation_m);
+      append_cells(out, truth.T_world_object[i].rotation);
+    }
     out += '\n';
   }
   return out;

@@ -97,6 +97,7 @@ void write_marker(Out& out, const MarkerPlacement& marker) {
   out.text("family", marker.family);
   out.number("size_m", marker.size_m);
   out.numbers("T_marker_tag", pose, 7);
+  if (!marker.body.empty()) out.text("body", marker.body);
 }
 
 void write_markers(JsonWriter& out, const std::vector<MarkerPlacement>& markers) {
@@ -104,6 +105,19 @@ void write_markers(JsonWriter& out, const std::vector<MarkerPlacement>& markers)
   for (const auto& marker : markers) {
     out.begin_element();
     write_marker(out, marker);
+    out.end_object();
+  }
+  out.end_array();
+}
+
+void write_bodies(JsonWriter& out, const std::vector<TrackedBody>& bodies) {
+  out.begin_array("bodies");
+  for (const TrackedBody& body : bodies) {
+    out.begin_element();
+    out.text("name", body.name);
+    out.text("file", body_file(body.name));
+    const std::vector<double> ids(body.markers.begin(), body.markers.end());
+    out.numbers("markers", ids.data(), ids.size());
     out.end_object();
   }
   out.end_array();
@@ -192,6 +206,7 @@ std::string format_recording_info(const RecordingInfo& info) {
   out.begin_object("tracker");
   out.number("nominal_rate_hz", info.tracker_rate_Hz);
   out.end_object();
+  if (!info.bodies.empty()) write_bodies(out, info.bodies);
   write_vector(out, "gravity_world_mps2", info.gravity_world_mps2);
   out.begin_array("segments");
   for (const auto& segment : info.segments) {

@@ -25,6 +25,7 @@ constexpr double kFloor_rad = 1e-3;
 // Separate streams, so that noise on the one does not change the other's.
 constexpr std::uint64_t kPositionStream = 1;
 constexpr std::uint64_t kRotationStream = 2;
+constexpr std::uint64_t kObjectStreams = 2;  // more for the object's
 
 Eigen::Vector3d to_counts(const Eigen::Vector3d& value, double counts_per_unit) {
   return (value * counts_per_unit).array().round().max(-kAdcSteps).min(kAdcSteps - 1.0);
@@ -64,16 +65,17 @@ Eigen::Vector3d noise(Random& random, const std::array<double, 3>& sigma) {
   return out;
 }
 
-TrackerStream thinned_tracker(const ImportInput& input, const ImportConfig& config) {
-  Random position_random(static_cast<std::uint64_t>(config.seed), kPositionStream);
-  Random rotation_random(static_cast<std::uint64_t>(config.seed), kRotationStream);
+TrackerStream thinned_tracker(const std::vector<std::int64_t>& t_ns, const std::vector<Pose>& T_world_body,
+                              const ImportConfig& config, std::uint64_t streams) {
+  Random position_random(static_cast<std::uint64_t>(config.seed), kPositionStream + streams);
+  Random rotation_random(static_cast<std::uint64_t>(config.seed), kRotationStream + streams);
   TrackerStream out;
-  for (const std::size_t row : thinned_rows(input.pose_t_ns, config.pose_rate_Hz)) {
-    Pose pose = input.T_world_body[row];
+  for (const std::size_t row : thinned_rows(t_ns, config.pose_rate_Hz)) {
+    Pose pose = T_world_body[row];
     pose.translation_m += noise(position_random, config.pose_noise_m);
     const Eigen::Vector3d turn_rad = noise(rotation_random, config.rotation_noise_rad);
     if (!turn_rad.isZero(0.0)) pose.rotation = (exp_rotation(turn_rad) * pose.rotation).normalized();
-    out.t_ns.push_back(input.pose_t_ns[row]);
+    out.t_ns.push_back(t_ns[row]);
     out.T_world_marker.push_back(pose);
   }
   return out;
@@ -119,9 +121,9 @@ Calibration known_calibration(const ImportConfig& config) {
 void check_import(const ImportInput& input) {
   if (input.imu_t_ns.empty()) throw Error("import: there are no inertial samples");
   if (input.pose_t_ns.empty()) throw Error("import: there are no poses");
-  const bool equal = input.specific_force_mps2.size() == input.imu_t_ns.size() &&
-                     input.rate_radps.size() == input.imu_t_ns.size() &&
-                     input.T_world_body.size() == input.pose_t_ns.size();
+  const bool equal =
+      input.specific_force_mps2.size() == input.imu_t_ns.size() && input.rate_radps.size() == input.imu_t_ns.size() &&
+      input.T_world_body.size() == input.pose_t_ns.size() && input.T_world_object.size() == input.object_t_ns.size();
   if (!equal) throw Error("import: the columns of a stream differ in length");
 }
 
@@ -136,7 +138,11 @@ Recording import_imu_pose(const ImportInput& input, const ImportConfig& config) 
   check_import(input);
   Recording out;
   out.probe = counted_probe(input);
-  out.tracker = thinned_tracker(input, config);
+  out.tracker = thinned_tracker(input.pose_t_ns, input.T_world_body, config, 0);
+  if (!input.object_t_ns.empty()) {
+    out.info.bodies.push_back({std::string(kObjectBody), {}});
+    out.body_poses.push_back(thinned_tracker(input.object_t_ns, input.T_world_object, config, kObjectStreams));
+  }
   out.truth = full_truth(input);
   out.calibration = known_calibration(config);
   out.problems = input.problems;

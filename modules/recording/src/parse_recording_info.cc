@@ -1,9 +1,12 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/recording/parse_recording.h"
+#include "calibration_parts.h"
 #include "json_eigen.h"
 #include "json_limits.h"
 #include "known_extra.h"
@@ -37,6 +40,33 @@ void read_probe(JsonObject object, RecordingInfo& info) {
   object.finish();
 }
 
+TrackedBody read_body(JsonObject object) {
+  constexpr std::size_t kMostBodyMarkers = 1000;
+  constexpr double kLargestId = 1e6;
+  TrackedBody out;
+  out.name = read_body_name(object, "name");
+  if (const auto file = object.optional("file"); file && file->text() != body_file(out.name))
+    object.fail("file", "must be '" + body_file(out.name) + "'");
+  if (const auto markers = object.optional("markers")) {
+    for (const double id : markers->numbers(kMostBodyMarkers, {0.0, kLargestId})) {
+      if (id != static_cast<double>(static_cast<int>(id))) object.fail("markers", "an id is not a whole number");
+      out.markers.push_back(static_cast<int>(id));
+    }
+  }
+  object.finish();
+  return out;
+}
+
+void read_bodies(const JsonItem& list, std::vector<TrackedBody>& bodies) {
+  for (JsonItem& item : list.elements(kMostBodies)) {
+    TrackedBody body = read_body(JsonObject(item));
+    const bool twice =
+        std::any_of(bodies.begin(), bodies.end(), [&](const TrackedBody& other) { return other.name == body.name; });
+    if (twice) item.fail("the body '" + body.name + "' is listed twice");
+    bodies.push_back(std::move(body));
+  }
+}
+
 }  // namespace
 
 RecordingInfo parse_recording_info(std::string_view text, const std::string& name, const ReadLimits& limits,
@@ -58,6 +88,7 @@ RecordingInfo parse_recording_info(std::string_view text, const std::string& nam
     tracker->read_number("nominal_rate_hz", out.tracker_rate_Hz, kRate_Hz);
     tracker->finish();
   }
+  if (const auto bodies = object.optional("bodies")) read_bodies(*bodies, out.bodies);
   if (const auto segments = object.optional("segments")) {
     for (JsonItem& segment : segments->elements(root.at("segments").size())) {
       out.segments.push_back(read_segment(JsonObject(std::move(segment))));

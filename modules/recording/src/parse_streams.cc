@@ -1,4 +1,5 @@
 #include <cmath>
+#include <optional>
 
 #include "asperity/base/nan.h"
 #include "asperity/recording/parse_recording.h"
@@ -139,6 +140,16 @@ TrackerStream parse_tracker_csv(std::string_view text, const std::string& name, 
   return out;
 }
 
+TrackerStream parse_body_csv(std::string_view text, const std::string& name, Problems& problems,
+                             const ReadLimits& limits) {
+  CsvReader csv(checked_lines(text, name), name);
+  if (csv.next()) return parse_tracker_csv(text, name, problems, limits);
+  csv.require("t_ns");
+  static_cast<void>(PoseColumns(csv));
+  problems.push_back({"body_unseen", name + ": no pose: the body was never seen", 1});
+  return {};
+}
+
 Truth parse_truth_csv(std::string_view text, const std::string& name, Problems& problems, const ReadLimits& limits) {
   CsvReader csv(checked_lines(text, name), name);
   const std::size_t time = csv.require("t_ns");
@@ -146,6 +157,8 @@ Truth parse_truth_csv(std::string_view text, const std::string& name, Problems& 
   const std::size_t height = csv.require("height_m");
   const PoseColumns columns(csv);
   const std::size_t force = csv.require("force_N");
+  std::optional<PoseColumns> object;
+  if (csv.find("object_px_m")) object.emplace(csv, "object_");
 
   Truth out;
   std::vector<std::uint32_t> line;
@@ -155,6 +168,11 @@ Truth parse_truth_csv(std::string_view text, const std::string& name, Problems& 
     if (!t_ns) continue;
     const auto pose = row_pose(csv, columns, limits, row_problems);
     if (!pose) continue;
+    if (object) {
+      const auto object_pose = row_pose(csv, *object, limits, row_problems);
+      if (!object_pose) continue;
+      out.T_world_object.push_back(*object_pose);
+    }
     out.t_ns.push_back(*t_ns);
     line.push_back(static_cast<std::uint32_t>(csv.line()));
     out.s_m.push_back(slow_sample(csv, s, limits.largest_position_m, row_problems));
@@ -164,7 +182,7 @@ Truth parse_truth_csv(std::string_view text, const std::string& name, Problems& 
     out.force_N.push_back(slow_sample(csv, force, limits.largest_counts, row_problems));
   }
   finish_rows(csv, line, name, limits, row_problems, problems, out.t_ns, out.s_m, out.height_m, out.p_world_tip_m,
-              out.q_world_marker, out.force_N);
+              out.q_world_marker, out.force_N, out.T_world_object);
   return out;
 }
 

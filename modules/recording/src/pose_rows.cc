@@ -4,9 +4,10 @@
 
 namespace asperity {
 
-PoseColumns::PoseColumns(const CsvReader& csv)
-    : position(require3(csv, "px_m", "py_m", "pz_m")),
-      rotation{csv.require("qw"), csv.require("qx"), csv.require("qy"), csv.require("qz")} {}
+PoseColumns::PoseColumns(const CsvReader& csv, const std::string& prefix)
+    : position{csv.require(prefix + "px_m"), csv.require(prefix + "py_m"), csv.require(prefix + "pz_m")},
+      rotation{csv.require(prefix + "qw"), csv.require(prefix + "qx"), csv.require(prefix + "qy"),
+               csv.require(prefix + "qz")} {}
 
 std::optional<Pose> row_pose(const CsvReader& csv, const PoseColumns& columns, const ReadLimits& limits,
                              RowProblems& problems) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 
 #include "asperity/geometry/pose.h"
 #include "asperity/recording/read_limits.h"
@@ -14,7 +15,8 @@ struct PoseColumns {
   Columns3 position;
   std::array<std::size_t, 4> rotation;
 
-  explicit PoseColumns(const CsvReader& csv);
+  // Names with `prefix` before them.
+  explicit PoseColumns(const CsvReader& csv, const std::string& prefix = {});
 };
 
 // The row's pose, or nullopt with a problem.

@@ -53,7 +53,10 @@ void parse_imu_csv(std::string_view text, const std::string& name, ImportInput& 
               input.rate_radps);
 }
 
-void parse_pose_csv(std::string_view text, const std::string& name, ImportInput& input, const ReadLimits& limits) {
+namespace {
+
+void parse_poses(std::string_view text, const std::string& name, const ReadLimits& limits, Problems& all_problems,
+                 std::vector<std::int64_t>& t_ns_out, std::vector<Pose>& T_world_body) {
   CsvReader csv(checked_lines(text, name), name);
   const std::size_t time = csv.require("t_s");
   const PoseColumns columns(csv);
@@ -64,18 +67,31 @@ void parse_pose_csv(std::string_view text, const std::string& name, ImportInput&
     if (!t_ns) continue;
     const auto pose = row_pose(csv, columns, limits, problems);
     if (!pose) continue;
-    input.pose_t_ns.push_back(*t_ns);
+    t_ns_out.push_back(*t_ns);
     line.push_back(static_cast<std::uint32_t>(csv.line()));
-    input.T_world_body.push_back(*pose);
+    T_world_body.push_back(*pose);
   }
-  finish_rows(csv, line, name, limits, problems, input.problems, input.pose_t_ns, input.T_world_body);
+  finish_rows(csv, line, name, limits, problems, all_problems, t_ns_out, T_world_body);
+}
+
+}  // namespace
+
+void parse_pose_csv(std::string_view text, const std::string& name, ImportInput& input, const ReadLimits& limits) {
+  parse_poses(text, name, limits, input.problems, input.pose_t_ns, input.T_world_body);
+}
+
+void parse_object_pose_csv(std::string_view text, const std::string& name, ImportInput& input,
+                           const ReadLimits& limits) {
+  parse_poses(text, name, limits, input.problems, input.object_t_ns, input.T_world_object);
 }
 
 ImportInput read_imu_pose(const std::filesystem::path& imu, const std::filesystem::path& poses,
-                          const ReadLimits& limits) {
+                          const std::filesystem::path& object_poses, const ReadLimits& limits) {
   ImportInput out;
   parse_imu_csv(read_file(imu, limits.csv_bytes), imu.string(), out, limits);
   parse_pose_csv(read_file(poses, limits.csv_bytes), poses.string(), out, limits);
+  if (!object_poses.empty())
+    parse_object_pose_csv(read_file(object_poses, limits.csv_bytes), object_poses.string(), out, limits);
   return out;
 }
 

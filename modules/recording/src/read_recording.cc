@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Nothing outside the folder is read in the name of a recording.
-fs::path own_file(const fs::path& folder, const char* name) {
+fs::path own_file(const fs::path& folder, const std::string& name) {
   if (!inner_file(folder, name))
     throw Error((folder / name).string() +
                 ": is a link out of the recording, which is not followed; copy the file here");
@@ -51,7 +51,7 @@ void note_changes(const std::string& text, const fs::path& path, const std::vect
 
 // A stream, held against its checksums where there are any.
 template <class Parse>
-auto read_stream(const fs::path& folder, const char* name, const ReadLimits& limits, Problems& problems,
+auto read_stream(const fs::path& folder, const std::string& name, const ReadLimits& limits, Problems& problems,
                  const Parse& parse) {
   const fs::path path = own_file(folder, name);
   const std::string text = read_file(path, limits.csv_bytes);
@@ -100,6 +100,8 @@ Recording read_recording(const fs::path& folder, const ReadLimits& limits, const
   Recording out = read_probe_recording(folder, limits, observer);
   observer.without_progress().update("read", 0.0);
   out.tracker = read_stream(folder, "tracker.csv", limits, out.problems, parse_tracker_csv);
+  for (const TrackedBody& body : out.info.bodies)
+    out.body_poses.push_back(read_stream(folder, body_file(body.name), limits, out.problems, parse_body_csv));
   const fs::path truth = own_file(folder, "truth.csv");
   std::error_code error;
   if (fs::exists(truth, error)) out.truth = read_truth(truth, out.problems, limits);
@@ -128,7 +130,8 @@ bool is_replaceable_recording(const fs::path& folder) noexcept {
     const auto& extra = root["extra"];
     if (!extra.is_object() || !(extra.contains("simulation") || extra.contains("imported"))) return false;
     for (const auto& entry : fs::directory_iterator(folder)) {
-      if (std::find(kOurs.begin(), kOurs.end(), entry.path().filename().string()) == kOurs.end()) return false;
+      const std::string name = entry.path().filename().string();
+      if (std::find(kOurs.begin(), kOurs.end(), name) == kOurs.end() && !is_body_file(name)) return false;
     }
     return true;
   } catch (const std::exception&) {

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <unistd.h>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 
@@ -96,6 +97,12 @@ RecordingAppender::RecordingAppender(fs::path folder, const RecordingInfo& info,
       probe_(std::make_unique<Stream>()),
       tracker_(std::make_unique<Stream>()),
       checksums_(std::make_unique<Stream>()) {
+  if (info.bodies.size() > kMostBodies)
+    throw Error(folder_.string() + ": at most " + std::to_string(kMostBodies) + " bodies can be recorded");
+  for (const TrackedBody& body : info.bodies) {
+    body_files_.push_back(body_file(body.name));
+    bodies_.push_back(std::make_unique<Stream>());
+  }
   const fs::path there = existing_part(folder_);
   std::error_code error;
   fs::create_directories(folder_, error);
@@ -108,11 +115,15 @@ RecordingAppender::RecordingAppender(fs::path folder, const RecordingInfo& info,
     probe_->open_new(folder_ / "probe.csv", probe_header(columns.gyro, columns.force3));
     tracker_->open_new(folder_ / "tracker.csv",
                        tracker_header(columns.markers, columns.reprojection, columns.sigmas, columns.sigmas));
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      bodies_[i]->open_new(folder_ / body_files_[i],
+                           tracker_header(columns.markers, columns.reprojection, columns.sigmas, columns.sigmas));
+    }
     checksums_->open_new(folder_ / kChecksumFile, checksum_header());
     note_output(folder_);
     sync_names(folder_, there);
   } catch (...) {
-    for (Stream* stream : {probe_.get(), tracker_.get(), checksums_.get()}) stream->close();
+    close();
     throw;
   }
 }
@@ -123,13 +134,30 @@ RecordingAppender::~RecordingAppender() {
   } catch (...) {
     // A destructor cannot report; whoever needs to know calls finish().
   }
-  for (Stream* stream : {probe_.get(), tracker_.get(), checksums_.get()}) stream->close();
+  close();
 }
 
-std::uint64_t RecordingAppender::bytes() const { return probe_->bytes + tracker_->bytes; }
+std::vector<RecordingAppender::Stream*> RecordingAppender::streams() const {
+  std::vector<Stream*> out{probe_.get(), tracker_.get()};
+  for (const auto& body : bodies_) out.push_back(body.get());
+  return out;
+}
+
+void RecordingAppender::close() noexcept {
+  probe_->close();
+  tracker_->close();
+  for (const auto& body : bodies_) body->close();
+  checksums_->close();
+}
+
+std::uint64_t RecordingAppender::bytes() const {
+  std::uint64_t out = 0;
+  for (const Stream* stream : streams()) out += stream->bytes;
+  return out;
+}
 
 void RecordingAppender::write_checksums(bool to_disk) {
-  for (Stream* stream : {probe_.get(), tracker_.get()}) {
+  for (Stream* stream : streams()) {
     const bool ends = stream->sum.is_full() || (to_disk && !stream->sum.is_empty());
     if (ends) append_checksum(checksums_->waiting, stream->path.filename().string(), stream->sum.take());
   }
@@ -150,7 +178,8 @@ void RecordingAppender::add(const ProbeSample& sample) {
 }
 
 void RecordingAppender::add(const TrackerSample& sample) {
-  std::string& out = tracker_->waiting;
+  Stream& stream = sample.body == 0 ? *tracker_ : *bodies_.at(sample.body - 1);
+  std::string& out = stream.waiting;
   append_time(out, sample.t_ns);
   append_cells(out, sample.T_world_marker.translation_m);
   append_cells(out, sample.T_world_marker.rotation);
@@ -164,35 +193,39 @@ void RecordingAppender::add(const TrackerSample& sample) {
   }
   out += '\n';
   if (out.size() < kBatch_bytes) return;
-  tracker_->write();
+  stream.write();
   write_checksums(false);
 }
 
 void RecordingAppender::flush(bool to_disk) {
-  for (Stream* stream : {probe_.get(), tracker_.get()}) {
+  for (Stream* stream : streams()) {
     if (stream->file < 0) throw Error(folder_.string() + ": the recording is finished");
     stream->write();
   }
   write_checksums(to_disk);
   if (!to_disk) return;
-  for (Stream* stream : {probe_.get(), tracker_.get(), checksums_.get()}) {
+  std::vector<Stream*> all = streams();
+  all.push_back(checksums_.get());
+  for (const Stream* stream : all) {
     if (::fdatasync(stream->file) != 0) fail(stream->path);
   }
 }
 
 void RecordingAppender::finish(const RecordingInfo& info, bool only_segments) {
   flush(true);
-  for (Stream* stream : {probe_.get(), tracker_.get(), checksums_.get()}) stream->close();
+  close();
   // First the list: whoever dies in between leaves rows that no segment claims, not segments without rows.
   write_recording_info(folder_ / "recording.json", info);
   if (!only_segments) return;
-  if (!has_other_rows(probe_->path, info.segments) && !has_other_rows(tracker_->path, info.segments)) return;
+  const std::vector<Stream*> all = streams();
+  if (std::none_of(all.begin(), all.end(), [&](const Stream* s) { return has_other_rows(s->path, info.segments); }))
+    return;
   // The checksums are of the streams with those rows. Whoever dies in between leaves streams that nothing checks.
   std::error_code error;
   if (!fs::remove(checksums_->path, error)) throw Error(checksums_->path.string() + ": cannot be replaced");
   sync_folder(folder_);
   std::string lines = checksum_header();
-  for (const Stream* stream : {probe_.get(), tracker_.get()}) {
+  for (const Stream* stream : all) {
     keep_rows(stream->path, info.segments);
     lines += checksum_lines_of_file(stream->path);
   }

@@ -182,12 +182,12 @@ class Messages {
 };
 
 // The whole rows of a stream, with its header; empty if nothing is to be had.
-std::string recover_stream(const fs::path& folder, const char* file, std::string_view checksums,
+std::string recover_stream(const fs::path& folder, const std::string& file, std::string_view checksums,
                            const RecoverOptions& options, const ReadLimits& limits, RecoveredStream& stream) {
   stream.file = file;
   std::error_code error;
   if (!inner_file(folder, file) || !fs::is_regular_file(folder / file, error)) {
-    stream.messages.push_back(std::string(file) + ": is not there");
+    stream.messages.push_back(file + ": is not there");
     return {};
   }
   const std::string content = read_file(folder / file, limits.csv_bytes);
@@ -198,11 +198,11 @@ std::string recover_stream(const fs::path& folder, const char* file, std::string
       std::any_of(changes.begin(), changes.end(), [](const auto& change) { return change.begin == change.end; });
   if (gone || (stream.checked && blocks.back().begin + blocks.back().bytes > content.size())) {
     stream.rows_missing = true;
-    stream.messages.push_back(std::string(file) + ": rows that were recorded are missing, by checksums.txt");
+    stream.messages.push_back(file + ": rows that were recorded are missing, by checksums.txt");
   }
   if (!content.empty() && content.back() != '\n') {
     ++stream.unreadable_rows;
-    stream.messages.push_back(std::string(file) + ": the last line has no end; left out");
+    stream.messages.push_back(file + ": the last line has no end; left out");
   }
   ChangedRows changed(changes);
 
@@ -297,7 +297,7 @@ bool RecoveredRecording::lost_nothing() const {
     return stream.found && stream.checked && stream.changed_rows == 0 && stream.unreadable_rows == 0 &&
            !stream.rows_missing && !stream.header_replaced;
   };
-  return whole(probe) && whole(tracker) && taken_from_like.empty();
+  return whole(probe) && whole(tracker) && std::all_of(bodies.begin(), bodies.end(), whole) && taken_from_like.empty();
 }
 
 RecoveredRecording recover_recording(const fs::path& folder, const fs::path& out, const RecoverOptions& options,
@@ -326,18 +326,36 @@ RecoveredRecording recover_recording(const fs::path& folder, const fs::path& out
   const std::string probe = recover_stream(folder, "probe.csv", checksums, options, limits, result.probe);
   observer.update("recovering", 0.5);
   const std::string tracker = recover_stream(folder, "tracker.csv", checksums, options, limits, result.tracker);
+  std::vector<std::string> body_poses;
+  for (const TrackedBody& body : info.bodies) {
+    RecoveredStream& stream = result.bodies.emplace_back();
+    body_poses.push_back(recover_stream(folder, body_file(body.name), checksums, options, limits, stream));
+  }
   if (result.probe.rows == 0 && result.tracker.rows == 0)
     throw Error(folder.string() + ": neither probe.csv nor tracker.csv has a row that can be saved");
 
   if (!probe.empty()) write_file(out / "probe.csv", probe);
   if (!tracker.empty()) write_file(out / "tracker.csv", tracker);
-  write_file(out / kChecksumFile,
-             checksum_header() + checksum_lines("probe.csv", probe) + checksum_lines("tracker.csv", tracker));
+  std::string new_checksums =
+      checksum_header() + checksum_lines("probe.csv", probe) + checksum_lines("tracker.csv", tracker);
+  std::vector<TrackedBody> bodies;
+  Json body_losses = Json::object();
+  for (std::size_t i = 0; i < body_poses.size(); ++i) {
+    body_losses[info.bodies[i].name] = losses_json(result.bodies[i]);
+    if (body_poses[i].empty()) continue;
+    const std::string file = body_file(info.bodies[i].name);
+    write_file(out / file, body_poses[i]);
+    new_checksums += checksum_lines(file, body_poses[i]);
+    bodies.push_back(std::move(info.bodies[i]));
+  }
+  info.bodies = std::move(bodies);  // without those whose file is lost
+  write_file(out / kChecksumFile, new_checksums);
   copy_others(folder, out, result);
   write_calibration(out / "calibration.json", calibration);
   info.extra["recovered"] = {{"probe", losses_json(result.probe)},
                              {"tracker", losses_json(result.tracker)},
                              {"taken_from_another", result.taken_from_like}};
+  if (!body_losses.empty()) info.extra["recovered"]["bodies"] = std::move(body_losses);
   write_recording_info(out / "recording.json", info);
   observer.update("recovering", 1.0);
   return result;

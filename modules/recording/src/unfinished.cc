@@ -48,6 +48,9 @@ void close_unfinished(Recording& recording) {
   std::int64_t last_row_ns = std::numeric_limits<std::int64_t>::min();
   if (recording.probe.size() > 0) last_row_ns = std::max(last_row_ns, recording.probe.t_ns.back());
   if (recording.tracker.size() > 0) last_row_ns = std::max(last_row_ns, recording.tracker.t_ns.back());
+  for (const TrackerStream& poses : recording.body_poses) {
+    if (poses.size() > 0) last_row_ns = std::max(last_row_ns, poses.t_ns.back());
+  }
   std::vector<Segment>& segments = recording.info.segments;
   if (recorder.last_segment_is_open.value_or(false) && !segments.empty()) {
     segments.back().end_ns = std::max(segments.back().end_ns, last_row_ns);

@@ -23,8 +23,15 @@ void write_recording(const std::filesystem::path& folder, const Recording& recor
   const std::string probe = format_probe_csv(recording.probe), tracker = format_tracker_csv(recording.tracker);
   write_file(folder / "probe.csv", probe);
   write_file(folder / "tracker.csv", tracker);
-  write_file(folder / kChecksumFile,
-             checksum_header() + checksum_lines("probe.csv", probe) + checksum_lines("tracker.csv", tracker));
+  std::string checksums =
+      checksum_header() + checksum_lines("probe.csv", probe) + checksum_lines("tracker.csv", tracker);
+  for (std::size_t i = 0; i < recording.info.bodies.size(); ++i) {
+    const std::string file = body_file(recording.info.bodies[i].name);
+    const std::string poses = format_tracker_csv(recording.body_poses[i]);
+    write_file(folder / file, poses);
+    checksums += checksum_lines(file, poses);
+  }
+  write_file(folder / kChecksumFile, checksums);
   if (recording.truth) write_file(folder / "truth.csv", format_truth_csv(*recording.truth));
   write_calibration(folder / "calibration.json", recording.calibration);
   write_recording_info(folder / "recording.json", recording.info);

@@ -137,6 +137,24 @@ inline Recording random_recording(std::uint64_t seed) {
       out.truth->force_N.push_back(random.chance(0.2) ? kNan : random.uniform());
     }
   }
+  // A generator of its own: recordings without bodies stay what they were.
+  Random other(seed + 1'000'000);
+  if (other.chance(0.3)) {
+    for (const char* name : {"object", "table-2"}) {
+      out.info.bodies.push_back({name, {7, 8}});
+      TrackerStream& poses = out.body_poses.emplace_back();
+      for (std::size_t rows = 1 + other.bits() % 8; rows > 0; --rows) {
+        poses.t_ns.push_back((poses.t_ns.empty() ? 0 : poses.t_ns.back()) + 1 +
+                             static_cast<std::int64_t>(other.bits() % 1'000'000'000));
+        poses.T_world_marker.push_back({any_rotation(other), 0.05 * awkward_vector(other)});
+      }
+    }
+    if (!out.calibration.markers.empty()) out.calibration.markers.back().body = "object";
+    if (out.truth) {
+      for (std::size_t i = 0; i < out.truth->size(); ++i)
+        out.truth->T_world_object.push_back({any_rotation(other), 0.05 * awkward_vector(other)});
+    }
+  }
   return out;
 }
 

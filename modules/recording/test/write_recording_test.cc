@@ -92,6 +92,7 @@ void expect_same(const Calibration& a, const Calibration& b) {
     EXPECT_EQ(a.markers[i].family, b.markers[i].family);
     EXPECT_EQ(a.markers[i].size_m, b.markers[i].size_m);
     EXPECT_TRUE(same(a.markers[i].T_marker_tag, b.markers[i].T_marker_tag));
+    EXPECT_EQ(a.markers[i].body, b.markers[i].body);
   }
   EXPECT_EQ(a.extra, b.extra);
 }
@@ -128,6 +129,14 @@ void expect_same(const Recording& a, const Recording& b) {
   EXPECT_TRUE(same(a.tracker.sigma_rotation_rad, b.tracker.sigma_rotation_rad));
   EXPECT_TRUE(same(a.tracker.noise_position_m, b.tracker.noise_position_m));
   EXPECT_TRUE(same(a.tracker.noise_rotation_rad, b.tracker.noise_rotation_rad));
+  ASSERT_EQ(a.info.bodies.size(), b.info.bodies.size());
+  ASSERT_EQ(a.body_poses.size(), b.body_poses.size());
+  for (std::size_t i = 0; i < a.body_poses.size(); ++i) {
+    EXPECT_EQ(a.info.bodies[i].name, b.info.bodies[i].name);
+    EXPECT_EQ(a.info.bodies[i].markers, b.info.bodies[i].markers);
+    EXPECT_EQ(a.body_poses[i].t_ns, b.body_poses[i].t_ns);
+    EXPECT_TRUE(same(a.body_poses[i].T_world_marker, b.body_poses[i].T_world_marker));
+  }
   ASSERT_EQ(a.truth.has_value(), b.truth.has_value());
   if (!a.truth) return;
   EXPECT_EQ(a.truth->t_ns, b.truth->t_ns);
@@ -136,6 +145,7 @@ void expect_same(const Recording& a, const Recording& b) {
   EXPECT_TRUE(same(a.truth->p_world_tip_m, b.truth->p_world_tip_m));
   EXPECT_TRUE(same(a.truth->q_world_marker, b.truth->q_world_marker));
   EXPECT_TRUE(same(a.truth->force_N, b.truth->force_N));
+  EXPECT_TRUE(same(a.truth->T_world_object, b.truth->T_world_object));
 }
 
 TEST(WriteRecording, ReadsBackExactly) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <tuple>
 
 #include "asperity/base/error.h"
 #include "asperity/base/rounded_text.h"
@@ -298,6 +299,11 @@ HapticCoordinates assign_haptic_coordinates(const TriangleMesh& mesh, const Mesh
   out.triangles.assign(mesh.triangles.size(), {});
   std::vector<double> nearest_mm(mesh.triangles.size(), std::numeric_limits<double>::infinity());
   std::vector<bool> contested(mesh.triangles.size(), false);
+  struct Loser {
+    CoveredTriangle claim;
+    double apart_mm = 0.0;
+  };
+  std::vector<Loser> losers;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     if (paths[i].size() == 0) {
       out.warps.emplace_back();
@@ -310,13 +316,23 @@ HapticCoordinates assign_haptic_coordinates(const TriangleMesh& mesh, const Mesh
         ++out.contested;
       }
       const double apart_mm = distance_mm(one, t);
-      if (apart_mm >= nearest_mm[t]) continue;
+      if (apart_mm >= nearest_mm[t]) {
+        losers.push_back({{t, one.triangles[t]}, apart_mm});
+        continue;
+      }
+      if (out.triangles[t].texture >= 0) losers.push_back({{t, out.triangles[t]}, nearest_mm[t]});
       nearest_mm[t] = apart_mm;
       out.triangles[t] = one.triangles[t];
     }
     append_warp_problems(one.warp, one.jumps, i + 1, out.problems);
     out.warps.push_back(one.warp);
   }
+  // Of paths equally far the first is the nearest.
+  std::sort(losers.begin(), losers.end(), [](const Loser& a, const Loser& b) {
+    return std::tuple(a.claim.triangle, -a.apart_mm, -a.claim.haptic.texture) <
+           std::tuple(b.claim.triangle, -b.apart_mm, -b.claim.haptic.texture);
+  });
+  for (const Loser& loser : losers) out.covered.push_back(loser.claim);
   if (out.contested > 0) {
     out.problems.push_back({"coordinates_contested",
                             std::to_string(out.contested) + " triangles are near several paths; the nearest has them",

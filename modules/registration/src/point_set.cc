@@ -123,9 +123,10 @@ bool is_thin(const PointSet& points) {
 }
 
 double rms_between(const PointSet& points, const CentredPose& a, const CentredPose& b) {
-  double square = 0.0;
-  for (const Eigen::Vector3d& x : points.x_m) square += (a * x - b * x).squaredNorm();
-  return std::sqrt(square / static_cast<double>(points.size()));
+  // The points are about their mean: the mean of |Rx + t|² is tr(R S R') + t².
+  const Eigen::Matrix3d turned = a.rotation.toRotationMatrix() - b.rotation.toRotationMatrix();
+  const double square = (turned * points.scatter_m2 * turned.transpose()).trace();
+  return std::sqrt(std::max(0.0, square) + (a.centre_m - b.centre_m).squaredNorm());
 }
 
 }  // namespace asperity::registration

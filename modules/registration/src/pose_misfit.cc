@@ -84,6 +84,7 @@ PoseMisfit measure_pose_misfit(std::span<const MeasuredPath> paths, const Regist
     out.guess_rotation_rad = pose.rotation.angularDistance(from.rotation);
     out.guess_sigma_m = config.guess_sigma_m;
     out.guess_sigma_rad = config.guess_sigma_rad;
+    out.guess_stated = config.guess_stated;
   }
   if (count < kLeastCounted) return out;
   const std::vector<double> slow_m = slow_part(points, d_m, counts, config.slow_length_m);

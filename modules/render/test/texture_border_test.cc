@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "asperity/scene/lay_texture.h"
 #include "asperity/testkit/shape_meshes.h"
 #include "evaluate_contacts.h"
 #include "scenes.h"
@@ -118,6 +119,52 @@ TEST(TextureBorder, IsNotWhereTheyDifferByWholePeriodsOrBesideTheHeights) {
   EXPECT_FALSE(torn({3.0 * kWave_mm * (1.0 + 1e-9), 0.0}, mesh).objects[0].border.edges);
   EXPECT_FALSE(torn({0.0, 0.7}, mesh).objects[0].border.edges) << "a model of x alone";
   EXPECT_TRUE(torn({0.1, 0.0}, mesh).objects[0].border.edges);
+}
+
+// A second texture, a twentieth as high, over the right two thirds of a plane or under the first: where both are, the
+// one of the greater order is rendered alone, and the force is continuous from one to the other.
+TEST(TextureBorder, OfTwoTexturesTheOneOfTheGreaterOrderIsRendered) {
+  const TriangleMesh mesh = testkit::plane_mesh({0.1, 0.1}, 40, 40);
+  const auto model_with = [&](LayAt at) {
+    Scene scene = textured(mesh);
+    SceneObject& object = scene.objects[0];
+    SceneTexture second = wave();
+    second.index = 2;
+    second.file = "second.texture.json";
+    second.order = further_order(object, at);
+    second.texture.model = Fourier1d{kWave_mm, {5e-6}, {0.0}, 0.0};
+    std::vector<CoveredTriangle> claims;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const double x_m = mesh.vertices_m[mesh.triangles[t][0]].x();
+      if (x_m < 0.034) continue;
+      claims.push_back({t, object.mesh.haptic[t]});
+      claims.back().haptic.texture = 2;
+    }
+    put_texture(object, second);
+    lay_triangles(object, claims);
+    return make_render_model(scene, {});
+  };
+  const auto strongest = [](const RenderModel& model, double from_m, double to_m) {
+    ServoState state;
+    stroke(model, state, {from_m, 0.051, 1e-3}, {from_m, 0.051, -1e-3}, 1e-5);
+    constexpr double kStep_m = 2e-6;
+    double most_N = 0.0;
+    Vector3d before_N = render_step(model, state, at({from_m, 0.051, -1e-3})).texture_N;
+    for (double x_m = from_m; x_m < to_m; x_m += kStep_m) {
+      const Vector3d f_N = render_step(model, state, at({x_m, 0.051, -1e-3})).texture_N;
+      EXPECT_LT((f_N - before_N).norm(), 1.05e3 * (0.3 + 0.13) * kStep_m) << x_m;
+      before_N = f_N;
+      most_N = std::max(most_N, f_N.norm());
+    }
+    return most_N;
+  };
+  const RenderModel over = model_with(LayAt::kOver), under = model_with(LayAt::kUnder);
+  // Of the second texture alone at most 10 µm at 1 N/mm; of the first 0.2 mm.
+  EXPECT_LT(strongest(over, 0.05, 0.07), 0.02);
+  EXPECT_GT(strongest(over, 0.02, 0.05), 0.1);
+  EXPECT_GT(strongest(under, 0.05, 0.07), 0.1);
+  EXPECT_TRUE(over.objects[0].border.edges);
+  EXPECT_FALSE(under.objects[0].border.edges) << "what is below has no border";
 }
 
 }  // namespace

@@ -71,14 +71,23 @@ double height_of(const HeightMap& map, std::size_t i) { return map.low_m + map.l
 
 void add_images(const std::string& stem, const Texture& texture, const ExportConfig& config, ExportResult& out) {
   TextureMaps maps = make_texture_maps(texture, config.images);
-  const Json about{{"format", "asperity-images"},
-                   {"version", 1},
-                   {"height_map", stem + ".height.png"},
-                   {"normal_map", stem + ".normal.png"},
-                   {"mm_per_px_x", maps.heights.mm_per_px_x},
-                   {"mm_per_px_y", maps.heights.mm_per_px_y},
-                   {"black_m", maps.heights.low_m},
-                   {"white_m", maps.heights.high_m}};
+  Json about{{"format", "asperity-images"},
+             {"version", 1},
+             {"height_map", stem + ".height.png"},
+             {"normal_map", stem + ".normal.png"},
+             {"mm_per_px_x", maps.heights.mm_per_px_x},
+             {"mm_per_px_y", maps.heights.mm_per_px_y},
+             {"black_m", maps.heights.low_m},
+             {"white_m", maps.heights.high_m}};
+  if (const auto* areal = std::get_if<ArealTexture>(&texture.model); areal != nullptr && !areal->sigma_m.empty()) {
+    double white_m = 0.0;
+    for (std::size_t i = 0; i < areal->sigma_m.size(); ++i)
+      if (areal->supported[i] != 0) white_m = std::max(white_m, areal->sigma_m[i]);
+    white_m = white_m > 0.0 ? white_m : 1e-6;
+    about["sigma_map"] = stem + ".sigma.png";
+    about["sigma_white_m"] = white_m;
+    out.files.push_back({stem + ".sigma.png", format_sigma_png(*areal, maps.heights, white_m)});
+  }
   out.files.push_back({stem + ".height.png", std::move(maps.height_png)});
   out.files.push_back({stem + ".normal.png", std::move(maps.normal_png)});
   out.files.push_back({stem + ".images.json", json_text(about)});

@@ -7,7 +7,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/little_endian.h"
 #include "asperity/base/text.h"
-#include "md5.h"
+#include "asperity/scene/md5.h"
 #include "stored_zip.h"
 
 namespace asperity {

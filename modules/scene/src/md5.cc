@@ -1,4 +1,4 @@
-#include "md5.h"
+#include "asperity/scene/md5.h"
 
 #include <array>
 #include <bit>

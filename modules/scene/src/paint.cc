@@ -5,6 +5,7 @@
 #include <string>
 
 #include "asperity/base/error.h"
+#include "asperity/base/version.h"
 #include "asperity/geometry/connected_point.h"
 #include "asperity/geometry/geodesic_path.h"
 #include "asperity/geometry/mesh_surface.h"
@@ -51,14 +52,28 @@ VirtualPath path_through(const MeshSurface& surface, std::span<const Vector3d> p
   return out;
 }
 
+// A further stroke with a texture that the object has is added to its strokes.
+void set_origin(const SceneObject& object, std::span<const Vector3d> picks_mesh_m, SceneTexture& texture) {
+  TextureOrigin origin = texture.origin.value_or(TextureOrigin{});
+  const SceneTexture* before = object.find_texture(texture.index);
+  origin.strokes_mesh_m.clear();
+  if (before != nullptr && before->origin && before->origin->kind == kPaintedOrigin)
+    origin.strokes_mesh_m = before->origin->strokes_mesh_m;
+  origin.strokes_mesh_m.emplace_back(picks_mesh_m.begin(), picks_mesh_m.end());
+  origin.kind = kPaintedOrigin;
+  if (origin.name.empty()) origin.name = texture.texture.name;
+  origin.version = kVersion;
+  texture.origin = std::move(origin);
+}
+
 }  // namespace
 
 VirtualPath virtual_path(const TriangleMesh& mesh, std::span<const Vector3d> picks_mesh_m) {
   return path_through(MeshSurface(mesh), picks_mesh_m);
 }
 
-PaintResult paint(SceneObject& object, std::span<const Vector3d> picks_mesh_m, const SceneTexture& texture,
-                  const HapticCoordinatesConfig& config) {
+PaintResult paint(SceneObject& object, std::span<const Vector3d> picks_mesh_m, SceneTexture texture,
+                  const HapticCoordinatesConfig& config, LayAt at) {
   if (texture.index < 0) throw Error("paint: texture index " + std::to_string(texture.index) + " is negative");
   const MeshSurface surface(to_metres(object.mesh, object.unit_m));
   PaintResult out;
@@ -69,21 +84,18 @@ PaintResult paint(SceneObject& object, std::span<const Vector3d> picks_mesh_m, c
   if (!out.path.locally_shortest)
     out.problems.push_back({"path_not_shortest", "the path between two points could still be shortened", 1});
 
-  auto& haptic = object.mesh.haptic;
-  if (haptic.empty()) haptic.resize(object.mesh.triangles.size());
-  for (std::size_t t = 0; t < haptic.size(); ++t) {
+  texture.order = further_order(object, at, texture.index);
+  set_origin(object, picks_mesh_m, texture);
+  std::vector<CoveredTriangle> claims;
+  for (std::uint32_t t = 0; t < coordinates.triangles.size(); ++t) {
     if (coordinates.triangles[t].texture < 0) continue;
-    if (haptic[t].texture >= 0 && haptic[t].texture != texture.index) ++out.painted_over;
-    haptic[t] = coordinates.triangles[t];
-    haptic[t].texture = texture.index;
+    claims.push_back({t, coordinates.triangles[t]});
+    claims.back().haptic.texture = texture.index;
   }
-  const auto place = std::find_if(object.textures.begin(), object.textures.end(),
-                                  [&](const SceneTexture& other) { return other.index >= texture.index; });
-  if (place != object.textures.end() && place->index == texture.index) {
-    *place = texture;
-  } else {
-    object.textures.insert(place, texture);
-  }
+  put_texture(object, std::move(texture));
+  const LaidTriangles laid = lay_triangles(object, claims);
+  out.painted_over = laid.over;
+  out.painted_under = laid.under;
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include "asperity/base/inner_path.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/read_mesh.h"
+#include "asperity/scene/covered_triangles.h"
 #include "asperity/texture/texture_file.h"
 #include "asperity/texture/texture_operations.h"
 #include "parse_scene.h"
@@ -73,6 +74,11 @@ void read_object(NamedFiles& files, SceneObject& object, Problems& problems, con
     observer.update("read", 0.0);
     texture.texture = read_texture(files.find(texture.file), {}, observer);
     files.count(size_bytes(texture.texture));
+  }
+  if (!object.covered_file.empty()) {
+    const fs::path file = files.find(object.covered_file);
+    object.covered = parse_covered_triangles(read_file(file, kLargestMap_bytes), printable(file.string()),
+                                             object.mesh.triangles.size());
   }
   if (!object.material_file.empty()) {
     const fs::path file = files.find(object.material_file);

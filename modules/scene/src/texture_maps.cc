@@ -16,12 +16,32 @@
 namespace asperity {
 namespace {
 
+// The mapped part of an area, from its corner at 0 on; it does not repeat.
+HeightMap heights_of_area(const TextureModel& model, const SplineGrid& grid, const TextureMapsConfig& config) {
+  const auto length_mm = [](double origin_m, double spacing_m, std::size_t count) {
+    return 1e3 * (origin_m + (static_cast<double>(count) - 3.0) * spacing_m);
+  };
+  const auto pixels = [&](double mm) {
+    return static_cast<int>(
+        std::clamp(std::ceil(mm * config.pixels_per_mm), static_cast<double>(config.fewest_pixels), 8192.0));
+  };
+  MakeHeightMapConfig image;
+  image.length_mm = length_mm(grid.origin_x_m, grid.spacing_x_m, grid.columns);
+  image.width_mm = length_mm(grid.origin_y_m, grid.spacing_y_m, grid.rows);
+  image.columns = pixels(image.length_mm);
+  image.rows = pixels(image.width_mm);
+  image.border = Border::kClamp;
+  return make_height_map(model, image).texture;
+}
+
 HeightMap heights_of(const Texture& texture, const TextureMapsConfig& config) {
   if (const auto* map = std::get_if<HeightMap>(&texture.model)) return *map;
   if (!is_height_field(texture.model)) {
     throw Error("images: the texture '" + printable(texture.name) + "' of model " + std::string(texture.model_name()) +
                 " has no heights");
   }
+  if (const auto* areal = std::get_if<ArealTexture>(&texture.model); areal != nullptr && !areal->sigma_m.empty())
+    return heights_of_area(texture.model, areal->surface, config);
   const std::optional<double> period = period_m(texture.model);
   const double length_mm = period ? 1e3 * *period : 10.0;
   MakeHeightMapConfig image;
@@ -52,6 +72,29 @@ std::string format_normal_png(const HeightMap& heights) {
     }
   }
   return format_rgb_png(static_cast<int>(heights.columns), static_cast<int>(heights.rows), samples);
+}
+
+std::string format_sigma_png(const ArealTexture& areal, const HeightMap& heights, double white_m) {
+  const SplineGrid& grid = areal.surface;
+  HeightMap image = heights;
+  image.low_m = 0.0;
+  image.high_m = white_m;
+  const auto nearest = [](double at_m, double origin_m, double spacing_m, std::size_t count) {
+    const double place = std::round((at_m - origin_m) / spacing_m);
+    return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(count) - 1.0));
+  };
+  for (std::size_t row = 0; row < image.rows; ++row) {
+    const std::size_t r =
+        nearest(1e-3 * image.mm_per_px_y * static_cast<double>(row), grid.origin_y_m, grid.spacing_y_m, grid.rows);
+    for (std::size_t column = 0; column < image.columns; ++column) {
+      const std::size_t c = nearest(1e-3 * image.mm_per_px_x * static_cast<double>(column), grid.origin_x_m,
+                                    grid.spacing_x_m, grid.columns);
+      const std::size_t i = r * grid.columns + c;
+      const double level = areal.supported[i] != 0 ? std::min(areal.sigma_m[i] / white_m, 1.0) * 65534.0 : 65535.0;
+      image.level[row * image.columns + column] = static_cast<std::uint16_t>(std::lround(level));
+    }
+  }
+  return format_height_image(image);
 }
 
 TextureMaps make_texture_maps(const Texture& texture, const TextureMapsConfig& config) {

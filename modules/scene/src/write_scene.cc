@@ -9,20 +9,17 @@
 #include "asperity/base/text.h"
 #include "asperity/geometry/write_mtl.h"
 #include "asperity/geometry/write_obj.h"
+#include "asperity/scene/covered_triangles.h"
 #include "asperity/scene/read_scene.h"
 #include "asperity/texture/texture_file.h"
+#include "scene_json.h"
+#include "texture_origin_json.h"
 
 namespace asperity {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-Json pose_json(const Pose& pose) {
-  const Eigen::Vector3d& p = pose.translation_m;
-  const Eigen::Quaterniond& q = pose.rotation;
-  return {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()};
-}
 
 bool is_identity(const Pose& pose) {
   return pose.translation_m.isZero(0.0) && pose.rotation.coeffs() == Eigen::Quaterniond::Identity().coeffs();
@@ -33,10 +30,14 @@ void add_object(Json& out, const SceneObject& object) {
   out["unit_m"] = object.unit_m;
   out["textures"] = Json::array();
   for (const SceneTexture& texture : object.textures) {
-    out["textures"].push_back({{"index", texture.index}, {"file", texture.file}});
+    Json entry{{"index", texture.index}, {"file", texture.file}};
+    if (texture.order != 0) entry["order"] = texture.order;
+    if (texture.origin) entry["source"] = format_texture_origin(*texture.origin);
+    out["textures"].push_back(std::move(entry));
   }
+  if (!object.covered_file.empty()) out["covered"] = object.covered_file;
   if (!object.material_file.empty()) out["material"] = object.material_file;
-  if (!is_identity(object.T_world_mesh)) out["T_world_mesh"] = pose_json(object.T_world_mesh);
+  if (!is_identity(object.T_world_mesh)) out["T_world_mesh"] = format_pose(object.T_world_mesh);
 }
 
 // The files of a scene, each name once and inside the scene's folder.
@@ -67,7 +68,7 @@ std::string format_scene(const Scene& scene) {
   add_object(out, scene.objects.front());
   if (scene.stiffness_N_per_m) out["stiffness_N_per_m"] = *scene.stiffness_N_per_m;
   if (scene.friction) out["friction"] = *scene.friction;
-  if (scene.T_mesh_world) out["T_mesh_world"] = pose_json(*scene.T_mesh_world);
+  if (scene.T_mesh_world) out["T_mesh_world"] = format_pose(*scene.T_mesh_world);
   for (std::size_t i = 1; i < scene.objects.size(); ++i) {
     Json object;
     add_object(object, scene.objects[i]);
@@ -101,6 +102,7 @@ std::vector<SceneFile> format_scene_files(const std::string& name, const Scene& 
   std::string text = format_scene(scene);
   for (const SceneObject& object : scene.objects) {
     for (const SceneTexture& texture : object.textures) out.add(format_texture_in_scene(texture));
+    if (!object.covered_file.empty()) out.add(object.covered_file, format_covered_triangles(object.covered));
     if (!object.material_file.empty()) out.add(object.material_file, format_material_map(object.material));
     if (fs::path(object.mesh_file).extension() != ".obj")
       throw Error("scene: the mesh '" + printable(object.mesh_file) + "' is not called *.obj");

@@ -5,19 +5,33 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/device/read_replay_csv.h"
+#include "asperity/pipeline/earlier_scene.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/session/register_input.h"
 
 namespace asperity {
 
 namespace {
 
 namespace fs = std::filesystem;
+
+// Of a scene with several scans, the pose of this recording's: by its checksum. nullopt: the scene's own pose serves.
+std::optional<Pose> pose_in_scene(const Scene& scene, const std::string& recording) {
+  const std::vector<const SceneTexture*> scans = scans_of(scene);
+  if (scans.size() < 2) return std::nullopt;
+  const std::string checksum = recording_checksum(recording);
+  for (const SceneTexture* scan : scans) {
+    if (scan->origin->checksum == checksum) return scan->origin->T_mesh_world;
+  }
+  return std::nullopt;
+}
 
 FeelDrive repeat_recording(const std::string& folder, const Scene& scene, const FeelSettings& settings,
                            const Observer& observer) {
@@ -29,8 +43,15 @@ FeelDrive repeat_recording(const std::string& folder, const Scene& scene, const 
   FeelDrive out;
   try {
     ScanDrive scan;
-    scan.measured = measure_on_scene(recording, scene, settings.process, observer);
-    scan.pressed = press_in_scan(scan.measured, scene, settings.render.stiffness_N_per_m);
+    const Scene* over = &scene;
+    Scene placed;
+    if (const std::optional<Pose> own = pose_in_scene(scene, folder)) {
+      placed = scene;
+      placed.T_mesh_world = own;
+      over = &placed;
+    }
+    scan.measured = measure_on_scene(recording, *over, settings.process, observer);
+    scan.pressed = press_in_scan(scan.measured, *over, settings.render.stiffness_N_per_m);
     out.path = scan.pressed.path;
     out.problems = scan.measured.problems;
     out.scan = std::move(scan);

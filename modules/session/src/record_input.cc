@@ -50,15 +50,18 @@ void add_camera(RecorderSensors& sensors, const RecordInput& input, const Calibr
   if (!calibration.camera) throw Error(file + ": camera is missing; see asperity calibrate camera");
   if (calibration.markers.empty()) throw Error(file + ": markers are missing; give --markers");
   const CameraCalibration camera = *calibration.camera;
-  const std::vector<MarkerPlacement> body = calibration.markers;
+  const std::vector<MarkerPlacement> markers = calibration.markers, body = markers_of_body(markers, "");
+  if (body.empty()) throw Error(file + ": markers: none is on the probe, all are on further bodies");
   CameraPoseConfig config;
   config.newest = is_live(address);
   config.nominal_rate_Hz = address.kind == CameraKind::kV4l2 ? address.v4l2.rate_Hz : address.images.rate_Hz;
-  BodyTracker(camera, body, track);                             // throws now, not in a thread
+  BodyTracker(camera, body, track);  // throws now, not in a thread
+  make_further_trackers(camera, markers, track);
   sensors.reopen_poses = config.newest && address.path != "-";  // standard input does not come back
   sensors.reopen_silent_poses = address.kind == CameraKind::kV4l2;
   sensors.open_poses = [=] {
-    return make_camera_pose_source(open_camera(address), BodyTracker(camera, body, track), config, on_frame);
+    return make_camera_pose_source(open_camera(address), BodyTracker(camera, body, track), config, on_frame,
+                                   make_further_trackers(camera, markers, track));
   };
 }
 
@@ -79,6 +82,20 @@ std::optional<Calibration> read_record_calibration(const RecordInput& input) {
   out.markers = read_markers(markers).markers;
   // They are now in terms of our tag frame, whatever the file had declared.
   out.tag_frame.reset();
+  return out;
+}
+
+std::vector<TrackedBody> record_bodies(const RecordInput& input, const std::optional<Calibration>& calibration) {
+  std::vector<TrackedBody> out;
+  if (!input.camera.empty() && calibration) out = tracked_bodies(calibration->markers);
+  if (input.poses.empty()) return out;
+  for (const std::string& name : input.bodies) {
+    if (!is_body_name(name)) {
+      throw Error("--body: '" + printable(name) +
+                  "' is not a body's name: 1 to 32 lower-case letters, digits, _ and -");
+    }
+    out.push_back({name, {}});
+  }
   return out;
 }
 
@@ -106,7 +123,7 @@ RecorderSensors make_record_sensors(const RecordInput& input, const std::optiona
     const PoseAddress poses = address_of("--poses", parse_pose_address, input.poses);
     out.reopen_poses = poses.kind != PoseAddress::Kind::kFile;
     out.reopen_silent_poses = false;
-    out.open_poses = [=] { return open_pose_stream(poses); };
+    out.open_poses = [=, bodies = input.bodies] { return open_pose_stream(poses, bodies); };
   }
   return out;
 }

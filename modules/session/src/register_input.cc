@@ -2,14 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
+#include <utility>
 
+#include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/read_mesh.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/scene/md5.h"
 #include "asperity/scene/read_scene.h"
+#include "asperity/session/mesh_unit.h"
 #include "asperity/texture/texture_file.h"
 
 namespace asperity {
@@ -33,6 +38,7 @@ Scan read_scan(const std::string& path, const Observer& observer) {
   } else {
     scan.path = read_path(path);
   }
+  scan.checksum = recording_checksum(path);
   return scan;
 }
 
@@ -63,13 +69,41 @@ void check_register_input(const std::vector<std::string>& scans, const std::vect
   }
 }
 
-RegisterInput read_register_input(const std::vector<std::string>& scans, const std::string& mesh, double unit_m,
-                                  const std::vector<std::string>& textures, const Observer& observer) {
+std::string recording_checksum(const fs::path& path) {
+  constexpr std::uint64_t kLargestFile_bytes = std::uint64_t{1} << 32;
+  if (!fs::is_directory(path)) return "md5:" + md5_hex(read_file(path, kLargestFile_bytes));
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(path)) {
+    const fs::path ending = entry.path().extension();
+    if (entry.is_regular_file() && (ending == ".json" || ending == ".csv")) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::string sums;
+  for (const fs::path& file : files)
+    sums += file.filename().string() + " " + md5_hex(read_file(file, kLargestFile_bytes)) + "\n";
+  return "md5:" + md5_hex(sums);
+}
+
+MeshFile read_register_mesh(const fs::path& file, const Observer& observer) {
+  return std::move(read_scene(file, observer).objects.front().mesh);
+}
+
+bool is_same_mesh(const MeshFile& a, const MeshFile& b) {
+  return a.vertices == b.vertices && a.triangles == b.triangles;
+}
+
+RegisterInput read_register_input(const std::vector<std::string>& scans, const std::string& mesh,
+                                  std::optional<double> unit_m, const std::vector<std::string>& textures,
+                                  const Observer& observer) {
   check_register_input(scans, textures);
   RegisterInput out;
-  out.mesh = read_mesh(mesh, {}, observer);
-  out.unit_m = unit_m;
-  if (const double size_m = size_of_mesh_m(out.mesh, unit_m); !(size_m <= kAbsurd_m)) {
+  if (fs::path(mesh).extension() == ".json") {
+    out.onto = read_earlier_scene(mesh, observer);
+    if (unit_m) set_mesh_unit(out.onto.scene, mesh, *unit_m);
+  } else {
+    out.onto = scene_of_mesh(read_mesh(mesh, {}, observer), unit_m.value_or(1.0));
+  }
+  if (const double size_m = size_of_mesh_m(out.mesh(), out.unit_m()); !(size_m <= kAbsurd_m)) {
     throw Error(fmt::format("{}: the mesh is {:.3g} m large; is --mesh-unit right?", printable(mesh, 200), size_m));
   }
   for (std::size_t i = 0; i < scans.size(); ++i) {
@@ -81,9 +115,12 @@ RegisterInput read_register_input(const std::vector<std::string>& scans, const s
 
 ScansOnMesh register_input(const RegisterInput& input, const std::optional<Pose>& guess, const RegisterConfig& config,
                            const RegistrationObserver& observer) {
-  ScansOnMesh result = register_scans(input.scans, to_metres(input.mesh, input.unit_m), guess, config, observer);
-  result.problems.insert(result.problems.begin(), input.mesh.problems.begin(), input.mesh.problems.end());
-  if (const double size_m = size_of_mesh_m(input.mesh, input.unit_m); size_m > kLarge_m) {
+  std::vector<std::string> names;
+  for (const Scan& scan : input.scans) names.push_back(scan.name);
+  place_scans(input.onto, names);  // throws before the long part
+  ScansOnMesh result = register_scans(input.scans, to_metres(input.mesh(), input.unit_m()), guess, config, observer);
+  result.problems.insert(result.problems.begin(), input.mesh().problems.begin(), input.mesh().problems.end());
+  if (const double size_m = size_of_mesh_m(input.mesh(), input.unit_m()); size_m > kLarge_m) {
     result.problems.push_back(
         {"large_mesh", fmt::format("the mesh is {:.0f} m large; is --mesh-unit right?", size_m), 1});
   }

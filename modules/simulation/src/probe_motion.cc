@@ -12,7 +12,8 @@ namespace asperity {
 namespace {
 
 ScanPath make_path(const SimulationConfig& config) {
-  Random random(static_cast<std::uint64_t>(config.seed), stream(Stream::kPath));
+  const std::int64_t seed = config.hand.path_seed != 0 ? config.hand.path_seed : config.seed;
+  Random random(static_cast<std::uint64_t>(seed), stream(Stream::kPath));
   return {config.hand, random};
 }
 

@@ -5,13 +5,16 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "asperity/base/config.h"
 #include "asperity/base/error.h"
 #include "asperity/geometry/read_mesh.h"
 #include "asperity/json/config_json.h"
+#include "asperity/simulation/carried_object.h"
 #include "asperity/simulation/make_surface.h"
 #include "asperity/simulation/mesh_base.h"
 #include "asperity/simulation/probe_motion.h"
@@ -78,6 +81,27 @@ std::vector<Segment> segments(const Hand& hand) {
   return out;
 }
 
+// The object's body in the frames of the probe's tracker, with errors of its own.
+TrackerSampler object_tracker(const SimulationConfig& config) {
+  constexpr std::uint64_t kOtherErrors = 0x0b1ec7;
+  SimulationConfig body = config;
+  body.probe.tip_in_marker_m = {0.0, 0.0, 0.0};
+  body.tracker.mount_Hz = 0.0;  // on the object it is glued
+  return {body, kStart_ns, kOtherErrors};
+}
+
+// Where the object was at the truth's rows, and the tip as if it had not moved, or back.
+void note_object(const CarriedObject& object, Truth& truth) {
+  for (const std::int64_t t_ns : truth.t_ns)
+    truth.T_world_object.push_back(object.T_world_body(1e-9 * static_cast<double>(t_ns - kStart_ns)));
+}
+std::vector<Eigen::Vector3d> tip_on_object_at_rest(const CarriedObject& object, const Truth& truth) {
+  std::vector<Eigen::Vector3d> out;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    out.push_back(object.T_start_body() * (truth.T_world_object[i].inverse() * truth.p_world_tip_m[i]));
+  return out;
+}
+
 // The stroke on `base`, or on the plane or cylinder of the config where there is none.
 Recording simulate_on(const SimulationConfig& config, const Surface& surface,
                       const std::shared_ptr<const MeshBase>& base, const Observer& observer) {
@@ -91,10 +115,17 @@ Recording simulate_on(const SimulationConfig& config, const Surface& surface,
   if (base) mesh_path = place_on_mesh(*base, motion.path());
   ProbeSampler probe(config, truth, kStart_ns);
   TrackerSampler tracker(config, kStart_ns);
+  std::optional<CarriedObject> object;
+  if (config.object.motion != SimulatedObjectMotion::kNone) object.emplace(config, motion.duration_s());
+  TrackerSampler object_poses = object_tracker(config);
   const auto steps = static_cast<std::int64_t>(std::llround(motion.duration_s() / config.step_s));
   for (std::int64_t i = 0; i <= steps; ++i) {
     if (i % kStepsPerUpdate == 0) observer.update("simulate", static_cast<double>(i) / static_cast<double>(steps));
-    const MotionState state = motion.next();
+    MotionState state = motion.next();
+    if (object) {
+      object_poses.push(object->body_state(state.t_s));
+      state = object->carry(state);
+    }
     probe.push(state);
     tracker.push(state);
   }
@@ -109,7 +140,15 @@ Recording simulate_on(const SimulationConfig& config, const Surface& surface,
   recording.calibration.tip_radius_m = config.contact.tip_radius_m;
   recording.probe = std::move(probe.samples);
   recording.tracker = std::move(tracker.poses);
-  if (base) measure_on_mesh(*base, mesh_path, probe.truth);
+  if (object) note_object(*object, probe.truth);
+  if (base && object) {
+    std::vector<Eigen::Vector3d> moved_m = tip_on_object_at_rest(*object, probe.truth);
+    moved_m.swap(probe.truth.p_world_tip_m);
+    measure_on_mesh(*base, mesh_path, probe.truth);
+    moved_m.swap(probe.truth.p_world_tip_m);
+  } else if (base) {
+    measure_on_mesh(*base, mesh_path, probe.truth);
+  }
   recording.truth = std::move(probe.truth);
 
   RecordingInfo& info = recording.info;
@@ -130,6 +169,12 @@ Recording simulate_on(const SimulationConfig& config, const Surface& surface,
   info.gravity_world_mps2 = exp_rotation(turn_rad) * Eigen::Vector3d(config.gravity_world_mps2.data());
   info.segments = segments(motion.hand());
   if (base) info.T_mesh_world = base->T_world_mesh().inverse();
+  if (object) {
+    info.bodies.push_back({std::string(kObjectBody), {}});
+    recording.body_poses.push_back(std::move(object_poses.poses));
+    // What a registration is to find is the mesh in the frame that the scan is relative to.
+    if (info.T_mesh_world) info.T_mesh_world = *info.T_mesh_world * object->T_start_body();
+  }
   info.simulation.emplace().settings = settings_json(config);
   if (base) info.simulation->path_length_m = mesh_path.length_m;
   observer.update("simulate", 1.0);
@@ -154,7 +199,8 @@ Recording simulate_recording(const SimulationConfig& config, const Surface& surf
 }
 
 Recording simulate_recording(const SimulationConfig& config, const Observer& observer) {
-  const std::unique_ptr<Surface> surface = make_surface(config.surface, static_cast<std::uint64_t>(config.seed));
+  const std::unique_ptr<Surface> surface = make_surface(
+      config.surface, static_cast<std::uint64_t>(config.surface.seed != 0 ? config.surface.seed : config.seed));
   if (config.shape.kind != BaseShapeKind::kMesh) return simulate_recording(config, *surface, observer);
   if (config.shape.mesh_file.empty()) throw Error("simulation.shape.mesh_file: which mesh?");
   return simulate_recording(config, *surface, to_metres(read_mesh(config.shape.mesh_file), config.shape.mesh_unit_m),

@@ -40,6 +40,7 @@ enum class Stream : std::uint64_t {
   kForce3Calibration,
   kTrackerSlow,
   kTrackerWander,
+  kObjectMotion,
 };
 
 constexpr std::uint64_t stream(Stream s) { return static_cast<std::uint64_t>(s); }

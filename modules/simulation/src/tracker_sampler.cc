@@ -45,14 +45,14 @@ Pose flipped_pose(const Pose& T_world_marker) {
   return {Eigen::Quaterniond(rotation).normalized(), T_world_marker.translation_m};
 }
 
-TrackerSampler::TrackerSampler(const SimulationConfig& config, std::int64_t start_ns)
+TrackerSampler::TrackerSampler(const SimulationConfig& config, std::int64_t start_ns, std::uint64_t other_errors)
     : config_(config.tracker),
       tip_in_marker_m_(config.probe.tip_in_marker_m.data()),
       start_ns_(start_ns),
-      noise_(seed_of(config), stream(Stream::kTrackerNoise)),
+      noise_(seed_of(config) + other_errors, stream(Stream::kTrackerNoise)),
       clock_(seed_of(config), stream(Stream::kTrackerClock)),
-      faults_(seed_of(config), stream(Stream::kTrackerFaults)),
-      slow_random_(seed_of(config), stream(Stream::kTrackerSlow)),
+      faults_(seed_of(config) + other_errors, stream(Stream::kTrackerFaults)),
+      slow_random_(seed_of(config) + other_errors, stream(Stream::kTrackerSlow)),
       wander_random_(seed_of(config), stream(Stream::kTrackerWander)),
       wander_(config.tracker.clock_wander_s, config.tracker.clock_wander_time_s, wander_random_) {
   phase_ = clock_.uniform();

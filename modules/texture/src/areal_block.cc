@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kMostASide = 4096;
 constexpr std::size_t kMostNodes = 1 << 22;
-constexpr const char* kHeader = "x_m,y_m,coefficient_m,supported\n";
+constexpr const char* kHeader = "x_m,y_m,coefficient_m,supported";
 
 double node_x_m(const SplineGrid& g, std::size_t column) {
   return g.origin_x_m + static_cast<double>(column) * g.spacing_x_m;
@@ -25,13 +25,20 @@ double node_y_m(const SplineGrid& g, std::size_t row) {
 std::string surface_csv(const ArealTexture& t) {
   const SplineGrid& g = t.surface;
   std::string out = kHeader;
+  out += t.sigma_m.empty() ? "\n" : ",sigma_m\n";
   for (std::size_t i = 0; i < g.coefficient_m.size(); ++i) {
     append_number(out, node_x_m(g, i % g.columns));
     out += ',';
     append_number(out, node_y_m(g, i / g.columns));
     if (!std::isfinite(g.coefficient_m[i]))
       throw Error("texture: 'coefficient_m' is " + number_text(g.coefficient_m[i]) + ", which a file cannot hold");
-    out += ',' + number_text(g.coefficient_m[i]) + (t.supported[i] ? ",1\n" : ",0\n");
+    out += ',' + number_text(g.coefficient_m[i]) + (t.supported[i] ? ",1" : ",0");
+    if (!t.sigma_m.empty()) {
+      if (!(t.sigma_m[i] >= 0.0) || !std::isfinite(t.sigma_m[i]))
+        throw Error("texture: 'sigma_m' is " + number_text(t.sigma_m[i]) + ", which is no standard deviation");
+      out += ',' + number_text(t.sigma_m[i]);
+    }
+    out += '\n';
   }
   return out;
 }
@@ -44,7 +51,9 @@ void parse_surface(const std::string& text, const std::string& name, ArealTextur
   const std::size_t y = csv.require("y_m");
   const std::size_t coefficient = csv.require("coefficient_m");
   const std::size_t supported = csv.require("supported");
-  if (csv.columns().size() != 4) throw Error(name + ":1: more columns than x_m,y_m,coefficient_m,supported");
+  const auto sigma = csv.find("sigma_m");
+  if (csv.columns().size() != (sigma ? 5u : 4u))
+    throw Error(name + ":1: more columns than " + kHeader + " and sigma_m");
   g.coefficient_m.reserve(count);
   t.supported.reserve(count);
   while (csv.next()) {
@@ -60,6 +69,11 @@ void parse_surface(const std::string& text, const std::string& name, ArealTextur
     if (flag != 0 && flag != 1) csv.fail(supported, "is neither 0 nor 1");
     g.coefficient_m.push_back(value);
     t.supported.push_back(static_cast<std::uint8_t>(flag));
+    if (!sigma) continue;
+    const double sigma_m = csv.number(*sigma);
+    if (!(sigma_m >= 0.0 && sigma_m <= kLargestHeight_m))
+      csv.fail(*sigma, number_text(sigma_m) + " is not a standard deviation");
+    t.sigma_m.push_back(sigma_m);
   }
   if (g.coefficient_m.size() != count || csv.truncated()) {
     throw Error(name + ":" + std::to_string(csv.line()) + ": " + std::to_string(g.coefficient_m.size()) +
@@ -92,7 +106,8 @@ void TextureModelTraits<ArealTexture>::read_block(const BlockInput& input, Areal
 
 std::string TextureModelTraits<ArealTexture>::write_block(const ArealTexture& t, BlockOutput& output) {
   const SplineGrid& g = t.surface;
-  if (g.coefficient_m.size() != g.columns * g.rows || t.supported.size() != g.coefficient_m.size())
+  if (g.coefficient_m.size() != g.columns * g.rows || t.supported.size() != g.coefficient_m.size() ||
+      (!t.sigma_m.empty() && t.sigma_m.size() != g.coefficient_m.size()))
     throw Error("texture: an areal grid of " + std::to_string(g.columns) + " x " + std::to_string(g.rows) + " with " +
                 std::to_string(g.coefficient_m.size()) + " coefficients");
   const std::string file = output.add_payload(".surface.csv", surface_csv(t));

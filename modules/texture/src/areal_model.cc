@@ -1,6 +1,7 @@
 #include "asperity/texture/areal_model.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "asperity/texture/evaluate_spline_grid.h"
@@ -16,15 +17,23 @@ using ArealTraits = TextureModelTraits<ArealTexture>;
 Json ArealTraits::describe(const ArealTexture& t) {
   std::size_t supported = 0;
   for (const auto flag : t.supported) supported += flag;
-  return {{"columns", t.surface.columns},
-          {"rows", t.surface.rows},
-          {"spacing_m", {t.surface.spacing_x_m, t.surface.spacing_y_m}},
-          {"supported_part", static_cast<double>(supported) / static_cast<double>(t.supported.size())},
-          {"border", kBorderNames.at(static_cast<std::size_t>(t.surface.border))}};
+  Json out{{"columns", t.surface.columns},
+           {"rows", t.surface.rows},
+           {"spacing_m", {t.surface.spacing_x_m, t.surface.spacing_y_m}},
+           {"supported_part", static_cast<double>(supported) / static_cast<double>(t.supported.size())},
+           {"border", kBorderNames.at(static_cast<std::size_t>(t.surface.border))}};
+  if (!t.sigma_m.empty() && supported > 0) {
+    double square = 0.0;
+    for (std::size_t i = 0; i < t.sigma_m.size(); ++i)
+      square += t.supported[i] != 0 ? t.sigma_m[i] * t.sigma_m[i] : 0.0;
+    out["sigma_rms_m"] = std::sqrt(square / static_cast<double>(supported));
+  }
+  return out;
 }
 
 void ArealTraits::scale(ArealTexture& t, double factor) {
   for (double& c : t.surface.coefficient_m) c *= factor;
+  for (double& sigma : t.sigma_m) sigma *= std::abs(factor);
 }
 
 void ArealTraits::add_to(TextureHash& hash, const ArealTexture& t) { add_grid_to(hash, t.surface); }
@@ -36,7 +45,7 @@ void ArealTraits::low_pass(ArealTexture& t, double cutoff_cycles_per_mm) {
 }
 
 std::size_t ArealTraits::size_bytes(const ArealTexture& t) {
-  return t.surface.coefficient_m.size() * (sizeof(double) + 1);
+  return t.surface.coefficient_m.size() * (sizeof(double) + 1) + t.sigma_m.size() * sizeof(double);
 }
 
 HeightAndGradient ArealTraits::height(const ArealTexture& t, double x_m, double y_m) noexcept {

@@ -163,6 +163,27 @@ TEST(FieldFile, ReadsASurfaceStrictly) {
   EXPECT_THAT(with(last, last.substr(0, last.size() - 2) + "2\n"), ThrowsMessage<Error>(HasSubstr("neither 0 nor 1")));
 }
 
+// An area's standard deviations are a column that other surfaces do not have.
+TEST(FieldFile, KeepsTheStandardDeviationsOfAnArea) {
+  Texture with = area();
+  auto& areal = std::get<ArealTexture>(with.model);
+  for (std::size_t i = 0; i < areal.supported.size(); ++i) areal.sigma_m.push_back(1e-6 * static_cast<double>(i % 7));
+  const TextureFiles files = format_texture_files(with, "x");
+  const auto read = [&](const std::string& content) {
+    return parse_texture(files.json, "x.json", [&](const std::string&) { return content; });
+  };
+  const Texture again = read(files.payloads[0].content);
+  EXPECT_EQ(std::get<ArealTexture>(again.model).sigma_m, areal.sigma_m);
+  EXPECT_EQ(std::get<ArealTexture>(again.model).supported, areal.supported);
+  EXPECT_EQ(format_texture_files(again, "x").payloads[0].content, files.payloads[0].content);
+  EXPECT_EQ(format_texture_files(area(), "x").payloads[0].content.find("sigma_m"), std::string::npos);
+  std::string bad = files.payloads[0].content;
+  bad.replace(bad.find(",1e-06\n"), 7, ",-1e-06\n");
+  EXPECT_THAT([&] { read(bad); }, ThrowsMessage<Error>(HasSubstr("is not a standard deviation")));
+  areal.sigma_m.pop_back();
+  EXPECT_THROW(format_texture_files(with, "x"), Error);
+}
+
 TEST(EvaluateHeight, KnowsPeriodAndOffset) {
   EXPECT_DOUBLE_EQ(period_m(surface(Fourier2dKind::kIsotropic).model).value(), 0.01);
   EXPECT_FALSE(period_m(area().model).has_value());

@@ -49,7 +49,8 @@ class SenderClock {
 
 class PoseStream : public PoseSource {
  public:
-  PoseStream(std::unique_ptr<ByteSource> bytes, PoseTimes times) : bytes_(std::move(bytes)), times_(times) {
+  PoseStream(std::unique_ptr<ByteSource> bytes, PoseTimes times, const std::vector<std::string>& bodies)
+      : bytes_(std::move(bytes)), times_(times), lines_(bodies) {
     if (!bytes_) throw Error("there is no stream of poses");
   }
 
@@ -130,25 +131,27 @@ PoseAddress parse_pose_address(std::string_view text) {
   return out;
 }
 
-std::unique_ptr<PoseSource> open_pose_stream(const PoseAddress& address) {
-  if (address.kind == PoseAddress::Kind::kFile) return make_pose_stream(open_path(address.path));
+std::unique_ptr<PoseSource> open_pose_stream(const PoseAddress& address, const std::vector<std::string>& bodies) {
+  if (address.kind == PoseAddress::Kind::kFile)
+    return make_pose_stream(open_path(address.path), PoseTimes::kAsWritten, bodies);
   if (address.kind == PoseAddress::Kind::kPipe) {
-    return make_pose_stream(open_path(address.path), PoseTimes::kHostClock);
+    return make_pose_stream(open_path(address.path), PoseTimes::kHostClock, bodies);
   }
   UdpConfig udp;
   udp.address = address.address;
   udp.port = address.port;
-  udp.shows_sender = [](std::span<const std::uint8_t> datagram) {
-    PoseLines lines;
+  udp.shows_sender = [bodies](std::span<const std::uint8_t> datagram) {
+    PoseLines lines(bodies);
     std::vector<TrackerSample> poses;
     lines.push(datagram, host_now_ns(), poses);
     return !poses.empty();
   };
-  return make_pose_stream(open_udp(udp), PoseTimes::kSendersClock);
+  return make_pose_stream(open_udp(udp), PoseTimes::kSendersClock, bodies);
 }
 
-std::unique_ptr<PoseSource> make_pose_stream(std::unique_ptr<ByteSource> bytes, PoseTimes times) {
-  return std::make_unique<PoseStream>(std::move(bytes), times);
+std::unique_ptr<PoseSource> make_pose_stream(std::unique_ptr<ByteSource> bytes, PoseTimes times,
+                                             const std::vector<std::string>& bodies) {
+  return std::make_unique<PoseStream>(std::move(bytes), times, bodies);
 }
 
 }  // namespace asperity

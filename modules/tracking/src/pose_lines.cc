@@ -60,13 +60,24 @@ void PoseLines::push(std::span<const std::uint8_t> bytes, std::int64_t arrival_n
   }
 }
 
+std::size_t PoseLines::take_body(std::string_view& line) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (!line.starts_with(bodies_[i]) || line.substr(bodies_[i].size(), 1) != ",") continue;
+    line.remove_prefix(bodies_[i].size() + 1);
+    return i + 1;
+  }
+  return 0;
+}
+
 void PoseLines::take_line(std::int64_t arrival_ns, std::vector<TrackerSample>& out) {
-  const std::string_view line = trim(line_);
+  std::string_view line = trim(line_);
+  const std::size_t body = take_body(line);
   if (too_long_) {
     ++bad_lines_;
   } else if (!line.empty() && !line.starts_with('#') && !line.starts_with("t_ns")) {
     if (const auto pose = parse_line(line, arrival_ns)) {
       out.push_back(*pose);
+      out.back().body = body;
     } else {
       ++bad_lines_;
     }

@@ -36,6 +36,26 @@ TEST(PoseLines, ReadsLinesOfATrackerCsvInAnyPieces) {
   }
 }
 
+TEST(PoseLines, ALineMayBeginWithABodysName) {
+  constexpr std::string_view kText =
+      "object,100,0.1,0,0.3,1,0,0,0\n100,0.2,0,0.3,1,0,0,0\nobjects,101,0.1,0,0.3,1,0,0,0\ntable,102,0.4,0,0.3,1,0,0,"
+      "0\n";
+  PoseLines lines({"table", "object"});
+  std::vector<TrackerSample> poses;
+  lines.push(bytes_of(kText), 1, poses);
+  ASSERT_EQ(poses.size(), 3u);
+  EXPECT_EQ(poses[0].body, 2u);
+  EXPECT_EQ(poses[1].body, 0u);
+  EXPECT_EQ(poses[2].body, 1u);
+  EXPECT_EQ(poses[2].T_world_marker.translation_m.x(), 0.4);
+  EXPECT_EQ(lines.bad_lines(), 1u);  // a name that was not announced
+  PoseLines none;
+  std::vector<TrackerSample> plain;
+  none.push(bytes_of(kText), 1, plain);
+  EXPECT_EQ(plain.size(), 1u);
+  EXPECT_EQ(none.bad_lines(), 3u);
+}
+
 TEST(PoseLines, CountsWhatIsNoPose) {
   PoseLines lines;
   std::vector<TrackerSample> poses;

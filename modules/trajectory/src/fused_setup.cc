@@ -132,16 +132,17 @@ Vector3d stated_sigma_rad(const TrackerCalibration& tracker) {
 }
 
 std::vector<PoseNoise> stated_pose_noise(const TrackerStream& stream, const Calibration& calibration,
-                                         const RecordingInfo& info) {
+                                         const RecordingInfo& info, std::string_view body) {
   const PoseNoise all{stated_sigma_m(calibration.tracker).cwiseAbs2().asDiagonal(),
                       stated_sigma_rad(calibration.tracker).cwiseAbs2().asDiagonal()};
   std::vector<PoseNoise> out(stream.size(), all);
   const bool by_law = calibration.tracker.noise_model && info.world == "camera";
+  const std::vector<MarkerPlacement> markers = markers_of_body(calibration.markers, body);
   const auto known = [](const std::vector<Vector3d>& sigma, std::size_t i) {
     return i < sigma.size() && sigma[i].allFinite() && (sigma[i].array() > 0.0).all();
   };
   for (std::size_t i = 0; i < out.size(); ++i) {
-    if (by_law) out[i] = noise_by_law(*calibration.tracker.noise_model, calibration.markers, stream.T_world_marker[i]);
+    if (by_law) out[i] = noise_by_law(*calibration.tracker.noise_model, markers, stream.T_world_marker[i]);
     // What all poses share is no noise: a scan is as exact as they agree.
     const auto& position_m = known(stream.noise_position_m, i) ? stream.noise_position_m : stream.sigma_position_m;
     const auto& rotation_rad =

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 #include "asperity/recording/recording.h"
 #include "asperity/trajectory/estimate_trajectory_fused.h"
 #include "inertial_smoother.h"
@@ -35,9 +37,10 @@ Eigen::Vector3d stated_sigma_m(const TrackerCalibration& tracker);
 Eigen::Vector3d stated_sigma_rad(const TrackerCalibration& tracker);
 
 // The white noise of each pose as stated: by its own σ, else by the calibration's law of distance and tilt where the
-// world is the camera's frame, else the calibration's σ of all poses.
+// world is the camera's frame, else the calibration's σ of all poses. `body` is whose markers the law is about, the
+// probe's without a name.
 std::vector<PoseNoise> stated_pose_noise(const TrackerStream& stream, const Calibration& calibration,
-                                         const RecordingInfo& info);
+                                         const RecordingInfo& info, std::string_view body = {});
 
 // The slow error and the tip's σ as stated or, where nothing is said of them, as the settings have them. A tip at the
 // marker's origin is the tracked point itself.

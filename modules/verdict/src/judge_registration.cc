@@ -18,6 +18,13 @@ constexpr double kMisfit = 5.0;  // residual over what is explained; a path has 
 constexpr double kMeshError = 0.03;
 constexpr double kGuessSigmas = 4.0;  // 0.1 % of right guesses are farther off (χ², three coordinates)
 
+// Known less well than this, a pose can be off by more than some millimetres or degrees.
+constexpr double kKnown_m = 1e-3;
+constexpr double kKnown_rad = 1.5 / kDegrees;
+constexpr double kSlowRatio =
+    3.5;  // a slow error this much larger than stated is an error of the mesh, or another mesh
+constexpr double kOutlying = 0.25;  // share of the paths
+
 }  // namespace
 
 Verdicts judge_registration(const PoseEvidence& evidence) {
@@ -43,16 +50,37 @@ Verdicts judge_registration(const PoseEvidence& evidence) {
   if (evidence.guess_shift_m > kGuessSigmas * evidence.guess_sigma_m ||
       evidence.guess_rotation_rad > kGuessSigmas * evidence.guess_sigma_rad) {
     out.push_back(make_verdict(
-        "guess_contradicted",
-        fmt::format("the pose is {:.3g} mm and {:.3g} degrees from the guess, which was stated to be known to {:.3g} "
-                    "mm and {:.3g} degrees",
-                    1e3 * evidence.guess_shift_m, kDegrees * evidence.guess_rotation_rad, 1e3 * evidence.guess_sigma_m,
+        evidence.guess_stated ? "guess_contradicted" : "guess_overruled",
+        fmt::format("the pose is {:.3g} mm and {:.3g} degrees from the guess, which is {} to be known to {:.3g} mm and "
+                    "{:.3g} degrees",
+                    1e3 * evidence.guess_shift_m, kDegrees * evidence.guess_rotation_rad,
+                    evidence.guess_stated ? "stated" : "taken", 1e3 * evidence.guess_sigma_m,
                     kDegrees * evidence.guess_sigma_rad)));
   }
   if (evidence.ambiguous) {
     out.push_back(make_verdict("pose_ambiguous",
                                fmt::format("another pose, {:.1f} mm and {:.1f} degrees away, fits as well",
                                            1e3 * evidence.rival_distance_m, kDegrees * evidence.rival_rotation_rad)));
+  }
+  if (evidence.sigma_m > kKnown_m || evidence.sigma_rad > kKnown_rad) {
+    out.push_back(make_verdict(
+        "pose_uncertain",
+        fmt::format("the paths determine the pose to {:.2g} mm and {:.2g} degrees only (standard deviations)",
+                    1e3 * evidence.sigma_m, kDegrees * evidence.sigma_rad)));
+  }
+  if (evidence.slow_ratio > kSlowRatio || evidence.outlying > kOutlying) {
+    out.push_back(
+        make_verdict("other_shape",
+                     fmt::format("to lie there the paths need a slow error {:.2g} times as large as stated, and {:.0f} "
+                                 "% of them are no such error",
+                                 evidence.slow_ratio, 100.0 * evidence.outlying)));
+  }
+  if (!evidence.searched) {
+    out.push_back(make_verdict("rivals_unknown", "no pose elsewhere on the mesh was compared with this one"));
+  }
+  if (evidence.symmetric_copies > 0 || evidence.symmetric_motion) {
+    out.push_back(
+        make_verdict("mesh_symmetric", "the mesh maps onto itself: the pose is one of several that are the same"));
   }
   sort_verdicts(out);
   return out;

@@ -31,13 +31,18 @@ constexpr double kTwoSided95 = 1.96;
 constexpr double kLeastContact_s = 0.1;
 constexpr double kInvisible_snr = 2.0;     // 1, and the expected noise is known to a factor of about 2 in power
 constexpr double kSeen_correlation = 0.9;  // of what the noise filter leaves with the surface
-constexpr double kNoisy_snr = 5.0;         // a correlation with the surface of about 0.9
+constexpr std::size_t kFewSticks = 5;
+constexpr double kStuck_share = 0.05;
+constexpr double kNoisy_snr = 5.0;                  // a correlation with the surface of about 0.9
 constexpr double kLeastCoverageWithoutForce = 0.9;  // near one surface, as a tip on it is
 constexpr double kLost_share = 0.2;                 // clipped, or dropped in reading
 constexpr double kRepeated_share = 0.5;
 constexpr double kLeastOverlap_share = 0.7;
 constexpr double kLongestGap_s = 0.5;
 constexpr double kRejected_share = 0.1;
+constexpr double kLeastSeen_share = 0.5;  // of the time, the object's body
+constexpr double kMostlySeen_share = 0.95;
+constexpr double kTurned_rad_per_deg = 0.017453292519943295;
 
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
@@ -179,6 +184,22 @@ void judge_streams(const ScanEvidence& e, Verdicts& out) {
   }
 }
 
+void judge_object(const ScanEvidence& e, Verdicts& out) {
+  const std::string seen =
+      fmt::format("the object's markers were seen in {:.0f} % of the scan", std::floor(100.0 * e.object_seen_share));
+  if (e.object_seen_share < kLeastSeen_share) {
+    out.push_back(make_verdict("object_unseen", seen));
+  } else if (e.object_seen_share < kMostlySeen_share) {
+    out.push_back(make_verdict("object_hidden", seen + "; the rest was left out"));
+  }
+  if (std::isfinite(e.object_moved_m)) {
+    out.push_back(
+        make_verdict("object_moved", fmt::format("the scan is relative to the object, which moved by up to "
+                                                 "{:.3g} mm and {:.2g}°",
+                                                 1e3 * e.object_moved_m, e.object_turned_rad / kTurned_rad_per_deg)));
+  }
+}
+
 void judge_length(const ScanEvidence& e, Verdicts& out) {
   const double own_m = std::isfinite(e.length_stderr_m) ? e.length_stderr_m : 0.0;
   const double bound_m = kTwoSided95 * std::hypot(own_m, e.tracker_length_stderr_m);
@@ -204,6 +225,13 @@ void judge_noise(const ScanEvidence& e, Verdicts& out) {
         make_verdict("noisy_texture", fmt::format("of the texture's {:.3g} µm RMS {:.3g} µm are expected to be noise",
                                                   1e6 * e.texture_rms_m, 1e6 * e.noise_rms_m)));
   }
+}
+
+void judge_sticking(const ScanEvidence& e, Verdicts& out) {
+  if (e.sticks < kFewSticks || !(e.stuck_share >= kStuck_share)) return;
+  out.push_back(make_verdict("stick_slip", fmt::format("the tip stuck and slipped {} times ({:.0f} % of the contact): "
+                                                       "what the jumps shake is in the heights",
+                                                       e.sticks, 100.0 * e.stuck_share)));
 }
 
 void judge_surface(const ScanEvidence& e, Verdicts& out) {
@@ -247,6 +275,7 @@ void judge_surface(const ScanEvidence& e, Verdicts& out) {
   }
   judge_length(e, out);
   judge_noise(e, out);
+  judge_sticking(e, out);
   if (!e.no_roughness.empty()) out.push_back(make_verdict("no_roughness", "there is no roughness: " + e.no_roughness));
   if (!e.no_texture.empty()) out.push_back(make_verdict("no_texture", "there is no texture: " + e.no_texture));
 }
@@ -257,6 +286,7 @@ Verdicts judge_scan(const ScanEvidence& evidence) {
   Verdicts out;
   judge_calibration(evidence, out);
   judge_streams(evidence, out);
+  judge_object(evidence, out);
   judge_surface(evidence, out);
   sort_verdicts(out);
   return out;

@@ -39,6 +39,9 @@ constexpr VerdictCode kCodes[] = {
     {"little_overlap", kInvalid, "check that both streams have one clock, and record them together"},
     {"tracker_gap", kInvalid, "keep the markers in view, or use the method `fused`"},
     {"spikes", kInvalid, "check the probe's cable and power, or use the method `fused`"},
+    {"object_unseen", kInvalid, "keep the markers on the object in view, or process with `--set reference=world`"},
+    {"object_hidden", kLimited, "keep the markers on the object in view"},
+    {"object_moved", kNote, ""},
     // A scan: what was measured.
     {"no_profile", kInvalid, "scan one stroke along the surface in steady contact"},
     {"nothing_touched", kInvalid, "scan with the tip in contact with the surface"},
@@ -48,18 +51,29 @@ constexpr VerdictCode kCodes[] = {
     {"length_disagrees", kInvalid, "check the calibration of the tip and of the latency, or use the method `fused`"},
     {"error_unknown", kInvalid, "use the method `fused`"},
     {"noisy_texture", kLimited, "scan slower, or use a probe with less noise"},
+    {"stick_slip", kLimited, "press more lightly, or move faster"},
     {"contact_unknown", kLimited, "use a probe with a force sensor, or mark the contact as a segment"},
     {"no_roughness", kLimited, "scan a longer stroke"},
     {"no_texture", kLimited, "scan a longer stroke"},
+    // Strokes over one line (merge_results.h).
+    {"no_common_line", kInvalid, "scan along a guide, and merge strokes over one line alone"},
+    {"passes_left_out", kLimited, "check that they are of the same line, or leave them out"},
+    {"passes_disagree", kLimited, "scan along a guide, so that the strokes pass over the same line"},
     // A registration.
     {"pose_ambiguous", kInvalid,
      "scan a path with a bend or several strokes in different directions and register them together, or give a guess "
      "and state how well it is known with refinement.guess_sigma_m and refinement.guess_sigma_deg"},
+    {"pose_uncertain", kInvalid,
+     "scan a path with bends in several directions, or several strokes, and register them together"},
+    {"other_shape", kInvalid, "check that it is the right mesh, and its unit"},
+    {"rivals_unknown", kInvalid, "let poses elsewhere be compared (search.rivals)"},
+    {"mesh_symmetric", kNote, ""},
     {"pose_misfit", kInvalid, "check that it is the right mesh, its unit, and the guess"},
     {"guess_contradicted", kInvalid,
      "check the guess, or state how well it is known with search.registration.guess_sigma_m and guess_sigma_deg, and "
      "the "
      "same of refinement"},
+    {"guess_overruled", kLimited, "check the pose: the paths fit the mesh better there than near the guess"},
     {"mesh_misfit", kLimited,
      "check the mesh against the object, and state its error with search.registration.surface_error_m"},
     {"pose_not_converged", kInvalid, "give a guess nearer to the true pose"},
@@ -67,6 +81,15 @@ constexpr VerdictCode kCodes[] = {
     {"pose_arbitrary", kInvalid, "give a guess with --guess, --align or --picks, or scan in more directions"},
     {"no_path_on_mesh", kInvalid, "check the guess and the mesh's unit"},
     {"no_haptic_coordinates", kInvalid, "scan each connected part of the mesh by itself"},
+    // An area of many strokes (judge_area.h).
+    {"area_unregistered", kInvalid, "register the scans again, as their verdicts say"},
+    {"strokes_disagree", kInvalid, "check the scans' verdicts and their poses on the mesh, and scan slower"},
+    {"strokes_untied", kInvalid, "scan strokes that cross the others, or nearer to each other"},
+    {"area_below_noise", kInvalid, "scan slower, or use a probe with less noise"},
+    {"strokes_differ", kLimited, "scan more strokes, or register them better"},
+    {"area_sparse", kLimited, "scan strokes nearer to each other, or use the textures along them"},
+    {"area_sigma_doubtful", kLimited, "scan more strokes that cross"},
+    {"area_stretched", kLimited, "map a smaller or flatter part of the surface"},
     // A recording in progress.
     {"no_samples", kInvalid, "check the probe's address, cable and power"},
     {"never_touched", kInvalid, "touch the surface, or lower the force at which a touch begins"},

@@ -68,5 +68,40 @@ TEST(JudgeRegistration, RefusesAPoseFarFromAGuessOfStatedError) {
   EXPECT_THAT(verdicts[0].message, testing::HasSubstr("15 mm"));
 }
 
+TEST(JudgeRegistration, RefusesAPoseThatThePathsLeaveOpenAndOneOfAnotherShape) {
+  PoseEvidence evidence;
+  evidence.points = 100;
+  const auto codes = [&] {
+    std::vector<std::string> out;
+    for (const Verdict& verdict : judge_registration(evidence)) out.push_back(verdict.code);
+    return out;
+  };
+  evidence.sigma_m = 0.3e-3;
+  evidence.sigma_rad = 0.01;
+  evidence.slow_ratio = 1.4;
+  evidence.outlying = 0.02;
+  EXPECT_THAT(codes(), testing::IsEmpty());
+  evidence.sigma_rad = 0.09;
+  EXPECT_THAT(codes(), testing::ElementsAre("pose_uncertain"));
+  EXPECT_FALSE(is_trustworthy(judge_registration(evidence)));
+  evidence.sigma_rad = 0.01;
+  evidence.slow_ratio = 6.0;
+  EXPECT_THAT(codes(), testing::ElementsAre("other_shape"));
+  evidence.slow_ratio = 1.4;
+  evidence.searched = false;
+  EXPECT_THAT(codes(), testing::ElementsAre("rivals_unknown"));
+  EXPECT_FALSE(is_trustworthy(judge_registration(evidence)));
+}
+
+TEST(JudgeRegistration, SaysOfASymmetricMeshThatItIsOneAndTrustsThePose) {
+  PoseEvidence evidence;
+  evidence.points = 100;
+  evidence.symmetric_copies = 2;
+  const Verdicts verdicts = judge_registration(evidence);
+  ASSERT_EQ(verdicts.size(), 1U);
+  EXPECT_EQ(verdicts[0].code, "mesh_symmetric");
+  EXPECT_EQ(verdict_word(verdicts), "valid");
+}
+
 }  // namespace
 }  // namespace asperity

@@ -104,6 +104,14 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
       {"rows_lost", "2000 of 8000", [](ScanEvidence& e) { e.rows_dropped = 2000; }},
       {"little_overlap", "1.5 s of the 10.0 s", [](ScanEvidence& e) { e.used_s = 1.5; }},
       {"tracker_gap", "0.80 s", [](ScanEvidence& e) { e.tracker_gap_s = 0.8; }},
+      {"object_unseen", "in 49 % of the scan", [](ScanEvidence& e) { e.object_seen_share = 0.499; }},
+      {"object_hidden", "in 94 % of the scan; the rest", [](ScanEvidence& e) { e.object_seen_share = 0.949; }},
+      {"object_moved", "up to 12.3 mm and 30°",
+       [](ScanEvidence& e) {
+         e.object_seen_share = 0.97;
+         e.object_moved_m = 12.3e-3;
+         e.object_turned_rad = 0.5236;
+       }},
       {"spikes", "600 of 5000", [](ScanEvidence& e) { e.samples_rejected = 600; }},
       {"no_profile", "no profile: too short", [](ScanEvidence& e) { e.no_profile = "too short"; }},
       {"nothing_touched", "touched nothing", [](ScanEvidence& e) { e.contact_s = 0.0; }},

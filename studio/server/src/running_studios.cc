@@ -83,8 +83,8 @@ RunningStudio studio_of(const std::string& socket, const Json& answer) {
   out.socket = socket;
   out.address = answer.value("address", "");
   out.folder = answer.value("folder", "");
-  out.port = answer.value("port", 0);
-  out.process = answer.value("process", 0);
+  out.port = answer.value("port", out.port);
+  out.process = answer.value("process", out.process);
   const Json* sessions = answer.find("sessions");
   for (std::size_t i = 0; sessions != nullptr && i < sessions->size(); ++i) {
     const Json& each = sessions->at(i);
@@ -93,7 +93,7 @@ RunningStudio studio_of(const std::string& socket, const Json& answer) {
     info.opened = each.value("opened", "");
     info.from = each.value("from", "");
     info.agent = each.value("agent", "");
-    info.windows = each.value("windows", 0);
+    info.windows = each.value("windows", info.windows);
     out.sessions.push_back(std::move(info));
   }
   return out;

@@ -85,7 +85,7 @@ TEST_F(AlignRunTest, TakenItIsOneStepAndWrittenAsTheCommandLineWrites) {
   const RegisterInput input =
       read_register_input({(bench_.folder / "path.csv").string()}, (bench_.folder / "pebble.obj").string(), 1e-3, {});
   const Pose guess = pose_of_json(json_of_pose(pose_of_json(before["T_mesh_world"], "")), "");
-  write_registration(other, register_input(input, guess, {}), input.scans, input.mesh, 1e-3);
+  write_registration(other, register_input(input, guess, {}), input.scans, input.onto);
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(other)) {
     if (entry.is_directory()) continue;
@@ -94,6 +94,41 @@ TEST_F(AlignRunTest, TakenItIsOneStepAndWrittenAsTheCommandLineWrites) {
     ++files;
   }
   EXPECT_GE(files, 4U);
+}
+
+TEST_F(AlignRunTest, AScanIsAddedToASceneAndListedWithItsPose) {
+  EXPECT_THAT(bench_.call("align.write", args_of({{"into", true}})).hint, HasSubstr("Choose a scene.json"));
+  ASSERT_EQ(bench_.call("align.write", args_of({{"name", "laid"}})).error, "");
+  std::filesystem::copy_file(bench_.folder / "path.csv", bench_.folder / "second.csv");
+  bench_.document.edit("/align/paths", {"second.csv"}, "");
+  bench_.document.edit("/align/mesh", "laid/scene.json", "");
+  const ReadBlock opened(bench_.call("align.open").block);
+  ASSERT_EQ(opened.head.at("stored").size(), 1U);
+  EXPECT_EQ(opened.head.at("stored")[0].at("name"), "path");
+  EXPECT_EQ(opened.head.at("stored")[0].at("T_mesh_world").size(), 7U);
+  EXPECT_GT(opened.array<std::uint32_t>("laid_triangle").size(), 100U);
+  EXPECT_TRUE(opened.array<std::uint32_t>("covered_triangle").empty());
+  const FakeHub::Answer written = bench_.call("align.write", args_of({{"into", true}}));
+  ASSERT_EQ(written.error, "");
+  EXPECT_EQ(written.result["scene"], "laid/scene.json");
+  EXPECT_THAT(written.result["command"].get<std::string>(), HasSubstr("--into 'laid/scene.json'"));
+  const Json registration = parse_json(read_file(bench_.folder / "laid" / "registration.json", 1U << 30U));
+  ASSERT_EQ(registration.at("scans").size(), 2U);
+  EXPECT_EQ(registration.at("scans")[1].at("name"), "second");
+  EXPECT_EQ(registration.at("scans")[1].at("texture"), 2);
+}
+
+TEST_F(AlignRunTest, APoseMovedByHandHasAVerdictOfItsOwn) {
+  const Json result = bench_.call("align.run", args_of({{"guess", true}})).result;
+  ASSERT_TRUE(result["trustworthy"].get<bool>()) << result["verdict"];
+  const Json same = bench_.call("align.judge", args_of({{"pose", result["T_mesh_world"]}})).result;
+  EXPECT_TRUE(same["trustworthy"].get<bool>()) << same.dump();
+  Json pose = result["T_mesh_world"];
+  pose[0] = pose[0].get<double>() + 0.02;
+  const Json moved = bench_.call("align.judge", args_of({{"pose", pose}})).result;
+  EXPECT_FALSE(moved["trustworthy"].get<bool>()) << moved.dump();
+  // The registration's own verdict is still about its own pose.
+  EXPECT_EQ(bench_.call("align.result").result, result);
 }
 
 TEST_F(AlignRunTest, TheRunnerUpIsTakenAndKept) {

@@ -3,7 +3,7 @@ import type { Block, NumberArray } from "../src/net/block";
 import { band, Column, Growing, RowCounter } from "../src/pages/scan/growing";
 import { HostClock, Recent } from "../src/pages/scan/latency";
 import { pathColour, strongest_N } from "../src/pages/scan/pathColours";
-import { abilities, contactWords, discardedWords, isLiveUsable, recordWords, sensorWords, type RecorderState, type ScanState } from "../src/pages/scan/scanState";
+import { abilities, bodyWords, contactWords, objectHint, discardedWords, isLiveUsable, recordWords, sensorWords, type RecorderState, type ScanState } from "../src/pages/scan/scanState";
 import { changed, processSettings, valueOf, waitsForOpening, withSettings } from "../src/pages/scan/settings";
 
 const block = (generation: number, first: number, s: number[], tips?: number[]): Block => {
@@ -15,6 +15,24 @@ const block = (generation: number, first: number, s: number[], tips?: number[]):
   }
   return { kind: "scan.profile", head: { generation, first }, arrays, shapes };
 };
+
+describe("a further marker body", () => {
+  it("is in view while its poses are of the last half second", () => {
+    const body = { name: "object", rows: 7, markers: 2, pose_age_s: 0.1 };
+    expect(bodyWords(body)).toEqual({ lamp: "good", word: "2 markers in view" });
+    expect(bodyWords({ ...body, markers: 1 }).word).toBe("1 marker in view");
+    expect(bodyWords({ ...body, markers: 0 }).word).toBe("in view");
+    expect(bodyWords({ ...body, pose_age_s: 0.6 })).toEqual({ lamp: "bad", word: "not in view" });
+    expect(bodyWords({ ...body, markers: null, pose_age_s: null }).lamp).toBe("warn");
+  });
+
+  it("called object changes what the page is about", () => {
+    const recorder = { bodies: [{ name: "object", rows: 0, markers: null, pose_age_s: null }] } as unknown as RecorderState;
+    expect(objectHint(recorder)).toContain("Process page");
+    expect(objectHint({ ...recorder, bodies: [{ name: "table", rows: 0, markers: null, pose_age_s: null }] })).toBe("");
+    expect(objectHint(undefined)).toBe("");
+  });
+});
 
 describe("what grows", () => {
   it("appends in the unit that is shown", () => {

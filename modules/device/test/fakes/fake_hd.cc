@@ -1,10 +1,18 @@
 // A stand-in for OpenHaptics' libHD.so: the symbols and the behaviour that we rely on, over a simulated device.
+#include <fcntl.h>
+#include <pthread.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
-#include <mutex>
 #include <thread>
-#include <vector>
 
 #include "damped_mass.h"
 
@@ -22,36 +30,110 @@ constexpr unsigned kInvalidEnum = 0x100, kInvalidOperation = 0x102, kDeviceFault
 constexpr unsigned kAlreadyInitiated = 0x301, kExceededMaxForce = 0x201, kFrameError = 0x402;
 constexpr double kMaxForce_N = 3.3;
 constexpr double kRamp_ticks = 50.0;
+constexpr unsigned kMostErrors = 64;
+constexpr int kGlitchReadings = 8;
 
+// Of the device and the driver: in the file FAKE_HD_STATE, which the test and the process that has the driver loaded
+// have mapped, or, without it, of this process alone. A process may be killed at any place, so the mutex is a robust
+// one.
 struct State {
-  std::mutex mutex;
+  std::uint32_t begun;
+  pthread_mutex_t mutex;
   fake::DampedMass hand;
-  std::vector<unsigned> errors;  // the newest is told first
-  bool absent = false;
-  bool unplugged = false;
-  bool stalled = false;
-  bool mute = false;  // the scheduler never calls
-  bool open = false;
-  bool in_frame = false;
-  bool force_output = false, clamping = false, ramping = false;
-  double wanted_N[3] = {0.0, 0.0, 0.0};  // set in the frame
-  double motor_N[3] = {0.0, 0.0, 0.0};   // since its end
-  double ramp_ticks = 0.0;
-  unsigned calls_out_of_order = 0;
-  unsigned long frames = 0;
-  unsigned (*callback)(void*) = nullptr;
-  void* user = nullptr;
-  std::thread scheduler;
-  bool running = false;
+  unsigned errors[kMostErrors];  // the newest is told first
+  unsigned error_count;
+  bool absent;
+  bool unplugged;
+  bool stalled;
+  bool mute;   // the scheduler never calls
+  bool hangs;  // a call does not return
+  bool garbage;
+  int glitches;  // readings 30 mm off that are to come
+  bool open;
+  pid_t process;  // that has it open
+  bool in_frame;
+  bool force_output, clamping, ramping;
+  double wanted_N[3];  // set in the frame
+  double motor_N[3];   // since its end
+  double ramp_ticks;
+  unsigned calls_out_of_order;
+  unsigned long frames;
 };
 
+constexpr const char* kFile = "FAKE_HD_STATE";
+
+int open_file() {
+  const char* const path = std::getenv(kFile);
+  return path != nullptr ? ::open(path, O_RDWR | O_CLOEXEC) : -1;
+}
+
 State& state() {
-  static State the_state;
-  return the_state;
+  static State* const mapped = []() -> State* {
+    const int file = open_file();
+    if (file < 0) return static_cast<State*>(std::calloc(1, sizeof(State)));
+    const bool sized = ::ftruncate(file, sizeof(State)) == 0;
+    void* const at = sized ? ::mmap(nullptr, sizeof(State), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0) : MAP_FAILED;
+    ::close(file);
+    if (at == MAP_FAILED) std::abort();
+    return static_cast<State*>(at);
+  }();
+  return *mapped;
+}
+
+class Lock {
+ public:
+  Lock() {
+    if (::pthread_mutex_lock(&state().mutex) == EOWNERDEAD) ::pthread_mutex_consistent(&state().mutex);
+  }
+  ~Lock() { ::pthread_mutex_unlock(&state().mutex); }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+};
+
+// The driver's own thread, in the process that has it loaded.
+struct Scheduler {
+  std::atomic<bool> running{false};
+  unsigned (*callback)(void*) = nullptr;
+  void* user = nullptr;
+  std::thread thread;
+};
+
+Scheduler& scheduler() {
+  static Scheduler the_scheduler;
+  return the_scheduler;
+}
+
+// The process that has the device open holds a lock on the file, which ends with it however it ends; as the device's
+// connection does.
+int s_connection = -1;
+
+struct flock whole_file() {
+  struct flock out {};
+  out.l_type = F_WRLCK;
+  out.l_whence = SEEK_SET;
+  return out;
+}
+
+void connect() {
+  s_connection = open_file();
+  struct flock lock = whole_file();
+  if (s_connection >= 0) ::fcntl(s_connection, F_OFD_SETLK, &lock);
+}
+
+void disconnect() {
+  if (s_connection >= 0) ::close(s_connection);
+  s_connection = -1;
+}
+
+bool is_connected() {
+  static const int file = open_file();
+  struct flock lock = whole_file();
+  if (file < 0 || s_connection >= 0) return true;
+  return ::fcntl(file, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
 }
 
 void complain(unsigned code) {
-  if (state().errors.size() < 64) state().errors.push_back(code);
+  if (state().error_count < kMostErrors) state().errors[state().error_count++] = code;
 }
 
 void schedule() {
@@ -61,16 +143,16 @@ void schedule() {
     std::this_thread::sleep_until(next);
     unsigned (*callback)(void*) = nullptr;
     {
-      const std::lock_guard lock(state().mutex);
-      if (!state().running) return;
+      const Lock lock;
+      if (!scheduler().running) return;
       if (state().stalled || state().mute) continue;
-      callback = state().callback;
+      callback = scheduler().callback;
     }
-    if (callback != nullptr && callback(state().user) == 0) {
-      const std::lock_guard lock(state().mutex);
-      state().callback = nullptr;
+    if (callback != nullptr && callback(scheduler().user) == 0) {
+      const Lock lock;
+      scheduler().callback = nullptr;
     }
-    const std::lock_guard lock(state().mutex);
+    const Lock lock;
     state().ramp_ticks += 1.0;
     state().hand.step(state().motor_N);
   }
@@ -89,27 +171,37 @@ bool usable() {
 extern "C" {
 
 unsigned hdInitDevice(const char* name) {
-  const std::lock_guard lock(state().mutex);
+  const Lock lock;
   const bool known = name == nullptr || std::strcmp(name, "Default Device") == 0;
   if (state().absent || !known) {
     complain(kDeviceFault);
     return kInvalidHandle;
   }
-  if (state().open) {
+  if (state().open && is_connected()) {
     complain(kAlreadyInitiated);
     return kInvalidHandle;
   }
+  connect();
   state().open = true;
+  state().process = ::getpid();
+  state().in_frame = false;
   return kHandle;
 }
 
 void hdDisableDevice(unsigned handle) {
-  const std::lock_guard lock(state().mutex);
-  if (handle == kHandle) state().open = false;
+  const Lock lock;
+  if (handle != kHandle) return;
+  state().open = false;
+  disconnect();
 }
 
 void hdBeginFrame(unsigned handle) {
-  const std::lock_guard lock(state().mutex);
+  const auto hangs = [] {
+    const Lock lock;
+    return state().hangs;
+  };
+  while (hangs()) ::usleep(1000);
+  const Lock lock;
   if (!usable()) return;
   if (handle != kHandle || state().in_frame) {
     ++state().calls_out_of_order;
@@ -119,7 +211,7 @@ void hdBeginFrame(unsigned handle) {
 }
 
 void hdEndFrame(unsigned handle) {
-  const std::lock_guard lock(state().mutex);
+  const Lock lock;
   ++state().frames;
   if (!usable()) {
     state().in_frame = false;
@@ -141,15 +233,14 @@ void hdEndFrame(unsigned handle) {
 }
 
 ErrorInfo hdGetError() {
-  const std::lock_guard lock(state().mutex);
-  if (state().errors.empty()) return {0, 0, kHandle};
-  const unsigned code = state().errors.back();
-  state().errors.pop_back();
+  const Lock lock;
+  if (state().error_count == 0) return {0, 0, kHandle};
+  const unsigned code = state().errors[--state().error_count];
   return {code, -1, kHandle};
 }
 
 void hdEnable(unsigned capability) {
-  const std::lock_guard lock(state().mutex);
+  const Lock lock;
   if (!usable()) return;
   if (capability == 0x4000) {
     state().force_output = true;
@@ -164,14 +255,14 @@ void hdEnable(unsigned capability) {
 }
 
 void hdDisable(unsigned capability) {
-  const std::lock_guard lock(state().mutex);
+  const Lock lock;
   if (capability == 0x4000) state().force_output = false;
   if (capability == 0x4001) state().clamping = false;
   if (capability == 0x4002) state().ramping = false;
 }
 
 void hdGetDoublev(unsigned parameter, double* out) {
-  const std::lock_guard lock(state().mutex);
+  const Lock lock;
   if (!usable()) return;
   const bool moving = parameter == 0x2050 || parameter == 0x2051;
   if (moving && !state().in_frame) {
@@ -181,6 +272,11 @@ void hdGetDoublev(unsigned parameter, double* out) {
   switch (parameter) {
     case 0x2050:
       for (int i = 0; i < 3; ++i) out[i] = 1e3 * state().hand.p_m[i];
+      if (state().glitches > 0) {
+        --state().glitches;
+        out[1] -= 30.0;
+      }
+      if (state().garbage) out[1] = std::nan("");
       break;
     case 0x2051:
       for (int i = 0; i < 3; ++i) out[i] = 1e3 * state().hand.v_mps[i];
@@ -205,7 +301,7 @@ void hdGetDoublev(unsigned parameter, double* out) {
 }
 
 void hdSetDoublev(unsigned parameter, const double* in) {
-  const std::lock_guard lock(state().mutex);
+  const Lock lock;
   if (parameter != 0x2700) return complain(kInvalidEnum);
   // What is commanded is kept even if nobody is there to take it: tests look at it.
   for (int i = 0; i < 3; ++i) state().wanted_N[i] = in[i];
@@ -220,7 +316,7 @@ void hdSetDoublev(unsigned parameter, const double* in) {
 }
 
 void hdGetIntegerv(unsigned parameter, int* out) {
-  const std::lock_guard lock(state().mutex);
+  const Lock lock;
   if (!usable()) return;
   if (parameter == 0x2000) {
     if (!state().in_frame) {
@@ -236,7 +332,7 @@ void hdGetIntegerv(unsigned parameter, int* out) {
 }
 
 const char* hdGetString(unsigned parameter) {
-  const std::lock_guard lock(state().mutex);
+  const Lock lock;
   if (parameter == 0x2501) return "Fake Touch";
   complain(kInvalidEnum);
   return nullptr;
@@ -244,78 +340,100 @@ const char* hdGetString(unsigned parameter) {
 
 #ifndef FAKE_HD_INCOMPLETE
 unsigned long hdScheduleAsynchronous(unsigned (*callback)(void*), void* user, unsigned short) {
-  const std::lock_guard lock(state().mutex);
-  state().callback = callback;
-  state().user = user;
+  const Lock lock;
+  scheduler().callback = callback;
+  scheduler().user = user;
   return 11;
 }
 #endif
 
 void hdStartScheduler() {
-  const std::lock_guard lock(state().mutex);
-  if (!usable() || state().running) return;
-  state().running = true;
-  state().scheduler = std::thread(schedule);
+  const Lock lock;
+  if (!usable() || scheduler().running) return;
+  scheduler().running = true;
+  scheduler().thread = std::thread(schedule);
 }
 
 void hdStopScheduler() {
-  {
-    const std::lock_guard lock(state().mutex);
-    state().running = false;
-  }
-  if (state().scheduler.joinable()) state().scheduler.join();
+  scheduler().running = false;
+  if (scheduler().thread.joinable()) scheduler().thread.join();
 }
 
 void hdUnschedule(unsigned long) {
-  const std::lock_guard lock(state().mutex);
-  state().callback = nullptr;
+  const Lock lock;
+  scheduler().callback = nullptr;
 }
 
 void hdSetSchedulerRate(unsigned long rate_Hz) {
-  const std::lock_guard lock(state().mutex);
+  const Lock lock;
   if (rate_Hz != 1000) complain(0x101);
 }
 
-// For tests.
+// For tests. At the first of them the file is new.
 void fake_hd_reset() {
-  hdStopScheduler();
-  const std::lock_guard lock(state().mutex);
   State& s = state();
+  if (s.begun == 0) {
+    pthread_mutexattr_t kind;
+    ::pthread_mutexattr_init(&kind);
+    ::pthread_mutexattr_setpshared(&kind, PTHREAD_PROCESS_SHARED);
+    ::pthread_mutexattr_setrobust(&kind, PTHREAD_MUTEX_ROBUST);
+    ::pthread_mutex_init(&s.mutex, &kind);
+    ::pthread_mutexattr_destroy(&kind);
+    s.begun = 1;
+  }
+  hdStopScheduler();
+  const Lock lock;
   s.hand = {};
-  s.errors.clear();
-  s.absent = s.unplugged = s.stalled = s.mute = s.open = s.in_frame = false;
+  s.error_count = 0;
+  s.absent = s.unplugged = s.stalled = s.mute = s.hangs = s.garbage = s.open = s.in_frame = false;
+  s.glitches = 0;
   s.force_output = s.clamping = s.ramping = false;
   for (int i = 0; i < 3; ++i) s.wanted_N[i] = s.motor_N[i] = 0.0;
+  s.ramp_ticks = 0.0;
   s.calls_out_of_order = 0;
   s.frames = 0;
-  s.callback = nullptr;
+  scheduler().callback = nullptr;
+  disconnect();
 }
 void fake_hd_set(const char* what, int on) {
-  const std::lock_guard lock(state().mutex);
+  const Lock lock;
   if (std::strcmp(what, "absent") == 0) state().absent = on != 0;
   if (std::strcmp(what, "unplugged") == 0) state().unplugged = on != 0;
   if (std::strcmp(what, "stalled") == 0) state().stalled = on != 0;
   if (std::strcmp(what, "mute") == 0) state().mute = on != 0;
+  if (std::strcmp(what, "hangs") == 0) state().hangs = on != 0;
+  if (std::strcmp(what, "garbage") == 0) state().garbage = on != 0;
+  if (std::strcmp(what, "glitch") == 0) state().glitches = on != 0 ? kGlitchReadings : 0;
 }
 void fake_hd_complain(unsigned code) {
-  const std::lock_guard lock(state().mutex);
+  const Lock lock;
   complain(code);
 }
+// As commanded; none once the process that has it open is gone.
 void fake_hd_motor(double* out_N) {
-  const std::lock_guard lock(state().mutex);
+  const Lock lock;
   std::memcpy(out_N, state().motor_N, sizeof state().motor_N);
+  if (state().open && !is_connected()) std::fill(out_N, out_N + 3, 0.0);
+}
+void fake_hd_position(double* out_m) {
+  const Lock lock;
+  std::memcpy(out_m, state().hand.p_m, sizeof state().hand.p_m);
 }
 unsigned fake_hd_calls_out_of_order() {
-  const std::lock_guard lock(state().mutex);
+  const Lock lock;
   return state().calls_out_of_order;
 }
 unsigned long fake_hd_frames() {
-  const std::lock_guard lock(state().mutex);
+  const Lock lock;
   return state().frames;
 }
 int fake_hd_open() {
-  const std::lock_guard lock(state().mutex);
-  return state().open ? 1 : 0;
+  const Lock lock;
+  return state().open && is_connected() ? 1 : 0;
+}
+int fake_hd_process() {
+  const Lock lock;
+  return state().process;
 }
 }
 // NOLINTEND(readability-identifier-naming)

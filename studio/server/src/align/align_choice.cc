@@ -154,6 +154,12 @@ AlignChoice choice_of_json(const Json& section) {
 
 double unit_m(const AlignChoice& choice) { return parse_length_unit_m(choice.mesh_unit, "the mesh's unit"); }
 
+bool is_of_scene(const AlignChoice& choice) { return choice.mesh.ends_with(".json"); }
+
+std::optional<double> unit_to_read_m(const AlignChoice& choice) {
+  return is_of_scene(choice) ? std::nullopt : std::optional(unit_m(choice));
+}
+
 RegisterConfig config_of(const AlignChoice& choice) {
   RegisterConfig out;
   const std::vector<ConfigField> fields = list_fields("", out);

@@ -15,7 +15,7 @@ namespace asperity::studio {
 
 // What the user has decided on the page Align, as the document's section "align" holds it:
 //   "paths"         recordings and CSV files that share one world frame, by their names in the project
-//   "mesh"          a mesh file, or ""
+//   "mesh"          a mesh file, a scene.json to whose mesh scans are added, or ""
 //   "mesh_unit"     the length of its unit as text: "mm", "0.06m"
 //   "textures"      texture files to lay along the paths instead of their own: none, one for all, or one a path
 //   "config"        settings of the registration that are not the default: dotted path -> text
@@ -61,6 +61,10 @@ Json json_of_last_run(const AlignChoice::LastRun& ran);
 AlignChoice choice_of_json(const Json& section);
 
 double unit_m(const AlignChoice& choice);
+// Whether the mesh is that of a scene.json, to which the scans are added.
+bool is_of_scene(const AlignChoice& choice);
+// The unit that the mesh is read in: nullopt for a scene, which has its own.
+std::optional<double> unit_to_read_m(const AlignChoice& choice);
 RegisterConfig config_of(const AlignChoice& choice);
 
 }  // namespace asperity::studio

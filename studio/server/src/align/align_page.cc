@@ -8,6 +8,8 @@
 #include "align/list_paths.h"
 #include "align/path_residuals.h"
 #include "align/write_alignment.h"
+#include "asperity/base/error.h"
+#include "asperity/pipeline/earlier_scene.h"
 #include "asperity/registration/manual_alignment.h"
 #include "config_fields.h"
 #include "json_pose.h"
@@ -30,14 +32,25 @@ std::array<double, 3> three(const Request& request, std::string_view name) {
   return {v[0], v[1], v[2]};
 }
 
-BlockWriter residual_block(const AlignScene& scene, const Pose& pose, std::vector<ClosestPoint>& closest) {
-  const PathResiduals residuals = path_residuals(scene.p_world_m, scene.surface, pose, closest);
+BlockWriter residual_block(const AlignScene& scene, const std::vector<Eigen::Vector3d>& p_world_m, const Pose& pose,
+                           std::vector<ClosestPoint>& closest) {
+  const PathResiduals residuals = path_residuals(p_world_m, scene.surface, pose, closest);
   BlockWriter out("align.residuals");
   out.head()["mean_m"] = residuals.mean_m;
   out.head()["rms_m"] = residuals.rms_m;
   out.head()["most_m"] = residuals.most_m;
   out.add("distance_m", std::span<const float>(residuals.distance_m));
   return out;
+}
+
+// The checksum of a scene as it is now; "" if it cannot be read.
+std::string scene_version(const Project& project, const std::string& name) {
+  try {
+    const std::filesystem::path file = project.existing(name);
+    return scene_checksum(file.parent_path(), file.filename().string());
+  } catch (const Error&) {
+    return "";
+  }
 }
 
 }  // namespace
@@ -61,6 +74,7 @@ void AlignPage::bind(Document& document, Calls& calls) {
   calls.add("align.sliders", [this](const Request& request) { turn_sliders(request); });
   calls.add("align.pick", [this](const Request& request) { pick(request); });
   calls.add("align.residuals", [this](const Request& request) { measure(request); });
+  calls.add("align.judge", [this](const Request& request) { judge(request); });
   calls.add("align.run", [this](const Request& request) { run(request); });
   calls.add("align.iterations",
             [this](const Request& request) { request.answer(log_ ? log_->all() : IterationLog(0).all()); });
@@ -89,7 +103,9 @@ std::shared_ptr<const AlignScene> AlignPage::scene() const {
 
 void AlignPage::open(const Request& request) {
   const AlignChoice wanted = choice();
-  if (scene_ && is_same_scene(scene_->of, wanted)) {
+  // A scene to which scans were added is another one.
+  const std::string version = is_of_scene(wanted) ? scene_version(shared_.project, wanted.mesh) : "";
+  if (scene_ && scene_->version == version && is_same_scene(scene_->of, wanted)) {
     request.answer(BlockWriter(*block_));
     return follow_document();
   }
@@ -160,12 +176,35 @@ void AlignPage::pick(const Request& request) {
   request.answer(out);
 }
 
-// On a lane of its own, for the path is moved while a registration runs.
+// On a lane of its own, for the path is moved while a registration runs. Scans of other placements have poses of their
+// own: their points are measured where those put them.
 void AlignPage::measure(const Request& request) {
-  answer_in_lane(shared_.jobs, "align residuals", request, "", "",
-                 [scene = scene(), closest = closest_, pose = pose_argument(request, "pose")](const Observer&) {
-                   return residual_block(*scene, pose, *closest);
-                 });
+  const std::shared_ptr<const AlignScene> scene = this->scene();
+  std::vector<Pose> poses;
+  if (const Json* given = request.args().find("poses")) {
+    if (!given->is_array() || given->size() != scene->of.paths.size())
+      throw Error("align.residuals: poses: not one for each path");
+    for (const Json& pose : *given) poses.push_back(pose_of_json(pose, "align.residuals: poses"));
+  }
+  answer_in_lane(
+      shared_.jobs, "align residuals", request, "", "",
+      [scene, closest = closest_, pose = pose_argument(request, "pose"), poses = std::move(poses)](const Observer&) {
+        if (poses.empty()) return residual_block(*scene, scene->p_world_m, pose, *closest);
+        std::vector<Eigen::Vector3d> p_world_m = scene->p_world_m;
+        const Pose back = pose.inverse();
+        for (std::size_t i = 0; i < p_world_m.size(); ++i) p_world_m[i] = back * (poses[scene->path[i]] * p_world_m[i]);
+        return residual_block(*scene, p_world_m, pose, *closest);
+      });
+}
+
+// A verdict belongs to a pose: one that is placed by hand has its own.
+void AlignPage::judge(const Request& request) {
+  const std::shared_ptr<const AlignScene> scene = this->scene();
+  std::optional<PoseCandidates> known;
+  if (last_ && last_->scene == scene && !last_->candidates.found.empty()) known = last_->candidates;
+  answer_in_lane(shared_.jobs, "align verdict", request, "", "",
+                 [scene, wanted = choice(), known = std::move(known), pose = pose_argument(request, "pose")](
+                     const Observer& observer) { return judge_by_hand(*scene, wanted, pose, known, observer); });
 }
 
 void AlignPage::run(const Request& request) {
@@ -276,9 +315,10 @@ void AlignPage::accept(const Request& request) {
 
 void AlignPage::write(const Request& request) {
   AlignChoice taken = choice();
-  const std::string name = request.text("name");
-  write_target(shared_.project, request);
-  answer_by_job(shared_.jobs, request, "Writing " + name, "align.write",
+  const bool into = request.has("into") && request.flag("into");
+  const std::optional<std::string> name = into ? std::nullopt : std::optional(request.text("name"));
+  if (name) write_target(shared_.project, request);
+  answer_by_job(shared_.jobs, request, "Writing " + name.value_or(taken.mesh), "align.write",
                 [taken = std::move(taken), name, project = shared_.project, hub = &shared_.hub](
                     const Observer& observer) { return write_alignment(taken, project, name, *hub, observer); });
 }

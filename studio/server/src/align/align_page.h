@@ -38,6 +38,7 @@ class AlignPage : public Page {
   void turn_sliders(const Request& request) const;
   void pick(const Request& request);
   void measure(const Request& request);
+  void judge(const Request& request);
   void run(const Request& request);
   // Registers the open scene; `after` is called with what went wrong, or with nothing.
   void register_from(const std::optional<Pose>& guess, const std::map<std::string, std::string>& config,

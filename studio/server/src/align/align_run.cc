@@ -8,7 +8,6 @@
 
 #include "asperity/pipeline/locate_scans.h"
 #include "asperity/pipeline/scan_evidence.h"
-#include "asperity/verdict/judge_registration.h"
 #include "asperity/verdict/verdict_json.h"
 #include "json_pose.h"
 
@@ -52,11 +51,33 @@ AlignRun run_align(std::uint64_t number, const std::shared_ptr<const AlignScene>
   AlignRun out;
   out.number = number;
   out.scene = scene;
-  out.result = locate_scans(scene->scans, scene->surface, guess, run_config(choice, false), observer)
-                   .placements.front()
-                   .registration;
+  LocatedScans located = locate_scans(scene->scans, scene->surface, guess, run_config(choice, false), observer);
+  out.result = located.placements.front().registration;
+  for (std::size_t i = 0; i < located.placement_of.size(); ++i) {
+    const std::size_t k = located.placement_of[i];
+    const RegistrationResult& registration = located.placements[k].registration;
+    out.scans.push_back({i < choice.paths.size() ? choice.paths[i] : "", k + 1, registration.T_mesh_world,
+                         registration.rms_m, std::string(verdict_word(judge_pose(registration, guess.has_value())))});
+  }
+  if (located.candidates.size() == 1) out.candidates = std::move(located.candidates.front());
   out.how = {guess, false, out.result.T_mesh_world};
   out.certainty = certainty_of(out.result);
+  return out;
+}
+
+Json judge_by_hand(const AlignScene& scene, const AlignChoice& choice, const Pose& pose,
+                   const std::optional<PoseCandidates>& candidates, const RegistrationObserver& observer) {
+  const RegisterConfig config = config_of(choice);
+  const PoseCandidates compared =
+      candidates ? *candidates : find_pose_candidates(scene.scans, scene.surface, std::nullopt, {}, config, observer);
+  const RegistrationResult result = judge_pose_by_hand(scene.scans, scene.surface, pose, compared, config);
+  const Verdicts verdicts = judge_pose(result, true);
+  Json out;
+  out["T_mesh_world"] = json_of_pose(pose);
+  out["rms_m"] = number_or_null(result.rms_m);
+  out["trustworthy"] = is_trustworthy(verdicts);
+  out["verdict"] = result.verdict;
+  out["verdicts"] = verdicts_json(verdicts);
   return out;
 }
 
@@ -72,10 +93,11 @@ Json json_of_run(const AlignRun& run) {
   out["outliers"] = result.outliers;
   out["iterations"] = result.iterations;
   out["converged"] = result.converged;
-  out["trustworthy"] = result.trustworthy;
+  const Verdicts verdicts = judge_pose(result, run.how.guess.has_value());
+  out["trustworthy"] = is_trustworthy(verdicts);
   out["ambiguous"] = result.ambiguous;
   out["verdict"] = result.verdict;
-  out["verdicts"] = verdicts_json(judge_registration(pose_evidence(result)));
+  out["verdicts"] = verdicts_json(verdicts);
   out["certainty"] = run.certainty;
   out["undetermined"] = Json::array();
   for (const UndeterminedMotion& motion : result.undetermined) {
@@ -92,6 +114,16 @@ Json json_of_run(const AlignRun& run) {
     other["distance_m"] = number_or_null(result.runner_up->distance_m);
     other["turn_deg"] = number_or_null(result.runner_up->rotation_rad / kDegree);
     out["runner_up"] = std::move(other);
+  }
+  out["scans"] = Json::array();
+  for (const AlignedScan& scan : run.scans) {
+    Json each;
+    each["name"] = scan.name;
+    each["placement"] = scan.placement;
+    each["T_mesh_world"] = json_of_pose(scan.T_mesh_world);
+    each["rms_m"] = number_or_null(scan.rms_m);
+    each["verdict"] = scan.verdict;
+    out["scans"].push_back(std::move(each));
   }
   out["problems"] = Json::array();
   for (const Problem& problem : result.problems) out["problems"].push_back(problem.message);

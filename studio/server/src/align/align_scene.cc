@@ -33,6 +33,27 @@ std::map<std::string, std::string> point_settings(const AlignChoice& choice) {
   return out;
 }
 
+// What the scene has already: its scans, and which triangles have which texture.
+void show_stored(const EarlierScene& earlier, AlignScene& scene) {
+  for (const auto& [index, scan] : stored_scans(earlier)) {
+    Json one;
+    for (const char* key : {"name", "texture", "order", "T_mesh_world", "placement", "verdict", "rms_m"}) {
+      if (const Json* value = scan.find(key)) one[key] = *value;
+    }
+    scene.stored.push_back(std::move(one));
+  }
+  const std::vector<HapticTriangle>& haptic = earlier.object().mesh.haptic;
+  for (std::uint32_t t = 0; t < haptic.size(); ++t) {
+    if (haptic[t].texture < 0) continue;
+    scene.laid_triangle.push_back(t);
+    scene.laid_texture.push_back(haptic[t].texture);
+  }
+  for (const CoveredTriangle& one : earlier.object().covered) {
+    if (scene.covered_triangle.empty() || scene.covered_triangle.back() != one.triangle)
+      scene.covered_triangle.push_back(one.triangle);
+  }
+}
+
 void show_points(AlignScene& scene) {
   std::size_t total = 0;
   for (const PathPoints& points : scene.scans.points) total += points.path.p_world_m.size();
@@ -65,11 +86,23 @@ std::shared_ptr<const AlignScene> load_align_scene(const AlignChoice& choice, co
   if (choice.mesh.empty()) throw Advice("no mesh is chosen", "Choose a mesh file of the project's folder.");
   if (choice.paths.empty()) throw Advice("no scan is chosen", "Choose a recording, or a CSV file of a path.");
   observer.update("reading", 0.0);
-  const RegisterInput input = read_register_input(files_of(choice.paths, project),
-                                                  project.existing(choice.mesh).string(), unit_m(choice), {}, observer);
+  const RegisterInput input = read_register_input(
+      files_of(choice.paths, project), project.existing(choice.mesh).string(), unit_to_read_m(choice), {}, observer);
   observer.update("mesh", 0.2);
-  auto out = std::make_shared<AlignScene>(
-      AlignScene{choice, MeshSurface(to_metres(input.mesh, input.unit_m)), {}, {}, {}, {}, 0, input.mesh.problems});
+  auto out = std::make_shared<AlignScene>(AlignScene{choice,
+                                                     MeshSurface(to_metres(input.mesh(), input.unit_m())),
+                                                     {},
+                                                     {},
+                                                     {},
+                                                     {},
+                                                     0,
+                                                     input.onto.checksum,
+                                                     Json::array(),
+                                                     {},
+                                                     {},
+                                                     {},
+                                                     input.mesh().problems});
+  show_stored(input.onto, *out);
   out->scans = find_scan_points(input.scans, config_of(choice), observer);
   for (const ProcessResult& motion : out->scans.motions) {
     out->problems.insert(out->problems.end(), motion.problems.begin(), motion.problems.end());
@@ -92,7 +125,11 @@ BlockWriter align_block(const AlignScene& scene) {
   }
   out.add("path_points", std::span<const float>(points), {scene.p_world_m.size(), 3});
   out.add("path_of", std::span<const std::uint32_t>(scene.path));
+  out.add("laid_triangle", std::span<const std::uint32_t>(scene.laid_triangle));
+  out.add("laid_texture", std::span<const std::int32_t>(scene.laid_texture));
+  out.add("covered_triangle", std::span<const std::uint32_t>(scene.covered_triangle));
   Json& head = out.head();
+  head["stored"] = scene.stored;
   head["middle_world_m"] = json_of_point(scene.middle_world_m);
   head["paths"] = scene.of.paths;
   head["registered_points"] = scene.registered_points;

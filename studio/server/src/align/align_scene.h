@@ -27,6 +27,13 @@ struct AlignScene {
   std::vector<std::uint32_t> path;  // of each point
   Eigen::Vector3d middle_world_m = Eigen::Vector3d::Zero();
   std::size_t registered_points = 0;  // before they were thinned
+  // Of a scene to which the scans are added: what is stored of its scans ({"name","texture","order","T_mesh_world",
+  // "placement","verdict","rms_m"}, what is known of it), its textured triangles and those with several textures.
+  std::string version{};  // its checksum
+  Json stored = Json::array();
+  std::vector<std::uint32_t> laid_triangle;
+  std::vector<std::int32_t> laid_texture;
+  std::vector<std::uint32_t> covered_triangle;
   Problems problems;
 };
 
@@ -42,7 +49,8 @@ std::shared_ptr<const AlignScene> load_align_scene(const AlignChoice& choice, co
 Pose start_pose(const AlignScene& scene);
 
 // The mesh block (mesh_block.h) of kind "align" with the paths: "path_points" [points, 3] in metres about the head's
-// "middle_world_m", "path_of" [points]; "paths" their names, "start" the start pose, "problems" in words.
+// "middle_world_m", "path_of" [points]; "paths" their names, "start" the start pose, "problems" in words; of a scene
+// "stored", and its textured triangles "laid_triangle" with their "laid_texture", and "covered_triangle".
 BlockWriter align_block(const AlignScene& scene);
 
 }  // namespace asperity::studio

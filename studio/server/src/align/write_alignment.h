@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,9 @@ namespace asperity::studio {
 // does: from where the choice's registration began if the pose is its own, else from the pose. Gives {"name","scene",
 // "trustworthy","verdict","T_mesh_world","command"}, the command being the line that writes the same. Throws Advice
 // without a pose, Error as register_scans and OutputFolder do, and Cancelled: then nothing is written.
-Json write_alignment(const AlignChoice& choice, const Project& project, const std::string& name, Hub& hub,
-                     const Observer& observer);
+// Without a name the scans are added to the scene whose mesh the choice has, as by `asperity register --into`; Advice
+// if it has none.
+Json write_alignment(const AlignChoice& choice, const Project& project, const std::optional<std::string>& name,
+                     Hub& hub, const Observer& observer);
 
 }  // namespace asperity::studio

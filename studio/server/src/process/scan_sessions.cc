@@ -1,7 +1,9 @@
 #include "process/scan_sessions.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
@@ -18,8 +20,14 @@ namespace fs = std::filesystem;
 // Changes with every file of a recording.
 std::string stamp_of(const fs::path& recording) {
   std::string out;
-  for (const char* name :
-       {"recording.json", "probe.csv", "tracker.csv", "calibration.json", "truth.csv", "checksums.txt"}) {
+  std::vector<std::string> names{"recording.json",   "probe.csv", "tracker.csv",
+                                 "calibration.json", "truth.csv", "checksums.txt"};
+  std::error_code unreadable;
+  for (const auto& entry : fs::directory_iterator(recording, unreadable)) {
+    if (const std::string name = entry.path().filename().string(); is_body_file(name)) names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  for (const std::string& name : names) {
     std::error_code error;
     const auto written = fs::last_write_time(recording / name, error);
     out += error ? "-" : std::to_string(written.time_since_epoch().count());

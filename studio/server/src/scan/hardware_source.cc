@@ -40,6 +40,7 @@ class HardwareSource : public ScanSource {
   RecordingInfo info() const override {
     RecordingInfo out;
     out.world = world_;
+    out.bodies = record_bodies(input_, calibration_);
     if (world_ == "z_up") out.gravity_world_mps2 = {0.0, 0.0, -out.gravity_world_mps2.norm()};
     return out;
   }

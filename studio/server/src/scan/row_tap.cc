@@ -38,7 +38,8 @@ class TappedPoses : public PoseSource {
 
   std::optional<TrackedPose> read(std::chrono::milliseconds timeout) override {
     auto pose = source_->read(timeout);
-    if (pose) tap_.add(*pose);
+    // What is live is the probe in the tracker's world: of an object that moves the recording knows.
+    if (pose && pose->sample.body == 0) tap_.add(*pose);
     return pose;
   }
   TrackingStatistics statistics() const override { return source_->statistics(); }

@@ -144,6 +144,12 @@ Json recorder_json(const RecorderSnapshot& now) {
   out["markers"] = now.pose ? Json(now.pose->markers) : Json();
   out["pose"] = now.pose ? json_of_pose(now.pose->T_world_marker) : Json();
   out["pose_age_s"] = number_or_null(now.pose_age_s);
+  for (const BodySnapshot& body : now.bodies) {
+    out["bodies"].push_back({{"name", body.name},
+                             {"rows", body.rows},
+                             {"markers", body.pose ? Json(body.pose->markers) : Json()},
+                             {"pose_age_s", number_or_null(body.pose_age_s)}});
+  }
   out["storing"] = now.storing;
   out["automatic"] = now.automatic;
   out["segment"] = printable(now.segment, 100);

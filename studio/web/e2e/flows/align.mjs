@@ -60,6 +60,19 @@ export default async function align({ page, step, folder, until, equal, near, ok
     near(Math.hypot(...measured.map((value, axis) => value - expected[axis])) * 1e3, 0, 2, "the path's middle from its true place, mm");
     for (const file of ["scene.json", "textured.obj", "profile.csv"]) ok(existsSync(join(folder, "aligned", file)), `aligned/${file} is there`);
   });
+
+  await step("the scan is registered again into its scene", async () => {
+    await page.getByTestId("align-mesh").selectOption("aligned/scene.json");
+    const table = page.getByTestId("align-scan-table");
+    await table.filter({ hasText: "replaced" }).waitFor();
+    await page.getByTestId("align-overlap").waitFor();
+    await page.getByTestId("align-by-scan").click();
+    await type(page.getByTestId("align-hand").getByRole("spinbutton", { name: "x, as a number", exact: true }), 1);
+    await page.getByTestId("align-write-button").filter({ hasText: "Add to the scene" }).click();
+    await page.getByTestId("align-written").filter({ hasText: "Written to aligned" }).waitFor({ timeout: 120_000 });
+    const { scans } = JSON.parse(readFileSync(join(folder, "aligned", "registration.json"), "utf8"));
+    equal(scans.map(({ name, texture }) => `${name} ${texture}`).join(), "stroke 1", "scans of the scene");
+  });
 }
 
 function middleOf(csv) {

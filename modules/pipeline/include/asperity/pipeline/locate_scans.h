@@ -8,6 +8,7 @@
 #include "asperity/geometry/mesh_surface.h"
 #include "asperity/geometry/pose.h"
 #include "asperity/pipeline/placement.h"
+#include "asperity/pipeline/pose_candidates.h"
 #include "asperity/pipeline/scan_points.h"
 #include "asperity/registration/registration_iteration.h"
 #include "asperity/registration/registration_result.h"
@@ -26,6 +27,7 @@ struct LocatedScans {
   double bulge_share = 0.0, bulge_sigma = 0.0;  // of the facets (refine_placements.h)
   std::size_t crossings = 0;                    // where scans met, by their heights
   std::size_t matched_shifts = 0;               // and by their textures
+  std::vector<PoseCandidates> candidates;  // of each placement: all that was compared; empty ones by another method
 };
 
 // The poses of the mesh to which the scans of each placement fit (seed §5.4, B.2), from `guess` or from anywhere;

@@ -6,10 +6,13 @@
 #include "asperity/base/problem.h"
 #include "asperity/pipeline/measure_accuracy.h"
 #include "asperity/pipeline/process_config.h"
+#include "asperity/profile/erode_profile.h"
 #include "asperity/profile/estimate_compliance.h"
+#include "asperity/profile/estimate_friction.h"
 #include "asperity/profile/estimate_stiffness.h"
 #include "asperity/profile/find_base_path.h"
 #include "asperity/profile/find_periodicity.h"
+#include "asperity/profile/merge_passes.h"
 #include "asperity/profile/profile.h"
 #include "asperity/profile/roughness.h"
 #include "asperity/profile/surface_spectrum.h"
@@ -44,10 +47,13 @@ struct ProcessResult {
   SpeedStatistics speed;
   TextureNoise noise;                        // of profile.texture_m
   std::optional<RoughnessResult> roughness;  // of profile.texture_m
+  std::optional<MergedProfile> passes;       // strokes over one line; its profile is empty, for it is the one above
+  std::optional<ErodedProfile> surface;      // under profile.height_m, if it was asked for
   Periodicity periodicity;                   // of profile.height_m
   SurfaceSpectrum spectrum;                  // of the texture, its noise taken off
   Compliance compliance;
   StiffnessEstimate stiffness;
+  FrictionEstimate friction;
   std::optional<FourierFit> fit;
   std::optional<Texture> texture;
   std::optional<Accuracy> accuracy;  // where the recording knows the truth

@@ -17,7 +17,8 @@ struct Scan {
   std::optional<Recording> recording;
   PathFile path;                   // used if there is no recording
   std::optional<Texture> texture;  // laid along the path instead of the scan's own
-  std::optional<int> placement;    // scans with the same number lay in the same placement of the object; all or none
+  std::optional<int> placement{};  // scans with the same number lay in the same placement of the object; all or none
+  std::string checksum{};          // of its files; empty: not known
 };
 
 // The tip's offset; zero for a path alone, whose probe is unknown.

@@ -15,6 +15,10 @@ ScanEvidence scan_evidence(const Recording& recording, const ProcessResult& resu
 // That of a registration, for judge_registration.h.
 PoseEvidence pose_evidence(const RegistrationResult& registration);
 
+// The verdicts on the pose of scans on a mesh. Without a guess their position along a motion that nothing determines is
+// arbitrary.
+Verdicts judge_pose(const RegistrationResult& registration, bool guessed);
+
 // A force sensor that never changes is none: whether the tip touched is then not known.
 bool has_force(const Recording& recording);
 

@@ -1,11 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "asperity/geometry/mesh_file.h"
+#include "asperity/json/json.h"
+#include "asperity/pipeline/earlier_scene.h"
 #include "asperity/pipeline/register_scans.h"
 #include "asperity/scene/scene.h"
 
@@ -13,18 +14,30 @@ namespace asperity {
 
 // registration.json: T_mesh_world as [x, y, z, qw, qx, qy, qz] (m), the residual, what ended the fit, what the
 // scans do not determine and the runner-up, all of the first placement; the same of each in `placements`; of each scan
-// its placement, pose, covariance and verdicts; the coordinates' warp, problems, settings and version; `files` are the
-// others in its folder. nan is null. The same result gives the same bytes.
-std::string format_registration(const ScansOnMesh& result, std::span<const std::string> files);
+// its placement, pose, covariance and verdicts; the coordinates' warp, problems, settings and version. Scans that
+// `earlier` has and this call has not are listed with what was stored of them. `files` has of each scan those that were
+// measured. nan is null. The same result gives the same bytes.
+Json registration_json(const ScansOnMesh& result, const std::vector<ScanPlace>& places,
+                       const std::vector<std::vector<std::string>>& files, const EarlierScene& earlier);
 
-// The mesh with the scans' textures and coordinates, what was measured of compliance, stiffness and friction as
-// a map over it, and the registration. `mesh` is as it was read; its unit is `unit_m`.
+// Adds scans to a scene: their textures by their places, their coordinates over or under those that are there, and what
+// was measured of compliance, stiffness and friction as a map over the mesh, unless the scene has a map of another
+// kind. A scan that is there is replaced: it keeps index and order.
+void add_scans(Scene& scene, const ScansOnMesh& result, const std::vector<ScanPlace>& places,
+               const std::vector<Scan>& scans, const std::string& date);
+
+// The mesh with the scans' textures and coordinates. `mesh` is as it was read, with the haptic coordinates that it
+// already has; its unit is `unit_m`.
 Scene make_scene(const ScansOnMesh& result, const MeshFile& mesh, double unit_m);
 
 // Writes registration.json, scene.json, textured.obj (augmented by `h` lines, seed §6.3), the textures and the
-// material map, and what write_result writes of each recording (of a path alone its profile.csv): in `folder`
-// if there is one scan, in a folder of the scan's name below it if there are several. `folder` exists and is empty.
-// Throws Error for a name that is not that of a folder in it, or if a file cannot be written.
+// material map, and what write_result writes of each recording (of a path alone its profile.csv), and each path on the
+// mesh as path.csv (mesh frame): in `folder` if there is one scan on a mesh alone, else in a folder of the scan's name
+// below it. What is beside `earlier` is written too, but for what was measured of scans that are replaced. `folder`
+// exists and is empty. With `listing` a files.json is to follow. Throws Error for a name that is not that of a folder
+// in it, or if a file cannot be written.
+void write_registration(const std::filesystem::path& folder, const ScansOnMesh& result, const std::vector<Scan>& scans,
+                        EarlierScene earlier, bool listing = false);
 void write_registration(const std::filesystem::path& folder, const ScansOnMesh& result, const std::vector<Scan>& scans,
                         const MeshFile& mesh, double unit_m);
 

@@ -14,7 +14,8 @@ std::string format_result(const ProcessResult& result, const Recording& recordin
 
 // trajectory.csv (sigma_m: the root of a third of the covariance's trace), profile.csv and spectrum.csv.
 std::string format_trajectory_csv(const TipMotion& motion);
-std::string format_profile_csv(const Profile& profile);
+// `surface`, if it is given and determined, has its columns surface_m and touched (0 or 1).
+std::string format_profile_csv(const Profile& profile, const ErodedProfile* surface = nullptr);
 std::string format_spectrum_csv(const SurfaceSpectrum& spectrum);
 
 // Writes trajectory.csv, profile.csv, spectrum.csv, texture.json (if there is a texture) and result.json into `folder`,

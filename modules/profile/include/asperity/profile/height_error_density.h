@@ -14,7 +14,8 @@ namespace asperity {
 // σ_φ² S_w what the sway across the path leaves in the height, the normals' lean being known to σ_φ; C what calibration
 // errors carry from the motion into the height, l the lever from the sensor to the tip. The orientation's own error is
 // that of the tracker's and the gyroscope's best, S_θ = G R_θ/(G + R_θ (2πf)²), or without a gyroscope B R_θ/(B + R_θ
-// (2πf)⁴). 0 where A or R is not known.
+// (2πf)⁴). An object that moves adds, for each axis of its motion (ObjectAxisError), weight·(W' N + W'² S_s) with W' =
+// Q/(Q + N (2πf)⁴), N and Q the densities of its poses and of its acceleration. 0 where A or R is not known.
 double height_error_density_m2ps(const HeightErrors& errors, double frequency_Hz);
 
 }  // namespace asperity

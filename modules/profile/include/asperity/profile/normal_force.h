@@ -28,9 +28,9 @@ struct FrictionAssumption {
 struct NormalForce {
   std::vector<double> force_N;  // one a sample of the motion; nan where the sensor gave none
   ForceSource source = ForceSource::kNone;
-  double share = kNan;           // axial reading over normal force, mean over the samples in contact and motion
-  double relative_sigma = kNan;  // standard error of force_N that all samples have in common, relative to it
-  double friction = kNan;        // coefficient of friction, measured; three axes only
+  double share = kNan;             // axial reading over normal force, mean over the samples in contact and motion
+  double relative_sigma = kNan;    // standard error of force_N that all samples have in common, relative to it
+  double tangential_share = kNan;  // force against the motion over that along the normal, sums; three axes only
 };
 
 // The normal force under the tip. With three axes F: N = n·F. With the axial reading f alone, a the sensor's axis (from

@@ -6,6 +6,15 @@
 
 namespace asperity {
 
+// What one axis of the motion of an object that moves leaves in the heights (docs/moving-object.md): a smoothed path of
+// white acceleration, from poses with white noise, and the tracker's slow error.
+struct ObjectAxisError {
+  double weight = 0.0;      // mean square of the height's error over the axis' own; m²/rad² for a rotation
+  double pose_psd = 0.0;    // m²/Hz or rad²/Hz, one-sided
+  double motion_psd = 0.0;  // of the acceleration, (m/s²)²/Hz or (rad/s²)²/Hz, one-sided
+  double slow_sigma = 0.0;  // m or rad
+};
+
 // The errors of a motion that go into heights, as densities over time frequency, one-sided and white. What is 0 is not
 // known.
 struct HeightErrors {
@@ -32,6 +41,9 @@ struct HeightErrors {
   double lever_m = 0.0;
   // What a base that is fitted to the same path takes of the error: a polynomial of this degree (a circle's radius: 2).
   int base_degree = 1;
+  std::vector<ObjectAxisError> object;        // empty: the object is at rest in the world
+  std::vector<ObjectAxisError> along_object;  // of places along the path
+  double object_slow_time_s = 1.0;
   std::vector<double> crosstalk_Hz;  // of the density of what calibration errors carry from the motion into the height
   std::vector<double> crosstalk_m2ps;
   // Of the sway across the path times the variance of the normals' lean, at the same frequencies. All of it comes from

@@ -35,7 +35,8 @@ class Recorder {
  public:
   // Opens the sensors, waits until the probe has described itself, makes `folder` and begins to read. `info` gives
   // what no sensor knows (created, object, world, the gravity assumed until it is measured, extra); the rest is
-  // filled in. Without a calibration the probe's nominal scales stand in for one, and say so. Throws Error if a sensor
+  // filled in. Without info.bodies, those of the calibration's markers are recorded besides the probe's. Without a
+  // calibration the probe's nominal scales stand in for one, and say so. Throws Error if a sensor
   // cannot be opened, a setting is wrong, or the folder exists and is not empty.
   Recorder(const std::filesystem::path& folder, const RecordingInfo& info,
            const std::optional<Calibration>& calibration, RecorderSensors sensors, const RecorderConfig& config = {});

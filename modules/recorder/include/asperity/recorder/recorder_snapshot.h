@@ -37,6 +37,14 @@ struct SensorSnapshot {
   std::uint64_t overflowed = 0;  // rows dropped because the queue was full
 };
 
+// A body that is tracked in addition to the probe's.
+struct BodySnapshot {
+  std::string name;
+  std::uint64_t rows = 0;             // written
+  std::optional<TrackerSample> pose;  // newest
+  double pose_age_s = std::numeric_limits<double>::quiet_NaN();
+};
+
 // How a recording under way stands, all of one moment.
 struct RecorderSnapshot {
   double running_s = 0.0;
@@ -54,6 +62,7 @@ struct RecorderSnapshot {
   std::uint64_t touches = 0;
   std::optional<TrackerSample> pose;  // newest
   double pose_age_s = std::numeric_limits<double>::quiet_NaN();
+  std::vector<BodySnapshot> bodies;
 
   bool storing = false;
   std::string segment;  // the open one, or the last

@@ -11,8 +11,9 @@
 
 namespace asperity {
 
-// Decides which rows of the two streams go to disk: those within segments. Rows that no segment has claimed yet wait in
-// two rings for a segment that begins in the past. Works on the rows' own times; no clock, no thread.
+// Decides which rows of the streams (the probe's, its poses, those of further bodies) go to disk: those within
+// segments. Rows that no segment has claimed yet wait in rings for a segment that begins in the past. Works on the
+// rows' own times; no clock, no thread.
 class SegmentWriter {
  public:
   // `keep_ns`: how far back a segment may begin. The appender must live longer.
@@ -59,7 +60,9 @@ class SegmentWriter {
   std::optional<std::int64_t> discarded_until_ns() const;
   std::uint64_t probe_rows() const { return probe_.written; }
   std::uint64_t tracker_rows() const { return tracker_.written; }
-  std::uint64_t late_rows() const { return probe_.late + tracker_.late; }
+  // Of the further body `body`, from 1.
+  std::uint64_t body_rows(std::size_t body) const { return body <= bodies_.size() ? bodies_[body - 1].written : 0; }
+  std::uint64_t late_rows() const;
   // Seconds within segments so far.
   double recorded_s() const;
   // The latest time that a row of either stream has had.
@@ -87,6 +90,7 @@ class SegmentWriter {
   void write(Stream<Sample>& stream, const Sample& sample);
   template <class Sample>
   void claim(Stream<Sample>& stream, std::int64_t start_ns);
+  void claim_all(std::int64_t start_ns);
   bool is_claimed(std::int64_t t_ns) const;
   std::string free_name(const std::string& name) const;
 
@@ -94,6 +98,7 @@ class SegmentWriter {
   std::int64_t keep_ns_;
   Stream<ProbeSample> probe_;
   Stream<TrackerSample> tracker_;
+  std::vector<Stream<TrackerSample>> bodies_;  // as they come
   std::vector<Segment> segments_;
   bool open_ = false;  // the last one
   std::vector<Segment> discarded_rows_;

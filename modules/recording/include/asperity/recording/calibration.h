@@ -85,6 +85,7 @@ struct MarkerPlacement {
   std::string family;
   double size_m = 0.0;
   Pose T_marker_tag;
+  std::string body = {};  // empty: the probe's; else the one whose frame T_marker_tag is in (tracked_body.h)
 };
 
 // What a calibration of one kind said when it was made.

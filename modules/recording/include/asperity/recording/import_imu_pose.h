@@ -20,6 +20,8 @@ struct ImportInput {
   std::vector<Eigen::Vector3d> rate_radps;
   std::vector<std::int64_t> pose_t_ns;
   std::vector<Pose> T_world_body;
+  std::vector<std::int64_t> object_t_ns;  // empty: no second body was tracked
+  std::vector<Pose> T_world_object;
   Problems problems;  // what was left out when reading
 };
 
@@ -50,17 +52,20 @@ struct ImportConfig {
 
 // The inertial samples as counts of a 16-bit sensor of ±16 g and ±2000 °/s, the poses thinned to the
 // rows nearest to a regular clock and given seeded Gaussian noise, and all poses as truth. The tip is
-// the body's origin. There is no force: its column is 0 and extra.force_sensor false.
-// Throws Error if a stream is empty or its vectors differ in length.
+// the body's origin. Poses of an object become the body `object`, thinned and given noise likewise. There is no force:
+// its column is 0 and extra.force_sensor false. Throws Error if a stream is empty or its vectors differ in length.
 Recording import_imu_pose(const ImportInput& input, const ImportConfig& config);
 
 // Reads `imu` (t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps) and `poses`
-// (t_s,px_m,py_m,pz_m,qw,qx,qy,qz). Rows with nan are left out and counted. Throws Error with file and line.
+// (t_s,px_m,py_m,pz_m,qw,qx,qy,qz), and of `object_poses`, unless that is empty, likewise. Rows with nan are left out
+// and counted. Throws Error with file and line.
 ImportInput read_imu_pose(const std::filesystem::path& imu, const std::filesystem::path& poses,
-                          const ReadLimits& limits = {});
+                          const std::filesystem::path& object_poses = {}, const ReadLimits& limits = {});
 
 // The same from text; each fills its part of `input`.
 void parse_imu_csv(std::string_view text, const std::string& name, ImportInput& input, const ReadLimits& limits = {});
 void parse_pose_csv(std::string_view text, const std::string& name, ImportInput& input, const ReadLimits& limits = {});
+void parse_object_pose_csv(std::string_view text, const std::string& name, ImportInput& input,
+                           const ReadLimits& limits = {});
 
 }  // namespace asperity

@@ -21,6 +21,9 @@ ProbeStream parse_probe_csv(std::string_view text, const std::string& name, Prob
                             const ReadLimits& limits = {});
 TrackerStream parse_tracker_csv(std::string_view text, const std::string& name, Problems& problems,
                                 const ReadLimits& limits = {});
+// As parse_tracker_csv for a body's own file; without a row it is empty, with a problem `body_unseen`.
+TrackerStream parse_body_csv(std::string_view text, const std::string& name, Problems& problems,
+                             const ReadLimits& limits = {});
 Truth parse_truth_csv(std::string_view text, const std::string& name, Problems& problems,
                       const ReadLimits& limits = {});
 

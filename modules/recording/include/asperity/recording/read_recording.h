@@ -8,9 +8,9 @@
 
 namespace asperity {
 
-// Reads a recording folder: recording.json, probe.csv, tracker.csv, calibration.json and, where it
-// exists, truth.csv. The streams returned have strictly rising times and finite values (force, gyro
-// and force3 are nan where there is no sample); what had to be repaired or left out is in `problems`.
+// Reads a recording folder: recording.json, probe.csv, tracker.csv, the streams of its further bodies,
+// calibration.json and, where it exists, truth.csv. The streams returned have strictly rising times and finite values
+// (force, gyro and force3 are nan where there is no sample); what had to be repaired or left out is in `problems`.
 // Throws Error naming file and line, or file and key, for what cannot be used; Cancelled
 // between files and while JSON is read if `observer` says so.
 Recording read_recording(const std::filesystem::path& folder, const ReadLimits& limits = {},

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,6 +16,7 @@
 #include "asperity/recording/calibration.h"
 #include "asperity/recording/recorder_state.h"
 #include "asperity/recording/recording_origin.h"
+#include "asperity/recording/tracked_body.h"
 
 namespace asperity {
 
@@ -56,7 +58,8 @@ struct Truth {
   std::vector<double> height_m;  // of the tip along the base surface's normal
   std::vector<Eigen::Vector3d> p_world_tip_m;
   std::vector<Eigen::Quaterniond> q_world_marker;
-  std::vector<double> force_N;  // contact force
+  std::vector<double> force_N;            // contact force
+  std::vector<Pose> T_world_object = {};  // empty: there is no body `object`
 
   std::size_t size() const { return t_ns.size(); }
 };
@@ -70,7 +73,8 @@ struct RecordingInfo {
   double probe_rate_Hz = 0.0;  // nominal
   double adc_min = 0.0;
   double adc_max = 0.0;
-  double tracker_rate_Hz = 0.0;  // nominal
+  double tracker_rate_Hz = 0.0;     // nominal
+  std::vector<TrackedBody> bodies;  // tracked in addition to the probe's
   Eigen::Vector3d gravity_world_mps2{0.0, 9.80665, 0.0};
   std::vector<Segment> segments;
   std::map<std::string, std::int64_t> problems;  // what the recorder lost or repaired
@@ -87,9 +91,13 @@ struct Recording {
   RecordingInfo info;
   ProbeStream probe;
   TrackerStream tracker;
+  std::vector<TrackerStream> body_poses;  // one for each of info.bodies, T_world_body; empty if it was never seen
   Calibration calibration;
   std::optional<Truth> truth;
   Problems problems;  // what reading found damaged and repaired or left out
+
+  // The poses of a body by its name; nullptr: it was not tracked.
+  const TrackerStream* poses_of(std::string_view body) const;
 };
 
 }  // namespace asperity

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "asperity/recording/recording.h"
 
@@ -29,6 +30,7 @@ struct ProbeSample {
 
 struct TrackerSample {
   std::int64_t t_ns = 0;
+  std::size_t body = 0;  // 0: the probe's; k: info.bodies[k − 1] of the recording
   Pose T_world_marker;
   int markers = 0;
   double reprojection_px = std::numeric_limits<double>::quiet_NaN();
@@ -46,8 +48,9 @@ struct TrackerSample {
 // are written. Not thread-safe.
 class RecordingAppender {
  public:
-  // Makes the folder with recording.json and calibration.json, each whole, and the headers of the two
-  // streams. Throws Error if the folder exists and is not empty: a measurement is never overwritten.
+  // Makes the folder with recording.json and calibration.json, each whole, and the headers of the streams: the
+  // probe's, the tracker's and one for each of info.bodies. Throws Error if the folder exists and is not empty: a
+  // measurement is never overwritten.
   RecordingAppender(std::filesystem::path folder, const RecordingInfo& info, const Calibration& calibration,
                     const AppendColumns& columns = {});
   ~RecordingAppender();
@@ -63,17 +66,20 @@ class RecordingAppender {
   void flush(bool to_disk = false);
 
   // Flushes to disk, closes the streams and replaces recording.json by `info` with its final segments
-  // and problems. With `only_segments` the rows that lie in none of info.segments are taken out of both streams
+  // and problems. With `only_segments` the rows that lie in none of info.segments are taken out of all streams
   // afterwards, each stream replaced by rename. Throws Error if a stream cannot be written; the rows so far
   // remain readable.
   void finish(const RecordingInfo& info, bool only_segments = false);
 
-  // Handed to the operating system so far, of both streams; the lines in memory are not counted.
+  // Handed to the operating system so far, of all streams; the lines in memory are not counted.
   std::uint64_t bytes() const;
 
  private:
   struct Stream;
 
+  // The probe's, the tracker's and the bodies'.
+  std::vector<Stream*> streams() const;
+  void close() noexcept;
   // Lists the blocks that have ended, all of them if `to_disk`.
   void write_checksums(bool to_disk);
 
@@ -81,6 +87,8 @@ class RecordingAppender {
   AppendColumns columns_;
   std::unique_ptr<Stream> probe_;
   std::unique_ptr<Stream> tracker_;
+  std::vector<std::string> body_files_;
+  std::vector<std::unique_ptr<Stream>> bodies_;
   std::unique_ptr<Stream> checksums_;
 };
 

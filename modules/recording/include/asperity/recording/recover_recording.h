@@ -35,19 +35,20 @@ Json losses_json(const RecoveredStream& stream);
 struct RecoveredRecording {
   RecoveredStream probe;
   RecoveredStream tracker;
+  std::vector<RecoveredStream> bodies;       // of recording.json's, in its order
   std::vector<std::string> taken_from_like;  // files
   std::vector<std::string> copied;           // files and folders that are as they were
 
-  // By the checksums of both streams: without them nobody knows what is missing.
+  // By the checksums of all streams: without them nobody knows what is missing.
   bool lost_nothing() const;
 };
 
-// Saves what a damaged recording holds: writes into `out`, an existing folder, the rows of probe.csv and tracker.csv
-// that are whole, byte for byte, with new checksums, and copies truth.csv, camera.json, markers.json and frames/. A row
-// is whole if its block's checksum holds, where there is one, and if it has as many cells as the header, each a number
-// or empty, and a time. Files of `folder` are only read. recording.json gets extra.recovered: what was left out. Throws
-// Error if there is no row to save, or if recording.json or calibration.json cannot be read and `like` does not stand
-// in.
+// Saves what a damaged recording holds: writes into `out`, an existing folder, the rows of probe.csv, tracker.csv
+// and the bodies' streams that are whole, byte for byte, with new checksums, and copies truth.csv, camera.json,
+// markers.json and frames/. A row is whole if its block's checksum holds, where there is one, and if it has as many
+// cells as the header, each a number or empty, and a time. Files of `folder` are only read. recording.json gets
+// extra.recovered: what was left out. Throws Error if there is no row to save, or if recording.json or calibration.json
+// cannot be read and `like` does not stand in.
 RecoveredRecording recover_recording(const std::filesystem::path& folder, const std::filesystem::path& out,
                                      const RecoverOptions& options = {}, const ReadLimits& limits = {},
                                      const Observer& observer = {});

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "asperity/base/problem.h"
+#include "asperity/geometry/covered_triangle.h"
 #include "asperity/geometry/haptic_triangle.h"
 #include "asperity/geometry/mesh_adjacency.h"
 #include "asperity/geometry/mesh_path.h"
@@ -55,6 +56,7 @@ struct HapticCoordinates {
   std::vector<HapticTriangle> triangles;  // one a triangle of the mesh
   std::vector<HapticWarp> warps;          // one a path, over all triangles near it
   std::size_t contested = 0;              // triangles near several paths; the nearest has them
+  std::vector<CoveredTriangle> covered;  // of the others there: by triangle, then from the farthest path to the nearest
   Problems problems;  // "coordinates_fold", "…_stretch", "…_overlap", "…_contested", "path_jumps"
 };
 

@@ -13,6 +13,7 @@ struct PoseMisfitConfig {
   double surface_error_m = 2e-6;  // of the mesh, beside its facets' sag
   double guess_sigma_m = 20e-3;
   double guess_sigma_rad = 0.35;
+  bool guess_stated = true;
 };
 
 // How far the paths at the pose `result.T_mesh_world` are from the mesh, and what of that is explained. The signed

@@ -62,6 +62,22 @@ struct PoseMisfit {
   double guess_rotation_rad = std::numeric_limits<double>::quiet_NaN();
   double guess_sigma_m = std::numeric_limits<double>::quiet_NaN();  // as the settings state the guess's error
   double guess_sigma_rad = std::numeric_limits<double>::quiet_NaN();
+  bool guess_stated = true;  // these are the user's word, not a default
+};
+
+// What speaks against a pose (pose_rivals.h); nan: not known.
+struct PoseRivals {
+  bool judged = false;               // the rest is known
+  bool searched = false;             // poses everywhere on the mesh were compared
+  double odds = 0.0;                 // of all other poses together to this one
+  std::optional<RunnerUp> rival;     // the likeliest of these, however unlikely
+  std::size_t symmetric_copies = 0;  // poses that the mesh's own symmetry maps onto this one
+  bool symmetric_motion = false;     // the mesh maps onto itself along a motion that the paths leave open
+  double sigma_m = std::numeric_limits<double>::quiet_NaN();    // of the points' RMS position, and of the rotation,
+  double sigma_rad = std::numeric_limits<double>::quiet_NaN();  // these motions left out
+  double slow_ratio =
+      std::numeric_limits<double>::quiet_NaN();  // of the slow error that the pose needs to the stated one
+  double outlying = std::numeric_limits<double>::quiet_NaN();  // share of the paths that no such error explains
 };
 
 // Where a scan path lies on a mesh.
@@ -79,6 +95,7 @@ struct RegistrationResult {
   std::vector<UndeterminedMotion> undetermined;
   std::optional<RunnerUp> runner_up;
   PoseMisfit misfit;
+  PoseRivals rivals;
   bool ambiguous = false;  // the runner-up fits as well
   bool trustworthy = true;
   std::string verdict;  // in words

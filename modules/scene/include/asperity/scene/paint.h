@@ -9,6 +9,7 @@
 #include "asperity/base/problem.h"
 #include "asperity/geometry/mesh_path.h"
 #include "asperity/registration/haptic_coordinates.h"
+#include "asperity/scene/lay_texture.h"
 #include "asperity/scene/scene.h"
 
 namespace asperity {
@@ -23,7 +24,8 @@ struct VirtualPath {
 struct PaintResult {
   VirtualPath path;
   HapticWarp warp;
-  std::size_t painted_over = 0;  // triangles that had another texture
+  std::size_t painted_over = 0;   // triangles that had another texture
+  std::size_t painted_under = 0;  // triangles that still have another one: what was painted is below it
   Problems problems;
 };
 
@@ -36,9 +38,10 @@ VirtualPath virtual_path(const TriangleMesh& mesh, std::span<const Eigen::Vector
 // trajectory over the surface of an arbitrary 3D object"): x along it, y across it, in millimetres of the surface,
 // so that the texture keeps its scale. `picks_mesh_m` are in metres in the mesh's frame. The triangles near the path
 // get the index of `texture`, which is added to the object's textures or replaces the one of that index; triangles
-// that had another texture are painted over, all others stay. The warp is that of the texture on these triangles.
-// Throws Error as virtual_path does, and for a negative index.
-PaintResult paint(SceneObject& object, std::span<const Eigen::Vector3d> picks_mesh_m, const SceneTexture& texture,
-                  const HapticCoordinatesConfig& config = {});
+// that had another texture are painted over, or it lies under that (lay_texture.h); all others stay. The texture's
+// order and origin are set here; of an origin that is given, the name and the settings are kept. The warp is that of
+// the texture on these triangles. Throws Error as virtual_path does, and for a negative index.
+PaintResult paint(SceneObject& object, std::span<const Eigen::Vector3d> picks_mesh_m, SceneTexture texture,
+                  const HapticCoordinatesConfig& config = {}, LayAt at = LayAt::kOver);
 
 }  // namespace asperity

@@ -5,10 +5,12 @@
 #include <vector>
 
 #include "asperity/base/problem.h"
+#include "asperity/geometry/covered_triangle.h"
 #include "asperity/geometry/mesh_file.h"
 #include "asperity/geometry/pose.h"
 #include "asperity/json/json.h"
 #include "asperity/scene/material_map.h"
+#include "asperity/scene/texture_origin.h"
 #include "asperity/texture/texture.h"
 
 namespace asperity {
@@ -18,6 +20,8 @@ struct SceneTexture {
   int index = 1;
   std::string file;  // *.texture.json, a name in the scene's folder or below
   Texture texture;
+  int order = 0;  // where two textures are laid on one triangle, the one of the greater order is rendered
+  std::optional<TextureOrigin> origin{};  // nullopt: not known
 };
 
 // A mesh with its haptic coordinates, textures and material.
@@ -26,7 +30,10 @@ struct SceneObject {
   double unit_m = 1.0;    // length of the mesh's unit
   MeshFile mesh;
   std::vector<SceneTexture> textures;  // by rising index
-  std::string material_file;           // empty: no map
+  std::string covered_file;            // empty: no texture covers another
+  // What the textures in mesh.haptic cover: by triangle, then from the lowest to the highest.
+  std::vector<CoveredTriangle> covered;
+  std::string material_file;  // empty: no map
   MaterialMap material;
   Pose T_world_mesh;  // where it stands among the other objects
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "asperity/texture/areal_texture.h"
 #include "asperity/texture/height_map.h"
 #include "asperity/texture/texture.h"
 
@@ -30,12 +31,16 @@ struct TextureMaps {
   Eigen::Vector2d size_mm = Eigen::Vector2d::Zero();
 };
 
-// Images of a texture that is a height field; the image of one that is an image already. Throws Error for other
-// models.
+// Images of a texture that is a height field; the image of one that is an image already. An area (an areal texture with
+// standard deviations) is one image from its corner on that does not tile. Throws Error for other models.
 TextureMaps make_texture_maps(const Texture& texture, const TextureMapsConfig& config = {});
 
 // The unit normals of a height map at its pixels, each component c as (c + 1)/2 · 65535: red along x, green against y
 // (up the image), blue outwards, as glTF 2.0 takes a normal map. The slopes are those of the texture as it is rendered.
 std::string format_normal_png(const HeightMap& heights);
+
+// The standard deviations of an area's heights at the pixels of its height map, grey of 16 bits: black is 0, level
+// 65534 is `white_m`, and level 65535 is a hole, where nothing is known of the height.
+std::string format_sigma_png(const ArealTexture& areal, const HeightMap& heights, double white_m);
 
 }  // namespace asperity

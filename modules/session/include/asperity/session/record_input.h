@@ -3,10 +3,12 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "asperity/camera/camera_source.h"
 #include "asperity/recorder/recorder.h"
 #include "asperity/recording/calibration.h"
+#include "asperity/recording/tracked_body.h"
 #include "asperity/tracking/track_body.h"
 
 namespace asperity {
@@ -19,6 +21,7 @@ struct RecordInput {
   std::string camera;
   std::string markers;
   std::string poses;
+  std::vector<std::string> bodies;  // further ones whose lines `poses` has, by name
   std::string calibration;
   bool uncalibrated = false;
 };
@@ -29,6 +32,10 @@ void check_record_addresses(const RecordInput& input);
 // calibration.json with the markers of markers.json where there is one; nullopt for --uncalibrated. Throws Error naming
 // the file.
 std::optional<Calibration> read_record_calibration(const RecordInput& input);
+
+// The bodies that are tracked in addition to the probe's: those of the calibration's markers with a camera, those that
+// are named with a stream of poses. Throws Error naming the option for a name that is none.
+std::vector<TrackedBody> record_bodies(const RecordInput& input, const std::optional<Calibration>& calibration);
 
 // The functions that open the sensors. `on_frame` is given the camera's images. Throws Error for an address that is
 // none, and for a camera without a calibration or markers.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string_view>
 
 namespace asperity {
@@ -25,6 +26,7 @@ struct HandConfig {
   int strokes = 3;                // back and forth
   double row_spacing_m = 2.5e-3;  // back and forth: between neighbouring strokes
   double lateral_wander_m = 0.1e-3;
+  std::int64_t path_seed = 0;  // of the wander: strokes along one guide share it; 0: the simulation's
 
   HandForce force = HandForce::kSteady;
   double force_N = 0.8;          // steady: normal set-point
@@ -68,6 +70,8 @@ struct HandConfig {
     v.field("strokes", strokes, "back_and_forth: number of strokes", {1, 1000});
     v.field("row_spacing_m", row_spacing_m, "back_and_forth: distance of neighbouring strokes, m", {1e-4, 0.1});
     v.field("lateral_wander_m", lateral_wander_m, "slow deviation from the path across it, m", {0.0, 0.01});
+    v.field("path_seed", path_seed, "of that deviation, the same in strokes along one guide; 0: the simulation's",
+            {0.0, 9e15});
     v.choice("force", force, kHandForceNames, "normal set-point: steady, or a ramp from light to firm");
     v.field("force_N", force_N, "steady: normal set-point, N", {0.0, 50.0});
     v.field("force_variation", force_variation, "slow relative variation of the force", {0.0, 0.5});

@@ -6,6 +6,7 @@
 
 #include "asperity/simulation/contact_config.h"
 #include "asperity/simulation/hand_config.h"
+#include "asperity/simulation/object_motion_config.h"
 #include "asperity/simulation/probe_config.h"
 #include "asperity/simulation/surface_config.h"
 #include "asperity/simulation/tracker_config.h"
@@ -20,6 +21,7 @@ struct SimulationConfig {
   SimulatedSurfaceConfig surface;
   SimulatedShapeConfig shape;
   SimulatedContactConfig contact;
+  SimulatedObjectConfig object;
   HandConfig hand;
   SimulatedProbeConfig probe;
   SimulatedTrackerConfig tracker;
@@ -33,6 +35,7 @@ struct SimulationConfig {
     v.group("surface", surface);
     v.group("shape", shape);
     v.group("contact", contact);
+    v.group("object", object);
     v.group("hand", hand);
     v.group("probe", probe);
     v.group("tracker", tracker);

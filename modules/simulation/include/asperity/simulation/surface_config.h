@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -27,7 +28,8 @@ struct SimulatedSurfaceConfig {
   double rq_m = 40e-6;              // sandpaper, clay pot: root mean square height before the tip
   double low_cycles_per_mm = 0.25;  // sandpaper, clay pot: band of the relief
   double high_cycles_per_mm = 2.5;
-  double slope = 1.0;  // sandpaper, clay pot: the waves' density falls as frequency^-slope
+  double slope = 1.0;     // sandpaper, clay pot: the waves' density falls as frequency^-slope
+  std::int64_t seed = 0;  // sandpaper, clay pot: of the relief; 0: the simulation's
 
   std::string file;                // file: a height CSV or areal map
   double file_spacing_m = 0.5e-6;  // file with heights alone: their distance
@@ -51,6 +53,8 @@ struct SimulatedSurfaceConfig {
     v.field("high_cycles_per_mm", high_cycles_per_mm, "sandpaper, clay_pot: upper end of the relief's band, 1/mm",
             {1e-3, 100.0});
     v.field("slope", slope, "sandpaper, clay_pot: the waves' density falls as frequency^-slope", {-4.0, 6.0});
+    v.field("seed", seed, "sandpaper, clay_pot: of the relief, the same in several scans; 0: the simulation's",
+            {0.0, 9e15});
     v.field("file", file, "file: CSV of heights or areal map x_mm,y_mm,z_um");
     v.field("file_spacing_m", file_spacing_m, "file with heights alone: their distance, m", {1e-9, 0.01});
     v.field("file_unit_m", file_unit_m, "file whose columns name no unit: the unit of the heights, m", {1e-12, 10.0});

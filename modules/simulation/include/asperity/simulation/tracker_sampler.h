@@ -28,7 +28,9 @@ Pose flipped_pose(const Pose& T_world_marker);
 class TrackerSampler {
  public:
   // The marker's origin is found from the tip by `tip_in_marker_m`.
-  TrackerSampler(const SimulationConfig& config, std::int64_t start_ns);
+  // With `other_errors` above 0: in the same frames, with the same stamps, another body whose errors and losses are its
+  // own.
+  TrackerSampler(const SimulationConfig& config, std::int64_t start_ns, std::uint64_t other_errors = 0);
 
   void push(const MotionState& state);
 

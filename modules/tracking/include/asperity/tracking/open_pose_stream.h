@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "asperity/tracking/pose_source.h"
 #include "asperity/transport/byte_source.h"
@@ -23,8 +24,9 @@ struct PoseAddress {
 // Throws Error naming the text and what is allowed.
 PoseAddress parse_pose_address(std::string_view text);
 
-// Opens what the address names; throws Error if it cannot.
-std::unique_ptr<PoseSource> open_pose_stream(const PoseAddress& address);
+// Opens what the address names; throws Error if it cannot. Lines that begin with the name of one of `bodies` are that
+// body's (pose_lines.h).
+std::unique_ptr<PoseSource> open_pose_stream(const PoseAddress& address, const std::vector<std::string>& bodies = {});
 
 // Whose clock the times in the lines are of.
 enum class PoseTimes {
@@ -35,7 +37,7 @@ enum class PoseTimes {
 
 // The poses in the lines that `bytes` gives. Over UDP open_pose_stream takes the sender's clock: another machine has
 // another one.
-std::unique_ptr<PoseSource> make_pose_stream(std::unique_ptr<ByteSource> bytes,
-                                             PoseTimes times = PoseTimes::kAsWritten);
+std::unique_ptr<PoseSource> make_pose_stream(std::unique_ptr<ByteSource> bytes, PoseTimes times = PoseTimes::kAsWritten,
+                                             const std::vector<std::string>& bodies = {});
 
 }  // namespace asperity

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "asperity/recording/recording_appender.h"
@@ -15,14 +17,20 @@ namespace asperity {
 // Empty lines, those that begin with # and a header are no poses and no errors.
 class PoseLines {
  public:
+  // A line that begins with one of `bodies` and a comma is a pose of that body: sample.body is its place, from 1.
+  explicit PoseLines(std::vector<std::string> bodies = {}) : bodies_(std::move(bodies)) {}
+
   // Appends to `out` the poses that `bytes` complete.
   void push(std::span<const std::uint8_t> bytes, std::int64_t arrival_ns, std::vector<TrackerSample>& out);
 
   std::uint64_t bad_lines() const { return bad_lines_; }
 
  private:
+  // The body that the line begins with, which is taken off it.
+  std::size_t take_body(std::string_view& line) const;
   void take_line(std::int64_t arrival_ns, std::vector<TrackerSample>& out);
 
+  std::vector<std::string> bodies_;
   std::string line_;
   bool too_long_ = false;
   std::uint64_t bad_lines_ = 0;

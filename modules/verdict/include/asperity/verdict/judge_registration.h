@@ -26,6 +26,15 @@ struct PoseEvidence {
   double guess_rotation_rad = kUnknown;
   double guess_sigma_m = kUnknown;  // as the settings state it
   double guess_sigma_rad = kUnknown;
+  bool guess_stated = true;  // by the user; a guess of unknown error can be wrong without the pose being so
+
+  double sigma_m = kUnknown;     // of the points' RMS position, motions along which the mesh is its own image left out
+  double sigma_rad = kUnknown;   // and of the rotation
+  double slow_ratio = kUnknown;  // of the slow error that the pose needs to the stated one, standard deviations
+  double outlying = kUnknown;    // share of the paths that no such error explains
+  bool searched = true;          // other poses were looked for everywhere on the mesh
+  std::size_t symmetric_copies = 0;  // of the pose, by the mesh's own symmetry
+  bool symmetric_motion = false;     // the mesh is its own image along a motion that the paths leave open
 };
 
 // The verdicts on the pose of scans on a mesh, the worst first.

@@ -41,7 +41,10 @@ struct ScanEvidence {
   std::size_t rows_changed = 0;  // whose bytes are not those that were recorded, by their checksums
   double recorded_s = 0.0;
   double used_s = 0.0;
-  double tracker_gap_s = kUnknown;  // interpolated over
+  double tracker_gap_s = kUnknown;      // interpolated over
+  double object_seen_share = kUnknown;  // of the samples, those at which the object's own body was seen
+  double object_moved_m = kUnknown;     // its scanned part, from where it was at first
+  double object_turned_rad = kUnknown;
   std::size_t samples_rejected = 0;
   std::size_t samples = 0;
 
@@ -65,6 +68,8 @@ struct ScanEvidence {
   double snr = kUnknown;                   // power of the surface over that of the noise
   double expected_correlation = kUnknown;  // of the texture, noise removed, with the surface
   double at_most_m = kUnknown;             // upper bound of the surface's RMS, 97.5 %
+  std::size_t sticks = 0;                  // times that the tip was held between two slides
+  double stuck_share = 0.0;                // of the time in contact
 };
 
 // The verdicts on a scan, the worst first; a nothing-touched scan has no other on its surface. The only place that

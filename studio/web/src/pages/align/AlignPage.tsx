@@ -9,6 +9,7 @@ import { IterationStrip } from "./IterationStrip";
 import { PicksPanel } from "./PicksPanel";
 import { ResidualPanel } from "./ResidualPanel";
 import { RunPanel } from "./RunPanel";
+import { ScansPanel } from "./ScansPanel";
 import { SettingsPanel } from "./SettingsPanel";
 import { WritePanel } from "./WritePanel";
 
@@ -28,6 +29,7 @@ export default function AlignPage() {
       results={
         <>
           <RunPanel />
+          <ScansPanel />
           <ResidualPanel />
           <WritePanel />
           <SettingsPanel />

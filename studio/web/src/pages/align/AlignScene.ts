@@ -1,15 +1,16 @@
 // The mesh, the path and what belongs to them, in a view. The view's origin is the middle of the mesh's box.
-import { Color, Group, type Material, type Mesh, type Object3D, type Points, Vector3 } from "three";
+import { type BufferAttribute, Color, Group, type Material, type Mesh, type Object3D, type Points, Vector3 } from "three";
 import { TransformControls } from "three/examples/jsm/controls/TransformControls.js";
 import type { Block } from "../../net/block";
 import { themeColour } from "../../plot/colours";
 import { newGesture } from "../../state/document";
-import { dotsFromPoints, meshFromBlock, setColours, sphere } from "../../view3d/helpers";
+import { dotsFromPoints, meshFromArrays, meshFromBlock, setColours, sphere } from "../../view3d/helpers";
 import type { View } from "../../view3d/View";
 import { numberLabel } from "./numberLabel";
 import { nearestOnScreen, type Pick, type Screen } from "./picks";
-import { placePath, poseOfPath, type Frame, type Point, type Pose } from "./pose";
+import { placePath, pointsApart, poseOfPath, type Frame, type Point, type Pose } from "./pose";
 import { colourLimit_m, residualColours } from "./residuals";
+import { areas, colourOf } from "./scans";
 
 const kReach_px = 14;
 
@@ -26,24 +27,32 @@ export class AlignScene {
   private readonly frame: Frame;
   private readonly size_m: number;
   private readonly points: Float32Array;
+  private readonly pathOf: ArrayLike<number>;
+  private readonly paths: number;
+  private readonly areas = new Group();
+  private apart = false;
   private mesh: Mesh;
   private dots: Points;
   private gesture = "";
 
   constructor(
     private readonly view: View,
-    block: Block,
+    private readonly block: Block,
     events: AlignSceneEvents,
   ) {
     this.frame = { middle_world_m: block.head.middle_world_m, origin_m: block.head.origin_m };
     this.size_m = new Vector3(...block.head.high_m).sub(new Vector3(...block.head.low_m)).length();
     this.points = block.arrays.path_points as Float32Array;
+    this.pathOf = block.arrays.path_of ?? [];
+    this.paths = (block.head.paths as string[]).length;
     const mesh = meshFromBlock(block, "positions", "indices", { colour: themeColour("--view-mesh") });
     // The path lies on the surface: the surface is drawn a little behind itself.
     mesh.material.polygonOffset = true;
     mesh.material.polygonOffsetFactor = 2;
     mesh.material.polygonOffsetUnits = 8;
     this.mesh = view.add(mesh);
+    view.add(this.areas);
+    this.drawAreas();
     this.dots = dotsFromPoints(this.points, new Float32Array(this.points.length).fill(0.5), 5);
     this.path.add(this.dots);
     this.ghost.add(dotsFromPoints(this.points, themeColour("--text-1"), 2));
@@ -69,8 +78,16 @@ export class AlignScene {
     this.view.fit(this.mesh);
   }
 
-  place(pose: Pose): void {
+  /** With `poses`, one a path, each path lies by its own; the group's pose is that of the first. */
+  place(pose: Pose, poses: readonly Pose[] | null = null): void {
     if (!this.gizmo.dragging) placePath(this.path, pose, this.frame);
+    if (poses || this.apart) {
+      this.apart = poses !== null;
+      const positions = this.dots.geometry.getAttribute("position") as BufferAttribute;
+      positions.array.set(poses ? pointsApart(this.points, this.pathOf, pose, poses, this.frame) : this.points);
+      positions.needsUpdate = true;
+      this.dots.geometry.computeBoundingSphere();
+    }
     this.view.invalidate();
   }
 
@@ -106,7 +123,27 @@ export class AlignScene {
     this.view.invalidate();
   }
 
+  /** Each path in the colour of its scan. */
+  colourByScan(): void {
+    const colours = new Float32Array(this.points.length);
+    const colour = new Color();
+    for (let at = 0; at < this.pathOf.length; ++at) {
+      colour.set(themeColour(`--series-${colourOf(this.pathOf[at]!)}`));
+      colours.set([colour.r, colour.g, colour.b], 3 * at);
+    }
+    setColours(this.dots, colours);
+    this.view.invalidate();
+  }
+
+  /** The textured areas of the scene in the colours of its scans; those with several textures dark. */
+  showAreas(on: boolean): void {
+    this.areas.visible = on;
+    this.view.invalidate();
+  }
+
   takeColours(): void {
+    this.drawAreas();
+
     (this.mesh.material as unknown as { color: Color }).color.set(themeColour("--view-mesh"));
     ((this.ghost.children[0] as Points).material as unknown as { color: Color }).color.set(themeColour("--text-1"));
     this.view.invalidate();
@@ -153,8 +190,25 @@ export class AlignScene {
     this.gizmo.detach();
     this.gizmo.dispose();
     this.helper.removeFromParent();
-    for (const part of [this.mesh, this.path, this.ghost, this.marks]) this.view.remove(part);
+    for (const part of [this.mesh, this.areas, this.path, this.ghost, this.marks]) this.view.remove(part);
     this.view.controls.enabled = true;
+  }
+
+  private drawAreas(): void {
+    for (const part of [...this.areas.children]) this.view.remove(part);
+    const { positions, indices, laid_triangle, laid_texture, covered_triangle } = this.block.arrays;
+    if (!positions || !indices || !laid_triangle || !laid_texture) return;
+    const draw = (corners: readonly number[], colour: string, opacity: number, behind: number) => {
+      const part = meshFromArrays(positions, corners, { colour, opacity });
+      part.material.polygonOffset = true;
+      part.material.polygonOffsetFactor = behind;
+      part.material.polygonOffsetUnits = 4 * behind;
+      this.areas.add(part);
+    };
+    for (const [texture, corners] of areas(indices, laid_triangle, laid_texture))
+      draw(corners, themeColour(`--series-${colourOf(this.paths + texture - 1)}`), 0.55, 1.5);
+    const several = areas(indices, covered_triangle ?? [], new Uint8Array(covered_triangle?.length ?? 0)).get(0);
+    if (several) draw(several, themeColour("--text-1"), 0.6, 1);
   }
 
   private inPath(p_world_m: Point): Vector3 {

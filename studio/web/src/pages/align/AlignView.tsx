@@ -8,7 +8,7 @@ import type { View } from "../../view3d/View";
 import { viewNames } from "../../view3d/views";
 import { Viewport } from "../../view3d/Viewport";
 import { AlignScene } from "./AlignScene";
-import { align, ghostPose, half, iterations, missing, move, opened, residuals, scrub, showing, shown, take, tool } from "./alignState";
+import { align, colouring, ghostPose, half, iterations, missing, move, opened, residuals, scrub, showAreas, showing, shown, shownPoses, take, tool } from "./alignState";
 import type { Tool } from "./alignState";
 import { colourLimit_m, rampStops } from "./residuals";
 import { phaseWords } from "./iterations";
@@ -35,12 +35,17 @@ export function AlignView() {
       made.destroy();
     };
   }, [block, ready]);
-  useEffect(() => void (shown.value && scene.current?.place(shown.value)), [block, ready, shown.value]);
+  useEffect(() => void (shown.value && scene.current?.place(shown.value, shownPoses.value)), [block, ready, shown.value, shownPoses.value]);
   useEffect(() => scene.current?.placeGhost(ghostPose.value), [block, ready, ghostPose.value]);
-  useEffect(() => void (distances && scene.current?.colour(distances.distance_m)), [block, ready, distances]);
+  const byScan = colouring.value === "scan";
+  useEffect(() => {
+    if (byScan) scene.current?.colourByScan();
+    else if (distances) scene.current?.colour(distances.distance_m);
+  }, [block, ready, distances, byScan, dark.value]);
   useEffect(() => scene.current?.mark(align.value?.picks ?? [], half.value), [block, ready, align.value?.picks, half.value, dark.value]);
   useEffect(() => scene.current?.setTranslucent(translucent), [block, ready, translucent]);
   useEffect(() => scene.current?.takeColours(), [block, ready, dark.value]);
+  useEffect(() => scene.current?.showAreas(showAreas.value), [block, ready, showAreas.value]);
   const gizmo = showing.value === "placed" && (tool.value === "translate" || tool.value === "rotate") ? tool.value : null;
   useEffect(() => scene.current?.setTool(gizmo), [block, ready, gizmo]);
 
@@ -80,7 +85,7 @@ export function AlignView() {
           };
         }}
       >
-        {distances && (
+        {distances && !byScan && (
           <div class="align-legend" data-testid="align-legend">
             <span>distance to the mesh</span>
             <span class="align-ramp" style={{ background: `linear-gradient(to right, ${rampStops()})` }} />

@@ -29,16 +29,16 @@ export function FilesPanel() {
     <Panel title="Scan and mesh" testId="align-files">
       <FilePicker
         label="Mesh"
-        kinds={["mesh"]}
+        kinds={["mesh", "scene"]}
         value={section.mesh}
         onChange={(mesh) => change({ mesh }, "choose a mesh")}
         testId="align-mesh"
       />
-      <MeshUnitField
+      {!isScene(section.mesh) && <MeshUnitField
         unit_m={unitOfText(section.mesh_unit) ?? 1}
         onChange={(unit_m) => void change({ mesh_unit: textOfLength(unit_m) }, "change the mesh's unit").catch(complain)}
         testId="align-unit"
-      />
+      />}
       <fieldset class="align-paths">
         <legend>Scans, all in one world</legend>
         {shown.length === 0 && <p class="empty">There is no recording and no CSV of a path in the folder.</p>}
@@ -75,6 +75,9 @@ export function FilesPanel() {
     </Panel>
   );
 }
+
+/** A scene, to whose mesh scans are added; it has its own unit. */
+export const isScene = (mesh: string): boolean => mesh.endsWith(".json");
 
 function choosePath(section: AlignSection, name: string, on: boolean): Promise<void> {
   const paths = on ? [...section.paths, name] : section.paths.filter((other) => other !== name);

@@ -7,7 +7,7 @@ import { Panel } from "../../ui/Panel";
 import { Toggle } from "../../ui/Toggle";
 import { Warning } from "../../ui/Warning";
 import { verdictWords } from "./verdict";
-import { ghost, isRegistered, missing, register, result, running, runningJob, showing, take, type RunResult, type Showing } from "./alignState";
+import { ghost, isMoved, isRegistered, judged, missing, register, result, running, runningJob, showing, take, type RunResult, type Showing } from "./alignState";
 
 /** The registration: from here or from anywhere, what it says of itself, and its runner-up. */
 export function RunPanel() {
@@ -39,8 +39,22 @@ export function RunPanel() {
       <div aria-live="polite">
         {found ? <Verdict found={found} /> : <p class="field-hint">{running.value ? waits : missing.value || "Not run yet."}</p>}
       </div>
+      {isMoved.value && <MovedVerdict />}
       {isRegistered.value && <p class="field-hint">The path lies where a registration has put it.</p>}
     </Panel>
+  );
+}
+
+/** The verdict on the pose that the path was moved to: the registration's own is about another. */
+function MovedVerdict() {
+  const now = judged.value;
+  if (!now) return <p class="field-hint">The path was moved away from the registered pose. Its new pose is being judged …</p>;
+  return (
+    <div class={now.trustworthy ? "align-verdict align-good" : "align-verdict align-doubt"} data-testid="align-moved-verdict">
+      <strong>{now.trustworthy ? "Path as placed: valid. " : "Path as placed: invalid. "}</strong>
+      {now.verdict}
+      {now.verdicts.length > 0 && <VerdictList verdicts={now.verdicts} />}
+    </div>
   );
 }
 
@@ -49,7 +63,10 @@ function Verdict({ found }: { found: RunResult }) {
   return (
     <>
       <div class={found.trustworthy ? "align-verdict align-good" : "align-verdict align-doubt"} data-testid="align-verdict">
-        <strong>{found.trustworthy ? "Valid. " : "Invalid. "}</strong>
+        <strong>
+          {isMoved.value ? "Registered pose: " : ""}
+          {found.trustworthy ? (isMoved.value ? "valid. " : "Valid. ") : isMoved.value ? "invalid. " : "Invalid. "}
+        </strong>
         {verdictWords(found)}
         <details open={!found.trustworthy}>
           <summary>In full</summary>

@@ -9,7 +9,8 @@ import { Panel } from "../../ui/Panel";
 import { TextField } from "../../ui/TextField";
 import { Toggle } from "../../ui/Toggle";
 import { chooseScene } from "../feel/feelChoices";
-import { align, missing } from "./alignState";
+import { align, missing, open } from "./alignState";
+import { isScene } from "./FilesPanel";
 
 interface Written {
   name: string;
@@ -29,11 +30,15 @@ export function WritePanel() {
   const [written, setWritten] = useState<Written | null>(null);
   const name = typed || `${stem || "mesh"}-aligned`;
   const lacks = missing.value || (align.value?.T_mesh_world ? "" : "Lay the path on the mesh first: by hand, by points or by a registration.");
+  const scene = isScene(mesh);
+  const [apart, setApart] = useState(false);
+  const into = scene && !apart;
   const write = async () => {
     setWritten(null);
-    setWritten(await call<Written>("align.write", { name, replace }));
+    setWritten(await call<Written>("align.write", into ? { into } : { name, replace }));
     setReplace(false);
     await readEntries();
+    if (into) await open();
   };
   const feel = async () => {
     await chooseScene(written!.scene);
@@ -41,8 +46,9 @@ export function WritePanel() {
   };
   return (
     <Panel title="Write" testId="align-write">
-      <TextField label="Folder" value={name} onChange={setTyped} hint="In the project; the registration is run to its end from the pose." />
-      <Toggle label="Replace what has this name" on={replace} onChange={setReplace} />
+      {scene && <Toggle label="Into another folder" on={apart} onChange={setApart} hint="Without it the scans are added to the scene." testId="align-apart" />}
+      {!into && <TextField label="Folder" value={name} onChange={setTyped} hint="In the project; the registration is run to its end from the pose." />}
+      {!into && <Toggle label="Replace what has this name" on={replace} onChange={setReplace} />}
       <Button
         kind="primary"
         onClick={write}
@@ -50,7 +56,7 @@ export function WritePanel() {
         hint={lacks || undefined}
         testId="align-write-button"
       >
-        Write result
+        {into ? "Add to the scene" : "Write result"}
       </Button>
       <div role="status" data-testid="align-written">
         {written && (

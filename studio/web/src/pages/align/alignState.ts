@@ -11,6 +11,7 @@ import { latest } from "./latest";
 import { missingWords } from "./missing";
 import type { Pick } from "./picks";
 import { samePose, type Frame, type Point, type Pose } from "./pose";
+import { ownPoses, type ScanPose } from "./scans";
 
 export interface AlignSection {
   paths: string[];
@@ -45,6 +46,16 @@ export interface RunResult extends Solution {
   undetermined: { description: string; sigma_m: number | null }[];
   runner_up: (Solution & { distance_m: number | null; turn_deg: number | null }) | null;
   problems: string[];
+  scans?: ScanPose[];
+}
+
+/** What is to be said of a pose that was placed by hand. */
+export interface Judged {
+  T_mesh_world: Pose;
+  rms_m: number | null;
+  trustworthy: boolean;
+  verdict: string;
+  verdicts: VerdictEntry[];
 }
 
 export interface Residuals {
@@ -70,6 +81,8 @@ export const opening = signal(true);
 export const residuals = signal<Residuals | null>(null);
 export const iterations = signal<Iterations>(noIterations);
 export const result = signal<RunResult | null>(null);
+/** The verdict on the pose that the path was moved to, once it is known; null while it is not. */
+export const judged = signal<Judged | null>(null);
 const registering = signal(false);
 /** The registration under way, also one that another window or the studio itself has begun. */
 export const runningJob = computed(() => jobs.value.find(({ title }) => title.startsWith("Registering")));
@@ -78,6 +91,10 @@ export const showing = signal<Showing>("placed");
 /** The iteration that is shown, from 0. */
 export const scrub = signal(0);
 export const ghost = signal(false);
+/** What the path's colours stand for. */
+export const colouring = signal<"distance" | "scan">("distance");
+/** Whether the areas of a scene that have a texture are drawn. */
+export const showAreas = signal(true);
 export const tool = signal<Tool>("look");
 /** The point of the path, in the world, that waits for its point of the mesh. */
 export const half = signal<Point | null>(null);
@@ -106,6 +123,11 @@ export const shown = computed<Pose | null>(() => {
   return placed.value;
 });
 
+/** Poses of the scans of a registration with several placements, while it is shown: one a path. */
+export const shownPoses = computed<Pose[] | null>(() =>
+  showing.value === "best" ? ownPoses(result.value?.scans, align.value?.paths.length ?? 0) : null,
+);
+
 /** The other solution of the two, while one of them is shown. */
 export const ghostPose = computed<Pose | null>(() => {
   const other = result.value?.runner_up;
@@ -115,6 +137,11 @@ export const ghostPose = computed<Pose | null>(() => {
 
 /** True where the pose is still that of the registration it was taken from. */
 export const isRegistered = computed(() => samePose(align.value?.T_mesh_world, align.value?.registered?.T_mesh_world));
+
+/** True where the path was moved to another pose than the registered one: the registration's verdict is not about it. */
+export const isMoved = computed(
+  () => result.value !== null && align.value?.T_mesh_world !== undefined && !samePose(align.value.T_mesh_world, result.value.T_mesh_world),
+);
 
 /** Changes what turns leave in its place; the six numbers are then others. */
 export function turnAbout(what: "middle" | "origin"): void {
@@ -127,6 +154,8 @@ export const shownSix = computed<Six | null>(() => draftSix.value ?? six.value);
 
 /** Iterations come faster than plots and 3D pictures are worth drawing. */
 const kPicture_ms = 150;
+/** A pose is judged once it has been left alone for this long. */
+const kSettled_ms = 500;
 const POSE_PATH = "/align/T_mesh_world";
 const mover = latest(
   ({ pose, gesture }: { pose: Pose; gesture: string }) => edit(POSE_PATH, pose, "move the path", gesture).catch(complain),
@@ -171,7 +200,7 @@ const quietly = (error: unknown): void => {
 let openings = 0;
 
 /** Opens what the document names, again when that changes. */
-async function open(): Promise<void> {
+export async function open(): Promise<void> {
   const number = ++openings;
   const isNewest = () => number === openings;
   opening.value = true;
@@ -236,9 +265,9 @@ export async function take(solution: "best" | "runner_up"): Promise<void> {
 
 /** Follows server and document while the page is shown; the function that it returns ends it. */
 export function followAlign(): () => void {
-  const measurer = latest(async (pose: Pose) => {
+  const measurer = latest(async ({ pose, poses }: { pose: Pose; poses: Pose[] | null }) => {
     try {
-      const block = await call<Block>("align.residuals", { pose });
+      const block = await call<Block>("align.residuals", poses ? { pose, poses } : { pose });
       const { mean_m, rms_m, most_m } = block.head as Residuals;
       residuals.value = { distance_m: block.arrays.distance_m as Float32Array, mean_m, rms_m, most_m };
     } catch (error) {
@@ -250,6 +279,15 @@ export function followAlign(): () => void {
     const { shift_m, turn_deg } = await call<Six>("align.sliders", { pose, about_world_m: pivot() });
     six.value = { shift_m, turn_deg };
   });
+  const judge = latest(async (pose: Pose) => {
+    try {
+      const found = await call<Judged>("align.judge", { pose });
+      if (samePose(found.T_mesh_world, align.value?.T_mesh_world)) judged.value = found;
+    } catch (error) {
+      quietly(error);
+    }
+  });
+  let judging: ReturnType<typeof setTimeout> | undefined;
   const news: Block[] = [];
   let timer: ReturnType<typeof setTimeout> | undefined;
   const takeNews = () => {
@@ -273,7 +311,7 @@ export function followAlign(): () => void {
       else close();
     }),
     effect(() => {
-      if (opened.value && shown.value) measurer(shown.value);
+      if (opened.value && shown.value) measurer({ pose: shown.value, poses: shownPoses.value });
       else residuals.value = null;
     }),
     effect(() => {
@@ -281,11 +319,19 @@ export function followAlign(): () => void {
       const isOpen = opened.value && about.value;
       if (isOpen && pose && !draftSix.value) reader(pose);
     }),
+    effect(() => {
+      clearTimeout(judging);
+      judged.value = null;
+      const pose = align.value?.T_mesh_world;
+      if (!pose || !opened.value || !isMoved.value || running.value) return;
+      judging = setTimeout(() => judge(pose), kSettled_ms);
+    }),
     subscribe("align.iteration", (block) => {
       news.push(block);
       timer ||= setTimeout(takeNews, kPicture_ms);
     }),
     () => clearTimeout(timer),
+    () => clearTimeout(judging),
     onEvent("align.result", (found: RunResult | null) => {
       result.value = found;
       if (found) return;

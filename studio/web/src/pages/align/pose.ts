@@ -19,6 +19,20 @@ const point = (v: Vector3): Point => [v.x, v.y, v.z];
 export const toMesh = (pose: Pose, p_world_m: Point): Point =>
   point(new Vector3(...p_world_m).applyQuaternion(rotation(pose)).add(position(pose)));
 
+/** Where points about the path's middle are drawn if each path lies by a pose of its own and all are drawn by `pose`. */
+export function pointsApart(points: ArrayLike<number>, pathOf: ArrayLike<number>, pose: Pose, poses: readonly Pose[], frame: Frame): Float32Array {
+  const out = new Float32Array(points.length);
+  const middle = new Vector3(...frame.middle_world_m);
+  const back = rotation(pose).invert();
+  const p = new Vector3();
+  for (let at = 0; 3 * at < points.length; ++at) {
+    const own = poses[pathOf[at]!] ?? pose;
+    p.fromArray(Array.from({ length: 3 }, (_, k) => points[3 * at + k]!)).add(middle).applyQuaternion(rotation(own)).add(position(own));
+    p.sub(position(pose)).applyQuaternion(back).sub(middle).toArray(out, 3 * at);
+  }
+  return out;
+}
+
 /** Poses the drawn path. */
 export function placePath(path: Object3D, pose: Pose, frame: Frame): void {
   path.quaternion.copy(rotation(pose));

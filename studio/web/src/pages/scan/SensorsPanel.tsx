@@ -3,7 +3,7 @@ import { Figures } from "../../ui/Figures";
 import { delay, fixed } from "../../ui/format";
 import { Lamp } from "../../ui/Lamp";
 import { Panel } from "../../ui/Panel";
-import { contactWords, gravityWords, lostRows, sensorWords, type Words } from "./scanState";
+import { bodyWords, contactWords, gravityWords, objectHint, lostRows, sensorWords, type Words } from "./scanState";
 import { figures, state } from "./stream";
 
 /** How probe and tracker stand: states, rates, losses, contact, gravity, delay. */
@@ -18,6 +18,9 @@ export function SensorsPanel() {
         <LampRow label="Contact" words={contactWords(recorder)} testId="scan-contact" live />
         <LampRow label="Probe" words={sensorWords(recorder?.probe, waits)} testId="scan-probe-state" />
         <LampRow label="Tracker" words={sensorWords(recorder?.poses, waits)} testId="scan-tracker-state" />
+        {recorder?.bodies?.map((body) => (
+          <LampRow key={body.name} label={body.name === "object" ? "Object" : body.name} words={bodyWords(body)} testId={`scan-body-${body.name}`} live />
+        ))}
         <LampRow label="Calibration" words={now ? (now.source?.calibrated ? { lamp: "good", word: "known" } : { lamp: "warn", word: "none" }) : { lamp: "off", word: "–" }} testId="scan-calibration" />
         <LampRow label="Gravity" words={gravityWords(recorder)} testId="scan-gravity" />
       </dl>
@@ -27,6 +30,7 @@ export function SensorsPanel() {
           {warning}
         </p>
       ))}
+      {objectHint(recorder) && <p class="field-hint">{objectHint(recorder)}</p>}
       {(now?.live?.poses_late ?? 0) > 0 && (
         <p class="field-hint" role="status">
           {now!.live!.poses_late} poses came too late for the live profile: this machine is too busy. The recording and the refined profile have them.

@@ -23,6 +23,14 @@ export interface SegmentInfo {
   open: boolean;
 }
 
+/** A marker body besides the probe's, such as the one on the object. */
+export interface BodyState {
+  name: string;
+  rows: number;
+  markers: number | null;
+  pose_age_s: number | null;
+}
+
 export interface RecorderState {
   running_s: number;
   probe: Sensor;
@@ -37,6 +45,7 @@ export interface RecorderState {
   markers: number | null;
   pose: number[] | null;
   pose_age_s: number | null;
+  bodies?: BodyState[];
   storing: boolean;
   automatic: boolean;
   segment: string;
@@ -115,6 +124,18 @@ export function sensorWords(sensor: Sensor | undefined, waits: boolean): Words {
   if (waits && (sensor.state === "running" || sensor.state === "silent")) return { lamp: "off", word: "waits for Start" };
   return SENSOR_WORDS[sensor.state];
 }
+
+/** Whether a further body is in view. A pose older than half a second counts as none. */
+export function bodyWords(body: BodyState): Words {
+  if (body.pose_age_s === null) return { lamp: "warn", word: "not seen yet" };
+  if (body.pose_age_s > 0.5) return { lamp: "bad", word: "not in view" };
+  const count = body.markers ?? 0;
+  return { lamp: "good", word: count > 0 ? `${count} ${count === 1 ? "marker" : "markers"} in view` : "in view" };
+}
+
+/** What a person should know where the object moves. */
+export const objectHint = (recorder: RecorderState | undefined): string =>
+  recorder?.bodies?.some((body) => body.name === "object") ? "Path and profile on this page are in the tracker's world and hold while the object is at rest. The Process page shows the scan relative to the object." : "";
 
 export function gravityWords(recorder: RecorderState | undefined): Words {
   if (!recorder) return { lamp: "off", word: "–" };

@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "asperity/base/output.h"
+#include "asperity/base/text.h"
+#include "asperity/geometry/triangle_mesh.h"
+#include "asperity/pipeline/make_area.h"
+#include "asperity/scene/export_scene.h"
+#include "asperity/scene/write_scene.h"
+#include "asperity/session/area_input.h"
+#include "asperity/session/our_folder.h"
+#include "commands.h"
+
+namespace asperity::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class AreaCommand : public Command {
+ public:
+  explicit AreaCommand(Parser& root)
+      : Command(root, "area", "Make one areal texture of many registered scans over a patch") {
+    require(parser().add_option("REGISTERED", folder_, "A folder that `register` wrote, with several scans"));
+    require(parser().add_option("-o,--output", output_, "Folder of the scene with the area"))->type_name("OUT");
+  }
+
+  std::vector<ConfigField> fields() override { return list_fields("", config_); }
+
+  int run(const Observer& observer) override {
+    OutputFolder folder(output_, is_our_folder);
+    observer.update("reading", 0.0);
+    reads(folder_);
+    AreaInput input = read_area_input(folder_, observer);
+    SceneObject& object = input.scene.objects.front();
+    const AreaResult area =
+        make_area(to_metres(object.mesh, object.unit_m), input.scans, input.registered, config_, observer);
+    reads("");
+    observer.update("writing", 1.0);
+    std::string name;
+    if (area.texture) {
+      const SceneTexture& texture = add_area(input.scene, area);
+      name = texture.file;
+      write_pictures(folder.path(), texture);
+    }
+    if (fs::path(object.mesh_file).extension() != ".obj")
+      object.mesh_file = fs::path(object.mesh_file).replace_extension(".obj").string();
+    write_scene(folder.path() / "scene.json", input.scene);
+    const std::string json = format_area(area, input.scans, name);
+    write_file(folder.path() / "area.json", json);
+    write_listing(folder.path());
+    commit_output(folder, output_);
+    print_json(trim(json));
+    say(summary(area, input.scans.size()) + "scene in " + printable(output_, 200) + "\n");
+    for (const Verdict& verdict : area.verdicts)
+      if (verdict.severity != Severity::kNote) print_error(verdict_line(verdict));
+    return area.trustworthy ? kDone : kNotTrustworthy;
+  }
+
+ private:
+  // Height, normal and σ map of the texture.
+  static void write_pictures(const fs::path& folder, const SceneTexture& texture) {
+    Scene alone;
+    alone.objects.emplace_back().textures.push_back(texture);
+    for (const ExportedFile& file : export_scene(alone, ExportFormat::kPng).files)
+      write_file(folder / file.name, file.content);
+  }
+
+  static std::string summary(const AreaResult& area, std::size_t scans) {
+    const StrokeMap& map = area.map;
+    std::string out = fmt::format(
+        "patch         {} triangles, {:.0f} mm², of which {:.0f} % have heights; stretch {:.3f} to {:.3f}\n"
+        "strokes       {}, {} pairs meet and share {:.0f} ± {:.0f} % of their variance\n",
+        area.patch_triangles, 1e6 * area.area_m2, 100.0 * area.covered, area.flat.stretch_min, area.flat.stretch_max,
+        scans, map.ties, 100.0 * map.agreement, 100.0 * map.agreement_sigma);
+    if (!area.texture) return out + "map           none\n";
+    out += fmt::format(
+        "map           {} x {} points {:.3f} mm apart, {:.1f} µm RMS ± {:.1f} µm, correlation length {:.2f} mm\n",
+        map.texture.surface.columns, map.texture.surface.rows, 1e3 * map.texture.surface.spacing_x_m, 1e6 * map.rms_m,
+        1e6 * map.sigma_rms_m, map.correlation_mm);
+    if (map.held_out.samples > 0.0) {
+      out += fmt::format("left out      {} strokes, error {:.1f} µm RMS, {:.2f} of its standard deviation\n",
+                         map.held_out.strokes, 1e6 * map.held_out.error_rms_m, map.held_out.error_over_sigma);
+    }
+    for (const Problem& problem : area.problems) out += "note          " + problem.message + "\n";
+    return out;
+  }
+
+  std::string folder_, output_;
+  AreaConfig config_;
+};
+
+}  // namespace
+
+std::unique_ptr<Command> make_area_command(Parser& root) { return std::make_unique<AreaCommand>(root); }
+
+}  // namespace asperity::app

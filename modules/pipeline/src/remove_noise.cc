@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "asperity/profile/apply_wiener_filter.h"
+#include "process_stages.h"
+
+namespace asperity {
+
+namespace {
+
+double square(double x) { return x * x; }
+
+// The SNR of a texture from which the noise was removed but for `error_ratio` of it: with the error e² that is left of
+// a surface of power P, the expected texture's correlation with it is √(1 − e²/P).
+double snr_after_removal(const TextureNoise& noise, double more, double error_ratio) {
+  const double surface_m2 = square(noise.typical_texture_rms_m) - more * square(noise.typical_added_rms_m);
+  const double left_m2 =
+      more * (square(error_ratio * noise.typical_added_rms_m) + square(noise.typical_misplaced_rms_m));
+  return left_m2 > 0.0 ? std::max(0.0, surface_m2 / left_m2 - 1.0) : 0.0;
+}
+
+}  // namespace
+
+void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise) {
+  if (noise.added_psd_m2_mm.empty()) return;
+  constexpr double kSure = 1.96;
+  const auto filter = [&](const std::vector<double>& psd_m2_mm) {
+    return apply_wiener_filter(profile.texture_m, profile.spacing_m, noise.frequency_cycles_per_mm, psd_m2_mm,
+                               bridge_m);
+  };
+  const WienerTexture expected = filter(noise.added_psd_m2_mm);
+  if (!std::isfinite(expected.error_ratio)) return;
+  const double scale_m2 = square(noise.scale_sigma * noise.texture_rms_m);
+  const double most = 1.0 + kSure * 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
+  std::vector<double> most_psd_m2_mm = noise.added_psd_m2_mm;
+  for (double& density : most_psd_m2_mm) density *= most;
+  noise.snr = snr_after_removal(noise, 1.0, expected.error_ratio);
+  noise.snr_low = snr_after_removal(noise, most, filter(most_psd_m2_mm).error_ratio);
+
+  // The misplaced heights and their scale.
+  const double kept_m2 = std::max(0.0, square(noise.noise_rms_m) - square(noise.added_rms_m));
+  const double left = std::sqrt(kept_m2 + square(expected.error_ratio * noise.added_rms_m)) / noise.noise_rms_m;
+  noise.noise_rms_m *= left;
+  noise.noise_rms_stderr_m *= left;
+  double expected_m2 = 0.0, points = 0.0;
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    if (!std::isfinite(expected.texture_m[i])) continue;
+    expected_m2 += square(expected.texture_m[i]);
+    points += 1.0;
+    profile.height_m[i] += expected.texture_m[i] - profile.texture_m[i];
+    profile.texture_m[i] = expected.texture_m[i];
+    profile.texture_sigma_m[i] = noise.added_sigma_m.empty()
+                                     ? profile.texture_sigma_m[i] * left
+                                     : std::sqrt(square(expected.error_ratio * noise.added_sigma_m[i]) +
+                                                 square(noise.misplaced_sigma_m[i]) + scale_m2);
+    // Waves about the cut-off are in the texture and below it, in phase: what is left of heights is no difference of
+    // powers.
+    if (!noise.slow_sigma_m.empty()) profile.sigma_m[i] = std::hypot(noise.slow_sigma_m[i], profile.texture_sigma_m[i]);
+  }
+  if (points > 0.0) {
+    noise.expected_correlation = std::sqrt(expected_m2 / (expected_m2 + points * square(noise.noise_rms_m)));
+  }
+}
+
+Coverage measure_coverage(const Profile& profile) {
+  Coverage out;
+  const auto present = [&](std::size_t i) { return std::isfinite(profile.height_m[i]); };
+  std::size_t first = 0;
+  std::size_t last = profile.size();
+  while (first < last && !present(first)) ++first;
+  while (last > first && !present(last - 1)) --last;
+  std::size_t covered = 0;
+  for (std::size_t i = first; i < last; ++i) {
+    covered += present(i) ? 1 : 0;
+    out.gaps += !present(i) && present(i - 1) ? 1 : 0;
+  }
+  if (last == first) return out;
+  out.length_m = static_cast<double>(last - 1 - first) * profile.spacing_m;
+  out.covered = static_cast<double>(covered) / static_cast<double>(last - first);
+  return out;
+}
+
+}  // namespace asperity

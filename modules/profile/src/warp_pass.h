@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "asperity/profile/align_passes.h"
+#include "pass_signal.h"
+
+namespace asperity {
+
+// Heights on the common grid with the density of their noise.
+struct WarpTarget {
+  std::vector<double> height_m;
+  std::vector<char> known;
+  std::vector<double> frequency, noise;  // cycles/mm, one-sided
+};
+
+struct WarpPrior {
+  double place_sigma_mm = 0.05;  // of a knot
+  double knot_spacing_mm = 5.0;
+};
+
+// Places in `pass`, in points of its heights, of the target's points, by maximum likelihood from the places that are
+// given (docs/merge.md): shift, stretch and knots by Gauss and Newton on the difference of the two, whitened by the
+// density of both noises; the knots have a prior. The first steps see long waves alone.
+std::vector<double> warp_pass(const WarpTarget& target, const PassSignal& pass, std::span<const double> places,
+                              const WarpPrior& prior, const AlignPassesConfig& config);
+
+}  // namespace asperity

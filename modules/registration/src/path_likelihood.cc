@@ -1,0 +1,237 @@
+#include "path_likelihood.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+namespace asperity::registration {
+
+namespace {
+
+constexpr double kOutlier2 = 16.0;  // squared standard deviations that a block costs at most
+constexpr std::size_t kPerBlock = 4;
+constexpr double kMostBlocks = 1500.0;
+
+double median_of_values(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), half, values.end());
+  return *half;
+}
+
+// The points of each block, evenly spread over it, one block after the other.
+std::vector<std::uint32_t> points_of_blocks(const PointSet& points, double block_m) {
+  std::vector<std::uint32_t> out;
+  std::size_t begin = 0;
+  while (begin < points.size()) {
+    std::size_t end = begin + 1;
+    while (end < points.size() && points.path[end] == points.path[begin] &&
+           points.s_m[end] - points.s_m[begin] < block_m) {
+      ++end;
+    }
+    const std::size_t count = std::min(kPerBlock, end - begin);
+    for (std::size_t k = 0; k < count; ++k) {
+      out.push_back(static_cast<std::uint32_t>(begin + (2 * k + 1) * (end - begin) / (2 * count)));
+    }
+    begin = end;
+  }
+  return out;
+}
+
+double block_length_m(const PointSet& points, double memory_m) {
+  const double length_m = points.size() == 0 ? 0.0 : points.s_m.back();
+  return std::max(memory_m, length_m / kMostBlocks);
+}
+
+}  // namespace
+
+PathLikelihood::PathLikelihood(std::span<const MeasuredPath> paths, const RegistrationSurface& surface,
+                               const PointSet& points, const MatchRules& rules, const WeighConfig& config)
+    : points_(points),
+      config_(config),
+      matcher_(surface, points, points_of_blocks(points, block_length_m(points, config.memory_m)), rules) {
+  for (const MeasuredPath& path : paths) {
+    const Eigen::Matrix3d& C = path.slow_covariance_world_m2;
+    const bool known = C.allFinite() && C.trace() > 0.0;
+    stated_ = stated_ && known;
+    const double usual_m = 2e-3 * points.radius_m;
+    covariance_m2_.push_back(known ? C : Eigen::Matrix3d(usual_m * usual_m * Eigen::Matrix3d::Identity()));
+  }
+  least_m_ = 1e-6 * points.radius_m;
+  const double block_m = block_length_m(points, config.memory_m);
+  for (std::size_t i = 0; i < matcher_.size(); ++i) {
+    const std::uint32_t at = matcher_.chosen(i);
+    if (blocks_.empty() || blocks_.back().path != points.path[at] ||
+        points.s_m[at] - points.s_m[matcher_.chosen(blocks_.back().first)] >= block_m ||
+        blocks_.back().count == kPerBlock) {
+      blocks_.push_back({points.path[at], points.s_m[at], i, 0});
+    }
+    ++blocks_.back().count;
+  }
+  heights_.resize(blocks_.size());
+}
+
+void PathLikelihood::measure(const CentredPose& pose) {
+  matcher_.match(pose);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    Height& height = heights_[b];
+    height = {};
+    std::size_t count = 0;
+    Eigen::Vector3d n = Eigen::Vector3d::Zero();
+    for (std::size_t i = blocks_[b].first; i < blocks_[b].first + blocks_[b].count; ++i) {
+      const Match& m = matcher_.matches()[i];
+      if (!m.usable) continue;
+      ++count;
+      height.d_m += m.distance_m;
+      height.row.head<3>() += (m.y_m - pose.centre_m).cross(m.n);
+      n += m.n;
+    }
+    height.usable = 2 * count >= blocks_[b].count;
+    if (!height.usable) continue;
+    const double share = 1.0 / static_cast<double>(count);
+    height.d_m *= share;
+    height.row.head<3>() *= share;
+    height.row.tail<3>() = share * n;
+    height.n_world = share * (pose.rotation.conjugate() * n);
+  }
+}
+
+// Kalman's filter along each path; its state is the slow error, a Gauss–Markov process along the path, and the mean of
+// the relief. The columns of the Jacobian go through the same filter as the heights, whose gains they share: what comes
+// out is whitened.
+template <bool kWithRows>
+PathLikelihood::Sums PathLikelihood::filter(const Scales& scales) const {
+  constexpr int kColumns = kWithRows ? 7 : 1;
+  using Columns = Eigen::Matrix<double, kColumns, 1>;
+  Sums out;
+  Eigen::Matrix4d P = Eigen::Matrix4d::Zero();
+  Eigen::Matrix<double, 4, kColumns> X = Eigen::Matrix<double, 4, kColumns>::Zero();
+  const double noise_m2 = scales.noise_m * scales.noise_m;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Height& height = heights_[b];
+    const Eigen::Matrix3d C_m2 = scales.slow_ratio * scales.slow_ratio * covariance_m2_[blocks_[b].path];
+    if (b == 0 || blocks_[b].path != blocks_[b - 1].path) {
+      P.setZero();
+      P.topLeftCorner<3, 3>() = C_m2;
+      P(3, 3) = config_.relief_mean_ratio * config_.relief_mean_ratio * noise_m2;
+      X.setZero();
+    } else {
+      const double keep =
+          config_.slow_length_m > 0.0 ? std::exp(-(blocks_[b].s_m - blocks_[b - 1].s_m) / config_.slow_length_m) : 0.0;
+      P.topLeftCorner<3, 3>() = keep * keep * P.topLeftCorner<3, 3>() + (1.0 - keep * keep) * C_m2;
+      P.topRightCorner<3, 1>() *= keep;
+      P.bottomLeftCorner<1, 3>() *= keep;
+      X.template topRows<3>() *= keep;
+    }
+    if (!height.usable) {
+      out.cost += kOutlier2 + std::log(noise_m2 + C_m2.trace() / 3.0);
+      ++out.outlying;
+      continue;
+    }
+    const Eigen::Vector4d h(height.n_world.x(), height.n_world.y(), height.n_world.z(), 1.0);
+    const Eigen::Vector4d Ph = P * h;
+    const double S = h.dot(Ph) + noise_m2;
+    Columns z = -(X.transpose() * h);
+    z[0] += height.d_m;
+    const double square = z[0] * z[0] / S;
+    out.cost += std::min(square, kOutlier2) + std::log(S);
+    if (square > kOutlier2) {
+      ++out.outlying;
+      continue;
+    }
+    if constexpr (kWithRows) {
+      z.template tail<6>() += height.row;
+      const Vector6 row = z.template tail<6>();
+      out.information += row * row.transpose() / S;
+      out.gradient += z[0] / S * row;
+    }
+    const Eigen::Vector4d gain = Ph / S;
+    X += gain * z.transpose();
+    P -= gain * Ph.transpose();
+  }
+  return out;
+}
+
+double PathLikelihood::scales_cost(const Scales& scales) const {
+  const double away = std::log(scales.slow_ratio) / (stated_ ? config_.slow_ratio_spread : 1.5);
+  return filter<false>(scales).cost + away * away;
+}
+
+PathLikelihood::Scales PathLikelihood::likeliest_scales(const Scales& near) const {
+  // Coordinate search on a logarithmic grid that is halved.
+  Scales best = near;
+  double cost = scales_cost(best);
+  for (double factor = 2.0; factor > 1.1; factor = std::sqrt(factor)) {
+    for (int round = 0; round < 4; ++round) {
+      const double before = cost;
+      for (const auto& [slow, noise] : std::array<std::array<double, 2>, 4>{
+               {{factor, 1.0}, {1.0 / factor, 1.0}, {1.0, factor}, {1.0, 1.0 / factor}}}) {
+        const Scales other{std::clamp(best.slow_ratio * slow, 0.3, 100.0), std::max(best.noise_m * noise, least_m_)};
+        const double there = scales_cost(other);
+        if (!(there < cost)) continue;
+        best = other;
+        cost = there;
+      }
+      if (!(cost < before - 0.5)) break;
+    }
+  }
+  return best;
+}
+
+PathLikelihood::Evaluation PathLikelihood::evaluate(const CentredPose& pose) {
+  measure(pose);
+  std::vector<double> bends_m;
+  for (std::size_t b = 1; b + 1 < blocks_.size(); ++b) {
+    if (blocks_[b - 1].path != blocks_[b + 1].path) continue;
+    if (!heights_[b - 1].usable || !heights_[b].usable || !heights_[b + 1].usable) continue;
+    bends_m.push_back(std::abs(heights_[b - 1].d_m - 2.0 * heights_[b].d_m + heights_[b + 1].d_m));
+  }
+  const double noise_m = median_of_values(std::move(bends_m)) / (0.6745 * std::sqrt(6.0));
+  Evaluation out;
+  out.pose = pose;
+  out.scales = likeliest_scales({1.0, std::max(noise_m, least_m_)});
+  const Sums sums = filter<true>(out.scales);
+  const double away = std::log(out.scales.slow_ratio) / (stated_ ? config_.slow_ratio_spread : 1.5);
+  out.cost = sums.cost + away * away;
+  out.information = sums.information;
+  out.outlying = static_cast<double>(sums.outlying) / static_cast<double>(std::max<std::size_t>(1, blocks_.size()));
+  return out;
+}
+
+PathLikelihood::Evaluation PathLikelihood::descend(const CentredPose& start, int rounds, int steps) {
+  Evaluation best = evaluate(start);
+  const double damping = 1.0 / std::pow(0.3 * points_.radius_m, 2);
+  for (int round = 0; round < rounds; ++round) {
+    CentredPose pose = best.pose;
+    measure(pose);
+    Sums sums = filter<true>(best.scales);
+    for (int k = 0; k < steps; ++k) {
+      const Matrix6 hessian = sums.information + damping * motion_metric(points_, pose);
+      const Vector6 step = -hessian.ldlt().solve(sums.gradient);
+      if (!step.allFinite()) break;
+      const double size2 = step.dot(hessian * step);
+      bool fell = false;
+      for (double share = 1.0; share > 0.1 && !fell; share *= 0.5) {
+        const CentredPose next = moved(pose, share * step);
+        measure(next);
+        const Sums there = filter<true>(best.scales);
+        if (!(there.cost < sums.cost)) continue;
+        fell = true;
+        pose = next;
+        sums = there;
+      }
+      if (!fell || size2 < 0.02) break;
+    }
+    const Evaluation now = evaluate(pose);
+    if (!(now.cost < best.cost)) break;
+    const bool settled = best.cost - now.cost < 0.1;
+    best = now;
+    if (settled) break;
+  }
+  return best;
+}
+
+}  // namespace asperity::registration

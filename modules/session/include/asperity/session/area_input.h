@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "asperity/base/progress.h"
+#include "asperity/pipeline/make_area.h"
+#include "asperity/scene/scene.h"
+
+namespace asperity {
+
+// What `register` wrote, as an area needs it.
+struct AreaInput {
+  Scene scene;
+  std::vector<AreaScan> scans;  // those that have a path on the mesh and a profile
+  bool registered = true;       // the registration is not invalid
+};
+
+// Reads registration.json, scene.json and each scan's path.csv and profile.csv from a folder that `register` wrote.
+// Throws Error naming the file, line and value for what is not of that form, a triangle that the mesh does not have,
+// and a folder none of whose scans has a path and a profile.
+AreaInput read_area_input(const std::filesystem::path& folder, const Observer& observer = {});
+
+// Adds an area's texture to the first object of `scene`: the next free index, a file of its own, its triangles'
+// coordinates in place of those that they had. Returns the texture's place in the scene.
+const SceneTexture& add_area(Scene& scene, const AreaResult& area);
+
+}  // namespace asperity

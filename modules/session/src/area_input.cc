@@ -1,0 +1,120 @@
+#include "asperity/session/area_input.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "asperity/base/csv.h"
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
+#include "asperity/json/parse_json.h"
+#include "asperity/scene/read_scene.h"
+
+namespace asperity {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uint64_t kLargestTable_bytes = std::uint64_t{1} << 30;
+
+MeshPath read_mesh_path(const fs::path& file, std::size_t triangles) {
+  const std::string text = read_file(file, kLargestTable_bytes);
+  CsvReader csv(text, printable(file.string(), 200));
+  const std::size_t s = csv.require("s_m"), x = csv.require("px_m"), y = csv.require("py_m"), z = csv.require("pz_m");
+  const std::size_t triangle = csv.require("triangle");
+  MeshPath out;
+  while (csv.next()) {
+    const std::int64_t t = csv.integer(triangle);
+    if (t < 0 || static_cast<std::uint64_t>(t) >= triangles)
+      csv.fail(triangle, std::to_string(t) + " is not a triangle of the mesh, which has " + std::to_string(triangles));
+    const double s_m = csv.finite(s);
+    if (!out.s_m.empty() && !(s_m > out.s_m.back())) csv.fail(s, number_text(s_m) + " m does not rise");
+    out.s_m.push_back(s_m);
+    out.p_mesh_m.emplace_back(csv.finite(x), csv.finite(y), csv.finite(z));
+    out.triangle.push_back(static_cast<std::uint32_t>(t));
+  }
+  return out;
+}
+
+Profile read_profile(const fs::path& file) {
+  const std::string text = read_file(file, kLargestTable_bytes);
+  CsvReader csv(text, printable(file.string(), 200));
+  const std::size_t s = csv.require("s_m"), height = csv.require("height_m");
+  const auto noise = csv.find("texture_sigma_m");
+  Profile out;
+  while (csv.next()) {
+    const double s_m = csv.finite(s);
+    if (!out.s_m.empty() && !(s_m > out.s_m.back())) csv.fail(s, number_text(s_m) + " m does not rise");
+    out.s_m.push_back(s_m);
+    out.height_m.push_back(csv.finite_or_nan(height));
+    if (noise) out.texture_sigma_m.push_back(csv.finite_or_nan(*noise));
+  }
+  if (out.size() > 1) out.spacing_m = (out.s_m.back() - out.s_m.front()) / static_cast<double>(out.size() - 1);
+  return out;
+}
+
+int next_index(const SceneObject& object) {
+  int index = 0;
+  for (const SceneTexture& texture : object.textures) index = std::max(index, texture.index);
+  for (const HapticTriangle& triangle : object.mesh.haptic) index = std::max(index, triangle.texture);
+  return index + 1;
+}
+
+}  // namespace
+
+AreaInput read_area_input(const fs::path& folder, const Observer& observer) {
+  AreaInput out;
+  const fs::path file = folder / "registration.json";
+  const std::string name = printable(file.string(), 200);
+  if (!fs::is_regular_file(file))
+    throw Error(printable(folder.string(), 200) + ": has no registration.json; give a folder that `register` wrote");
+  const Json registration = parse_json(read_file(file, std::uint64_t{64} << 20), name, {}, observer);
+  if (!registration.is_object() || registration.value("format", "") != "asperity-registration")
+    throw Error(name + ": is not a registration of asperity");
+  if (registration.contains("trustworthy")) out.registered = registration.at("trustworthy").get<bool>();
+  out.scene = read_scene(folder / "scene.json", observer);
+  const std::size_t triangles = out.scene.objects.front().mesh.triangles.size();
+  std::vector<std::string> names;
+  for (const Json& scan : registration.at("scans")) names.push_back(scan.at("name").get<std::string>());
+  bool any_path = false;
+  for (const std::string& scan : names) {
+    if (!stays_inside(scan)) continue;  // its folder would not be in this one
+    fs::path place = folder / scan;
+    if (names.size() == 1 && !fs::is_directory(place)) place = folder;
+    if (!fs::is_regular_file(place / "path.csv")) continue;
+    any_path = true;
+    if (!fs::is_regular_file(place / "profile.csv")) continue;
+    AreaScan one{scan, read_mesh_path(place / "path.csv", triangles), read_profile(place / "profile.csv")};
+    if (one.path.size() > 1 && one.profile.size() > 1) out.scans.push_back(std::move(one));
+  }
+  if (out.scans.empty()) {
+    throw Error(name + (any_path ? ": none of its scans has a path and a profile"
+                                 : ": none of its scans has a path.csv; register them again with this version"));
+  }
+  return out;
+}
+
+const SceneTexture& add_area(Scene& scene, const AreaResult& area) {
+  SceneObject& object = scene.objects.front();
+  std::set<std::string> taken{"scene.json", "area.json", "files.json", object.material_file};
+  for (const SceneObject& each : scene.objects) {
+    taken.insert(each.mesh_file);
+    for (const SceneTexture& texture : each.textures) taken.insert(texture.file);
+  }
+  SceneTexture texture;
+  texture.index = next_index(object);
+  texture.file = "area.texture.json";
+  for (int n = 2; taken.contains(texture.file); ++n) texture.file = "area-" + std::to_string(n) + ".texture.json";
+  texture.texture = area.texture.value();
+  object.mesh.haptic.resize(object.mesh.triangles.size());
+  for (std::size_t i = 0; i < area.triangle.size(); ++i) {
+    HapticTriangle& triangle = object.mesh.haptic[area.triangle[i]];
+    triangle = area.coordinates[i];
+    triangle.texture = texture.index;
+  }
+  object.textures.push_back(std::move(texture));
+  return object.textures.back();
+}
+
+}  // namespace asperity

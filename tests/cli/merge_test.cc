@@ -1,0 +1,68 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "asperity/testkit/temp_dir.h"
+#include "run_asperity.h"
+
+namespace asperity::cli {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+// A stroke of 40 mm over sandpaper; `line` is the relief's and the path's.
+void simulate_stroke(const fs::path& folder, int line, int seed) {
+  const Outcome outcome = run({"simulate", "--surface", "sandpaper", "--seed", std::to_string(seed), "--set",
+                               "hand.length_m=0.04", "--set", "surface.seed=" + std::to_string(line), "--set",
+                               "hand.path_seed=" + std::to_string(line), "-o", folder.string()});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+}
+
+TEST(Merge, StrokesOverOneLineAndRefusesOthers) {
+  const testkit::TempDir dir;
+  simulate_stroke(dir / "a", 1, 11);
+  simulate_stroke(dir / "b", 1, 12);
+  simulate_stroke(dir / "c", 2, 13);
+  const auto path = [&](const char* name) { return (dir / name).string(); };
+
+  const Outcome merged = run({"merge", path("a"), path("b"), "-o", path("out"), "--json"});
+  ASSERT_EQ(merged.code, 0) << merged.err;
+  const auto json = nlohmann::json::parse(merged.out);
+  ASSERT_EQ(json["passes"].size(), 2u);
+  for (const auto& pass : json["passes"]) {
+    EXPECT_TRUE(pass["used"].get<bool>());
+    EXPECT_EQ(pass["direction"], "forward");
+    EXPECT_GT(pass["coherence"].get<double>(), 0.9);
+    EXPECT_GT(pass["weight"].get<double>(), 0.3);
+  }
+  EXPECT_NEAR(json["profile"]["length_m"].get<double>(), 0.04, 0.002);
+  for (const char* file : {"profile.csv", "spectrum.csv", "texture.json", "result.json"})
+    EXPECT_TRUE(fs::is_regular_file(dir / "out" / file)) << file;
+
+  const Outcome refused = run({"merge", path("a"), path("c"), "-o", path("none")});
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("did not pass over the same line"));
+  EXPECT_FALSE(fs::exists(dir / "none"));
+
+  // Results whose noise was removed are not merged.
+  ASSERT_EQ(run({"process", path("a"), "-o", path("pa")}).code, 0);
+  const Outcome removed = run({"merge", path("pa"), path("b"), "-o", path("none")});
+  EXPECT_EQ(removed.code, 1);
+  EXPECT_THAT(removed.err, HasSubstr("the noise was removed"));
+  ASSERT_EQ(run({"process", path("a"), "-o", path("pa"), "--set", "profile.remove_noise=false"}).code, 0);
+  const Outcome folder = run({"merge", path("pa"), path("b"), "-o", path("out2"), "--json"});
+  ASSERT_EQ(folder.code, 0) << folder.err;
+  EXPECT_NEAR(nlohmann::json::parse(folder.out)["roughness"]["Rq_m"].get<double>(),
+              json["roughness"]["Rq_m"].get<double>(), 1e-6);
+
+  const Outcome one = run({"merge", path("a"), "-o", path("none")});
+  EXPECT_EQ(one.code, 2);
+}
+
+}  // namespace
+}  // namespace asperity::cli
