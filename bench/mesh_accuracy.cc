@@ -2,11 +2,12 @@
 // several seeds, and the worst. Prints a table in Markdown; docs/accuracy.md says what it means.
 //
 //   mesh_accuracy [--seeds N] [--surfaces sandpaper,…] [--mesh FILE --unit M] [--length M] [--through POINTS]
-//                 [--off-mm 5] [--off-deg 5] [--calibration stated|exact] [--each yes]
+//                 [--off-mm 5] [--off-deg 5] [--calibration stated|exact] [--coarse M] [--each yes]
 //
 // Without --mesh each seed has a pebble of its own. Without --through there are two paths: a straight stroke of
 // --length (0.08) over the top, and, on the pebble, an arc of 90 mm. `exact` leaves out the errors of the probe's
-// calibration, of which those of the tip's place (0.1 mm an axis) shift the pose. `--each yes` adds a row a seed.
+// calibration, of which those of the tip's place (0.1 mm an axis) shift the pose. `--coarse` registers a pebble of
+// facets of 0.4 mm to a mesh of it with facets of that length. `--each yes` adds a row a seed.
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +48,7 @@ struct Options {
   double off_m = 5e-3;
   double off_rad = 5.0 * kDegree;
   bool exact = false;
+  double coarse_m = 0.0;
   bool each = false;
 };
 
@@ -63,6 +65,7 @@ Options parse_options(int argc, char** argv) {
        {"--off-mm", [&](auto value) { out.off_m = 1e-3 * bench::number_within(value, 0.0, 1e3); }},
        {"--off-deg", [&](auto value) { out.off_rad = kDegree * bench::number_within(value, 0.0, 180.0); }},
        {"--calibration", [&](auto value) { out.exact = bench::is_first(value, "exact", "stated"); }},
+       {"--coarse", [&](auto value) { out.coarse_m = bench::number_within(value, 1e-4, 1e-1); }},
        {"--each", [&](auto value) { out.each = bench::is_first(value, "yes", "no"); }}});
   return out;
 }
@@ -77,8 +80,9 @@ struct PoseMetrics {
   bool turn_listed, trustworthy;
 };
 
-std::optional<PoseMetrics> measure_pose(const Options& options, const asperity::TriangleMesh& mesh,
-                                        const std::string& surface, const PathChoice& path, int seed) {
+std::optional<PoseMetrics> measure_pose(const Options& options, const asperity::TriangleMesh& object,
+                                        const asperity::TriangleMesh& mesh, const std::string& surface,
+                                        const PathChoice& path, int seed) {
   const auto number = static_cast<std::uint64_t>(seed);
   asperity::SimulationConfig config = asperity::make_simulation_config(surface, "open");
   config.seed = seed;
@@ -89,7 +93,7 @@ std::optional<PoseMetrics> measure_pose(const Options& options, const asperity::
   asperity::randomise_pose(number, config.shape);
   asperity::Scan scan;
   scan.name = surface;
-  scan.recording = asperity::simulate_recording(config, *asperity::make_surface(config.surface, number), mesh);
+  scan.recording = asperity::simulate_recording(config, *asperity::make_surface(config.surface, number), object);
   const asperity::Pose truth = asperity::true_pose(*scan.recording).value();
   const Eigen::Vector3d middle_mesh_m =
       truth * Eigen::Vector3d(config.shape.centre_m[0], config.shape.centre_m[1], config.shape.centre_m[2]);
@@ -159,7 +163,14 @@ void run(const Options& options) {
       for (int seed = 1; seed <= options.seeds; ++seed) {
         asperity::PebbleConfig pebble;
         pebble.seed = seed;
-        const auto one = measure_pose(options, given ? *given : asperity::make_pebble(pebble), surface, path, seed);
+        asperity::TriangleMesh mesh = given ? *given : asperity::make_pebble(pebble), object = mesh;
+        if (options.coarse_m > 0.0 && !given) {
+          pebble.facet_m = 0.4e-3;
+          object = asperity::make_pebble(pebble);
+          pebble.facet_m = options.coarse_m;
+          mesh = asperity::make_pebble(pebble);
+        }
+        const auto one = measure_pose(options, object, mesh, surface, path, seed);
         if (one && options.each) print_row(name + ", seed " + std::to_string(seed), {*one}, 1);
         if (one) metrics.push_back(*one);
       }

@@ -83,9 +83,10 @@ class RegisterCommand : public Command {
                     "Texture to lay along a path instead of its own; one for all, or one a path")
         ->type_name("FILE");
     parser()
-        .add_option("--placement", placement_,
-                    "Which scans lay in the same placement of the object: same, each (its own), or a list with one "
-                    "number a path, such as 1,1,2")
+        .add_option(
+            "--placement", placement_,
+            "Which scans lay in the same placement of the object: auto (the default; found by their likelihood), "
+            "same, each (its own), or a list with one number a path, such as 1,1,2")
         ->type_name("LIST");
     parser()
         .add_option("-o,--output", output_, "Folder of the results (required without --into)")

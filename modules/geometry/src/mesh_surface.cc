@@ -97,6 +97,19 @@ std::uint32_t triangle_across(const MeshAdjacency& adjacency, std::uint32_t tria
   return sharing[0] == triangle ? sharing[1] : sharing[0];
 }
 
+double facet_bulge_m(const MeshSurface& surface, std::uint32_t triangle, const Eigen::Vector3d& barycentric) noexcept {
+  const Triangle& corner = surface.mesh.triangles[triangle];
+  const auto& normals = surface.normals[triangle];
+  double sum_m = 0.0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::size_t b = (a + 1) % 3;
+    const Eigen::Vector3d edge_m = surface.mesh.vertices_m[corner[b]] - surface.mesh.vertices_m[corner[a]];
+    sum_m += barycentric[static_cast<Eigen::Index>(a)] * barycentric[static_cast<Eigen::Index>(b)] *
+             edge_m.dot(normals[b] - normals[a]);
+  }
+  return 0.5 * sum_m;
+}
+
 NormalFoot foot_along_normal(const MeshSurface& surface, const Eigen::Vector3d& p_m,
                              const ClosestPoint& closest) noexcept {
   if (!closest.found()) return {};

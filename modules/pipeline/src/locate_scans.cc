@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "asperity/base/error.h"
+#include "asperity/pipeline/find_placements.h"
 #include "asperity/pipeline/pose_candidates.h"
 #include "asperity/registration/pose_misfit.h"
 #include "asperity/registration/pose_rivals.h"
+#include "asperity/registration/refine_placements.h"
 #include "asperity/registration/refine_registration.h"
 #include "asperity/registration/register_path.h"
 
@@ -94,11 +98,35 @@ ScanPoints points_of(const ScanPoints& scans, const std::vector<std::size_t>& me
   return out;
 }
 
-// Scans of one placement; `candidates` gets all poses that were compared.
+PoseMisfitConfig misfit_config(const RegisterConfig& config) {
+  // A guess that is stated to be better known for the refinement than that takes for granted is held to it.
+  const RefineConfig usual;
+  const RegistrationConfig& search = config.search.registration;
+  const auto stated = [](double by_search, double by_refinement, double usually) {
+    return by_refinement < usually ? std::min(by_search, by_refinement) : by_search;
+  };
+  return {config.refinement.slow_length_m, search.surface_error_m,
+          stated(search.guess_sigma_m, config.refinement.guess_sigma_m, usual.guess_sigma_m),
+          stated(search.guess_sigma_deg, config.refinement.guess_sigma_deg, usual.guess_sigma_deg) * std::numbers::pi /
+              180.0,
+          is_stated(search, config.refinement)};
+}
+
+// The settings of the search, with the errors that last along a scan.
+RegisterConfig search_config(const ScanPoints& scans, const RegisterConfig& config) {
+  RegisterConfig out = config;
+  double& error_length_m = out.search.registration.error_length_m;
+  if (scans.in_sequence && error_length_m == 0.0) error_length_m = config.refinement.slow_length_m;
+  return out;
+}
+
+// Scans of one placement, from a guess or from anywhere; `known` is a pose that fits as well as any that was found,
+// `candidates` gets all poses that were compared.
 RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<std::size_t>& members,
                                     const MeshSurface& surface, const RegistrationSurface& ready,
-                                    const std::optional<Pose>& guess, const RegisterConfig& config,
-                                    const RegistrationObserver& observer, PoseCandidates& candidates) {
+                                    const std::optional<Pose>& guess, const std::optional<Pose>& known,
+                                    const RegisterConfig& config, const RegistrationObserver& observer,
+                                    PoseCandidates& candidates) {
   observer.update("registration", 0.0);
   std::vector<MeasuredPath> paths, smooth;
   for (const std::size_t i : members) {
@@ -106,21 +134,8 @@ RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<s
     paths.push_back(path);
     smooth.push_back(scans.in_sequence ? smooth_path(path, config.points.smoothing_m) : path);
   }
-  SearchConfig search = config.search;
-  if (scans.in_sequence && search.registration.error_length_m == 0.0) {
-    search.registration.error_length_m = config.refinement.slow_length_m;
-  }
-  // A guess that is stated to be better known for the refinement than that takes for granted is held to it.
-  const RefineConfig usual;
-  const auto stated = [](double by_search, double by_refinement, double usually) {
-    return by_refinement < usually ? std::min(by_search, by_refinement) : by_search;
-  };
-  const PoseMisfitConfig misfit{
-      config.refinement.slow_length_m, search.registration.surface_error_m,
-      stated(search.registration.guess_sigma_m, config.refinement.guess_sigma_m, usual.guess_sigma_m),
-      stated(search.registration.guess_sigma_deg, config.refinement.guess_sigma_deg, usual.guess_sigma_deg) *
-          std::numbers::pi / 180.0,
-      is_stated(search.registration, config.refinement)};
+  const RegisterConfig searched = search_config(scans, config);
+  const RegistrationConfig& search = searched.search.registration;
   RefinedRegistration out;
   const ProcessMethod& method = ProcessMethods::get(config.process.method);
   if (method.register_paths) {
@@ -131,25 +146,22 @@ RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<s
     out.registration = method.register_paths(config.process, paths, surface, *guess);
     out.slow_error_world_m.resize(members.size());
     // The baseline's method knows no error of its guess.
-    out.registration.misfit = measure_pose_misfit(paths, ready, {}, misfit, out.registration);
+    out.registration.misfit = measure_pose_misfit(paths, ready, {}, misfit_config(config), out.registration);
     return out;
   }
   // All poses at which the paths may lie: those near the guess and those anywhere.
   std::vector<Pose> near;
   if (guess) {
-    out.registration = register_path(smooth, ready, *guess, search.registration, observer);
-    near = other_fits(smooth, ready, guess, search.registration, config.refinement, observer);
+    out.registration = register_path(smooth, ready, *guess, search, observer);
+    near = other_fits(smooth, ready, guess, search, config.refinement, observer);
     near.push_back(out.registration.T_mesh_world);
     if (out.registration.runner_up) near.push_back(out.registration.runner_up->T_mesh_world);
   }
-  RegisterConfig searched = config;
-  searched.search = search;
-  const ScanPoints together = points_of(scans, members);
-  candidates = find_pose_candidates(together, surface, guess, near, searched, observer);
-  const bool keeps_guess =
-      guess && search.registration.starts.when == OtherStarts::kNever && config.refinement.other_starts == 0;
+  if (known) near.push_back(*known);
+  candidates = find_pose_candidates(points_of(scans, members), surface, guess, near, searched, observer);
+  const bool keeps_guess = guess && search.starts.when == OtherStarts::kNever && config.refinement.other_starts == 0;
   if (!keeps_guess) {
-    RegistrationConfig local = search.registration;
+    RegistrationConfig local = search;
     local.starts.when = OtherStarts::kNever;
     out.registration = register_path(smooth, ready, candidates.found.front().T_mesh_world, local, observer);
   }
@@ -160,16 +172,102 @@ RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<s
           : std::nullopt;
   // Scans have errors that last along the path; points without a sequence have none that is known.
   out.slow_error_world_m.resize(members.size());
-  if (scans.in_sequence) {
-    observer.update("refinement", 0.0);
-    RefinedRegistration refined =
-        refine_registration(paths, surface, out.registration, believed, {}, config.refinement, observer);
-    out = std::move(refined);
-    out.registration.misfit = measure_pose_misfit(paths, ready, guess, misfit, out.registration);
+  if (!scans.in_sequence) return out;
+  observer.update("refinement", 0.0);
+  return refine_registration(paths, surface, out.registration, believed, {}, config.refinement, observer);
+}
+
+// The scans of each placement, its guess, and a pose that is known to fit.
+struct Groups {
+  std::vector<std::vector<std::size_t>> scans;
+  std::vector<std::optional<Pose>> guesses, known;
+};
+
+bool fits_guess(const Pose& pose, const Pose& guess, const std::vector<std::size_t>& members, const ScanPoints& scans,
+                const PoseMisfitConfig& misfit) {
+  constexpr double kSigmas = 4.0;
+  Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();
+  double count = 0.0;
+  for (const std::size_t i : members) {
+    for (const Eigen::Vector3d& p_m : scans.points[i].path.p_world_m) {
+      middle_m += p_m;
+      count += 1.0;
+    }
   }
-  state_rivals(judge_candidate(together, surface, out.registration.T_mesh_world, guess, candidates, searched),
-               out.registration);
+  middle_m /= std::max(1.0, count);
+  return (pose * middle_m - guess * middle_m).norm() <= kSigmas * misfit.guess_sigma_m &&
+         rotation_between_rad(pose, guess) <= kSigmas * misfit.guess_sigma_rad;
+}
+
+Groups group_scans(const ScanPoints& scans, const MeshSurface& surface, const RegistrationSurface& ready,
+                   const std::optional<Pose>& guess, const RegisterConfig& config,
+                   const RegistrationObserver& observer) {
+  const std::size_t count = scans.points.size();
+  Groups out;
+  const bool finds = scans.placement.empty() && config.placement.mode == PlacementMode::kAuto && count > 1 &&
+                     scans.in_sequence && config.refinement.enabled &&
+                     !ProcessMethods::get(config.process.method).register_paths;
+  if (!finds) {
+    std::vector<std::size_t> stated = scans.placement;
+    for (std::size_t i = 0; stated.size() < count; ++i)
+      stated.push_back(config.placement.mode == PlacementMode::kEach ? i : 0);
+    out.scans = group_placements(stated);
+    out.guesses.assign(out.scans.size(), guess);
+    out.known.resize(out.scans.size());
+    return out;
+  }
+  std::vector<MeasuredPath> paths, smooth;
+  for (const PathPoints& points : scans.points) {
+    paths.push_back(points.path);
+    smooth.push_back(smooth_path(points.path, config.points.smoothing_m));
+  }
+  FoundPlacements found = find_placements(paths, smooth, surface, ready, guess, config, observer);
+  out.scans = std::move(found.groups);
+  for (std::size_t k = 0; k < out.scans.size(); ++k) {
+    // A guess is that of the placements that it fits; one placement is as if it had been stated.
+    const bool guessed = guess && (out.scans.size() == 1 ||
+                                   fits_guess(found.poses[k], *guess, out.scans[k], scans, misfit_config(config)));
+    out.guesses.push_back(guessed ? guess : std::nullopt);
+    out.known.emplace_back(found.poses[k]);
+  }
   return out;
+}
+
+void refine_together(const ScanPoints& scans, const MeshSurface& surface,
+                     const std::vector<std::optional<Pose>>& guesses, const RegisterConfig& config,
+                     const RegistrationObserver& observer, LocatedScans& out) {
+  std::vector<MeasuredPath> paths;
+  for (const PathPoints& points : scans.points) paths.push_back(points.path);
+  std::vector<RegistrationResult> starts;
+  for (const Placement& placement : out.placements) starts.push_back(placement.registration);
+  observer.update("placements together", 0.0);
+  RefinedPlacements refined =
+      refine_placements(paths, out.placement_of, surface, starts, guesses, config.refinement, observer);
+  for (std::size_t k = 0; k < out.placements.size(); ++k)
+    out.placements[k].registration = std::move(refined.registrations[k]);
+  out.slow_error_world_m = std::move(refined.slow_error_world_m);
+  out.tip_shift_m = std::move(refined.tip_shift_m);
+  out.tip_sigma_m = std::move(refined.tip_sigma_m);
+  out.rms_m = std::move(refined.rms_m);
+  out.bulge_share = refined.bulge_share;
+  out.bulge_sigma = refined.bulge_sigma;
+  out.crossings = refined.crossings;
+  out.matched_shifts = refined.shifts;
+}
+
+void measure_misfit(const ScanPoints& scans, const RegistrationSurface& ready, const std::optional<Pose>& guess,
+                    const RegisterConfig& config, const LocatedScans& located, Placement& placement) {
+  if (!scans.in_sequence) return;
+  std::vector<MeasuredPath> paths;
+  for (const std::size_t i : placement.scans) {
+    MeasuredPath path = scans.points[i].path;
+    for (std::size_t k = 0; k < path.p_world_m.size() && k < path.q_world_marker.size(); ++k) {
+      if (!located.tip_shift_m.empty()) path.p_world_m[k] += path.q_world_marker[k] * located.tip_shift_m[i];
+    }
+    paths.push_back(std::move(path));
+  }
+  placement.registration.misfit =
+      measure_pose_misfit(paths, ready, guess, misfit_config(config), placement.registration);
 }
 
 }  // namespace
@@ -177,24 +275,43 @@ RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<s
 LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, const std::optional<Pose>& guess,
                           const RegisterConfig& config, const RegistrationObserver& observer) {
   const std::size_t count = scans.points.size();
-  std::vector<std::size_t> stated = scans.placement;
-  if (stated.empty()) {
-    for (std::size_t i = 0; i < count; ++i) stated.push_back(config.placement.mode == PlacementMode::kEach ? i : 0);
-  }
-  if (stated.size() != count) throw Error("registration: the placement is stated of some scans only");
+  if (!scans.placement.empty() && scans.placement.size() != count)
+    throw Error("registration: the placement is stated of some scans only");
   const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
+  const Groups groups = group_scans(scans, surface, ready, guess, config, observer);
   LocatedScans out;
   out.placement_of.resize(count);
   out.slow_error_world_m.resize(count);
-  for (std::vector<std::size_t>& members : group_placements(stated)) {
+  out.rms_m.assign(count, std::numeric_limits<double>::quiet_NaN());
+  std::vector<std::optional<Pose>> believed;
+  for (std::size_t k = 0; k < groups.scans.size(); ++k) {
     PoseCandidates candidates;
-    RefinedRegistration located = locate_together(scans, members, surface, ready, guess, config, observer, candidates);
+    RefinedRegistration located = locate_together(scans, groups.scans[k], surface, ready, groups.guesses[k],
+                                                  groups.known[k], config, observer, candidates);
     out.candidates.push_back(std::move(candidates));
-    for (std::size_t k = 0; k < members.size(); ++k) {
-      out.placement_of[members[k]] = out.placements.size();
-      out.slow_error_world_m[members[k]] = std::move(located.slow_error_world_m[k]);
+    const RegistrationResult& found = located.registration;
+    const std::optional<Pose>& guessed = groups.guesses[k];
+    believed.push_back(guessed && is_near(*guessed, found.T_mesh_world, found.centre_mesh_m, config.refinement)
+                           ? guessed
+                           : std::nullopt);
+    for (std::size_t i = 0; i < groups.scans[k].size(); ++i) {
+      const std::size_t scan = groups.scans[k][i];
+      out.placement_of[scan] = k;
+      out.slow_error_world_m[scan] = std::move(located.slow_error_world_m[i]);
+      out.rms_m[scan] = located.registration.rms_m;
     }
-    out.placements.push_back({std::move(located.registration), std::move(members), {}});
+    out.placements.push_back({std::move(located.registration), groups.scans[k], {}});
+  }
+  if (ProcessMethods::get(config.process.method).register_paths) return out;
+  if (scans.in_sequence) refine_together(scans, surface, believed, config, observer, out);
+  const RegisterConfig searched = search_config(scans, config);
+  for (std::size_t k = 0; k < out.placements.size(); ++k) {
+    Placement& placement = out.placements[k];
+    measure_misfit(scans, ready, groups.guesses[k], config, out, placement);
+    const Pose& pose = placement.registration.T_mesh_world;
+    state_rivals(judge_candidate(points_of(scans, placement.scans), surface, pose, groups.guesses[k], out.candidates[k],
+                                 searched),
+                 placement.registration);
   }
   return out;
 }

@@ -30,6 +30,7 @@ PathPoints measured_path(const TipMotion& motion, std::span<const char> usable, 
     out.p_world_m.push_back(sum_m / static_cast<double>(count));
     points.sample.push_back(static_cast<double>(first) + 0.5 * static_cast<double>(count - 1));
     if (axis_known) out.outward_world.push_back(axis.normalized());
+    out.q_world_marker.push_back(motion.q_world_marker[first + (count - 1) / 2]);
     sum_m.setZero();
     axis.setZero();
     count = 0;
@@ -60,6 +61,7 @@ PathPoints measured_path(const TipMotion& motion, std::span<const char> usable, 
   close();
   if (!sigma_m.empty()) out.slow_covariance_world_m2 /= static_cast<double>(sigma_m.size());
   out.sigma_m = middle(std::move(sigma_m));
+  out.tip_sigma_m = motion.sigma_tip_in_marker_m;
   return points;
 }
 

@@ -76,6 +76,17 @@ void make_own_texture(const RegisterConfig& config, RegisteredScan& scan) {
   scan.texture = std::move(texture);
 }
 
+// The motion with the tip where the registration has found it in the marker.
+void shift_tip(const Eigen::Vector3d& shift_m, const Eigen::Vector3d& sigma_m, TipMotion& motion) {
+  const Eigen::Vector3d gain_m2 = sigma_m.cwiseAbs2() - motion.sigma_tip_in_marker_m.cwiseAbs2();
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const Eigen::Matrix3d R = motion.q_world_marker[i].toRotationMatrix();
+    motion.p_world_tip_m[i] += R * shift_m;
+    if (!motion.cov_world_tip_m2.empty()) motion.cov_world_tip_m2[i] += R * gain_m2.asDiagonal() * R.transpose();
+  }
+  motion.sigma_tip_in_marker_m = sigma_m;
+}
+
 // The motion without its slow error, which is known at some of its samples.
 TipMotion correct_motion(TipMotion motion, const std::vector<double>& sample,
                          const std::vector<Eigen::Vector3d>& error_world_m) {
@@ -92,13 +103,17 @@ TipMotion correct_motion(TipMotion motion, const std::vector<double>& sample,
   return motion;
 }
 
-void measure_scan(const Scan& scan, const MeshSurface& surface, const Pose& T_mesh_world, const RegisterConfig& config,
-                  const PathPoints& points, const std::vector<Eigen::Vector3d>& slow_error_world_m,
-                  RegisteredScan& registered, const Observer& observer) {
+void measure_scan(const Scan& scan, const MeshSurface& surface, const Pose& T_mesh_world, double bulge_share,
+                  const RegisterConfig& config, const PathPoints& points,
+                  const std::vector<Eigen::Vector3d>& slow_error_world_m, RegisteredScan& registered,
+                  const Observer& observer) {
+  TipMotion& measured = registered.process.trajectory.motion;
+  if (registered.tip_sigma_m) shift_tip(registered.tip_shift_m, *registered.tip_sigma_m, measured);
+  measured = correct_motion(std::move(measured), points.sample, slow_error_world_m);
   // Base points and normals of the registered mesh (seed §4.3).
   const FindBase find_base = [&](const TipMotion& motion) {
-    BasePathResult base = base_path_on_mesh(correct_motion(motion, points.sample, slow_error_world_m),
-                                            tip_in_marker_m(scan), surface, T_mesh_world, config.process.base);
+    BasePathResult base =
+        base_path_on_mesh(motion, tip_in_marker_m(scan), surface, T_mesh_world, config.process.base, bulge_share);
     const ProcessMethod& method = ProcessMethods::get(config.process.method);
     if (scan.recording && method.measure_arc_length) method.measure_arc_length(base.path);
     return base;
@@ -135,6 +150,16 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
   observer.update("mesh", 0.0);
   const MeshSurface surface(mesh);
   LocatedScans located = locate_scans(begun, surface, guess, config, observer);
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    out.scans[i].rms_m = located.rms_m[i];
+    if (located.tip_sigma_m.empty() || located.tip_sigma_m[i].isZero(0.0)) continue;
+    out.scans[i].tip_shift_m = located.tip_shift_m[i];
+    out.scans[i].tip_sigma_m = located.tip_sigma_m[i];
+  }
+  out.bulge_share = located.bulge_share;
+  out.bulge_sigma = located.bulge_sigma;
+  out.crossings = located.crossings;
+  out.matched_shifts = located.matched_shifts;
   out.placements = std::move(located.placements);
   for (std::size_t k = 0; k < out.placements.size(); ++k) {
     Placement& placement = out.placements[k];
@@ -153,7 +178,7 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
   for (std::size_t i = 0; i < scans.size(); ++i) {
     RegisteredScan& scan = out.scans[i];
     named(scan.name, [&] {
-      measure_scan(scans[i], surface, out.registration_of(scan).T_mesh_world, config, begun.points[i],
+      measure_scan(scans[i], surface, out.registration_of(scan).T_mesh_world, out.bulge_share, config, begun.points[i],
                    located.slow_error_world_m[i], scan, observer);
       return 0;
     });

@@ -51,6 +51,22 @@ PathPoints points_of(const Scan& scan, const TipMotion& motion, const RegisterCo
   return measured_path(motion, find_contact(motion, config.process.base.contact), tip_in_marker_m(scan), config.points);
 }
 
+// Scans with the same calibrated tip are of one session: its error is theirs in common. The first scan's index is the
+// number.
+void number_tips(const std::vector<Scan>& scans, ScanPoints& out) {
+  const auto same_tip = [](const Scan& a, const Scan& b) {
+    if (!a.recording || !b.recording) return false;
+    const Calibration& x = a.recording->calibration;
+    const Calibration& y = b.recording->calibration;
+    return x.tip_in_marker_m == y.tip_in_marker_m && x.tip_sigma_m == y.tip_sigma_m;
+  };
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    std::size_t first = 0;
+    while (first < i && !same_tip(scans[first], scans[i])) ++first;
+    out.points[i].path.tip = static_cast<int>(first);
+  }
+}
+
 }  // namespace
 
 ScanPoints find_scan_points(const std::vector<Scan>& scans, const RegisterConfig& config, const Observer& observer) {
@@ -68,6 +84,7 @@ ScanPoints find_scan_points(const std::vector<Scan>& scans, const RegisterConfig
     if (scan.placement) out.placement.push_back(static_cast<std::size_t>(*scan.placement));
     out.in_sequence = out.in_sequence && (scan.recording.has_value() || scan.path.timed);
   }
+  number_tips(scans, out);
   return out;
 }
 

@@ -109,6 +109,10 @@ Json scan_json(const ScansOnMesh& result, const RegisteredScan& scan, const Scan
   Json out = pose_with_error_json(result.registration_of(scan));
   const Verdicts verdicts = verdicts_of(result, scan);
   out["name"] = scan.name;
+  out["rms_m"] = number_or_null(scan.rms_m);
+  if (scan.tip_sigma_m) {
+    out["tip"] = {{"shift_m", vector_json(scan.tip_shift_m)}, {"sigma_m", vector_json(*scan.tip_sigma_m)}};
+  }
   out["placement"] = place.placement;
   out["verdict"] = verdict_word(verdicts);
   out["verdicts"] = verdicts_json(verdicts);
@@ -275,6 +279,8 @@ Json registration_json(const ScansOnMesh& result, const std::vector<ScanPlace>& 
   out["covariance"] = pose_with_error_json(registration).at("covariance");
   out["placements"] = stored_placements(earlier, names_of(result));
   for (const Placement& placement : result.placements) out["placements"].push_back(placement_json(result, placement));
+  out["bulge"] = {{"share", number_or_null(result.bulge_share)}, {"sigma", number_or_null(result.bulge_sigma)}};
+  out["overlaps"] = {{"crossings", result.crossings}, {"shifts", result.matched_shifts}};
   out["registered"] = names_of(result);
   std::map<int, Json> scans = stored_scans(earlier);
   for (std::size_t i = 0; i < result.scans.size(); ++i) {

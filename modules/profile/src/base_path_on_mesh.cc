@@ -50,7 +50,8 @@ class Development {
 }  // namespace
 
 BasePathResult base_path_on_mesh(const TipMotion& motion, const Eigen::Vector3d& tip_in_marker_m,
-                                 const MeshSurface& surface, const Pose& T_mesh_world, const BasePathConfig& config) {
+                                 const MeshSurface& surface, const Pose& T_mesh_world, const BasePathConfig& config,
+                                 double bulge_share) {
   const std::vector<double> t_s = motion_times_s(motion);
   if (!tip_in_marker_m.allFinite()) throw Error("base path: tip_in_marker_m is not finite");
   const std::size_t n = motion.size();
@@ -77,7 +78,11 @@ BasePathResult base_path_on_mesh(const TipMotion& motion, const Eigen::Vector3d&
     if (foot.normal.squaredNorm() > 0.5) normal = T_world_mesh.rotation * foot.normal;
     if (!(normal.squaredNorm() > 0.5))
       throw Error("base path: the mesh has no normal under sample " + std::to_string(i));
-    out.path.p_world_m.push_back(T_world_mesh * foot.p_m);
+    Eigen::Vector3d base_m = foot.p_m;
+    if (foot.on_normal && bulge_share != 0.0) {
+      base_m += bulge_share * facet_bulge_m(surface, foot.triangle, foot.barycentric) * foot.normal;
+    }
+    out.path.p_world_m.push_back(T_world_mesh * base_m);
     out.path.n_world.push_back(normal);
     developed.push_back(development.add(out.path.p_world_m.back(), normal));
     height_m[i] = normal.dot(motion.p_world_tip_m[i] - out.path.p_world_m[i]);

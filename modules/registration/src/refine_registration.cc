@@ -12,10 +12,12 @@
 #include <Eigen/Geometry>
 
 #include "asperity/algebra/solve.h"
+#include "descend.h"
 #include "find_unobservable_dofs.h"
 #include "iteration_watch.h"
 #include "path_chain.h"
 #include "pose_motion.h"
+#include "refine_settings.h"
 #include "refinement.h"
 #include "whitening.h"
 
@@ -23,114 +25,18 @@ namespace asperity {
 
 namespace {
 
-using registration::Equations;
 using registration::FacetHeights;
 using registration::IterationWatch;
 using registration::kLeastPoints;
-using registration::Matrix6;
 using registration::PathChain;
+using registration::PosePrior;
+using registration::Refined;
 using registration::Refinement;
 using registration::State;
 using registration::Vector6;
 using registration::Whitening;
 
-constexpr double kMostKnots = 500;  // the equations are dense: memory goes with the square, time with the cube
 constexpr int kRounds = 3;
-constexpr double kSmallStep = 1e-3;  // squared, in standard deviations
-constexpr double kKnown_m = 5e-3;    // a motion known to this is left free: guesses are no better
-
-bool is_held(const UndeterminedMotion& motion) { return !(motion.sigma_m < kKnown_m); }
-
-// Keeps the pose along motions of which the path says nothing: they are made stiff.
-void hold_motions(Eigen::MatrixXd& information, std::span<const UndeterminedMotion> motions) {
-  const double stiff = 1e6 * information.topLeftCorner<6, 6>().trace();
-  for (const UndeterminedMotion& motion : motions) {
-    if (!is_held(motion)) continue;
-    Vector6 direction;
-    direction << motion.rotation_rad, motion.shift_m;
-    if (direction.norm() > 0.0) direction.normalize();
-    information.topLeftCorner<6, 6>() += stiff * direction * direction.transpose();
-  }
-}
-
-struct Refined {
-  State state;
-  FacetHeights heights;
-  Eigen::MatrixXd information;
-  double cost = std::numeric_limits<double>::infinity();
-  int iterations = 0;
-};
-
-// Gauss–Newton with one filter, from one state.
-Refined descend_to_minimum(const Refinement& problem, const State& start, const Whitening& whitening,
-                           std::span<const UndeterminedMotion> held, int max_iterations, IterationWatch& watch) {
-  watch.next_start();
-  Refined out;
-  out.state = start;
-  out.heights = problem.heights(start);
-  for (int k = 0; k < max_iterations; ++k) {
-    ++out.iterations;
-    watch.check();
-    watch.report(out.state.T_mesh_world, out.heights.rms_m, out.heights.d_m.size(), out.heights.count);
-    Equations equations = problem.equations(out.state, out.heights, whitening);
-    out.cost = equations.cost;
-    if (equations.rows < kLeastPoints) return out;
-    hold_motions(equations.information, held);
-    out.information = equations.information;
-    const Eigen::VectorXd step = solve_symmetric(out.information, equations.right);
-    if (!step.allFinite()) return out;
-    double share = 1.0;
-    bool fell = false;
-    for (int halving = 0; halving < 5 && !fell; ++halving, share *= 0.5) {
-      const State next = problem.moved(out.state, share * step);
-      FacetHeights there = problem.heights(next);
-      const double cost = problem.cost(next, there, whitening);
-      if (!(cost < out.cost)) continue;
-      fell = true;
-      out.cost = cost;
-      out.state = next;
-      out.heights = std::move(there);
-    }
-    if (!fell || share * share * step.dot(out.information * step) < kSmallStep) break;
-  }
-  return out;
-}
-
-Matrix6 pose_covariance(const Eigen::MatrixXd& information) {
-  const Eigen::MatrixXd pose_columns = Eigen::MatrixXd::Identity(information.rows(), 6);
-  return solve_symmetric(information, pose_columns).topRows<6>();
-}
-
-// The settings with knots far enough apart that there are not too many.
-RefineConfig with_few_knots(std::span<const MeasuredPath> paths, RefineConfig config, Problems& problems) {
-  double length_m = 0.0;
-  for (const MeasuredPath& path : paths) {
-    for (std::size_t i = 1; i < path.p_world_m.size(); ++i) {
-      const double step_m = (path.p_world_m[i] - path.p_world_m[i - 1]).norm();
-      if (std::isfinite(step_m)) length_m += step_m;
-    }
-  }
-  if (length_m <= kMostKnots * config.knot_m) return config;
-  config.knot_m = length_m / kMostKnots;
-  problems.push_back({"wide_knots",
-                      fmt::format("the paths are {:.3g} m long: their slow error is interpolated over {:.3g} mm",
-                                  length_m, 1e3 * config.knot_m),
-                      1});
-  return config;
-}
-
-// Of motions that were held at the start: known as well as a guess is.
-Matrix6 held_covariance(std::span<const UndeterminedMotion> motions, double guess_sigma_m) {
-  Matrix6 out = Matrix6::Zero();
-  for (const UndeterminedMotion& motion : motions) {
-    if (!is_held(motion)) continue;
-    Vector6 direction;
-    direction << motion.rotation_rad, motion.shift_m;
-    const double sigma_m = std::min(motion.sigma_m, guess_sigma_m);
-    out += sigma_m * sigma_m * direction * direction.transpose();
-  }
-  return out;
-}
 
 // Whether the runner-up, whose cost (−2 log likelihood) is higher by `excess`, is still as good.
 void resolve_ambiguity(double excess, RegistrationResult& result) {
@@ -199,58 +105,57 @@ RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, con
   out.registration = start;
   out.slow_error_world_m.resize(paths.size());
   if (!given.enabled) return out;
-  const RefineConfig config = with_few_knots(paths, given, out.registration.problems);
+  const RefineConfig config = registration::with_few_knots(paths, given, out.registration.problems);
   const auto give_up = [&](const std::string& why) {
     out.registration.problems.push_back({"not_refined", "the pose was not refined: " + why, 1});
     return out;
   };
 
   const PathChain chain = registration::make_chain(paths, config.knot_m);
-  const Refinement problem(chain, surface, start, guess, config);
-  const State first{start.T_mesh_world, Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(chain.knot_count)),
-                    Eigen::VectorXd::Zero(static_cast<Eigen::Index>(chain.parts.size()))};
+  const std::vector<UndeterminedMotion> held = registration::held_motions(start);
+  const PosePrior prior{guess.value_or(start.T_mesh_world), start.centre_mesh_m, held};
+  const Refinement problem(chain, surface, {prior}, config),
+      unheld(chain, surface, {{prior.T_mesh_world, start.centre_mesh_m, {}}}, config);
+  const State first = registration::zero_state(chain, {start.T_mesh_world});
   const FacetHeights heights = problem.heights(first);
   if (heights.count < kLeastPoints || !(chain.spacing_m > 0.0)) return give_up("too few points lie over the mesh");
-  const auto points_over = [&](double length_m) {
-    return static_cast<std::size_t>(
-        std::clamp(std::round(length_m / chain.spacing_m), 1.0, static_cast<double>(heights.count) / 10.0));
-  };
-  const std::size_t order = points_over(config.memory_m), smooth = points_over(config.slow_length_m / 8.0);
+  const auto filters = [&](const FacetHeights& at) { return registration::learn_whitenings(chain, at, config); };
 
   // The minimum of the start, with the relief's spectrum as it is there; then all minima with that spectrum.
-  Whitening whitening = registration::make_whitening(chain, heights, order, smooth);
-  if (!(whitening.variance_m2 > 0.0)) return give_up("the path lies on the mesh exactly");
-  Refined best = descend_to_minimum(problem, first, whitening, start.undetermined, config.max_iterations, watch);
+  std::vector<Whitening> whitening = filters(heights);
+  if (!registration::has_variance(whitening)) return give_up("the path lies on the mesh exactly");
+  Refined best = descend_to_minimum(problem, first, whitening, config.max_iterations, watch);
   int iterations = best.iterations;
   std::vector<LocalMinimum> minima;  // with the first round's whitening
   for (int round = 0; round < kRounds; ++round) {
-    whitening = registration::make_whitening(chain, best.heights, order, smooth);
-    if (!(whitening.variance_m2 > 0.0)) return give_up("the path lies on the mesh exactly");
-    best = descend_to_minimum(problem, best.state, whitening, start.undetermined, config.max_iterations, watch);
+    whitening = filters(best.heights);
+    if (!registration::has_variance(whitening)) return give_up("the path lies on the mesh exactly");
+    best = descend_to_minimum(problem, best.state, whitening, config.max_iterations, watch);
     iterations += best.iterations;
     if (round > 0) continue;
-    minima.push_back({best.cost, best.state.T_mesh_world, best.heights.rms_m});
+    minima.push_back({best.cost, best.state.T_mesh_world.front(), best.heights.rms_m});
     for (const Pose& pose : others) {
       State other = first;
-      other.T_mesh_world = pose;
-      Refined there = descend_to_minimum(problem, other, whitening, start.undetermined, config.max_iterations, watch);
+      other.T_mesh_world = {pose};
+      Refined there = descend_to_minimum(problem, other, whitening, config.max_iterations, watch);
       iterations += there.iterations;
-      minima.push_back({there.cost, there.state.T_mesh_world, there.heights.rms_m});
+      minima.push_back({there.cost, there.state.T_mesh_world.front(), there.heights.rms_m});
       if (there.cost < best.cost) best = std::move(there);
     }
   }
   if (!std::isfinite(best.cost) || best.information.rows() == 0)
     return give_up("the path has no unbroken stretch over the mesh");
   RegistrationResult& result = out.registration;
-  result.covariance = pose_covariance(best.information) + held_covariance(start.undetermined, config.guess_sigma_m);
-  result.T_mesh_world = best.state.T_mesh_world;
+  result.covariance = registration::inverse_columns(best.information, 0, 6).topRows<6>() +
+                      registration::held_covariance(held, config.guess_sigma_m);
+  result.T_mesh_world = best.state.T_mesh_world.front();
   result.rms_m = best.heights.rms_m;
   result.iterations += iterations;
   registration::append_uncertain_rotations(chain, config.undetermined_deg * std::numbers::pi / 180.0, result);
   if (start.ambiguous && start.runner_up) {
     State other = first;
-    other.T_mesh_world = start.runner_up->T_mesh_world;
-    resolve_ambiguity(descend_to_minimum(problem, other, whitening, {}, config.max_iterations, watch).cost - best.cost,
+    other.T_mesh_world = {start.runner_up->T_mesh_world};
+    resolve_ambiguity(descend_to_minimum(unheld, other, whitening, config.max_iterations, watch).cost - best.cost,
                       result);
   }
   report_rival_minimum(chain, minima, result);
@@ -264,7 +169,7 @@ RefinedRegistration refine_registration(std::span<const MeasuredPath> paths, con
   for (std::size_t p = 0; p < paths.size(); ++p) {
     const PathChain::Part& part = chain.parts[p];
     for (std::size_t i = 0; i < part.points; ++i) {
-      out.slow_error_world_m[p].push_back(registration::slow_error_m(chain, best.state.knots_m, part.first_point + i));
+      out.slow_error_world_m[p].push_back(registration::slow_error_m(chain, best.state, part.first_point + i));
     }
   }
   return out;

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <vector>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
+#include <Eigen/SparseCore>
 
 #include "asperity/registration/refine_registration.h"
+#include "overlaps.h"
 #include "path_chain.h"
 #include "whitening.h"
 
@@ -13,41 +16,50 @@ namespace asperity::registration {
 
 inline constexpr std::size_t kLeastPoints = 30;  // with fewer there is nothing to refine
 
-// Pose, slow errors and the mean relief of each path.
-struct State {
+// What is known of a placement before: a pose, and how well. Turns and shifts are about `centre_mesh_m`.
+struct PosePrior {
   Pose T_mesh_world;
-  Eigen::VectorXd knots_m;
-  Eigen::VectorXd level_m;
+  Eigen::Vector3d centre_mesh_m = Eigen::Vector3d::Zero();
+  std::vector<UndeterminedMotion> held;  // motions along which the pose stays
 };
 
+// The normal equations of a step: poses (turn, shift of each placement), tips, bulge, levels, then knots. Only the
+// lower triangle is there.
 struct Equations {
-  Eigen::MatrixXd information;  // of turn, shift, levels and knots
+  Eigen::SparseMatrix<double> information;
   Eigen::VectorXd right;
-  double cost = 0.0;  // the mean of w² over its variance, times the points, and the prior's
+  double cost = 0.0;
   std::size_t rows = 0;
 };
 
-// The equations of refine_registration.h.
+// The equations of refine_registration.h and refine_placements.h.
 class Refinement {
  public:
-  // The guess counts as a weak prior, without one the start's pose.
-  Refinement(const PathChain& chain, const MeshSurface& surface, const RegistrationResult& start,
-             const std::optional<Pose>& guess, const RefineConfig& config);
+  // One prior a placement.
+  Refinement(const PathChain& chain, const MeshSurface& surface, std::vector<PosePrior> priors,
+             const RefineConfig& config);
 
+  const PathChain& chain() const { return chain_; }
   bool slow() const { return slow_; }
+  void set_overlaps(std::vector<OverlapLink> links) { links_ = std::move(links); }
+
   FacetHeights heights(const State& state) const {
-    return measure_heights(chain_, state.knots_m, state.level_m, surface_, state.T_mesh_world, config_.outlier_sigmas);
+    return measure_heights(chain_, state, surface_, config_.outlier_sigmas);
   }
-  Equations equations(const State& state, const FacetHeights& heights, const Whitening& whitening) const;
-  double cost(const State& state, const FacetHeights& heights, const Whitening& whitening) const;
+  Equations equations(const State& state, const FacetHeights& heights, std::span<const Whitening> whitening) const;
+  // Of each path the mean of w² over its variance, times the path's points; of the overlaps; and the priors'.
+  double cost(const State& state, const FacetHeights& heights, std::span<const Whitening> whitening) const;
+  // Without the poses' priors: what is compared between groupings.
+  double likelihood_cost(const State& state, const FacetHeights& heights, std::span<const Whitening> whitening) const;
   State moved(const State& state, const Eigen::VectorXd& step) const;
+  Eigen::Index size() const { return knots_at_ + (slow_ ? 3 * static_cast<Eigen::Index>(chain_.knot_count) : 0); }
 
  private:
-  // Calls visit(i) for each point whose whitened height is complete.
+  // Calls visit(i) for each point of a part whose whitened height is complete.
   template <class Visit>
-  void for_whitened(const FacetHeights& heights, std::size_t order, Visit visit) const {
+  void for_whitened(const PathChain::Part& part, const FacetHeights& heights, std::size_t order, Visit visit) const {
     std::size_t run = 0;
-    for (std::size_t i = 0; i < heights.d_m.size(); ++i) {
+    for (std::size_t i = part.first_point; i < part.first_point + part.points; ++i) {
       if (chain_.begins[i] != 0) run = 0;
       run = heights.usable[i] != 0 ? run + 1 : 0;
       if (run > order) visit(i);
@@ -58,16 +70,20 @@ class Refinement {
     for (std::size_t k = 1; k <= whitening.a.size(); ++k) w += whitening.a[k - 1] * heights.d_m[i - k];
     return w;
   }
+  Eigen::Index tips_at() const { return 6 * static_cast<Eigen::Index>(chain_.placement_count); }
+  Eigen::Index bulge_at() const { return tips_at() + 3 * static_cast<Eigen::Index>(chain_.tip_sigma_m.size()); }
+  Eigen::Index levels_at() const { return bulge_at() + 1; }
 
   const PathChain& chain_;
   const MeshSurface& surface_;
-  Pose guess_;
-  Eigen::Vector3d centre_m_;
+  std::vector<PosePrior> priors_;
   const RefineConfig& config_;
-  bool slow_;
-  Eigen::Index knots_at_;  // where they begin among the unknowns
-  Eigen::MatrixXd precision_;
+  bool slow_ = false;
+  Eigen::Index knots_at_ = 0;                      // where they begin among the unknowns
+  std::vector<Eigen::Triplet<double>> precision_;  // of the knots' prior, both triangles, offsets within the knots
+  Eigen::SparseMatrix<double> prior_knots_;
   Vector6 guess_precision_;
+  std::vector<OverlapLink> links_;
 };
 
 }  // namespace asperity::registration

@@ -32,13 +32,16 @@ std::vector<double> without_long_waves(const PathChain& chain, const FacetHeight
   return out;
 }
 
-std::vector<double> autocovariance(const PathChain& chain, const FacetHeights& heights, const std::vector<double>& d_m,
-                                   std::size_t order) {
+std::vector<double> autocovariance(const PathChain& chain, const PathChain::Part& part, const FacetHeights& heights,
+                                   const std::vector<double>& d_m, std::size_t order) {
   std::vector<double> r(order + 1, 0.0);
+  std::size_t count = 0;
+  const std::size_t end = part.first_point + part.points;
+  for (std::size_t i = part.first_point; i < end; ++i) count += heights.usable[i] != 0 ? 1 : 0;
   for (std::size_t lag = 0; lag <= order; ++lag) {
     double sum = 0.0;
     std::size_t reach = 0;  // neighbours before this point without a break
-    for (std::size_t i = 0; i < heights.d_m.size(); ++i) {
+    for (std::size_t i = part.first_point; i < end; ++i) {
       reach = chain.begins[i] != 0 ? 0 : reach + 1;
       if (reach >= lag && heights.usable[i] != 0 && heights.usable[i - lag] != 0) {
         sum += d_m[i] * d_m[i - lag];
@@ -46,15 +49,13 @@ std::vector<double> autocovariance(const PathChain& chain, const FacetHeights& h
     }
     const double x = static_cast<double>(lag) / static_cast<double>(order + 1);
     const double parzen = x < 0.5 ? 1.0 - 6.0 * x * x * (1.0 - x) : 2.0 * std::pow(1.0 - x, 3);
-    r[lag] = parzen * sum / static_cast<double>(std::max<std::size_t>(1, heights.count));
+    r[lag] = parzen * sum / static_cast<double>(std::max<std::size_t>(1, count));
   }
   return r;
 }
 
-}  // namespace
-
-Whitening make_whitening(const PathChain& chain, const FacetHeights& heights, std::size_t order, std::size_t smooth) {
-  const std::vector<double> r = autocovariance(chain, heights, without_long_waves(chain, heights, smooth), order);
+// Levinson's and Durbin's recursion.
+Whitening from_autocovariance(const std::vector<double>& r, std::size_t order) {
   Whitening out;
   out.variance_m2 = r[0];
   out.relief_m = std::sqrt(r[0]);
@@ -67,6 +68,18 @@ Whitening make_whitening(const PathChain& chain, const FacetHeights& heights, st
     for (std::size_t k = 1; k < m; ++k) out.a[k - 1] += reflection * before[m - k - 1];
     out.a.push_back(reflection);
     out.variance_m2 *= 1.0 - reflection * reflection;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Whitening> make_whitenings(const PathChain& chain, const FacetHeights& heights, std::size_t order,
+                                       std::size_t smooth) {
+  const std::vector<double> d_m = without_long_waves(chain, heights, smooth);
+  std::vector<Whitening> out;
+  for (const PathChain::Part& part : chain.parts) {
+    out.push_back(from_autocovariance(autocovariance(chain, part, heights, d_m, order), order));
   }
   return out;
 }

@@ -15,7 +15,9 @@ struct Whitening {
 
 // Yule–Walker from the heights' autocovariance over unbroken stretches, with Parzen's window, which keeps it
 // positive definite (Levinson's and Durbin's recursion). What is longer than `smooth` points on either side is
-// taken off first: it is the misfit that is looked for, not relief.
-Whitening make_whitening(const PathChain& chain, const FacetHeights& heights, std::size_t order, std::size_t smooth);
+// taken off first: it is the misfit that is looked for, not relief. One filter a path, from its own heights: textures
+// differ.
+std::vector<Whitening> make_whitenings(const PathChain& chain, const FacetHeights& heights, std::size_t order,
+                                       std::size_t smooth);
 
 }  // namespace asperity::registration

@@ -38,6 +38,7 @@ std::string certainty_of(const RegistrationResult& result) {
 
 RegisterConfig run_config(const AlignChoice& choice, bool near) {
   RegisterConfig out = config_of(choice);
+  out.placement.mode = PlacementMode::kSame;  // the page has one pose
   if (near) {
     out.search.registration.starts.when = OtherStarts::kNever;
     out.refinement.other_starts = 0;

@@ -55,6 +55,7 @@ std::string command_of(const AlignChoice& choice, const Start& start, const std:
     }
     out += " --guess=" + numbers;
   }
+  if (choice.paths.size() > 1) out += " --placement same";
   for (const std::string& texture : choice.textures) out += " --texture " + shell_quoted(texture);
   for (const auto& [path, value] : choice.config) out += " --set " + shell_quoted(path + "=" + value);
   if (start.near) {

@@ -46,4 +46,9 @@ struct NormalFoot {
 NormalFoot foot_along_normal(const MeshSurface& surface, const Eigen::Vector3d& p_m,
                              const ClosestPoint& closest) noexcept;
 
+// The height over a flat triangle, at `barycentric`, of the curved surface that has the corners' normals: with edges d
+// from a to b, ½ Σ w_a w_b d·(n_b − n_a) over the three edges, the quadratic that is a circle's arc over each edge to
+// second order (the normal part of Nagata's patch, 2005). Positive where the surface is convex; continuous over edges.
+double facet_bulge_m(const MeshSurface& surface, std::uint32_t triangle, const Eigen::Vector3d& barycentric) noexcept;
+
 }  // namespace asperity

@@ -32,7 +32,7 @@ struct PathPoints {
 // contact over steps of `spacing_m`, so that a rest counts once. `usable` is empty or one a sample. `outward_world`
 // is the probe's axis, from the tip to the marker; empty if `tip_in_marker_m` is zero. `sigma_m` is the
 // median of the positions' standard deviation per axis, and the slow covariance their mean covariance, both 0 if
-// the motion has none.
+// the motion has none; the tip's position in the marker is in neither, but in `tip_sigma_m`.
 PathPoints measured_path(const TipMotion& motion, std::span<const char> usable, const Eigen::Vector3d& tip_in_marker_m,
                          const MeasuredPathConfig& config);
 

@@ -19,15 +19,16 @@ struct Placement {
 };
 
 // Which scans share a placement where the scans themselves do not state it (Scan::placement).
-enum class PlacementMode { kSame, kEach };
-inline constexpr std::array<std::string_view, 2> kPlacementModeNames{"same", "each"};
+enum class PlacementMode { kAuto, kSame, kEach };
+inline constexpr std::array<std::string_view, 3> kPlacementModeNames{"auto", "same", "each"};
 
 struct PlacementConfig {
-  PlacementMode mode = PlacementMode::kSame;
+  PlacementMode mode = PlacementMode::kAuto;
 
   template <class V>
   void visit(V& v) {
-    v.choice("mode", mode, kPlacementModeNames, "whether all scans share one placement of the object, or each has one");
+    v.choice("mode", mode, kPlacementModeNames,
+             "which scans share a placement of the object: found by their likelihood (auto), all, none");
   }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,9 +27,12 @@ namespace asperity {
 struct RegisteredScan {
   std::string name;
   bool is_recording = false;
-  std::size_t placement = 0;                // index of its placement
-  ProcessResult process;                    // of a path alone: motion, base path and profile
-  MeshPath path;                            // its s_m is the profile's
+  std::size_t placement = 0;                                // index of its placement
+  double rms_m = std::numeric_limits<double>::quiet_NaN();  // of its heights over the mesh, as the pose's fit has them
+  Eigen::Vector3d tip_shift_m = Eigen::Vector3d::Zero();    // by which the fit moved the tip in the marker, marker axes
+  std::optional<Eigen::Vector3d> tip_sigma_m;               // what is left of its error; nullopt: not estimated
+  ProcessResult process;                                    // of a path alone: motion, base path and profile
+  MeshPath path;                                            // its s_m is the profile's
   std::optional<PathTexture> path_texture;  // the whole profile; nullopt if a texture was given or none could be made
   std::optional<Texture> texture;           // what is laid along the path
 };
@@ -37,6 +41,9 @@ struct RegisteredScan {
 struct ScansOnMesh {
   std::vector<Placement> placements;  // at least one, in the order of their first scans
   std::vector<RegisteredScan> scans;
+  double bulge_share = 0.0, bulge_sigma = 0.0;  // of the mesh's facets that the object has (refine_placements.h)
+  std::size_t crossings = 0;                    // where scans met on the mesh, and their heights counted
+  std::size_t matched_shifts = 0;               // where their textures gave a shift along the path
   HapticCoordinates coordinates;
   Problems problems;
   Verdicts verdicts;        // of the pose and of each scan, the worst first; docs/verdicts.md

@@ -26,6 +26,7 @@ struct RefineConfig {
   double other_shift_m = 6e-3;
   double other_turn_deg = 10.0;
   double undetermined_deg = 0.5;
+  double overlap_m = 0.3e-3;
   int max_iterations = 40;
 
   template <class V>
@@ -44,6 +45,8 @@ struct RefineConfig {
     v.field("other_turn_deg", other_turn_deg, "largest turn of these, degrees", {0.0, 180.0});
     v.field("undetermined_deg", undetermined_deg, "standard deviation from which a turn is listed as undetermined",
             {1e-3, 360.0});
+    v.field("overlap_m", overlap_m,
+            "strokes nearer than this, across, meet the same texture, m; 0: overlaps do not count", {0.0, 1.0});
     v.field("max_iterations", max_iterations, "limit", {1, 10000});
   }
 };
@@ -57,13 +60,14 @@ struct RefinedRegistration {
 // keeps a scan from its mesh is not white noise: the tracker's error e lasts for centimetres, the relief has its
 // own spectrum. Plain least squares follow the slow error, and their covariance is far too small. Here the height
 // over the facet is
-//   d_i = n·(T (p_i − e_i)) − facet = m + relief,
+//   d_i = n·(T (p_i + R_i δ − e_i)) − facet = m + relief,
+// δ is what the tip's calibrated position is off by (marker axes, a priori tip_sigma_m, R_i the probe's orientation),
 // e is linear between knots with the prior covariance C exp(−|Δs|/slow_length_m), and the relief is whitened
 // about its mean m (known to the relief's own RMS height: a board's holes lie under its face)
-// along the path by an autoregressive filter w_i = d_i + Σ a_k d_{i−k} (Cochrane and Orcutt 1949) from its own
-// autocovariance (Yule–Walker). Gauss–Newton over pose and knots with ∇d = the facet's normal; the filter is made
-// anew from round to round. So the fine signature of the mesh, its curvature over centimetres and less, counts
-// as much as it is worth, and tells where along and across the mesh the tip was.
+// along the path, of each path by its own filter, by an autoregressive filter w_i = d_i + Σ a_k d_{i−k} (Cochrane and
+// Orcutt 1949) from its own autocovariance (Yule–Walker). Gauss–Newton over pose and knots with ∇d = the facet's
+// normal; the filter is made anew from round to round. So the fine signature of the mesh, its curvature over
+// centimetres and less, counts as much as it is worth, and tells where along and across the mesh the tip was.
 //
 // `paths` are those that gave `start`, evenly spaced (to a factor of two); steps of more than three times the
 // median part them. The pose has `guess`, if one was given, as a prior of guess_sigma_m and guess_sigma_deg, otherwise

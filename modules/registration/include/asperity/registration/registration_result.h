@@ -18,12 +18,17 @@ namespace asperity {
 // A scan path as registration wants it, world frame. `outward_world` is empty or holds, for each point, the
 // direction from the surface towards the probe; `sigma_m` is the standard deviation of a point along the
 // surface's normal, 0 if unknown; `slow_covariance_world_m2` that of the part of the positions' error that lasts over
-// many points, zero if unknown.
+// many points, zero if unknown. `q_world_marker` is empty or the probe's orientation at each point: with it and
+// `tip_sigma_m`, the standard deviation of the tip's calibrated position (marker axes; 0: exact or unknown), that
+// position is an unknown of the fit. Paths with the same number `tip` share it.
 struct MeasuredPath {
   std::vector<Eigen::Vector3d> p_world_m;
   std::vector<Eigen::Vector3d> outward_world;
   double sigma_m = 0.0;
   Eigen::Matrix3d slow_covariance_world_m2 = Eigen::Matrix3d::Zero();
+  std::vector<Eigen::Quaterniond> q_world_marker;
+  Eigen::Vector3d tip_sigma_m = Eigen::Vector3d::Zero();
+  int tip = 0;
 };
 
 enum class StopRule { kErrorChange, kPoseChange, kStalled, kIterationLimit };
