@@ -19,7 +19,7 @@ TEST(FindRegistration, NeedsNoGuess) {
   const Body& body = bumpy_body();
   const auto p_m = bumpy_path(body, 600);
   Random random(11);
-  const MeasuredPath path{seen_from(kWorldMesh, p_m, 0.1e-3, random), {}, 0.0};
+  const MeasuredPath path = test::path_of(seen_from(kWorldMesh, p_m, 0.1e-3, random), 0.0);
   const RegistrationResult got = find_registration({&path, 1}, body.surface, {});
   EXPECT_LT(pose_error_m(got.T_mesh_world, kWorldMesh, p_m), 4.0 * limit_m(body, p_m, 0.1e-3)) << got.verdict;
 }

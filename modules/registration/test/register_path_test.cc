@@ -26,7 +26,7 @@ TEST(RegisterPath, FindsAKnownMotionToRounding) {
   const auto p_m = bumpy_path(body, 1500);
   Random random(1);
   for (int k = 0; k < 3; ++k) {
-    const MeasuredPath path{seen_from(kWorldMesh, p_m, 0.0, random), {}, 0.0};
+    const MeasuredPath path = test::path_of(seen_from(kWorldMesh, p_m, 0.0, random), 0.0);
     const Pose guess = perturbed(kWorldMesh.inverse(), p_m, 5e-3, 5.0, random);
     const RegistrationResult got = register_path({&path, 1}, body.surface, guess, {});
     EXPECT_LT(pose_error_m(got.T_mesh_world, kWorldMesh, p_m), 1e-9);
@@ -46,7 +46,7 @@ TEST(RegisterPath, ReachesTheCramerRaoLimitUnderNoise) {
   double square = 0.0;
   constexpr int kRuns = 20;
   for (int k = 0; k < kRuns; ++k) {
-    const MeasuredPath path{seen_from(kWorldMesh, p_m, kSigma_m, random), {}, 0.0};
+    const MeasuredPath path = test::path_of(seen_from(kWorldMesh, p_m, kSigma_m, random), 0.0);
     const Pose guess = perturbed(kWorldMesh.inverse(), p_m, 5e-3, 5.0, random);
     const RegistrationResult got = register_path({&path, 1}, body.surface, guess, {});
     square += std::pow(pose_error_m(got.T_mesh_world, kWorldMesh, p_m), 2) / kRuns;
@@ -62,7 +62,7 @@ TEST(RegisterPath, TenPercentOutliersHardlyMatter) {
   const Body& body = bumpy_body();
   const auto p_m = bumpy_path(body, 1500);
   Random random(4);
-  MeasuredPath path{seen_from(kWorldMesh, p_m, 0.15e-3, random), {}, 0.0};
+  MeasuredPath path = test::path_of(seen_from(kWorldMesh, p_m, 0.15e-3, random), 0.0);
   for (std::size_t i = 700; i < 850; ++i) path.p_world_m[i] += kWorldMesh.rotation * Eigen::Vector3d(4e-3, 3e-3, 6e-3);
   const Pose guess = perturbed(kWorldMesh.inverse(), p_m, 5e-3, 5.0, random);
   const RegistrationResult got = register_path({&path, 1}, body.surface, guess, {});
@@ -75,7 +75,7 @@ TEST(RegisterPath, EverySamplingFindsIt) {
   const Body& body = bumpy_body();
   const auto p_m = bumpy_path(body, 1500);
   Random random(5);
-  const MeasuredPath path{seen_from(kWorldMesh, p_m, 0.1e-3, random), {}, 0.1e-3};
+  const MeasuredPath path = test::path_of(seen_from(kWorldMesh, p_m, 0.1e-3, random), 0.1e-3);
   const Pose guess = perturbed(kWorldMesh.inverse(), p_m, 3e-3, 4.0, random);
   for (const auto sampling :
        {PathSampling::kUniform, PathSampling::kCurvature, PathSampling::kNormalSpace, PathSampling::kStability}) {
@@ -109,7 +109,7 @@ TEST(RegisterPath, TwiceTheSizeGivesTwiceTheAnswer) {
   const Body large(std::move(twice));
   const auto p_m = bumpy_path(body, 800);
   Random random(7);
-  MeasuredPath path{seen_from(kWorldMesh, p_m, 0.15e-3, random), {}, 0.0};
+  MeasuredPath path = test::path_of(seen_from(kWorldMesh, p_m, 0.15e-3, random), 0.0);
   Pose guess = perturbed(kWorldMesh.inverse(), p_m, 5e-3, 5.0, random);
   RegistrationConfig config;
   const RegistrationResult small = register_path({&path, 1}, body.surface, guess, config);
@@ -128,7 +128,7 @@ TEST(RegisterPath, TwiceTheSizeGivesTwiceTheAnswer) {
 TEST(RegisterPath, RefusesWhatCannotBeRegistered) {
   const Body& body = bumpy_body();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  MeasuredPath path{{{0, 0, 0}, {0.01, 0, 0}, {nan, 0, 0}, {0, nan, 0}}, {}, 0.0};
+  MeasuredPath path = test::path_of({{0, 0, 0}, {0.01, 0, 0}, {nan, 0, 0}, {0, nan, 0}}, 0.0);
   try {
     register_path({&path, 1}, body.surface, {}, {});
     FAIL();

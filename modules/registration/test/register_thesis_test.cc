@@ -18,7 +18,7 @@ TEST(RegisterThesis, StopsWhenTheErrorNoLongerChanges) {
   const Body& body = bumpy_body();
   const auto p_m = bumpy_path(body, 1500);
   Random random(12);
-  const MeasuredPath path{seen_from(kWorldMesh, p_m, 0.1e-3, random), {}, 0.0};
+  const MeasuredPath path = test::path_of(seen_from(kWorldMesh, p_m, 0.1e-3, random), 0.0);
   const Pose guess = perturbed(kWorldMesh.inverse(), p_m, 1e-3, 1.0, random);
   const RegistrationResult got = register_thesis({&path, 1}, body.bvh, guess, {});
   EXPECT_EQ(got.stopped_by, StopRule::kErrorChange);

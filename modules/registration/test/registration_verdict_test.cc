@@ -32,7 +32,7 @@ Smooth register_smooth(const Body& body, const std::vector<Eigen::Vector3d>& pat
   Smooth out;
   out.world_m = seen_from({}, test::laid_on(body, path_m), sigma_m, random);
   out.guess = off;
-  const MeasuredPath path{out.world_m, {}, 0.0};
+  const MeasuredPath path = test::path_of(out.world_m, 0.0);
   out.result = register_path({&path, 1}, body.surface, off, {});
   return out;
 }
@@ -133,7 +133,7 @@ TEST(RegisterPath, SaysWhenAnotherPlaceFitsAsWell) {
   Random random(9);
   const auto p_m =
       test::laid_on(body, wavy(0.05, 0.01, [&](double a, double b) { return Eigen::Vector3d(a, b, ridge(a)); }));
-  const MeasuredPath path{seen_from({}, p_m, 0.05e-3, random), {}, 0.0};
+  const MeasuredPath path = test::path_of(seen_from({}, p_m, 0.05e-3, random), 0.0);
   RegistrationConfig config;
   config.starts.when = OtherStarts::kAlways;
   const RegistrationResult got =
@@ -152,7 +152,7 @@ TEST(RegisterPath, LeavesAWrongBasinAndTrustsAUniquePlace) {
   RegistrationConfig config;
   config.starts.when = OtherStarts::kAlways;
   for (int k = 0; k < 3; ++k) {
-    const MeasuredPath path{seen_from(kWorldMesh, p_m, 0.1e-3, random), {}, 0.0};
+    const MeasuredPath path = test::path_of(seen_from(kWorldMesh, p_m, 0.1e-3, random), 0.0);
     const Pose guess = perturbed(kWorldMesh.inverse(), p_m, 12e-3, 20.0, random);
     const RegistrationResult got = register_path({&path, 1}, body.surface, guess, config);
     EXPECT_LT(pose_error_m(got.T_mesh_world, kWorldMesh, p_m), 4.0 * limit_m(body, p_m, 0.1e-3)) << got.verdict;
@@ -176,7 +176,7 @@ TEST(RegisterPath, TheProbesSideTellsTheFrontOfAPlateFromItsBack) {
   const Body body(std::move(plate));
   const auto p_m =
       test::laid_on(body, wavy(0.06, 0.02, [&](double a, double b) { return Eigen::Vector3d(a, b, front(a, b)); }));
-  MeasuredPath path{p_m, {}, 0.0};
+  MeasuredPath path = test::path_of(p_m, 0.0);
   path.outward_world.assign(p_m.size(), Eigen::Vector3d::UnitZ());
   const RegistrationResult got =
       register_path({&path, 1}, body.surface, {Eigen::Quaterniond::Identity(), {0, 0, -1.2e-3}}, {});

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -13,6 +14,7 @@
 #include "asperity/geometry/mesh_bvh.h"
 #include "asperity/geometry/pose.h"
 #include "asperity/geometry/triangle_mesh.h"
+#include "asperity/registration/registration_result.h"
 #include "asperity/registration/registration_surface.h"
 
 namespace asperity::test {
@@ -83,6 +85,14 @@ inline std::vector<Eigen::Vector3d> bumpy_path(const Body& body, int count) {
 }
 
 inline Eigen::Vector3d normal3(Random& random) { return {random.normal(), random.normal(), random.normal()}; }
+
+// A path of points alone.
+inline MeasuredPath path_of(std::vector<Eigen::Vector3d> p_world_m, double sigma_m) {
+  MeasuredPath out;
+  out.p_world_m = std::move(p_world_m);
+  out.sigma_m = sigma_m;
+  return out;
+}
 
 inline std::vector<Eigen::Vector3d> seen_from(const Pose& T_world_mesh, const std::vector<Eigen::Vector3d>& p_mesh_m,
                                               double sigma_m, Random& random) {
