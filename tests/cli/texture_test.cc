@@ -222,7 +222,8 @@ TEST_F(TextureCommands, APaintedTextureIsCalledAsNoOtherFile) {
   EXPECT_EQ(onto("plane.obj", "one")["texture"]["file"], "1-paint.json");
   EXPECT_EQ(onto("one/scene.json", "two")["texture"]["file"], "2-paint.json");
   const Json files = Json::parse(files_in("two").at("files.json"))["files"];
-  EXPECT_EQ(files, Json({"1-paint.json", "2-paint.json", "paint.json", "scene.json", "textured.obj"}));
+  // What the second covers of the first is kept.
+  EXPECT_EQ(files, Json({"1-paint.json", "2-paint.json", "covered.csv", "paint.json", "scene.json", "textured.obj"}));
 }
 
 TEST_F(TextureCommands, WrongCommandLinesSayWhy) {

@@ -49,7 +49,7 @@ TEST(NormalForceScan, ThreeAxesGiveTheContactForceOfATiltedProbe) {
     const ProcessResult result = process_recording(recording, {});
     EXPECT_EQ(result.base.force.source, ForceSource::kThreeAxes);
     EXPECT_NEAR(mean_found_N(result) / mean_true_N(recording, result), 1.0, 0.02) << lean;
-    const ContactConfig contact = make_simulation_config("sandpaper", "open").contact;
+    const SimulatedContactConfig contact = make_simulation_config("sandpaper", "open").contact;
     // The relief itself holds the tip back: the forces' ratio is above the bench's coefficient.
     const double true_friction =
         contact.friction_dynamic + contact.friction_viscous_s_per_m * result.friction.speed_mps;

@@ -33,7 +33,7 @@ struct ProcessSession::Impl {
   Recording recording;
   ProcessResult result;
   ProcessStages s;
-  StageRun trajectory, base, profile, roughness, periodicity, compliance, stiffness, fit, accuracy;
+  StageRun trajectory, base, profile, roughness, periodicity, compliance, stiffness, friction, fit, accuracy;
 
   // Runs the stage unless its settings and inputs are those of its last run. What it throws goes on, and nothing of it
   // is kept then.
@@ -96,6 +96,8 @@ const ProcessResult& ProcessSession::process(const ProcessConfig& config, const 
               [&] { return stage::estimate_compliance(in_frame, config, method, s); });
   kept.update(s.stiffness, kept.stiffness, config, same_config(&ProcessConfig::stiffness), of_base,
               [&] { return stage::estimate_stiffness(config, s); });
+  kept.update(s.friction, kept.friction, config, same_config(&ProcessConfig::friction), of_base,
+              [&] { return stage::estimate_friction(config, s); });
 
   observer.update("texture", 0.95);
   kept.update(s.fit, kept.fit, config, same_config(&ProcessConfig::texture), of_profile,

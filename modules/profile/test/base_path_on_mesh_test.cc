@@ -98,12 +98,12 @@ TEST(BasePathOnMesh, RoundedFacetsLeaveNoKinksInTheHeights) {
   const auto worst_m = [&](double bulge_share) {
     const BasePathResult result =
         base_path_on_mesh(helix.motion, kTipInMarker_m, surface, kMeshFromWorld, {}, bulge_share);
-    double worst_m = 0.0;
+    double largest_m = 0.0;
     for (std::size_t i = 0; i < helix.s_m.size(); ++i) {
       const double height_m = result.path.n_world[i].dot(helix.motion.p_world_tip_m[i] - result.path.p_world_m[i]);
-      worst_m = std::max(worst_m, std::abs(height_m - helix.height_m[i]));
+      largest_m = std::max(largest_m, std::abs(height_m - helix.height_m[i]));
     }
-    return worst_m;
+    return largest_m;
   };
   EXPECT_GT(worst_m(0.0), 0.5 * kFacet_m);
   EXPECT_LT(worst_m(1.0), 0.2 * worst_m(0.0));  // the tilt between interpolated and true normal is of second order

@@ -192,7 +192,8 @@ TEST(TrackedBody, BadListsAreOneErrorThatNamesTheKey) {
        {R"([{"name":"a"},{"name":"b"},{"name":"c"},{"name":"d"},{"name":"e"},{"name":"f"},{"name":"g"},{"name":"h"},{"name":"i"}])",
         "bodies"},
        {R"(7)", "bodies"}}) {
-    EXPECT_THAT([&, text = std::string(bodies)] { parse(text); }, ThrowsMessage<Error>(HasSubstr(message))) << bodies;
+    const auto parse_it = [&parse, text = std::string(bodies)] { parse(text); };
+    EXPECT_THAT(parse_it, ThrowsMessage<Error>(HasSubstr(message))) << bodies;
   }
 }
 
