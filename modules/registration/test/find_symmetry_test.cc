@@ -31,7 +31,9 @@ TEST(FindSymmetry, NoOtherAngleOfAPrismIsOne) {
   const Body prism(prism_mesh(3, 40e-3, 60e-3));
   // 60°: a triangle upside down; the fit from there ends elsewhere or finds nothing.
   const auto found = find_symmetry(prism.surface, about_z(std::numbers::pi / 3.0), 0.0);
-  if (found) EXPECT_GT(rotation_between_rad(*found, about_z(std::numbers::pi / 3.0)), 0.5);
+  if (found) {
+    EXPECT_GT(rotation_between_rad(*found, about_z(std::numbers::pi / 3.0)), 0.5);
+  }
 }
 
 TEST(FindSymmetry, EachRotationOfASphereIsOne) {
@@ -46,7 +48,9 @@ TEST(FindSymmetry, ABumpOfTwoMillimetresEndsTheSpheresSymmetry) {
   const Body bumped(test::sphere_mesh(35e-3, 2e-3));
   const Pose any{exp_rotation({0.7, -1.1, 0.4}), Eigen::Vector3d::Zero()};
   const auto found = find_symmetry(bumped.surface, any, 0.0);
-  if (found) EXPECT_GT(rotation_between_rad(*found, any), 0.2);
+  if (found) {
+    EXPECT_GT(rotation_between_rad(*found, any), 0.2);
+  }
 }
 
 TEST(FindSymmetry, ABodyWithoutSymmetryHasTheIdentityAlone) {

@@ -94,8 +94,8 @@ TEST(RegisterPath, PathsAreJoinedRigidly) {
   const auto p_m = bumpy_path(body, 1000);
   Random random(6);
   const auto world = seen_from(kWorldMesh, p_m, 0.0, random);
-  const std::vector<MeasuredPath> paths{{{world.begin(), world.begin() + 300}, {}, 0.0},
-                                        {{world.begin() + 700, world.end()}, {}, 0.0}};
+  const std::vector<MeasuredPath> paths{test::path_of({world.begin(), world.begin() + 300}, 0.0),
+                                        test::path_of({world.begin() + 700, world.end()}, 0.0)};
   const RegistrationResult got =
       register_path(paths, body.surface, perturbed(kWorldMesh.inverse(), p_m, 3e-3, 3.0, random), {});
   EXPECT_LT(pose_error_m(got.T_mesh_world, kWorldMesh, p_m), 1e-9);

@@ -74,7 +74,9 @@ TEST(WeighPoses, TheTruthIsLikelierThanAValleyNearby) {
   ASSERT_FALSE(found.empty());
   EXPECT_LE(found.size(), 2U);
   EXPECT_LT(test::pose_error_m(found.front().T_mesh_world, kWorldMesh, p_m), 0.3e-3);
-  if (found.size() > 1) EXPECT_LT(found[1].log_mass, found[0].log_mass - 10.0);
+  if (found.size() > 1) {
+    EXPECT_LT(found[1].log_mass, found[0].log_mass - 10.0);
+  }
 }
 
 // A way round a prism's side, over two of its edges.

@@ -168,7 +168,9 @@ TEST(ArealSpectrum, SectionAndCovarianceBelongTogether) {
     EXPECT_NEAR(plane / s.variance_m2(), 1.0, 1e-3) << t;
     EXPECT_NEAR(s.covariance_m2(1e-4) / s.variance_m2(), 1.0, 3e-3) << t;
     // Matérn's with ν = 1: ρ = κ r K₁(κ r).
-    if (t == 1.0) EXPECT_NEAR(s.covariance_m2(0.4) / s.variance_m2(), 1.2 * std::cyl_bessel_k(1.0, 1.2), 2e-3);
+    if (t == 1.0) {
+      EXPECT_NEAR(s.covariance_m2(0.4) / s.variance_m2(), 1.2 * std::cyl_bessel_k(1.0, 1.2), 2e-3);
+    }
   }
 }
 
