@@ -65,7 +65,7 @@ void change(const ConfigField& field, double factor) {
   for (const std::string& choice : field.choices) candidates.push_back(choice);
   if (field.type == FieldType::kInteger || field.type == FieldType::kNumber) {
     const double value = std::stod(toml_text(before));
-    for (const double other : {value * factor, value / factor, value + 1.0, value - 1.0}) {
+    for (const double other : {value * factor, value / factor, value + 1.0, value - 1.0, value + 0.01}) {
       if (field.type == FieldType::kInteger) {
         candidates.push_back(static_cast<std::int64_t>(other));
       } else {

@@ -77,8 +77,13 @@ const ProcessResult& ProcessSession::process(const ProcessConfig& config, const 
   observer.update("base path", 0.7);
   kept.update(s.base, kept.base, config, same_config(&ProcessConfig::base), {kept.trajectory.runs},
               [&] { return stage::find_base_path(in_frame, config, method, s); });
+  // What is done to each method's profile is not the method's.
+  const IsSame same_profile = [&](const ProcessConfig& a, const ProcessConfig& b) {
+    return method.is_same_profile(a, b) && is_same_config(a.profile.tip, b.profile.tip) &&
+           a.profile.merge_passes == b.profile.merge_passes;
+  };
   observer.update("profile", 0.8);
-  kept.update(s.profile, kept.profile, config, method.is_same_profile, {kept.trajectory.runs, kept.base.runs},
+  kept.update(s.profile, kept.profile, config, same_profile, {kept.trajectory.runs, kept.base.runs},
               [&] { return stage::find_profile(in_frame, config, method, s); });
 
   const std::vector<std::size_t> of_profile{kept.profile.runs};

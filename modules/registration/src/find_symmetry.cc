@@ -15,7 +15,7 @@ namespace asperity {
 using namespace registration;  // NOLINT(google-build-using-namespace): the module's own
 
 std::optional<Pose> find_symmetry(const RegistrationSurface& surface, const Pose& motion, double surface_error_m) {
-  constexpr int kSamples = 300;
+  constexpr int kSamples = 1000;
   constexpr double kShare = 2e-4, kSags = 3.0;
   check_surface(surface);
   std::vector<MeasuredPath> path(1);
@@ -34,7 +34,7 @@ std::optional<Pose> find_symmetry(const RegistrationSurface& surface, const Pose
   matcher.match(fit.pose);
   std::vector<double> away_m;
   for (const ClosestPoint& closest : matcher.closest()) away_m.push_back(closest.distance_m);
-  const auto most = away_m.begin() + static_cast<std::ptrdiff_t>(95 * away_m.size() / 100);
+  const auto most = away_m.begin() + static_cast<std::ptrdiff_t>(995 * away_m.size() / 1000);
   std::nth_element(away_m.begin(), most, away_m.end());
   const double limit_m =
       std::max({kShare * points.radius_m, kSags * facet_sag_m(surface, matcher), 3.0 * surface_error_m});

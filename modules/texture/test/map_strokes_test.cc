@@ -102,28 +102,6 @@ TEST(MapStrokes, ErrorsAreAsLargeAsTheirSigma) {
   EXPECT_LT(map.held_out.error_over_sigma, 1.4);
 }
 
-TEST(MapStrokes, FindsShiftsOfStrokes) {
-  Random random(6);
-  const Relief relief = random_waves(3);
-  std::vector<AreaStroke> strokes = crossing([&](int) { return relief; }, random);
-  std::vector<double> true_shift_mm;  // across each stroke
-  for (std::size_t k = 0; k < strokes.size(); ++k) {
-    true_shift_mm.push_back(0.1 * random.normal());
-    // The stroke was where its heights are; it is reported beside it.
-    for (double& v : k < 8 ? strokes[k].y_m : strokes[k].x_m) v -= 1e-3 * true_shift_mm.back();
-  }
-  const StrokeMap map = map_strokes(strokes);
-  ASSERT_EQ(map.shift_y_m.size(), strokes.size());
-  double error2 = 0.0, mean = 0.0, true2 = 0.0;
-  for (std::size_t k = 0; k < 8; ++k) mean += (1e3 * map.shift_y_m[k] - true_shift_mm[k]) / 8.0;
-  for (std::size_t k = 0; k < 8; ++k) {
-    error2 += std::pow(1e3 * map.shift_y_m[k] - true_shift_mm[k] - mean, 2);
-    true2 += std::pow(true_shift_mm[k], 2);
-  }
-  // A common shift of all cannot be known; the rest comes out to a third and better.
-  EXPECT_LT(std::sqrt(error2), 0.35 * std::sqrt(true2));
-}
-
 TEST(MapStrokes, StrokesOfDifferentSurfacesDoNotAgree) {
   Random random(7);
   const StrokeMap map =

@@ -9,7 +9,7 @@ namespace asperity {
 
 // The rigid motion near `motion` (mesh frame) that maps the mesh onto itself, if there is one: the mesh's own points,
 // moved so, are fitted to it (register_path.h's steps), and end nearer to it than the sag of its facets,
-// `surface_error_m` or 0.0002 of its size allow, 95 of 100 of them. Motions from which that fit ends elsewhere find
+// `surface_error_m` or 0.0002 of its size allow, 995 of 1000 of them. Motions from which that fit ends elsewhere find
 // what is there: compare the two. The identity maps each mesh onto itself. Not found for a mesh without area.
 std::optional<Pose> find_symmetry(const RegistrationSurface& surface, const Pose& motion, double surface_error_m);
 

@@ -24,7 +24,7 @@ struct AreaStroke {
 struct MapStrokesConfig {
   double spacing_mm = 0.0;
   double drift_mm = 10.0;
-  double shift_mm = 0.2;
+  double shift_mm = 0.0;
   double hole_share = 0.6;
   int held_out = 8;
   int most_points = 40000;
