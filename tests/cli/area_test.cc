@@ -31,8 +31,7 @@ class Area : public testing::Test {
     std::uniform_real_distribution<double> part(0.0, 1.0);
     double out = 0.0;
     for (int i = 0; i < 60; ++i) {
-      // Of 2.5 to 5 mm: strokes 1.2 mm apart, one of them left out, still sample them.
-      const double f = 0.2 + 0.2 * part(random), angle = 6.283185 * part(random), phase = 6.283185 * part(random);
+      const double f = 0.3 + 0.7 * part(random), angle = 6.283185 * part(random), phase = 6.283185 * part(random);
       out += 5e-6 * std::cos(6.283185 * f * (x_mm * std::cos(angle) + y_mm * std::sin(angle)) + phase);
     }
     return out;
@@ -99,7 +98,8 @@ TEST_F(Area, ManyStrokesBecomeOneTexture) {
   // A plate is its own plane.
   EXPECT_NEAR(area.at("parametrisation").at("stretch_max").get<double>(), 1.0, 1e-6);
   EXPECT_EQ(area.at("parametrisation").at("flipped"), 0);
-  EXPECT_GT(area.at("map").at("agreement").get<double>(), 0.9);
+  // Strokes left out are predicted from others up to 2.4 mm away, waves go down to 1 mm.
+  EXPECT_GT(area.at("map").at("agreement").get<double>(), 0.5);
   // 60 waves of 5 µm: 27 µm RMS.
   EXPECT_NEAR(area.at("map").at("rms_m").get<double>(), 27.4e-6, 7e-6);
   for (const char* file : {"scene.json", "area.json", "area.texture.json", "area.surface.csv", "area.height.png",

@@ -109,8 +109,8 @@ TEST(FindRivals, CopiesByTheMeshesOwnSymmetryAreNone) {
   EXPECT_LT(rivals.sigma_m, 0.5e-3);
 }
 
-// Round the side of the sphere that has no bump: each rotation that keeps the path off it fits as well, and is another
-// pose all the same.
+// Round the side of the sphere that has no bump (that is at +x): each rotation that keeps the path off it fits as well,
+// and is another pose all the same, but for those about x.
 TEST(FindRivals, WhatThePathDoesNotTouchDoesNotMakeItSymmetric) {
   const Body bumped(test::sphere_mesh(35e-3, 2e-3));
   std::vector<Eigen::Vector3d> p_m;
@@ -122,7 +122,7 @@ TEST(FindRivals, WhatThePathDoesNotTouchDoesNotMakeItSymmetric) {
   Random random(8);
   const MeasuredPath path = test::measured(p_m, 0.05e-3, random);
   const Pose truth = kWorldMesh.inverse();
-  const std::vector<Pose> candidates{truth, Pose{exp_rotation({0.5, 0.0, 0.0}), {0, 0, 0}} * truth};
+  const std::vector<Pose> candidates{truth, Pose{exp_rotation({0.0, 0.0, 0.5}), {0, 0, 0}} * truth};
   const auto found = weigh_poses({&path, 1}, bumped.surface, candidates, {}, {}, {});
   const PoseRivals rivals = find_rivals({&path, 1}, bumped.surface, found[0], found, true, {});
   EXPECT_EQ(rivals.symmetric_copies, 0U);
