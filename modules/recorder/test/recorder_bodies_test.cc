@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -53,7 +54,9 @@ TEST(RecorderBodies, WhatTheCalibrationsMarkersNameIsRecorded) {
   EXPECT_EQ(live.bodies[0].pose->markers, 3);
   EXPECT_EQ(live.pose->markers, 2);  // the probe's
   const RecorderSnapshot end = recorder.finish();
-  EXPECT_EQ(end.bodies[0].rows, end.tracker_rows);
+  // The end may come between a frame's two poses.
+  EXPECT_LE(end.bodies[0].rows, end.tracker_rows);
+  EXPECT_GE(end.bodies[0].rows + 1, end.tracker_rows);
 
   const Recording recording = read_recording(rig.folder());
   EXPECT_THAT(recording.problems, testing::IsEmpty());
@@ -62,7 +65,8 @@ TEST(RecorderBodies, WhatTheCalibrationsMarkersNameIsRecorded) {
   EXPECT_EQ(recording.calibration.markers[1].body, "object");
   const TrackerStream* object = recording.poses_of("object");
   ASSERT_NE(object, nullptr);
-  EXPECT_EQ(object->t_ns, recording.tracker.t_ns);
+  ASSERT_EQ(object->t_ns.size(), end.bodies[0].rows);
+  EXPECT_TRUE(std::equal(object->t_ns.begin(), object->t_ns.end(), recording.tracker.t_ns.begin()));
   EXPECT_EQ(object->T_world_marker.back().translation_m.y(), 0.1);
   EXPECT_EQ(recording.tracker.T_world_marker.back().translation_m.y(), 0.0);
 }

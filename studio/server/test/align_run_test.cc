@@ -8,6 +8,7 @@
 #include "align_bench.h"
 #include "asperity/base/csv.h"
 #include "asperity/json/parse_json.h"
+#include "asperity/pipeline/register_config.h"
 #include "asperity/pipeline/write_registration.h"
 #include "asperity/session/register_input.h"
 
@@ -85,7 +86,9 @@ TEST_F(AlignRunTest, TakenItIsOneStepAndWrittenAsTheCommandLineWrites) {
   const RegisterInput input =
       read_register_input({(bench_.folder / "path.csv").string()}, (bench_.folder / "pebble.obj").string(), 1e-3, {});
   const Pose guess = pose_of_json(json_of_pose(pose_of_json(before["T_mesh_world"], "")), "");
-  write_registration(other, register_input(input, guess, {}), input.scans, input.onto);
+  RegisterConfig config;
+  config.placement.mode = PlacementMode::kSame;  // as on the page
+  write_registration(other, register_input(input, guess, config), input.scans, input.onto);
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(other)) {
     if (entry.is_directory()) continue;
