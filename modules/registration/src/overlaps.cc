@@ -14,7 +14,7 @@ namespace {
 constexpr double kWindow_m = 10e-3;      // of a stroke, whose texture is looked for in another
 constexpr double kMostShift_m = 1e-3;    // along the path, between what the fit has and what the textures show
 constexpr double kLeastAlike = 0.7;      // correlation of two windows that show the same texture
-constexpr double kUnlike = 0.9;         // of another maximum to the highest, above which neither counts
+constexpr double kUnlike = 0.9;          // of another maximum to the highest, above which neither counts
 constexpr double kCrossing_m = 3e-3;     // a shorter meeting is a crossing
 constexpr double kApart_m = 5e-3;        // along one path, from which it meets itself
 constexpr double kShiftFloor_m = 20e-6;  // of a shift: strokes beside each other see the texture a little differently
@@ -78,7 +78,7 @@ struct TextureMatch {
 
 // Where along b the heights of a's window are found again. `offset[k]` is where b is beside point k of the window.
 TextureMatch match_window(const PathChain& chain, const FacetHeights& heights, std::span<const Meeting> window,
-                   std::span<const double> offset, double spacing_m) {
+                          std::span<const double> offset, double spacing_m) {
   constexpr double kStep = 0.25;
   const double most = kMostShift_m / spacing_m;
   const auto correlation_at = [&](double shift, double* slope2, double* noise2) {

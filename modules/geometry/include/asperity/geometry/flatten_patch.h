@@ -38,8 +38,8 @@ struct FlatPatch {
 // infinite for a triangle without area, so that none turns over, and least where lengths are kept. It begins at
 // Tutte's embedding on a circle (Tutte 1963), which has no triangle turned over, and goes on by Newton's method on the
 // energy's Hessian with each triangle's made positive semidefinite by its closed eigensystem (Smith, de Goes and Kim
-// 2019), with a line search that stops before a triangle turns over. docs/geometry.md has the mathematics. Throws Error if
-// the equations cannot be solved: triangles many orders of magnitude smaller than others.
+// 2019), with a line search that stops before a triangle turns over. docs/geometry.md has the mathematics. Throws Error
+// if the equations cannot be solved: triangles many orders of magnitude smaller than others.
 FlatPatch flatten_patch(const SurfacePatch& patch, const FlattenConfig& config = {});
 
 }  // namespace asperity
