@@ -13,6 +13,7 @@
 #include "asperity/testkit/temp_dir.h"
 #include "plane_obj.h"
 #include "run_asperity.h"
+#include "servo_counts.h"
 #include "studio_window.h"
 
 namespace asperity::cli {
@@ -54,46 +55,45 @@ TEST(ServoSceneChange, NothingThatCouldBlock) {
       {"render.friction", 0.3},
       {"render.texture.model", "height"},
   };
-  int changed = 0;
-  std::string refused, state;
-  ::setenv("LD_PRELOAD", SERVO_SHIM, 1);
-  ::setenv("SERVO_COUNTS", (dir / "counts").c_str(), 1);
-  const auto meddle = [&](pid_t studio) {
-    ::unsetenv("LD_PRELOAD");
-    ::unsetenv("SERVO_COUNTS");
-    try {
-      StudioWindow window(dir / "out");
-      window.edit("/feel/scene", "scene");
-      window.edit("/feel/device", "sim");
-      window.keep_lease();
-      window.call("feel.start");
-      pause_ms(600);  // past the waits that are not counted
-      Json felt = window.call("feel.status")["felt"];
-      for (const auto& [setting, value] : changes) {
-        window.edit("/feel/settings/" + setting, value);
-        const Json next = await_other_world(window, felt);
-        changed += next != felt ? 1 : 0;
-        felt = next;
-        while (!window.call("job.list").empty()) pause_ms(10);
-        pause_ms(200);  // and it is felt
+  int attempts = 0;
+  const auto count = [&] {
+    const std::filesystem::path out = dir / ("out" + std::to_string(++attempts));
+    int changed = 0;
+    std::string refused, state;
+    ::setenv("LD_PRELOAD", SERVO_SHIM, 1);
+    ::setenv("SERVO_COUNTS", (dir / "counts").c_str(), 1);
+    const auto meddle = [&](pid_t studio) {
+      ::unsetenv("LD_PRELOAD");
+      ::unsetenv("SERVO_COUNTS");
+      try {
+        StudioWindow window(out);
+        window.edit("/feel/scene", "scene");
+        window.edit("/feel/device", "sim");
+        window.keep_lease();
+        window.call("feel.start");
+        pause_ms(600);  // past the waits that are not counted
+        Json felt = window.call("feel.status")["felt"];
+        for (const auto& [setting, value] : changes) {
+          window.edit("/feel/settings/" + setting, value);
+          const Json next = await_other_world(window, felt);
+          changed += next != felt ? 1 : 0;
+          felt = next;
+          while (!window.call("job.list").empty()) pause_ms(10);
+          pause_ms(200);  // and it is felt
+        }
+        state = window.call("feel.status")["state"].get<std::string>();
+      } catch (const std::exception& error) {
+        refused = error.what();
       }
-      state = window.call("feel.status")["state"].get<std::string>();
-    } catch (const std::exception& error) {
-      refused = error.what();
-    }
-    ::kill(studio, SIGTERM);
+      ::kill(studio, SIGTERM);
+    };
+    const Outcome outcome = run_and_meddle({"studio", dir.path().string(), "--no-open"}, meddle, out);
+    EXPECT_EQ(refused, "") << outcome.err;
+    EXPECT_EQ(changed, static_cast<int>(changes.size()));
+    EXPECT_EQ(state, "running");
+    return read_servo_counts(dir / "counts");
   };
-  const Outcome outcome = run_and_meddle({"studio", dir.path().string(), "--no-open"}, meddle, dir / "out");
-  ASSERT_EQ(refused, "") << outcome.err;
-  EXPECT_EQ(changed, static_cast<int>(changes.size()));
-  EXPECT_EQ(state, "running");
-  long waits = 0, allocations = -1, maps = -1, locks = -1, faults = -1;
-  std::ifstream(dir / "counts") >> waits >> allocations >> maps >> locks >> faults;
-  EXPECT_GT(waits, 500) << "of some 1500";
-  EXPECT_EQ(allocations, 0);
-  EXPECT_EQ(maps, 0);
-  EXPECT_EQ(locks, 0);
-  EXPECT_EQ(faults, 0);
+  expect_no_call_that_could_block(count, 500);  // of some 1500 waits
 }
 
 }  // namespace
