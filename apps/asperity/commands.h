@@ -7,6 +7,7 @@
 namespace asperity::app {
 
 std::unique_ptr<Command> make_area_command(Parser& root);
+std::unique_ptr<Command> make_batch(Parser& root);
 std::unique_ptr<Command> make_bench(Parser& root);
 std::unique_ptr<Command> make_check_rig(Parser& root);
 std::unique_ptr<Command> make_demo(Parser& root);
