@@ -1,0 +1,123 @@
+// Many recordings through the same commands, as a user would: with a bad one among them, done again, by make.
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "asperity/base/csv.h"
+#include "asperity/json/parse_json.h"
+#include "asperity/testkit/temp_dir.h"
+#include "run_asperity.h"
+
+namespace asperity::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Batch : public testing::Test {
+ protected:
+  // Two scans of 40 mm and one whose stream was lost; the text is shared by all tests of this program.
+  static void SetUpTestSuite() {
+    dir_ = new testkit::TempDir;
+    for (const char* seed : {"1", "2"}) {
+      const Outcome made = run({"simulate", "--surface", "sandpaper", "--probe", "open", "--seed", seed, "--set",
+                                "hand.length_m=0.03", "-o", *dir_ / "scans" / ("s" + std::string(seed)) / "rec",
+                                "--quiet"});
+      ASSERT_EQ(made.code, 0) << made.err;
+    }
+    fs::copy(*dir_ / "scans/s1/rec", *dir_ / "scans/s3/rec", fs::copy_options::recursive);
+    write_text(*dir_ / "scans/s3/rec/probe.csv", "");
+    write_text(*dir_ / "plan.toml",
+               "recordings = [\"scans/*/rec\"]\noutput = \"results\"\n[texture]\noptions = [\"--model\", "
+               "\"stochastic\"]\n[roughness]\n");
+  }
+  static void TearDownTestSuite() {
+    delete dir_;
+    dir_ = nullptr;
+  }
+  static std::vector<std::string> lines(const fs::path& file) {
+    std::vector<std::string> out;
+    std::ifstream text(file);
+    for (std::string line; std::getline(text, line);) out.push_back(line);
+    return out;
+  }
+  static testkit::TempDir* dir_;
+};
+
+testkit::TempDir* Batch::dir_ = nullptr;
+
+TEST_F(Batch, GoesOnPastABadOneAndDoesNothingTwice) {
+  const fs::path results = *dir_ / "results";
+  const Outcome first = run({"batch", *dir_ / "plan.toml", "-j", "2"});
+  EXPECT_EQ(first.code, 1) << "one of the three failed: " << first.err;
+  EXPECT_THAT(first.err, HasSubstr("s3/rec: failed: process: "));
+  EXPECT_THAT(first.out, HasSubstr("1 failed; 0 scans were up to date"));
+  const auto summary = lines(results / "summary.csv");
+  ASSERT_EQ(summary.size(), 4U);
+  EXPECT_TRUE(summary[1].starts_with("s1/rec,scans/s1/rec,valid,")) << summary[1];
+  EXPECT_TRUE(summary[3].starts_with("s3/rec,scans/s3/rec,failed,")) << summary[3];
+  EXPECT_TRUE(fs::exists(results / "s1/rec/s1-rec.texture.json"));
+  EXPECT_TRUE(fs::exists(results / "s2/rec/s2-rec.texture.json"));
+  EXPECT_GT(parse_json(read_file(results / "s1/rec/s1-rec.roughness.json", 1 << 20))["Ra_m"].get<double>(), 1e-7);
+  EXPECT_THAT(read_file(results / "index.html", 1 << 20), HasSubstr("<a href=\"s1/rec/process/report.html\">"));
+
+  const auto before = fs::last_write_time(results / "s1/rec/process");
+  const Outcome again = run({"batch", *dir_ / "plan.toml", "--json"});
+  EXPECT_EQ(again.code, 1);
+  const Json told = parse_json(again.out);
+  EXPECT_EQ(told["up_to_date"].get<int>(), 2);
+  EXPECT_EQ(told["results"].size(), 3U);
+  EXPECT_EQ(fs::last_write_time(results / "s1/rec/process"), before);
+}
+
+TEST_F(Batch, RefusesAFolderOfOthers) {
+  const testkit::TempDir other;
+  write_text(other / "mine.txt", "mine");
+  const Outcome refused = run({"batch", *dir_ / "scans/s1/rec", "-o", other.path()});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("holds other files than a batch's"));
+  EXPECT_EQ(contents(other.path()).size(), 1U);
+  EXPECT_EQ(run({"batch", *dir_ / "scans/none", "-o", *dir_ / "out"}).code, 1);
+  EXPECT_EQ(run({"batch", *dir_ / "scans/s1/rec"}).code, 2) << "no folder of results is stated";
+}
+
+// GNU make does the same; a failed scan does not keep the others, and the summary lists it.
+TEST_F(Batch, MakeDoesItsWorkflow) {
+  const Outcome written = run({"batch", *dir_ / "plan.toml", "-o", *dir_ / "made", "--emit", "make"});
+  ASSERT_EQ(written.code, 0) << written.err;
+  const std::string make = "make -C " + (*dir_ / "workflow").string() + " -k ";
+  const std::string log = " > " + (*dir_ / "make.log").string() + " 2>&1";
+  EXPECT_NE(std::system((make + log).c_str()), 0) << "s3 fails";
+  EXPECT_FALSE(fs::exists(*dir_ / "made/summary.csv"));
+  EXPECT_FALSE(fs::exists(*dir_ / "made/s3/rec/batch.json")) << "make removes what a failed rule left";
+  EXPECT_NE(std::system((make + "summary" + log).c_str()), 0);
+  const auto summary = lines(*dir_ / "made/summary.csv");
+  ASSERT_EQ(summary.size(), 4U) << read_file(*dir_ / "make.log", 1 << 20);
+  EXPECT_TRUE(summary[2].starts_with("s2/rec,scans/s2/rec,valid,")) << summary[2];
+  const auto before = fs::last_write_time(*dir_ / "made/s1/rec/batch.json");
+  EXPECT_NE(std::system((make + log).c_str()), 0);
+  EXPECT_EQ(fs::last_write_time(*dir_ / "made/s1/rec/batch.json"), before) << "it was up to date";
+}
+
+// Snakemake (Debian's 7.21) likewise; where it is not installed, scripts/check has it.
+TEST_F(Batch, SnakemakeDoesItsWorkflow) {
+  if (std::system("command -v snakemake > /dev/null") != 0) GTEST_SKIP() << "snakemake is not installed";
+  const fs::path flow = *dir_ / "snake";
+  const Outcome written =
+      run({"batch", *dir_ / "plan.toml", "-o", *dir_ / "snaked", "--emit", "snakemake", "--workflow", flow});
+  ASSERT_EQ(written.code, 0) << written.err;
+  const std::string snakemake = "snakemake -s " + (flow / "Snakefile").string() + " -j 2 --keep-going > " +
+                                (*dir_ / "snake.log").string() + " 2>&1";
+  EXPECT_NE(std::system(snakemake.c_str()), 0) << "s3 fails";
+  const auto summary = lines(*dir_ / "snaked/summary.csv");
+  ASSERT_EQ(summary.size(), 4U) << read_file(*dir_ / "snake.log", 1 << 20);
+  EXPECT_TRUE(summary[1].starts_with("s1/rec,scans/s1/rec,valid,")) << summary[1];
+}
+
+}  // namespace
+}  // namespace asperity::cli
