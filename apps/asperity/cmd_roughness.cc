@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "asperity/profile/measure_areal_roughness.h"
 #include "asperity/profile/measure_roughness_under_noise.h"
 #include "asperity/profile/read_heights.h"
+#include "asperity/profile/setting_class.h"
 #include "commands.h"
 #include "option_units.h"
 
@@ -21,14 +24,20 @@ namespace asperity::app {
 
 namespace {
 
+enum class Filters { kAsGiven, kAuto, kSc1, kSc2, kSc3, kSc4, kSc5 };
+constexpr std::array<std::string_view, 7> kFiltersNames{"as_given", "auto", "Sc1", "Sc2", "Sc3", "Sc4", "Sc5"};
+
 struct RoughnessSettings {
   ReadHeightsConfig input;
+  Filters filters = Filters::kAsGiven;
   RoughnessConfig profile;
   ArealRoughnessConfig areal;
 
   template <class V>
   void visit(V& v) {
     v.group("input", input);
+    v.choice("setting_class", filters, kFiltersNames,
+             "cut-offs and sections: as given by roughness.*, of a setting class, or of that which the Ra calls for");
     v.group("roughness", profile);
     v.group("areal", areal);
   }
@@ -74,12 +83,21 @@ class RoughnessCommand : public Command {
     parser()
         .add_option("--spacing", spacing_, "Distance of the heights, for a file without positions")
         ->type_name("LENGTH");
+    parser()
+        .add_option("--class", class_, "Setting class: Sc1 to Sc5 (λc 0.08, 0.25, 0.8, 2.5, 8 mm), or auto")
+        ->type_name("CLASS");
   }
 
   std::vector<ConfigField> fields() override { return list_fields("", settings_); }
 
   void apply_options() override {
     if (!spacing_.empty()) settings_.input.spacing_m = length_option_m("--spacing", spacing_);
+    if (class_.empty()) return;
+    try {
+      set_field(fields(), "setting_class", class_);
+    } catch (const Error& error) {
+      throw UsageError(std::string("--class: ") + error.what());
+    }
   }
 
   int run(const Observer&) override {
@@ -94,20 +112,53 @@ class RoughnessCommand : public Command {
   }
 
  private:
+  // The cut-offs and sections that the settings come to for this profile.
+  RoughnessConfig filters_for(const HeightProfile& profile, std::string& name) const {
+    if (settings_.filters == Filters::kAsGiven) return settings_.profile;
+    const SettingClass& chosen =
+        settings_.filters == Filters::kAuto
+            ? choose_setting_class(profile.height_m, profile.spacing_m, settings_.profile)
+            : kSettingClasses.at(static_cast<std::size_t>(settings_.filters) - static_cast<std::size_t>(Filters::kSc1));
+    name = chosen.name;
+    return with_setting_class(chosen, profile.height_m.size(), profile.spacing_m, settings_.profile);
+  }
+
+  // What was filtered, in words: a value without it means little.
+  static std::string filter_line(const HeightProfile& profile, const RoughnessConfig& config, const std::string& name) {
+    const double section_mm =
+        1e3 * profile.spacing_m * static_cast<double>(profile.height_m.size()) / static_cast<double>(config.sections);
+    std::string out = "filters     ";
+    if (!name.empty()) out += name + ": ";
+    out += config.lambda_s_mm > 0.0 ? fmt::format("λs {:g} µm, ", 1e3 * config.lambda_s_mm) : std::string("no λs, ");
+    out += config.lambda_c_mm > 0.0 ? fmt::format("λc {:g} mm, Gaussian", config.lambda_c_mm) : std::string("no λc");
+    out += fmt::format("; {} sections of {:.4g} mm\n", config.sections, section_mm);
+    if (config.lambda_c_mm > 0.0) return out;
+    return out +
+           (profile.column == "texture_m"
+                ? "            the column texture_m is already high-passed\n"
+                : "            values of the profile as it is in the file, waviness included; for roughness as in "
+                  "ISO 21920 use --class auto\n");
+  }
+
   void report_profile(const HeightProfile& profile) {
+    std::string class_name;
+    const RoughnessConfig config = filters_for(profile, class_name);
     constexpr double kCutoff_cycles_per_mm = 0.1;  // of a profile.csv's texture, unless somebody has changed it
     const TextureNoise noise =
         noise_of_sigma(profile.height_m, profile.sigma_m, profile.spacing_m, kCutoff_cycles_per_mm);
     // The file's heights as they are: what noise could have added is in the error, not taken off.
-    const RoughnessResult r = measure_roughness(profile.height_m, profile.spacing_m, settings_.profile);
-    const RoughnessResult cleaned =
-        measure_roughness_under_noise(profile.height_m, profile.spacing_m, noise, settings_.profile);
+    const RoughnessResult r = measure_roughness(profile.height_m, profile.spacing_m, config);
+    const RoughnessResult cleaned = measure_roughness_under_noise(profile.height_m, profile.spacing_m, noise, config);
     std::vector<Parameter> parameters;
     for (const RoughnessParameter& p : kRoughnessParameters) {
       const double error = std::hypot(cleaned.standard_error.*p.value, cleaned.*p.value - r.*p.value);
       parameters.push_back({p.key.data(), r.*p.value, p.is_length, error});
     }
     Json out = begin("profile");
+    out["filters"] = {{"setting_class", class_name.empty() ? Json(nullptr) : Json(class_name)},
+                      {"lambda_s_mm", config.lambda_s_mm > 0.0 ? Json(config.lambda_s_mm) : Json(nullptr)},
+                      {"lambda_c_mm", config.lambda_c_mm > 0.0 ? Json(config.lambda_c_mm) : Json(nullptr)},
+                      {"sections", config.sections}};
     out["length_m"] = r.length_m;
     out["spacing_m"] = profile.spacing_m;
     out["samples"] = r.samples;
@@ -118,7 +169,7 @@ class RoughnessCommand : public Command {
     finish(out);
     say(fmt::format("{:.6g} mm, {} heights {:.6g} µm apart, {} missing\n", r.length_m * 1e3, r.samples,
                     profile.spacing_m * 1e6, r.missing) +
-        to_table(parameters));
+        filter_line(profile, config, class_name) + to_table(parameters));
   }
 
   void report_map(const ArealMap& map) {
@@ -156,6 +207,7 @@ class RoughnessCommand : public Command {
 
   std::string file_;
   std::string spacing_;
+  std::string class_;
   RoughnessSettings settings_;
 };
 

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "asperity/testkit/temp_dir.h"
@@ -34,6 +35,30 @@ TEST(Roughness, OfAColumnOfHeights) {
   EXPECT_EQ(json["config"]["input"]["spacing_m"], 5e-7);
   const Outcome table = run({"roughness", file, "--spacing", "0.5um"});
   EXPECT_THAT(table.out, HasSubstr("Ra                1 µm\n"));
+}
+
+// A wave of 25 µm on one of 8 mm: of the class that its Ra calls for only the short one is left, and the filters are told.
+TEST(Roughness, ASettingClassFiltersAndSaysSo) {
+  const testkit::TempDir dir;
+  const std::string file = (dir / "heights.csv").string();
+  std::string text;
+  constexpr double kTwoPi = 6.283185307179586;
+  for (int i = 0; i < 16000; ++i) {
+    const double x_mm = 0.5e-3 * i;
+    text += std::to_string(1.0 * std::sin(kTwoPi * x_mm / 0.025) + 40.0 * std::sin(kTwoPi * x_mm / 8.0)) + "\n";
+  }
+  write_text(file, text);
+  const Outcome unfiltered = run({"roughness", file, "--spacing", "0.5um"});
+  EXPECT_THAT(unfiltered.out, HasSubstr("filters     no λs, no λc; 5 sections of 1.6 mm\n"));
+  EXPECT_THAT(unfiltered.out, HasSubstr("waviness included"));
+  const Outcome outcome = run({"roughness", file, "--spacing", "0.5um", "--class", "auto", "--json"});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json["filters"]["setting_class"], "Sc3");
+  EXPECT_EQ(json["filters"]["lambda_c_mm"], 0.8);
+  // λs passes 2^−0.01 = 0.993 of a wave of 25 µm, and λc leaves 1 − 2^−0.01 = 0.7 % of that of 8 mm, 0.28 µm.
+  EXPECT_NEAR(json["roughness"]["Ra_m"].get<double>(), 2e-6 / 3.14159265, 0.03e-6);
+  EXPECT_THAT(run({"roughness", file, "--spacing", "0.5um", "--class", "Sc9"}).err, HasSubstr("--class"));
 }
 
 TEST(Roughness, OfAnArealMap) {
