@@ -56,6 +56,7 @@ TEST(Roughness, ASettingClassFiltersAndSaysSo) {
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json["filters"]["setting_class"], "Sc3");
   EXPECT_EQ(json["filters"]["lambda_c_mm"], 0.8);
+  EXPECT_EQ(json["filters"]["sections"], 10);
   // λs passes 2^−0.01 = 0.993 of a wave of 25 µm, and λc leaves 1 − 2^−0.01 = 0.7 % of that of 8 mm, 0.28 µm.
   EXPECT_NEAR(json["roughness"]["Ra_m"].get<double>(), 2e-6 / 3.14159265, 0.03e-6);
   EXPECT_THAT(run({"roughness", file, "--spacing", "0.5um", "--class", "Sc9"}).err, HasSubstr("--class"));

@@ -21,8 +21,8 @@ std::size_t whole_sections(const SettingClass& one, std::size_t samples, double 
 
 RoughnessConfig with_setting_class(const SettingClass& chosen, std::size_t samples, double spacing_m,
                                    RoughnessConfig config) {
-  constexpr std::size_t kSections = 5;
-  const std::size_t sections = std::min(kSections, whole_sections(chosen, samples, spacing_m));
+  constexpr std::size_t kMost = 1000;
+  const std::size_t sections = std::min(kMost, whole_sections(chosen, samples, spacing_m));
   if (sections == 0) {
     throw Error("roughness: the profile is " + number_text(1e3 * static_cast<double>(samples) * spacing_m) +
                 " mm long; a section of " + std::string(chosen.name) + " is " + number_text(chosen.lambda_c_mm) +

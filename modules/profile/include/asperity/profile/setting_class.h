@@ -28,7 +28,8 @@ inline constexpr std::array<SettingClass, 5> kSettingClasses{{
     {"Sc5", 8.0, 0.025, 5e-6, 80e-6, 4e-3},
 }};
 
-// `config` with the cut-offs of a class and sections of its length, five or as many whole ones as the profile has.
+// `config` with the cut-offs of a class and sections of its length: as many whole ones as the profile has (five are the
+// standard's; more are a longer evaluation length).
 // λs is left out where it is below two spacings: the heights do not resolve it. Throws Error if the profile is shorter
 // than one section.
 RoughnessConfig with_setting_class(const SettingClass& chosen, std::size_t samples, double spacing_m,
