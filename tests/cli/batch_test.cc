@@ -30,6 +30,7 @@ class Batch : public testing::Test {
                                 "--quiet"});
       ASSERT_EQ(made.code, 0) << made.err;
     }
+    fs::create_directories(*dir_ / "scans/s3");
     fs::copy(*dir_ / "scans/s1/rec", *dir_ / "scans/s3/rec", fs::copy_options::recursive);
     write_text(*dir_ / "scans/s3/rec/probe.csv", "");
     write_text(*dir_ / "plan.toml",

@@ -94,10 +94,12 @@ void stop(pid_t child) {
   }
 }
 
-std::string last_line(const std::string& text) {
-  std::string_view rest = trim(text);
-  const std::size_t line = rest.find_last_of('\n');
-  return printable(line == std::string_view::npos ? rest : rest.substr(line + 1), 500);
+// The last line that is not empty.
+std::string last_line(std::string_view text) {
+  const std::size_t last = text.find_last_not_of(" \t\r\n");
+  if (last == std::string_view::npos) return "";
+  text = text.substr(0, last + 1);
+  return printable(text.substr(text.find_last_of('\n') + 1), 500);
 }
 
 }  // namespace

@@ -21,14 +21,14 @@ std::vector<double> sine(double amplitude_m, double pitch_m, double length_m, do
 
 // Ra of a sine is 2 A / π, far below the cut-off untouched.
 TEST(SettingClass, TheOneWhoseRangeHoldsTheRa) {
-  const auto chosen = [](double Ra_m, double pitch_m) {
-    return choose_setting_class(sine(Ra_m * std::numbers::pi / 2.0, pitch_m, 0.041, 0.5e-6), 0.5e-6).name;
+  const auto chosen = [](double Ra_m, double pitch_m, double length_m, double spacing_m) {
+    return choose_setting_class(sine(Ra_m * std::numbers::pi / 2.0, pitch_m, length_m, spacing_m), spacing_m).name;
   };
-  EXPECT_EQ(chosen(0.01e-6, 0.01e-3), "Sc1");
-  EXPECT_EQ(chosen(0.05e-6, 0.03e-3), "Sc2");
-  EXPECT_EQ(chosen(1e-6, 0.1e-3), "Sc3");
-  EXPECT_EQ(chosen(5e-6, 0.3e-3), "Sc4");
-  EXPECT_EQ(chosen(30e-6, 1e-3), "Sc5");
+  EXPECT_EQ(chosen(0.01e-6, 0.01e-3, 0.5e-3, 0.5e-6), "Sc1");
+  EXPECT_EQ(chosen(0.05e-6, 0.03e-3, 1.5e-3, 0.5e-6), "Sc2");
+  EXPECT_EQ(chosen(1e-6, 0.1e-3, 5e-3, 1e-6), "Sc3");
+  EXPECT_EQ(chosen(5e-6, 0.3e-3, 13e-3, 3e-6), "Sc4");
+  EXPECT_EQ(chosen(30e-6, 1e-3, 41e-3, 10e-6), "Sc5");
 }
 
 // A short profile gets the coarsest class that it holds a section of.
