@@ -189,7 +189,7 @@ class BatchCommand : public Command {
         fmt::format("{} results: {} valid, {} limited, {} invalid, {} failed; {} scans were up to date\n"
                     "summary in {}\n",
                     rows.size(), rows.size() - failed - invalid - limited, limited, invalid, failed, done_before,
-                    printable((plan_.folder / output_ / "summary.csv").string(), 200)));
+                    printable((plan_.folder / output_ / "summary.csv").lexically_normal().string(), 200)));
     if (failed > 0) return kBadInput;
     return invalid > 0 ? kNotTrustworthy : kDone;
   }

@@ -94,12 +94,15 @@ void stop(pid_t child) {
   }
 }
 
-// The last line that is not empty.
+// The last line that is not empty, without the program's name before it.
 std::string last_line(std::string_view text) {
   const std::size_t last = text.find_last_not_of(" \t\r\n");
   if (last == std::string_view::npos) return "";
   text = text.substr(0, last + 1);
-  return printable(text.substr(text.find_last_of('\n') + 1), 500);
+  text = text.substr(text.find_last_of('\n') + 1);
+  constexpr std::string_view kProgram = "asperity: ";
+  if (text.starts_with(kProgram)) text.remove_prefix(kProgram.size());
+  return printable(text, 500);
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ TEST_F(RunBatch, GoesOnPastFailures) {
   const auto outcomes = run(1);
   ASSERT_EQ(outcomes[0].record.steps.size(), 1U);
   EXPECT_EQ(outcomes[0].record.steps[0].exit_code, 1);
-  EXPECT_EQ(outcomes[0].record.steps[0].message, "asperity: scans/a: line 3 is bad");
+  EXPECT_EQ(outcomes[0].record.steps[0].message, "scans/a: line 3 is bad");
   ASSERT_EQ(outcomes[1].record.steps.size(), 2U);
   EXPECT_EQ(outcomes[1].record.steps[0].exit_code, 3);
   EXPECT_EQ(outcomes[2].record.steps.size(), 2U);
