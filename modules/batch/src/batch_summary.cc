@@ -167,6 +167,7 @@ std::string joined(const std::vector<std::string>& texts) {
 
 std::vector<std::string> summary_columns() {
   std::vector<std::string> out;
+  out.reserve(kColumns.size());
   for (const Column& column : kColumns) out.emplace_back(column.name);
   return out;
 }

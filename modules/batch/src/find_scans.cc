@@ -73,6 +73,7 @@ std::vector<std::string> parts_of(const fs::path& path) {
 // The names below the deepest folder that holds all; a recording alone has its folder's own name.
 void name_scans(const fs::path& folder, std::vector<BatchScan>& scans) {
   std::vector<std::vector<std::string>> all;
+  all.reserve(scans.size());
   for (const BatchScan& scan : scans) all.push_back(parts_of(fs::absolute(folder / scan.path)));
   std::size_t common = all.empty() ? 0 : all.front().size() - 1;
   for (const auto& parts : all) {
@@ -100,6 +101,7 @@ std::vector<BatchScan> find_scans(const fs::path& folder, const std::vector<std:
     found.merge(of_this);
   }
   std::vector<BatchScan> out;
+  out.reserve(found.size());
   for (const fs::path& path : found) out.push_back({"", path.empty() ? std::string(".") : path.string()});
   name_scans(folder, out);
   std::sort(out.begin(), out.end(), [](const BatchScan& a, const BatchScan& b) { return a.name < b.name; });

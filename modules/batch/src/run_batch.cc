@@ -38,6 +38,7 @@ std::vector<ScanOutcome> run_batch(const BatchPlan& plan, const std::vector<Batc
   };
   std::vector<std::thread> workers;
   const auto most = static_cast<int>(std::min<std::size_t>(scans.size(), static_cast<std::size_t>(std::max(jobs, 1))));
+  workers.reserve(static_cast<std::size_t>(most));
   for (int i = 0; i < most; ++i) workers.emplace_back(work);
   for (std::thread& worker : workers) worker.join();
   if (asked.cancelled()) throw Cancelled();

@@ -32,7 +32,7 @@ struct JsonPlace {
 //   out["peaks"] = {{"count", 3}, {"at_m", {0.1, 0.2, 0.4}}};
 //   write_file(path, out.dump(2) + "\n");
 class Json {
- public:
+ public:  // NOLINTBEGIN(google-explicit-constructor): values become Json wherever one is wanted
   Json() noexcept {}
   Json(std::nullptr_t) noexcept {}
   Json(const Json& other);
@@ -71,7 +71,7 @@ class Json {
   }
   // An object if each is a list of a text and a value, otherwise a list.
   Json(std::initializer_list<Json> values);
-
+  // NOLINTEND(google-explicit-constructor)
   static Json array(std::initializer_list<Json> values = {});
   static Json object();
 
