@@ -1,11 +1,14 @@
 #include "asperity/profile/read_heights.h"
 
 #include <cmath>
+#include <utility>
 
 #include "asperity/base/csv.h"
+#include "asperity/base/error.h"
 #include "asperity/base/read_areal_map.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
+#include "asperity/surface/parse_surface_file.h"
 
 namespace asperity {
 namespace {
@@ -105,6 +108,14 @@ std::optional<std::array<double, 3>> areal_units_m(const CsvReader& table) {
 }  // namespace
 
 Heights parse_heights(std::string_view text, const std::string& name, const ReadHeightsConfig& config) {
+  if (auto file = parse_surface_file(text, name)) {
+    if (!file->is_profile()) return std::move(file->map);
+    HeightProfile profile;
+    profile.height_m = std::move(file->map.height_m);
+    profile.spacing_m = file->map.x_spacing_m;
+    if (profile.height_m.size() < 2) throw Error(name + ": fewer than two heights");
+    return profile;
+  }
   CsvReader table(text, name, CsvHeader::kOptional);
   table.accept_unterminated();
   if (const auto units = areal_units_m(table)) return read_areal_map(table, *units);

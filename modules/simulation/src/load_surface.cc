@@ -6,12 +6,14 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/read_areal_map.h"
 #include "asperity/base/units.h"
+#include "asperity/surface/parse_surface_file.h"
 
 namespace asperity {
 namespace {
@@ -118,9 +120,7 @@ class ArealRelief final : public Surface {
   double dx_m_, dy_m_;
 };
 
-std::unique_ptr<Surface> read_areal_relief(CsvReader& table, const SimulatedSurfaceConfig& config) {
-  ArealMap map = read_areal_map(
-      table, {unit_m(table, 0, 1e-3), unit_m(table, 1, 1e-3), unit_m(table, 2, 1e-6) * config.file_scale});
+std::unique_ptr<Surface> areal_relief(ArealMap map, const SimulatedSurfaceConfig& config) {
   for (std::size_t i = 0; i < map.height_m.size(); ++i) {
     if (is_plausible(map.height_m[i], map.height_m[0])) continue;
     const std::string where =
@@ -129,6 +129,26 @@ std::unique_ptr<Surface> read_areal_relief(CsvReader& table, const SimulatedSurf
     throw implausible(where, map.height_m[i], map.height_m[0]);
   }
   return std::make_unique<ArealRelief>(std::move(map));
+}
+
+std::unique_ptr<Surface> read_areal_relief(CsvReader& table, const SimulatedSurfaceConfig& config) {
+  return areal_relief(read_areal_map(table, {unit_m(table, 0, 1e-3), unit_m(table, 1, 1e-3),
+                                             unit_m(table, 2, 1e-6) * config.file_scale}),
+                      config);
+}
+
+// A profile or a map of an instrument's file.
+std::unique_ptr<Surface> instrument_relief(SurfaceFile file, const SimulatedSurfaceConfig& config) {
+  for (double& height_m : file.map.height_m) height_m *= config.file_scale;
+  if (!file.is_profile()) return areal_relief(std::move(file.map), config);
+  std::vector<double>& height_m = file.map.height_m;
+  if (height_m.size() < 2) throw Error(fmt::format("{}: fewer than two heights", config.file));
+  for (std::size_t i = 0; i < height_m.size(); ++i) {
+    const std::string where = fmt::format("{}: height {}", config.file, i + 1);
+    if (std::isnan(height_m[i])) throw Error(where + " is missing");
+    if (!is_plausible(height_m[i], height_m.front())) throw implausible(where, height_m[i], height_m.front());
+  }
+  return std::make_unique<ProfileRelief>(std::move(height_m), file.map.x_spacing_m);
 }
 
 std::unique_ptr<Surface> read_profile_relief(CsvReader& table, const SimulatedSurfaceConfig& config) {
@@ -163,6 +183,7 @@ std::unique_ptr<Surface> read_profile_relief(CsvReader& table, const SimulatedSu
 std::unique_ptr<Surface> load_surface(const SimulatedSurfaceConfig& config) {
   if (config.file.empty()) throw Error("simulation.surface.file: empty, but surface.kind is \"file\"");
   const std::string text = read_file(config.file, kLimitBytes);
+  if (auto file = parse_surface_file(text, config.file)) return instrument_relief(std::move(*file), config);
   CsvReader table(text, config.file, CsvHeader::kOptional);
   table.accept_unterminated();
   if (table.width() > 3) table.fail("more than three columns");

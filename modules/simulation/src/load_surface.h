@@ -7,7 +7,8 @@
 
 namespace asperity {
 
-// Reads `config.file`, comma separated, with or without a header line; blank lines are passed over.
+// Reads `config.file`: an instrument's file (GSF, SDF, SUR, X3P: surface/parse_surface_file.h) without missing points,
+// or text, comma separated, with or without a header line; blank lines are passed over.
 //   one column     heights, `file_spacing_m` apart
 //   two columns    position along the stroke and height, positions uniform (as s_m,height_m)
 //   three columns  x_mm,y_mm,z_um: an areal map on a full rectangular grid, along x or along y (read_areal_map)

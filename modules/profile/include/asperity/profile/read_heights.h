@@ -37,7 +37,8 @@ struct HeightProfile {
 
 using Heights = std::variant<HeightProfile, ArealMap>;
 
-// Heights from a text file of one of these kinds, told apart by their first line:
+// Heights from an instrument's file (GSF, SDF, SUR, X3P: surface/parse_surface_file.h), or from a text file of one of
+// these kinds, told apart by their first line:
 //   s_m,height_m,texture_m,…   a profile.csv, uniform in s_m
 //   height                     one column, with or without a header; needs `spacing_m`. A name that
 //                              ends in _nm, _um, _µm, _mm, _cm or _m says its unit
