@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include <iterator>
-#include "asperity/recording/recording.h"
-
 #include "asperity/recording/recording.h"
 
 namespace asperity {
@@ -29,6 +26,11 @@ bool is_body_file(std::string_view file) {
   if (!file.starts_with(kPrefix) || !file.ends_with(kSuffix) || file.size() <= kPrefix.size() + kSuffix.size())
     return false;
   return is_body_name(file.substr(kPrefix.size(), file.size() - kPrefix.size() - kSuffix.size()));
+}
+
+std::string body_name(std::string_view file) {
+  if (!is_body_file(file)) return {};
+  return std::string(file.substr(kPrefix.size(), file.size() - kPrefix.size() - kSuffix.size()));
 }
 
 std::vector<MarkerPlacement> markers_of_body(const std::vector<MarkerPlacement>& markers, std::string_view body) {
