@@ -29,7 +29,8 @@ std::vector<TrackedBody> unlisted_bodies(const fs::path& folder, const std::vect
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string file = entry.path().filename().string();
     if (!is_body_file(file)) continue;
-    const std::string name = body_name(file);
+    std::string name = file.substr(body_file("").find('.'));
+    name.resize(name.find('.'));
     const bool listed =
         std::any_of(bodies.begin(), bodies.end(), [&](const TrackedBody& body) { return body.name == name; });
     if (!listed) out.push_back({name, {}});

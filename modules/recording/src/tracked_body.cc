@@ -28,11 +28,6 @@ bool is_body_file(std::string_view file) {
   return is_body_name(file.substr(kPrefix.size(), file.size() - kPrefix.size() - kSuffix.size()));
 }
 
-std::string body_name(std::string_view file) {
-  if (!is_body_file(file)) return {};
-  return std::string(file.substr(kPrefix.size(), file.size() - kPrefix.size() - kSuffix.size()));
-}
-
 std::vector<MarkerPlacement> markers_of_body(const std::vector<MarkerPlacement>& markers, std::string_view body) {
   std::vector<MarkerPlacement> out;
   std::copy_if(markers.begin(), markers.end(), std::back_inserter(out),

@@ -26,8 +26,6 @@ bool is_body_name(std::string_view name);
 std::string body_file(std::string_view name);
 // Whether a file's name is one of these.
 bool is_body_file(std::string_view file);
-// The body whose stream a file has, by its name; empty if it is none.
-std::string body_name(std::string_view file);
 
 // The markers of one body, those of the probe for the empty name.
 std::vector<MarkerPlacement> markers_of_body(const std::vector<MarkerPlacement>& markers, std::string_view body);
