@@ -154,7 +154,9 @@ TEST_F(Area, CoversTheTexturesBelowIt) {
   std::ifstream covered(dir_ / "twice" / scene.at("covered").get<std::string>());
   std::size_t rows = 0;
   for (std::string line; std::getline(covered, line); ++rows) {
-    if (rows > 0) EXPECT_THAT(line, HasSubstr("," + scene.at("textures")[0].at("index").dump() + ","));
+    if (rows > 0) {
+      EXPECT_THAT(line, HasSubstr("," + scene.at("textures")[0].at("index").dump() + ","));
+    }
   }
   EXPECT_GT(rows, 100U);
 }
