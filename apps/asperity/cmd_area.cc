@@ -32,6 +32,10 @@ class AreaCommand : public Command {
   std::vector<ConfigField> fields() override { return list_fields("", config_); }
 
   int run(const Observer& observer) override {
+    // What was measured of the scans is in there, and OUT is replaced as a whole.
+    std::error_code unknown;
+    if (fs::equivalent(folder_, output_, unknown))
+      throw UsageError("-o: " + printable(output_, 200) + " is REGISTERED itself; take another folder");
     OutputFolder folder(output_, is_our_folder);
     observer.update("reading", 0.0);
     reads(folder_);
@@ -74,9 +78,14 @@ class AreaCommand : public Command {
     const StrokeMap& map = area.map;
     std::string out = fmt::format(
         "patch         {} triangles, {:.0f} mm², of which {:.0f} % have heights; stretch {:.3f} to {:.3f}\n"
-        "strokes       {}, {} pairs meet and share {:.0f} ± {:.0f} % of their variance\n",
+        "strokes       {}, {} pairs meet",
         area.patch_triangles, 1e6 * area.area_m2, 100.0 * area.covered, area.flat.stretch_min, area.flat.stretch_max,
-        scans, map.ties, 100.0 * map.agreement, 100.0 * map.agreement_sigma);
+        scans, map.ties);
+    if (std::isfinite(map.agreement)) {
+      out += fmt::format(" and share {:.0f} ± {:.0f} % of their variance", 100.0 * map.agreement,
+                         100.0 * map.agreement_sigma);
+    }
+    out += "\n";
     if (!area.texture) return out + "map           none\n";
     out += fmt::format(
         "map           {} x {} points {:.3f} mm apart, {:.1f} µm RMS ± {:.1f} µm, correlation length {:.2f} mm\n",

@@ -129,6 +129,47 @@ TEST_F(Area, ManyStrokesBecomeOneTexture) {
   EXPECT_EQ(bytes("out/plate.obj"), bytes("again/plate.obj"));
 }
 
+// What lay there before is covered, and is there again without the area.
+TEST_F(Area, CoversTheTexturesBelowIt) {
+  write_registered("registered", false);
+  const std::vector<std::string> usual{"--set", "map.shift_mm=0", "--set", "map.held_out=4"};
+  const auto area = [&](const std::string& from, const std::string& to) {
+    std::vector<std::string> words{"area", path(from), "-o", path(to)};
+    words.insert(words.end(), usual.begin(), usual.end());
+    return run(words);
+  };
+  ASSERT_EQ(area("registered", "once").code, 0);
+  // The scene with its area as if scans had been added to it.
+  fs::copy(dir_ / "registered" / "registration.json", dir_ / "once");
+  for (int k = 0; k < 16; ++k) {
+    const std::string scan = "scan" + std::to_string(k);
+    fs::copy(dir_ / "registered" / scan, dir_ / "once" / scan);
+  }
+  const Outcome twice = area("once", "twice");
+  ASSERT_EQ(twice.code, 0) << twice.err;
+  const json scene = read_json(dir_ / "twice" / "scene.json");
+  ASSERT_EQ(scene.at("textures").size(), 2U);
+  EXPECT_EQ(scene.at("textures")[1].at("order"), 1);
+  EXPECT_EQ(scene.at("textures")[1].at("file"), "area-2.texture.json");
+  std::ifstream covered(dir_ / "twice" / scene.at("covered").get<std::string>());
+  std::size_t rows = 0;
+  for (std::string line; std::getline(covered, line); ++rows) {
+    if (rows > 0) {
+      EXPECT_THAT(line, HasSubstr("," + scene.at("textures")[0].at("index").dump() + ","));
+    }
+  }
+  EXPECT_GT(rows, 100U);
+}
+
+// It is replaced as a whole, and has what was measured.
+TEST_F(Area, IsNotWrittenIntoTheFolderThatItReads) {
+  write_registered("registered", false);
+  const Outcome outcome = run({"area", path("registered"), "-o", path("registered") + "/."});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("is REGISTERED itself"));
+  EXPECT_TRUE(fs::exists(dir_ / "registered" / "scan0" / "profile.csv"));
+}
+
 TEST_F(Area, StrokesOfDifferentSurfacesGiveNone) {
   write_registered("registered", true);
   const Outcome outcome = run({"area", path("registered"), "-o", path("out")});
@@ -154,6 +195,28 @@ TEST_F(Area, NamesWhatIsNoRegistration) {
   EXPECT_THAT(error("registered"), HasSubstr("does not rise"));
   for (int k = 0; k < 16; ++k) fs::remove(dir_ / "registered" / ("scan" + std::to_string(k)) / "path.csv");
   EXPECT_THAT(error("registered"), HasSubstr("path.csv; register them again"));
+  const auto registration = [&](const std::string& text) {
+    write_text(dir_ / "registered" / "registration.json", text);
+    return error("registered");
+  };
+  EXPECT_THAT(registration("[]"), HasSubstr("registration.json: is not a registration of asperity"));
+  EXPECT_THAT(registration(R"({"format": 3})"), HasSubstr("registration.json: is not a registration of asperity"));
+  EXPECT_THAT(registration(R"({"format": "asperity-registration"})"),
+              HasSubstr("registration.json: has no list 'scans'"));
+  EXPECT_THAT(registration(R"({"format": "asperity-registration", "scans": [{"name": "a"}, {"name": 7}]})"),
+              HasSubstr("registration.json: scans[1] has no name"));
+}
+
+// A registration that does not say that it can be trusted is not trusted.
+TEST_F(Area, WithoutAVerdictOfTheRegistrationThereIsNone) {
+  write_registered("registered", false);
+  json registration = read_json(dir_ / "registered" / "registration.json");
+  registration.erase("trustworthy");
+  write_text(dir_ / "registered" / "registration.json", registration.dump());
+  const Outcome outcome =
+      run({"area", path("registered"), "-o", path("out"), "--set", "map.shift_mm=0", "--set", "map.held_out=4"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("the registration of the strokes is invalid"));
 }
 
 }  // namespace

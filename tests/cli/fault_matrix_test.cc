@@ -1,5 +1,6 @@
 // Program × device × fault: the force is at zero in time, or no larger than before. Each cell prints a row;
 // FAULT_MATRIX=FILE appends them to a file, from which scripts/fault_matrix makes the table of docs/safety.md.
+// FAULT_MATRIX_TALLY=FILE gets a line for each cell, "DEVICE measured" or "DEVICE open" (tests/fault_matrix).
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sched.h>
@@ -105,6 +106,11 @@ void tell(const Cell& cell, const Course& course) {
                                       zero.empty() ? kick : kick + ", " + zero);
   std::fputs(row.c_str(), stdout);
   if (const char* file = ::getenv("FAULT_MATRIX")) std::ofstream(file, std::ios::app) << row;
+}
+
+void count(const Cell& cell, const char* how) {
+  if (const char* file = ::getenv("FAULT_MATRIX_TALLY"))
+    std::ofstream(file, std::ios::app) << cell.device + " " + how + "\n";
 }
 
 class FaultMatrix : public testing::TestWithParam<Cell> {
@@ -220,8 +226,11 @@ TEST_P(FaultMatrix, Cell) {
   for (int i = 1; i < kAttempts && !tried.course.proves(); ++i) tried = attempt(cell, (1 + i) * kAway_m);
   const auto& [course, outcome, refused] = tried;
   ASSERT_EQ(refused, "") << outcome.err;
-  if (course.gap_ms >= kBusy_ms && !holds(cell, course))
+  if (course.gap_ms >= kBusy_ms && !holds(cell, course)) {
+    count(cell, "open");
     GTEST_SKIP() << "the machine was busy: the test was late by " << course.gap_ms << " ms";
+  }
+  count(cell, "measured");
   ASSERT_GE(course.last_N, 0.0) << "the hand did not come to rest: " << outcome.err;
   const int ends_by = cell.fault == FaultKind::kKill ? SIGKILL : SIGTERM;
   EXPECT_TRUE(outcome.code < 128 || outcome.code == 128 + ends_by) << outcome.code << outcome.err;

@@ -22,7 +22,15 @@ SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
 void SparseCholesky::factorize(const Eigen::SparseMatrix<double>& A) { factor_->llt.factorize(A); }
 
-bool SparseCholesky::positive_definite() const noexcept { return factor_->llt.info() == Eigen::Success; }
+bool SparseCholesky::positive_definite() const noexcept {
+  if (factor_->llt.info() != Eigen::Success) return false;
+  // Eigen takes a pivot that is no number for a positive one.
+  const Eigen::SparseMatrix<double>& L = factor_->llt.matrixL().nestedExpression();
+  for (Eigen::Index j = 0; j < L.cols(); ++j) {
+    if (!std::isfinite(L.valuePtr()[L.outerIndexPtr()[j]])) return false;
+  }
+  return true;
+}
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& b) const { return factor_->llt.solve(b); }
 

@@ -60,6 +60,10 @@ TEST(SparseCholesky, ReportsAMatrixThatIsNotPositiveDefinite) {
   Eigen::SparseMatrix<double> A = grid_matrix(4, 1);
   A.coeffRef(5, 5) = -1.0;
   EXPECT_FALSE(SparseCholesky(A).positive_definite());
+  for (const double wrong : {std::nan(""), HUGE_VAL}) {
+    A.coeffRef(5, 5) = wrong;
+    EXPECT_FALSE(SparseCholesky(A).positive_definite()) << wrong;
+  }
 }
 
 TEST(SparseCholesky, KeepsItsOrderForAnotherMatrixOfThePattern) {

@@ -23,10 +23,11 @@ namespace {
 using asperity::boot_now_ns;
 using asperity::hd::Mailbox;
 
-constexpr int kRound_ms = 10;          // between two looks at the driver
-constexpr int kMostRounds = 5;         // that it must have missed besides: this process may itself not have been run
-constexpr int kPriority = 71;          // real-time: above the threads that it watches
-constexpr unsigned kEndsWithin_s = 2;  // after that the kernel ends this process
+constexpr int kRound_ms = 10;   // between two looks at the driver
+constexpr int kMostRounds = 5;  // that it must have missed besides: this process may itself not have been run
+constexpr int kPriority = 71;   // real-time: above the threads that it watches
+// After that the kernel ends this process. The program gives up opening after 30 s; one that is gone cannot.
+constexpr unsigned kOpensWithin_s = 35, kEndsWithin_s = 2;
 
 Mailbox* find_mailbox() {
   struct stat status {};
@@ -72,6 +73,7 @@ int main() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP}) ::signal(signal, SIG_IGN);
   const asperity::MemoryLock locked(true);
   std::optional<asperity::hd::Server> server;
+  ::alarm(kOpensWithin_s);
   try {
     server.emplace(*mailbox);
   } catch (const std::exception& error) {
@@ -79,6 +81,7 @@ int main() {
     mailbox->state.store(Mailbox::State::kRefused);
     return 1;
   }
+  ::alarm(0);
   mailbox->state.store(Mailbox::State::kOpen);
   watch(*mailbox);
   ::alarm(kEndsWithin_s);

@@ -19,7 +19,8 @@ namespace asperity {
 
 namespace {
 
-constexpr int kMostUnasked = 100;  // at a time
+constexpr int kMostUnasked = 100;                 // at a time
+constexpr std::chrono::milliseconds kSilence{1};  // after which no more states are to come that nobody asked for
 
 class HaplyDevice final : public IoDevice {
  public:
@@ -64,12 +65,15 @@ class HaplyDevice final : public IoDevice {
     return true;
   }
 
-  // States that nobody asked for would be taken for the answers to later messages, each older than the one before.
-  void drop_unasked() {
-    for (int dropped = 0; client_.receive(text_, Clock::now(), stop_); ++dropped) {
+  // States that nobody asked for would be taken for the answers to later messages, each older than the one before. True
+  // if there were any.
+  bool drop_unasked() {
+    int dropped = 0;
+    for (; client_.receive(text_, Clock::now(), stop_); ++dropped) {
       if (dropped == kMostUnasked)
         throw Error(fmt::format("haply: device '{}': states that nobody asked for", device_id_));
     }
+    return dropped > 0;
   }
 
   void await_state(Clock::time_point until) {
@@ -99,19 +103,33 @@ class HaplyDevice final : public IoDevice {
   void serve() {
     const auto lost_after = seconds(config_.lost_after_s), period = seconds(1.0 / config_.max_rate_Hz);
     const auto force_timeout = seconds(config_.force_timeout_s), stall_after = seconds(config_.stall_after_s);
-    auto last_state = Clock::now(), last_current = last_state, next_send = last_state;
+    auto last_state = Clock::now(), last_current = last_state, last_answer = last_state, next_send = last_state;
     bool zero_sent = false;
+    // A state that nobody asked for may have others behind it that are still to come: taken for an answer, each of them
+    // would have a message sent, and where the service is late these wait there, and the forces in them. So the next
+    // message waits for silence, though not so long that the force stalls.
+    const auto wait_for_silence = [&](Clock::time_point now) {
+      next_send = std::max(next_send, std::min(now + kSilence, last_answer + stall_after));
+    };
     while (!stop_.load()) {
       auto now = Clock::now();
       if (now - last_state > OpenQuestions::kGiveUpAfter) questions_.give_up();
       if (questions_.open() == 0 && now >= next_send) {
-        drop_unasked();
-        send(zero_sent ? Eigen::Vector3d::Zero() : forces_.take(now, force_timeout), false, now + lost_after);
-        next_send = std::max(next_send + period, now);
+        if (drop_unasked()) wait_for_silence(now);
+        if (now >= next_send) {
+          send(zero_sent ? Eigen::Vector3d::Zero() : forces_.take(now, force_timeout), false, now + lost_after);
+          next_send = std::max(next_send + period, now);
+        }
       }
       const auto silent_at = (zero_sent ? now : last_state) + stall_after;
-      if (receive_state(questions_.open() > 0 ? silent_at : next_send)) {
+      const bool asked = questions_.open() > 0;
+      if (receive_state(asked ? silent_at : next_send)) {
         last_state = Clock::now();
+        if (asked) {
+          last_answer = last_state;
+        } else {
+          wait_for_silence(last_state);
+        }
         if (current_) {
           pass_on();
           last_current = last_state;

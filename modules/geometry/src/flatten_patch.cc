@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 
 #include <Eigen/Dense>
@@ -256,14 +257,17 @@ FlatPatch flatten_patch(const SurfacePatch& patch, const FlattenConfig& config) 
       step *= 0.5;
       next = energy_of(rest, q + step * d);
     }
+    // What the whole step promises (half of Newton's decrement), and not what was gained: a step that a triangle's edge
+    // cuts short gains little far from the least energy.
+    const double promised = -0.5 * slope;
     if (!(next < energy)) {
-      out.converged = true;  // to rounding
+      constexpr double kRounding = 1e-10;
+      out.converged = promised <= std::max(config.tolerance, kRounding) * energy;
       break;
     }
     q += step * d;
-    const bool stalled = energy - next <= config.tolerance * next;
     energy = next;
-    if (stalled) {
+    if (promised <= config.tolerance * energy) {
       out.converged = true;
       break;
     }

@@ -98,7 +98,7 @@ void keep_largest(const MeshSurface& surface, std::span<const MeshPath> paths, s
   std::vector<std::size_t> points(count, 0);
   for (const MeshPath& path : paths)
     for (const std::uint32_t t : path.triangle) ++points[piece[t]];
-  if (points.empty()) throw Error("area: no stroke lies on the mesh");
+  if (points.empty()) throw Error("area: no stroke is on the mesh");
   const auto largest = static_cast<std::uint32_t>(std::max_element(points.begin(), points.end()) - points.begin());
   for (std::size_t t = 0; t < in.size(); ++t) in[t] = piece[t] == largest ? 1 : 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -234,9 +234,10 @@ SurfacePatch find_surface_patch(const MeshSurface& surface, std::span<const Mesh
   const bool is_disc = !out.border.empty() && half_edges % 2 == 0 &&
                        out.mesh.vertices_m.size() + out.mesh.triangles.size() == half_edges / 2 + 1;
   if (!is_disc) {
-    throw Error("area: the " + std::to_string(out.mesh.triangles.size()) +
-                " triangles about the strokes are no disc: they go round the object, round a hole of the mesh or over "
-                "all of it; take the strokes of one side, or less of patch.reach_mm");
+    throw Error(
+        "area: the " + std::to_string(out.mesh.triangles.size()) +
+        " triangles about the strokes are not a disc: they enclose the object or a hole of the mesh, or cover all "
+        "of it; use the strokes of one side, or a smaller patch.reach_mm");
   }
   return out;
 }

@@ -231,7 +231,7 @@ TEST(SurfacePatch, RefusesAStrokeRoundATube) {
     path.s_m.push_back(k);
   }
   EXPECT_THAT([&] { find_surface_patch(surface, std::vector{path}, {2.0}); },
-              ThrowsMessage<Error>(HasSubstr("no disc")));
+              ThrowsMessage<Error>(HasSubstr("not a disc")));
 }
 
 }  // namespace

@@ -146,23 +146,57 @@ TEST(FootAlongNormal, ScalesWithTheMesh) {
   }
 }
 
+// How far from the sphere the facets and their bulge together are at most, m, by 500 points; and the facets alone.
+struct OffSphere {
+  double bulged_m = 0.0, flat_m = 0.0;
+};
+
+OffSphere off_sphere(const MeshSurface& surface, double radius_m) {
+  Random random(3);
+  OffSphere out;
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d p_m = 1.002 * radius_m * Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+    const NormalFoot foot = foot_along_normal(surface, p_m, surface.bvh.closest_point(p_m));
+    EXPECT_TRUE(foot.on_normal);
+    const double bulge_m = facet_bulge_m(surface, foot.triangle, foot.barycentric);
+    out.flat_m = std::max(out.flat_m, radius_m - foot.p_m.norm());
+    out.bulged_m = std::max(out.bulged_m, std::abs((foot.p_m + bulge_m * foot.normal).norm() - radius_m));
+  }
+  return out;
+}
+
+double longest_edge_m(const TriangleMesh& mesh) {
+  double out = 0.0;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t c = 0; c < 3; ++c)
+      out = std::max(out, (mesh.vertices_m[t[(c + 1) % 3]] - mesh.vertices_m[t[c]]).norm());
+  }
+  return out;
+}
+
 // The facet and its bulge together are the sphere, inside the facets and over their edges.
 TEST(FacetBulge, MakesASphereOfItsFacets) {
   constexpr double kRadius_m = 0.04;
   const MeshSurface surface(sphere(kRadius_m, 3));  // edges of 8 mm: a sag of up to 0.2 mm
-  Random random(3);
-  double flat_m = 0.0;
-  for (int i = 0; i < 500; ++i) {
-    const Vector3d p_m = 1.002 * kRadius_m * Vector3d(random.normal(), random.normal(), random.normal()).normalized();
-    const NormalFoot foot = foot_along_normal(surface, p_m, surface.bvh.closest_point(p_m));
-    ASSERT_TRUE(foot.on_normal);
-    const double bulge_m = facet_bulge_m(surface, foot.triangle, foot.barycentric);
-    flat_m = std::max(flat_m, kRadius_m - foot.p_m.norm());
-    // The corners' normals are means over facets of unlike shape, off the radius by 0.01 rad, over half an edge of 8 mm
-    // from both of its ends.
-    EXPECT_NEAR((foot.p_m + bulge_m * foot.normal).norm(), kRadius_m, 60e-6);
+  MeshSurface exact(sphere(kRadius_m, 3));
+  double lean_rad = 0.0;
+  for (std::size_t t = 0; t < exact.normals.size(); ++t) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vector3d radial = exact.mesh.vertices_m[exact.mesh.triangles[t][c]].normalized();
+      lean_rad = std::max(lean_rad, (exact.normals[t][c] - radial).norm());
+      exact.normals[t][c] = radial;
+    }
   }
-  EXPECT_GT(flat_m, 0.15e-3);
+  // With the sphere's own normals what is left is of fourth order: a sag of c²/8R has c²/16R² of itself more, and a
+  // facet's middle some times as much, c the edge.
+  const double edge_m = longest_edge_m(surface.mesh), sag_m = edge_m * edge_m / (8.0 * kRadius_m);
+  const OffSphere by_own = off_sphere(exact, kRadius_m);
+  EXPECT_GT(by_own.flat_m, 0.15e-3);
+  EXPECT_LT(by_own.bulged_m, 4.0 * sag_m * edge_m * edge_m / (16.0 * kRadius_m * kRadius_m));
+  // The mesh's normals are means over some six facets of unlike shape, and lean by up to δ: each facet's own by c/√3R.
+  // To ½ Σ w_a w_b d·(n_b − n_a), where Σ w_a w_b is at most 1/3, that adds at most δ c/3.
+  EXPECT_LT(lean_rad, 0.25 * edge_m / (std::sqrt(3.0) * kRadius_m));
+  EXPECT_LT(off_sphere(surface, kRadius_m).bulged_m, by_own.bulged_m + lean_rad * edge_m / 3.0);
 }
 
 TEST(FacetBulge, OfABoxIsNone) {

@@ -38,7 +38,8 @@ Texture join_texture(const std::string& object, const ProcessMethod& method, con
   texture.height_offset_m = result.fit->height_offset_m;
   if (std::isfinite(result.compliance.k_c)) texture.compliance_kc = result.compliance.k_c;
   texture.stiffness_N_per_m = rendered_stiffness_N_per_m(result);
-  if (result.friction.determined) texture.friction = result.friction.coefficient;
+  // A coefficient near 0 may come out below it.
+  if (result.friction.determined) texture.friction = std::max(0.0, result.friction.coefficient);
   if (result.roughness) {
     const RoughnessResult& r = *result.roughness;
     for (const auto& [key, value] : {std::pair{"Ra_m", r.Ra_m},

@@ -85,15 +85,13 @@ AveragedPasses average_passes(std::span<const PassOnGrid> passes, double spacing
   out.sigma_m.assign(points, 0.0);
   out.weight.assign(passes.size(), 0.0);
   for (std::size_t band = 0; band < bands; ++band) {
-    // Without a stated noise all passes count alike.
+    // Without a stated noise of each pass all count alike.
     std::vector<double> power_m2(passes.size());
-    double least_m2 = 0.0;
     for (std::size_t k = 0; k < passes.size(); ++k) {
       power_m2[k] =
           band_power(out.frequency_cycles_per_mm, band, bands, [&](double f) { return noise_m2_mm(passes[k], f); });
-      least_m2 = least_m2 > 0.0 ? std::min(least_m2, power_m2[k]) : power_m2[k];
     }
-    const bool known_noise = least_m2 > 0.0;
+    const bool known_noise = std::all_of(power_m2.begin(), power_m2.end(), [](double one_m2) { return one_m2 > 0.0; });
     std::vector<std::vector<double>> parts;
     for (const auto& spectrum : spectra) parts.push_back(in_band(spectrum, n, points, spacing_mm, band, bands));
     std::vector<double> square_of_weight(passes.size(), 0.0), mean_weight(passes.size(), 0.0);

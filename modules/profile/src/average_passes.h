@@ -27,7 +27,8 @@ struct AveragedPasses {
   std::vector<double> weight;                                    // one a pass, mean over points and bands
 };
 
-// The mean in each of a row of bands, weighted by the inverse of the noise in the band and at the point.
+// The mean in each of a row of bands, weighted by the inverse of the noise in the band and at the point; in a band in
+// which the noise of one pass is not known, by that at the point alone.
 AveragedPasses average_passes(std::span<const PassOnGrid> passes, double spacing_mm);
 
 }  // namespace asperity

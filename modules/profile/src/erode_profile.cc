@@ -57,7 +57,7 @@ ErodedProfile erode_profile(const Profile& profile, const TextureNoise& noise, d
   out.touched = std::move(eroded.touched);
 
   const double power_m2 = noise.added_psd_m2_mm.empty() ? 0.0 : psd_power(noise);
-  if (power_m2 > 0.0 && std::isfinite(noise.noise_rms_m)) {
+  if (power_m2 > 0.0 && noise.noise_rms_m > 0.0) {
     std::vector<double> density = noise.added_psd_m2_mm;
     for (double& value : density) value *= noise.noise_rms_m * noise.noise_rms_m / power_m2;
     std::vector<double> changes_m;
@@ -89,9 +89,14 @@ ErodedProfile erode_profile(const Profile& profile, const TextureNoise& noise, d
   out.touched_share = touched / known;
   const MeanAndRms correction = mean_and_rms(correction_m);
   out.correction_rms_m = std::sqrt(std::max(0.0, correction.rms * correction.rms - correction.mean * correction.mean));
+  if (!std::isfinite(noise.noise_rms_m)) {
+    out.reason = "the noise of the heights is not known";
+    return out;
+  }
   // The heights' own noise is in the correction too.
-  const double left_m = std::isfinite(noise.noise_rms_m) ? noise.noise_rms_m : 0.0;
-  out.determined = !(std::hypot(out.noise_rms_m, left_m) >= out.correction_rms_m);
+  const double done_m = std::isfinite(out.noise_rms_m) ? out.noise_rms_m : 0.0;
+  const double all_m = std::hypot(done_m, noise.noise_rms_m);
+  out.determined = all_m == 0.0 || all_m < out.correction_rms_m;
   if (!out.determined) out.reason = "what noise does to the erosion is as large as the correction";
   return out;
 }

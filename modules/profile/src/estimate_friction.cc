@@ -163,9 +163,10 @@ LinearLaw fit_law(const Eigen::MatrixXd& columns, const Eigen::VectorXd& y) {
   return out;
 }
 
-// How the coefficient goes with speed and force.
+// How the coefficient goes with speed and force. A plane through three windows has no residual, and so no error.
 void fit_slopes(FrictionEstimate& out) {
   const auto n = static_cast<Eigen::Index>(out.windows.size());
+  if (n <= 3) return;
   Eigen::MatrixXd columns(n, 3);
   Eigen::VectorXd y(n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -185,7 +186,7 @@ void fit_slopes(FrictionEstimate& out) {
 }
 
 // Stribeck's law where the speeds span a factor of three and the data ask for it: Schwarz's criterion against a
-// constant, by the independent windows.
+// constant, by the independent windows less the law's three parameters: few windows are followed by any law.
 void fit_stribeck(FrictionEstimate& out) {
   constexpr double kSpan = 3.0, kEvidence = 10.0;  // "very strong" (Kass and Raftery 1995)
   const auto [slowest, fastest] =
@@ -210,8 +211,11 @@ void fit_stribeck(FrictionEstimate& out) {
     residual = y - columns * law.value;
   }
   if (std::isnan(best.speed_mps)) return;
+  constexpr double kParameters = 3.0;
   const double independent = independent_count({residual.begin(), residual.end()});
-  const double evidence = independent * std::log(about_mean.squaredNorm() / best_power) - 2.0 * std::log(independent);
+  if (!(independent > kParameters)) return;
+  const double evidence =
+      (independent - kParameters) * std::log(about_mean.squaredNorm() / best_power) - 2.0 * std::log(independent);
   if (evidence > kEvidence) out.stribeck = best;
 }
 

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <string>
 
 #include <Eigen/Core>
 
 #include "asperity/algebra/solve.h"
+#include "asperity/base/error.h"
+#include "asperity/base/text.h"
 #include "asperity/signal/spectrum.h"
 #include "spectrum_at.h"
 
@@ -15,16 +18,18 @@ namespace asperity {
 
 namespace {
 
+constexpr std::size_t kPadding_points = 256;  // against the filter's wrap-around
 constexpr int kBlurredSteps = 4;
 constexpr int kWarpSteps = 12;
 constexpr double kSmallStep_points = 1e-3;
+constexpr double kMostNumbers = 1 << 26;  // of the equations: half a gigabyte
 
 // A filter that makes noise of a density white, with unit variance a sample.
 class Whitening {
  public:
   Whitening(const WarpTarget& target, const PassSignal& pass, std::size_t points, double blur_mm,
             const AlignPassesConfig& config)
-      : n_(power_of_two(points + 256)), gain_(n_ / 2 + 1, 0.0) {
+      : n_(power_of_two(points + kPadding_points)), gain_(n_ / 2 + 1, 0.0) {
     for (std::size_t k = 1; k < gain_.size(); ++k) {
       const double f = static_cast<double>(k) / (static_cast<double>(n_) * pass.spacing_mm);
       if (f < config.low_cycles_per_mm || f > config.high_cycles_per_mm) continue;
@@ -52,9 +57,14 @@ class Whitening {
 // Shift, stretch and hats between the knots, each over the target's points.
 std::vector<std::vector<double>> warp_shapes(std::size_t points, double knot_spacing_points) {
   const double length = static_cast<double>(points - 1);
+  const double wanted = std::max(1.0, std::round(length / knot_spacing_points)) + 1.0;
+  if ((wanted + 2.0) * static_cast<double>(power_of_two(points + kPadding_points)) > kMostNumbers) {
+    throw Error("passes of " + std::to_string(points) + " points with " + number_text(wanted) +
+                " knots are too long to be aligned; take shorter strokes, or a larger align.knot_spacing_m");
+  }
   std::vector<std::vector<double>> out(2, std::vector<double>(points, 1.0));
   for (std::size_t i = 0; i < points; ++i) out[1][i] = static_cast<double>(i) / length - 0.5;
-  const auto knots = static_cast<std::size_t>(std::max(1.0, std::round(length / knot_spacing_points))) + 1;
+  const auto knots = static_cast<std::size_t>(wanted);
   const double spacing = length / static_cast<double>(knots - 1);
   for (std::size_t k = 0; k < knots; ++k) {
     std::vector<double>& hat = out.emplace_back(points, 0.0);

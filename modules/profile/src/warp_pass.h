@@ -22,7 +22,8 @@ struct WarpPrior {
 
 // Places in `pass`, in points of its heights, of the target's points, by maximum likelihood from the places that are
 // given (docs/merge.md): shift, stretch and knots by Gauss and Newton on the difference of the two, whitened by the
-// density of both noises; the knots have a prior. The first steps see long waves alone.
+// density of both noises; the knots have a prior. The first steps see long waves alone. Throws Error for more points
+// and knots than the equations can have (2²⁶ numbers).
 std::vector<double> warp_pass(const WarpTarget& target, const PassSignal& pass, std::span<const double> places,
                               const WarpPrior& prior, const AlignPassesConfig& config);
 

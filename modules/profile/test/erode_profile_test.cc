@@ -47,7 +47,8 @@ TextureNoise white_noise(double rms_m) {
 }
 
 TEST(ErodeProfile, FindsTheSurfaceUnderSharpRidges) {
-  const ErodedProfile eroded = erode_profile(profile_of(traced_ridges(1000, 0.1e-3, 1e-3, kTip_m)), {}, kTip_m);
+  const ErodedProfile eroded =
+      erode_profile(profile_of(traced_ridges(1000, 0.1e-3, 1e-3, kTip_m)), white_noise(0.0), kTip_m);
   ASSERT_TRUE(eroded.determined);
   double worst_m = 0.0;
   for (std::size_t i = 40; i < 960; ++i) {
@@ -73,13 +74,20 @@ TEST(ErodeProfile, TakesOffWhatNoiseDoes) {
   const ErodedProfile quiet = with_noise(1e-6);
   ASSERT_TRUE(quiet.determined);
   EXPECT_LT(quiet.bias_m, 0.0);
-  const ErodedProfile clean = erode_profile(profile_of(d_m), {}, kTip_m);
+  const ErodedProfile clean = erode_profile(profile_of(d_m), white_noise(0.0), kTip_m);
   double error_m = 0.0, uncorrected_m = 0.0;
   for (std::size_t i = 40; i + 40 < d_m.size(); ++i) {
     error_m += (quiet.surface_m[i] - clean.surface_m[i]) / 1920.0;
     uncorrected_m += (quiet.surface_m[i] + quiet.bias_m - clean.surface_m[i]) / 1920.0;
   }
   EXPECT_LT(std::abs(error_m), 0.5 * std::abs(uncorrected_m));
+}
+
+// The lowest of heights with a noise of which nothing is known is too low by nobody knows how much.
+TEST(ErodeProfile, IsNotDeterminedWithoutAKnownNoise) {
+  const ErodedProfile eroded = erode_profile(profile_of(traced_ridges(1000, 0.1e-3, 1e-3, kTip_m)), {}, kTip_m);
+  EXPECT_FALSE(eroded.determined);
+  EXPECT_EQ(eroded.reason, "the noise of the heights is not known");
 }
 
 TEST(ErodeProfile, IsNotDeterminedWithoutATip) {

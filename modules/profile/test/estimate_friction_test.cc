@@ -118,6 +118,20 @@ TEST(EstimateFriction, StribecksLawIsFoundWhereTheSpeedsShowIt) {
   EXPECT_LT(found.per_mps, 0.0);
 }
 
+// Any law goes through three points: what is left is 0, and neither an error nor evidence.
+TEST(EstimateFriction, ThreeWindowsShowNoLawAndNoErrorOfASlope) {
+  Slide::Setting setting;
+  setting.duration_s = 0.3;
+  setting.speed_mps = [](double t_s) { return 0.006 + 0.18 * t_s; };
+  setting.friction = [](double v_mps) { return 0.3 - 0.2 * v_mps; };
+  FrictionConfig config;
+  config.min_windows = 3;
+  const FrictionEstimate found = Slide(setting).estimate(config);
+  ASSERT_EQ(found.windows.size(), 3U);
+  EXPECT_FALSE(found.stribeck);
+  EXPECT_TRUE(std::isnan(found.per_mps_stderr)) << found.per_mps << " ± " << found.per_mps_stderr;
+}
+
 TEST(EstimateFriction, SticksBetweenSlidesAreCountedAndGiveTheBreakaway) {
   // 0.1 s held, the force along the surface rising to 0.5 of the normal one, then 0.1 s of sliding at µ = 0.3.
   constexpr long kHeld = 400, kPeriod = 800;  // samples

@@ -225,6 +225,22 @@ TEST(MergePasses, TakesTheOthersWhereOneHasAGap) {
   EXPECT_GT(merge.noise.added_sigma_m[420], 1.1 * merge.noise.added_sigma_m[700]);
 }
 
+// In either order: a noise that one stroke does not state is no noise of 0, which would have all of the weight.
+TEST(MergePasses, AStrokeThatStatesNoNoiseCountsAsTheOthers) {
+  const Line line(6);
+  for (const std::size_t silent : {0U, 2U}) {
+    std::vector<ProfilePass> passes;
+    for (std::uint64_t k = 0; k < 3; ++k) passes.push_back(stroke_over(line, {.seed = 80 + k}));
+    passes[silent].frequency_cycles_per_mm.clear();
+    passes[silent].noise_psd_m2_mm.clear();
+    const MergedProfile merge = merge_passes(passes, {});
+    ASSERT_EQ(merge.used, 3U) << silent;
+    EXPECT_NEAR(error_rms_m(merge, line), 0.9 * 3e-6 / std::sqrt(3.0), 0.25e-6) << silent;
+    for (const MergedPass& pass : merge.passes) EXPECT_NEAR(pass.weight, 1.0 / 3.0, 0.01) << silent;
+    EXPECT_TRUE(std::isnan(merge.noise.snr)) << silent;
+  }
+}
+
 TEST(MergePasses, LeavesOutTheStrokeOverAnotherLine) {
   const Line line(7), other(8);
   const std::vector<ProfilePass> passes{stroke_over(other, {.seed = 70}), stroke_over(line, {.seed = 71}),
@@ -248,6 +264,12 @@ TEST(MergePasses, NamesWhatIsWrong) {
   EXPECT_THROW(merge_passes(passes, {}), Error);
   passes[1] = stroke_over(line, {.seed = 91}, 20);
   EXPECT_THROW(merge_passes(passes, {}), Error);
+  // 2¹⁵ points with the padding, and a knot each four of 30,000: 2²⁸ numbers.
+  const ProfilePass whole = stroke_over(line, {.seed = 92}, 30'000), again = stroke_over(line, {.seed = 93}, 30'000);
+  AlignPassesConfig close;
+  close.knot_spacing_m = 1e-4;
+  close.max_stretch = 0.0;
+  EXPECT_THROW(merge_passes(std::vector<ProfilePass>{whole, again}, close), Error);
 }
 
 }  // namespace

@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include <iterator>
-#include "asperity/recording/recording.h"
-
 #include "asperity/recording/recording.h"
 
 namespace asperity {

@@ -137,6 +137,27 @@ TEST(TrackedBody, RecoveredWithoutItsFileTheScanIsOfTheWorldAgain) {
   EXPECT_TRUE(again.body_poses.empty());
 }
 
+// recording.json of another take does not name the bodies of this one: their files do.
+TEST(TrackedBody, RecoveredByAnotherTakesInfoItsStreamIsKept) {
+  const testkit::TempDir dir, saved;
+  record_with_object(dir / "rec");
+  RecordingInfo other;
+  other.bodies = {{"table", {3}}};
+  record_with_object(dir / "like", other);
+  write_file(dir / "rec/recording.json", "{");
+  RecoverOptions options;
+  options.like = dir / "like";
+  const RecoveredRecording recovered = recover_recording(dir / "rec", saved.path(), options);
+  ASSERT_EQ(recovered.bodies.size(), 2u);
+  EXPECT_EQ(recovered.bodies[0].file, "tracker_table.csv");
+  EXPECT_FALSE(recovered.bodies[0].found);
+  EXPECT_EQ(recovered.bodies[1].rows, std::size_t{kPoses});
+  const Recording again = read_recording(saved.path());
+  ASSERT_EQ(again.info.bodies.size(), 1u);
+  EXPECT_EQ(again.info.bodies[0].name, "object");
+  EXPECT_EQ(again.body_poses[0].size(), std::size_t{kPoses});
+}
+
 TEST(TrackedBody, CutAtAnyByteOfTheTailItReads) {
   const testkit::TempDir dir;
   record_with_object(dir / "rec");

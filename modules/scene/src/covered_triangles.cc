@@ -2,6 +2,7 @@
 
 #include <array>
 #include <limits>
+#include <set>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/text.h"
@@ -41,6 +42,7 @@ std::vector<CoveredTriangle> parse_covered_triangles(std::string_view text, cons
   std::array<std::size_t, 6> columns{};
   for (std::size_t k = 0; k < columns.size(); ++k) columns[k] = csv.require(kCornerColumns[k]);
   std::vector<CoveredTriangle> out;
+  std::set<std::int32_t> of_triangle;  // the textures of the last one
   while (csv.next()) {
     const std::int64_t t = csv.integer(triangle), index = csv.integer(texture);
     if (t < 0 || static_cast<std::uint64_t>(t) >= triangles)
@@ -52,10 +54,9 @@ std::vector<CoveredTriangle> parse_covered_triangles(std::string_view text, cons
     CoveredTriangle one;
     one.triangle = static_cast<std::uint32_t>(t);
     one.haptic.texture = static_cast<std::int32_t>(index);
-    for (std::size_t k = out.size(); k > 0 && out[k - 1].triangle == one.triangle; --k) {
-      if (out[k - 1].haptic.texture == one.haptic.texture)
-        csv.fail(texture, "texture " + std::to_string(index) + " is on triangle " + std::to_string(t) + " twice");
-    }
+    if (!out.empty() && out.back().triangle != one.triangle) of_triangle.clear();
+    if (!of_triangle.insert(one.haptic.texture).second)
+      csv.fail(texture, "texture " + std::to_string(index) + " is on triangle " + std::to_string(t) + " twice");
     for (std::size_t k = 0; k < columns.size(); ++k)
       one.haptic.xy_mm[k / 2][static_cast<Eigen::Index>(k % 2)] = csv.finite(columns[k]);
     out.push_back(one);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <vector>
@@ -82,7 +83,9 @@ int further_order(const SceneObject& object, LayAt at, int except) {
     any = true;
   }
   if (!any) return 0;
-  return at == LayAt::kOver ? high + 1 : low - 1;
+  const int order = at == LayAt::kOver ? high + 1 : low - 1;
+  if (std::abs(order) > kFurthestOrder) throw Error("scene: no texture order is free");
+  return order;
 }
 
 void put_texture(SceneObject& object, SceneTexture texture) {
@@ -162,8 +165,8 @@ int free_texture_index(const SceneObject& object) {
 
 std::string free_file_name(const Scene& scene, const std::string& wanted, int number, int except) {
   const auto taken = [&](const std::string& name) {
-    if (name == "scene.json" || name == "paint.json" || name == "files.json" || name == "registration.json")
-      return true;
+    for (const char* ours : {"scene.json", "paint.json", "files.json", "registration.json", "area.json"})
+      if (name == ours) return true;
     for (const SceneObject& object : scene.objects) {
       if (name == object.mesh_file || name == object.material_file || name == object.covered_file) return true;
       for (const SceneTexture& texture : object.textures) {

@@ -7,6 +7,7 @@
 #include "asperity/base/text.h"
 #include "asperity/json/json_object.h"
 #include "asperity/json/parse_json.h"
+#include "asperity/scene/lay_texture.h"
 #include "asperity/scene/read_scene.h"
 #include "scene_json.h"
 #include "texture_origin_json.h"
@@ -16,7 +17,6 @@ namespace asperity {
 namespace {
 
 constexpr std::size_t kMostTextures = 10000, kMostObjects = 1000;
-constexpr int kFurthestOrder = 1'000'000'000;
 constexpr double kLargestUnit_m = 1e6, kSmallestUnit_m = 1e-12;
 constexpr double kStiffest_N_per_m = 1e9, kRoughest = 100.0;
 

@@ -143,6 +143,16 @@ TEST(LayTexture, CoordinatesWithoutATextureHideNone) {
   EXPECT_EQ(free_texture_index(object), 10);
 }
 
+// A scene.json with an order beyond the furthest is refused: none may be written.
+TEST(LayTexture, NoOrderIsBeyondTheFurthest) {
+  SceneObject object = board();
+  put_texture(object, laid(1, kFurthestOrder));
+  EXPECT_THROW(further_order(object, LayAt::kOver), Error);
+  EXPECT_EQ(further_order(object, LayAt::kUnder), kFurthestOrder - 1);
+  put_texture(object, laid(1, -kFurthestOrder));
+  EXPECT_THROW(further_order(object, LayAt::kUnder), Error);
+}
+
 TEST(LayTexture, APaintedStrokeLiesUnderIfItIsToldTo) {
   SceneObject object = board();
   const std::vector<Vector3d> across{{0.01, 0.02, 0.0}, {0.05, 0.02, 0.0}}, up{{0.03, 0.005, 0.0}, {0.03, 0.035, 0.0}};

@@ -1,13 +1,12 @@
 #include "asperity/session/area_input.h"
 
-#include <algorithm>
-#include <set>
 #include <utility>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/json/parse_json.h"
+#include "asperity/scene/lay_texture.h"
 #include "asperity/scene/read_scene.h"
 
 namespace asperity {
@@ -54,11 +53,17 @@ Profile read_profile(const fs::path& file) {
   return out;
 }
 
-int next_index(const SceneObject& object) {
-  int index = 0;
-  for (const SceneTexture& texture : object.textures) index = std::max(index, texture.index);
-  for (const HapticTriangle& triangle : object.mesh.haptic) index = std::max(index, triangle.texture);
-  return index + 1;
+// Throws Error for what is not the form of a registration.json that `register` writes.
+void check_registration(const Json& registration, const std::string& name) {
+  const auto wrong = [&](const std::string& what) { throw Error(name + ": " + what); };
+  const Json* format = registration.find("format");
+  if (format == nullptr || *format != Json("asperity-registration")) wrong("is not a registration of asperity");
+  const Json* scans = registration.find("scans");
+  if (scans == nullptr || !scans->is_array()) wrong("has no list 'scans'");
+  for (std::size_t i = 0; i < scans->size(); ++i) {
+    const Json* of_scan = scans->at(i).find("name");
+    if (of_scan == nullptr || !of_scan->is_string()) wrong("scans[" + std::to_string(i) + "] has no name");
+  }
 }
 
 }  // namespace
@@ -70,9 +75,9 @@ AreaInput read_area_input(const fs::path& folder, const Observer& observer) {
   if (!fs::is_regular_file(file))
     throw Error(printable(folder.string(), 200) + ": has no registration.json; give a folder that `register` wrote");
   const Json registration = parse_json(read_file(file, std::uint64_t{64} << 20), name, {}, observer);
-  if (!registration.is_object() || registration.value("format", "") != "asperity-registration")
-    throw Error(name + ": is not a registration of asperity");
-  if (registration.contains("trustworthy")) out.registered = registration.at("trustworthy").get<bool>();
+  check_registration(registration, name);
+  const Json* trustworthy = registration.find("trustworthy");
+  out.registered = trustworthy != nullptr && *trustworthy == Json(true);
   out.scene = read_scene(folder / "scene.json", observer);
   const std::size_t triangles = out.scene.objects.front().mesh.triangles.size();
   std::vector<std::string> names;
@@ -97,24 +102,22 @@ AreaInput read_area_input(const fs::path& folder, const Observer& observer) {
 
 const SceneTexture& add_area(Scene& scene, const AreaResult& area) {
   SceneObject& object = scene.objects.front();
-  std::set<std::string> taken{"scene.json", "area.json", "files.json", object.material_file};
-  for (const SceneObject& each : scene.objects) {
-    taken.insert(each.mesh_file);
-    for (const SceneTexture& texture : each.textures) taken.insert(texture.file);
-  }
   SceneTexture texture;
-  texture.index = next_index(object);
+  texture.index = free_texture_index(object);
+  texture.order = further_order(object, LayAt::kOver);
   texture.file = "area.texture.json";
-  for (int n = 2; taken.contains(texture.file); ++n) texture.file = "area-" + std::to_string(n) + ".texture.json";
+  for (int n = 2; free_file_name(scene, texture.file) != texture.file; ++n)
+    texture.file = "area-" + std::to_string(n) + ".texture.json";
   texture.texture = area.texture.value();
-  object.mesh.haptic.resize(object.mesh.triangles.size());
+  std::vector<CoveredTriangle> claims;
   for (std::size_t i = 0; i < area.triangle.size(); ++i) {
-    HapticTriangle& triangle = object.mesh.haptic[area.triangle[i]];
-    triangle = area.coordinates[i];
-    triangle.texture = texture.index;
+    claims.push_back({area.triangle[i], area.coordinates[i]});
+    claims.back().haptic.texture = texture.index;
   }
-  object.textures.push_back(std::move(texture));
-  return object.textures.back();
+  const int index = texture.index;
+  put_texture(object, std::move(texture));
+  lay_triangles(object, claims);
+  return *object.find_texture(index);
 }
 
 }  // namespace asperity

@@ -34,8 +34,9 @@ void check_grid(std::span<const double> height_m, const HeightGridShape& shape, 
     throw Error("tip: " + std::to_string(height_m.size()) + " heights do not fill " + std::to_string(shape.rows) +
                 " rows of " + std::to_string(shape.columns));
   }
-  const bool spaced = shape.column_spacing_m > 0.0 && (shape.rows == 1 || shape.row_spacing_m > 0.0);
-  if (!spaced) throw Error("tip: the spacing of the heights must be positive");
+  const auto is_spacing = [](double spacing_m) { return std::isfinite(spacing_m) && spacing_m > 0.0; };
+  const bool spaced = is_spacing(shape.column_spacing_m) && (shape.rows == 1 || is_spacing(shape.row_spacing_m));
+  if (!spaced) throw Error("tip: the spacing of the heights must be finite and positive");
   if (!std::isfinite(tip_radius_m) || tip_radius_m < 0.0) {
     throw Error("tip: the radius must be finite and at least 0, is " + number_text(tip_radius_m) + " m");
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -149,6 +150,7 @@ TEST(TipMorphology, NamesWhatIsWrong) {
   const std::vector<double> d_m(12, 0.0);
   EXPECT_THROW(erode_by_tip(d_m, {5, 3, 1.0, 1.0}, 1.0), Error);
   EXPECT_THROW(erode_profile_by_tip(d_m, 0.0, 1.0), Error);
+  EXPECT_THROW(erode_profile_by_tip(d_m, std::numeric_limits<double>::infinity(), 1.0), Error);
   EXPECT_THROW(erode_profile_by_tip(d_m, 1.0, -1.0), Error);
   EXPECT_THROW(erode_profile_by_tip(d_m, 1.0, kNan), Error);
   EXPECT_TRUE(erode_profile_by_tip({}, 1.0, 1.0).surface_m.empty());

@@ -35,7 +35,7 @@ std::string surface_csv(const ArealTexture& t) {
     out += ',' + number_text(g.coefficient_m[i]) + (t.supported[i] ? ",1" : ",0");
     if (!t.sigma_m.empty()) {
       if (!(t.sigma_m[i] >= 0.0) || !std::isfinite(t.sigma_m[i]))
-        throw Error("texture: 'sigma_m' is " + number_text(t.sigma_m[i]) + ", which is no standard deviation");
+        throw Error("texture: 'sigma_m' is " + number_text(t.sigma_m[i]) + ", which is not a standard deviation");
       out += ',' + number_text(t.sigma_m[i]);
     }
     out += '\n';

@@ -37,7 +37,8 @@ struct Model {
 // Errors of one stroke against the map of all others, its own drift and shift taken off as far as their priors let.
 struct Prediction {
   double samples = 0.0;
-  double error_m2 = 0.0;  // sums
+  double independent = 0.0;  // heights among them
+  double error_m2 = 0.0;     // sums
   double map_m2 = 0.0;
   double height_m2 = 0.0;
   double ratio2 = 0.0;
@@ -115,8 +116,8 @@ Prediction predict_stroke(const Model& model, const StrokeField& all, std::uint3
   out.samples = static_cast<double>(lines.size());
   // What the fit has taken of the errors: as many independent ones as it has unknowns that the samples determine.
   const double fitted = (solve_symmetric(normal, of_samples)).trace();
-  const double independent = out.samples * std::min(1.0, model.step_mm / model.prior.spectrum.independent_mm());
-  const double share = std::clamp(1.0 - fitted / independent, 0.2, 1.0);
+  out.independent = out.samples * std::min(1.0, model.step_mm / model.prior.spectrum.independent_mm());
+  const double share = std::clamp(1.0 - fitted / out.independent, 0.2, 1.0);
   out.error_m2 /= share;
   out.ratio2 /= share;
   return out;
@@ -135,6 +136,7 @@ Prediction predict_strokes(const Model& model, const StrokeField& field, std::si
     if (one.samples == 0.0) continue;
     ++count;
     sum.samples += one.samples;
+    sum.independent += one.independent;
     sum.error_m2 += one.error_m2;
     sum.map_m2 += one.map_m2;
     sum.height_m2 += one.height_m2;
@@ -258,7 +260,11 @@ StrokeMap map_strokes(std::span<const AreaStroke> strokes, const MapStrokesConfi
     for (const double one_m2 : sum.own_m2) scatter += std::pow(one_m2 - seen_m2, 2);
     const auto strokes_held = static_cast<double>(count);
     out.agreement = 1.0 - seen_m2 / own_m2;
-    out.agreement_sigma = std::sqrt(scatter / (strokes_held - 1.0) / strokes_held) / own_m2;
+    // By the scatter of the strokes, which says little of two that were predicted from one another, and at least by the
+    // number of heights: a mean square of n has the relative error √(2/n).
+    const double by_scatter = std::sqrt(scatter / (strokes_held - 1.0) / strokes_held) / own_m2;
+    const double by_heights = std::sqrt(2.0 / sum.independent) * sum.error_m2 / sum.samples / own_m2;
+    out.agreement_sigma = std::max(by_scatter, by_heights);
     out.disagreement_m = std::sqrt(std::max(seen_m2, 0.0));
     // Strokes that do not predict each other have no surface in common.
     if (!(out.agreement > std::max(2.0 * out.agreement_sigma, kLeastAgreement))) return out;

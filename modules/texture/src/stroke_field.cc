@@ -148,8 +148,12 @@ MapGrid make_map_grid(const std::vector<StrokeSample>& samples, double spacing_m
   const double edge_mm = margin_mm + 2.0 * spacing_mm;
   out.x_mm = low_x - edge_mm;
   out.y_mm = low_y - edge_mm;
-  out.columns = static_cast<int>(std::ceil((high_x - low_x + 2.0 * edge_mm) / spacing_mm)) + 1;
-  out.rows = static_cast<int>(std::ceil((high_y - low_y + 2.0 * edge_mm) / spacing_mm)) + 1;
+  constexpr double kMostASide = 1e9;  // far more than can be solved, and an int
+  const auto points = [&](double length_mm) {
+    return static_cast<int>(std::min(std::ceil((length_mm + 2.0 * edge_mm) / spacing_mm), kMostASide)) + 1;
+  };
+  out.columns = points(high_x - low_x);
+  out.rows = points(high_y - low_y);
   return out;
 }
 

@@ -45,7 +45,7 @@ struct StrokeField {
   double sigma_at(double x_mm, double y_mm) const;
 };
 
-// The grid over all samples, `margin_mm` wider; false where it would have more than `most_points`.
+// The grid over all samples, `margin_mm` wider on each side.
 MapGrid make_map_grid(const std::vector<StrokeSample>& samples, double spacing_mm, double margin_mm);
 
 // The most likely surface, drifts and shifts; `steps` times, each shift's effect linear about the step before. Throws

@@ -33,6 +33,8 @@ Verdicts judge_area(const AreaEvidence& e) {
   if (e.ties == 0) {
     say("strokes_untied",
         fmt::format("none of the {} stroke{} crosses another or comes near it", e.strokes, e.strokes == 1 ? "" : "s"));
+  } else if (!std::isfinite(e.agreement)) {
+    say("strokes_untied", "the strokes meet too seldom to be compared: fewer than two could be predicted from others");
   } else if (high < kLeastAgreement || !(e.agreement > 0.0)) {
     say("strokes_disagree", "the strokes do not agree: " + shared);
   } else if (!(low > 0.0)) {

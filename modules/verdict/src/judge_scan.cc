@@ -42,7 +42,7 @@ constexpr double kLongestGap_s = 0.5;
 constexpr double kRejected_share = 0.1;
 constexpr double kLeastSeen_share = 0.5;  // of the time, the object's body
 constexpr double kMostlySeen_share = 0.95;
-constexpr double kTurned_rad_per_deg = 0.017453292519943295;
+constexpr double kRad_per_degree = 0.017453292519943295;
 
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
@@ -196,7 +196,7 @@ void judge_object(const ScanEvidence& e, Verdicts& out) {
     out.push_back(
         make_verdict("object_moved", fmt::format("the scan is relative to the object, which moved by up to "
                                                  "{:.3g} mm and {:.2g}°",
-                                                 1e3 * e.object_moved_m, e.object_turned_rad / kTurned_rad_per_deg)));
+                                                 1e3 * e.object_moved_m, e.object_turned_rad / kRad_per_degree)));
   }
 }
 

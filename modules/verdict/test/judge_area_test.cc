@@ -49,7 +49,8 @@ TEST(JudgeArea, ConcludesNothingFromWhatIsNotKnown) {
   EXPECT_TRUE(judge_area(evidence).empty());
   // Strokes of which no agreement is known are not said to agree.
   evidence.agreement = evidence.agreement_sigma = AreaEvidence::kUnknown;
-  EXPECT_EQ(code(evidence), "strokes_disagree");
+  EXPECT_EQ(code(evidence), "strokes_untied");
+  EXPECT_THAT(judge_area(evidence).front().message, testing::Not(testing::HasSubstr("nan")));
 }
 
 }  // namespace

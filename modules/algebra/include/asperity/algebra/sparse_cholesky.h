@@ -21,7 +21,7 @@ class SparseCholesky {
   // Another matrix of the same pattern: the ordering is kept.
   void factorize(const Eigen::SparseMatrix<double>& A);
 
-  // A is positive definite; otherwise nothing below may be asked.
+  // A is positive definite and finite; otherwise nothing below may be called.
   bool positive_definite() const noexcept;
 
   // x with A x = b. b: n × k.

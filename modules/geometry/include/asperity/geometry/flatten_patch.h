@@ -16,7 +16,7 @@ struct FlattenConfig {
   template <class V>
   void visit(V& v) {
     v.field("iterations", iterations, "most Newton steps of the parametrisation", {1, 100000});
-    v.field("tolerance", tolerance, "the steps end where they lower the energy by less than this part of it",
+    v.field("tolerance", tolerance, "the steps end where the next one would lower the energy by less than this part",
             {0.0, 1.0});
   }
 };

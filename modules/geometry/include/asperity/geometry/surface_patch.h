@@ -32,8 +32,8 @@ struct SurfacePatch {
 
 // The triangles within reach of the paths, over the surface's neighbours alone (the back of a thin plate is far away);
 // of several pieces the one with most of the points, its enclosed gaps filled if together they are smaller than it, and
-// closed where it meets itself in a single vertex. Throws Error if no path has a point, and where the patch is no disc:
-// it goes round the object or a hole of the mesh, or more than two triangles meet at an edge.
+// closed where it meets itself in a single vertex. Throws Error if no path has a point, and where the patch is not a
+// disc: it goes round the object or a hole of the mesh, or more than two triangles meet at an edge.
 SurfacePatch find_surface_patch(const MeshSurface& surface, std::span<const MeshPath> paths,
                                 const SurfacePatchConfig& config = {});
 

@@ -44,7 +44,8 @@ struct ErodedProfile {
 // (tip_morphology.h). Noise makes an erosion too low, for it takes the lowest of several heights: draws of noise with
 // the shape of `noise.added_psd_m2_mm` and the power of `noise.noise_rms_m` are added to the heights and eroded, and
 // their mean difference is taken off. Not determined where what noise does, its mean and the heights' own noise
-// included, is as large as the correction. Without a noise nothing is taken off. Throws Error as erode_by_tip() does.
+// included, is as large as the correction, and where the noise is not known (noise_rms_m is nan); of a noise of 0
+// nothing is taken off. Throws Error as erode_by_tip() does.
 ErodedProfile erode_profile(const Profile& profile, const TextureNoise& noise, double radius_m);
 
 }  // namespace asperity

@@ -48,7 +48,8 @@ struct RecoveredRecording {
 // markers.json and frames/. A row is whole if its block's checksum holds, where there is one, and if it has as many
 // cells as the header, each a number or empty, and a time. Files of `folder` are only read. recording.json gets
 // extra.recovered: what was left out. Throws Error if there is no row to save, or if recording.json or calibration.json
-// cannot be read and `like` does not stand in.
+// cannot be read and `like` does not stand in. With recording.json from `like` the bodies are that recording's and
+// those whose streams are in `folder`.
 RecoveredRecording recover_recording(const std::filesystem::path& folder, const std::filesystem::path& out,
                                      const RecoverOptions& options = {}, const ReadLimits& limits = {},
                                      const Observer& observer = {});

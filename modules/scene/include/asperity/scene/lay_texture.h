@@ -14,8 +14,10 @@ namespace asperity {
 
 enum class LayAt { kOver, kUnder };
 
+inline constexpr int kFurthestOrder = 1'000'000'000;  // to either side; a scene.json with another one is refused
+
 // The order with which a further texture comes over, or under, all that the object has; 0 for the first. A texture with
-// the index `except` does not count.
+// the index `except` does not count. Throws Error if there is none.
 int further_order(const SceneObject& object, LayAt at, int except = -1);
 
 // Adds a texture to the object's list, in the place of the one of its index if there is one.

@@ -22,8 +22,9 @@ struct AreaInput {
 // and a folder none of whose scans has a path and a profile.
 AreaInput read_area_input(const std::filesystem::path& folder, const Observer& observer = {});
 
-// Adds an area's texture to the first object of `scene`: the next free index, a file of its own, its triangles'
-// coordinates in place of those that they had. Returns the texture's place in the scene.
+// Adds an area's texture to the first object of `scene`: a free index, a file of its own, its triangles' coordinates
+// over those that they had, which stay below (lay_texture.h). Returns the texture's place in the scene. Throws Error
+// where no index or order is free.
 const SceneTexture& add_area(Scene& scene, const AreaResult& area);
 
 }  // namespace asperity

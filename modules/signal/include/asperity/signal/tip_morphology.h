@@ -37,8 +37,8 @@ struct TipErosion {
 // that were dilated at the grid's points, e is the surface at the touched points to rounding.
 //
 // In one row the ball does not reach beside the row. A radius below the spacings returns the heights. Throws Error if
-// the sizes do not fit, a spacing is not positive, radius or resolution are not finite or negative, or there are more
-// than 10¹⁰ pairs of points to compare.
+// the sizes do not fit, a spacing is not finite and positive, radius or resolution are not finite or negative, or there
+// are more than 10¹⁰ pairs of points to compare.
 TipErosion erode_by_tip(std::span<const double> height_m, const HeightGridShape& shape, double tip_radius_m,
                         double resolution_m = 0.0);
 
