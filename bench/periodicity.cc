@@ -61,8 +61,8 @@ std::vector<double> draw_gaussian(const std::function<double(double)>& psd, std:
 
 std::vector<double> draw_peak(double width, double floor, std::size_t points, Random& random) {
   const double centre = log_uniform(random, 0.2, 3.0);
-  return draw_gaussian(
-      [&](double f) { return floor + std::exp(-0.5 * std::pow((f / centre - 1.0) / width, 2.0)); }, points, random);
+  return draw_gaussian([&](double f) { return floor + std::exp(-0.5 * std::pow((f / centre - 1.0) / width, 2.0)); },
+                       points, random);
 }
 
 std::vector<double> draw_band(double floor, std::size_t points, Random& random) {

@@ -87,7 +87,8 @@ const std::vector<FigureKind>& figure_kinds() {
          return r.periodicity.periodic ? Said{r.periodicity.pitch_m, r.periodicity.pitch_stderr_m, kMissing, kMissing}
                                        : Said{};
        },
-       [](const TextureView& v) { return find_true_pitch_m(v.texture_m, v.spacing_m, v.pitch_m); }, nullptr, false, true},
+       [](const TextureView& v) { return find_true_pitch_m(v.texture_m, v.spacing_m, v.pitch_m); }, nullptr, false,
+       true},
       {"depth_m",
        [](const ProcessResult& r) {
          return r.periodicity.periodic ? Said{r.periodicity.depth_m, r.periodicity.depth_stderr_m, kMissing, kMissing}

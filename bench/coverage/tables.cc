@@ -98,7 +98,8 @@ void print_figures(const std::vector<ScanOutcome>& scans) {
                                  number(percent(all.told_determined, all.told), 1)));
   }
   std::printf(
-      "\nA pattern's figures by an oracle that knows the spectrum of the error alone and looks for the pitch (as above), "
+      "\nA pattern's figures by an oracle that knows the spectrum of the error alone and looks for the pitch (as "
+      "above), "
       "and by one that is told the maker's pitch within 8 %% as well; the scans between the two hold no pitch that "
       "could be found without being told:\n\n"
       "| figure | oracle < 10 %% | of these determined, %% | told oracle < 10 %% | of these determined, %% |\n"
@@ -275,7 +276,8 @@ void write_csv(const std::filesystem::path& path, const std::vector<ScanOutcome>
           << ',' << s.correlation << ',' << s.position_over_sigma << ',' << s.height_over_sigma << ','
           << s.texture_over_sigma << ',' << s.position_rms_m << ',' << s.texture_error_m << ',' << s.texture_rms_m
           << ',' << s.noise_rms_m << ',' << s.snr << ',' << s.process_s << ',' << s.codes << ',' << f.name << ','
-          << f.value << ',' << f.low << ',' << f.high << ',' << f.truth << ',' << f.oracle_sigma << ',' << f.told_sigma << '\n';
+          << f.value << ',' << f.low << ',' << f.high << ',' << f.truth << ',' << f.oracle_sigma << ',' << f.told_sigma
+          << '\n';
     }
   }
   if (!out) throw asperity::Error(path.string() + ": cannot be written");

@@ -14,18 +14,18 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t kPadding = 4;  // bins to an independent frequency
-constexpr double kByChance = 0.01;   // of finding a line in a random surface, or in noise
-constexpr int kHarmonics = 8;
+constexpr std::size_t kLinePadding = 4;  // bins to an independent frequency
+constexpr double kLineByChance = 0.01;   // of finding a line in a random surface, or in noise
+constexpr int kHarmonicsAsked = 8;
 constexpr double kPitchReach = 0.02;        // relative: as far as a first pitch may be off
 constexpr double kLeastShare = 1.0 / 32.0;  // of the surface's power in a pattern's strongest line
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
+constexpr double kFullTurn = 2.0 * std::numbers::pi;
 constexpr double kWaveStep = 1e-3;  // of the wave's frequency, in independent frequencies
 
 // Neighbours of a harmonic.
-constexpr std::size_t kNearest = 2;   // in independent frequencies: a line's own foot is left out
-constexpr std::size_t kFarthest = 8;  // as far as a hand's tremor keeps its density
-constexpr std::size_t kFewest = 4;    // of one side
+constexpr std::size_t kNearestNeighbour = 2;   // in independent frequencies: a line's own foot is left out
+constexpr std::size_t kFarthestNeighbour = 8;  // as far as a hand's tremor keeps its density
+constexpr std::size_t kFewestOfOneSide = 4;    // of one side
 
 // The exponent q of exp(-q), the probability that an ordinate of a random process is so many times an estimate of its
 // density that scatters as a gamma variable: (1 + v ratio)^(-1/v), v the variance of the estimate's logarithm.
@@ -33,7 +33,7 @@ double rarity_of(double ratio, double variance) { return std::log1p(variance * r
 
 // Of the highest ordinate of a continuous range of frequencies (Davies 1987).
 bool is_rare(double rarity, double trials) {
-  return rarity > std::log(trials / kByChance) + 0.5 * std::log(std::max(1.0, rarity));
+  return rarity > std::log(trials / kLineByChance) + 0.5 * std::log(std::max(1.0, rarity));
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ bool is_rare(double rarity, double trials) {
 LineSearch::LineSearch(std::span<const double> height_m, double spacing_m, std::span<const double> frequency,
                        std::span<const double> noise_psd_m2_mm, double shortest_m, double longest_m)
     : x_m_(height_m.size(), 0.0), present_(height_m.size(), false), spacing_m_(spacing_m) {
-  std::vector<double> x(kPadding * height_m.size(), 0.0);
+  std::vector<double> x(kLinePadding * height_m.size(), 0.0);
   double sum = 0.0;
   for (const double h : height_m) {
     if (!std::isfinite(h)) continue;
@@ -64,16 +64,17 @@ LineSearch::LineSearch(std::span<const double> height_m, double spacing_m, std::
     const double at = 1e-3 * static_cast<double>(power_.size() - 1) / length_m_;
     noise_.push_back(frequency.empty() ? 0.0 : spectrum_at(frequency, noise_psd_m2_mm, at));
   }
-  for (std::size_t i = 1; i < power_.size(); ++i) surface_ += (power_[i] - noise_[i]) / static_cast<double>(kPadding);
+  for (std::size_t i = 1; i < power_.size(); ++i)
+    surface_ += (power_[i] - noise_[i]) / static_cast<double>(kLinePadding);
 }
 
 double LineSearch::power_at(std::span<const double> heights_m, double cycles) const {
   const double f = cycles / static_cast<double>(heights_m.size());
-  const std::complex<double> step = std::polar(1.0, -kTwoPi * f);
+  const std::complex<double> step = std::polar(1.0, -kFullTurn * f);
   std::complex<double> sum = 0.0, phasor = 1.0;
   for (std::size_t k = 0; k < heights_m.size(); ++k) {
     // Renewed now and then: the product's rounding errors add up.
-    if (k % 256 == 0) phasor = std::polar(1.0, -kTwoPi * std::fmod(f * static_cast<double>(k), 1.0));
+    if (k % 256 == 0) phasor = std::polar(1.0, -kFullTurn * std::fmod(f * static_cast<double>(k), 1.0));
     sum += heights_m[k] * phasor;
     phasor *= step;
   }
@@ -82,8 +83,8 @@ double LineSearch::power_at(std::span<const double> heights_m, double cycles) co
 
 // The highest ordinate near a bin, between the bins too.
 LineSearch::Wave LineSearch::find_wave(std::size_t bin) const {
-  Wave out{static_cast<double>(bin) / static_cast<double>(kPadding), power_[bin]};
-  for (double step = 0.5 / static_cast<double>(kPadding); step > kWaveStep; step *= 0.5) {
+  Wave out{static_cast<double>(bin) / static_cast<double>(kLinePadding), power_[bin]};
+  for (double step = 0.5 / static_cast<double>(kLinePadding); step > kWaveStep; step *= 0.5) {
     for (const double cycles : {out.cycles - step, out.cycles + step}) {
       const double power = power_at(x_m_, cycles);
       if (power <= out.power) continue;
@@ -96,7 +97,7 @@ LineSearch::Wave LineSearch::find_wave(std::size_t bin) const {
 
 // The heights less the wave, by least squares: in gaps it would go on and spread over its neighbours.
 std::vector<double> LineSearch::without_wave(double cycles) const {
-  const double turn = kTwoPi * cycles / static_cast<double>(x_m_.size());
+  const double turn = kFullTurn * cycles / static_cast<double>(x_m_.size());
   double cc = 0.0, cs = 0.0, ss = 0.0, cx = 0.0, sx = 0.0;
   for (std::size_t k = 0; k < x_m_.size(); ++k) {
     if (!present_[k]) continue;
@@ -135,7 +136,8 @@ bool LineSearch::exceeds(const Wave& wave, const Neighbours& neighbours, std::sp
   double density = fit.density;
   // At the edge of a band the other side is empty, and a parabola fits neither.
   for (const std::vector<double>& side : {below, above}) {
-    if (neighbours.sides && side.size() >= kFewest) density = std::max(density, median(side) / std::numbers::ln2);
+    if (neighbours.sides && side.size() >= kFewestOfOneSide)
+      density = std::max(density, median(side) / std::numbers::ln2);
   }
   return is_rare(rarity_of(wave.power / density, fit.variance), neighbours.trials);
 }
@@ -154,10 +156,9 @@ bool LineSearch::is_line(std::size_t bin) const {
   const double periods = wave.cycles;
   const double nearest = periods < 50.0 ? 1.0 : periods < 100.0 ? 2.0 : 3.0;
   return exceeds(wave, {2.0, 16.0, trials_, true}, rest_m) &&
-         exceeds(
-             wave,
-             {nearest, std::clamp(std::round(0.16 * periods), 5.0, 16.0), std::clamp(periods, 4.0, 32.0), false},
-             rest_m);
+         exceeds(wave,
+                 {nearest, std::clamp(std::round(0.16 * periods), 5.0, 16.0), std::clamp(periods, 4.0, 32.0), false},
+                 rest_m);
 }
 
 LineSearch::Reach LineSearch::reach_of(double pitch_m, int harmonic) const {
@@ -167,7 +168,7 @@ LineSearch::Reach LineSearch::reach_of(double pitch_m, int harmonic) const {
 }
 
 bool LineSearch::has_pattern(double pitch_m) const {
-  for (int h = 1; h <= kHarmonics; ++h) {
+  for (int h = 1; h <= kHarmonicsAsked; ++h) {
     const Reach reach = reach_of(pitch_m, h);
     for (std::size_t bin = reach.first; bin < std::min(reach.last, searched_bins_); ++bin) {
       if (is_line(bin)) return true;
@@ -187,26 +188,26 @@ double LineSearch::find_line_m(double shortest_m, double longest_m) const {
 }
 
 bool LineSearch::is_local_line(std::size_t bin, double near_trials) const {
-  if (!(power_[bin] > std::log(searched_ * near_trials / kByChance) * noise_[bin])) return false;
+  if (!(power_[bin] > std::log(searched_ * near_trials / kLineByChance) * noise_[bin])) return false;
   std::vector<double> below, above;
-  for (std::size_t j = kNearest; j <= kFarthest; ++j) {
-    if (bin > j * kPadding) below.push_back(power_[bin - j * kPadding]);
-    if (bin + j * kPadding < power_.size()) above.push_back(power_[bin + j * kPadding]);
+  for (std::size_t j = kNearestNeighbour; j <= kFarthestNeighbour; ++j) {
+    if (bin > j * kLinePadding) below.push_back(power_[bin - j * kLinePadding]);
+    if (bin + j * kLinePadding < power_.size()) above.push_back(power_[bin + j * kLinePadding]);
   }
-  if (below.size() < kFewest && above.size() < kFewest) return true;
+  if (below.size() < kFewestOfOneSide && above.size() < kFewestOfOneSide) return true;
   // The higher side: at the edge of a band, as a tremor's, the other one is empty.
-  const double around =
-      std::max(below.size() < kFewest ? 0.0 : median(below), above.size() < kFewest ? 0.0 : median(above));
+  const double around = std::max(below.size() < kFewestOfOneSide ? 0.0 : median(below),
+                                 above.size() < kFewestOfOneSide ? 0.0 : median(above));
   const auto m = static_cast<double>(below.size() + above.size());
-  const double clear = 0.5 * m * (std::pow(near_trials / kByChance, 2.0 / m) - 1.0);
+  const double clear = 0.5 * m * (std::pow(near_trials / kLineByChance, 2.0 / m) - 1.0);
   return power_[bin] > clear * around / std::numbers::ln2;
 }
 
 bool LineSearch::has_line(double pitch_m, int harmonic) const {
   const Reach reach = reach_of(pitch_m, harmonic);
   if (reach.first >= reach.last) return false;
-  const double near_trials =
-      2.0 * kFarthest + std::max(1.0, static_cast<double>(reach.last - reach.first) / static_cast<double>(kPadding));
+  const double near_trials = 2.0 * kFarthestNeighbour + std::max(1.0, static_cast<double>(reach.last - reach.first) /
+                                                                          static_cast<double>(kLinePadding));
   for (std::size_t bin = reach.first; bin < reach.last; ++bin) {
     if (is_local_line(bin, near_trials)) return true;
   }

@@ -10,10 +10,10 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t kFewest = 6;
-constexpr double kLine = 7.0;
+constexpr std::size_t kFewestOrdinates = 6;
+constexpr double kLineRatio = 7.0;
 constexpr double kEuler = 0.5772156649015329;  // the logarithm of an exponential variable is that below, on the average
-constexpr int kRounds = 3, kSteps = 40;
+constexpr int kLineRounds = 3, kScoringSteps = 40;
 constexpr double kLongestStep = 1.0;  // of the logarithm: an ordinate far above the fit would lead past the minimum
 
 }  // namespace
@@ -26,8 +26,8 @@ LocalDensity fit_local_density(std::span<const double> offset, std::span<const d
     p.push_back(power[i]);
   }
   LocalDensity out;
-  for (int round = 0; round < kRounds; ++round) {
-    if (x.size() < kFewest) return out;
+  for (int round = 0; round < kLineRounds; ++round) {
+    if (x.size() < kFewestOrdinates) return out;
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -37,7 +37,7 @@ LocalDensity fit_local_density(std::span<const double> offset, std::span<const d
     }
     const Eigen::LDLT<Eigen::Matrix3d> solver(information);
     Eigen::Vector3d beta = solver.solve(right);
-    for (int step = 0; step < kSteps; ++step) {
+    for (int step = 0; step < kScoringSteps; ++step) {
       right.setZero();
       for (std::size_t i = 0; i < x.size(); ++i) {
         const Eigen::Vector3d row(1.0, x[i], x[i] * x[i]);
@@ -54,7 +54,7 @@ LocalDensity fit_local_density(std::span<const double> offset, std::span<const d
     out.used = x.size();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      if (p[i] > kLine * std::exp(beta[0] + beta[1] * x[i] + beta[2] * x[i] * x[i])) continue;
+      if (p[i] > kLineRatio * std::exp(beta[0] + beta[1] * x[i] + beta[2] * x[i] * x[i])) continue;
       x[kept] = x[i];
       p[kept++] = p[i];
     }
