@@ -122,6 +122,7 @@ void print_verdicts(const std::vector<ScanOutcome>& scans) {
   // What has no texture to correlate with is a scan of nothing.
   const auto r = [](const ScanOutcome& s) { return std::isfinite(s.correlation) ? s.correlation : -1.0; };
   const std::vector<Class> classes{{"nothing touched, or glass", [](const ScanOutcome& s) { return s.nothing; }},
+                                   {"of these r < 0.6", [r](const ScanOutcome& s) { return s.nothing && r(s) < 0.6; }},
                                    {"r < 0.6", [r](const ScanOutcome& s) { return r(s) < 0.6; }},
                                    {"0.6 to 0.9", [r](const ScanOutcome& s) { return r(s) >= 0.6 && r(s) < 0.9; }},
                                    {"r ≥ 0.9", [r](const ScanOutcome& s) { return r(s) >= 0.9; }}};
@@ -268,16 +269,17 @@ void write_csv(const std::filesystem::path& path, const std::vector<ScanOutcome>
   out.precision(10);
   out << "seed,family,probe,trusted,failed,nothing,correlation,position_over_sigma,height_over_sigma,texture_over_"
          "sigma,"
-         "position_rms_m,texture_error_m,texture_rms_m,noise_rms_m,snr,process_s,codes,figure,value,low,high,truth,"
+         "position_rms_m,texture_error_m,texture_rms_m,noise_rms_m,snr,process_s,codes,conditions,figure,value,low,"
+         "high,truth,"
          "oracle_sigma,told_sigma\n";
   for (const ScanOutcome& s : scans) {
     for (const FigureOutcome& f : s.figures) {
       out << s.seed << ',' << s.family << ',' << s.probe << ',' << s.trusted << ',' << s.failed << ',' << s.nothing
           << ',' << s.correlation << ',' << s.position_over_sigma << ',' << s.height_over_sigma << ','
           << s.texture_over_sigma << ',' << s.position_rms_m << ',' << s.texture_error_m << ',' << s.texture_rms_m
-          << ',' << s.noise_rms_m << ',' << s.snr << ',' << s.process_s << ',' << s.codes << ',' << f.name << ','
-          << f.value << ',' << f.low << ',' << f.high << ',' << f.truth << ',' << f.oracle_sigma << ',' << f.told_sigma
-          << '\n';
+          << ',' << s.noise_rms_m << ',' << s.snr << ',' << s.process_s << ',' << s.codes << ','
+          << fmt::format("{}", fmt::join(s.conditions, ";")) << ',' << f.name << ',' << f.value << ',' << f.low << ','
+          << f.high << ',' << f.truth << ',' << f.oracle_sigma << ',' << f.told_sigma << '\n';
     }
   }
   if (!out) throw asperity::Error(path.string() + ": cannot be written");

@@ -255,7 +255,7 @@ Periodicity find_periodicity(std::span<const double> height_m, double spacing_m,
   Periodicity out = find_repetition(height_m, spacing_m, config);
   if (!out.periodic) return out;
   const double longest_m = std::min(config.max_pitch_m, spacing_m * static_cast<double>(height_m.size()) / 3.0);
-  out.periodic = LineSearch(height_m, spacing_m, {}, {}, config.min_pitch_m, longest_m).has_pattern(out.pitch_m);
+  out.periodic = LineSearch(height_m, spacing_m, {}, {}, 1.0, config.min_pitch_m, longest_m).has_pattern(out.pitch_m);
   return out;
 }
 

@@ -83,10 +83,9 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
   if (!std::isfinite(out.pitch_m)) return out;
   const double most = 1.0 + kSurely * 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
   // Misplaced heights blur a line; they make none where there is none.
-  std::vector<double> most_psd = noise.added_psd_m2_mm;
-  for (double& density : most_psd) density *= most;
   const double longest_m = std::min(config.max_pitch_m, spacing_m * static_cast<double>(height_m.size()) / 3.0);
-  const LineSearch search(height_m, spacing_m, noise.frequency_cycles_per_mm, most_psd, config.min_pitch_m, longest_m);
+  const LineSearch search(height_m, spacing_m, noise.frequency_cycles_per_mm, noise.added_psd_m2_mm, most,
+                          config.min_pitch_m, longest_m);
   // At its line and not by the correlation, which follows what is strongest, as the hand's tremor on a smooth pattern.
   const auto follow_line = [&](double shortest_m, double most_m) {
     const double line_m = search.find_line_m(shortest_m, most_m);

@@ -39,7 +39,7 @@ bool is_rare(double rarity, double trials) {
 }  // namespace
 
 LineSearch::LineSearch(std::span<const double> height_m, double spacing_m, std::span<const double> frequency,
-                       std::span<const double> noise_psd_m2_mm, double shortest_m, double longest_m)
+                       std::span<const double> noise_psd_m2_mm, double most_noise, double shortest_m, double longest_m)
     : x_m_(height_m.size(), 0.0), present_(height_m.size(), false), spacing_m_(spacing_m) {
   std::vector<double> x(kLinePadding * height_m.size(), 0.0);
   double sum = 0.0;
@@ -62,10 +62,10 @@ LineSearch::LineSearch(std::span<const double> height_m, double spacing_m, std::
   for (const std::complex<double>& line : real_dft(x)) {
     power_.push_back(2e3 * spacing_m * std::norm(line) / points_);
     const double at = 1e-3 * static_cast<double>(power_.size() - 1) / length_m_;
-    noise_.push_back(frequency.empty() ? 0.0 : spectrum_at(frequency, noise_psd_m2_mm, at));
+    const double expected = frequency.empty() ? 0.0 : spectrum_at(frequency, noise_psd_m2_mm, at);
+    noise_.push_back(most_noise * expected);
+    if (power_.size() > 1) surface_ += (power_.back() - expected) / static_cast<double>(kLinePadding);
   }
-  for (std::size_t i = 1; i < power_.size(); ++i)
-    surface_ += (power_[i] - noise_[i]) / static_cast<double>(kLinePadding);
 }
 
 double LineSearch::power_at(std::span<const double> heights_m, double cycles) const {
@@ -156,9 +156,7 @@ bool LineSearch::is_line(std::size_t bin) const {
   const double periods = wave.cycles;
   const double nearest = periods < 50.0 ? 1.0 : periods < 100.0 ? 2.0 : 3.0;
   return exceeds(wave, {2.0, 16.0, trials_, true}, rest_m) &&
-         exceeds(wave,
-                 {nearest, std::clamp(std::round(0.16 * periods), 5.0, 16.0), std::clamp(periods, 4.0, 32.0), false},
-                 rest_m);
+         exceeds(wave, {nearest, std::clamp(std::round(0.16 * periods), 5.0, 16.0), 32.0, false}, rest_m);
 }
 
 LineSearch::Reach LineSearch::reach_of(double pitch_m, int harmonic) const {

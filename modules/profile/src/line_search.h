@@ -12,9 +12,9 @@ namespace asperity {
 class LineSearch {
  public:
   // Heights in m, nan in gaps; the density of the noise in m²/(cycles/mm) at rising frequencies in cycles/mm, empty for
-  // none. Waves of `shortest_m` to `longest_m` are looked for.
+  // none; it may be `most_noise` times as much. Waves of `shortest_m` to `longest_m` are looked for.
   LineSearch(std::span<const double> height_m, double spacing_m, std::span<const double> frequency,
-             std::span<const double> noise_psd_m2_mm, double shortest_m, double longest_m);
+             std::span<const double> noise_psd_m2_mm, double most_noise, double shortest_m, double longest_m);
 
   // Whether one of the first eight harmonics of a pattern, known to 2 %, is a line: one that a random surface has
   // anywhere in the search with a probability of 1 %, and that holds at least 1/32 of the surface's power (an amplitude
@@ -58,7 +58,7 @@ class LineSearch {
   double trials_ = 0.0;            // of them, those of the search
   std::size_t searched_bins_ = 0;  // bins up to the shortest wave's
   std::vector<double> power_;      // periodogram, m²/(cycles/mm)
-  std::vector<double> noise_;      // at the same bins
+  std::vector<double> noise_;      // the most at the same bins
   double surface_ = 0.0;           // the periodogram less the noise, summed over independent frequencies
 };
 

@@ -90,7 +90,7 @@ double peak_at(double f, double centre, double width) {
 }
 
 double find_line_m(const std::vector<double>& height_m) {
-  return LineSearch(height_m, kSpacing_m, {}, {}, kShortest_m, kLongest_m).find_line_m(kShortest_m, kLongest_m);
+  return LineSearch(height_m, kSpacing_m, {}, {}, 1.0, kShortest_m, kLongest_m).find_line_m(kShortest_m, kLongest_m);
 }
 
 // The stated rate of 1 %, over smooth spectra and peaks of at least a twentieth of their frequency, from 16 periods.
@@ -146,7 +146,7 @@ TEST(LineSearch, FindsAWaveInNoise) {
         x[i] = std::sin(kTwoPi * kSpacing_m * static_cast<double>(i) / pitch_m) + sigma * random.normal();
       const std::vector<double> frequency{0.0, 20.0};
       const std::vector<double> density(2, 2e3 * kSpacing_m * sigma * sigma);
-      const LineSearch search(x, kSpacing_m, frequency, density, kShortest_m, kLongest_m);
+      const LineSearch search(x, kSpacing_m, frequency, density, 1.0, kShortest_m, kLongest_m);
       const double line_m = search.find_line_m(kShortest_m, kLongest_m);
       // Within half of an independent frequency.
       found += line_m > 0.0 && std::abs(pitch_m / line_m - 1.0) < 0.5 / periods ? 1 : 0;
