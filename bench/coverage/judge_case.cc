@@ -11,9 +11,11 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
+#include "asperity/pipeline/process_methods.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/profile/measure_roughness.h"
 #include "fft.h"
+#include "find_unknown_pitch.h"
 #include "true_figures.h"
 
 namespace bench {
@@ -44,6 +46,7 @@ struct FigureKind {
   std::function<double(const TextureView&)> of_texture;
   std::function<double(const ScanCase&, const TrueProfile&)> truth;
   bool is_height = false;
+  bool needs_pitch = false;  // of the maker: an oracle may or may not be told it
 };
 
 Said roughness(const ProcessResult& r, double asperity::RoughnessParameters::*value) {
@@ -84,13 +87,14 @@ const std::vector<FigureKind>& figure_kinds() {
          return r.periodicity.periodic ? Said{r.periodicity.pitch_m, r.periodicity.pitch_stderr_m, kMissing, kMissing}
                                        : Said{};
        },
-       [](const TextureView& v) { return find_true_pitch_m(v.texture_m, v.spacing_m, v.pitch_m); }, nullptr},
+       [](const TextureView& v) { return find_true_pitch_m(v.texture_m, v.spacing_m, v.pitch_m); }, nullptr, false,
+       true},
       {"depth_m",
        [](const ProcessResult& r) {
          return r.periodicity.periodic ? Said{r.periodicity.depth_m, r.periodicity.depth_stderr_m, kMissing, kMissing}
                                        : Said{};
        },
-       [](const TextureView& v) { return measure_depth_m(v.texture_m, v.spacing_m, v.pitch_m); }, nullptr, true},
+       [](const TextureView& v) { return measure_depth_m(v.texture_m, v.spacing_m, v.pitch_m); }, nullptr, true, true},
       {"Ra_m", [](const ProcessResult& r) { return roughness(r, &R::Ra_m); },
        [](const TextureView& v) { return plain(v, &P::Ra_m); }, nullptr, true},
       {"Rq_m", [](const ProcessResult& r) { return roughness(r, &R::Rq_m); },
@@ -169,18 +173,28 @@ double standard_deviation(const std::vector<double>& x) {
   return std::sqrt(square / static_cast<double>(x.size() - 1));
 }
 
-// The spread of the texture's figure over twins of the actual error added to the truth: what one would have to live
-// with who knew that error's spectrum, and took its bias off.
-double oracle_sigma(const FigureKind& kind, const ScanCase& scan, const TrueProfile& truth, double spacing_m) {
+constexpr double kSamePitch = 0.1;  // relative
+
+// The spread of the texture's figure over twins of the measured heights' actual error added to the truth: what one
+// would have to live with who knew that error's spectrum, and took its bias off. Of a pattern's figures, one who is
+// `told` the maker's pitch, or else looks for it in each twin (find_unknown_pitch.h); where that misses the pitch by
+// more than a tenth in one of them, it is not determined.
+double oracle_sigma(const FigureKind& kind, const ScanCase& scan, const TrueProfile& truth, double spacing_m,
+                    bool told) {
   constexpr int kTwins = 8;
   asperity::Random random(scan.seed, 0x7477696e);
-  const NoiseTwin twin(truth.texture_error_m);
+  const NoiseTwin twin(truth.measured_error_m);
   std::vector<double> values;
   for (int k = 0; k < kTwins; ++k) {
     std::vector<double> disturbed = twin.draw(random);
     for (std::size_t i = 0; i < disturbed.size(); ++i) disturbed[i] += truth.texture_m[i];
+    double pitch_m = scan.pitch_m;
+    if (!told) {
+      pitch_m = find_unknown_pitch_m(disturbed, truth.measured_error_m, spacing_m);
+      if (!(std::abs(pitch_m / scan.pitch_m - 1.0) < kSamePitch)) return kMissing;
+    }
     try {
-      const double value = kind.of_texture({disturbed, spacing_m, scan.pitch_m});
+      const double value = kind.of_texture({disturbed, spacing_m, pitch_m});
       if (std::isfinite(value)) values.push_back(value);
     } catch (const asperity::Error&) {
       return kMissing;
@@ -243,8 +257,10 @@ FigureOutcome judge_figure(const FigureKind& kind, const ScanCase& scan, const P
                                 : kind.truth(scan, truth);
     // A tracker alone gives the length to a few per cent.
     if (out.name == "length_m") out.oracle_sigma = 0.0;
-    if (kind.of_texture && std::isfinite(out.truth))
-      out.oracle_sigma = oracle_sigma(kind, scan, truth, result->profile.spacing_m);
+    if (kind.of_texture && std::isfinite(out.truth)) {
+      out.oracle_sigma = oracle_sigma(kind, scan, truth, result->profile.spacing_m, !kind.needs_pitch);
+      if (kind.needs_pitch) out.told_sigma = oracle_sigma(kind, scan, truth, result->profile.spacing_m, true);
+    }
   } catch (const asperity::Error&) {
     out.truth = kMissing;
   }
@@ -268,7 +284,16 @@ ScanOutcome judge_case(const ScanCase& scan) {
   out.nothing = scan.nothing;
   const auto begun = std::chrono::steady_clock::now();
   try {
-    const ProcessResult result = asperity::process_recording(scan.recording, {});
+    // The texture as it was measured is not in the result, where its noise is taken out.
+    const asperity::ProcessConfig config;
+    asperity::ProcessMethod method = asperity::ProcessMethods::get(config.method);
+    std::vector<double> measured_m;
+    method.make_profile = [&measured_m, make = method.make_profile](const auto&... stages) {
+      asperity::Profile profile = make(stages...);
+      measured_m = profile.texture_m;
+      return profile;
+    };
+    const ProcessResult result = asperity::process_recording(scan.recording, config, method);
     out.process_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     out.trusted = result.trustworthy;
     for (const asperity::Verdict& verdict : result.verdicts) {
@@ -283,7 +308,7 @@ ScanOutcome judge_case(const ScanCase& scan) {
       out.position_rms_m = result.accuracy->position_rms_m;
       if (result.accuracy->profile) out.correlation = result.accuracy->profile->correlation;
     }
-    const TrueProfile truth = find_true_profile(scan.recording, result);
+    const TrueProfile truth = find_true_profile(scan.recording, result, measured_m);
     out.position_over_sigma = position_error_over_sigma(scan.recording, result.trajectory.motion);
     out.height_over_sigma = error_over_sigma(truth.error_m, result.profile.sigma_m);
     out.texture_over_sigma = error_over_sigma(truth.placed_texture_error_m, result.profile.texture_sigma_m.empty()

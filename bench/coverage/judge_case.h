@@ -18,6 +18,7 @@ struct FigureOutcome {
   double value = kMissing, low = kMissing, high = kMissing;  // what the product says, with its 95 % interval
   double truth = kMissing;
   double oracle_sigma = kMissing;  // of one who knows the noise's own spectrum; see judge_case.cc
+  double told_sigma = kMissing;    // of a pattern's figure: of one who also knows the maker's pitch
   bool has_value() const { return value == value; }
   bool determined() const { return low == low || high == high; }  // an interval, at least on one side
   bool holds() const { return !(truth < low) && !(truth > high); }

@@ -16,15 +16,17 @@ struct TrueProfile {
   std::vector<double> height_m;   // true height under each point of the measured profile; nan where either has none
   std::vector<double> texture_m;  // the same after the high-pass
   std::vector<double> error_m;    // measured less true heights at the same place of the path, less their common line
-  std::vector<double> texture_error_m;         // measured less true texture when the tip passed
+  std::vector<double> texture_error_m;         // the result's less the true texture when the tip passed
+  std::vector<double> measured_error_m;        // the same before the expected noise was taken out of the texture
   std::vector<double> placed_texture_error_m;  // and at the same place of the path
   double shift_m = 0.0;                        // of the measured arc length, which made both lie best on each other
 };
 
 // Each point of the measured profile was passed at a time; the truth is asked for its arc length then. One shift (at
 // most 1 mm) for delays of clocks, that of the highest correlation of the textures. Empty heights if the truth has
-// none.
-TrueProfile find_true_profile(const asperity::Recording& recording, const asperity::ProcessResult& result);
+// none. `measured_texture_m`: the result's texture, point by point, before noise was taken out of it.
+TrueProfile find_true_profile(const asperity::Recording& recording, const asperity::ProcessResult& result,
+                              std::span<const double> measured_texture_m);
 
 // Zero-phase second-order Butterworth high-pass, gain 1/(1 + (√2 − 1)(cutoff/f)⁴), of each run of finite heights (gaps
 // up to bridge_m bridged by straight lines), less its straight line and mirrored at both ends. By FFT.

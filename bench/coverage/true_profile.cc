@@ -182,7 +182,8 @@ std::vector<double> high_pass(std::span<const double> height_m, double spacing_m
   return out;
 }
 
-TrueProfile find_true_profile(const asperity::Recording& recording, const asperity::ProcessResult& result) {
+TrueProfile find_true_profile(const asperity::Recording& recording, const asperity::ProcessResult& result,
+                              std::span<const double> measured_texture_m) {
   TrueProfile out;
   const asperity::Profile& profile = result.profile;
   if (!recording.truth || profile.size() < 16 || result.base.path.size() == 0) return out;
@@ -239,10 +240,12 @@ TrueProfile find_true_profile(const asperity::Recording& recording, const asperi
   out.texture_m = high_pass(out.height_m, profile.spacing_m, cutoff, bridge_m);
   out.error_m.resize(profile.size());
   out.texture_error_m.resize(profile.size());
+  out.measured_error_m.resize(profile.size());
   out.placed_texture_error_m.resize(profile.size());
   for (std::size_t i = 0; i < profile.size(); ++i) {
     out.error_m[i] = profile.height_m[i] - placed_m[i];
     out.texture_error_m[i] = profile.texture_m[i] - out.texture_m[i];
+    out.measured_error_m[i] = measured_texture_m[i] - out.texture_m[i];
     out.placed_texture_error_m[i] = profile.texture_m[i] - placed_texture_m[i];
   }
   subtract_line(out.error_m);

@@ -10,6 +10,7 @@
 #include "asperity/base/text.h"
 #include "asperity/signal/statistics.h"
 #include "follow_pattern.h"
+#include "line_search.h"
 #include "period_depths.h"
 
 namespace asperity {
@@ -233,7 +234,7 @@ Periodicity follow_pattern(std::span<const double> height_m, double spacing_m, d
   return follow_from(x, spacing_m, refine_frequency(search_part(x), spacing_m / pitch_m, kReachOfLag), config);
 }
 
-Periodicity find_periodicity(std::span<const double> height_m, double spacing_m, const PeriodicityConfig& config) {
+Periodicity find_repetition(std::span<const double> height_m, double spacing_m, const PeriodicityConfig& config) {
   if (!(spacing_m > 0.0) || !(config.min_pitch_m > 2.0 * spacing_m) || !(config.max_pitch_m > config.min_pitch_m)) {
     throw Error("periodicity: spacing " + number_text(spacing_m) + " m, pitch " + number_text(config.min_pitch_m) +
                 " to " + number_text(config.max_pitch_m) + " m");
@@ -248,6 +249,14 @@ Periodicity find_periodicity(std::span<const double> height_m, double spacing_m,
   const double lag = find_lag(part, shortest, std::min(longest, part.size() / 3));
   if (!(lag > 0.0)) return out;
   return follow_from(x, spacing_m, undo_multiple(part, refine_frequency(part, 1.0 / lag, kReachOfLag)), config);
+}
+
+Periodicity find_periodicity(std::span<const double> height_m, double spacing_m, const PeriodicityConfig& config) {
+  Periodicity out = find_repetition(height_m, spacing_m, config);
+  if (!out.periodic) return out;
+  const double longest_m = std::min(config.max_pitch_m, spacing_m * static_cast<double>(height_m.size()) / 3.0);
+  out.periodic = LineSearch(height_m, spacing_m, {}, {}, 1.0, config.min_pitch_m, longest_m).has_pattern(out.pitch_m);
+  return out;
 }
 
 }  // namespace asperity

@@ -79,14 +79,13 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
   for (std::size_t i = 0; i < psd.size(); ++i) psd[i] += noise.misplaced_psd_m2_mm[i];
   const std::vector<double> quiet_m =
       apply_wiener_filter(height_m, spacing_m, noise.frequency_cycles_per_mm, psd, kNoiseBridge_m).texture_m;
-  Periodicity out = find_periodicity(quiet_m, spacing_m, config);
+  Periodicity out = find_repetition(quiet_m, spacing_m, config);
   if (!std::isfinite(out.pitch_m)) return out;
   const double most = 1.0 + kSurely * 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
   // Misplaced heights blur a line; they make none where there is none.
-  std::vector<double> most_psd = noise.added_psd_m2_mm;
-  for (double& density : most_psd) density *= most;
   const double longest_m = std::min(config.max_pitch_m, spacing_m * static_cast<double>(height_m.size()) / 3.0);
-  const LineSearch search(height_m, spacing_m, noise.frequency_cycles_per_mm, most_psd, config.min_pitch_m);
+  const LineSearch search(height_m, spacing_m, noise.frequency_cycles_per_mm, noise.added_psd_m2_mm, most,
+                          config.min_pitch_m, longest_m);
   // At its line and not by the correlation, which follows what is strongest, as the hand's tremor on a smooth pattern.
   const auto follow_line = [&](double shortest_m, double most_m) {
     const double line_m = search.find_line_m(shortest_m, most_m);
@@ -102,7 +101,7 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
     near.max_pitch_m = (1.0 + kMultipleReach) * pitch_m;
     if (!(near.max_pitch_m > near.min_pitch_m)) return;  // a pitch below the shortest is not looked for
     if (follow_line(near.min_pitch_m, near.max_pitch_m)) return;
-    const Periodicity found = find_periodicity(quiet_m, spacing_m, near);
+    const Periodicity found = find_repetition(quiet_m, spacing_m, near);
     if (std::isfinite(found.pitch_m)) out = found;
   };
   int multiple = find_multiple(search, out.pitch_m);
@@ -111,7 +110,8 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
   } else if (multiple > 1) {
     find_near(out.pitch_m / multiple);
   }
-  if (multiple == 0 && follow_line(config.min_pitch_m, longest_m)) multiple = find_multiple(search, out.pitch_m);
+  // Near the correlation's pitch a harmonic may stand out of its neighbours by chance.
+  if (multiple == 0 || !search.has_pattern(out.pitch_m)) multiple = follow_line(config.min_pitch_m, longest_m) ? 1 : 0;
   if (multiple == 0) {
     out.periodic = false;
     out.pitch_stderr_m = out.depth_stderr_m = kNan;

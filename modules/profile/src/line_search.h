@@ -7,32 +7,59 @@
 namespace asperity {
 
 // Lines in the periodogram of a profile: waves that keep their length over all of it, as a pattern's do. A random
-// surface and a hand's tremor have power there too, but spread over neighbouring frequencies.
-//
-// The periodogram of Gaussian noise over its density exceeds q with the probability exp(−q); over the median of m
-// independent neighbours, which scatters as χ² with about m degrees of freedom, with (1 + 2q/m)^(−m/2). A line exceeds
-// both, at one in a hundred for all that is searched together; of the neighbours the higher side counts.
+// surface and a hand's tremor have power there too, but spread over neighbouring frequencies. docs/periodicity.md has
+// the test, its false-alarm rate and its limits.
 class LineSearch {
  public:
-  // Heights in m, nan in gaps; the density of the noise in m²/(cycles/mm) at rising frequencies in cycles/mm. A search
-  // looks at as many frequencies as the profile is `shortest_m` long.
+  // Heights in m, nan in gaps; the density of the noise in m²/(cycles/mm) at rising frequencies in cycles/mm, empty for
+  // none; it may be `most_noise` times as much. Waves of `shortest_m` to `longest_m` are looked for.
   LineSearch(std::span<const double> height_m, double spacing_m, std::span<const double> frequency,
-             std::span<const double> noise_psd_m2_mm, double shortest_m);
+             std::span<const double> noise_psd_m2_mm, double most_noise, double shortest_m, double longest_m);
 
-  // Whether the pattern's harmonic is a line, looked for as far as the pitch may be off (2 %).
-  bool has_line(double pitch_m, int harmonic) const;
+  // Whether one of the first eight harmonics of a pattern, known to 2 %, is a line: one that a random surface has
+  // anywhere in the search with a probability of 1 %, and that holds at least 1/32 of the surface's power (an amplitude
+  // of a quarter of its RMS). Harmonics shorter than the shortest wave are not asked.
+  bool has_pattern(double pitch_m) const;
 
-  // The length of the wave whose line holds most power, from `shortest_m` to `longest_m`; 0 if there is no line.
+  // The length of the wave whose line, of the same kind, holds most power, from `shortest_m` to `longest_m`; 0 if there
+  // is no line.
   double find_line_m(double shortest_m, double longest_m) const;
 
- private:
-  // Among so many frequencies for noise, and for what the neighbours have.
-  bool is_line(std::size_t bin, double trials, double near_trials) const;
+  // Of a pattern that is there: whether this harmonic stands out of the noise and of its neighbours, at 1 % for itself.
+  bool has_line(double pitch_m, int harmonic) const;
 
-  double length_m_ = 0.0;      // of the padded profile: a bin is 1/length
-  double searched_ = 0.0;      // frequencies
-  std::vector<double> power_;  // periodogram, m²/(cycles/mm)
-  std::vector<double> noise_;  // at the same bins
+ private:
+  struct Reach {
+    std::size_t first, last;  // bins, the last excluded
+  };
+  struct Wave {
+    double cycles, power;
+  };
+  struct Neighbours {
+    double nearest, farthest;  // independent frequencies
+    double trials;             // frequencies that this background is asked for
+    bool sides;                // the higher of the two sides counts if it is higher than the fit
+  };
+
+  Reach reach_of(double pitch_m, int harmonic) const;
+  bool is_line(std::size_t bin) const;
+  bool is_local_line(std::size_t bin, double near_trials) const;
+  double power_at(std::span<const double> heights_m, double cycles) const;
+  Wave find_wave(std::size_t bin) const;
+  std::vector<double> without_wave(double cycles) const;
+  bool exceeds(const Wave& wave, const Neighbours& neighbours, std::span<const double> rest_m) const;
+
+  std::vector<double> x_m_;    // heights less their mean, 0 in gaps
+  std::vector<bool> present_;  // not in a gap
+  double points_ = 0.0;
+  double spacing_m_ = 0.0;
+  double length_m_ = 0.0;          // of the padded profile: a bin is 1/length
+  double searched_ = 0.0;          // independent frequencies up to the shortest wave's
+  double trials_ = 0.0;            // of them, those of the search
+  std::size_t searched_bins_ = 0;  // bins up to the shortest wave's
+  std::vector<double> power_;      // periodogram, m²/(cycles/mm)
+  std::vector<double> noise_;      // the most at the same bins
+  double surface_ = 0.0;           // the periodogram less the noise, summed over independent frequencies
 };
 
 }  // namespace asperity

@@ -37,8 +37,9 @@ struct Periodicity {
 // through the fundamental's phase in windows of two periods. The standard error is that line's, with the
 // residuals' autocorrelation allowed for, so an error of the arc length that comes and goes is in it; one
 // that is constant is not. The depth is taken over periods of which at least 70 % are not gaps; its standard
-// error is that of a median. `periodic` is false below `min_strength` or for fewer than three periods;
-// the rest is then as far as it could be had. Throws Error for a spacing or a range that makes no sense.
+// error is that of a median. `periodic` is false below `min_strength`, for fewer than three periods and where
+// none of the first eight harmonics is a line, which a random surface has in one of a hundred profiles
+// (docs/periodicity.md); the rest is then as far as it could be had. Throws Error for a spacing or a range that makes no sense.
 Periodicity find_periodicity(std::span<const double> height_m, double spacing_m, const PeriodicityConfig& config);
 
 }  // namespace asperity
