@@ -130,6 +130,7 @@ Json scan_json(const ScansOnMesh& result, const RegisteredScan& scan, const Scan
   }
   out["base_rms_m"] = scan.process.base.base_rms_m;
   if (warp != nullptr) out["warp"] = warp_json(*warp);
+  out["fingerprint"] = fingerprint_json(scan.fingerprint);
   out["problems"] = problems_json(scan.process.problems);
   out["files"] = files;
   return out;

@@ -57,6 +57,7 @@ constexpr VerdictCode kCodes[] = {
     {"no_texture", kLimited, "scan a longer stroke"},
     // Strokes over one line (merge_results.h).
     {"no_common_line", kInvalid, "scan along a guide, and merge strokes over one line alone"},
+    {"passes_dependent", kInvalid, "merge strokes that were measured one by one"},
     {"passes_left_out", kLimited, "check that they are of the same line, or leave them out"},
     {"passes_disagree", kLimited, "scan along a guide, so that the strokes pass over the same line"},
     // A registration.
