@@ -50,14 +50,6 @@ bool same_place(const PointSet& points, const PathLikelihood::Evaluation& a, con
   return apart.dot(a.information * apart) < kSame2 || rms_between(points, a.pose, b.pose) < 1e-3 * points.radius_m;
 }
 
-MatchRules weighing_rules(const PointSet& points, const RegistrationConfig& config) {
-  MatchRules out = match_rules(config);
-  if (std::any_of(points.outward.begin(), points.outward.end(), [](const auto& o) { return o.isZero(); })) {
-    out.facing_cos = -1.0;
-  }
-  return out;
-}
-
 }  // namespace
 
 std::vector<WeighedPose> weigh_poses(std::span<const MeasuredPath> paths, const RegistrationSurface& surface,
