@@ -8,6 +8,7 @@
 #include "asperity/pipeline/result_json.h"
 #include "asperity/pipeline/write_result.h"
 #include "asperity/profile/stiffness_of_compliance.h"
+#include "asperity/recording/fingerprint.h"
 #include "asperity/verdict/verdict_json.h"
 #include "json.h"
 

@@ -23,6 +23,7 @@ constexpr int kRounds = 4, kSteps = 8;
 double log_size_sigma(const PointSet& points, const PathLikelihood::Scaled& at, const Eigen::Vector3d& tip_sigma_m) {
   Eigen::Matrix<double, 7, 7> precision = at.information.topLeftCorner<7, 7>();
   // Where the paths say nothing of a motion, it is still smaller than they are.
+  precision(6, 6) += 1.0 / (PathLikelihood::kSizeSpread * PathLikelihood::kSizeSpread);
   precision.topLeftCorner<6, 6>() += motion_metric(points, at.at.pose) / std::pow(0.5 * points.radius_m, 2);
   const Eigen::Matrix<double, 7, 7> covariance = precision.inverse();
   const Eigen::Vector3d by_tip = -(covariance * at.information.topRightCorner<7, 3>()).row(6).transpose();
@@ -51,6 +52,7 @@ MeshScale measure_mesh_scale(std::span<const MeasuredPath> paths, const Registra
     }
   }
   if (!best) return out;
+  as_it_is = std::min(as_it_is, likelihood.descend(best->at.pose, kRounds, kSteps).cost);
   Eigen::Vector3d tip_sigma_m = Eigen::Vector3d::Zero();
   for (const MeasuredPath& path : paths) {
     if (path.tip_sigma_m.allFinite()) tip_sigma_m = tip_sigma_m.cwiseMax(path.tip_sigma_m);

@@ -14,7 +14,6 @@ namespace {
 constexpr double kOutlier2 = 16.0;  // squared standard deviations that a block costs at most
 constexpr std::size_t kPerBlock = 4;
 constexpr double kMostBlocks = 1500.0;
-constexpr double kSizeSpread = 0.5;        // of a mesh's wrong size: standard deviation of its logarithm
 constexpr double kLargestSizeStep = 0.15;  // of a Gauss–Newton step
 
 double median_of_values(std::vector<double> values) {
@@ -259,7 +258,7 @@ PathLikelihood::Evaluation PathLikelihood::descend(const CentredPose& start, int
 PathLikelihood::Scaled PathLikelihood::descend_with_size(const CentredPose& start, double log_size, int rounds,
                                                          int steps) {
   const double damping = 1.0 / std::pow(0.3 * points_.radius_m, 2);
-  const auto prior = [](double log_size) { return std::pow(log_size / kSizeSpread, 2); };
+  const auto prior = [](double at) { return std::pow(at / kSizeSpread, 2); };
   const auto evaluated = [&](const CentredPose& pose, double at) {
     measure(pose, at);
     Scaled out{evaluate_measured(pose), at, {}};

@@ -46,6 +46,7 @@ class PathLikelihood {
     double log_size = 0.0;
     Matrix10 information = Matrix10::Zero();  // of pose, log_size and the tip's position (marker axes)
   };
+  static constexpr double kSizeSpread = 0.5;  // of log_size, a priori
   Scaled descend_with_size(const CentredPose& start, double log_size, int rounds, int steps);
 
  private:

@@ -70,9 +70,10 @@ std::vector<WeighedPose> weigh_poses(std::span<const MeasuredPath> paths, const 
   std::stable_sort(first.begin(), first.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
   // What is this much less likely after the first steps does not catch up.
   constexpr double kHopeless = 60.0;
+  constexpr std::size_t kLeastEnds = 11;  // so many the best is compared with all the same (chance_of_gap.h)
   std::vector<PathLikelihood::Evaluation> ends;
   for (const auto& begun : first) {
-    if (begun.cost > least + kHopeless && ends.size() >= 2) break;
+    if (begun.cost > least + kHopeless && ends.size() >= kLeastEnds) break;
     if (std::any_of(ends.begin(), ends.end(), [&](const auto& end) { return same_place(points, end, begun); }))
       continue;
     observer.update("comparison", 0.5);

@@ -27,6 +27,9 @@ constexpr double kSlowRatio =
     3.5;  // a slow error this much larger than stated is an error of the mesh, or another mesh
 constexpr double kOutlying = 0.25;  // share of the paths
 
+// One of ten other objects would pass this alone; it has to pass all that is above, too.
+constexpr double kChance = 0.1;
+
 // The mesh's size. A scanner's mesh and the tracker's markers are each allowed a scale error of some tenths of a
 // percent before a pose is refused for it.
 constexpr double kScaleError = 0.005;
@@ -97,6 +100,12 @@ Verdicts judge_registration(const PoseEvidence& evidence) {
                      fmt::format("to lie there the paths need a slow error {:.2g} times as large as stated, and {:.0f} "
                                  "% of them are no such error",
                                  evidence.slow_ratio, 100.0 * evidence.outlying)));
+  }
+  if (evidence.chance > kChance) {
+    out.push_back(make_verdict(
+        "shape_unproven", fmt::format("the pose stands out of all others on this mesh no more than the best pose of "
+                                      "another object would, with a probability of {:.2g}",
+                                      evidence.chance)));
   }
   judge_scale(evidence, out);
   if (!evidence.searched) {

@@ -67,6 +67,8 @@ constexpr VerdictCode kCodes[] = {
     {"pose_uncertain", kInvalid,
      "scan a path with bends in several directions, or several strokes, and register them together"},
     {"other_shape", kInvalid, "check that it is the right mesh, and its unit"},
+    {"shape_unproven", kInvalid,
+     "check that it is the right mesh, scan a longer path or several strokes with bends, and register them together"},
     {"mesh_scale_differs", kInvalid, "check the unit of the mesh, that it is the right mesh, and the tracker's scale"},
     {"mesh_scale_doubtful", kLimited, "check the size of the mesh and of the printed markers"},
     {"mesh_scale_unknown", kNote, ""},

@@ -85,6 +85,8 @@ struct PoseRivals {
   double slow_ratio =
       std::numeric_limits<double>::quiet_NaN();  // of the slow error that the pose needs to the stated one
   double outlying = std::numeric_limits<double>::quiet_NaN();  // share of the paths that no such error explains
+  // That on a mesh of another object the best of the poses would stand out of the others as this one does.
+  double chance = std::numeric_limits<double>::quiet_NaN();
   MeshScale scale;
 };
 
