@@ -53,7 +53,7 @@ double error_um(const asperity::Profile& profile, const asperity::Truth& truth, 
 
 void run(const Choice& choice, const std::string& surface, std::int64_t line) {
   asperity::MergeConfig config;
-  std::vector<asperity::ProfilePass> passes;
+  std::vector<asperity::MergeStroke> strokes;
   std::vector<asperity::Truth> truths;
   std::vector<asperity::Accuracy> accuracies;
   std::vector<double> single_um, stated_um;
@@ -62,14 +62,14 @@ void run(const Choice& choice, const std::string& surface, std::int64_t line) {
     const asperity::ProcessResult removed = asperity::process_recording(recording, config.process);
     asperity::ProcessConfig as_measured = config.process;
     as_measured.profile.remove_noise = false;
-    passes.push_back(
-        asperity::pass_of_result(asperity::process_recording(recording, as_measured), std::to_string(k + 1)));
+    strokes.push_back(asperity::stroke_of_result(asperity::process_recording(recording, as_measured), recording,
+                                                 std::to_string(k + 1)));
     truths.push_back(*recording.truth);
     accuracies.push_back(*removed.accuracy);
     if (removed.accuracy->profile) single_um.push_back(removed.accuracy->profile->rms_um);
     stated_um.push_back(1e6 * removed.noise.noise_rms_m);
   }
-  const asperity::ProcessResult merged = asperity::merge_results(passes, surface, config);
+  const asperity::ProcessResult merged = asperity::merge_results(strokes, surface, config);
   std::printf("| %s %lld | %zu of %d |", surface.c_str(), static_cast<long long>(line), merged.passes->used,
               choice.strokes);
   if (!merged.passes->agrees) {

@@ -76,7 +76,7 @@ class MergeCommand : public Command {
   int run(const Observer& observer) override {
     if (inputs_.size() < 2) throw UsageError("PASS: a merge needs at least two strokes");
     OutputFolder folder(output_, is_result_folder);
-    std::vector<ProfilePass> passes;
+    std::vector<MergeStroke> strokes;
     std::string object;
     std::set<std::string> names;
     for (const std::string& input : inputs_) {
@@ -86,11 +86,11 @@ class MergeCommand : public Command {
       if (!names.insert(name).second) name = input;
       names.insert(name);
       reads(input);
-      passes.push_back(read(input, name, observer, object));
+      strokes.push_back(read(input, name, observer, object));
     }
     reads("");
     if (object.empty()) object = "merged";
-    const ProcessResult result = merge_results(passes, object, config_);
+    const ProcessResult result = merge_results(strokes, object, config_);
     observer.update("writing", 1.0);
     if (result.passes->agrees) {
       write_merge(folder.path(), result, config_, object);
@@ -106,8 +106,8 @@ class MergeCommand : public Command {
   }
 
  private:
-  ProfilePass read(const std::string& input, const std::string& name, const Observer& observer, std::string& object) {
-    if (fs::is_regular_file(fs::path(input) / "result.json")) return read_pass(input, name);
+  MergeStroke read(const std::string& input, const std::string& name, const Observer& observer, std::string& object) {
+    if (fs::is_regular_file(fs::path(input) / "result.json")) return read_stroke(input, name);
     const Recording recording = read_recording(input, {}, observer);
     if (object.empty()) object = recording.info.object;
     ProcessConfig config = config_.process;
@@ -122,7 +122,7 @@ class MergeCommand : public Command {
       throw Error(printable(input, 200) + ": " + error.what());
     }
     if (result.profile.size() == 0) throw Error(printable(input, 200) + ": " + result.verdict);
-    return pass_of_result(result, name);
+    return stroke_of_result(result, recording, name);
   }
 
   std::vector<std::string> inputs_;

@@ -14,6 +14,7 @@
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
 #include "asperity/profile/measure_roughness.h"
+#include "asperity/recording/fingerprint.h"
 
 namespace asperity::app {
 
@@ -64,16 +65,25 @@ void add_map(const ArealMap& map, std::vector<ArealSample>& samples) {
   }
 }
 
+// Strokes count as draws of one texture: the same one twice is none the more.
+NamedFingerprint fingerprint_of(const std::string& file, const HeightProfile& profile) {
+  NamedFingerprint out{file, {}};
+  out.of.points = sketch_values(profile.height_m);
+  return out;
+}
+
 }  // namespace
 
 bool is_texture_file(const std::string& file) { return file.ends_with(".json"); }
 
 HeightProfile read_strokes(const std::vector<std::string>& files, const ReadHeightsConfig& config) {
   HeightProfile all;
+  std::vector<NamedFingerprint> read;
   for (const std::string& file : files) {
     const Heights heights = read_heights(file, config);
     const auto* profile = std::get_if<HeightProfile>(&heights);
     if (!profile) throw Error(file + ": an areal map, where heights along a line are needed");
+    read.push_back(fingerprint_of(file, *profile));
     if (all.height_m.empty()) {
       all = *profile;
       continue;
@@ -87,6 +97,7 @@ HeightProfile read_strokes(const std::vector<std::string>& files, const ReadHeig
     all.height_m.insert(all.height_m.end(), gap, kNan);
     all.height_m.insert(all.height_m.end(), profile->height_m.begin(), profile->height_m.end());
   }
+  check_independent(read);
   return all;
 }
 
@@ -94,6 +105,7 @@ std::vector<ArealSample> read_areal_samples(const std::vector<std::string>& file
                                             double stroke_spacing_m) {
   std::vector<ArealSample> samples;
   std::size_t strokes = 0;
+  std::vector<NamedFingerprint> read;
   for (const std::string& file : files) {
     if (const auto scattered = read_scattered(file)) {
       samples.insert(samples.end(), scattered->begin(), scattered->end());
@@ -107,12 +119,14 @@ std::vector<ArealSample> read_areal_samples(const std::vector<std::string>& file
     if (!(stroke_spacing_m > 0.0))
       throw Error(file + ": heights along a line; how far the strokes lie apart must be given (fit.stroke_spacing_mm)");
     const auto& profile = std::get<HeightProfile>(heights);
+    read.push_back(fingerprint_of(file, profile));
     for (std::size_t i = 0; i < profile.height_m.size(); ++i) {
       samples.push_back({static_cast<double>(i) * profile.spacing_m, static_cast<double>(strokes) * stroke_spacing_m,
                          profile.height_m[i]});
     }
     ++strokes;
   }
+  check_independent(read);
   return samples;
 }
 

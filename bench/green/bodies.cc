@@ -132,6 +132,13 @@ Body make_bumpy_pebble(std::uint64_t seed) {
   return {"pebble", asperity::make_pebble(config), {}};
 }
 
+Body mirrored(const Body& body) {
+  Body out{body.name + " mirrored", body.mesh, {}};
+  for (Vector3d& vertex_m : out.mesh.vertices_m) vertex_m.x() = -vertex_m.x();
+  for (auto& triangle : out.mesh.triangles) std::swap(triangle[1], triangle[2]);
+  return out;
+}
+
 Body read_body(const std::string& file, double longest_m) {
   const asperity::MeshFile read = asperity::read_mesh(file);
   Eigen::AlignedBox3d box;

@@ -44,6 +44,9 @@ Body make_prism(int sides, double radius_m, double height_m);
 Body make_cylinder(double radius_m, double height_m);
 Body make_bumpy_pebble(std::uint64_t seed);
 
+// Its image in the plane x = 0, which no motion makes of a body without symmetry.
+Body mirrored(const Body& body);
+
 // A mesh of a file, its longest side `longest_m`.
 Body read_body(const std::string& file, double longest_m);
 

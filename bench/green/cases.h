@@ -16,16 +16,30 @@
 namespace bench {
 
 // How a case begins, and what is wrong with it.
-enum class CaseClass { kNear, kFar, kBadGuess, kNoGuess, kSymmetric, kWrongMesh, kWrongScale, kFewStarts, kByHand };
-inline constexpr std::array<std::string_view, 9> kCaseClassNames{"guess within 5 mm, 5°",
-                                                                 "guess within 15 mm, 20°",
-                                                                 "guess wrong by 20 to 80 mm, 20 to 180°",
-                                                                 "no guess",
-                                                                 "symmetric body",
-                                                                 "wrong mesh",
-                                                                 "wrong scale",
-                                                                 "no guess, few starts",
-                                                                 "moved by hand, no search"};
+enum class CaseClass {
+  kNear,
+  kFar,
+  kBadGuess,
+  kNoGuess,
+  kSymmetric,
+  kWrongMesh,
+  kMirrored,
+  kWrongScale,
+  kVeryWrongScale,
+  kFewStarts,
+  kByHand
+};
+inline constexpr std::array<std::string_view, 11> kCaseClassNames{"guess within 5 mm, 5°",
+                                                                  "guess within 15 mm, 20°",
+                                                                  "guess wrong by 20 to 80 mm, 20 to 180°",
+                                                                  "no guess",
+                                                                  "symmetric body",
+                                                                  "another body's mesh",
+                                                                  "the mesh's mirror image",
+                                                                  "the mesh 3 to 10 % too large or small",
+                                                                  "the mesh 10 to 30 % too large or small",
+                                                                  "no guess, few starts",
+                                                                  "moved by hand, no search"};
 
 struct PreparedBody {
   Body body;
@@ -35,6 +49,7 @@ struct PreparedBody {
 // All bodies that cases are drawn from.
 struct BodyPool {
   std::vector<PreparedBody> plain, symmetric;
+  std::vector<PreparedBody> mirrored;  // of the first of the plain, in their order
 };
 
 BodyPool make_bodies(const std::vector<std::string>& files, std::uint64_t seed);

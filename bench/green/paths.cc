@@ -100,6 +100,7 @@ asperity::MeasuredPath measure_line(const LineOnMesh& line, const PathErrors& er
   const double stated_m2 = std::pow(errors.stated_ratio * errors.slow_m, 2);
   out.slow_covariance_world_m2 = stated_m2 * Eigen::Matrix3d::Identity();
   out.sigma_m = std::sqrt(stated_m2);
+  out.tip_sigma_m.setConstant(errors.tip_sigma_m);
   Eigen::Quaterniond marker =
       Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), T_world_mesh.rotation * line.normal[0]);
   Vector3d outward = (line.normal[0] + lean).normalized();
@@ -115,6 +116,7 @@ asperity::MeasuredPath measure_line(const LineOnMesh& line, const PathErrors& er
                                 Vector3d(line.p_m[i] + (relief_m[i] + errors.relief_mean_m) * line.normal[i]) +
                             error_m + marker * errors.tip_m);
     out.outward_world.push_back(outward_world);
+    out.q_world_marker.push_back(marker);
   }
   return out;
 }

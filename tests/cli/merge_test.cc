@@ -64,5 +64,34 @@ TEST(Merge, StrokesOverOneLineAndRefusesOthers) {
   EXPECT_EQ(one.code, 2);
 }
 
+// A stroke and itself, however named, written or processed, are one measurement.
+TEST(Merge, RefusesAStrokeWithItself) {
+  const testkit::TempDir dir;
+  const auto path = [&](const char* name) { return (dir / name).string(); };
+  simulate_stroke(dir / "a", 1, 11);
+  fs::copy(dir / "a", dir / "copy", fs::copy_options::recursive);
+  std::ifstream in(dir / "copy" / "recording.json");
+  auto info = nlohmann::json::parse(in);
+  info["created"] = "2026-11-24T12:00:00Z";
+  info["object"] = "another";
+  std::ofstream(dir / "copy" / "recording.json") << info.dump();
+  ASSERT_EQ(run({"process", path("copy"), "-o", path("p"), "--set", "profile.remove_noise=false"}).code, 0);
+  for (const char* other : {"a", "copy", "p"}) {
+    const Outcome outcome = run({"merge", path("a"), path(other), "-o", path("none")});
+    EXPECT_EQ(outcome.code, 1) << other << outcome.out;
+    EXPECT_THAT(outcome.err, HasSubstr("a and ")) << other;
+    EXPECT_THAT(outcome.err, HasSubstr("100 % of their samples in common")) << other;
+    EXPECT_FALSE(fs::exists(dir / "none"));
+  }
+  // Without the fingerprint, as an earlier version wrote the result, the heights give it away.
+  std::ifstream result(dir / "p" / "result.json");
+  auto json = nlohmann::json::parse(result);
+  json.erase("fingerprint");
+  std::ofstream(dir / "p" / "result.json") << json.dump();
+  const Outcome merged = run({"merge", path("a"), path("p"), "-o", path("out")});
+  EXPECT_EQ(merged.code, 3) << merged.out;
+  EXPECT_THAT(merged.err, HasSubstr("not two measurements"));
+}
+
 }  // namespace
 }  // namespace asperity::cli

@@ -290,6 +290,19 @@ TEST_F(Register, TwoScansGiveOneMeshTwoTexturesAndTheSameBytesAgain) {
   EXPECT_THAT(names, Contains("b/profile.csv"));
   EXPECT_EQ(read_json(dir_ / "one" / "scene.json").at("textures").size(), 2u);
 
+  // A scan under another name is no second one, nor is the path that was made of it.
+  fs::copy(dir_ / "a", dir_ / "again", fs::copy_options::recursive);
+  fs::copy_file(dir_ / "one" / "a" / "trajectory.csv", dir_ / "path_of_a.csv");
+  for (const char* other : {"again", "path_of_a.csv"}) {
+    const Outcome twice =
+        run({"register", path("a"), path(other), mesh(), "--mesh-unit", "mm", "--guess", text_of(a), "-o", path("no")});
+    EXPECT_EQ(twice.code, 1) << other;
+    EXPECT_THAT(twice.err, HasSubstr("in common")) << other;
+  }
+  const Outcome added = run({"register", path("again"), "--into", (dir_ / "one" / "scene.json").string()});
+  EXPECT_EQ(added.code, 1);
+  EXPECT_THAT(added.err, HasSubstr("a and again have"));
+
   // Again into the same folder: it is ours. With a stranger's file in it, it is not.
   EXPECT_EQ(into("one").code, first.code);
   write_text(dir_ / "one" / "notes.txt", "mine");

@@ -12,6 +12,7 @@
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
 #include "asperity/geometry/pose.h"
+#include "asperity/recording/fingerprint.h"
 #include "find_static_intervals.h"
 #include "fit_noise_law.h"
 
@@ -249,6 +250,10 @@ void judge_tracker_noise(TrackerNoise& out) {
 }  // namespace
 
 TrackerNoise calibrate_tracker_noise(std::span<const StaticTracker> recordings, const TrackerNoiseConfig& config) {
+  std::vector<NamedFingerprint> measured_from;
+  for (const StaticTracker& recording : recordings)
+    measured_from.push_back({recording.name, {{}, sketch_poses(*recording.tracker), {}}});
+  check_independent(measured_from);
   TrackerNoise out;
   double longest_s = 0.0;
   for (const StaticTracker& recording : recordings) {

@@ -8,6 +8,7 @@
 #include "asperity/pipeline/result_json.h"
 #include "asperity/pipeline/write_result.h"
 #include "asperity/profile/stiffness_of_compliance.h"
+#include "asperity/recording/fingerprint.h"
 #include "asperity/verdict/verdict_json.h"
 #include "json.h"
 
@@ -165,6 +166,14 @@ Json passes_json(const MergedProfile& merged) {
   return passes;
 }
 
+Json closest_json(const MergedProfile& merged) {
+  const PassPair& pair = merged.closest;
+  if (!std::isfinite(pair.ratio)) return nullptr;
+  return {{"names", {merged.passes[pair.first].name, merged.passes[pair.second].name}},
+          {"ratio", pair.ratio},
+          {"ratio_high", pair.ratio_high}};
+}
+
 Json accuracy_json(const Accuracy& accuracy) {
   Json out;
   out["position_rms_m"] = accuracy.position_rms_m;
@@ -204,6 +213,8 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
                     {"tracker", recording.tracker.size()},
                     {"motion", result.trajectory.motion.size()},
                     {"profile", result.profile.size()}};
+  if (recording.probe.size() + recording.tracker.size() > 0)
+    out["fingerprint"] = fingerprint_json(fingerprint_of(recording));
   out["length_m"] = result.base.length_m;
   out["length_stderr_m"] = result.noise.length_stderr_m;
   out["profile"] = {{"length_m", result.coverage.length_m},
@@ -249,7 +260,8 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
                     {"used", result.passes->used},
                     {"noise_ratio", result.passes->noise_ratio},
                     {"noise_ratio_low", result.passes->noise_ratio_low},
-                    {"noise_ratio_high", result.passes->noise_ratio_high}};
+                    {"noise_ratio_high", result.passes->noise_ratio_high},
+                    {"closest", closest_json(*result.passes)}};
   }
   if (result.accuracy) out["accuracy"] = accuracy_json(*result.accuracy);
   out["problems"] = problems_json(result.problems);

@@ -27,6 +27,9 @@ namespace {
 
 constexpr std::uint64_t kLargestPassFile_bytes = 512ULL << 20;
 constexpr double kInvisible_snr = 2.0;  // as judge_scan() has it
+// Two strokes differ by the noise of both. Noise is known to a factor of about 2 in power; below half of that again it
+// is the same noise in both.
+constexpr double kDependent = 0.25;
 
 double number_or(const Json& json, const char* key, double otherwise) {
   return json.contains(key) && json.at(key).is_number() ? json.at(key).get<double>() : otherwise;
@@ -54,6 +57,14 @@ Verdicts judge_merge(const MergedProfile& merged, const TextureNoise& noise) {
     out.push_back(make_verdict("no_common_line", "these strokes did not pass over the same line"));
     return out;
   }
+  if (const PassPair& pair = merged.closest; pair.ratio_high < kDependent) {
+    out.push_back(make_verdict(
+        "passes_dependent",
+        fmt::format("{} and {} differ by {:.2g} times the power of the noise that they state, 95 %: at most {:.2g}; "
+                    "they are not two measurements",
+                    printable(merged.passes[pair.first].name, 200), printable(merged.passes[pair.second].name, 200),
+                    pair.ratio, pair.ratio_high)));
+  }
   std::string left;
   for (const MergedPass& pass : merged.passes) {
     if (!pass.used) left += (left.empty() ? "" : ", ") + printable(pass.name, 200);
@@ -72,11 +83,12 @@ Verdicts judge_merge(const MergedProfile& merged, const TextureNoise& noise) {
 
 }  // namespace
 
-ProfilePass pass_of_result(const ProcessResult& result, const std::string& name) {
-  return profile_pass(name, result.profile, result.profile.texture_m, result.noise, 0, result.profile.size());
+MergeStroke stroke_of_result(const ProcessResult& result, const Recording& recording, const std::string& name) {
+  return {profile_pass(name, result.profile, result.profile.texture_m, result.noise, 0, result.profile.size()),
+          fingerprint_of(recording)};
 }
 
-ProfilePass read_pass(const fs::path& folder, const std::string& name) {
+MergeStroke read_stroke(const fs::path& folder, const std::string& name) {
   const fs::path file = folder / "result.json";
   const Json result = parse_json(read_file(file, kLargestPassFile_bytes), printable(file.string(), 200));
   const auto wrong = [&](const std::string& what) { throw Error(printable(file.string(), 200) + ": " + what); };
@@ -112,10 +124,19 @@ ProfilePass read_pass(const fs::path& folder, const std::string& name) {
     noise.frequency_cycles_per_mm.push_back(spectrum.finite(frequency));
     noise.added_psd_m2_mm.push_back(value);
   }
-  return profile_pass(name, profile, profile.texture_m, noise, 0, profile.size());
+  return {profile_pass(name, profile, profile.texture_m, noise, 0, profile.size()),
+          result.contains("fingerprint") ? parse_fingerprint(result.at("fingerprint")) : Fingerprint{}};
 }
 
-ProcessResult merge_results(std::span<const ProfilePass> passes, const std::string& object, const MergeConfig& config) {
+ProcessResult merge_results(std::span<const MergeStroke> strokes, const std::string& object,
+                            const MergeConfig& config) {
+  std::vector<ProfilePass> passes;
+  std::vector<NamedFingerprint> measured_from;
+  for (const MergeStroke& stroke : strokes) {
+    passes.push_back(stroke.pass);
+    measured_from.push_back({stroke.pass.name, stroke.fingerprint});
+  }
+  check_independent(measured_from);
   MergedProfile merged = merge_passes(passes, config.align);
   ProcessResult out;
   out.config = config.process;

@@ -8,6 +8,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/registration/find_registration.h"
+#include "asperity/registration/mesh_scale.h"
 #include "asperity/registration/pose_misfit.h"
 #include "asperity/registration/pose_rivals.h"
 
@@ -62,11 +63,16 @@ PoseRivals judge_candidate(const ScanPoints& scans, const MeshSurface& surface, 
                            const RegisterConfig& config) {
   const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
   const std::vector<MeasuredPath> paths = paths_of(scans);
-  const WeighedPose at = weigh_pose(paths, ready, T_mesh_world, guess, weigh_config(scans, guess, config.refinement),
-                                    config.search.registration);
+  const WeighConfig weighing = weigh_config(scans, guess, config.refinement);
+  const WeighedPose at = weigh_pose(paths, ready, T_mesh_world, guess, weighing, config.search.registration);
   RivalConfig rivals;
   rivals.surface_error_m = config.search.registration.surface_error_m;
-  return find_rivals(paths, ready, at, candidates.found, candidates.everywhere, rivals);
+  PoseRivals out = find_rivals(paths, ready, at, candidates.found, candidates.everywhere, rivals);
+  // Another size may fit best from another of the valleys.
+  std::vector<WeighedPose> starts{at};
+  starts.insert(starts.end(), candidates.found.begin(), candidates.found.end());
+  out.scale = measure_mesh_scale(paths, ready, starts, weighing, config.search.registration);
+  return out;
 }
 
 RegistrationResult judge_pose_by_hand(const ScanPoints& scans, const MeshSurface& surface, const Pose& T_mesh_world,

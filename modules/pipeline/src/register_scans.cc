@@ -144,6 +144,7 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
     scan.name = scans[i].name;
     scan.is_recording = scans[i].recording.has_value();
     scan.process = std::move(begun.motions[i]);
+    scan.fingerprint = std::move(begun.fingerprints[i]);
   }
 
   // Where they lie on the mesh (seed §5.4).

@@ -125,6 +125,10 @@ PoseEvidence pose_evidence(const RegistrationResult& registration) {
     out.sigma_rad = rivals.sigma_rad;
     out.slow_ratio = rivals.slow_ratio;
     out.outlying = rivals.outlying;
+    out.chance = rivals.chance;
+    out.mesh_scale = rivals.scale.ratio;
+    out.mesh_scale_sigma = rivals.scale.sigma;
+    out.mesh_scale_gain = rivals.scale.gain;
     out.searched = rivals.searched;
     out.symmetric_copies = rivals.symmetric_copies;
     out.symmetric_motion = rivals.symmetric_motion;

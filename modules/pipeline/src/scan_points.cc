@@ -67,11 +67,33 @@ void number_tips(const std::vector<Scan>& scans, ScanPoints& out) {
   }
 }
 
+// A path may be the trajectory of a recording that is there too.
+void check_trajectories(const std::vector<Scan>& scans, const ScanPoints& points) {
+  std::vector<NamedFingerprint> named;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    Fingerprint of;
+    of.points = sketch_points(points.motions[i].trajectory.motion.p_world_tip_m);
+    named.push_back({scans[i].name, std::move(of)});
+  }
+  check_independent(named);
+}
+
 }  // namespace
+
+Fingerprint fingerprint_of(const Scan& scan) {
+  if (scan.recording) return asperity::fingerprint_of(*scan.recording);
+  Fingerprint out;
+  out.points = sketch_points(scan.path.motion.p_world_tip_m);
+  return out;
+}
 
 ScanPoints find_scan_points(const std::vector<Scan>& scans, const RegisterConfig& config, const Observer& observer) {
   if (scans.empty()) throw Error("registration: no scan");
   ScanPoints out;
+  std::vector<NamedFingerprint> named;
+  for (const Scan& scan : scans) named.push_back({scan.name, fingerprint_of(scan)});
+  check_independent(named);
+  for (NamedFingerprint& scan : named) out.fingerprints.push_back(std::move(scan.of));
   for (const Scan& scan : scans) {
     try {
       out.motions.push_back(motion_of(scan, config, observer));
@@ -84,6 +106,7 @@ ScanPoints find_scan_points(const std::vector<Scan>& scans, const RegisterConfig
     if (scan.placement) out.placement.push_back(static_cast<std::size_t>(*scan.placement));
     out.in_sequence = out.in_sequence && (scan.recording.has_value() || scan.path.timed);
   }
+  check_trajectories(scans, out);
   number_tips(scans, out);
   return out;
 }

@@ -88,6 +88,13 @@ Json pose_with_error_json(const RegistrationResult& registration) {
   return out;
 }
 
+// The object's size over the mesh's, as the scans show it.
+Json mesh_scale_json(const RegistrationResult& registration) {
+  const MeshScale& scale = registration.rivals.scale;
+  if (!std::isfinite(scale.ratio)) return nullptr;
+  return {{"ratio", scale.ratio}, {"sigma", number_or_null(scale.ratio * scale.sigma)}, {"gain", scale.gain}};
+}
+
 Json placement_json(const ScansOnMesh& result, const Placement& placement) {
   const RegistrationResult& registration = placement.registration;
   Json out = pose_with_error_json(registration);
@@ -99,6 +106,7 @@ Json placement_json(const ScansOnMesh& result, const Placement& placement) {
   out["outliers"] = registration.outliers;
   out["undetermined"] = undetermined_json(registration);
   out["runner_up"] = runner_up_json(registration);
+  out["mesh_scale"] = mesh_scale_json(registration);
   out["verdict"] = verdict_word(placement.verdicts);
   out["verdicts"] = verdicts_json(placement.verdicts);
   return out;
@@ -130,6 +138,7 @@ Json scan_json(const ScansOnMesh& result, const RegisteredScan& scan, const Scan
   }
   out["base_rms_m"] = scan.process.base.base_rms_m;
   if (warp != nullptr) out["warp"] = warp_json(*warp);
+  out["fingerprint"] = fingerprint_json(scan.fingerprint);
   out["problems"] = problems_json(scan.process.problems);
   out["files"] = files;
   return out;
@@ -273,6 +282,7 @@ Json registration_json(const ScansOnMesh& result, const std::vector<ScanPlace>& 
   out["outliers"] = registration.outliers;
   out["undetermined"] = undetermined_json(registration);
   out["runner_up"] = runner_up_json(registration);
+  out["mesh_scale"] = mesh_scale_json(registration);
   out["trustworthy"] = result.trustworthy;
   out["verdict"] = result.verdict.empty() ? registration.verdict : result.verdict;
   out["verdicts"] = verdicts_json(result.verdicts);

@@ -46,6 +46,40 @@ double power(const PowerSpectrum& spectrum, const Band& band) {
   return sum * spectrum.frequency[1];
 }
 
+double square(double x) { return x * x; }
+
+// Of all pairs the one whose difference has the least power for what both state.
+template <class SpectrumOf>
+void find_closest(std::span<const PassOnGrid> passes, std::size_t begin, const SpectrumOf& spectrum_of,
+                  const Band& band, PassDifferences& out) {
+  for (std::size_t b = 1; b < passes.size(); ++b) {
+    for (std::size_t a = 0; a < b; ++a) {
+      const PowerSpectrum apart =
+          spectrum_of([&](std::size_t i) { return passes[a].texture_m[begin + i] - passes[b].texture_m[begin + i]; });
+      const double step = apart.frequency[1];
+      double stated_m2 = 0.0, stated_square = 0.0;
+      for (const double f : apart.frequency) {
+        if (!band.holds(f)) continue;
+        const double both = stated_noise_m2_mm(*passes[a].pass, f) + stated_noise_m2_mm(*passes[b].pass, f);
+        stated_m2 += step * both;
+        stated_square += square(step * both);
+      }
+      if (!(stated_m2 > 0.0)) continue;
+      // As many independent squares as the stated noise would have, if it were there.
+      const double freedom = 2.0 * out.independent_segments * stated_m2 * stated_m2 / stated_square;
+      const double error = std::hypot(std::max(passes[a].pass->noise_relative, passes[b].pass->noise_relative),
+                                      std::sqrt(2.0 / freedom));
+      const double ratio = power(apart, band) / stated_m2;
+      const double high = ratio * std::exp(kSure95 * error);
+      if (std::isfinite(out.closest_ratio_high) && high >= out.closest_ratio_high) continue;
+      out.closest_first = a;
+      out.closest_second = b;
+      out.closest_ratio = ratio;
+      out.closest_ratio_high = high;
+    }
+  }
+}
+
 }  // namespace
 
 PassDifferences compare_passes(std::span<const PassOnGrid> passes, double spacing_mm, const AlignPassesConfig& config) {
@@ -54,6 +88,7 @@ PassDifferences compare_passes(std::span<const PassOnGrid> passes, double spacin
   if (end < begin + kPassSegment_points) return out;
   const std::size_t points = end - begin;
   const double count = static_cast<double>(passes.size());
+  out.independent_segments = static_cast<double>(points) / static_cast<double>(kPassSegment_points);
   const Band band{config.low_cycles_per_mm, config.high_cycles_per_mm};
   std::vector<double> all(points, 0.0);
   for (const PassOnGrid& pass : passes) {
@@ -80,6 +115,8 @@ PassDifferences compare_passes(std::span<const PassOnGrid> passes, double spacin
     const double product_m2 = 0.5 * (power(of_own, band) + power(of_others, band) - difference_m2.back());
     out.coherence.push_back(product_m2 * std::abs(product_m2) / (power(of_own, band) * power(of_others, band)));
   }
+
+  find_closest(passes, begin, spectrum_of, band, out);
 
   // Stated: added noise, places that differ as the passes state, and their scales.
   double stated_sum_m2 = 0.0, scatter_m2 = 0.0, scatter_square = 0.0, relative = 0.0;
@@ -110,8 +147,7 @@ PassDifferences compare_passes(std::span<const PassOnGrid> passes, double spacin
     return out;
   }
   // A line of the spectrum holds two squares a segment of independent length.
-  const double independent = static_cast<double>(points) / static_cast<double>(kPassSegment_points);
-  const double freedom = 2.0 * (count - 1.0) * independent * scatter_m2 * scatter_m2 / scatter_square;
+  const double freedom = 2.0 * (count - 1.0) * out.independent_segments * scatter_m2 * scatter_m2 / scatter_square;
   const double error = std::hypot(relative, std::sqrt(2.0 / freedom));
   out.ratio = scatter_m2 / stated_sum_m2;
   out.ratio_low = out.ratio * std::exp(-kSure95 * error);

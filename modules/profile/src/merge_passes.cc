@@ -264,6 +264,12 @@ MergedProfile merge_passes(std::span<const ProfilePass> passes, const AlignPasse
   out.noise_ratio = differences.ratio;
   out.noise_ratio_low = differences.ratio_low;
   out.noise_ratio_high = differences.ratio_high;
+  std::vector<std::size_t> used;
+  for (std::size_t k = 0; k < out.passes.size(); ++k) {
+    if (out.passes[k].used) used.push_back(k);
+  }
+  out.closest = {used[differences.closest_first], used[differences.closest_second], differences.closest_ratio,
+                 differences.closest_ratio_high};
   out.scatter_frequency_cycles_per_mm = differences.frequency_cycles_per_mm;
   out.scatter_psd_m2_mm = differences.scatter_psd_m2_mm;
 

@@ -175,6 +175,9 @@ TEST(MergePasses, FivePassesHaveTheNoiseOfTheirMean) {
   EXPECT_NEAR(merge.noise.added_rms_m, 3e-6 / std::sqrt(5.0), 0.2e-6);
   EXPECT_LT(merge.noise_ratio_low, 1.0);
   EXPECT_GT(merge.noise_ratio_high, 1.0);
+  // The closest of ten pairs, of which each has a standard error of some 10 %.
+  EXPECT_GT(merge.closest.ratio, 0.6);
+  EXPECT_GT(merge.closest.ratio_high, 1.0);
   for (const MergedPass& pass : merge.passes) {
     EXPECT_NEAR(pass.weight, 0.2, 0.03);
     // In the band's 4 of 20 cycles/mm the noise is 3/√5 µm; the coherence with a mean of four is that of the powers.
@@ -182,6 +185,22 @@ TEST(MergePasses, FivePassesHaveTheNoiseOfTheirMean) {
     EXPECT_NEAR(pass.coherence, 1.0 / ((1.0 + noise) * (1.0 + noise / 4.0)), 0.002);
     EXPECT_NEAR(pass.noise_rms_m, 3e-6 / std::sqrt(5.0), 0.3e-6);
   }
+}
+
+TEST(MergePasses, SeesThatTwoPassesAreOneMeasurement) {
+  const Line line(3);
+  std::vector<ProfilePass> passes;
+  for (std::uint64_t k = 0; k < 3; ++k) passes.push_back(stroke_over(line, {.seed = 30 + k}));
+  // A part of one of them, which begins elsewhere.
+  ProfilePass part = passes[1];
+  part.texture_m.erase(part.texture_m.begin(), part.texture_m.begin() + 150);
+  if (!part.slow_m.empty()) part.slow_m.erase(part.slow_m.begin(), part.slow_m.begin() + 150);
+  passes.push_back(part);
+  const MergedProfile merge = merge_passes(passes, {});
+  ASSERT_TRUE(merge.agrees);
+  EXPECT_EQ(merge.closest.first, 1U);
+  EXPECT_EQ(merge.closest.second, 3U);
+  EXPECT_LT(merge.closest.ratio_high, 0.05);
 }
 
 TEST(MergePasses, SeesThatThePassesDifferByMoreThanTheyState) {

@@ -43,11 +43,11 @@ Matcher::Matcher(const RegistrationSurface& surface, const PointSet& points, std
   }
 }
 
-void Matcher::match(const CentredPose& pose) {
+void Matcher::match(const CentredPose& pose, double shrink) {
   const Eigen::Matrix3d r = pose.rotation.toRotationMatrix();
   for (std::size_t i = 0; i < x_m_.size(); ++i) {
     Match& m = matches_[i];
-    m.y_m = r * x_m_[i] + pose.centre_m;
+    m.y_m = r * (shrink * x_m_[i]) + pose.centre_m;
     // Paths are walked in order: the neighbour's answer is the first guess.
     const ClosestPoint& before = closest_[i].found() ? closest_[i] : closest_[i == 0 ? 0 : i - 1];
     closest_[i] = before.found() ? surface_->bvh->closest_point(m.y_m, before) : surface_->bvh->closest_point(m.y_m);

@@ -37,8 +37,8 @@ class Matcher {
   Matcher(const RegistrationSurface& surface, const PointSet& points, std::span<const std::uint32_t> chosen,
           const MatchRules& rules);
 
-  // Finds the closest points at `pose`.
-  void match(const CentredPose& pose);
+  // Finds the closest points at `pose`, of the points drawn together by `shrink` towards their mean.
+  void match(const CentredPose& pose, double shrink = 1.0);
 
   // Moves the pairs by a small motion about `centre_m` to first order: no closest point is looked up.
   void advance(const Eigen::Matrix<double, 6, 1>& motion, const Eigen::Vector3d& centre_m);

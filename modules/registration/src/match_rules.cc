@@ -1,5 +1,6 @@
 #include "match_rules.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -18,6 +19,14 @@ MatchRules match_rules(const RegistrationConfig& config) {
   out.normals = config.normals;
   out.facing_cos = config.facing_deg < 180.0 ? std::cos(config.facing_deg * std::numbers::pi / 180.0) : -1.0;
   out.max_distance_m = config.max_distance_m;
+  return out;
+}
+
+MatchRules weighing_rules(const PointSet& points, const RegistrationConfig& config) {
+  MatchRules out = match_rules(config);
+  if (std::any_of(points.outward.begin(), points.outward.end(), [](const auto& o) { return o.isZero(); })) {
+    out.facing_cos = -1.0;
+  }
   return out;
 }
 

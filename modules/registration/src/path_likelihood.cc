@@ -14,6 +14,7 @@ namespace {
 constexpr double kOutlier2 = 16.0;  // squared standard deviations that a block costs at most
 constexpr std::size_t kPerBlock = 4;
 constexpr double kMostBlocks = 1500.0;
+constexpr double kLargestSizeStep = 0.15;  // of a Gauss–Newton step
 
 double median_of_values(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -72,10 +73,22 @@ PathLikelihood::PathLikelihood(std::span<const MeasuredPath> paths, const Regist
     ++blocks_.back().count;
   }
   heights_.resize(blocks_.size());
+  const bool oriented = std::all_of(paths.begin(), paths.end(), [](const MeasuredPath& path) {
+    return path.q_world_marker.size() == path.p_world_m.size();
+  });
+  if (!oriented) return;
+  std::vector<Eigen::Matrix3d> of_points;
+  for (const MeasuredPath& path : paths) {
+    for (std::size_t i = 0; i < path.p_world_m.size(); ++i) {
+      if (path.p_world_m[i].allFinite()) of_points.push_back(path.q_world_marker[i].conjugate().toRotationMatrix());
+    }
+  }
+  for (std::size_t i = 0; i < matcher_.size(); ++i) R_marker_world_.push_back(of_points[matcher_.chosen(i)]);
 }
 
-void PathLikelihood::measure(const CentredPose& pose) {
-  matcher_.match(pose);
+void PathLikelihood::measure(const CentredPose& pose, double log_size) {
+  const double size = std::exp(log_size);
+  matcher_.match(pose, 1.0 / size);
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     Height& height = heights_[b];
     height = {};
@@ -87,14 +100,18 @@ void PathLikelihood::measure(const CentredPose& pose) {
       ++count;
       height.d_m += m.distance_m;
       height.row.head<3>() += (m.y_m - pose.centre_m).cross(m.n);
+      height.row[6] += m.distance_m - m.n.dot(m.y_m - pose.centre_m);
       n += m.n;
+      if (!R_marker_world_.empty()) height.row.tail<3>() += R_marker_world_[i] * (pose.rotation.conjugate() * m.n);
     }
     height.usable = 2 * count >= blocks_[b].count;
     if (!height.usable) continue;
     const double share = 1.0 / static_cast<double>(count);
-    height.d_m *= share;
-    height.row.head<3>() *= share;
-    height.row.tail<3>() = share * n;
+    height.d_m *= size * share;
+    height.row.head<3>() *= size * share;
+    height.row.segment<3>(3) = size * share * n;
+    height.row[6] *= size * share;
+    height.row.tail<3>() *= share;
     height.n_world = share * (pose.rotation.conjugate() * n);
   }
 }
@@ -102,11 +119,11 @@ void PathLikelihood::measure(const CentredPose& pose) {
 // Kalman's filter along each path; its state is the slow error, a Gauss–Markov process along the path, and the mean of
 // the relief. The columns of the Jacobian go through the same filter as the heights, whose gains they share: what comes
 // out is whitened.
-template <bool kWithRows>
-PathLikelihood::Sums PathLikelihood::filter(const Scales& scales) const {
-  constexpr int kColumns = kWithRows ? 7 : 1;
+template <int kRows>
+PathLikelihood::Sums<kRows> PathLikelihood::filter(const Scales& scales) const {
+  constexpr int kColumns = kRows + 1;
   using Columns = Eigen::Matrix<double, kColumns, 1>;
-  Sums out;
+  Sums<kRows> out;
   Eigen::Matrix4d P = Eigen::Matrix4d::Zero();
   Eigen::Matrix<double, 4, kColumns> X = Eigen::Matrix<double, 4, kColumns>::Zero();
   const double noise_m2 = scales.noise_m * scales.noise_m;
@@ -142,9 +159,9 @@ PathLikelihood::Sums PathLikelihood::filter(const Scales& scales) const {
       ++out.outlying;
       continue;
     }
-    if constexpr (kWithRows) {
-      z.template tail<6>() += height.row;
-      const Vector6 row = z.template tail<6>();
+    if constexpr (kRows > 0) {
+      z.template tail<kRows>() += height.row.template head<kRows>();
+      const Eigen::Matrix<double, kRows, 1> row = z.template tail<kRows>();
       out.information += row * row.transpose() / S;
       out.gradient += z[0] / S * row;
     }
@@ -157,7 +174,7 @@ PathLikelihood::Sums PathLikelihood::filter(const Scales& scales) const {
 
 double PathLikelihood::scales_cost(const Scales& scales) const {
   const double away = std::log(scales.slow_ratio) / (stated_ ? config_.slow_ratio_spread : 1.5);
-  return filter<false>(scales).cost + away * away;
+  return filter<0>(scales).cost + away * away;
 }
 
 PathLikelihood::Scales PathLikelihood::likeliest_scales(const Scales& near) const {
@@ -183,6 +200,10 @@ PathLikelihood::Scales PathLikelihood::likeliest_scales(const Scales& near) cons
 
 PathLikelihood::Evaluation PathLikelihood::evaluate(const CentredPose& pose) {
   measure(pose);
+  return evaluate_measured(pose);
+}
+
+PathLikelihood::Evaluation PathLikelihood::evaluate_measured(const CentredPose& pose) const {
   std::vector<double> bends_m;
   for (std::size_t b = 1; b + 1 < blocks_.size(); ++b) {
     if (blocks_[b - 1].path != blocks_[b + 1].path) continue;
@@ -193,7 +214,7 @@ PathLikelihood::Evaluation PathLikelihood::evaluate(const CentredPose& pose) {
   Evaluation out;
   out.pose = pose;
   out.scales = likeliest_scales({1.0, std::max(noise_m, least_m_)});
-  const Sums sums = filter<true>(out.scales);
+  const Sums<6> sums = filter<6>(out.scales);
   const double away = std::log(out.scales.slow_ratio) / (stated_ ? config_.slow_ratio_spread : 1.5);
   out.cost = sums.cost + away * away;
   out.information = sums.information;
@@ -207,7 +228,7 @@ PathLikelihood::Evaluation PathLikelihood::descend(const CentredPose& start, int
   for (int round = 0; round < rounds; ++round) {
     CentredPose pose = best.pose;
     measure(pose);
-    Sums sums = filter<true>(best.scales);
+    Sums<6> sums = filter<6>(best.scales);
     for (int k = 0; k < steps; ++k) {
       const Matrix6 hessian = sums.information + damping * motion_metric(points_, pose);
       const Vector6 step = -hessian.ldlt().solve(sums.gradient);
@@ -217,7 +238,7 @@ PathLikelihood::Evaluation PathLikelihood::descend(const CentredPose& start, int
       for (double share = 1.0; share > 0.1 && !fell; share *= 0.5) {
         const CentredPose next = moved(pose, share * step);
         measure(next);
-        const Sums there = filter<true>(best.scales);
+        const Sums<6> there = filter<6>(best.scales);
         if (!(there.cost < sums.cost)) continue;
         fell = true;
         pose = next;
@@ -231,6 +252,59 @@ PathLikelihood::Evaluation PathLikelihood::descend(const CentredPose& start, int
     best = now;
     if (settled) break;
   }
+  return best;
+}
+
+PathLikelihood::Scaled PathLikelihood::descend_with_size(const CentredPose& start, double log_size, int rounds,
+                                                         int steps) {
+  const double damping = 1.0 / std::pow(0.3 * points_.radius_m, 2);
+  const auto prior = [](double at) { return std::pow(at / kSizeSpread, 2); };
+  const auto evaluated = [&](const CentredPose& pose, double at) {
+    measure(pose, at);
+    Scaled out{evaluate_measured(pose), at, {}};
+    out.at.cost += prior(at);
+    return out;
+  };
+  Scaled best = evaluated(start, log_size);
+  for (int round = 0; round < rounds; ++round) {
+    CentredPose pose = best.at.pose;
+    double size = best.log_size;
+    measure(pose, size);
+    Sums<7> sums = filter<7>(best.at.scales);
+    sums.cost += prior(size);
+    for (int k = 0; k < steps; ++k) {
+      Eigen::Matrix<double, 7, 7> hessian = sums.information;
+      hessian.topLeftCorner<6, 6>() += damping * motion_metric(points_, pose);
+      hessian(6, 6) += 1.0 / (kSizeSpread * kSizeSpread);
+      Eigen::Matrix<double, 7, 1> gradient = sums.gradient;
+      gradient[6] += size / (kSizeSpread * kSizeSpread);
+      Eigen::Matrix<double, 7, 1> step = -hessian.ldlt().solve(gradient);
+      if (!step.allFinite()) break;
+      step *= std::min(1.0, kLargestSizeStep / std::abs(step[6]));
+      const double size2 = step.dot(hessian * step);
+      bool fell = false;
+      for (double share = 1.0; share > 0.1 && !fell; share *= 0.5) {
+        const CentredPose next = moved(pose, share * step.head<6>());
+        const double next_size = size + share * step[6];
+        measure(next, next_size);
+        Sums<7> there = filter<7>(best.at.scales);
+        there.cost += prior(next_size);
+        if (!(there.cost < sums.cost)) continue;
+        fell = true;
+        pose = next;
+        size = next_size;
+        sums = there;
+      }
+      if (!fell || size2 < 0.02) break;
+    }
+    const Scaled now = evaluated(pose, size);
+    if (!(now.at.cost < best.at.cost)) break;
+    const bool settled = best.at.cost - now.at.cost < 0.1;
+    best = now;
+    if (settled) break;
+  }
+  measure(best.at.pose, best.log_size);
+  best.information = filter<10>(best.at.scales).information;
   return best;
 }
 

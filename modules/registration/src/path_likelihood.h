@@ -11,6 +11,9 @@
 
 namespace asperity::registration {
 
+using Vector10 = Eigen::Matrix<double, 10, 1>;
+using Matrix10 = Eigen::Matrix<double, 10, 10>;
+
 // The likelihood of poses, the errors along the paths allowed for (weigh_poses.h has the model).
 class PathLikelihood {
  public:
@@ -36,6 +39,16 @@ class PathLikelihood {
   // Where Gauss–Newton from a pose ends.
   Evaluation descend(const CentredPose& start, int rounds, int steps);
 
+  // The same with the mesh's size free (mesh_scale.h has the model): the pose is that of the points, drawn together by
+  // 1/size, on the mesh as it is.
+  struct Scaled {
+    Evaluation at;
+    double log_size = 0.0;
+    Matrix10 information = Matrix10::Zero();  // of pose, log_size and the tip's position (marker axes)
+  };
+  static constexpr double kSizeSpread = 0.5;  // of log_size, a priori
+  Scaled descend_with_size(const CentredPose& start, double log_size, int rounds, int steps);
+
  private:
   struct Block {
     std::uint32_t path = 0;
@@ -44,20 +57,22 @@ class PathLikelihood {
   };
   struct Height {
     double d_m = 0.0;
-    Vector6 row = Vector6::Zero();
+    Vector10 row = Vector10::Zero();  // by pose, log_size and the tip's position
     Eigen::Vector3d n_world = Eigen::Vector3d::Zero();
     bool usable = false;
   };
+  template <int kRows>
   struct Sums {
     double cost = 0.0;
-    Matrix6 information = Matrix6::Zero();
-    Vector6 gradient = Vector6::Zero();
+    Eigen::Matrix<double, kRows, kRows> information = Eigen::Matrix<double, kRows, kRows>::Zero();
+    Eigen::Matrix<double, kRows, 1> gradient = Eigen::Matrix<double, kRows, 1>::Zero();
     std::size_t outlying = 0;
   };
 
-  void measure(const CentredPose& pose);
-  template <bool kWithRows>
-  Sums filter(const Scales& scales) const;
+  void measure(const CentredPose& pose, double log_size = 0.0);
+  Evaluation evaluate_measured(const CentredPose& pose) const;
+  template <int kRows>
+  Sums<kRows> filter(const Scales& scales) const;
   Scales likeliest_scales(const Scales& near) const;
   double scales_cost(const Scales& scales) const;
 
@@ -66,6 +81,7 @@ class PathLikelihood {
   std::vector<Eigen::Matrix3d> covariance_m2_;  // of a path's slow error
   bool stated_ = true;                          // it is known
   std::vector<Block> blocks_;
+  std::vector<Eigen::Matrix3d> R_marker_world_;  // of the matcher's points; empty if the paths have no orientation
   Matcher matcher_;
   std::vector<Height> heights_;  // of the blocks
   double least_m_ = 0.0;         // of the noise

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "asperity/algebra/solve.h"
+#include "asperity/registration/chance_of_gap.h"
 #include "asperity/registration/find_symmetry.h"
 #include "choose_points.h"
 #include "match_points.h"
@@ -56,6 +57,36 @@ double residual_m(const RegistrationSurface& surface, const PointSet& points, co
   return count > 0.0 ? std::sqrt(square_m2 / count) : 0.0;
 }
 
+// How likely the best of the valleys of a mesh that is not the object's stands out as this one does. A guess has no say
+// in it: it knows where the object was, not what it is.
+double chance_of(const RegistrationSurface& surface, const PointSet& points, const WeighedPose& at,
+                 std::span<const WeighedPose> found, const RivalConfig& config) {
+  constexpr double kAlike = 1.0;
+  const auto same = [&](const Pose& a, const Pose& b) {
+    if (are_one(points, a, b, config)) return true;
+    const auto symmetry = find_symmetry(surface, b * a.inverse(), config.surface_error_m);
+    return symmetry && are_one(points, *symmetry * a, b, config);
+  };
+  double best = -0.5 * at.fit;
+  std::vector<const WeighedPose*> others;
+  for (const WeighedPose& other : found) {
+    const double value = -0.5 * other.fit;
+    // What the mesh's own symmetry makes alike is one valley.
+    if (are_one(points, at.T_mesh_world, other.T_mesh_world, config) ||
+        (std::abs(value - best) < kAlike && same(at.T_mesh_world, other.T_mesh_world))) {
+      best = std::max(best, value);
+      continue;
+    }
+    const bool known = std::any_of(others.begin(), others.end(), [&](const WeighedPose* kept) {
+      return std::abs(value + 0.5 * kept->fit) < kAlike && same(kept->T_mesh_world, other.T_mesh_world);
+    });
+    if (!known) others.push_back(&other);
+  }
+  std::vector<double> values;
+  for (const WeighedPose* other : others) values.push_back(-0.5 * other->fit);
+  return chance_of_gap(best, std::move(values));
+}
+
 void cut_sentence(std::string& text, std::string_view begin) {
   const std::size_t at = text.find(begin);
   if (at == std::string::npos) return;
@@ -96,6 +127,8 @@ PoseRivals find_rivals(std::span<const MeasuredPath> paths, const RegistrationSu
                          rms_between(points, centred(pose, points), centred(other.T_mesh_world, points)),
                          rotation_between_rad(pose, other.T_mesh_world)};
   }
+
+  out.chance = chance_of(surface, points, at, found, config);
 
   // The standard deviations, without the motions along which the mesh is its own image.
   const Matrix6 metric = motion_metric(points, centred(pose, points));

@@ -50,14 +50,6 @@ bool same_place(const PointSet& points, const PathLikelihood::Evaluation& a, con
   return apart.dot(a.information * apart) < kSame2 || rms_between(points, a.pose, b.pose) < 1e-3 * points.radius_m;
 }
 
-MatchRules weighing_rules(const PointSet& points, const RegistrationConfig& config) {
-  MatchRules out = match_rules(config);
-  if (std::any_of(points.outward.begin(), points.outward.end(), [](const auto& o) { return o.isZero(); })) {
-    out.facing_cos = -1.0;
-  }
-  return out;
-}
-
 }  // namespace
 
 std::vector<WeighedPose> weigh_poses(std::span<const MeasuredPath> paths, const RegistrationSurface& surface,
@@ -78,9 +70,10 @@ std::vector<WeighedPose> weigh_poses(std::span<const MeasuredPath> paths, const 
   std::stable_sort(first.begin(), first.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
   // What is this much less likely after the first steps does not catch up.
   constexpr double kHopeless = 60.0;
+  constexpr std::size_t kLeastEnds = 11;  // so many the best is compared with all the same (chance_of_gap.h)
   std::vector<PathLikelihood::Evaluation> ends;
   for (const auto& begun : first) {
-    if (begun.cost > least + kHopeless && ends.size() >= 2) break;
+    if (begun.cost > least + kHopeless && ends.size() >= kLeastEnds) break;
     if (std::any_of(ends.begin(), ends.end(), [&](const auto& end) { return same_place(points, end, begun); }))
       continue;
     observer.update("comparison", 0.5);

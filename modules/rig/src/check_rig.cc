@@ -9,6 +9,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/pipeline/process_recording.h"
+#include "asperity/recording/fingerprint.h"
 #include "asperity/signal/statistics.h"
 #include "asperity/signal/student.h"
 
@@ -158,6 +159,9 @@ RigEvidence evidence_of(const RigCheck& check, const Calibration& calibration, c
 }  // namespace
 
 RigCheck check_rig(std::span<const NamedRecording> strokes, const CheckRigConfig& config, const Observer& observer) {
+  std::vector<NamedFingerprint> measured_from;
+  for (const NamedRecording& stroke : strokes) measured_from.push_back({stroke.name, fingerprint_of(stroke.recording)});
+  check_independent(measured_from);
   if (strokes.empty()) throw Error("check-rig: there is no stroke");
   RigCheck check;
   for (const NamedRecording& stroke : strokes) {

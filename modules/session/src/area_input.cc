@@ -7,6 +7,7 @@
 #include "asperity/base/text.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/scene/lay_texture.h"
+#include "asperity/recording/fingerprint.h"
 #include "asperity/scene/read_scene.h"
 
 namespace asperity {
@@ -81,7 +82,17 @@ AreaInput read_area_input(const fs::path& folder, const Observer& observer) {
   out.scene = read_scene(folder / "scene.json", observer);
   const std::size_t triangles = out.scene.objects.front().mesh.triangles.size();
   std::vector<std::string> names;
-  for (const Json& scan : registration.at("scans")) names.push_back(scan.at("name").get<std::string>());
+  std::vector<NamedFingerprint> measured_from;
+  for (const Json& scan : registration.at("scans")) {
+    names.push_back(scan.at("name").get<std::string>());
+    if (scan.contains("fingerprint"))
+      measured_from.push_back({names.back(), parse_fingerprint(scan.at("fingerprint"))});
+  }
+  try {
+    check_independent(measured_from);
+  } catch (const Error& error) {
+    throw Error(name + ": " + error.what());
+  }
   bool any_path = false;
   for (const std::string& scan : names) {
     if (!stays_inside(scan)) continue;  // its folder would not be in this one

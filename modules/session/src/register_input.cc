@@ -11,6 +11,8 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/geometry/read_mesh.h"
+#include "asperity/pipeline/scan_points.h"
+#include "asperity/recording/fingerprint.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/scene/md5.h"
 #include "asperity/scene/read_scene.h"
@@ -40,6 +42,21 @@ Scan read_scan(const std::string& path, const Observer& observer) {
   }
   scan.checksum = recording_checksum(path);
   return scan;
+}
+
+// A scan that the scene has under another name is no second measurement, to an area least of all.
+void check_new(const RegisterInput& input, const std::vector<std::string>& names) {
+  std::vector<NamedFingerprint> scans;
+  for (const auto& [index, stored] : stored_scans(input.onto)) {
+    const std::string name = stored.value("name", "");
+    if (std::find(names.begin(), names.end(), name) != names.end() || !stored.contains("fingerprint")) continue;
+    scans.push_back({name, parse_fingerprint(stored.at("fingerprint"))});
+  }
+  const std::size_t stored = scans.size();
+  for (const Scan& scan : input.scans) {
+    scans.push_back({scan.name, fingerprint_of(scan)});
+  }
+  if (stored > 0) check_independent(scans);
 }
 
 double size_of_mesh_m(const MeshFile& mesh, double unit_m) {
@@ -118,6 +135,7 @@ ScansOnMesh register_input(const RegisterInput& input, const std::optional<Pose>
   std::vector<std::string> names;
   for (const Scan& scan : input.scans) names.push_back(scan.name);
   place_scans(input.onto, names);  // throws before the long part
+  check_new(input, names);
   ScansOnMesh result = register_scans(input.scans, to_metres(input.mesh(), input.unit_m()), guess, config, observer);
   result.problems.insert(result.problems.begin(), input.mesh().problems.begin(), input.mesh().problems.end());
   if (const double size_m = size_of_mesh_m(input.mesh(), input.unit_m()); size_m > kLarge_m) {

@@ -1,6 +1,8 @@
 #include "asperity/verdict/judge_registration.h"
 
+#include <cmath>
 #include <numbers>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -24,6 +26,30 @@ constexpr double kKnown_rad = 1.5 / kDegrees;
 constexpr double kSlowRatio =
     3.5;  // a slow error this much larger than stated is an error of the mesh, or another mesh
 constexpr double kOutlying = 0.25;  // share of the paths
+
+// One of ten other objects would pass this alone; it has to pass all that is above, too.
+constexpr double kChance = 0.1;
+
+// The mesh's size. A scanner's mesh and the tracker's markers are each allowed a scale error of some tenths of a
+// percent before a pose is refused for it.
+constexpr double kScaleError = 0.005;
+constexpr double kScaleSigmas = 3.5;    // one right scan in two thousand is farther off
+constexpr double kScaleUnknown = 0.05;  // known less well, nothing is said of the size
+
+void judge_scale(const PoseEvidence& evidence, Verdicts& out) {
+  const double off = std::abs(std::log(evidence.mesh_scale)), sigma = evidence.mesh_scale_sigma;
+  const std::string fits = fmt::format("the scan fits the mesh best at {:.3f} ± {:.3f} of its size",
+                                       evidence.mesh_scale, evidence.mesh_scale * sigma);
+  // Both the curvature at the best size and the likelihood on the way from the stated one have to say it.
+  const bool shown = off > kScaleSigmas * sigma && evidence.mesh_scale_gain > kScaleSigmas * kScaleSigmas;
+  if (shown) {
+    out.push_back(make_verdict(
+        off > kScaleSigmas * std::hypot(sigma, kScaleError) ? "mesh_scale_differs" : "mesh_scale_doubtful", fits));
+  } else if (sigma > kScaleUnknown) {
+    out.push_back(
+        make_verdict("mesh_scale_unknown", fmt::format("the scan does not show the size of the object: {}", fits)));
+  }
+}
 
 }  // namespace
 
@@ -75,6 +101,13 @@ Verdicts judge_registration(const PoseEvidence& evidence) {
                                  "% of them are no such error",
                                  evidence.slow_ratio, 100.0 * evidence.outlying)));
   }
+  if (evidence.chance > kChance) {
+    out.push_back(make_verdict(
+        "shape_unproven", fmt::format("the pose stands out of all others on this mesh no more than the best pose of "
+                                      "another object would, with a probability of {:.2g}",
+                                      evidence.chance)));
+  }
+  judge_scale(evidence, out);
   if (!evidence.searched) {
     out.push_back(make_verdict("rivals_unknown", "no pose elsewhere on the mesh was compared with this one"));
   }

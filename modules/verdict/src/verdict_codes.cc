@@ -57,6 +57,7 @@ constexpr VerdictCode kCodes[] = {
     {"no_texture", kLimited, "scan a longer stroke"},
     // Strokes over one line (merge_results.h).
     {"no_common_line", kInvalid, "scan along a guide, and merge strokes over one line alone"},
+    {"passes_dependent", kInvalid, "merge strokes that were measured one by one"},
     {"passes_left_out", kLimited, "check that they are of the same line, or leave them out"},
     {"passes_disagree", kLimited, "scan along a guide, so that the strokes pass over the same line"},
     // A registration.
@@ -66,6 +67,11 @@ constexpr VerdictCode kCodes[] = {
     {"pose_uncertain", kInvalid,
      "scan a path with bends in several directions, or several strokes, and register them together"},
     {"other_shape", kInvalid, "check that it is the right mesh, and its unit"},
+    {"shape_unproven", kInvalid,
+     "check that it is the right mesh, scan a longer path or several strokes with bends, and register them together"},
+    {"mesh_scale_differs", kInvalid, "check the unit of the mesh, that it is the right mesh, and the tracker's scale"},
+    {"mesh_scale_doubtful", kLimited, "check the size of the mesh and of the printed markers"},
+    {"mesh_scale_unknown", kNote, ""},
     {"rivals_unknown", kInvalid, "let poses elsewhere be compared (search.rivals)"},
     {"mesh_symmetric", kNote, ""},
     {"pose_misfit", kInvalid, "check that it is the right mesh, its unit, and the guess"},

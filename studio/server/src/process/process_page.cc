@@ -9,6 +9,7 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/recording/fingerprint.h"
 #include "asperity/studio/measured_block.h"
 #include "config_fields.h"
 #include "process/process_choice.h"
@@ -107,6 +108,7 @@ class ProcessPage : public Page {
     answer_by_job(shared_.jobs, request, "Compare recordings", "process.compare",
                   [sessions = sessions_, chosen, recordings](const Observer& observer) {
                     std::vector<RepeatedScan> scans;
+                    std::vector<NamedFingerprint> measured_from;
                     std::vector<std::string> names;
                     for (std::size_t i = 0; i < recordings.size(); ++i) {
                       observer.update("reading", static_cast<double>(i) / static_cast<double>(recordings.size()));
@@ -114,7 +116,9 @@ class ProcessPage : public Page {
                           sessions->open(recordings[i], chosen.scans[i].segment, observer).session;
                       scans.push_back(repeated_scan(session.process(chosen.config, observer), session.recording()));
                       names.push_back(title_of(chosen.scans[i]));
+                      measured_from.push_back({names.back(), fingerprint_of(session.recording())});
                     }
+                    check_independent(measured_from);
                     const Repeatability measured = measure_repeatability(scans, chosen.config.comparison);
                     return repeatability_block(measured, scans, names, chosen.config.comparison);
                   });

@@ -48,7 +48,7 @@ struct TrackerNoiseConfig {
 // The tracker's noise from recordings in which the marker body rests (seed §3.5, Fig. 9): rests are found, the
 // scatter of each is taken apart into white and slow (series_noise.h), and with several places the
 // white part's law over distance and tilt is fitted (docs/calibration-optics.md). Throws Error, saying what to record
-// instead, if nothing rests long enough.
+// instead, if nothing rests long enough, and as check_independent() does.
 TrackerNoise calibrate_tracker_noise(std::span<const StaticTracker> recordings, const TrackerNoiseConfig& config = {});
 
 }  // namespace asperity

@@ -10,6 +10,7 @@
 #include "asperity/pipeline/process_result.h"
 #include "asperity/profile/align_passes.h"
 #include "asperity/profile/profile_pass.h"
+#include "asperity/recording/fingerprint.h"
 
 namespace asperity {
 
@@ -24,19 +25,25 @@ struct MergeConfig {
   }
 };
 
-// A recording's profile as a pass: of process_recording() with `profile.remove_noise` off.
-ProfilePass pass_of_result(const ProcessResult& result, const std::string& name);
+// A stroke with what it was measured from; its name is the pass'.
+struct MergeStroke {
+  ProfilePass pass;
+  Fingerprint fingerprint;  // empty: not known
+};
+
+// A recording's profile as a stroke: of process_recording() with `profile.remove_noise` off.
+MergeStroke stroke_of_result(const ProcessResult& result, const Recording& recording, const std::string& name);
 
 // The same of a folder that `process` has written: profile.csv, the noise of spectrum.csv and result.json. Throws Error
 // naming the file if one is missing or damaged, or if the noise was removed from the heights: what is left of it then
 // is not the same in each stroke.
-ProfilePass read_pass(const std::filesystem::path& folder, const std::string& name);
+MergeStroke read_stroke(const std::filesystem::path& folder, const std::string& name);
 
 // Strokes over one line as one (merge_passes.h): `passes` say where each is, and profile, noise, roughness, pattern,
 // spectrum and texture are those of their mean, its noise removed if `process.profile.remove_noise` is on. Verdicts:
-// invalid if no two agree, limited if some were left out, or if they differ by more than they state.
-// Throws Error as merge_passes() does.
-ProcessResult merge_results(std::span<const ProfilePass> passes, const std::string& object, const MergeConfig& config);
+// invalid if no two agree, or if two differ by so little that they are no two measurements, limited if some were left
+// out, or if they differ by more than they state. Throws Error as merge_passes() and check_independent() do.
+ProcessResult merge_results(std::span<const MergeStroke> strokes, const std::string& object, const MergeConfig& config);
 
 // result.json of a merge, and all of its files: profile.csv, spectrum.csv, texture.json if there is one, result.json.
 Json merge_json(const ProcessResult& result, const MergeConfig& config, const std::string& object);

@@ -15,6 +15,7 @@
 #include "asperity/pipeline/process_result.h"
 #include "asperity/pipeline/register_config.h"
 #include "asperity/pipeline/scan.h"
+#include "asperity/recording/fingerprint.h"
 #include "asperity/registration/haptic_coordinates.h"
 #include "asperity/registration/registration_iteration.h"
 #include "asperity/registration/registration_result.h"
@@ -27,6 +28,7 @@ namespace asperity {
 struct RegisteredScan {
   std::string name;
   bool is_recording = false;
+  Fingerprint fingerprint;                                  // of what it was measured from
   std::size_t placement = 0;                                // index of its placement
   double rms_m = std::numeric_limits<double>::quiet_NaN();  // of its heights over the mesh, as the pose's fit has them
   Eigen::Vector3d tip_shift_m = Eigen::Vector3d::Zero();    // by which the fit moved the tip in the marker, marker axes

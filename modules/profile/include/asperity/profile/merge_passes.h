@@ -26,6 +26,13 @@ struct MergedPass {
   double weight = 0.0;               // of its heights, mean over path and band; all sum to 1
 };
 
+// Two passes, by their indices, and the power of their difference over that of the noise that they state together; its
+// upper 95 % limit. nan: not determined.
+struct PassPair {
+  std::size_t first = 0, second = 0;
+  double ratio = kNan, ratio_high = kNan;
+};
+
 // Passes over one line as one profile.
 struct MergedProfile {
   bool agrees = false;  // at least two passes do; else nothing is merged
@@ -36,6 +43,7 @@ struct MergedProfile {
   // The power of the passes' differences from their mean over the power of the noise that they state, and its 95 %
   // interval; nan: not determined.
   double noise_ratio = kNan, noise_ratio_low = kNan, noise_ratio_high = kNan;
+  PassPair closest;  // the two that differ least for what they state
   std::vector<double> scatter_frequency_cycles_per_mm, scatter_psd_m2_mm;  // of a pass, by those differences
 };
 

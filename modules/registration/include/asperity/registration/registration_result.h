@@ -65,6 +65,13 @@ struct PoseMisfit {
   bool guess_stated = true;  // these are the user's word, not a default
 };
 
+// The size of the object over that of the mesh, as the paths show it (mesh_scale.h); nan: not known.
+struct MeshScale {
+  double ratio = std::numeric_limits<double>::quiet_NaN();
+  double sigma = std::numeric_limits<double>::quiet_NaN();  // standard error of its logarithm
+  double gain = std::numeric_limits<double>::quiet_NaN();   // of −2 log likelihood over the mesh as it is
+};
+
 // What speaks against a pose (pose_rivals.h); nan: not known.
 struct PoseRivals {
   bool judged = false;               // the rest is known
@@ -78,6 +85,9 @@ struct PoseRivals {
   double slow_ratio =
       std::numeric_limits<double>::quiet_NaN();  // of the slow error that the pose needs to the stated one
   double outlying = std::numeric_limits<double>::quiet_NaN();  // share of the paths that no such error explains
+  // That on a mesh of another object the best of the poses would stand out of the others as this one does.
+  double chance = std::numeric_limits<double>::quiet_NaN();
+  MeshScale scale;
 };
 
 // Where a scan path lies on a mesh.

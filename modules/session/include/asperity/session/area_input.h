@@ -19,7 +19,7 @@ struct AreaInput {
 
 // Reads registration.json, scene.json and each scan's path.csv and profile.csv from a folder that `register` wrote.
 // Throws Error naming the file, line and value for what is not of that form, a triangle that the mesh does not have,
-// and a folder none of whose scans has a path and a profile.
+// a folder none of whose scans has a path and a profile, and two scans that are one measurement (check_independent).
 AreaInput read_area_input(const std::filesystem::path& folder, const Observer& observer = {});
 
 // Adds an area's texture to the first object of `scene`: a free index, a file of its own, its triangles' coordinates

@@ -32,9 +32,13 @@ struct PoseEvidence {
   double sigma_rad = kUnknown;   // and of the rotation
   double slow_ratio = kUnknown;  // of the slow error that the pose needs to the stated one, standard deviations
   double outlying = kUnknown;    // share of the paths that no such error explains
-  bool searched = true;          // other poses were looked for everywhere on the mesh
-  std::size_t symmetric_copies = 0;  // of the pose, by the mesh's own symmetry
-  bool symmetric_motion = false;     // the mesh is its own image along a motion that the paths leave open
+  double chance = kUnknown;      // that on a mesh of another object the best pose would stand out of the others as much
+  double mesh_scale = kUnknown;  // of the object over the mesh, at which the paths fit best
+  double mesh_scale_sigma = kUnknown;  // standard error of its logarithm
+  double mesh_scale_gain = kUnknown;   // of −2 log likelihood over the mesh as it is
+  bool searched = true;                // other poses were looked for everywhere on the mesh
+  std::size_t symmetric_copies = 0;    // of the pose, by the mesh's own symmetry
+  bool symmetric_motion = false;       // the mesh is its own image along a motion that the paths leave open
 };
 
 // The verdicts on the pose of scans on a mesh, the worst first.
