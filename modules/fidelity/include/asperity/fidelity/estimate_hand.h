@@ -1,0 +1,19 @@
+#pragma once
+
+#include "asperity/fidelity/path_grid.h"
+#include "asperity/fidelity/stroke_signals.h"
+#include "asperity/fidelity/virtual_probe.h"
+
+namespace asperity {
+
+// The impedance of probe and hand from one stroke's own signals, without any texture: in the band, over the path,
+//
+//   f + P[N₀ σ a·t] = P[(a·n − µ a·t) (m ḧ + c ḣ + k h)],    σ = ḣ / v,    m, c, k ≥ 0
+//
+// by least squares; f is the reading, P the pole of the force sensor, N₀ the slow normal force, µ = 0.25 (its part is
+// small), h the tip's height (docs/realism.md). Not measured, and what the config assumes, where m comes out as 0 or
+// less than half of the reading's power is explained.
+HandImpedance estimate_hand(const StrokeSignals& stroke, const PathGrid& grid, double segment_m, double low_cycles_per_mm,
+                            double high_cycles_per_mm, const VirtualProbeConfig& config);
+
+}  // namespace asperity
