@@ -45,11 +45,7 @@ struct Choice {
 
 asperity::SimulationConfig stroke_config(const Choice& choice, const std::string& surface, const std::string& material,
                                          std::int64_t line, int k) {
-  asperity::SimulationConfig config = asperity::make_simulation_config(surface, choice.probe);
-  for (std::size_t i = 0; i < asperity::kContactMaterialNames.size(); ++i) {
-    if (asperity::kContactMaterialNames[i] == material)
-      config.contact = asperity::make_contact(static_cast<asperity::ContactMaterial>(i));
-  }
+  asperity::SimulationConfig config = asperity::make_simulation_config(surface, choice.probe, material);
   config.seed = 1000 * line + k + 1;
   config.surface.seed = line;
   config.hand.path_seed = line;
@@ -88,8 +84,7 @@ RenderedRelief merged_relief(const Choice& choice, const std::string& surface, c
   asperity::Texture texture;
   texture.name = surface;
   texture.stiffness_N_per_m = config.contact.stiffness_N_per_m;
-  texture.friction =
-      config.contact.friction_dynamic + config.contact.friction_viscous_s_per_m * config.hand.speed_mps;
+  texture.friction = config.contact.friction_dynamic + config.contact.friction_viscous_s_per_m * config.hand.speed_mps;
   asperity::Profile profile;
   if (choice.strokes > 1) {
     asperity::ProcessResult merged = asperity::merge_results(passes, surface, merge);
@@ -168,16 +163,17 @@ void print(const std::string& surface, const Rows& rows) {
     for (const auto& score : scores) worst = std::max(worst, score.score);
     int placed = 0;
     for (const auto& score : scores) placed += score.alignment.agrees ? 1 : 0;
-    std::printf("| %s | %s | %.3f | %.3f to %.3f | %.3f | %.3f | %.1f | %+.1f | %.3f | %.1f | %+.1f | %.2f | %d of %zu |\n",
-                surface.c_str(), name.c_str(), mid([](const auto& s) { return s.score; }),
-                mid([](const auto& s) { return s.low; }), mid([](const auto& s) { return s.high; }), worst,
-                mid([](const auto& s) { return s.acceleration.rendered.correlation; }),
-                mid([](const auto& s) { return s.acceleration.rendered.distance_dB; }),
-                mid([](const auto& s) { return s.acceleration.rendered.level_dB; }),
-                mid([](const auto& s) { return s.force.rendered.correlation; }),
-                mid([](const auto& s) { return s.force.rendered.distance_dB; }),
-                mid([](const auto& s) { return s.force.rendered.level_dB; }),
-                mid([](const auto& s) { return s.friction.score; }), placed, scores.size());
+    std::printf(
+        "| %s | %s | %.3f | %.3f to %.3f | %.3f | %.3f | %.1f | %+.1f | %.3f | %.1f | %+.1f | %.2f | %d of %zu |\n",
+        surface.c_str(), name.c_str(), mid([](const auto& s) { return s.score; }),
+        mid([](const auto& s) { return s.low; }), mid([](const auto& s) { return s.high; }), worst,
+        mid([](const auto& s) { return s.acceleration.rendered.correlation; }),
+        mid([](const auto& s) { return s.acceleration.rendered.distance_dB; }),
+        mid([](const auto& s) { return s.acceleration.rendered.level_dB; }),
+        mid([](const auto& s) { return s.force.rendered.correlation; }),
+        mid([](const auto& s) { return s.force.rendered.distance_dB; }),
+        mid([](const auto& s) { return s.force.rendered.level_dB; }),
+        mid([](const auto& s) { return s.friction.score; }), placed, scores.size());
     std::fflush(stdout);
   }
 }
@@ -199,13 +195,14 @@ void run(const Choice& choice, const std::string& surface, const std::string& ma
     const auto score = [&](const std::string& name, const RenderedRelief& relief) {
       asperity::RealismScore result = asperity::score_realism(relief, held, others, config);
       if (name == "right") {
-        std::printf("# %s %lld: ceiling %.3f (%.3f to %.3f), correlation %.3f and %.3f, spectra %.1f and %.1f dB; hand "
-                    "%.1f g, %.2f N s/m, %.0f N/m, explains %.2f; tangential share real %.3f rendered %.3f other %.3f\n",
-                    title.c_str(), static_cast<long long>(line), result.ceiling, result.ceiling_low,
-                    result.ceiling_high, result.acceleration.ceiling_correlation, result.force.ceiling_correlation,
-                    result.acceleration.ceiling_distance_dB, result.force.ceiling_distance_dB,
-                    1e3 * result.hand.mass_kg, result.hand.damping_N_s_per_m, result.hand.stiffness_N_per_m,
-                    result.hand.explained, result.friction.real, result.friction.rendered, result.friction.other);
+        std::printf(
+            "# %s %lld: ceiling %.3f (%.3f to %.3f), correlation %.3f and %.3f, spectra %.1f and %.1f dB; hand "
+            "%.1f g, %.2f N s/m, %.0f N/m, explains %.2f; tangential share real %.3f rendered %.3f other %.3f\n",
+            title.c_str(), static_cast<long long>(line), result.ceiling, result.ceiling_low, result.ceiling_high,
+            result.acceleration.ceiling_correlation, result.force.ceiling_correlation,
+            result.acceleration.ceiling_distance_dB, result.force.ceiling_distance_dB, 1e3 * result.hand.mass_kg,
+            result.hand.damping_N_s_per_m, result.hand.stiffness_N_per_m, result.hand.explained, result.friction.real,
+            result.friction.rendered, result.friction.other);
         std::fflush(stdout);
       }
       add(rows, name, std::move(result));
@@ -261,8 +258,9 @@ int main(int argc, char** argv) {
          {"--resonance", [&](auto value) { choice.resonance = bench::is_first(value, "yes", "no"); }},
          {"--summary", [&](auto value) { choice.summary = bench::is_first(value, "yes", "no"); }},
          {"--probe", [&](auto value) { choice.probe = std::string(value); }}});
-    std::printf("| surface | rendered | score | 95 %% | largest | acceleration: correlation | spectra, dB | level, dB | "
-                "force: correlation | spectra, dB | level, dB | friction | placed |\n");
+    std::printf(
+        "| surface | rendered | score | 95 %% | largest | acceleration: correlation | spectra, dB | level, dB | "
+        "force: correlation | spectra, dB | level, dB | friction | placed |\n");
     std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (const std::string& surface : choice.surfaces)
       for (const std::string& material : choice.materials) run(choice, surface, material);

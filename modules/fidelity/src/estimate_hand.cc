@@ -53,14 +53,15 @@ HandImpedance estimate_hand(const StrokeSignals& stroke, const PathGrid& grid, d
     return assumed;
   }
   const std::size_t n = stroke.size();
-  const std::vector<double> slow_N = through_pole(
-      stroke.t_s, stroke.normal_N, std::max(0.5, 1e3 * low_cycles_per_mm * stroke.usual_mps));
+  const std::vector<double> slow_N =
+      through_pole(stroke.t_s, stroke.normal_N, std::max(0.5, 1e3 * low_cycles_per_mm * stroke.usual_mps));
   std::array<std::vector<double>, 3> regressors;
   std::vector<double> slope_N(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double share = stroke.reads_normal[i] - FrictionAssumption{}.coefficient * stroke.reads_tangential[i];
     const double speed = std::max(stroke.speed_mps[i], 0.3 * stroke.usual_mps);
-    slope_N[i] = slow_N[i] * std::clamp(stroke.climb_mps[i] / speed, -kSteepest, kSteepest) * stroke.reads_tangential[i];
+    slope_N[i] =
+        slow_N[i] * std::clamp(stroke.climb_mps[i] / speed, -kSteepest, kSteepest) * stroke.reads_tangential[i];
     regressors[0].push_back(share * stroke.accel_mps2[i]);
     regressors[1].push_back(share * stroke.climb_mps[i]);
     regressors[2].push_back(share * stroke.height_m[i]);
@@ -97,9 +98,9 @@ HandImpedance estimate_hand(const StrokeSignals& stroke, const PathGrid& grid, d
   if (!normal.allFinite() || !right.allFinite() || !(power > 0.0)) return assumed;
   // In units in which the three are alike.
   const Eigen::Vector3d scale = normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::Vector3d solution = scale.asDiagonal() * least_squares_above_zero(scale.asDiagonal() * normal *
-                                                                                     scale.asDiagonal(),
-                                                                                 scale.asDiagonal() * right);
+  const Eigen::Vector3d solution =
+      scale.asDiagonal() *
+      least_squares_above_zero(scale.asDiagonal() * normal * scale.asDiagonal(), scale.asDiagonal() * right);
   HandImpedance out;
   out.mass_kg = solution(0);
   out.damping_N_s_per_m = solution(1);

@@ -100,8 +100,8 @@ std::vector<double> low_passed(std::vector<double> x, double bandwidth_Hz, doubl
 }  // namespace
 
 RenderedStroke render_stroke(const StrokeSignals& stroke, const PathGrid& grid, std::span<const double> relief_m,
-                             const RenderedContact& contact, const HandImpedance& hand,
-                             const VirtualProbeConfig& probe, double low_cycles_per_mm) {
+                             const RenderedContact& contact, const HandImpedance& hand, const VirtualProbeConfig& probe,
+                             double low_cycles_per_mm) {
   const double k = contact.stiffness_N_per_m, m = hand.mass_kg;
   if (!(k > 0.0) || !(m > 0.0)) throw Error("render stroke: stiffness or mass is not positive");
   if (relief_m.size() != grid.count || grid.count < 2) throw Error("render stroke: the relief is not on the grid");
@@ -113,14 +113,14 @@ RenderedStroke render_stroke(const StrokeSignals& stroke, const PathGrid& grid, 
   double h_m = relief.at(even.s_m.front()).height_m - even.slow_N.front() / k, rate_mps = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t next = std::min(i + 1, n - 1), before = i > 0 ? i - 1 : 0;
-    const double speed_mps =
-        (even.s_m[next] - even.s_m[before]) / (even.step_s * static_cast<double>(std::max<std::size_t>(next - before, 1)));
+    const double speed_mps = (even.s_m[next] - even.s_m[before]) /
+                             (even.step_s * static_cast<double>(std::max<std::size_t>(next - before, 1)));
     const Relief::Value z = relief.at(even.s_m[i]);
     const double depth_m = z.height_m - h_m;
     const double F = depth_m > 0.0 ? std::max(0.0, k * depth_m + c * (z.slope * speed_mps - rate_mps)) : 0.0;
     const double T = F * (contact.friction + z.slope);
-    const double hand_N = even.slow_N[i] + hand.stiffness_N_per_m * (h_m + even.slow_N[i] / k) +
-                          hand.damping_N_s_per_m * rate_mps;
+    const double hand_N =
+        even.slow_N[i] + hand.stiffness_N_per_m * (h_m + even.slow_N[i] / k) + hand.damping_N_s_per_m * rate_mps;
     accel_mps2[i] = (F - hand_N) / m;
     normal_N[i] = F;
     tangential_N[i] = T;

@@ -75,8 +75,7 @@ LaidRelief lay_relief(const RenderedRelief& relief, const ProfilePass& stroke, c
   LaidRelief out{align_passes(stroke, pass, config.align), {}};
   if (relief.is_laid) {
     const double ends_m = std::abs(out.alignment.stretch) * grid.spacing_m * static_cast<double>(grid.count);
-    const bool near = !out.alignment.reversed &&
-                      std::abs(out.alignment.shift_m) + ends_m <= config.max_place_error_m;
+    const bool near = !out.alignment.reversed && std::abs(out.alignment.shift_m) + ends_m <= config.max_place_error_m;
     out.alignment.agrees = out.alignment.agrees && near;
     if (!out.alignment.agrees) {
       out.height_m = relief.height_m;
@@ -131,16 +130,15 @@ struct Compared {
 
 // The spectra of one quantity, and the bands in which it is compared.
 Compared compare_channel(const std::vector<double>& real, const std::vector<double>& rendered,
-                         const std::vector<std::vector<double>>& others, const PathGrid& grid, double high_cycles_per_mm,
-                         const ProcessResult& stroke, const RealismConfig& config) {
+                         const std::vector<std::vector<double>>& others, const PathGrid& grid,
+                         double high_cycles_per_mm, const ProcessResult& stroke, const RealismConfig& config) {
   Compared out;
   out.rendered = cross_spectra(real, rendered, grid.spacing_m, config.segment_m);
   for (const std::vector<double>& other : others)
     out.others.push_back(cross_spectra(real, other, grid.spacing_m, config.segment_m));
   out.bands = third_octaves(out.rendered, config.align.low_cycles_per_mm, high_cycles_per_mm);
   for (BandSignals& band : out.bands) band.is_compared = true;
-  const SignalAgreement all =
-      agreement_of(out.rendered, out.bands, out.rendered.segments(), config.false_alarm);
+  const SignalAgreement all = agreement_of(out.rendered, out.bands, out.rendered.segments(), config.false_alarm);
   std::vector<double> coherence(out.bands.size(), 0.0), threshold(out.bands.size(), 0.0);
   for (const CrossSpectra& other : out.others) {
     const SignalAgreement pair = agreement_of(other, out.bands, other.segments(), config.false_alarm);
@@ -185,8 +183,7 @@ void jackknife(double value, std::size_t count, const std::function<double(std::
 }
 
 void summarise_channel(const Compared& compared, const RealismConfig& config, RealismChannel& out) {
-  out.rendered =
-      agreement_of(compared.rendered, compared.bands, compared.rendered.segments(), config.false_alarm);
+  out.rendered = agreement_of(compared.rendered, compared.bands, compared.rendered.segments(), config.false_alarm);
   out.score = agreement_score(out.rendered, config.half_dB);
   if (compared.others.empty()) return;
   const double count = static_cast<double>(compared.others.size());
@@ -224,8 +221,7 @@ RealismScore score_realism(const RenderedRelief& relief, const RealStroke& strok
 
   observer.update("rendering", 0.3);
   out.hand = estimate_hand(real, grid, config.segment_m, low, high_of(real.force_rate_Hz), config.probe);
-  const RenderedStroke rendered =
-      render_stroke(real, grid, laid.height_m, relief.contact, out.hand, config.probe, low);
+  const RenderedStroke rendered = render_stroke(real, grid, laid.height_m, relief.contact, out.hand, config.probe, low);
   std::vector<double> read_N = rendered.force_N;
   for (std::size_t i = 0; i < read_N.size(); ++i)
     if (!std::isfinite(real.force_N[i])) read_N[i] = kNan;
@@ -256,10 +252,10 @@ RealismScore score_realism(const RenderedRelief& relief, const RealStroke& strok
     else
       other_shares = kNan;
   }
-  const Compared accel = compare_channel(measured.accel_mps2, made.accel_mps2, other_accel, grid,
-                                         high_of(real.rate_Hz), stroke.result, config);
-  const Compared force = compare_channel(measured.force_N, made.force_N, other_force, grid,
-                                         high_of(real.force_rate_Hz), stroke.result, config);
+  const Compared accel = compare_channel(measured.accel_mps2, made.accel_mps2, other_accel, grid, high_of(real.rate_Hz),
+                                         stroke.result, config);
+  const Compared force = compare_channel(measured.force_N, made.force_N, other_force, grid, high_of(real.force_rate_Hz),
+                                         stroke.result, config);
   out.segments = std::min(accel.rendered.whole_segments(), force.rendered.whole_segments());
   out.compared_m = 0.5 * config.segment_m * static_cast<double>(out.segments + 1);
   if (out.segments < kLeastSegments) {

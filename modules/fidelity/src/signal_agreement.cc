@@ -153,9 +153,8 @@ SignalAgreement agreement_of(const CrossSpectra& spectra, const std::vector<Band
     band.correlation = correlation_of(sums);
     const double power = sums.real * sums.other;
     band.coherence = power > 0.0 ? std::norm(sums.cross) / power : 0.0;
-    band.threshold = averages > 1.0 ? 1.0 - std::pow(false_alarm / static_cast<double>(bands.size()),
-                                                     1.0 / (averages - 1.0))
-                                    : 1.0;
+    band.threshold =
+        averages > 1.0 ? 1.0 - std::pow(false_alarm / static_cast<double>(bands.size()), 1.0 / (averages - 1.0)) : 1.0;
     if (band.is_compared) {
       all += sums;
       square += band.difference_dB * band.difference_dB;

@@ -72,8 +72,7 @@ StrokeSignals measure_stroke(const ProcessResult& result, const Calibration& cal
   out.rate_Hz = static_cast<double>(n - 1) / span_s;
   out.force_rate_Hz = static_cast<double>(readings) / span_s;
   out.normal_N = bridge_gaps(out.t_s, motion.force_N);
-  out.speed_mps =
-      moving_average(result.base.speed_mps, static_cast<std::size_t>(0.5 * kSpeedWindow_s * out.rate_Hz));
+  out.speed_mps = moving_average(result.base.speed_mps, static_cast<std::size_t>(0.5 * kSpeedWindow_s * out.rate_Hz));
 
   std::vector<double> speeds;
   const auto touches = [&](std::size_t i) { return result.base.contact.empty() || result.base.contact[i] != 0; };

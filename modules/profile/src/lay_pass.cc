@@ -27,8 +27,8 @@ std::vector<double> lay_pass(const ProfilePass& reference, const ProfilePass& pa
                                           : static_cast<double>(signal.first);
   std::vector<double> places(target.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
-    places[i] = alignment.shift_m / pass.spacing_m - first +
-                static_cast<double>(i + target.first) * (1.0 + alignment.stretch);
+    places[i] =
+        alignment.shift_m / pass.spacing_m - first + static_cast<double>(i + target.first) * (1.0 + alignment.stretch);
   }
   if (alignment.agrees) {
     const double sigma_mm = std::hypot(place_sigma_mm(reference, config), place_sigma_mm(pass, config));

@@ -41,9 +41,9 @@ Json channel_json(const RealismChannel& channel, const std::string& unit, const 
 }
 
 Json alignment_json(const PassAlignment& at) {
-  return {{"found", at.agrees},     {"direction", at.reversed ? "backward" : "forward"},
-          {"shift_m", at.shift_m},  {"stretch", at.stretch},
-          {"agreement", at.score},  {"chance", at.threshold}};
+  return {{"found", at.agrees},    {"direction", at.reversed ? "backward" : "forward"},
+          {"shift_m", at.shift_m}, {"stretch", at.stretch},
+          {"agreement", at.score}, {"chance", at.threshold}};
 }
 
 std::string channel_text(const char* name, const RealismChannel& channel, const char* unit) {
@@ -52,7 +52,8 @@ std::string channel_text(const char* name, const RealismChannel& channel, const 
       "  {:<12} real {:.3g} {} RMS, rendered {:.3g} ({:+.1f} dB); spectra {:.1f} dB apart, correlation {:.3f}", name,
       r.real_rms, unit, r.other_rms, r.level_dB, r.distance_dB, r.correlation);
   if (std::isfinite(channel.ceiling_correlation)) {
-    out += fmt::format("; two real strokes {:.1f} dB, {:.3f}", channel.ceiling_distance_dB, channel.ceiling_correlation);
+    out +=
+        fmt::format("; two real strokes {:.1f} dB, {:.3f}", channel.ceiling_distance_dB, channel.ceiling_correlation);
   }
   return out + "\n";
 }
@@ -103,10 +104,9 @@ std::string realism_text(const RealismScore& score) {
                         ? fmt::format("real against rendered: {:.3f} of 1, 95 %: {:.3f} to {:.3f}", score.score,
                                       score.low, score.high)
                         : std::string("real against rendered: not determined");
-  out += std::isfinite(score.ceiling)
-             ? fmt::format("; two real strokes have {:.3f}, 95 %: {:.3f} to {:.3f}\n", score.ceiling,
-                           score.ceiling_low, score.ceiling_high)
-             : std::string("; what two real strokes have is not determined\n");
+  out += std::isfinite(score.ceiling) ? fmt::format("; two real strokes have {:.3f}, 95 %: {:.3f} to {:.3f}\n",
+                                                    score.ceiling, score.ceiling_low, score.ceiling_high)
+                                      : std::string("; what two real strokes have is not determined\n");
   out += channel_text("acceleration", score.acceleration, "m/s²");
   out += channel_text("force", score.force, "N");
   if (std::isfinite(score.friction.real)) {
@@ -115,9 +115,9 @@ std::string realism_text(const RealismScore& score) {
   } else {
     out += fmt::format("  {:<12} not judged: one axis of force\n", "friction");
   }
-  out += fmt::format("  {:<12} {} N/m ({}), friction {} ({})\n", "contact", number_text(score.contact.stiffness_N_per_m),
-                     score.stiffness_known ? "of the scene" : "assumed", number_text(score.contact.friction),
-                     score.friction_known ? "of the scene" : "assumed");
+  out += fmt::format("  {:<12} {} N/m ({}), friction {} ({})\n", "contact",
+                     number_text(score.contact.stiffness_N_per_m), score.stiffness_known ? "of the scene" : "assumed",
+                     number_text(score.contact.friction), score.friction_known ? "of the scene" : "assumed");
   out += fmt::format("  {:<12} {:.3g} g, {:.3g} N s/m, {:.3g} N/m, {}\n", "hand", 1e3 * score.hand.mass_kg,
                      score.hand.damping_N_s_per_m, score.hand.stiffness_N_per_m,
                      score.hand.measured

@@ -89,7 +89,8 @@ RenderedInput read_rendered(const fs::path& path, const Observer& observer) {
     file = path / "scene.json";
     if (!fs::exists(file) && fs::exists(path / "profile.csv")) {
       if (!fs::exists(path / "texture.json"))
-        throw Error(printable(path.string(), 200) + ": a result without texture.json: its stroke was too short for one");
+        throw Error(printable(path.string(), 200) +
+                    ": a result without texture.json: its stroke was too short for one");
       out.texture = read_texture(path / "texture.json", {}, observer);
       read_profile(path / "profile.csv", out);
       out.sources = sources_of(out.texture);

@@ -13,7 +13,7 @@ namespace asperity {
 // by least squares; f is the reading, P the pole of the force sensor, N₀ the slow normal force, µ = 0.25 (its part is
 // small), h the tip's height (docs/realism.md). Not measured, and what the config assumes, where m comes out as 0 or
 // less than half of the reading's power is explained.
-HandImpedance estimate_hand(const StrokeSignals& stroke, const PathGrid& grid, double segment_m, double low_cycles_per_mm,
-                            double high_cycles_per_mm, const VirtualProbeConfig& config);
+HandImpedance estimate_hand(const StrokeSignals& stroke, const PathGrid& grid, double segment_m,
+                            double low_cycles_per_mm, double high_cycles_per_mm, const VirtualProbeConfig& config);
 
 }  // namespace asperity

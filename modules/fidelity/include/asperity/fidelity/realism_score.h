@@ -28,30 +28,30 @@ struct FrictionShare {
 
 struct OtherStroke {
   std::string name;
-  PassAlignment alignment;   // on the held-back stroke
-  double speed_mps = kNan;   // median
-  double score = kNan;       // of this stroke in place of the rendered one
+  PassAlignment alignment;  // on the held-back stroke
+  double speed_mps = kNan;  // median
+  double score = kNan;      // of this stroke in place of the rendered one
 };
 
 // A held-back stroke beside the rendered surface (score_realism.h). nan: not determined.
 struct RealismScore {
-  double score = kNan, low = kNan, high = kNan;        // 0 to 1, and 95 %
+  double score = kNan, low = kNan, high = kNan;                    // 0 to 1, and 95 %
   double ceiling = kNan, ceiling_low = kNan, ceiling_high = kNan;  // the same of another real stroke
-  RealismChannel acceleration;                         // m/s², at the stroke's usual speed
-  RealismChannel force;                                // N, as the sensor reads it
+  RealismChannel acceleration;                                     // m/s², at the stroke's usual speed
+  RealismChannel force;                                            // N, as the sensor reads it
   FrictionShare friction;
 
-  PassAlignment alignment;     // of the rendered surface on the stroke
-  double compared_m = 0.0;     // length of path
-  std::size_t segments = 0;    // of the spectra
-  double speed_mps = kNan;     // median
+  PassAlignment alignment;   // of the rendered surface on the stroke
+  double compared_m = 0.0;   // length of path
+  std::size_t segments = 0;  // of the spectra
+  double speed_mps = kNan;   // median
   HandImpedance hand;
   RenderedContact contact;
   bool stiffness_known = false, friction_known = false;
-  std::string no_places;       // why the rendered surface has no places, in words; empty: it has
+  std::string no_places;  // why the rendered surface has no places, in words; empty: it has
   std::vector<OtherStroke> others;
-  Verdicts verdicts;           // judge_realism.h
-  bool trustworthy = true;     // none is invalid
+  Verdicts verdicts;        // judge_realism.h
+  bool trustworthy = true;  // none is invalid
 };
 
 }  // namespace asperity

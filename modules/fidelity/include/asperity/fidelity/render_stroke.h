@@ -33,7 +33,7 @@ struct RenderedStroke {
 // mean is taken off. Semi-implicit Euler, the step a tenth of √(m/k_s), at most 50 µs. Throws Error if sizes differ, a
 // value is not positive, or the stroke is too long for its stiffness (more than 10⁸ steps).
 RenderedStroke render_stroke(const StrokeSignals& stroke, const PathGrid& grid, std::span<const double> relief_m,
-                             const RenderedContact& contact, const HandImpedance& hand,
-                             const VirtualProbeConfig& probe, double low_cycles_per_mm);
+                             const RenderedContact& contact, const HandImpedance& hand, const VirtualProbeConfig& probe,
+                             double low_cycles_per_mm);
 
 }  // namespace asperity

@@ -35,8 +35,8 @@ struct RealismConfig {
     v.field("least_part", least_part, "of the whole RMS: a weaker band is not compared", {0.0, 1.0});
     v.field("false_alarm", false_alarm, "chance that a band in which the real strokes do not agree counts as agreed",
             {1e-9, 0.5});
-    v.field("least_snr", least_snr, "of the stroke's heights in a band that is compared, where no other stroke is given",
-            {0.0, 1e6});
+    v.field("least_snr", least_snr,
+            "of the stroke's heights in a band that is compared, where no other stroke is given", {0.0, 1e6});
     v.field("margin_m", margin_m, "left out at both ends of the stroke", {0.0, 1.0});
     v.field("max_place_error_m", max_place_error_m, "of a scene's coordinates: no better place is looked for beyond it",
             {0.0, 1.0});
@@ -65,9 +65,10 @@ struct RealStroke {
 //
 // and with three axes of force (q_acceleration q_force q_friction)^(1/3), q_friction = 2^(−|20 log10(t_rendered/
 // t_real)|/half_dB), t the sum of the tangential over that of the normal force. Bands: those in which `others`, real
-// strokes over the same line, agree with the held-back one (coherence above what chance gives) and which hold least_part
-// of the RMS; without others, those in which the stroke's heights have least_snr. `ceiling` is the score of the other
-// strokes in place of the rendered surface, their mean. The 95 % intervals are by the jackknife over the segments.
+// strokes over the same line, agree with the held-back one (coherence above what chance gives) and which hold
+// least_part of the RMS; without others, those in which the stroke's heights have least_snr. `ceiling` is the score of
+// the other strokes in place of the rendered surface, their mean. The 95 % intervals are by the jackknife over the
+// segments.
 //
 // Throws Error if a stroke has no force, the strokes are too short (four segments), or the rendered surface does not
 // cover that much of the stroke.

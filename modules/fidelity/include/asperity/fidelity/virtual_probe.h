@@ -25,8 +25,7 @@ struct VirtualProbeConfig {
     v.field("contact_damping_ratio", contact_damping_ratio, "of the probe on the contact's spring", {0.0, 2.0});
     v.field("accel_bandwidth_Hz", accel_bandwidth_Hz,
             "-3 dB of the accelerometer, second-order Butterworth; 0: passes all", {0.0, 1e6});
-    v.field("force_bandwidth_Hz", force_bandwidth_Hz, "-3 dB of the force sensor, one pole; 0: passes all",
-            {0.0, 1e6});
+    v.field("force_bandwidth_Hz", force_bandwidth_Hz, "-3 dB of the force sensor, one pole; 0: passes all", {0.0, 1e6});
   }
 };
 

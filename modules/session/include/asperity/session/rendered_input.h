@@ -33,15 +33,15 @@ struct RenderedInput {
   std::vector<StrokeSource> sources;
 };
 
-// Reads a *.texture.json, a folder of process or merge (its whole profile, laid as `register` lays one), a scene.json or
-// a folder that has one. Throws Error naming the file.
+// Reads a *.texture.json, a folder of process or merge (its whole profile, laid as `register` lays one), a scene.json
+// or a folder that has one. Throws Error naming the file.
 RenderedInput read_rendered(const std::filesystem::path& path, const Observer& observer = {});
 
 // Whether a recording is among the sources: by its checksum, and by its name where no checksum is known.
 bool is_among(const std::vector<StrokeSource>& sources, const StrokeSource& recording);
 
-// A recording processed for the comparison (score_realism.h): over the scene where there is one. Throws Error naming the
-// folder.
+// A recording processed for the comparison (score_realism.h): over the scene where there is one. Throws Error naming
+// the folder.
 RealStroke read_real_stroke(const std::filesystem::path& folder, const RenderedInput& rendered,
                             const ProcessConfig& config, const Observer& observer = {});
 
