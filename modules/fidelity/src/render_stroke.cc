@@ -43,10 +43,12 @@ EvenHand even_hand(const StrokeSignals& stroke, double step_s, double low_cycles
   return out;
 }
 
-// The relief without gaps and mean, and its slope, at any place.
+// The relief without gaps and mean, and its slope, at any place: a natural cubic spline, whose second derivative, which
+// the tip feels as acceleration, has no steps.
 class Relief {
  public:
-  Relief(std::span<const double> relief_m, const PathGrid& grid) : grid_(grid), height_m_(relief_m.size(), 0.0) {
+  Relief(std::span<const double> relief_m, const PathGrid& grid)
+      : grid_(grid), height_m_(relief_m.size(), 0.0), bend_(relief_m.size(), 0.0) {
     double sum = 0.0, known = 0.0;
     for (const double height : relief_m) {
       if (!std::isfinite(height)) continue;
@@ -55,31 +57,36 @@ class Relief {
     }
     for (std::size_t i = 0; i < relief_m.size(); ++i)
       if (std::isfinite(relief_m[i])) height_m_[i] = relief_m[i] - sum / known;
+    // b[i−1] + 4 b[i] + b[i+1] = 6 (h[i−1] − 2 h[i] + h[i+1]), b the second derivative times the spacing squared, 0 at
+    // both ends: Thomas' elimination.
+    std::vector<double> upper(height_m_.size(), 0.0);
+    for (std::size_t i = 1; i + 1 < height_m_.size(); ++i) {
+      const double pivot = 4.0 - upper[i - 1];
+      upper[i] = 1.0 / pivot;
+      bend_[i] = (6.0 * (height_m_[i - 1] - 2.0 * height_m_[i] + height_m_[i + 1]) - bend_[i - 1]) / pivot;
+    }
+    for (std::size_t i = height_m_.size(); i-- > 1;) {
+      if (i + 1 < height_m_.size()) bend_[i] -= upper[i] * bend_[i + 1];
+    }
+    bend_.front() = 0.0;
   }
 
   struct Value {
     double height_m, slope;
   };
-  // Catmull and Rom's cubic, so that the slope has no steps.
   Value at(double s_m) const {
     const double last = static_cast<double>(height_m_.size() - 1);
     const double place = std::clamp(s_m / grid_.spacing_m - static_cast<double>(grid_.first), 0.0, last);
-    const auto i = static_cast<std::ptrdiff_t>(std::min(place, last - 1.0));
-    const double u = place - static_cast<double>(i);
-    const double a = point(i - 1), b = point(i), c = point(i + 1), d = point(i + 2);
-    const double m0 = 0.5 * (c - a), m1 = 0.5 * (d - b), rise = c - b;
-    const double p2 = 3.0 * rise - 2.0 * m0 - m1, p3 = m0 + m1 - 2.0 * rise;
-    return {b + u * (m0 + u * (p2 + u * p3)), (m0 + u * (2.0 * p2 + 3.0 * u * p3)) / grid_.spacing_m};
+    const auto i = static_cast<std::size_t>(std::min(place, last - 1.0));
+    const double u = place - static_cast<double>(i), w = 1.0 - u;
+    const double a = height_m_[i], b = height_m_[i + 1], p = bend_[i] / 6.0, q = bend_[i + 1] / 6.0;
+    return {w * a + u * b + (w * w * w - w) * p + (u * u * u - u) * q,
+            (b - a - (3.0 * w * w - 1.0) * p + (3.0 * u * u - 1.0) * q) / grid_.spacing_m};
   }
 
  private:
-  double point(std::ptrdiff_t i) const {
-    return height_m_[static_cast<std::size_t>(
-        std::clamp<std::ptrdiff_t>(i, 0, static_cast<std::ptrdiff_t>(height_m_.size()) - 1))];
-  }
-
   PathGrid grid_;
-  std::vector<double> height_m_;
+  std::vector<double> height_m_, bend_;
 };
 
 // Causal, settled on the first value.

@@ -155,14 +155,9 @@ Compared compare_channel(const std::vector<double>& real, const std::vector<doub
   return out;
 }
 
-double geometric_mean(std::initializer_list<double> values) {
-  double product = 1.0, count = 0.0;
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    product *= value;
-    count += 1.0;
-  }
-  return count > 0.0 ? std::pow(product, 1.0 / count) : kNan;
+// (q_acceleration q_force q_friction)^(1/2); a friction that is not measured counts as right.
+double joint_score(double acceleration, double force, double friction) {
+  return std::sqrt(acceleration * force * (std::isfinite(friction) ? friction : 1.0));
 }
 
 // A value and its 95 % interval by the jackknife: `value_without(i)`, one for each of `count` parts.
@@ -278,9 +273,8 @@ RealismScore score_realism(const RenderedRelief& relief, const RealStroke& strok
 
   // The score with any segment left out; with the spectra of a stroke, or of the rendered surface.
   const auto score_without = [&](const CrossSpectra& a, const CrossSpectra& f, double friction, std::size_t i) {
-    return geometric_mean({agreement_score(agreement_of(a, accel.bands, i, config.false_alarm), config.half_dB),
-                           agreement_score(agreement_of(f, force.bands, i, config.false_alarm), config.half_dB),
-                           friction});
+    return joint_score(agreement_score(agreement_of(a, accel.bands, i, config.false_alarm), config.half_dB),
+                       agreement_score(agreement_of(f, force.bands, i, config.false_alarm), config.half_dB), friction);
   };
   const std::size_t all = accel.rendered.segments();
   const auto rendered_without = [&](std::size_t i) {

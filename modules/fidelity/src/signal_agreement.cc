@@ -18,12 +18,17 @@ constexpr std::size_t kLeastLines = 2;
 // Dependent lines and segments of a Hann window, as align_passes.h has it.
 constexpr double kDependent = (1.0 + 2.0 * (4.0 / 9.0 + 1.0 / 36.0)) * (1.0 + 6.0 / 36.0);
 
-// A segment without gaps and without its straight line; empty if it has too many gaps.
-std::vector<double> whole_segment(std::span<const double> x) {
-  const auto known =
-      static_cast<double>(std::count_if(x.begin(), x.end(), [](double value) { return std::isfinite(value); }));
-  if (known < (1.0 - kBridged) * static_cast<double>(x.size())) return {};
-  std::vector<double> out = bridge_gaps(x);
+// A segment in the gaps of both signals bridged, and without its straight line; empty if there are too many gaps.
+std::vector<double> whole_segment(std::span<const double> x, std::span<const double> other) {
+  std::vector<double> out(x.begin(), x.end());
+  std::size_t gaps = 0;
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (std::isfinite(x[i]) && std::isfinite(other[i])) continue;
+    out[i] = kNan;
+    ++gaps;
+  }
+  if (static_cast<double>(gaps) > kBridged * static_cast<double>(out.size())) return {};
+  out = bridge_gaps(out);
   const double n = static_cast<double>(out.size()), middle = 0.5 * (n - 1.0);
   double sum = 0.0, moment = 0.0;
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -100,7 +105,8 @@ CrossSpectra cross_spectra(std::span<const double> real, std::span<const double>
     std::vector<double>& of_real = out.real.emplace_back();
     std::vector<double>& of_other = out.other.emplace_back();
     std::vector<std::complex<double>>& of_both = out.cross.emplace_back();
-    std::vector<double> a = whole_segment(real.subspan(begin, n)), b = whole_segment(other.subspan(begin, n));
+    const std::span<const double> one = real.subspan(begin, n), two = other.subspan(begin, n);
+    std::vector<double> a = whole_segment(one, two), b = whole_segment(two, one);
     if (a.empty() || b.empty()) continue;
     for (std::size_t i = 0; i < n; ++i) {
       a[i] *= window[i];

@@ -60,6 +60,7 @@ StrokeSignals measure_stroke(const ProcessResult& result, const Calibration& cal
     out.t_s.push_back(static_cast<double>(motion.t_ns[i] - motion.t_ns.front()) * kNanosecond_s);
     out.s_m.push_back(path.s_m[i]);
     out.height_m.push_back(normal.dot(motion.p_world_tip_m[i] - path.p_world_m[i]));
+    out.travel_mps.push_back(travel[i].dot(motion.v_world_tip_mps[i]));
     out.climb_mps.push_back(normal.dot(motion.v_world_tip_mps[i]));
     out.accel_mps2.push_back(normal.dot(motion.a_world_tip_mps2[i]));
     out.force_N.push_back(three_axes ? motion.force_N[i] : axial_N[i]);

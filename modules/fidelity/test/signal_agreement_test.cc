@@ -47,8 +47,9 @@ TEST(SignalAgreement, BandsAreThirdsOfAnOctaveWithoutHoles) {
   EXPECT_NEAR(bands.back().high_cycles_per_mm, 4.0, 1e-9);
   for (std::size_t b = 1; b < bands.size(); ++b) {
     EXPECT_EQ(bands[b].low_cycles_per_mm, bands[b - 1].high_cycles_per_mm);
-    if (bands[b].low_cycles_per_mm > 1.0 && b + 1 < bands.size())
+    if (bands[b].low_cycles_per_mm > 1.0 && b + 1 < bands.size()) {
       EXPECT_NEAR(bands[b].high_cycles_per_mm / bands[b].low_cycles_per_mm, std::cbrt(2.0), 0.02);
+    }
   }
 }
 

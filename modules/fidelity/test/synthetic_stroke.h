@@ -14,6 +14,7 @@ namespace asperity::realism_test {
 // A mass on a contact's spring and damper that is led over a sum of sines at an even speed, held by a hand with spring
 // and damper: linear as long as contact is kept, so everything is a sum of sines in closed form.
 struct LinearStroke {
+  static constexpr double kHeightNoise_m = 0.2e-6;
   double mass_kg = 0.05, hand_damping = 3.0, hand_stiffness = 250.0;
   double stiffness = 2e5, damping_ratio = 0.15;
   double speed_mps = 0.025, length_m = 80e-3, force_N = 0.8, rate_Hz = 4000.0;
@@ -68,7 +69,7 @@ struct LinearStroke {
   }
 
   // As `process` would give it: along x over the plane z = 0, one force reading in ten samples, the force sensor's axis
-  // along the normal; noise of the accelerations is white.
+  // along the normal; noise of the accelerations is white, and so is that of the heights, 0.2 µm, which is stated.
   RealStroke measured(const std::string& name, double accel_noise_mps2 = 0.0, std::uint64_t seed = 1) const {
     RealStroke out;
     out.name = name;
@@ -94,12 +95,17 @@ struct LinearStroke {
     }
     const auto points = static_cast<int>(length_m / r.profile.spacing_m);
     for (int i = 0; i <= points; ++i) {
-      const double s_m = r.profile.spacing_m * i, h_m = at(s_m / speed_mps).height_m;
+      const double s_m = r.profile.spacing_m * i, h_m = at(s_m / speed_mps).height_m + kHeightNoise_m * random.normal();
       r.profile.s_m.push_back(s_m);
       r.profile.height_m.push_back(h_m);
       r.profile.texture_m.push_back(h_m);
       r.profile.speed_mps.push_back(speed_mps);
     }
+    // Up to half of the 40 points a millimetre.
+    r.noise.frequency_cycles_per_mm = {0.0, 20.0};
+    r.noise.added_psd_m2_mm.assign(2, kHeightNoise_m * kHeightNoise_m / 20.0);
+    r.spectrum.frequency_cycles_per_mm = {0.0, 20.0};
+    r.spectrum.density_m2_mm.assign(2, 1e-12);
     return out;
   }
 

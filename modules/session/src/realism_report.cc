@@ -77,6 +77,7 @@ Json realism_json(const RealismScore& score) {
                     {"friction", score.contact.friction},
                     {"friction_known", score.friction_known}};
   out["hand"] = {{"mass_kg", score.hand.mass_kg},
+                 {"mass_stderr_kg", number_or_null(score.hand.mass_sigma_kg)},
                  {"damping_N_s_per_m", score.hand.damping_N_s_per_m},
                  {"stiffness_N_per_m", score.hand.stiffness_N_per_m},
                  {"measured", score.hand.measured},

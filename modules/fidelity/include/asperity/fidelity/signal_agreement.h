@@ -44,8 +44,8 @@ struct CrossSpectra {
   std::size_t whole_segments() const;
 };
 
-// Gaps up to a twentieth of a segment are bridged. Throws Error if the sizes differ or a segment has fewer than 16
-// points.
+// Gaps of one up to a twentieth of a segment are bridged, in both alike. Throws Error if the sizes differ or a segment
+// has fewer than 16 points.
 CrossSpectra cross_spectra(std::span<const double> real, std::span<const double> other, double spacing_m,
                            double segment_m);
 

@@ -17,6 +17,7 @@ struct StrokeSignals {
   std::vector<double> t_s;               // from 0
   std::vector<double> s_m;               // along the base path
   std::vector<double> speed_mps;         // along it, mean over 0.1 s
+  std::vector<double> travel_mps;        // the same, at the sample: a tip lags and springs along the path too
   std::vector<double> height_m;          // over the base
   std::vector<double> climb_mps;         // its rate
   std::vector<double> accel_mps2;        // gravity removed

@@ -34,8 +34,9 @@ struct HandImpedance {
   double mass_kg = 0.04;
   double damping_N_s_per_m = 4.0;
   double stiffness_N_per_m = 300.0;
-  double explained = kNan;  // part of the reading's power in the band that it explains
-  bool measured = false;    // from the stroke's signals; else assumed
+  double mass_sigma_kg = kNan;  // its standard error; nan: not estimated
+  double explained = kNan;      // part of the reading's power in the band that it explains
+  bool measured = false;        // from the stroke's signals; else assumed
 };
 
 }  // namespace asperity
