@@ -191,7 +191,9 @@ void run(const Choice& choice, const std::string& surface, const std::string& ma
         real_stroke(choice, stroke_config(choice, surface, material, line, 100), "held back");
     const std::vector<asperity::RealStroke> others{
         real_stroke(choice, stroke_config(choice, surface, material, line, 101), "other")};
-    const asperity::RealismConfig config;
+    asperity::RealismConfig config;
+    const double damping = stroke_config(choice, surface, material, line, 0).contact.damping_ratio;
+    config.probe.contact_damping_ratio = damping;
     const auto score = [&](const std::string& name, const RenderedRelief& relief) {
       asperity::RealismScore result = asperity::score_realism(relief, held, others, config);
       if (name == "right") {
@@ -208,6 +210,9 @@ void run(const Choice& choice, const std::string& surface, const std::string& ma
       add(rows, name, std::move(result));
     };
     score("right", right);
+    config.probe.contact_damping_ratio = damping > 0.2 ? 0.15 : 0.4;
+    score("another damping of the contact", right);
+    config.probe.contact_damping_ratio = damping;
     for (const double factor : {1.25, 1.5, 2.0, 0.75, 0.5, 0.25}) {
       char name[40];
       std::snprintf(name, sizeof name, "heights × %g", factor);

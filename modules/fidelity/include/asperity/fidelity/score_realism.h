@@ -61,11 +61,11 @@ struct RealStroke {
 //
 // c is the correlation and D the RMS over the bands of 20 log10(rendered/real):
 //
-//   q = max(c, 0) · 2^(−D/half_dB),      score = (q_acceleration q_force)^(1/2)
+//   q = max(c, 0) · 2^(−D/half_dB),      score = (q_acceleration q_force q_friction)^(1/2)
 //
-// and with three axes of force (q_acceleration q_force q_friction)^(1/3), q_friction = 2^(−|20 log10(t_rendered/
-// t_real)|/half_dB), t the sum of the tangential over that of the normal force. Bands: those in which `others`, real
-// strokes over the same line, agree with the held-back one (coherence above what chance gives) and which hold
+// q_friction = 2^(−|20 log10(τ_rendered/τ_real)|/half_dB), τ the sum of the tangential over that of the normal force,
+// where the sensor has three axes; else 1. Bands: those in which `others`, real strokes over the same line, agree with
+// the held-back one (coherence above what chance gives) and which hold
 // least_part of the RMS; without others, those in which the stroke's heights have least_snr. `ceiling` is the score of
 // the other strokes in place of the rendered surface, their mean. The 95 % intervals are by the jackknife over the
 // segments.
