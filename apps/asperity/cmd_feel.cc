@@ -18,7 +18,7 @@
 #include "asperity/device/device_registry.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/write_flight_record.h"
-#include "asperity/fidelity/score_rendering.h"
+#include "asperity/fidelity/check_renderer.h"
 #include "asperity/json/config_json.h"
 #include "asperity/session/feel_device.h"
 #include "asperity/session/feel_drive.h"
@@ -159,23 +159,23 @@ class FeelCommand : public Command {
     const ServoResult servo = feel(*device, model, log, observer);
     verdicts_ = judge_run(run_evidence(statistics_, servo, *device, drive, *model.acquire(), settings_.servo.safety));
     warnings_.insert(warnings_.end(), notes_.begin(), notes_.end());
-    std::optional<RenderingScore> score;
+    std::optional<RendererCheck> check;
     const bool whole = device_ != "sim" && !(settings_.servo.duration_s > 0.0) && servo.end == ServoEnd::kDeviceEnded;
-    if (drive.scan && !whole) warnings_.push_back("real and rendered are compared over a whole replay only");
+    if (drive.scan && !whole) warnings_.push_back("the renderer is checked over a whole replay only");
     if (drive.scan && whole) {
-      score = score_rendering(drive.scan->measured, drive.scan->pressed, *model.acquire(), settings_.servo.rate_Hz,
-                              settings_.score, observer);
-      verdicts_.insert(verdicts_.end(), score->verdicts.begin(), score->verdicts.end());
+      check = check_renderer(drive.scan->measured, drive.scan->pressed, *model.acquire(), settings_.servo.rate_Hz,
+                             settings_.renderer_check, observer);
+      verdicts_.insert(verdicts_.end(), check->verdicts.begin(), check->verdicts.end());
       sort_verdicts(verdicts_);
     }
-    const std::string json = to_json(servo, *device, score).dump_repaired(2);
+    const std::string json = to_json(servo, *device, check).dump_repaired(2);
     if (folder) {
       write_file(folder->path() / "result.json", json + "\n");
       write_listing(folder->path());
       folder->commit();
     }
     print_json(json);
-    report(servo, score);
+    report(servo, check);
     if (servo.end == ServoEnd::kStopped) return interrupt_exit_code();
     return is_trustworthy(verdicts_) ? kDone : kNotTrustworthy;
   }
@@ -267,7 +267,7 @@ class FeelCommand : public Command {
     for (const Problem& problem : problems) notes_.push_back(problem.message);
   }
 
-  Json to_json(const ServoResult& servo, const HapticDevice& device, const std::optional<RenderingScore>& score) {
+  Json to_json(const ServoResult& servo, const HapticDevice& device, const std::optional<RendererCheck>& check) {
     Json out;
     out["format"] = "asperity-feel";
     out["version"] = 1;
@@ -285,7 +285,7 @@ class FeelCommand : public Command {
     if (settings_.servo.paced || settings_.servo.timed) {
       out["timing"] = timing_json(servo.statistics, settings_.servo);
     }
-    if (score) out["real_against_rendered"] = score_json(*score);
+    if (check) out["renderer_check"] = renderer_check_json(*check);
     out["trustworthy"] = is_trustworthy(verdicts_);
     out["verdict"] = verdict_sentence(verdicts_);
     out["verdicts"] = verdicts_json(verdicts_);
@@ -295,13 +295,13 @@ class FeelCommand : public Command {
     return out;
   }
 
-  void report(const ServoResult& servo, const std::optional<RenderingScore>& score) {
+  void report(const ServoResult& servo, const std::optional<RendererCheck>& check) {
     std::string text = fmt::format("{:<10} {:.2f} s at {} Hz\n", device_,
                                    static_cast<double>(statistics_.ticks()) / settings_.servo.rate_Hz,
                                    number_text(settings_.servo.rate_Hz));
     text += statistics_.text();
     if (settings_.servo.paced || settings_.servo.timed) text += timing_text(servo.statistics, settings_.servo);
-    if (score) text += score_text(*score);
+    if (check) text += renderer_check_text(*check);
     if (!log_.empty()) text += "log        " + printable(log_, 200) + "\n";
     if (!output_.empty()) text += "result in " + printable(output_, 200) + "\n";
     say(text);

@@ -14,6 +14,9 @@
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/write_result.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/session/register_input.h"
+#include "asperity/session/rendered_input.h"
+#include "asperity/texture/texture_file.h"
 #include "commands.h"
 
 namespace asperity::app {
@@ -90,7 +93,8 @@ class MergeCommand : public Command {
     }
     reads("");
     if (object.empty()) object = "merged";
-    const ProcessResult result = merge_results(strokes, object, config_);
+    ProcessResult result = merge_results(strokes, object, config_);
+    if (result.texture) note_sources(*result.texture, sources_);
     observer.update("writing", 1.0);
     if (result.passes->agrees) {
       write_merge(folder.path(), result, config_, object);
@@ -107,7 +111,11 @@ class MergeCommand : public Command {
 
  private:
   MergeStroke read(const std::string& input, const std::string& name, const Observer& observer, std::string& object) {
-    if (fs::is_regular_file(fs::path(input) / "result.json")) return read_stroke(input, name);
+    if (fs::is_regular_file(fs::path(input) / "result.json")) {
+      add_sources_of_result(input, name, observer);
+      return read_stroke(input, name);
+    }
+    sources_.push_back({name, recording_checksum(input)});
     const Recording recording = read_recording(input, {}, observer);
     if (object.empty()) object = recording.info.object;
     ProcessConfig config = config_.process;
@@ -125,8 +133,17 @@ class MergeCommand : public Command {
     return stroke_of_result(result, recording, name);
   }
 
+  // Of what a result was made, by its texture; its name where it has none.
+  void add_sources_of_result(const fs::path& folder, const std::string& name, const Observer& observer) {
+    std::vector<StrokeSource> sources;
+    if (fs::exists(folder / "texture.json")) sources = sources_of(read_texture(folder / "texture.json", {}, observer));
+    if (sources.empty()) sources.push_back({name, ""});
+    sources_.insert(sources_.end(), sources.begin(), sources.end());
+  }
+
   std::vector<std::string> inputs_;
   std::string output_;
+  std::vector<StrokeSource> sources_;
   MergeConfig config_;
 };
 

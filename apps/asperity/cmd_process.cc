@@ -18,6 +18,8 @@
 #include "asperity/profile/stiffness_of_compliance.h"
 #include "asperity/recording/cut_recording.h"
 #include "asperity/recording/read_recording.h"
+#include "asperity/session/register_input.h"
+#include "asperity/session/rendered_input.h"
 #include "asperity/studio/measured_block.h"
 #include "asperity/studio/write_report.h"
 #include "commands.h"
@@ -203,6 +205,7 @@ class ProcessCommand : public Command {
     observer.update("reading", 0.0);
     reads(path);
     const Recording recording = read_recording(path, {}, observer);
+    source_ = {name, recording_checksum(path)};
     const std::vector<Segment> pieces = chosen_segments(path, recording);
     alone_ = recordings_.size() == 1 && pieces.size() < 2;
     if (pieces.empty()) {
@@ -258,6 +261,7 @@ class ProcessCommand : public Command {
     }
     observer.update("writing", 0.0);
     fs::create_directories(place);
+    if (result.texture) note_sources(*result.texture, {source_});
     write_result(place, result, recording, name);
     items_.push_back({name, studio::measured_block(result, recording, name).take()});
     studio::write_report(place, {items_.back()});
@@ -284,7 +288,8 @@ class ProcessCommand : public Command {
   std::string output_;
   std::string method_;
   std::string segment_;
-  bool alone_ = true;  // one result, not several by name
+  bool alone_ = true;    // one result, not several by name
+  StrokeSource source_;  // the recording that is processed
   ProcessConfig config_;
   std::vector<std::pair<std::string, Json>> results_;
   std::vector<studio::ReportItem> items_;

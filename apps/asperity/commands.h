@@ -19,6 +19,7 @@ std::unique_ptr<Command> make_inspect(Parser& root);
 std::unique_ptr<Command> make_merge(Parser& root);
 std::unique_ptr<Command> make_paint(Parser& root);
 std::unique_ptr<Command> make_process(Parser& root);
+std::unique_ptr<Command> make_realism(Parser& root);
 std::unique_ptr<Command> make_record(Parser& root);
 std::unique_ptr<Command> make_recover(Parser& root);
 std::unique_ptr<Command> make_register(Parser& root);

@@ -8,7 +8,7 @@
 
 #include "asperity/base/text.h"
 #include "asperity/fidelity/press_in_scan.h"
-#include "asperity/fidelity/score_rendering.h"
+#include "asperity/fidelity/check_renderer.h"
 #include "asperity/geometry/write_obj.h"
 #include "asperity/pipeline/register_scans.h"
 #include "asperity/pipeline/true_pose.h"
@@ -100,12 +100,12 @@ PaintResult paint_beside(Scene scene, const Texture& other, const fs::path& fold
 }
 
 // The scan repeated by the renderer.
-RenderingScore repeat_scan(const ScansOnMesh& result, const Scene& scene, const Observer& observer) {
+RendererCheck repeat_scan(const ScansOnMesh& result, const Scene& scene, const Observer& observer) {
   const RenderConfig config;
   const ProcessResult& measured = result.scans.front().process;
   const PressedScan pressed = press_in_scan(measured, scene, config.stiffness_N_per_m);
   constexpr double kServo_Hz = 1000.0;
-  return score_rendering(measured, pressed, make_render_model(scene, config), kServo_Hz, ScoreConfig{}, observer);
+  return check_renderer(measured, pressed, make_render_model(scene, config), kServo_Hz, RendererCheckConfig{}, observer);
 }
 
 }  // namespace
@@ -146,16 +146,16 @@ MeshDemo demonstrate_mesh(const fs::path& folder, const ProcessConfig& process, 
   out.verdict = result.verdict;
 
   const Scene scene = make_scene(result, file, kMeshUnit_m);
-  const RenderingScore score = repeat_scan(result, scene, observer);
+  const RendererCheck check = repeat_scan(result, scene, observer);
   const std::vector<DemoMetric> repeated{
-      {"correlation", "rendered, correlation", "", 1.0, score.correlation, DemoMetric::kNone, DemoMetric::kNone, 1.0},
-      {"score", "rendered, score", "", 1.0, score.score, DemoMetric::kNone, DemoMetric::kNone, 1.0}};
-  out.json["real_against_rendered"] = metrics_json(repeated);
-  out.json["real_against_rendered"]["verdict"] = verdict_sentence(score.verdicts);
+      {"correlation", "rendered, correlation", "", 1.0, check.correlation, DemoMetric::kNone, DemoMetric::kNone, 1.0},
+      {"score", "renderer, score", "", 1.0, check.score, DemoMetric::kNone, DemoMetric::kNone, 1.0}};
+  out.json["renderer_check"] = metrics_json(repeated);
+  out.json["renderer_check"]["verdict"] = verdict_sentence(check.verdicts);
   for (const DemoMetric& metric : repeated) out.text += metric_line(metric);
-  if (!score.trustworthy) {
+  if (!check.trustworthy) {
     out.trustworthy = false;
-    out.verdict += (out.verdict.empty() ? "" : "; ") + verdict_sentence(score.verdicts);
+    out.verdict += (out.verdict.empty() ? "" : "; ") + verdict_sentence(check.verdicts);
   }
 
   const PaintResult painted = paint_beside(scene, other, folder / "painted");

@@ -240,7 +240,7 @@ TEST(Spine, TheDemoPrintsMeasuredAgainstTrue) {
   EXPECT_NEAR(pitch["measured"].get<double>(), 2.5e-3, 0.01 * 2.5e-3);
   EXPECT_THAT(outcome.out, HasSubstr("pitch, from the force"));
   EXPECT_TRUE(fs::exists(dir / "demo" / "felt" / "force.svg"));
-  EXPECT_GT(json["mesh"]["real_against_rendered"]["correlation"]["measured"].get<double>(), 0.98);
+  EXPECT_GT(json["mesh"]["renderer_check"]["correlation"]["measured"].get<double>(), 0.98);
 
   // What was registered can be repeated by the renderer, with the scan's own heights and what they make of a force.
   const Words repeat{
@@ -248,7 +248,7 @@ TEST(Spine, TheDemoPrintsMeasuredAgainstTrue) {
       "-o",   (dir / "repeated").string()};
   const Outcome repeated = run(repeat);
   EXPECT_EQ(repeated.code, 0) << repeated.err;
-  const auto score = nlohmann::json::parse(repeated.out)["real_against_rendered"];
+  const auto score = nlohmann::json::parse(repeated.out)["renderer_check"];
   EXPECT_GT(score["correlation"].get<double>(), 0.97);
   EXPECT_NEAR(score["gain"].get<double>(), 1.0, 0.05);
   EXPECT_GT(score["score"].get<double>(), 0.85);

@@ -92,7 +92,7 @@ std::string FeelStatistics::text() const {
   return out + "\n";
 }
 
-Json score_json(const RenderingScore& score) {
+Json renderer_check_json(const RendererCheck& score) {
   Json out;
   out["score"] = score.score;
   out["height_score"] = score.height_score;
@@ -118,9 +118,9 @@ Json score_json(const RenderingScore& score) {
   return out;
 }
 
-std::string score_text(const RenderingScore& score) {
+std::string renderer_check_text(const RendererCheck& score) {
   std::string out = fmt::format(
-      "score      {:.3f} of 1 (heights {:.3f}, force {:.3f}), over {:.1f} mm from {:.2f} to {:.2f} "
+      "renderer   {:.3f} of 1 (heights {:.3f}, force {:.3f}), over {:.1f} mm from {:.2f} to {:.2f} "
       "cycles/mm: {}\n",
       score.score, score.height_score, score.force_score, score.compared_m * 1e3, score.low_cycles_per_mm,
       score.high_cycles_per_mm, score.comparison);

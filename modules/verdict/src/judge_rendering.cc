@@ -65,11 +65,11 @@ Verdicts judge_rendering(const RenderingEvidence& evidence) {
   Verdicts out;
   if (evidence.contact_fraction < evidence.min_contact_fraction) {
     out.push_back(make_verdict("scan_not_rendered",
-                               fmt::format("real against rendered: only {:.0f} % of the scan's contact was rendered",
+                               fmt::format("check of the renderer: only {:.0f} % of the scan's contact was rendered",
                                            100.0 * evidence.contact_fraction)));
   }
   if (evidence.score < evidence.min_score) {
-    out.push_back(make_verdict("rendering_poor", fmt::format("real against rendered: a score of {:.2f} is poor ({})",
+    out.push_back(make_verdict("rendering_poor", fmt::format("check of the renderer: a score of {:.2f} is poor ({})",
                                                              evidence.score, evidence.comparison)));
   }
   return out;

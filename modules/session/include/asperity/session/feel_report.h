@@ -10,7 +10,7 @@
 #include "asperity/device/safety_cause.h"
 #include "asperity/device/servo_loop.h"
 #include "asperity/device/servo_tick.h"
-#include "asperity/fidelity/rendering_score.h"
+#include "asperity/fidelity/renderer_check.h"
 #include "asperity/json/json.h"
 
 namespace asperity {
@@ -37,8 +37,8 @@ class FeelStatistics {
   double highest_m_ = -std::numeric_limits<double>::infinity();
 };
 
-Json score_json(const RenderingScore& score);
-std::string score_text(const RenderingScore& score);
+Json renderer_check_json(const RendererCheck& score);
+std::string renderer_check_text(const RendererCheck& score);
 
 // Schedule and durations, in microseconds.
 Json timing_json(const ServoStatistics& statistics, const ServoConfig& config);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -8,7 +10,7 @@
 #include "asperity/device/device_registry.h"
 #include "asperity/device/hand_model_config.h"
 #include "asperity/device/servo_loop.h"
-#include "asperity/fidelity/score_rendering.h"
+#include "asperity/fidelity/check_renderer.h"
 #include "asperity/fidelity/surface_stroke.h"
 #include "asperity/pipeline/process_config.h"
 #include "asperity/render/render_model.h"
@@ -23,7 +25,7 @@ struct FeelSettings {
   HandModelConfig hand;
   DeviceConfigs devices;
   DeviceCapsConfig caps;
-  ScoreConfig score;
+  RendererCheckConfig renderer_check;
   ProcessConfig process;
 
   FeelSettings() { servo.paced = false; }
@@ -43,16 +45,26 @@ struct FeelSettings {
     v.group("hand", hand);
     devices.visit(v);
     v.group("caps", caps);
-    v.group("score", score);
+    v.group("renderer_check", renderer_check);
     v.group("process", process);
   }
 };
+
+// A setting of the renderer's check by the names that it had before: `score.…`.
+inline void add_former_names(ConfigField& field) {
+  constexpr std::string_view kNow = "renderer_check.", kBefore = "score.";
+  if (!field.path.starts_with(kNow)) return;
+  std::vector<std::string> names = field.former;
+  names.push_back(field.path);
+  for (const std::string& name : names) field.former.push_back(std::string(kBefore) + name.substr(kNow.size()));
+}
 
 // All settings; those of the safety layer stand in a group of their own.
 inline std::vector<ConfigField> feel_fields(FeelSettings& settings) {
   std::vector<ConfigField> out;
   bool placed = false;
   for (ConfigField& field : list_fields("", settings)) {
+    add_former_names(field);
     if (!field.path.starts_with("servo.safety.")) {
       out.push_back(std::move(field));
       continue;

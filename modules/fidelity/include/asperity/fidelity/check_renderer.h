@@ -3,14 +3,14 @@
 #include "asperity/base/config.h"
 #include "asperity/base/progress.h"
 #include "asperity/fidelity/press_in_scan.h"
-#include "asperity/fidelity/rendering_score.h"
+#include "asperity/fidelity/renderer_check.h"
 #include "asperity/pipeline/process_result.h"
 #include "asperity/profile/compare_profiles.h"
 #include "asperity/render/render_model.h"
 
 namespace asperity {
 
-struct ScoreConfig {
+struct RendererCheckConfig {
   double segment_mm = 20.0;
   double least_part = 0.03;
   double half_dB = 6.0;
@@ -20,7 +20,7 @@ struct ScoreConfig {
   ComparisonConfig comparison;
 
   // Real and rendered share their arc length, so nothing but the coordinates' error is left to a shift.
-  ScoreConfig() { comparison.max_shift_m = 0.25e-3; }
+  RendererCheckConfig() { comparison.max_shift_m = 0.25e-3; }
 
   template <class V>
   void visit(V& v) {
@@ -57,7 +57,7 @@ struct ScoreConfig {
 //
 // Rendered against measured force is told beside it and not judged: the device point moves as if the hand were rigid
 // (docs/feel.md). Throws Error for a scan that is never in contact or too short for a spectrum.
-RenderingScore score_rendering(const ProcessResult& measured, const PressedScan& pressed, const RenderModel& model,
-                               double servo_Hz, const ScoreConfig& config, const Observer& observer = {});
+RendererCheck check_renderer(const ProcessResult& measured, const PressedScan& pressed, const RenderModel& model,
+                             double servo_Hz, const RendererCheckConfig& config, const Observer& observer = {});
 
 }  // namespace asperity

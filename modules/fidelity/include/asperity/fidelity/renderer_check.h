@@ -28,8 +28,8 @@ struct SpectrumAgreement {
   std::vector<BandAgreement> bands;
 };
 
-// How a recorded scan and its rendering agree (score_rendering.h). nan where the scan does not allow a figure.
-struct RenderingScore {
+// How a recorded scan and its rendering agree (check_renderer.h). nan where the scan does not allow a figure.
+struct RendererCheck {
   double low_cycles_per_mm = 0.0;  // the band of all comparisons
   double high_cycles_per_mm = 0.0;
   double speed_mps = 0.0;   // mean, of the scan
@@ -47,7 +47,7 @@ struct RenderingScore {
   SpectrumAgreement force;           // N, along the normal: what the texture adds, against what the real heights would
   SpectrumAgreement measured_force;  // N: rendered against measured; told, not judged
 
-  double height_score = 0.0;  // each from 0 to 1 (score_rendering.h)
+  double height_score = 0.0;  // each from 0 to 1 (check_renderer.h)
   double force_score = 0.0;
   double score = 0.0;
   std::string comparison;   // what was compared, in words with the values

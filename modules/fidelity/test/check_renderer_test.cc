@@ -1,4 +1,4 @@
-#include "asperity/fidelity/score_rendering.h"
+#include "asperity/fidelity/check_renderer.h"
 
 #include <cmath>
 #include <numbers>
@@ -57,8 +57,8 @@ Scene registered_plate(double length_mm) {
   return scene;
 }
 
-RenderingScore score(const Scene& scene, const ProcessResult& measured) {
-  return score_rendering(measured, press_in_scan(measured, scene, 1000.0), make_render_model(scene, {}), 1000.0, {});
+RendererCheck score(const Scene& scene, const ProcessResult& measured) {
+  return check_renderer(measured, press_in_scan(measured, scene, 1000.0), make_render_model(scene, {}), 1000.0, {});
 }
 
 TEST(PressInScan, TheDepthIsTheForceOverTheStiffnessOfThePlace) {
@@ -90,8 +90,8 @@ Scene plate_times(double length_mm, double factor) {
   return scene;
 }
 
-TEST(ScoreRendering, AFaithfulTextureHasTheScansHeights) {
-  const RenderingScore result = score(registered_plate(80.0), scan(kTracker, feel_test::wave_m));
+TEST(CheckRenderer, AFaithfulTextureHasTheScansHeights) {
+  const RendererCheck result = score(registered_plate(80.0), scan(kTracker, feel_test::wave_m));
   EXPECT_TRUE(result.phase_known);
   EXPECT_GT(result.correlation, 0.9999);
   EXPECT_NEAR(result.gain, 1.0, 2e-3);
@@ -110,7 +110,7 @@ TEST(ScoreRendering, AFaithfulTextureHasTheScansHeights) {
   EXPECT_NEAR(result.high_cycles_per_mm, 4.0, 1e-12);
 }
 
-TEST(ScoreRendering, TheSpringsOfTheSceneDoNotMatter) {
+TEST(CheckRenderer, TheSpringsOfTheSceneDoNotMatter) {
   const ProcessResult measured = scan(kTracker, feel_test::wave_m);
   for (const auto& [k_N_per_m, k_c] : {std::pair{100.0, 1.0}, {5000.0, 1.0}, {1000.0, 0.3}}) {
     Scene scene = registered_plate(80.0);
@@ -120,28 +120,28 @@ TEST(ScoreRendering, TheSpringsOfTheSceneDoNotMatter) {
   }
 }
 
-TEST(ScoreRendering, OtherHeightsAreNoticed) {
+TEST(CheckRenderer, OtherHeightsAreNoticed) {
   const ProcessResult measured = scan(kTracker, feel_test::wave_m);
   for (const auto& [factor, most] : {std::pair{0.7, 0.45}, {0.5, 0.2}, {2.0, 0.2}, {-1.0, 1e-6}}) {
-    const RenderingScore result = score(plate_times(80.0, factor), measured);
+    const RendererCheck result = score(plate_times(80.0, factor), measured);
     EXPECT_LT(result.score, most) << factor;
     EXPECT_FALSE(result.trustworthy);
     ASSERT_FALSE(result.verdicts.empty());
     EXPECT_EQ(result.verdicts.front().code, "rendering_poor");
     EXPECT_NEAR(result.height.distance_dB, std::abs(20.0 * std::log10(std::abs(factor))), 0.1) << factor;
   }
-  const RenderingScore pitch =
+  const RendererCheck pitch =
       score(registered_plate(80.0), scan(kTracker, [](double x_m) { return feel_test::wave_m(1.9 * x_m); }));
   EXPECT_LT(pitch.score, 0.01);
 }
 
-TEST(ScoreRendering, AForceThatHasNoPartAlongTheNormalIsNoticed) {
+TEST(CheckRenderer, AForceThatHasNoPartAlongTheNormalIsNoticed) {
   const Scene scene = registered_plate(80.0);
   const ProcessResult measured = scan(kTracker, feel_test::wave_m);
   RenderConfig config;
   config.texture.model = TextureForceModel::kLateralGradient;
-  const RenderingScore result =
-      score_rendering(measured, press_in_scan(measured, scene, 1000.0), make_render_model(scene, config), 1000.0, {});
+  const RendererCheck result =
+      check_renderer(measured, press_in_scan(measured, scene, 1000.0), make_render_model(scene, config), 1000.0, {});
   EXPECT_GT(result.height_score, 0.97);
   EXPECT_LT(result.score, 0.05);
 }
@@ -151,7 +151,7 @@ double holes_m(double x_m) {
   return -0.3e-3 * std::pow(0.5 + 0.5 * feel_test::wave_m(x_m) / feel_test::kAmplitude_m, 4);
 }
 
-TEST(ScoreRendering, ARepeatingTextureIsJudgedBySpectrumAndDistribution) {
+TEST(CheckRenderer, ARepeatingTextureIsJudgedBySpectrumAndDistribution) {
   // The series of the holes over 10 mm, from their samples.
   const auto board = [](double factor) {
     Scene scene = registered_plate(10.0);
@@ -169,28 +169,28 @@ TEST(ScoreRendering, ARepeatingTextureIsJudgedBySpectrumAndDistribution) {
   };
   // The scan lies a quarter of the pitch further on: no fault of a texture that repeats.
   const ProcessResult measured = scan(kTracker, [](double x_m) { return holes_m(x_m + 0.625e-3); });
-  const RenderingScore faithful = score(board(1.0), measured);
+  const RendererCheck faithful = score(board(1.0), measured);
   EXPECT_FALSE(faithful.phase_known);
   EXPECT_THAT(faithful.comparison, ::testing::HasSubstr("the texture repeats after 10.0 mm"));
   EXPECT_GT(faithful.score, 0.85);
   for (const double factor : {0.5, 2.0, -1.0}) EXPECT_LT(score(board(factor), measured).score, 0.45) << factor;
 }
 
-TEST(ScoreRendering, APlateWithoutTextureIsCalledSo) {
+TEST(CheckRenderer, APlateWithoutTextureIsCalledSo) {
   Scene scene = registered_plate(80.0);
   scene.objects[0].mesh.haptic.clear();
   scene.objects[0].textures.clear();
-  const RenderingScore result = score(scene, scan(kTracker, feel_test::wave_m));
+  const RendererCheck result = score(scene, scan(kTracker, feel_test::wave_m));
   EXPECT_EQ(result.score, 0.0);
   EXPECT_THAT(result.comparison, ::testing::HasSubstr("no texture"));
 }
 
-TEST(ScoreRendering, AScanBesideTheSceneIsRefused) {
+TEST(CheckRenderer, AScanBesideTheSceneIsRefused) {
   Scene scene = registered_plate(80.0);
   const ProcessResult measured = scan(kTracker, feel_test::wave_m);
   const PressedScan pressed = press_in_scan(measured, scene, 1000.0);
   scene.objects[0].T_world_mesh.translation_m.z() -= 0.01;
-  EXPECT_THROW(score_rendering(measured, pressed, make_render_model(scene, {}), 1000.0, {}), Error);
+  EXPECT_THROW(check_renderer(measured, pressed, make_render_model(scene, {}), 1000.0, {}), Error);
 }
 
 }  // namespace

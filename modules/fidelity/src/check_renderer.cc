@@ -1,4 +1,4 @@
-#include "asperity/fidelity/score_rendering.h"
+#include "asperity/fidelity/check_renderer.h"
 
 #include <fmt/format.h>
 
@@ -175,7 +175,7 @@ std::vector<double> added_force(std::vector<double> rendered_N, const std::vecto
   return rendered_N;
 }
 
-void judge_score(RenderingScore& out, const ScoreConfig& config) {
+void judge_score(RendererCheck& out, const RendererCheckConfig& config) {
   const auto agreement = [](double distance, double half) { return std::exp2(-distance / half); };
   const double ratio = out.height.rms_ratio;
   out.height_score = std::min(ratio, 1.0 / ratio) * agreement(out.height.distance_dB, config.half_dB);
@@ -203,14 +203,14 @@ void judge_score(RenderingScore& out, const ScoreConfig& config) {
 
 }  // namespace
 
-RenderingScore score_rendering(const ProcessResult& measured, const PressedScan& pressed, const RenderModel& model,
-                               double servo_Hz, const ScoreConfig& config, const Observer& observer) {
+RendererCheck check_renderer(const ProcessResult& measured, const PressedScan& pressed, const RenderModel& model,
+                             double servo_Hz, const RendererCheckConfig& config, const Observer& observer) {
   const Profile& profile = measured.profile;
   if (profile.size() == 0 || pressed.path.size() == 0) throw Error("score: the scan has no profile");
   const Ticks ticks = render_scan(pressed, model, servo_Hz, observer);
   if (ticks.touching == 0) throw Error("score: the scan never touches the scene; is it registered to this mesh?");
 
-  RenderingScore out;
+  RendererCheck out;
   out.ticks = ticks.all;
   out.contact_fraction = static_cast<double>(ticks.touching) / static_cast<double>(ticks.all);
   out.speed_mps = measured.speed.mean_mps;
