@@ -8,6 +8,7 @@
 #include "asperity/pipeline/result_json.h"
 #include "asperity/pipeline/write_result.h"
 #include "asperity/profile/stiffness_of_compliance.h"
+#include "asperity/verdict/judge_passes.h"
 #include "asperity/verdict/verdict_json.h"
 #include "json.h"
 
@@ -112,6 +113,8 @@ Json friction_json(const FrictionEstimate& f) {
               {"stuck_share", f.stuck_share},
               {"breakaway", f.breakaway},
               {"breakaway_stderr", f.breakaway_stderr},
+              {"static_ratio", f.static_ratio},
+              {"static_ratio_stderr", f.static_ratio_stderr},
               {"windows", f.windows.size()},
               {"verdict", f.verdict}};
   out["stribeck"] = nullptr;
@@ -165,6 +168,18 @@ Json passes_json(const MergedProfile& merged) {
   return passes;
 }
 
+// Whether passes agree, and what their differences say of the stated noise.
+Json merge_of_passes_json(const MergedProfile& merged) {
+  const PassEvidence evidence{merged.noise_ratio, merged.noise_ratio_low, merged.noise_ratio_high};
+  return {{"agrees", merged.agrees},
+          {"used", merged.used},
+          {"noise_ratio", merged.noise_ratio},
+          {"noise_ratio_low", merged.noise_ratio_low},
+          {"noise_ratio_high", merged.noise_ratio_high},
+          {"added_noise_ratio", merged.added_ratio},
+          {"stated_sigma", std::string(witness_word(witness_of_passes(evidence)))}};
+}
+
 Json accuracy_json(const Accuracy& accuracy) {
   Json out;
   out["position_rms_m"] = accuracy.position_rms_m;
@@ -186,6 +201,18 @@ Json accuracy_json(const Accuracy& accuracy) {
 }
 
 }  // namespace
+
+Json lines_json(std::span<const RepeatedLine> lines) {
+  Json out = Json::array();
+  for (const RepeatedLine& line : lines) {
+    Json one = merge_of_passes_json(line.merged);
+    one["laid"] = line.laid;
+    one["reason"] = line.reason;
+    one["passes"] = passes_json(line.merged);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
 
 Json result_json(const ProcessResult& result, const Recording& recording, const std::string& name) {
   ProcessConfig config = result.config;
@@ -245,12 +272,9 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
   if (result.surface) out["tip"] = tip_json(*result.surface);
   if (result.passes) {
     out["passes"] = passes_json(*result.passes);
-    out["merge"] = {{"agrees", result.passes->agrees},
-                    {"used", result.passes->used},
-                    {"noise_ratio", result.passes->noise_ratio},
-                    {"noise_ratio_low", result.passes->noise_ratio_low},
-                    {"noise_ratio_high", result.passes->noise_ratio_high}};
+    out["merge"] = merge_of_passes_json(*result.passes);
   }
+  if (!result.lines.empty()) out["lines"] = lines_json(result.lines);
   if (result.accuracy) out["accuracy"] = accuracy_json(*result.accuracy);
   out["problems"] = problems_json(result.problems);
   out["config"] = config_json(list_fields("", config));

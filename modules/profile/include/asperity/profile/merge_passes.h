@@ -24,6 +24,7 @@ struct MergedPass {
   double noise_rms_m = kNan;  // in the band, by its difference from the others; two passes: the same of both
   double stated_noise_rms_m = kNan;  // in the band, as the pass states it
   double weight = 0.0;               // of its heights, mean over path and band; all sum to 1
+  std::vector<double> on_merge;      // where each of its points is on the merge, in points; nan: beside it
 };
 
 // Passes over one line as one profile.
@@ -36,6 +37,10 @@ struct MergedProfile {
   // The power of the passes' differences from their mean over the power of the noise that they state, and its 95 %
   // interval; nan: not determined.
   double noise_ratio = kNan, noise_ratio_low = kNan, noise_ratio_high = kNan;
+  // The same over the power of the added noise alone. A merge of K passes has the error N/K + U (1 − 1/K) from the line
+  // of each, N the power of their noise and U that by which their lines differ; a pass has N. With N + U in the
+  // differences the merge is the better one where this ratio is below 2.
+  double added_ratio = kNan;
   std::vector<double> scatter_frequency_cycles_per_mm, scatter_psd_m2_mm;  // of a pass, by those differences
 };
 
