@@ -19,7 +19,6 @@
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
 #include "asperity/pipeline/process_recording.h"
-#include "asperity/profile/bound_tip_radius.h"
 #include "asperity/profile/compare_profiles.h"
 #include "asperity/profile/erode_profile.h"
 #include "asperity/signal/statistics.h"
@@ -108,7 +107,7 @@ void run(const Choice& choice, const std::string& name, std::int64_t seed) {
   };
   const asperity::ErodedProfile& eroded = *result.surface;
   const asperity::AlignedProfiles tip = aligned(result.profile.height_m), under = aligned(eroded.surface_m);
-  const asperity::TipRadiusBound bound = asperity::bound_tip_radius(result.measured_profile, result.measured_noise);
+  const asperity::TipRadiusBound& bound = eroded.bound;
   std::printf("| %s %lld | %.1f | %.1f | %.2f | %.1f | %.1f | %s | %.2f | %.1f | %.1f | %.2f | %s |\n", name.c_str(),
               static_cast<long long>(seed), tip.comparison.rms_um, under.comparison.rms_um,
               under.comparison.rms_um / tip.comparison.rms_um, touched_um(tip, result.profile, eroded.touched),

@@ -143,6 +143,8 @@ Json tip_json(const ErodedProfile& surface) {
   return {{"determined", surface.determined},
           {"reason", surface.reason},
           {"radius_m", surface.radius_m},
+          {"radius_at_most_m", surface.bound.at_most_m},
+          {"sharpest_at_s_m", surface.bound.at_s_m},
           {"touched_share", surface.touched_share},
           {"correction_rms_m", surface.correction_rms_m},
           {"noise_rms_m", surface.noise_rms_m},
@@ -176,7 +178,9 @@ Json merge_of_passes_json(const MergedProfile& merged) {
           {"noise_ratio", merged.noise_ratio},
           {"noise_ratio_low", merged.noise_ratio_low},
           {"noise_ratio_high", merged.noise_ratio_high},
-          {"added_noise_ratio", merged.added_ratio},
+          {"noise_scale", merged.noise_scale},
+          {"apart_m", merged.apart_m},
+          {"lines_over_noise", merged.lines_over_noise},
           {"stated_sigma", std::string(witness_word(witness_of_passes(evidence)))}};
 }
 
@@ -209,6 +213,10 @@ Json lines_json(std::span<const RepeatedLine> lines) {
     one["laid"] = line.laid;
     one["reason"] = line.reason;
     one["passes"] = passes_json(line.merged);
+    for (std::size_t k = 0; k < line.spans.size(); ++k) {
+      one["passes"][k]["from_m"] = line.spans[k].from_m;
+      one["passes"][k]["to_m"] = line.spans[k].to_m;
+    }
     out.push_back(std::move(one));
   }
   return out;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::ptrdiff_t kLeastHeights = 600;  // 15 mm at 25 µm
 // merge_passes.h has the derivation.
-constexpr double kMostDifference_ratio = 2.0;
+constexpr double kMostLines_over_noise = 0.5;
 
 std::string pass_name(const std::string& scan, const Profile& profile, const LinePass& part) {
   return fmt::format("{}{}{:.1f} to {:.1f} mm", scan, scan.empty() ? "" : ", ", 1e3 * profile.s_m[part.first],
@@ -27,11 +27,12 @@ std::string pass_name(const std::string& scan, const Profile& profile, const Lin
 // Why the merge is not the better one; empty: it is.
 std::string why_not_laid(const MergedProfile& merged) {
   if (!merged.agrees) return "they do not agree by more than chance gives";
-  if (!std::isfinite(merged.added_ratio)) return "by how much they differ is not known";
-  if (merged.added_ratio < kMostDifference_ratio) return "";
+  if (!std::isfinite(merged.lines_over_noise)) return "by how much they differ is not known";
+  if (merged.lines_over_noise < kMostLines_over_noise) return "";
   return fmt::format(
-      "they differ by {:.2g} times the power of their noise: each is nearer to its own line than their mean is",
-      merged.added_ratio);
+      "their lines differ by {:.2g} times the power of their noise, as lines {:.2g} mm apart do: each is nearer to its "
+      "own line than their mean is",
+      merged.lines_over_noise, 1e3 * merged.apart_m);
 }
 
 }  // namespace
@@ -83,6 +84,7 @@ RepeatedLine merge_line(const SharedLine& line, std::span<MeasuredProfile* const
                                   of.noise, part.first, part.last));
     passes.back().place = part.place;
     parts.push_back(part);
+    out.spans.push_back({part.scan, of.profile.s_m[part.first], of.profile.s_m[part.last - 1]});
   }
   if (passes.size() < 2) return out;
   out.merged = merge_passes(passes, {});

@@ -18,8 +18,8 @@ ProfilePass profile_pass(std::string name, const Profile& profile, std::span<con
 std::vector<Eigen::Vector3d> points_under_profile(const BasePath& path, const Profile& profile);
 
 // Merges the passes over a line (merge_passes.h) and puts the merge in their place in the profiles (lay_merge.h), where
-// they agree and their differences are less than twice the power of the added noise that they state: beyond that each
-// is nearer to its own line than the merge is. `measured[k]` and `names[k]` are those of the line's scan k; no noise
+// they agree and their lines differ by less than half of the power of their noise: beyond 1 each is nearer to its own
+// line than the merge is. `measured[k]` and `names[k]` are those of the line's scan k; no noise
 // was removed from the profiles.
 RepeatedLine merge_line(const SharedLine& line, std::span<MeasuredProfile* const> measured,
                         std::span<const std::string> names);

@@ -224,12 +224,9 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
   out.snr = result.noise.snr;
   out.expected_correlation = result.noise.expected_correlation;
   out.at_most_m = result.noise.at_most_m;
-  double most = 0.0;
   for (const RepeatedLine& line : result.lines) {
     const MergedProfile& merged = line.merged;
-    const double against = std::max(std::log(merged.noise_ratio_low), -std::log(merged.noise_ratio_high));
-    if (!std::isfinite(against) || (std::isfinite(out.passes.ratio) && against <= most)) continue;
-    most = against;
+    if (!std::isfinite(merged.noise_ratio_low) || merged.noise_ratio_low <= out.passes.low) continue;
     out.passes = {merged.noise_ratio, merged.noise_ratio_low, merged.noise_ratio_high};
   }
   out.sticks = result.friction.sticks;

@@ -46,6 +46,24 @@ double power(const PowerSpectrum& spectrum, const Band& band) {
   return sum * spectrum.frequency[1];
 }
 
+// The differences as noise and lines apart.
+SplitDifferences parts_of(const PassDifferences& differences, const PowerSpectrum& of_mean,
+                          std::span<const PassOnGrid> passes, const Band& band) {
+  const double count = static_cast<double>(passes.size());
+  std::vector<double> frequency, difference, noise, surface;
+  for (std::size_t i = 0; i < of_mean.frequency.size(); ++i) {
+    const double f = of_mean.frequency[i];
+    if (!band.holds(f)) continue;
+    double stated = 0.0;
+    for (const PassOnGrid& pass : passes) stated += stated_noise_m2_mm(*pass.pass, f) / count;
+    frequency.push_back(f);
+    difference.push_back(differences.scatter_psd_m2_mm[i]);
+    noise.push_back(stated);
+    surface.push_back(std::max(0.0, of_mean.density[i] - differences.scatter_psd_m2_mm[i] / count));
+  }
+  return split_differences(frequency, difference, noise, surface);
+}
+
 }  // namespace
 
 PassDifferences compare_passes(std::span<const PassOnGrid> passes, double spacing_mm, const AlignPassesConfig& config) {
@@ -82,7 +100,7 @@ PassDifferences compare_passes(std::span<const PassOnGrid> passes, double spacin
   }
 
   // Stated: added noise, places that differ as the passes state, and their scales.
-  double stated_sum_m2 = 0.0, added_sum_m2 = 0.0, scatter_m2 = 0.0, scatter_square = 0.0, relative = 0.0;
+  double stated_sum_m2 = 0.0, scatter_m2 = 0.0, scatter_square = 0.0, relative = 0.0;
   const double step = of_mean.frequency[1];
   for (const PassOnGrid& pass : passes) {
     const double place_mm =
@@ -93,7 +111,6 @@ PassDifferences compare_passes(std::span<const PassOnGrid> passes, double spacin
       if (!band.holds(f)) continue;
       const double surface = std::max(0.0, of_mean.density[i] - out.scatter_psd_m2_mm[i] / count);
       const double phase = 2.0 * std::numbers::pi * f * place_mm;
-      added_sum_m2 += step * stated_noise_m2_mm(*pass.pass, f) / count;
       stated_m2 += step * (stated_noise_m2_mm(*pass.pass, f) + surface * 2.0 * (1.0 - std::exp(-0.5 * phase * phase)) +
                            surface * pass.pass->scale_sigma * pass.pass->scale_sigma);
     }
@@ -115,7 +132,7 @@ PassDifferences compare_passes(std::span<const PassOnGrid> passes, double spacin
   const double freedom = 2.0 * (count - 1.0) * independent * scatter_m2 * scatter_m2 / scatter_square;
   const double error = std::hypot(relative, std::sqrt(2.0 / freedom));
   out.ratio = scatter_m2 / stated_sum_m2;
-  if (added_sum_m2 > 0.0) out.added_ratio = scatter_m2 / added_sum_m2;
+  out.parts = parts_of(out, of_mean, passes, band);
   out.ratio_low = out.ratio * std::exp(-kSure95 * error);
   out.ratio_high = out.ratio * std::exp(kSure95 * error);
 

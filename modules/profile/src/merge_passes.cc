@@ -277,7 +277,9 @@ MergedProfile merge_passes(std::span<const ProfilePass> passes, const AlignPasse
   out.noise_ratio = differences.ratio;
   out.noise_ratio_low = differences.ratio_low;
   out.noise_ratio_high = differences.ratio_high;
-  out.added_ratio = differences.added_ratio;
+  out.noise_scale = differences.parts.noise_scale;
+  out.apart_m = differences.parts.apart_m;
+  if (differences.parts.noise_m2 > 0.0) out.lines_over_noise = differences.parts.lines_m2 / differences.parts.noise_m2;
   out.scatter_frequency_cycles_per_mm = differences.frequency_cycles_per_mm;
   out.scatter_psd_m2_mm = differences.scatter_psd_m2_mm;
 

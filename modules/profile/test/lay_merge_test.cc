@@ -81,8 +81,9 @@ TEST(LayMerge, BothStrokesGetTheMeanAndItsNoiseAndTheTurnStays) {
   There there = there_and_back(5);
   const MergedProfile merged = merge_passes(there.passes, {});
   ASSERT_TRUE(merged.agrees);
-  // White noise in both: the differences have its power.
-  EXPECT_NEAR(merged.added_ratio, 1.0, 0.25);
+  // White noise in both: the differences have its power. Six segments of 51 lines in the band: ± 6 %.
+  EXPECT_NEAR(merged.noise_scale, 1.0, 0.25);
+  EXPECT_LT(merged.lines_over_noise, 0.3);
   const Profile before = there.profile;
   lay_merge(merged, there.parts, there.profile, there.noise);
   const double expected_m = kNoise_m / std::sqrt(2.0);
@@ -122,11 +123,12 @@ TEST(AlignPasses, KeepsToWhereThePathsAre) {
     pass.spacing_m = kStep_m;
     for (std::size_t i = 0; i < 2000; ++i) {
       const double x_m = kStep_m * static_cast<double>(k == 0 ? i : 2000 + 120 - i);
-      pass.texture_m.push_back(20e-6 * std::cos(2.0 * std::numbers::pi * x_m / 2.5e-3) +
-                               20e-6 * std::cos(2.0 * std::numbers::pi * x_m / 1.25e-3 + 1.0) + 1e-6 * random.normal());
+      double sum = 0.0;
+      for (int n = 1; n <= 8; ++n) sum += std::cos(2.0 * std::numbers::pi * n * x_m / 2.5e-3 + n * n);
+      pass.texture_m.push_back(10e-6 * sum + 0.3e-6 * random.normal());
     }
     pass.frequency_cycles_per_mm = {0.0, 20.0};
-    pass.noise_psd_m2_mm.assign(2, 2.0 * 1e-12 * 1e3 * kStep_m);
+    pass.noise_psd_m2_mm.assign(2, 2.0 * 0.09e-12 * 1e3 * kStep_m);
     pass.place_sigma_m = 1e-6;
   }
   passes[0].place = PassPlace{0.0, false, 1e-3};

@@ -23,7 +23,6 @@ Texture whole_texture() {
   t.compliance_kc = 0.9556;
   t.stiffness_N_per_m = 1200.0;
   t.friction = 0.3;
-  t.static_friction_ratio = 1.4;
   t.height_offset_m = 1.25e-4;
   t.roughness = {{"Ra_m", 1e-5}, {"Rsk", -0.2}};
   t.band_cycles_per_mm = {0.1, 4.0};
@@ -61,7 +60,6 @@ TEST(TextureFile, ComesBackAsItWas) {
   EXPECT_EQ(back.compliance_kc, t.compliance_kc);
   EXPECT_EQ(back.stiffness_N_per_m, t.stiffness_N_per_m);
   EXPECT_EQ(back.friction, t.friction);
-  EXPECT_EQ(back.static_friction_ratio, t.static_friction_ratio);
   EXPECT_EQ(back.height_offset_m, t.height_offset_m);
   EXPECT_EQ(back.height_sigma_m, t.height_sigma_m);
   EXPECT_EQ(back.source.snr, t.source.snr);
@@ -72,6 +70,15 @@ TEST(TextureFile, ComesBackAsItWas) {
   EXPECT_EQ(back.source.version, t.source.version);
   EXPECT_EQ(back.extra, t.extra);
   EXPECT_EQ(format_texture(back), format_texture(t));
+}
+
+TEST(TextureFile, KnowsHowMuchMoreStickingBears) {
+  Texture t = whole_texture();
+  EXPECT_FALSE(parse_texture(format_texture(t), "x.json").static_friction_ratio.has_value());
+  t.static_friction_ratio = 1.4;
+  EXPECT_EQ(parse_texture(format_texture(t), "x.json").static_friction_ratio, 1.4);
+  t.static_friction_ratio = 0.9;
+  expect_error(format_texture(t), "'static_friction_ratio'", "0.9 is outside 1 to 100");
 }
 
 // The fit's report is ours; the members around it are not, and all are kept as they were.

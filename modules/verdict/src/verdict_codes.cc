@@ -59,7 +59,6 @@ constexpr VerdictCode kCodes[] = {
     {"no_common_line", kInvalid, "scan along a guide, and merge strokes over one line alone"},
     {"passes_left_out", kLimited, "check that they are of the same line, or leave them out"},
     {"passes_disagree", kLimited, "scan along a guide, so that the strokes pass over the same line"},
-    {"noise_overstated", kLimited, "check the noise of the calibration: intervals are wider than they need be"},
     // A registration.
     {"pose_ambiguous", kInvalid,
      "scan a path with a bend or several strokes in different directions and register them together, or give a guess "

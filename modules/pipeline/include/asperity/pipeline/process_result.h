@@ -41,6 +41,12 @@ struct Coverage {
 
 // A line that paths are over more than once (docs/merge.md).
 struct RepeatedLine {
+  struct Span {
+    std::size_t scan = 0;  // of `register`; 0 of `process`
+    double from_m = 0.0;   // of the scan's arc length
+    double to_m = 0.0;
+  };
+  std::vector<Span> spans;  // of each pass
   MergedProfile merged;  // its passes and their differences; without its profile
   bool laid = false;     // the merge is in the place of the passes' heights
   std::string reason;    // why not

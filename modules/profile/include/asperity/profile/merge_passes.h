@@ -37,10 +37,11 @@ struct MergedProfile {
   // The power of the passes' differences from their mean over the power of the noise that they state, and its 95 %
   // interval; nan: not determined.
   double noise_ratio = kNan, noise_ratio_low = kNan, noise_ratio_high = kNan;
-  // The same over the power of the added noise alone. A merge of K passes has the error N/K + U (1 − 1/K) from the line
-  // of each, N the power of their noise and U that by which their lines differ; a pass has N. With N + U in the
-  // differences the merge is the better one where this ratio is below 2.
-  double added_ratio = kNan;
+  // The differences as noise with the stated density times a factor, and lines that are apart by a distance.
+  double noise_scale = kNan, apart_m = kNan;
+  // A merge of K passes has the error N/K + U (1 − 1/K) from the line of each, N the power of their noise and U that by
+  // which their lines differ; a pass has N. U over N: the merge is the better one where it is below 1.
+  double lines_over_noise = kNan;
   std::vector<double> scatter_frequency_cycles_per_mm, scatter_psd_m2_mm;  // of a pass, by those differences
 };
 
