@@ -19,6 +19,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
 #include "asperity/pipeline/process_recording.h"
+#include "asperity/pipeline/true_profile.h"
 #include "asperity/profile/compare_profiles.h"
 #include "asperity/profile/erode_profile.h"
 #include "asperity/signal/statistics.h"
@@ -108,12 +109,21 @@ void run(const Choice& choice, const std::string& name, std::int64_t seed) {
   const asperity::ErodedProfile& eroded = *result.surface;
   const asperity::AlignedProfiles tip = aligned(result.profile.height_m), under = aligned(eroded.surface_m);
   const asperity::TipRadiusBound& bound = eroded.bound;
-  std::printf("| %s %lld | %.1f | %.1f | %.2f | %.1f | %.1f | %s | %.2f | %.1f | %.1f | %.2f | %s |\n", name.c_str(),
-              static_cast<long long>(seed), tip.comparison.rms_um, under.comparison.rms_um,
-              under.comparison.rms_um / tip.comparison.rms_um, touched_um(tip, result.profile, eroded.touched),
-              touched_um(under, result.profile, eroded.touched), eroded.determined ? "yes" : "no",
-              1e6 * eroded.correction_rms_m, 1e6 * eroded.noise_rms_m, 1e6 * eroded.bias_m, eroded.touched_share,
-              bound.determined ? std::to_string(1e3 * bound.at_most_m).substr(0, 5).c_str() : "none");
+  asperity::TextureNoise little;  // the truth has none: 1 nm
+  little.frequency_cycles_per_mm = {0.0, 20.0};
+  little.added_psd_m2_mm = {5e-20, 5e-20};
+  little.added_rms_m = 1e-9;
+  little.added_rms_stderr_m = 0.0;
+  const asperity::TipRadiusBound of_truth =
+      asperity::bound_tip_radius(asperity::true_profile(*recording.truth, process.profile), little);
+  std::printf(
+      "| %s %lld | %.1f | %.1f | %.2f | %.1f | %.1f | %s | %.2f | %.1f | %.1f | %.2f | %.3f (%.0f µm) | %.3f (%.0f µm) "
+      "|\n",
+      name.c_str(), static_cast<long long>(seed), tip.comparison.rms_um, under.comparison.rms_um,
+      under.comparison.rms_um / tip.comparison.rms_um, touched_um(tip, result.profile, eroded.touched),
+      touched_um(under, result.profile, eroded.touched), eroded.determined ? "yes" : "no",
+      1e6 * eroded.correction_rms_m, 1e6 * eroded.noise_rms_m, 1e6 * eroded.bias_m, eroded.touched_share,
+      1e3 * bound.at_most_m, 1e6 * bound.smoothing_m, 1e3 * of_truth.at_most_m, 1e6 * of_truth.smoothing_m);
   std::fflush(stdout);
 }
 
@@ -136,7 +146,7 @@ int main(int argc, char** argv) {
         "eroded, µm | applied | correction, µm | noise of the erosion, µm | its mean, µm | touched | radius at most, "
         "mm "
         "|\n");
-    std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+    std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (const std::string& surface : choice.surfaces) {
       for (int i = 0; i < choice.repeats; ++i) run(choice, surface, choice.seed + i);
     }

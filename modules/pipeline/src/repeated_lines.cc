@@ -27,6 +27,7 @@ std::string pass_name(const std::string& scan, const Profile& profile, const Lin
 // Why the merge is not the better one; empty: it is.
 std::string why_not_laid(const MergedProfile& merged) {
   if (!merged.agrees) return "they do not agree by more than chance gives";
+  if (2 * merged.used <= merged.passes.size()) return "fewer than half of them agree by more than chance gives";
   if (!std::isfinite(merged.lines_over_noise)) return "by how much they differ is not known";
   if (merged.lines_over_noise < kMostLines_over_noise) return "";
   return fmt::format(

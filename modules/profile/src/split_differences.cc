@@ -9,7 +9,8 @@ namespace asperity {
 
 namespace {
 
-constexpr int kScales = 81;  // in equal ratios from 0.1 to 10
+constexpr int kScales = 53;  // in equal ratios of 6 %
+constexpr double kLeastScale = 0.1, kMostScale = 2.0;
 constexpr int kDistances = 61;
 constexpr double kFarthest_mm = 0.6;
 
@@ -26,7 +27,7 @@ SplitDifferences split_differences(std::span<const double> frequency, std::span<
     for (std::size_t i = 0; i < lines.size(); ++i)
       lines[i] = surface[i] * (1.0 - std::cyl_bessel_j(0.0, 2.0 * std::numbers::pi * frequency[i] * apart_mm));
     for (int j = 0; j < kScales; ++j) {
-      const double scale = std::pow(10.0, 2.0 * j / (kScales - 1) - 1.0);
+      const double scale = kLeastScale * std::pow(kMostScale / kLeastScale, static_cast<double>(j) / (kScales - 1));
       double cost = 0.0, noise_m2 = 0.0, lines_m2 = 0.0;
       for (std::size_t i = 0; i < lines.size(); ++i) {
         const double model = scale * noise[i] + lines[i];

@@ -114,38 +114,35 @@ TEST(LayMerge, GapsStayAndPassesBeyondTheProfileAreRefused) {
 }
 
 TEST(AlignPasses, KeepsToWhereThePathsAre) {
-  // A grating fits at every period: the place decides which.
+  // A relief that repeats after 5 mm fits at every period: the place decides at which.
+  const auto repeated_m = [](double x_m) { return relief_m(x_m - 5e-3 * std::floor(x_m / 5e-3)); };
   std::vector<ProfilePass> passes;
   for (std::uint64_t k = 0; k < 2; ++k) {
     Random random(9 + k, 3);
     ProfilePass& pass = passes.emplace_back();
     pass.name = "pass";
     pass.spacing_m = kStep_m;
-    for (std::size_t i = 0; i < 2000; ++i) {
-      const double x_m = kStep_m * static_cast<double>(k == 0 ? i : 2000 + 120 - i);
-      double sum = 0.0;
-      for (int n = 1; n <= 8; ++n) sum += std::cos(2.0 * std::numbers::pi * n * x_m / 2.5e-3 + n * n);
-      pass.texture_m.push_back(10e-6 * sum + 0.3e-6 * random.normal());
-    }
+    for (std::size_t i = 0; i < 2000; ++i)
+      pass.texture_m.push_back(repeated_m(kStep_m * static_cast<double>(k == 0 ? i : 2120 - i)) +
+                               1e-6 * random.normal());
     pass.frequency_cycles_per_mm = {0.0, 20.0};
-    pass.noise_psd_m2_mm.assign(2, 2.0 * 0.09e-12 * 1e3 * kStep_m);
+    pass.noise_psd_m2_mm.assign(2, 2.0 * 1e-12 * 1e3 * kStep_m);
     pass.place_sigma_m = 1e-6;
   }
+  const double begin_m = kStep_m * 2120, shift_m = -121 * kStep_m;
   passes[0].place = PassPlace{0.0, false, 1e-3};
-  passes[1].place = PassPlace{kStep_m * 2120 + 0.4e-3, true, 1e-3};  // 0.4 mm wrong
-  const PassAlignment at = align_passes(passes[0], passes[1], {});
-  EXPECT_TRUE(at.agrees);
-  EXPECT_TRUE(at.reversed);
-  // Reversed, the pass begins at x = 121 points: the reference's first point is 121 points before it.
-  EXPECT_NEAR(at.shift_m, -121 * kStep_m, 0.1e-3);
-  // Seen from the other, the same the other way round.
-  const PassAlignment back = align_passes(passes[1], passes[0], {});
-  EXPECT_TRUE(back.agrees);
-  EXPECT_TRUE(back.reversed);
-  EXPECT_NEAR(back.shift_m, -121 * kStep_m + 0.0, 0.1e-3);
-  // Two periods away it is not looked for.
-  passes[1].place->start_m += 5e-3;
-  EXPECT_NEAR(align_passes(passes[0], passes[1], {}).shift_m, -121 * kStep_m - 5e-3, 1.2e-3);
+  passes[1].place = PassPlace{begin_m + 0.4e-3, true, 1e-3};  // 0.4 mm wrong
+  // Reversed, the pass begins at x = 121 points: the reference's first point is 121 points before it, and the other way
+  // round.
+  for (const std::size_t reference : {0U, 1U}) {
+    const PassAlignment at = align_passes(passes[reference], passes[1 - reference], {});
+    EXPECT_TRUE(at.agrees);
+    EXPECT_TRUE(at.reversed);
+    EXPECT_NEAR(at.shift_m, shift_m, 0.1e-3);
+  }
+  // Two periods away it is found there.
+  passes[1].place->start_m += 10e-3;
+  EXPECT_NEAR(align_passes(passes[0], passes[1], {}).shift_m, shift_m - 10e-3, 0.1e-3);
 }
 
 }  // namespace
