@@ -18,6 +18,7 @@ namespace {
 constexpr std::ptrdiff_t kLeastHeights = 600;  // 15 mm at 25 µm
 // merge_passes.h has the derivation.
 constexpr double kMostLines_over_noise = 0.5;
+constexpr double kMostNoise_scale = 1.25;  // more is not the stated noise
 
 std::string pass_name(const std::string& scan, const Profile& profile, const LinePass& part) {
   return fmt::format("{}{}{:.1f} to {:.1f} mm", scan, scan.empty() ? "" : ", ", 1e3 * profile.s_m[part.first],
@@ -29,6 +30,9 @@ std::string why_not_laid(const MergedProfile& merged) {
   if (!merged.agrees) return "they do not agree by more than chance gives";
   if (2 * merged.used <= merged.passes.size()) return "fewer than half of them agree by more than chance gives";
   if (!std::isfinite(merged.lines_over_noise)) return "by how much they differ is not known";
+  if (merged.noise_scale > kMostNoise_scale)
+    return fmt::format("they differ by more than the noise that they state explains, {:.2g} times its power",
+                       merged.noise_scale);
   if (merged.lines_over_noise < kMostLines_over_noise) return "";
   return fmt::format(
       "their lines differ by {:.2g} times the power of their noise, as lines {:.2g} mm apart do: each is nearer to its "
