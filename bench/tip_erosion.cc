@@ -20,6 +20,7 @@
 #include "asperity/base/random.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/true_profile.h"
+#include "asperity/profile/bound_tip_radius.h"
 #include "asperity/profile/compare_profiles.h"
 #include "asperity/profile/erode_profile.h"
 #include "asperity/signal/statistics.h"
@@ -108,7 +109,7 @@ void run(const Choice& choice, const std::string& name, std::int64_t seed) {
   };
   const asperity::ErodedProfile& eroded = *result.surface;
   const asperity::AlignedProfiles tip = aligned(result.profile.height_m), under = aligned(eroded.surface_m);
-  const asperity::TipRadiusBound& bound = eroded.bound;
+  const asperity::TipRadiusBound bound = asperity::bound_tip_radius(result.measured_profile, result.measured_noise);
   asperity::TextureNoise little;  // the truth has none: 1 nm
   little.frequency_cycles_per_mm = {0.0, 20.0};
   little.added_psd_m2_mm = {5e-20, 5e-20};

@@ -11,7 +11,6 @@ namespace {
 void erode(const Calibration& calibration, const TipConfig& config, MeasuredProfile& measured) {
   const double radius_m = config.radius_m > 0.0 ? config.radius_m : calibration.tip_radius_m;
   measured.surface = erode_profile(measured.profile, measured.noise, radius_m);
-  measured.surface->bound = bound_tip_radius(measured.as_measured, measured.noise_as_measured);
 }
 
 }  // namespace

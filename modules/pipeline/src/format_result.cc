@@ -143,8 +143,6 @@ Json tip_json(const ErodedProfile& surface) {
   return {{"determined", surface.determined},
           {"reason", surface.reason},
           {"radius_m", surface.radius_m},
-          {"radius_at_most_m", surface.bound.at_most_m},
-          {"sharpest_at_s_m", surface.bound.at_s_m},
           {"touched_share", surface.touched_share},
           {"correction_rms_m", surface.correction_rms_m},
           {"noise_rms_m", surface.noise_rms_m},

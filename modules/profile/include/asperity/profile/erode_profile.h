@@ -8,7 +8,6 @@
 
 #include "asperity/base/config.h"
 #include "asperity/base/nan.h"
-#include "asperity/profile/bound_tip_radius.h"
 #include "asperity/profile/profile.h"
 #include "asperity/profile/texture_noise.h"
 
@@ -39,7 +38,6 @@ struct ErodedProfile {
   double correction_rms_m = kNan;  // of the tip's height less the surface's, less its mean
   double noise_rms_m = kNan;       // of what noise does to the surface
   double bias_m = kNan;            // mean of it: taken off
-  TipRadiusBound bound;            // of the radius, by heights as measured; not of erode_profile()
 };
 
 // The surface under `profile.height_m` by the erosion with a ball of `radius_m`, points within two spacings as one
