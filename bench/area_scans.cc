@@ -3,7 +3,10 @@
 // Prints a table in Markdown; docs/areas.md says what it means.
 //
 //   area_scans [--seeds N] [--lanes 10] [--pitch-mm 0.8] [--length-mm 16] [--calibration stated|exact] [--guess-mm 0.3]
-//              [--relief yes|no] [--save FOLDER]
+//              [--relief yes|no] [--positions measured|true|shifted] [--shift-mm 0] [--save FOLDER]
+//
+// `--positions true` maps the measured heights at the tips' true places, `shifted` at the measured places less each
+// stroke's mean error: what a fit of one shift a stroke could reach. `--shift-mm` is map.shift_mm.
 //
 // `--relief no`: the patch is as smooth as the mesh, and no area may come of it. `--save` keeps what `register` would
 // write of the first seed, for `asperity area`.
@@ -52,6 +55,8 @@ struct Options {
   double guess_m = 0.3e-3;
   bool exact = false;
   bool relief = true;
+  std::string positions = "measured";
+  double shift_mm = 0.0;
   std::string save;
 };
 
@@ -224,6 +229,44 @@ Comparison compare(const std::vector<MapPoint>& points, const UnderTip& truth, c
   return out;
 }
 
+// What a stroke's places on the mesh are wrong by: the mean, and the RMS about it, mm.
+struct PlaceError {
+  Vector3d mean_m = Vector3d::Zero();
+  double rms_m = 0.0;
+};
+
+// Where the tip truly was at a path's points, by the times at which the base path was there, on the mesh. The stroke's
+// path becomes that, or its own less the mean error.
+PlaceError correct_places(const asperity::RegisteredScan& scan, const asperity::Recording& recording,
+                          const asperity::MeshSurface& surface, const std::string& positions,
+                          asperity::MeshPath& path) {
+  const asperity::BasePath& base = scan.process.base.path;
+  const std::vector<std::int64_t>& t_ns = scan.process.trajectory.motion.t_ns;
+  const asperity::Truth& truth = *recording.truth;
+  const asperity::Pose T_mesh_world = asperity::true_pose(recording).value();
+  std::vector<Vector3d> true_m;
+  std::size_t sample = 0, at = 0;
+  for (const double s_m : path.s_m) {
+    while (sample + 1 < base.size() && base.s_m[sample] < s_m) ++sample;
+    while (at + 1 < truth.size() && truth.t_ns[at] < t_ns[sample]) ++at;
+    true_m.push_back(surface.bvh.closest_point(T_mesh_world * truth.p_world_tip_m[at]).p_m);
+  }
+  PlaceError out;
+  const double count = static_cast<double>(path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) out.mean_m += (path.p_mesh_m[i] - true_m[i]) / count;
+  for (std::size_t i = 0; i < path.size(); ++i)
+    out.rms_m += (path.p_mesh_m[i] - true_m[i] - out.mean_m).squaredNorm() / count;
+  out.rms_m = std::sqrt(out.rms_m);
+  if (positions == "measured") return out;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Vector3d p_m = positions == "true" ? true_m[i] : Vector3d(path.p_mesh_m[i] - out.mean_m);
+    const asperity::ClosestPoint closest = surface.bvh.closest_point(p_m);
+    path.p_mesh_m[i] = closest.p_m;
+    path.triangle[i] = closest.triangle;
+  }
+  return out;
+}
+
 std::string text_of(const Vector3d& p) {
   std::ostringstream out;
   out.precision(9);
@@ -292,17 +335,26 @@ void run_seed(const Options& options, int seed) {
     asperity::write_registration(options.save, registered, scans, file, 1.0);
   }
   std::vector<asperity::AreaScan> strokes;
-  for (const asperity::RegisteredScan& scan : registered.scans)
-    if (scan.path.size() > 1 && scan.process.profile.size() > 1)
-      strokes.push_back({scan.name, scan.path, scan.process.profile});
-  const asperity::AreaResult area = asperity::make_area(mesh, strokes, registered.trustworthy);
+  std::vector<double> constant_mm, about_mm;
+  for (std::size_t k = 0; k < scans.size(); ++k) {
+    const asperity::RegisteredScan& scan = registered.scans[k];
+    if (scan.path.size() < 2 || scan.process.profile.size() < 2) continue;
+    strokes.push_back({scan.name, scan.path, scan.process.profile});
+    const PlaceError error = correct_places(scan, *scans[k].recording, pebble, options.positions, strokes.back().path);
+    constant_mm.push_back(1e3 * error.mean_m.norm());
+    about_mm.push_back(1e3 * error.rms_m);
+  }
+  asperity::AreaConfig area_config;
+  area_config.map.shift_mm = options.shift_mm;
+  const asperity::AreaResult area = asperity::make_area(mesh, strokes, registered.trustworthy, area_config);
   const std::clock_t mapped = std::clock();
   const auto seconds = [](std::clock_t from, std::clock_t to) {
     return static_cast<double>(to - from) / CLOCKS_PER_SEC;
   };
   const asperity::StrokeMap& map = area.map;
-  std::printf("| %d | %d | %.2f ± %.2f | %.2f | ", seed, 2 * options.lanes, map.agreement, map.agreement_sigma,
-              area.covered);
+  std::printf("| %d | %d | %.3f | %.3f | %.2f ± %.2f | %.2f | ", seed, 2 * options.lanes,
+              constant_mm.empty() ? 0.0 : asperity::median(constant_mm),
+              about_mm.empty() ? 0.0 : asperity::median(about_mm), map.agreement, map.agreement_sigma, area.covered);
   if (map.texture.supported.empty() || area.triangle.empty()) {
     std::printf("| | | | | | ");
   } else {
@@ -335,10 +387,11 @@ void run_seed(const Options& options, int seed) {
 
 void run(const Options& options) {
   std::printf(
-      "| seed | strokes | shared | covered | surface RMS, µm | error RMS, µm | the same, moved | error over σ | "
+      "| seed | strokes | places of a stroke wrong by, mm | wander about that, mm | shared | covered | surface RMS, µm "
+      "| error RMS, µm | the same, moved | error over σ | "
       "correlation | moved "
       "by x, y, mm | σ, µm | left out: error over σ | s: simulate, register, map | verdict |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int seed = 1; seed <= options.seeds; ++seed) run_seed(options, seed);
 }
 
@@ -356,6 +409,8 @@ int main(int argc, char** argv) {
          {"--guess-mm", [&](auto value) { options.guess_m = 1e-3 * bench::number_within(value, 0, 100); }},
          {"--calibration", [&](auto value) { options.exact = bench::is_first(value, "exact", "stated"); }},
          {"--relief", [&](auto value) { options.relief = bench::is_first(value, "yes", "no"); }},
+         {"--positions", [&](auto value) { options.positions = std::string(value); }},
+         {"--shift-mm", [&](auto value) { options.shift_mm = bench::number_within(value, 0.0, 10.0); }},
          {"--save", [&](auto value) { options.save = value; }}});
     run(options);
     return 0;

@@ -63,6 +63,24 @@ std::string friction_lines(const FrictionEstimate& f) {
                ? fmt::format(", breaking away at {:.3f} ± {:.3f}\n", f.breakaway, f.breakaway_stderr)
                : "\n";
   }
+  if (std::isfinite(f.static_ratio)) {
+    out += "              sticking over sliding " + with_error(f.static_ratio, f.static_ratio_stderr, 2) + "\n";
+  }
+  return out;
+}
+
+// The lines that the path is over more than once.
+std::string repeated_lines(const ProcessResult& result) {
+  std::string out;
+  for (const RepeatedLine& line : result.lines) {
+    const MergedProfile& merged = line.merged;
+    out += fmt::format("  repeated    {} passes over one line, {}\n", merged.passes.size(),
+                       line.laid ? fmt::format("{} merged", merged.used) : "not merged: " + line.reason);
+    if (!std::isfinite(merged.noise_ratio)) continue;
+    out += fmt::format(
+        "              noise of a pass by their differences: {:.2g} times the power stated, 95 %: {:.2g} to {:.2g}\n",
+        merged.noise_ratio, merged.noise_ratio_low, merged.noise_ratio_high);
+  }
   return out;
 }
 
@@ -77,6 +95,7 @@ std::string result_summary(const ProcessResult& result) {
     out += fmt::format("  noise       {:.2g} ± {:.1g} µm RMS in the texture, signal to noise {:.3g} (power)\n",
                        1e6 * result.noise.noise_rms_m, 1e6 * result.noise.noise_rms_stderr_m, result.noise.snr);
   }
+  out += repeated_lines(result);
   if (result.roughness) {
     const RoughnessResult& r = *result.roughness;
     const auto um = [&](double RoughnessParameters::*value) {

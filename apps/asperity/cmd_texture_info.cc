@@ -51,6 +51,7 @@ class TextureInfoCommand : public Command {
     if (texture.compliance_kc) out["compliance_kc"] = *texture.compliance_kc;
     if (texture.stiffness_N_per_m) out["stiffness_N_per_m"] = *texture.stiffness_N_per_m;
     if (texture.friction) out["friction"] = *texture.friction;
+    if (texture.static_friction_ratio) out["static_friction_ratio"] = *texture.static_friction_ratio;
     out["source_roughness"] = texture.roughness;
     if (texture.fit) out["fit"] = texture.fit->metrics;
     out["asperity"] = kVersion;
@@ -71,7 +72,8 @@ class TextureInfoCommand : public Command {
                               out["measured"][key].get<double>() * 1e6);
       }
     }
-    for (const char* key : {"lift_m", "band_cycles_per_mm", "compliance_kc", "stiffness_N_per_m", "friction"}) {
+    for (const char* key :
+         {"lift_m", "band_cycles_per_mm", "compliance_kc", "stiffness_N_per_m", "friction", "static_friction_ratio"}) {
       if (out.contains(key)) text += fmt::format("  {:<16} {}\n", key, out[key].dump());
     }
     if (out.contains("fit") && out["fit"].is_object() && out["fit"].contains("rms_error_m"))

@@ -85,5 +85,38 @@ TEST(NormalForceScan, OtherForcesOfThreeAxesGiveAnotherProfile) {
   EXPECT_NEAR(mean_found_N(after) / mean_found_N(before), 1.2, 0.01);
 }
 
+// A hand that rests eight times and goes on: each time the tip has to break away.
+Recording scan_with_rests(bool three_axes) {
+  SimulationConfig config = make_simulation_config("sandpaper", "open");
+  config.seed = 6;
+  config.hand.pauses = 8;
+  config.hand.pause_s = 0.3;
+  config.contact.friction_static = 0.5;
+  config.contact.friction_dynamic = 0.3;
+  config.probe.force3 = three_axes;
+  config.calibration.imperfection = 0.0;
+  return simulate_recording(config);
+}
+
+TEST(NormalForceScan, RestsGiveTheRatioOfStickingToSliding) {
+  const ProcessResult result = process_recording(scan_with_rests(true), {});
+  ASSERT_TRUE(result.friction.determined) << result.friction.verdict;
+  EXPECT_GE(result.friction.sticks, 3U);
+  ASSERT_TRUE(std::isfinite(result.friction.breakaway));
+  const double true_ratio = 0.5 / (0.3 + 0.2 * result.friction.speed_mps);
+  // The sensor's pole of some milliseconds sees the peak late: the ratio is too small rather than too large.
+  EXPECT_NEAR(result.friction.static_ratio, true_ratio, std::max(0.25, 2.0 * result.friction.static_ratio_stderr));
+  ASSERT_TRUE(result.texture);
+  EXPECT_EQ(result.texture->static_friction_ratio, result.friction.static_ratio);
+}
+
+TEST(NormalForceScan, OneAxisOfForceMeasuresNoFriction) {
+  const ProcessResult result = process_recording(scan_with_rests(false), {});
+  EXPECT_EQ(result.friction.verdict.rfind("not measured", 0), 0U) << result.friction.verdict;
+  EXPECT_TRUE(std::isnan(result.friction.static_ratio));
+  ASSERT_TRUE(result.texture);
+  EXPECT_FALSE(result.texture->friction || result.texture->static_friction_ratio);
+}
+
 }  // namespace
 }  // namespace asperity

@@ -9,6 +9,7 @@
 #include "asperity/pipeline/write_result.h"
 #include "asperity/profile/stiffness_of_compliance.h"
 #include "asperity/recording/fingerprint.h"
+#include "asperity/verdict/judge_passes.h"
 #include "asperity/verdict/verdict_json.h"
 #include "json.h"
 
@@ -113,6 +114,8 @@ Json friction_json(const FrictionEstimate& f) {
               {"stuck_share", f.stuck_share},
               {"breakaway", f.breakaway},
               {"breakaway_stderr", f.breakaway_stderr},
+              {"static_ratio", f.static_ratio},
+              {"static_ratio_stderr", f.static_ratio_stderr},
               {"windows", f.windows.size()},
               {"verdict", f.verdict}};
   out["stribeck"] = nullptr;
@@ -174,6 +177,21 @@ Json closest_json(const MergedProfile& merged) {
           {"ratio_high", pair.ratio_high}};
 }
 
+// Whether passes agree, and what their differences say of the stated noise.
+Json merge_of_passes_json(const MergedProfile& merged) {
+  const PassEvidence evidence{merged.noise_ratio, merged.noise_ratio_low, merged.noise_ratio_high};
+  return {{"agrees", merged.agrees},
+          {"used", merged.used},
+          {"noise_ratio", merged.noise_ratio},
+          {"noise_ratio_low", merged.noise_ratio_low},
+          {"noise_ratio_high", merged.noise_ratio_high},
+          {"noise_scale", merged.noise_scale},
+          {"apart_m", merged.apart_m},
+          {"lines_over_noise", merged.lines_over_noise},
+          {"closest", closest_json(merged)},
+          {"stated_sigma", std::string(witness_word(witness_of_passes(evidence)))}};
+}
+
 Json accuracy_json(const Accuracy& accuracy) {
   Json out;
   out["position_rms_m"] = accuracy.position_rms_m;
@@ -195,6 +213,22 @@ Json accuracy_json(const Accuracy& accuracy) {
 }
 
 }  // namespace
+
+Json lines_json(std::span<const RepeatedLine> lines) {
+  Json out = Json::array();
+  for (const RepeatedLine& line : lines) {
+    Json one = merge_of_passes_json(line.merged);
+    one["laid"] = line.laid;
+    one["reason"] = line.reason;
+    one["passes"] = passes_json(line.merged);
+    for (std::size_t k = 0; k < line.spans.size(); ++k) {
+      one["passes"][k]["from_m"] = line.spans[k].from_m;
+      one["passes"][k]["to_m"] = line.spans[k].to_m;
+    }
+    out.push_back(std::move(one));
+  }
+  return out;
+}
 
 Json result_json(const ProcessResult& result, const Recording& recording, const std::string& name) {
   ProcessConfig config = result.config;
@@ -256,13 +290,9 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
   if (result.surface) out["tip"] = tip_json(*result.surface);
   if (result.passes) {
     out["passes"] = passes_json(*result.passes);
-    out["merge"] = {{"agrees", result.passes->agrees},
-                    {"used", result.passes->used},
-                    {"noise_ratio", result.passes->noise_ratio},
-                    {"noise_ratio_low", result.passes->noise_ratio_low},
-                    {"noise_ratio_high", result.passes->noise_ratio_high},
-                    {"closest", closest_json(*result.passes)}};
+    out["merge"] = merge_of_passes_json(*result.passes);
   }
+  if (!result.lines.empty()) out["lines"] = lines_json(result.lines);
   if (result.accuracy) out["accuracy"] = accuracy_json(*result.accuracy);
   out["problems"] = problems_json(result.problems);
   out["config"] = config_json(list_fields("", config));

@@ -38,8 +38,10 @@ Texture join_texture(const std::string& object, const ProcessMethod& method, con
   texture.height_offset_m = result.fit->height_offset_m;
   if (std::isfinite(result.compliance.k_c)) texture.compliance_kc = result.compliance.k_c;
   texture.stiffness_N_per_m = rendered_stiffness_N_per_m(result);
-  // A coefficient near 0 may come out below it.
-  if (result.friction.determined) texture.friction = std::max(0.0, result.friction.coefficient);
+  if (result.friction.determined) {
+    texture.friction = std::max(0.0, result.friction.coefficient);  // one near 0 may come out below it
+    if (std::isfinite(result.friction.static_ratio)) texture.static_friction_ratio = result.friction.static_ratio;
+  }
   if (result.roughness) {
     const RoughnessResult& r = *result.roughness;
     for (const auto& [key, value] : {std::pair{"Ra_m", r.Ra_m},
@@ -79,7 +81,9 @@ void add_surface(const Recording& recording, const ProcessMethod& method, Proces
   result.coverage = stages.profile.value->coverage;
   result.speed = stages.profile.value->speed;
   result.noise = std::move(stages.profile.value->noise);
-  result.passes = std::move(stages.profile.value->passes);
+  result.lines = std::move(stages.profile.value->lines);
+  result.measured_profile = std::move(stages.profile.value->as_measured);
+  result.measured_noise = std::move(stages.profile.value->noise_as_measured);
   result.surface = std::move(stages.profile.value->surface);
   result.roughness = std::move(stages.roughness.value);
   result.periodicity = std::move(stages.periodicity.value).value_or(Periodicity{});

@@ -15,9 +15,10 @@
 #include "asperity/pipeline/result_json.h"
 #include "asperity/pipeline/write_result.h"
 #include "asperity/texture/texture_file.h"
+#include "asperity/verdict/judge_passes.h"
 #include "asperity/verdict/verdict_codes.h"
 #include "process_stages.h"
-#include "recorded_passes.h"
+#include "repeated_lines.h"
 
 namespace asperity {
 
@@ -72,12 +73,7 @@ Verdicts judge_merge(const MergedProfile& merged, const TextureNoise& noise) {
   if (std::isfinite(noise.snr) && noise.snr < kInvisible_snr)
     out.push_back(make_verdict("below_noise", "the merged texture does not stand out of its noise"));
   if (!left.empty()) out.push_back(make_verdict("passes_left_out", "not over the same line as the others: " + left));
-  if (merged.noise_ratio_low > 1.0) {
-    out.push_back(make_verdict("passes_disagree",
-                               fmt::format("the strokes differ by {:.2g} times the power of the noise that they state, "
-                                           "95 %: {:.2g} to {:.2g}",
-                                           merged.noise_ratio, merged.noise_ratio_low, merged.noise_ratio_high)));
-  }
+  judge_passes({merged.noise_ratio, merged.noise_ratio_low, merged.noise_ratio_high}, out);
   return out;
 }
 

@@ -15,7 +15,7 @@
 #include "asperity/profile/find_periodicity_under_noise.h"
 #include "asperity/profile/measure_roughness_under_noise.h"
 #include "asperity/profile/measure_surface_spectrum.h"
-#include "recorded_passes.h"
+#include "repeated_lines.h"
 
 namespace asperity::stage {
 
@@ -56,12 +56,6 @@ SpeedStatistics measure_speed(const Profile& profile) {
   // Way over time, not the mean over points, which a slow stretch would not lower enough.
   if (count > 0) out.mean_mps = static_cast<double>(count) * profile.spacing_m / time_s;
   return out;
-}
-
-// The surface under the tip; the tip's radius is the calibration's unless one is given.
-void erode(const Calibration& calibration, const TipConfig& config, MeasuredProfile& measured) {
-  const double radius_m = config.radius_m > 0.0 ? config.radius_m : calibration.tip_radius_m;
-  measured.surface = erode_profile(measured.profile, measured.noise, radius_m);
 }
 
 }  // namespace
@@ -144,10 +138,8 @@ Outcome<MeasuredProfile> find_profile(const Recording& recording, const ProcessC
     out.profile.texture_sigma_m = std::move(noise.texture_sigma_m);
     if (!noise.height_sigma_m.empty()) out.profile.sigma_m = std::move(noise.height_sigma_m);
     out.measured_texture_m = out.profile.texture_m;
-    if (config.profile.merge_passes) merge_recorded_passes(base, out);
-    if (config.profile.remove_noise) remove_noise(config.profile.bridge_m, out.profile, out.noise);
-    out.coverage = measure_coverage(out.profile);
-    if (config.profile.tip.mode == TipMode::kErode) erode(recording.calibration, config.profile.tip, out);
+    if (config.profile.merge_passes) merge_recorded_lines(base, out);
+    finish_profile(recording, config, out);
     return out;
   });
 }
@@ -215,9 +207,6 @@ Outcome<Accuracy> compare_with_truth(const Recording& recording, const ProcessCo
       texture_of = [&](const std::vector<double>& height_m) { return method.comparable_texture(config, height_m); };
     }
     out.value = measure_accuracy(recording, before.trajectory.value->motion, profile, config.comparison, texture_of);
-    // The truth goes along all strokes.
-    if (before.profile.value && before.profile.value->passes && before.profile.value->passes->agrees)
-      out.value->profile.reset();
   } catch (const Error& error) {
     out.problems.push_back({"no_accuracy", std::string("not compared with the truth: ") + error.what(), 1});
   }

@@ -23,7 +23,9 @@ struct MeasuredProfile {
   Coverage coverage;
   SpeedStatistics speed;
   TextureNoise noise;
-  std::optional<MergedProfile> passes;  // without its profile
+  std::vector<RepeatedLine> lines;
+  Profile as_measured;  // the profile before that, and its noise
+  TextureNoise noise_as_measured;
   std::optional<ErodedProfile> surface;
 };
 
@@ -76,6 +78,14 @@ Outcome<Accuracy> compare_with_truth(const Recording& recording, const ProcessCo
 // The heights that are expected, given the noise in them (apply_wiener_filter.h); what is left of that is the noise of
 // the texture then. Without a density nothing changes.
 void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise);
+
+// What follows a measured profile, of which `profile`, `noise`, `measured_texture_m` and `speed` are given.
+void finish_profile(const Recording& recording, const ProcessConfig& config, MeasuredProfile& measured);
+
+// The result with `measured_profile` changed and its noise: all that is made of the profile again, verdicts too. Its
+// problems stay.
+void measure_again(const Recording& recording, const ProcessConfig& config, MeasuredProfile measured,
+                   ProcessResult& result);
 
 Coverage measure_coverage(const Profile& profile);
 

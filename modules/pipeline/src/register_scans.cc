@@ -17,6 +17,7 @@
 #include "asperity/profile/base_path_on_mesh.h"
 #include "asperity/profile/make_profile.h"
 #include "asperity/verdict/verdict_codes.h"
+#include "merge_scans.h"
 
 namespace asperity {
 
@@ -119,7 +120,11 @@ void measure_scan(const Scan& scan, const MeshSurface& surface, const Pose& T_me
     return base;
   };
   if (scan.recording) {
-    measure_along(*scan.recording, config.process, find_base, registered.process, observer);
+    // Lines that are passed again, by this scan or by others, are merged when all are measured.
+    ProcessConfig apart = config.process;
+    apart.profile.merge_passes = false;
+    measure_along(*scan.recording, apart, find_base, registered.process, observer);
+    registered.process.config = config.process;
   } else {
     measure_path(config, find_base, registered);
   }
@@ -183,13 +188,19 @@ ScansOnMesh register_scans(const std::vector<Scan>& scans, const TriangleMesh& m
                    located.slow_error_world_m[i], scan, observer);
       return 0;
     });
-    append_verdicts(out.verdicts, scan.process.verdicts, printable(scan.name, 200));
     if (scan.path.size() < 2) {
       add_verdict(out, "no_path_on_mesh", printable(scan.name, 200) + ": the path does not lie on the mesh");
       scan.path = {};
     }
     mesh_paths.push_back(scan.path);
   }
+  if (config.process.profile.merge_passes) {
+    for (const std::size_t i : merge_scans(scans, config, out)) {
+      if (!scans[i].texture) make_own_texture(config, out.scans[i]);
+    }
+  }
+  for (const RegisteredScan& scan : out.scans)
+    append_verdicts(out.verdicts, scan.process.verdicts, printable(scan.name, 200));
 
   // Where a hand will find it (seed §5.4, B.2).
   observer.update("coordinates", 0.0);

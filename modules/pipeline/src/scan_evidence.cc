@@ -228,6 +228,11 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
   out.snr = result.noise.snr;
   out.expected_correlation = result.noise.expected_correlation;
   out.at_most_m = result.noise.at_most_m;
+  for (const RepeatedLine& line : result.lines) {
+    const MergedProfile& merged = line.merged;
+    if (!std::isfinite(merged.noise_ratio_low) || merged.noise_ratio_low <= out.passes.low) continue;
+    out.passes = {merged.noise_ratio, merged.noise_ratio_low, merged.noise_ratio_high};
+  }
   out.sticks = result.friction.sticks;
   out.stuck_share = result.friction.stuck_share;
 }

@@ -291,6 +291,7 @@ Json registration_json(const ScansOnMesh& result, const std::vector<ScanPlace>& 
   for (const Placement& placement : result.placements) out["placements"].push_back(placement_json(result, placement));
   out["bulge"] = {{"share", number_or_null(result.bulge_share)}, {"sigma", number_or_null(result.bulge_sigma)}};
   out["overlaps"] = {{"crossings", result.crossings}, {"shifts", result.matched_shifts}};
+  out["lines"] = lines_json(result.lines);
   out["registered"] = names_of(result);
   std::map<int, Json> scans = stored_scans(earlier);
   for (std::size_t i = 0; i < result.scans.size(); ++i) {

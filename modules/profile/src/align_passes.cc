@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
 
 #include "asperity/base/error.h"
 #include "asperity/signal/chi_square.h"
@@ -58,6 +59,28 @@ std::vector<double> stretched(const std::vector<double>& x, double stretch) {
   return out;
 }
 
+// What the positions of two passes' paths allow.
+struct AllowedPlace {
+  bool reversed = false;
+  double shift_m = 0.0;  // as PassAlignment has it
+  double reach_m = 0.0;
+};
+
+std::optional<AllowedPlace> allowed_place(const ProfilePass& reference, const ProfilePass& pass) {
+  if (!reference.place || !pass.place) return std::nullopt;
+  AllowedPlace out;
+  out.reversed = reference.place->backward != pass.place->backward;
+  const double ahead_m = (reference.place->backward ? -1.0 : 1.0) * (reference.place->start_m - pass.place->start_m);
+  out.shift_m = ahead_m + (out.reversed ? pass.spacing_m * static_cast<double>(pass.size() - 1) : 0.0);
+  out.reach_m = std::max(reference.place->reach_m, pass.place->reach_m);
+  return out;
+}
+
+// Lags, in points.
+struct LagRange {
+  std::ptrdiff_t first = 0, last = 0;
+};
+
 struct Place {
   double value = 0.0;  // of the correlation over its spread
   double lag = 0.0;    // stretched pass[i + lag] lies on reference[i]
@@ -68,7 +91,7 @@ struct Place {
 // The highest correlation of one stretch and direction, refined below a sample by a parabola.
 Place best_lag(const std::vector<std::complex<double>>& reference, std::size_t reference_size,
                const std::vector<double>& pass, std::size_t n, double spacing_mm, const Weights& weights,
-               double min_overlap) {
+               double min_overlap, const std::optional<LagRange>& allowed) {
   const std::vector<std::complex<double>> other = padded_dft(pass, n);
   std::vector<std::complex<double>> cross(other.size());
   double spread = 0.0;
@@ -88,9 +111,12 @@ Place best_lag(const std::vector<std::complex<double>>& reference, std::size_t r
   const auto length = static_cast<std::ptrdiff_t>(pass.size());
   const auto whole = static_cast<std::ptrdiff_t>(reference_size);
   const auto least = static_cast<std::ptrdiff_t>(min_overlap * static_cast<double>(std::min(length, whole)));
+  LagRange range{least - whole, length - least};
+  if (allowed) range = {std::max(range.first, allowed->first), std::min(range.last, allowed->last)};
+  if (range.first > range.last) return out;
   std::ptrdiff_t best = 0;
   double most = -1.0;
-  for (std::ptrdiff_t lag = least - whole; lag <= length - least; ++lag) {
+  for (std::ptrdiff_t lag = range.first; lag <= range.last; ++lag) {
     if (at(lag) <= most) continue;
     most = at(lag);
     best = lag;
@@ -148,12 +174,28 @@ PassAlignment align_passes(const ProfilePass& reference, const ProfilePass& pass
       power_of_two(a.size() + static_cast<std::size_t>(longest * (1.0 + 2.0 * config.max_stretch)) + 2);
   const std::vector<std::complex<double>> of_a = padded_dft(a.height_m, n);
 
+  // In points of each one's heights from its first that is known.
+  const double last = static_cast<double>(pass.size() - 1);
+  const auto first_known = [&](bool turned) {
+    return turned ? last - static_cast<double>(forward.first + forward.size() - 1) : static_cast<double>(forward.first);
+  };
+  const std::optional<AllowedPlace> allowed = allowed_place(reference, pass);
+  const auto allowed_lags = [&](bool turned, double stretch) -> std::optional<LagRange> {
+    if (!allowed) return std::nullopt;
+    const double lag =
+        (allowed->shift_m / pass.spacing_m - first_known(turned)) / (1.0 + stretch) + static_cast<double>(a.first);
+    const double reach = allowed->reach_m / pass.spacing_m;
+    return LagRange{static_cast<std::ptrdiff_t>(std::floor(lag - reach)),
+                    static_cast<std::ptrdiff_t>(std::ceil(lag + reach))};
+  };
+
   Place best;
   for (const bool turned : {false, true}) {
+    if (allowed && allowed->reversed != turned) continue;
     for (int i = -steps; i <= steps; ++i) {
       const double stretch = static_cast<double>(i) * step;
       Place place = best_lag(of_a, a.size(), stretched((turned ? backward : forward).height_m, stretch), n,
-                             a.spacing_mm, weights, config.min_overlap);
+                             a.spacing_mm, weights, config.min_overlap, allowed_lags(turned, stretch));
       if (place.value <= best.value) continue;
       best = place;
       best.stretch = stretch;
@@ -172,16 +214,16 @@ PassAlignment align_passes(const ProfilePass& reference, const ProfilePass& pass
     on_a.push_back(a.height_m[i]);
     on_pass.push_back(height_at(chosen, place));
   }
-  // In places of the whole arrays, whose first heights are at `first`.
-  const double last = static_cast<double>(pass.size() - 1);
-  const double first = best.reversed ? last - static_cast<double>(forward.first + forward.size() - 1)
-                                     : static_cast<double>(forward.first);
-  out.shift_m = pass.spacing_m * (first + (best.lag - static_cast<double>(a.first)) * (1.0 + best.stretch));
+  // In places of the whole arrays.
+  out.shift_m =
+      pass.spacing_m * (first_known(best.reversed) + (best.lag - static_cast<double>(a.first)) * (1.0 + best.stretch));
   out.score = agreement(on_a, on_pass, a.spacing_mm, weights);
-  const double lags = 2.0 * config.high_cycles_per_mm * a.spacing_mm *
-                      (static_cast<double>(a.size() + forward.size()) -
-                       2.0 * config.min_overlap * static_cast<double>(std::min(a.size(), forward.size())));
-  const double trials = 2.0 * std::max(1.0, lags) * static_cast<double>(2 * steps + 1);
+  const double searched = allowed
+                              ? 2.0 * allowed->reach_m / pass.spacing_m
+                              : static_cast<double>(a.size() + forward.size()) -
+                                    2.0 * config.min_overlap * static_cast<double>(std::min(a.size(), forward.size()));
+  const double lags = 2.0 * config.high_cycles_per_mm * a.spacing_mm * searched;
+  const double trials = (allowed ? 1.0 : 2.0) * std::max(1.0, lags) * static_cast<double>(2 * steps + 1);
   // The normal quantile, by that of its square.
   out.threshold = std::sqrt(chi_square_quantile(1.0 - 2.0 * std::min(0.25, config.false_alarm / trials), 1.0));
   out.agrees = out.score > out.threshold;

@@ -80,6 +80,24 @@ void find_closest(std::span<const PassOnGrid> passes, std::size_t begin, const S
   }
 }
 
+// The differences as noise and lines apart.
+SplitDifferences parts_of(const PassDifferences& differences, const PowerSpectrum& of_mean,
+                          std::span<const PassOnGrid> passes, const Band& band) {
+  const double count = static_cast<double>(passes.size());
+  std::vector<double> frequency, difference, noise, surface;
+  for (std::size_t i = 0; i < of_mean.frequency.size(); ++i) {
+    const double f = of_mean.frequency[i];
+    if (!band.holds(f)) continue;
+    double stated = 0.0;
+    for (const PassOnGrid& pass : passes) stated += stated_noise_m2_mm(*pass.pass, f) / count;
+    frequency.push_back(f);
+    difference.push_back(differences.scatter_psd_m2_mm[i]);
+    noise.push_back(stated);
+    surface.push_back(std::max(0.0, of_mean.density[i] - differences.scatter_psd_m2_mm[i] / count));
+  }
+  return split_differences(frequency, difference, noise, surface);
+}
+
 }  // namespace
 
 PassDifferences compare_passes(std::span<const PassOnGrid> passes, double spacing_mm, const AlignPassesConfig& config) {
@@ -150,6 +168,7 @@ PassDifferences compare_passes(std::span<const PassOnGrid> passes, double spacin
   const double freedom = 2.0 * (count - 1.0) * out.independent_segments * scatter_m2 * scatter_m2 / scatter_square;
   const double error = std::hypot(relative, std::sqrt(2.0 / freedom));
   out.ratio = scatter_m2 / stated_sum_m2;
+  out.parts = parts_of(out, of_mean, passes, band);
   out.ratio_low = out.ratio * std::exp(-kSure95 * error);
   out.ratio_high = out.ratio * std::exp(kSure95 * error);
 

@@ -5,13 +5,15 @@
 
 #include "asperity/profile/align_passes.h"
 #include "average_passes.h"
+#include "split_differences.h"
 
 namespace asperity {
 
 // What passes on one grid show of their noise: by their differences, where all are known.
 struct PassDifferences {
   // Nothing is determined (nan, empty) where they share less than a few segments.
-  double ratio = kNan, ratio_low = kNan, ratio_high = kNan;        // power of the differences over what is stated
+  double ratio = kNan, ratio_low = kNan, ratio_high = kNan;  // power of the differences over what is stated
+  SplitDifferences parts;
   std::vector<double> frequency_cycles_per_mm, scatter_psd_m2_mm;  // of a pass
   std::vector<double> noise_m2;                                    // of each pass, in the band; by Grubbs' estimates
   std::vector<double> stated_m2;      // the same as it is stated: added, misplaced, and the scale

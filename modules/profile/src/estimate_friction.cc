@@ -260,6 +260,18 @@ void find_sticks(const Rubbing& r, const FrictionConfig& config, FrictionEstimat
   out.breakaway_stderr = error;
 }
 
+// What the tip has to overcome at rest, over what it feels while it slides. A tip that slides has overcome it: no ratio
+// is below 1.
+void find_static_ratio(FrictionEstimate& out) {
+  if (std::isfinite(out.breakaway)) {
+    out.static_ratio = std::max(1.0, out.breakaway / out.coefficient);
+    out.static_ratio_stderr = out.breakaway / out.coefficient *
+                              std::hypot(out.breakaway_stderr / out.breakaway, out.standard_error / out.coefficient);
+  } else if (out.stribeck) {
+    out.static_ratio = std::max(1.0, out.stribeck->at_rest / out.coefficient);
+  }
+}
+
 }  // namespace
 
 FrictionEstimate estimate_friction(const TipMotion& motion, const BasePath& path, std::span<const char> contact,
@@ -331,6 +343,7 @@ FrictionEstimate estimate_friction(const TipMotion& motion, const BasePath& path
   } else {
     out.determined = true;
     out.verdict = "determined";
+    find_static_ratio(out);
   }
   return out;
 }

@@ -132,6 +132,19 @@ double point_of(const LaidPass& laid, double place) {
   return in_signal + static_cast<double>(laid.signal.first);
 }
 
+// Where each point of the pass is on the merge.
+std::vector<double> places_on_merge(const LaidPass& laid) {
+  std::vector<double> out(laid.pass->size(), kNan);
+  const double last = static_cast<double>(laid.pass->size() - 1);
+  for (std::size_t j = 0; j + 1 < laid.places.size(); ++j) {
+    const double from = point_of(laid, laid.places[j]), to = point_of(laid, laid.places[j + 1]);
+    const double low = std::max(0.0, std::min(from, to)), high = std::min(std::max(from, to), last);
+    for (double i = std::ceil(low); i <= high && from != to; i += 1.0)
+      out[static_cast<std::size_t>(i)] = static_cast<double>(j) + (i - from) / (to - from);
+  }
+  return out;
+}
+
 PassOnGrid on_grid(const LaidPass& laid) {
   PassOnGrid out;
   out.pass = laid.pass;
@@ -270,6 +283,9 @@ MergedProfile merge_passes(std::span<const ProfilePass> passes, const AlignPasse
   }
   out.closest = {used[differences.closest_first], used[differences.closest_second], differences.closest_ratio,
                  differences.closest_ratio_high};
+  out.noise_scale = differences.parts.noise_scale;
+  out.apart_m = differences.parts.apart_m;
+  if (differences.parts.noise_m2 > 0.0) out.lines_over_noise = differences.parts.lines_m2 / differences.parts.noise_m2;
   out.scatter_frequency_cycles_per_mm = differences.frequency_cycles_per_mm;
   out.scatter_psd_m2_mm = differences.scatter_psd_m2_mm;
 
@@ -277,6 +293,7 @@ MergedProfile merge_passes(std::span<const ProfilePass> passes, const AlignPasse
   for (MergedPass& pass : out.passes) {
     if (!pass.used) continue;
     describe_places(laid[next], spacing_m, pass);
+    pass.on_merge = places_on_merge(laid[next]);
     pass.weight = mean.weight[next];
     if (!differences.coherence.empty()) pass.coherence = differences.coherence[next];
     if (!differences.noise_m2.empty()) pass.noise_rms_m = std::sqrt(differences.noise_m2[next]);

@@ -116,6 +116,9 @@ TEST(EstimateFriction, StribecksLawIsFoundWhereTheSpeedsShowIt) {
   EXPECT_NEAR(found.stribeck->at_rest, 0.35, 0.03);
   EXPECT_NEAR(found.stribeck->speed_mps, 0.012, 0.003);
   EXPECT_LT(found.per_mps, 0.0);
+  // Without a stick the law gives the ratio to the coefficient that is rendered.
+  EXPECT_TRUE(std::isnan(found.breakaway));
+  EXPECT_NEAR(found.static_ratio, 0.35 / found.coefficient, 0.15);
 }
 
 // Any law goes through three points: what is left is 0, and neither an error nor evidence.
@@ -147,6 +150,8 @@ TEST(EstimateFriction, SticksBetweenSlidesAreCountedAndGiveTheBreakaway) {
   EXPECT_NEAR(found.stuck_share, 0.475, 0.02);
   EXPECT_NEAR(found.breakaway, 0.5, 0.01);
   EXPECT_NEAR(found.coefficient, 0.3, 0.01);
+  EXPECT_NEAR(found.static_ratio, 0.5 / 0.3, 0.06);
+  EXPECT_LT(found.static_ratio_stderr, 0.2);
 }
 
 TEST(EstimateFriction, EdgesLeaveItUndetermined) {

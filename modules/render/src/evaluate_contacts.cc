@@ -71,13 +71,14 @@ Vector3d skin_offset(const std::array<Vector3d, 3>& normals, int count) noexcept
 
 RenderMaterial mean_of(const RenderObject& object, const std::array<std::uint32_t, 3>& corners,
                        const Vector3d& barycentric) {
-  RenderMaterial out{0.0, 0.0, 0.0};
+  RenderMaterial out{0.0, 0.0, 0.0, 0.0};
   for (std::size_t k = 0; k < 3; ++k) {
     const RenderMaterial& corner = object.materials[corners[k]];
     const double weight = barycentric[static_cast<Eigen::Index>(k)];
     out.stiffness_N_per_m += weight * corner.stiffness_N_per_m;
     out.compliance_kc += weight * corner.compliance_kc;
     out.friction += weight * corner.friction;
+    out.static_friction_ratio += weight * corner.static_friction_ratio;
   }
   return out;
 }
@@ -144,6 +145,7 @@ ContactState evaluate_contacts(const RenderModel& model, const ProxyState& proxy
     state.stiffness_N_per_m += share * material.stiffness_N_per_m;
     state.compliance_kc += share * material.compliance_kc;
     state.friction += share * material.friction;
+    state.static_friction_ratio += share * material.static_friction_ratio;
   }
   // Where nothing has stiffness the touches share by depth.
   for (std::size_t k = 0; k < count; ++k) {

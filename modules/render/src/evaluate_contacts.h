@@ -21,6 +21,7 @@ struct ContactState {
   double stiffness_N_per_m = 0.0;                       // means by the shares
   double compliance_kc = 1.0;
   double friction = 0.0;
+  double static_friction_ratio = 0.0;
 
   double depth_m() const { return pushed_m.norm(); }
 };

@@ -137,13 +137,15 @@ class Materials {
     for (std::size_t k = 0; k < 3; ++k)
       out[k] = index_of({value(t, k, &Material::stiffness_N_per_m, base.stiffness_N_per_m),
                          value(t, k, &Material::compliance_kc, base.compliance_kc),
-                         value(t, k, &Material::friction, base.friction)});
+                         value(t, k, &Material::friction, base.friction),
+                         value(t, k, &Material::static_friction_ratio, base.static_friction_ratio)});
     return out;
   }
 
   static RenderMaterial defaults(const Scene& scene, const Texture& texture, const RenderConfig& config) {
     return {first_known(texture.stiffness_N_per_m, scene.stiffness_N_per_m, config.stiffness_N_per_m),
-            texture.compliance_kc.value_or(1.0), first_known(texture.friction, scene.friction, config.friction)};
+            texture.compliance_kc.value_or(1.0), first_known(texture.friction, scene.friction, config.friction),
+            first_known(texture.static_friction_ratio, scene.static_friction_ratio, config.static_friction_ratio)};
   }
 
   const RenderMaterial& base_of(std::size_t t) const {
@@ -173,21 +175,22 @@ class Materials {
   }
 
   std::uint32_t index_of(const RenderMaterial& material) {
-    const auto key = std::tuple(material.stiffness_N_per_m, material.compliance_kc, material.friction);
+    const auto key = std::tuple(material.stiffness_N_per_m, material.compliance_kc, material.friction,
+                                material.static_friction_ratio);
     const auto [place, is_new] = indices_.try_emplace(key, static_cast<std::uint32_t>(out_.materials.size()));
     if (is_new) out_.materials.push_back(material);
     return place->second;
   }
 
-  static constexpr std::array<double Material::*, 3> kProperties{&Material::stiffness_N_per_m, &Material::compliance_kc,
-                                                                 &Material::friction};
+  static constexpr std::array<double Material::*, 4> kProperties{&Material::stiffness_N_per_m, &Material::compliance_kc,
+                                                                 &Material::friction, &Material::static_friction_ratio};
 
   const SceneObject& object_;
   std::vector<Material> map_;  // the scene's, filled
   RenderObject& out_;
   RenderMaterial without_;
   std::map<int, RenderMaterial> with_;
-  std::map<std::tuple<double, double, double>, std::uint32_t> indices_;
+  std::map<std::tuple<double, double, double, double>, std::uint32_t> indices_;
 };
 
 // Numbers each triangle's texture among the model's, and takes its coordinates.

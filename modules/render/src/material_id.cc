@@ -23,6 +23,7 @@ std::uint64_t material_id(const RenderModel& model) {
       add_number(material.stiffness_N_per_m);
       add_number(material.compliance_kc);
       add_number(material.friction);
+      add_number(material.static_friction_ratio);
     }
     add_corners(object.corner_material);
     add_corners(object.bare_material);

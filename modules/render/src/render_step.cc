@@ -42,9 +42,9 @@ bool is_finite(const DeviceState& device) {
   return device.p_world_m.allFinite() && device.v_world_mps.allFinite() && std::isfinite(device.dt_s);
 }
 
-Friction friction_of(const RenderModel& model, const ContactState& contact, double texture_N) {
+Friction friction_of(const ContactState& contact, double texture_N) {
   return {std::max(contact.contact_N.norm() + texture_N, 0.0), contact.friction,
-          contact.friction * model.config.static_friction_ratio, contact.stiffness_N_per_m};
+          contact.friction * contact.static_friction_ratio, contact.stiffness_N_per_m};
 }
 
 // Along which forces act: the contacts' own normal, or the interpolated one (Morgenbesser and Srinivasan 1996).
@@ -105,7 +105,7 @@ ServoOutput render_step(const RenderModel& model, ServoState& state, const Devic
   // Friction holds the proxy back: its goal is not the device but a point that it lags behind by what friction bears.
   const Vector3d before_m = proxy.p_world_m;
   const ContactState held = evaluate_contacts(model, proxy, skin_m, p_m);
-  const Friction holding = friction_of(model, held, proxy.texture_load_N);
+  const Friction holding = friction_of(held, proxy.texture_load_N);
   proxy.sticking = sticks(holding, proxy.sticking, held.rest_m);
   const bool rests = proxy.sticking && held.depth_m() > 0.0;
   bool arrived = true;
@@ -132,15 +132,16 @@ ServoOutput render_step(const RenderModel& model, ServoState& state, const Devic
   out.texture_N = texture.force_N;
   out.texture_height_m = texture.height_m;
   proxy.texture_load_N = normal.dot(texture.force_N);
-  out.friction_N = friction_force_N(friction_of(model, contact, proxy.texture_load_N), proxy.sticking, contact.rest_m,
-                                    holding.load_N);
+  out.friction_N =
+      friction_force_N(friction_of(contact, proxy.texture_load_N), proxy.sticking, contact.rest_m, holding.load_N);
   out.force_N = out.contact_N + out.texture_N + out.friction_N;
   // Over a texture friction holds the proxy back as well.
   out.proxy_m = is_free && !(proxy.over_texture && holding.load_N > 0.0) ? p_m : contact.proxy_m;
   out.contact = strongest_contact(model, proxy, contact);
   out.sticking = proxy.sticking;
   proxy.material.had_contact = proxy.touch_count > 0;
-  proxy.material.last = {contact.stiffness_N_per_m, contact.compliance_kc, contact.friction};
+  proxy.material.last = {contact.stiffness_N_per_m, contact.compliance_kc, contact.friction,
+                         contact.static_friction_ratio};
   proxy.device_world_m = p_m;
   return out;
 }

@@ -52,6 +52,34 @@ TEST(ProxyFriction, SticksUpToItsLoadAndThenSlides) {
   EXPECT_LT(back.friction_N.norm(), 0.4);
 }
 
+// The lag at which a tip under 1 N begins to slide.
+double breakaway_m(const RenderModel& model, double x_m) {
+  ServoState state;
+  stroke(model, state, {x_m, 0.05, 0.01}, {x_m, 0.05, -1e-3}, 1e-4);
+  for (int k = 0; k < 3000; ++k) {
+    if (!render_step(model, state, at({x_m + 1e-6 * k, 0.05, -1e-3})).sticking) return 1e-6 * k;
+  }
+  return 0.0;
+}
+
+TEST(ProxyFriction, TheSceneKnowsHowMuchMoreStickingBears) {
+  RenderConfig config;
+  config.friction = 0.4;
+  config.static_friction_ratio = 1.5;
+  Scene scene = scene_of(testkit::plane_mesh({0.1, 0.1}, 20, 20, 0.2));
+  EXPECT_NEAR(breakaway_m(make_render_model(scene, config), 0.05), 0.6e-3, 2e-6);
+  scene.static_friction_ratio = 2.0;
+  EXPECT_NEAR(breakaway_m(make_render_model(scene, config), 0.05), 0.8e-3, 2e-6);
+  // The map's ratio, 1 at x = 0 and 2 at x = 0.1 m, between them in the middle: of the place that it sticks to.
+  for (const Vector3d& v : scene.objects[0].mesh.vertices) {
+    Material material;
+    material.static_friction_ratio = 1.0 + v.x() / 0.1;
+    scene.objects[0].material.vertices.push_back(material);
+  }
+  EXPECT_NEAR(breakaway_m(make_render_model(scene, config), 0.025), 0.4e-3 * 1.25, 2e-6);
+  EXPECT_NEAR(breakaway_m(make_render_model(scene, config), 0.075), 0.4e-3 * 1.75, 2e-6);
+}
+
 TEST(ProxyFriction, LiftedTipIsLetGo) {
   const RenderModel model = rough_plane();
   ServoState state;

@@ -48,6 +48,8 @@ Material material_at(const Scene& scene, const SceneObject& object, std::uint32_
                                       texture.stiffness_N_per_m, scene.stiffness_N_per_m);
   out.friction =
       first_known(interpolated(object, corners, barycentric, &Material::friction), texture.friction, scene.friction);
+  out.static_friction_ratio = first_known(interpolated(object, corners, barycentric, &Material::static_friction_ratio),
+                                          texture.static_friction_ratio, scene.static_friction_ratio);
   return out;
 }
 

@@ -26,7 +26,7 @@ struct Mean {
 
 bool is_known(const Material& material) {
   return std::isfinite(material.compliance_kc) || std::isfinite(material.stiffness_N_per_m) ||
-         std::isfinite(material.friction);
+         std::isfinite(material.friction) || std::isfinite(material.static_friction_ratio);
 }
 
 // An empty cell or nan is not known.
@@ -48,7 +48,7 @@ MaterialMap spread_materials(std::size_t vertices, std::span<const Triangle> tri
                 " coordinates, " + std::to_string(textures.size()) + " textures, " + std::to_string(materials.size()) +
                 " materials");
   }
-  std::vector<std::array<Mean, 3>> means(vertices);
+  std::vector<std::array<Mean, 4>> means(vertices);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto at = std::find(textures.begin(), textures.end(), haptic[t].texture);
     if (at == textures.end()) continue;
@@ -58,18 +58,23 @@ MaterialMap spread_materials(std::size_t vertices, std::span<const Triangle> tri
       means[vertex][0].add(material.compliance_kc);
       means[vertex][1].add(material.stiffness_N_per_m);
       means[vertex][2].add(material.friction);
+      means[vertex][3].add(material.static_friction_ratio);
     }
   }
   MaterialMap map;
   map.vertices.reserve(vertices);
-  for (const auto& [compliance, stiffness, friction] : means) {
-    map.vertices.push_back({compliance.value(), stiffness.value(), friction.value()});
+  for (const auto& [compliance, stiffness, friction, ratio] : means) {
+    map.vertices.push_back({compliance.value(), stiffness.value(), friction.value(), ratio.value()});
   }
   return map;
 }
 
 std::string format_material_map(const MaterialMap& map) {
-  std::string out = "vertex,compliance_kc,stiffness_N_per_m,friction\n";
+  const bool with_ratio = std::any_of(map.vertices.begin(), map.vertices.end(), [](const Material& material) {
+    return std::isfinite(material.static_friction_ratio);
+  });
+  std::string out = "vertex,compliance_kc,stiffness_N_per_m,friction";
+  out += with_ratio ? ",static_friction_ratio\n" : "\n";
   for (std::size_t i = 0; i < map.vertices.size(); ++i) {
     const Material& material = map.vertices[i];
     if (!is_known(material)) continue;
@@ -78,6 +83,8 @@ std::string format_material_map(const MaterialMap& map) {
       out += ',';
       if (std::isfinite(value)) append_number(out, value);
     }
+    if (with_ratio) out += ',';
+    if (std::isfinite(material.static_friction_ratio)) append_number(out, material.static_friction_ratio);
     out += '\n';
   }
   return out;
@@ -90,6 +97,7 @@ MaterialMap parse_material_map(std::string_view text, const std::string& name, s
   const std::size_t compliance = csv.require("compliance_kc");
   const std::size_t stiffness = csv.require("stiffness_N_per_m");
   const std::size_t friction = csv.require("friction");
+  const auto ratio = csv.find("static_friction_ratio");
   constexpr double kStiffest_N_per_m = 1e12, kRoughest = 1e3;  // larger ones are a mistake of unit
   MaterialMap map;
   map.vertices.resize(vertices);
@@ -105,7 +113,8 @@ MaterialMap parse_material_map(std::string_view text, const std::string& name, s
     map.vertices[at] = {
         cell_between(csv, compliance, 0.0, 1.0, "within 0 and 1"),
         cell_between(csv, stiffness, std::numeric_limits<double>::min(), kStiffest_N_per_m, "a stiffness in N/m"),
-        cell_between(csv, friction, 0.0, kRoughest, "a coefficient of friction")};
+        cell_between(csv, friction, 0.0, kRoughest, "a coefficient of friction"),
+        ratio ? cell_between(csv, *ratio, 1.0, kRoughest, "a ratio from 1") : std::numeric_limits<double>::quiet_NaN()};
   }
   return map;
 }

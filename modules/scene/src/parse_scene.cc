@@ -67,6 +67,8 @@ Scene parse_scene(std::string_view text, const std::string& name, const Observer
     scene.stiffness_N_per_m = stiffness->number({0.0, kStiffest_N_per_m});
   }
   if (const auto friction = root.optional("friction")) scene.friction = friction->number({0.0, kRoughest});
+  if (const auto ratio = root.optional("static_friction_ratio"))
+    scene.static_friction_ratio = ratio->number({1.0, kRoughest});
   if (const auto pose = root.optional("T_mesh_world")) scene.T_mesh_world = parse_pose(*pose);
   if (const auto objects = root.optional("objects")) {
     for (JsonItem& item : objects->elements(kMostObjects)) {

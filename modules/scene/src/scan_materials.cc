@@ -12,12 +12,12 @@ namespace {
 Material measured_material(const Texture& texture) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   return {texture.compliance_kc.value_or(kUnknown), texture.stiffness_N_per_m.value_or(kUnknown),
-          texture.friction.value_or(kUnknown)};
+          texture.friction.value_or(kUnknown), texture.static_friction_ratio.value_or(kUnknown)};
 }
 
 bool is_measured(const Material& material) {
   return std::isfinite(material.compliance_kc) || std::isfinite(material.stiffness_N_per_m) ||
-         std::isfinite(material.friction);
+         std::isfinite(material.friction) || std::isfinite(material.static_friction_ratio);
 }
 
 bool same_number(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
@@ -52,7 +52,7 @@ bool is_of_scans(const SceneObject& object) {
   if (a.empty() || b.empty()) return a.empty() && b.empty();
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Material& x, const Material& y) {
     return same_number(x.compliance_kc, y.compliance_kc) && same_number(x.stiffness_N_per_m, y.stiffness_N_per_m) &&
-           same_number(x.friction, y.friction);
+           same_number(x.friction, y.friction) && same_number(x.static_friction_ratio, y.static_friction_ratio);
   });
 }
 

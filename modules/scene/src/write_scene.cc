@@ -68,6 +68,7 @@ std::string format_scene(const Scene& scene) {
   add_object(out, scene.objects.front());
   if (scene.stiffness_N_per_m) out["stiffness_N_per_m"] = *scene.stiffness_N_per_m;
   if (scene.friction) out["friction"] = *scene.friction;
+  if (scene.static_friction_ratio) out["static_friction_ratio"] = *scene.static_friction_ratio;
   if (scene.T_mesh_world) out["T_mesh_world"] = format_pose(*scene.T_mesh_world);
   for (std::size_t i = 1; i < scene.objects.size(); ++i) {
     Json object;

@@ -45,6 +45,7 @@ Scene plane_scene() {
   scene.objects.push_back(object);
   scene.stiffness_N_per_m = 500.0;
   scene.friction = 0.3;
+  scene.static_friction_ratio = 1.25;
   scene.T_mesh_world = Pose{Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), {0.1, -0.2, 0.3}};
   return scene;
 }
@@ -201,6 +202,32 @@ TEST(Material, MapThenTextureThenScene) {
   EXPECT_EQ(material_at(scene, object, 0, middle).stiffness_N_per_m, 900.0);
   EXPECT_EQ(material_at(scene, object, 1, middle).stiffness_N_per_m, 500.0);
   EXPECT_EQ(material_at(scene, object, 2, middle).friction, 0.3);
+}
+
+TEST(Material, TheRatioOfStickingToSlidingIsReadAndWritten) {
+  Scene scene = plane_scene();
+  SceneObject& object = scene.objects[0];
+  const Eigen::Vector3d middle(0.25, 0.75, 0.0);
+  EXPECT_EQ(material_at(scene, object, 0, middle).static_friction_ratio, 1.25);
+  object.textures[0].texture.static_friction_ratio = 1.6;
+  EXPECT_EQ(material_at(scene, object, 0, middle).static_friction_ratio, 1.6);
+  object.material.vertices.resize(5);
+  // Without a ratio the file is as it was before there was one.
+  object.material.vertices[1].friction = 0.4;
+  EXPECT_THAT(format_material_map(object.material), HasSubstr("friction\n1,,,0.4\n"));
+  object.material.vertices[0].static_friction_ratio = 2.0;
+  object.material.vertices[2].static_friction_ratio = 3.0;
+  EXPECT_DOUBLE_EQ(material_at(scene, object, 0, middle).static_friction_ratio, 2.75);
+  const MaterialMap back = parse_material_map(format_material_map(object.material), "m.csv", 5);
+  EXPECT_EQ(back.vertices[2].static_friction_ratio, 3.0);
+  EXPECT_TRUE(std::isnan(back.vertices[1].static_friction_ratio));
+  EXPECT_EQ(back.vertices[1].friction, 0.4);
+  EXPECT_THAT(
+      [] {
+        parse_material_map("vertex,compliance_kc,stiffness_N_per_m,friction,static_friction_ratio\n1,,,0.3,0.9\n",
+                           "m.csv", 5);
+      },
+      ThrowsMessage<Error>(HasSubstr("'0.9' is not a ratio from 1")));
 }
 
 TEST(Material, SpreadsOverTheVerticesOfItsTexture) {

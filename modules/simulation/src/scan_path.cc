@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kPathSpacing_m = 0.05e-3;
+constexpr double kLoop_m = 10e-3;  // length of the turn from a stroke back onto its own line
 constexpr int kWaves = 3;
 constexpr double kShortestWander_m = 0.04;  // a hand's slow deviation, longer than any relief
 constexpr double kLongestWander_m = 0.25;
@@ -20,11 +21,26 @@ constexpr double kLongestWander_m = 0.25;
 // falls as sin², so that the lateral acceleration has no steps.
 double turn_angle(double share) { return kPi * (share - std::sin(2.0 * kPi * share) / (2.0 * kPi)); }
 
-double turn_width_per_length() {
+// A loop that ends where it begins: `turn_angle` and swings to either side, which leave its curvature 0 at both ends.
+double loop_angle(double share, double swing_rad) {
+  return turn_angle(share) - swing_rad * (std::sin(2.0 * kPi * share) - 0.5 * std::sin(4.0 * kPi * share));
+}
+
+double turn_width_per_length(double swing_rad = 0.0) {
   constexpr int kSteps = 2000;
   double sum = 0.0;
-  for (int i = 0; i < kSteps; ++i) sum += std::sin(turn_angle((i + 0.5) / kSteps));
+  for (int i = 0; i < kSteps; ++i) sum += std::sin(loop_angle((i + 0.5) / kSteps, swing_rad));
   return sum / kSteps;
+}
+
+// The swing at which the loop is closed across, by bisection; along it is so by its symmetry.
+double closed_swing_rad() {
+  double low = 0.0, high = 2.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (turn_width_per_length(middle) > 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
 }
 
 // The angle of an arc of length `length_m` whose height over its chord is `sagitta_m`, by bisection of
@@ -45,7 +61,9 @@ double arc_angle(double length_m, double sagitta_m) {
 ScanPath::ScanPath(const HandConfig& config, Random& random) {
   const bool to_and_fro = config.path == HandPathShape::kBackAndForth;
   const int strokes = to_and_fro ? config.strokes : 1;
-  const double turn_m = to_and_fro ? config.row_spacing_m / turn_width_per_length() : 0.0;
+  const bool is_loop = to_and_fro && config.row_spacing_m == 0.0;
+  const double swing_rad = is_loop ? closed_swing_rad() : 0.0;
+  const double turn_m = is_loop ? kLoop_m : to_and_fro ? config.row_spacing_m / turn_width_per_length() : 0.0;
   length_m_ = strokes * config.length_m + (strokes - 1) * turn_m;
   const double arc = config.path == HandPathShape::kCurved ? arc_angle(config.length_m, config.curve_sagitta_m) : 0.0;
 
@@ -65,7 +83,7 @@ ScanPath::ScanPath(const HandConfig& config, Random& random) {
     const double in_row_m = s_m - row * period_m;
     double turned = row % 2 == 0 ? 0.0 : kPi;
     if (in_row_m > config.length_m && row + 1 < strokes) {
-      const double share = turn_angle((in_row_m - config.length_m) / turn_m);
+      const double share = loop_angle((in_row_m - config.length_m) / turn_m, swing_rad);
       turned += row % 2 == 0 ? share : -share;
     }
     return sum + turned;

@@ -43,6 +43,10 @@ void check_simulation(const SimulationConfig& config) {
     throw Error(fmt::format("simulation.hand.tremor_low_Hz: {} is above tremor_high_Hz {}", config.hand.tremor_low_Hz,
                             config.hand.tremor_high_Hz));
   }
+  if (config.hand.row_spacing_m > 0.0 && config.hand.row_spacing_m < 1e-4) {
+    throw Error(
+        fmt::format("simulation.hand.row_spacing_m: {} m is neither 0 nor at least 1e-4", config.hand.row_spacing_m));
+  }
   // Bounds on memory and time: 20 m of path is 4 million points of relief, half an hour at 4 kHz is 7 million samples.
   constexpr double kLongestPath_m = 20.0;
   constexpr double kLongest_s = 1800.0;

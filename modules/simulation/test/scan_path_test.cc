@@ -66,6 +66,22 @@ TEST(ScanPath, StrokesRunToAndFroOnNeighbouringRows) {
   EXPECT_NEAR(third.a_m, first.a_m, 2e-6);
 }
 
+TEST(ScanPath, StrokesOnOneLineAreJoinedByLoops) {
+  HandConfig config;
+  config.path = HandPathShape::kBackAndForth;
+  config.lateral_wander_m = 0.0;
+  config.row_spacing_m = 0.0;
+  const ScanPath path = make_path(config);
+  const double turn_m = (path.length_m() - 3 * 0.08) / 2;
+  EXPECT_GT(turn_m, 1e-3);
+  for (const double along_m : {0.01, 0.04, 0.07}) {
+    const ScanPoint first = path.at(along_m), second = path.at(0.08 + turn_m + 0.08 - along_m);
+    EXPECT_NEAR(second.v_m, first.v_m, 5e-6);  // Simpson's and the turn's own sums
+    EXPECT_NEAR(second.a_m, first.a_m, 5e-6);
+    EXPECT_NEAR(std::cos(second.angle_rad), -1.0, 1e-12);
+  }
+}
+
 TEST(SimulatedShape, CylinderHasItsRadiusAndOutwardNormals) {
   SimulatedShapeConfig config;
   config.kind = BaseShapeKind::kCylinder;

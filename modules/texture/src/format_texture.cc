@@ -46,6 +46,7 @@ TextureFiles format_texture_files(const Texture& t, const std::string& stem) {
   add_number("compliance_kc", t.compliance_kc);
   add_number("stiffness_N_per_m", t.stiffness_N_per_m);
   add_number("friction", t.friction);
+  add_number("static_friction_ratio", t.static_friction_ratio);
   add_number("lift_m", t.height_offset_m);
   add_number("height_sigma_m", t.height_sigma_m);
   if (!t.roughness.empty()) {

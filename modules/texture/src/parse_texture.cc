@@ -55,6 +55,7 @@ void parse_common(JsonObject& root, Texture& texture) {
   texture.compliance_kc = optional_number(root, "compliance_kc", {0.0, 1.0});
   texture.stiffness_N_per_m = optional_number(root, "stiffness_N_per_m", {0.0, 1e9});
   texture.friction = optional_number(root, "friction", {0.0, 100.0});
+  texture.static_friction_ratio = optional_number(root, "static_friction_ratio", {1.0, 100.0});
   texture.height_offset_m = optional_number(root, "lift_m", {-1e6, 1e6});
   texture.height_sigma_m = optional_number(root, "height_sigma_m", {0.0, 1e6});
   if (auto roughness = root.optional_object("roughness")) {

@@ -72,6 +72,15 @@ TEST(TextureFile, ComesBackAsItWas) {
   EXPECT_EQ(format_texture(back), format_texture(t));
 }
 
+TEST(TextureFile, KnowsHowMuchMoreStickingBears) {
+  Texture t = whole_texture();
+  EXPECT_FALSE(parse_texture(format_texture(t), "x.json").static_friction_ratio.has_value());
+  t.static_friction_ratio = 1.4;
+  EXPECT_EQ(parse_texture(format_texture(t), "x.json").static_friction_ratio, 1.4);
+  t.static_friction_ratio = 0.9;
+  expect_error(format_texture(t), "'static_friction_ratio'", "0.9 is outside 1 to 100");
+}
+
 // The fit's report is ours; the members around it are not, and all are kept as they were.
 TEST(TextureFile, FitStaysWhereItStands) {
   for (const char* extra : {R"({"fit":{"samples":7,"rms_error_m":1e-06},"note":[1,2]})", R"({"note":[1,2],"fit":null})",

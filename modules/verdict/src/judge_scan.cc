@@ -275,6 +275,7 @@ void judge_surface(const ScanEvidence& e, Verdicts& out) {
   }
   judge_length(e, out);
   judge_noise(e, out);
+  judge_passes(e.passes, out);
   judge_sticking(e, out);
   if (!e.no_roughness.empty()) out.push_back(make_verdict("no_roughness", "there is no roughness: " + e.no_roughness));
   if (!e.no_texture.empty()) out.push_back(make_verdict("no_texture", "there is no texture: " + e.no_texture));

@@ -15,15 +15,16 @@
 
 namespace asperity {
 
-// The profile's settings and what is made of it: strokes over one line merged, the surface under the tip.
+// The profile's settings and what is made of it: passes over one line merged, the surface under the tip.
 struct ProcessProfileConfig : ProfileConfig {
-  bool merge_passes = false;
+  bool merge_passes = true;
   TipConfig tip;
 
   template <class V>
   void visit(V& v) {
     ProfileConfig::visit(v);
-    v.field("merge_passes", merge_passes, "strokes back and forth over one line become one profile, where they agree");
+    v.field("merge_passes", merge_passes,
+            "where a path is over the same line again, the heights are the passes' mean, if that lowers their error");
     v.group("tip", tip);
   }
 };

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "asperity/base/problem.h"
 #include "asperity/pipeline/measure_accuracy.h"
@@ -38,6 +39,19 @@ struct Coverage {
   std::size_t gaps = 0;
 };
 
+// A line that paths are over more than once (docs/merge.md).
+struct RepeatedLine {
+  struct Span {
+    std::size_t scan = 0;  // of `register`; 0 of `process`
+    double from_m = 0.0;   // of the scan's arc length
+    double to_m = 0.0;
+  };
+  std::vector<Span> spans;  // of each pass
+  MergedProfile merged;  // its passes and their differences; without its profile
+  bool laid = false;     // the merge is in the place of the passes' heights
+  std::string reason;    // why not
+};
+
 // Everything measured in one recording. What the data did not allow is absent, and a Problem says why.
 struct ProcessResult {
   TrajectoryResult trajectory;
@@ -47,10 +61,13 @@ struct ProcessResult {
   SpeedStatistics speed;
   TextureNoise noise;                        // of profile.texture_m
   std::optional<RoughnessResult> roughness;  // of profile.texture_m
-  std::optional<MergedProfile> passes;       // strokes over one line; its profile is empty, for it is the one above
-  std::optional<ErodedProfile> surface;      // under profile.height_m, if it was asked for
-  Periodicity periodicity;                   // of profile.height_m
-  SurfaceSpectrum spectrum;                  // of the texture, its noise taken off
+  std::optional<MergedProfile> passes;       // of merge_results.h; its profile is empty, for it is the one above
+  std::vector<RepeatedLine> lines;           // that the path is over more than once
+  Profile measured_profile;                  // before the expected noise was removed, and its noise
+  TextureNoise measured_noise;
+  std::optional<ErodedProfile> surface;  // under profile.height_m, if it was asked for
+  Periodicity periodicity;               // of profile.height_m
+  SurfaceSpectrum spectrum;              // of the texture, its noise taken off
   Compliance compliance;
   StiffnessEstimate stiffness;
   FrictionEstimate friction;

@@ -46,6 +46,7 @@ struct ScansOnMesh {
   double bulge_share = 0.0, bulge_sigma = 0.0;  // of the mesh's facets that the object has (refine_placements.h)
   std::size_t crossings = 0;                    // where scans met on the mesh, and their heights counted
   std::size_t matched_shifts = 0;               // where their textures gave a shift along the path
+  std::vector<RepeatedLine> lines;              // that paths are over more than once, of one scan or of several
   HapticCoordinates coordinates;
   Problems problems;
   Verdicts verdicts;        // of the pose and of each scan, the worst first; docs/verdicts.md

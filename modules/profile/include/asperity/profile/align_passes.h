@@ -42,6 +42,8 @@ struct PassAlignment {
 
 // Where `pass` lies on `reference`, a shift and a stretch, in either direction (docs/merge.md). Both have one spacing.
 //
+// Where both state their `place`, the search is no further from it than its reach, in its direction alone.
+//
 // The search is a generalised cross-correlation (Knapp and Carter, IEEE Trans. ASSP 24, 1976): both spectra are divided
 // by the roots of their own densities, and weighted by the coherence that the stated noises allow and by the blur of
 // their places. It is done for each of a row of stretches that differ by a quarter of the shortest wave at the ends.

@@ -24,6 +24,7 @@ struct MergedPass {
   double noise_rms_m = kNan;  // in the band, by its difference from the others; two passes: the same of both
   double stated_noise_rms_m = kNan;  // in the band, as the pass states it
   double weight = 0.0;               // of its heights, mean over path and band; all sum to 1
+  std::vector<double> on_merge;      // where each of its points is on the merge, in points; nan: beside it
 };
 
 // Two passes, by their indices, and the power of their difference over that of the noise that they state together; its
@@ -44,6 +45,11 @@ struct MergedProfile {
   // interval; nan: not determined.
   double noise_ratio = kNan, noise_ratio_low = kNan, noise_ratio_high = kNan;
   PassPair closest;  // the two that differ least for what they state
+  // The differences as noise with the stated density times a factor, and lines that are apart by a distance.
+  double noise_scale = kNan, apart_m = kNan;
+  // A merge of K passes has the error N/K + U (1 − 1/K) from the line of each, N the power of their noise and U that by
+  // which their lines differ; a pass has N. U over N: the merge is the better one where it is below 1.
+  double lines_over_noise = kNan;
   std::vector<double> scatter_frequency_cycles_per_mm, scatter_psd_m2_mm;  // of a pass, by those differences
 };
 

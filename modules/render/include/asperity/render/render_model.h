@@ -22,7 +22,7 @@ struct RenderConfig {
   double tip_radius_m = 0.0;           // 0: a point
   double stiffness_N_per_m = 1000;     // where the scene knows none
   double friction = 0.0;               // coefficient of sliding, where the scene knows none
-  double static_friction_ratio = 1.2;  // coefficient of sticking over that of sliding
+  double static_friction_ratio = 1.2;  // coefficient of sticking over that of sliding, where the scene knows none
   bool force_shading = false;          // forces along interpolated normals
   double border_fade_m = 1e-3;         // width over which a texture fades at the border of its area (erratum 20)
   RenderTextureConfig texture;
@@ -32,8 +32,8 @@ struct RenderConfig {
     v.field("tip_radius_m", tip_radius_m, "radius of the tip, m; 0: a point", {0.0, 0.1});
     v.field("stiffness_N_per_m", stiffness_N_per_m, "where the scene knows none, N/m", {1.0, 1e6});
     v.field("friction", friction, "coefficient of sliding where the scene knows none", {0.0, 10.0});
-    v.field("static_friction_ratio", static_friction_ratio, "coefficient of sticking over that of sliding",
-            {1.0, 10.0});
+    v.field("static_friction_ratio", static_friction_ratio,
+            "coefficient of sticking over that of sliding where the scene knows none", {1.0, 10.0});
     v.field("force_shading", force_shading, "forces along interpolated normals");
     v.field("border_fade_m", border_fade_m, "over which a texture fades at its border, m", {0.0, 1.0});
     v.group("texture", texture);

@@ -17,7 +17,8 @@ namespace asperity {
 struct Material {
   double compliance_kc = std::numeric_limits<double>::quiet_NaN();  // k_c, within 0 and 1 (seed §5.3)
   double stiffness_N_per_m = std::numeric_limits<double>::quiet_NaN();
-  double friction = std::numeric_limits<double>::quiet_NaN();  // coefficient
+  double friction = std::numeric_limits<double>::quiet_NaN();               // coefficient of sliding
+  double static_friction_ratio = std::numeric_limits<double>::quiet_NaN();  // coefficient of sticking over it, from 1
 };
 
 // Material at each vertex of a mesh; between them it is interpolated over the triangle.
@@ -32,11 +33,12 @@ MaterialMap spread_materials(std::size_t vertices, std::span<const Triangle> tri
                              std::span<const HapticTriangle> haptic, std::span<const int> textures,
                              std::span<const Material> materials);
 
-// CSV: vertex,compliance_kc,stiffness_N_per_m,friction; vertices of which nothing is known have no line.
+// CSV: vertex,compliance_kc,stiffness_N_per_m,friction, and static_friction_ratio where a vertex has one; vertices of
+// which nothing is known have no line.
 std::string format_material_map(const MaterialMap& map);
 
 // Reads that for a mesh of `vertices` vertices. Throws Error naming file, line and column for a vertex out of
-// range or given twice, k_c outside 0 and 1, a stiffness that is not positive or a negative friction.
+// range or given twice, k_c outside 0 and 1, a stiffness that is not positive, a negative friction or a ratio below 1.
 MaterialMap parse_material_map(std::string_view text, const std::string& name, std::size_t vertices);
 
 }  // namespace asperity

@@ -50,8 +50,9 @@ struct Scene {
   std::vector<SceneObject> objects;
   std::optional<double> stiffness_N_per_m;  // where neither map nor texture knows better
   std::optional<double> friction;
-  std::optional<Pose> T_mesh_world;  // the registration of the first object's scans: tracker's world to mesh
-  Json extra = Json::object();       // what others have put into extra
+  std::optional<double> static_friction_ratio;  // coefficient of sticking over that of sliding, from 1
+  std::optional<Pose> T_mesh_world;             // the registration of the first object's scans: tracker's world to mesh
+  Json extra = Json::object();                  // what others have put into extra
   Problems problems;
 };
 

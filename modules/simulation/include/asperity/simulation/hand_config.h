@@ -24,7 +24,7 @@ struct HandConfig {
   double pause_s = 1.0;
   double curve_sagitta_m = 8e-3;  // curved
   int strokes = 3;                // back and forth
-  double row_spacing_m = 2.5e-3;  // back and forth: between neighbouring strokes
+  double row_spacing_m = 2.5e-3;  // back and forth: between neighbouring strokes; 0: all on one line
   double lateral_wander_m = 0.1e-3;
   std::int64_t path_seed = 0;  // of the wander: strokes along one guide share it; 0: the simulation's
 
@@ -68,7 +68,8 @@ struct HandConfig {
     v.field("pause_s", pause_s, "length of such a rest, s", {0.0, 600.0});
     v.field("curve_sagitta_m", curve_sagitta_m, "curved: height of the arc over its chord, m", {0.0, 1.0});
     v.field("strokes", strokes, "back_and_forth: number of strokes", {1, 1000});
-    v.field("row_spacing_m", row_spacing_m, "back_and_forth: distance of neighbouring strokes, m", {1e-4, 0.1});
+    v.field("row_spacing_m", row_spacing_m, "back_and_forth: distance of neighbouring strokes, 0 for one line, m",
+            {0.0, 0.1});
     v.field("lateral_wander_m", lateral_wander_m, "slow deviation from the path across it, m", {0.0, 0.01});
     v.field("path_seed", path_seed, "of that deviation, the same in strokes along one guide; 0: the simulation's",
             {0.0, 9e15});

@@ -33,6 +33,7 @@ struct Texture {
   std::optional<double> compliance_kc;                      // k_c, within 0 and 1 (seed §5.3)
   std::optional<double> stiffness_N_per_m;                  // overrides the scene's
   std::optional<double> friction;                           // coefficient; overrides the scene's
+  std::optional<double> static_friction_ratio;              // coefficient of sticking over it; overrides the scene's
   std::optional<double> height_offset_m;                    // added to the height (erratum 20)
   std::optional<double> height_sigma_m;                     // standard deviation of the heights' error
   std::map<std::string, double> roughness;                  // by name: Ra_m, Rq_m, RSm_m, Rsk, …

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "asperity/verdict/judge_passes.h"
 #include "asperity/verdict/verdict.h"
 
 namespace asperity {
@@ -68,8 +69,10 @@ struct ScanEvidence {
   double snr = kUnknown;                   // power of the surface over that of the noise
   double expected_correlation = kUnknown;  // of the texture, noise removed, with the surface
   double at_most_m = kUnknown;             // upper bound of the surface's RMS, 97.5 %
-  std::size_t sticks = 0;                  // times that the tip was held between two slides
-  double stuck_share = 0.0;                // of the time in contact
+  // Passes of the path over one line: that line which contradicts the stated noise the most.
+  PassEvidence passes{kUnknown, kUnknown, kUnknown};
+  std::size_t sticks = 0;    // times that the tip was held between two slides
+  double stuck_share = 0.0;  // of the time in contact
 };
 
 // The verdicts on a scan, the worst first; a nothing-touched scan has no other on its surface. The only place that
