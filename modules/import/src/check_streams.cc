@@ -182,11 +182,16 @@ bool check_scale(const ImportStreams& streams, const StreamUnits& units, StreamC
 
 }  // namespace
 
-StreamChecks check_streams(const ImportStreams& streams, const StreamUnits& units) {
+StreamChecks check_times_only(const ImportStreams& streams, const StreamUnits& units) {
   StreamChecks out;
   constexpr double kLeastPose_Hz = 2.0, kMostPose_Hz = 2e4, kLeastImu_Hz = 5.0, kMostImu_Hz = 6e4;
   check_times(streams.pose.t_ns, FileRole::kPose, units.pose_time, kLeastPose_Hz, kMostPose_Hz, out);
   check_times(streams.specific_force.t_ns, FileRole::kImu, units.imu_time, kLeastImu_Hz, kMostImu_Hz, out);
+  return out;
+}
+
+StreamChecks check_streams(const ImportStreams& streams, const StreamUnits& units) {
+  StreamChecks out = check_times_only(streams, units);
   if (!out.doubts.empty()) return out;  // the rest would compare what is not of one time
   check_gravity(streams, units, out);
   check_rotation(streams, units, out);

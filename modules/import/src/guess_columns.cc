@@ -139,6 +139,13 @@ std::string kinds_of(FileRole role) {
   return "f";
 }
 
+// The header states a unit that columns of this kind cannot have.
+bool has_other_unit(const DelimitedColumn& column, char kind) {
+  if (kind == 0 || column.unit.empty() || !is_unit(column.unit)) return false;
+  const Quantity quantity = quantity_of(kind == 'f' ? "f" : std::string(1, kind) + "x");
+  return quantity != Quantity::kNumber && !find_import_unit(column.unit, quantity);
+}
+
 struct Candidate {
   Guessed guessed;
   std::size_t column = 0;
@@ -192,9 +199,16 @@ void guess_columns(const DelimitedTable& table, FileRole role, const std::string
     auto guessed = guessed_of(table.columns[i]);
     if (!guessed) continue;
     if (!body.empty() && table.columns[i].label().find(body) == std::string::npos) continue;
-    if (guessed->kind == 0) guessed->kind = bare_kind(role, file);
     candidates.push_back({*guessed, i});
   }
+  // Bare axes are the role's where no column says so itself.
+  const char bare = bare_kind(role, file);
+  const bool is_said = std::any_of(candidates.begin(), candidates.end(),
+                                   [&](const Candidate& c) { return c.guessed.kind == bare; });
+  for (Candidate& candidate : candidates) {
+    if (candidate.guessed.kind == 0 && !is_said) candidate.guessed.kind = bare;
+  }
+  std::erase_if(candidates, [&](const Candidate& c) { return has_other_unit(table.columns[c.column], c.guessed.kind); });
   const auto has_w = [&](char kind) {
     return std::any_of(candidates.begin(), candidates.end(),
                        [&](const Candidate& c) { return c.guessed.kind == kind && c.guessed.axis == 'w'; });

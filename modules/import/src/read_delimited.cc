@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include "asperity/base/crc32.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
@@ -176,6 +177,8 @@ std::string DelimitedTable::describe(std::size_t column) const {
 DelimitedTable read_delimited(std::string text, const std::string& name, std::string_view section) {
   DelimitedTable out;
   out.file = name;
+  out.bytes = text.size();
+  out.crc32 = crc32(std::string_view(text));
   DecodedText decoded = decode_text(std::move(text), name);
   out.text = std::move(decoded.text);
   if (decoded.was_latin1) {

@@ -51,6 +51,9 @@ struct StreamChecks {
 // Poses and sensor must be on one clock. Streams that are empty are not checked.
 StreamChecks check_streams(const ImportStreams& streams, const StreamUnits& units = {});
 
+// The part on times alone.
+StreamChecks check_times_only(const ImportStreams& streams, const StreamUnits& units = {});
+
 // The world's axis that points up by the mean specific force, and its angle to it.
 struct UpAxis {
   std::string name;  // "y", "-z"; the nearest

@@ -24,7 +24,9 @@ struct DelimitedColumn {
 // A table of delimited text, whatever its separator, decimal mark and header.
 struct DelimitedTable {
   std::string file;  // what messages call it
-  std::string text;  // the whole file as UTF-8
+  std::uint64_t bytes = 0;
+  std::uint32_t crc32 = 0;  // of the bytes as they are in the file
+  std::string text;         // the whole file as UTF-8
   char separator = ',';
   bool decimal_comma = false;
   std::vector<std::string> preface;  // lines above the header: comments, keys with values
