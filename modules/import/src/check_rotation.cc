@@ -123,7 +123,18 @@ const std::array<OtherRotation, 3>& other_rotations() {
   return kOthers;
 }
 
-ImportDoubt explain_difference(const ImportStreams& streams, const Agreement& agreement) {
+// "y,-x,z" where the matrix exchanges axes, else a quaternion.
+std::string axes_text(const Eigen::Matrix3d& R) {
+  for (const double determinant : {1.0, -1.0}) {
+    for (const AxesChoice& choice : all_axes(determinant)) {
+      if ((choice.R - R).cwiseAbs().maxCoeff() < 1e-6) return choice.name();
+    }
+  }
+  const Eigen::Quaterniond q(R);
+  return fmt::format("{:.5f},{:.5f},{:.5f},{:.5f}", q.w(), q.x(), q.y(), q.z());
+}
+
+ImportDoubt explain_difference(const ImportStreams& streams, const StreamUnits& units, const Agreement& agreement) {
   for (const OtherRotation& other : other_rotations()) {
     const Agreement changed = agreement_of(pair_rates(with_rotations(streams.pose, other.change), streams.rate));
     if (changed.cosine(Eigen::Matrix3d::Identity()) < kOtherFits) continue;
@@ -141,7 +152,7 @@ ImportDoubt explain_difference(const ImportStreams& streams, const Agreement& ag
         FileRole::kImu,
         fmt::format("the gyroscope's axes are not the body's: the body's x, y, z look like its {}", exchanged.name()),
         {},
-        "--imu-axes " + exchanged.name()};
+        "--imu-axes " + axes_text(exchanged.R * units.sensor_axes)};
   }
   if (agreement.cosine(mirrored.R) > kOtherFits) {
     return {ColumnGroup::kRotation,
@@ -152,14 +163,12 @@ ImportDoubt explain_difference(const ImportStreams& streams, const Agreement& ag
   }
   const Eigen::Matrix3d R = fitted_rotation(agreement);
   if (agreement.cosine(R) > kOtherFits) {
-    const Eigen::Quaterniond q(R);
-    const std::string text = fmt::format("{:.5f},{:.5f},{:.5f},{:.5f}", q.w(), q.x(), q.y(), q.z());
     return {ColumnGroup::kRate,
             FileRole::kImu,
             fmt::format("the gyroscope's axes are not the body's: they are rotated by {:.1f}° against them",
                         Eigen::AngleAxisd(R).angle() * 57.29577951308232),
             {},
-            "--imu-axes " + text};
+            "--imu-axes " + axes_text(R * units.sensor_axes)};
   }
   return {
       ColumnGroup::kRotation,
@@ -190,13 +199,26 @@ std::string unit_for_ratio(const std::string& unit, Quantity quantity, double ra
   return best;
 }
 
-void check_rotation(const ImportStreams& streams, const StreamUnits& units, StreamChecks& out) {
-  if (streams.rate.size() < 2 || streams.pose.size() < 2) return;
-  const Agreement agreement = agreement_of(pair_rates(streams.pose, streams.rate));
+namespace {
+
+bool shows_rotation(const Agreement& agreement) {
   constexpr std::size_t kLeastPairs = 20;
   constexpr double kLeast_radps = 0.1;
   const double n = static_cast<double>(std::max<std::size_t>(agreement.pairs, 1));
-  if (agreement.pairs < kLeastPairs || std::sqrt(agreement.pose2 / n) < kLeast_radps) {
+  return agreement.pairs >= kLeastPairs && std::sqrt(agreement.pose2 / n) >= kLeast_radps;
+}
+
+}  // namespace
+
+double rotation_cosine(const PoseStream& pose, const VectorStream& rate) {
+  const Agreement agreement = agreement_of(pair_rates(pose, rate));
+  return shows_rotation(agreement) ? agreement.cosine(Eigen::Matrix3d::Identity()) : 0.0;
+}
+
+void check_rotation(const ImportStreams& streams, const StreamUnits& units, StreamChecks& out) {
+  if (streams.rate.size() < 2 || streams.pose.size() < 2) return;
+  const Agreement agreement = agreement_of(pair_rates(streams.pose, streams.rate));
+  if (!shows_rotation(agreement)) {
     out.notes.push_back("gyroscope and poses: not compared, for there is too little rotation");
     return;
   }
@@ -220,7 +242,7 @@ void check_rotation(const ImportStreams& streams, const StreamUnits& units, Stre
                           {}});
     return;
   }
-  if (out.rate_cosine < kSameMotion) out.doubts.push_back(explain_difference(streams, agreement));
+  if (out.rate_cosine < kSameMotion) out.doubts.push_back(explain_difference(streams, units, agreement));
 }
 
 }  // namespace asperity

@@ -203,12 +203,13 @@ void guess_columns(const DelimitedTable& table, FileRole role, const std::string
   }
   // Bare axes are the role's where no column says so itself.
   const char bare = bare_kind(role, file);
-  const bool is_said = std::any_of(candidates.begin(), candidates.end(),
-                                   [&](const Candidate& c) { return c.guessed.kind == bare; });
+  const bool is_said =
+      std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& c) { return c.guessed.kind == bare; });
   for (Candidate& candidate : candidates) {
     if (candidate.guessed.kind == 0 && !is_said) candidate.guessed.kind = bare;
   }
-  std::erase_if(candidates, [&](const Candidate& c) { return has_other_unit(table.columns[c.column], c.guessed.kind); });
+  std::erase_if(candidates,
+                [&](const Candidate& c) { return has_other_unit(table.columns[c.column], c.guessed.kind); });
   const auto has_w = [&](char kind) {
     return std::any_of(candidates.begin(), candidates.end(),
                        [&](const Candidate& c) { return c.guessed.kind == kind && c.guessed.axis == 'w'; });

@@ -27,8 +27,8 @@ bool may_have(FileRole role, ColumnGroup group) {
   return role == FileRole::kForce;
 }
 
-void add_stated(const DelimitedTable& table, FileRole role, const std::vector<StatedColumn>& stated, bool strict,
-                bool own, ColumnMap& map) {
+void add_stated(const DelimitedTable& table, FileRole role, const std::vector<StatedColumn>& stated,
+                const std::vector<ColumnGroup>& elsewhere, bool own, ColumnMap& map) {
   for (const StatedColumn& entry : stated) {
     if (!may_have(role, group_of(entry.meaning))) {
       if (own) throw Error(fmt::format("{}: {} is not in a file of {}", table.file, entry.meaning, role_name(role)));
@@ -38,7 +38,8 @@ void add_stated(const DelimitedTable& table, FileRole role, const std::vector<St
     try {
       map.push_back(find_stated_column(entry, table));
     } catch (const Error&) {
-      if (strict) throw;
+      const ColumnGroup group = group_of(entry.meaning);
+      if (std::find(elsewhere.begin(), elsewhere.end(), group) == elsewhere.end()) throw;
     }
   }
 }
@@ -95,15 +96,15 @@ std::string role_name(FileRole role) {
   return "force";
 }
 
-ImportTable map_table(DelimitedTable table, FileRole role, const MappingConfig& config, bool missing_is_error) {
+ImportTable map_table(DelimitedTable table, FileRole role, const MappingConfig& config,
+                      const std::vector<ColumnGroup>& elsewhere) {
   ImportTable out;
   const FileMapping& file = mapping_of(config, role);
   out.role = role;
   out.preset = find_preset(table, role, file.preset);
-  add_stated(table, role, parse_columns(file.columns, config.quaternion, "columns of the " + role_name(role)), true,
-             true, out.map);
-  add_stated(table, role, parse_columns(config.columns, config.quaternion, "columns"), missing_is_error, false,
+  add_stated(table, role, parse_columns(file.columns, config.quaternion, "columns of the " + role_name(role)), {}, true,
              out.map);
+  add_stated(table, role, parse_columns(config.columns, config.quaternion, "columns"), elsewhere, false, out.map);
   add_preset_columns(out.preset, role, out.map);
   const std::string name = std::filesystem::path(table.file).filename().string();
   // A rate is stated for a file without times: a column that looks like one is none.

@@ -14,11 +14,11 @@ namespace asperity {
 namespace {
 
 ImportTable read_import_table(const std::filesystem::path& path, FileRole role, const MappingConfig& config,
-                              bool strict, const ReadLimits& limits) {
+                              const std::vector<ColumnGroup>& elsewhere, const ReadLimits& limits) {
   std::string text = read_file(path, limits.csv_bytes);
   std::string section = mapping_of(config, role).section;
   if (section.empty()) section = preset_section(text, role);
-  return map_table(read_delimited(std::move(text), path.string(), section), role, config, strict);
+  return map_table(read_delimited(std::move(text), path.string(), section), role, config, elsewhere);
 }
 
 bool states_force(const MappingConfig& config) {
@@ -77,17 +77,21 @@ std::vector<const ImportTable*> ImportTables::all() const {
 ImportTables read_import_tables(const ImportFiles& files, const MappingConfig& config, const ReadLimits& limits) {
   const bool one_file = files.imu.empty() && files.gyro.empty() && files.force.empty() && files.object.empty();
   const std::filesystem::path& imu = files.imu.empty() ? files.pose : files.imu;
+  // Each file has times of its own; rates are in the gyroscope's file if it has one.
+  std::vector<ColumnGroup> times, sensor;
+  if (!one_file) times = sensor = {ColumnGroup::kTime};
+  if (!files.gyro.empty()) sensor.push_back(ColumnGroup::kRate);
   ImportTables out;
-  out.pose = read_import_table(files.pose, FileRole::kPose, config, one_file, limits);
-  out.imu = read_import_table(imu, FileRole::kImu, config, one_file, limits);
-  if (!files.gyro.empty()) out.gyro = read_import_table(files.gyro, FileRole::kGyro, config, false, limits);
+  out.pose = read_import_table(files.pose, FileRole::kPose, config, times, limits);
+  out.imu = read_import_table(imu, FileRole::kImu, config, sensor, limits);
+  if (!files.gyro.empty()) out.gyro = read_import_table(files.gyro, FileRole::kGyro, config, times, limits);
   if (!files.force.empty()) {
-    out.force = read_import_table(files.force, FileRole::kForce, config, false, limits);
+    out.force = read_import_table(files.force, FileRole::kForce, config, times, limits);
   } else if (states_force(config) || one_file) {
-    out.force = read_import_table(imu, FileRole::kForce, config, false, limits);
-    if (!has_group(out.force->map, ColumnGroup::kForce) && one_file) out.force.reset();
+    out.force = read_import_table(imu, FileRole::kForce, config, times, limits);
+    if (!has_group(out.force->map, ColumnGroup::kForce)) out.force.reset();
   }
-  if (!files.object.empty()) out.object = read_import_table(files.object, FileRole::kPose, config, false, limits);
+  if (!files.object.empty()) out.object = read_import_table(files.object, FileRole::kPose, config, times, limits);
   require_stated_time(out, config);
   return out;
 }

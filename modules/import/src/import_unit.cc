@@ -184,11 +184,12 @@ std::optional<ImportUnit> find_import_unit(std::string_view text, Quantity quant
 
 ImportUnit parse_import_unit(std::string_view text, Quantity quantity, std::string_view what) {
   if (auto unit = find_import_unit(text, quantity)) return *unit;
-  const bool scales = quantity != Quantity::kTime && quantity != Quantity::kNumber;
+  const bool scales =
+      quantity == Quantity::kAcceleration || quantity == Quantity::kRate || quantity == Quantity::kForce;
+  const char* example = quantity == Quantity::kRate ? "deg/s" : quantity == Quantity::kForce ? "N" : "g";
   throw Error(
       fmt::format("{}: '{}' is not a known unit: {}{}", what, printable(text), import_unit_names(quantity),
-                  scales ? ", or counts by their scale, such as 1/16384 " + std::string(units_of(quantity).back().name)
-                         : std::string()));
+                  scales ? fmt::format(", or counts by their scale, such as 1/16384 {}", example) : std::string()));
 }
 
 std::string import_unit_names(Quantity quantity) {

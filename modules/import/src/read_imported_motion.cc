@@ -67,10 +67,10 @@ std::string unit_of(const std::optional<ImportTable>& table, const char* meaning
   return column != nullptr ? column->unit : otherwise;
 }
 
-StreamUnits units_of_tables(const ImportTables& tables) {
+StreamUnits units_of_tables(const ImportTables& tables, const MappingConfig& config) {
   const auto& rates = tables.gyro ? tables.gyro : tables.imu;
-  return {unit_of(tables.pose, "t", ""), unit_of(tables.imu, "t", ""), unit_of(tables.pose, "px", "m"),
-          unit_of(tables.imu, "ax", "m/s2"), unit_of(rates, "gx", "rad/s")};
+  return {unit_of(tables.pose, "t", ""),     unit_of(tables.imu, "t", ""),  unit_of(tables.pose, "px", "m"),
+          unit_of(tables.imu, "ax", "m/s2"), unit_of(rates, "gx", "rad/s"), sensor_axes(config.imu_axes)};
 }
 
 // Whether one of the doubts is over a unit that nobody stated; exchanges it.
@@ -189,6 +189,68 @@ void find_up(const ImportTables& tables, const MappingConfig& config, ImportedMo
   turn_world(motion.object, up);
 }
 
+constexpr const char* kEulerOrders[] = {"xyz", "xzy", "yxz", "yzx", "zxy", "zyx"};
+
+// The intrinsic order by which the rotations agree best with the gyroscope's, where its disagreement (1 − cosine) is
+// less than half of any other's and of `other_cosine`; "" if none does. `read_in`: the clocks of the streams.
+std::string better_euler_order(const ImportTables& tables, const MappingConfig& config, const ImportedMotion& read_in,
+                               double other_cosine) {
+  std::string best;
+  double highest = 0.0, next = other_cosine;
+  for (const char* order : kEulerOrders) {
+    MappingConfig trial = config;
+    trial.euler = order;
+    trial.euler_axes = EulerAxes::kIntrinsic;
+    Problems known;
+    PoseStream pose = read_poses(*tables.pose, trial, known);
+    if (config.left_handed) mirror_poses(pose, up_of(tables, config));
+    if (read_in.clocks) move_times(pose, *read_in.clocks);
+    for (auto& t_ns : pose.t_ns) t_ns -= read_in.start_ns;
+    const double cosine = rotation_cosine(pose, read_in.streams.rate);
+    next = std::max(next, std::min(cosine, highest));
+    if (cosine > highest) {
+      highest = cosine;
+      best = order;
+    }
+  }
+  constexpr double kOtherFits = 0.9;
+  return highest > kOtherFits && 2.0 * (1.0 - highest) < 1.0 - next ? best : "";
+}
+
+bool reads_euler_angles(const ImportTables& tables) {
+  return find_meaning(tables.pose->map, "rx") != nullptr && find_meaning(tables.pose->map, "qw") == nullptr &&
+         find_meaning(tables.pose->map, "m11") == nullptr && find_meaning(tables.pose->map, "vx") == nullptr;
+}
+
+void check_euler_order(const ImportTables& tables, const MappingConfig& config, ImportedMotion& motion) {
+  if (!reads_euler_angles(tables) || motion.checks.rate_cosine == 0.0) return;
+  // The stated order is one of those that are tried, and not better than itself.
+  const std::string better = better_euler_order(tables, config, motion, motion.checks.rate_cosine);
+  if (better.empty()) return;
+  std::erase_if(motion.checks.doubts, [](const ImportDoubt& doubt) { return doubt.group == ColumnGroup::kRotation; });
+  motion.checks.doubts.push_back(
+      {ColumnGroup::kRotation,
+       FileRole::kPose,
+       fmt::format("the gyroscope shows another rotation than Euler angles in this order (cosine {:.4f})",
+                   motion.checks.rate_cosine),
+       {},
+       fmt::format("--euler {} --euler-axes intrinsic", better)});
+}
+
+// What a doubt says to state may be stated already, and is then what is wrong.
+void compare_with_stated(const MappingConfig& config, std::vector<ImportDoubt>& doubts) {
+  for (ImportDoubt& doubt : doubts) {
+    if (doubt.setting == "--invert-rotation" && config.invert_rotation) {
+      doubt.message = "the poses and the gyroscope show different rotations; they agree if nothing is inverted";
+      doubt.setting = "no --invert-rotation";
+    } else if (doubt.setting == "--left-handed" && config.left_handed) {
+      doubt.setting = "no --left-handed";
+    } else if (doubt.setting.starts_with("--imu-axes") && config.left_handed) {
+      doubt.setting += ", or no --left-handed";
+    }
+  }
+}
+
 ImportedMotion read_motion_once(const ImportTables& tables, const MappingConfig& config) {
   ImportedMotion out;
   out.streams = read_streams(tables, config);
@@ -202,18 +264,38 @@ ImportedMotion read_motion_once(const ImportTables& tables, const MappingConfig&
   ImportStreams times;
   times.pose.t_ns = out.streams.pose.t_ns;
   times.specific_force.t_ns = out.streams.specific_force.t_ns;
-  out.checks = check_times_only(times, units_of_tables(tables));
+  out.checks = check_times_only(times, units_of_tables(tables, config));
   if (!out.checks.doubts.empty()) return out;
   put_on_one_clock(tables, config.clocks, out);
   start_near_zero(out);
-  out.checks = check_streams(out.streams, units_of_tables(tables));
+  out.checks = check_streams(out.streams, units_of_tables(tables, config));
+  check_euler_order(tables, config, out);
+  compare_with_stated(config, out.checks.doubts);
   if (out.checks.doubts.empty()) find_up(tables, config, out);
   return out;
+}
+
+// The order that nobody states, by the gyroscope. Throws Error if it does not decide.
+std::string guess_euler_order(const ImportTables& tables, const MappingConfig& config) {
+  MappingConfig any = config;
+  any.euler = "zyx";
+  const ImportedMotion motion = read_motion_once(tables, any);
+  const std::string best = motion.streams.rate.size() > 0 ? better_euler_order(tables, any, motion, 0.0) : "";
+  if (best.empty()) {
+    throw Error(
+        tables.pose->table.file +
+        ": the order of the Euler angles is not stated, and the gyroscope does not decide it: state --euler zyx or "
+        "another");
+  }
+  return best;
 }
 
 }  // namespace
 
 ImportedMotion read_imported_motion(ImportTables& tables, const MappingConfig& config) {
+  if (config.euler.empty() && tables.pose->preset.euler.empty() && reads_euler_angles(tables)) {
+    tables.pose->preset.euler = guess_euler_order(tables, config);
+  }
   ImportedMotion out = read_motion_once(tables, config);
   constexpr int kMostExchanges = 6;
   for (int i = 0; i < kMostExchanges && exchange_guessed_unit(out.checks.doubts, tables); ++i) {

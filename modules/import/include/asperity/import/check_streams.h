@@ -26,9 +26,10 @@ struct ImportDoubt {
   std::string setting;  // the option that would fit, such as "--imu-axes y,-x,z"; "" if it is not one
 };
 
-// The units by which the streams were read, for the units that would fit better.
+// How the streams were read, for what would fit better.
 struct StreamUnits {
   std::string pose_time = "s", imu_time = "s", position = "m", acceleration = "m/s2", rate = "rad/s";
+  Eigen::Matrix3d sensor_axes = Eigen::Matrix3d::Identity();
 };
 
 struct StreamChecks {
@@ -50,6 +51,10 @@ struct StreamChecks {
 // over 0.1 s against the twice integrated specific force, regression slope within 0.5 to 2; and speeds below 20 m/s.
 // Poses and sensor must be on one clock. Streams that are empty are not checked.
 StreamChecks check_streams(const ImportStreams& streams, const StreamUnits& units = {});
+
+// The cosine of check_streams for rotations; 0 where the poses turn by less than 0.1 rad/s RMS or fewer than 20
+// stretches are in both.
+double rotation_cosine(const PoseStream& pose, const VectorStream& rate);
 
 // The part on times alone.
 StreamChecks check_times_only(const ImportStreams& streams, const StreamUnits& units = {});

@@ -18,9 +18,10 @@ struct ImportTable {
 };
 
 // Decides it. Columns that MappingConfig::columns states count for a file of `role` if it can have such (times for
-// any); those of the role's FileMapping come first. `missing_is_error`: a stated column that the table does not have is
-// an error, else it is another file's. Throws Error naming file, column and unit.
-ImportTable map_table(DelimitedTable table, FileRole role, const MappingConfig& config, bool missing_is_error = true);
+// any); those of the role's FileMapping come first. `elsewhere`: groups of which a
+// stated column that is not in the table may be in another file. Throws Error naming file, column and unit.
+ImportTable map_table(DelimitedTable table, FileRole role, const MappingConfig& config,
+                      const std::vector<ColumnGroup>& elsewhere = {});
 
 // The role's part of the configuration.
 const FileMapping& mapping_of(const MappingConfig& config, FileRole role);
