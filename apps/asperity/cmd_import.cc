@@ -4,49 +4,149 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/config.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/import/format_import.h"
+#include "asperity/import/import_mapped.h"
 #include "asperity/json/config_json.h"
 #include "asperity/recording/import_imu_pose.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
 #include "commands.h"
+#include "config_file.h"
 #include "option_units.h"
 
 namespace asperity::app {
 
 namespace {
 
+// An option that stands for a setting as it is.
+struct SettingOption {
+  const char* option;
+  const char* setting;
+  const char* type;
+  const char* description;
+};
+
+constexpr SettingOption kSettingOptions[] = {
+    {"--columns", "mapping.columns", "TEXT", "What the columns mean: \"t=Time[ms], px=X[mm], ax=#5[g], …\""},
+    {"--pose-columns", "mapping.pose.columns", "TEXT", "The same of the poses' file alone"},
+    {"--imu-columns", "mapping.imu.columns", "TEXT", "The same of the inertial sensor's"},
+    {"--gyro-columns", "mapping.gyro.columns", "TEXT", "The same of the gyroscope's"},
+    {"--force-columns", "mapping.force.columns", "TEXT", "The same of the force's"},
+    {"--preset", "mapping.pose.preset", "NAME", "Whose file of poses it is, or none; by its content unless given"},
+    {"--imu-preset", "mapping.imu.preset", "NAME", "Whose file of the inertial sensor it is"},
+    {"--force-preset", "mapping.force.preset", "NAME", "Whose file of the force it is"},
+    {"--body", "mapping.pose.body", "NAME", "The body, where a file has several"},
+    {"--euler", "mapping.euler", "ORDER", "Order of Euler angles: xyz, zyx, …"},
+    {"--euler-axes", "mapping.euler_axes", "KIND", "intrinsic (each about the turned axis) or extrinsic"},
+    {"--quaternion", "mapping.quaternion", "ORDER", "Order in a range of columns: xyzw or wxyz"},
+    {"--up", "mapping.up", "AXIS", "The world's axis that points up: x, y, z, -x, -y, -z"},
+    {"--imu-axes", "mapping.imu_axes", "AXES", "The sensor's axes that are the body's: y,-x,z; or qw,qx,qy,qz"},
+    {"--clocks", "mapping.clocks", "CHOICE", "one, separate (offset and drift are estimated) or auto"},
+    {"--pose-file-rate", "mapping.pose.rate_Hz", "HZ", "Rate of poses without times"},
+    {"--imu-rate", "mapping.imu.rate_Hz", "HZ", "Rate of inertial samples without times"},
+    {"--gyro-rate", "mapping.gyro.rate_Hz", "HZ", "Rate of a gyroscope's samples without times"},
+    {"--force-rate", "mapping.force.rate_Hz", "HZ", "Rate of force samples without times"},
+    {"--pose-rate", "import.pose_rate_Hz", "HZ", "Thin the poses to this rate, Hz"},
+    {"--seed", "import.seed", "N", "Of the noise"},
+};
+
 class ImportCommand : public Command {
  public:
   explicit ImportCommand(Parser& root)
-      : Command(root, "import", "Make a recording of an inertial sensor's and a motion capture's files") {
-    require(parser().add_option("--imu", imu_, "t_s,ax_mps2,ay_mps2,az_mps2,gx_radps,gy_radps,gz_radps"))
-        ->type_name("FILE.csv");
-    require(parser().add_option("--pose", pose_, "t_s,px_m,py_m,pz_m,qw,qx,qy,qz"))->type_name("FILE.csv");
+      : Command(root, "import", "Make a recording of other programs' tables: poses, an inertial sensor, a force") {
+    require(parser().add_option("--pose", pose_, "Table with the poses; with all, if it is the only file"))
+        ->type_name("FILE");
+    parser().add_option("--imu", imu_, "Table with the accelerometer and the gyroscope")->type_name("FILE");
+    parser().add_option("--gyro", gyro_, "Table with the gyroscope, where it has one of its own")->type_name("FILE");
+    parser().add_option("--force", force_, "Table with the force")->type_name("FILE");
     parser()
-        .add_option("--object-pose", object_pose_, "The same of the object, where it moves: the scan is relative to it")
-        ->type_name("FILE.csv");
-    parser().add_option("--pose-rate", rate_, "Thin the poses to this rate, Hz")->type_name("HZ");
+        .add_option("--object-pose", object_pose_, "Poses of the object, where it moves: the scan is relative to it")
+        ->type_name("FILE");
+    settings_.resize(std::size(kSettingOptions));
+    for (std::size_t i = 0; i < std::size(kSettingOptions); ++i) {
+      const SettingOption& option = kSettingOptions[i];
+      parser().add_option(option.option, settings_[i], option.description)->type_name(option.type);
+    }
+    parser().add_flag("--invert-rotation", invert_, "The rotations are from the world to the body");
+    parser().add_flag("--left-handed", left_handed_, "The world's and the body's axes are left-handed");
+    parser().add_option("--tip", tip_, "The tip in the body's axes: 0,0,-120mm")->type_name("X,Y,Z");
     parser().add_option("--pose-noise", noise_, "Add noise along the world's axes")->type_name("X,Y,Z");
-    parser().add_option("--seed", seed_, "Of the noise")->type_name("N");
-    require(parser().add_option("-o,--output", output_, "The recording's folder"))->type_name("REC");
+    parser().add_option("--mapping", mapping_file_, "Read the mapping from a file")->type_name("FILE.toml");
+    parser()
+        .add_option("--save-mapping", save_mapping_, "Write the mapping with what was guessed")
+        ->type_name("FILE.toml");
+    parser().add_flag("--dry-run", dry_run_, "Print what the columns are read as, and write nothing");
+    parser().add_flag("--unchecked", unchecked_, "Import in spite of what does not look plausible");
+    parser().add_option("-o,--output", output_, "The recording's folder")->type_name("REC");
   }
 
-  std::vector<ConfigField> fields() override { return list_fields("import", config_); }
+  std::vector<ConfigField> fields() override {
+    std::vector<ConfigField> out = list_fields("import", config_);
+    for (ConfigField& field : list_fields("mapping", mapping_)) out.push_back(std::move(field));
+    return out;
+  }
 
   void apply_options() override {
+    if (!mapping_file_.empty()) load_config_file(mapping_file_, fields());
     if (!noise_.empty()) config_.pose_noise_m = lengths_option_m("--pose-noise", noise_);
+    if (!tip_.empty()) {
+      const Eigen::Vector3d tip = point_option_m("--tip", tip_);
+      mapping_.tip_m = {tip.x(), tip.y(), tip.z()};
+    }
+    mapping_.invert_rotation = mapping_.invert_rotation || invert_;
+    mapping_.left_handed = mapping_.left_handed || left_handed_;
     try {
-      if (!rate_.empty()) set_field(fields(), "import.pose_rate_Hz", rate_);
-      if (!seed_.empty()) set_field(fields(), "import.seed", seed_);
+      for (std::size_t i = 0; i < std::size(kSettingOptions); ++i) {
+        if (settings_[i].empty()) continue;
+        // Texts as they are: they hold what --set would take for quotes and lists.
+        const ConfigField& field = find_field(list_once_ = fields(), kSettingOptions[i].setting);
+        if (field.type == FieldType::kText) {
+          field.set(settings_[i]);
+        } else {
+          field.set_text(settings_[i]);
+        }
+      }
     } catch (const Error& error) {
       throw UsageError(error.what());
     }
   }
 
   int run(const Observer& observer) override {
+    if (output_.empty() && !dry_run_) throw UsageError("--output is required, or --dry-run");
+    const ImportFiles files{pose_, imu_, gyro_, force_, object_pose_};
+    if (!dry_run_ && save_mapping_.empty() && is_same_config(mapping_, MappingConfig{}) && has_fixed_columns(files)) {
+      return run_fixed(observer);
+    }
+    ImportTables tables = read_import_tables(files, mapping_);
+    observer.update("importing", 0.4);
+    const ImportedMotion motion = read_imported_motion(tables, mapping_);
+    observer.update("importing", 0.7);
+    if (dry_run_) return show(tables, motion);
+    if (!unchecked_) refuse_doubts(tables, motion);
+    Recording recording = make_imported_recording(motion, tables, mapping_, config_);
+    if (unchecked_) {
+      for (const ImportDoubt& doubt : motion.checks.doubts) {
+        recording.problems.push_back({"implausible", doubt_text(doubt, tables), 1});
+        ++recording.info.problems["implausible"];
+      }
+    }
+    if (!save_mapping_.empty()) save(tables, motion);
+    OutputFolder folder(output_, is_replaceable_recording);
+    write_recording(folder.path(), recording);
+    observer.update("importing", 1.0);
+    commit_output(folder, output_);
+    Json details = import_json(tables, motion);
+    report(recording, recording.problems, import_summary_text(tables) + import_checks_text(motion), &details);
+    return kDone;
+  }
+
+ private:
+  // The one form of file that needs no mapping.
+  int run_fixed(const Observer& observer) {
     OutputFolder folder(output_, is_replaceable_recording);
     const ImportInput input = read_imu_pose(imu_, pose_, object_pose_);
     observer.update("importing", 0.5);
@@ -54,12 +154,37 @@ class ImportCommand : public Command {
     write_recording(folder.path(), recording);
     observer.update("importing", 1.0);
     commit_output(folder, output_);
-    report(recording, input.problems);
+    report(recording, input.problems, {}, nullptr);
     return kDone;
   }
 
- private:
-  void report(const Recording& recording, const Problems& problems) {
+  void refuse_doubts(const ImportTables& tables, const ImportedMotion& motion) const {
+    std::string text;
+    for (const ImportDoubt& doubt : motion.checks.doubts) {
+      text += (text.empty() ? "" : "\n  ") + doubt_text(doubt, tables);
+    }
+    if (!text.empty()) throw Error(text + "\n  (--dry-run prints the columns; --unchecked imports in spite of this)");
+  }
+
+  int show(const ImportTables& tables, const ImportedMotion& motion) {
+    if (!save_mapping_.empty()) save(tables, motion);
+    Json out = import_json(tables, motion);
+    out["format"] = "asperity-import-plan";
+    out["version"] = 1;
+    print_json(out.dump_repaired(2));
+    std::string text = import_table_text(tables) + import_checks_text(motion);
+    for (const Problem& problem : motion.streams.problems) text += "note        " + problem.message + "\n";
+    for (const ImportDoubt& doubt : motion.checks.doubts) text += "implausible " + doubt_text(doubt, tables) + "\n";
+    say(text);
+    return motion.checks.doubts.empty() || unchecked_ ? kDone : kBadInput;
+  }
+
+  void save(const ImportTables& tables, const ImportedMotion& motion) {
+    MappingConfig stated = stated_mapping(tables, mapping_, motion);
+    write_file(save_mapping_, to_toml(list_fields("mapping", stated), true));
+  }
+
+  void report(const Recording& recording, const Problems& problems, const std::string& mapped, const Json* details) {
     Json out;
     out["format"] = "asperity-imported";
     out["version"] = 1;
@@ -67,9 +192,10 @@ class ImportCommand : public Command {
     out["probe_rows"] = recording.probe.size();
     out["tracker_rows"] = recording.tracker.size();
     if (!recording.body_poses.empty()) out["object_rows"] = recording.body_poses.front().size();
+    if (details != nullptr) out["mapped"] = *details;
     out["problems"] = Json::array();
-    std::string text = fmt::format("{}: {} probe rows, {} poses\n", printable(output_, 200), recording.probe.size(),
-                                   recording.tracker.size());
+    std::string text = mapped + fmt::format("{}: {} probe rows, {} poses\n", printable(output_, 200),
+                                            recording.probe.size(), recording.tracker.size());
     if (!recording.body_poses.empty())
       text += fmt::format("{} poses of the object\n", recording.body_poses.front().size());
     for (const Problem& problem : problems) {
@@ -84,12 +210,22 @@ class ImportCommand : public Command {
 
   std::string imu_;
   std::string pose_;
+  std::string gyro_;
+  std::string force_;
   std::string object_pose_;
-  std::string rate_;
+  std::vector<std::string> settings_;
+  std::vector<ConfigField> list_once_;
+  bool invert_ = false;
+  bool left_handed_ = false;
+  std::string tip_;
   std::string noise_;
-  std::string seed_;
+  std::string mapping_file_;
+  std::string save_mapping_;
+  bool dry_run_ = false;
+  bool unchecked_ = false;
   std::string output_;
   ImportConfig config_;
+  MappingConfig mapping_;
 };
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
@@ -15,8 +14,6 @@ namespace asperity {
 namespace {
 
 constexpr double kAdcSteps = 32768.0;
-constexpr double kCountsPer_mps2 = kAdcSteps / (16.0 * kStandardGravity_mps2);
-constexpr double kCountsPer_radps = kAdcSteps / (2000.0 * std::numbers::pi / 180.0);
 
 // What a motion-capture system is good for where no noise is added.
 constexpr double kFloor_m = 5e-5;
@@ -85,8 +82,10 @@ ProbeStream counted_probe(const ImportInput& input) {
   ProbeStream out;
   out.t_ns = input.imu_t_ns;
   out.force_counts.assign(out.t_ns.size(), 0.0);
-  for (const auto& f : input.specific_force_mps2) out.accel_counts.push_back(to_counts(f, kCountsPer_mps2));
-  for (const auto& omega : input.rate_radps) out.gyro_counts.push_back(to_counts(omega, kCountsPer_radps));
+  const double per_mps2 = kAdcSteps / input.accelerometer_range_mps2;
+  const double per_radps = kAdcSteps / input.gyroscope_range_radps;
+  for (const auto& f : input.specific_force_mps2) out.accel_counts.push_back(to_counts(f, per_mps2));
+  for (const auto& omega : input.rate_radps) out.gyro_counts.push_back(to_counts(omega, per_radps));
   return out;
 }
 
@@ -102,12 +101,13 @@ Truth full_truth(const ImportInput& input) {
   return out;
 }
 
-Calibration known_calibration(const ImportConfig& config) {
+Calibration known_calibration(const ImportInput& input, const ImportConfig& config) {
   Calibration out;
-  out.accelerometer.B = kCountsPer_mps2 * Eigen::Matrix3d::Identity();
+  out.accelerometer.B = kAdcSteps / input.accelerometer_range_mps2 * Eigen::Matrix3d::Identity();
   out.accelerometer.position_in_marker_m = Eigen::Vector3d::Zero();
   out.accelerometer.position_sigma_m = config.accelerometer_position_sigma_m;
-  out.gyroscope = GyroscopeCalibration{kCountsPer_radps * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()};
+  out.gyroscope = GyroscopeCalibration{kAdcSteps / input.gyroscope_range_radps * Eigen::Matrix3d::Identity(),
+                                       Eigen::Vector3d::Zero()};
   out.force.axis_in_marker = Eigen::Vector3d::UnitZ();
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
@@ -144,7 +144,7 @@ Recording import_imu_pose(const ImportInput& input, const ImportConfig& config) 
     out.body_poses.push_back(thinned_tracker(input.object_t_ns, input.T_world_object, config, kObjectStreams));
   }
   out.truth = full_truth(input);
-  out.calibration = known_calibration(config);
+  out.calibration = known_calibration(input, config);
   out.problems = input.problems;
 
   out.info.object = config.object;

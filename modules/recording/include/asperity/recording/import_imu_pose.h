@@ -3,10 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "asperity/base/units.h"
 #include "asperity/recording/read_limits.h"
 #include "asperity/recording/recording.h"
 
@@ -22,6 +24,9 @@ struct ImportInput {
   std::vector<Pose> T_world_body;
   std::vector<std::int64_t> object_t_ns;  // empty: no second body was tracked
   std::vector<Pose> T_world_object;
+  // What the 16-bit counts span.
+  double accelerometer_range_mps2 = 16.0 * kStandardGravity_mps2;
+  double gyroscope_range_radps = 2000.0 * std::numbers::pi / 180.0;
   Problems problems;  // what was left out when reading
 };
 
@@ -50,7 +55,7 @@ struct ImportConfig {
   }
 };
 
-// The inertial samples as counts of a 16-bit sensor of ±16 g and ±2000 °/s, the poses thinned to the
+// The inertial samples as counts of a 16-bit sensor of the stated ranges, the poses thinned to the
 // rows nearest to a regular clock and given seeded Gaussian noise, and all poses as truth. The tip is
 // the body's origin. Poses of an object become the body `object`, thinned and given noise likewise. There is no force:
 // its column is 0 and extra.force_sensor false. Throws Error if a stream is empty or its vectors differ in length.

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "asperity/import/import_mapped.h"
+#include "asperity/json/json.h"
+
+namespace asperity {
+
+// The columns, what they are read as and why: a row each with column, meaning, unit, reason, first value and range.
+std::string import_table_text(const ImportTables& tables);
+// The same in a line a file.
+std::string import_summary_text(const ImportTables& tables);
+// What the checks found: world's up axis, gravity, rotation, scale, clocks; a line each.
+std::string import_checks_text(const ImportedMotion& motion);
+
+Json import_json(const ImportTables& tables, const ImportedMotion& motion);
+
+}  // namespace asperity

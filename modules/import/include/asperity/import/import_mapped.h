@@ -1,0 +1,71 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "asperity/import/align_clocks.h"
+#include "asperity/import/check_streams.h"
+#include "asperity/import/import_table.h"
+#include "asperity/recording/import_imu_pose.h"
+
+namespace asperity {
+
+// Where the streams come from. Without `imu` it is the file of the poses; without `gyro` that of the inertial sensor;
+// without `force` whichever of the others has force columns, if any. Without `object` no second body was tracked.
+struct ImportFiles {
+  std::filesystem::path pose, imu, gyro, force, object;
+};
+
+// Both files begin with the columns that read_imu_pose takes, and there is no other: nothing has to be mapped.
+bool has_fixed_columns(const ImportFiles& files);
+
+// The files' tables with what their columns mean.
+struct ImportTables {
+  std::optional<ImportTable> pose, imu, gyro, force, object;
+
+  std::vector<const ImportTable*> all() const;
+};
+
+// Reads and maps them. Throws Error naming file, line and column.
+ImportTables read_import_tables(const ImportFiles& files, const MappingConfig& config, const ReadLimits& limits = {});
+
+// Streams of one body, on one clock, in the recording's axes, and how they came about.
+struct ImportedMotion {
+  ImportStreams streams;
+  PoseStream object;
+  StreamChecks checks;
+  std::optional<ClockFit> clocks;  // nullopt: the files' times are of one clock
+  std::string up;                  // the axis of the files' world that points up
+  bool up_is_estimated = false;
+  double up_angle_rad = 0.0;  // of the mean specific force to it
+  std::int64_t start_ns = 0;  // subtracted from the times of files that count from 1970
+};
+
+// Reads the streams, brings them on one clock and into one frame, and checks them. A unit that was guessed from values
+// and that the checks contradict is exchanged in `tables`. Doubts that remain are in `checks`. Throws Error as
+// read_import_tables, and where times of several files do not overlap and no offset can be found.
+ImportedMotion read_imported_motion(ImportTables& tables, const MappingConfig& config);
+
+// A doubt as an error says it: file, columns, their unit, what they look like and what to state.
+std::string doubt_text(const ImportDoubt& doubt, const ImportTables& tables);
+
+// The recording as import_imu_pose makes it, and
+// - the probe's rows are those of the inertial sensor, or of the force where that is faster by more than half; the
+// other is
+//   filled by straight lines, and force is nan in gaps of more than ten of its intervals;
+// - ranges of the 16-bit counts are ±16 g and ±2000 °/s, doubled until all samples fit; force has ±16 N likewise;
+// - the tip is at MappingConfig::tip_m; without a gyroscope there is no gyroscope's calibration; three axes of force
+// become
+//   `force3` with an identity's calibration, one is the force axis;
+// - truth is kept only where poses were thinned or given noise;
+// - extra.import_origin has the files, their CRC-32 and the mapping.
+// Throws Error if there are no inertial samples or poses.
+Recording make_imported_recording(const ImportedMotion& motion, const ImportTables& tables,
+                                  const MappingConfig& mapping, const ImportConfig& config);
+
+// The mapping with all columns written out, so that it reads the same files without guessing.
+MappingConfig stated_mapping(const ImportTables& tables, const MappingConfig& config, const ImportedMotion& motion);
+
+}  // namespace asperity

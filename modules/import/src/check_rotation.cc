@@ -1,0 +1,248 @@
+#include "check_rotation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include <fmt/format.h>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include "asperity/base/error.h"
+
+namespace asperity {
+
+namespace {
+
+constexpr double kSameMotion = 0.8;  // a cosine above: the same rotation
+constexpr double kOtherFits = 0.9;   // a cosine above: what is tried instead explains it
+
+struct Agreement {
+  Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();  // Σ ω_p ω_gᵀ
+  double pose2 = 0.0;
+  double gyro2 = 0.0;
+  double length_cosine = 0.0;  // of the centred lengths
+  std::size_t pairs = 0;
+
+  double cosine(const Eigen::Matrix3d& R) const {
+    const double both = std::sqrt(pose2 * gyro2);
+    return both > 0.0 ? (R.transpose() * moment).trace() / both : 0.0;
+  }
+};
+
+Agreement agreement_of(const RatePairs& pairs) {
+  Agreement out;
+  out.pairs = pairs.pose_radps.size();
+  double sum_p = 0.0, sum_g = 0.0, product = 0.0;
+  for (std::size_t i = 0; i < out.pairs; ++i) {
+    const auto &p = pairs.pose_radps[i], &g = pairs.gyro_radps[i];
+    out.moment += p * g.transpose();
+    out.pose2 += p.squaredNorm();
+    out.gyro2 += g.squaredNorm();
+    sum_p += p.norm();
+    sum_g += g.norm();
+    product += p.norm() * g.norm();
+  }
+  const double n = static_cast<double>(out.pairs);
+  const double spread = (out.pose2 - sum_p * sum_p / n) * (out.gyro2 - sum_g * sum_g / n);
+  if (out.pairs > 2 && spread > 0.0) out.length_cosine = (product - sum_p * sum_g / n) / std::sqrt(spread);
+  return out;
+}
+
+struct AxesChoice {
+  std::array<int, 3> axis;
+  std::array<int, 3> sign;
+  Eigen::Matrix3d R;
+
+  std::string name() const {
+    std::string out;
+    for (std::size_t i = 0; i < 3; ++i) {
+      out += std::string(i == 0 ? "" : ",") + (sign[i] < 0 ? "-" : "") + "xyz"[axis[i]];
+    }
+    return out;
+  }
+};
+
+// The 24 rotations that exchange axes, or their 24 mirror images.
+std::vector<AxesChoice> all_axes(double determinant) {
+  std::vector<AxesChoice> out;
+  std::array<int, 3> axis{0, 1, 2};
+  do {
+    for (int signs = 0; signs < 8; ++signs) {
+      AxesChoice choice{axis, {}, Eigen::Matrix3d::Zero()};
+      for (int i = 0; i < 3; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        choice.sign[at] = (signs >> i & 1) != 0 ? -1 : 1;
+        choice.R(i, axis[at]) = choice.sign[at];
+      }
+      if (choice.R.determinant() * determinant > 0.0) out.push_back(choice);
+    }
+  } while (std::next_permutation(axis.begin(), axis.end()));
+  return out;
+}
+
+AxesChoice best_axes(const Agreement& agreement, double determinant) {
+  const auto all = all_axes(determinant);
+  return *std::max_element(all.begin(), all.end(), [&](const AxesChoice& a, const AxesChoice& b) {
+    return agreement.cosine(a.R) < agreement.cosine(b.R);
+  });
+}
+
+// Kabsch 1976: the rotation that brings the gyroscope's vectors nearest to the poses'.
+Eigen::Matrix3d fitted_rotation(const Agreement& agreement) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(agreement.moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d signs = Eigen::Vector3d::Ones();
+  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) signs.z() = -1.0;
+  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+}
+
+PoseStream with_rotations(const PoseStream& pose,
+                          const std::function<Eigen::Quaterniond(const Eigen::Quaterniond&)>& change) {
+  PoseStream out = pose;
+  for (Pose& T : out.T_world_body) T.rotation = change(T.rotation);
+  return out;
+}
+
+// What else the poses' rotations may be.
+struct OtherRotation {
+  std::string message;
+  std::string setting;
+  Eigen::Quaterniond (*change)(const Eigen::Quaterniond&);
+};
+
+const std::array<OtherRotation, 3>& other_rotations() {
+  static const std::array<OtherRotation, 3> kOthers{{
+      // The cells c0 … c3 that were read as w, x, y, z are x, y, z, w.
+      {"the order of its cells is x, y, z, w", "--quaternion xyzw",
+       [](const Eigen::Quaterniond& q) { return Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y()); }},
+      {"the order of its cells is w, x, y, z", "--quaternion wxyz",
+       [](const Eigen::Quaterniond& q) { return Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w()); }},
+      {"the rotations are from the world to the body", "--invert-rotation",
+       [](const Eigen::Quaterniond& q) { return q.conjugate(); }},
+  }};
+  return kOthers;
+}
+
+// "y,-x,z" where the matrix exchanges axes, else a quaternion.
+std::string axes_text(const Eigen::Matrix3d& R) {
+  for (const double determinant : {1.0, -1.0}) {
+    for (const AxesChoice& choice : all_axes(determinant)) {
+      if ((choice.R - R).cwiseAbs().maxCoeff() < 1e-6) return choice.name();
+    }
+  }
+  const Eigen::Quaterniond q(R);
+  return fmt::format("{:.5f},{:.5f},{:.5f},{:.5f}", q.w(), q.x(), q.y(), q.z());
+}
+
+ImportDoubt explain_difference(const ImportStreams& streams, const StreamUnits& units, const Agreement& agreement) {
+  for (const OtherRotation& other : other_rotations()) {
+    const Agreement changed = agreement_of(pair_rates(with_rotations(streams.pose, other.change), streams.rate));
+    if (changed.cosine(Eigen::Matrix3d::Identity()) < kOtherFits) continue;
+    return {ColumnGroup::kRotation,
+            FileRole::kPose,
+            "the poses and the gyroscope show different rotations; they agree if " + other.message,
+            {},
+            other.setting};
+  }
+  const AxesChoice mirrored = best_axes(agreement, -1.0);
+  const AxesChoice exchanged = best_axes(agreement, 1.0);
+  if (agreement.cosine(exchanged.R) > kOtherFits) {
+    return {
+        ColumnGroup::kRate,
+        FileRole::kImu,
+        fmt::format("the gyroscope's axes are not the body's: the body's x, y, z look like its {}", exchanged.name()),
+        {},
+        "--imu-axes " + axes_text(exchanged.R * units.sensor_axes)};
+  }
+  if (agreement.cosine(mirrored.R) > kOtherFits) {
+    return {ColumnGroup::kRotation,
+            FileRole::kPose,
+            "the poses and the gyroscope show rotations that are mirror images: one of them has left-handed axes",
+            {},
+            "--left-handed"};
+  }
+  const Eigen::Matrix3d R = fitted_rotation(agreement);
+  if (agreement.cosine(R) > kOtherFits) {
+    return {ColumnGroup::kRate,
+            FileRole::kImu,
+            fmt::format("the gyroscope's axes are not the body's: they are rotated by {:.1f}° against them",
+                        Eigen::AngleAxisd(R).angle() * 57.29577951308232),
+            {},
+            "--imu-axes " + axes_text(R * units.sensor_axes)};
+  }
+  return {
+      ColumnGroup::kRotation,
+      FileRole::kPose,
+      fmt::format("the poses and the gyroscope do not show the same rotation (cosine {:.2f}): other columns, another "
+                  "order of the quaternion or of Euler angles, or clocks that differ",
+                  agreement.cosine(Eigen::Matrix3d::Identity())),
+      {},
+      {}};
+}
+
+}  // namespace
+
+std::string unit_for_ratio(const std::string& unit, Quantity quantity, double ratio, double tolerance) {
+  const auto read = find_import_unit(unit, quantity);
+  if (!read || !(ratio > 0.0)) return {};
+  std::string best;
+  double least = std::log(tolerance);
+  std::string names = import_unit_names(quantity) + ",";
+  for (std::size_t comma = names.find(','); comma != std::string::npos; comma = names.find(',')) {
+    const std::string name = names.substr(names.find_first_not_of(' '), comma - names.find_first_not_of(' '));
+    names.erase(0, comma + 1);
+    const auto other = find_import_unit(name, quantity);
+    if (!other || other->is_date || other->factor == read->factor) continue;
+    const double away = std::abs(std::log(ratio * other->factor / read->factor));
+    if (away < least) least = away, best = name;
+  }
+  return best;
+}
+
+namespace {
+
+bool shows_rotation(const Agreement& agreement) {
+  constexpr std::size_t kLeastPairs = 20;
+  constexpr double kLeast_radps = 0.1;
+  const double n = static_cast<double>(std::max<std::size_t>(agreement.pairs, 1));
+  return agreement.pairs >= kLeastPairs && std::sqrt(agreement.pose2 / n) >= kLeast_radps;
+}
+
+}  // namespace
+
+double rotation_cosine(const PoseStream& pose, const VectorStream& rate) {
+  const Agreement agreement = agreement_of(pair_rates(pose, rate));
+  return shows_rotation(agreement) ? agreement.cosine(Eigen::Matrix3d::Identity()) : 0.0;
+}
+
+void check_rotation(const ImportStreams& streams, const StreamUnits& units, StreamChecks& out) {
+  if (streams.rate.size() < 2 || streams.pose.size() < 2) return;
+  const Agreement agreement = agreement_of(pair_rates(streams.pose, streams.rate));
+  if (!shows_rotation(agreement)) {
+    out.notes.push_back("gyroscope and poses: not compared, for there is too little rotation");
+    return;
+  }
+  out.rate_ratio = std::sqrt(agreement.gyro2 / agreement.pose2);
+  out.rate_cosine = agreement.cosine(Eigen::Matrix3d::Identity());
+  constexpr double kTolerance = 1.15;
+  const bool same_size = out.rate_ratio < kTolerance && out.rate_ratio > 1.0 / kTolerance;
+  constexpr double kRelated = 0.6;
+  if (!same_size && (agreement.length_cosine > kRelated || out.rate_cosine > kSameMotion)) {
+    const std::string unit = unit_for_ratio(units.rate, Quantity::kRate, out.rate_ratio, kTolerance);
+    out.doubts.push_back({ColumnGroup::kRate,
+                          FileRole::kImu,
+                          unit.empty()
+                              ? fmt::format("the gyroscope shows {:.4g} times the rotation of the poses: it looks "
+                                            "like counts",
+                                            out.rate_ratio)
+                              : fmt::format("the gyroscope shows {:.4g} times the rotation of the poses: this "
+                                            "looks like {}",
+                                            out.rate_ratio, unit),
+                          unit,
+                          {}});
+    return;
+  }
+  if (out.rate_cosine < kSameMotion) out.doubts.push_back(explain_difference(streams, units, agreement));
+}
+
+}  // namespace asperity

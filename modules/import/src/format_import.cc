@@ -1,0 +1,146 @@
+#include "asperity/import/format_import.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include "asperity/base/text.h"
+
+namespace asperity {
+
+namespace {
+
+struct ValueRange {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+};
+
+ValueRange range_of(const DelimitedColumn& column) {
+  ValueRange out;
+  for (const double value : column.values) {
+    if (!std::isfinite(value)) continue;
+    out.low = std::min(out.low, value);
+    out.high = std::max(out.high, value);
+  }
+  return out;
+}
+
+std::string column_name(const ImportTable& table, const MappedColumn& column) {
+  const DelimitedColumn& found = table.table.columns[column.column];
+  constexpr std::size_t kLongest = 24;
+  // Of a long label the end says what it is.
+  const std::string label = found.label().size() <= kLongest ? found.label() : found.name;
+  return fmt::format("#{}{}", column.column + 1, label.empty() ? "" : " " + printable(label, kLongest));
+}
+
+std::string why_text(const MappedColumn& column) {
+  if (column.unit_why.empty() || column.unit_why == column.why) return column.why;
+  return column.why + ", unit " + column.unit_why;
+}
+
+}  // namespace
+
+std::string import_table_text(const ImportTables& tables) {
+  std::string out;
+  for (const ImportTable* table : tables.all()) {
+    out += fmt::format("{}: {}{}, {} rows{}\n", printable(table->table.file, 200), role_name(table->role),
+                       table->preset.name.empty() ? "" : " (" + table->preset.name + ")", table->table.rows(),
+                       table->rate_Hz > 0.0 ? fmt::format(" at {:.6g} Hz", table->rate_Hz) : std::string());
+    out += fmt::format("  {:<7} {:<28} {:<8} {:<22} {:<26} {}\n", "meaning", "column", "unit", "first", "range", "why");
+    for (const MappedColumn& column : table->map) {
+      const DelimitedColumn& values = table->table.columns[column.column];
+      const ValueRange range = range_of(values);
+      out += fmt::format("  {:<7} {:<28} {:<8} {:<22} {:<26} {}\n", (column.negative ? "-" : "") + column.meaning,
+                         column_name(*table, column), column.unit, printable(table->table.cell(0, column.column), 22),
+                         range.low <= range.high ? fmt::format("{:.6g} to {:.6g}", range.low, range.high) : "text",
+                         why_text(column));
+    }
+  }
+  return out;
+}
+
+std::string import_summary_text(const ImportTables& tables) {
+  std::string out;
+  for (const ImportTable* table : tables.all()) {
+    out += fmt::format("{} ({}{}):", printable(table->table.file, 200), role_name(table->role),
+                       table->preset.name.empty() ? "" : ", " + table->preset.name);
+    for (const MappedColumn& column : table->map) {
+      out += fmt::format(" {}={}{}", column.meaning, column.negative ? "-" : "", column_name(*table, column));
+      if (column.unit != "1") out += "[" + column.unit + "]";
+    }
+    if (table->rate_Hz > 0.0) out += fmt::format(" at {:.6g} Hz", table->rate_Hz);
+    out += "\n";
+  }
+  return out;
+}
+
+std::string import_checks_text(const ImportedMotion& motion) {
+  std::string out;
+  constexpr double kDegrees = 57.29577951308232;
+  if (!motion.up.empty()) {
+    out += fmt::format("world       {} points up ({}; the mean specific force is {:.1f}° from it)\n", motion.up,
+                       motion.up_is_estimated ? "by the specific force" : "stated", motion.up_angle_rad * kDegrees);
+  }
+  const StreamChecks& checks = motion.checks;
+  if (checks.rest_mps2 > 0.0) out += fmt::format("gravity     {:.3f} m/s²\n", checks.rest_mps2);
+  if (checks.rate_ratio > 0.0) {
+    out += fmt::format("rotation    gyroscope {:.3f} times the poses', cosine {:.3f}\n", checks.rate_ratio,
+                       checks.rate_cosine);
+  }
+  if (checks.scale > 0.0) out += fmt::format("lengths     poses {:.3f} times the accelerometer's\n", checks.scale);
+  if (motion.clocks && motion.clocks->is_determined) {
+    const ClockFit& clocks = *motion.clocks;
+    out += fmt::format("clocks      poses + {:.6f} ± {:.6f} s", clocks.offset_s, clocks.offset_sigma_s);
+    out += clocks.drift_sigma > 0.0
+               ? fmt::format(", drift {:.2f} ± {:.2f} ppm", clocks.drift * 1e6, clocks.drift_sigma * 1e6)
+               : std::string(", drift not determined (too short)");
+    out += fmt::format(", correlation {:.3f}\n", clocks.correlation);
+  }
+  for (const std::string& note : checks.notes) out += "note        " + note + "\n";
+  return out;
+}
+
+Json import_json(const ImportTables& tables, const ImportedMotion& motion) {
+  Json out;
+  out["files"] = Json::array();
+  for (const ImportTable* table : tables.all()) {
+    Json file;
+    file["file"] = table->table.file;
+    file["role"] = role_name(table->role);
+    file["preset"] = table->preset.name;
+    file["rows"] = table->table.rows();
+    file["rate_hz"] = table->rate_Hz;
+    file["columns"] = Json::array();
+    for (const MappedColumn& column : table->map) {
+      const ValueRange range = range_of(table->table.columns[column.column]);
+      file["columns"].push_back({{"meaning", column.meaning},
+                                 {"number", column.column + 1},
+                                 {"name", table->table.columns[column.column].label()},
+                                 {"unit", column.unit},
+                                 {"negative", column.negative},
+                                 {"why", why_text(column)},
+                                 {"first", std::string(table->table.cell(0, column.column))},
+                                 {"low", range.low},
+                                 {"high", range.high}});
+    }
+    out["files"].push_back(std::move(file));
+  }
+  out["up"] = motion.up;
+  out["gravity_mps2"] = motion.checks.rest_mps2;
+  out["rate_ratio"] = motion.checks.rate_ratio;
+  out["rate_cosine"] = motion.checks.rate_cosine;
+  out["scale"] = motion.checks.scale;
+  out["doubts"] = Json::array();
+  for (const ImportDoubt& doubt : motion.checks.doubts) out["doubts"].push_back(doubt_text(doubt, tables));
+  if (motion.clocks) {
+    out["clocks"] = {{"determined", motion.clocks->is_determined},
+                     {"offset_s", motion.clocks->offset_s},
+                     {"offset_sigma_s", motion.clocks->offset_sigma_s},
+                     {"drift", motion.clocks->drift},
+                     {"drift_sigma", motion.clocks->drift_sigma}};
+  }
+  return out;
+}
+
+}  // namespace asperity

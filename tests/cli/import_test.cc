@@ -1,0 +1,67 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include "asperity/testkit/temp_dir.h"
+#include "run_asperity.h"
+
+namespace asperity::cli {
+namespace {
+
+using testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+// A sensor at rest for four seconds, as a program with its own names would write it.
+class ImportMapped : public testing::Test {
+ protected:
+  ImportMapped() {
+    std::string text = "Time [ms];X [mm];Y [mm];Z [mm];qw;qx;qy;qz;AccX [g];AccY [g];AccZ [g];F [mN]\n";
+    for (int i = 0; i < 400; ++i) text += fmt::format("{};1,5;2;{};1;0;0;0;0;0;1;{}\n", 10 * i, i % 3, 100 + i);
+    write_text(dir_ / "all.csv", text);
+  }
+
+  Words words(const Words& more) const {
+    Words out{"import", "--pose", (dir_ / "all.csv").string()};
+    out.insert(out.end(), more.begin(), more.end());
+    return out;
+  }
+
+  testkit::TempDir dir_;
+};
+
+TEST_F(ImportMapped, MakesARecordingOfOneTable) {
+  const std::string rec = (dir_ / "rec").string(), mapping = (dir_ / "map.toml").string();
+  const Outcome shown = run(words({"--dry-run", "--save-mapping", mapping}));
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  EXPECT_THAT(shown.out, HasSubstr("#9 AccX"));
+  EXPECT_FALSE(std::filesystem::exists(rec));
+  EXPECT_EQ(run(words({"-o", rec, "--tip", "0,0,-120mm"})).code, 0);
+  const auto guessed = contents(rec + "/");
+  EXPECT_EQ(run({"inspect", rec}).code, 0);
+  EXPECT_EQ(run(words({"-o", rec, "--tip", "0,0,-120mm", "--mapping", mapping})).code, 0);
+  for (std::size_t i = 0; i < guessed.size(); ++i) {
+    if (guessed[i].first != "recording.json") EXPECT_EQ(contents(rec + "/")[i], guessed[i]);
+  }
+}
+
+TEST_F(ImportMapped, RefusesWhatCannotBe) {
+  const std::string rec = (dir_ / "rec").string();
+  for (const auto& [columns, message] :
+       {std::pair("ax=AccX[mg],ay=AccY[mg],az=AccZ[mg]", "this looks like g; state ax=AccX[g]"),
+        std::pair("t=Time[s]", "column 'Time' read in s: the rows come at 0.1 Hz"),
+        std::pair("px=X[furlong]", "'furlong' is not a known unit: m, mm"),
+        std::pair("px=pos[mm]", "no such column; there are #1 'Time'")}) {
+    const Outcome outcome = run(words({"-o", rec, "--columns", columns}));
+    EXPECT_EQ(outcome.code, 1) << columns;
+    EXPECT_THAT(outcome.err, HasSubstr(message));
+    EXPECT_FALSE(std::filesystem::exists(rec));
+  }
+  EXPECT_EQ(run(words({"-o", rec, "--columns", "ax=AccX[mg],ay=AccY[mg],az=AccZ[mg]", "--unchecked"})).code, 0);
+  EXPECT_EQ(run(words({})).code, 2);  // neither --output nor --dry-run
+}
+
+}  // namespace
+}  // namespace asperity::cli
