@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -9,17 +8,14 @@
 #include "asperity/base/text.h"
 #include "asperity/geometry/triangle_mesh.h"
 #include "asperity/pipeline/make_area.h"
-#include "asperity/scene/export_scene.h"
-#include "asperity/scene/write_scene.h"
 #include "asperity/session/area_input.h"
 #include "asperity/session/our_folder.h"
+#include "asperity/session/write_area.h"
 #include "commands.h"
 
 namespace asperity::app {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 class AreaCommand : public Command {
  public:
@@ -39,24 +35,13 @@ class AreaCommand : public Command {
     OutputFolder folder(output_, is_our_folder);
     observer.update("reading", 0.0);
     reads(folder_);
-    AreaInput input = read_area_input(folder_, observer);
-    SceneObject& object = input.scene.objects.front();
+    const AreaInput input = read_area_input(folder_, observer);
+    const SceneObject& object = input.scene.objects.front();
     const AreaResult area =
         make_area(to_metres(object.mesh, object.unit_m), input.scans, input.registered, config_, observer);
     reads("");
     observer.update("writing", 1.0);
-    std::string name;
-    if (area.texture) {
-      const SceneTexture& texture = add_area(input.scene, area);
-      name = texture.file;
-      write_pictures(folder.path(), texture);
-    }
-    if (fs::path(object.mesh_file).extension() != ".obj")
-      object.mesh_file = fs::path(object.mesh_file).replace_extension(".obj").string();
-    write_scene(folder.path() / "scene.json", input.scene);
-    const std::string json = format_area(area, input.scans, name);
-    write_file(folder.path() / "area.json", json);
-    write_listing(folder.path());
+    const std::string json = write_area(folder.path(), input, area);
     commit_output(folder, output_);
     print_json(trim(json));
     say(summary(area, input.scans.size()) + "scene in " + printable(output_, 200) + "\n");
@@ -66,14 +51,6 @@ class AreaCommand : public Command {
   }
 
  private:
-  // Height, normal and σ map of the texture.
-  static void write_pictures(const fs::path& folder, const SceneTexture& texture) {
-    Scene alone;
-    alone.objects.emplace_back().textures.push_back(texture);
-    for (const ExportedFile& file : export_scene(alone, ExportFormat::kPng).files)
-      write_file(folder / file.name, file.content);
-  }
-
   static std::string summary(const AreaResult& area, std::size_t scans) {
     const StrokeMap& map = area.map;
     std::string out = fmt::format(

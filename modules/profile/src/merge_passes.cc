@@ -298,6 +298,8 @@ MergedProfile merge_passes(std::span<const ProfilePass> passes, const AlignPasse
     if (!differences.coherence.empty()) pass.coherence = differences.coherence[next];
     if (!differences.noise_m2.empty()) pass.noise_rms_m = std::sqrt(differences.noise_m2[next]);
     if (!differences.stated_m2.empty()) pass.stated_noise_rms_m = std::sqrt(differences.stated_m2[next]);
+    for (std::size_t i = 0; i < grid[next].known.size(); ++i)
+      pass.texture_m.push_back(grid[next].known[i] != 0 ? grid[next].texture_m[i] : kNan);
     ++next;
   }
 

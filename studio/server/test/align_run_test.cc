@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "align/scan_overlaps.h"
 #include "align_bench.h"
 #include "asperity/base/csv.h"
 #include "asperity/json/parse_json.h"
@@ -111,6 +113,19 @@ TEST_F(AlignRunTest, AScanIsAddedToASceneAndListedWithItsPose) {
   EXPECT_EQ(opened.head.at("stored")[0].at("T_mesh_world").size(), 7U);
   EXPECT_GT(opened.array<std::uint32_t>("laid_triangle").size(), 100U);
   EXPECT_TRUE(opened.array<std::uint32_t>("covered_triangle").empty());
+  // It would lie on the texture of the first, which itself would be replaced and is no overlap.
+  const auto on_texture = [&] {
+    const Json pose = json_of_pose(bench_.T_mesh_world);
+    const ReadBlock block(bench_.call("align.residuals", args_of({{"pose", pose}})).block);
+    const std::vector<std::uint8_t> overlap = block.array<std::uint8_t>("overlap");
+    return static_cast<double>(std::count(overlap.begin(), overlap.end(), kOnTexture)) /
+           static_cast<double>(overlap.size());
+  };
+  EXPECT_GT(on_texture(), 0.9);
+  bench_.document.edit("/align/paths", {"path.csv"}, "");
+  ASSERT_EQ(bench_.call("align.open").error, "");
+  EXPECT_EQ(on_texture(), 0.0);
+  bench_.document.edit("/align/paths", {"second.csv"}, "");
   const FakeHub::Answer written = bench_.call("align.write", args_of({{"into", true}}));
   ASSERT_EQ(written.error, "");
   EXPECT_EQ(written.result["scene"], "laid/scene.json");

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { pointsApart, toMesh, type Point, type Pose } from "../src/pages/align/pose";
-import { areas, colourOf, ownPoses, rmsByPath, rotationDegrees, scanName, scanRows } from "../src/pages/align/scans";
+import { colourLimitSigmas, inSigmas, residualColours } from "../src/pages/align/residuals";
+import { areas, colourOf, markedPoints, overlapByPath, ownPoses, rmsByPath, rotationDegrees, scanName, scanRows } from "../src/pages/align/scans";
 
 const still: Pose = [0, 0, 0, 1, 0, 0, 0];
 const moved: Pose = [0.01, 0.02, -0.03, Math.SQRT1_2, 0, 0, Math.SQRT1_2];
@@ -73,4 +74,40 @@ it("sorts triangles by their texture", () => {
     [5, [0, 1, 2]],
     [7, [3, 1, 4]],
   ]);
+});
+
+describe("overlaps", () => {
+  it("are the share of each path's marked points", () => {
+    const share = overlapByPath([1, 0, 2, 3], [0, 0, 1, 1], 3);
+    expect(share.slice(0, 2)).toEqual([0.5, 1]);
+    expect(share[2]).toBeNaN();
+    const [row] = scanRows(["a"], null, null, [], [], [0.25]);
+    expect(row!.overlap).toBe(0.25);
+  });
+
+  it("are drawn at their points", () => {
+    expect(Array.from(markedPoints([1, 2, 3, 4, 5, 6, 7, 8, 9], [0, 2, 1]))).toEqual([4, 5, 6, 7, 8, 9]);
+  });
+});
+
+describe("distances over their σ", () => {
+  it("are known where σ is", () => {
+    const sigmas = inSigmas([3e-4, -2e-4, 1], [1e-4, 1e-4, NaN]);
+    expect(sigmas[0]).toBeCloseTo(3, 5);
+    expect(sigmas[1]).toBeCloseTo(-2, 5);
+    expect(sigmas[2]).toBeNaN();
+  });
+
+  it("have a scale to 3 at least, of what is known", () => {
+    expect(colourLimitSigmas([0.1, 0.2, NaN])).toBe(3);
+    expect(colourLimitSigmas([NaN])).toBe(3);
+    expect(colourLimitSigmas(Array.from({ length: 100 }, (_, index) => index / 10))).toBe(10);
+  });
+
+  it("have a colour of their own where they are not known", () => {
+    const [r, g, b, ...near] = residualColours([NaN, 0], 3);
+    expect([r, g, b]).not.toEqual(near);
+    const ramp = residualColours([0, 1, 2, 3], 3);
+    for (let index = 0; index < 12; index += 3) expect([ramp[index], ramp[index + 1], ramp[index + 2]]).not.toEqual([r, g, b]);
+  });
 });

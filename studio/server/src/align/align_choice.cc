@@ -17,8 +17,8 @@ constexpr std::size_t kMostPaths = 16;
 constexpr std::size_t kMostPicks = 1000;
 constexpr std::size_t kMostSettings = 200;
 constexpr std::size_t kLongestName = 1000;
-constexpr std::array<std::string_view, 9> kKeys{"paths", "mesh",         "mesh_unit",  "textures", "config",
-                                                "picks", "T_mesh_world", "registered", "ran"};
+constexpr std::array<std::string_view, 10> kKeys{"paths", "mesh",         "mesh_unit",  "textures", "config",
+                                                 "picks", "T_mesh_world", "registered", "ran",      "area"};
 
 std::string text_of(const Json& json, std::string_view what) {
   if (!json.is_string() || json.text().size() > kLongestName) {
@@ -88,6 +88,16 @@ AlignChoice::LastRun last_run_of(const Json& json) {
   return out;
 }
 
+AlignChoice::Area area_of(const Json& json) {
+  AlignChoice::Area out;
+  out.folder = text_of(part(json, "folder", "area"), "area.folder");
+  const Json& config = part(json, "config", "area");
+  if (!config.is_object() || config.size() > kMostSettings) throw Error("align: area.config is no object of settings");
+  for (const auto& [path, value] : config.items()) out.settings[path] = text_of(value, path);
+  out.config();
+  return out;
+}
+
 Json json_of_settings(const std::map<std::string, std::string>& settings) {
   Json out = Json::object();
   for (const auto& [path, value] : settings) out[path] = value;
@@ -128,6 +138,7 @@ Json json_of_choice(const AlignChoice& choice) {
     registered["T_mesh_world"] = json_of_pose(choice.registered->T_mesh_world);
   }
   if (choice.ran) out["ran"] = json_of_last_run(*choice.ran);
+  out["area"] = {{"folder", choice.area.folder}, {"config", json_of_settings(choice.area.settings)}};
   return out;
 }
 
@@ -149,6 +160,7 @@ AlignChoice choice_of_json(const Json& section) {
   if (section.contains("T_mesh_world")) out.T_mesh_world = pose_of_json(section.at("T_mesh_world"), "align: the pose");
   if (section.contains("registered")) out.registered = registered_of(section.at("registered"));
   if (section.contains("ran")) out.ran = last_run_of(section.at("ran"));
+  if (section.contains("area")) out.area = area_of(section.at("area"));
   return out;
 }
 
@@ -158,6 +170,13 @@ bool is_of_scene(const AlignChoice& choice) { return choice.mesh.ends_with(".jso
 
 std::optional<double> unit_to_read_m(const AlignChoice& choice) {
   return is_of_scene(choice) ? std::nullopt : std::optional(unit_m(choice));
+}
+
+AreaConfig AlignChoice::Area::config() const {
+  AreaConfig out;
+  const std::vector<ConfigField> fields = list_fields("", out);
+  for (const auto& [path, value] : settings) set_field(fields, path, value);
+  return out;
 }
 
 RegisterConfig config_of(const AlignChoice& choice) {

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "asperity/geometry/pose.h"
+#include "asperity/pipeline/make_area.h"
 #include "asperity/pipeline/register_config.h"
 #include "asperity/studio/block.h"
 
@@ -23,6 +24,7 @@ namespace asperity::studio {
 //   "T_mesh_world"  [x,y,z,qw,qx,qy,qz], where there is one
 //   "registered"    the registration that "T_mesh_world" was taken from, where it was
 //   "ran"           the registration whose result is shown, so that it can be worked out again
+//   "area"          {"folder","config"}: the registered scans that an area is made of, and its settings; may be missing
 struct AlignChoice {
   struct Pick {
     Eigen::Vector3d p_world_m, p_mesh_m;
@@ -42,6 +44,14 @@ struct AlignChoice {
     std::map<std::string, std::string> config;
   };
 
+  // The scans of a folder that a registration wrote, as one areal texture.
+  struct Area {
+    std::string folder;
+    std::map<std::string, std::string> settings;
+
+    AreaConfig config() const;
+  };
+
   std::vector<std::string> paths;
   std::string mesh;
   std::string mesh_unit = "mm";
@@ -51,6 +61,7 @@ struct AlignChoice {
   std::optional<Pose> T_mesh_world;
   std::optional<Registered> registered;
   std::optional<LastRun> ran;
+  Area area;
 };
 
 Json json_of_choice(const AlignChoice& choice);

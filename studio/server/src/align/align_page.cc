@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "align/list_paths.h"
-#include "align/path_residuals.h"
+#include "align/residual_block.h"
 #include "align/write_alignment.h"
 #include "asperity/base/error.h"
 #include "asperity/pipeline/earlier_scene.h"
@@ -32,17 +32,6 @@ std::array<double, 3> three(const Request& request, std::string_view name) {
   return {v[0], v[1], v[2]};
 }
 
-BlockWriter residual_block(const AlignScene& scene, const std::vector<Eigen::Vector3d>& p_world_m, const Pose& pose,
-                           std::vector<ClosestPoint>& closest) {
-  const PathResiduals residuals = path_residuals(p_world_m, scene.surface, pose, closest);
-  BlockWriter out("align.residuals");
-  out.head()["mean_m"] = residuals.mean_m;
-  out.head()["rms_m"] = residuals.rms_m;
-  out.head()["most_m"] = residuals.most_m;
-  out.add("distance_m", std::span<const float>(residuals.distance_m));
-  return out;
-}
-
 // The checksum of a scene as it is now; "" if it cannot be read.
 std::string scene_version(const Project& project, const std::string& name) {
   try {
@@ -61,7 +50,9 @@ void AlignPage::bind(Document& document, Calls& calls) {
     const std::vector<ConfigField> fields = list_fields("", config);
     use_present_names(section, "config", fields);
     if (Json* const ran = section.find("ran")) use_present_names(*ran, "config", fields);
+    if (section.is_object() && !section.contains("area")) section["area"] = json_of_choice({}).at("area");
   });
+  areas_.bind(calls);
   calls.add("align.paths", [this](const Request& request) {
     answer_in_lane(shared_.jobs, "project", request, "", "",
                    [project = shared_.project](const Observer&) { return list_paths(project); });
@@ -186,15 +177,9 @@ void AlignPage::measure(const Request& request) {
       throw Error("align.residuals: poses: not one for each path");
     for (const Json& pose : *given) poses.push_back(pose_of_json(pose, "align.residuals: poses"));
   }
-  answer_in_lane(
-      shared_.jobs, "align residuals", request, "", "",
-      [scene, closest = closest_, pose = pose_argument(request, "pose"), poses = std::move(poses)](const Observer&) {
-        if (poses.empty()) return residual_block(*scene, scene->p_world_m, pose, *closest);
-        std::vector<Eigen::Vector3d> p_world_m = scene->p_world_m;
-        const Pose back = pose.inverse();
-        for (std::size_t i = 0; i < p_world_m.size(); ++i) p_world_m[i] = back * (poses[scene->path[i]] * p_world_m[i]);
-        return residual_block(*scene, p_world_m, pose, *closest);
-      });
+  answer_in_lane(shared_.jobs, "align residuals", request, "", "",
+                 [scene, closest = closest_, pose = pose_argument(request, "pose"),
+                  poses = std::move(poses)](const Observer&) { return residual_block(*scene, pose, poses, *closest); });
 }
 
 // A verdict belongs to a pose: one that is placed by hand has its own.

@@ -11,6 +11,7 @@
 
 #include "align/align_run.h"
 #include "align/align_scene.h"
+#include "align/area_calls.h"
 #include "asperity/geometry/mesh_bvh.h"
 #include "asperity/studio/page.h"
 
@@ -20,7 +21,7 @@ namespace asperity::studio {
 // (seed §5.4, Fig. 23; docs/studio-align.md).
 class AlignPage : public Page {
  public:
-  explicit AlignPage(Shared& shared) : shared_(shared) {}
+  explicit AlignPage(Shared& shared) : shared_(shared), areas_(shared) {}
 
   void bind(Document& document, Calls& calls) override;
   void tick(std::int64_t now_ns) override;
@@ -61,6 +62,7 @@ class AlignPage : public Page {
   std::shared_ptr<IterationLog> log_;
   std::optional<AlignRun> last_;
   bool running_ = false;
+  AreaCalls areas_;
   Json sent_ran_;  // the document's "ran" that last_ is the result of, or that could not be worked out
 };
 

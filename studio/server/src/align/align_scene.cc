@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <span>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include "align/scan_overlaps.h"
 #include "asperity/session/register_input.h"
 #include "asperity/studio/calls.h"
 #include "json_pose.h"
@@ -54,6 +56,20 @@ void show_stored(const EarlierScene& earlier, AlignScene& scene) {
   }
 }
 
+// Where a scan would lie on the texture of another one, which is not replaced by it.
+void mark_occupied(const std::vector<Scan>& scans, AlignScene& scene) {
+  std::set<std::int32_t> replaced;
+  for (const Json& stored : scene.stored) {
+    const std::string name = stored.value("name", "");
+    const bool again = std::any_of(scans.begin(), scans.end(), [&](const Scan& scan) { return scan.name == name; });
+    if (again && stored.contains("texture")) replaced.insert(stored.at("texture").get<std::int32_t>());
+  }
+  scene.occupied.assign(scene.surface.mesh.triangles.size(), 0);
+  for (std::size_t i = 0; i < scene.laid_triangle.size(); ++i) {
+    if (!replaced.contains(scene.laid_texture[i])) scene.occupied[scene.laid_triangle[i]] = 1;
+  }
+}
+
 void show_points(AlignScene& scene) {
   std::size_t total = 0;
   for (const PathPoints& points : scene.scans.points) total += points.path.p_world_m.size();
@@ -63,6 +79,7 @@ void show_points(AlignScene& scene) {
     for (std::size_t i = 0; i < p_m.size(); i += stride) {
       if (!p_m[i].allFinite()) continue;
       scene.p_world_m.push_back(p_m[i]);
+      scene.point.push_back(static_cast<std::uint32_t>(i));
       scene.path.push_back(static_cast<std::uint32_t>(k));
       scene.middle_world_m += p_m[i];
     }
@@ -108,6 +125,8 @@ std::shared_ptr<const AlignScene> load_align_scene(const AlignChoice& choice, co
     out->problems.insert(out->problems.end(), motion.problems.begin(), motion.problems.end());
   }
   show_points(*out);
+  mark_occupied(input.scans, *out);
+  out->overlap = scan_overlaps(*out, {});
   return out;
 }
 

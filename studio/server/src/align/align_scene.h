@@ -31,10 +31,13 @@ struct AlignScene {
   // "placement","verdict","rms_m"}, what is known of it), its textured triangles and those with several textures.
   std::string version{};  // its checksum
   Json stored = Json::array();
-  std::vector<std::uint32_t> laid_triangle;
-  std::vector<std::int32_t> laid_texture;
-  std::vector<std::uint32_t> covered_triangle;
-  Problems problems;
+  std::vector<std::uint32_t> laid_triangle{};
+  std::vector<std::int32_t> laid_texture{};
+  std::vector<std::uint32_t> covered_triangle{};
+  Problems problems{};
+  std::vector<std::uint32_t> point{};    // of each point that is drawn: its index in its scan's path
+  std::vector<std::uint8_t> overlap{};   // of each: 1 where scan_overlaps() has it, all scans by one pose
+  std::vector<std::uint8_t> occupied{};  // of each triangle: 1 where a stored scan, which stays, has its texture
 };
 
 // Whether a scene made from `made` serves `wanted` too.

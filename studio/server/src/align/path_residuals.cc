@@ -10,6 +10,7 @@ PathResiduals path_residuals(const std::vector<Eigen::Vector3d>& p_world_m, cons
                              const Pose& T_mesh_world, std::vector<ClosestPoint>& previous) {
   PathResiduals out;
   out.distance_m.reserve(p_world_m.size());
+  out.normal_mesh.reserve(p_world_m.size());
   previous.resize(p_world_m.size());
   double square_m2 = 0.0;
   for (std::size_t i = 0; i < p_world_m.size(); ++i) {
@@ -20,6 +21,7 @@ PathResiduals path_residuals(const std::vector<Eigen::Vector3d>& p_world_m, cons
     for (std::size_t k = 0; k < 3; ++k) {
       normal += closest.barycentric[static_cast<Eigen::Index>(k)] * surface.normals[closest.triangle][k];
     }
+    out.normal_mesh.push_back(normal.normalized());
     const bool inside = (p_m - closest.p_m).dot(normal) < 0.0;
     out.distance_m.push_back(static_cast<float>(inside ? -closest.distance_m : closest.distance_m));
     out.mean_m += closest.distance_m;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "align/align_run.h"
+#include "align/shell_words.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/pipeline/write_registration.h"
@@ -34,12 +35,6 @@ Start start_of(const AlignChoice& choice) {
   const std::optional<AlignChoice::Registered>& registered = choice.registered;
   const bool unmoved = registered && json_of_pose(registered->T_mesh_world) == json_of_pose(*choice.T_mesh_world);
   return unmoved ? Start{registered->guess, registered->near} : Start{choice.T_mesh_world, false};
-}
-
-std::string shell_quoted(const std::string& word) {
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
 }
 
 std::string command_of(const AlignChoice& choice, const Start& start, const std::optional<std::string>& name) {

@@ -22,9 +22,32 @@ std::string text_of(const Json& value, const std::string& name) {
   return text;
 }
 
+void read_settings(const Json& config, const std::vector<ConfigField>& fields) {
+  if (!config.is_object()) throw Error("process: 'config' is no list of settings");
+  for (const auto& [path, value] : config.items()) set_field(fields, path, text_of(value, path));
+}
+
+MergeChoice merge_choice(const Json& json) {
+  MergeChoice out;
+  if (!json.is_object()) throw Error("process: 'merge' is no object");
+  refuse_unknown(json, {"strokes", "config"}, "process");
+  const Json& strokes = member(json, "strokes");
+  if (!strokes.is_array() || strokes.size() > kMostScans) {
+    throw Advice("at most " + std::to_string(kMostScans) + " strokes can be merged",
+                 "Take one out before you add another.");
+  }
+  for (const Json& stroke : strokes) out.strokes.push_back(text_of(stroke, "strokes"));
+  read_settings(member(json, "config"), list_fields("align", out.align));
+  return out;
+}
+
 }  // namespace
 
-Json first_process_section() { return {{"scans", Json::array()}, {"current", 0}, {"config", Json::object()}}; }
+Json first_process_section() {
+  return {{"scans", Json::array()}, {"current", 0}, {"config", Json::object()}, {"merge", first_merge()}};
+}
+
+Json first_merge() { return {{"strokes", Json::array()}, {"config", Json::object()}}; }
 
 ScanName scan_name(const Json& json) {
   ScanName out;
@@ -36,7 +59,7 @@ ScanName scan_name(const Json& json) {
 
 ProcessChoice process_choice(const Json& section) {
   ProcessChoice out;
-  refuse_unknown(section, {"scans", "current", "config"}, "process");
+  refuse_unknown(section, {"scans", "current", "config", "merge"}, "process");
   const Json& scans = member(section, "scans");
   if (!scans.is_array() || scans.size() > kMostScans) {
     throw Advice("at most " + std::to_string(kMostScans) + " recordings can be looked at together",
@@ -48,10 +71,8 @@ ProcessChoice process_choice(const Json& section) {
     throw Error("process: 'current' is no index");
   }
   out.current = std::min<std::size_t>(current.get<std::size_t>(), kMostScans);
-  const Json& config = member(section, "config");
-  if (!config.is_object()) throw Error("process: 'config' is no list of settings");
-  const std::vector<ConfigField> fields = list_fields("", out.config);
-  for (const auto& [path, value] : config.items()) set_field(fields, path, text_of(value, path));
+  read_settings(member(section, "config"), list_fields("", out.config));
+  if (section.contains("merge")) out.merge = merge_choice(section.at("merge"));
   return out;
 }
 

@@ -10,8 +10,10 @@
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/recording/fingerprint.h"
+#include "asperity/session/merge_input.h"
 #include "asperity/studio/measured_block.h"
 #include "config_fields.h"
+#include "process/merge_strokes.h"
 #include "process/process_choice.h"
 #include "process/repeatability_block.h"
 #include "process/scan_sessions.h"
@@ -64,10 +66,13 @@ class ProcessPage : public Page {
         [](Json& section) {
           ProcessConfig config;
           use_present_names(section, "config", list_fields("", config));
+          if (section.is_object() && !section.contains("merge")) section["merge"] = first_merge();
         });
     calls.add("process.fields", [this](const Request& request) { send_fields(request); });
     calls.add("process.run", [this](const Request& request) { run(request); });
     calls.add("process.compare", [this](const Request& request) { compare(request); });
+    calls.add("process.merge", [this](const Request& request) { merge(request); });
+    calls.add("process.write_merge", [this](const Request& request) { write_merge(request); });
     calls.add("process.write", [this](const Request& request) { write(request); });
     calls.add("process.report", [this](const Request& request) { hand_out_report(request); });
   }
@@ -76,8 +81,10 @@ class ProcessPage : public Page {
   ProcessChoice choice() const { return process_choice(shared_.document.section(kSection)); }
 
   void send_fields(const Request& request) const {
-    ProcessConfig config = choice().config, defaults;
-    request.answer(Json{{"fields", fields_json(list_fields("", config), list_fields("", defaults))}});
+    ProcessChoice chosen = choice(), defaults;
+    request.answer(Json{{"fields", fields_json(list_fields("", chosen.config), list_fields("", defaults.config))},
+                        {"merge_fields", fields_json(list_fields("align", chosen.merge.align),
+                                                     list_fields("align", defaults.merge.align))}});
   }
 
   // The newest setting of a scan takes the place of the one that is worked on.
@@ -122,6 +129,38 @@ class ProcessPage : public Page {
                     const Repeatability measured = measure_repeatability(scans, chosen.config.comparison);
                     return repeatability_block(measured, scans, names, chosen.config.comparison);
                   });
+  }
+
+  // The strokes of the document, and how they are merged.
+  std::vector<NamedStroke> strokes(const MergeChoice& chosen) const {
+    std::vector<std::string> folders;
+    for (const std::string& stroke : chosen.strokes) folders.push_back(shared_.project.existing(stroke).string());
+    const std::vector<std::string> names = stroke_names(folders);
+    std::vector<NamedStroke> out;
+    for (std::size_t i = 0; i < folders.size(); ++i) out.push_back({names[i], folders[i]});
+    return out;
+  }
+
+  void merge(const Request& request) {
+    const ProcessChoice chosen = choice();
+    answer_by_job(shared_.jobs, request, "Merge strokes", "process.merge",
+                  [sessions = sessions_, strokes = strokes(chosen.merge),
+                   config = MergeConfig{chosen.merge.align, chosen.config}](const Observer& observer) {
+                    return merge_block(merge_strokes(strokes, config, *sessions, observer));
+                  });
+  }
+
+  void write_merge(const Request& request) {
+    const ProcessChoice chosen = choice();
+    const std::string name = request.text("name");
+    answer_by_job(
+        shared_.jobs, request, "Write " + name, "process.write_merge",
+        [sessions = sessions_, strokes = strokes(chosen.merge), target = write_target(shared_.project, request),
+         config = MergeConfig{chosen.merge.align, chosen.config}, name](const Observer& observer) {
+          Json out = write_merged(target, merge_strokes(strokes, config, *sessions, observer));
+          out["folder"] = name;
+          return out;
+        });
   }
 
   void write(const Request& request) {

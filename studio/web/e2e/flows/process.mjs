@@ -5,7 +5,7 @@ import { figure, open, type } from "../lib/ui.mjs";
 
 const kTabs = ["Path", "Spectrum", "Compliance", "Accuracy", "Dropped", "Settings", "Profile"];
 
-export default async function process_({ page, step, folder, until, equal, near, ok, numberIn }) {
+export default async function process_({ page, step, folder, asperity, until, equal, near, ok, numberIn }) {
   await open(page, "Process");
   const result = page.getByTestId("result");
 
@@ -46,7 +46,28 @@ export default async function process_({ page, step, folder, until, equal, near,
     ok(/0\.9\d/.test(await page.getByRole("tabpanel").textContent()), "the two agree");
   });
 
+  await step("strokes over one line are merged", async () => {
+    await page.getByRole("tab", { name: "Merge", exact: true }).click();
+    const strokes = page.getByTestId("merge-strokes");
+    for (const name of ["guided_11", "guided_12", "board"]) await strokes.getByRole("checkbox", { name: new RegExp(`^${name} `) }).check();
+    await page.getByTestId("merge-run").click();
+    const result = page.getByTestId("merge-result");
+    await result.getByTestId("verdict").filter({ hasText: "Limited" }).waitFor({ timeout: 120_000 });
+    ok(/board/.test(await result.getByTestId("verdict").textContent()), "the stroke of another surface is named");
+    await strokes.getByRole("checkbox", { name: /^board / }).uncheck();
+    await page.getByRole("tabpanel").filter({ hasText: "Merge again" }).waitFor();
+    await page.getByTestId("merge-run").click();
+    await page.getByTestId("merge-gain").filter({ hasText: "2 equal strokes" }).waitFor({ timeout: 120_000 });
+    ok(numberIn(await page.getByTestId("merge-gain").locator("dd").textContent()) < 0.95, "less noise than one stroke");
+    await page.getByTestId("plot-merge").locator("canvas").first().waitFor();
+    await page.getByTestId("merge-write-button").click();
+    await page.getByTestId("merge-written").filter({ hasText: "Written to merged" }).waitFor({ timeout: 120_000 });
+    asperity("merge", "guided_11", "guided_12", "-o", "merged_by_hand", "--quiet");
+    equal(readFileSync(join(folder, "merged", "result.json"), "utf8"), readFileSync(join(folder, "merged_by_hand", "result.json"), "utf8"), "result.json of studio and command line");
+  });
+
   await step("the results are written as the command line writes them", async () => {
+    await page.getByRole("tab", { name: "Profile", exact: true }).click();
     await page.getByTestId("write").getByLabel("Folder", { exact: true }).fill("by_studio");
     await page.getByTestId("write-results").click();
     await page.getByTestId("written").filter({ hasText: "by_studio" }).waitFor();

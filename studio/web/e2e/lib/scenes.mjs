@@ -30,6 +30,24 @@ async function process_({ page }) {
   await page.getByTestId("plot-texture").locator("canvas").waitFor();
 }
 
+async function merge({ page }) {
+  await open(page, "Process");
+  await page.getByRole("tab", { name: "Merge", exact: true }).click();
+  for (const name of ["guided_11", "guided_12"]) await page.getByTestId("merge-strokes").getByRole("checkbox", { name: new RegExp(`^${name} `) }).check();
+  await page.getByTestId("merge-run").click();
+  await page.getByTestId("plot-merge").locator("canvas").first().waitFor({ timeout: 120_000 });
+  await sideUp(page);
+}
+
+async function area({ page }) {
+  await open(page, "Align");
+  await page.getByRole("tab", { name: "Area", exact: true }).click();
+  await page.getByTestId("align-area-folder").selectOption("registered");
+  await page.getByTestId("align-area-run").click();
+  await page.getByTestId("align-area-map").waitFor({ timeout: 120_000 });
+  await sideUp(page);
+}
+
 async function align({ page }) {
   await open(page, "Align");
   await page.getByTestId("align-mesh").selectOption("pebble.obj");
@@ -118,7 +136,9 @@ async function study({ page, folder, asperity }) {
 export const scenes = [
   { name: "scan", prepare: scan },
   { name: "process", prepare: process_ },
+  { name: "merge", prepare: merge },
   { name: "align", prepare: align },
+  { name: "area", prepare: area },
   { name: "paint", prepare: paint },
   { name: "feel", prepare: feel, before: touch },
   { name: "study", prepare: study },

@@ -15,6 +15,8 @@ namespace asperity {
 // One pass in a merge.
 struct MergedPass {
   std::string name;
+  std::vector<double> texture_m;  // its heights at the merge's points; nan in its gaps; empty: not used
+
   bool used = false;          // it agrees with the others
   PassAlignment alignment;    // on the first reference; of the reference itself none
   double shift_m = 0.0;       // place in the pass, from its first point in its direction, of the merge's first point

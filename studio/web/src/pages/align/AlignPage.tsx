@@ -1,8 +1,12 @@
 import "./align.css";
-import { useEffect } from "preact/hooks";
+import { useEffect, useState } from "preact/hooks";
 import { PageLayout } from "../../ui/PageLayout";
+import { Tabs } from "../../ui/Tabs";
 import { AlignView } from "./AlignView";
 import { followAlign } from "./alignState";
+import { AreaPanel } from "./AreaPanel";
+import { AreaResults } from "./AreaResults";
+import { AreaView } from "./AreaView";
 import { FilesPanel } from "./FilesPanel";
 import { HandPanel } from "./HandPanel";
 import { IterationStrip } from "./IterationStrip";
@@ -13,32 +17,49 @@ import { ScansPanel } from "./ScansPanel";
 import { SettingsPanel } from "./SettingsPanel";
 import { WritePanel } from "./WritePanel";
 
-/** A scan path is laid on a mesh: by hand, by picked points, by registration. */
+const kTabs = [
+  { id: "path", label: "Scans on the mesh" },
+  { id: "area", label: "Area" },
+];
+
+/** A scan path is laid on a mesh: by hand, by picked points, by registration; many become an area. */
 export default function AlignPage() {
+  const [tab, setTab] = useState("path");
   useEffect(followAlign, []);
+  const isArea = tab === "area";
   return (
     <PageLayout
       title="Align"
       side={
-        <>
-          <FilesPanel />
-          <HandPanel />
-          <PicksPanel />
-        </>
+        isArea ? (
+          <AreaPanel />
+        ) : (
+          <>
+            <FilesPanel />
+            <HandPanel />
+            <PicksPanel />
+          </>
+        )
       }
       results={
-        <>
-          <RunPanel />
-          <ScansPanel />
-          <ResidualPanel />
-          <WritePanel />
-          <SettingsPanel />
-        </>
+        isArea ? (
+          <AreaResults />
+        ) : (
+          <>
+            <RunPanel />
+            <ScansPanel />
+            <ResidualPanel />
+            <WritePanel />
+            <SettingsPanel />
+          </>
+        )
       }
-      strip={<IterationStrip />}
+      strip={isArea ? undefined : <IterationStrip />}
       stripHeight="230px"
     >
-      <AlignView />
+      <Tabs label="What is shown" tabs={kTabs} chosen={tab} onChoose={setTab}>
+        {isArea ? <AreaView /> : <AlignView />}
+      </Tabs>
     </PageLayout>
   );
 }

@@ -9,10 +9,11 @@ import type { View } from "../../view3d/View";
 import { numberLabel } from "./numberLabel";
 import { nearestOnScreen, type Pick, type Screen } from "./picks";
 import { placePath, pointsApart, poseOfPath, type Frame, type Point, type Pose } from "./pose";
-import { colourLimit_m, residualColours } from "./residuals";
-import { areas, colourOf } from "./scans";
+import { residualColours } from "./residuals";
+import { areas, colourOf, markedPoints } from "./scans";
 
 const kReach_px = 14;
+const kRim_px = 10;
 
 export interface AlignSceneEvents {
   moved(pose: Pose, gesture: string): void;
@@ -33,6 +34,7 @@ export class AlignScene {
   private apart = false;
   private mesh: Mesh;
   private dots: Points;
+  private overlaps: Points | null = null;
   private gesture = "";
 
   constructor(
@@ -54,6 +56,7 @@ export class AlignScene {
     view.add(this.areas);
     this.drawAreas();
     this.dots = dotsFromPoints(this.points, new Float32Array(this.points.length).fill(0.5), 5);
+    drawLate(this.dots, 2);
     this.path.add(this.dots);
     this.ghost.add(dotsFromPoints(this.points, themeColour("--text-1"), 2));
     this.ghost.visible = false;
@@ -117,9 +120,25 @@ export class AlignScene {
     this.view.invalidate();
   }
 
-  colour(distance_m: Float32Array): void {
-    if (3 * distance_m.length !== this.points.length) return;
-    setColours(this.dots, residualColours(distance_m, colourLimit_m(distance_m)));
+  /** By distances in any unit, dark at 0 and bright at `limit`. */
+  colour(distance: Float32Array, limit: number): void {
+    if (3 * distance.length !== this.points.length) return;
+    setColours(this.dots, residualColours(distance, limit));
+    this.view.invalidate();
+  }
+
+  /** A rim about the points at which scans overlap; null: none. */
+  markOverlaps(overlap: Uint8Array | null): void {
+    if (this.overlaps) this.view.remove(this.overlaps);
+    this.overlaps = null;
+    if (overlap && 3 * overlap.length === this.points.length) {
+      const marked = markedPoints(this.dots.geometry.getAttribute("position").array, overlap);
+      this.overlaps = dotsFromPoints(marked, themeColour("--text-1"), kRim_px);
+      drawLate(this.overlaps, 1);
+      // A rim hides no dot, also not that of a neighbour.
+      (this.overlaps.material as Material).depthWrite = false;
+      this.path.add(this.overlaps);
+    }
     this.view.invalidate();
   }
 
@@ -143,7 +162,6 @@ export class AlignScene {
 
   takeColours(): void {
     this.drawAreas();
-
     (this.mesh.material as unknown as { color: Color }).color.set(themeColour("--view-mesh"));
     ((this.ghost.children[0] as Points).material as unknown as { color: Color }).color.set(themeColour("--text-1"));
     this.view.invalidate();
@@ -151,7 +169,8 @@ export class AlignScene {
 
   /** Numbered balls at picked pairs: those of the path move with it. */
   mark(picks: readonly Pick[], half: Point | null): void {
-    const old = [...this.path.children.filter((child) => child !== this.dots), ...this.marks.children];
+    const own: (Object3D | null)[] = [this.dots, this.overlaps];
+    const old = [...this.path.children.filter((child) => !own.includes(child)), ...this.marks.children];
     for (const mark of old) this.view.remove(mark);
     picks.forEach(({ path, mesh }, index) => {
       this.path.add(this.marker(`${index + 1}`, this.inPath(path), "--series-2"));
@@ -224,4 +243,10 @@ export class AlignScene {
     group.position.copy(at);
     return group;
   }
+}
+
+/** After all that is opaque or has no order, and those of a lower order. */
+function drawLate(points: Points, order: number): void {
+  points.renderOrder = order;
+  (points.material as Material).transparent = true;
 }

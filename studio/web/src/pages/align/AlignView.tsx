@@ -8,10 +8,11 @@ import type { View } from "../../view3d/View";
 import { viewNames } from "../../view3d/views";
 import { Viewport } from "../../view3d/Viewport";
 import { AlignScene } from "./AlignScene";
-import { align, colouring, ghostPose, half, iterations, missing, move, opened, residuals, scrub, showAreas, showing, shown, shownPoses, take, tool } from "./alignState";
+import { align, colouring, ghostPose, half, iterations, missing, move, opened, residuals, scrub, showAreas, showing, showOverlaps, shown, shownPoses, take, tool } from "./alignState";
 import type { Tool } from "./alignState";
-import { colourLimit_m, rampStops } from "./residuals";
+import { DistanceLegend } from "./DistanceLegend";
 import { phaseWords } from "./iterations";
+import { colourLimit_m, colourLimitSigmas, inSigmas } from "./residuals";
 
 const kClick_px = 4;
 
@@ -37,11 +38,16 @@ export function AlignView() {
   }, [block, ready]);
   useEffect(() => void (shown.value && scene.current?.place(shown.value, shownPoses.value)), [block, ready, shown.value, shownPoses.value]);
   useEffect(() => scene.current?.placeGhost(ghostPose.value), [block, ready, ghostPose.value]);
-  const byScan = colouring.value === "scan";
+  const by = colouring.value;
   useEffect(() => {
-    if (byScan) scene.current?.colourByScan();
-    else if (distances) scene.current?.colour(distances.distance_m);
-  }, [block, ready, distances, byScan, dark.value]);
+    if (by === "scan") scene.current?.colourByScan();
+    else if (distances && by === "distance") scene.current?.colour(distances.distance_m, colourLimit_m(distances.distance_m));
+    else if (distances) {
+      const sigmas = inSigmas(distances.distance_m, distances.sigma_m);
+      scene.current?.colour(sigmas, colourLimitSigmas(sigmas));
+    }
+  }, [block, ready, distances, by, dark.value]);
+  useEffect(() => scene.current?.markOverlaps(showOverlaps.value && distances ? distances.overlap : null), [block, ready, distances, showOverlaps.value, dark.value]);
   useEffect(() => scene.current?.mark(align.value?.picks ?? [], half.value), [block, ready, align.value?.picks, half.value, dark.value]);
   useEffect(() => scene.current?.setTranslucent(translucent), [block, ready, translucent]);
   useEffect(() => scene.current?.takeColours(), [block, ready, dark.value]);
@@ -57,7 +63,6 @@ export function AlignView() {
     ...viewNames.map((name, index) => ({ key: `${index + 1}`, label: `see it from the ${name}`, run: () => view.current?.setView(name) })),
   ]);
 
-  const limit_mm = distances ? 1e3 * colourLimit_m(distances.distance_m) : 0;
   return (
     <>
       <div class="align-tools" role="group" aria-label="Tools">
@@ -85,17 +90,7 @@ export function AlignView() {
           };
         }}
       >
-        {distances && !byScan && (
-          <div class="align-legend" data-testid="align-legend">
-            <span>distance to the mesh</span>
-            <span class="align-ramp" style={{ background: `linear-gradient(to right, ${rampStops()})` }} />
-            <span class="align-ramp-ends">
-              <span>0</span>
-              <span>{fixed(limit_mm / 2, limit_mm < 0.1 ? 3 : 2)}</span>
-              <span>≥ {fixed(limit_mm, limit_mm < 0.1 ? 3 : 2)}{"\u202f"}mm</span>
-            </span>
-          </div>
-        )}
+        {distances && <DistanceLegend distances={distances} />}
         <Notice />
       </Viewport>
     </>

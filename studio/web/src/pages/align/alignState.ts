@@ -6,11 +6,13 @@ import type { Block } from "../../net/block";
 import { documentIsRead, edit, section } from "../../state/document";
 import { jobs } from "../../ui/job";
 import { complain } from "../../ui/toast";
+import type { AreaSection } from "./area";
 import { noIterations, withBlock, type Iterations } from "./iterations";
 import { latest } from "./latest";
 import { missingWords } from "./missing";
 import type { Pick } from "./picks";
 import { samePose, type Frame, type Point, type Pose } from "./pose";
+import type { Residuals } from "./residuals";
 import { ownPoses, type ScanPose } from "./scans";
 
 export interface AlignSection {
@@ -22,6 +24,8 @@ export interface AlignSection {
   picks: Pick[];
   T_mesh_world?: Pose;
   registered?: { guess: Pose | null; near: boolean; T_mesh_world: Pose };
+  /** Missing in what an older studio has kept. */
+  area?: AreaSection;
   ran?: { guess: Pose | null; paths: string[]; mesh: string; mesh_unit: string; config: Record<string, string> };
 }
 
@@ -58,13 +62,6 @@ export interface Judged {
   verdicts: VerdictEntry[];
 }
 
-export interface Residuals {
-  distance_m: Float32Array;
-  mean_m: number;
-  rms_m: number;
-  most_m: number;
-}
-
 export interface Six {
   shift_m: number[];
   turn_deg: number[];
@@ -92,7 +89,10 @@ export const showing = signal<Showing>("placed");
 export const scrub = signal(0);
 export const ghost = signal(false);
 /** What the path's colours stand for. */
-export const colouring = signal<"distance" | "scan">("distance");
+export type Colouring = "distance" | "sigma" | "scan";
+export const colouring = signal<Colouring>("distance");
+/** Whether points at which scans overlap are marked. */
+export const showOverlaps = signal(true);
 /** Whether the areas of a scene that have a texture are drawn. */
 export const showAreas = signal(true);
 export const tool = signal<Tool>("look");
@@ -268,8 +268,9 @@ export function followAlign(): () => void {
   const measurer = latest(async ({ pose, poses }: { pose: Pose; poses: Pose[] | null }) => {
     try {
       const block = await call<Block>("align.residuals", poses ? { pose, poses } : { pose });
-      const { mean_m, rms_m, most_m } = block.head as Residuals;
-      residuals.value = { distance_m: block.arrays.distance_m as Float32Array, mean_m, rms_m, most_m };
+      const { mean_m, rms_m, most_m, rms_sigma, median_sigma_m, overlap_m } = block.head as Residuals;
+      const { distance_m, sigma_m, overlap } = block.arrays as { distance_m: Float32Array; sigma_m: Float32Array; overlap: Uint8Array };
+      residuals.value = { distance_m, sigma_m, overlap, mean_m, rms_m, most_m, rms_sigma, median_sigma_m, overlap_m };
     } catch (error) {
       residuals.value = null;
       if (!opening.value) quietly(error);

@@ -1,5 +1,21 @@
 // Distances of the path to the mesh: their colours and their histogram.
 
+export interface Residuals {
+  distance_m: Float32Array;
+  mean_m: number;
+  rms_m: number;
+  most_m: number;
+  /** Standard deviation of each distance, as its scan states it; NaN where it states none. */
+  sigma_m: Float32Array;
+  /** Of each point: 1 another scan passes there, 2 it is on a texture of the scene, 3 both. */
+  overlap: Uint8Array;
+  /** Of the distances over their σ; null: no σ is stated. */
+  rms_sigma: number | null;
+  median_sigma_m: number | null;
+  /** How near scans are that overlap. */
+  overlap_m: number;
+}
+
 /** Dark blue to yellow, as bright as large, told apart by the colour-blind (after cividis). */
 const RAMP: readonly (readonly [number, number, number])[] = [
   [0.0, 0.135, 0.305],
@@ -19,11 +35,15 @@ export function rampColour(part: number): [number, number, number] {
   return [0, 1, 2].map((k) => a[k]! + (at - low) * (b[k]! - a[k]!)) as [number, number, number];
 }
 
-/** Colours of distances up to `limit_m`, in the linear light that three.js wants. */
-export function residualColours(distance_m: ArrayLike<number>, limit_m: number): Float32Array {
-  const out = new Float32Array(3 * distance_m.length);
-  for (let index = 0; index < distance_m.length; ++index) {
-    const colour = rampColour(Math.abs(distance_m[index]!) / limit_m);
+/** What is not known: neither near nor far. */
+const UNKNOWN: readonly [number, number, number] = [0.75, 0.3, 0.6];
+
+/** Colours of distances up to `limit`, in the linear light that three.js wants; NaN is none of the ramp's. */
+export function residualColours(distance: ArrayLike<number>, limit: number): Float32Array {
+  const out = new Float32Array(3 * distance.length);
+  for (let index = 0; index < distance.length; ++index) {
+    const size = Math.abs(distance[index]!);
+    const colour = Number.isNaN(size) ? UNKNOWN : rampColour(size / limit);
     for (let k = 0; k < 3; ++k) out[3 * index + k] = linear(colour[k]!);
   }
   return out;
@@ -39,9 +59,22 @@ export const rampStops = (): string =>
   }).join(", ");
 
 /** A round limit for the colours: where 95 % of the distances lie below, at least 10 µm. */
-export function colourLimit_m(distance_m: ArrayLike<number>): number {
-  const sizes = Array.from(distance_m, Math.abs).sort((a, b) => a - b);
-  const most = Math.max(1e-5, sizes[Math.floor(0.95 * (sizes.length - 1))] ?? 0);
+export const colourLimit_m = (distance_m: ArrayLike<number>): number => roundLimit(distance_m, 1e-5);
+
+/** The same for distances over their σ: at least 3, beyond which an error as stated is one in 370. */
+export const colourLimitSigmas = (inSigmas: ArrayLike<number>): number => roundLimit(inSigmas, 3);
+
+/** Each distance over its σ; NaN where none is stated. */
+export function inSigmas(distance_m: ArrayLike<number>, sigma_m: ArrayLike<number>): Float32Array {
+  return Float32Array.from({ length: distance_m.length }, (_, index) => {
+    const sigma = sigma_m[index]!;
+    return sigma > 0 ? distance_m[index]! / sigma : NaN;
+  });
+}
+
+function roundLimit(distance: ArrayLike<number>, least: number): number {
+  const sizes = Array.from(distance, Math.abs).filter(Number.isFinite).sort((a, b) => a - b);
+  const most = Math.max(least, sizes[Math.floor(0.95 * (sizes.length - 1))] ?? 0);
   const power = 10 ** Math.floor(Math.log10(most) + 1e-9);
   const digit = [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((step) => step * power >= most * (1 - 1e-9)) ?? 10;
   return digit * power;

@@ -18,6 +18,8 @@ export interface ScanRow extends ScanPose {
   key: string;
   /** Which colour of the series, from 1. */
   colour: number;
+  /** The share of its points where it overlaps another scan or a texture of the scene. */
+  overlap?: number;
   where: "this registration" | "not registered" | "in the scene" | "replaced";
 }
 
@@ -31,7 +33,14 @@ export const scanName = (path: string): string => path.replace(/\/+$/, "").split
  * The scans that are worked on, then those of the scene. `found` is the registration that is shown, null where the pose is
  * the user's, `placed` then; `rms_m` of the distances that are shown, one a path.
  */
-export function scanRows(paths: readonly string[], found: readonly ScanPose[] | null, placed: Pose | null, rms_m: readonly number[], stored: readonly StoredScan[]): ScanRow[] {
+export function scanRows(
+  paths: readonly string[],
+  found: readonly ScanPose[] | null,
+  placed: Pose | null,
+  rms_m: readonly number[],
+  stored: readonly StoredScan[],
+  overlap: readonly number[] = [],
+): ScanRow[] {
   const own = paths.map((path, index): ScanRow => {
     const scan = found?.[index];
     return {
@@ -41,6 +50,7 @@ export function scanRows(paths: readonly string[], found: readonly ScanPose[] | 
       placement: scan?.placement,
       T_mesh_world: scan?.T_mesh_world ?? placed ?? undefined,
       rms_m: rms_m[index] ?? null,
+      overlap: overlap[index],
       verdict: scan?.verdict,
       where: scan ? "this registration" : "not registered",
     };
@@ -67,6 +77,27 @@ export function rmsByPath(distance_m: ArrayLike<number>, pathOf: ArrayLike<numbe
     count[path] = count[path]! + 1;
   }
   return square.map((sum, path) => Math.sqrt(sum / count[path]!));
+}
+
+/** The share of each path's points that are marked; NaN where one has no point. */
+export function overlapByPath(overlap: ArrayLike<number>, pathOf: ArrayLike<number>, paths: number): number[] {
+  const marked = new Array<number>(paths).fill(0);
+  const count = new Array<number>(paths).fill(0);
+  for (let index = 0; index < Math.min(overlap.length, pathOf.length); ++index) {
+    const path = pathOf[index]!;
+    if (path >= paths) continue;
+    marked[path] = marked[path]! + (overlap[index] ? 1 : 0);
+    count[path] = count[path]! + 1;
+  }
+  return marked.map((sum, path) => sum / count[path]!);
+}
+
+/** The points, three numbers each, whose mark is not 0. */
+export function markedPoints(positions: ArrayLike<number>, mark: ArrayLike<number>): Float32Array {
+  const out: number[] = [];
+  for (let index = 0; index < mark.length; ++index)
+    if (mark[index]) out.push(positions[3 * index]!, positions[3 * index + 1]!, positions[3 * index + 2]!);
+  return Float32Array.from(out);
 }
 
 /** The rotation of a pose by one angle, degrees. */

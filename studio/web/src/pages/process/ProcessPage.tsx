@@ -20,9 +20,13 @@ import { PageLayout } from "../../ui/PageLayout";
 import { Panel } from "../../ui/Panel";
 import { Tabs } from "../../ui/Tabs";
 import { complain } from "../../ui/toast";
+import { MergeResults } from "./MergeResults";
+import { MergeView } from "./MergeView";
+import { mergeOf } from "./merging";
 import { NewestWins } from "./newestWins";
 import { currentIndex, withConfig, type ProcessSection } from "./processing";
 import { ScansPanel } from "./ScansPanel";
+import { StrokesPanel } from "./StrokesPanel";
 import { TuningPanel } from "./TuningPanel";
 import { WritePanel } from "./WritePanel";
 import "./process.css";
@@ -36,6 +40,7 @@ const TABS = [
   { id: "compliance", label: "Compliance" },
   { id: "accuracy", label: "Accuracy" },
   { id: "repeatability", label: "Repeatability" },
+  { id: "merge", label: "Merge" },
   { id: "dropped", label: "Dropped" },
   { id: "settings", label: "Settings" },
 ];
@@ -46,13 +51,18 @@ export default function ProcessPage() {
   const state = chosen.value;
   const [tab, setTab] = useState("profile");
   const [defaults, setDefaults] = useState<ConfigField[]>([]);
+  const [mergeDefaults, setMergeDefaults] = useState<ConfigField[]>([]);
   const [measured, fault] = useMeasured(state);
   const fields = useMemo(() => withConfig(defaults, state.config), [defaults, state.config]);
   const at = currentIndex(state);
+  const merges = tab === "merge";
 
   useEffect(() => {
     if (link.value !== "open") return;
-    call<{ fields: ConfigField[] }>("process.fields").then((answer) => setDefaults(answer.fields), complain);
+    call<{ fields: ConfigField[]; merge_fields: ConfigField[] }>("process.fields").then((answer) => {
+      setDefaults(answer.fields);
+      setMergeDefaults(answer.merge_fields);
+    }, complain);
   }, [link.value]);
 
   const turn = (by: number) => setTab(TABS[(TABS.findIndex(({ id }) => id === tab) + by + TABS.length) % TABS.length]!.id);
@@ -73,23 +83,27 @@ export default function ProcessPage() {
       title="Process"
       side={
         <>
-          <ScansPanel section={state} measured={measured} />
+          {merges ? <StrokesPanel section={state} fields={withConfig(mergeDefaults, mergeOf(state).config)} /> : <ScansPanel section={state} measured={measured} />}
           <TuningPanel fields={fields} />
         </>
       }
       results={
-        <>
-          <Panel title="Result" testId="result" grow>
-            {measured ? <Verdict measured={measured} /> : <p class="empty">{fault || (at < 0 ? "No recording yet." : "Working …")}</p>}
-            {measured && <FiguresTable figures={measured.figures} />}
-          </Panel>
-          <WritePanel section={state} />
-        </>
+        merges ? (
+          <MergeResults section={state} />
+        ) : (
+          <>
+            <Panel title="Result" testId="result" grow>
+              {measured ? <Verdict measured={measured} /> : <p class="empty">{fault || (at < 0 ? "No recording yet." : "Working …")}</p>}
+              {measured && <FiguresTable figures={measured.figures} />}
+            </Panel>
+            <WritePanel section={state} />
+          </>
+        )
       }
     >
       <div class="process-main">
         <Tabs label="What is shown" tabs={TABS} chosen={tab} onChoose={setTab}>
-          {tab === "repeatability" ? <Repeatability section={state} /> : measured ? <Shown tab={tab} measured={measured} /> : <Waiting fault={fault} chosen={at >= 0} />}
+          {merges ? <MergeView section={state} /> : tab === "repeatability" ? <Repeatability section={state} /> : measured ? <Shown tab={tab} measured={measured} /> : <Waiting fault={fault} chosen={at >= 0} />}
         </Tabs>
       </div>
     </PageLayout>

@@ -6,11 +6,20 @@ export interface ScanName {
   segment: string;
 }
 
+export interface MergeSection {
+  /** Recordings, and results whose noise was not removed. */
+  strokes: string[];
+  /** Settings `align.*` that are not the defaults, as text. */
+  config: Record<string, string>;
+}
+
 export interface ProcessSection {
   scans: ScanName[];
   current: number;
   /** Settings that are not the defaults, as text: what `--set` takes. */
   config: Record<string, string>;
+  /** Missing in what an older studio has kept. */
+  merge?: MergeSection;
 }
 
 /** The fields with the document's settings in them. */

@@ -1,0 +1,42 @@
+#include "asperity/session/write_area.h"
+
+#include "asperity/base/output.h"
+#include "asperity/scene/export_scene.h"
+#include "asperity/scene/write_scene.h"
+#include "asperity/session/our_folder.h"
+
+namespace asperity {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Height, normal and σ map of the texture.
+void write_pictures(const fs::path& folder, const SceneTexture& texture) {
+  Scene alone;
+  alone.objects.emplace_back().textures.push_back(texture);
+  for (const ExportedFile& file : export_scene(alone, ExportFormat::kPng).files)
+    write_file(folder / file.name, file.content);
+}
+
+}  // namespace
+
+std::string write_area(const fs::path& folder, const AreaInput& input, const AreaResult& area) {
+  Scene scene = input.scene;
+  SceneObject& object = scene.objects.front();
+  std::string name;
+  if (area.texture) {
+    const SceneTexture& texture = add_area(scene, area);
+    name = texture.file;
+    write_pictures(folder, texture);
+  }
+  if (fs::path(object.mesh_file).extension() != ".obj")
+    object.mesh_file = fs::path(object.mesh_file).replace_extension(".obj").string();
+  write_scene(folder / "scene.json", scene);
+  std::string json = format_area(area, input.scans, name);
+  write_file(folder / "area.json", json);
+  write_listing(folder);
+  return json;
+}
+
+}  // namespace asperity

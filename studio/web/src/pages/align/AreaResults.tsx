@@ -1,0 +1,91 @@
+import { useState } from "preact/hooks";
+import { go } from "../../app/go";
+import { FiguresTable } from "../../measured/FiguresTable";
+import { VerdictList } from "../../measured/VerdictList";
+import { verdictWord } from "../../measured/verdicts";
+import { call } from "../../net/connection";
+import { Button } from "../../ui/Button";
+import { readEntries } from "../../ui/entries";
+import { Lamp } from "../../ui/Lamp";
+import { Panel } from "../../ui/Panel";
+import { TextField } from "../../ui/TextField";
+import { Toggle } from "../../ui/Toggle";
+import { chooseScene } from "../feel/feelChoices";
+import { align } from "./alignState";
+import { areaFigures, areaKey, resultOf } from "./area";
+import { madeArea } from "./areaState";
+import "../../measured/measured.css";
+
+const kLamps = { valid: ["good", "Valid"], limited: ["warn", "Limited"], invalid: ["bad", "Invalid"] } as const;
+
+/** The verdict on the area and its figures, and writing. */
+export function AreaResults() {
+  const made = madeArea.value;
+  if (!made) return <Panel title="Area" testId="align-area-result" grow><p class="empty">No area yet.</p></Panel>;
+  const result = resultOf(made.block);
+  const [state, word] = kLamps[verdictWord(result.verdicts)];
+  return (
+    <>
+      <Panel title="Area" testId="align-area-result" grow>
+        <div class="measured-verdict" role="status" data-testid="align-area-verdict">
+          <Lamp state={state} word={word} />
+          {result.verdicts.length > 0 && <VerdictList verdicts={result.verdicts} />}
+        </div>
+        {result.patch.apart.length > 0 && <p>Not on the patch of the others: {result.patch.apart.join(", ")}.</p>}
+        <FiguresTable figures={areaFigures(result)} />
+      </Panel>
+      {result.trustworthy && <AreaWrite number={made.block.head.number} stale={made.key !== areaKey(align.value?.area)} />}
+    </>
+  );
+}
+
+interface Written {
+  name: string;
+  scene: string;
+  files: string[];
+  command: string;
+}
+
+/** Writes what `asperity area` writes. */
+function AreaWrite({ number, stale }: { number: number; stale: boolean }) {
+  const [name, setName] = useState("area");
+  const [replace, setReplace] = useState(false);
+  const [written, setWritten] = useState<Written | null>(null);
+  const write = async () => {
+    setWritten(null);
+    setWritten(await call<Written>("align.area_write", { name, replace, number }));
+    setReplace(false);
+    await readEntries();
+  };
+  const feel = async () => {
+    await chooseScene(written!.scene);
+    go("feel");
+  };
+  return (
+    <Panel title="Write the area" testId="align-area-write">
+      <TextField label="Folder" value={name} onInput={setName} onChange={setName} />
+      <Toggle label="Replace what has this name" on={replace} onChange={setReplace} />
+      <Button
+        kind="primary"
+        onClick={write}
+        disabled={name === "" || stale}
+        hint={stale ? "Make the area again first: scans or settings were changed." : "The scene with the area, area.json, and the height, normal and σ map as pictures"}
+        testId="align-area-write-button"
+      >
+        Write area
+      </Button>
+      <div role="status" data-testid="align-area-written">
+        {written && (
+          <>
+            <p>Written to {written.name}, with {written.files.join(", ")}.</p>
+            <Button onClick={feel}>Open in Feel</Button>
+            <details>
+              <summary>The same on the command line</summary>
+              <code class="align-command">{written.command}</code>
+            </details>
+          </>
+        )}
+      </div>
+    </Panel>
+  );
+}

@@ -1,0 +1,84 @@
+import { useState } from "preact/hooks";
+import { FiguresTable } from "../../measured/FiguresTable";
+import { measuredOf } from "../../measured/measured";
+import { Verdict } from "../../measured/Verdict";
+import { call } from "../../net/connection";
+import { Button } from "../../ui/Button";
+import { readEntries } from "../../ui/entries";
+import { Figure } from "../../ui/Figure";
+import { Figures } from "../../ui/Figures";
+import { Panel } from "../../ui/Panel";
+import { TextField } from "../../ui/TextField";
+import { Toggle } from "../../ui/Toggle";
+import { merged } from "./mergeState";
+import { agrees, gainOf, gainWords, mergeFigures, mergeKey, ratioWords, strokesOf } from "./merging";
+import type { ProcessSection } from "./processing";
+
+/** The verdict on the merge, what it gains, its figures. */
+export function MergeResults({ section }: { section: ProcessSection }) {
+  const shown = merged.value;
+  if (!shown) return <Panel title="Merge" testId="merge-result" grow><p class="empty">Not merged yet.</p></Panel>;
+  const measured = measuredOf(shown.block);
+  const used = strokesOf(shown.block).filter((stroke) => stroke.used).length;
+  const gain = gainOf(shown.block);
+  const ratio = ratioWords(shown.block.head.result.merge);
+  return (
+    <>
+      <Panel title="Merge" testId="merge-result" grow>
+        <Verdict measured={measured} />
+        <Figures>
+          <Figure label="Strokes merged" value={`${used} of ${strokesOf(shown.block).length}`} />
+          {agrees(shown.block) && (
+            <>
+              <Figure label="Noise of one stroke, RMS" value={gain.stroke_noise_rms_m} factor={1e6} unit="µm" digits={3} hint="In the band of the alignment: as stated, or by the strokes' differences where these show more" />
+              <Figure label="Noise of the merge, RMS" value={gain.merged_noise_rms_m} factor={1e6} unit="µm" digits={3} hint="In the same band" />
+              <Figure label="Gain" value={gainWords(gain, used)} testId="merge-gain" />
+              {ratio && <Figure label="Noise by differences" value={ratio} hint="The power of the strokes' differences over what they state; above 1: they are beside one another, or their noise is understated" />}
+            </>
+          )}
+        </Figures>
+        {agrees(shown.block) && <FiguresTable figures={mergeFigures(measured.figures)} />}
+      </Panel>
+      {agrees(shown.block) && <MergeWrite stale={shown.key !== mergeKey(section)} />}
+    </>
+  );
+}
+
+interface Written {
+  folder: string;
+  notes: string[];
+}
+
+/** Writes what `asperity merge` writes. */
+function MergeWrite({ stale }: { stale: boolean }) {
+  const [name, setName] = useState("merged");
+  const [replace, setReplace] = useState(false);
+  const [written, setWritten] = useState<Written | null>(null);
+  const write = async () => {
+    setWritten(null);
+    setWritten(await call<Written>("process.write_merge", { name, replace }));
+    setReplace(false);
+    await readEntries();
+  };
+  return (
+    <Panel title="Write the merge" testId="merge-write">
+      <TextField label="Folder" value={name} onInput={setName} onChange={setName} />
+      <Toggle label="Replace what has this name" on={replace} onChange={setReplace} />
+      <Button
+        kind="primary"
+        onClick={write}
+        disabled={name === "" || stale}
+        hint={stale ? "Merge again first: strokes or settings were changed." : "profile.csv, spectrum.csv, texture.json and result.json, as asperity merge writes them"}
+        testId="merge-write-button"
+      >
+        Write merge
+      </Button>
+      <div role="status" class="process-written" data-testid="merge-written">
+        {written && <p>Written to {written.folder}.</p>}
+        {written?.notes.map((note) => (
+          <p key={note}>{note}</p>
+        ))}
+      </div>
+    </Panel>
+  );
+}

@@ -1,0 +1,36 @@
+// The merge that is shown, kept while other tabs are looked at.
+import { signal } from "@preact/signals";
+import type { Block } from "../../net/block";
+import { call } from "../../net/connection";
+import { mergeKey } from "./merging";
+import type { ProcessSection } from "./processing";
+
+export interface Merged {
+  block: Block;
+  /** Of what it was made. */
+  key: string;
+}
+
+export const merged = signal<Merged | null>(null);
+export const merging = signal(false);
+/** Why there is no merge; "": there is one, or none was asked for. */
+export const mergeFault = signal("");
+
+/** The title of the server's job. */
+export const kMergeJob = "Merge strokes";
+
+export async function merge(section: ProcessSection): Promise<void> {
+  const key = mergeKey(section);
+  merging.value = true;
+  mergeFault.value = "";
+  try {
+    merged.value = { block: await call<Block>("process.merge"), key };
+  } catch (error) {
+    if ((error as Error).message === "cancelled") return;
+    merged.value = null;
+    mergeFault.value = (error as Error).message;
+    throw error;
+  } finally {
+    merging.value = false;
+  }
+}
