@@ -123,6 +123,7 @@ SurfaceFile parse_text(std::string_view bytes, const std::string& name) {
   rest.remove_prefix(std::min(rest.size(), first.size() + 1));
   std::size_t line = 1;
   auto fields = text_header(rest, line, name);
+  ++line;  // the first one of data
   const auto number = [&](const char* key) {
     const auto value = parse_double(fields[key]);
     if (!value) throw Error(fmt::format("{}: {} is '{}', not a number", name, key, printable(fields[key])));
