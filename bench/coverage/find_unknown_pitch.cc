@@ -14,10 +14,10 @@ namespace bench {
 namespace {
 
 constexpr double kShortest_m = 0.3e-3, kLongest_m = 10e-3;
-constexpr double kBand_cycles_per_m = 8e3;
-constexpr std::size_t kPadding = 8;  // at least so many bins to an independent frequency
-constexpr double kByNoise = 8.0;
-constexpr double kFoot = 0.02;         // of the sum: what is left of strong waves between their harmonics
+constexpr std::size_t kHarmonics = 4;
+constexpr std::size_t kPadding = 8;    // at least so many bins to an independent frequency
+constexpr double kByChance = 0.01;     // of an ordinate of the error alone among all
+constexpr double kFoot = 0.02;         // of the sum: what a multiple of a pitch may have more
 constexpr double kReach = 1.0 / 16.0;  // of the frequency, over which the error's density is averaged
 constexpr double kLeastReach = 4.0;    // independent frequencies
 
@@ -56,29 +56,22 @@ double find_unknown_pitch_m(std::span<const double> texture_m, std::span<const d
   std::size_t size = 1;
   while (size < kPadding * texture_m.size()) size <<= 1;
   const double whole_m = static_cast<double>(size) * spacing_m;
-  std::vector<double> ratio = periodogram(texture_m, size);
+  std::vector<double> excess = periodogram(texture_m, size);
   const std::vector<double> error = smooth(periodogram(error_m, size), whole_m / length_m);
-  for (std::size_t k = 0; k < ratio.size(); ++k) ratio[k] = error[k] > 0.0 ? ratio[k] / error[k] : 0.0;
+  const double clear = std::log(length_m / kShortest_m / kByChance);
+  for (std::size_t k = 0; k < excess.size(); ++k) excess[k] = std::max(0.0, excess[k] - clear * error[k]);
 
   const auto first = static_cast<std::size_t>(std::ceil(whole_m / std::min(kLongest_m, length_m / 3.0)));
-  const auto last = std::min(static_cast<std::size_t>(whole_m / kShortest_m), ratio.size() - 2);
+  const auto last = std::min(static_cast<std::size_t>(whole_m / kShortest_m), excess.size() - 2);
   std::vector<double> sum(last + 2, 0.0);
   if (first > last || first < 1) return asperity::kNan;
-  const auto highest = std::min(static_cast<std::size_t>(kBand_cycles_per_m * whole_m), ratio.size() - 1);
   for (std::size_t k = first - 1; k <= last + 1; ++k) {
-    if (k == 0) continue;
-    for (std::size_t h = 1; h * k <= highest; ++h) {
-      // Half a bin of the pitch's is half of h.
-      double most = 0.0;
-      for (std::size_t bin = h * k - h / 2; bin <= std::min(h * k + h / 2, highest); ++bin)
-        most = std::max(most, ratio[bin]);
-      sum[k] += std::max(0.0, most - kByNoise);
-    }
+    for (std::size_t h = 1; h <= kHarmonics && h * k < excess.size(); ++h) sum[k] += excess[h * k];
   }
   const double most = *std::max_element(sum.begin() + static_cast<std::ptrdiff_t>(first), sum.end() - 1);
   if (!(most > 0.0)) return asperity::kNan;
   for (std::size_t k = last; k >= first; --k) {
-    if (sum[k] < (1.0 - kFoot) * most - kByNoise || sum[k] < sum[k - 1] || sum[k] < sum[k + 1]) continue;
+    if (sum[k] < (1.0 - kFoot) * most || sum[k] < sum[k - 1] || sum[k] < sum[k + 1]) continue;
     const double bend = sum[k - 1] - 2.0 * sum[k] + sum[k + 1];
     return whole_m / (static_cast<double>(k) + (bend < 0.0 ? 0.5 * (sum[k - 1] - sum[k + 1]) / bend : 0.0));
   }

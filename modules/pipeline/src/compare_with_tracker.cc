@@ -158,8 +158,8 @@ void compare_positions(const PosePath& path, const TipMotion& motion, const Eige
 struct PathLength {
   double length_m = 0.0;
   double variance_m2 = 0.0;
-  double noise_m = 0.0;  // that noise in the direction adds
-  double resting_m = 0.0;
+  double noise_m = 0.0;    // that noise in the direction adds
+  double resting_m = 0.0;  // from the beginning to the end of each rest
 };
 
 // Poses that follow one another in contact, [first, last).
@@ -191,6 +191,11 @@ PathLength measure_run(const PosePath& path, const ContactRun& run, const Smooth
   Eigen::Vector3d u_before = Eigen::Vector3d::Zero();
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   double turn_begins_s = path.t_s[run.first];
+  std::size_t rest_begins = run.last;  // the run's last: no rest
+  const auto end_rest = [&](std::size_t at) {
+    if (rest_begins < at) out.resting_m += (position.p_m[at] - position.p_m[rest_begins]).norm();
+    rest_begins = run.last;
+  };
   for (std::size_t i = run.first; i + 1 < run.last; ++i) {
     const double dt_s = path.t_s[i + 1] - path.t_s[i];
     const Eigen::Vector3d& n = base.path.n_world[sample_at(motion, 0.5 * (path.t_s[i] + path.t_s[i + 1]))];
@@ -200,11 +205,12 @@ PathLength measure_run(const PosePath& path, const ContactRun& run, const Smooth
     const double sigma_v_mps = direction.v_sigma_mps(i, noise);
     Eigen::Vector3d u = Eigen::Vector3d::Zero();
     if (speed_mps > kResting_sigmas * sigma_v_mps) {
+      end_rest(i);
       u = v_mps / speed_mps;
       out.length_m += (position.p_m[i + 1] - position.p_m[i]).dot(u);
       out.noise_m += 0.5 * sigma_v_mps * sigma_v_mps / speed_mps * dt_s;
-    } else {
-      out.resting_m += speed_mps * dt_s;
+    } else if (rest_begins == run.last) {
+      rest_begins = i;
     }
     turn += u - u_before;
     u_before = u;
@@ -215,6 +221,7 @@ PathLength measure_run(const PosePath& path, const ContactRun& run, const Smooth
       turn_begins_s = path.t_s[i];
     }
   }
+  end_rest(run.last - 1);
   out.variance_m2 += u_before.cwiseProduct(position.p_sigma_m(run.last - 1, noise)).squaredNorm();
   return out;
 }
@@ -237,11 +244,14 @@ void measure_own(const PosePath& path, const std::vector<ContactRun>& runs, cons
   if (!motion.cov_world_tip_m2.empty()) out.length_stderr_m = std::sqrt(variance_m2);
 }
 
-// The poses' length at the smoothing at which its standard error is least.
+// The poses' length at the smoothing at which its standard error is least. What a smoothing bends is at least what its
+// length differs from that of any narrower one by more than that one's noise (Goldenshluger and Lepski, Ann. Stat. 39,
+// 2011): the difference from the next alone may happen to be small where all of them grow.
 void measure_tracker(const PosePath& path, const std::vector<ContactRun>& runs, const TipMotion& motion,
                      const BasePathResult& base, const PoseNoise& noise, TrackerComparison& out) {
   SmoothedPoses narrower;
   double narrower_m = TrackerComparison::kUnknown;
+  std::vector<PathLength> before;
   for (const double half_width_s : kHalfWidths_s) {
     SmoothedPoses smoothed = smooth_poses(path, half_width_s, noise.slow_time_s);
     PathLength total;
@@ -253,9 +263,16 @@ void measure_tracker(const PosePath& path, const std::vector<ContactRun>& runs, 
       total.noise_m += part.noise_m;
       total.resting_m += part.resting_m;
     }
-    const double stderr_m =
-        std::sqrt(total.variance_m2 + std::pow(total.noise_m, 2) + std::pow(total.resting_m, 2) +
-                  std::pow(total.length_m - narrower_m, 2) + std::pow(kShapeError * total.length_m, 2));
+    double bent_m2 = std::pow(total.length_m - narrower_m, 2);
+    for (const PathLength& one : before) {
+      // What the narrower one leaves out at rests the wider one may rightly have.
+      double apart_m = total.length_m - one.length_m;
+      if (apart_m > 0.0) apart_m = std::max(0.0, apart_m - one.resting_m);
+      bent_m2 = std::fmax(bent_m2, apart_m * apart_m - one.variance_m2 - std::pow(one.noise_m, 2));
+    }
+    before.push_back(total);
+    const double stderr_m = std::sqrt(total.variance_m2 + std::pow(total.noise_m, 2) + std::pow(total.resting_m, 2) +
+                                      bent_m2 + std::pow(kShapeError * total.length_m, 2));
     if (std::isfinite(stderr_m) && !(stderr_m >= out.tracker_length_stderr_m)) {
       out.tracker_length_m = total.length_m;
       out.tracker_length_stderr_m = stderr_m;

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -121,6 +122,49 @@ TEST(CompareWithTracker, TheSlowNoiseIsInTheLengthsError) {
   std::printf("length's error over its standard error, RMS of %d: %.2f\n", kScans, rms);
   EXPECT_GT(rms, 0.5);
   EXPECT_LT(rms, 1.3);
+}
+
+// A stroke of 129 mm that comes to rest before, after and nearly on the way, as a hand's does: a parabola over a second
+// and more bends it, and all wide ones by about as much as the next.
+TEST(CompareWithTracker, WideParabolasDoNotBendAStrokeBetweenRests) {
+  constexpr int kScans = 30, kParts = 3;
+  constexpr double kPart_m = 0.043, kPart_s = 1.0, kRest_s = 0.6;
+  double squares = 0.0, largest = 0.0;
+  for (std::uint64_t seed = 1; seed <= kScans; ++seed) {
+    Random random(seed, 5);
+    Recording recording;
+    recording.calibration.tip_in_marker_m.setZero();
+    TrajectoryResult trajectory;
+    BasePathResult base;
+    for (int i = 0; i < static_cast<int>(1e3 * (kParts * kPart_s + 2.0 * kRest_s)); ++i) {
+      // Each part from rest to rest with the least jerk.
+      const double at = std::clamp((1e-3 * i - kRest_s) / kPart_s, 0.0, kParts - 1e-9);
+      const double u = at - std::floor(at);
+      const double x_m = kPart_m * (std::floor(at) + u * u * u * (10.0 - 15.0 * u + 6.0 * u * u));
+      const double v_mps =
+          at > 0.0 && at < kParts - 1e-6 ? kPart_m / kPart_s * 30.0 * u * u * (1.0 - u) * (1.0 - u) : 0.0;
+      const Eigen::Vector3d p_m(x_m, 0.0, 0.3);
+      trajectory.motion.t_ns.push_back(i * 1'000'000LL);
+      trajectory.motion.p_world_tip_m.push_back(p_m);
+      trajectory.motion.v_world_tip_mps.emplace_back(v_mps, 0.0, 0.0);
+      base.path.p_world_m.push_back(p_m);
+      base.path.n_world.emplace_back(0.0, 0.0, 1.0);
+      base.path.s_m.push_back(x_m);
+      base.contact.push_back(1);
+      if (i % 11 != 0) continue;
+      const Eigen::Vector3d noise_m(0.2e-3 * random.normal(), 0.3e-3 * random.normal(), 0.5e-3 * random.normal());
+      recording.tracker.t_ns.push_back(i * 1'000'000LL);
+      recording.tracker.T_world_marker.push_back({Eigen::Quaterniond::Identity(), p_m + noise_m});
+    }
+    const TrackerComparison c = compare_with_tracker(recording, trajectory, base);
+    const double off = (c.tracker_length_m - kParts * kPart_m) / c.tracker_length_stderr_m;
+    squares += off * off;
+    largest = std::max(largest, std::abs(off));
+  }
+  std::printf("length's error over its standard error, RMS of %d: %.2f, largest %.2f\n", kScans,
+              std::sqrt(squares / kScans), largest);
+  EXPECT_LT(std::sqrt(squares / kScans), 1.25);
+  EXPECT_LT(largest, 2.5);
 }
 
 TEST(CompareWithTracker, PosesFarOffDoNotLengthenThePath) {

@@ -32,8 +32,9 @@ struct TrackerComparison {
 // The length over the times in contact is Σ Δq·u, with q the path smoothed by the next narrower h and u the direction
 // of the smoothed velocity less its part along the base path's normal: linear in the poses, so that noise does not
 // lengthen it. Where the velocity is below three of its standard deviations the tip counts as resting. Standard error:
-// the noise of q at the ends and where u turns; what noise in u adds; the time at rest; the difference from the next
-// narrower h; and 0.5 % of the length, for the base shape. The white noise counts twice, a measured margin for rests.
+// the noise of q at the ends and where u turns; what noise in u adds; how far q is at the end of each rest from its
+// beginning; the difference from the next narrower h, or from any narrower one less that one's noise, if that is more;
+// and 0.5 % of the length, for the base shape. The white noise counts twice, a measured margin for rests.
 // The slow part of the poses' noise, which is not in their differences, goes through the same smoothing with its own
 // correlation exp(−Δt/time): its size and time are those that the trajectory has learnt (tracker_slow_sigma_m, …_rad
 // times the tip's distance, tracker_slow_time_s), otherwise those that the calibration states.
