@@ -88,9 +88,43 @@ TEST(JudgeRegistration, RefusesAPoseThatThePathsLeaveOpenAndOneOfAnotherShape) {
   evidence.slow_ratio = 6.0;
   EXPECT_THAT(codes(), testing::ElementsAre("other_shape"));
   evidence.slow_ratio = 1.4;
+  evidence.chance = 0.05;
+  EXPECT_THAT(codes(), testing::IsEmpty());
+  evidence.chance = 0.3;
+  EXPECT_THAT(codes(), testing::ElementsAre("shape_unproven"));
+  evidence.slow_ratio = 1.0;  // as near as its errors say
+  EXPECT_THAT(codes(), testing::IsEmpty());
+  evidence.chance = 0.7;
+  EXPECT_THAT(codes(), testing::ElementsAre("shape_unproven"));
+  EXPECT_FALSE(is_trustworthy(judge_registration(evidence)));
+  evidence.chance = PoseEvidence::kUnknown;
+  evidence.slow_ratio = 1.4;
   evidence.searched = false;
   EXPECT_THAT(codes(), testing::ElementsAre("rivals_unknown"));
   EXPECT_FALSE(is_trustworthy(judge_registration(evidence)));
+}
+
+TEST(JudgeRegistration, RefusesAMeshOfAnotherSize) {
+  PoseEvidence evidence;
+  evidence.points = 100;
+  const auto codes = [&](double scale, double sigma, double gain) {
+    evidence.mesh_scale = scale;
+    evidence.mesh_scale_sigma = sigma;
+    evidence.mesh_scale_gain = gain;
+    std::vector<std::string> out;
+    for (const Verdict& verdict : judge_registration(evidence)) out.push_back(verdict.code);
+    return out;
+  };
+  EXPECT_THAT(codes(1.01, 0.01, 1.0), testing::IsEmpty());
+  EXPECT_THAT(codes(0.77, 0.02, 90.0), testing::ElementsAre("mesh_scale_differs"));
+  EXPECT_FALSE(is_trustworthy(judge_registration(evidence)));
+  EXPECT_THAT(judge_registration(evidence)[0].message, testing::HasSubstr("0.770 ± 0.015 of its size"));
+  // Half a percent of mesh and tracker are allowed for.
+  EXPECT_THAT(codes(1.012, 0.002, 36.0), testing::ElementsAre("mesh_scale_doubtful"));
+  EXPECT_TRUE(is_trustworthy(judge_registration(evidence)));
+  EXPECT_THAT(codes(1.3, 0.2, 1.0), testing::ElementsAre("mesh_scale_unknown"));
+  EXPECT_EQ(verdict_word(judge_registration(evidence)), "valid");
+  EXPECT_THAT(codes(PoseEvidence::kUnknown, PoseEvidence::kUnknown, PoseEvidence::kUnknown), testing::IsEmpty());
 }
 
 TEST(JudgeRegistration, SaysOfASymmetricMeshThatItIsOneAndTrustsThePose) {

@@ -14,7 +14,8 @@ namespace asperity {
 // with a log-normal prior about 1 (standard deviation of the logarithm: 0.5). Of the descents from each of `starts` and
 // from other sizes at the first the likeliest counts. Its standard error has in it the errors along the paths, as large
 // as they are at that size, and the tip's calibrated position (`tip_sigma_m` of the paths; a tip that is too long makes
-// an object too large). What the paths do not tell has a large one: a plane has any size.
+// an object too large). A mesh that is a quarter too large or small may end at a maximum between; that it is not the
+// right size shows all the same. What the paths do not tell has a large one: a plane has any size.
 MeshScale measure_mesh_scale(std::span<const MeasuredPath> paths, const RegistrationSurface& surface,
                              std::span<const WeighedPose> starts, const WeighConfig& config,
                              const RegistrationConfig& registration);
