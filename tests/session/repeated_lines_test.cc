@@ -48,7 +48,8 @@ TEST(RepeatedLines, RowsStayApart) {
   config.profile.merge_passes = false;
   const ProcessResult& apart = session.process(config);
   for (std::size_t i = 0; i < merged.profile.size(); ++i) {
-    if (std::isfinite(apart.profile.height_m[i])) ASSERT_EQ(merged.profile.height_m[i], apart.profile.height_m[i]);
+    if (!std::isfinite(apart.profile.height_m[i])) continue;
+    ASSERT_EQ(merged.profile.height_m[i], apart.profile.height_m[i]);
   }
 }
 

@@ -14,8 +14,7 @@ namespace asperity {
 
 namespace {
 
-// The profile's own low-pass has weights below 0; under these Gaussians nothing is left of them.
-constexpr std::array<double, 7> kSmoothings_m{50e-6, 71e-6, 100e-6, 141e-6, 200e-6, 283e-6, 400e-6};
+constexpr std::array<double, 9> kSmoothings_m{25e-6, 35e-6, 50e-6, 71e-6, 100e-6, 141e-6, 200e-6, 283e-6, 400e-6};
 constexpr double kReach_sigmas = 4.0;
 constexpr double kDoubt = 0.025;
 constexpr double kSureOfNoise = 1.96;

@@ -35,29 +35,6 @@ double integral(const std::vector<double>& frequency, const std::vector<double>&
 
 double square(double x) { return x * x; }
 
-// The straight line through places on the merge by the points of a pass: its shift and stretch, without the rest, which
-// is what its own places are wrong by.
-struct StraightPlaces {
-  double first = 0.0, step = 0.0;
-
-  explicit StraightPlaces(const std::vector<double>& on_merge) {
-    double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-    for (std::size_t i = 0; i < on_merge.size(); ++i) {
-      if (!std::isfinite(on_merge[i])) continue;
-      const double at = static_cast<double>(i);
-      n += 1.0;
-      x += at;
-      y += on_merge[i];
-      xx += at * at;
-      xy += at * on_merge[i];
-    }
-    if (!(n > 1.0)) return;
-    step = (n * xy - x * y) / (n * xx - x * x);
-    first = (y - step * x) / n;
-  }
-  double at(std::size_t i) const { return first + step * static_cast<double>(i); }
-};
-
 // The density with `share` of it the merge's, and what follows from it. `texture_before_m2`: of the measured texture.
 void mix_noise(const TextureNoise& merged, double share, double texture_before_m2, double texture_m2,
                TextureNoise& noise) {
@@ -105,14 +82,10 @@ void lay_merge(const MergedProfile& merged, std::span<const PassInProfile> passe
     std::size_t begin = 0, end = pass.on_merge.size();
     while (begin < end && !std::isfinite(pass.on_merge[begin])) ++begin;
     while (end > begin && !std::isfinite(pass.on_merge[end - 1])) --end;
-    const StraightPlaces places(pass.on_merge);
-    const double last = static_cast<double>(merged.profile.size() - 1);
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t at = part.first + i;
-      const double place = places.at(i);
-      if (!(place >= 0.0) || !(place <= last) || !std::isfinite(pass.on_merge[i]) ||
-          !std::isfinite(profile.texture_m[at]))
-        continue;
+      const double place = pass.on_merge[i];
+      if (!std::isfinite(place) || !std::isfinite(profile.texture_m[at])) continue;
       const auto nearest = std::min(static_cast<std::size_t>(std::lround(place)), merged.profile.size() - 1);
       const double texture_m = height_at(merged.profile.texture_m, place);
       if (!std::isfinite(texture_m)) continue;

@@ -53,7 +53,7 @@ TextureNoise white(double rms_m) {
 }
 
 TEST(BoundTipRadius, OfSharpCrestsIsTheBall) {
-  for (const double radius_m : {0.32e-3, 0.6e-3}) {
+  for (const double radius_m : {0.2e-3, 0.32e-3, 0.6e-3}) {
     const TipRadiusBound bound = bound_tip_radius(profile_of(traced_crests(radius_m)), white(1e-9));
     ASSERT_TRUE(bound.determined) << bound.reason;
     EXPECT_GE(bound.at_most_m, 0.999 * radius_m);

@@ -34,7 +34,7 @@ struct TipRadiusBound {
 // al., Ultramicroscopy 85, 2000; Tian, Qian and Villarrubia, ibid. 2008: thresholds by hand). Here (g ∗ h)″ has the
 // variance σ² = ∫ (2πf)⁴ |G(f)|² N(f) df by the stated density N, and the curvature of each point counts less z σ,
 // z the normal quantile of 2.5 % over the number of independent points and of the Gaussians g that are tried (standard
-// deviations of 50 to 400 µm). `noise` at its largest (97.5 %), and as large at each point as its added_sigma_m is over
+// deviations of 25 to 400 µm). `noise` at its largest (97.5 %), and as large at each point as its added_sigma_m is over
 // the mean.
 //
 // Not determined without a noise, or where no peak stands out of it. Of `profile`, height_m as measured, no noise

@@ -16,11 +16,10 @@ struct PassInProfile {
 };
 
 // Puts the merge in the place of its passes in a profile: each of their points gets the merge's texture at its place
-// (MergedPass::on_merge, by the straight line through them: the merge's path is the mean of the passes', so what a pass'
-// places are wrong by is averaged too), the pass' own slow heights stay, and over 1 mm from each end of a pass both are blended.
+// (MergedPass::on_merge), the pass' own slow heights stay, and over 1 mm from each end of a pass both are blended.
 // Gaps stay gaps; passes that are not used stay as they are. `profile` and `noise` are as measured, no noise removed.
 // The added noise of the laid points becomes the merge's, point by point and, by their share, in the density and in
-// what follows from it; the stated error of the places stays that of a pass. Throws Error if a pass is not within the profile.
+// what follows from it; the heights' places stay the profile's. Throws Error if a pass is not within the profile.
 void lay_merge(const MergedProfile& merged, std::span<const PassInProfile> passes, Profile& profile,
                TextureNoise& noise);
 
