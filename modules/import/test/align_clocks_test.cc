@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 using testing_import::known_motion;
 
-// Poses whose clock began at another time and runs 80 ppm fast, with 2 mrad of noise, against a gyroscope with 5
+// Poses whose clock began at another time and runs 80 ppm fast, with 0.5 mrad of noise, against a gyroscope with 5
 // mrad/s.
 TEST(AlignClocks, FindsOffsetAndDriftWithinTheirErrors) {
   ImportStreams streams = known_motion(60.0);
@@ -27,7 +27,7 @@ TEST(AlignClocks, FindsOffsetAndDriftWithinTheirErrors) {
   for (std::size_t i = 0; i < streams.pose.size(); ++i) {
     true_ns.push_back(streams.pose.t_ns[i]);
     streams.pose.t_ns[i] = epoch_ns + std::llround(static_cast<double>(streams.pose.t_ns[i]) / (1.0 + kDrift));
-    streams.pose.T_world_body[i].rotation = streams.pose.T_world_body[i].rotation * exp_rotation(noise(2e-3));
+    streams.pose.T_world_body[i].rotation = streams.pose.T_world_body[i].rotation * exp_rotation(noise(5e-4));
   }
   const ClockFit fit = align_clocks(streams.pose, streams.rate);
   ASSERT_TRUE(fit.is_determined) << fit.reason;

@@ -47,7 +47,7 @@ class ImportOthers : public testing::Test {
   double pose_s(std::size_t i) const { return 1e-9 * static_cast<double>(input_.pose_t_ns[i]); }
 
   static inline const std::filesystem::path kBroad =
-      std::filesystem::path(ASPERITY_TEST_DATA) / "../../../recording/test/data/broad_trial10";
+      (std::filesystem::path(ASPERITY_TEST_DATA) / "../../../recording/test/data/broad_trial10").lexically_normal();
   testkit::TempDir dir_;
   std::filesystem::path imu_, pose_;
   ImportInput input_;
