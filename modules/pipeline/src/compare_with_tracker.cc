@@ -160,6 +160,7 @@ struct PathLength {
   double variance_m2 = 0.0;
   double noise_m = 0.0;    // that noise in the direction adds
   double resting_m = 0.0;  // from the beginning to the end of each rest
+  double unsure_m = 0.0;   // the speed's sum at rest: in a narrow smoothing noise decides what is rest
 };
 
 // Poses that follow one another in contact, [first, last).
@@ -209,8 +210,9 @@ PathLength measure_run(const PosePath& path, const ContactRun& run, const Smooth
       u = v_mps / speed_mps;
       out.length_m += (position.p_m[i + 1] - position.p_m[i]).dot(u);
       out.noise_m += 0.5 * sigma_v_mps * sigma_v_mps / speed_mps * dt_s;
-    } else if (rest_begins == run.last) {
-      rest_begins = i;
+    } else {
+      out.unsure_m += speed_mps * dt_s;
+      if (rest_begins == run.last) rest_begins = i;
     }
     turn += u - u_before;
     u_before = u;
@@ -262,12 +264,11 @@ void measure_tracker(const PosePath& path, const std::vector<ContactRun>& runs, 
       total.variance_m2 += part.variance_m2;
       total.noise_m += part.noise_m;
       total.resting_m += part.resting_m;
+      total.unsure_m += part.unsure_m;
     }
     double bent_m2 = std::pow(total.length_m - narrower_m, 2);
     for (const PathLength& one : before) {
-      // What the narrower one leaves out at rests the wider one may rightly have.
-      double apart_m = total.length_m - one.length_m;
-      if (apart_m > 0.0) apart_m = std::max(0.0, apart_m - one.resting_m);
+      const double apart_m = std::max(0.0, std::abs(total.length_m - one.length_m) - one.unsure_m);
       bent_m2 = std::fmax(bent_m2, apart_m * apart_m - one.variance_m2 - std::pow(one.noise_m, 2));
     }
     before.push_back(total);
