@@ -207,6 +207,14 @@ ClockFit align_clocks(const PoseStream& pose, const VectorStream& rate) {
   } else if (offset_s.size() > 1) {
     out.offset_sigma_s = standard_deviation(offset_s) / std::sqrt(static_cast<double>(offset_s.size()));
   }
+  // Straight lines between grid points, noisy ones too, move an offset by some 1 % of a step.
+  constexpr double kInterpolation_s = kGridStep_s / 50.0;
+  out.offset_sigma_s = std::hypot(out.offset_sigma_s, kInterpolation_s);
+  if (out.drift_sigma > 0.0) {
+    // Of evenly spaced windows, as far apart as a uniform distribution's standard deviation.
+    const double spread_s = (middle_s.back() - middle_s.front()) / std::sqrt(12.0);
+    out.drift_sigma = std::hypot(out.drift_sigma, kInterpolation_s / spread_s);
+  }
   out.middle_ns = poses.start_ns + std::llround(at_s * 1e9);
   out.offset_s = static_cast<double>(whole_ns) * 1e-9 + fine_s;
   out.is_determined = true;

@@ -134,6 +134,15 @@ std::string axes_text(const Eigen::Matrix3d& R) {
   return fmt::format("{:.5f},{:.5f},{:.5f},{:.5f}", q.w(), q.x(), q.y(), q.z());
 }
 
+ImportDoubt rotated_sensor(const Eigen::Matrix3d& R, const StreamUnits& units) {
+  return {ColumnGroup::kRate,
+          FileRole::kImu,
+          fmt::format("the gyroscope's axes are not the body's: they are rotated by {:.1f}° against them",
+                      Eigen::AngleAxisd(R).angle() * 57.29577951308232),
+          {},
+          "--imu-axes " + axes_text(R * units.sensor_axes)};
+}
+
 ImportDoubt explain_difference(const ImportStreams& streams, const StreamUnits& units, const Agreement& agreement) {
   for (const OtherRotation& other : other_rotations()) {
     const Agreement changed = agreement_of(pair_rates(with_rotations(streams.pose, other.change), streams.rate));
@@ -162,14 +171,7 @@ ImportDoubt explain_difference(const ImportStreams& streams, const StreamUnits& 
             "--left-handed"};
   }
   const Eigen::Matrix3d R = fitted_rotation(agreement);
-  if (agreement.cosine(R) > kOtherFits) {
-    return {ColumnGroup::kRate,
-            FileRole::kImu,
-            fmt::format("the gyroscope's axes are not the body's: they are rotated by {:.1f}° against them",
-                        Eigen::AngleAxisd(R).angle() * 57.29577951308232),
-            {},
-            "--imu-axes " + axes_text(R * units.sensor_axes)};
-  }
+  if (agreement.cosine(R) > kOtherFits) return rotated_sensor(R, units);
   return {
       ColumnGroup::kRotation,
       FileRole::kPose,
@@ -242,7 +244,17 @@ void check_rotation(const ImportStreams& streams, const StreamUnits& units, Stre
                           {}});
     return;
   }
-  if (out.rate_cosine < kSameMotion) out.doubts.push_back(explain_difference(streams, units, agreement));
+  if (out.rate_cosine < kSameMotion) {
+    out.doubts.push_back(explain_difference(streams, units, agreement));
+    return;
+  }
+  // Axes near the body's are how a sensor is mounted. Far from them, a rotation that explains most of the difference is
+  // an error of the mapping.
+  const Eigen::Matrix3d R = fitted_rotation(agreement);
+  constexpr double kFar_rad = 0.17, kExplained = 0.25;
+  if (Eigen::AngleAxisd(R).angle() > kFar_rad && 1.0 - agreement.cosine(R) < kExplained * (1.0 - out.rate_cosine)) {
+    out.doubts.push_back(rotated_sensor(R, units));
+  }
 }
 
 }  // namespace asperity

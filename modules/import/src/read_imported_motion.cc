@@ -192,7 +192,8 @@ void find_up(const ImportTables& tables, const MappingConfig& config, ImportedMo
 constexpr const char* kEulerOrders[] = {"xyz", "xzy", "yxz", "yzx", "zxy", "zyx"};
 
 // The intrinsic order by which the rotations agree best with the gyroscope's, where its disagreement (1 − cosine) is
-// less than half of any other's and of `other_cosine`; "" if none does. `read_in`: the clocks of the streams.
+// less than half of that of `other_cosine`, or, if that is 0, of any other order; "" if none does. `read_in`: the
+// clocks of the streams.
 std::string better_euler_order(const ImportTables& tables, const MappingConfig& config, const ImportedMotion& read_in,
                                double other_cosine) {
   std::string best;
@@ -207,7 +208,7 @@ std::string better_euler_order(const ImportTables& tables, const MappingConfig& 
     if (read_in.clocks) move_times(pose, *read_in.clocks);
     for (auto& t_ns : pose.t_ns) t_ns -= read_in.start_ns;
     const double cosine = rotation_cosine(pose, read_in.streams.rate);
-    next = std::max(next, std::min(cosine, highest));
+    if (other_cosine == 0.0) next = std::max(next, std::min(cosine, highest));
     if (cosine > highest) {
       highest = cosine;
       best = order;

@@ -141,7 +141,7 @@ TEST(BodyFrame, FindsUpByTheSpecificForce) {
   EXPECT_EQ(estimate_up(streams)->name, "z");
   // A world with y up: its coordinates are (x, z, −y).
   const Eigen::Quaterniond turn = exp_rotation({-std::numbers::pi / 2.0, 0.0, 0.0});
-  for (Pose& pose : streams.pose.T_world_body) pose = Pose{turn, {}} * pose;
+  for (Pose& pose : streams.pose.T_world_body) pose = Pose{turn, Eigen::Vector3d::Zero()} * pose;
   const auto up = estimate_up(streams);
   EXPECT_EQ(up->name, "y");
   EXPECT_LT(up->angle_rad, 0.02);

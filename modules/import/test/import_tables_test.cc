@@ -135,7 +135,7 @@ class MappedFiles : public testing::Test {
                 force;
     const Eigen::Quaterniond turn = exp_rotation({-std::numbers::pi / 2.0, 0.0, 0.0});
     for (std::size_t i = 0; i < motion.pose.size(); ++i) {
-      const Pose T = Pose{turn, {}} * motion.pose.T_world_body[i];
+      const Pose T = Pose{turn, Eigen::Vector3d::Zero()} * motion.pose.T_world_body[i];
       const Eigen::Vector3d p = 1e3 * T.translation_m;
       pose += fmt::format("{};{};{};{};{};{};{};{}\n", 1e-6 * static_cast<double>(motion.pose.t_ns[i]), p.x(), p.y(),
                           p.z(), T.rotation.x(), T.rotation.y(), T.rotation.z(), T.rotation.w());

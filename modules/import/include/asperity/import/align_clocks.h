@@ -25,8 +25,9 @@ struct ClockFit {
 // stream overlaps (by FFT), normalised by the energy in the overlap; then, in windows of 5 s, Gauss-Newton steps on the
 // offset between the two curves, and a straight line through the windows' offsets, whose standard errors are the
 // result's. With fewer than four windows the drift is 0 and the offset's error the windows' scatter, or one grid step
-// for one window. Not determined where the poses turn by less than 0.1 rad/s RMS, or the correlation is below 0.8, or
-// another peak, more than a second away, comes within 0.05 of it.
+// for one window. Interpolation between grid points adds 0.1 ms to the error of the offset, and as much over the
+// windows' spread to that of the drift. Not determined where the poses turn by less than 0.1 rad/s RMS, or the
+// correlation is below 0.8, or another peak, more than a second away, comes within 0.05 of it.
 ClockFit align_clocks(const PoseStream& pose, const VectorStream& rate);
 
 }  // namespace asperity
