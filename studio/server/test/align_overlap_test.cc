@@ -80,7 +80,7 @@ TEST(ScanOverlaps, AreThoseOfBruteForce) {
   Random random(4);
   std::vector<MeasuredPath> paths(3);
   for (MeasuredPath& path : paths) {
-    Eigen::Vector3d p_m(random.uniform(-5e-3, 5e-3), random.uniform(-5e-3, 5e-3), 0.0);
+    Eigen::Vector3d p_m(random.uniform(-1e-3, 1e-3), random.uniform(-1e-3, 1e-3), 0.0);
     for (int i = 0; i < 300; ++i) {
       p_m += Eigen::Vector3d(random.uniform(-0.3e-3, 0.3e-3), random.uniform(-0.3e-3, 0.3e-3), 0.0);
       path.p_world_m.push_back(p_m);
