@@ -8,6 +8,8 @@
 #include <sstream>
 #include <string>
 
+#include <Eigen/LU>
+
 #include "align/align_page.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/output.h"
