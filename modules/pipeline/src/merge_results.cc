@@ -79,9 +79,12 @@ Verdicts judge_merge(const MergedProfile& merged, const TextureNoise& noise) {
 
 }  // namespace
 
+ProfilePass pass_of_result(const ProcessResult& result, const std::string& name) {
+  return profile_pass(name, result.profile, result.profile.texture_m, result.noise, 0, result.profile.size());
+}
+
 MergeStroke stroke_of_result(const ProcessResult& result, const Recording& recording, const std::string& name) {
-  return {profile_pass(name, result.profile, result.profile.texture_m, result.noise, 0, result.profile.size()),
-          fingerprint_of(recording)};
+  return {pass_of_result(result, name), fingerprint_of(recording)};
 }
 
 MergeStroke read_stroke(const fs::path& folder, const std::string& name) {

@@ -59,10 +59,12 @@ class ProcessMergeTest : public ::testing::Test, protected PageRig<> {
   ProcessResult expected(const MergeConfig& config) const {
     ProcessConfig each = config.process;
     each.profile.remove_noise = false;
-    std::vector<ProfilePass> passes;
-    for (const char* name : {"a", "b"})
-      passes.push_back(pass_of_result(process_recording(read_recording(folder / name), each), name));
-    return merge_results(passes, read_recording(folder / "a").info.object, config);
+    std::vector<MergeStroke> strokes;
+    for (const char* name : {"a", "b"}) {
+      const Recording recording = read_recording(folder / name);
+      strokes.push_back(stroke_of_result(process_recording(recording, each), recording, name));
+    }
+    return merge_results(strokes, read_recording(folder / "a").info.object, config);
   }
 };
 

@@ -31,6 +31,9 @@ struct MergeStroke {
   Fingerprint fingerprint;  // empty: not known
 };
 
+// A result's profile with its noise, as a pass.
+ProfilePass pass_of_result(const ProcessResult& result, const std::string& name);
+
 // A recording's profile as a stroke: of process_recording() with `profile.remove_noise` off.
 MergeStroke stroke_of_result(const ProcessResult& result, const Recording& recording, const std::string& name);
 
