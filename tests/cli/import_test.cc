@@ -43,7 +43,8 @@ TEST_F(ImportMapped, MakesARecordingOfOneTable) {
   EXPECT_EQ(run({"inspect", rec}).code, 0);
   EXPECT_EQ(run(words({"-o", rec, "--tip", "0,0,-120mm", "--mapping", mapping})).code, 0);
   for (std::size_t i = 0; i < guessed.size(); ++i) {
-    if (guessed[i].first != "recording.json") EXPECT_EQ(contents(rec + "/")[i], guessed[i]);
+    if (guessed[i].first == "recording.json") continue;
+    EXPECT_EQ(contents(rec + "/")[i], guessed[i]);
   }
 }
 

@@ -37,13 +37,17 @@ export default async function align({ page, step, folder, asperity, until, equal
 
   await step("its iterations can be gone through", async () => {
     const scrub = page.getByTestId("align-scrub");
+    const mean = page.getByTestId("align-mean").locator("dd");
+    const last = await until(async () => /\d/.test(await mean.textContent()) && mean.textContent(), "distances of the last iteration");
     await scrub.focus();
     await page.keyboard.press("Home");
     await page.getByTestId("align-count").filter({ hasText: /^1 of/ }).waitFor();
-    const mean = page.getByTestId("align-mean").locator("dd");
-    const first = await until(async () => /\d/.test(await mean.textContent()) && mean.textContent(), "distances of the first iteration");
+    const first = await until(async () => {
+      const shown = await mean.textContent();
+      return /\d/.test(shown) && shown !== last && shown;
+    }, "distances of the first iteration");
     await page.keyboard.press("End");
-    await until(async () => (await mean.textContent()) !== first, "distances of the last iteration");
+    await until(async () => (await mean.textContent()) !== first, "distances of the last iteration again");
   });
 
   await step("distances are shown in their σ", async () => {
