@@ -290,9 +290,10 @@ TEST_F(Register, TwoScansGiveOneMeshTwoTexturesAndTheSameBytesAgain) {
   EXPECT_THAT(names, Contains("b/profile.csv"));
   EXPECT_EQ(read_json(dir_ / "one" / "scene.json").at("textures").size(), 2u);
 
-  // A scan under another name is no second one, nor is the path that was made of it.
+  // A scan under another name is no second one, nor is the path that `process` made of it.
   fs::copy(dir_ / "a", dir_ / "again", fs::copy_options::recursive);
-  fs::copy_file(dir_ / "one" / "a" / "trajectory.csv", dir_ / "path_of_a.csv");
+  ASSERT_NE(run({"process", path("a"), "-o", path("processed"), "--quiet"}).code, 1);
+  fs::copy_file(dir_ / "processed" / "trajectory.csv", dir_ / "path_of_a.csv");
   for (const char* other : {"again", "path_of_a.csv"}) {
     const Outcome twice =
         run({"register", path("a"), path(other), mesh(), "--mesh-unit", "mm", "--guess", text_of(a), "-o", path("no")});

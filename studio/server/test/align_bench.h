@@ -28,22 +28,29 @@ class AlignBench : public PageRig<> {
     file.triangles = pebble.triangles;
     for (const Eigen::Vector3d& vertex_m : pebble.vertices_m) file.vertices.push_back(1e3 * vertex_m);
     write_obj(folder / "pebble.obj", file);
-    Random random(3);
-    std::string csv = "t_ns,px_m,py_m,pz_m\n";
     for (int i = 0; i < 500; ++i) {
       const double t = 2.0 * std::numbers::pi * i / 500.0;
       const Eigen::Vector3d towards(std::cos(t), std::sin(t), 0.9 + 0.5 * std::sin(5.0 * t));
       p_mesh_m.push_back(bvh.closest_point(0.06 * towards.normalized()).p_m);
-      const Eigen::Vector3d noise_m = 10e-6 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
-      const Eigen::Vector3d p_m = T_mesh_world.inverse() * Eigen::Vector3d(p_mesh_m.back() + noise_m);
-      csv += std::to_string(10'000'000LL * i) + "," + number_text(p_m.x()) + "," + number_text(p_m.y()) + "," +
-             number_text(p_m.z()) + "\n";
     }
-    write_file(folder / "path.csv", csv);
+    write_path("path.csv", 3);
     open(make_align_page(shared));
     document.edit("/align/paths", {"path.csv"}, "");
     document.edit("/align/mesh", "pebble.obj", "");
     document.edit("/align/T_mesh_world", json_of_pose(guess()), "");
+  }
+
+  // The path measured once, with noise of its own.
+  void write_path(const std::string& name, std::uint64_t seed) {
+    Random random(seed);
+    std::string csv = "t_ns,px_m,py_m,pz_m\n";
+    for (std::size_t i = 0; i < p_mesh_m.size(); ++i) {
+      const Eigen::Vector3d noise_m = 10e-6 * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+      const Eigen::Vector3d p_m = T_mesh_world.inverse() * Eigen::Vector3d(p_mesh_m[i] + noise_m);
+      csv += std::to_string(10'000'000 * i) + "," + number_text(p_m.x()) + "," + number_text(p_m.y()) + "," +
+             number_text(p_m.z()) + "\n";
+    }
+    write_file(folder / name, csv);
   }
 
   // 5 mm and 5 degrees off.

@@ -104,7 +104,7 @@ TEST_F(AlignRunTest, TakenItIsOneStepAndWrittenAsTheCommandLineWrites) {
 TEST_F(AlignRunTest, AScanIsAddedToASceneAndListedWithItsPose) {
   EXPECT_THAT(bench_.call("align.write", args_of({{"into", true}})).hint, HasSubstr("Choose a scene.json"));
   ASSERT_EQ(bench_.call("align.write", args_of({{"name", "laid"}})).error, "");
-  std::filesystem::copy_file(bench_.folder / "path.csv", bench_.folder / "second.csv");
+  bench_.write_path("second.csv", 5);
   bench_.document.edit("/align/paths", {"second.csv"}, "");
   bench_.document.edit("/align/mesh", "laid/scene.json", "");
   const ReadBlock opened(bench_.call("align.open").block);
