@@ -39,7 +39,8 @@ struct Periodicity {
 // that is constant is not. The depth is taken over periods of which at least 70 % are not gaps; its standard
 // error is that of a median. `periodic` is false below `min_strength`, for fewer than three periods and where
 // none of the first eight harmonics is a line, which a random surface has in one of a hundred profiles
-// (docs/periodicity.md); the rest is then as far as it could be had. Throws Error for a spacing or a range that makes no sense.
+// (docs/periodicity.md); the rest is then as far as it could be had. Throws Error for a spacing or a range that makes
+// no sense.
 Periodicity find_periodicity(std::span<const double> height_m, double spacing_m, const PeriodicityConfig& config);
 
 }  // namespace asperity
