@@ -73,7 +73,7 @@ class ImportCommand : public Command {
     }
     parser().add_flag("--invert-rotation", invert_, "The rotations are from the world to the body");
     parser().add_flag("--left-handed", left_handed_, "The world's and the body's axes are left-handed");
-    parser().add_option("--tip", tip_, "The tip in the body's axes: 0,0,-120mm")->type_name("X,Y,Z");
+    parser().add_option("--tip", tip_, "The tip in the body's axes: 0mm,0mm,-120mm")->type_name("X,Y,Z");
     parser().add_option("--pose-noise", noise_, "Add noise along the world's axes")->type_name("X,Y,Z");
     parser().add_option("--mapping", mapping_file_, "Read the mapping from a file")->type_name("FILE.toml");
     parser()

@@ -25,9 +25,9 @@ class Batch : public testing::Test {
   static void SetUpTestSuite() {
     dir_ = new testkit::TempDir;
     for (const char* seed : {"1", "2"}) {
-      const Outcome made = run({"simulate", "--surface", "sandpaper", "--probe", "open", "--seed", seed, "--set",
-                                "hand.length_m=0.03", "-o", *dir_ / "scans" / ("s" + std::string(seed)) / "rec",
-                                "--quiet"});
+      const Outcome made =
+          run({"simulate", "--surface", "sandpaper", "--probe", "open", "--seed", seed, "--set", "hand.length_m=0.03",
+               "-o", *dir_ / "scans" / ("s" + std::string(seed)) / "rec", "--quiet"});
       ASSERT_EQ(made.code, 0) << made.err;
     }
     fs::create_directories(*dir_ / "scans/s3");
@@ -64,7 +64,8 @@ TEST_F(Batch, GoesOnPastABadOneAndDoesNothingTwice) {
   EXPECT_TRUE(summary[3].starts_with("s3/rec,scans/s3/rec,failed,")) << summary[3];
   EXPECT_TRUE(fs::exists(results / "s1/rec/s1-rec.texture.json"));
   EXPECT_TRUE(fs::exists(results / "s2/rec/s2-rec.texture.json"));
-  EXPECT_GT(parse_json(read_file(results / "s1/rec/s1-rec.roughness.json", 1 << 20))["roughness"]["Ra_m"].get<double>(), 1e-7);
+  EXPECT_GT(parse_json(read_file(results / "s1/rec/s1-rec.roughness.json", 1 << 20))["roughness"]["Ra_m"].get<double>(),
+            1e-7);
   EXPECT_THAT(read_file(results / "index.html", 1 << 20), HasSubstr("<a href=\"s1/rec/process/report.html\">"));
 
   const auto before = fs::last_write_time(results / "s1/rec/process");

@@ -38,10 +38,10 @@ TEST_F(ImportMapped, MakesARecordingOfOneTable) {
   EXPECT_EQ(shown.code, 0) << shown.err;
   EXPECT_THAT(shown.out, HasSubstr("#9 AccX"));
   EXPECT_FALSE(std::filesystem::exists(rec));
-  EXPECT_EQ(run(words({"-o", rec, "--tip", "0,0,-120mm"})).code, 0);
+  EXPECT_EQ(run(words({"-o", rec, "--tip", "0mm,0mm,-120mm"})).code, 0);
   const auto guessed = contents(rec + "/");
   EXPECT_EQ(run({"inspect", rec}).code, 0);
-  EXPECT_EQ(run(words({"-o", rec, "--tip", "0,0,-120mm", "--mapping", mapping})).code, 0);
+  EXPECT_EQ(run(words({"-o", rec, "--tip", "0mm,0mm,-120mm", "--mapping", mapping})).code, 0);
   for (std::size_t i = 0; i < guessed.size(); ++i) {
     if (guessed[i].first == "recording.json") continue;
     EXPECT_EQ(contents(rec + "/")[i], guessed[i]);

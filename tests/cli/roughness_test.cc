@@ -37,7 +37,8 @@ TEST(Roughness, OfAColumnOfHeights) {
   EXPECT_THAT(table.out, HasSubstr("Ra                1 µm\n"));
 }
 
-// A wave of 25 µm on one of 8 mm: of the class that its Ra calls for only the short one is left, and the filters are told.
+// A wave of 25 µm on one of 8 mm: of the class that its Ra calls for only the short one is left, and the filters are
+// told.
 TEST(Roughness, ASettingClassFiltersAndSaysSo) {
   const testkit::TempDir dir;
   const std::string file = (dir / "heights.csv").string();

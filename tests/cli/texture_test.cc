@@ -61,7 +61,12 @@ TEST_F(TextureCommands, EveryModelOfHeightsIsFittedAndDescribed) {
                                    "--set",
                                    "fourier2d.kind=pattern"};
     if (model == "areal") {
-      words.insert(words.begin() + 2, {path("p.csv"), path("p.csv"), path("p.csv")});
+      // Strokes of one wave, each measured by itself: 5 nm apart.
+      for (const int k : {1, 2, 3}) {
+        const std::string stroke = path("p" + std::to_string(k) + ".csv");
+        write_text(stroke, wave_profile(20 + 5e-3 * k));
+        words.insert(words.begin() + 2, stroke);
+      }
       words.insert(words.end(), {"--set", "fit.stroke_spacing_mm=1", "--set", "areal.spacing_mm=0.25"});
     }
     const Json fit = done(words);

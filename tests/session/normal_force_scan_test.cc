@@ -104,8 +104,9 @@ TEST(NormalForceScan, RestsGiveTheRatioOfStickingToSliding) {
   EXPECT_GE(result.friction.sticks, 3U);
   ASSERT_TRUE(std::isfinite(result.friction.breakaway));
   const double true_ratio = 0.5 / (0.3 + 0.2 * result.friction.speed_mps);
-  // The sensor's pole of some milliseconds sees the peak late: the ratio is too small rather than too large.
-  EXPECT_NEAR(result.friction.static_ratio, true_ratio, std::max(0.25, 2.0 * result.friction.static_ratio_stderr));
+  // The sensor's pole of some milliseconds sees the peak late: what is measured is a lower bound.
+  EXPECT_GT(result.friction.static_ratio, 1.0 + result.friction.static_ratio_stderr);
+  EXPECT_LT(result.friction.static_ratio, true_ratio + 2.0 * result.friction.static_ratio_stderr);
   ASSERT_TRUE(result.texture);
   EXPECT_EQ(result.texture->static_friction_ratio, result.friction.static_ratio);
 }

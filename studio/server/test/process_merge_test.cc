@@ -11,6 +11,8 @@
 #include "asperity/profile/merge_gain.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
+#include "asperity/session/register_input.h"
+#include "asperity/session/rendered_input.h"
 #include "asperity/simulation/simulate_recording.h"
 #include "page_rig.h"
 #include "process/merge_strokes.h"
@@ -64,7 +66,10 @@ class ProcessMergeTest : public ::testing::Test, protected PageRig<> {
       const Recording recording = read_recording(folder / name);
       strokes.push_back(stroke_of_result(process_recording(recording, each), recording, name));
     }
-    return merge_results(strokes, read_recording(folder / "a").info.object, config);
+    ProcessResult result = merge_results(strokes, read_recording(folder / "a").info.object, config);
+    if (result.texture)
+      note_sources(*result.texture, {{"a", recording_checksum(folder / "a")}, {"b", recording_checksum(folder / "b")}});
+    return result;
   }
 };
 

@@ -74,8 +74,8 @@ struct FrictionEstimate {
   double stuck_share = 0.0;             // of the time in contact, in these
   double breakaway = kNan;              // coefficient at the end of a stick, mean; of at least three
   double breakaway_stderr = kNan;
-  // Coefficient of sticking over that of sliding, at least 1: by `breakaway`, or else by the law's `at_rest`; nan: not
-  // measured.
+  // Coefficient of sticking over that of sliding, at least 1: by `breakaway`, or else by the law's `at_rest`. A lower
+  // bound: the sensor sees the peak late. nan: not measured.
   double static_ratio = kNan;
   double static_ratio_stderr = kNan;  // by the breakaway's and the coefficient's; nan by the law
   std::string verdict;                // in words: "determined", or what is missing
