@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "asperity/base/text.h"
-#include "asperity/fidelity/press_in_scan.h"
 #include "asperity/fidelity/check_renderer.h"
+#include "asperity/fidelity/press_in_scan.h"
 #include "asperity/geometry/write_obj.h"
 #include "asperity/pipeline/register_scans.h"
 #include "asperity/pipeline/true_pose.h"
@@ -105,7 +105,8 @@ RendererCheck repeat_scan(const ScansOnMesh& result, const Scene& scene, const O
   const ProcessResult& measured = result.scans.front().process;
   const PressedScan pressed = press_in_scan(measured, scene, config.stiffness_N_per_m);
   constexpr double kServo_Hz = 1000.0;
-  return check_renderer(measured, pressed, make_render_model(scene, config), kServo_Hz, RendererCheckConfig{}, observer);
+  return check_renderer(measured, pressed, make_render_model(scene, config), kServo_Hz, RendererCheckConfig{},
+                        observer);
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/json/parse_json.h"
-#include "asperity/scene/lay_texture.h"
 #include "asperity/recording/fingerprint.h"
+#include "asperity/scene/lay_texture.h"
 #include "asperity/scene/read_scene.h"
 
 namespace asperity {

@@ -47,9 +47,9 @@ struct RepeatedLine {
     double to_m = 0.0;
   };
   std::vector<Span> spans;  // of each pass
-  MergedProfile merged;  // its passes and their differences; without its profile
-  bool laid = false;     // the merge is in the place of the passes' heights
-  std::string reason;    // why not
+  MergedProfile merged;     // its passes and their differences; without its profile
+  bool laid = false;        // the merge is in the place of the passes' heights
+  std::string reason;       // why not
 };
 
 // Everything measured in one recording. What the data did not allow is absent, and a Problem says why.

@@ -15,7 +15,7 @@ namespace asperity {
 struct MergeInput {
   std::vector<MergeStroke> strokes;
   std::vector<StrokeSource> sources;  // the recordings that they were made from
-  std::string object;  // of the first recording that states one
+  std::string object;                 // of the first recording that states one
 
   // What the result calls its surface.
   std::string title() const { return object.empty() ? "merged" : object; }
