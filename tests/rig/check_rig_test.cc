@@ -111,7 +111,7 @@ TEST(CheckRig, AMarkerThatRattlesIsNamed) {
 }
 
 TEST(CheckRig, ATipInTheWrongPlaceIsNamed) {
-  const RigCheck check = check_wrong([](Recording& r) { r.calibration.tip_in_marker_m.y() += 6e-3; });
+  const RigCheck check = check_wrong([](Recording& r) { r.calibration.tip_in_marker_m.y() += 10e-3; });
   EXPECT_FALSE(check.right);
   EXPECT_THAT(verdict_of(check, "length_wanders").remedy, HasSubstr("calibrate tip"));
   EXPECT_THAT(verdict_of(check, "pitch_off").remedy, HasSubstr("first correct"));

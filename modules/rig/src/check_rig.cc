@@ -92,6 +92,14 @@ void summarise_strokes(RigCheck& check) {
   check.median_noise_ratio = median_of(values_of(strokes, noise));
 }
 
+// A surface that nothing is known of must show a line (docs/periodicity.md). Here the pitch is known: a wandering
+// length broadens the line, and is to be named, so a period within a tenth of it that repeats is the grating's.
+bool shows_grating(const Periodicity& found, const CheckRigConfig& config) {
+  constexpr double kNear = 0.1, kLeastStrength = 0.3;
+  return found.periodic || (std::abs(found.pitch_m / config.grating.pitch_m - 1.0) < kNear &&
+                            found.strength >= kLeastStrength && found.periods >= 3);
+}
+
 void measure_stroke(const Recording& recording, const CheckRigConfig& config, const Observer& observer,
                     RigStroke& out) {
   const ProcessResult result = process_recording(recording, config.process, observer);
@@ -102,7 +110,7 @@ void measure_stroke(const Recording& recording, const CheckRigConfig& config, co
   out.outlying_share = find_metric(result.trajectory, "poses_outlying_share");
   out.speed_mps = result.speed.mean_mps;
   if (result.roughness) out.Rq_m = result.roughness->Rq_m;
-  if (!result.periodicity.periodic) {
+  if (!shows_grating(result.periodicity, config)) {
     out.why_not = "its profile has no period: was the grating scanned, across its ridges?";
     return;
   }
