@@ -134,7 +134,7 @@ class BatchCommand : public Command {
     for (const BatchScan& scan : scans) {
       if (scan.name == scan_) return scan;
     }
-    throw UsageError("--scan: there is no scan '" + printable(scan_) + "'");
+    throw UsageError("--scan: no recording of the batch is called '" + printable(scan_) + "'");
   }
 
   int run_one(const BatchScan& scan, const fs::path& program, const Observer& observer) {
@@ -147,7 +147,7 @@ class BatchCommand : public Command {
     bool valid = true;
     for (const StepRecord& step : outcome.record.steps) valid &= step.exit_code == 0;
     print_json(format_scan_record(outcome.record));
-    say(fmt::format("{}: {}\n", printable(scan.name, 200), valid ? "done" : "done, not to be trusted"));
+    say(fmt::format("{}: {}\n", printable(scan.name, 200), valid ? "done" : "done, the result is invalid"));
     return valid ? kDone : kNotTrustworthy;
   }
 
