@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <string_view>
 
+#include "asperity/base/base64.h"
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/web/assets.h"
-#include "base64.h"
 
 namespace asperity::studio {
 

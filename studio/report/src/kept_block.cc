@@ -4,10 +4,10 @@
 #include <cstring>
 #include <string_view>
 
+#include "asperity/base/base64.h"
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/json/parse_json.h"
-#include "base64.h"
 
 namespace asperity::studio {
 

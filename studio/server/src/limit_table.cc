@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "add/addition.h"
 #include "asperity/studio/force_lease.h"
 #include "asperity/studio/hub.h"
 #include "asperity/studio/jobs.h"
@@ -128,6 +129,14 @@ std::vector<LimitRow> waiting_rows() {
 
 std::vector<LimitRow> document_rows() {
   return {
+      {"files that are added at once; their bytes; folders deep",
+       fmt::format("{}; {}; {}", count_text(kMostAddedFiles), bytes_text(kMostAddedBytes), kDeepestAdded),
+       "refused, and nothing is added",
+       {"AddPageTest.BoundsWhatOneAdditionBrings", "AddPageTest.PathsThatLeadElsewhereAreRefusedAndNothingIsMade"}},
+      {"additions that are under way, of all windows",
+       count_text(kMostAdditions),
+       "refused",
+       {"AddPageTest.BoundsWhatOneAdditionBrings"}},
       {"a section of the document",
        bytes_text(kLargestSectionBytes),
        "the edit is refused",

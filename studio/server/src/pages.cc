@@ -1,5 +1,6 @@
 #include "pages.h"
 
+#include "add/add_page.h"
 #include "align/align_page.h"
 #include "common_page.h"
 #include "feel/feel_page.h"
@@ -13,6 +14,7 @@ namespace asperity::studio {
 std::vector<std::unique_ptr<Page>> make_pages(Shared& shared, const std::optional<std::string>& opened) {
   std::vector<std::unique_ptr<Page>> pages;
   pages.push_back(std::make_unique<CommonPage>(shared, opened));
+  pages.push_back(make_add_page(shared));
   pages.push_back(make_scan_page(shared));
   pages.push_back(make_process_page(shared));
   pages.push_back(make_align_page(shared));

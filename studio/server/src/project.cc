@@ -32,15 +32,18 @@ std::optional<EntryKind> kind_of_file(const fs::path& path) {
   if (name.ends_with(".study.csv")) return EntryKind::kStudyLog;
   constexpr std::array<std::string_view, 5> meshes{".obj", ".ply", ".stl", ".gltf", ".glb"};
   constexpr std::array<std::string_view, 2> images{".png", ".pgm"};
+  constexpr std::array<std::string_view, 5> tables{".csv", ".tsv", ".txt", ".dat", ".log"};
   const std::string extension = path.extension().string();
   if (std::find(meshes.begin(), meshes.end(), extension) != meshes.end()) return EntryKind::kMesh;
   if (std::find(images.begin(), images.end(), extension) != images.end()) return EntryKind::kImage;
+  if (std::find(tables.begin(), tables.end(), extension) != tables.end()) return EntryKind::kTable;
   return std::nullopt;
 }
 
 void list_folder(const fs::path& folder, const std::string& prefix, int depth, std::size_t& visited,
                  std::vector<Entry>& out) {
   std::error_code error;
+  const bool is_result = is_file(folder / "result.json");  // its tables are ours, and nothing to import
   for (fs::directory_iterator at(folder, fs::directory_options::skip_permission_denied, error), end; at != end;
        at.increment(error)) {
     if (error || out.size() >= kMostEntries || ++visited > kMostVisited) return;
@@ -55,7 +58,8 @@ void list_folder(const fs::path& folder, const std::string& prefix, int depth, s
         out.push_back({EntryKind::kResult, prefix + name});
       }
       if (depth < kDeepest) list_folder(at->path(), prefix + name + "/", depth + 1, visited, out);
-    } else if (const std::optional<EntryKind> kind = kind_of_file(at->path())) {
+    } else if (const std::optional<EntryKind> kind = kind_of_file(at->path());
+               kind && !(is_result && *kind == EntryKind::kTable)) {
       out.push_back({*kind, prefix + name});
     }
   }

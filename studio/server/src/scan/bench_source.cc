@@ -19,7 +19,7 @@
 #include "asperity/transport/byte_source.h"
 #include "asperity/transport/open_serial.h"
 #include "scan/episodes.h"
-#include "scan/temporary_folder.h"
+#include "temporary_folder.h"
 
 namespace asperity::studio {
 

@@ -22,7 +22,7 @@
 #include "scan/scan_choices.h"
 #include "scan/scan_devices.h"
 #include "scan/scan_session.h"
-#include "scan/temporary_folder.h"
+#include "temporary_folder.h"
 
 namespace asperity::studio {
 

@@ -1,4 +1,6 @@
 import { useEffect, useRef, useState } from "preact/hooks";
+import { AddFiles } from "../add/AddFiles";
+import { adding } from "../add/adding";
 import { link } from "../net/connection";
 import { ForceStatus } from "../pages/feel/ForceStatus";
 import { about } from "../state/about";
@@ -28,10 +30,12 @@ const LINKS: Record<string, [LampState, string]> = {
 export function Shell() {
   const [help, setHelp] = useState(false);
   const [sessions, setSessions] = useState(false);
+  const [adds, setAdds] = useState(false);
   useKeys(
     [
       { key: "ctrl+z", label: "undo", run: () => undoLabel.value && undo() },
       { key: "ctrl+shift+z", label: "redo", run: () => redoLabel.value && redo() },
+      { key: "o", label: "add files", run: () => setAdds(true) },
       { key: "?", label: "show the keys", run: () => setHelp(true) },
       ...routes.map(({ id, title, key }) => ({ key: `g ${key}`, label: `go to ${title}`, run: () => go(id) })),
     ],
@@ -57,6 +61,7 @@ export function Shell() {
           <ForceStatus />
         </div>
         <div class="shell-tools">
+          <IconButton icon="plus" label={adding.value ? "Files are being added" : "Add files"} onClick={() => setAdds(true)} testId="add" />
           <UndoButton icon="undo" word="Undo" of={undoLabel.value} onClick={undo} />
           <UndoButton icon="redo" word="Redo" of={redoLabel.value} onClick={redo} />
           <IconButton icon={theme.value} label={`Theme: ${theme.value}`} onClick={nextTheme} testId="theme" />
@@ -87,6 +92,7 @@ export function Shell() {
       </footer>
       <Toasts />
       <WaitingKey />
+      <AddFiles open={adds} onClose={() => setAdds(false)} onOpen={() => setAdds(true)} />
       <Help open={help} onClose={() => setHelp(false)} />
       <Sessions open={sessions} onClose={() => setSessions(false)} />
     </div>

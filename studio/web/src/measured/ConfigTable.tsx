@@ -7,6 +7,7 @@ export function ConfigTable({ measured }: { measured: Measured }) {
     <div class="measured-column">
       <p class="measured-note">Asperity {measured.version}. The same settings as text: result.json, "config".</p>
       <Table
+        savable
         caption="The settings that were used"
         columns={[
           { key: "path", label: "Setting", cell: (row) => <code>{row.path}</code> },

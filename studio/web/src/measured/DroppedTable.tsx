@@ -7,6 +7,7 @@ export function DroppedTable({ measured }: { measured: Measured }) {
   return (
     <div class="measured-column">
       <Table
+        savable
         caption="What was dropped or could not be had, and why"
         columns={[
           { key: "count", label: "How often", numeric: true, cell: (row) => String(row.count) },
@@ -18,6 +19,7 @@ export function DroppedTable({ measured }: { measured: Measured }) {
         testId="dropped"
       />
       <Table
+        savable
         caption="Gaps of the profile"
         columns={[
           { key: "from", label: "Gap from", numeric: true, cell: (row) => millimetres(row.from_m) },

@@ -54,6 +54,7 @@ export function RepeatabilityPlot({ block }: { block: Block }) {
         testId="plot-repeatability"
       />
       <Table
+        savable
         caption="The scans, how they agree with the first, and the mean of all with its standard deviation"
         columns={[
           { key: "name", label: "Scan", cell: (row, index) => (index < scans.length ? `${index + 1}\u00a0${row.name}` : <strong>{row.name}</strong>) },

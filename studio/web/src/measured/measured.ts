@@ -120,6 +120,12 @@ export function figureWords(figure: MeasuredFigure): string {
   return figure.error == null ? quantity(value, figure.unit) : withError(value, figure.error, figure.unit);
 }
 
+/** The figures for a table of another program: all digits, in their units. */
+export const figureRows = (figures: readonly MeasuredFigure[]): string[][] => [
+  ["group", "figure", "key", "value", "standard_error", "unit"],
+  ...figures.map(({ group, label, key, value, error, unit }) => [group, label, key, value == null ? "" : String(value), error == null ? "" : String(error), unit]),
+];
+
 /** The figures by their groups, in their order. */
 export function figureGroups(figures: readonly MeasuredFigure[]): { name: string; figures: MeasuredFigure[] }[] {
   const groups = new Map<string, MeasuredFigure[]>();

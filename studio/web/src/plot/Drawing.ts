@@ -78,6 +78,11 @@ export class Drawing {
     return next !== null;
   }
 
+  /** The range of x that is shown. */
+  shownRange(): Range {
+    return this.shown;
+  }
+
   /** The range of x that is zoomed into; null if all is shown. */
   zoomedInto(): Range | null {
     return isAllOf(this.shown, this.all) ? null : this.shown;

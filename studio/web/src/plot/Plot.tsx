@@ -3,6 +3,7 @@ import { useLayoutEffect, useMemo, useRef, useState } from "preact/hooks";
 import { dark } from "../app/settings";
 import { Legend } from "./Legend";
 import { Drawing } from "./Drawing";
+import { PlotSave } from "./PlotSave";
 import type { PlotProps } from "./props";
 import type { Range } from "./zoom";
 import { summary } from "./summary";
@@ -52,6 +53,7 @@ export function Plot(props: PlotProps) {
         <p class="plot-empty empty">{empty}</p>
       ) : (
         <>
+          <PlotSave plot={props} shown={shown} range={() => drawing.current?.shownRange() ?? null} />
           <div class="plot-over">
             <div ref={readout} class="plot-readout" aria-hidden="true" />
           </div>

@@ -44,6 +44,9 @@ function decadeWords(value: number): string {
   return Math.abs(exponent) <= 2 ? String(Number(value.toPrecision(1))) : `10${superscript(exponent)}`;
 }
 
+/** A value on a logarithmic axis: a power of ten, or as many digits as it has. */
+export const logWords = (value: number): string => (isDecade(value) ? decadeWords(value) : number(value, 2));
+
 /** All with the decimals that the step between them needs. */
 export function tickWords(splits: (number | null)[]): string[] {
   const values = splits.filter((value): value is number => value !== null);

@@ -9,6 +9,7 @@ export function Comparison({ results }: { results: Result[] }) {
     <section class="report-drawing report-compared" aria-label="Side by side">
       <h2>Side by side</h2>
       <Table<ComparedRow>
+        savable
         caption="Figures of all results"
         columns={[
           { key: "group", label: "Group", cell: (row: ComparedRow, index: number) => (rows[index - 1]?.group === row.group ? "" : row.group) },

@@ -9,10 +9,12 @@ export interface DialogProps {
   children: ComponentChildren;
   /** Buttons at the bottom. */
   actions?: ComponentChildren;
+  /** As wide as the window lets it. */
+  wide?: boolean;
 }
 
 /** A window over the page; Escape closes it, and the focus goes back to where it was. */
-export function Dialog({ open, title, onClose, children, actions }: DialogProps) {
+export function Dialog({ open, title, onClose, children, actions, wide }: DialogProps) {
   const id = useId();
   const dialog = useRef<HTMLDialogElement>(null);
   useEffect(() => {
@@ -20,7 +22,7 @@ export function Dialog({ open, title, onClose, children, actions }: DialogProps)
     if (!open && dialog.current?.open) dialog.current.close();
   }, [open]);
   return (
-    <dialog ref={dialog} class="dialog" aria-labelledby={open ? id : undefined} onClose={onClose}>
+    <dialog ref={dialog} class={wide ? "dialog dialog-wide" : "dialog"} aria-labelledby={open ? id : undefined} onClose={onClose}>
       {open && (
         <>
           <header class="dialog-header">

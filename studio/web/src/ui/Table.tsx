@@ -1,4 +1,6 @@
 import type { ComponentChildren } from "preact";
+import { useRef } from "preact/hooks";
+import { shownRows, TableSave } from "../save/TableSave";
 import { floored, number } from "./format";
 
 export interface Column<Row> {
@@ -21,14 +23,17 @@ export interface TableProps<Row> {
   chosen?(row: Row, index: number): boolean;
   /** Shown instead of rows where there are none. */
   empty?: string;
+  /** With a button that saves or copies what it shows. */
+  savable?: boolean;
   testId?: string;
 }
 
 /** Rows and columns; numbers to the right. */
-export function Table<Row>({ caption, columns, rows, rowKey, onChoose, chosen, empty = "Nothing yet.", testId }: TableProps<Row>) {
-  return (
+export function Table<Row>({ caption, columns, rows, rowKey, onChoose, chosen, empty = "Nothing yet.", savable, testId }: TableProps<Row>) {
+  const table = useRef<HTMLTableElement>(null);
+  const frame = (
     <div class="table-frame" data-testid={testId} role="region" aria-label={caption} tabIndex={0}>
-      <table>
+      <table ref={table}>
         <caption class="visually-hidden">{caption}</caption>
         <thead>
           <tr>
@@ -73,6 +78,13 @@ export function Table<Row>({ caption, columns, rows, rowKey, onChoose, chosen, e
           ))}
         </tbody>
       </table>
+    </div>
+  );
+  if (!savable || rows.length === 0) return frame;
+  return (
+    <div class="table-savable">
+      <TableSave caption={caption} rows={() => shownRows(table.current!)} testId={testId && `${testId}-save`} />
+      {frame}
     </div>
   );
 }

@@ -48,7 +48,7 @@ export function ScansPanel() {
   const rows = scanRows(section.paths, found, placed.value, rms_m, stored, overlap);
   return (
     <Panel title="Scans" testId="align-scans">
-      <Table caption="Scans with their poses" columns={columns} rows={rows} rowKey={(row) => row.key} empty="No scan is chosen." testId="align-scan-table" />
+      <Table savable caption="Scans with their poses" columns={columns} rows={rows} rowKey={(row) => row.key} empty="No scan is chosen." testId="align-scan-table" />
       <Select label="Colour of the paths" value={colouring.value} options={kColourings} onChange={(by) => (colouring.value = by as Colouring)} testId="align-colouring" />
       <Toggle label="Mark overlaps" on={showOverlaps.value} onChange={(on) => (showOverlaps.value = on)} testId="align-mark-overlaps" />
       {(block.shapes.laid_triangle?.[0] ?? 0) > 0 && (

@@ -41,7 +41,7 @@ export function MergeView({ section }: { section: ProcessSection }) {
     <div class="measured-column">
       {shown.key !== mergeKey(section) && <p class="measured-note" role="status">Strokes or settings were changed since. Merge again.</p>}
       {agrees(shown.block) && <MergePlot block={shown.block} />}
-      <Table caption="The strokes of the merge" columns={columns} rows={strokesOf(shown.block)} rowKey={(row) => row.name} testId="merge-table" />
+      <Table savable caption="The strokes of the merge" columns={columns} rows={strokesOf(shown.block)} rowKey={(row) => row.name} testId="merge-table" />
     </div>
   );
 }

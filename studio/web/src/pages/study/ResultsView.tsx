@@ -76,6 +76,7 @@ function Pairs({ results }: { results: StudyResults }) {
     <>
       <h3>How often a row was chosen over a column</h3>
       <Table
+        savable
         caption="Wins"
         testId="study-wins"
         rows={rows}
@@ -88,6 +89,7 @@ function Pairs({ results }: { results: StudyResults }) {
       {!results.worths_exist && <p class="field-hint">There are no worths yet: one part of the textures was always chosen over the rest, or was not compared with it.</p>}
       <h3>Pairs</h3>
       <Table<PairShare>
+        savable
         caption="Pairs, with intervals of 95 %"
         testId="study-pairs"
         rows={results.pairs!}
@@ -110,6 +112,7 @@ function Tracks({ results }: { results: StudyResults }) {
   return (
     <>
       <Table<Track>
+        savable
         caption={`Thresholds: ${parameterWords(results.parameter)}`}
         testId="study-thresholds"
         rows={tracks}
@@ -142,6 +145,7 @@ function Ratings({ results }: { results: StudyResults }) {
   const names = results.stimuli.map(stimulusName);
   return (
     <Table<Rating>
+      savable
       caption="Ratings, means with intervals of 95 %"
       testId="study-ratings"
       rows={results.ratings!}

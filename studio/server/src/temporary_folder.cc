@@ -1,4 +1,4 @@
-#include "scan/temporary_folder.h"
+#include "temporary_folder.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPrefix = "asperity-studio-";
+constexpr const char* kPrefix = ".asperity-studio-";  // hidden: it may lie in a project
 constexpr std::size_t kSuffix = 6;                    // of mkdtemp
 constexpr const char* kMark = ".asperity-temporary";  // a folder of a person may have such a name by chance
 
