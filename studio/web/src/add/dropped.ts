@@ -24,8 +24,15 @@ export const chosenFiles = (list: Iterable<File>): Choice => sorted([...list].ma
 
 /** Of a drop; folders are read to their ends. To be called while the drop is handled: later its items are gone. */
 export async function droppedFiles(data: DataTransfer): Promise<Choice> {
-  const roots = [...data.items].map((item) => item.webkitGetAsEntry()).filter((entry): entry is FileSystemEntry => entry !== null);
+  const roots: FileSystemEntry[] = [];
   const files: Dropped[] = [];
+  for (const item of [...data.items].filter(({ kind }) => kind === "file")) {
+    const entry = item.webkitGetAsEntry();
+    // What comes from no folder, such as a picture of another page, has no entry.
+    const file = entry ? null : item.getAsFile();
+    if (entry) roots.push(entry);
+    if (file) files.push({ path: file.name, file });
+  }
   for (const root of roots) await collect(root, root.name, files);
   return sorted(files);
 }
