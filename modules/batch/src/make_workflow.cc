@@ -115,10 +115,17 @@ default-resources: ["mem_mb=1500", "runtime=30"]
 
 constexpr const char* kSlurmStatus = R"(#!/bin/sh
 # Prints "running", "success" or "failed" for the Slurm job $1, by scontrol: no accounting is needed. A job that scontrol
-# knows no more has ended a while ago; Snakemake looks for its files.
-state=$(scontrol show job "$1" 2>/dev/null | sed -n 's/.*JobState=\([A-Z_]*\).*/\1/p' | head -n 1)
+# knows no more has ended a while ago; Snakemake looks for its files. A scontrol that does not answer is asked again.
+if ! told=$(scontrol show job "$1" 2>&1); then
+  case $told in
+    *"Invalid job id"*) echo success ;;
+    *) echo running ;;
+  esac
+  exit 0
+fi
+state=$(printf '%s\n' "$told" | sed -n 's/.*JobState=\([A-Z_]*\).*/\1/p' | head -n 1)
 case $state in
-  COMPLETED | "") echo success ;;
+  COMPLETED) echo success ;;
   PENDING | RUNNING | CONFIGURING | COMPLETING | SUSPENDED | REQUEUED | RESIZING | STAGE_OUT) echo running ;;
   *) echo failed ;;
 esac
