@@ -39,6 +39,8 @@ using Clock = std::chrono::steady_clock;
 constexpr int kReadings = 10;
 // Of the readings after the first: what a heap that is used and given back may breathe.
 constexpr double kMostGrowth_MiB = 8.0;
+constexpr double kLeastHeld =
+    0.3;  // of the time the hand must have felt the block, of the two thirds in which it pushes
 constexpr double kStroke_s = 30.0;  // how often the bench's hand strokes again
 
 double s_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -167,7 +169,10 @@ std::string last_lines(const std::filesystem::path& file) {
 bool soak(double minutes, const std::filesystem::path& programs) {
   const asperity::testkit::TempDir dir;
   const std::string asperity = (programs / "asperity").string();
-  asperity::FakeTwoDiyBoard board;
+  // The hand lifts again and again: a point that a late machine let go of inside the block feels nothing until then.
+  asperity::FakeBoardConfig hand;
+  hand.lifts_every_s = 6.0;
+  asperity::FakeTwoDiyBoard board(hand);
   std::filesystem::create_directory(dir / "project");
   write_wave(std::filesystem::path(dir / "project") / "wave.pgm");
   write_block(dir / "block.obj", board.p_m().y() + 0.012);
@@ -259,7 +264,8 @@ bool soak(double minutes, const std::filesystem::path& programs) {
     if (w.rows == 0 || std::getenv("HOUSE_TELL") != nullptr) std::printf("%s\n", w.scan.substr(0, 1500).c_str());
     well = well && w.failure.empty() && w.lost_rows == 0 && w.rows > 0 && w.ticks > 0 && w.errors == 0;
   }
-  // A machine that stands still ends the force, and a point that comes back inside an object feels nothing.
+  // A machine that stands still ends the force, and a point that comes back inside an object feels nothing until the
+  // hand lifts.
   std::printf("feel: begun again %d times; force at the board in %.1f %% of the time, %.2f N at most\n%s", begun_again,
               100.0 * held / std::max(1.0, looked), most_N, last_lines(dir / "feel.txt").c_str());
   for (std::size_t i = 0; i < children.size(); ++i) {
@@ -271,7 +277,7 @@ bool soak(double minutes, const std::filesystem::path& programs) {
     well = well && last.memory_MiB - first.memory_MiB < kMostGrowth_MiB && last.descriptors <= first.descriptors &&
            last.threads <= first.threads;
   }
-  well = well && begun_again == 0;
+  well = well && begun_again == 0 && held > kLeastHeld * looked;
   std::printf("%s\n", well ? "passed" : "FAILED");
   return well;
 }

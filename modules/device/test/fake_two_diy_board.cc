@@ -188,14 +188,26 @@ struct FakeTwoDiyBoard::Impl {
     const Eigen::Matrix2d inverse = dtheta_dp(p_m);
     const Eigen::Vector2d at_tip_N = inverse.transpose() * torque_N_m;
     for (; moved_to + std::chrono::microseconds(100) <= now; moved_to += std::chrono::microseconds(100)) {
-      v_mps += kStep_s / config.mass_kg * (config.pull_N + at_tip_N - config.damping_N_s_per_m * v_mps);
+      v_mps += kStep_s / config.mass_kg * (pull_N() + at_tip_N - config.damping_N_s_per_m * v_mps);
       p_m += kStep_s * v_mps;
+      // Lifted, it rests where it began.
+      if (config.lifts_every_s > 0.0 && p_m.y() < begun_m.y()) {
+        p_m.y() = begun_m.y();
+        v_mps.setZero();
+      }
       // The arms' reach.
       if (p_m.y() > 0.1) {
         p_m.y() = 0.1;
         v_mps.setZero();
       }
     }
+  }
+
+  Eigen::Vector2d pull_N() const {
+    if (config.lifts_every_s <= 0.0) return config.pull_N;
+    const double since_s = std::chrono::duration<double>(moved_to - begun).count();
+    const bool lifts = std::fmod(since_s, config.lifts_every_s) > config.lifts_every_s * 2.0 / 3.0;
+    return lifts ? Eigen::Vector2d(-config.pull_N) : config.pull_N;
   }
 
   FakeBoardConfig config;
@@ -217,7 +229,8 @@ struct FakeTwoDiyBoard::Impl {
   Eigen::Vector2d torque_N_m = Eigen::Vector2d::Zero(), v_mps = Eigen::Vector2d::Zero();
   // The tip while the arms are at 180° and 0°: midway between the motors.
   Eigen::Vector2d p_m{0.5 * kBase_m, std::sqrt(kDistal_m* kDistal_m - std::pow(kProximal_m + 0.5 * kBase_m, 2))};
-  Clock::time_point moved_to = Clock::now();
+  Eigen::Vector2d begun_m = p_m;
+  Clock::time_point begun = Clock::now(), moved_to = begun;
 };
 
 FakeTwoDiyBoard::FakeTwoDiyBoard(const FakeBoardConfig& config) : impl_(std::make_unique<Impl>(config)) {}

@@ -12,6 +12,7 @@ struct FakeBoardConfig {
   double mass_kg = 0.2;
   double damping_N_s_per_m = 40.0;
   Eigen::Vector2d pull_N{0.0, 1.0};  // away from the motors
+  double lifts_every_s = 0.0;        // in the last third of each such time the pull is the other way; 0: never
 };
 
 // What a board or its line can do to answers. The messages are obeyed all the same.
