@@ -94,16 +94,14 @@ void run(const Choice& choice, const std::string& surface, std::int64_t line) {
 int main(int argc, char** argv) {
   try {
     Choice choice;
-    bench::read_options(
-        argc, argv,
-        {{"--surfaces", [&](auto value) { choice.surfaces = bench::split_list(value); }},
-         {"--strokes", [&](auto value) { choice.strokes = static_cast<int>(bench::number_within(value, 2.0, 50.0)); }},
-         {"--repeats", [&](auto value) { choice.repeats = static_cast<int>(bench::number_within(value, 1.0, 1e4)); }},
-         {"--seed",
-          [&](auto value) { choice.seed = static_cast<std::int64_t>(bench::number_within(value, 1.0, 1e9)); }},
-         {"--wander_m", [&](auto value) { choice.wander_m = bench::number_within(value, 0.0, 0.01); }},
-         {"--probe", [&](auto value) { choice.probe = std::string(value); }},
-         {"--lines", [&](auto value) { choice.lines = std::string(value); }}});
+    bench::read_options(argc, argv,
+                        {{"--surfaces", bench::list_into(choice.surfaces)},
+                         {"--strokes", bench::whole_into(choice.strokes, 2.0, 50.0)},
+                         {"--repeats", bench::whole_into(choice.repeats, 1.0, 1e4)},
+                         {"--seed", bench::whole_into(choice.seed, 1.0, 1e9)},
+                         {"--wander_m", bench::number_into(choice.wander_m, 0.0, 0.01)},
+                         {"--probe", bench::text_into(choice.probe)},
+                         {"--lines", bench::text_into(choice.lines)}});
     std::printf(
         "| surface, seed | merged | one stroke, µm RMS error | merge, µm | ratio | one, expected µm | merge, "
         "expected µm | differences over stated noise, power (95 %%) | coherence |\n");

@@ -11,8 +11,9 @@
 
 namespace bench {
 
-// What to do with an option's value, by the option's name.
-using Options = std::map<std::string_view, std::function<void(std::string_view value)>>;
+// What to do with an option's value.
+using Action = std::function<void(std::string_view value)>;
+using Options = std::map<std::string_view, Action>;  // by the option's name
 
 // Takes "--name value" pairs. Throws asperity::Error if a value is missing or an option unknown.
 inline void read_options(int argc, char** argv, const Options& options) {
@@ -55,6 +56,28 @@ inline std::vector<std::string> split_list(std::string_view list) {
 inline bool is_first(std::string_view value, std::string_view yes, std::string_view no) {
   if (value == yes || value == no) return value == yes;
   throw asperity::Error("'" + std::string(value) + "' is not " + std::string(yes) + " or " + std::string(no));
+}
+
+// Actions that put the value into `out`; they throw asperity::Error where it is not one of these.
+template <class Whole>
+Action whole_into(Whole& out, double low, double high) {
+  return [&out, low, high](std::string_view value) { out = static_cast<Whole>(number_within(value, low, high)); };
+}
+
+inline Action number_into(double& out, double low, double high) {
+  return [&out, low, high](std::string_view value) { out = number_within(value, low, high); };
+}
+
+inline Action yes_into(bool& out) {
+  return [&out](std::string_view value) { out = is_first(value, "yes", "no"); };
+}
+
+inline Action list_into(std::vector<std::string>& out) {
+  return [&out](std::string_view value) { out = split_list(value); };
+}
+
+inline Action text_into(std::string& out) {
+  return [&out](std::string_view value) { out = value; };
 }
 
 }  // namespace bench

@@ -74,12 +74,14 @@ asperity::RealStroke real_stroke(const Choice& choice, const asperity::Simulatio
 // The heights of the merged strokes of a line.
 RenderedRelief merged_relief(const Choice& choice, const std::string& surface, const std::string& material,
                              std::int64_t line) {
-  std::vector<asperity::ProfilePass> passes;
+  std::vector<asperity::MergeStroke> strokes;
   asperity::MergeConfig merge;
   asperity::SimulationConfig config;
   for (int k = 0; k < choice.strokes; ++k) {
     config = stroke_config(choice, surface, material, line, k);
-    passes.push_back(asperity::pass_of_result(real_stroke(choice, config, "").result, std::to_string(k + 1)));
+    const asperity::Recording recording = asperity::simulate_recording(config);
+    strokes.push_back(asperity::stroke_of_result(asperity::process_recording(recording, as_measured(choice, config)),
+                                                 recording, std::to_string(k + 1)));
   }
   asperity::Texture texture;
   texture.name = surface;
@@ -87,12 +89,12 @@ RenderedRelief merged_relief(const Choice& choice, const std::string& surface, c
   texture.friction = config.contact.friction_dynamic + config.contact.friction_viscous_s_per_m * config.hand.speed_mps;
   asperity::Profile profile;
   if (choice.strokes > 1) {
-    asperity::ProcessResult merged = asperity::merge_results(passes, surface, merge);
+    asperity::ProcessResult merged = asperity::merge_results(strokes, surface, merge);
     if (!merged.passes->agrees) throw asperity::Error(surface + ": the strokes do not agree");
     profile = std::move(merged.profile);
   } else {
-    profile.spacing_m = passes.front().spacing_m;
-    profile.texture_m = passes.front().texture_m;
+    profile.spacing_m = strokes.front().pass.spacing_m;
+    profile.texture_m = strokes.front().pass.texture_m;
   }
   return asperity::relief_of_heights(profile.texture_m, profile.spacing_m, texture, {});
 }
@@ -249,20 +251,18 @@ void run(const Choice& choice, const std::string& surface, const std::string& ma
 int main(int argc, char** argv) {
   try {
     Choice choice;
-    bench::read_options(
-        argc, argv,
-        {{"--surfaces", [&](auto value) { choice.surfaces = bench::split_list(value); }},
-         {"--materials", [&](auto value) { choice.materials = bench::split_list(value); }},
-         {"--strokes", [&](auto value) { choice.strokes = static_cast<int>(bench::number_within(value, 1.0, 50.0)); }},
-         {"--repeats", [&](auto value) { choice.repeats = static_cast<int>(bench::number_within(value, 1.0, 1e4)); }},
-         {"--seed",
-          [&](auto value) { choice.seed = static_cast<std::int64_t>(bench::number_within(value, 1.0, 1e9)); }},
-         {"--speed", [&](auto value) { choice.speed_mps = bench::number_within(value, 1e-3, 1.0); }},
-         {"--imperfection", [&](auto value) { choice.imperfection = bench::number_within(value, 0.0, 100.0); }},
-         {"--force3", [&](auto value) { choice.force3 = bench::is_first(value, "yes", "no"); }},
-         {"--resonance", [&](auto value) { choice.resonance = bench::is_first(value, "yes", "no"); }},
-         {"--summary", [&](auto value) { choice.summary = bench::is_first(value, "yes", "no"); }},
-         {"--probe", [&](auto value) { choice.probe = std::string(value); }}});
+    bench::read_options(argc, argv,
+                        {{"--surfaces", bench::list_into(choice.surfaces)},
+                         {"--materials", bench::list_into(choice.materials)},
+                         {"--strokes", bench::whole_into(choice.strokes, 1.0, 50.0)},
+                         {"--repeats", bench::whole_into(choice.repeats, 1.0, 1e4)},
+                         {"--seed", bench::whole_into(choice.seed, 1.0, 1e9)},
+                         {"--speed", bench::number_into(choice.speed_mps, 1e-3, 1.0)},
+                         {"--imperfection", bench::number_into(choice.imperfection, 0.0, 100.0)},
+                         {"--force3", bench::yes_into(choice.force3)},
+                         {"--resonance", bench::yes_into(choice.resonance)},
+                         {"--summary", bench::yes_into(choice.summary)},
+                         {"--probe", bench::text_into(choice.probe)}});
     std::printf(
         "| surface | rendered | score | 95 %% | largest | acceleration: correlation | spectra, dB | level, dB | "
         "force: correlation | spectra, dB | level, dB | friction | placed |\n");

@@ -176,16 +176,14 @@ void run_mesh(const Choice& choice, const std::string& surface, std::int64_t see
 int main(int argc, char** argv) {
   try {
     Choice choice;
-    bench::read_options(
-        argc, argv,
-        {{"--surfaces", [&](auto value) { choice.surfaces = bench::split_list(value); }},
-         {"--paths", [&](auto value) { choice.paths = bench::split_list(value); }},
-         {"--strokes", [&](auto value) { choice.strokes = static_cast<int>(bench::number_within(value, 2.0, 50.0)); }},
-         {"--repeats", [&](auto value) { choice.repeats = static_cast<int>(bench::number_within(value, 1.0, 1e4)); }},
-         {"--length_m", [&](auto value) { choice.length_m = bench::number_within(value, 0.02, 1.0); }},
-         {"--seed",
-          [&](auto value) { choice.seed = static_cast<std::int64_t>(bench::number_within(value, 1.0, 1e9)); }},
-         {"--probe", [&](auto value) { choice.probe = std::string(value); }}});
+    bench::read_options(argc, argv,
+                        {{"--surfaces", bench::list_into(choice.surfaces)},
+                         {"--paths", bench::list_into(choice.paths)},
+                         {"--strokes", bench::whole_into(choice.strokes, 2.0, 50.0)},
+                         {"--repeats", bench::whole_into(choice.repeats, 1.0, 1e4)},
+                         {"--length_m", bench::number_into(choice.length_m, 0.02, 1.0)},
+                         {"--seed", bench::whole_into(choice.seed, 1.0, 1e9)},
+                         {"--probe", bench::text_into(choice.probe)}});
     std::printf(
         "| surface | path | seed | apart, µm RMS error | merged, µm | ratio | correlation apart | merged | expected "
         "apart, µm | merged, µm | passes | lines over noise (power), noise scale, mm apart | over all stated noise (95 "

@@ -133,15 +133,13 @@ void run(const Choice& choice, const std::string& name, std::int64_t seed) {
 int main(int argc, char** argv) {
   try {
     Choice choice;
-    bench::read_options(
-        argc, argv,
-        {{"--surfaces", [&](auto value) { choice.surfaces = bench::split_list(value); }},
-         {"--repeats", [&](auto value) { choice.repeats = static_cast<int>(bench::number_within(value, 1.0, 1e4)); }},
-         {"--seed",
-          [&](auto value) { choice.seed = static_cast<std::int64_t>(bench::number_within(value, 1.0, 1e9)); }},
-         {"--radius_error", [&](auto value) { choice.radius_error = bench::number_within(value, -0.9, 10.0); }},
-         {"--speed_mps", [&](auto value) { choice.speed_mps = bench::number_within(value, 1e-3, 1.0); }},
-         {"--imperfection", [&](auto value) { choice.imperfection = bench::number_within(value, 0.0, 10.0); }}});
+    bench::read_options(argc, argv,
+                        {{"--surfaces", bench::list_into(choice.surfaces)},
+                         {"--repeats", bench::whole_into(choice.repeats, 1.0, 1e4)},
+                         {"--seed", bench::whole_into(choice.seed, 1.0, 1e9)},
+                         {"--radius_error", bench::number_into(choice.radius_error, -0.9, 10.0)},
+                         {"--speed_mps", bench::number_into(choice.speed_mps, 1e-3, 1.0)},
+                         {"--imperfection", bench::number_into(choice.imperfection, 0.0, 10.0)}});
     std::printf(
         "| surface, seed | tip's height from surface, µm RMS | eroded, µm | ratio | the same where touched: tip, µm | "
         "eroded, µm | applied | correction, µm | noise of the erosion, µm | its mean, µm | touched | radius at most, "

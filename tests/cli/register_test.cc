@@ -1,18 +1,8 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-#include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <numbers>
-#include <random>
 #include <sstream>
 
-#include "asperity/geometry/pose.h"
-#include "asperity/testkit/temp_dir.h"
-#include "pebble.h"
-#include "run_asperity.h"
+#include "register_fixture.h"
 
 namespace asperity::cli {
 namespace {
@@ -23,86 +13,6 @@ using nlohmann::json;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using Words = std::vector<std::string>;
-
-json read_json(const fs::path& file) {
-  std::ifstream in(file);
-  return json::parse(in);
-}
-
-Pose pose_of(const json& v) {
-  return {Eigen::Quaterniond(v.at(3), v.at(4), v.at(5), v.at(6)), Vector3d(v.at(0), v.at(1), v.at(2))};
-}
-
-std::string text_of(const Pose& pose) {
-  std::ostringstream out;
-  out.precision(12);
-  const Eigen::Quaterniond& q = pose.rotation;
-  for (const double v : {pose.translation_m.x(), pose.translation_m.y(), pose.translation_m.z(), q.w(), q.x(), q.y()}) {
-    out << v << ',';
-  }
-  out << q.z();
-  return out.str();
-}
-
-class Register : public testing::Test {
- protected:
-  void SetUp() override { write_text(dir_ / "pebble.obj", pebble_obj()); }
-  std::string path(const std::string& name) const { return (dir_ / name).string(); }
-  std::string mesh() const { return path("pebble.obj"); }
-
-  void simulate(const std::string& name, const std::string& surface, const std::string& points, int seed,
-                const Words& more = {}) {
-    Words words{"simulate",
-                "--surface",
-                surface,
-                "--probe",
-                "open",
-                "--speed",
-                "25mm/s",
-                "--seed",
-                std::to_string(seed),
-                "--mesh",
-                mesh(),
-                "--mesh-unit",
-                "mm",
-                "--through=" + points,
-                "-o",
-                path(name)};
-    words.insert(words.end(), more.begin(), more.end());
-    const Outcome outcome = run(words);
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-  }
-  // Points in a row round the pebble, displaced by `T_world_mesh`, with white noise.
-  void write_path(const std::string& name, const Pose& T_world_mesh, double noise_m) {
-    std::mt19937 random(3);
-    std::normal_distribution<double> normal(0.0, 1.0);
-    std::ostringstream out;
-    out.precision(10);
-    out << "px_m,py_m,pz_m\n";
-    for (int i = 0; i < 2000; ++i) {
-      const double angle = 2e-3 * i;
-      const Vector3d noise = noise_m * Vector3d(normal(random), normal(random), normal(random));
-      const Vector3d p = T_world_mesh * pebble_point(angle, 0.5 * std::sin(2.0 * angle)) + noise;
-      out << p.x() << ',' << p.y() << ',' << p.z() << '\n';
-    }
-    write_text(dir_ / name, out.str());
-  }
-
-  const testkit::TempDir dir_;
-};
-
-const Pose kTruth{Eigen::Quaterniond(Eigen::AngleAxisd(1.1, Vector3d(1, 2, -2).normalized())),
-                  Vector3d(0.1, -0.05, 0.3)};
-
-Pose off_by(const Pose& T_mesh_world, double shift_m, double turn_rad) {
-  const Pose step{Eigen::Quaterniond(Eigen::AngleAxisd(turn_rad, Vector3d(2, -1, 2).normalized())),
-                  shift_m * Vector3d(-1, 2, 2).normalized()};
-  return step * T_mesh_world;
-}
-
-double turn_between_deg(const Pose& a, const Pose& b) {
-  return a.rotation.angularDistance(b.rotation) * 180.0 / std::numbers::pi;
-}
 
 TEST_F(Register, APathOfPointsIsFoundAgain) {
   write_path("path.csv", kTruth, 0.15e-3);
@@ -224,21 +134,6 @@ TEST_F(Register, WithoutAGuessARecordingsPoseIsRightOrRefused) {
   EXPECT_GE(valid, 1);
 }
 
-// A guess that is stated to be much better than it is ends at a pose that its own numbers refuse.
-TEST_F(Register, AGuessThatIsWrongByManyOfItsSigmasIsRefused) {
-  simulate("rec", "sandpaper", through({{0.0, -0.4}, {0.9, 0.7}, {1.8, -0.3}}), 2);
-  const Pose truth = pose_of(read_json(dir_ / "rec" / "recording.json").at("extra").at("T_mesh_world"));
-  const Outcome outcome =
-      run({"register", path("rec"), mesh(), "--mesh-unit", "mm", "-o", path("out"), "--json", "--guess",
-           text_of(off_by(truth, 50e-3, 0.17)), "--set", "search.registration.guess_sigma_m=0.002", "--set",
-           "search.registration.guess_sigma_deg=3"});
-  EXPECT_EQ(outcome.code, 3) << outcome.err;
-  std::vector<std::string> codes;
-  const json result = json::parse(outcome.out);
-  for (const json& verdict : result.at("verdicts")) codes.push_back(verdict.at("code"));
-  EXPECT_THAT(codes, ::testing::AnyOf(::testing::Contains("pose_misfit"), ::testing::Contains("guess_contradicted")));
-}
-
 // The seed's own chain, registration included (seed §5.4, B.2).
 TEST_F(Register, TheThesisRegistersFromAGuess) {
   // With the tracker's flips.
@@ -310,68 +205,6 @@ TEST_F(Register, TwoScansGiveOneMeshTwoTexturesAndTheSameBytesAgain) {
   const Outcome refused = into("one");
   EXPECT_EQ(refused.code, 1);
   EXPECT_TRUE(fs::exists(dir_ / "one" / "notes.txt"));
-}
-
-TEST_F(Register, BadInputIsNamed) {
-  write_path("path.csv", kTruth, 0.0);
-  write_text(dir_ / "bad.csv", "px_m,py_m,pz_m\n0,0,zero\n");
-  write_text(dir_ / "bad.obj", "v 0 0 0\nv 1 abc 0\n");
-  const auto outcome = [&](const Words& words) {
-    Words all{"register"};
-    all.insert(all.end(), words.begin(), words.end());
-    all.insert(all.end(), {"-o", path("out")});
-    return run(all);
-  };
-  const Outcome cell = outcome({path("bad.csv"), mesh()});
-  EXPECT_EQ(cell.code, 1);
-  EXPECT_THAT(cell.err, HasSubstr("bad.csv:2: column 'pz_m'"));
-  const Outcome vertex = outcome({path("path.csv"), path("bad.obj")});
-  EXPECT_EQ(vertex.code, 1);
-  EXPECT_THAT(vertex.err, HasSubstr("bad.obj:2"));
-  EXPECT_EQ(outcome({path("path.csv")}).code, 2);
-  EXPECT_EQ(outcome({path("path.csv"), mesh(), "--guess", "1,2,3"}).code, 2);
-  EXPECT_EQ(outcome({path("path.csv"), mesh(), "--mesh-unit", "kg"}).code, 2);
-  EXPECT_FALSE(fs::exists(dir_ / "out"));
-}
-
-TEST_F(Register, AMeshInUnconnectedPartsIsRegisteredWithoutCoordinates) {
-  // The pebble cut along a parallel that the path crosses, its rows no longer joined there.
-  std::istringstream in(pebble_obj());
-  std::ostringstream cut;
-  int face = 0;
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("f ") && face++ / 160 == 39) continue;
-    cut << line << '\n';
-  }
-  cut << "f 1 1 2\n";  // and a triangle that names a vertex twice
-  write_text(dir_ / "cut.obj", cut.str());
-  std::ostringstream path_csv;
-  path_csv.precision(10);
-  path_csv << "t_ns,px_m,py_m,pz_m\n";
-  for (int i = 0; i < 1500; ++i) {
-    const Vector3d p = kTruth * pebble_point(1e-3 * i, 0.7 * std::sin(4e-3 * i));
-    path_csv << i * 1'000'000 << ',' << p.x() << ',' << p.y() << ',' << p.z() << '\n';
-  }
-  write_text(dir_ / "path.csv", path_csv.str());
-  const Outcome outcome = run({"register", path("path.csv"), path("cut.obj"), "--mesh-unit", "mm", "--guess",
-                               text_of(kTruth.inverse()), "-o", path("out"), "--json"});
-  ASSERT_EQ(outcome.code, 3) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("no haptic coordinates"));
-  const json result = json::parse(outcome.out);
-  EXPECT_LT((pose_of(result.at("T_mesh_world")) * (kTruth * Vector3d::Zero())).norm(), 0.2e-3);
-  EXPECT_TRUE(fs::exists(dir_ / "out" / "textured.obj"));
-}
-
-TEST_F(Register, NamesAndNumbersThatLeadAstrayAreRefused) {
-  write_text(dir_ / "...csv", "px_m,py_m,pz_m\n0,0,0\n1,0,0\n0,1,0\n");
-  write_text(dir_ / "a.csv", "px_m,py_m,pz_m\n0,0,0\n1,0,0\n0,1,0\n");
-  const Outcome name = run({"register", path("...csv"), path("a.csv"), mesh(), "-o", path("out")});
-  EXPECT_EQ(name.code, 2);
-  EXPECT_THAT(name.err, HasSubstr("'..' cannot be the name"));
-  write_text(dir_ / "t.csv", "t_ns,px_m,py_m,pz_m\n-9000000000000000000,0,0,0\n9000000000000000000,1,0,0\n");
-  const Outcome time = run({"register", path("t.csv"), mesh(), "-o", path("out")});
-  EXPECT_EQ(time.code, 1);
-  EXPECT_THAT(time.err, HasSubstr("t.csv:2: column 't_ns'"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/base/html_text.h"
 #include "asperity/base/text.h"
 #include "asperity/json/parse_json.h"
 
@@ -115,29 +116,6 @@ std::string csv_cell(std::string_view text) {
     if (c == '"') out += c;
   }
   return out + "\"";
-}
-
-std::string html(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
 }
 
 // A relative link: each byte that is none of RFC 3986's unreserved ones or '/' in hexadecimal.
@@ -256,13 +234,13 @@ std::string format_summary_page(const std::vector<SummaryRow>& rows) {
   for (const Column& column : kColumns) out += "<th>" + std::string(column.name) + "</th>";
   out += "</tr></thead><tbody>\n";
   for (const SummaryRow& row : rows) {
-    const std::string name = html(printable(row.name, 300));
+    const std::string name = html_text(printable(row.name, 300));
     out += "<tr><td>" + (row.report.empty() ? name : "<a href=\"" + link(row.report) + "\">" + name + "</a>") +
            "</td><td class=\"" + row.status + "\">" + row.status + "</td><td class=\"message\">" +
-           html((row.failed_step.empty() ? "" : row.failed_step + ": ") + row.message) + "</td>";
+           html_text((row.failed_step.empty() ? "" : row.failed_step + ": ") + row.message) + "</td>";
     for (const std::string& cell : row.cells) {
       const auto number = parse_double(cell);
-      out += "<td>" + (number ? fmt::format("{:.4g}", *number) : html(cell)) + "</td>";
+      out += "<td>" + (number ? fmt::format("{:.4g}", *number) : html_text(cell)) + "</td>";
     }
     out += "</tr>\n";
   }

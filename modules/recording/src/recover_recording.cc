@@ -66,7 +66,9 @@ void copy_others(const fs::path& folder, const fs::path& to, RecoveredRecording&
   for (const char* name : {"truth.csv", "camera.json", "markers.json", "frames"}) {
     std::error_code error;
     const fs::file_status status = fs::symlink_status(folder / name, error);
-    if (error || !(fs::is_regular_file(status) || fs::is_directory(status))) continue;
+    if (error && status.type() != fs::file_type::not_found)
+      throw Error((folder / name).string() + ": cannot be read: " + error.message());
+    if (!(fs::is_regular_file(status) || fs::is_directory(status))) continue;
     fs::copy(folder / name, to / name, fs::copy_options::recursive | fs::copy_options::skip_symlinks, error);
     if (error) throw Error((folder / name).string() + ": cannot be copied: " + error.message());
     out.copied.emplace_back(name);
@@ -115,8 +117,7 @@ RecoveredRecording recover_recording(const fs::path& folder, const fs::path& out
                                                });
 
   std::string checksums;
-  if (inner_file(folder, kChecksumFile) && fs::is_regular_file(folder / kChecksumFile, error))
-    checksums = read_file(folder / kChecksumFile, limits.json_bytes);
+  if (is_own_file(folder, kChecksumFile)) checksums = read_file(folder / kChecksumFile, limits.json_bytes);
   const std::string probe = recover_stream(folder, "probe.csv", checksums, options, limits, result.probe);
   observer.update("recovering", 0.5);
   const std::string tracker = recover_stream(folder, "tracker.csv", checksums, options, limits, result.tracker);

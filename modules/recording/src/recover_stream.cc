@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "asperity/base/csv.h"
+#include "asperity/base/error.h"
 #include "asperity/base/inner_path.h"
 #include "asperity/recording/format_recording.h"
 #include "block_checksums.h"
@@ -179,11 +180,19 @@ class Messages {
 
 }  // namespace
 
+bool is_own_file(const fs::path& folder, const std::string& file) {
+  if (!inner_file(folder, file)) return false;
+  std::error_code error;
+  const fs::file_status status = fs::status(folder / file, error);
+  if (error && status.type() != fs::file_type::not_found)
+    throw Error((folder / file).string() + ": cannot be read: " + error.message());
+  return fs::is_regular_file(status);
+}
+
 std::string recover_stream(const fs::path& folder, const std::string& file, std::string_view checksums,
                            const RecoverOptions& options, const ReadLimits& limits, RecoveredStream& stream) {
   stream.file = file;
-  std::error_code error;
-  if (!inner_file(folder, file) || !fs::is_regular_file(folder / file, error)) {
+  if (!is_own_file(folder, file)) {
     stream.messages.push_back(file + ": is not there");
     return {};
   }

@@ -120,6 +120,7 @@ RegisterInput read_register_input(const std::vector<std::string>& scans, const s
   } else {
     out.onto = scene_of_mesh(read_mesh(mesh, {}, observer), unit_m.value_or(1.0));
   }
+  if (out.mesh().triangles.empty()) throw Error(printable(mesh, 200) + ": holds no faces");
   if (const double size_m = size_of_mesh_m(out.mesh(), out.unit_m()); !(size_m <= kAbsurd_m)) {
     throw Error(fmt::format("{}: the mesh is {:.3g} m large; is --mesh-unit right?", printable(mesh, 200), size_m));
   }

@@ -5,6 +5,7 @@
 
 #include "asperity/base/base64.h"
 #include "asperity/base/error.h"
+#include "asperity/base/html_text.h"
 #include "asperity/base/text.h"
 #include "asperity/web/assets.h"
 
@@ -16,29 +17,6 @@ namespace {
 constexpr std::string_view kPolicy =
     "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; "
     "form-action 'none'";
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 bool begins_with(std::string_view text, std::string_view lower) {
   return text.size() >= lower.size() && std::equal(lower.begin(), lower.end(), text.begin(), [](char expected, char c) {
@@ -77,11 +55,11 @@ std::string format_report(const std::vector<ReportItem>& items) {
   out += "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n";
   out += "<meta name=\"generator\" content=\"Asperity\">\n";
   out += "<meta http-equiv=\"Content-Security-Policy\" content=\"" + std::string(kPolicy) + "\">\n";
-  out += "<title>" + escaped(title_of(items)) + " – Asperity</title>\n";
+  out += "<title>" + html_text(title_of(items)) + " – Asperity</title>\n";
   out += "<style>" + inline_text(web::report_style()) + "</style>\n</head>\n<body>\n";
   out += "<div id=\"report\"><noscript>This report draws its plots with JavaScript, which is off.</noscript></div>\n";
   for (const ReportItem& item : items) {
-    out += "<script type=\"application/octet-stream\" data-name=\"" + escaped(shown_name(item)) + "\">" +
+    out += "<script type=\"application/octet-stream\" data-name=\"" + html_text(shown_name(item)) + "\">" +
            base64(item.block) + "</script>\n";
   }
   out += "<script>" + inline_text(web::report_script()) + "</script>\n</body>\n</html>\n";

@@ -21,18 +21,8 @@ inline std::optional<std::string> inner_path(std::string_view written) {
   return path;
 }
 
-// The file that `written` names inside `folder`, links followed; none if it would lie outside.
-inline std::optional<std::filesystem::path> inner_file(const std::filesystem::path& folder, std::string_view written) {
-  const std::optional<std::string> inner = inner_path(written);
-  if (!inner) return std::nullopt;
-  std::error_code error;
-  const std::filesystem::path root = std::filesystem::weakly_canonical(folder.empty() ? "." : folder, error);
-  if (error) return std::nullopt;
-  const std::filesystem::path file = std::filesystem::weakly_canonical(root / *inner, error);
-  if (error) return std::nullopt;
-  const std::filesystem::path relative = file.lexically_relative(root);
-  if (relative.empty() || *relative.begin() == "..") return std::nullopt;
-  return file;
-}
+// The file that `written` names inside `folder`, links followed; none if it would lie outside. Throws std::bad_alloc
+// without memory, and Error if the disk cannot be read: neither says where the file lies.
+std::optional<std::filesystem::path> inner_file(const std::filesystem::path& folder, std::string_view written);
 
 }  // namespace asperity

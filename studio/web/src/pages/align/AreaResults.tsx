@@ -1,15 +1,12 @@
-import { useState } from "preact/hooks";
 import { go } from "../../app/go";
 import { FiguresTable } from "../../measured/FiguresTable";
 import { VerdictList } from "../../measured/VerdictList";
 import { verdictWord } from "../../measured/verdicts";
 import { call } from "../../net/connection";
 import { Button } from "../../ui/Button";
-import { readEntries } from "../../ui/entries";
+import { FolderWriter } from "../../ui/FolderWriter";
 import { Lamp } from "../../ui/Lamp";
 import { Panel } from "../../ui/Panel";
-import { TextField } from "../../ui/TextField";
-import { Toggle } from "../../ui/Toggle";
 import { chooseScene } from "../feel/feelChoices";
 import { align } from "./alignState";
 import { areaFigures, areaKey, resultOf } from "./area";
@@ -48,44 +45,32 @@ interface Written {
 
 /** Writes what `asperity area` writes. */
 function AreaWrite({ number, stale }: { number: number; stale: boolean }) {
-  const [name, setName] = useState("area");
-  const [replace, setReplace] = useState(false);
-  const [written, setWritten] = useState<Written | null>(null);
-  const write = async () => {
-    setWritten(null);
-    setWritten(await call<Written>("align.area_write", { name, replace, number }));
-    setReplace(false);
-    await readEntries();
-  };
-  const feel = async () => {
-    await chooseScene(written!.scene);
+  const feel = async (scene: string) => {
+    await chooseScene(scene);
     go("feel");
   };
   return (
     <Panel title="Write the area" testId="align-area-write">
-      <TextField label="Folder" value={name} onInput={setName} onChange={setName} />
-      <Toggle label="Replace what has this name" on={replace} onChange={setReplace} />
-      <Button
-        kind="primary"
-        onClick={write}
-        disabled={name === "" || stale}
+      <FolderWriter
+        folder="area"
+        button="Write area"
         hint={stale ? "Make the area again first: scans or settings were changed." : "The scene with the area, area.json, and the height, normal and σ map as pictures"}
-        testId="align-area-write-button"
+        disabled={stale}
+        write={(name, replace) => call<Written>("align.area_write", { name, replace, number })}
+        buttonTestId="align-area-write-button"
+        testId="align-area-written"
       >
-        Write area
-      </Button>
-      <div role="status" data-testid="align-area-written">
-        {written && (
+        {(written) => (
           <>
             <p>Written to {written.name}, with {written.files.join(", ")}.</p>
-            <Button onClick={feel}>Open in Feel</Button>
+            <Button onClick={() => feel(written.scene)}>Open in Feel</Button>
             <details>
               <summary>The same on the command line</summary>
               <code class="align-command">{written.command}</code>
             </details>
           </>
         )}
-      </div>
+      </FolderWriter>
     </Panel>
   );
 }

@@ -1,15 +1,11 @@
-import { useState } from "preact/hooks";
 import { FiguresTable } from "../../measured/FiguresTable";
 import { measuredOf } from "../../measured/measured";
 import { Verdict } from "../../measured/Verdict";
 import { call } from "../../net/connection";
-import { Button } from "../../ui/Button";
-import { readEntries } from "../../ui/entries";
 import { Figure } from "../../ui/Figure";
 import { Figures } from "../../ui/Figures";
+import { FolderWriter } from "../../ui/FolderWriter";
 import { Panel } from "../../ui/Panel";
-import { TextField } from "../../ui/TextField";
-import { Toggle } from "../../ui/Toggle";
 import { merged } from "./mergeState";
 import { agrees, gainOf, gainWords, mergeFigures, mergeKey, ratioWords, strokesOf } from "./merging";
 import type { ProcessSection } from "./processing";
@@ -51,34 +47,26 @@ interface Written {
 
 /** Writes what `asperity merge` writes. */
 function MergeWrite({ stale }: { stale: boolean }) {
-  const [name, setName] = useState("merged");
-  const [replace, setReplace] = useState(false);
-  const [written, setWritten] = useState<Written | null>(null);
-  const write = async () => {
-    setWritten(null);
-    setWritten(await call<Written>("process.write_merge", { name, replace }));
-    setReplace(false);
-    await readEntries();
-  };
   return (
     <Panel title="Write the merge" testId="merge-write">
-      <TextField label="Folder" value={name} onInput={setName} onChange={setName} />
-      <Toggle label="Replace what has this name" on={replace} onChange={setReplace} />
-      <Button
-        kind="primary"
-        onClick={write}
-        disabled={name === "" || stale}
+      <FolderWriter
+        folder="merged"
+        button="Write merge"
         hint={stale ? "Merge again first: strokes or settings were changed." : "profile.csv, spectrum.csv, texture.json and result.json, as asperity merge writes them"}
-        testId="merge-write-button"
+        disabled={stale}
+        write={(name, replace) => call<Written>("process.write_merge", { name, replace })}
+        buttonTestId="merge-write-button"
+        testId="merge-written"
       >
-        Write merge
-      </Button>
-      <div role="status" class="process-written" data-testid="merge-written">
-        {written && <p>Written to {written.folder}.</p>}
-        {written?.notes.map((note) => (
-          <p key={note}>{note}</p>
-        ))}
-      </div>
+        {(written) => (
+          <>
+            <p>Written to {written.folder}.</p>
+            {written.notes.map((note) => (
+              <p key={note}>{note}</p>
+            ))}
+          </>
+        )}
+      </FolderWriter>
     </Panel>
   );
 }

@@ -2,12 +2,10 @@ import { useState } from "preact/hooks";
 import type { Block } from "../../net/block";
 import { call } from "../../net/connection";
 import { Button } from "../../ui/Button";
-import { readEntries } from "../../ui/entries";
 import { FilePicker } from "../../ui/FilePicker";
+import { FolderWriter } from "../../ui/FolderWriter";
 import { Panel } from "../../ui/Panel";
-import { TextField } from "../../ui/TextField";
 import { complain } from "../../ui/toast";
-import { Toggle } from "../../ui/Toggle";
 import type { ProcessSection } from "./processing";
 
 interface Written {
@@ -18,36 +16,30 @@ interface Written {
 
 /** Writes what `asperity process` writes, of all recordings that are chosen, and hands out reports. */
 export function WritePanel({ section }: { section: ProcessSection }) {
-  const [name, setName] = useState("results");
-  const [replace, setReplace] = useState(false);
-  const [written, setWritten] = useState<Written | null>(null);
   const [report, setReport] = useState("");
-  const write = async () => {
-    setWritten(null);
-    const done = await call<Written>("process.write", { name, replace });
-    setReplace(false);
-    setWritten(done);
-    await readEntries();
-  };
   return (
     <Panel title="Write" testId="write">
-      <TextField label="Folder" value={name} onInput={setName} onChange={setName} />
-      <Toggle label="Replace what has this name" on={replace} onChange={setReplace} />
-      <Button kind="primary" onClick={write} disabled={section.scans.length === 0 || name === ""} testId="write-results"
-        hint="trajectory.csv, profile.csv, texture.json, result.json and report.html of each recording">
-        Write results
-      </Button>
-      <div role="status" class="process-written" data-testid="written">
-        {written && <p>Written to {written.files.map((file) => `${written.folder}${file && "/"}${file}`).join(", ")}.</p>}
-        {written?.notes.map((note) => (
-          <p key={note}>{note}</p>
-        ))}
-      </div>
-      {written && (
-        <Button onClick={() => saveReport(written.folder)} testId="save-report" hint="One page that opens without the studio and without a network">
-          Save the report
-        </Button>
-      )}
+      <FolderWriter
+        folder="results"
+        button="Write results"
+        hint="trajectory.csv, profile.csv, texture.json, result.json and report.html of each recording"
+        disabled={section.scans.length === 0}
+        write={(name, replace) => call<Written>("process.write", { name, replace })}
+        buttonTestId="write-results"
+        testId="written"
+      >
+        {(written) => (
+          <>
+            <p>Written to {written.files.map((file) => `${written.folder}${file && "/"}${file}`).join(", ")}.</p>
+            {written.notes.map((note) => (
+              <p key={note}>{note}</p>
+            ))}
+            <Button onClick={() => saveReport(written.folder)} testId="save-report" hint="One page that opens without the studio and without a network">
+              Save the report
+            </Button>
+          </>
+        )}
+      </FolderWriter>
       <FilePicker label="Report of a result" kinds={["result"]} value={report} none="Choose one to save it …" testId="report-of"
         onChange={(folder) => {
           setReport("");
