@@ -93,5 +93,35 @@ TEST(Merge, RefusesAStrokeWithItself) {
   EXPECT_THAT(merged.err, HasSubstr("not two measurements"));
 }
 
+// A stroke that is invalid as a scan makes no valid merge, and is named; a result that states no noise neither.
+TEST(Merge, AnInvalidStrokeMakesTheMergeInvalid) {
+  const testkit::TempDir dir;
+  const auto path = [&](const char* name) { return (dir / name).string(); };
+  simulate_stroke(dir / "a", 1, 11);
+  simulate_stroke(dir / "b", 1, 12);
+  ASSERT_EQ(run({"process", path("a"), "-o", path("pa"), "--set", "profile.remove_noise=false"}).code, 0);
+  const auto edit = [&](auto change) {
+    std::ifstream in(dir / "pa" / "result.json");
+    auto json = nlohmann::json::parse(in);
+    in.close();
+    change(json);
+    std::ofstream(dir / "pa" / "result.json") << json.dump();
+  };
+  edit([](auto& json) {
+    json["trustworthy"] = false;
+    json["verdicts"] = {{{"code", "scale_disagrees"}, {"severity", "invalid"}, {"message", "of another scale"}}};
+  });
+  const Outcome invalid = run({"merge", path("pa"), path("b"), "-o", path("out")});
+  EXPECT_EQ(invalid.code, 3);
+  EXPECT_THAT(invalid.err, HasSubstr("pa: of another scale"));
+  // To be lost in noise is what strokes are merged for.
+  edit([](auto& json) { json["verdicts"][0]["code"] = "below_noise"; });
+  EXPECT_EQ(run({"merge", path("pa"), path("b"), "-o", path("out2")}).code, 0);
+  edit([](auto& json) { json.erase("trustworthy"); });
+  const Outcome unjudged = run({"merge", path("pa"), path("b"), "-o", path("out3")});
+  EXPECT_EQ(unjudged.code, 3);
+  EXPECT_THAT(unjudged.err, HasSubstr("states no verdict"));
+}
+
 }  // namespace
 }  // namespace asperity::cli

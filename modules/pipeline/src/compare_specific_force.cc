@@ -8,6 +8,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/units.h"
+#include "motion_windows.h"
 
 namespace asperity {
 
@@ -87,6 +88,24 @@ Eigen::Vector3d weighted_acceleration(const std::vector<double>& t_s, const std:
   return sum / weights;
 }
 
+// The mean orientation under the weight, and its second derivative.
+void add_rotation(const std::vector<double>& t_s, const TrackerStream& tracker, const PoseRange& range, double start_s,
+                  double length_s, MotionWindow& out) {
+  std::vector<Eigen::Vector3d> column(t_s.size(), Eigen::Vector3d::Zero());
+  for (int k = 0; k < 3; ++k) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double weights = 0.0;
+    for (std::size_t i = range.first; i < range.last; ++i) {
+      column[i] = tracker.T_world_marker[i].rotation * Eigen::Vector3d::Unit(k);
+      const double w = window_weight((t_s[i] - start_s) / length_s);
+      sum += w * column[i];
+      weights += w;
+    }
+    out.rotation.col(k) = sum / weights;
+    out.rotation_per_s2.col(k) = weighted_acceleration(t_s, column, range, start_s, length_s);
+  }
+}
+
 struct WindowForce {
   Eigen::Vector3d mean_mps2 = Eigen::Vector3d::Zero();
   std::size_t samples = 0;
@@ -159,6 +178,7 @@ SpecificForceComparison compare_specific_force(const Recording& recording, doubl
 
   const bool rotation_known = recording.calibration.accelerometer.rotation_known;
   std::vector<double> measured, predicted, ratios, differences, clipped_ratios;
+  std::vector<MotionWindow> windows;
   const double begin_s = std::max(streams.pose_s.front(), streams.sample_s.front());
   const double end_s = std::min(streams.pose_s.back(), streams.sample_s.back());
   const double length_s = std::min(kWindow_s, end_s - begin_s);
@@ -167,9 +187,9 @@ SpecificForceComparison compare_specific_force(const Recording& recording, doubl
     if (!poses || (!rotation_known && turns_much(tracker, *poses))) continue;
     const WindowForce force = weighted_force(streams, *poses, start_s, length_s);
     if (force.samples < kFewestPoses || !force.mean_mps2.allFinite()) continue;
-    const Eigen::Vector3d expected_mps2 =
-        weighted_acceleration(streams.pose_s, streams.p_world_accelerometer_m, *poses, start_s, length_s) -
-        recording.info.gravity_world_mps2;
+    const Eigen::Vector3d tracker_mps2 =
+        weighted_acceleration(streams.pose_s, streams.p_world_accelerometer_m, *poses, start_s, length_s);
+    const Eigen::Vector3d expected_mps2 = tracker_mps2 - recording.info.gravity_world_mps2;
     const double ratio = force.mean_mps2.norm() / expected_mps2.norm();
     if (force.clipped > 0) {
       clipped_ratios.push_back(ratio);
@@ -178,8 +198,17 @@ SpecificForceComparison compare_specific_force(const Recording& recording, doubl
     measured.push_back(force.mean_mps2.norm());
     predicted.push_back(expected_mps2.norm());
     ratios.push_back(ratio);
-    if (rotation_known) differences.push_back((force.mean_mps2 - expected_mps2).norm() / expected_mps2.norm());
+    if (!rotation_known) continue;
+    differences.push_back((force.mean_mps2 - expected_mps2).norm() / expected_mps2.norm());
+    MotionWindow& window = windows.emplace_back();
+    window.tracker_mps2 = tracker_mps2;
+    window.inertial_mps2 = force.mean_mps2 + recording.info.gravity_world_mps2;
+    add_rotation(streams.pose_s, tracker, *poses, start_s, length_s, window);
   }
+  const WindowScale scale = scale_of_windows(windows);
+  out.tracker_scale_error = scale.error;
+  out.tracker_scale_error_sigma = scale.sigma;
+  out.tracker_axes_chi2 = scale.axes_chi2;
   out.windows = ratios.size();
   out.windows_clipped = clipped_ratios.size();
   out.measured_mps2 = median_over_windows(std::move(measured));

@@ -139,13 +139,27 @@ std::size_t sample_at(const TipMotion& motion, double t_s) {
   return t_ns - motion.t_ns[i - 1] < motion.t_ns[i] - t_ns ? i - 1 : i;
 }
 
+// The tip at a time within the motion, by a straight line between two samples: at 285 Hz and 0.5 m/s half a sample is
+// 0.9 mm.
+Eigen::Vector3d tip_at(const TipMotion& motion, double t_s) {
+  const double t_ns = static_cast<double>(motion.t_ns.front()) + t_s / kNanosecond_s;
+  const auto after =
+      std::upper_bound(motion.t_ns.begin() + 1, motion.t_ns.end() - 1, t_ns,
+                       [](double t, std::int64_t of_sample) { return t < static_cast<double>(of_sample); });
+  const auto i = static_cast<std::size_t>(after - motion.t_ns.begin());
+  const auto step_ns = static_cast<double>(motion.t_ns[i] - motion.t_ns[i - 1]);
+  const double share = step_ns > 0.0 ? (t_ns - static_cast<double>(motion.t_ns[i - 1])) / step_ns : 0.0;
+  return motion.p_world_tip_m[i - 1] +
+         std::clamp(share, 0.0, 1.0) * (motion.p_world_tip_m[i] - motion.p_world_tip_m[i - 1]);
+}
+
 void compare_positions(const PosePath& path, const TipMotion& motion, const Eigen::Vector3d& sigma_m,
                        TrackerComparison& out) {
   const double end_s = static_cast<double>(motion.t_ns.back() - motion.t_ns.front()) * kNanosecond_s;
   std::vector<double> distances_m;
   for (std::size_t i = 0; i < path.t_s.size(); ++i) {
     if (path.t_s[i] < 0.0 || path.t_s[i] > end_s) continue;
-    distances_m.push_back((motion.p_world_tip_m[sample_at(motion, path.t_s[i])] - path.p_world_tip_m[i]).norm());
+    distances_m.push_back((tip_at(motion, path.t_s[i]) - path.p_world_tip_m[i]).norm());
   }
   if (distances_m.size() < kMinPathPoses) return;
   const auto middle = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() / 2);

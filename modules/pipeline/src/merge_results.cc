@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uint64_t kLargestPassFile_bytes = 512ULL << 20;
-constexpr double kInvisible_snr = 2.0;  // as judge_scan() has it
+constexpr double kInvisible_snr = 2.0, kNoisy_snr = 5.0;  // as judge_scan() has it
 // Two strokes differ by the noise of both. Noise is known to a factor of about 2 in power; below half of that again it
 // is the same noise in both.
 constexpr double kDependent = 0.25;
@@ -52,7 +52,59 @@ Profile read_profile(const fs::path& file) {
   return out;
 }
 
-Verdicts judge_merge(const MergedProfile& merged, const TextureNoise& noise) {
+// That a stroke does not stand out of its noise is no fault of it: strokes are merged for that, and the merge's own
+// noise is judged.
+bool counts_in_merge(std::string_view code) { return code != "below_noise"; }
+
+std::string invalid_verdicts(const Verdicts& verdicts) {
+  Verdicts counted;
+  for (const Verdict& verdict : verdicts) {
+    if (verdict.severity == Severity::kInvalid && counts_in_merge(verdict.code)) counted.push_back(verdict);
+  }
+  return counted.empty() ? "" : counted.front().message;
+}
+
+// The same of a result.json; empty: it is not invalid.
+std::string invalid_of(const Json& result) {
+  const Json* trustworthy = result.find("trustworthy");
+  if (trustworthy == nullptr || !trustworthy->is_boolean()) return "its result states no verdict";
+  if (*trustworthy == Json(true)) return {};
+  const Json* verdicts = result.find("verdicts");
+  bool only_noise = false;
+  for (std::size_t i = 0; verdicts != nullptr && verdicts->is_array() && i < verdicts->size(); ++i) {
+    const Json& verdict = verdicts->at(i);
+    if (!verdict.is_object() || verdict.value("severity", "") != "invalid") continue;
+    if (counts_in_merge(verdict.value("code", ""))) return printable(verdict.value("message", "invalid"), 300);
+    only_noise = true;
+  }
+  return only_noise ? "" : "its result is invalid";
+}
+
+void judge_strokes(const MergedProfile& merged, std::span<const MergeStroke> strokes, Verdicts& out) {
+  for (std::size_t k = 0; k < strokes.size(); ++k) {
+    if (!merged.passes[k].used || strokes[k].invalid.empty()) continue;
+    out.push_back(make_verdict("stroke_invalid", printable(strokes[k].pass.name, 200) + ": " + strokes[k].invalid));
+  }
+}
+
+void judge_merged_noise(const MergedProfile& merged, const TextureNoise& noise, Verdicts& out) {
+  if (!std::isfinite(noise.snr)) {
+    out.push_back(make_verdict("error_unknown", "the noise of the merge is not known: not all strokes state theirs"));
+  } else if (noise.snr < kInvisible_snr) {
+    out.push_back(make_verdict("below_noise", "the merged texture does not stand out of its noise"));
+  } else if (noise.snr < kNoisy_snr) {
+    out.push_back(make_verdict("noisy_texture", fmt::format("of the texture's {:.3g} µm RMS {:.3g} µm are expected to "
+                                                            "be noise",
+                                                            1e6 * noise.texture_rms_m, 1e6 * noise.noise_rms_m)));
+  }
+  if (!std::isfinite(merged.noise_ratio_low) || !std::isfinite(merged.closest.ratio_high)) {
+    out.push_back(make_verdict("passes_uncompared",
+                               "by how much the strokes differ is not determined: all of them together share less than "
+                               "12.8 mm of the line, or state no noise"));
+  }
+}
+
+Verdicts judge_merge(const MergedProfile& merged, const TextureNoise& noise, std::span<const MergeStroke> strokes) {
   Verdicts out;
   if (!merged.agrees) {
     out.push_back(make_verdict("no_common_line", "these strokes did not pass over the same line"));
@@ -66,12 +118,16 @@ Verdicts judge_merge(const MergedProfile& merged, const TextureNoise& noise) {
                     printable(merged.passes[pair.first].name, 200), printable(merged.passes[pair.second].name, 200),
                     pair.ratio, pair.ratio_high)));
   }
-  std::string left;
+  judge_strokes(merged, strokes, out);
+  judge_merged_noise(merged, noise, out);
+  std::string left, unlaid;
   for (const MergedPass& pass : merged.passes) {
-    if (!pass.used) left += (left.empty() ? "" : ", ") + printable(pass.name, 200);
+    if (pass.used) continue;
+    std::string& names = pass.laid ? left : unlaid;
+    names += (names.empty() ? "" : ", ") + printable(pass.name, 200);
   }
-  if (std::isfinite(noise.snr) && noise.snr < kInvisible_snr)
-    out.push_back(make_verdict("below_noise", "the merged texture does not stand out of its noise"));
+  if (!unlaid.empty())
+    out.push_back(make_verdict("passes_left_out", "their places could not be aligned with the others: " + unlaid));
   if (!left.empty()) out.push_back(make_verdict("passes_left_out", "not over the same line as the others: " + left));
   judge_passes({merged.noise_ratio, merged.noise_ratio_low, merged.noise_ratio_high}, out);
   return out;
@@ -84,7 +140,7 @@ ProfilePass pass_of_result(const ProcessResult& result, const std::string& name)
 }
 
 MergeStroke stroke_of_result(const ProcessResult& result, const Recording& recording, const std::string& name) {
-  return {pass_of_result(result, name), fingerprint_of(recording)};
+  return {pass_of_result(result, name), fingerprint_of(recording), invalid_verdicts(result.verdicts)};
 }
 
 MergeStroke read_stroke(const fs::path& folder, const std::string& name) {
@@ -124,7 +180,8 @@ MergeStroke read_stroke(const fs::path& folder, const std::string& name) {
     noise.added_psd_m2_mm.push_back(value);
   }
   return {profile_pass(name, profile, profile.texture_m, noise, 0, profile.size()),
-          result.contains("fingerprint") ? parse_fingerprint(result.at("fingerprint")) : Fingerprint{}};
+          result.contains("fingerprint") ? parse_fingerprint(result.at("fingerprint")) : Fingerprint{},
+          invalid_of(result)};
 }
 
 ProcessResult merge_results(std::span<const MergeStroke> strokes, const std::string& object,
@@ -164,7 +221,7 @@ ProcessResult merge_results(std::span<const MergeStroke> strokes, const std::str
     if (out.fit) out.texture = join_texture(object, ProcessMethods::get(config.process.method), out);
   }
   merged.profile = {};
-  out.verdicts = judge_merge(merged, out.noise);
+  out.verdicts = judge_merge(merged, out.noise, strokes);
   sort_verdicts(out.verdicts);
   out.trustworthy = is_trustworthy(out.verdicts);
   out.verdict = verdict_sentence(out.verdicts);

@@ -63,6 +63,20 @@ double metric_of(const TrajectoryResult& trajectory, const char* name) {
   return found == trajectory.metrics.end() ? ScanEvidence::kUnknown : found->second;
 }
 
+// Two estimates of the tracker's scale: of the smoother's innovations, which are of all frequencies and know the noise
+// that the smoother has learnt, and of windows of a second. Where they contradict one another, what is fast is not as
+// the smoother's model has it (a marker that shakes, a filter in one of the sensors), and the second counts, which
+// assumes less.
+void prefer_windows(const SpecificForceComparison& force, ScanEvidence& out) {
+  constexpr double kContradicts_sigmas = 3.3;  // one in a thousand
+  const double apart = std::abs(out.tracker_scale_error - force.tracker_scale_error);
+  const double sigma = std::hypot(out.tracker_scale_error_sigma, force.tracker_scale_error_sigma);
+  if (!(apart > kContradicts_sigmas * sigma)) return;
+  out.tracker_scale_error = force.tracker_scale_error;
+  out.tracker_scale_error_sigma = force.tracker_scale_error_sigma;
+  if (std::isfinite(force.tracker_axes_chi2)) out.tracker_axes_chi2 = force.tracker_axes_chi2;
+}
+
 void add_streams(const Recording& recording, const TrajectoryResult& trajectory, ScanEvidence& out) {
   const auto metric = [&](const char* name) { return metric_of(trajectory, name); };
   const auto count = [&](const char* name) {
@@ -89,6 +103,7 @@ void add_streams(const Recording& recording, const TrajectoryResult& trajectory,
   out.tracker_scale_error = metric("tracker_scale_error");
   out.tracker_scale_error_sigma = metric("tracker_scale_error_sigma");
   out.tracker_axes_chi2 = metric("tracker_axes_chi2");
+  prefer_windows(force, out);
   out.accel_axes_chi2 = metric("accel_axes_chi2");
   out.other_axes_log_ratio = metric("other_axes_log_ratio");
   out.accel_motion_share = metric("accel_motion_share");

@@ -32,8 +32,10 @@ std::vector<double> lay_pass(const ProfilePass& reference, const ProfilePass& pa
   }
   if (alignment.agrees) {
     const double sigma_mm = std::hypot(place_sigma_mm(reference, config), place_sigma_mm(pass, config));
-    places = warp_pass({target.height_m, target.known, target.frequency, target.noise}, signal, places,
-                       {sigma_mm, 1e3 * config.knot_spacing_m}, config);
+    WarpedPlaces warped =
+        warp_pass({target.height_m, target.known, target.frequency, target.noise, target.states_noise}, signal, places,
+                  {sigma_mm, 1e3 * config.knot_spacing_m}, config);
+    if (warped.converged) places = std::move(warped.places);
   }
   std::vector<double> out(reference.size(), kNan);
   const double last = static_cast<double>(signal.size() - 1);

@@ -30,8 +30,10 @@ struct Chosen {
   std::vector<PassAlignment> alignments;  // of each pass on the reference
 };
 
-// The pass with which the most others agree.
-Chosen choose_reference(std::span<const ProfilePass> passes, const AlignPassesConfig& config) {
+// The pass with which the most others agree. `false_alarm` is that of any pair of them.
+Chosen choose_reference(std::span<const ProfilePass> passes, AlignPassesConfig config) {
+  const double count = static_cast<double>(passes.size());
+  config.false_alarm /= 0.5 * count * (count - 1.0);
   Chosen best;
   double most = -1.0;
   for (std::size_t r = 0; r < passes.size(); ++r) {
@@ -63,7 +65,8 @@ bool is_known(const PassSignal& signal, double place) {
 // The mean of all passes but one on the reference's points, by their noise in all; of one other, that.
 WarpTarget mean_of_others(const std::vector<LaidPass>& laid, std::size_t without) {
   const std::size_t points = laid.front().places.size();
-  WarpTarget out{std::vector<double>(points, 0.0), std::vector<char>(points, 0), laid.front().signal.frequency, {}};
+  WarpTarget out{
+      std::vector<double>(points, 0.0), std::vector<char>(points, 0), laid.front().signal.frequency, {}, true};
   out.noise.assign(out.frequency.size(), 0.0);
   std::vector<double> weight(points, 0.0);
   double total = 0.0;
@@ -74,6 +77,7 @@ WarpTarget mean_of_others(const std::vector<LaidPass>& laid, std::size_t without
     for (const double density : signal.noise) power += density;
     const double w = 1.0 / power;
     total += w;
+    out.states_noise = out.states_noise && signal.states_noise;
     for (std::size_t i = 0; i < out.noise.size(); ++i)
       out.noise[i] += w * w * spectrum_at(signal.frequency, signal.noise, out.frequency[i]);
     for (std::size_t i = 0; i < points; ++i) {
@@ -232,14 +236,23 @@ std::vector<LaidPass> lay_passes(std::span<const ProfilePass> passes, const Chos
                                                   static_cast<double>(i + reference.first) * (1.0 + at.stretch);
     }
     if (k == chosen.reference) continue;
-    const WarpTarget target{reference.height_m, reference.known, reference.frequency, reference.noise};
+    const WarpTarget target{reference.height_m, reference.known, reference.frequency, reference.noise,
+                            reference.states_noise};
     const double sigma_mm = std::hypot(place_sigma(passes[k]), place_sigma(passes[chosen.reference]));
-    one.places = warp_pass(target, one.signal, one.places, {sigma_mm, 1e3 * config.knot_spacing_m}, config);
+    WarpedPlaces warped = warp_pass(target, one.signal, one.places, {sigma_mm, 1e3 * config.knot_spacing_m}, config);
+    one.places = std::move(warped.places);
+    if (!warped.converged) laid.pop_back();
   }
-  for (int round = 0; round < kRounds && laid.size() > 2; ++round) {
-    for (std::size_t k = 0; k < laid.size(); ++k) {
-      laid[k].places = warp_pass(mean_of_others(laid, k), laid[k].signal, laid[k].places,
-                                 {place_sigma(*laid[k].pass), 1e3 * config.knot_spacing_m}, config);
+  for (int round = 0; round < kRounds; ++round) {
+    for (std::size_t k = 0; k < laid.size() && laid.size() > 2;) {
+      WarpedPlaces warped = warp_pass(mean_of_others(laid, k), laid[k].signal, laid[k].places,
+                                      {place_sigma(*laid[k].pass), 1e3 * config.knot_spacing_m}, config);
+      laid[k].places = std::move(warped.places);
+      if (warped.converged) {
+        ++k;
+      } else {
+        laid.erase(laid.begin() + static_cast<std::ptrdiff_t>(k));
+      }
     }
   }
   return laid;
@@ -258,13 +271,23 @@ MergedProfile merge_passes(std::span<const ProfilePass> passes, const AlignPasse
     pass.used = k == chosen.reference || chosen.alignments[k].agrees;
     out.used += pass.used ? 1U : 0U;
   }
-  out.agrees = out.used >= 2;
-  if (!out.agrees) {
-    out.passes[chosen.reference].used = false;
+  const auto none = [&] {
+    for (MergedPass& pass : out.passes) pass.used = false;
     out.used = 0;
-    return out;
-  }
+    out.agrees = false;
+    return std::move(out);
+  };
+  if (out.used < 2) return none();
   std::vector<LaidPass> laid = lay_passes(passes, chosen, config);
+  for (std::size_t k = 0; k < passes.size(); ++k) {
+    if (!out.passes[k].used) continue;
+    out.passes[k].used =
+        std::any_of(laid.begin(), laid.end(), [&](const LaidPass& one) { return one.pass == &passes[k]; });
+    out.passes[k].laid = out.passes[k].used;
+  }
+  out.used = laid.size();
+  if (out.used < 2) return none();
+  out.agrees = true;
   lay_on_mean_path(laid);
 
   const double spacing_m = passes[chosen.reference].spacing_m;

@@ -38,6 +38,7 @@ PassSignal pass_signal(const ProfilePass& pass) {
   out.frequency = spectrum.frequency;
   out.density = spectrum.density;
   out.noise.resize(out.density.size());
+  out.states_noise = !pass.noise_psd_m2_mm.empty();
   for (std::size_t i = 0; i < out.noise.size(); ++i) {
     const double stated = pass.noise_psd_m2_mm.empty()
                               ? 0.0

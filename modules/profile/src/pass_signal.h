@@ -20,6 +20,7 @@ struct PassSignal {
   std::vector<double> frequency;  // cycles/mm, of the densities
   std::vector<double> density;    // one-sided, of surface and noise
   std::vector<double> noise;      // of the noise alone, at least a share of the density
+  bool states_noise = false;
 
   std::size_t size() const { return height_m.size(); }
 };

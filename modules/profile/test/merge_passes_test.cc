@@ -10,6 +10,9 @@
 #include "asperity/base/error.h"
 #include "asperity/base/random.h"
 
+#include "../src/pass_signal.h"
+#include "../src/warp_pass.h"
+
 namespace asperity {
 namespace {
 
@@ -18,10 +21,12 @@ constexpr double kSpacing_m = 0.025e-3;
 // Waves of 0.25 to 2.5 cycles/mm, known between the points.
 class Line {
  public:
-  explicit Line(std::uint64_t seed, double rms_m = 30e-6) : amplitude_m_(rms_m * std::sqrt(2.0 / kWaves)) {
+  explicit Line(std::uint64_t seed, double rms_m = 30e-6, double highest_per_mm = 2.5)
+      : amplitude_m_(rms_m * std::sqrt(2.0 / kWaves)) {
     Random random(seed, 1);
     for (int i = 0; i < kWaves; ++i) {
-      per_m_.push_back(2.0 * std::numbers::pi * 1e3 * (0.25 + 2.25 * (i + random.uniform()) / kWaves));
+      per_m_.push_back(2.0 * std::numbers::pi * 1e3 *
+                       (0.25 + (highest_per_mm - 0.25) * (i + random.uniform()) / kWaves));
       phase_.push_back(random.uniform(0.0, 2.0 * std::numbers::pi));
     }
   }
@@ -258,6 +263,80 @@ TEST(MergePasses, AStrokeThatStatesNoNoiseCountsAsTheOthers) {
     for (const MergedPass& pass : merge.passes) EXPECT_NEAR(pass.weight, 1.0 / 3.0, 0.01) << silent;
     EXPECT_TRUE(std::isnan(merge.noise.snr)) << silent;
   }
+}
+
+// RMS difference of the line's places that a merge lays on one another, of its first and its second pass.
+double misplaced_rms_m(const MergedProfile& merge, const Stroke& first, const Stroke& second) {
+  const std::vector<double>&a = merge.passes[0].on_merge, &b = merge.passes[1].on_merge;
+  double square = 0.0, count = 0.0;
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    while (j + 2 < b.size() && !(b[j + 1] > a[i])) ++j;
+    if (!(b[j] <= a[i]) || !(b[j + 1] >= a[i])) continue;
+    const double at = static_cast<double>(j) + (a[i] - b[j]) / (b[j + 1] - b[j]);
+    square += std::pow(place_m(first, kSpacing_m * static_cast<double>(i)) - place_m(second, kSpacing_m * at), 2);
+    count += 1.0;
+  }
+  EXPECT_GT(count, 500.0);
+  return std::sqrt(square / count);
+}
+
+// Without a stated noise, frequencies with noise alone must not lead the places. The same noise, stated, is the
+// measure.
+TEST(MergePasses, NoiseThatIsNotStatedDoesNotLeadThePlaces) {
+  double unstated2 = 0.0, stated2 = 0.0, worst_m = 0.0;
+  constexpr int kTrials = 6;
+  for (int i = 0; i < kTrials; ++i) {
+    const auto seed = static_cast<std::uint64_t>(300 + 2 * i);
+    const Line line(seed, 20e-6, 1.5);  // of the band's 4 cycles/mm the others hold noise alone
+    const Stroke a{.noise_m = 12e-6, .seed = seed}, b{.shift_m = 0.7e-3, .noise_m = 12e-6, .seed = seed + 1};
+    std::vector<ProfilePass> passes{stroke_over(line, a), stroke_over(line, b)};
+    for (ProfilePass& pass : passes) pass.place_sigma_m = 0.05e-3;
+    const MergedProfile known = merge_passes(passes, {});
+    for (ProfilePass& pass : passes) {
+      pass.frequency_cycles_per_mm.clear();
+      pass.noise_psd_m2_mm.clear();
+    }
+    const MergedProfile merge = merge_passes(passes, {});
+    ASSERT_TRUE(merge.agrees && known.agrees) << i;
+    const double off_m = misplaced_rms_m(merge, a, b);
+    worst_m = std::max(worst_m, off_m);
+    unstated2 += off_m * off_m / kTrials;
+    stated2 += std::pow(misplaced_rms_m(known, a, b), 2) / kTrials;
+  }
+  // The noise's spectrum is estimated from a few segments: a third more than who is told it.
+  EXPECT_LT(std::sqrt(unstated2), 1.33 * std::sqrt(stated2));
+  EXPECT_LT(worst_m, 0.1e-3);
+}
+
+// Ten passes are 45 pairs: each pair's part of the chance is a 45th, by the normal distribution's tail.
+TEST(MergePasses, TheChanceOfAFalseAgreementIsThatOfAllPairs) {
+  std::vector<ProfilePass> passes;
+  for (std::uint64_t seed = 1000; seed < 1020; seed += 2)
+    passes.push_back(stroke_over(Line(seed), {.seed = seed + 1}, 700));
+  AlignPassesConfig config;
+  config.max_stretch = 0.0;
+  const MergedProfile merge = merge_passes(passes, config);
+  EXPECT_FALSE(merge.agrees);
+  const auto tail = [](double sigmas) { return 0.5 * std::erfc(sigmas / std::sqrt(2.0)); };
+  const double of_pair = tail(align_passes(passes[0], passes[1], config).threshold);
+  const bool is_first = merge.passes[0].alignment.threshold > 0.0;  // of the reference itself there is none
+  EXPECT_NEAR(of_pair / tail(merge.passes[is_first ? 0 : 1].alignment.threshold), 45.0, 0.5);
+}
+
+// Where the equations have no solution, as the squares of a height that is no height overflow, that is said.
+TEST(WarpPass, SaysThatPlacesWereNotFound) {
+  const PassSignal one = pass_signal(stroke_over(Line(12), {.seed = 120})),
+                   same = pass_signal(stroke_over(Line(12), {.seed = 121}));
+  PassSignal broken = same;
+  broken.height_m[900] = 1e200;
+  const WarpTarget target{one.height_m, one.known, one.frequency, one.noise, true};
+  std::vector<double> places(one.size());
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] = static_cast<double>(i);
+  const WarpedPlaces right = warp_pass(target, same, places, {0.02, 5.0}, {});
+  EXPECT_TRUE(right.converged);
+  for (std::size_t i = 100; i + 100 < places.size(); ++i) ASSERT_NEAR(right.places[i], places[i], 1.0);
+  EXPECT_FALSE(warp_pass(target, broken, places, {0.02, 5.0}, {}).converged);
 }
 
 TEST(MergePasses, LeavesOutTheStrokeOverAnotherLine) {

@@ -25,7 +25,26 @@ bool is_identity(const Pose& pose) {
   return pose.translation_m.isZero(0.0) && pose.rotation.coeffs() == Eigen::Quaterniond::Identity().coeffs();
 }
 
-void add_object(Json& out, const SceneObject& object) {
+// The files of what is covered, one an object: two objects may have called theirs the same.
+std::vector<std::string> covered_files(const Scene& scene) {
+  std::set<std::string> taken;
+  for (const SceneObject& object : scene.objects) {
+    taken.insert({object.mesh_file, object.material_file});
+    for (const SceneTexture& texture : object.textures) taken.insert(texture.file);
+  }
+  std::vector<std::string> out;
+  for (const SceneObject& object : scene.objects) {
+    const fs::path wanted(object.covered_file);
+    std::string name = object.covered_file;
+    for (int n = 2; !name.empty() && taken.count(name) > 0; ++n)
+      name = (wanted.parent_path() / (std::to_string(n) + "-" + wanted.filename().string())).string();
+    taken.insert(name);
+    out.push_back(std::move(name));
+  }
+  return out;
+}
+
+void add_object(Json& out, const SceneObject& object, const std::string& covered_file) {
   out["mesh"] = object.mesh_file;
   out["unit_m"] = object.unit_m;
   out["textures"] = Json::array();
@@ -35,7 +54,7 @@ void add_object(Json& out, const SceneObject& object) {
     if (texture.origin) entry["source"] = format_texture_origin(*texture.origin);
     out["textures"].push_back(std::move(entry));
   }
-  if (!object.covered_file.empty()) out["covered"] = object.covered_file;
+  if (!covered_file.empty()) out["covered"] = covered_file;
   if (!object.material_file.empty()) out["material"] = object.material_file;
   if (!is_identity(object.T_world_mesh)) out["T_world_mesh"] = format_pose(object.T_world_mesh);
 }
@@ -65,14 +84,15 @@ std::string format_scene(const Scene& scene) {
   Json out;
   out["format"] = "asperity-scene";
   out["version"] = 1;
-  add_object(out, scene.objects.front());
+  const std::vector<std::string> covered = covered_files(scene);
+  add_object(out, scene.objects.front(), covered.front());
   if (scene.stiffness_N_per_m) out["stiffness_N_per_m"] = *scene.stiffness_N_per_m;
   if (scene.friction) out["friction"] = *scene.friction;
   if (scene.static_friction_ratio) out["static_friction_ratio"] = *scene.static_friction_ratio;
   if (scene.T_mesh_world) out["T_mesh_world"] = format_pose(*scene.T_mesh_world);
   for (std::size_t i = 1; i < scene.objects.size(); ++i) {
     Json object;
-    add_object(object, scene.objects[i]);
+    add_object(object, scene.objects[i], covered[i]);
     out["objects"].push_back(object);
   }
   if (!scene.extra.is_object()) throw Error("scene: extra is not an object: " + shown(scene.extra));
@@ -101,9 +121,11 @@ std::vector<SceneFile> format_mesh_in_scene(const std::string& name, const MeshF
 std::vector<SceneFile> format_scene_files(const std::string& name, const Scene& scene) {
   Files out;
   std::string text = format_scene(scene);
-  for (const SceneObject& object : scene.objects) {
+  const std::vector<std::string> covered = covered_files(scene);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const SceneObject& object = scene.objects[i];
     for (const SceneTexture& texture : object.textures) out.add(format_texture_in_scene(texture));
-    if (!object.covered_file.empty()) out.add(object.covered_file, format_covered_triangles(object.covered));
+    if (!covered[i].empty()) out.add(covered[i], format_covered_triangles(object.covered));
     if (!object.material_file.empty()) out.add(object.material_file, format_material_map(object.material));
     if (fs::path(object.mesh_file).extension() != ".obj")
       throw Error("scene: the mesh '" + printable(object.mesh_file) + "' is not called *.obj");

@@ -235,6 +235,33 @@ TEST(LayTexture, OrderCoveredAndOriginReadBackAsTheyWereWritten) {
   EXPECT_TRUE(same(back.objects[0].mesh.haptic, object.mesh.haptic));
 }
 
+// Each object calls its table of covered triangles the same: in a scene of two, each has its own.
+TEST(LayTexture, TwoObjectsOfASceneEachKeepWhatIsCovered) {
+  const testkit::TempDir folder;
+  Scene scene;
+  for (int k = 0; k < 2; ++k) {
+    SceneObject& object = scene.objects.emplace_back(board());
+    object.mesh_file = k == 0 ? "first.obj" : "second.obj";
+    for (int index = 1; index <= 2; ++index) {
+      SceneTexture texture = laid(index, index);
+      texture.file = std::to_string(k) + "-" + texture.file;
+      put_texture(object, std::move(texture));
+    }
+    lay_triangles(object, claims(1, 0, 20));
+    const auto first = static_cast<std::uint32_t>(5 + 7 * k);
+    lay_triangles(object, claims(2, first, first + 6));
+  }
+  write_scene(folder.path() / "scene.json", scene);
+  const Scene back = read_scene(folder.path() / "scene.json");
+  ASSERT_EQ(back.objects.size(), 2u);
+  EXPECT_EQ(back.objects[0].covered_file, "covered.csv");
+  EXPECT_NE(back.objects[0].covered_file, back.objects[1].covered_file);
+  for (std::size_t k = 0; k < 2; ++k) {
+    ASSERT_EQ(back.objects[k].covered.size(), 6u) << k;
+    EXPECT_EQ(back.objects[k].covered.front().triangle, 5u + 7u * k);
+  }
+}
+
 TEST(LayTexture, FaultsInFilesAreNamed) {
   const std::string head = "triangle,texture,x1_mm,y1_mm,x2_mm,y2_mm,x3_mm,y3_mm\n";
   const auto fault = [&](const std::string& rows, const std::string& message) {

@@ -41,7 +41,9 @@ Verdicts judge_area(const AreaEvidence& e) {
     say("strokes_untied", "the strokes meet too seldom to be compared: " + shared);
   } else {
     if (e.agreement < kLeastAgreement) say("strokes_differ", shared);
-    if (e.noise_m * e.noise_m * kLeastSnr > e.rms_m * e.rms_m) {
+    if (!std::isfinite(e.noise_m) || !std::isfinite(e.rms_m)) {
+      say("area_noise_unknown", "the strokes state no noise: their agreement alone shows that the surface is above it");
+    } else if (e.noise_m * e.noise_m * kLeastSnr > e.rms_m * e.rms_m) {
       say("area_below_noise",
           fmt::format("the surface's {:.3g} µm RMS are below the noise: a stroke has {:.3g} µm of it", 1e6 * e.rms_m,
                       1e6 * e.noise_m));
@@ -51,7 +53,9 @@ Verdicts judge_area(const AreaEvidence& e) {
           fmt::format("stripes only: {:.0f} % of the patch have heights, as these correlate over {:.2g} mm",
                       100.0 * e.covered, e.correlation_mm));
     }
-    if (e.held_out_ratio < kRatioLow || e.held_out_ratio > kRatioHigh) {
+    if (!std::isfinite(e.held_out_ratio)) {
+      say("area_sigma_doubtful", "no stroke could be left out: the map's standard deviation was not tested");
+    } else if (e.held_out_ratio < kRatioLow || e.held_out_ratio > kRatioHigh) {
       say("area_sigma_doubtful",
           fmt::format("strokes that were left out differ from the map by {:.2g} times its standard deviation",
                       e.held_out_ratio));

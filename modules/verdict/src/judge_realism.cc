@@ -37,8 +37,11 @@ Verdicts judge_realism(const RealismEvidence& evidence) {
   if (evidence.is_own) say("own_stroke", "the rendered surface was made from this stroke: this is no test of it");
   if (!evidence.stiffness_known)
     say("stiffness_assumed", "the scene has no stiffness: the renderer's usual one is compared");
-  if (!evidence.has_others)
+  if (!evidence.has_others) {
     say("ceiling_undetermined", "no other real stroke was given: the ceiling is not determined");
+  } else if (evidence.others_agree && !std::isfinite(evidence.ceiling)) {
+    say("ceiling_undetermined", "the other real strokes could not be compared: the ceiling is not determined");
+  }
   sort_verdicts(out);
   return out;
 }

@@ -41,6 +41,10 @@ constexpr double kScaleSigmas = 3.5;    // one right scan in two thousand is far
 constexpr double kScaleUnknown = 0.05;  // known less well, nothing is said of the size
 
 void judge_scale(const PoseEvidence& evidence, Verdicts& out) {
+  if (!std::isfinite(evidence.mesh_scale) || !std::isfinite(evidence.mesh_scale_sigma)) {
+    out.push_back(make_verdict("mesh_scale_unknown", "the scan does not show the size of the object"));
+    return;
+  }
   const double off = std::abs(std::log(evidence.mesh_scale)), sigma = evidence.mesh_scale_sigma;
   const std::string fits = fmt::format("the scan fits the mesh best at {:.3f} ± {:.3f} of its size",
                                        evidence.mesh_scale, evidence.mesh_scale * sigma);
@@ -65,7 +69,7 @@ Verdicts judge_registration(const PoseEvidence& evidence) {
                                                        evidence.iterations, evidence.iterations == 1 ? "" : "s")));
   }
   const auto points = static_cast<double>(evidence.points);
-  const double outlying = evidence.points > 0 ? static_cast<double>(evidence.outliers) / points : 0.0;
+  const double outlying = evidence.points > 0 ? static_cast<double>(evidence.outliers) / points : 1.0;
   if (outlying > 1.0 - kLeastInliers) {
     out.push_back(
         make_verdict("off_mesh", fmt::format("only {:.0f} % of the points are on the mesh", 100.0 * (1.0 - outlying))));
@@ -92,13 +96,18 @@ Verdicts judge_registration(const PoseEvidence& evidence) {
                                fmt::format("another pose, {:.1f} mm and {:.1f} degrees away, fits as well",
                                            1e3 * evidence.rival_distance_m, kDegrees * evidence.rival_rotation_rad)));
   }
-  if (evidence.sigma_m > kKnown_m || evidence.sigma_rad > kKnown_rad) {
+  // What is not known is neither small nor right.
+  if (!std::isfinite(evidence.sigma_m) || !std::isfinite(evidence.sigma_rad)) {
+    out.push_back(make_verdict("pose_uncertain", "how well the paths determine the pose is not known"));
+  } else if (evidence.sigma_m > kKnown_m || evidence.sigma_rad > kKnown_rad) {
     out.push_back(make_verdict(
         "pose_uncertain",
         fmt::format("the paths determine the pose to {:.2g} mm and {:.2g} degrees only (standard deviations)",
                     1e3 * evidence.sigma_m, kDegrees * evidence.sigma_rad)));
   }
-  if (evidence.slow_ratio > kSlowRatio || evidence.outlying > kOutlying) {
+  if (!std::isfinite(evidence.slow_ratio) || !std::isfinite(evidence.outlying)) {
+    out.push_back(make_verdict("shape_unproven", "how the paths differ from the shape of the mesh is not known"));
+  } else if (evidence.slow_ratio > kSlowRatio || evidence.outlying > kOutlying) {
     out.push_back(
         make_verdict("other_shape",
                      fmt::format("to lie there the paths need a slow error {:.2g} times as large as stated, and {:.0f} "
@@ -111,6 +120,11 @@ Verdicts judge_registration(const PoseEvidence& evidence) {
         "shape_unproven", fmt::format("the pose stands out of all others on this mesh no more than the best pose of "
                                       "another object would, with a probability of {:.2g}",
                                       evidence.chance)));
+  }
+  if (evidence.searched && !std::isfinite(evidence.chance)) {
+    out.push_back(make_verdict("shape_untested",
+                               "too few other poses on this mesh can be compared: nothing shows that another object "
+                               "would not fit as well"));
   }
   judge_scale(evidence, out);
   if (!evidence.searched) {

@@ -63,14 +63,21 @@ Verdicts judge_run(const RunEvidence& evidence) {
 
 Verdicts judge_rendering(const RenderingEvidence& evidence) {
   Verdicts out;
-  if (evidence.contact_fraction < evidence.min_contact_fraction) {
-    out.push_back(make_verdict("scan_not_rendered",
-                               fmt::format("check of the renderer: only {:.0f} % of the scan's contact was rendered",
-                                           100.0 * evidence.contact_fraction)));
+  // nan, where nothing was in contact, is not enough either.
+  if (!(evidence.contact_fraction >= evidence.min_contact_fraction)) {
+    out.push_back(
+        make_verdict("scan_not_rendered",
+                     std::isfinite(evidence.contact_fraction)
+                         ? fmt::format("check of the renderer: only {:.0f} % of the scan's contact was rendered",
+                                       100.0 * evidence.contact_fraction)
+                         : "check of the renderer: nothing of the scan was in contact"));
   }
-  if (evidence.score < evidence.min_score) {
-    out.push_back(make_verdict("rendering_poor", fmt::format("check of the renderer: a score of {:.2f} is poor ({})",
-                                                             evidence.score, evidence.comparison)));
+  if (!(evidence.score >= evidence.min_score)) {
+    out.push_back(make_verdict(
+        "rendering_poor",
+        std::isfinite(evidence.score)
+            ? fmt::format("check of the renderer: a score of {:.2f} is poor ({})", evidence.score, evidence.comparison)
+            : "check of the renderer: there is no score, for nothing could be compared"));
   }
   return out;
 }

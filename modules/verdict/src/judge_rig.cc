@@ -126,6 +126,10 @@ class RigJudge {
   }
 
   void judge_depth() {
+    if (e_.measured > 0 && !std::isfinite(depth_error())) {
+      say("depth_off", "the depth of the grating could not be measured");
+      return;
+    }
     if (!(std::abs(depth_error()) > limits_.depth)) return;
     std::string message = fmt::format("the depth is {:.1f} µm where {:.1f} µm is true ({:+.1f} %)", 1e6 * e_.depth_m,
                                       1e6 * e_.true_depth_m, 100.0 * depth_error());
@@ -138,6 +142,10 @@ class RigJudge {
   }
 
   void judge_shape() {
+    if (e_.measured > 0 && !std::isfinite(e_.correlation)) {
+      say("shape_off", "the profile could not be compared with the sine");
+      return;
+    }
     if (!(e_.correlation < limits_.correlation)) return;
     const bool alone = is_trustworthy(out_);
     std::string message = fmt::format("the profile is not the sine: correlation {:.3f}, {:.1f} µm RMS beside it",

@@ -215,6 +215,10 @@ void judge_noise(const ScanEvidence& e, Verdicts& out) {
     out.push_back(make_verdict("error_unknown", "the method states no error of its heights"));
     return;
   }
+  if (!std::isfinite(e.snr)) {
+    out.push_back(make_verdict("error_unknown", "the noise of the texture is not known"));
+    return;
+  }
   if (e.snr < kInvisible_snr && !(e.expected_correlation >= kSeen_correlation)) {
     out.push_back(make_verdict(
         "below_noise", fmt::format("the texture does not stand out of its noise: below what this probe can see, at "

@@ -58,6 +58,8 @@ constexpr VerdictCode kCodes[] = {
     // Strokes over one line (merge_results.h).
     {"no_common_line", kInvalid, "scan along a guide, and merge strokes over one line alone"},
     {"passes_dependent", kInvalid, "merge strokes that were measured one by one"},
+    {"stroke_invalid", kInvalid, "scan that stroke again, or leave it out"},
+    {"passes_uncompared", kLimited, "merge strokes that share more of the line"},
     {"passes_left_out", kLimited, "check that they are of the same line, or leave them out"},
     {"passes_disagree", kLimited, "scan along a guide, so that the strokes pass over the same line"},
     // A registration.
@@ -69,6 +71,7 @@ constexpr VerdictCode kCodes[] = {
     {"other_shape", kInvalid, "check that it is the right mesh, and its unit"},
     {"shape_unproven", kInvalid,
      "check that it is the right mesh, scan a longer path or several strokes with bends, and register them together"},
+    {"shape_untested", kLimited, "check that it is the right mesh, or scan a longer path"},
     {"mesh_scale_differs", kInvalid, "check the unit of the mesh, that it is the right mesh, and the tracker's scale"},
     {"mesh_scale_doubtful", kLimited, "check the size of the mesh and of the printed markers"},
     {"mesh_scale_unknown", kNote, ""},
@@ -92,6 +95,7 @@ constexpr VerdictCode kCodes[] = {
     {"strokes_disagree", kInvalid, "check the scans' verdicts and their poses on the mesh, and scan slower"},
     {"strokes_untied", kInvalid, "scan strokes that cross the others, or nearer to each other"},
     {"area_below_noise", kInvalid, "scan slower, or use a probe with less noise"},
+    {"area_noise_unknown", kLimited, "use scans that state their noise, of the method `fused`"},
     {"strokes_differ", kLimited, "scan more strokes, or register them better"},
     {"area_sparse", kLimited, "scan strokes nearer to each other, or use the textures along them"},
     {"area_sigma_doubtful", kLimited, "scan more strokes that cross"},

@@ -38,15 +38,18 @@ TEST(JudgeArea, NamesWhatIsWrong) {
   EXPECT_EQ(with([](AreaEvidence& e) { e.agreement_sigma = 0.6; }), "strokes_untied");
   EXPECT_EQ(with([](AreaEvidence& e) { e.agreement = 0.45, e.agreement_sigma = 0.1; }), "strokes_differ");
   EXPECT_EQ(with([](AreaEvidence& e) { e.noise_m = 30e-6; }), "area_below_noise");
+  EXPECT_EQ(with([](AreaEvidence& e) { e.noise_m = AreaEvidence::kUnknown; }), "area_noise_unknown");
+  EXPECT_EQ(with([](AreaEvidence& e) { e.held_out_ratio = AreaEvidence::kUnknown; }), "area_sigma_doubtful");
   EXPECT_EQ(with([](AreaEvidence& e) { e.covered = 0.3; }), "area_sparse");
   EXPECT_EQ(with([](AreaEvidence& e) { e.held_out_ratio = 2.0; }), "area_sigma_doubtful");
   EXPECT_EQ(with([](AreaEvidence& e) { e.stretch_max = 1.2; }), "area_stretched");
 }
 
-TEST(JudgeArea, ConcludesNothingFromWhatIsNotKnown) {
+TEST(JudgeArea, WhatIsNotKnownIsNotValid) {
   AreaEvidence evidence = good();
   evidence.noise_m = evidence.covered = evidence.held_out_ratio = AreaEvidence::kUnknown;
-  EXPECT_TRUE(judge_area(evidence).empty());
+  EXPECT_EQ(verdict_word(judge_area(evidence)), "limited");
+  EXPECT_TRUE(is_trustworthy(judge_area(evidence)));
   // Strokes of which no agreement is known are not said to agree.
   evidence.agreement = evidence.agreement_sigma = AreaEvidence::kUnknown;
   EXPECT_EQ(code(evidence), "strokes_untied");

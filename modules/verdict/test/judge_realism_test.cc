@@ -42,6 +42,9 @@ TEST(JudgeRealism, WhatIsMissingIsNamed) {
   EXPECT_TRUE(is_trustworthy(judge_realism(evidence)));
 
   evidence = good();
+  evidence.ceiling = kNan;
+  EXPECT_EQ(codes(evidence), Codes{"ceiling_undetermined"});
+  evidence = good();
   evidence.others_agree = false;
   EXPECT_EQ(codes(evidence), Codes{"no_common_line"});
   evidence = good();

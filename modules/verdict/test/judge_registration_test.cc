@@ -5,8 +5,23 @@
 namespace asperity {
 namespace {
 
+// A pose that stands out of eleven others, known to 0.1 mm, on a mesh of the right size.
+PoseEvidence good_pose() {
+  PoseEvidence out;
+  out.points = 100;
+  out.sigma_m = 0.1e-3;
+  out.sigma_rad = 2e-3;
+  out.slow_ratio = 1.0;
+  out.outlying = 0.0;
+  out.chance = 1e-3;
+  out.mesh_scale = 1.0;
+  out.mesh_scale_sigma = 2e-3;
+  out.mesh_scale_gain = 0.5;
+  return out;
+}
+
 TEST(JudgeRegistration, NamesWhatIsWrongWithAPose) {
-  PoseEvidence evidence;
+  PoseEvidence evidence = good_pose();
   evidence.points = 100;
   evidence.outliers = 50;
   evidence.iterations = 1;
@@ -30,7 +45,7 @@ TEST(JudgeRegistration, NamesWhatIsWrongWithAPose) {
 }
 
 TEST(JudgeRegistration, RefusesAResidualThatNoErrorExplains) {
-  PoseEvidence evidence;
+  PoseEvidence evidence = good_pose();
   evidence.points = 100;
   evidence.extent_m = 0.03;
   evidence.explained_m = 0.1e-3;
@@ -54,7 +69,7 @@ TEST(JudgeRegistration, RefusesAResidualThatNoErrorExplains) {
 }
 
 TEST(JudgeRegistration, RefusesAPoseFarFromAGuessOfStatedError) {
-  PoseEvidence evidence;
+  PoseEvidence evidence = good_pose();
   evidence.points = 100;
   evidence.guess_shift_m = 15e-3;
   evidence.guess_rotation_rad = 0.2;
@@ -69,7 +84,7 @@ TEST(JudgeRegistration, RefusesAPoseFarFromAGuessOfStatedError) {
 }
 
 TEST(JudgeRegistration, RefusesAPoseThatThePathsLeaveOpenAndOneOfAnotherShape) {
-  PoseEvidence evidence;
+  PoseEvidence evidence = good_pose();
   evidence.points = 100;
   const auto codes = [&] {
     std::vector<std::string> out;
@@ -104,8 +119,29 @@ TEST(JudgeRegistration, RefusesAPoseThatThePathsLeaveOpenAndOneOfAnotherShape) {
   EXPECT_FALSE(is_trustworthy(judge_registration(evidence)));
 }
 
+// Each comparison with nan is false: none of them may let a pose pass.
+TEST(JudgeRegistration, WhatIsNotKnownIsNeverValid) {
+  const auto without = [](double PoseEvidence::*figure) {
+    PoseEvidence evidence = good_pose();
+    evidence.*figure = PoseEvidence::kUnknown;
+    return judge_registration(evidence);
+  };
+  EXPECT_TRUE(judge_registration(good_pose()).empty());
+  for (const auto figure :
+       {&PoseEvidence::sigma_m, &PoseEvidence::sigma_rad, &PoseEvidence::slow_ratio, &PoseEvidence::outlying}) {
+    EXPECT_EQ(verdict_word(without(figure)), "invalid");
+  }
+  EXPECT_EQ(without(&PoseEvidence::sigma_m)[0].code, "pose_uncertain");
+  EXPECT_EQ(without(&PoseEvidence::slow_ratio)[0].code, "shape_unproven");
+  EXPECT_EQ(verdict_word(without(&PoseEvidence::chance)), "limited");
+  EXPECT_EQ(without(&PoseEvidence::mesh_scale)[0].code, "mesh_scale_unknown");
+  PoseEvidence empty = good_pose();
+  empty.points = 0;
+  EXPECT_EQ(judge_registration(empty)[0].code, "off_mesh");
+}
+
 TEST(JudgeRegistration, RefusesAMeshOfAnotherSize) {
-  PoseEvidence evidence;
+  PoseEvidence evidence = good_pose();
   evidence.points = 100;
   const auto codes = [&](double scale, double sigma, double gain) {
     evidence.mesh_scale = scale;
@@ -124,11 +160,12 @@ TEST(JudgeRegistration, RefusesAMeshOfAnotherSize) {
   EXPECT_TRUE(is_trustworthy(judge_registration(evidence)));
   EXPECT_THAT(codes(1.3, 0.2, 1.0), testing::ElementsAre("mesh_scale_unknown"));
   EXPECT_EQ(verdict_word(judge_registration(evidence)), "valid");
-  EXPECT_THAT(codes(PoseEvidence::kUnknown, PoseEvidence::kUnknown, PoseEvidence::kUnknown), testing::IsEmpty());
+  EXPECT_THAT(codes(PoseEvidence::kUnknown, PoseEvidence::kUnknown, PoseEvidence::kUnknown),
+              testing::ElementsAre("mesh_scale_unknown"));
 }
 
 TEST(JudgeRegistration, SaysOfASymmetricMeshThatItIsOneAndTrustsThePose) {
-  PoseEvidence evidence;
+  PoseEvidence evidence = good_pose();
   evidence.points = 100;
   evidence.symmetric_copies = 2;
   const Verdicts verdicts = judge_registration(evidence);

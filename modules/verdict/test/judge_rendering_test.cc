@@ -1,7 +1,9 @@
 #include "asperity/verdict/judge_rendering.h"
 
 #include <gmock/gmock.h>
+
 #include <gtest/gtest.h>
+#include <cmath>
 
 namespace asperity {
 namespace {
@@ -67,6 +69,8 @@ TEST(JudgeRendering, APoorScoreAndAScanThatWasNotTouched) {
   EXPECT_EQ(both[1].code, "rendering_poor");
   EXPECT_THAT(both[1].message, HasSubstr("0.30 is poor (heights correlate by 0.4)"));
   EXPECT_FALSE(is_trustworthy(both));
+  const double unknown = std::nan("");
+  EXPECT_EQ(judge_rendering({unknown, 0.5, unknown, 0.9, ""}).size(), 2U);
 }
 
 }  // namespace

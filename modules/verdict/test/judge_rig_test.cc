@@ -64,7 +64,9 @@ TEST(JudgeRig, EachLimitHasItsCode) {
   EXPECT_THAT(with([](RigEvidence& e) { e.measured = 3; }), ElementsAre("few_strokes"));
   EXPECT_THAT(with([](RigEvidence& e) { e.strokes_at_rest = 0; }), ElementsAre("gravity_unchecked"));
   EXPECT_THAT(with([](RigEvidence& e) { e.calibrations_unstated = {"tip"}; }), ElementsAre("calibration_unstated"));
-  // A figure that is not known is no fault.
+  // What the grating is for has to be known; another figure that is not known is no fault.
+  EXPECT_THAT(with([](RigEvidence& e) { e.depth_m = RigEvidence::kUnknown; }), ElementsAre("depth_off"));
+  EXPECT_THAT(with([](RigEvidence& e) { e.correlation = RigEvidence::kUnknown; }), ElementsAre("shape_off"));
   EXPECT_THAT(with([](RigEvidence& e) { e.gravity_share = e.noise_ratio = RigEvidence::kUnknown; }), IsEmpty());
 }
 

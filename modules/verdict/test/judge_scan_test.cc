@@ -56,7 +56,14 @@ std::vector<std::string> codes(const ScanEvidence& evidence) {
 
 TEST(JudgeScan, HasNothingAgainstAGoodScan) { EXPECT_THAT(codes(good()), testing::IsEmpty()); }
 
-TEST(JudgeScan, ConcludesNothingFromWhatIsUnknown) { EXPECT_THAT(codes(ScanEvidence()), testing::IsEmpty()); }
+// Nothing is concluded against a scan from what is unknown, but heights whose noise is unknown are not valid.
+TEST(JudgeScan, HeightsOfUnknownNoiseAreNotValid) {
+  EXPECT_THAT(codes(ScanEvidence()), testing::ElementsAre("error_unknown"));
+  ScanEvidence e = good();
+  e.snr = ScanEvidence::kUnknown;
+  EXPECT_THAT(codes(e), testing::ElementsAre("error_unknown"));
+  EXPECT_FALSE(is_trustworthy(judge_scan(e)));
+}
 
 struct Case {
   std::string code;

@@ -19,6 +19,9 @@ struct SpecificForceComparison {
   double difference_share = kUnknown;  // |measured − predicted| over predicted, as vectors; median
   double clipped_ratio = kUnknown;     // as `ratio`, over the windows with clipped samples
   double clipped_share = 0.0;          // of the samples
+  // The tracker's scale by the windows without clipped samples, less 1, and χ² of a 3×3 error of its positions
+  // (motion_windows.h); nan: too few of them, or the sensor's rotation is not known.
+  double tracker_scale_error = kUnknown, tracker_scale_error_sigma = kUnknown, tracker_axes_chi2 = kUnknown;
 };
 
 // Compares what the accelerometer reads with what the poses and gravity predict, without differentiating the poses.

@@ -17,7 +17,8 @@ struct MergedPass {
   std::string name;
   std::vector<double> texture_m;  // its heights at the merge's points; nan in its gaps; empty: not used
 
-  bool used = false;          // it agrees with the others
+  bool used = false;          // it agrees with the others, and could be laid on them
+  bool laid = true;           // false: it agrees, but the alignment below a sample ran away, so it is not used
   PassAlignment alignment;    // on the first reference; of the reference itself none
   double shift_m = 0.0;       // place in the pass, from its first point in its direction, of the merge's first point
   double stretch = 0.0;       // length of the pass over the merge's, less 1
@@ -57,8 +58,9 @@ struct MergedProfile {
 
 // Aligns passes over one line below a sample, with their stretch, and averages them by their noise (docs/merge.md).
 //
-// The reference is the pass with which the most others agree (align_passes.h). The others are laid on it, then each on
-// the mean of the others, as warp_pass.h does. The merge's path is the mean of the passes' paths. In each of a row of
+// The reference is the pass with which the most others agree (align_passes.h); `false_alarm` is the chance that any two
+// of them do though none are of one line, so each pair has its part of it. The others are laid on it, then each on the
+// mean of the others, as warp_pass.h does; a pass whose places run away is left out. The merge's path is the mean of the passes' paths. In each of a row of
 // bands the mean is weighted by the inverse of each pass' noise there, which is the stated one, or, where a pass
 // differs from the others by more, that; and by its noise at the place. Gaps have no weight.
 //
