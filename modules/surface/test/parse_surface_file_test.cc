@@ -210,8 +210,9 @@ TEST(SurfaceFile, FaultsAreNamed) {
   using testing::HasSubstr;
   EXPECT_EQ(fault("1\n2\n3\n"), "none");
   EXPECT_EQ(fault(""), "none");
-  EXPECT_THAT(fault(gsf("V")), HasSubstr("the unit of the heights (ZUnits) is 'V', which is no length"));
-  EXPECT_THAT(fault(gsf("")), HasSubstr("no length"));
+  EXPECT_THAT(fault(gsf("V")),
+              HasSubstr("the unit of the heights (ZUnits) is 'V', which is not a known unit of length"));
+  EXPECT_THAT(fault(gsf("")), HasSubstr("not a known unit of length"));
   EXPECT_THAT(fault(sdf_text("aISO-1.0", " x ")), HasSubstr("f:14: 'x' where height 2 of 6"));
   EXPECT_THAT(fault(sur<std::int16_t>(0, "V")), HasSubstr("'V'"));
   EXPECT_THAT(fault(zip({{"other", "x"}})), HasSubstr("main.xml is not in it"));
