@@ -32,13 +32,14 @@ constexpr std::string_view kWorkflowMark = "# Written by `asperity batch";
 // The folder of a batch's results, held by one batch at a time. Only files of a batch are written in it.
 class BatchFolder {
  public:
-  // `of_scheduler`: others make folders in it before, and run one scan each beside one another.
-  BatchFolder(fs::path folder, bool of_scheduler) : folder_(std::move(folder)) {
+  // `of_scheduler`: the scans' folders may be in it before (Snakemake makes them), and several processes may be at work
+  // in it.
+  BatchFolder(fs::path folder, bool of_scheduler, const std::vector<BatchScan>& scans) : folder_(std::move(folder)) {
     const fs::path marker = folder_ / kMarker;
     std::error_code error;
     if (fs::exists(folder_, error) && !fs::is_directory(folder_, error))
       throw Error(printable(folder_.string(), 200) + ": is not a folder");
-    if (!of_scheduler && !fs::exists(marker, error) && fs::exists(folder_, error) && !fs::is_empty(folder_, error))
+    if (!fs::exists(marker, error) && holds_others(of_scheduler ? scans : std::vector<BatchScan>{}))
       throw Error(printable(folder_.string(), 200) + ": holds other files than a batch's; nothing was written");
     fs::create_directories(folder_);
     if (!fs::exists(marker, error)) {
@@ -56,6 +57,19 @@ class BatchFolder {
   BatchFolder& operator=(const BatchFolder&) = delete;
 
  private:
+  // Anything but the folders of these scans and hidden files, which schedulers make.
+  bool holds_others(const std::vector<BatchScan>& scans) const {
+    std::error_code error;
+    for (fs::directory_iterator i(folder_, error), end; !error && i != end; i.increment(error)) {
+      const std::string name = i->path().filename().string();
+      const bool is_scan = std::any_of(scans.begin(), scans.end(), [&](const BatchScan& scan) {
+        return scan.name.substr(0, scan.name.find('/')) == name;
+      });
+      if (!is_scan && !(name.starts_with('.') && !scans.empty())) return true;
+    }
+    return false;
+  }
+
   fs::path folder_;
   int file_ = -1;
 };
@@ -73,6 +87,14 @@ bool is_workflow(const fs::path& folder) {
 
 std::string relative_to(const fs::path& path, const fs::path& folder) {
   return fs::absolute(path).lexically_normal().lexically_proximate(fs::absolute(folder).lexically_normal()).string();
+}
+
+// A path as a shell reads it back.
+std::string for_shell(const std::string& path) {
+  if (path.find_first_of(" \t\n$\\'\"*?[]{}|&;<>()`!#~") == std::string::npos) return path;
+  std::string out = "'";
+  for (const char c : path) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
 }
 
 class BatchCommand : public Command {
@@ -97,17 +119,20 @@ class BatchCommand : public Command {
   int run(const Observer& observer) override {
     read_plan();
     const std::vector<BatchScan> scans = find_scans(plan_.folder, plan_.recordings);
+    refuse_clashes(scans);
     if (!emit_.empty()) return emit(scans);
-    const BatchFolder folder(plan_.folder / output_, summary_ || !scan_.empty());
+    const BatchFolder folder(plan_.folder / output_, summary_ || !scan_.empty(), scans);
     const fs::path program = fs::read_symlink("/proc/self/exe");
     if (!scan_.empty()) return run_one(find_scan(scans), program, observer);
+    if (summary_) return summarise(recorded(scans), 0);
+    const int jobs = jobs_ > 0 ? jobs_ : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     std::size_t done_before = 0;
-    if (!summary_) {
-      const int jobs = jobs_ > 0 ? jobs_ : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-      for (const ScanOutcome& one : run_batch(plan_, scans, output_, program, jobs, observer, {}))
-        done_before += one.was_up_to_date ? 1 : 0;
+    std::vector<ScanRecord> records;
+    for (const ScanOutcome& one : run_batch(plan_, scans, output_, program, jobs, observer, {})) {
+      done_before += one.was_up_to_date ? 1 : 0;
+      records.push_back(one.record);
     }
-    return summarise(scans, done_before);
+    return summarise(records, done_before);
   }
 
  private:
@@ -151,13 +176,38 @@ class BatchCommand : public Command {
     return valid ? kDone : kNotTrustworthy;
   }
 
-  int summarise(const std::vector<BatchScan>& scans, std::size_t done_before) {
-    const fs::path results = plan_.folder / output_;
-    std::vector<SummaryRow> rows;
+  // Results among the recording's own files would change it, and a scan that is called as the summary would hide it.
+  void refuse_clashes(const std::vector<BatchScan>& scans) const {
+    const fs::path results = fs::weakly_canonical(plan_.folder / output_);
     for (const BatchScan& scan : scans) {
-      ScanRecord record = read_scan_record(results / scan.name / "batch.json");
+      const fs::path rest = results.lexically_relative(fs::weakly_canonical(plan_.folder / scan.path));
+      if (!rest.empty() && *rest.begin() != "..") {
+        throw Error(printable(output_, 200) + ": the results cannot be inside the recording '" +
+                    printable(scan.path, 200) + "'");
+      }
+      for (const std::string_view own : {kMarker, std::string_view("summary.csv"), std::string_view("index.html")}) {
+        if (scan.name.substr(0, scan.name.find('/')) == own)
+          throw Error("a recording cannot be called '" + std::string(own) + "': a batch has a file of that name");
+      }
+    }
+  }
+
+  // What earlier runs have recorded of the scans.
+  std::vector<ScanRecord> recorded(const std::vector<BatchScan>& scans) const {
+    std::vector<ScanRecord> out;
+    for (const BatchScan& scan : scans) {
+      ScanRecord record = read_scan_record(plan_.folder / output_ / scan.name / "batch.json");
       record.name = scan.name;
       record.recording = scan.path;
+      out.push_back(std::move(record));
+    }
+    return out;
+  }
+
+  int summarise(const std::vector<ScanRecord>& records, std::size_t done_before) {
+    const fs::path results = plan_.folder / output_;
+    std::vector<SummaryRow> rows;
+    for (const ScanRecord& record : records) {
       const std::vector<SummaryRow> more = summarise_scan(record, results);
       rows.insert(rows.end(), more.begin(), more.end());
     }
@@ -210,8 +260,9 @@ class BatchCommand : public Command {
     print_json(
         Json{{"format", "asperity-workflow"}, {"workflow", target.string()}, {"scans", scans.size()}}.dump_repaired(2));
     say(fmt::format("{} scans; {}\n", scans.size(),
-                    emit_ == "make" ? "make -C " + target.string() + " -j 2 -k"
-                                    : "snakemake -s " + (target / "Snakefile").string() + " -j 2 --keep-going"));
+                    emit_ == "make"
+                        ? "make -C " + for_shell(target.string()) + " -j 2 -k"
+                        : "snakemake -s " + for_shell((target / "Snakefile").string()) + " -j 2 --keep-going"));
     return kDone;
   }
 

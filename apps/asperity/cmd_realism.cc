@@ -46,7 +46,8 @@ class RealismCommand : public Command {
     parser()
         .add_option("--with", others_, "Other recordings over the same line: their agreement is the ceiling")
         ->type_name("REC");
-    parser().add_flag("--allow-own", allow_own_, "Also a stroke that RENDERED was made from: a self-test, no test");
+    parser().add_flag("--allow-own", allow_own_,
+                      "Also a stroke that RENDERED was made from: a self-test, not a comparison");
     parser().add_option("--stiffness", stiffness_, "Where RENDERED states none, N/m; 1000")->type_name("K");
     parser().add_option("--friction", friction_, "Coefficient where RENDERED states none; 0")->type_name("MU");
     parser().add_option("-o,--output", output_, "Folder of result.json")->type_name("OUT");
@@ -80,8 +81,9 @@ class RealismCommand : public Command {
         throw Error("--with " + printable(other, 200) + ": the held-back recording itself");
       others.push_back(read_real_stroke(other, input, settings_.process, observer));
     }
-    reads("");
+    reads(rendered_);
     RenderedRelief relief = relief_under(input, stroke, settings_.render);
+    reads("");
     relief.is_own = is_own;
     const RealismScore score = score_realism(relief, stroke, others, settings_.compare, observer);
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "asperity/base/nan.h"
+#include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
 #include "asperity/profile/estimate_texture_noise.h"
@@ -79,7 +80,8 @@ class RoughnessCommand : public Command {
  public:
   explicit RoughnessCommand(Parser& root)
       : Command(root, "roughness", "Roughness of a profile (ISO 21920-2) or an areal map (ISO 25178-2)") {
-    require(parser().add_option("FILE", file_, "profile.csv, heights one a line, or x_mm,y_mm,z_um"));
+    require(parser().add_option("FILE", file_,
+                                "profile.csv, heights one a line, x_mm,y_mm,z_um, or a GSF, SDF, SUR or X3P file"));
     parser()
         .add_option("--spacing", spacing_, "Distance of the heights, for a file without positions")
         ->type_name("LENGTH");
@@ -106,6 +108,8 @@ class RoughnessCommand : public Command {
     if (const auto* profile = std::get_if<HeightProfile>(&heights)) {
       report_profile(*profile);
     } else {
+      if (settings_.filters != Filters::kAsGiven)
+        throw UsageError("--class: " + printable(file_, 200) + " is an areal map; setting classes are of profiles");
       report_map(std::get<ArealMap>(heights));
     }
     return kDone;

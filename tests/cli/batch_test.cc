@@ -1,6 +1,7 @@
 // Many recordings through the same commands, as a user would: with a bad one among them, done again, by make.
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -96,14 +97,15 @@ TEST_F(Batch, MakeDoesItsWorkflow) {
   const std::string log = " > " + (*dir_ / "make.log").string() + " 2>&1";
   EXPECT_NE(std::system((make + log).c_str()), 0) << "s3 fails";
   EXPECT_FALSE(fs::exists(*dir_ / "made/summary.csv"));
-  EXPECT_FALSE(fs::exists(*dir_ / "made/s3/rec/batch.json")) << "make removes what a failed rule left";
+  EXPECT_FALSE(fs::exists(*dir_ / "made/s3/rec/batch.done"));
   EXPECT_NE(std::system((make + "summary" + log).c_str()), 0);
   const auto summary = lines(*dir_ / "made/summary.csv");
   ASSERT_EQ(summary.size(), 4U) << read_file(*dir_ / "make.log", 1 << 20);
   EXPECT_TRUE(summary[2].starts_with("s2/rec,scans/s2/rec,valid,")) << summary[2];
-  const auto before = fs::last_write_time(*dir_ / "made/s1/rec/batch.json");
+  EXPECT_THAT(summary[3], HasSubstr(",failed,,process,")) << "why it failed is kept for the summary";
+  const auto before = fs::last_write_time(*dir_ / "made/s1/rec/batch.done");
   EXPECT_NE(std::system((make + log).c_str()), 0);
-  EXPECT_EQ(fs::last_write_time(*dir_ / "made/s1/rec/batch.json"), before) << "it was up to date";
+  EXPECT_EQ(fs::last_write_time(*dir_ / "made/s1/rec/batch.done"), before) << "it was up to date";
 }
 
 // Snakemake (Debian's 7.21) likewise.
@@ -120,6 +122,43 @@ TEST_F(Batch, SnakemakeDoesItsWorkflow) {
   const auto summary = lines(*dir_ / "snaked/summary.csv");
   ASSERT_EQ(summary.size(), 4U) << read_file(*dir_ / "snake.log", 1 << 20);
   EXPECT_TRUE(summary[1].starts_with("s1/rec,scans/s1/rec,valid,")) << summary[1];
+  EXPECT_THAT(summary[3], HasSubstr(",failed,,process,")) << "why it failed is kept for the summary";
+  // What changes the plan's file and no step makes Snakemake begin each scan again; nothing is done twice.
+  const auto before = fs::last_write_time(*dir_ / "snaked/s1/rec/process/result.json");
+  fs::last_write_time(*dir_ / "plan.toml", fs::file_time_type::clock::now());
+  EXPECT_NE(std::system(snakemake.c_str()), 0);
+  EXPECT_EQ(fs::last_write_time(*dir_ / "snaked/s1/rec/process/result.json"), before);
+}
+
+// The summary alone goes into a folder of a batch only, and results are never among a recording's files.
+TEST_F(Batch, LeavesOtherFoldersAlone) {
+  const testkit::TempDir other;
+  write_text(other / "summary.csv", "mine");
+  const Outcome summary = run({"batch", *dir_ / "plan.toml", "-o", other.path(), "--summary"});
+  EXPECT_EQ(summary.code, 1);
+  EXPECT_THAT(summary.err, HasSubstr("holds other files than a batch's"));
+  EXPECT_EQ(run({"batch", *dir_ / "plan.toml", "-o", other.path(), "--scan", "s1/rec"}).code, 1);
+  EXPECT_EQ(read_file(other / "summary.csv", 100), "mine");
+  EXPECT_EQ(contents(other.path()).size(), 1U);
+  const fs::path scan = *dir_ / "scans/s1/rec";
+  const Outcome inside = run({"batch", scan, "-o", scan / "results"});
+  EXPECT_EQ(inside.code, 1);
+  EXPECT_THAT(inside.err, HasSubstr("cannot be inside the recording"));
+  EXPECT_FALSE(fs::exists(scan / "results"));
+}
+
+// A scan that this run could not do is not reported with what an earlier one made of it.
+TEST_F(Batch, AScanThatCannotBeDoneAgainHasFailed) {
+  const fs::path scan = *dir_ / "again/rec", out = *dir_ / "blocked";
+  fs::create_directories(*dir_ / "again");
+  fs::copy(*dir_ / "scans/s1/rec", scan, fs::copy_options::recursive);
+  ASSERT_EQ(run({"batch", scan, "-o", out}).code, 0);
+  fs::last_write_time(scan / "probe.csv", fs::last_write_time(scan / "probe.csv") + std::chrono::seconds(1));
+  fs::remove(out / "rec/process.log");
+  fs::create_directories(out / "rec/process.log");
+  const Outcome failed = run({"batch", scan, "-o", out});
+  EXPECT_EQ(failed.code, 1) << failed.out;
+  EXPECT_THAT(failed.err, HasSubstr("process.log"));
 }
 
 }  // namespace

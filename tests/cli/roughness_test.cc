@@ -78,6 +78,9 @@ TEST(Roughness, OfAnArealMap) {
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json["kind"], "areal");
   EXPECT_NEAR(json["roughness"]["Sz_m"].get<double>(), 6e-6, 0.2e-6);  // a plane fits a checkerboard's edges a little
+  const Outcome filtered = run({"roughness", file, "--class", "auto"});
+  EXPECT_EQ(filtered.code, 2) << "it has no effect on an areal map";
+  EXPECT_THAT(filtered.err, HasSubstr("is an areal map"));
 }
 
 TEST(Roughness, BadFilesEndWith1AndSayWhere) {

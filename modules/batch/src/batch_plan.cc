@@ -59,7 +59,9 @@ class PlanReader {
     constexpr std::array<std::string_view, 5> kOwn{"-o", "--output", "--json", "--print-config", "--quiet"};
     for (const std::string& word : words) {
       for (const std::string_view own : kOwn) {
-        if (word == own || word.starts_with(std::string(own) + "="))
+        // A short option's value may follow without a blank.
+        const bool is_short = own.size() == 2 && word.starts_with(own);
+        if (is_short || word == own || word.starts_with(std::string(own) + "="))
           fail(node, "'" + printable(word) + "' is set by batch itself");
       }
     }
@@ -69,6 +71,16 @@ class PlanReader {
 };
 
 }  // namespace
+
+std::vector<std::string> BatchOptions::possible_paths() const {
+  std::vector<std::string> out;
+  for (const std::string& word : words) {
+    const std::size_t equals = word.starts_with('-') ? word.find('=') : std::string::npos;
+    if (equals != std::string::npos && equals + 1 < word.size()) out.push_back(word.substr(equals + 1));
+    if (!word.empty() && !word.starts_with('-')) out.push_back(word);
+  }
+  return out;
+}
 
 BatchPlan parse_batch_plan(std::string_view text, const std::string& name) {
   const PlanReader reader(name);

@@ -10,9 +10,9 @@ namespace {
 
 // Options that name a file of the plan's folder, such as --config FILE, are inputs too.
 void add_named_files(const BatchPlan& plan, const BatchOptions& options, BatchStep& step) {
-  for (const std::string& word : options.words) {
+  for (const std::string& path : options.possible_paths()) {
     std::error_code ignored;
-    if (!word.empty() && fs::exists(plan.folder / word, ignored)) step.inputs.push_back(word);
+    if (fs::exists(plan.folder / path, ignored)) step.inputs.push_back(path);
   }
 }
 

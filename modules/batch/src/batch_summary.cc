@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -61,13 +62,12 @@ constexpr std::array kColumns{
 
 constexpr std::uint64_t kLargestResult_bytes = 64 << 20;
 
-// The file's content; null if it is not there or damaged.
-Json read_or_null(const fs::path& file) {
-  try {
-    return parse_json_or_null(read_file(file, kLargestResult_bytes));
-  } catch (const Error&) {
-    return {};
-  }
+Json read_result(const fs::path& file) { return parse_json(read_file(file, kLargestResult_bytes), file.string()); }
+
+// A step of that name, or of that name for one segment ("texture SEGMENT"), was done.
+bool was_done(const ScanRecord& record, const std::string& step) {
+  return std::any_of(record.steps.begin(), record.steps.end(),
+                     [&](const StepRecord& one) { return one.name == step && one.is_done(); });
 }
 
 const Json* find_place(const Json& json, std::string_view place) {
@@ -93,19 +93,61 @@ std::string cell_of(const Json& json, const Column& column) {
   return "";
 }
 
-void add_verdicts(const Json& result, SummaryRow& row) {
-  int worst = 0;
+int badness(std::string_view status) { return status == "invalid" ? 2 : status == "limited" ? 1 : 0; }
+
+// Lowers the row's status to `status` if that is worse, with its message.
+void lower(SummaryRow& row, const std::string& status, const std::string& message) {
+  if (badness(status) <= badness(row.status)) return;
+  row.status = status;
+  row.message = message;
+}
+
+// The verdicts of a result; `prefix` stands before their messages. False if it has no list of them.
+bool add_verdicts(const Json& result, const std::string& prefix, SummaryRow& row) {
   const Json* verdicts = result.find("verdicts");
-  if (verdicts == nullptr || !verdicts->is_array()) return;
+  if (verdicts == nullptr || !verdicts->is_array()) return false;
   for (const Json& verdict : verdicts->list()) {
     const auto severity = verdict.value<std::string>("severity", "note");
     row.codes.push_back(severity + ":" + verdict.value<std::string>("code", "?"));
-    const int badness = severity == "invalid" ? 2 : severity == "limited" ? 1 : 0;
-    if (badness <= worst) continue;
-    worst = badness;
-    row.message = verdict.value<std::string>("message", "");
+    lower(row, severity, prefix + verdict.value<std::string>("message", ""));
   }
-  if (worst > 0) row.status = worst == 2 ? "invalid" : "limited";
+  return true;
+}
+
+// The row of one result of process. Throws Error naming the file for one that is missing or damaged.
+SummaryRow row_of_piece(const ScanRecord& record, const fs::path& results, const std::string& piece, SummaryRow row) {
+  const fs::path folder = results / record.name;
+  const std::string suffix = piece.empty() ? "" : " " + piece;
+  const Json process = read_result(folder / "process" / piece / "result.json");
+  // Files of steps that this batch did not do may be there from an earlier plan.
+  Json texture, registration;
+  if (was_done(record, "texture" + suffix)) {
+    texture = read_result(folder / (flat_name(record.name) + (piece.empty() ? "" : "-" + piece) + ".texture.json"));
+  }
+  if (was_done(record, "register")) registration = read_result(folder / "register" / "registration.json");
+  for (std::size_t i = 0; i < kColumns.size(); ++i) {
+    const Column& column = kColumns[i];
+    row.cells[i] = cell_of(column.source == Source::kProcess   ? process
+                           : column.source == Source::kTexture ? texture
+                                                               : registration,
+                           column);
+  }
+  const bool judged = add_verdicts(process, "", row);
+  add_verdicts(registration, "register: ", row);
+  const fs::path report = fs::path(record.name) / "process" / piece / "report.html";
+  std::error_code ignored;
+  if (fs::exists(results / report, ignored)) row.report = report.string();
+  for (const StepRecord& step : record.steps) {
+    if (step.exit_code != 3) continue;
+    // process ends with 3 if one of its segments is invalid: the verdicts say which. Steps of other segments judge
+    // those.
+    const std::size_t blank = step.name.find(' ');
+    const bool of_all = blank == std::string::npos;
+    if (!of_all && step.name.substr(blank) != suffix) continue;
+    if (step.name == "process" && !piece.empty() && judged) continue;
+    lower(row, "invalid", step.name + ": " + step.message);
+  }
+  return row;
 }
 
 std::string csv_cell(std::string_view text) {
@@ -162,33 +204,18 @@ std::vector<SummaryRow> summarise_scan(const ScanRecord& record, const fs::path&
     if (!record.steps.empty()) base.message = record.steps.back().message;
     return {base};
   }
-  const fs::path folder = results / record.name;
-  const Json registration = read_or_null(folder / "register" / "registration.json");
   std::vector<SummaryRow> out;
-  for (const std::string& piece : processed_pieces(folder / "process")) {
+  for (const std::string& piece : processed_pieces(results / record.name / "process")) {
     SummaryRow row = base;
     if (!piece.empty()) row.name += "/" + piece;
-    const Json process = read_or_null(folder / "process" / piece / "result.json");
-    const Json texture =
-        read_or_null(folder / (flat_name(record.name) + (piece.empty() ? "" : "-" + piece) + ".texture.json"));
-    for (std::size_t i = 0; i < kColumns.size(); ++i) {
-      const Column& column = kColumns[i];
-      row.cells[i] = cell_of(column.source == Source::kProcess   ? process
-                             : column.source == Source::kTexture ? texture
-                                                                 : registration,
-                             column);
+    try {
+      out.push_back(row_of_piece(record, results, piece, row));
+    } catch (const Error& error) {
+      row.status = "failed";
+      row.failed_step = "summary";
+      row.message = error.what();
+      out.push_back(row);
     }
-    add_verdicts(process, row);
-    const fs::path report = fs::path(record.name) / "process" / piece / "report.html";
-    std::error_code ignored;
-    if (fs::exists(results / report, ignored)) row.report = report.string();
-    // Later steps judge too: a texture or a pose that is not to be trusted makes the row so.
-    for (const StepRecord& step : record.steps) {
-      if (step.exit_code != 3 || row.status == "invalid") continue;
-      row.status = "invalid";
-      row.message = step.name + ": " + step.message;
-    }
-    out.push_back(row);
   }
   if (out.empty()) {
     base.status = "failed";

@@ -102,7 +102,12 @@ std::vector<BatchScan> find_scans(const fs::path& folder, const std::vector<std:
   }
   std::vector<BatchScan> out;
   out.reserve(found.size());
-  for (const fs::path& path : found) out.push_back({"", path.empty() ? std::string(".") : path.string()});
+  std::set<fs::path> places;
+  for (const fs::path& path : found) {
+    // Patterns may find one by a relative path and by an absolute one.
+    if (!places.insert(fs::absolute(folder / path / ".").lexically_normal()).second) continue;
+    out.push_back({"", path.empty() ? std::string(".") : path.string()});
+  }
   name_scans(folder, out);
   std::sort(out.begin(), out.end(), [](const BatchScan& a, const BatchScan& b) { return a.name < b.name; });
   std::set<std::string> names, files;

@@ -36,9 +36,9 @@ std::vector<std::string> common_inputs(const WorkflowInput& input) {
                               input.plan.registration ? &*input.plan.registration : nullptr,
                               input.plan.roughness ? &*input.plan.roughness : nullptr}) {
     if (options == nullptr) continue;
-    for (const std::string& word : options->words) {
+    for (const std::string& path : options->possible_paths()) {
       std::error_code ignored;
-      if (fs::is_regular_file(input.plan.folder / word, ignored)) out.push_back(word);
+      if (fs::is_regular_file(input.plan.folder / path, ignored)) out.push_back(path);
     }
   }
   std::sort(out.begin(), out.end());
@@ -73,23 +73,24 @@ rule all:
 
 
 # Exit code 3 is a result that is not to be trusted: the summary says so.
+# batch.json is not an output, as Snakemake removes those: it has what was done and why a scan failed.
 rule scan:
     input:
         lambda wildcards: SCANS[wildcards.name]["inputs"] + BATCH["inputs"]
     output:
-        os.path.join(OUTPUT, "{name}", "batch.json")
+        touch(os.path.join(OUTPUT, "{name}", "batch.done"))
     wildcard_constraints:
         name="|".join(sorted(__import__("re").escape(name) for name in SCANS))
     threads: 1
     params:
         program=PROGRAM, plan=BATCH["plan"], output=OUTPUT
     shell:
-        "{params.program:q} batch {params.plan:q} -o {params.output:q} --scan {wildcards.name:q} --quiet || [ $? -eq 3 ]"
+        "{params.program:q} batch {params.plan:q} -o {params.output:q} --scan={wildcards.name:q} --quiet || [ $? -eq 3 ]"
 
 
 rule summary:
     input:
-        [os.path.join(OUTPUT, name, "batch.json") for name in SCANS]
+        [os.path.join(OUTPUT, name, "batch.done") for name in SCANS]
     output:
         os.path.join(OUTPUT, "summary.csv"), os.path.join(OUTPUT, "index.html")
     params:
@@ -132,9 +133,17 @@ esac
 )";
 
 std::string for_make(const std::string& path) {
-  if (path.find_first_of(" \t\n$#%:;=\\'\"*?[]|&<>()`") != std::string::npos)
+  // ~ is a home folder where a word begins with it, and - an option.
+  if (path.find_first_of(" \t\n\r$#%:;=\\'\"*?[]{}|&<>()`!") != std::string::npos || path.starts_with('~') ||
+      path.starts_with('-'))
     throw Error("make cannot take the path '" + printable(path, 200) + "': rename it, or use --emit snakemake");
   return path;
+}
+
+// Snakemake takes braces in a file's name for wildcards.
+void refuse_braces(const std::string& path) {
+  if (path.find_first_of("{}\n") != std::string::npos)
+    throw Error("Snakemake cannot take the path '" + printable(path, 200) + "': rename it");
 }
 
 }  // namespace
@@ -145,10 +154,17 @@ std::vector<WorkflowFile> make_snakemake_workflow(const WorkflowInput& input) {
   batch["folder"] = input.folder_from_it;
   batch["plan"] = input.plan_file;
   batch["output"] = input.output;
-  batch["inputs"] = Json(common_inputs(input));
+  const std::vector<std::string> common = common_inputs(input);
+  batch["inputs"] = Json(common);
   batch["scans"] = Json::array();
-  for (const BatchScan& scan : input.scans)
-    batch["scans"].push_back({{"name", scan.name}, {"inputs", Json(files_of(input.plan.folder, scan.path))}});
+  refuse_braces(input.output);
+  for (const std::string& path : common) refuse_braces(path);
+  for (const BatchScan& scan : input.scans) {
+    refuse_braces(scan.name);
+    const std::vector<std::string> files = files_of(input.plan.folder, scan.path);
+    for (const std::string& path : files) refuse_braces(path);
+    batch["scans"].push_back({{"name", scan.name}, {"inputs", Json(files)}});
+  }
   return {{"Snakefile", kSnakefile},
           {"scans.json", batch.dump_repaired(1) + "\n"},
           {"slurm/config.yaml", kSlurmProfile},
@@ -168,15 +184,15 @@ std::vector<WorkflowFile> make_make_workflow(const WorkflowInput& input) {
       "ASPERITY ?= " +
       for_make(input.program) + "\n" + "BATCH = cd " + for_make(input.folder_from_it) + " && $(ASPERITY) batch " +
       for_make(input.plan_file) + " -o " + for_make(input.output) + " --quiet\n" + "COMMON =" + common + "\n\n" +
-      ".PHONY: all summary\n.DELETE_ON_ERROR:\n\n"
+      ".PHONY: all summary\n\n"
       "# Exit code 3 is a result that is not to be trusted: the summary says so.\n";
   std::string records, rules;
   for (const BatchScan& scan : input.scans) {
-    const std::string record = from_here((scan_folder(input.output, scan) / "batch.json").string());
+    const std::string record = from_here((scan_folder(input.output, scan) / "batch.done").string());
     records += " \\\n  " + record;
     rules += record + ":";
     for (const std::string& file : files_of(input.plan.folder, scan.path)) rules += " " + from_here(file);
-    rules += " $(COMMON)\n\t@$(BATCH) --scan " + for_make(scan.name) + " || [ $$? -eq 3 ]\n\n";
+    rules += " $(COMMON)\n\t@$(BATCH) --scan " + for_make(scan.name) + " || [ $$? -eq 3 ]\n\t@touch $@\n\n";
   }
   const std::string summary = from_here((fs::path(input.output) / "summary.csv").string());
   out += "all: " + summary + "\n\n" + summary + ":" + records + "\n\t@$(BATCH) --summary || [ $$? -eq 3 ]\n\n" +

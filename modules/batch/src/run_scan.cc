@@ -47,19 +47,30 @@ class ScanRun {
     record.exit_code = child.exit_code;
     record.message = child.last_error_line;
     out_.record.steps.push_back(record);
-    write_file(folder_ / "batch.json", format_scan_record(out_.record));
+    write_record();
     return record.is_done();
   }
 
-  ScanOutcome take() { return out_; }
+  // The file has all steps, those too that were up to date after one that was not, and none that the plan has no more.
+  ScanOutcome take() {
+    const std::size_t recorded = out_.was_up_to_date ? before_.steps.size() : recorded_;
+    if (out_.record.steps.size() != recorded) write_record();
+    return out_;
+  }
 
  private:
+  void write_record() {
+    write_file(folder_ / "batch.json", format_scan_record(out_.record));
+    recorded_ = out_.record.steps.size();
+  }
+
   const BatchPlan& plan_;
   const Observer& observer_;
   fs::path program_;
   fs::path folder_;
   ScanRecord before_;
   ScanOutcome out_;
+  std::size_t recorded_ = 0;  // steps in the file that this run wrote
 };
 
 }  // namespace

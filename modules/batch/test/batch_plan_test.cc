@@ -31,6 +31,11 @@ options = ["--mesh-unit", "mm"]
   EXPECT_FALSE(plan.roughness);
 }
 
+TEST(BatchPlan, OptionsNameFilesBehindAnEqualsSignToo) {
+  const BatchOptions options{{"--config", "a.toml", "--texture=b=c.json", "--json=", "-"}};
+  EXPECT_THAT(options.possible_paths(), ElementsAre("a.toml", "b=c.json"));
+}
+
 std::string fault_of(const std::string& text) {
   try {
     parse_batch_plan(text, "plan.toml");
@@ -47,6 +52,8 @@ TEST(BatchPlan, FaultsNameTheFileAndTheLine) {
   EXPECT_EQ(fault_of("output = \"a\"\n"), "plan.toml: recordings is missing or empty");
   EXPECT_EQ(fault_of("recordings = [\"a\"]\n[process]\noptions = [\"-o\", \"x\"]\n"),
             "plan.toml:3: '-o' is set by batch itself");
+  EXPECT_EQ(fault_of("recordings = [\"a\"]\n[process]\noptions = [\"-oout\"]\n"),
+            "plan.toml:3: '-oout' is set by batch itself");
   EXPECT_EQ(fault_of("recordings = [\"a\"]\n[register]\noptions = []\n"), "plan.toml:2: register.mesh is missing");
   EXPECT_EQ(fault_of("recordings = [\"a\"]\n[process]\nmesh = \"m\"\n"),
             "plan.toml:3: there is no process.mesh in a plan");

@@ -42,12 +42,63 @@ TEST(BatchSummary, TakesWhatIsDeterminedWithItsErrors) {
 TEST(BatchSummary, ALaterStepThatIsNotToBeTrustedMakesTheRowSo) {
   const testkit::TempDir dir;
   fs::create_directories(dir / "a/process");
+  fs::create_directories(dir / "a/register");
   write_file(dir / "a/process/result.json", "{}");
+  write_file(dir / "a/register/registration.json", "{}");
   const auto rows =
       summarise_scan({"a", "rec", {{"process", {}, "", 0, ""}, {"register", {}, "", 3, "two poses fit"}}}, dir.path());
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0].status, "invalid");
   EXPECT_EQ(rows[0].message, "register: two poses fit");
+}
+
+TEST(BatchSummary, ADamagedResultIsAFailure) {
+  const testkit::TempDir dir;
+  fs::create_directories(dir / "a/process");
+  write_file(dir / "a/process/result.json", R"({"profile":{"length_m":0.08)");
+  const auto rows = summarise_scan({"a", "rec", {{"process", {}, "", 0, ""}}}, dir.path());
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].status, "failed");
+  EXPECT_NE(rows[0].message.find("result.json:1:"), std::string::npos) << rows[0].message;
+  write_file(dir / "a/process/result.json", R"({"verdicts":["invalid"]})");
+  EXPECT_EQ(summarise_scan({"a", "rec", {{"process", {}, "", 0, ""}}}, dir.path())[0].status, "failed");
+}
+
+TEST(BatchSummary, ThePosesVerdictsCountWhereTheBatchRegistered) {
+  const testkit::TempDir dir;
+  fs::create_directories(dir / "a/process");
+  fs::create_directories(dir / "a/register");
+  write_file(dir / "a/process/result.json", "{}");
+  write_file(dir / "a/register/registration.json",
+             R"({"rms_m":1e-4,"verdicts":[{"code":"runner_up","severity":"limited","message":"two poses"}]})");
+  const auto rows = summarise_scan({"a", "rec", {{"process", {}, "", 0, ""}, {"register", {}, "", 0, ""}}}, dir.path());
+  EXPECT_EQ(rows[0].status, "limited");
+  EXPECT_EQ(rows[0].message, "register: two poses");
+  EXPECT_EQ(rows[0].codes, std::vector<std::string>{"limited:runner_up"});
+  EXPECT_EQ(cell(rows[0], "registration_rms_m"), "1e-04");
+  // From an earlier plan.
+  const auto without = summarise_scan({"a", "rec", {{"process", {}, "", 0, ""}}}, dir.path());
+  EXPECT_EQ(without[0].status, "valid");
+  EXPECT_EQ(cell(without[0], "registration_rms_m"), "");
+}
+
+// process ends with 3 if one segment is invalid.
+TEST(BatchSummary, AnInvalidSegmentLeavesTheOthersAsTheyAre) {
+  const testkit::TempDir dir;
+  for (const char* segment : {"one", "two"}) fs::create_directories(dir / "a/process" / segment);
+  write_file(dir / "a/process/one/result.json",
+             R"({"verdicts":[{"code":"nothing_touched","severity":"invalid","message":"nothing was touched"}]})");
+  write_file(dir / "a/process/two/result.json", R"({"verdicts":[]})");
+  ScanRecord record{"a", "rec", {{"process", {}, "", 3, "x"}}};
+  auto rows = summarise_scan(record, dir.path());
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].status, "invalid");
+  EXPECT_EQ(rows[0].message, "nothing was touched");
+  EXPECT_EQ(rows[1].status, "valid");
+  record.steps.push_back({"roughness two", {}, "", 3, "too short"});
+  rows = summarise_scan(record, dir.path());
+  EXPECT_EQ(rows[0].message, "nothing was touched");
+  EXPECT_EQ(rows[1].message, "roughness two: too short");
 }
 
 TEST(BatchSummary, FailuresAndSegmentsHaveRows) {

@@ -42,6 +42,9 @@ TEST_F(FindScans, NamesArePathsBelowWhatAllShare) {
   EXPECT_THAT(names({"day/*/scan"}), ElementsAre("s1/scan", "s2/scan"));
   EXPECT_THAT(names({"day/s1/scan"}), ElementsAre("scan"));
   EXPECT_THAT(names({(dir_ / "day/s2/*").string(), "day/s1/scan"}), ElementsAre("s1/scan", "s2/scan"));
+  EXPECT_THAT(names({(dir_ / "day/*/scan").string(), "day/s1/scan", "day/s2/../s2/scan"}),
+              ElementsAre("s1/scan", "s2/scan"))
+      << "each once, by whatever path";
 }
 
 TEST_F(FindScans, StarsStandForFolders) {

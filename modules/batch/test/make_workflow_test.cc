@@ -48,10 +48,21 @@ TEST_F(MakeWorkflow, SnakemakeKnowsEachScansFiles) {
 
 TEST_F(MakeWorkflow, MakeRefusesPathsThatItCannotTake) {
   EXPECT_NE(make_make_workflow(input_)[0].content.find(
-                "../out/a/batch.json: ../scans/a/probe.csv ../scans/a/recording.json $(COMMON)\n"),
+                "../out/a/batch.done: ../scans/a/probe.csv ../scans/a/recording.json $(COMMON)\n"),
             std::string::npos);
-  input_.scans[0].name = "a b";
-  EXPECT_THROW(make_make_workflow(input_), Error);
+  for (const char* name : {"a b", "~a", "-a", "a{b}"}) {
+    input_.scans[0].name = name;
+    EXPECT_THROW(make_make_workflow(input_), Error) << name;
+  }
+}
+
+TEST_F(MakeWorkflow, SnakemakeRefusesBraces) {
+  for (const char* name : {"a b", "~a", "-a", "$a'\""}) {
+    input_.scans[0].name = name;
+    EXPECT_NO_THROW(make_snakemake_workflow(input_)) << name;
+  }
+  input_.scans[0].name = "a{b}";
+  EXPECT_THROW(make_snakemake_workflow(input_), Error);
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ if [ "$1" = process ]; then
   [ -e "$rec/doubtful" ] && exit 3
   exit 0
 fi
+[ "$1" = register ] && { mkdir -p "$5"; exit 3; }
 [ "$1" = roughness ] && { echo '{"Ra_m":1}'; exit 0; }
 exit 0
 )";
@@ -97,6 +98,30 @@ TEST_F(RunBatch, GoesOnPastFailures) {
   const auto again = run(1);
   EXPECT_EQ(again[0].record.steps.size(), 2U);
   EXPECT_TRUE(again[1].was_up_to_date);
+}
+
+TEST_F(RunBatch, AFileThatAnOptionNamesIsAnInput) {
+  write_file(dir_ / "settings.toml", "");
+  plan_.process.words = {"--config=settings.toml"};
+  run(1);
+  for (const ScanOutcome& one : run(1)) EXPECT_TRUE(one.was_up_to_date);
+  write_file(dir_ / "settings.toml", "method = \"thesis\"\n");
+  for (const ScanOutcome& one : run(1)) EXPECT_FALSE(one.was_up_to_date);
+}
+
+// A step that is done again is followed by one that is up to date: the file has both.
+TEST_F(RunBatch, TheRecordHasAllStepsOfThePlanAndNoOthers) {
+  plan_.registration = BatchOptions{};
+  plan_.mesh = "m.obj";
+  run(1);
+  plan_.roughness->words = {"--more"};
+  const auto outcomes = run(1);
+  ASSERT_EQ(outcomes[0].record.steps.size(), 3U);
+  EXPECT_EQ(read_scan_record(dir_ / "out/a/batch.json").steps.size(), 3U) << "register ended with 3, which counts";
+  for (const ScanOutcome& one : run(1)) EXPECT_TRUE(one.was_up_to_date);
+  plan_.registration.reset();
+  run(1);
+  EXPECT_EQ(read_scan_record(dir_ / "out/a/batch.json").steps.size(), 2U);
 }
 
 TEST_F(RunBatch, AProgramThatIsNotThereFailsEachScan) {

@@ -44,7 +44,7 @@ double length_unit_m(std::string_view unit, const std::string& what, const std::
   for (const Unit& one : kUnits) {
     if (word == one.name) return one.metres;
   }
-  throw Error(name + ": the unit of " + what + " is '" + printable(word) + "', which is no length that is known here");
+  throw Error(name + ": the unit of " + what + " is '" + printable(word) + "', which is not a known unit of length");
 }
 
 double checked_spacing_m(double spacing_m, const std::string& what, const std::string& name) {

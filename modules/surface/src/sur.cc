@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 #include "surface_formats.h"
@@ -90,6 +92,10 @@ SurfaceFile parse_sur(std::string_view bytes, const std::string& name) {
   out.map.x_spacing_m = spacing_m(header.x_step, header.x_unit, "x");
   if (!out.is_profile()) out.map.y_spacing_m = spacing_m(header.y_step, header.y_unit, "y");
   const double z_m = length_unit_m(header.z_unit, "the heights", name);
+  if (header.z_step == 0.0F || !std::isfinite(header.z_step) || !std::isfinite(header.z_offset)) {
+    throw Error(
+        fmt::format("{}: the step of the heights is {} and their offset {}", name, header.z_step, header.z_offset));
+  }
   reader.skip(static_cast<std::size_t>(header.comment_bytes) + static_cast<std::size_t>(header.private_bytes));
   if (header.bits != 16 && header.bits != 32)
     throw Error(fmt::format("{}: heights of {} bits; 16 or 32 are read", name, header.bits));

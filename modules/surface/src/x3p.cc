@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <zip.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <pugixml.hpp>
 
@@ -40,12 +42,15 @@ class ZipMembers {
       throw Error(fmt::format("{}: {} has {} bytes, more than it may", name_, printable(member), stat.size));
     const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(zip_fopen(archive_, member.c_str(), 0), zip_fclose);
     if (!file) throw Error(name_ + ": " + printable(member) + " cannot be read");
-    std::string out(stat.size, '\0');
-    std::size_t at = 0;
-    while (at < out.size()) {
+    // The stated size is a claim: memory is taken for what comes out.
+    constexpr std::size_t kPiece_bytes = std::size_t{1} << 20U;
+    std::string out;
+    while (out.size() < stat.size) {
+      const std::size_t at = out.size();
+      out.resize(std::min<std::size_t>(stat.size, at + std::max(kPiece_bytes, at / 2)));
       const zip_int64_t count = zip_fread(file.get(), out.data() + at, out.size() - at);
       if (count <= 0) throw Error(name_ + ": " + printable(member) + " is damaged");
-      at += static_cast<std::size_t>(count);
+      out.resize(at + static_cast<std::size_t>(count));
     }
     return out;
   }
@@ -66,18 +71,20 @@ Axis read_axis(const pugi::xml_node& axes, const char* axis, const std::string& 
   const pugi::xml_node node = axes.child(axis);
   if (!node) throw Error(name + ": main.xml has no axis " + axis);
   Axis out;
-  const std::string type = node.child_value("AxisType"), data = node.child_value("DataType");
+  const std::string type(trim(node.child_value("AxisType"))), data(trim(node.child_value("DataType")));
   if (!type.empty()) out.type = type[0];
   if (!data.empty()) out.data = data[0];
   const auto number = [&](const char* key, double fallback) {
     const std::string text = node.child_value(key);
     if (trim(text).empty()) return fallback;
     const auto value = parse_double(text);
-    if (!value) throw Error(fmt::format("{}: {} of axis {} is '{}'", name, key, axis, printable(text)));
+    if (!value || !std::isfinite(*value))
+      throw Error(fmt::format("{}: {} of axis {} is '{}'", name, key, axis, printable(text)));
     return *value;
   };
   out.increment_m = number("Increment", 1.0);
   out.offset_m = number("Offset", 0.0);
+  if (out.increment_m == 0.0) throw Error(fmt::format("{}: Increment of axis {} is 0", name, axis));
   return out;
 }
 
@@ -105,7 +112,7 @@ void take_heights(const std::string& data, const Axis& z, std::size_t count, con
 
 void take_binary(const ZipMembers& members, const std::string& link, const Axis& z, std::size_t count,
                  const std::string& name, ArealMap& map) {
-  const std::string data = members.read(link, kMostHeights * sizeof(double));
+  const std::string data = members.read(link, count * sizeof(double));
   switch (z.data) {
     case 'I':
       return take_heights<std::int16_t>(data, z, count, name, map);
@@ -155,7 +162,8 @@ bool is_x3p(std::string_view bytes) { return bytes.starts_with("PK\x03\x04"); }
 
 SurfaceFile parse_x3p(std::string_view bytes, const std::string& name) {
   const ZipMembers members(bytes, name);
-  constexpr std::size_t kMostXml_bytes = std::size_t{256} << 20U;
+  // As elements that are as short as can be it becomes twenty times as much in memory.
+  constexpr std::size_t kMostXml_bytes = std::size_t{64} << 20U;
   const std::string xml = members.read("main.xml", kMostXml_bytes);
   pugi::xml_document document;
   if (const auto parsed = document.load_buffer(xml.data(), xml.size()); !parsed)
@@ -185,7 +193,9 @@ SurfaceFile parse_x3p(std::string_view bytes, const std::string& name) {
   if (link) {
     take_binary(members, std::string(trim(link.child_value("PointDataLink"))), z, count, name, out.map);
     const std::string mask(trim(link.child_value("ValidPointsLink")));
-    if (!mask.empty()) take_mask(members.read(mask, kMostHeights), name, out.map);
+    // Some writers fill up its end; one byte a point is more than any does.
+    constexpr std::size_t kLeastMask_bytes = 4096;
+    if (!mask.empty()) take_mask(members.read(mask, std::max(count, kLeastMask_bytes)), name, out.map);
   } else {
     take_text(record.child("DataList"), z, count, name, out.map);
   }

@@ -95,7 +95,7 @@ TEST(SurfaceFile, SdfBinary) {
 }
 
 template <class Number>
-std::string sur(int special_points, const std::string& z_unit = "nm") {
+std::string sur(int special_points, const std::string& z_unit = "nm", float z_step = 1.0F) {
   std::string out = "DIGITAL SURF";
   const auto put = [&](auto number) { append_little_endian(out, number); };
   const auto put16 = [&](int number) { put(static_cast<std::int16_t>(number)); };
@@ -110,7 +110,7 @@ std::string sur(int special_points, const std::string& z_unit = "nm") {
   put16(8 * static_cast<int>(sizeof(Number)));
   put(std::int32_t{-300}), put(std::int32_t{20000}), put(std::int32_t{kColumns}), put(std::int32_t{kRows});
   put(std::int32_t{kColumns * kRows});
-  put(2.0F), put(0.005F), put(1.0F);
+  put(2.0F), put(0.005F), put(z_step);
   for (int i = 0; i < 3; ++i) text("axis", 16);
   text("\xb5m", 16), text("mm", 16), text(z_unit, 16);
   for (int i = 0; i < 3; ++i) text("mm", 16);
@@ -210,13 +210,38 @@ TEST(SurfaceFile, FaultsAreNamed) {
   using testing::HasSubstr;
   EXPECT_EQ(fault("1\n2\n3\n"), "none");
   EXPECT_EQ(fault(""), "none");
-  EXPECT_THAT(fault(gsf("V")), HasSubstr("the unit of the heights (ZUnits) is 'V', which is no length"));
-  EXPECT_THAT(fault(gsf("")), HasSubstr("no length"));
+  EXPECT_THAT(fault(gsf("V")),
+              HasSubstr("the unit of the heights (ZUnits) is 'V', which is not a known unit of length"));
+  EXPECT_THAT(fault(gsf("")), HasSubstr("not a known unit of length"));
   EXPECT_THAT(fault(sdf_text("aISO-1.0", " x ")), HasSubstr("f:14: 'x' where height 2 of 6"));
   EXPECT_THAT(fault(sur<std::int16_t>(0, "V")), HasSubstr("'V'"));
   EXPECT_THAT(fault(zip({{"other", "x"}})), HasSubstr("main.xml is not in it"));
   EXPECT_THAT(fault(gsf("m", 1e-12)), HasSubstr("the height of point 2 of row 1 is"));
   EXPECT_THAT(fault("DSCOMPRESSED" + std::string(600, ' ')), HasSubstr("save it without compression"));
+}
+
+// A step that is not a number would make every height a missing one, and 0 a flat surface.
+TEST(SurfaceFile, AStepOfHeightsThatIsNotOneIsRefused) {
+  using testing::HasSubstr;
+  for (const float step : {0.0F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
+    EXPECT_THAT(fault(sur<std::int16_t>(0, "nm", step)), HasSubstr("f: the step of the heights is "));
+  const std::string link = "<DataLink><PointDataLink>d</PointDataLink></DataLink>", data(12, '\0');
+  for (const char* value : {"nan", "inf", "0", "1e999"}) {
+    const std::string axis = std::string("<Increment>") + value + "</Increment>";
+    EXPECT_THAT(fault(zip({{"main.xml", x3p_xml("I", axis, link)}, {"d", data}})), HasSubstr("f: Increment of axis CZ"))
+        << value;
+  }
+  const std::string offset = "<Increment>1e-9</Increment><Offset>nan</Offset>";
+  EXPECT_THAT(fault(zip({{"main.xml", x3p_xml("I", offset, link)}, {"d", data}})), HasSubstr("f: Offset of axis CZ"));
+}
+
+// A small file may name members that are huge: they are not unpacked.
+TEST(SurfaceFile, AMemberIsNoLargerThanTheGridNeeds) {
+  const std::string link = "<DataLink><PointDataLink>d</PointDataLink><ValidPointsLink>m</ValidPointsLink></DataLink>";
+  const std::string xml = x3p_xml("I", "<Increment>1e-9</Increment>", link), huge(std::size_t{8} << 20U, '\0');
+  EXPECT_EQ(fault(zip({{"main.xml", xml}, {"d", huge}, {"m", "x"}})), "f: d has 8388608 bytes, more than it may");
+  EXPECT_EQ(fault(zip({{"main.xml", xml}, {"d", std::string(12, '\0')}, {"m", huge}})),
+            "f: m has 8388608 bytes, more than it may");
 }
 
 // Whatever is cut off a file: one clear error, or none if nothing that is needed is missing.

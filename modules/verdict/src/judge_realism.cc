@@ -34,7 +34,8 @@ Verdicts judge_realism(const RealismEvidence& evidence) {
   }
   if (!evidence.no_places.empty())
     say("texture_without_places", evidence.no_places + ": its heights cannot follow the stroke's");
-  if (evidence.is_own) say("own_stroke", "the rendered surface was made from this stroke: this is no test of it");
+  if (evidence.is_own)
+    say("own_stroke", "the rendered surface was made from this stroke: the score is not a test of it");
   if (!evidence.stiffness_known)
     say("stiffness_assumed", "the scene has no stiffness: the renderer's usual one is compared");
   if (!evidence.has_others) {

@@ -11,6 +11,9 @@ namespace asperity {
 // A step of a batch: the options of its command, as they are typed.
 struct BatchOptions {
   std::vector<std::string> words;
+
+  // What of them may be a path: each word that is no option's name, and what is behind the first = of one.
+  std::vector<std::string> possible_paths() const;
 };
 
 // What is to be done with many recordings. Relative paths, and those among the options, are relative to `folder`.
@@ -39,8 +42,8 @@ struct BatchPlan {
 //   [roughness]
 //
 // A table that is there asks for its step; [process] is always done. Throws Error naming `name` and the line for what
-// is not TOML, an unknown key, a value of the wrong kind, an option that batch sets itself (-o, --output, --json), no
-// recordings, or a [register] without a mesh.
+// is not TOML, an unknown key, a value of the wrong kind, an option that batch sets itself (-o, --output, --json,
+// --quiet, --print-config), no recordings, or a [register] without a mesh.
 BatchPlan parse_batch_plan(std::string_view text, const std::string& name);
 
 }  // namespace asperity

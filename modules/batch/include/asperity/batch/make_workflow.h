@@ -29,11 +29,11 @@ struct WorkflowFile {
 // A workflow of Snakemake 7: Snakefile, scans.json (scans and the files that they are made from), slurm/config.yaml (a
 // profile: `snakemake --profile slurm`) and slurm/status.sh (a job's state by scontrol, without accounting). One rule
 // does a scan, by `asperity batch PLAN --scan NAME`, and one the summary; a result that is not to be trusted (3) is a
-// result.
+// result. Throws Error naming a path that Snakemake cannot take (with braces).
 std::vector<WorkflowFile> make_snakemake_workflow(const WorkflowInput& input);
 
-// The same for GNU make: Makefile. Throws Error naming a path that make cannot take (blanks and $#%:;=\ among its
-// characters).
+// The same for GNU make: Makefile. Throws Error naming a path that make cannot take (with blanks, $#%:;=\ and
+// other signs of make or the shell).
 std::vector<WorkflowFile> make_make_workflow(const WorkflowInput& input);
 
 }  // namespace asperity
