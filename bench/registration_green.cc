@@ -2,13 +2,15 @@
 // as `asperity register` does (locate_scans) from points with the errors that a scan has, and judged. Prints a table in
 // Markdown; docs/accuracy.md says what it means.
 //
-//   registration_green [--cases 400] [--whole 0] [--seed 1] [--jobs 1] [--mesh FILE,…] [--each yes] [--only CLASS]
+//   registration_green [--cases 400] [--first 0] [--whole 0] [--seed 1] [--jobs 1] [--mesh FILE,…] [--each yes] [--only
+//   CLASS]
 //
 // Wrong: more than 3 mm (RMS over the points) or 5° from the truth, modulo the motions that map the body onto itself
 // (on a mesh of another size in proportion), and each result on another body's mesh, a mirror image or a mesh that is
 // 10 % and more too large or small. Good: within 1 mm and 2°, where the least possible standard deviations (bound.h)
 // are below 0.3 mm and 0.7°. `--whole N` adds N cases whose points come from simulated recordings (whole_case.h), to
-// compare with. `--each yes` prints a line a case on standard error, `--only N` runs the cases of one class.
+// compare with. `--first N` begins with case N of the seed, so that a long run can be cut into pieces.
+// `--each yes` prints a line a case on standard error, `--only N` runs the cases of one class.
 
 #include <algorithm>
 #include <atomic>
@@ -37,6 +39,7 @@ constexpr double kBound_m = 0.3e-3, kBound_rad = 0.7 * kDegree;
 
 struct Options {
   int cases = 400;
+  int first = 0;
   int whole = 0;
   int seed = 1;
   int jobs = 1;
@@ -96,14 +99,16 @@ Outcome run_case(const bench::RegistrationCase& given, const asperity::ScanPoint
   std::fprintf(
       stderr,
       "%4d %-38s %-14s %zu paths %3.0f mm slow %.2f relief %.3f | off %7.3f mm %7.2f° bound %.3f mm %.2f° rms "
-      "%.3f slow ratio %.2f odds %.1e sigma %.2f mm %.2f° scale %.3f: %.3f ± %.3f  gain %.1f chance %.2g | %s%s%s |%s "
+      "%.3f slow ratio %.2f e^%.2f odds %.1e sigma %.2f mm %.2f° scale %.3f: %.3f ± %.3f  gain %.1f chance %.2g mirror "
+      "%.1f | %s%s%s |%s "
       "| %.2f s\n",
       number, std::string(bench::kCaseClassNames.at(static_cast<std::size_t>(given.kind))).c_str(), given.body.c_str(),
       given.lines.size(), 1e3 * length_m, 1e3 * given.errors.slow_m, 1e3 * given.errors.relief_m, 1e3 * off.rms_m,
       off.rotation_rad / kDegree, 1e3 * bound.rms_m, bound.rotation_rad / kDegree, 1e3 * result.rms_m,
-      result.rivals.slow_ratio, result.rivals.odds, 1e3 * result.rivals.sigma_m, result.rivals.sigma_rad / kDegree,
-      1.0 / given.scale, result.rivals.scale.ratio, result.rivals.scale.ratio * result.rivals.scale.sigma,
-      result.rivals.scale.gain, result.rivals.chance, out.wrong ? "WRONG" : "", out.good ? "good" : "",
+      result.rivals.slow_ratio, result.rivals.slow_ratio_sigma, result.rivals.odds, 1e3 * result.rivals.sigma_m,
+      result.rivals.sigma_rad / kDegree, 1.0 / given.scale, result.rivals.scale.ratio,
+      result.rivals.scale.ratio * result.rivals.scale.sigma, result.rivals.scale.gain, result.rivals.chance,
+      result.rivals.mirror_log_odds, out.wrong ? "WRONG" : "", out.good ? "good" : "",
       out.wrong && out.trusted ? " TRUSTED" : (out.good && !out.trusted ? " REFUSED" : ""), codes.c_str(), out.time_s);
   return out;
 }
@@ -133,9 +138,10 @@ void run(const Options& options) {
   const auto work = [&] {
     for (int i = next++; i < options.cases && !stop; i = next++) {
       try {
-        const bench::RegistrationCase drawn = bench::draw_case(pool, seed, static_cast<std::uint64_t>(i));
+        const bench::RegistrationCase drawn =
+            bench::draw_case(pool, seed, static_cast<std::uint64_t>(options.first + i));
         if (options.only >= 0 && static_cast<int>(drawn.kind) != options.only) continue;
-        outcomes[static_cast<std::size_t>(i)] = run_case(drawn, points_of(drawn), i, options.each);
+        outcomes[static_cast<std::size_t>(i)] = run_case(drawn, points_of(drawn), options.first + i, options.each);
       } catch (...) {
         if (!stop.exchange(true)) failed = std::current_exception();
       }
@@ -180,6 +186,7 @@ int main(int argc, char** argv) {
     bench::read_options(
         argc, argv,
         {{"--cases", [&](auto value) { options.cases = static_cast<int>(bench::number_within(value, 1, 100000)); }},
+         {"--first", [&](auto value) { options.first = static_cast<int>(bench::number_within(value, 0, 100000)); }},
          {"--whole", [&](auto value) { options.whole = static_cast<int>(bench::number_within(value, 0, 1000)); }},
          {"--seed", [&](auto value) { options.seed = static_cast<int>(bench::number_within(value, 0, 1e6)); }},
          {"--jobs", [&](auto value) { options.jobs = static_cast<int>(bench::number_within(value, 1, 64)); }},

@@ -9,6 +9,7 @@
 #include "asperity/base/error.h"
 #include "asperity/registration/find_registration.h"
 #include "asperity/registration/mesh_scale.h"
+#include "asperity/registration/mirror_image.h"
 #include "asperity/registration/pose_misfit.h"
 #include "asperity/registration/pose_rivals.h"
 
@@ -72,6 +73,7 @@ PoseRivals judge_candidate(const ScanPoints& scans, const MeshSurface& surface, 
   std::vector<WeighedPose> starts{at};
   starts.insert(starts.end(), candidates.found.begin(), candidates.found.end());
   out.scale = measure_mesh_scale(paths, ready, starts, weighing, config.search.registration);
+  out.mirror_log_odds = weigh_mirror_image(paths, ready, starts, weighing, config.search.registration);
   return out;
 }
 

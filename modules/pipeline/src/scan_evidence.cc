@@ -139,8 +139,10 @@ PoseEvidence pose_evidence(const RegistrationResult& registration) {
     out.sigma_m = rivals.sigma_m;
     out.sigma_rad = rivals.sigma_rad;
     out.slow_ratio = rivals.slow_ratio;
+    out.slow_ratio_sigma = rivals.slow_ratio_sigma;
     out.outlying = rivals.outlying;
     out.chance = rivals.chance;
+    out.mirror_log_odds = rivals.mirror_log_odds;
     out.mesh_scale = rivals.scale.ratio;
     out.mesh_scale_sigma = rivals.scale.sigma;
     out.mesh_scale_gain = rivals.scale.gain;

@@ -20,14 +20,19 @@ constexpr std::size_t kMostStarts = 4;
 constexpr int kRounds = 4, kSteps = 8;
 
 // Standard error of log_size, all else that is unknown along with it, and the tip's share.
-double log_size_sigma(const PointSet& points, const PathLikelihood::Scaled& at, const Eigen::Vector3d& tip_sigma_m) {
+double log_size_sigma(const PointSet& points, const PathLikelihood::Scaled& at, const Eigen::Vector3d& tip_sigma_m,
+                      double slow_ratio_spread) {
   Eigen::Matrix<double, 7, 7> precision = at.information.topLeftCorner<7, 7>();
   // Where the paths say nothing of a motion, it is still smaller than they are.
   precision(6, 6) += 1.0 / (PathLikelihood::kSizeSpread * PathLikelihood::kSizeSpread);
   precision.topLeftCorner<6, 6>() += motion_metric(points, at.at.pose) / std::pow(0.5 * points.radius_m, 2);
   const Eigen::Matrix<double, 7, 7> covariance = precision.inverse();
+  // The slow error's size is uncertain itself: with log τ normal, E τ² is larger than the likeliest by exp(2 var log
+  // τ).
+  const double by_scale = 1.0 / std::pow(at.at.slow_ratio_sigma, 2) + 1.0 / std::pow(slow_ratio_spread, 2);
+  const double widened = std::exp(2.0 / by_scale);
   const Eigen::Vector3d by_tip = -(covariance * at.information.topRightCorner<7, 3>()).row(6).transpose();
-  return std::sqrt(covariance(6, 6) + by_tip.cwiseProduct(tip_sigma_m).squaredNorm());
+  return std::sqrt(widened * covariance(6, 6) + by_tip.cwiseProduct(tip_sigma_m).squaredNorm());
 }
 
 }  // namespace
@@ -48,7 +53,7 @@ MeshScale measure_mesh_scale(std::span<const MeasuredPath> paths, const Registra
     for (const double log_size : {0.0, -0.2, 0.2}) {
       if (i > 0 && log_size != 0.0) continue;
       const PathLikelihood::Scaled end = likelihood.descend_with_size(start, log_size, kRounds, kSteps);
-      if (!best || end.at.cost < best->at.cost) best = end;
+      if (!best || end.at.restricted() < best->at.restricted()) best = end;
     }
   }
   if (!best) return out;
@@ -58,7 +63,7 @@ MeshScale measure_mesh_scale(std::span<const MeasuredPath> paths, const Registra
     if (path.tip_sigma_m.allFinite()) tip_sigma_m = tip_sigma_m.cwiseMax(path.tip_sigma_m);
   }
   out.ratio = std::exp(best->log_size);
-  out.sigma = log_size_sigma(points, *best, tip_sigma_m);
+  out.sigma = log_size_sigma(points, *best, tip_sigma_m, config.slow_ratio_spread);
   out.gain = std::max(0.0, as_it_is - best->at.cost);
   return out;
 }

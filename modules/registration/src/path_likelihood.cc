@@ -14,7 +14,8 @@ namespace {
 constexpr double kOutlier2 = 16.0;  // squared standard deviations that a block costs at most
 constexpr std::size_t kPerBlock = 4;
 constexpr double kMostBlocks = 1500.0;
-constexpr double kLargestSizeStep = 0.15;  // of a Gauss–Newton step
+constexpr double kLeastRatio = 0.3, kMostRatio = 100.0;  // of the slow error
+constexpr double kLargestSizeStep = 0.15;                // of a Gauss–Newton step
 
 double median_of_values(std::vector<double> values) {
   if (values.empty()) return 0.0;
@@ -40,6 +41,11 @@ std::vector<std::uint32_t> points_of_blocks(const PointSet& points, double block
     begin = end;
   }
   return out;
+}
+
+template <int kRows>
+double log_determinant(const Eigen::Matrix<double, kRows, kRows>& positive) {
+  return positive.ldlt().vectorD().array().log().sum();
 }
 
 double block_length_m(const PointSet& points, double memory_m) {
@@ -172,22 +178,44 @@ PathLikelihood::Sums<kRows> PathLikelihood::filter(const Scales& scales) const {
   return out;
 }
 
-double PathLikelihood::scales_cost(const Scales& scales) const {
+double PathLikelihood::scales_prior(const Scales& scales) const {
   const double away = std::log(scales.slow_ratio) / (stated_ ? config_.slow_ratio_spread : 1.5);
-  return filter<0>(scales).cost + away * away;
+  return away * away;
 }
 
+// Where the paths say nothing of a motion, it is still no larger than they are.
+PathLikelihood::Prior<6> PathLikelihood::pose_prior(const CentredPose& pose) const {
+  return motion_metric(points_, pose) / std::pow(0.5 * points_.radius_m, 2);
+}
+
+PathLikelihood::Prior<7> PathLikelihood::size_prior(const CentredPose& pose) const {
+  Prior<7> out = Prior<7>::Zero();
+  out.topLeftCorner<6, 6>() = pose_prior(pose);
+  out(6, 6) = 1.0 / (kSizeSpread * kSizeSpread);
+  return out;
+}
+
+// −2 log of the likelihood of the scales, the pose (and size) integrated out.
+template <int kRows>
+double PathLikelihood::restricted_cost(const Scales& scales, const Prior<kRows>& prior) const {
+  const Sums<kRows> sums = filter<kRows>(scales);
+  return sums.cost + log_determinant<kRows>(sums.information + prior);
+}
+
+// Of largest likelihood at the pose as it is.
 PathLikelihood::Scales PathLikelihood::likeliest_scales(const Scales& near) const {
   // Coordinate search on a logarithmic grid that is halved.
+  const auto cost_of = [&](const Scales& scales) { return filter<0>(scales).cost + scales_prior(scales); };
   Scales best = near;
-  double cost = scales_cost(best);
+  double cost = cost_of(best);
   for (double factor = 2.0; factor > 1.1; factor = std::sqrt(factor)) {
     for (int round = 0; round < 4; ++round) {
       const double before = cost;
       for (const auto& [slow, noise] : std::array<std::array<double, 2>, 4>{
                {{factor, 1.0}, {1.0 / factor, 1.0}, {1.0, factor}, {1.0, 1.0 / factor}}}) {
-        const Scales other{std::clamp(best.slow_ratio * slow, 0.3, 100.0), std::max(best.noise_m * noise, least_m_)};
-        const double there = scales_cost(other);
+        const Scales other{std::clamp(best.slow_ratio * slow, kLeastRatio, kMostRatio),
+                           std::max(best.noise_m * noise, least_m_)};
+        const double there = cost_of(other);
         if (!(there < cost)) continue;
         best = other;
         cost = there;
@@ -198,12 +226,30 @@ PathLikelihood::Scales PathLikelihood::likeliest_scales(const Scales& near) cons
   return best;
 }
 
-PathLikelihood::Evaluation PathLikelihood::evaluate(const CentredPose& pose) {
-  measure(pose);
-  return evaluate_measured(pose);
+// The same with the degrees of freedom that the pose has taken counted: the slow error can only be larger than it
+// seems.
+template <int kRows>
+PathLikelihood::Scales PathLikelihood::restricted_scales(Scales scales, const Prior<kRows>& prior) const {
+  constexpr double kStep = 1.12;
+  const auto cost_of = [&](const Scales& at) { return restricted_cost(at, prior) + scales_prior(at); };
+  double cost = cost_of(scales);
+  for (Scales next = scales; next.slow_ratio * kStep < kMostRatio;) {
+    next.slow_ratio *= kStep;
+    const double there = cost_of(next);
+    if (!(there < cost)) break;
+    scales = next;
+    cost = there;
+  }
+  return scales;
 }
 
-PathLikelihood::Evaluation PathLikelihood::evaluate_measured(const CentredPose& pose) const {
+PathLikelihood::Evaluation PathLikelihood::evaluate(const CentredPose& pose) {
+  measure(pose);
+  return evaluate_measured<6>(pose, pose_prior(pose));
+}
+
+template <int kRows>
+PathLikelihood::Evaluation PathLikelihood::evaluate_measured(const CentredPose& pose, const Prior<kRows>& prior) const {
   std::vector<double> bends_m;
   for (std::size_t b = 1; b + 1 < blocks_.size(); ++b) {
     if (blocks_[b - 1].path != blocks_[b + 1].path) continue;
@@ -213,12 +259,19 @@ PathLikelihood::Evaluation PathLikelihood::evaluate_measured(const CentredPose& 
   const double noise_m = median_of_values(std::move(bends_m)) / (0.6745 * std::sqrt(6.0));
   Evaluation out;
   out.pose = pose;
-  out.scales = likeliest_scales({1.0, std::max(noise_m, least_m_)});
-  const Sums<6> sums = filter<6>(out.scales);
-  const double away = std::log(out.scales.slow_ratio) / (stated_ ? config_.slow_ratio_spread : 1.5);
-  out.cost = sums.cost + away * away;
-  out.information = sums.information;
+  out.scales = restricted_scales<kRows>(likeliest_scales({1.0, std::max(noise_m, least_m_)}), prior);
+  const Sums<kRows> sums = filter<kRows>(out.scales);
+  out.cost = sums.cost + scales_prior(out.scales);
+  out.log_precision = log_determinant<kRows>(sums.information + prior);
+  out.information = sums.information.template topLeftCorner<6, 6>();
   out.outlying = static_cast<double>(sums.outlying) / static_cast<double>(std::max<std::size_t>(1, blocks_.size()));
+  // Curvature of the restricted likelihood, in steps of the logarithm that are about its width.
+  constexpr double kStep = 0.3, kMostSigma = 2.0;
+  const auto cost_at = [&](double step) {
+    return restricted_cost<kRows>({out.scales.slow_ratio * std::exp(step), out.scales.noise_m}, prior);
+  };
+  const double curvature = (cost_at(kStep) + cost_at(-kStep) - 2.0 * (sums.cost + out.log_precision)) / (kStep * kStep);
+  out.slow_ratio_sigma = std::sqrt(2.0 / std::max(curvature, 2.0 / (kMostSigma * kMostSigma)));
   return out;
 }
 
@@ -247,8 +300,8 @@ PathLikelihood::Evaluation PathLikelihood::descend(const CentredPose& start, int
       if (!fell || size2 < 0.02) break;
     }
     const Evaluation now = evaluate(pose);
-    if (!(now.cost < best.cost)) break;
-    const bool settled = best.cost - now.cost < 0.1;
+    if (!(now.restricted() < best.restricted())) break;
+    const bool settled = best.restricted() - now.restricted() < 0.1;
     best = now;
     if (settled) break;
   }
@@ -261,7 +314,7 @@ PathLikelihood::Scaled PathLikelihood::descend_with_size(const CentredPose& star
   const auto prior = [](double at) { return std::pow(at / kSizeSpread, 2); };
   const auto evaluated = [&](const CentredPose& pose, double at) {
     measure(pose, at);
-    Scaled out{evaluate_measured(pose), at, {}};
+    Scaled out{evaluate_measured<7>(pose, size_prior(pose)), at, {}};
     out.at.cost += prior(at);
     return out;
   };
@@ -298,8 +351,8 @@ PathLikelihood::Scaled PathLikelihood::descend_with_size(const CentredPose& star
       if (!fell || size2 < 0.02) break;
     }
     const Scaled now = evaluated(pose, size);
-    if (!(now.at.cost < best.at.cost)) break;
-    const bool settled = best.at.cost - now.at.cost < 0.1;
+    if (!(now.at.restricted() < best.at.restricted())) break;
+    const bool settled = best.at.restricted() - now.at.restricted() < 0.1;
     best = now;
     if (settled) break;
   }

@@ -28,12 +28,18 @@ class PathLikelihood {
   struct Evaluation {
     CentredPose pose;
     Scales scales;
-    double cost = 0.0;  // −2 log likelihood, with the prior of the scales
+    double cost = 0.0;              // −2 log likelihood, with the prior of the scales
+    double log_precision = 0.0;     // logarithm of the determinant of the information, with the prior's
+    double slow_ratio_sigma = 0.0;  // standard error of the logarithm of scales.slow_ratio, by the path alone
     Matrix6 information = Matrix6::Zero();
     double outlying = 0.0;  // share of the blocks
+
+    // −2 log of the likelihood with the pose integrated out (Laplace), by which scales and poses are compared.
+    double restricted() const { return cost + log_precision; }
   };
 
-  // At a pose, with the scales at which it is most likely.
+  // At a pose, with the scales of largest restricted likelihood (Patterson and Thompson 1971): the pose has taken six
+  // degrees of freedom out of the heights, which the likelihood itself does not count.
   Evaluation evaluate(const CentredPose& pose);
 
   // Where Gauss–Newton from a pose ends.
@@ -70,11 +76,20 @@ class PathLikelihood {
   };
 
   void measure(const CentredPose& pose, double log_size = 0.0);
-  Evaluation evaluate_measured(const CentredPose& pose) const;
+  template <int kRows>
+  using Prior = Eigen::Matrix<double, kRows, kRows>;  // what is known of the unknowns before, inverse covariance
+  Prior<6> pose_prior(const CentredPose& pose) const;
+  Prior<7> size_prior(const CentredPose& pose) const;
+  template <int kRows>
+  Evaluation evaluate_measured(const CentredPose& pose, const Prior<kRows>& prior) const;
   template <int kRows>
   Sums<kRows> filter(const Scales& scales) const;
   Scales likeliest_scales(const Scales& near) const;
-  double scales_cost(const Scales& scales) const;
+  template <int kRows>
+  Scales restricted_scales(Scales scales, const Prior<kRows>& prior) const;
+  template <int kRows>
+  double restricted_cost(const Scales& scales, const Prior<kRows>& prior) const;
+  double scales_prior(const Scales& scales) const;
 
   const PointSet& points_;
   WeighConfig config_;

@@ -104,6 +104,7 @@ PoseRivals find_rivals(std::span<const MeasuredPath> paths, const RegistrationSu
   out.judged = true;
   out.searched = searched;
   out.slow_ratio = at.slow_ratio;
+  out.slow_ratio_sigma = at.slow_ratio_sigma;
   out.outlying = at.outlying;
   const Pose& pose = at.T_mesh_world;
   // The pose may be a little beside its valley's own maximum.

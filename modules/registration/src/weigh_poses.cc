@@ -34,11 +34,10 @@ WeighedPose weighed(const PathLikelihood::Evaluation& at, const PointSet& points
   out.noise_m = at.scales.noise_m;
   out.outlying = at.outlying;
   out.information = at.information;
+  out.slow_ratio_sigma = at.slow_ratio_sigma;
   // Where the path says nothing, a valley is as wide as the path.
   const Matrix6 metric = motion_metric(points, at.pose) / std::pow(0.5 * points.radius_m, 2);
-  const Matrix6 precision = at.information + metric;
-  const double log_volume =
-      0.5 * (metric.ldlt().vectorD().array().log().sum() - precision.ldlt().vectorD().array().log().sum());
+  const double log_volume = 0.5 * (metric.ldlt().vectorD().array().log().sum() - at.log_precision);
   out.log_mass = -0.5 * (at.cost + guess_cost(points, guess, at.pose, config)) + log_volume;
   return out;
 }
@@ -65,15 +64,16 @@ std::vector<WeighedPose> weigh_poses(std::span<const MeasuredPath> paths, const 
   for (const Pose& candidate : candidates) {
     observer.update("comparison", 0.5 * static_cast<double>(first.size()) / static_cast<double>(candidates.size()));
     first.push_back(likelihood.descend(centred(candidate, points), 1, 3));
-    least = std::min(least, first.back().cost);
+    least = std::min(least, first.back().restricted());
   }
-  std::stable_sort(first.begin(), first.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  std::stable_sort(first.begin(), first.end(),
+                   [](const auto& a, const auto& b) { return a.restricted() < b.restricted(); });
   // What is this much less likely after the first steps does not catch up.
   constexpr double kHopeless = 60.0;
   constexpr std::size_t kLeastEnds = 11;  // so many the best is compared with all the same (chance_of_gap.h)
   std::vector<PathLikelihood::Evaluation> ends;
   for (const auto& begun : first) {
-    if (begun.cost > least + kHopeless && ends.size() >= kLeastEnds) break;
+    if (begun.restricted() > least + kHopeless && ends.size() >= kLeastEnds) break;
     if (std::any_of(ends.begin(), ends.end(), [&](const auto& end) { return same_place(points, end, begun); }))
       continue;
     observer.update("comparison", 0.5);
@@ -82,7 +82,7 @@ std::vector<WeighedPose> weigh_poses(std::span<const MeasuredPath> paths, const 
         std::find_if(ends.begin(), ends.end(), [&](const auto& other) { return same_place(points, other, end); });
     if (known == ends.end()) {
       ends.push_back(end);
-    } else if (end.cost < known->cost) {
+    } else if (end.restricted() < known->restricted()) {
       *known = end;
     }
   }

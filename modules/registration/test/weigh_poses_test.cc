@@ -61,6 +61,83 @@ TEST(WeighPoses, TheLikelihoodOverAPlaneIsThatOfADenseCovariance) {
   }
 }
 
+// Over a plane three motions of the pose show in the heights. With their columns J and the prior Λ the restricted
+// likelihood of the slow error's size τ is −2 log L + log |JᵀΣ⁻¹J + Λ| (Patterson and Thompson 1971), written out with
+// dense matrices over a grid of τ. A path of two correlation lengths has few degrees of freedom: the likelihood alone
+// would find a τ that is too small.
+TEST(WeighPoses, TheSlowErrorsSizeIsThatOfTheRestrictedLikelihood) {
+  const Body plane(
+      test::grid(4, 4, [](double u, double v) { return Eigen::Vector3d(0.4 * u - 0.2, 0.4 * v - 0.2, 0.0); }));
+  constexpr int kBlocks = 25;
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    Random random(seed);
+    MeasuredPath path;
+    double slow_m = 0.1e-3 * random.normal();
+    for (int i = 0; i < 8 * kBlocks; ++i) {
+      slow_m = std::exp(-0.25 / 20.0) * slow_m + std::sqrt(1.0 - std::exp(-0.5 / 20.0)) * 0.1e-3 * random.normal();
+      path.p_world_m.emplace_back(0.25e-3 * i - 25e-3, 4e-3 * std::sin(0.05 * i), slow_m + 5e-6 * random.normal());
+    }
+    path.slow_covariance_world_m2 = 1e-8 * Eigen::Matrix3d::Identity();
+    const WeighConfig config;
+    const WeighedPose at = weigh_pose({&path, 1}, plane.surface, {}, {}, config, {});
+    Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& p_m : path.p_world_m) mean_m += p_m / (8.0 * kBlocks);
+    double radius2_m2 = 0.0;
+    Eigen::Matrix<double, 6, 6> metric = Eigen::Matrix<double, 6, 6>::Zero();
+    for (const Eigen::Vector3d& p_m : path.p_world_m) {
+      Eigen::Matrix<double, 3, 6> motion;
+      motion << -skew(p_m - mean_m), Eigen::Matrix3d::Identity();
+      metric += motion.transpose() * motion / (8.0 * kBlocks);
+      radius2_m2 += (p_m - mean_m).squaredNorm() / (8.0 * kBlocks);
+    }
+    metric /= 0.25 * radius2_m2;
+    Eigen::VectorXd d_m(kBlocks), s_m(kBlocks);
+    Eigen::MatrixXd rows(kBlocks, 6);
+    double at_m = 0.0;
+    for (int b = 0; b < kBlocks; ++b) {
+      Eigen::Vector3d middle_m = Eigen::Vector3d::Zero();
+      for (const int k : {1, 3, 5, 7}) middle_m += 0.25 * path.p_world_m[static_cast<std::size_t>(8 * b + k)];
+      d_m[b] = middle_m.z();
+      rows.row(b) << (middle_m - mean_m).cross(Eigen::Vector3d::UnitZ()).transpose(), 0.0, 0.0, 1.0;
+      s_m[b] = at_m;
+      for (int k = 8 * b; k < 8 * b + 8 && k + 1 < 8 * kBlocks; ++k) {
+        at_m += (path.p_world_m[static_cast<std::size_t>(k + 1)] - path.p_world_m[static_cast<std::size_t>(k)]).norm();
+      }
+    }
+    const double noise_m2 = at.noise_m * at.noise_m;
+    double best = 1e300, best_plain = 1e300, ratio = 0.0, plain = 0.0;
+    for (double log_ratio = -1.2; log_ratio < 2.0; log_ratio += 0.02) {
+      Eigen::MatrixXd covariance(kBlocks, kBlocks);
+      for (int i = 0; i < kBlocks; ++i) {
+        for (int k = 0; k < kBlocks; ++k) {
+          covariance(i, k) = 1e-8 * std::exp(2.0 * log_ratio) * std::exp(-std::abs(s_m[i] - s_m[k]) / 20e-3) +
+                             config.relief_mean_ratio * config.relief_mean_ratio * noise_m2 + (i == k ? noise_m2 : 0.0);
+        }
+      }
+      const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+      const Eigen::MatrixXd L = factor.matrixL();
+      const double likelihood = d_m.dot(factor.solve(d_m)) + 2.0 * L.diagonal().array().log().sum() +
+                                std::pow(log_ratio / config.slow_ratio_spread, 2);
+      const Eigen::Matrix<double, 6, 6> precision = rows.transpose() * factor.solve(rows) + metric;
+      const double restricted = likelihood + precision.ldlt().vectorD().array().log().sum();
+      if (restricted < best) {
+        best = restricted;
+        ratio = std::exp(log_ratio);
+      }
+      if (likelihood < best_plain) {
+        best_plain = likelihood;
+        plain = std::exp(log_ratio);
+      }
+    }
+    // Found on a grid of factors of 1.12 above one of 1.19: half a step of either.
+    EXPECT_LT(std::abs(std::log(at.slow_ratio / ratio)), 0.12) << seed;
+    EXPECT_GT(ratio, 1.02 * plain) << seed;
+    // A path of 50 mm has some 5 to 25 values of its error that are its own: 1/√(2ν).
+    EXPECT_GT(at.slow_ratio_sigma, 0.1) << seed;
+    EXPECT_LT(at.slow_ratio_sigma, 0.5) << seed;
+  }
+}
+
 TEST(WeighPoses, TheTruthIsLikelierThanAValleyNearby) {
   const Body& body = test::bumpy_body();
   const auto p_m = test::bumpy_path(body, 800);

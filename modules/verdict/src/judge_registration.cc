@@ -33,6 +33,11 @@ constexpr double kOutlying = 0.25;  // share of the paths
 constexpr double kChance = 0.1;
 constexpr double kChanceAsStated = 0.5;
 constexpr double kSlowAsStated = 1.3;
+constexpr double kRatioSigmas = 2.0;
+
+// On the mesh of another object a path is as likely as its own mirror image, and so it is on the right one if it is its
+// own image to within its errors. The same odds as for another pose (pose_rivals.cc).
+constexpr double kMirrorOdds = 0.01;
 
 // The mesh's size. A scanner's mesh and the tracker's markers are each allowed a scale error of some tenths of a
 // percent before a pose is refused for it.
@@ -115,16 +120,30 @@ Verdicts judge_registration(const PoseEvidence& evidence) {
                                  evidence.slow_ratio, 100.0 * evidence.outlying)));
   }
   const bool as_stated = evidence.slow_ratio <= kSlowAsStated;
+  if (evidence.mirror_log_odds > std::log(kMirrorOdds)) {
+    out.push_back(make_verdict("mirror_image_fits",
+                               fmt::format("the paths fit the mesh's mirror image {} (log odds {:.1f})",
+                                           evidence.mirror_log_odds > 0.0 ? "better than the mesh" : "nearly as well",
+                                           evidence.mirror_log_odds)));
+  }
+  // With no other pose to compare with, only the size of the error can speak for the mesh.
+  const double least_ratio = evidence.slow_ratio * std::exp(-kRatioSigmas * evidence.slow_ratio_sigma);
+  if (std::isnan(evidence.chance) && least_ratio > kSlowAsStated) {
+    out.push_back(make_verdict(
+        "shape_unproven",
+        fmt::format("the mesh has no other poses to compare this one with, and the paths need a slow error {:.2g} "
+                    "times as large as stated, {:.2g} at least",
+                    evidence.slow_ratio, least_ratio)));
+  } else if (evidence.searched && std::isnan(evidence.chance)) {
+    out.push_back(make_verdict("shape_untested",
+                               "too few other poses on this mesh can be compared: nothing shows that another object "
+                               "would not fit as well"));
+  }
   if (evidence.chance > (as_stated ? kChanceAsStated : kChance)) {
     out.push_back(make_verdict(
         "shape_unproven", fmt::format("the pose stands out of all others on this mesh no more than the best pose of "
                                       "another object would, with a probability of {:.2g}",
                                       evidence.chance)));
-  }
-  if (evidence.searched && !std::isfinite(evidence.chance)) {
-    out.push_back(make_verdict("shape_untested",
-                               "too few other poses on this mesh can be compared: nothing shows that another object "
-                               "would not fit as well"));
   }
   judge_scale(evidence, out);
   if (!evidence.searched) {

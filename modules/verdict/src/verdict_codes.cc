@@ -72,6 +72,10 @@ constexpr VerdictCode kCodes[] = {
     {"shape_unproven", kInvalid,
      "check that it is the right mesh, scan a longer path or several strokes with bends, and register them together"},
     {"shape_untested", kLimited, "check that it is the right mesh, or scan a longer path"},
+    {"mirror_image_fits", kInvalid,
+     "check that the mesh is not mirrored, scan a path with bends out of its plane, or several strokes, and register "
+     "them "
+     "together"},
     {"mesh_scale_differs", kInvalid, "check the unit of the mesh, that it is the right mesh, and the tracker's scale"},
     {"mesh_scale_doubtful", kLimited, "check the size of the mesh and of the printed markers"},
     {"mesh_scale_unknown", kNote, ""},

@@ -140,6 +140,34 @@ TEST(JudgeRegistration, WhatIsNotKnownIsNeverValid) {
   EXPECT_EQ(judge_registration(empty)[0].code, "off_mesh");
 }
 
+TEST(JudgeRegistration, RefusesAMeshThatOnlyItsErrorCouldSpeakForAndOneWhoseImageFits) {
+  PoseEvidence evidence = good_pose();
+  const auto codes = [&] {
+    std::vector<std::string> out;
+    for (const Verdict& verdict : judge_registration(evidence)) out.push_back(verdict.code);
+    return out;
+  };
+  // Three times the stated error, and nothing to compare with.
+  evidence.chance = PoseEvidence::kUnknown;
+  evidence.slow_ratio = 3.3;
+  evidence.slow_ratio_sigma = 0.1;
+  EXPECT_THAT(codes(), testing::ElementsAre("shape_unproven"));
+  evidence.chance = 0.01;
+  EXPECT_THAT(codes(), testing::IsEmpty());
+  // A short path does not know it well: two standard errors less, it is as stated.
+  evidence.chance = PoseEvidence::kUnknown;
+  evidence.slow_ratio = 1.8;
+  evidence.slow_ratio_sigma = 0.2;
+  EXPECT_THAT(codes(), testing::ElementsAre("shape_untested"));
+  evidence.chance = 0.01;
+  evidence.slow_ratio = 1.0;
+  evidence.mirror_log_odds = -5.0;
+  EXPECT_THAT(codes(), testing::IsEmpty());
+  evidence.mirror_log_odds = -3.0;
+  EXPECT_THAT(codes(), testing::ElementsAre("mirror_image_fits"));
+  EXPECT_FALSE(is_trustworthy(judge_registration(evidence)));
+}
+
 TEST(JudgeRegistration, RefusesAMeshOfAnotherSize) {
   PoseEvidence evidence = good_pose();
   evidence.points = 100;

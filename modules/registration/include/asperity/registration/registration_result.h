@@ -84,9 +84,12 @@ struct PoseRivals {
   double sigma_rad = std::numeric_limits<double>::quiet_NaN();  // these motions left out
   double slow_ratio =
       std::numeric_limits<double>::quiet_NaN();  // of the slow error that the pose needs to the stated one
-  double outlying = std::numeric_limits<double>::quiet_NaN();  // share of the paths that no such error explains
+  double slow_ratio_sigma = std::numeric_limits<double>::quiet_NaN();  // standard error of its logarithm
+  double outlying = std::numeric_limits<double>::quiet_NaN();          // share of the paths that no such error explains
   // That on a mesh of another object the best of the poses would stand out of the others as this one does.
   double chance = std::numeric_limits<double>::quiet_NaN();
+  // Logarithm of the odds of the mesh's mirror image to the mesh, the paths in the same place (mirror_image.h).
+  double mirror_log_odds = std::numeric_limits<double>::quiet_NaN();
   MeshScale scale;
 };
 

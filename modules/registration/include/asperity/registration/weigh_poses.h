@@ -26,11 +26,12 @@ struct WeighConfig {
 // A pose with what the paths say for it.
 struct WeighedPose {
   Pose T_mesh_world;
-  double log_mass = 0.0;    // logarithm of its posterior probability, to a constant common to all
-  double fit = 0.0;         // −2 log likelihood, to the same
-  double slow_ratio = 1.0;  // of the slow error that it needs over the stated one, standard deviations
-  double noise_m = 0.0;     // of the averages
-  double outlying = 0.0;    // share of the path that is no such error
+  double log_mass = 0.0;          // logarithm of its posterior probability, to a constant common to all
+  double fit = 0.0;               // −2 log likelihood, to the same
+  double slow_ratio = 1.0;        // of the slow error that it needs over the stated one, standard deviations
+  double slow_ratio_sigma = 0.0;  // standard error of its logarithm, by the paths alone
+  double noise_m = 0.0;           // of the averages
+  double outlying = 0.0;          // share of the path that is no such error
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();  // of (rotation rad, shift m) about
                                                                                   // the points' mean, mesh frame
 };
@@ -38,13 +39,14 @@ struct WeighedPose {
 // The posterior probabilities of poses. Heights over the mesh, averaged over memory_m of path, are the slow error of
 // the path along the normal (Gauss–Markov along the path with the stated covariance, times the square of a ratio that
 // is not known exactly), the mean of the relief, and white noise: correlated points count as the few that they are. The
-// likelihood comes from a Kalman filter along the path (Schweppe 1965) and is maximised at each pose over the ratio,
-// which has a log-normal prior about one, and the noise. A pose that lies badly needs a large ratio and pays for it
-// with the logarithm of it for each stretch of slow_length_m, and with the prior. Beyond four standard deviations a
-// block costs no more. Each candidate is descended (Gauss–Newton) to its own maximum; those that end at the same place
-// are one. Its mass is the likelihood times the prior times the volume (Laplace's approximation). The prior is that of
-// the guess, a normal distribution but for guess_lapse; without a guess all poses are alike.
-// Comes back by mass, the best first. Throws Error as register_path does, and Cancelled.
+// likelihood comes from a Kalman filter along the path (Schweppe 1965). The ratio, which has a log-normal prior about
+// one, and the noise are those of largest restricted likelihood at each pose (Patterson and Thompson 1971): the pose
+// has taken six degrees of freedom out of the heights, and a short path would else seem to have nearly no slow error. A
+// pose that lies badly needs a large ratio and pays for it with the logarithm of it for each stretch of slow_length_m,
+// and with the prior. Beyond four standard deviations a block costs no more. Each candidate is descended (Gauss–Newton)
+// to its own maximum; those that end at the same place are one. Its mass is the likelihood times the prior times the
+// volume (Laplace's approximation). The prior is that of the guess, a normal distribution but for guess_lapse; without
+// a guess all poses are alike. Comes back by mass, the best first. Throws Error as register_path does, and Cancelled.
 std::vector<WeighedPose> weigh_poses(std::span<const MeasuredPath> paths, const RegistrationSurface& surface,
                                      std::span<const Pose> candidates, const std::optional<Pose>& guess,
                                      const WeighConfig& config, const RegistrationConfig& registration,

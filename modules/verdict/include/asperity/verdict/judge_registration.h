@@ -32,9 +32,11 @@ struct PoseEvidence {
   double sigma_m = kUnknown;     // of the points' RMS position, motions along which the mesh is its own image left out
   double sigma_rad = kUnknown;   // and of the rotation
   double slow_ratio = kUnknown;  // of the slow error that the pose needs to the stated one, standard deviations
-  double outlying = kUnknown;    // share of the paths that no such error explains
-  double chance = kUnknown;      // that on a mesh of another object the best pose would stand out of the others as much
-  double mesh_scale = kUnknown;  // of the object over the mesh, at which the paths fit best
+  double slow_ratio_sigma = kUnknown;  // standard error of its logarithm
+  double outlying = kUnknown;          // share of the paths that no such error explains
+  double chance = kUnknown;  // that on a mesh of another object the best pose would stand out of the others as much
+  double mirror_log_odds = kUnknown;   // of the mesh's mirror image to the mesh
+  double mesh_scale = kUnknown;        // of the object over the mesh, at which the paths fit best
   double mesh_scale_sigma = kUnknown;  // standard error of its logarithm
   double mesh_scale_gain = kUnknown;   // of −2 log likelihood over the mesh as it is
   bool searched = true;                // other poses were looked for everywhere on the mesh
