@@ -17,9 +17,9 @@ struct X3pGrid {
 };
 
 // Heights as an X3P file (ISO 25178-72): a zip archive of main.xml, the heights as doubles in metres, nan where
-// missing, and their MD5 sums. The archive is stored uncompressed and without dates, so that the same heights give the same bytes. Throws
-// Error for a grid of other than columns · rows heights, an infinite height, a spacing that is not positive,
-// or more than 2^27 heights.
+// missing, and their MD5 sums. The archive is stored uncompressed and without dates, so that the same heights give the
+// same bytes. Throws Error for a grid of other than columns · rows heights, an infinite height, a spacing that is not
+// positive, or more than 2^27 heights.
 std::string format_x3p(const X3pGrid& grid);
 
 }  // namespace asperity
