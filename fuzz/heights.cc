@@ -6,6 +6,8 @@
 
 #include "asperity/base/error.h"
 #include "asperity/profile/measure_areal_roughness.h"
+#include "asperity/profile/measure_areal_texture.h"
+#include "asperity/profile/measure_profile_texture.h"
 #include "asperity/profile/measure_roughness.h"
 #include "asperity/profile/read_heights.h"
 
@@ -17,9 +19,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (const auto* map = std::get_if<asperity::ArealMap>(&heights)) {
         if (map->height_m.size() != map->columns * map->rows) std::abort();
         asperity::measure_areal_roughness(*map);
+        asperity::measure_areal_texture(*map, {.form = asperity::ArealForm::kQuadric, .lambda_c_mm = 0.08});
       } else {
         const auto& profile = std::get<asperity::HeightProfile>(heights);
         asperity::measure_roughness(profile.height_m, profile.spacing_m);
+        asperity::measure_profile_texture(profile.height_m, profile.spacing_m);
       }
     } catch (const asperity::Error&) {
     }

@@ -12,6 +12,7 @@
 #include "asperity/json/config_json.h"
 #include "asperity/scene/export_scene.h"
 #include "asperity/session/export_files.h"
+#include "asperity/session/export_heights.h"
 #include "asperity/session/our_folder.h"
 #include "commands.h"
 #include "option_units.h"
@@ -25,28 +26,36 @@ class ExportCommand : public Command {
  public:
   explicit ExportCommand(Parser& root)
       : Command(root, "export", "Write a textured scene in the files of other programs") {
-    require(parser().add_option("OUT", source_,
-                                "What register, paint or process wrote, a scene.json, a mesh or a *.texture.json"));
+    require(
+        parser().add_option("OUT", source_,
+                            "What register, paint, process or area wrote, a scene.json, a mesh, a *.texture.json, or a "
+                            "file of heights (x3p, sdf, gsf)"));
     require(parser().add_option("--to", format_,
                                 "obj, gltf (.glb), png (16-bit height and normal maps), wav (the texture stroked), x3p "
-                                "(heights), stl (relief to print)"))
+                                "(heights), sdf, sdf-binary, gsf (profile and areal map), stl (relief to print)"))
         ->type_name("FORMAT");
     parser().add_option("-o,--output", output_, "Folder of the files; default: OUT-FORMAT")->type_name("DIR");
     parser().add_option("--speed", speed_, "Of the stroke, for wav")->type_name("SPEED");
+    parser()
+        .add_option("--spacing", spacing_, "Distance of the heights of a file without positions")
+        ->type_name("LENGTH");
     parser().add_option("--mesh-unit", mesh_unit_, "Length of the unit of a mesh given alone")->type_name("LENGTH");
   }
 
   std::vector<ConfigField> fields() override { return list_fields("", config_); }
 
   void apply_options() override {
+    if (!spacing_.empty()) spacing_m_ = length_option_m("--spacing", spacing_);
     if (!speed_.empty()) config_.stroke.speed_mps = speed_option_mps("--speed", speed_);
   }
 
   int run(const Observer& observer) override {
     const auto name = std::find(kExportFormatNames.begin(), kExportFormatNames.end(), format_);
-    if (name == kExportFormatNames.end())
-      throw UsageError("--to: '" + printable(format_) + "' is none of obj, gltf, png, wav, x3p, stl");
-    const auto format = static_cast<ExportFormat>(name - kExportFormatNames.begin());
+    const auto heights_as = height_file_of(format_);
+    if (name == kExportFormatNames.end() && !heights_as) {
+      throw UsageError("--to: '" + printable(format_) +
+                       "' is none of obj, gltf, png, wav, x3p, sdf, sdf-binary, gsf, stl");
+    }
     fs::path target = output_;
     if (target.empty()) {
       fs::path source = fs::absolute(source_).lexically_normal();
@@ -56,14 +65,17 @@ class ExportCommand : public Command {
     OutputFolder folder(target, is_our_folder);
     observer.update("reading", 0.0);
     reads(source_);
-    Scene scene = read_export_source(source_, observer);
-    if (!mesh_unit_.empty()) {
-      if (fs::path(source_).extension() == ".json" || fs::is_directory(source_))
-        throw UsageError("--mesh-unit: the scene says what its unit is");
-      scene.objects.front().unit_m = unit_option_m("--mesh-unit", mesh_unit_);
+    ExportResult heights;
+    if (heights_as) heights = export_heights(source_, *heights_as, {.spacing_m = spacing_m_}, observer);
+    const ExportResult result =
+        name == kExportFormatNames.end() || (heights_as && holds_heights_alone(source_))
+            ? std::move(heights)
+            : with_heights(scene_files(static_cast<ExportFormat>(name - kExportFormatNames.begin()), observer),
+                           std::move(heights));
+    if (result.files.empty()) {
+      throw Error(printable(source_, 200) + ": holds neither a profile.csv nor an areal map" +
+                  (result.problems.empty() ? "" : "; " + result.problems.front().message));
     }
-    observer.update("exporting", 0.0);
-    const ExportResult result = export_scene(scene, format, config_);
     reads("");
     observer.update("writing", 1.0);
     Json out;
@@ -85,11 +97,31 @@ class ExportCommand : public Command {
   }
 
  private:
+  // The scene's meshes and textures in that format.
+  ExportResult scene_files(ExportFormat format, const Observer& observer) const {
+    Scene scene = read_export_source(source_, observer);
+    if (!mesh_unit_.empty()) {
+      if (fs::path(source_).extension() == ".json" || fs::is_directory(source_))
+        throw UsageError("--mesh-unit: the scene says what its unit is");
+      scene.objects.front().unit_m = unit_option_m("--mesh-unit", mesh_unit_);
+    }
+    observer.update("exporting", 0.0);
+    return export_scene(scene, format, config_);
+  }
+
+  static ExportResult with_heights(ExportResult files, ExportResult heights) {
+    for (ExportedFile& file : heights.files) files.files.push_back(std::move(file));
+    for (Problem& problem : heights.problems) files.problems.push_back(std::move(problem));
+    return files;
+  }
+
   std::string source_;
   std::string format_;
   std::string output_;
   std::string speed_;
   std::string mesh_unit_;
+  std::string spacing_;
+  double spacing_m_ = 0.0;
   ExportConfig config_;
 };
 

@@ -14,12 +14,14 @@
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
 #include "asperity/profile/estimate_texture_noise.h"
-#include "asperity/profile/measure_areal_roughness.h"
+#include "asperity/profile/measure_areal_texture.h"
+#include "asperity/profile/measure_profile_texture.h"
 #include "asperity/profile/measure_roughness_under_noise.h"
 #include "asperity/profile/read_heights.h"
 #include "asperity/profile/setting_class.h"
 #include "commands.h"
 #include "option_units.h"
+#include "roughness_tables.h"
 
 namespace asperity::app {
 
@@ -32,7 +34,8 @@ struct RoughnessSettings {
   ReadHeightsConfig input;
   Filters filters = Filters::kAsGiven;
   RoughnessConfig profile;
-  ArealRoughnessConfig areal;
+  MaterialRatioConfig material;
+  ArealTextureConfig areal;
 
   template <class V>
   void visit(V& v) {
@@ -40,41 +43,10 @@ struct RoughnessSettings {
     v.choice("setting_class", filters, kFiltersNames,
              "cut-offs and sections: as given by roughness.*, of a setting class, or of that which the Ra calls for");
     v.group("roughness", profile);
+    v.group("material", material);
     v.group("areal", areal);
   }
 };
-
-// One parameter as it is printed: name, value and the text for a person.
-struct Parameter {
-  const char* key;
-  double value;
-  bool length;
-  double error = kNan;  // standard error, where it is known
-};
-
-Json to_json(const std::vector<Parameter>& parameters) {
-  Json out;
-  for (const auto& [key, value, length, error] : parameters) {
-    out[key] = value;
-    if (!std::isfinite(error)) continue;
-    const std::string name(key, std::string_view(key).size() - (length ? 2 : 0));
-    out[name + (length ? "_stderr_m" : "_stderr")] = error;
-  }
-  return out;
-}
-
-std::string to_table(const std::vector<Parameter>& parameters) {
-  std::string out;
-  for (const auto& [key, value, length, error] : parameters) {
-    const std::string name(key, std::string_view(key).size() - (length ? 2 : 0));
-    const double unit = length ? 1e6 : 1.0;
-    out += fmt::format("{:<6} ", name);
-    out += std::isfinite(unit * value) ? fmt::format("{:12.5g}", unit * value) : "not determined";
-    if (std::isfinite(value) && std::isfinite(error)) out += fmt::format(" ± {:.2g}", unit * error);
-    out += length && std::isfinite(unit * value) ? " µm\n" : "\n";
-  }
-  return out;
-}
 
 class RoughnessCommand : public Command {
  public:
@@ -85,6 +57,14 @@ class RoughnessCommand : public Command {
     parser()
         .add_option("--spacing", spacing_, "Distance of the heights, for a file without positions")
         ->type_name("LENGTH");
+    parser().add_option("--lambda-s", lambda_s_, "Shorter waves are left out (S-filter of a map)")->type_name("LENGTH");
+    parser()
+        .add_option("--lambda-c", lambda_c_, "Longer waves are left out of R, and make W (L-filter of a map)")
+        ->type_name("LENGTH");
+    parser().add_option("--lambda-f", lambda_f_, "Longer waves are left out of W")->type_name("LENGTH");
+    parser()
+        .add_option("--filter", filter_, "gaussian (ISO 16610-21), or robust (ISO 16610-31) for deep pits")
+        ->type_name("NAME");
     parser()
         .add_option("--class", class_, "Setting class: Sc1 to Sc5 (λc 0.08, 0.25, 0.8, 2.5, 8 mm), or auto")
         ->type_name("CLASS");
@@ -94,12 +74,13 @@ class RoughnessCommand : public Command {
 
   void apply_options() override {
     if (!spacing_.empty()) settings_.input.spacing_m = length_option_m("--spacing", spacing_);
-    if (class_.empty()) return;
-    try {
-      set_field(fields(), "setting_class", class_);
-    } catch (const Error& error) {
-      throw UsageError(std::string("--class: ") + error.what());
-    }
+    if (!lambda_s_.empty())
+      settings_.profile.lambda_s_mm = settings_.areal.lambda_s_mm = 1e3 * length_option_m("--lambda-s", lambda_s_);
+    if (!lambda_c_.empty())
+      settings_.profile.lambda_c_mm = settings_.areal.lambda_c_mm = 1e3 * length_option_m("--lambda-c", lambda_c_);
+    if (!lambda_f_.empty()) settings_.profile.lambda_f_mm = 1e3 * length_option_m("--lambda-f", lambda_f_);
+    set_choice("--filter", "roughness.filter", filter_);
+    set_choice("--class", "setting_class", class_);
   }
 
   int run(const Observer&) override {
@@ -116,6 +97,15 @@ class RoughnessCommand : public Command {
   }
 
  private:
+  void set_choice(const char* option, const char* field, const std::string& value) {
+    if (value.empty()) return;
+    try {
+      set_field(fields(), field, value);
+    } catch (const Error& error) {
+      throw UsageError(std::string(option) + ": " + error.what());
+    }
+  }
+
   // The cut-offs and sections that the settings come to for this profile.
   RoughnessConfig filters_for(const HeightProfile& profile, std::string& name) const {
     if (settings_.filters == Filters::kAsGiven) return settings_.profile;
@@ -129,12 +119,17 @@ class RoughnessCommand : public Command {
 
   // What was filtered, in words: a value without it means little.
   static std::string filter_line(const HeightProfile& profile, const RoughnessConfig& config, const std::string& name) {
-    const double section_mm =
-        1e3 * profile.spacing_m * static_cast<double>(profile.height_m.size()) / static_cast<double>(config.sections);
+    const double cut_mm = config.ends == ProfileEnds::kCut ? config.lambda_c_mm : 0.0;
+    const double section_mm = (1e3 * profile.spacing_m * static_cast<double>(profile.height_m.size()) - cut_mm) /
+                              static_cast<double>(config.sections);
     std::string out = "filters     ";
     if (!name.empty()) out += name + ": ";
     out += config.lambda_s_mm > 0.0 ? fmt::format("λs {:g} µm, ", 1e3 * config.lambda_s_mm) : std::string("no λs, ");
-    out += config.lambda_c_mm > 0.0 ? fmt::format("λc {:g} mm, Gaussian", config.lambda_c_mm) : std::string("no λc");
+    out += config.lambda_c_mm > 0.0 ? fmt::format("λc {:g} mm, ", config.lambda_c_mm) +
+                                          (config.filter == ProfileFilter::kRobust ? "robust " : "") + "Gaussian"
+                                    : std::string("no λc");
+    if (config.lambda_c_mm > 0.0 && config.lambda_f_mm > 0.0) out += fmt::format(", λf {:g} mm", config.lambda_f_mm);
+    if (cut_mm > 0.0) out += fmt::format(", {:g} mm left out at either end", 0.5 * cut_mm);
     out += fmt::format("; {} sections of {:.4g} mm\n", config.sections, section_mm);
     if (config.lambda_c_mm > 0.0) return out;
     return out +
@@ -153,15 +148,20 @@ class RoughnessCommand : public Command {
     // The file's heights as they are: what noise could have added is in the error, not taken off.
     const RoughnessResult r = measure_roughness(profile.height_m, profile.spacing_m, config);
     const RoughnessResult cleaned = measure_roughness_under_noise(profile.height_m, profile.spacing_m, noise, config);
-    std::vector<Parameter> parameters;
+    std::vector<PrintedParameter> parameters;
     for (const RoughnessParameter& p : kRoughnessParameters) {
       const double error = std::hypot(cleaned.standard_error.*p.value, cleaned.*p.value - r.*p.value);
-      parameters.push_back({p.key.data(), r.*p.value, p.is_length, error});
+      parameters.push_back({std::string(p.key), r.*p.value, p.is_length, error});
     }
+    const ProfileTexture texture =
+        measure_profile_texture(profile.height_m, profile.spacing_m, config, settings_.material, noise);
     Json out = begin("profile");
     out["filters"] = {{"setting_class", class_name.empty() ? Json(nullptr) : Json(class_name)},
                       {"lambda_s_mm", config.lambda_s_mm > 0.0 ? Json(config.lambda_s_mm) : Json(nullptr)},
                       {"lambda_c_mm", config.lambda_c_mm > 0.0 ? Json(config.lambda_c_mm) : Json(nullptr)},
+                      {"lambda_f_mm", config.lambda_f_mm > 0.0 ? Json(config.lambda_f_mm) : Json(nullptr)},
+                      {"filter", kProfileFilterNames.at(static_cast<std::size_t>(config.filter))},
+                      {"ends", kProfileEndsNames.at(static_cast<std::size_t>(config.ends))},
                       {"sections", config.sections}};
     out["length_m"] = r.length_m;
     out["spacing_m"] = profile.spacing_m;
@@ -170,28 +170,38 @@ class RoughnessCommand : public Command {
     out["sections_used"] = r.sections_used;
     out["elements"] = r.elements;
     out["roughness"] = to_json(parameters);
+    out["profiles"] = to_json(texture);
     finish(out);
     say(fmt::format("{:.6g} mm, {} heights {:.6g} µm apart, {} missing\n", r.length_m * 1e3, r.samples,
                     profile.spacing_m * 1e6, r.missing) +
-        filter_line(profile, config, class_name) + to_table(parameters));
+        filter_line(profile, config, class_name) +
+        (noise.added_rms_m > 0.0 ? "" : "intervals   not determined: the file does not state its noise\n") +
+        to_table(parameters) + "\n" + to_table(texture));
   }
 
   void report_map(const ArealMap& map) {
-    const ArealRoughnessResult r = measure_areal_roughness(map, settings_.areal);
-    const std::vector<Parameter> parameters{{"Sa_m", r.Sa_m, true}, {"Sq_m", r.Sq_m, true}, {"Sz_m", r.Sz_m, true},
-                                            {"Sp_m", r.Sp_m, true}, {"Sv_m", r.Sv_m, true}, {"Ssk", r.Ssk, false},
-                                            {"Sku", r.Sku, false}};
+    const ArealTextureConfig& config = settings_.areal;
+    const ArealTextureResult r = measure_areal_texture(map, config);
     Json out = begin("areal");
     out["columns"] = map.columns;
     out["rows"] = map.rows;
     out["x_spacing_m"] = map.x_spacing_m;
     out["y_spacing_m"] = map.y_spacing_m;
     out["missing"] = r.missing;
+    out["filters"] = {{"form", kArealFormNames.at(static_cast<std::size_t>(config.form))},
+                      {"lambda_s_mm", config.lambda_s_mm > 0.0 ? Json(config.lambda_s_mm) : Json(nullptr)},
+                      {"lambda_c_mm", config.lambda_c_mm > 0.0 ? Json(config.lambda_c_mm) : Json(nullptr)}};
     out["slope_x"] = r.slope_x;
     out["slope_y"] = r.slope_y;
-    out["roughness"] = to_json(parameters);
+    out["roughness"] = to_json(r);
     finish(out);
-    say(fmt::format("{} x {} heights, {} missing\n", map.columns, map.rows, r.missing) + to_table(parameters));
+    std::string filters = fmt::format("filters     F {}", kArealFormNames.at(static_cast<std::size_t>(config.form)));
+    filters += config.lambda_s_mm > 0.0 ? fmt::format(", S {:g} µm", 1e3 * config.lambda_s_mm) : ", no S";
+    filters += config.lambda_c_mm > 0.0 ? fmt::format(", L {:g} mm, Gaussian\n", config.lambda_c_mm)
+                                        : std::string(", no L: waviness is included\n");
+    say(fmt::format("{} x {} heights {:.6g} x {:.6g} µm apart, {} missing\n", map.columns, map.rows,
+                    map.x_spacing_m * 1e6, map.y_spacing_m * 1e6, r.missing) +
+        filters + "intervals   not determined: the file does not state its noise\n" + to_table(r));
   }
 
   Json begin(const char* kind) const {
@@ -212,6 +222,10 @@ class RoughnessCommand : public Command {
   std::string file_;
   std::string spacing_;
   std::string class_;
+  std::string lambda_s_;
+  std::string lambda_c_;
+  std::string lambda_f_;
+  std::string filter_;
   RoughnessSettings settings_;
 };
 

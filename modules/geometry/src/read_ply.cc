@@ -54,6 +54,8 @@ class PlyParser {
         vertices(element);
       } else if (element.name == "face" && mesh_.triangles.empty()) {
         faces(element);
+      } else if (element.name == "tristrips" && mesh_.triangles.empty()) {
+        strips(element);
       } else {
         skip_element(element);
       }
@@ -206,6 +208,45 @@ class PlyParser {
         numbers_.fail("vertex " + number_text(index) + " of " + std::to_string(mesh_.vertices.size()));
       }
       corners_.push_back(static_cast<std::uint32_t>(index));
+    }
+  }
+
+  // Strips of triangles as Stanford's files have them: each corner makes a triangle with the two before it, every
+  // second one turned; −1 begins a new strip. A triangle with the same corner twice is the strip's own joint and left
+  // out.
+  void strips(const PlyElement& element) {
+    if (mesh_.vertices.empty() && element.count > 0) throw Error(name_ + ": its strips stand before its vertices");
+    for (std::size_t row = 0; row < element.count; ++row) {
+      numbers_.set_place(element, row);
+      for (const PlyProperty& property : element.properties) {
+        const bool whole = property.type != PlyType::kFloat32 && property.type != PlyType::kFloat64;
+        if (property.count_type && whole && (property.name == "vertex_indices" || property.name == "vertex_index")) {
+          strip(property);
+        } else {
+          if (row == 0) report(element, property);
+          skip(property);
+        }
+      }
+    }
+  }
+
+  void strip(const PlyProperty& property) {
+    const std::size_t count = numbers_.next_count(*property.count_type);
+    Triangle last{};
+    std::size_t corners = 0;  // of this strip
+    for (std::size_t k = 0; k < count; ++k) {
+      const double index = numbers_.next(property.type);
+      if (index == -1.0) {
+        corners = 0;
+        continue;
+      }
+      if (!(index >= 0.0 && index < static_cast<double>(mesh_.vertices.size())))
+        numbers_.fail("vertex " + number_text(index) + " of " + std::to_string(mesh_.vertices.size()));
+      last = {last[1], last[2], static_cast<std::uint32_t>(index)};
+      if (++corners < 3 || last[0] == last[1] || last[1] == last[2] || last[2] == last[0]) continue;
+      if (mesh_.triangles.size() == limits_.triangles)
+        numbers_.fail("more than " + std::to_string(limits_.triangles) + " triangles");
+      mesh_.triangles.push_back(corners % 2 == 1 ? last : Triangle{last[1], last[0], last[2]});
     }
   }
 

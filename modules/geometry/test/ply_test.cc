@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "asperity/base/error.h"
 #include "asperity/geometry/write_ply.h"
 #include "mesh_format_rig.h"
 
@@ -98,6 +99,24 @@ TEST(Ply, RefusalsNameThePlace) {
   EXPECT_EQ(refused(head + faces + "0 0 0 1 0 0 1 1 0 3 0 1 -1"), "t.ply: face 0 (from 0): vertex -1 of 3");
   EXPECT_THAT(refused("ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nend_header\n0"),
               HasSubstr("is cut"));
+}
+
+// Two strips: a fan of three triangles and a single one; every second is turned, so that all look the same way.
+TEST(Ply, StripsOfTriangles) {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+      "0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n";
+  const MeshFile mesh = parse_ply(head + "9 1 0 3 2 4 -1 0 2 3\n", "m.ply", {});
+  ASSERT_EQ(mesh.triangles.size(), 4u);
+  const auto normal_z = [&](const Triangle& t) {
+    return (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross(mesh.vertices[t[2]] - mesh.vertices[t[0]]).z();
+  };
+  for (const Triangle& triangle : mesh.triangles) EXPECT_GT(normal_z(triangle), 0.0);
+  EXPECT_TRUE(mesh.problems.empty());
+  EXPECT_THROW(parse_ply(head + "4 0 1 2 5\n", "m.ply", {}), Error);
+  EXPECT_THROW(parse_ply(head + "4 0 1 2 -2\n", "m.ply", {}), Error);
+  EXPECT_THROW(parse_ply(head + "9 0 1 2\n", "m.ply", {}), Error);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
-#include "gaussian_filter.h"
+#include "asperity/profile/filter_profile.h"
 #include "profile_features.h"
 
 namespace asperity {
@@ -18,61 +18,6 @@ namespace {
 
 std::size_t count_missing(std::span<const double> z) {
   return static_cast<std::size_t>(std::count_if(z.begin(), z.end(), [](double v) { return std::isnan(v); }));
-}
-
-void check_profile(std::span<const double> height_m, double spacing_m, const RoughnessConfig& config) {
-  if (!(spacing_m > 0.0) || !std::isfinite(spacing_m)) {
-    throw Error("roughness: the spacing " + number_text(spacing_m) + " m is not a positive length");
-  }
-  if (config.sections < 1)
-    throw Error("roughness: " + std::to_string(config.sections) + " sections; at least one is needed");
-  if (height_m.size() < 2 * static_cast<std::size_t>(config.sections)) {
-    throw Error("roughness: " + std::to_string(height_m.size()) + " heights are too few for " +
-                std::to_string(config.sections) + " sections");
-  }
-  for (std::size_t i = 0; i < height_m.size(); ++i) {
-    if (std::isinf(height_m[i])) throw Error("roughness: height " + std::to_string(i + 1) + " is infinite");
-  }
-  const std::size_t missing = count_missing(height_m);
-  if (missing + 2 > height_m.size() ||
-      static_cast<double>(missing) > config.max_missing * static_cast<double>(height_m.size())) {
-    throw Error("roughness: " + std::to_string(missing) + " of " + std::to_string(height_m.size()) +
-                " heights are missing; allowed is a part of " + number_text(config.max_missing));
-  }
-}
-
-void subtract_mean(std::vector<double>& z) {
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (const double v : z) {
-    if (std::isnan(v)) continue;
-    sum += v;
-    ++count;
-  }
-  const double mean = sum / static_cast<double>(count);
-  for (double& v : z) v -= mean;
-}
-
-// The least-squares line over the sample number; the heights' mean is zero already.
-void subtract_line(std::vector<double>& z) {
-  double sum_x = 0.0;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < z.size(); ++i) {
-    if (std::isnan(z[i])) continue;
-    sum_x += static_cast<double>(i);
-    ++count;
-  }
-  const double mean_x = sum_x / static_cast<double>(count);
-  double sum_xx = 0.0;
-  double sum_xz = 0.0;
-  for (std::size_t i = 0; i < z.size(); ++i) {
-    if (std::isnan(z[i])) continue;
-    const double x = static_cast<double>(i) - mean_x;
-    sum_xx += x * x;
-    sum_xz += x * z[i];
-  }
-  const double slope = sum_xz / sum_xx;
-  for (std::size_t i = 0; i < z.size(); ++i) z[i] -= slope * (static_cast<double>(i) - mean_x);
 }
 
 // Highest minus lowest of the present samples.
@@ -172,17 +117,7 @@ std::vector<double> descending(std::span<const double> height_m) {
 
 std::vector<double> roughness_profile_m(std::span<const double> height_m, double spacing_m,
                                         const RoughnessConfig& config) {
-  check_profile(height_m, spacing_m, config);
-  std::vector<double> z(height_m.begin(), height_m.end());
-  subtract_mean(z);
-  if (config.form == ProfileForm::kLine) subtract_line(z);
-  if (config.lambda_s_mm > 0.0) z = gaussian_mean_line_m(z, spacing_m, config.lambda_s_mm * 1e-3);
-  if (config.lambda_c_mm > 0.0) {
-    const auto waviness_m = gaussian_mean_line_m(z, spacing_m, config.lambda_c_mm * 1e-3);
-    for (std::size_t i = 0; i < z.size(); ++i) z[i] -= waviness_m[i];
-  }
-  if (config.lambda_s_mm > 0.0 || config.lambda_c_mm > 0.0) subtract_mean(z);
-  return z;
+  return filter_profile(height_m, spacing_m, config).roughness_m;
 }
 
 RoughnessResult measure_roughness(std::span<const double> height_m, double spacing_m, const RoughnessConfig& config) {

@@ -7,54 +7,16 @@
 #include <vector>
 
 #include "asperity/base/nan.h"
-#include "draw_noise.h"
+#include "follow_noise.h"
 #include "root_of_power.h"
 
 namespace asperity {
 
 namespace {
 
-constexpr std::size_t kDraws = 24;
-constexpr std::size_t kFewestDraws = 6;
 constexpr std::size_t kPlaceDraws = 8;
-constexpr std::size_t kMostDrawn_points = 200'000;  // drawn in all: a long profile's parameters vary little
-constexpr std::uint64_t kSeed = 20'260'101;
 constexpr double kLeastSnr = 1.0;  // below it the texture does not stand out: its parameters would be the noise's
 constexpr std::size_t kParameters = kRoughnessParameters.size();
-
-// The mean over the draws, and the spread of single ones.
-class Spread {
- public:
-  void add(double x) {
-    if (!std::isfinite(x)) return;
-    ++count_;
-    const double step = x - mean_;
-    mean_ += step / count_;
-    square_ += step * (x - mean_);
-  }
-  double mean() const { return count_ > 0.0 ? mean_ : kNan; }
-  double deviation() const { return count_ > 1.0 ? std::sqrt(square_ / (count_ - 1.0)) : kNan; }
-
- private:
-  double count_ = 0.0, mean_ = 0.0, square_ = 0.0;
-};
-
-// Noise of the spectrum, as large at each point as it is there (empty: the same everywhere).
-std::vector<double> draw_shaped(const TextureNoise& noise, const std::vector<double>& psd_m2_mm,
-                                const std::vector<double>& sigma_m, std::size_t count, double spacing_m,
-                                Random& random) {
-  std::vector<double> out = draw_noise(noise.frequency_cycles_per_mm, psd_m2_mm, count, 1e3 * spacing_m, random);
-  double power_m2 = 0.0;
-  for (std::size_t i = 1; i < psd_m2_mm.size(); ++i) {
-    power_m2 += 0.5 * (psd_m2_mm[i] + psd_m2_mm[i - 1]) *
-                (noise.frequency_cycles_per_mm[i] - noise.frequency_cycles_per_mm[i - 1]);
-  }
-  if (sigma_m.size() != count || !(power_m2 > 0.0)) return out;
-  for (std::size_t i = 0; i < count; ++i) out[i] *= sigma_m[i] / std::sqrt(power_m2);
-  return out;
-}
-
-double signed_square(double x) { return x * std::abs(x); }
 
 struct Followed {
   std::array<Spread, kParameters> once, twice;  // lengths squared
@@ -67,13 +29,12 @@ double along_power(const RoughnessParameter& p, double value) {
 Followed follow_noise(std::span<const double> height_m, double spacing_m, const TextureNoise& noise,
                       const RoughnessConfig& config) {
   Followed out;
-  Random random(kSeed);
-  const std::size_t draws =
-      std::max(kFewestDraws, std::min(kDraws, kMostDrawn_points / std::max<std::size_t>(1, height_m.size())));
+  Random random(kNoiseSeed);
+  const std::size_t draws = noise_draws(height_m.size());
   std::vector<double> heavier(height_m.size());
   for (std::size_t j = 0; j < draws; ++j) {
     const std::vector<double> more =
-        draw_shaped(noise, noise.added_psd_m2_mm, noise.added_sigma_m, height_m.size(), spacing_m, random);
+        draw_shaped_noise(noise, noise.added_psd_m2_mm, noise.added_sigma_m, height_m.size(), spacing_m, random);
     for (const double power : {1.0, 2.0}) {
       for (std::size_t i = 0; i < heavier.size(); ++i) heavier[i] = height_m[i] + std::sqrt(power) * more[i];
       const RoughnessResult r = measure_roughness(heavier, spacing_m, config);
@@ -97,12 +58,12 @@ bool hangs_on_extremes(const RoughnessParameter& p) {
 std::array<double, kParameters> doubt_by_place(std::span<const double> height_m, double spacing_m,
                                                const TextureNoise& noise, const RoughnessConfig& config,
                                                const RoughnessParameters& measured) {
-  Random random(kSeed, 1);
+  Random random(kNoiseSeed, 1);
   std::array<Spread, kParameters> spread;
   std::vector<double> heavier(height_m.size());
   for (std::size_t j = 0; j < kPlaceDraws; ++j) {
-    const std::vector<double> more =
-        draw_shaped(noise, noise.misplaced_psd_m2_mm, noise.misplaced_sigma_m, height_m.size(), spacing_m, random);
+    const std::vector<double> more = draw_shaped_noise(noise, noise.misplaced_psd_m2_mm, noise.misplaced_sigma_m,
+                                                       height_m.size(), spacing_m, random);
     for (std::size_t i = 0; i < heavier.size(); ++i) heavier[i] = height_m[i] + more[i];
     const RoughnessResult r = measure_roughness(heavier, spacing_m, config);
     for (std::size_t p = 0; p < kParameters; ++p) spread[p].add(r.*kRoughnessParameters[p].value);

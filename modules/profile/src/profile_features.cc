@@ -93,6 +93,9 @@ ElementWidths element_widths(std::span<const double> stretch_m, double spacing_m
   for (std::size_t i = 1; i + 2 < portions.size(); ++i) {
     widths.sum_m += (portions[i + 1].end - portions[i].start) * spacing_m;
     ++widths.count;
+    const double height_m = portions[i].height_m + portions[i + 1].height_m;
+    widths.sum_height_m += height_m;
+    widths.highest_m = std::max(widths.highest_m, height_m);
   }
   return widths;
 }

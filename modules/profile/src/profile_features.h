@@ -12,9 +12,11 @@ std::vector<std::span<const double>> gap_free_stretches(std::span<const double> 
 struct ElementWidths {
   double sum_m = 0.0;
   std::size_t count = 0;
+  double sum_height_m = 0.0;  // of each one's hill and pit together
+  double highest_m = 0.0;
 };
 
-// Widths of the profile elements of one gap-free stretch: from each significant crossing of the mean
+// Widths and heights of the profile elements of one gap-free stretch: from each significant crossing of the mean
 // line to the next but one, so that hill–pit and pit–hill count alike and a reversed profile gives the
 // same. Hills and pits lower than `min_height_m`, then those narrower than `min_width_m`, are taken
 // into their neighbours.

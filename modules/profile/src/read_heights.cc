@@ -9,6 +9,7 @@
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
 #include "asperity/surface/parse_surface_file.h"
+#include "parse_stylus_text.h"
 
 namespace asperity {
 namespace {
@@ -68,8 +69,18 @@ double plausible_m(const CsvReader& table, std::size_t column, double unit_m) {
 
 HeightProfile read_profile_heights(CsvReader& table, const ReadHeightsConfig& config, bool ends_in_newline) {
   HeightProfile profile;
-  const auto position = table.find("s_m");
-  const std::size_t column = choose_column(table, config);
+  auto position = table.find("s_m");
+  double position_unit_m = 1.0;
+  std::size_t column = 0;
+  const auto xz = table.columns().size() == 2 ? split_length_name(table.columns()[0]) : std::nullopt;
+  const auto z = xz ? split_length_name(table.columns()[1]) : std::nullopt;
+  if (config.column.empty() && xz && z && xz->quantity == "x" && z->quantity == "z") {
+    position = 0;  // x_mm,z_um
+    position_unit_m = xz->unit_m;
+    column = 1;
+  } else {
+    column = choose_column(table, config);
+  }
   if (!table.columns().empty()) profile.column = table.columns()[column];
   const auto sigma = profile.column == "texture_m" ? table.find("texture_sigma_m") : std::nullopt;
   const auto named = split_length_name(profile.column);
@@ -80,7 +91,7 @@ HeightProfile read_profile_heights(CsvReader& table, const ReadHeightsConfig& co
   std::vector<double> s_m;
   while (table.next()) {
     profile.height_m.push_back(plausible_m(table, column, unit_m));
-    if (position) s_m.push_back(table.finite_or_nan(*position));
+    if (position) s_m.push_back(table.finite_or_nan(*position) * position_unit_m);
     if (sigma) profile.sigma_m.push_back(plausible_m(table, *sigma, 1.0));
   }
   if (profile.height_m.size() < 2) table.fail("fewer than two heights");
@@ -116,6 +127,7 @@ Heights parse_heights(std::string_view text, const std::string& name, const Read
     if (profile.height_m.size() < 2) throw Error(name + ": fewer than two heights");
     return profile;
   }
+  if (is_stylus_text(text)) return parse_stylus_text(text, name, config);
   CsvReader table(text, name, CsvHeader::kOptional);
   table.accept_unterminated();
   if (const auto units = areal_units_m(table)) return read_areal_map(table, *units);

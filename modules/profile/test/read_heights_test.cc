@@ -96,5 +96,36 @@ TEST(ReadHeights, ProfileErrorsNameTheLine) {
   expect_error("s_m,height_m\n0,1\n1,2\n", "a spacing of 1e-06 m is given, but s_m has 1", one_um);
 }
 
+TEST(ReadHeights, TablesOfStylusInstruments) {
+  const auto profile_of = [](const std::string& text, const ReadHeightsConfig& config = {}) {
+    return std::get<HeightProfile>(parse_heights(text, "f.csv", config));
+  };
+  const std::string german =
+      "\xef\xbb\xbf"
+      "Ger\xc3\xa4t;Rauheit 1\r\nDatum;22.11.2026\r\nWeg;H\xc3\xb6he\r\nmm;\xc2\xb5m\r\n"
+      "0,000;1,5\r\n0,001;-0,25\r\n0,002;\r\n0,003;2\r\n\r\n";
+  const HeightProfile profile = profile_of(german);
+  EXPECT_NEAR(profile.spacing_m, 1e-6, 1e-18);
+  ASSERT_EQ(profile.height_m.size(), 4u);
+  EXPECT_DOUBLE_EQ(profile.height_m[0], 1.5e-6);
+  EXPECT_DOUBLE_EQ(profile.height_m[1], -0.25e-6);
+  EXPECT_TRUE(std::isnan(profile.height_m[2]));
+  EXPECT_DOUBLE_EQ(profile_of("X (mm)\tZ (um)\n0\t1\n0.5\t2e0\n1\t3\n").height_m[2], 3e-6);
+  EXPECT_DOUBLE_EQ(profile_of("x_mm,z_um\n0,1\n0.5,2\n1,3\n").spacing_m, 0.5e-3);
+  EXPECT_DOUBLE_EQ(profile_of("a;b\nz [nm]\n7,5\n8\n", {.spacing_m = 1e-6}).height_m[0], 7.5e-9);
+  const auto map = std::get<ArealMap>(
+      parse_heights("x [mm];y [mm];z [\xc2\xb5m]\n0;0;1\n1;0;2\n2;0;\n0;0,5;4\n1;0,5;5\n2;0,5;6\n", "f.csv"));
+  EXPECT_EQ(map.columns, 3u);
+  EXPECT_DOUBLE_EQ(map.y_spacing_m, 0.5e-3);
+  EXPECT_TRUE(std::isnan(map.height_m[2]));
+  EXPECT_DOUBLE_EQ(map.height_m[5], 6e-6);
+
+  expect_error("weg;z\n0;1\n1;2\n", "f.csv:2: no header line states the units of its 2 columns");
+  expect_error("x [mm];z [um]\n0;1\n1;2\n5;2\n", "its positions are not even: row 2");
+  expect_error("x [mm];z [um]\n0;1\n1;2\nend of data\n", "f.csv:4: 'end of data' is not a row of 2 numbers");
+  expect_error("x [mm];z [um]\n0;1\n1;1e12\n", "f.csv:3: '1;1e12' is more than ten metres");
+  expect_error("x [mm];y [mm];z [um]\n0;0;1\n1;0;2\n0;1;1\n", "no full grid");
+}
+
 }  // namespace
 }  // namespace asperity

@@ -6,6 +6,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/little_endian.h"
+#include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 #include "asperity/scene/md5.h"
 #include "stored_zip.h"
@@ -40,8 +41,8 @@ std::string format_x3p(const X3pGrid& grid) {
   std::string data;
   data.reserve(8 * grid.height_m.size());
   for (const double height_m : grid.height_m) {
-    if (!std::isfinite(height_m)) throw Error("x3p: a height is not finite");
-    append_little_endian(data, height_m);
+    if (std::isinf(height_m)) throw Error("x3p: a height is infinite");
+    append_little_endian(data, std::isnan(height_m) ? kNan : height_m);
   }
   std::string xml =
       "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"yes\"?>\n"

@@ -2,6 +2,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 
 #include <gmock/gmock.h>
@@ -175,7 +176,8 @@ TEST(FormatX3p, HoldsItsNoteAsAComment) {
 TEST(FormatX3p, RefusesWhatIsNoGrid) {
   EXPECT_THROW(format_x3p({2, 2, 1e-5, 1e-5, {0.0}}), Error);
   EXPECT_THROW(format_x3p({1, 1, 0.0, 1e-5, {0.0}}), Error);
-  EXPECT_THROW(format_x3p({1, 1, 1e-5, 1e-5, {std::nan("")}}), Error);
+  EXPECT_THROW(format_x3p({1, 1, 1e-5, 1e-5, {std::numeric_limits<double>::infinity()}}), Error);
+  EXPECT_NO_THROW(format_x3p({2, 1, 1e-5, 1e-5, {std::nan(""), 0.0}})) << "a missing height";
 }
 
 Scene painted_scene() {

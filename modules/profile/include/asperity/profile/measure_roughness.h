@@ -12,10 +12,19 @@ namespace asperity {
 enum class ProfileForm { kMean, kLine };
 inline constexpr std::array<std::string_view, 2> kProfileFormNames{"mean", "line"};
 
+enum class ProfileFilter { kGaussian, kRobust };
+inline constexpr std::array<std::string_view, 2> kProfileFilterNames{"gaussian", "robust"};
+
+enum class ProfileEnds { kKeep, kCut };
+inline constexpr std::array<std::string_view, 2> kProfileEndsNames{"keep", "cut"};
+
 struct RoughnessConfig {
   ProfileForm form = ProfileForm::kMean;
   double lambda_s_mm = 0.0;
   double lambda_c_mm = 0.0;
+  double lambda_f_mm = 0.0;
+  ProfileFilter filter = ProfileFilter::kGaussian;
+  ProfileEnds ends = ProfileEnds::kKeep;
   int sections = 5;
   double element_height = 0.10;
   double element_width = 0.01;
@@ -27,7 +36,13 @@ struct RoughnessConfig {
     v.choice("form", form, kProfileFormNames, "what is subtracted first: the mean, or the least-squares line");
     v.field("lambda_s_mm", lambda_s_mm, "Gaussian low-pass (ISO 16610-21) that keeps noise out; 0: none",
             {0.0, 1000.0});
-    v.field("lambda_c_mm", lambda_c_mm, "Gaussian high-pass that removes waviness; 0: none", {0.0, 1000.0});
+    v.field("lambda_c_mm", lambda_c_mm, "high-pass that removes waviness; 0: none", {0.0, 1000.0});
+    v.field("lambda_f_mm", lambda_f_mm, "longer waves than this leave the waviness profile (W); 0: none leave it",
+            {0.0, 1000.0});
+    v.choice("filter", filter, kProfileFilterNames,
+             "of λc and λf: Gaussian (ISO 16610-21), or robust Gaussian regression (ISO 16610-31)");
+    v.choice("ends", ends, kProfileEndsNames,
+             "keep: filtered up to the ends (ISO 16610-28); cut: half a cut-off length is left out at either end");
     v.field("sections", sections, "equal sections that Rz is the mean over", {1, 1000});
     v.field("element_height", element_height, "RSm: hills and pits below this part of Rz are not counted", {0.0, 1.0});
     v.field("element_width", element_width, "RSm: hills and pits below this part of a section are not counted",

@@ -40,10 +40,13 @@ using Heights = std::variant<HeightProfile, ArealMap>;
 // Heights from an instrument's file (GSF, SDF, SUR, X3P: surface/parse_surface_file.h), or from a text file of one of
 // these kinds, told apart by their first line:
 //   s_m,height_m,texture_m,…   a profile.csv, uniform in s_m
+//   x_mm,z_um                  positions and heights, units by name
 //   height                     one column, with or without a header; needs `spacing_m`. A name that
 //                              ends in _nm, _um, _µm, _mm, _cm or _m says its unit
 //   x_mm,y_mm,z_µm             an areal map on a full rectangular grid, with or without that header
 //                              (other units by name), rows along x or along y; blank lines allowed
+//   header lines, then x and z a row, or z alone: what stylus instruments export, separated by semicolons or tabs, with
+//                              decimal points or commas; units by a word of the last header lines, as [µm] or (mm)
 // Throws Error naming file, line and value for anything else, infinite numbers, uneven positions, a
 // spacing that is missing or contradicts s_m, or a file of more than 512 MiB.
 Heights read_heights(const std::filesystem::path& path, const ReadHeightsConfig& config = {});

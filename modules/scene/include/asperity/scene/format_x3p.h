@@ -16,10 +16,10 @@ struct X3pGrid {
   std::string note{};  // for people: what of it was measured. A comment in main.xml
 };
 
-// Heights as an X3P file (ISO 25178-72): a zip archive of main.xml, the heights as doubles in metres, and their MD5
-// sums. The archive is stored uncompressed and without dates, so that the same heights give the same bytes. Throws
-// Error for a grid of other than columns · rows heights, a height that is not finite, a spacing that is not positive,
-// or more than 2^27 heights.
+// Heights as an X3P file (ISO 25178-72): a zip archive of main.xml, the heights as doubles in metres, nan where
+// missing, and their MD5 sums. The archive is stored uncompressed and without dates, so that the same heights give the
+// same bytes. Throws Error for a grid of other than columns · rows heights, an infinite height, a spacing that is not
+// positive, or more than 2^27 heights.
 std::string format_x3p(const X3pGrid& grid);
 
 }  // namespace asperity

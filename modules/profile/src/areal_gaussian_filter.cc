@@ -1,0 +1,119 @@
+#include "areal_gaussian_filter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "asperity/base/error.h"
+#include "asperity/base/nan.h"
+#include "asperity/base/text.h"
+#include "asperity/signal/spectrum.h"
+
+namespace asperity {
+namespace {
+
+// Σ_k kernel[k + reach] x[i + k] of rows of one length: directly where the kernel is short, else by Fourier transforms.
+class GaussianMoments {
+ public:
+  // Of the Gaussian weight times x^degree, x in cut-off lengths.
+  GaussianMoments(std::size_t count, double spacing_m, double cutoff_m, int degree) : count_(count) {
+    const double alpha = std::sqrt(std::numbers::ln2 / std::numbers::pi);
+    reach_ = static_cast<std::size_t>(std::min(std::ceil(cutoff_m / spacing_m), static_cast<double>(count)));
+    for (std::size_t k = 0; k <= 2 * reach_; ++k) {
+      const double x = (static_cast<double>(k) - static_cast<double>(reach_)) * spacing_m / cutoff_m;
+      kernel_.push_back(std::exp(-std::numbers::pi * x * x / (alpha * alpha)) * std::pow(x, degree));
+    }
+    constexpr std::size_t kShort = 64;
+    if (reach_ <= kShort) return;
+    padded_ = 1;
+    while (padded_ < count_ + reach_) padded_ *= 2;
+    std::vector<double> wrapped(padded_, 0.0);
+    // Correlation: the kernel is reversed. What wraps round meets the padding.
+    for (std::size_t k = 0; k <= 2 * reach_; ++k) wrapped[(padded_ + reach_ - k) % padded_] += kernel_[k];
+    spectrum_ = real_dft(wrapped);
+  }
+
+  std::vector<double> of(std::span<const double> x) const {
+    std::vector<double> out(count_, 0.0);
+    if (spectrum_.empty()) {
+      for (std::size_t i = 0; i < count_; ++i) {
+        const std::size_t first = i < reach_ ? reach_ - i : 0;
+        const std::size_t last = std::min(2 * reach_, count_ - 1 - i + reach_);
+        for (std::size_t k = first; k <= last; ++k) out[i] += kernel_[k] * x[i + k - reach_];
+      }
+      return out;
+    }
+    std::vector<double> padded(padded_, 0.0);
+    std::copy(x.begin(), x.end(), padded.begin());
+    auto half = real_dft(padded);
+    for (std::size_t k = 0; k < half.size(); ++k) half[k] *= spectrum_[k];
+    padded = inverse_real_dft(half, padded_);
+    std::copy_n(padded.begin(), count_, out.begin());
+    return out;
+  }
+
+ private:
+  std::size_t count_, reach_ = 0, padded_ = 0;
+  std::vector<double> kernel_;
+  std::vector<std::complex<double>> spectrum_;
+};
+
+// At x = y = 0 the plane with the moments m_ab = Σ w x^a y^b and t_ab = Σ w x^a y^b z.
+double plane_at_zero(double m00, double m10, double m01, double m20, double m11, double m02, double t00, double t10,
+                     double t01) {
+  const double a = m20 * m02 - m11 * m11, b = m01 * m11 - m10 * m02, c = m10 * m11 - m20 * m01;
+  const double determinant = m00 * a + m10 * b + m01 * c;
+  if (determinant <= 1e-9 * m00 * m20 * m02) return t00 / m00;
+  return (a * t00 + b * t10 + c * t01) / determinant;
+}
+
+}  // namespace
+
+ArealMap gaussian_mean_surface(const ArealMap& map, double cutoff_m) {
+  if (!(cutoff_m > 0.0) || !std::isfinite(cutoff_m))
+    throw Error("the cut-off " + number_text(cutoff_m) + " m is not a positive length");
+  const std::size_t columns = map.columns, rows = map.rows;
+  std::array<GaussianMoments, 3> along_x{GaussianMoments(columns, map.x_spacing_m, cutoff_m, 0),
+                                         GaussianMoments(columns, map.x_spacing_m, cutoff_m, 1),
+                                         GaussianMoments(columns, map.x_spacing_m, cutoff_m, 2)};
+  std::array<GaussianMoments, 3> along_y{GaussianMoments(rows, map.y_spacing_m, cutoff_m, 0),
+                                         GaussianMoments(rows, map.y_spacing_m, cutoff_m, 1),
+                                         GaussianMoments(rows, map.y_spacing_m, cutoff_m, 2)};
+  // Rows first: moments of degree 0, 1, 2 of what is present, and 0, 1 of the heights, column by column.
+  std::array<std::vector<double>, 5> moments;
+  for (auto& one : moments) one.resize(columns * rows);
+  std::vector<double> present(columns), height(columns);
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t column = 0; column < columns; ++column) {
+      const double z = map.at(row, column);
+      present[column] = std::isnan(z) ? 0.0 : 1.0;
+      height[column] = std::isnan(z) ? 0.0 : z;
+    }
+    for (std::size_t k = 0; k < moments.size(); ++k) {
+      const auto line = k < 3 ? along_x[k].of(present) : along_x[k - 3].of(height);
+      for (std::size_t column = 0; column < columns; ++column) moments[k][column * rows + row] = line[column];
+    }
+  }
+  ArealMap out = map;
+  for (std::size_t column = 0; column < columns; ++column) {
+    const auto of = [&](std::size_t x_degree, std::size_t y_degree, bool heights) {
+      const auto& all = moments[x_degree + (heights ? 3 : 0)];
+      return along_y[y_degree].of(std::span(all).subspan(column * rows, rows));
+    };
+    const auto m00 = of(0, 0, false), m10 = of(1, 0, false), m01 = of(0, 1, false), m20 = of(2, 0, false),
+               m11 = of(1, 1, false), m02 = of(0, 2, false), t00 = of(0, 0, true), t10 = of(1, 0, true),
+               t01 = of(0, 1, true);
+    for (std::size_t row = 0; row < rows; ++row) {
+      double& z = out.height_m[row * columns + column];
+      if (std::isnan(z)) continue;
+      z = plane_at_zero(m00[row], m10[row], m01[row], m20[row], m11[row], m02[row], t00[row], t10[row], t01[row]);
+    }
+  }
+  return out;
+}
+
+}  // namespace asperity
