@@ -1,4 +1,5 @@
 #include "asperity/studio/format_report.h"
+#include "asperity/base/base64.h"
 
 #include <algorithm>
 #include <string_view>
@@ -6,7 +7,6 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/web/assets.h"
-#include "base64.h"
 
 namespace asperity::studio {
 

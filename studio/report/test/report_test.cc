@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "asperity/base/base64.h"
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/json/parse_json.h"
@@ -10,7 +11,6 @@
 #include "asperity/studio/read_report_item.h"
 #include "asperity/testkit/temp_dir.h"
 #include "asperity/web/assets.h"
-#include "base64.h"
 
 namespace asperity::studio {
 namespace {

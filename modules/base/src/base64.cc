@@ -1,9 +1,9 @@
-#include "base64.h"
+#include "asperity/base/base64.h"
 
 #include <array>
 #include <cstdint>
 
-namespace asperity::studio {
+namespace asperity {
 
 namespace {
 
@@ -55,4 +55,4 @@ std::optional<std::string> bytes_of_base64(std::string_view text) {
   return out;
 }
 
-}  // namespace asperity::studio
+}  // namespace asperity
