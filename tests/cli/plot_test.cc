@@ -45,7 +45,7 @@ class Plot : public testing::Test {
 
   std::string at(const std::string& name) const { return (dir_ / name).string(); }
 
-  TempDir dir_;
+  const testkit::TempDir dir_;
 };
 
 TEST_F(Plot, DrawsAResultInEveryFormatTheSameEachTime) {

@@ -17,7 +17,8 @@ std::vector<Tick> linear_ticks(double low, double high, int most) {
   }
   std::vector<Tick> out;
   const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
-  for (double k = first; k <= last; k += 1.0) out.push_back({k * step, fmt::format("{:.6g}", k * step)});
+  for (double k = first; k <= last; k += 1.0)
+    out.push_back({k * step + 0.0, fmt::format("{:.6g}", k * step + 0.0)});  // no -0
   return out;
 }
 

@@ -75,6 +75,7 @@ TEST(Ticks, AreRoundAndInside) {
   EXPECT_EQ(ticks.front().label, "-0.1");
   EXPECT_EQ(ticks[1].label, "0");
   EXPECT_EQ(ticks.back().label, "0.4");
+  EXPECT_EQ(linear_ticks(0.0, 1.0, 5).front().label, "0");
   const auto decades = decade_ticks(0.05, 20.0, 6);
   ASSERT_EQ(decades.size(), 3U);
   EXPECT_EQ(decades.front().label, "0.1");

@@ -151,7 +151,8 @@ std::optional<FigurePanel> compliance_panel(const std::vector<DrawnResult>& resu
     const ComplianceCurve& c = *results[k].compliance;
     out.curves.push_back({legend(results, results[k], "window"), c.force_N, c.ratio, line_colour(k), true});
     const auto [least, most] = std::minmax_element(c.force_N.begin(), c.force_N.end());
-    if (!std::isfinite(c.exponent) || !(*least > 0.0)) continue;
+    if (!c.determined) out.title = results.size() > 1 ? "Compliance" : "Compliance: not determined";
+    if (!c.determined || !std::isfinite(c.exponent) || !(*least > 0.0)) continue;
     // The power of the force that has the windows' mean ratio.
     double sum = 0.0, ratio = 0.0;
     for (std::size_t i = 0; i < c.force_N.size(); ++i) {
@@ -167,7 +168,6 @@ std::optional<FigurePanel> compliance_panel(const std::vector<DrawnResult>& resu
       law.y.push_back(ratio / sum * std::pow(force_N, c.exponent));
     }
     out.curves.push_back(std::move(law));
-    if (!c.verdict.empty() && results.size() == 1 && c.verdict != "determined") out.title = "Compliance: " + c.verdict;
   }
   if (out.curves.empty()) return std::nullopt;
   return out;

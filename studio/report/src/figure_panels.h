@@ -16,7 +16,7 @@ namespace asperity::studio {
 struct ComplianceCurve {
   std::vector<double> force_N{}, ratio{};
   double exponent = 0.0;
-  std::string verdict{};
+  bool determined = false;
 };
 
 // A map and what it is of.

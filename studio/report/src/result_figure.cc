@@ -82,8 +82,8 @@ DrawnResult read_measured(const FigureSource& source) {
     ComplianceCurve curve{block_numbers(*block, "compliance_force_N"), block_numbers(*block, "compliance_ratio")};
     const Json compliance = result.value("compliance", Json::object());
     curve.exponent = number_in(compliance, "force_exponent");
-    const Json* verdict = compliance.find("verdict");
-    if (verdict != nullptr && verdict->is_string()) curve.verdict = printable(verdict->text(), 110);
+    const Json* determined = compliance.find("determined");
+    curve.determined = determined != nullptr && determined->is_boolean() && determined->get<bool>();
     if (!curve.force_N.empty() && curve.force_N.size() == curve.ratio.size()) out.compliance = std::move(curve);
   }
   return out;
