@@ -18,6 +18,7 @@ std::unique_ptr<Command> make_export(Parser& root);
 std::unique_ptr<Command> make_inspect(Parser& root);
 std::unique_ptr<Command> make_merge(Parser& root);
 std::unique_ptr<Command> make_paint(Parser& root);
+std::unique_ptr<Command> make_plot(Parser& root);
 std::unique_ptr<Command> make_process(Parser& root);
 std::unique_ptr<Command> make_realism(Parser& root);
 std::unique_ptr<Command> make_record(Parser& root);

@@ -30,10 +30,10 @@ struct Program {
     parser.add_flag("--man", manual, "Print the manual page");
     parser.add_option("--completion", completion, "Print completions for a shell")->one_of({"bash", "fish", "zsh"});
     parser.require_subcommand(0, 1);
-    for (const auto make :
-         {make_demo,   make_simulate, make_export,  make_feel,      make_import,  make_inspect,  make_merge,
-          make_paint,  make_process,  make_realism, make_record,    make_recover, make_register, make_area_command,
-          make_report, make_batch,    make_bench,   make_roughness, make_studio,  make_track,    make_check_rig}) {
+    for (const auto make : {make_demo,      make_simulate, make_export,       make_feel,     make_import,  make_inspect,
+                            make_merge,     make_paint,    make_plot,         make_process,  make_realism, make_record,
+                            make_recover,   make_register, make_area_command, make_report,   make_batch,   make_bench,
+                            make_roughness, make_studio,   make_track,        make_check_rig}) {
       commands.push_back(make(parser));
     }
     Parser& texture = parser.add_subcommand("texture", "Fit, describe, synthesize, swap and compare textures");

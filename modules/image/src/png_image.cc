@@ -246,28 +246,40 @@ std::string format_png(const GrayImage& image) {
   return write_png(bytes, header, PngEffort::kFast);
 }
 
-std::string format_rgb_png(int width, int height, std::span<const std::uint16_t> samples) {
+namespace {
+
+std::string write_png_image(int width, int height, std::size_t samples, png_uint_32 format, const void* data) {
   if (!image_size_fits(width, height) ||
-      samples.size() != 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+      samples != 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
     throw Error("image: " + std::to_string(width) + " x " + std::to_string(height) + " pixels with " +
-                std::to_string(samples.size()) + " samples cannot be written in colours");
+                std::to_string(samples) + " samples cannot be written in colours");
   }
   png_image image;
   std::memset(&image, 0, sizeof image);
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(width);
   image.height = static_cast<png_uint_32>(height);
-  image.format = PNG_FORMAT_LINEAR_RGB;
+  image.format = format;
   png_alloc_size_t size = 0;
   std::string out;
-  if (png_image_write_to_memory(&image, nullptr, &size, 0, samples.data(), 0, nullptr) != 0) {
+  if (png_image_write_to_memory(&image, nullptr, &size, 0, data, 0, nullptr) != 0) {
     out.resize(size);
-    if (png_image_write_to_memory(&image, out.data(), &size, 0, samples.data(), 0, nullptr) != 0) {
+    if (png_image_write_to_memory(&image, out.data(), &size, 0, data, 0, nullptr) != 0) {
       out.resize(size);
       return out;
     }
   }
   throw Error(std::string("image: libpng: ") + image.message);
+}
+
+}  // namespace
+
+std::string format_rgb_png(int width, int height, std::span<const std::uint16_t> samples) {
+  return write_png_image(width, height, samples.size(), PNG_FORMAT_LINEAR_RGB, samples.data());
+}
+
+std::string format_colour_png(int width, int height, std::span<const std::uint8_t> samples) {
+  return write_png_image(width, height, samples.size(), PNG_FORMAT_RGB, samples.data());
 }
 
 }  // namespace asperity

@@ -1,4 +1,5 @@
 #include "asperity/studio/format_report.h"
+#include "asperity/base/base64.h"
 
 #include <algorithm>
 #include <string_view>

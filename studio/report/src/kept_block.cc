@@ -56,4 +56,23 @@ std::optional<std::string> kept_block(const std::filesystem::path& report, const
   return std::nullopt;
 }
 
+std::vector<double> block_numbers(const std::string& block, std::string_view array) {
+  const Json head = head_of(block);
+  const Json* arrays = head.is_object() ? head.find("arrays") : nullptr;
+  if (arrays == nullptr || !arrays->is_array()) return {};
+  for (const Json& one : *arrays) {
+    if (!one.is_object()) return {};
+    const Json *name = one.find("name"), *type = one.find("type"), *shape = one.find("shape"), *at = one.find("offset");
+    if (name == nullptr || !(*name == std::string(array)) || type == nullptr || !(*type == "f64")) continue;
+    if (shape == nullptr || !shape->is_array() || shape->size() != 1 || at == nullptr || !at->is_number()) return {};
+    const double count = shape->begin()->is_number() ? shape->begin()->get<double>() : -1.0;
+    const double offset = at->get<double>();
+    if (!(count >= 0.0) || !(offset >= 0.0) || offset + 8.0 * count > static_cast<double>(block.size())) return {};
+    std::vector<double> out(static_cast<std::size_t>(count));
+    if (!out.empty()) std::memcpy(out.data(), block.data() + static_cast<std::size_t>(offset), 8 * out.size());
+    return out;
+  }
+  return {};
+}
+
 }  // namespace asperity::studio

@@ -21,6 +21,7 @@
 #include "asperity/studio/measured_metrics.h"
 #include "kept_block.h"
 #include "profile_block.h"
+#include "result_tables.h"
 #include "thinned.h"
 
 namespace asperity::studio {
@@ -29,72 +30,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uint64_t kLargestResult_bytes = 16U << 20U;
-constexpr std::uint64_t kLargestProfile_bytes = 256U << 20U;
 constexpr std::uint64_t kLargestTrajectory_bytes = 1U << 30U;
-constexpr std::size_t kDeepestResult = 32;
 constexpr std::size_t kMostPathPoints = 20'000;      // a screen has fewer pixels along a path
 constexpr std::size_t kMostProfilePoints = 400'000;  // 10 m at the usual spacing
-
-Json parse_result(std::string_view text, const std::string& name) {
-  JsonLimits limits;
-  limits.bytes = kLargestResult_bytes;
-  limits.depth = kDeepestResult;
-  Json out = parse_json(text, name, limits);
-  const Json* format = out.find("format");
-  if (format == nullptr || *format != "asperity-result") throw Error(name + ": is not a result of asperity process");
-  const Json* version = out.find("version");
-  if (version == nullptr || *version != 1) {
-    throw Error(name + ": is of version " + (version == nullptr ? "null" : shown(*version)) + "; 1 is read");
-  }
-  return out;
-}
-
-// A column that an older file does not have is nan.
-Profile parse_profile(std::string_view text, const std::string& name) {
-  CsvReader csv(text, name);
-  csv.accept_unterminated();
-  Profile out;
-  struct Column {
-    std::optional<std::size_t> place;
-    std::vector<double>& values;
-  };
-  const std::array<Column, 6> columns{{{csv.require("s_m"), out.s_m},
-                                       {csv.require("height_m"), out.height_m},
-                                       {csv.find("sigma_m"), out.sigma_m},
-                                       {csv.find("texture_m"), out.texture_m},
-                                       {csv.find("force_N"), out.force_N},
-                                       {csv.find("speed_mps"), out.speed_mps}}};
-  while (csv.next()) {
-    for (const Column& column : columns) {
-      const double value = column.place ? csv.number(*column.place) : std::numeric_limits<double>::quiet_NaN();
-      if (std::isinf(value)) csv.fail(*column.place, "is not finite");
-      column.values.push_back(value);
-    }
-  }
-  out.spacing_m = out.size() < 2 ? 0.0 : (out.s_m.back() - out.s_m.front()) / static_cast<double>(out.size() - 1);
-  if (out.size() > 1 && !(out.spacing_m > 0.0)) throw Error(name + ": s_m does not rise");
-  return out;
-}
-
-SurfaceSpectrum parse_spectrum(std::string_view text, const std::string& name) {
-  CsvReader csv(text, name);
-  csv.accept_unterminated();
-  SurfaceSpectrum out;
-  const std::size_t frequency = csv.require("cycles_per_mm"), density = csv.require("density_m2_mm"),
-                    low = csv.require("low_m2_mm"), high = csv.require("high_m2_mm");
-  while (csv.next()) {
-    out.frequency_cycles_per_mm.push_back(csv.number(frequency));
-    out.density_m2_mm.push_back(csv.number(density));
-    out.low_m2_mm.push_back(csv.number(low));
-    out.high_m2_mm.push_back(csv.number(high));
-    for (const auto& [place, value] :
-         {std::pair{frequency, out.frequency_cycles_per_mm.back()}, std::pair{density, out.density_m2_mm.back()}}) {
-      if (!std::isfinite(value)) csv.fail(place, "is not finite");
-    }
-  }
-  return out;
-}
 
 // Of results that were written before there was a file of it: as it is drawn, without intervals.
 SurfaceSpectrum spectrum_of(const Profile& profile) {

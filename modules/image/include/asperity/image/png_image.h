@@ -28,4 +28,7 @@ std::string format_png(const GrayImage& image);
 // A PNG of 16 bit red, green and blue, pixel by pixel, of linear light. Throws Error if it cannot be made.
 std::string format_rgb_png(int width, int height, std::span<const std::uint16_t> samples);
 
+// The same of 8 bit sRGB.
+std::string format_colour_png(int width, int height, std::span<const std::uint8_t> samples);
+
 }  // namespace asperity
