@@ -3,10 +3,13 @@
 // Prints a table in Markdown; docs/areas.md says what it means.
 //
 //   area_scans [--seeds N] [--lanes 10] [--pitch-mm 0.8] [--length-mm 16] [--calibration stated|exact] [--guess-mm 0.3]
+//              [--guess-sigma-mm 10]
 //              [--relief yes|no] [--positions measured|true|shifted] [--shift-mm 0] [--save FOLDER]
 //
 // `--positions true` maps the measured heights at the tips' true places, `shifted` at the measured places less each
 // stroke's mean error: what a fit of one shift a stroke could reach. `--shift-mm` is map.shift_mm.
+//
+// `--guess-sigma-mm` is refinement.guess_sigma_m, with as many degrees: how well the guess is said to be known.
 //
 // `--relief no`: the patch is as smooth as the mesh, and no area may come of it. `--save` keeps what `register` would
 // write of the first seed, for `asperity area`.
@@ -51,6 +54,7 @@ struct Options {
   double pitch_m = 0.8e-3;
   double length_m = 16e-3;
   double guess_m = 0.3e-3;
+  double guess_sigma_mm = 10.0;
   bool exact = false;
   bool relief = true;
   std::string positions = "measured";
@@ -154,7 +158,10 @@ void run_seed(const Options& options, int seed) {
       asperity::random_motion(options.guess_m, 0.3 / 180.0 * kPi, vector(config.shape.centre_m),
                               static_cast<std::uint64_t>(seed)) *
       truth;
-  const asperity::ScansOnMesh registered = asperity::register_scans(scans, mesh, guess, {});
+  asperity::RegisterConfig register_config;
+  register_config.refinement.guess_sigma_m = 1e-3 * options.guess_sigma_mm;
+  register_config.refinement.guess_sigma_deg = options.guess_sigma_mm;
+  const asperity::ScansOnMesh registered = asperity::register_scans(scans, mesh, guess, register_config);
   const std::clock_t laid = std::clock();
   if (!options.save.empty()) {
     std::filesystem::create_directories(options.save);
@@ -235,6 +242,7 @@ int main(int argc, char** argv) {
          {"--lanes", bench::whole_into(options.lanes, 2, 100)},
          {"--pitch-mm", [&](auto value) { options.pitch_m = 1e-3 * bench::number_within(value, 0.05, 20); }},
          {"--length-mm", [&](auto value) { options.length_m = 1e-3 * bench::number_within(value, 12, 40); }},
+         {"--guess-sigma-mm", [&](auto value) { options.guess_sigma_mm = bench::number_within(value, 1e-3, 1e3); }},
          {"--guess-mm", [&](auto value) { options.guess_m = 1e-3 * bench::number_within(value, 0, 100); }},
          {"--calibration", [&](auto value) { options.exact = bench::is_first(value, "exact", "stated"); }},
          {"--relief", bench::yes_into(options.relief)},

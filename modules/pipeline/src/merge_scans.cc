@@ -47,8 +47,10 @@ std::vector<std::size_t> merge_scans(const std::vector<Scan>& scans, const Regis
     if (merged.laid) {
       for (const LinePass& part : line) changed.insert(part.scan);
     }
-    judge_passes({merged.merged.noise_ratio, merged.merged.noise_ratio_low, merged.merged.noise_ratio_high},
-                 result.verdicts);
+    if (merged.one_line) {
+      judge_passes({merged.merged.noise_ratio, merged.merged.noise_ratio_low, merged.merged.noise_ratio_high},
+                   result.verdicts);
+    }
     result.lines.push_back(std::move(merged));
   }
   for (const std::size_t i : changed)

@@ -25,6 +25,11 @@ std::string pass_name(const std::string& scan, const Profile& profile, const Lin
                      1e3 * profile.s_m[part.last - 1]);
 }
 
+// The passes are over one line, as far as their differences show: no more than noise, whatever its level.
+bool is_one_line(const MergedProfile& merged) {
+  return merged.agrees && 2 * merged.used > merged.passes.size() && merged.lines_over_noise < kMostLines_over_noise;
+}
+
 // Why the merge is not the better one; empty: it is.
 std::string why_not_laid(const MergedProfile& merged) {
   if (!merged.agrees) return "they do not agree by more than chance gives";
@@ -95,6 +100,7 @@ RepeatedLine merge_line(const SharedLine& line, std::span<MeasuredProfile* const
   out.merged = merge_passes(passes, {});
   out.reason = why_not_laid(out.merged);
   out.laid = out.reason.empty();
+  out.one_line = is_one_line(out.merged);
   if (out.laid) {
     std::map<std::size_t, std::vector<PassInProfile>> by_scan;
     for (std::size_t k = 0; k < parts.size(); ++k) by_scan[parts[k].scan].push_back({k, parts[k].first});

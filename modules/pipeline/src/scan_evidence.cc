@@ -247,6 +247,7 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
   out.at_most_m = result.noise.at_most_m;
   for (const RepeatedLine& line : result.lines) {
     const MergedProfile& merged = line.merged;
+    if (!line.one_line) continue;
     if (!std::isfinite(merged.noise_ratio_low) || merged.noise_ratio_low <= out.passes.low) continue;
     out.passes = {merged.noise_ratio, merged.noise_ratio_low, merged.noise_ratio_high};
   }

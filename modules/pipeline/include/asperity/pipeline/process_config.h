@@ -17,7 +17,7 @@ namespace asperity {
 
 // The profile's settings and what is made of it: passes over one line merged, the surface under the tip.
 struct ProcessProfileConfig : ProfileConfig {
-  bool merge_passes = false;
+  bool merge_passes = true;
   TipConfig tip;
 
   template <class V>

@@ -49,6 +49,7 @@ struct RepeatedLine {
   std::vector<Span> spans;  // of each pass
   MergedProfile merged;     // its passes and their differences; without its profile
   bool laid = false;        // the merge is in the place of the passes' heights
+  bool one_line = false;    // they differ as noise does, not as lines beside one another: a witness of their noise
   std::string reason;       // why not
 };
 
