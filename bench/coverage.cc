@@ -3,7 +3,7 @@
 // Prints tables in Markdown: how many 95 % intervals hold the truth, what is trusted, error over stated sigma.
 //
 //   coverage [--scans 400] [--seed 1] [--simulator ours|second] [--families sine,…] [--probes open,what]
-//            [--jobs 2] [--calibration stated|exact] [--csv FILE]
+//            [--jobs 2] [--calibration stated|exact] [--paths drawn|curved] [--csv FILE]
 //
 // docs/coverage.md says what is drawn and how the truth's figures are had.
 
@@ -46,6 +46,7 @@ Options parse_options(int argc, char** argv) {
        {"--families", [&](auto value) { out.choice.families = bench::split_list(value); }},
        {"--probes", [&](auto value) { out.choice.probes = bench::split_list(value); }},
        {"--calibration", [&](auto value) { out.choice.exact_calibration = bench::is_first(value, "exact", "stated"); }},
+       {"--paths", [&](auto value) { out.choice.curved = bench::is_first(value, "curved", "drawn"); }},
        {"--scan", [&](auto value) { out.scan = value; }},
        {"--folder", [&](auto value) { out.folder = value; }},
        {"--csv", [&](auto value) { out.csv = value; }}});

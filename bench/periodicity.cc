@@ -1,7 +1,7 @@
 // How often random profiles are called periodic, and which patterns are found in noise: find_periodicity_under_noise()
-// over synthetic profiles of 40 to 140 mm. Prints two tables in Markdown (docs/periodicity.md).
+// over synthetic profiles of 40 to 140 mm. Prints tables in Markdown (docs/periodicity.md).
 //
-//   periodicity [--profiles 300] [--patterns 20]
+//   periodicity [--profiles 300] [--patterns 20] [--paths straight|arcs]
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,11 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <string>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "asperity/base/random.h"
 #include "asperity/profile/find_periodicity_under_noise.h"
@@ -144,17 +147,37 @@ asperity::TextureNoise white_noise(double rms_m) {
   return out;
 }
 
-asperity::Periodicity find(std::vector<double> height_m, double noise_m, Random& random) {
+asperity::Periodicity find(std::vector<double> height_m, double noise_m, Random& random,
+                           std::span<const Eigen::Vector2d> path_m = {}) {
   for (double& h : height_m) h += noise_m * random.normal();
-  return find_periodicity_under_noise(height_m, 1e-3 * kSpacing_mm, white_noise(noise_m), {});
+  return find_periodicity_under_noise(height_m, 1e-3 * kSpacing_mm, white_noise(noise_m), {}, path_m);
 }
 
-void print_false_alarms(int profiles) {
-  struct Family {
-    const char* name;
-    std::function<std::vector<double>(std::size_t, Random&)> draw;
-  };
-  const std::vector<Family> families{
+// An arc of a circle of this height over its chord.
+std::vector<Eigen::Vector2d> draw_arc(double sagitta_mm, std::size_t points) {
+  const double length_mm = kSpacing_mm * static_cast<double>(points - 1);
+  // sagitta = r (1 − cos(turn/2)), length = r turn.
+  double low = 1e-6, high = std::numbers::pi;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    ((1.0 - std::cos(0.5 * middle)) / middle * length_mm < sagitta_mm ? low : high) = middle;
+  }
+  const double radius_mm = length_mm / low;
+  std::vector<Eigen::Vector2d> out;
+  for (std::size_t i = 0; i < points; ++i) {
+    const double angle = kSpacing_mm * static_cast<double>(i) / radius_mm - 0.5 * low;
+    out.emplace_back(1e-3 * radius_mm * std::sin(angle), 1e-3 * radius_mm * std::cos(angle));
+  }
+  return out;
+}
+
+struct Family {
+  const char* name;
+  std::function<std::vector<double>(std::size_t, Random&)> draw;
+};
+
+const std::vector<Family>& random_families() {
+  static const std::vector<Family> families{
       {"white", [](auto n, Random& r) { return draw_gaussian([](double) { return 1.0; }, n, r); }},
       {"white, a band with sharp edges", [](auto n, Random& r) { return draw_band(0.0, n, r); }},
       {"the same with gaps", [](auto n, Random& r) { return with_gaps(draw_band(1e-3, n, r), r); }},
@@ -174,7 +197,14 @@ void print_false_alarms(int profiles) {
       {"300 plane waves", [](auto n, Random& r) { return draw_waves(300, n, r); }},
       {"160 plane waves", [](auto n, Random& r) { return draw_waves(160, n, r); }},
   };
-  std::printf("| random profile | profiles | periodic | %% | of these below 12 periods |\n|---|---|---|---|---|\n");
+  return families;
+}
+
+// Over straight paths, or over arcs.
+void print_false_alarms(int profiles, bool arcs) {
+  const std::vector<Family>& families = random_families();
+  std::printf("| random profile%s | profiles | periodic | %% | of these below 12 periods |\n|---|---|---|---|---|\n",
+              arcs ? ", on arcs of 2 to 12 mm" : "");
   int all = 0, all_found = 0;
   for (const Family& family : families) {
     int found = 0, few = 0;
@@ -182,11 +212,14 @@ void print_false_alarms(int profiles) {
       Random random(static_cast<std::uint64_t>(k), static_cast<std::uint64_t>(&family - families.data()));
       const double length_mm = log_uniform(random, 40.0, 140.0);
       const std::vector<double> height_m = family.draw(static_cast<std::size_t>(length_mm / kSpacing_mm), random);
-      const asperity::Periodicity p = find(height_m, 0.02 * kRq_m, random);
+      const std::vector<Eigen::Vector2d> path_m =
+          arcs ? draw_arc(random.uniform(2.0, 12.0), height_m.size()) : std::vector<Eigen::Vector2d>{};
+      const asperity::Periodicity p = find(height_m, 0.02 * kRq_m, random, path_m);
       found += p.periodic ? 1 : 0;
       few += p.periodic && length_mm < 12e3 * p.pitch_m ? 1 : 0;
     }
     std::printf("| %s | %d | %d | %.2f | %d |\n", family.name, profiles, found, 100.0 * found / profiles, few);
+    std::fflush(stdout);
     all += profiles;
     all_found += found;
   }
@@ -250,17 +283,74 @@ void print_patterns(int patterns) {
   }
 }
 
+// Straight ribs of a pitch, across which an arc of 8 mm over 80 mm goes; their normal is turned from its chord.
+void print_arcs(int patterns) {
+  constexpr double kLength_mm = 80.0, kSagitta_mm = 8.0;
+  const std::vector<double> signals{20.0, 40.0, 80.0, 160.0, 1e4};
+  std::printf("\n| pattern on an arc | ribs turned | periods | path |");
+  for (const double signal : signals) std::printf(" %g |", signal);
+  std::printf(" pitch across over its σ, RMS |\n|---|---|---|---|");
+  for (std::size_t k = 0; k < signals.size(); ++k) std::printf("---|");
+  std::printf("---|\n");
+  const auto points = static_cast<std::size_t>(kLength_mm / kSpacing_mm);
+  const std::vector<Eigen::Vector2d> path_m = draw_arc(kSagitta_mm, points);
+  for (const char* shape : {"sine", "ribs"}) {
+    for (const double turned_deg : {0.0, 20.0, 35.0}) {
+      for (const double periods : {10.0, 20.0, 40.0, 160.0}) {
+        for (const bool known : {false, true}) {
+          std::printf("| %s | %g° | %g | %s |", shape, turned_deg, periods, known ? "known" : "not known");
+          double square = 0.0, count = 0.0;
+          for (const double signal : signals) {
+            int right = 0;
+            for (int k = 0; k < patterns; ++k) {
+              Random random(static_cast<std::uint64_t>(k), 78);
+              const double pitch_mm = kLength_mm / periods * random.uniform(0.98, 1.02);
+              const double turned = turned_deg * kTwoPi / 360.0, phase = random.uniform();
+              const Eigen::Vector2d across(std::cos(turned), std::sin(turned));
+              std::vector<double> height_m;
+              for (const Eigen::Vector2d& at_m : path_m) {
+                const double u = 1e3 * across.dot(at_m) / pitch_mm + phase;
+                height_m.push_back(shape_at(shape, u - std::floor(u)));
+              }
+              height_m = scaled(std::move(height_m), kRq_m);
+              const double noise_m = kRq_m * std::sqrt(0.5 * static_cast<double>(points) / signal);
+              const asperity::Periodicity p =
+                  find(height_m, noise_m, random, known ? path_m : std::vector<Eigen::Vector2d>{});
+              const bool has_across = std::isfinite(p.across_pitch_m);
+              // Along the path the pitch is that across the ribs, over the cosines of the angles up to that of the end.
+              const double ratio = 1e3 * (has_across ? p.across_pitch_m : p.pitch_m * std::cos(turned)) / pitch_mm;
+              right += p.periodic && std::abs(ratio - 1.0) < (has_across ? 0.05 : 0.1) ? 1 : 0;
+              if (!p.periodic || !has_across || !(std::abs(ratio - 1.0) < 0.05)) continue;
+              square += std::pow((1e3 * p.across_pitch_m - pitch_mm) / (1e3 * p.across_pitch_stderr_m), 2.0);
+              count += 1.0;
+            }
+            std::printf(" %.0f |", 100.0 * right / patterns);
+          }
+          if (count > 0.0) {
+            std::printf(" %.2f |\n", std::sqrt(square / count));
+          } else {
+            std::printf(" – |\n");
+          }
+          std::fflush(stdout);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
     int profiles = 300, patterns = 20;
+    bool arcs = false;
     bench::read_options(
         argc, argv,
         {{"--profiles", [&](auto value) { profiles = static_cast<int>(bench::number_within(value, 1.0, 1e6)); }},
-         {"--patterns", [&](auto value) { patterns = static_cast<int>(bench::number_within(value, 1.0, 1e6)); }}});
-    print_false_alarms(profiles);
-    print_patterns(patterns);
+         {"--patterns", [&](auto value) { patterns = static_cast<int>(bench::number_within(value, 1.0, 1e6)); }},
+         {"--paths", [&](auto value) { arcs = bench::is_first(value, "arcs", "straight"); }}});
+    print_false_alarms(profiles, arcs);
+    arcs ? print_arcs(patterns) : print_patterns(patterns);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "periodicity: %s\n", error.what());

@@ -170,6 +170,7 @@ ScanCase simulate_own_case(std::uint64_t seed, const CaseChoice& choice) {
   config.seed = static_cast<std::int64_t>(1 + seed);
   draw_surface(config, out.family, random, out);
   draw_hand(config, random);
+  if (choice.curved) config.hand.path = asperity::HandPathShape::kCurved;
   draw_faults(config, random);
   draw_slow_errors(config, random);
   if (choice.exact_calibration) config.calibration.imperfection = 0.0;

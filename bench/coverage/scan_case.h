@@ -26,6 +26,7 @@ struct ScanCase {
 struct CaseChoice {
   std::vector<std::string> families, probes;
   bool exact_calibration = false;
+  bool curved = false;  // every path is an arc; the second simulator has straight ones alone
 };
 
 // Random scans of the product's own virtual bench. The same seed and choice give the same scan. Throws asperity::Error

@@ -59,13 +59,18 @@ Json roughness_json(const RoughnessResult& r) {
 }
 
 Json periodicity_json(const Periodicity& p) {
-  return {{"periodic", p.periodic},
-          {"pitch_m", p.pitch_m},
-          {"pitch_stderr_m", p.pitch_stderr_m},
-          {"depth_m", p.depth_m},
-          {"depth_stderr_m", p.depth_stderr_m},
-          {"strength", p.strength},
-          {"periods", p.periods}};
+  Json out{{"periodic", p.periodic},
+           {"pitch_m", p.pitch_m},
+           {"pitch_stderr_m", p.pitch_stderr_m},
+           {"depth_m", p.depth_m},
+           {"depth_stderr_m", p.depth_stderr_m},
+           {"strength", p.strength},
+           {"periods", p.periods}};
+  if (std::isfinite(p.across_pitch_m)) {
+    out["across_pitch_m"] = p.across_pitch_m;
+    out["across_pitch_stderr_m"] = p.across_pitch_stderr_m;
+  }
+  return out;
 }
 
 Json compliance_json(const Compliance& c) {

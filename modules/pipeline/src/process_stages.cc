@@ -15,6 +15,7 @@
 #include "asperity/profile/find_periodicity_under_noise.h"
 #include "asperity/profile/measure_roughness_under_noise.h"
 #include "asperity/profile/measure_surface_spectrum.h"
+#include "asperity/profile/unroll_path.h"
 #include "repeated_lines.h"
 
 namespace asperity::stage {
@@ -157,8 +158,11 @@ Outcome<RoughnessResult> measure_roughness(const ProcessConfig& config, const Pr
 Outcome<Periodicity> find_periodicity(const ProcessConfig& config, const ProcessStages& before) {
   if (!before.profile.value) return {};
   const MeasuredProfile& measured = *before.profile.value;
+  // A merged profile is of many paths and has none of its own.
+  std::vector<Eigen::Vector2d> unrolled_m;
+  if (before.base.value) unrolled_m = unroll_path(before.base.value->path, measured.profile.s_m);
   return {find_periodicity_under_noise(measured.measured_texture_m, measured.profile.spacing_m, measured.noise,
-                                       config.periodicity),
+                                       config.periodicity, unrolled_m),
           {}};
 }
 

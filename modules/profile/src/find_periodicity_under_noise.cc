@@ -4,12 +4,16 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
+#include "asperity/base/error.h"
 #include "asperity/base/nan.h"
 #include "asperity/profile/apply_wiener_filter.h"
 #include "asperity/signal/statistics.h"
+#include "bent_path.h"
 #include "draw_noise.h"
+#include "find_rib_directions.h"
 #include "follow_pattern.h"
 #include "line_search.h"
 #include "period_depths.h"
@@ -70,22 +74,22 @@ int find_multiple(const LineSearch& search, double pitch_m) {
   return 1;
 }
 
-}  // namespace
+double highest_noise(const TextureNoise& noise) {
+  return 1.0 + kSurely * 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
+}
 
-Periodicity find_periodicity_under_noise(std::span<const double> height_m, double spacing_m, const TextureNoise& noise,
-                                         const PeriodicityConfig& config) {
-  if (!(noise.added_rms_m > 0.0)) return find_periodicity(height_m, spacing_m, config);
+Periodicity find_along(std::span<const double> height_m, double spacing_m, const TextureNoise& noise,
+                       const PeriodicityConfig& config, const LineSearch::Hypotheses& hypotheses) {
   std::vector<double> psd = noise.added_psd_m2_mm;
   for (std::size_t i = 0; i < psd.size(); ++i) psd[i] += noise.misplaced_psd_m2_mm[i];
   const std::vector<double> quiet_m =
       apply_wiener_filter(height_m, spacing_m, noise.frequency_cycles_per_mm, psd, kNoiseBridge_m).texture_m;
   Periodicity out = find_repetition(quiet_m, spacing_m, config);
   if (!std::isfinite(out.pitch_m)) return out;
-  const double most = 1.0 + kSurely * 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
   // Misplaced heights blur a line; they make none where there is none.
   const double longest_m = std::min(config.max_pitch_m, spacing_m * static_cast<double>(height_m.size()) / 3.0);
-  const LineSearch search(height_m, spacing_m, noise.frequency_cycles_per_mm, noise.added_psd_m2_mm, most,
-                          config.min_pitch_m, longest_m);
+  const LineSearch search(height_m, spacing_m, noise.frequency_cycles_per_mm, noise.added_psd_m2_mm,
+                          highest_noise(noise), config.min_pitch_m, longest_m, hypotheses);
   // At its line and not by the correlation, which follows what is strongest, as the hand's tremor on a smooth pattern.
   const auto follow_line = [&](double shortest_m, double most_m) {
     const double line_m = search.find_line_m(shortest_m, most_m);
@@ -152,6 +156,40 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
   out.depth_m = depth.value;
   out.depth_stderr_m = depth.standard_error;
   return out;
+}
+
+}  // namespace
+
+Periodicity find_periodicity_under_noise(std::span<const double> height_m, double spacing_m, const TextureNoise& noise,
+                                         const PeriodicityConfig& config) {
+  return find_periodicity_under_noise(height_m, spacing_m, noise, config, {});
+}
+
+Periodicity find_periodicity_under_noise(std::span<const double> height_m, double spacing_m, const TextureNoise& noise,
+                                         const PeriodicityConfig& config, std::span<const Eigen::Vector2d> unrolled_m) {
+  if (!unrolled_m.empty() && unrolled_m.size() != height_m.size())
+    throw Error("periodicity: " + std::to_string(unrolled_m.size()) + " points of " + std::to_string(height_m.size()) +
+                " heights");
+  if (!(noise.added_rms_m > 0.0)) return find_periodicity(height_m, spacing_m, config);
+  const BentPath path(unrolled_m, spacing_m);
+  if (!path.bends()) return find_along(height_m, spacing_m, noise, config, {});
+
+  // Each of the two searches has half of the chance.
+  constexpr double kHalf = 0.5;
+  const Periodicity along = find_along(height_m, spacing_m, noise, config, {kHalf, 0.0});
+  if (along.periodic) return along;
+  const RibDirections ribs = find_rib_directions(path, height_m, spacing_m, noise, config);
+  for (const RibDirection& rib : ribs.best) {
+    Periodicity out = find_along(path.straightened(height_m, rib.tangent), spacing_m, noise, config,
+                                 {kHalf, ribs.range * path.bend_rms_m()});
+    if (!out.periodic) continue;
+    out.across_pitch_m = path.across_over_along(rib.tangent) * out.pitch_m;
+    out.across_pitch_stderr_m = out.across_pitch_m * std::hypot(out.pitch_stderr_m / out.pitch_m,
+                                                                rib.sigma * path.change_of_across(rib.tangent));
+    out.pitch_stderr_m = std::hypot(out.pitch_stderr_m, path.spread_of_period(rib.tangent) * out.pitch_m);
+    return out;
+  }
+  return along;
 }
 
 }  // namespace asperity

@@ -31,16 +31,16 @@ constexpr std::size_t kFewestOfOneSide = 4;    // of one side
 // density that scatters as a gamma variable: (1 + v ratio)^(-1/v), v the variance of the estimate's logarithm.
 double rarity_of(double ratio, double variance) { return std::log1p(variance * ratio) / variance; }
 
-// Of the highest ordinate of a continuous range of frequencies (Davies 1987).
-bool is_rare(double rarity, double trials) {
-  return rarity > std::log(trials / kLineByChance) + 0.5 * std::log(std::max(1.0, rarity));
-}
-
 }  // namespace
 
 LineSearch::LineSearch(std::span<const double> height_m, double spacing_m, std::span<const double> frequency,
-                       std::span<const double> noise_psd_m2_mm, double most_noise, double shortest_m, double longest_m)
-    : x_m_(height_m.size(), 0.0), present_(height_m.size(), false), spacing_m_(spacing_m) {
+                       std::span<const double> noise_psd_m2_mm, double most_noise, double shortest_m, double longest_m,
+                       const Hypotheses& hypotheses)
+    : x_m_(height_m.size(), 0.0),
+      present_(height_m.size(), false),
+      spacing_m_(spacing_m),
+      hypotheses_(hypotheses),
+      cycles_by_range_(0.5 * hypotheses.bend_by_range_m * (1.0 / shortest_m + 1.0 / longest_m)) {
   std::vector<double> x(kLinePadding * height_m.size(), 0.0);
   double sum = 0.0;
   for (const double h : height_m) {
@@ -66,6 +66,16 @@ LineSearch::LineSearch(std::span<const double> height_m, double spacing_m, std::
     noise_.push_back(most_noise * expected);
     if (power_.size() > 1) surface_ += (power_.back() - expected) / static_cast<double>(kLinePadding);
   }
+}
+
+// Of the highest ordinate of a continuous range of frequencies (Davies 1987), over a continuous range of directions
+// too: the highest of a random field of exp(-q) exceeds q with N √q (1 + √(4π q) c) exp(-q), c the range of directions
+// times the RMS phase in cycles that a unit of it adds (Adler and Taylor, Random Fields and Geometry, 15.10: the
+// Euler characteristic of a χ² field of two degrees of freedom in one and two dimensions).
+bool LineSearch::is_rare(double rarity, double trials) const {
+  const double directions = 1.0 + std::sqrt(4.0 * std::numbers::pi * std::max(1.0, rarity)) * cycles_by_range_;
+  return rarity >
+         std::log(trials * directions / (hypotheses_.share * kLineByChance)) + 0.5 * std::log(std::max(1.0, rarity));
 }
 
 double LineSearch::power_at(std::span<const double> heights_m, double cycles) const {

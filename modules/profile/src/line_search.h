@@ -11,10 +11,22 @@ namespace asperity {
 // the test, its false-alarm rate and its limits.
 class LineSearch {
  public:
+  // A search among others. It has `share` of the 1 % by which all of them may err. Over directions of ribs, which a
+  // path of a bend of b (RMS about its straight line) crosses at the tangents t of a range, ordinates are a random
+  // field of two dimensions; `bend_by_range_m` is b times that range, 0 for one direction.
+  struct Hypotheses {
+    double share = 1.0;
+    double bend_by_range_m = 0.0;
+  };
+
   // Heights in m, nan in gaps; the density of the noise in m²/(cycles/mm) at rising frequencies in cycles/mm, empty for
   // none; it may be `most_noise` times as much. Waves of `shortest_m` to `longest_m` are looked for.
   LineSearch(std::span<const double> height_m, double spacing_m, std::span<const double> frequency,
-             std::span<const double> noise_psd_m2_mm, double most_noise, double shortest_m, double longest_m);
+             std::span<const double> noise_psd_m2_mm, double most_noise, double shortest_m, double longest_m,
+             const Hypotheses& hypotheses);
+  LineSearch(std::span<const double> height_m, double spacing_m, std::span<const double> frequency,
+             std::span<const double> noise_psd_m2_mm, double most_noise, double shortest_m, double longest_m)
+      : LineSearch(height_m, spacing_m, frequency, noise_psd_m2_mm, most_noise, shortest_m, longest_m, {}) {}
 
   // Whether one of the first eight harmonics of a pattern, known to 2 %, is a line: one that a random surface has
   // anywhere in the search with a probability of 1 %, and that holds at least 1/32 of the surface's power (an amplitude
@@ -42,6 +54,7 @@ class LineSearch {
   };
 
   Reach reach_of(double pitch_m, int harmonic) const;
+  bool is_rare(double rarity, double trials) const;
   bool is_line(std::size_t bin) const;
   bool is_local_line(std::size_t bin, double near_trials) const;
   double power_at(std::span<const double> heights_m, double cycles) const;
@@ -59,7 +72,9 @@ class LineSearch {
   std::size_t searched_bins_ = 0;  // bins up to the shortest wave's
   std::vector<double> power_;      // periodogram, m²/(cycles/mm)
   std::vector<double> noise_;      // the most at the same bins
-  double surface_ = 0.0;           // the periodogram less the noise, summed over independent frequencies
+  Hypotheses hypotheses_;
+  double cycles_by_range_ = 0.0;  // bend_by_range in waves of the middle of the search
+  double surface_ = 0.0;          // the periodogram less the noise, summed over independent frequencies
 };
 
 }  // namespace asperity

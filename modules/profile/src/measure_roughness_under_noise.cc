@@ -1,5 +1,6 @@
 #include "asperity/profile/measure_roughness_under_noise.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include "asperity/base/nan.h"
 #include "follow_noise.h"
 #include "root_of_power.h"
+#include "shape_without_noise.h"
 
 namespace asperity {
 
@@ -93,6 +95,14 @@ RoughnessResult measure_roughness_under_noise(std::span<const double> height_m, 
 
   const bool stands_out = noise.measured_snr_low >= kLeastSnr && noise.snr >= kLeastSnr;
   const double contact = noise.contact_rms_m / std::numbers::sqrt3 / measured.Rq_m;
+  Random random(kNoiseSeed, 2);
+  const double noise_m2 = noise.added_rms_m * noise.added_rms_m;
+  const auto draw = [&] {
+    return draw_shaped_noise(noise, noise.added_psd_m2_mm, noise.added_sigma_m, height_m.size(), spacing_m, random);
+  };
+  const Shape shape =
+      shape_without_noise(height_m, measured.Rq_m * measured.Rq_m, measured.Rsk, measured.Rku,
+                          {noise_m2, relative * noise_m2, noise.added_sigma_m, draw}, noise_draws(height_m.size()));
   for (std::size_t p = 0; p < kParameters; ++p) {
     const RoughnessParameter& parameter = kRoughnessParameters[p];
     double& value = out.*parameter.value;
@@ -107,6 +117,15 @@ RoughnessResult measure_roughness_under_noise(std::span<const double> height_m, 
     const double doubt = 0.5 * (hangs_on_extremes(parameter) ? parabola - none : parabola - line);
     const double known = relative * (parabola - none);
     const double spread = followed.once[p].deviation();
+    if (const ShapeParameter* without = parameter.value == &RoughnessParameters::Rsk   ? &shape.skewness
+                                        : parameter.value == &RoughnessParameters::Rku ? &shape.kurtosis
+                                                                                       : nullptr) {
+      // What misplaced heights do is measured beside the noise's power too.
+      const double share = 1.0 - noise.added_rms_m * noise.added_rms_m / (measured.Rq_m * measured.Rq_m);
+      value = without->value;
+      error = std::isfinite(value) ? std::hypot(without->standard_error, place[p] / share) : kNan;
+      continue;
+    }
     if (!is_height) {
       value = stands_out ? parabola : kNan;
       const double scale = parameter.is_length ? noise.along_sigma * value : 0.0;

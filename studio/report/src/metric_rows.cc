@@ -81,6 +81,10 @@ constexpr std::string_view kPeriodic = "periodicity.periodic";
 constexpr MetricRow kPattern[] = {
     yes_no(kPeriodic, "Periodic"),
     only_if(with_error(mm("periodicity.pitch_m", "Pitch"), "periodicity.pitch_stderr_m"), kPeriodic),
+    only_if(hinted(with_error(mm("periodicity.across_pitch_m", "Pitch across the ribs"),
+                              "periodicity.across_pitch_stderr_m"),
+                   "of straight ribs that a bent path crosses at changing angles"),
+            kPeriodic),
     only_if(with_error(um("periodicity.depth_m", "Depth"), "periodicity.depth_stderr_m"), kPeriodic),
     only_if(count_row("periodicity.periods", "Whole periods"), kPeriodic),
     only_if(

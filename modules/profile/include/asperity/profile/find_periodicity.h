@@ -29,6 +29,9 @@ struct Periodicity {
   double depth_stderr_m = std::numeric_limits<double>::quiet_NaN();
   double strength = 0.0;    // autocorrelation at one pitch, in [-1, 1]
   std::size_t periods = 0;  // whole ones that entered the depth
+  // Across the ribs and not along the path; nan unless the path's bend was needed to find them (docs/periodicity.md).
+  double across_pitch_m = std::numeric_limits<double>::quiet_NaN();
+  double across_pitch_stderr_m = std::numeric_limits<double>::quiet_NaN();
 };
 
 // The dominant spatial period of a uniform profile (m, nan in gaps) and the depth of its pattern. The period is

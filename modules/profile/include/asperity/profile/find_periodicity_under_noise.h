@@ -2,6 +2,8 @@
 
 #include <span>
 
+#include <Eigen/Core>
+
 #include "asperity/profile/find_periodicity.h"
 #include "asperity/profile/texture_noise.h"
 
@@ -20,5 +22,14 @@ namespace asperity {
 // over unlike periods.
 Periodicity find_periodicity_under_noise(std::span<const double> height_m, double spacing_m, const TextureNoise& noise,
                                          const PeriodicityConfig& config);
+
+// The same where the points of the profile are known in a plane (unroll_path.h; m, one for each height, or none).
+// Straight ribs that a bent path crosses at a changing angle have periods that change along it. Where the bend is more
+// than 1/50 of the length and no pattern is found along the path, the heights are searched along the normal of ribs in
+// each direction up to 45° off the chord, at the same false-alarm rate for all directions together. The pitch is then
+// the mean along the path, with the spread of the local period in its error, and `across_pitch_m` that across the ribs.
+// Throws Error if there are points and not one for each height.
+Periodicity find_periodicity_under_noise(std::span<const double> height_m, double spacing_m, const TextureNoise& noise,
+                                         const PeriodicityConfig& config, std::span<const Eigen::Vector2d> unrolled_m);
 
 }  // namespace asperity

@@ -15,8 +15,9 @@ namespace asperity {
 // gives its value at λ = −1 (simulation and extrapolation: Cook and Stefanski, J. Am. Stat. Assoc. 89, 1994). Lengths
 // are followed by their squares, which grow evenly with the power; Rq² is less by exactly the noise's power. Value and
 // standard error of a height are those of a length ≥ 0 whose square was measured so, also where that is small or
-// negative. Rsk, Rku and RSm are not determined, nan, where the texture hardly stands out of its noise
-// (`noise.measured_snr_low` or `noise.snr` below 1).
+// negative. Rsk and Rku are divided by powers of the surface's share of the mean square, as cumulants add
+// (shape_without_noise.h), and are nan where that share is not above 0 by two of its standard errors. RSm is not
+// determined, nan, where the texture hardly stands out of its noise (`noise.measured_snr_low` or `noise.snr` below 1).
 //
 // The standard error is of the measurement of this stretch, not of the surface's other places. In it are the spread of
 // the draws, half of what parabola and straight line differ by (half of the
