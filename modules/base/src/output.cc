@@ -88,6 +88,25 @@ constexpr std::size_t kMostNamed = 3;
 std::vector<fs::path> in_place;
 std::size_t in_place_count = 0;
 
+// A note of what is about to be put in place. Its memory is taken before: afterwards none may be left, and what is there
+// must be told all the same.
+class OutputNote {
+ public:
+  explicit OutputNote(fs::path path) : path_(std::move(path)) {
+    const std::lock_guard lock(unfinished_mutex);
+    in_place.reserve(kMostNamed);
+  }
+  void make() noexcept {
+    const std::lock_guard lock(unfinished_mutex);
+    if (std::find(in_place.begin(), in_place.end(), path_) != in_place.end()) return;
+    if (in_place.size() < kMostNamed) in_place.push_back(std::move(path_));
+    ++in_place_count;
+  }
+
+ private:
+  fs::path path_;
+};
+
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
 // All files and folders below `folder`, by their relative paths.
@@ -146,12 +165,13 @@ void OutputFile::commit() {
   // Forcing a file of a whole folder to disk would protect nothing before the folder is renamed, and waits
   // for whatever else the machine is writing.
   const bool alone = !is_in_unfinished_folder(target_);
+  OutputNote note(target_);
   if ((alone && ::fsync(file_) != 0) || ::rename(temporary_.c_str(), target_.c_str()) != 0) {
     throw Error(target_.string() + ": cannot be written: " + reason());
   }
   close();
   if (!alone) return;
-  note_output(target_);
+  note.make();
   if (const int error = try_sync(folder_of(target_)); error != 0)
     throw Error(target_.string() + ": is written, but cannot be forced to the disk: " + std::strerror(error));
 }
@@ -189,6 +209,7 @@ OutputFolder::~OutputFolder() {
 std::vector<fs::path> OutputFolder::commit() {
   std::error_code ignored;
   std::vector<fs::path> kept;
+  OutputNote note(target_);
   // What gets the name must be whole on the disk before, or a power cut leaves the name with half of it.
   for (const fs::path& name : names_in(temporary_)) sync(temporary_ / name, target_);
   sync(temporary_, target_);
@@ -205,7 +226,7 @@ std::vector<fs::path> OutputFolder::commit() {
     }
     mark_finished(temporary_);
     temporary_.clear();
-    note_output(target_);
+    note.make();
     sync_name("; what it replaced is kept in " + old.string());
     kept = keep_strangers(old);
     fs::remove_all(old, ignored);
@@ -214,7 +235,7 @@ std::vector<fs::path> OutputFolder::commit() {
   } else {
     mark_finished(temporary_);
     temporary_.clear();
-    note_output(target_);
+    note.make();
     sync_name();
   }
   return kept;
@@ -252,12 +273,7 @@ std::vector<fs::path> OutputFolder::keep_strangers(const fs::path& old) const {
   return kept;
 }
 
-void note_output(const fs::path& path) {
-  const std::lock_guard lock(unfinished_mutex);
-  if (std::find(in_place.begin(), in_place.end(), path) != in_place.end()) return;
-  if (in_place.size() < kMostNamed) in_place.push_back(path);
-  ++in_place_count;
-}
+void note_output(const fs::path& path) { OutputNote(path).make(); }
 
 std::string outputs_in_place() {
   const std::lock_guard lock(unfinished_mutex);
