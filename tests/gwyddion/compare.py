@@ -64,6 +64,10 @@ def check_written(program, folder, name, columns, rows, heights):
     with open(source, "wb") as file:
         file.write(gsf(columns, rows, 1e-6, 2e-6, heights))
     for to, ending in (("x3p", "x3p"), ("sdf", "sdf"), ("sdf-binary", "sdf"), ("gsf", "gsf")):
+        if to == "sdf" and any(map(math.isnan, heights)):
+            continue  # Gwyddion 2.62 ends with an error at the BAD of SDF's text
+        if to == "x3p" and rows == 1:
+            continue  # Gwyddion makes a graph of it, which has no map
         target = os.path.join(folder, f"{name}-{to}")
         run(program, "export", source, "--to", to, "-o", target, "--quiet")
         got, reason = by_gwyddion(os.path.join(target, f"{name}.{ending}"))

@@ -76,7 +76,7 @@ std::string format_sdf(const ArealMap& map, SdfForm form) {
   out += '\7';  // doubles
   out += '\0';  // no check sum
   out.reserve(out.size() + 8 * map.height_m.size());
-  for (const double z : map.height_m) append_little_endian(out, std::isnan(z) ? std::numeric_limits<double>::max() : z);
+  for (const double z : map.height_m) append_little_endian(out, std::isnan(z) ? kNan : z);
   return out;
 }
 

@@ -16,7 +16,7 @@ std::string format_gsf(const ArealMap& map);
 
 enum class SdfForm { kText, kBinary };
 
-// ISO 25178-71: aISO-1.0, numbers as text, BAD where missing; or bISO-1.0, doubles, the largest one where missing. Both
+// ISO 25178-71: aISO-1.0, numbers as text, BAD where missing; or bISO-1.0, doubles, nan where missing. Both
 // in metres (Zscale 1) with all of their digits. The binary form has at most 65,535 points a row and rows: Error
 // beyond.
 std::string format_sdf(const ArealMap& map, SdfForm form);
