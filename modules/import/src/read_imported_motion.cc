@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include "asperity/base/error.h"
@@ -291,6 +292,27 @@ std::string guess_euler_order(const ImportTables& tables, const MappingConfig& c
   return best;
 }
 
+// One sensor's three columns have one unit: the checks see its size in all, and would miss a single axis.
+void check_units_of_sensors(const ImportTables& tables, std::vector<ImportDoubt>& doubts) {
+  const std::array<std::pair<ColumnGroup, FileRole>, 3> sensors{{{ColumnGroup::kPosition, FileRole::kPose},
+                                                                 {ColumnGroup::kAcceleration, FileRole::kImu},
+                                                                 {ColumnGroup::kRate, FileRole::kImu}}};
+  for (const auto& [group, role] : sensors) {
+    const ImportTable& table = role == FileRole::kPose                      ? *tables.pose
+                               : group == ColumnGroup::kRate && tables.gyro ? *tables.gyro
+                                                                            : *tables.imu;
+    std::vector<std::string> units;
+    for (const MappedColumn& column : table.map) {
+      if (group_of(column.meaning) != group) continue;
+      if (std::find(units.begin(), units.end(), column.unit) == units.end()) units.push_back(column.unit);
+    }
+    if (units.size() < 2) continue;
+    std::string names;
+    for (const std::string& unit : units) names += (names.empty() ? "" : " and ") + unit;
+    doubts.push_back({group, role, "the axes of one sensor are read in different units, " + names, {}, {}});
+  }
+}
+
 }  // namespace
 
 ImportedMotion read_imported_motion(ImportTables& tables, const MappingConfig& config) {
@@ -302,6 +324,7 @@ ImportedMotion read_imported_motion(ImportTables& tables, const MappingConfig& c
   for (int i = 0; i < kMostExchanges && exchange_guessed_unit(out.checks.doubts, tables); ++i) {
     out = read_motion_once(tables, config);
   }
+  check_units_of_sensors(tables, out.checks.doubts);
   return out;
 }
 

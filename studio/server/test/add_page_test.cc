@@ -259,6 +259,10 @@ TEST_F(ImportPageTest, WritesTheRecordingAndRefusesAWrongUnitWithItsName) {
   ASSERT_EQ(look.error, "");
   ASSERT_GE(look.result["doubts"].size(), 1U);
   EXPECT_THAT(look.result["doubts"][0].get<std::string>(), HasSubstr("m/s2"));
+  // One axis alone, which the size of gravity hardly shows.
+  const Json one_axis =
+      arguments(Json{{"mapping.imu.columns", "ax=#2[m/s2], ay=#3[g], az=#4[g], g=#5-#7[deg/s], t=#1[ms]"}});
+  EXPECT_THAT(call("import.look", one_axis).result["doubts"][0].get<std::string>(), HasSubstr("different units"));
   wrong["name"] = "wrong";
   EXPECT_NE(call("import.write", wrong).error, "");
   EXPECT_FALSE(fs::exists(folder / "wrong"));
