@@ -64,9 +64,9 @@ double metric_of(const TrajectoryResult& trajectory, const char* name) {
 }
 
 // Two estimates of the tracker's scale: of the smoother's innovations, which are of all frequencies and know the noise
-// that the smoother has learnt, and of windows of a second. Where they contradict one another, what is fast is not as
-// the smoother's model has it (a marker that shakes, a filter in one of the sensors), and the second counts, which
-// assumes less.
+// that the smoother has learnt, and of windows of a second, which assume less of what is fast (a marker that shakes, a
+// filter in one of the sensors) and more of what is slow. A scale that is wrong is wrong in both; an error of one's
+// model is in that one alone. Where they contradict one another, the one that is nearer to 1 in its own errors counts.
 void prefer_windows(const SpecificForceComparison& force, ScanEvidence& out) {
   constexpr double kContradicts_sigmas = 3.3;  // one in a thousand
   // Its windows take the latency as it was estimated; of a real hand 5 ms of it are 0.3 to 0.4 % of the scale.
@@ -74,6 +74,9 @@ void prefer_windows(const SpecificForceComparison& force, ScanEvidence& out) {
   const double window_sigma = std::hypot(force.tracker_scale_error_sigma, kOfLatency);
   const double apart = std::abs(out.tracker_scale_error - force.tracker_scale_error);
   if (!(apart > kContradicts_sigmas * std::hypot(out.tracker_scale_error_sigma, window_sigma))) return;
+  const bool is_nearer = std::abs(force.tracker_scale_error) * out.tracker_scale_error_sigma <
+                         std::abs(out.tracker_scale_error) * window_sigma;
+  if (!is_nearer) return;
   out.tracker_scale_error = force.tracker_scale_error;
   out.tracker_scale_error_sigma = window_sigma;
   if (std::isfinite(force.tracker_axes_chi2)) out.tracker_axes_chi2 = force.tracker_axes_chi2;
