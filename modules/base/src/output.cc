@@ -88,8 +88,8 @@ constexpr std::size_t kMostNamed = 3;
 std::vector<fs::path> in_place;
 std::size_t in_place_count = 0;
 
-// A note of what is about to be put in place. Its memory is taken before: afterwards none may be left, and what is there
-// must be told all the same.
+// A note of what is about to be put in place. Its memory is taken before: afterwards none may be left, and what is
+// there must be told all the same.
 class OutputNote {
  public:
   explicit OutputNote(fs::path path) : path_(std::move(path)) {

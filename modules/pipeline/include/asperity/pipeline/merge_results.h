@@ -45,9 +45,9 @@ MergeStroke read_stroke(const std::filesystem::path& folder, const std::string& 
 
 // Strokes over one line as one (merge_passes.h): `passes` say where each is, and profile, noise, roughness, pattern,
 // spectrum and texture are those of their mean, its noise removed if `process.profile.remove_noise` is on. Verdicts:
-// invalid if no two agree, if two differ by so little that they are no two measurements, if a stroke of it is, or if its
-// noise is not known; limited if some were left out, if they differ by more than they state, or share too little for
-// that to be determined. Throws Error as merge_passes() and check_independent() do.
+// invalid if no two agree, if two differ by so little that they are no two measurements, if a stroke of it is, or if
+// its noise is not known; limited if some were left out, if they differ by more than they state, or share too little
+// for that to be determined. Throws Error as merge_passes() and check_independent() do.
 ProcessResult merge_results(std::span<const MergeStroke> strokes, const std::string& object, const MergeConfig& config);
 
 // result.json of a merge, and all of its files: profile.csv, spectrum.csv, texture.json if there is one, result.json.

@@ -60,9 +60,10 @@ struct MergedProfile {
 //
 // The reference is the pass with which the most others agree (align_passes.h); `false_alarm` is the chance that any two
 // of them do though none are of one line, so each pair has its part of it. The others are laid on it, then each on the
-// mean of the others, as warp_pass.h does; a pass whose places run away is left out. The merge's path is the mean of the passes' paths. In each of a row of
-// bands the mean is weighted by the inverse of each pass' noise there, which is the stated one, or, where a pass
-// differs from the others by more, that; and by its noise at the place. Gaps have no weight.
+// mean of the others, as warp_pass.h does; a pass whose places run away is left out. The merge's path is the mean of
+// the passes' paths. In each of a row of bands the mean is weighted by the inverse of each pass' noise there, which is
+// the stated one, or, where a pass differs from the others by more, that; and by its noise at the place. Gaps have no
+// weight.
 //
 // Throws Error for fewer than two passes or as align_passes() does.
 MergedProfile merge_passes(std::span<const ProfilePass> passes, const AlignPassesConfig& config);

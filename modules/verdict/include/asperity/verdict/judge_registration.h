@@ -17,8 +17,8 @@ struct PoseEvidence {
   double rival_distance_m = 0.0;
   double rival_rotation_rad = 0.0;
 
-  // nan: not known. Of the distances from the mesh and the guess nothing is concluded then; a pose whose errors, or whose
-  // difference from the mesh's shape, are not known is refused.
+  // nan: not known. Of the distances from the mesh and the guess nothing is concluded then; a pose whose errors, or
+  // whose difference from the mesh's shape, are not known is refused.
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   double slow_m = kUnknown;       // RMS distance from the mesh over centimetres of path
   double explained_m = kUnknown;  // of it, by all known errors of path and mesh and by the relief, RMS
