@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "asperity/base/base64.h"
+#include "asperity/base/html_text.h"
 #include "asperity/image/png_image.h"
 #include "asperity/plot/format_drawing.h"
 
@@ -19,27 +20,13 @@ std::string opacity(const Colour& c, const char* of) {
   return c.opacity < 1.0 ? fmt::format(" {}-opacity=\"{:g}\"", of, c.opacity) : std::string();
 }
 
+// XML has no control characters.
 std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
+  std::string out(text);
+  for (char& c : out) {
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
   }
-  return out;
+  return html_text(out);
 }
 
 struct SvgWriter {
