@@ -224,7 +224,7 @@ class ProcessCommand : public Command {
     observer.update("reading", 0.0);
     reads(path);
     const Recording recording = read_recording(path, {}, observer);
-    source_ = {name, recording_checksum(path)};
+    source_ = source_of(path, recording, name);
     const std::vector<Segment> pieces = chosen_segments(path, recording);
     alone_ = recordings_.size() == 1 && pieces.size() < 2;
     if (pieces.empty()) {

@@ -9,6 +9,8 @@
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/json/config_json.h"
+#include "asperity/recording/fingerprint.h"
+#include "asperity/recording/read_recording.h"
 #include "asperity/session/our_folder.h"
 #include "asperity/session/register_input.h"
 #include "asperity/session/rendered_input.h"
@@ -67,19 +69,23 @@ class RealismCommand : public Command {
     reads(rendered_);
     const RenderedInput input = read_rendered(rendered_, observer);
     reads(stroke_);
-    const StrokeSource own{last_part(stroke_), recording_checksum(stroke_)};
+    const Recording held = read_recording(stroke_, {}, observer);
+    const StrokeSource own = source_of(stroke_, held, last_part(stroke_));
     const bool is_own = is_among(input.sources, own);
     if (is_own && !allow_own_) {
-      throw Error("--stroke " + printable(stroke_, 200) + ": " + printable(rendered_, 200) +
-                  " was made from this recording; hold one back, or see what it is worth with --allow-own");
+      throw Error(
+          "--stroke " + printable(stroke_, 200) + ": " + printable(rendered_, 200) +
+          " was made from this recording or a part of it; hold one back, or see what it is worth with --allow-own");
     }
-    const RealStroke stroke = read_real_stroke(stroke_, input, settings_.process, observer);
+    const RealStroke stroke = measure_real_stroke(stroke_, held, input, settings_.process, observer);
     std::vector<RealStroke> others;
+    std::vector<NamedFingerprint> measured{{stroke_, own.fingerprint}};
     for (const std::string& other : others_) {
       reads(other);
-      if (recording_checksum(other) == own.checksum)
-        throw Error("--with " + printable(other, 200) + ": the held-back recording itself");
-      others.push_back(read_real_stroke(other, input, settings_.process, observer));
+      const Recording recording = read_recording(other, {}, observer);
+      measured.push_back({other, fingerprint_of(recording)});
+      check_independent(measured);
+      others.push_back(measure_real_stroke(other, recording, input, settings_.process, observer));
     }
     reads(rendered_);
     RenderedRelief relief = relief_under(input, stroke, settings_.render);

@@ -21,6 +21,7 @@
 #include "asperity/profile/read_heights.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/session/our_file.h"
+#include "asperity/session/rendered_input.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/texture_file.h"
 #include "asperity/texture/texture_fit.h"
@@ -220,6 +221,11 @@ class TextureFitCommand : public Command {
       sources += (sources.empty() ? "" : ", ") + std::filesystem::path(file).filename().string();
     constexpr std::size_t kLongest_bytes = 4000;
     texture.source = {printable(sources, kLongest_bytes), config_json(fields()), kVersion};
+    std::vector<StrokeSource> made_from;
+    for (const auto& file : files_) {
+      for (StrokeSource& source : sources_of_input(file)) made_from.push_back(std::move(source));
+    }
+    if (!made_from.empty()) note_sources(texture, made_from);
     Json problems = Json::array();
     for (const auto& problem : fitted.problems)
       problems.push_back({{"kind", problem.kind}, {"message", problem.message}, {"count", problem.count}});

@@ -23,6 +23,20 @@ void simulate_stroke(const fs::path& folder, int seed) {
   ASSERT_EQ(outcome.code, 0) << outcome.err;
 }
 
+// The second half of a recording's rows, without the checksums of the whole.
+void write_half(const fs::path& from, const fs::path& to) {
+  fs::create_directories(to);
+  for (const char* name : {"recording.json", "calibration.json"}) fs::copy_file(from / name, to / name);
+  for (const char* name : {"probe.csv", "tracker.csv"}) {
+    std::ifstream in(from / name);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+    std::ofstream out(to / name);
+    out << lines.front() << "\n";
+    for (std::size_t i = lines.size() / 2; i < lines.size(); ++i) out << lines[i] << "\n";
+  }
+}
+
 TEST(Realism, AHeldBackStrokeIsComparedAndAnOwnOneRefused) {
   const testkit::TempDir dir;
   for (const int seed : {1, 2, 3}) simulate_stroke(dir / ("s" + std::to_string(seed)), seed);
@@ -55,8 +69,19 @@ TEST(Realism, AHeldBackStrokeIsComparedAndAnOwnOneRefused) {
   for (const char* own : {"s1", "renamed"}) {
     const Outcome refused = realism({path("made"), "--stroke", path(own)});
     EXPECT_EQ(refused.code, 1) << own;
-    EXPECT_THAT(refused.err, HasSubstr("was made from this recording")) << own;
+    EXPECT_THAT(refused.err, HasSubstr("was made from this recording or a part of it")) << own;
   }
+  // Nor its second half.
+  ASSERT_EQ(run({"process", path("s1"), "-o", path("single")}).code, 0);
+  write_half(dir / "s1", dir / "half");
+  const Outcome half = realism({path("single"), "--stroke", path("half")});
+  EXPECT_EQ(half.code, 1);
+  EXPECT_THAT(half.err, HasSubstr("was made from this recording or a part of it"));
+  // Nor a texture that was fitted to its heights.
+  ASSERT_EQ(run({"texture", "fit", path("single") + "/profile.csv", "-o", path("fitted.texture.json")}).code, 0);
+  const Outcome fitted = realism({path("fitted.texture.json"), "--stroke", path("s1")});
+  EXPECT_EQ(fitted.code, 1);
+  EXPECT_THAT(fitted.err, HasSubstr("was made from this recording or a part of it"));
   const Outcome allowed = realism({path("made"), "--stroke", path("s1"), "--allow-own", "--json"});
   ASSERT_EQ(allowed.code, 0) << allowed.err;
   EXPECT_TRUE(nlohmann::json::parse(allowed.out)["self_test"].get<bool>());
@@ -69,7 +94,7 @@ TEST(Realism, AHeldBackStrokeIsComparedAndAnOwnOneRefused) {
   EXPECT_GT(nlohmann::json::parse(with.out)["ceiling"].get<double>(), 0.6);
   const Outcome itself = realism({path("one"), "--stroke", path("s3"), "--with", path("s3")});
   EXPECT_EQ(itself.code, 1);
-  EXPECT_THAT(itself.err, HasSubstr("held-back recording itself"));
+  EXPECT_THAT(itself.err, HasSubstr("one measurement and not two"));
 
   // A spring of 1 N/mm, the renderer's usual one, is not this surface's.
   const Outcome soft = run({"realism", path("made"), "--stroke", path("s3"), "--json"});

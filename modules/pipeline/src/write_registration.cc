@@ -12,6 +12,7 @@
 #include "asperity/json/config_json.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/pipeline/write_result.h"
+#include "asperity/recording/fingerprint.h"
 #include "asperity/scene/scan_materials.h"
 #include "scan_names.h"
 
@@ -44,6 +45,7 @@ std::vector<SceneTexture> textures_of(const ScansOnMesh& result, const std::vect
     const std::string& name = result.scans[i].name;
     origin.name = is_utf8(name) ? name : printable(name, 1000);
     if (i < scans.size()) origin.checksum = scans[i].checksum;
+    origin.fingerprint = fingerprint_json(result.scans[i].fingerprint);
     origin.T_mesh_world = result.registration_of(result.scans[i]).T_mesh_world;
     origin.placement = places[i].placement;
     origin.date = date;

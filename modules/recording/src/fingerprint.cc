@@ -166,6 +166,12 @@ double shared_share(const SampleSketch& a, const SampleSketch& b) {
   return static_cast<double>(common) / static_cast<double>(known);
 }
 
+double shared_share(const Fingerprint& a, const Fingerprint& b) {
+  return std::max({shared_share(a.probe, b.probe), shared_share(a.poses, b.poses), shared_share(a.points, b.points)});
+}
+
+bool is_same_measurement(const Fingerprint& a, const Fingerprint& b) { return shared_share(a, b) > kSharedShare; }
+
 void check_independent(std::span<const NamedFingerprint> scans) {
   constexpr std::size_t kName = 200;
   for (std::size_t k = 1; k < scans.size(); ++k) {

@@ -15,8 +15,9 @@ namespace {
 
 constexpr std::size_t kMostPicks = 100'000;
 constexpr double kFarthestPick_m = 1e6;
-constexpr std::array<std::string_view, 9> kOriginKeys{"kind",           "name", "checksum", "T_mesh_world", "placement",
-                                                      "strokes_mesh_m", "date", "asperity", "settings"};
+constexpr std::array<std::string_view, 10> kOriginKeys{"kind",         "name",      "checksum",       "fingerprint",
+                                                       "T_mesh_world", "placement", "strokes_mesh_m", "date",
+                                                       "asperity",     "settings"};
 
 }  // namespace
 
@@ -26,6 +27,7 @@ TextureOrigin parse_texture_origin(const JsonItem& item) {
   in.read_text("kind", out.kind);
   in.read_text("name", out.name);
   in.read_text("checksum", out.checksum);
+  if (const auto fingerprint = in.optional_object("fingerprint")) out.fingerprint = fingerprint->item().json();
   if (const auto pose = in.optional("T_mesh_world")) out.T_mesh_world = parse_pose(*pose);
   if (const auto placement = in.optional("placement"))
     out.placement = static_cast<int>(placement->integer(1, kMostPicks));
@@ -64,6 +66,7 @@ Json format_texture_origin(const TextureOrigin& origin) {
   add("kind", origin.kind);
   add("name", origin.name);
   add("checksum", origin.checksum);
+  if (origin.fingerprint.is_object()) out["fingerprint"] = origin.fingerprint;
   if (origin.T_mesh_world) out["T_mesh_world"] = format_pose(*origin.T_mesh_world);
   if (origin.placement) out["placement"] = *origin.placement;
   for (const auto& stroke : origin.strokes_mesh_m) {

@@ -27,7 +27,7 @@ void add_sources_of_result(MergeInput& input, const fs::path& folder, const std:
                            const Observer& observer) {
   std::vector<StrokeSource> sources;
   if (fs::exists(folder / "texture.json")) sources = sources_of(read_texture(folder / "texture.json", {}, observer));
-  if (sources.empty()) sources.push_back({name, ""});
+  if (sources.empty()) sources.push_back({name, "", {}});
   input.sources.insert(input.sources.end(), sources.begin(), sources.end());
 }
 
@@ -61,7 +61,7 @@ void add_recorded_stroke(MergeInput& input, const fs::path& folder, const std::s
   if (result.profile.size() == 0) throw Error(printable(folder.string(), 200) + ": " + result.verdict);
   if (input.object.empty()) input.object = recording.info.object;
   input.strokes.push_back(stroke_of_result(result, recording, name));
-  input.sources.push_back({name, recording_checksum(folder)});
+  input.sources.push_back(source_of(folder, recording, name));
 }
 
 void add_stroke(MergeInput& input, const fs::path& folder, const std::string& name, const MergeConfig& config,

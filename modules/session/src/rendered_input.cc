@@ -54,7 +54,7 @@ std::vector<StrokeSource> sources_of(const Scene& scene) {
   for (const SceneObject& object : scene.objects) {
     for (const SceneTexture& texture : object.textures) {
       if (texture.origin && texture.origin->is_scan())
-        out.push_back({texture.origin->name, texture.origin->checksum});
+        out.push_back({texture.origin->name, texture.origin->checksum, parse_fingerprint(texture.origin->fingerprint)});
       else
         for (StrokeSource& source : asperity::sources_of(texture.texture)) out.push_back(std::move(source));
     }
@@ -66,7 +66,11 @@ std::vector<StrokeSource> sources_of(const Scene& scene) {
 
 void note_sources(Texture& texture, const std::vector<StrokeSource>& sources) {
   Json list = Json::array();
-  for (const StrokeSource& source : sources) list.push_back({{"name", source.name}, {"checksum", source.checksum}});
+  for (const StrokeSource& source : sources) {
+    Json one = {{"name", source.name}, {"checksum", source.checksum}};
+    if (source.is_sketched()) one["fingerprint"] = fingerprint_json(source.fingerprint);
+    list.push_back(std::move(one));
+  }
   texture.extra[kMadeFrom] = list;
 }
 
@@ -74,12 +78,21 @@ std::vector<StrokeSource> sources_of(const Texture& texture) {
   std::vector<StrokeSource> out;
   if (texture.extra.contains(kMadeFrom) && texture.extra.at(kMadeFrom).is_array()) {
     for (const Json& one : texture.extra.at(kMadeFrom)) {
-      StrokeSource source{text_of(one, "name"), text_of(one, "checksum")};
+      StrokeSource source{text_of(one, "name"), text_of(one, "checksum"), {}};
+      if (one.is_object() && one.contains("fingerprint")) source.fingerprint = parse_fingerprint(one.at("fingerprint"));
       if (!source.name.empty() || !source.checksum.empty()) out.push_back(std::move(source));
     }
   }
-  if (out.empty() && !texture.source.recording.empty()) out.push_back({texture.source.recording, ""});
+  if (out.empty() && !texture.source.recording.empty()) out.push_back({texture.source.recording, "", {}});
   return out;
+}
+
+std::vector<StrokeSource> sources_of_input(const fs::path& path, const Observer& observer) {
+  if (fs::is_directory(path)) return {source_of(path, read_recording(path, {}, observer), last_part(path))};
+  if (path.filename().string().ends_with("texture.json")) return sources_of(read_texture(path, {}, observer));
+  const fs::path folder = fs::absolute(path).parent_path();
+  if (!fs::is_regular_file(folder / "result.json") || !fs::is_regular_file(folder / "texture.json")) return {};
+  return sources_of(read_texture(folder / "texture.json", {}, observer));
 }
 
 RenderedInput read_rendered(const fs::path& path, const Observer& observer) {
@@ -112,14 +125,18 @@ RenderedInput read_rendered(const fs::path& path, const Observer& observer) {
 
 bool is_among(const std::vector<StrokeSource>& sources, const StrokeSource& recording) {
   return std::any_of(sources.begin(), sources.end(), [&](const StrokeSource& source) {
+    if (is_same_measurement(source.fingerprint, recording.fingerprint)) return true;
     return source.checksum.empty() || recording.checksum.empty() ? source.name == recording.name
                                                                  : source.checksum == recording.checksum;
   });
 }
 
-RealStroke read_real_stroke(const fs::path& folder, const RenderedInput& rendered, const ProcessConfig& config,
-                            const Observer& observer) {
-  const Recording recording = read_recording(folder, {}, observer);
+StrokeSource source_of(const fs::path& folder, const Recording& recording, const std::string& name) {
+  return {name, recording_checksum(folder), fingerprint_of(recording)};
+}
+
+RealStroke measure_real_stroke(const fs::path& folder, const Recording& recording, const RenderedInput& rendered,
+                               const ProcessConfig& config, const Observer& observer) {
   ProcessConfig as_measured = config;
   as_measured.profile.remove_noise = false;
   as_measured.profile.merge_passes = false;

@@ -62,13 +62,14 @@ class ProcessMergeTest : public ::testing::Test, protected PageRig<> {
     ProcessConfig each = config.process;
     each.profile.remove_noise = false;
     std::vector<MergeStroke> strokes;
+    std::vector<StrokeSource> sources;
     for (const char* name : {"a", "b"}) {
       const Recording recording = read_recording(folder / name);
       strokes.push_back(stroke_of_result(process_recording(recording, each), recording, name));
+      sources.push_back(source_of(folder / name, recording, name));
     }
     ProcessResult result = merge_results(strokes, read_recording(folder / "a").info.object, config);
-    if (result.texture)
-      note_sources(*result.texture, {{"a", recording_checksum(folder / "a")}, {"b", recording_checksum(folder / "b")}});
+    if (result.texture) note_sources(*result.texture, sources);
     return result;
   }
 };

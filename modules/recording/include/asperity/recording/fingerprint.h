@@ -37,13 +37,19 @@ SampleSketch sketch_values(std::span<const double> values);  // 32 a window
 // whole, otherwise estimated from the hashes below which both are known. 0 if one of them has none.
 double shared_share(const SampleSketch& a, const SampleSketch& b);
 
+// The largest of the shares of their probes, poses and points.
+double shared_share(const Fingerprint& a, const Fingerprint& b);
+
+// Whether two recordings or paths are one measurement: more than 5 % of their samples are the same. Less is what two
+// cuts of one recording share where they meet.
+bool is_same_measurement(const Fingerprint& a, const Fingerprint& b);
+
 struct NamedFingerprint {
   std::string name;
   Fingerprint of;
 };
 
-// Throws Error naming both if two of them have more than 5 % of their samples in common: they are not two measurements.
-// Less is what two cuts of one recording share where they meet.
+// Throws Error naming both if two of them are one measurement.
 void check_independent(std::span<const NamedFingerprint> scans);
 
 // {"probe": {"windows": n, "smallest": "…"}, …}: the 32 smallest hashes of each, 16 hexadecimal digits each. What is

@@ -21,6 +21,7 @@ struct TextureOrigin {
   std::string kind;
   std::string name;                  // of the recording or path, of the painted texture
   std::string checksum;              // of the recording: "md5:" and 32 digits. No path: scenes are passed on
+  Json fingerprint;                  // of its samples (fingerprint_json()); null: not known
   std::optional<Pose> T_mesh_world;  // of a scan: tracker's world to mesh
   std::optional<int> placement;      // its number in the scene, from 1: scans of one share their pose
   std::vector<std::vector<Eigen::Vector3d>> strokes_mesh_m;  // of a painted texture: the points of each stroke
