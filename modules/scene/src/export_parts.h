@@ -32,6 +32,6 @@ void add_hjif(const std::string& stem, const Scene& scene, const SceneTexture& t
 
 // An object as <stem>.obj, .glb or .usda, with its textures' images; `used` are the stems that are taken.
 void add_mesh_object(const std::string& stem, const Scene& scene, const SceneObject& object, ExportFormat format,
-                const ExportConfig& config, std::set<std::string>& used, ExportResult& out);
+                     const ExportConfig& config, std::set<std::string>& used, ExportResult& out);
 
 }  // namespace asperity
