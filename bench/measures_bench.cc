@@ -5,7 +5,7 @@
 #include <benchmark/benchmark.h>
 
 #include "asperity/base/random.h"
-#include "asperity/profile/measure_areal_roughness.h"
+#include "asperity/profile/measure_areal_texture.h"
 #include "asperity/profile/measure_roughness.h"
 #include "asperity/texture/evaluate_fourier1d.h"
 #include "asperity/texture/fit_fourier1d.h"
@@ -34,9 +34,9 @@ void roughness_with_cutoffs(benchmark::State& state) {
     benchmark::DoNotOptimize(asperity::measure_roughness(z, 0.5e-6, {.lambda_s_mm = 0.0025, .lambda_c_mm = 0.8}));
 }
 
-void areal_roughness(benchmark::State& state) {
+void areal_texture(benchmark::State& state) {
   const asperity::ArealMap map{5e-6, 5e-6, 1000, 1000, rough_profile_m(1000000)};
-  for (auto _ : state) benchmark::DoNotOptimize(asperity::measure_areal_roughness(map));
+  for (auto _ : state) benchmark::DoNotOptimize(asperity::measure_areal_texture(map));
 }
 
 void texture_fit(benchmark::State& state) {
@@ -52,7 +52,7 @@ void texture_height(benchmark::State& state) {
 
 BENCHMARK(roughness)->Unit(benchmark::kMillisecond);
 BENCHMARK(roughness_with_cutoffs)->Unit(benchmark::kMillisecond);
-BENCHMARK(areal_roughness)->Unit(benchmark::kMillisecond);
+BENCHMARK(areal_texture)->Unit(benchmark::kMillisecond);
 BENCHMARK(texture_fit)->Unit(benchmark::kMillisecond);
 BENCHMARK(texture_height)->Unit(benchmark::kNanosecond);
 

@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "asperity/base/error.h"
-#include "asperity/profile/measure_areal_roughness.h"
 #include "asperity/profile/measure_areal_texture.h"
 #include "asperity/profile/measure_profile_texture.h"
 #include "asperity/profile/measure_roughness.h"
@@ -18,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       const auto heights = asperity::parse_heights(text, "fuzz", {.spacing_m = spacing_m});
       if (const auto* map = std::get_if<asperity::ArealMap>(&heights)) {
         if (map->height_m.size() != map->columns * map->rows) std::abort();
-        asperity::measure_areal_roughness(*map);
+        asperity::measure_areal_texture(*map);
         asperity::measure_areal_texture(*map, {.form = asperity::ArealForm::kQuadric, .lambda_c_mm = 0.08});
       } else {
         const auto& profile = std::get<asperity::HeightProfile>(heights);

@@ -35,7 +35,8 @@ class ExportCommand : public Command {
                                 "(heights), sdf, sdf-binary, gsf (profile and areal map), stl (relief to print)"))
         ->type_name("FORMAT");
     parser().add_option("-o,--output", output_, "Folder of the files; default: OUT-FORMAT")->type_name("DIR");
-    parser().add_option("--speed", speed_, "Of the stroke, for wav")->type_name("SPEED");
+    parser().add_option("--speed", speed_, "Of the stroke, for wav, ahap, haps and forces in time")->type_name("SPEED");
+    parser().add_option("--rate", rate_, "Samples a second of the stroke, for wav")->type_name("FREQUENCY");
     parser()
         .add_option("--spacing", spacing_, "Distance of the heights of a file without positions")
         ->type_name("LENGTH");
@@ -46,6 +47,7 @@ class ExportCommand : public Command {
 
   void apply_options() override {
     if (!spacing_.empty()) spacing_m_ = length_option_m("--spacing", spacing_);
+    if (!rate_.empty()) config_.stroke.rate_Hz = number_option("--rate", rate_, "Hz", 1.0, 1e6);
     if (!speed_.empty()) config_.stroke.speed_mps = speed_option_mps("--speed", speed_);
   }
 
@@ -54,7 +56,7 @@ class ExportCommand : public Command {
     const auto heights_as = height_file_of(format_);
     if (name == kExportFormatNames.end() && !heights_as) {
       throw UsageError("--to: '" + printable(format_) +
-                       "' is none of obj, gltf, png, wav, x3p, sdf, sdf-binary, gsf, stl");
+                       "' is none of obj, gltf, usda, png, wav, ahap, haps, hjif, x3p, sdf, sdf-binary, gsf, stl");
     }
     fs::path target = output_;
     if (target.empty()) {
@@ -87,7 +89,12 @@ class ExportCommand : public Command {
     std::string text;
     for (const ExportedFile& file : result.files)
       text += fmt::format("{:>12} bytes  {}\n", file.content.size(), printable(file.name, 200));
-    for (const Problem& problem : result.problems) text += "problem: " + printable(problem.message, 300) + "\n";
+    for (const Problem& problem : result.problems) {
+      const char* what = problem.kind == "not_exported" ? "not exported: "
+                         : problem.kind == "warning"    ? "warning: "
+                                                        : "problem: ";
+      text += what + printable(problem.message, 600) + "\n";
+    }
     out["config"] = config_json(fields());
     out["asperity"] = kVersion;
     commit_output(folder, target.string());
@@ -106,7 +113,9 @@ class ExportCommand : public Command {
       scene.objects.front().unit_m = unit_option_m("--mesh-unit", mesh_unit_);
     }
     observer.update("exporting", 0.0);
-    return export_scene(scene, format, config_);
+    ExportResult out = export_scene(scene, format, config_);
+    add_material_images(source_, scene, format, out);
+    return out;
   }
 
   static ExportResult with_heights(ExportResult files, ExportResult heights) {
@@ -119,6 +128,7 @@ class ExportCommand : public Command {
   std::string format_;
   std::string output_;
   std::string speed_;
+  std::string rate_;
   std::string mesh_unit_;
   std::string spacing_;
   double spacing_m_ = 0.0;

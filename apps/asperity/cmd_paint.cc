@@ -40,7 +40,8 @@ class PaintCommand : public Command {
  public:
   explicit PaintCommand(Parser& root)
       : Command(root, "paint", "Lay a texture on a mesh along a path through picked points") {
-    Option* mesh = parser().add_option("MESH", mesh_, "A mesh (.obj .ply .stl .gltf .glb) or a scene.json to paint on");
+    Option* mesh =
+        parser().add_option("MESH", mesh_, "A mesh (.obj .ply .stl .off .gltf .glb) or a scene.json to paint on");
     Option* into = parser()
                        .add_option("--into", into_,
                                    "Scene of an earlier registration or painting to paint into; all else in it stays")

@@ -39,10 +39,11 @@ class RegisterCommand : public Command {
  public:
   explicit RegisterCommand(Parser& root)
       : Command(root, "register", "Lay scans on a 3D mesh and give it their textures") {
-    parser().add_option("PATH... MESH", files_,
-                        "Recordings, trajectory.csv files or any CSV with px_m,py_m,pz_m; then the mesh (.obj .ply "
-                        ".stl .gltf .glb) or the scene.json to whose mesh they are added; with --into the mesh is that "
-                        "of the scene");
+    parser().add_option(
+        "PATH... MESH", files_,
+        "Recordings, trajectory.csv files or any CSV with px_m,py_m,pz_m; then the mesh (.obj .ply "
+        ".stl .off .gltf .glb) or the scene.json to whose mesh they are added; with --into the mesh is that "
+        "of the scene");
     Option* into = parser()
                        .add_option("--into", into_,
                                    "Scene of an earlier registration or painting to add the scans to; one of the same "
@@ -182,7 +183,7 @@ class RegisterCommand : public Command {
 
   static bool has_mesh(const std::string& file) {
     const std::string ending = fs::path(file).extension().string();
-    constexpr std::array<std::string_view, 6> kMeshes{".obj", ".ply", ".stl", ".gltf", ".glb", ".json"};
+    constexpr std::array<std::string_view, 7> kMeshes{".obj", ".ply", ".stl", ".off", ".gltf", ".glb", ".json"};
     return std::find(kMeshes.begin(), kMeshes.end(), ending) != kMeshes.end() && !fs::is_directory(file);
   }
 

@@ -1,4 +1,6 @@
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -35,6 +37,11 @@ constexpr const char* kTexture =
     R"("fourier1d":{"length_mm":10,"omega_rad_per_mm":0.6283185307179586,"a_m":[0,0,0,0.0001],"b_m":[0,0,0,0],"mean_m":0},)"
     R"("extra":{}})";
 
+std::string content_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
 class PaintCommands : public testing::Test {
  protected:
   PaintCommands() {
@@ -65,12 +72,28 @@ TEST_F(PaintCommands, APaintedSceneIsPaintedOnAndExported) {
   ASSERT_EQ(again.code, 0) << again.err;
   EXPECT_EQ(Json::parse(again.out).at("texture").at("index"), 2);
   EXPECT_GT(Json::parse(again.out).at("painted_over").get<int>(), 0);
-  for (const std::string format : {"obj", "gltf", "png", "wav", "x3p", "stl"}) {
+  for (const std::string format : {"obj", "gltf", "usda", "png", "wav", "ahap", "haps", "hjif", "x3p", "stl"}) {
     const Outcome outcome = run({"export", path("out"), "--to", format, "--speed", "50mm/s"});
     EXPECT_EQ(outcome.code, 0) << format << ": " << outcome.err;
     EXPECT_TRUE(std::filesystem::exists(path("out-" + format))) << format;
   }
   EXPECT_EQ(run({"export", path("out"), "--to", "obj"}).code, 0);  // replaces its own folder
+}
+
+// What an invalid measurement became keeps its verdict on the way to other programs.
+TEST_F(PaintCommands, AnExportSaysThatItsSourceIsInvalid) {
+  std::filesystem::create_directory(path("result"));
+  write_text(path("result/texture.json"), kTexture);
+  write_text(path("result/result.json"),
+             R"({"format":"asperity-result","trustworthy":false,"verdict":"invalid: the tip was in the air"})");
+  for (const std::string format : {"hjif", "ahap", "wav", "png"}) {
+    const Outcome outcome = run({"export", path("result"), "--to", format, "-o", path("to-" + format)});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out + outcome.err, testing::HasSubstr("the tip was in the air"));
+    const Json about = Json::parse(content_of(path("to-" + format + "/export.json")));
+    EXPECT_THAT(about.at("warnings").at(0).get<std::string>(), testing::HasSubstr("the tip was in the air"));
+  }
+  EXPECT_THAT(content_of(path("to-hjif/texture.hjif")), testing::HasSubstr("the tip was in the air"));
 }
 
 TEST_F(PaintCommands, RefuseWhatCannotBeMeant) {

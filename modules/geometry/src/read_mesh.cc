@@ -6,6 +6,7 @@
 #include "asperity/base/text.h"
 #include "asperity/geometry/read_gltf.h"
 #include "asperity/geometry/read_obj.h"
+#include "asperity/geometry/read_off.h"
 #include "asperity/geometry/read_ply.h"
 #include "asperity/geometry/read_stl.h"
 
@@ -19,9 +20,10 @@ MeshFile read_mesh(const std::filesystem::path& path, const MeshLimits& limits, 
   if (extension == ".obj") return read_obj(path, limits);
   if (extension == ".ply") return read_ply(path, limits);
   if (extension == ".stl") return read_stl(path, limits);
+  if (extension == ".off") return read_off(path, limits);
   if (extension == ".gltf" || extension == ".glb") return read_gltf(path, limits, observer);
   throw Error(path.string() + ": '" + printable(extension) +
-              "' is not a mesh that can be read; .obj, .ply, .stl, .gltf and .glb are");
+              "' is not a mesh that can be read; .obj, .ply, .stl, .off, .gltf and .glb are");
 }
 
 }  // namespace asperity

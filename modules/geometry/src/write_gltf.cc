@@ -9,11 +9,11 @@
 #include <unordered_map>
 
 #include "asperity/base/error.h"
-#include "asperity/base/inner_path.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "gltf_buffer.h"
 #include "gltf_corner.h"
+#include "gltf_haptics.h"
 #include "tinygltf_config.h"
 
 namespace asperity {
@@ -24,12 +24,11 @@ using tinygltf::Value;
 
 [[noreturn]] void fail(const std::string& message) { throw Error("glTF: " + message); }
 
-Value printable_value(const std::string& value) { return Value(printable(value, 200)); }
-
 // The triangles of one primitive: those of one haptic texture and one material.
 struct Group {
   bool normals = true;
   bool texture = true;
+  bool colours = true;  // each of its vertices has one
   std::vector<std::uint32_t> triangles;
 };
 
@@ -43,7 +42,7 @@ class GltfWriter {
     model_.asset.generator = "Asperity";
     model_.scenes.emplace_back();
     model_.defaultScene = 0;
-    textures();
+    haptics_ = add_gltf_haptics(model_, buffer_, scene_);
     primitives();
     buffer_.close();
     std::ostringstream out;
@@ -61,64 +60,13 @@ class GltfWriter {
     if (mesh_.triangles.empty()) fail("the mesh has no triangles");
     length(mesh_.texture_corners.size(), mesh_.triangles.size(), "texture corners");
     length(mesh_.normal_corners.size(), mesh_.triangles.size(), "normal corners");
+    length(mesh_.vertex_colours.size(), mesh_.vertices.size(), "vertex colours");
     length(mesh_.haptic.size(), mesh_.triangles.size(), "haptic triangles");
     if (!(scene_.unit_m > 0.0) || !std::isfinite(scene_.unit_m)) fail("unit_m is " + number_text(scene_.unit_m));
     for (const GltfTexture& texture : scene_.textures) {
       if (!(texture.size_mm.minCoeff() > 0.0) || !texture.size_mm.allFinite())
         fail("haptic texture " + std::to_string(texture.index) + " has no size");
     }
-  }
-
-  // The glTF texture that shows the image.
-  int add_image(const GltfImage& image) {
-    tinygltf::Image& out = model_.images.emplace_back();
-    out.name = printable(image.name, 200);
-    if (image.png.empty()) {
-      const auto inner = inner_path(image.file);
-      if (!inner || !is_utf8(*inner)) fail("the image '" + printable(image.file) + "' is no file beside the export");
-      out.uri = *inner;
-    } else {
-      const std::size_t begin = buffer_.size();
-      buffer_.append(image.png);
-      out.bufferView = buffer_.add_view(begin, 0);
-      out.mimeType = "image/png";
-    }
-    model_.textures.emplace_back().source = static_cast<int>(model_.images.size()) - 1;
-    return static_cast<int>(model_.textures.size()) - 1;
-  }
-
-  void textures() {
-    Value::Array mpeg;
-    for (const GltfTexture& texture : scene_.textures) {
-      if (!haptic_.emplace(texture.index, haptic_.size()).second)
-        fail("haptic texture " + std::to_string(texture.index) + " twice");
-      Value::Object extra{{"name", printable_value(texture.name)}};
-      Value::Object mpeg_material{{"name", printable_value(texture.name)}};
-      normal_map_.push_back(texture.normal_map ? add_image(*texture.normal_map) : -1);
-      if (texture.height_map) {
-        const int height = add_image(*texture.height_map);
-        extra.emplace("height_map", Value(height));
-        const Value info(Value::Object{{"index", Value(height)}, {"texCoord", Value(1)}});
-        mpeg_material.emplace("vibrotactileTexture",
-                              Value(Value::Array{Value(
-                                  Value::Object{{"texture", info}, {"type", Value(std::string("High_Resolution"))}})}));
-      }
-      const auto number = [&](const char* key, const std::optional<double>& value) {
-        if (!value) return;
-        if (!std::isfinite(*value))
-          fail(std::string(key) + " of haptic texture " + std::to_string(texture.index) + " is not finite");
-        extra.emplace(key, Value(*value));
-      };
-      number("height_range_m", texture.height_range_m);
-      number("stiffness_N_per_m", texture.stiffness_N_per_m);
-      number("friction", texture.friction);
-      mpeg_material.emplace("extras", Value(extra));
-      mpeg.emplace_back(std::move(mpeg_material));
-      extra_.emplace_back(std::move(extra));
-    }
-    if (mpeg.empty()) return;
-    model_.extras =
-        Value(Value::Object{{"MPEG_material_haptic", Value(Value::Object{{"materials", Value(std::move(mpeg))}})}});
   }
 
   // A material of glTF for the mesh's material and the haptic texture's place in scene_.textures; -1: none.
@@ -142,9 +90,9 @@ class GltfWriter {
     if (haptic >= 0) {
       const auto place = static_cast<std::size_t>(haptic);
       if (out.name.empty()) out.name = printable(scene_.textures[place].name, 200);
-      out.extras = Value(Value::Object{{"asperity", Value(extra_[place])}});
-      if (normal_map_[place] >= 0) {
-        out.normalTexture.index = normal_map_[place];
+      out.extras = Value(Value::Object{{"asperity", Value(haptics_.extra[place])}});
+      if (haptics_.normal_map[place] >= 0) {
+        out.normalTexture.index = haptics_.normal_map[place];
         out.normalTexture.texCoord = 1;
       }
     }
@@ -153,12 +101,19 @@ class GltfWriter {
 
   int file_texture(const std::string& file) {
     const auto [entry, is_new] = file_textures_.try_emplace(file, -1);
-    if (is_new) entry->second = add_image({"", "", file});
+    if (is_new) entry->second = add_gltf_image(model_, buffer_, {"", "", file});
     return entry->second;
   }
 
   static bool has(const std::vector<Triangle>& corners, std::size_t triangle) {
     return !corners.empty() && corners[triangle][0] != kNoIndex;
+  }
+
+  bool has_colours(std::size_t triangle) const {
+    if (mesh_.vertex_colours.empty()) return false;
+    for (const std::uint32_t v : mesh_.triangles[triangle])
+      if (v >= mesh_.vertex_colours.size() || !mesh_.vertex_colours[v].allFinite()) return false;
+    return true;
   }
 
   // Groups the triangles, then writes one mesh a haptic texture, in rising order of its index.
@@ -173,6 +128,7 @@ class GltfWriter {
       group.triangles.push_back(i);
       group.normals = group.normals && has(mesh_.normal_corners, i);
       group.texture = group.texture && has(mesh_.texture_corners, i);
+      group.colours = group.colours && has_colours(i);
     }
     std::optional<std::int32_t> open;
     for (const auto& [key, group] : groups) {
@@ -182,18 +138,11 @@ class GltfWriter {
     }
   }
 
-  int place_of(std::int32_t haptic) const {
-    const auto found = haptic_.find(haptic);
-    return found == haptic_.end() ? -1 : static_cast<int>(found->second);
-  }
-
   void add_mesh(std::int32_t haptic) {
     tinygltf::Mesh& mesh = model_.meshes.emplace_back();
-    const int place = place_of(haptic);
-    if (place >= 0) {
-      mesh.extras =
-          Value(Value::Object{{"MPEG_material_haptic", Value(Value::Object{{"hapticMaterialIndex", Value(place)}})}});
-    }
+    const int place = haptics_.place_of(haptic);
+    if (place >= 0)
+      mesh.extensions.emplace(kMpegHapticMaterial, Value(Value::Object{{"hapticMaterialIndex", Value(place)}}));
     tinygltf::Node& node = model_.nodes.emplace_back();
     node.mesh = static_cast<int>(model_.meshes.size()) - 1;
     model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()) - 1);
@@ -215,7 +164,7 @@ class GltfWriter {
 
   tinygltf::Primitive primitive(std::int32_t haptic, std::int32_t material, const Group& group) {
     const bool is_haptic = haptic >= 0;
-    const int place = place_of(haptic);
+    const int place = haptics_.place_of(haptic);
     std::vector<GltfCorner> corners;
     std::unordered_map<GltfCorner, std::uint32_t, GltfCornerHash> places;
     const std::size_t begin = buffer_.size();
@@ -233,6 +182,7 @@ class GltfWriter {
     out.indices = buffer_.add_indices(begin, 3 * group.triangles.size());
     out.attributes["POSITION"] = positions(corners);
     if (group.normals) out.attributes["NORMAL"] = normals(corners);
+    if (group.colours) out.attributes["COLOR_0"] = colours(corners);
     const Eigen::Vector2d size_mm =
         place >= 0 ? scene_.textures[static_cast<std::size_t>(place)].size_mm : Eigen::Vector2d::Ones();
     if (group.texture) out.attributes["TEXCOORD_0"] = texture_coordinates(corners);
@@ -280,6 +230,14 @@ class GltfWriter {
     return buffer_.add_floats(begin, TINYGLTF_TYPE_VEC3, corners.size());
   }
 
+  int colours(const std::vector<GltfCorner>& corners) {
+    const std::size_t begin = buffer_.size();
+    for (const GltfCorner& c : corners)
+      for (int k = 0; k < 3; ++k)
+        buffer_.append_float(std::clamp(mesh_.vertex_colours[c.vertex][k], 0.0, 1.0), "a colour");
+    return buffer_.add_floats(begin, TINYGLTF_TYPE_VEC3, corners.size());
+  }
+
   int texture_coordinates(const std::vector<GltfCorner>& corners) {
     const std::size_t begin = buffer_.size();
     for (const GltfCorner& c : corners) {
@@ -302,9 +260,7 @@ class GltfWriter {
   const MeshFile& mesh_;
   tinygltf::Model model_;
   GltfBuffer buffer_{model_};
-  std::map<std::int32_t, std::size_t> haptic_;  // place in scene_.textures
-  std::vector<int> normal_map_;                 // glTF texture, one a haptic texture; -1: none
-  std::vector<Value::Object> extra_;
+  GltfHaptics haptics_;
   std::map<std::string, int> file_textures_;
 };
 

@@ -48,8 +48,8 @@ TEST(Mtl, LibrariesStayInTheFolder) {
   const MeshFile mesh = read_mesh(folder / "in" / "t.obj");
   EXPECT_FALSE(mesh.materials.at(0).base_colour);
   EXPECT_THAT(mesh.problems, Contains(Field(&Problem::kind, "outside_path")));
-  EXPECT_THAT(message_of([&] { read_mesh(folder / "in" / "t.off"); }),
-              HasSubstr("'.off' is not a mesh that can be read"));
+  EXPECT_THAT(message_of([&] { read_mesh(folder / "in" / "t.3ds"); }),
+              HasSubstr("'.3ds' is not a mesh that can be read"));
 }
 
 }  // namespace

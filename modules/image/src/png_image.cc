@@ -67,10 +67,12 @@ bool read_png_header(png_structp png, png_infop info, PngHeader& header) {
   return true;
 }
 
-// As samples of 8 bit gray whatever the file has.
-bool convert_to_gray(png_structp png, const PngHeader& header) {
+enum class PngDepth { kEight, kAsItIs };
+
+// As samples of gray whatever the file has, of 8 bits, or of 16 where it has 16 and these are kept.
+bool convert_to_gray(png_structp png, const PngHeader& header, PngDepth depth) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
-  png_set_strip_16(png);
+  if (depth == PngDepth::kEight) png_set_strip_16(png);
   png_set_strip_alpha(png);
   if (header.colour == PNG_COLOR_TYPE_PALETTE) png_set_palette_to_rgb(png);
   if ((header.colour & PNG_COLOR_MASK_COLOR) == 0 && header.bits < 8) png_set_expand_gray_1_2_4_to_8(png);
@@ -146,8 +148,8 @@ class PngSource {
   const PngHeader& header() const { return header_; }
   [[noreturn]] void fail(const std::string& message) const { throw Error(name_ + ": " + message); }
 
-  void to_gray() {
-    if (!convert_to_gray(reader_.png, header_)) broken();
+  void to_gray(PngDepth depth) {
+    if (!convert_to_gray(reader_.png, header_, depth)) broken();
   }
 
   // Rows of `row_bytes` after what conversion was asked for.
@@ -200,26 +202,49 @@ PngHeader checked_header(const BasicGrayImage<Sample>& image) {
 
 }  // namespace
 
+namespace {
+
+// Samples of 8 or 16 bits in gray, big endian as PNG has them.
+DeepGrayImage read_levels(PngSource& source, int bits) {
+  const PngHeader& header = source.header();
+  DeepGrayImage image;
+  image.width = static_cast<int>(header.width);
+  image.height = static_cast<int>(header.height);
+  image.bits = bits;
+  const std::vector<png_byte> bytes = source.read(std::size_t{header.width} * static_cast<unsigned>(bits / 8));
+  image.pixels.resize(std::size_t{header.width} * header.height);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = bits == 8 ? bytes[i] : static_cast<std::uint16_t>(bytes[2 * i] << 8 | bytes[2 * i + 1]);
+  return image;
+}
+
+}  // namespace
+
 DeepGrayImage parse_png(std::string_view data, const std::string& name) {
   PngSource source(data, name, "a damaged PNG image: ");
   const PngHeader& header = source.header();
   if (header.colour != PNG_COLOR_TYPE_GRAY || (header.bits != 8 && header.bits != 16))
     source.fail("not an image of 8 or 16 bit grey without transparency");
-  DeepGrayImage image;
-  image.width = static_cast<int>(header.width);
-  image.height = static_cast<int>(header.height);
-  image.bits = header.bits;
-  const std::vector<png_byte> bytes = source.read(std::size_t{header.width} * static_cast<unsigned>(header.bits / 8));
-  image.pixels.resize(std::size_t{header.width} * header.height);
-  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    image.pixels[i] = header.bits == 8 ? bytes[i] : static_cast<std::uint16_t>(bytes[2 * i] << 8 | bytes[2 * i + 1]);
-  }
-  return image;
+  return read_levels(source, header.bits);
+}
+
+DeepGrayImage convert_png(std::string_view data, const std::string& name, std::string& note) {
+  PngSource source(data, name, "a damaged PNG image: ");
+  const PngHeader& header = source.header();
+  note.clear();
+  const auto add = [&note](const std::string& what) { note += (note.empty() ? "" : ", ") + what; };
+  if (header.colour == PNG_COLOR_TYPE_PALETTE) add("a palette");
+  if (header.colour == PNG_COLOR_TYPE_RGB || header.colour == PNG_COLOR_TYPE_RGB_ALPHA) add("colours");
+  if (header.colour == PNG_COLOR_TYPE_GRAY && header.bits < 8) add(std::to_string(header.bits) + " bits");
+  if ((header.colour & PNG_COLOR_MASK_ALPHA) != 0) add("transparency, which is left out");
+  if (note.empty()) return read_levels(source, header.bits);
+  source.to_gray(PngDepth::kAsItIs);
+  return read_levels(source, header.bits == 16 ? 16 : 8);
 }
 
 GrayImage decode_png(std::string_view data, const std::string& name) {
   PngSource source(data, name, "the image is damaged: ");
-  source.to_gray();
+  source.to_gray(PngDepth::kEight);
   GrayImage image;
   image.width = static_cast<int>(source.header().width);
   image.height = static_cast<int>(source.header().height);

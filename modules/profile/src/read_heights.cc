@@ -8,6 +8,7 @@
 #include "asperity/base/read_areal_map.h"
 #include "asperity/base/text.h"
 #include "asperity/base/units.h"
+#include "asperity/image/tiff_image.h"
 #include "asperity/surface/parse_surface_file.h"
 #include "parse_stylus_text.h"
 
@@ -116,6 +117,24 @@ std::optional<std::array<double, 3>> areal_units_m(const CsvReader& table) {
   return units;
 }
 
+// A TIFF's numbers as heights in the config's unit, at the spacing that is given: files state neither of them
+// reliably (most programs write 72 pixels an inch, whatever the image is).
+ArealMap heights_of_tiff(std::string_view bytes, const std::string& name, const ReadHeightsConfig& config) {
+  if (!(config.spacing_m > 0.0)) throw Error(name + ": a TIFF states no spacing of heights: it must be given");
+  if (!config.column.empty()) throw Error(name + ": a TIFF has no column '" + printable(config.column) + "'");
+  TiffImage image = parse_tiff(bytes, name);
+  ArealMap map{config.spacing_m, config.spacing_m, image.columns, image.rows, std::move(image.values)};
+  const double unit_m = metres(config.unit);
+  for (std::size_t i = 0; i < map.height_m.size(); ++i) {
+    map.height_m[i] *= unit_m;
+    if (std::abs(map.height_m[i]) > kLargestHeight_m) {
+      throw Error(name + ": the height of point " + std::to_string(i % map.columns + 1) + " of row " +
+                  std::to_string(i / map.columns + 1) + " is " + number_text(map.height_m[i]) + " m");
+    }
+  }
+  return map;
+}
+
 }  // namespace
 
 Heights parse_heights(std::string_view text, const std::string& name, const ReadHeightsConfig& config) {
@@ -124,6 +143,15 @@ Heights parse_heights(std::string_view text, const std::string& name, const Read
     HeightProfile profile;
     profile.height_m = std::move(file->map.height_m);
     profile.spacing_m = file->map.x_spacing_m;
+    if (profile.height_m.size() < 2) throw Error(name + ": fewer than two heights");
+    return profile;
+  }
+  if (is_tiff(text)) {
+    ArealMap map = heights_of_tiff(text, name, config);
+    if (map.rows > 1) return map;
+    HeightProfile profile;
+    profile.height_m = std::move(map.height_m);
+    profile.spacing_m = map.x_spacing_m;
     if (profile.height_m.size() < 2) throw Error(name + ": fewer than two heights");
     return profile;
   }

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "asperity/base/error.h"
-#include "asperity/profile/measure_areal_roughness.h"
+#include "asperity/profile/measure_areal_texture.h"
 
 namespace asperity {
 namespace {
@@ -35,7 +35,7 @@ TEST(ArealRoughness, CrossedCosinesOnAPlaneHaveAnalyticValues) {
                std::cos(2 * pi * (y + 5e-6) / (101 * 10e-6 / 4)) +
            4e-4 + 0.01 * x - 0.02 * y;
   });
-  const ArealRoughnessResult r = measure_areal_roughness(map);
+  const ArealTextureResult r = measure_areal_texture(map);
   EXPECT_NEAR(r.Sa_m, kA_m * 4 / (pi * pi), 2e-3 * kA_m);
   EXPECT_NEAR(r.Sq_m, kA_m / 2, 1e-9 * kA_m);
   EXPECT_NEAR(r.Ssk, 0.0, 1e-6);
@@ -50,7 +50,7 @@ TEST(ArealRoughness, AgreesWithBruteForceWithHoles) {
   auto map = map_of(17, 13, 1e-3, 2e-3,
                     [](double x, double y) { return std::sin(900 * x) * std::cos(400 * y * y + x) + 3 * x + y; });
   for (std::size_t i = 0; i < map.height_m.size(); i += 5) map.height_m[i] = std::numeric_limits<double>::quiet_NaN();
-  const ArealRoughnessResult r = measure_areal_roughness(map);
+  const ArealTextureResult r = measure_areal_texture(map);
   EXPECT_EQ(r.missing, 45u);
   // The residual of a least-squares plane is orthogonal to 1, x and y, and no other plane has a smaller one.
   const auto rms_of = [&](double slope_x, double slope_y) {
@@ -78,22 +78,22 @@ TEST(ArealRoughness, AgreesWithBruteForceWithHoles) {
 
 TEST(ArealRoughness, KeepsThePlaneWhenAsked) {
   const ArealMap map = map_of(101, 3, 1e-6, 1e-6, [](double x, double) { return x; });
-  EXPECT_LT(measure_areal_roughness(map).Sq_m, 1e-18);
+  EXPECT_LT(measure_areal_texture(map).Sq_m, 1e-18);
   // A ramp of N steps has the variance (N² − 1) / 12.
-  EXPECT_NEAR(measure_areal_roughness(map, {.remove_plane = false}).Sq_m, 1e-6 * std::sqrt((101.0 * 101.0 - 1) / 12),
+  EXPECT_NEAR(measure_areal_texture(map, {.form = ArealForm::kMean}).Sq_m, 1e-6 * std::sqrt((101.0 * 101.0 - 1) / 12),
               1e-15);
 }
 
 TEST(ArealRoughness, RefusesWhatHasNoMeaning) {
   ArealMap map = map_of(4, 4, 1e-6, 1e-6, [](double, double) { return 0.0; });
   map.height_m[6] = std::numeric_limits<double>::infinity();
-  EXPECT_THAT([&] { measure_areal_roughness(map); }, ThrowsMessage<Error>(HasSubstr("row 2, column 3")));
+  EXPECT_THAT([&] { measure_areal_texture(map); }, ThrowsMessage<Error>(HasSubstr("row 2, column 3")));
   map.height_m.pop_back();
-  EXPECT_THAT([&] { measure_areal_roughness(map); }, ThrowsMessage<Error>(HasSubstr("15 heights for a map of 4 by 4")));
+  EXPECT_THAT([&] { measure_areal_texture(map); }, ThrowsMessage<Error>(HasSubstr("15 heights for a map of 4 by 4")));
   map = map_of(4, 4, 1e-6, 1e-6,
                [](double, double y) { return y > 1e-6 ? std::numeric_limits<double>::quiet_NaN() : 0.0; });
   for (std::size_t i = 4; i < 8; ++i) map.height_m[i] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT([&] { measure_areal_roughness(map, {.max_missing = 0.9}); },
+  EXPECT_THAT([&] { measure_areal_texture(map, {.max_missing = 0.9}); },
               ThrowsMessage<Error>(HasSubstr("lie on a line")));
 }
 

@@ -8,7 +8,6 @@
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/random.h"
-#include "asperity/profile/measure_areal_roughness.h"
 #include "asperity/profile/measure_areal_texture.h"
 
 namespace asperity {
@@ -87,20 +86,6 @@ TEST(ArealTexture, TheMaterialCurveOfUniformHeights) {
   EXPECT_NEAR(r.Vmc_m, (0.64 - 0.01) / 2 * kA_m, 3e-3 * kA_m);
   EXPECT_NEAR(r.Vvv_m, 0.04 / 2 * kA_m, 1e-3 * kA_m);
   EXPECT_NEAR(r.Vvc_m, (0.81 - 0.04) / 2 * kA_m, 3e-3 * kA_m);
-}
-
-TEST(ArealTexture, HeightsAgreeWithTheFormerFunction) {
-  Random random(2);
-  ArealMap map = map_of(40, 30, 1e-6, 3e-6, [&](double x, double y) { return 1e-6 * random.normal() + 0.1 * x - y; });
-  for (std::size_t i = 0; i < map.height_m.size(); i += 7) map.height_m[i] = kNan;
-  const ArealRoughnessResult former = measure_areal_roughness(map);
-  const ArealTextureResult r = measure_areal_texture(map);
-  EXPECT_EQ(r.missing, former.missing);
-  EXPECT_NEAR(r.Sa_m, former.Sa_m, 1e-15);
-  EXPECT_NEAR(r.Sq_m, former.Sq_m, 1e-15);
-  EXPECT_NEAR(r.Sz_m, former.Sz_m, 1e-15);
-  EXPECT_NEAR(r.Ssk, former.Ssk, 1e-9);
-  EXPECT_NEAR(r.slope_x, former.slope_x, 1e-9);
 }
 
 TEST(ArealTexture, TheQuadricIsRemoved) {

@@ -1,6 +1,8 @@
 #include "asperity/profile/read_heights.h"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -47,6 +49,41 @@ TEST(ReadHeights, OurOwnProfile) {
   EXPECT_NEAR(profile.spacing_m, 25e-6, 1e-12);
   EXPECT_EQ(profile_of(text, {.column = "height_m"}).height_m[1], 2.0);
   EXPECT_EQ(profile_of("s_m,height_m\n0,1\n1,2\n").column, "height_m");
+}
+
+// A TIFF of 3 x 2 floats, by the specification; nan in the middle.
+std::string tiff() {
+  std::string out("II*\0\x08\0\0\0", 8);
+  const auto put = [&out](std::uint32_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 0xFF);
+  };
+  const std::uint32_t fields[][3] = {{256, 4, 3},   {257, 4, 2}, {258, 3, 32}, {259, 3, 1},  {262, 3, 1},
+                                     {273, 4, 134}, {277, 3, 1}, {278, 4, 2},  {279, 4, 24}, {339, 3, 3}};
+  put(10, 2);
+  for (const auto& [tag, type, value] : fields) {
+    put(tag, 2);
+    put(type, 2);
+    put(1, 4);
+    put(value, 4);
+  }
+  put(0, 4);
+  for (const float value : {1.5F, std::nanf(""), -2.0F, 0.0F, 0.25F, 3.0F}) put(std::bit_cast<std::uint32_t>(value), 4);
+  return out;
+}
+
+TEST(ReadHeights, TiffAtTheSpacingAndUnitGiven) {
+  const auto map = std::get<ArealMap>(parse_heights(tiff(), "t.tif", {.spacing_m = 2e-6}));
+  EXPECT_EQ(map.columns, 3u);
+  EXPECT_EQ(map.rows, 2u);
+  EXPECT_EQ(map.x_spacing_m, 2e-6);
+  EXPECT_EQ(map.y_spacing_m, 2e-6);
+  EXPECT_NEAR(map.height_m[0], 1.5e-6, 1e-18);
+  EXPECT_TRUE(std::isnan(map.height_m[1]));
+  EXPECT_NEAR(map.height_m[5], 3e-6, 1e-18);
+  const auto in_mm =
+      std::get<ArealMap>(parse_heights(tiff(), "t.tif", {.spacing_m = 2e-6, .unit = HeightUnit::kMillimetre}));
+  EXPECT_NEAR(in_mm.height_m[0], 1.5e-3, 1e-15);
+  expect_error(tiff(), "states no spacing");
 }
 
 TEST(ReadHeights, ArealMapInEitherOrder) {

@@ -11,46 +11,27 @@
 #include "asperity/base/rounded_text.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
-#include "asperity/geometry/write_gltf.h"
 #include "asperity/geometry/write_stl.h"
 #include "asperity/json/json.h"
-#include "asperity/scene/format_wav.h"
 #include "asperity/scene/format_x3p.h"
-#include "asperity/scene/write_scene.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/sample_heights.h"
+#include "export_parts.h"
 
 namespace asperity {
-namespace {
 
-// One object as binary glTF; textures without heights are named in `problems`.
-std::string object_as_glb(const Scene& scene, const SceneObject& object, const TextureMapsConfig& images,
-                          Problems& problems) {
-  GltfExport out;
-  out.mesh = object.mesh;
-  out.unit_m = object.unit_m;
-  for (const SceneTexture& texture : object.textures) {
-    GltfTexture gltf;
-    gltf.index = texture.index;
-    gltf.name = texture.texture.name.empty() ? texture.file : texture.texture.name;
-    gltf.stiffness_N_per_m =
-        texture.texture.stiffness_N_per_m ? texture.texture.stiffness_N_per_m : scene.stiffness_N_per_m;
-    gltf.friction = texture.texture.friction ? texture.texture.friction : scene.friction;
-    if (is_height_field(texture.texture.model)) {
-      TextureMaps maps = make_texture_maps(texture.texture, images);
-      gltf.size_mm = maps.size_mm;
-      gltf.height_range_m = maps.heights.high_m - maps.heights.low_m;
-      gltf.normal_map = GltfImage{gltf.name + " normals", std::move(maps.normal_png), {}};
-      gltf.height_map = GltfImage{gltf.name + " heights", std::move(maps.height_png), {}};
-    } else {
-      problems.push_back({"not_exported", printable(texture.file) + ": a force in time has no image", 1});
-    }
-    out.textures.push_back(std::move(gltf));
-  }
-  return format_gltf(out, GltfForm::kBinary);
+std::string texture_title(const SceneTexture& texture) {
+  return texture.texture.name.empty() ? texture.file : texture.texture.name;
 }
 
-// The file's name without folder and endings; the same again gets a number.
+std::optional<double> stiffness_of(const Scene& scene, const Texture& texture) {
+  return texture.stiffness_N_per_m ? texture.stiffness_N_per_m : scene.stiffness_N_per_m;
+}
+
+std::optional<double> friction_of(const Scene& scene, const Texture& texture) {
+  return texture.friction ? texture.friction : scene.friction;
+}
+
 std::string stem_of(const std::string& file, std::set<std::string>& used) {
   std::string stem = std::filesystem::path(file).filename().string();
   const std::string ending = ".texture.json";
@@ -65,12 +46,16 @@ std::string stem_of(const std::string& file, std::set<std::string>& used) {
   return name;
 }
 
+namespace {
+
 std::string json_text(const Json& json) { return json.dump_repaired(2) + "\n"; }
 
 double height_of(const HeightMap& map, std::size_t i) { return map.low_m + map.level[i] * map.metres_per_level(); }
 
-void add_images(const std::string& stem, const Texture& texture, const ExportConfig& config, ExportResult& out) {
-  TextureMaps maps = make_texture_maps(texture, config.images);
+}  // namespace
+
+void add_images(const std::string& stem, const SceneTexture& texture, const ExportConfig& config, ExportResult& out) {
+  TextureMaps maps = make_texture_maps(texture.texture, config.images);
   Json about{{"format", "asperity-images"},
              {"version", 1},
              {"height_map", stem + ".height.png"},
@@ -79,7 +64,9 @@ void add_images(const std::string& stem, const Texture& texture, const ExportCon
              {"mm_per_px_y", maps.heights.mm_per_px_y},
              {"black_m", maps.heights.low_m},
              {"white_m", maps.heights.high_m}};
-  if (const auto* areal = std::get_if<ArealTexture>(&texture.model); areal != nullptr && !areal->sigma_m.empty()) {
+  if (!texture.warning.empty()) about["warning"] = texture.warning;
+  if (const auto* areal = std::get_if<ArealTexture>(&texture.texture.model);
+      areal != nullptr && !areal->sigma_m.empty()) {
     double white_m = 0.0;
     for (std::size_t i = 0; i < areal->sigma_m.size(); ++i)
       if (areal->supported[i] != 0) white_m = std::max(white_m, areal->sigma_m[i]);
@@ -93,21 +80,7 @@ void add_images(const std::string& stem, const Texture& texture, const ExportCon
   out.files.push_back({stem + ".images.json", json_text(about)});
 }
 
-void add_sound(const std::string& stem, const Texture& texture, const ExportConfig& config, ExportResult& out) {
-  const std::vector<double> a_mps2 = synthesize_stroke(texture, config.stroke);
-  double highest = 0.0;
-  for (const double a : a_mps2) highest = std::max(highest, std::abs(a));
-  const double full_scale_mps2 = highest > 0.0 ? highest / 0.9 : 1.0;
-  const Json about{{"format", "asperity-sound"},
-                   {"version", 1},
-                   {"sound", stem + ".wav"},
-                   {"full_scale_mps2", full_scale_mps2},
-                   {"speed_mps", config.stroke.speed_mps},
-                   {"force_N", config.stroke.force_N},
-                   {"rate_Hz", config.stroke.rate_Hz}};
-  out.files.push_back({stem + ".wav", format_wav(a_mps2, config.stroke.rate_Hz, full_scale_mps2)});
-  out.files.push_back({stem + ".sound.json", json_text(about)});
-}
+namespace {
 
 std::string mm_text(double x_m) { return rounded_text(1e3 * x_m, 5); }
 
@@ -142,7 +115,8 @@ std::string measured_note(const TextureModel& model, double length_m, double wid
          ". The file does not say which part of it was measured.";
 }
 
-void add_x3p(const std::string& stem, const Texture& texture, const ExportConfig& config, ExportResult& out) {
+void add_x3p(const std::string& stem, const SceneTexture& from, const ExportConfig& config, ExportResult& out) {
+  const Texture& texture = from.texture;
   X3pGrid grid;
   if (const auto length_mm = line_length_mm(texture.model)) {
     SampleHeightsConfig line;
@@ -161,14 +135,17 @@ void add_x3p(const std::string& stem, const Texture& texture, const ExportConfig
   }
   const double width_m = grid.rows > 1 ? grid.y_spacing_m * static_cast<double>(grid.rows) : 0.0;
   grid.note = measured_note(texture.model, grid.x_spacing_m * static_cast<double>(grid.columns), width_m);
+  if (!from.warning.empty()) grid.note += " WARNING: " + printable(from.warning, 1000);
   out.files.push_back({stem + ".x3p", format_x3p(grid)});
 }
 
-void add_texture(const std::string& stem, const Texture& texture, ExportFormat format, const ExportConfig& config,
-                 ExportResult& out) {
-  if (format == ExportFormat::kWav) {
-    add_sound(stem, texture, config, out);
-  } else if (!is_height_field(texture.model)) {
+void add_texture(const std::string& stem, const Scene& scene, const SceneTexture& texture, ExportFormat format,
+                 const ExportConfig& config, ExportResult& out) {
+  if (format == ExportFormat::kWav || format == ExportFormat::kAhap || format == ExportFormat::kHaps) {
+    add_vibration(stem, texture, format, config, out);
+  } else if (format == ExportFormat::kHjif) {
+    add_hjif(stem, scene, texture, config, out);
+  } else if (!is_height_field(texture.texture.model)) {
     out.problems.push_back({"not_exported", printable(stem) + ": a force in time has no heights", 1});
   } else if (format == ExportFormat::kPng) {
     add_images(stem, texture, config, out);
@@ -177,18 +154,16 @@ void add_texture(const std::string& stem, const Texture& texture, ExportFormat f
   }
 }
 
-void add_mesh(const std::string& stem, const Scene& scene, const SceneObject& object, ExportFormat format,
-              const ExportConfig& config, ExportResult& out) {
-  if (format == ExportFormat::kObj) {
-    for (SceneFile& file : format_mesh_in_scene(stem + ".obj", object.mesh))
-      out.files.push_back({file.name, std::move(file.content)});
-  } else if (format == ExportFormat::kGltf) {
-    out.files.push_back({stem + ".glb", object_as_glb(scene, object, config.images, out.problems)});
-  } else {
-    MeshFile relief = displace_mesh(object, config.relief);
-    for (Eigen::Vector3d& vertex : relief.vertices) vertex *= 1e3 * object.unit_m;
-    out.files.push_back({stem + ".stl", format_stl(relief)});
-  }
+void add_relief(const std::string& stem, const SceneObject& object, const ExportConfig& config, ExportResult& out) {
+  MeshFile relief = displace_mesh(object, config.relief);
+  for (Eigen::Vector3d& vertex : relief.vertices) vertex *= 1e3 * object.unit_m;
+  out.files.push_back({stem + ".stl", format_stl(relief)});
+  out.problems.push_back({"not_exported", printable(stem) + ": stiffness, friction and colours; STL has a shape", 1});
+}
+
+bool is_mesh_format(ExportFormat format) {
+  return format == ExportFormat::kObj || format == ExportFormat::kGltf || format == ExportFormat::kUsda ||
+         format == ExportFormat::kStl;
 }
 
 }  // namespace
@@ -197,11 +172,20 @@ ExportResult export_scene(const Scene& scene, ExportFormat format, const ExportC
   ExportResult out;
   std::set<std::string> used;
   for (const SceneObject& object : scene.objects) {
-    if (format == ExportFormat::kObj || format == ExportFormat::kGltf || format == ExportFormat::kStl) {
-      if (!object.mesh.triangles.empty()) add_mesh(stem_of(object.mesh_file, used), scene, object, format, config, out);
-    } else {
+    for (const SceneTexture& texture : object.textures) {
+      if (!texture.warning.empty())
+        out.problems.push_back({"warning", printable(texture.file) + ": " + printable(texture.warning, 1000), 1});
+    }
+    if (!is_mesh_format(format)) {
       for (const SceneTexture& texture : object.textures)
-        add_texture(stem_of(texture.file, used), texture.texture, format, config, out);
+        add_texture(stem_of(texture.file, used), scene, texture, format, config, out);
+    } else if (!object.mesh.triangles.empty()) {
+      const std::string stem = stem_of(object.mesh_file, used);
+      if (format == ExportFormat::kStl) {
+        add_relief(stem, object, config, out);
+      } else {
+        add_mesh_object(stem, scene, object, format, config, used, out);
+      }
     }
   }
   if (out.files.empty()) {

@@ -202,7 +202,13 @@ std::vector<std::string> names_of(const ExportResult& result) {
 TEST(ExportScene, NamesFilesAfterMeshesAndTextures) {
   const Scene scene = painted_scene();
   using testing::ElementsAre;
-  EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kObj)), ElementsAre("plate.obj"));
+  EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kObj)),
+              ElementsAre("cosine.height.png", "cosine.normal.png", "cosine.images.json", "plate.mtl", "plate.obj"));
+  EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kUsda)),
+              ElementsAre("cosine.height.png", "cosine.normal.png", "cosine.images.json", "plate.usda"));
+  EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kAhap)), ElementsAre("cosine.ahap"));
+  EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kHaps)), ElementsAre("cosine.haps"));
+  EXPECT_THAT(names_of(export_scene(scene, ExportFormat::kHjif)), ElementsAre("cosine.hjif"));
   const ExportResult gltf = export_scene(scene, ExportFormat::kGltf);
   EXPECT_THAT(names_of(gltf), ElementsAre("plate.glb"));
   EXPECT_EQ(gltf.files[0].content.substr(0, 4), "glTF");

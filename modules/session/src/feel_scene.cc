@@ -33,8 +33,11 @@ Scene read_height_maps(SceneInput& input, FeelSettings& settings) {
   input.tile_stroke_m = viewer_stroke_m(input.height_maps.size(), viewer);
   std::vector<Texture> tiles;
   tiles.reserve(input.height_maps.size());
-  for (const std::string& file : input.height_maps) tiles.push_back(read_height_image(file, image));
-  return make_height_map_viewer(tiles, viewer);
+  Problems converted;
+  for (const std::string& file : input.height_maps) tiles.push_back(read_height_image(file, image, &converted));
+  Scene scene = make_height_map_viewer(tiles, viewer);
+  scene.problems.insert(scene.problems.end(), converted.begin(), converted.end());
+  return scene;
 }
 
 // Puts the middle of the workspace (the device's origin where that is not known) into the middle of the scene.

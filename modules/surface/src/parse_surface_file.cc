@@ -60,6 +60,7 @@ std::optional<SurfaceFile> parse_surface_file(std::string_view bytes, const std:
   if (is_sdf(bytes)) out = parse_sdf(bytes, name);
   if (is_sur(bytes)) out = parse_sur(bytes, name);
   if (is_x3p(bytes)) out = parse_x3p(bytes, name);
+  if (is_smd(bytes)) out = parse_smd(bytes, name);
   if (!out) return std::nullopt;
   constexpr double kLargestHeight_m = 10.0;
   const ArealMap& map = out->map;

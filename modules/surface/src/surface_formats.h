@@ -20,6 +20,8 @@ bool is_sur(std::string_view bytes);
 SurfaceFile parse_sur(std::string_view bytes, const std::string& name);
 bool is_x3p(std::string_view bytes);
 SurfaceFile parse_x3p(std::string_view bytes, const std::string& name);
+bool is_smd(std::string_view bytes);
+SurfaceFile parse_smd(std::string_view bytes, const std::string& name);
 
 inline constexpr std::size_t kMostHeights = std::size_t{1} << 27;
 

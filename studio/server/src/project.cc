@@ -30,7 +30,7 @@ std::optional<EntryKind> kind_of_file(const fs::path& path) {
   if (name.ends_with("texture.json")) return EntryKind::kTexture;
   if (name.ends_with(".study.json")) return EntryKind::kStudy;
   if (name.ends_with(".study.csv")) return EntryKind::kStudyLog;
-  constexpr std::array<std::string_view, 5> meshes{".obj", ".ply", ".stl", ".gltf", ".glb"};
+  constexpr std::array<std::string_view, 6> meshes{".obj", ".ply", ".stl", ".off", ".gltf", ".glb"};
   constexpr std::array<std::string_view, 2> images{".png", ".pgm"};
   constexpr std::array<std::string_view, 5> tables{".csv", ".tsv", ".txt", ".dat", ".log"};
   const std::string extension = path.extension().string();

@@ -194,7 +194,9 @@ class PaintPage : public Page {
                     observer.update("reading", 0.0);
                     const Scene scene = read_export_source(source, observer);
                     observer.update("exporting", 0.3);
-                    Json out = write_export(folder.path(), export_scene(scene, format, {}));
+                    ExportResult files = export_scene(scene, format, {});
+                    add_material_images(source, scene, format, files);
+                    Json out = write_export(folder.path(), files);
                     put_in_place(folder, name, *hub);
                     out["folder"] = name;
                     return out;

@@ -28,16 +28,19 @@ struct GltfTexture {
   std::string name;
   Eigen::Vector2d size_mm = Eigen::Vector2d::Ones();  // that the images cover
   std::optional<GltfImage> normal_map;
-  std::optional<GltfImage> height_map;  // grey; black is 0, white height_range_m
+  std::optional<GltfImage> height_map;  // grey; black is height_low_m, white height_range_m above it
   std::optional<double> height_range_m;
+  double height_low_m = 0.0;
   std::optional<double> stiffness_N_per_m;
   std::optional<double> friction;
+  std::string warning{};  // what is wrong with its source; empty: nothing known
 };
 
 struct GltfExport {
   MeshFile mesh;
   double unit_m = 1.0;  // the length of the mesh's unit; glTF is in metres
   std::vector<GltfTexture> textures;
+  std::string white_png{};  // a PNG of one white pixel: the image of a coefficient that is the same everywhere
 };
 
 enum class GltfForm { kJson, kBinary };
@@ -51,10 +54,13 @@ enum class GltfForm { kJson, kBinary };
 // The material of a haptic primitive has the texture's normal map as normalTexture on TEXCOORD_1. What
 // glTF has no place for is in `extras`: of the primitive, "asperity" {haptic_texture, size_mm}, from which
 // parse_gltf restores the haptic coordinates; of the material, "asperity" {name, height_map (index of a
-// glTF texture), height_range_m, stiffness_N_per_m, friction}; of the file and its meshes,
-// "MPEG_material_haptic" in the form of ISO/IEC 23090-14 Amd. 2: `materials` whose vibrotactileTexture
-// is the height map, and `hapticMaterialIndex`.
-// Vertex colours, groups and smoothing groups are not written.
+// glTF texture), height_range_m, height_low_m, stiffness_N_per_m, friction, warning}. The file's extension
+// MPEG_haptic_material (KhronosGroup/glTF, extensions/2.0/Vendor) has a material for each haptic texture, to which the
+// extension of a mesh points (hapticMaterialIndex): vibrotactileTexture is the height map; stiffness and friction are
+// images of one white pixel, if white_png is given. The extension states no scale, so each image has extras.asperity
+// {black, white, unit}: the values of black and white.
+//   COLOR_0     vertex colours where all vertices of a primitive have one, within 0 and 1, taken as linear.
+// Groups and smoothing groups are not written.
 // Throws Error for a mesh that contradicts itself, a number that is not finite or beyond float32, a
 // texture without size, and files of 4 GiB or more.
 std::string format_gltf(const GltfExport& scene, GltfForm form);

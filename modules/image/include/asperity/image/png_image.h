@@ -14,6 +14,11 @@ namespace asperity {
 // damaged or cut off, for more than kLargestImageSide_px a side, all before the memory is taken.
 DeepGrayImage parse_png(std::string_view data, const std::string& name);
 
+// Reads any PNG in gray of 8 or 16 bits: levels of 1, 2 and 4 bits are spread over 8 (v · 255 / highest), colours and
+// palettes become 0.299 R + 0.587 G + 0.114 B, transparency is left out. `note` says what was converted; empty for a
+// file that parse_png reads, whose samples are as they are. Throws Error as above.
+DeepGrayImage convert_png(std::string_view data, const std::string& name, std::string& note);
+
 // Reads any PNG in 8 bit gray: of 16 bits the upper 8; colours as 0.299 R + 0.587 G + 0.114 B; transparency is left
 // out. Throws Error as above.
 GrayImage decode_png(std::string_view data, const std::string& name);

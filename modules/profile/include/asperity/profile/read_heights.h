@@ -21,9 +21,10 @@ struct ReadHeightsConfig {
 
   template <class V>
   void visit(V& v) {
-    v.field("spacing_m", spacing_m, "distance of the heights, for files without positions; 0: not given", {0.0, 1.0});
+    v.field("spacing_m", spacing_m,
+            "distance of the heights, for files without positions (one column, TIFF); 0: not given", {0.0, 1.0});
     v.field("column", column, "the column of heights; empty: texture_m, else height_m, else the only one");
-    v.choice("unit", unit, kHeightUnitNames, "of a column whose name ends in no unit");
+    v.choice("unit", unit, kHeightUnitNames, "of a column whose name ends in no unit, and of a TIFF");
   }
 };
 
@@ -37,8 +38,9 @@ struct HeightProfile {
 
 using Heights = std::variant<HeightProfile, ArealMap>;
 
-// Heights from an instrument's file (GSF, SDF, SUR, X3P: surface/parse_surface_file.h), or from a text file of one of
-// these kinds, told apart by their first line:
+// Heights from an instrument's file (GSF, SDF, SUR, X3P, SMD: surface/parse_surface_file.h), from a TIFF
+// (image/tiff_image.h: its numbers times `unit`, at `spacing_m` along both sides, nan where a float is nan), or from a
+// text file of one of these kinds, told apart by their first line:
 //   s_m,height_m,texture_m,…   a profile.csv, uniform in s_m
 //   x_mm,z_um                  positions and heights, units by name
 //   height                     one column, with or without a header; needs `spacing_m`. A name that

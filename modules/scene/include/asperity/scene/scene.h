@@ -22,6 +22,7 @@ struct SceneTexture {
   Texture texture;
   int order = 0;  // where two textures are laid on one triangle, the one of the greater order is rendered
   std::optional<TextureOrigin> origin{};  // nullopt: not known
+  std::string warning{};                  // why its source is not valid; empty: nothing known. Not in scene.json
 };
 
 // A mesh with its haptic coordinates, textures and material.

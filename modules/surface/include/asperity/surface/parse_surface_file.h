@@ -20,10 +20,11 @@ struct SurfaceFile {
 //   SDF     ISO 25178-71, ASCII and binary (aISO-1.0, bISO-1.0, and their forerunners aBCR-1.0, bBCR-1.0)
 //   SUR     Digital Surf, uncompressed
 //   X3P     ISO 25178-72 (openGPS), binary or text data, with its mask of valid points
+//   SMD     ISO 5436-2 softgauges: a profile of equal steps
 // Missing points: nan in GSF and X3P, invalid points of X3P's mask, BAD in SDF's text, nan in its binary data, and the
-// value below the lowest by two where a SUR marks special points. Throws Error naming `name`, the place and the value
-// for a damaged file, a unit that is no length, a spacing that is not positive, heights of more than ten metres, and
-// more than 2^27 heights.
+// value below the lowest by two where a SUR marks special points; SMD has none. Throws Error naming `name`, the place
+// and the value for a damaged file, a unit that is no length, a spacing that is not positive, heights of more than ten
+// metres, and more than 2^27 heights.
 std::optional<SurfaceFile> parse_surface_file(std::string_view bytes, const std::string& name);
 
 }  // namespace asperity

@@ -16,7 +16,7 @@ const kTiles = 4;
 export function ScenePanel({ maps, onMaps }: { maps: boolean; onMaps(maps: boolean): void }) {
   const chosen = feelSection.value ?? {};
   const status = feelStatus.value;
-  const isMesh = /\.(obj|ply|stl|gltf|glb)$/i.test(chosen.scene ?? "");
+  const isMesh = /\.(obj|ply|stl|off|gltf|glb)$/i.test(chosen.scene ?? "");
   return (
     <Panel title="What is felt" collapsible>
       <Select

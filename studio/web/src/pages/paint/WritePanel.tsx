@@ -17,10 +17,14 @@ import { kWarpLimit, type PaintSection, type StrokeFigures } from "./painting";
 
 const FORMATS = [
   { value: "gltf", label: "glTF (.glb)" },
-  { value: "obj", label: "OBJ with coordinates" },
+  { value: "usda", label: "USDA with displacement" },
+  { value: "obj", label: "OBJ with MTL and maps" },
   { value: "stl", label: "STL relief to print" },
   { value: "png", label: "PNG height and normal maps" },
   { value: "wav", label: "WAV of a stroke" },
+  { value: "ahap", label: "AHAP of a stroke" },
+  { value: "haps", label: ".haps of a stroke" },
+  { value: "hjif", label: "HJIF (ISO/IEC 23090-31)" },
   { value: "x3p", label: "X3P heights" },
 ];
 

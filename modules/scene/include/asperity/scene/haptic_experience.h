@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace asperity {
+
+// What of ISO/IEC 23090-31 a texture needs: perceptions of channels, each one curve of keyframes.
+
+enum class HapticModality { kVibrotactile, kVibrotactileTexture, kStiffness, kFriction };
+inline constexpr std::array<std::string_view, 4> kHapticModalityNames{"Vibrotactile", "VibrotactileTexture",
+                                                                      "Stiffness", "Friction"};
+
+// A value at a position, in the channel's units: amplitude · gain.
+struct HapticKeyframe {
+  std::int64_t position = 0;  // of 10^unit_exponent m for textures, stiffness and friction; of 1/timescale s else
+  double amplitude = 0.0;     // −1 to 1
+};
+
+// A channel of one band of straight pieces between keyframes.
+struct HapticChannel {
+  std::string description;
+  double gain = 1.0;  // what an amplitude of 1 is, in the unit of the perception
+  int highest_frequency = 0;
+  std::vector<HapticKeyframe> keyframes;  // positions from 0, rising
+};
+
+struct HapticPerception {
+  HapticModality modality = HapticModality::kVibrotactileTexture;
+  std::string description;
+  int unit_exponent = -6;            // positions are micrometres
+  int perception_unit_exponent = 0;  // values are metres, newtons, or numbers
+  std::vector<HapticChannel> channels;
+};
+
+struct HapticExperience {
+  std::string description;
+  int timescale = 1000;  // ticks a second
+  std::vector<HapticPerception> perceptions;
+};
+
+}  // namespace asperity
