@@ -144,7 +144,7 @@ def main():
                     lines.append(f"{kind}\t{reader.name}: {what}\t{words}")
                     if kept:
                         print(lines[-1].replace("\n", " | "), file=kept, flush=True)
-                if kept and sum(counts.values()) % 500 == 0:
+                if kept and sum(counts.values()) % 100 == 0:
                     print(f"done\t{sum(counts.values())} of {len(cases)}", file=kept, flush=True)
         lines.sort()
         for line in lines[:40]:
