@@ -134,7 +134,7 @@ class RegisterCommand : public Command {
     const std::optional<Pose> guess = first_pose(input.unit_m());
     std::optional<SceneFolder> scene_folder;
     if (!into_.empty()) scene_folder.emplace(input.onto);
-    reads(files_.front());
+    reads(files_.front(), into_.empty() ? mesh_path : into_);
     for (std::size_t i = 0; i < placements.size(); ++i) input.scans[i].placement = placements[i];
     const ScansOnMesh result = register_input(input, guess, config_, observer);
     reads("");

@@ -60,7 +60,8 @@ std::string Command::with_input(const std::string& message) const {
   for (const std::string& named : {"/" + name, name + ":", "'" + name + "'"}) {
     if (message.find(printable(named, 200)) != std::string::npos) return message;
   }
-  return printable(read_from_, 200) + ": " + message;
+  const std::string over = read_over_.empty() ? "" : " over " + printable(read_over_, 200);
+  return printable(read_from_, 200) + over + ": " + message;
 }
 
 void Command::say(std::string_view text) const {

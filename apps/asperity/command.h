@@ -59,7 +59,11 @@ class Command {
   Option* require(Option* option);
   bool json() const { return json_; }
   // From now on an error is one of this file or folder: for what is found out behind the reader, which knows no names.
-  void reads(std::string path) { read_from_ = std::move(path); }
+  // `mesh` is the file of the mesh that it is over.
+  void reads(std::string path, std::string mesh = {}) {
+    read_from_ = std::move(path);
+    read_over_ = std::move(mesh);
+  }
   // For a person: prints unless --json or --quiet.
   void say(std::string_view text) const;
   // The result: prints `object` if --json. One line break is added.
@@ -68,7 +72,7 @@ class Command {
  private:
   Parser* parser_;
   std::vector<Option*> required_;
-  std::string read_from_;
+  std::string read_from_, read_over_;
   bool json_ = false;
   bool quiet_ = false;
   bool print_config_ = false;

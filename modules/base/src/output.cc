@@ -109,10 +109,9 @@ class OutputNote {
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-// All files and folders below `folder`, by their relative paths.
-std::set<fs::path> names_in(const fs::path& folder) {
+// All files and folders below `folder`, by their relative paths; with an error, those before it.
+std::set<fs::path> names_in(const fs::path& folder, std::error_code& error) {
   std::set<fs::path> out;
-  std::error_code error;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     out.insert(entry->path().lexically_relative(folder));
   }
@@ -186,7 +185,7 @@ OutputFolder::OutputFolder(fs::path target, const std::function<bool(const fs::p
     if (!fs::is_empty(target_) && !is_ours(target_)) {
       throw Error(target_.string() + ": exists and was not written by asperity; nothing was changed");
     }
-    known_ = names_in(target_);
+    known_ = names_in(target_, error);
   }
   if (target_.has_parent_path()) {
     fs::create_directories(target_.parent_path(), error);
@@ -211,10 +210,14 @@ std::vector<fs::path> OutputFolder::commit() {
   std::vector<fs::path> kept;
   OutputNote note(target_);
   // What gets the name must be whole on the disk before, or a power cut leaves the name with half of it.
-  for (const fs::path& name : names_in(temporary_)) sync(temporary_ / name, target_);
+  for (const fs::path& name : names_in(temporary_, ignored)) sync(temporary_ / name, target_);
   sync(temporary_, target_);
   if (fs::exists(target_, ignored)) {
     fs::path old = temporary_;
+    // Made before, as the note is.
+    const Error no_memory(target_.string() +
+                          ": is written, but there is not enough memory to remove what it replaced; " +
+                          "the name of its folder begins with " + old.string());
     // Exchanging the two names leaves no moment without a whole folder in place.
     if (::renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) != 0) {
       old += ".old";
@@ -227,9 +230,13 @@ std::vector<fs::path> OutputFolder::commit() {
     mark_finished(temporary_);
     temporary_.clear();
     note.make();
-    sync_name("; what it replaced is kept in " + old.string());
-    kept = keep_strangers(old);
-    fs::remove_all(old, ignored);
+    try {
+      sync_name("; what it replaced is kept in " + old.string());
+      kept = keep_strangers(old);
+      fs::remove_all(old, ignored);
+    } catch (const std::bad_alloc&) {
+      throw no_memory;
+    }
   } else if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
     throw Error(target_.string() + ": cannot be written: " + reason());
   } else {
@@ -251,7 +258,13 @@ void OutputFolder::sync_name(const std::string& besides) const {
 // Moves what came into the folder since we looked at it into the one that has taken its place.
 std::vector<fs::path> OutputFolder::keep_strangers(const fs::path& old) const {
   std::vector<fs::path> kept;
-  for (const fs::path& name : names_in(old)) {
+  std::error_code unread;
+  const std::set<fs::path> names = names_in(old, unread);
+  if (unread) {
+    throw Error(target_.string() + ": is written, but what it replaced cannot be read: " + unread.message() +
+                "; it is kept in " + old.string());
+  }
+  for (const fs::path& name : names) {
     // What lies in a folder that is moved goes with it.
     const bool moved =
         !kept.empty() &&

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <sstream>
 #include <tuple>
 #include <unordered_map>
 
@@ -14,6 +13,7 @@
 #include "gltf_buffer.h"
 #include "gltf_corner.h"
 #include "gltf_haptics.h"
+#include "gltf_text.h"
 #include "tinygltf_config.h"
 
 namespace asperity {
@@ -45,10 +45,7 @@ class GltfWriter {
     haptics_ = add_gltf_haptics(model_, buffer_, scene_);
     primitives();
     buffer_.close();
-    std::ostringstream out;
-    tinygltf::TinyGLTF writer;
-    if (!writer.WriteGltfSceneToStream(&model_, out, true, form == GltfForm::kBinary)) fail("it cannot be written");
-    return std::move(out).str();
+    return gltf_text(model_, form);
   }
 
  private:

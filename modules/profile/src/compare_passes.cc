@@ -102,7 +102,8 @@ SplitDifferences parts_of(const PassDifferences& differences, const PowerSpectru
 
 PassDifferences compare_passes(std::span<const PassOnGrid> passes, double spacing_mm, const AlignPassesConfig& config) {
   PassDifferences out;
-  const auto [begin, end] = shared_stretch(passes);
+  const auto stretch = shared_stretch(passes);
+  const std::size_t begin = stretch.first, end = stretch.second;
   if (end < begin + kPassSegment_points) return out;
   const std::size_t points = end - begin;
   const double count = static_cast<double>(passes.size());

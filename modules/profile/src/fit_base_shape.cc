@@ -74,11 +74,11 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
   // A path that leaves the plane by more than the slow error says less about it.
   const double error_m2 = std::max(config.slow_error_m * config.slow_error_m, fit.scatter_m2.z());
   // The posterior on a grid of a tenth of a degree over the half circle about its mode: it may have two humps.
-  constexpr int kSteps = 1800;
-  std::vector<double> log_density(kSteps);
+  constexpr int kGridSteps = 1800;
+  std::vector<double> log_density(kGridSteps);
   int best = 0;
-  for (int k = 0; k < kSteps; ++k) {
-    const double phi = (static_cast<double>(k) / kSteps - 0.5) * kPiOfFit;
+  for (int k = 0; k < kGridSteps; ++k) {
+    const double phi = (static_cast<double>(k) / kGridSteps - 0.5) * kPiOfFit;
     const double c = std::cos(phi), s = std::sin(phi);
     double value = 0.0;
     if (use_path)
@@ -89,10 +89,10 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
   }
   constexpr double kHump_rad = 30.0 * kDegreeOfFit_rad;
   double sum = 0.0, near = 0.0, first = 0.0, second = 0.0;
-  for (int d = -kSteps / 2; d < kSteps / 2; ++d) {
-    const auto k = static_cast<std::size_t>((best + d + kSteps) % kSteps);
+  for (int d = -kGridSteps / 2; d < kGridSteps / 2; ++d) {
+    const auto k = static_cast<std::size_t>((best + d + kGridSteps) % kGridSteps);
     const double density = std::exp(log_density[k] - log_density[static_cast<std::size_t>(best)]);
-    const double x = d * kPiOfFit / kSteps;
+    const double x = d * kPiOfFit / kGridSteps;
     sum += density;
     second += density * x * x;
     if (std::abs(x) > kHump_rad) continue;
@@ -101,7 +101,7 @@ PlaneCandidate fit_plane_candidate(const PathEvidence& evidence, const BasePathC
   }
   // The mean of the hump about the mode: the mean over two humps would lie in neither.
   const double shift = first / near;
-  const double phi = (static_cast<double>(best) / kSteps - 0.5) * kPiOfFit + shift;
+  const double phi = (static_cast<double>(best) / kGridSteps - 0.5) * kPiOfFit + shift;
 
   PlaneCandidate out;
   out.normal = std::cos(phi) * e3 + std::sin(phi) * e2;

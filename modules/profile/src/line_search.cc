@@ -58,7 +58,9 @@ LineSearch::LineSearch(std::span<const double> height_m, double spacing_m, std::
   searched_ = std::max(2.0, profile_m / shortest_m);
   trials_ = std::max(2.0, profile_m * (1.0 / shortest_m - 1.0 / longest_m));
   searched_bins_ = static_cast<std::size_t>(length_m_ / shortest_m) + 1;
-  if (points_ == 0.0) return;
+  // Fewer heights than independent frequencies do not tell these apart. Such a path is wild and long, and nearly every
+  // ordinate would be asked.
+  if (points_ == 0.0 || points_ < std::min(searched_, 0.5 * static_cast<double>(height_m.size()))) return;
   for (const std::complex<double>& line : real_dft(x)) {
     power_.push_back(2e3 * spacing_m * std::norm(line) / points_);
     const double at = 1e-3 * static_cast<double>(power_.size() - 1) / length_m_;

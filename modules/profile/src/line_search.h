@@ -20,7 +20,8 @@ class LineSearch {
   };
 
   // Heights in m, nan in gaps; the density of the noise in m²/(cycles/mm) at rising frequencies in cycles/mm, empty for
-  // none; it may be `most_noise` times as much. Waves of `shortest_m` to `longest_m` are looked for.
+  // none; it may be `most_noise` times as much. Waves of `shortest_m` to `longest_m` are looked for. Of fewer heights
+  // than independent frequencies, one to a shortest wave, nothing is a line.
   LineSearch(std::span<const double> height_m, double spacing_m, std::span<const double> frequency,
              std::span<const double> noise_psd_m2_mm, double most_noise, double shortest_m, double longest_m,
              const Hypotheses& hypotheses);

@@ -199,5 +199,23 @@ TEST(LineSearch, NothingIsNoLine) {
   EXPECT_EQ(find_line_m({1e-3, 2e-3}), 0.0);
 }
 
+// A wild path of 20 m on which 133 heights are present (a gyroscope's zero times 1e6): the search took minutes.
+TEST(LineSearch, FewHeightsOfALongPathHaveNoLine) {
+  std::vector<double> height_m(800'000, std::numeric_limits<double>::quiet_NaN());
+  const auto wave = [](std::size_t i) { return 1e-5 * std::sin(kTwoPi * static_cast<double>(i) * kSpacing_m / 1e-3); };
+  for (std::size_t i = 0; i < 133; ++i) height_m[6000 * i] = wave(6000 * i);
+  const LineSearch few(height_m, kSpacing_m, {}, {}, 1.0, kShortest_m, kLongest_m);
+  EXPECT_EQ(few.find_line_m(kShortest_m, kLongest_m), 0.0);
+  EXPECT_FALSE(few.has_pattern(1e-3));
+  EXPECT_FALSE(few.has_line(1e-3, 1));
+
+  // As many as there are frequencies, one in eleven, are enough for a line without noise.
+  std::vector<double> enough_m(kPoints, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < kPoints; i += 11) enough_m[i] = wave(i);
+  EXPECT_NEAR(
+      LineSearch(enough_m, kSpacing_m, {}, {}, 1.0, kShortest_m, kLongest_m).find_line_m(kShortest_m, kLongest_m), 1e-3,
+      5e-6);
+}
+
 }  // namespace
 }  // namespace asperity

@@ -22,7 +22,7 @@ constexpr double kShiftFloor_m = 20e-6;  // of a shift: strokes beside each othe
 // Points of all paths by cells of space.
 class Cells {
  public:
-  Cells(const FacetHeights& heights, double size_m) : heights_(heights), size_m_(size_m) {
+  Cells(const FacetHeights& heights, double size_m) : size_m_(size_m) {
     for (std::size_t i = 0; i < heights.d_m.size(); ++i) {
       if (heights.usable[i] != 0) points_[key(heights.p_mesh_m[i])].push_back(i);
     }
@@ -43,7 +43,6 @@ class Cells {
   std::array<long, 3> key(const Eigen::Vector3d& p_m) const {
     return {std::lround(p_m.x() / size_m_), std::lround(p_m.y() / size_m_), std::lround(p_m.z() / size_m_)};
   }
-  const FacetHeights& heights_;
   double size_m_;
   std::map<std::array<long, 3>, std::vector<std::size_t>> points_;
 };

@@ -99,8 +99,8 @@ std::vector<int> group_windows(const std::vector<SeriesWindow>& windows, int gro
     points.push_back({max_speed > 0.0 ? w.speed_mps / max_speed : 0.0, max_force > 0.0 ? w.force_N / max_force : 0.0});
   auto centres = farthest_points(points, static_cast<std::size_t>(std::max(groups, 1)));
   std::vector<int> group(points.size());
-  constexpr int kRounds = 200;
-  for (int round = 0; round < kRounds; ++round) {
+  constexpr int kMostRounds = 200;
+  for (int round = 0; round < kMostRounds; ++round) {
     bool changed = round == 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const int g = nearest(centres, points[i]);
