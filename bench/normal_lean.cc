@@ -3,6 +3,7 @@
 // motion's evidence (base.texture_axis_sigma_deg = 0).
 //
 //   normal_lean [--scans 100] [--seed 1] [--simulator ours|second] [--families …] [--probes …] [--list yes]
+//   normal_lean --scan NUMBER --list yes        (one scan, by the number that the list has)
 //
 // The object is the plane or the cylinder from which the true tip has its true heights, fitted to them.
 
@@ -167,17 +168,21 @@ int main(int argc, char** argv) {
     std::uint64_t seed = 1;
     bool ours = true, list = false;
     bench::CaseChoice choice;
+    std::uint64_t scan_number = 0;
     bench::read_options(
         argc, argv,
         {{"--scans", [&](auto value) { scans = static_cast<int>(bench::number_within(value, 1.0, 1e6)); }},
          {"--seed", [&](auto value) { seed = static_cast<std::uint64_t>(bench::number_within(value, 0.0, 1e12)); }},
          {"--simulator", [&](auto value) { ours = bench::is_first(value, "ours", "second"); }},
+         {"--scan",
+          [&](auto value) { scan_number = static_cast<std::uint64_t>(bench::number_within(value, 1.0, 1e15)); }},
          {"--list", [&](auto value) { list = bench::is_first(value, "yes", "no"); }},
          {"--families", [&](auto value) { choice.families = bench::split_list(value); }},
          {"--probes", [&](auto value) { choice.probes = bench::split_list(value); }}});
     std::map<std::string, std::pair<Column, Column>> rows;
+    if (scan_number > 0) scans = 1;
     for (int i = 0; i < scans; ++i) {
-      const std::uint64_t number = seed * 1'000'000 + static_cast<std::uint64_t>(i);
+      const std::uint64_t number = scan_number > 0 ? scan_number : seed * 1'000'000 + static_cast<std::uint64_t>(i);
       const bench::ScanCase scan =
           ours ? bench::simulate_own_case(number, choice) : bench::simulate_second_case(number, choice);
       if (scan.family == "air" || !scan.recording.truth) continue;

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <cstddef>
 #include <limits>
 #include <numbers>
+
+#include "lean_bands.h"
 
 namespace asperity {
 
@@ -13,131 +14,57 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kDegree_rad = kPi / 180.0;
-constexpr std::size_t kCells = 256;  // of one stretch: 1.28 s at 200 Hz
-constexpr double kLowest_Hz = 4.0;   // below it a tracker's error moves the tip, more along its ray than across
-constexpr double kHighest_Hz = 60.0;
-constexpr double kBandRatio = 1.26;          // third octaves
-constexpr double kFewestCoefficients = 3.0;  // independent coefficients of a band
-constexpr double kSlowestRate_Hz = 190.0;    // of a motion that an accelerometer has followed
-constexpr double kOverlapping = 0.5;         // independent coefficients for each of stretches that overlap by half
+constexpr double kSlowestRate_Hz = 190.0;             // of a motion that an accelerometer has followed
 constexpr double kAlignment_rad = 1.5 * kDegree_rad;  // of accelerometer and orientation against the base
 constexpr double kNothing = 1e-9;
 constexpr double kCoupled = 0.02;                 // how often tremor and texture have to do with each other after all
 constexpr double kForce_rad = 3.0 * kDegree_rad;  // crosstalk of a force sensor's axes, 5 %
 constexpr double kFewestForces = 50.0;
 constexpr double kReach_rad = 60.0 * kDegree_rad;
-constexpr int kSteps = 1201;  // of a tenth of a degree
+constexpr int kSteps = 1201;           // of a tenth of a degree
+constexpr double kLargestScale = 4.0;  // of the noise: it is known to this factor
+constexpr int kScales = 9;
 
 double angle_at(int k) { return kReach_rad * (2.0 * k / (kSteps - 1) - 1.0); }
 
-// Sums over a band: of |a_n|², |a_b|² and Re(a_n a_b*).
-struct Band {
-  double normal = 0.0, across = 0.0, both = 0.0, count = 0.0;
-  double along_normal(double phi) const {
-    const double c = std::cos(phi), s = std::sin(phi);
-    return c * c * normal + s * s * across + 2.0 * s * c * both;
-  }
-  double across_normal(double phi) const { return along_normal(phi + 0.5 * kPi); }
+// The covariance of a band along and across the normals that lean by φ: its mean coefficient's, less a constant factor.
+struct Powers {
+  double normal = 0.0, across = 0.0;                      // of texture and tremor, without the noise
+  double all_normal = 0.0, all_across = 0.0, both = 0.0;  // with it
 };
 
-// A stretch of the motion: the sums of each bin, and how much the change of the lean goes with it.
-struct Stretch {
-  double change = 0.0;
-  std::vector<Band> bins;  // from the lowest frequency on
-};
-
-// Accelerations of the cells over the base, between cells that moved in contact; runs of them.
-struct MotionRun {
-  std::vector<double> normal, across, change;
-};
-
-std::vector<MotionRun> find_runs(const PathEvidence& evidence, std::span<const double> t_s, const BasePath& base,
-                                 const LeanAxes& axes) {
-  const std::size_t cells = evidence.path.size();
-  std::vector<double> rise(cells);
-  std::vector<std::size_t> sample(cells);
-  for (std::size_t c = 0; c < cells; ++c) {
-    const auto at = std::lower_bound(t_s.begin(), t_s.end(), evidence.path.time_s(c));
-    sample[c] = std::min(static_cast<std::size_t>(at - t_s.begin()), t_s.size() - 1);
-    rise[c] = base.n_world[sample[c]].dot(evidence.path.p_m[c] - base.p_world_m[sample[c]]);
-  }
-  std::vector<MotionRun> out;
-  bool open = false;
-  for (std::size_t c = 1; c + 1 < cells; ++c) {
-    if (evidence.weight[c - 1] == 0.0 || evidence.weight[c] == 0.0 || evidence.weight[c + 1] == 0.0) {
-      open = false;
-      continue;
-    }
-    if (!open) out.emplace_back();
-    open = true;
-    const auto& p = evidence.path.p_m;
-    out.back().normal.push_back(rise[c + 1] - 2.0 * rise[c] + rise[c - 1]);
-    out.back().across.push_back(axes.across[sample[c]].dot(p[c + 1] - 2.0 * p[c] + p[c - 1]));
-    out.back().change.push_back(axes.change.empty() ? 0.0 : axes.change[sample[c]]);
-  }
+Powers powers_at(const BandPower& measured, const BandPower& noise, double scale) {
+  Powers out;
+  out.all_normal = std::max(measured.normal, scale * noise.normal);
+  out.all_across = std::max(measured.across, scale * noise.across);
+  out.both = scale * noise.both;
+  out.normal = out.all_normal - scale * noise.normal;
+  out.across = out.all_across - scale * noise.across;
   return out;
 }
 
-// LeanBins of the frequencies that are looked at.
-struct LeanBins {
-  std::size_t first = 0, last = 0;
-};
-
-LeanBins bins_at(double rate_Hz) {
-  const double bin_Hz = rate_Hz / static_cast<double>(kCells);
-  return {static_cast<std::size_t>(std::ceil(kLowest_Hz / bin_Hz)),
-          static_cast<std::size_t>(std::min(kHighest_Hz, 0.3 * rate_Hz) / bin_Hz)};
+double log_likelihood(const LeanBand& band, double phi) {
+  const BandPower measured = band.measured.turned(phi);
+  if (!(band.noise.normal > 0.0)) return -band.count * (std::log(measured.normal * measured.across) + 2.0);
+  const BandPower noise = band.noise.turned(phi);
+  const auto value_at = [&](double scale) {
+    const Powers all = powers_at(measured, noise, scale);
+    const double det = all.all_normal * all.all_across - all.both * all.both;
+    const double trace =
+        (all.all_across * measured.normal + all.all_normal * measured.across - 2.0 * all.both * measured.both) / det;
+    return -band.count * (std::log(det) + trace);
+  };
+  // Noise along one line is nearly singular: between the steps is the scale at which it leaves nothing correlated.
+  const double even = measured.both / noise.both;
+  double most = value_at(even > 0.0 ? std::clamp(even, 1.0 / kLargestScale, kLargestScale) : 1.0);
+  for (int k = 0; k < kScales; ++k)
+    most = std::max(most, value_at(std::pow(kLargestScale, 2.0 * k / (kScales - 1) - 1.0)));
+  return most;
 }
 
-std::vector<Stretch> find_stretches(const std::vector<MotionRun>& runs, const LeanBins& bins) {
-  std::vector<Stretch> out;
-  for (const MotionRun& run : runs) {
-    for (std::size_t begin = 0; begin + kCells <= run.normal.size(); begin += kCells / 2) {
-      Stretch& stretch = out.emplace_back();
-      for (std::size_t i = 0; i < kCells; ++i) stretch.change += run.change[begin + i] / static_cast<double>(kCells);
-      for (std::size_t k = bins.first; k <= bins.last; ++k) {
-        std::complex<double> n = 0.0, b = 0.0;
-        for (std::size_t i = 0; i < kCells; ++i) {
-          const double turn = 2.0 * kPi * static_cast<double>(i) / static_cast<double>(kCells);
-          const std::complex<double> wave = std::polar(1.0 - std::cos(turn), static_cast<double>(k) * turn);
-          n += wave * run.normal[begin + i];
-          b += wave * run.across[begin + i];
-        }
-        stretch.bins.push_back({std::norm(n), std::norm(b), std::real(n * std::conj(b)), kOverlapping});
-      }
-    }
-  }
-  return out;
-}
-
-// The sums over third octaves and all stretches, each turned by the change of the lean there.
-std::vector<Band> find_bands(const std::vector<Stretch>& stretches, const LeanBins& bins, double change_rad) {
-  std::vector<Band> out;
-  double until = kBandRatio * static_cast<double>(bins.first);
-  for (std::size_t k = bins.first; k <= bins.last; ++k) {
-    const bool full = !out.empty() && out.back().count >= kFewestCoefficients && static_cast<double>(k) >= until;
-    if (out.empty() || full) {
-      out.emplace_back();
-      until = kBandRatio * static_cast<double>(k);
-    }
-    Band& sum = out.back();
-    for (const Stretch& stretch : stretches) {
-      const Band& bin = stretch.bins[k - bins.first];
-      const double phi = change_rad * stretch.change, c = std::cos(2.0 * phi), s = std::sin(2.0 * phi);
-      sum.normal += bin.along_normal(phi);
-      sum.across += bin.across_normal(phi);
-      sum.both += c * bin.both + 0.5 * s * (bin.across - bin.normal);
-      sum.count += bin.count;
-    }
-  }
-  if (!out.empty() && out.back().count < kFewestCoefficients) out.pop_back();
-  std::erase_if(out, [](const Band& band) { return !(band.normal > 0.0 && band.across > 0.0); });
-  return out;
-}
-
-double log_likelihood(const std::vector<Band>& bands, double phi) {
+double log_likelihood(const std::vector<LeanBand>& bands, double phi) {
   double sum = 0.0;
-  for (const Band& band : bands) sum -= band.count * std::log(band.along_normal(phi) * band.across_normal(phi));
+  for (const LeanBand& band : bands) sum += log_likelihood(band, phi);
   return sum;
 }
 
@@ -148,20 +75,22 @@ void normalise(std::vector<double>& density) {
 }
 
 // The likelihood of the grid's angles by one kind of bands, widened by what is wrong with all of them alike.
-std::vector<double> widened_likelihood(const std::vector<Band>& bands, double near_rad, double texture_axis_sigma_rad) {
+std::vector<double> widened_likelihood(const std::vector<LeanBand>& bands, double near_rad,
+                                       double texture_axis_sigma_rad) {
   std::vector<double> sharp(kSteps);
   for (int k = 0; k < kSteps; ++k) sharp[static_cast<std::size_t>(k)] = log_likelihood(bands, angle_at(k));
   const double most = *std::max_element(sharp.begin(), sharp.end());
   for (double& density : sharp) density = std::exp(density - most);
   normalise(sharp);
   // A tip that goes sideways by γ of the texture turns a band by γ H/(H − W). Each band counts by its information on
-  // the angle, which goes as (H − W)²/(H W).
+  // the angle, which goes as (H − W)² over the product of the powers that are measured, noise and all.
   double information = 0.0, give = 0.0;
-  for (const Band& band : bands) {
-    const double h = band.along_normal(near_rad), w = band.across_normal(near_rad);
-    if (!(h > 0.0 && w > 0.0)) continue;
-    information += band.count * (h - w) * (h - w) / (h * w);
-    give += band.count * h / w;
+  for (const LeanBand& band : bands) {
+    const Powers at = powers_at(band.measured.turned(near_rad), band.noise.turned(near_rad), 1.0);
+    const double both = at.all_normal * at.all_across;
+    if (!(both > 0.0)) continue;
+    information += band.count * std::pow(at.normal - at.across, 2) / both;
+    give += band.count * at.normal * at.normal / both;
   }
   const double sigma = std::hypot(
       kAlignment_rad, information > 0.0 ? std::sqrt(give / information) * texture_axis_sigma_rad : kReach_rad);
@@ -181,7 +110,7 @@ std::vector<double> widened_likelihood(const std::vector<Band>& bands, double ne
 }
 
 // Multiplies the density over the grid by what the bands say: those of the tremor and those of the texture.
-void include_motion(const std::vector<Band>& bands, double texture_axis_sigma_rad, std::vector<double>& density) {
+void include_motion(const std::vector<LeanBand>& bands, double texture_axis_sigma_rad, std::vector<double>& density) {
   double near_rad = 0.0, most = -std::numeric_limits<double>::infinity();
   for (int k = 0; k < kSteps; ++k) {
     const double value = log_likelihood(bands, angle_at(k)) + std::log(density[static_cast<std::size_t>(k)]);
@@ -190,9 +119,10 @@ void include_motion(const std::vector<Band>& bands, double texture_axis_sigma_ra
     near_rad = angle_at(k);
   }
   for (const bool textured : {false, true}) {
-    std::vector<Band> kind;
-    for (const Band& band : bands) {
-      if ((band.along_normal(near_rad) > band.across_normal(near_rad)) == textured) kind.push_back(band);
+    std::vector<LeanBand> kind;
+    for (const LeanBand& band : bands) {
+      const Powers at = powers_at(band.measured.turned(near_rad), band.noise.turned(near_rad), 1.0);
+      if ((at.normal > at.across) == textured) kind.push_back(band);
     }
     if (kind.empty()) continue;
     const std::vector<double> likelihood = widened_likelihood(kind, near_rad, texture_axis_sigma_rad);
@@ -217,14 +147,14 @@ Lean moments(const std::vector<double>& density) {
 }
 
 // The change along the path, the mean lean being known: mean and standard deviation.
-Lean find_change(const std::vector<Stretch>& stretches, const LeanBins& bins, double lean_rad, double sigma_rad) {
+Lean find_change(const std::vector<LeanStretch>& stretches, const LeanBins& bins, double lean_rad, double sigma_rad) {
   constexpr int kAngles = 81;
   constexpr double kWide = 4.0;
   std::vector<double> at(kAngles), value(kAngles);
   for (int k = 0; k < kAngles; ++k) {
     const auto i = static_cast<std::size_t>(k);
     at[i] = sigma_rad * kWide * (2.0 * k / (kAngles - 1) - 1.0);
-    value[i] = log_likelihood(find_bands(stretches, bins, at[i]), lean_rad) - 0.5 * std::pow(at[i] / sigma_rad, 2);
+    value[i] = log_likelihood(find_lean_bands(stretches, bins, at[i]), lean_rad) - 0.5 * std::pow(at[i] / sigma_rad, 2);
   }
   const double most = *std::max_element(value.begin(), value.end());
   double sum = 0.0, first = 0.0, second = 0.0;
@@ -269,16 +199,16 @@ Lean estimate_lean(const TipMotion& motion, std::span<const double> t_s, std::sp
 
   const double rate_Hz = 1.0 / evidence.path.step_s;
   const bool followed = prior.texture_axis_sigma_rad > 0.0 && rate_Hz > kSlowestRate_Hz;
-  const LeanBins bins = bins_at(rate_Hz);
-  const std::vector<Stretch> stretches =
-      followed ? find_stretches(find_runs(evidence, t_s, base, axes), bins) : std::vector<Stretch>{};
+  const LeanBins bins = lean_bins(rate_Hz);
+  const std::vector<LeanStretch> stretches =
+      followed ? find_lean_stretches(motion, t_s, evidence, base, axes, bins) : std::vector<LeanStretch>{};
   Lean change{0.0, prior.change_sigma_rad, 0.0};
   Lean out = moments(known);
   if (!stretches.empty()) {
     // The mean lean, the change about it, and the mean again.
     for (int round = 0; round < 2; ++round) {
       std::vector<double> density = known;
-      const std::vector<Band> bands = find_bands(stretches, bins, change.lean_rad);
+      const std::vector<LeanBand> bands = find_lean_bands(stretches, bins, change.lean_rad);
       if (!bands.empty()) include_motion(bands, prior.texture_axis_sigma_rad, density);
       out = moments(density);
       if (!(prior.change_sigma_rad > 0.0)) break;

@@ -41,9 +41,16 @@ struct LeanPrior {
 // a third-octave band of N_k independent Fourier coefficients has the powers
 //     H_k(φ) = Σ |a_n cos φ + a_b sin φ|²,   W_k(φ) = Σ |a_b cos φ − a_n sin φ|²
 // and, the spectra unknown (Jeffreys' prior), the likelihood Π_k (H_k W_k)^−N_k: it is highest where the two are not
-// correlated. A tip that gives way sideways by γ of the texture turns a band by γ H/(H − W): little where the tremor is
-// the stronger, more than γ where the texture is. γ is known to `texture_axis_sigma_rad`; the likelihoods of both kinds
-// of bands are widened by it.
+// correlated. Where the sensors' noise is known (lean_bands.h), it is in both: a coefficient has the covariance
+//     S(φ) = diag(H − s E_nn, W − s E_bb)⁺ + s E(φ)
+// with E the noise's covariance along and across the normals that lean by φ, ⁺ for values below 0 put to 0, and the
+// likelihood is Π_k det S^−N_k exp(−N_k tr S⁻¹C), C the measured covariance: it is highest where what is left when the
+// noise is taken off is not correlated, says nothing where nothing is left, and is the former where there is no noise.
+// Noise on a lever is across the lever: without this it is a tremor about normals along the probe. Its scale s is
+// known to a factor of four, and the likeliest one is taken in each band and at each angle. A tip that
+// gives way sideways by γ of the texture turns a band by γ H/(H − W): little where the tremor is the stronger, more
+// than γ where the texture is. γ is known to `texture_axis_sigma_rad`; the likelihoods of both kinds of bands are
+// widened by it.
 //
 // A force sensor of three axes: friction is along travel, so the force across it is N sin φ.
 Lean estimate_lean(const TipMotion& motion, std::span<const double> t_s, std::span<const char> contact,

@@ -166,6 +166,7 @@ TrajectoryResult estimate_trajectory_fused(const Recording& recording, const Fus
   TrajectoryResult result;
   result.motion = inertial_smoother::make_tip_motion(inertial, smoothed, calibration.tip_in_marker_m);
   result.motion.sigma_tip_in_marker_m = problem.tip_sigma_m;
+  result.motion.noise = inertial_smoother::learnt_noise(inertial, problem, smoothed, calibration);
   const bool finite = std::all_of(result.motion.p_world_tip_m.begin(), result.motion.p_world_tip_m.end(),
                                   [](const Vector3d& p) { return p.allFinite(); });
   if (!finite) throw Error("the trajectory's estimate is not finite: check the calibration's magnitudes");

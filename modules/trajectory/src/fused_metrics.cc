@@ -55,6 +55,33 @@ void append_outliers(const Problem& problem, TrajectoryResult& result) {
 
 }  // namespace
 
+MotionNoise learnt_noise(const InertialStream& inertial, const Problem& problem, const Smoothed& smoothed,
+                         const Calibration& calibration) {
+  // One-sided: white noise of the standard deviation σ at the spacing T has 2 σ² T.
+  const auto density = [](double factor, double sigma, double spacing_s) {
+    return 2.0 * factor * sigma * sigma * spacing_s;
+  };
+  MotionNoise out;
+  const double period_s = inertial.period_s;
+  out.accel_m2ps3 = density(problem.process_scale * problem.factors[kAccelOwn], inertial.accel_noise_mps2, period_s);
+  if (!inertial.has_gyro) out.rotation_accel_rad2ps5 = 2.0 * rate_walk_density(problem);
+  double poses = 0.0, first_s = 0.0, last_s = 0.0;
+  for (const Epoch& epoch : problem.epochs) {
+    if (epoch.pose < 0) continue;
+    last_s = problem.knots[epoch.knot].t;
+    if (poses == 0.0) first_s = last_s;
+    poses += 1.0;
+  }
+  const Vector3d stated_rad = stated_sigma_rad(calibration.tracker);
+  const Vector3d factors(problem.factors[kRotationX], problem.factors[kRotationY], problem.factors[kRotationZ]);
+  if (poses > 1.0) {
+    out.rotation_rad2ps =
+        density(1.0, std::sqrt(factors.dot(stated_rad.cwiseAbs2()) / 3.0), (last_s - first_s) / (poses - 1.0));
+  }
+  out.tip_from_sensor_m = calibration.tip_in_marker_m - smoothed.last.lever;
+  return out;
+}
+
 void append_learnt(const InertialStream& inertial, const Problem& problem, const Smoothed& smoothed,
                    const Calibration& calibration, const FusedConfig& config, TrajectoryResult& result) {
   append_outliers(problem, result);

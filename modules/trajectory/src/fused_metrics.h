@@ -11,4 +11,8 @@ namespace asperity::inertial_smoother {
 void append_learnt(const InertialStream& inertial, const Problem& problem, const Smoothed& smoothed,
                    const Calibration& calibration, const FusedConfig& config, TrajectoryResult& result);
 
+// The noise of the streams as the smoother has learnt it, and the lever that it has estimated.
+MotionNoise learnt_noise(const InertialStream& inertial, const Problem& problem, const Smoothed& smoothed,
+                         const Calibration& calibration);
+
 }  // namespace asperity::inertial_smoother

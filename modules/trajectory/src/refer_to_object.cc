@@ -7,6 +7,7 @@ TipMotion refer_to_object(const TipMotion& motion, const ObjectMotion& object) {
   using Eigen::Vector3d;
   TipMotion out;
   out.sigma_tip_in_marker_m = motion.sigma_tip_in_marker_m;
+  out.noise = motion.noise;
   for (std::size_t i = 0; i < motion.size(); ++i) {
     if (!object.is_seen(motion.t_ns[i])) continue;
     const ObjectState state = object.at(motion.t_ns[i]);

@@ -8,6 +8,14 @@
 
 namespace asperity {
 
+// The sensors' own noise under a motion: one-sided densities, white, an axis. 0: not known, or there is none.
+struct MotionNoise {
+  double accel_m2ps3 = 0.0;
+  double rotation_rad2ps = 0.0;         // of the tracker's orientation
+  double rotation_accel_rad2ps5 = 0.0;  // without a gyroscope: of the angular acceleration, which the tracker follows
+  Eigen::Vector3d tip_from_sensor_m = Eigen::Vector3d::Zero();  // from the accelerometer to the tip, marker axes
+};
+
 // The motion of the probe's tip over time, what a trajectory estimate hands to the stages after it.
 // All vectors have one entry a sample; times rise strictly.
 struct TipMotion {
@@ -19,6 +27,7 @@ struct TipMotion {
   std::vector<Eigen::Matrix3d> cov_world_tip_m2;  // covariance of the position; empty if the method gives none
   // Of that, what comes from the tip's place in the marker, marker axes: one error for the whole motion.
   Eigen::Vector3d sigma_tip_in_marker_m = Eigen::Vector3d::Zero();
+  MotionNoise noise;
   // Calibrated axial reading, and the force along the surface's normal once that is known (profile/normal_force.h); nan
   // where the sensor gave none.
   std::vector<double> force_N;
