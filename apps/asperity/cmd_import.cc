@@ -10,13 +10,17 @@
 #include "asperity/base/version.h"
 #include "asperity/import/format_import.h"
 #include "asperity/import/import_mapped.h"
+#include "asperity/import/read_stroke.h"
+#include "asperity/import/stroke_file.h"
 #include "asperity/json/config_json.h"
 #include "asperity/recording/import_imu_pose.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
+#include "asperity/session/our_folder.h"
 #include "commands.h"
 #include "config_file.h"
 #include "option_units.h"
+#include "stroke_input.h"
 
 namespace asperity::app {
 
@@ -58,9 +62,11 @@ class ImportCommand : public Command {
  public:
   explicit ImportCommand(Parser& root)
       : Command(root, "import", "Make a recording of other programs' tables: poses, an inertial sensor, a force") {
-    require(parser().add_option("--pose", pose_, "Table with the poses; with all, if it is the only file"))
+    parser().add_option("--pose", pose_, "Table with the poses; with all, if it is the only file")->type_name("FILE");
+    parser()
+        .add_option("--imu", imu_, "Table with the accelerometer and the gyroscope; with --stroke also one an axis")
+        ->one_value_each()
         ->type_name("FILE");
-    parser().add_option("--imu", imu_, "Table with the accelerometer and the gyroscope")->type_name("FILE");
     parser().add_option("--gyro", gyro_, "Table with the gyroscope, where it has one of its own")->type_name("FILE");
     parser().add_option("--force", force_, "Table with the force")->type_name("FILE");
     parser()
@@ -79,6 +85,16 @@ class ImportCommand : public Command {
     parser()
         .add_option("--save-mapping", save_mapping_, "Write the mapping with what was guessed")
         ->type_name("FILE.toml");
+    parser().add_flag("--stroke", stroke_,
+                      "A stroke without orientations, for textures and spectra: an acceleration of one to three axes, "
+                      "and what there is of positions and force; for one column: --stroke --imu acc.txt "
+                      "--imu-columns \"ax=#1[g]\" --imu-rate 10000 -o STROKE");
+    parser()
+        .add_option("--stroke-speed", stroke_speed_, "Speed of a stroke without positions, as it was held")
+        ->type_name("SPEED");
+    parser()
+        .add_option("--stroke-force", stroke_force_, "Force of a stroke without a force, as it was held: 1N")
+        ->type_name("FORCE");
     parser().add_flag("--dry-run", dry_run_, "Print what the columns are read as, and write nothing");
     parser().add_flag("--unchecked", unchecked_, "Import in spite of what does not look plausible");
     parser().add_option("-o,--output", output_, "The recording's folder")->type_name("REC");
@@ -87,11 +103,15 @@ class ImportCommand : public Command {
   std::vector<ConfigField> fields() override {
     std::vector<ConfigField> out = list_fields("import", config_);
     for (ConfigField& field : list_fields("mapping", mapping_)) out.push_back(std::move(field));
+    for (ConfigField& field : list_fields("stroke", stroke_config_)) out.push_back(std::move(field));
     return out;
   }
 
   void apply_options() override {
     if (!mapping_file_.empty()) load_config_file(mapping_file_, fields());
+    if (!stroke_speed_.empty()) stroke_config_.speed_mps = speed_option_mps("--stroke-speed", stroke_speed_);
+    constexpr double kMostForce_N = 1e3;
+    if (!stroke_force_.empty()) stroke_config_.force_N = force_option_N("--stroke-force", stroke_force_, kMostForce_N);
     if (!noise_.empty()) config_.pose_noise_m = lengths_option_m("--pose-noise", noise_);
     if (!tip_.empty()) {
       const Eigen::Vector3d tip = point_option_m("--tip", tip_);
@@ -117,7 +137,10 @@ class ImportCommand : public Command {
 
   int run(const Observer& observer) override {
     if (output_.empty() && !dry_run_) throw UsageError("--output is required, or --dry-run");
-    const ImportFiles files{pose_, imu_, gyro_, force_, object_pose_};
+    if (stroke_) return run_stroke();
+    if (pose_.empty()) throw UsageError("--pose is required, or --stroke for an acceleration without poses");
+    if (imu_.size() > 1) throw UsageError("--imu is one file, but with --stroke");
+    const ImportFiles files{pose_, imu_file(), gyro_, force_, object_pose_};
     if (!dry_run_ && save_mapping_.empty() && is_same_config(mapping_, MappingConfig{}) && has_fixed_columns(files)) {
       return run_fixed(observer);
     }
@@ -145,10 +168,43 @@ class ImportCommand : public Command {
   }
 
  private:
+  std::string imu_file() const { return imu_.empty() ? std::string() : imu_.front(); }
+
+  int run_stroke() {
+    if (pose_.empty() && imu_.empty()) throw UsageError("--stroke needs --imu, or --pose for one file with all");
+    if (!gyro_.empty() || !object_pose_.empty() || !save_mapping_.empty())
+      throw UsageError("--stroke takes no --gyro, --object-pose or --save-mapping");
+    StrokeReading reading = read_stroke({{imu_.begin(), imu_.end()}, pose_, force_}, mapping_, stroke_config_);
+    std::string text = stroke_columns_text(reading.tables);
+    if (!dry_run_ && !unchecked_ && !reading.doubts.empty()) {
+      std::string doubts;
+      for (const std::string& doubt : reading.doubts) doubts += (doubts.empty() ? "" : "\n  ") + doubt;
+      throw Error(doubts + "\n  (--dry-run prints the columns; --unchecked imports in spite of this)");
+    }
+    if (dry_run_) {
+      text += stroke_text(reading.stroke);
+      for (const std::string& doubt : reading.doubts) text += "implausible " + doubt + "\n";
+      say(text);
+      return reading.doubts.empty() || unchecked_ ? kDone : kBadInput;
+    }
+    for (const std::string& doubt : reading.doubts) reading.stroke.problems.push_back({"implausible", doubt, 1});
+    OutputFolder folder(output_, is_our_folder);
+    Json out = asperity::write_stroke(folder.path(), reading.stroke, stroke_origins(reading.tables));
+    write_listing(folder.path());
+    commit_output(folder, output_);
+    const bool trustworthy = out.at("trustworthy").get<bool>();
+    out["stroke"] = output_;
+    out["config"] = config_json(fields());
+    out["asperity"] = kVersion;
+    print_json(out.dump_repaired(2));
+    say(text + stroke_text(reading.stroke) + stroke_heights_text(reading.stroke));
+    return trustworthy ? kDone : kNotTrustworthy;
+  }
+
   // The one form of file that needs no mapping.
   int run_fixed(const Observer& observer) {
     OutputFolder folder(output_, is_replaceable_recording);
-    const ImportInput input = read_imu_pose(imu_, pose_, object_pose_);
+    const ImportInput input = read_imu_pose(imu_file(), pose_, object_pose_);
     observer.update("importing", 0.5);
     const Recording recording = import_imu_pose(input, config_);
     write_recording(folder.path(), recording);
@@ -208,7 +264,7 @@ class ImportCommand : public Command {
     say(text);
   }
 
-  std::string imu_;
+  std::vector<std::string> imu_;
   std::string pose_;
   std::string gyro_;
   std::string force_;
@@ -221,6 +277,10 @@ class ImportCommand : public Command {
   std::string noise_;
   std::string mapping_file_;
   std::string save_mapping_;
+  bool stroke_ = false;
+  std::string stroke_speed_;
+  std::string stroke_force_;
+  StrokeImportConfig stroke_config_;
   bool dry_run_ = false;
   bool unchecked_ = false;
   std::string output_;

@@ -12,6 +12,7 @@
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/import/stroke_file.h"
 #include "asperity/json/config_json.h"
 #include "asperity/profile/estimate_texture_noise.h"
 #include "asperity/profile/measure_areal_texture.h"
@@ -22,6 +23,7 @@
 #include "commands.h"
 #include "option_units.h"
 #include "roughness_tables.h"
+#include "stroke_input.h"
 
 namespace asperity::app {
 
@@ -52,8 +54,10 @@ class RoughnessCommand : public Command {
  public:
   explicit RoughnessCommand(Parser& root)
       : Command(root, "roughness", "Roughness of a profile (ISO 21920-2) or an areal map (ISO 25178-2)") {
-    require(parser().add_option("FILE", file_,
-                                "profile.csv, heights one a line, x_mm,y_mm,z_um, or a GSF, SDF, SUR or X3P file"));
+    require(parser().add_option(
+        "FILE", file_,
+        "profile.csv, heights one a line, x_mm,y_mm,z_um, a GSF, SDF, SUR or X3P file, or a stroke's "
+        "folder (import --stroke: its spectrum)"));
     parser()
         .add_option("--spacing", spacing_, "Distance of the heights, for a file without positions")
         ->type_name("LENGTH");
@@ -85,6 +89,10 @@ class RoughnessCommand : public Command {
 
   int run(const Observer&) override {
     reads(file_);
+    if (is_stroke_folder(file_)) {
+      report_stroke();
+      return kDone;
+    }
     const Heights heights = read_heights(file_, settings_.input);
     if (const auto* profile = std::get_if<HeightProfile>(&heights)) {
       report_profile(*profile);
@@ -202,6 +210,16 @@ class RoughnessCommand : public Command {
     say(fmt::format("{} x {} heights {:.6g} x {:.6g} µm apart, {} missing\n", map.columns, map.rows,
                     map.x_spacing_m * 1e6, map.y_spacing_m * 1e6, r.missing) +
         filters + "intervals   not determined: the file does not state its noise\n" + to_table(r));
+  }
+
+  // Of an acceleration there are no heights along a line: the RMS height of each octave.
+  void report_stroke() {
+    const Stroke stroke = read_valid_stroke(file_);
+    Json out = begin("stroke");
+    out["not_determined"] = stroke_unknowns(stroke);
+    out["spectrum"] = stroke_heights_json(stroke);
+    finish(out);
+    say(stroke_text(stroke) + stroke_heights_text(stroke));
   }
 
   Json begin(const char* kind) const {

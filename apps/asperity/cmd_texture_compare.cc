@@ -6,16 +6,20 @@
 #include <string>
 #include <vector>
 
+#include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/import/stroke_file.h"
 #include "asperity/json/config_json.h"
 #include "asperity/profile/read_heights.h"
 #include "asperity/texture/compare_textures.h"
+#include "asperity/texture/compare_vibrations.h"
 #include "asperity/texture/evaluate_height.h"
 #include "asperity/texture/sample_heights.h"
 #include "asperity/texture/texture_file.h"
 #include "commands.h"
 #include "json_of.h"
 #include "option_units.h"
+#include "stroke_input.h"
 #include "texture_input.h"
 
 namespace asperity::app {
@@ -25,6 +29,8 @@ namespace {
 struct CompareSettings {
   ReadHeightsConfig input;
   CompareTexturesConfig compare;
+  CompareVibrationsConfig vibration;
+  double force_N = 1.0;
   double length_mm = 40.0;
   double spacing_mm = 0.025;
 
@@ -32,6 +38,8 @@ struct CompareSettings {
   void visit(V& v) {
     v.group("input", input);
     v.group("compare", compare);
+    v.group("vibration", vibration);
+    v.field("force_N", force_N, "of the hand, for forces in time where no stroke states it", {0.0, 100.0});
     v.field("length_mm", length_mm, "of the lines that are taken through a texture", {1e-3, 1e6});
     v.field("spacing_mm", spacing_mm, "of their heights", {1e-6, 1e3});
   }
@@ -65,10 +73,13 @@ std::string format_row(const std::string& name, const Difference& d, double unit
 class TextureCompareCommand : public Command {
  public:
   explicit TextureCompareCommand(Parser& root)
-      : Command(root, "compare", "What a hand would notice between two textures or profiles (seed §2.1)") {
-    require(parser().add_option("A", a_, "A *.texture.json, a profile.csv or heights"));
+      : Command(root, "compare", "What a hand would notice between two textures, profiles or strokes (seed §2.1)") {
+    require(parser().add_option("A", a_, "A *.texture.json, a profile.csv, heights, or a stroke's folder"));
     require(parser().add_option("B", b_, "The other"));
     parser().add_option("--speed", speed_, "Of the hand")->type_name("SPEED");
+    parser()
+        .add_option("--force", force_, "Of the hand, for forces in time where no stroke states it: 1N")
+        ->type_name("FORCE");
     parser()
         .add_option("--spacing", spacing_, "Distance of the heights, for files without positions")
         ->type_name("LENGTH");
@@ -78,10 +89,16 @@ class TextureCompareCommand : public Command {
 
   void apply_options() override {
     if (!speed_.empty()) settings_.compare.speed_mps = speed_option_mps("--speed", speed_);
+    constexpr double kMostForce_N = 100.0;
+    if (!force_.empty()) settings_.force_N = force_option_N("--force", force_, kMostForce_N);
     if (!spacing_.empty()) settings_.input.spacing_m = length_option_m("--spacing", spacing_);
   }
 
   int run(const Observer& observer) override {
+    if (is_vibration(a_, observer) || is_vibration(b_, observer)) {
+      report_vibrations(observer);
+      return kDone;
+    }
     const TextureComparison c = compare_textures(surface_of(a_, observer), surface_of(b_, observer), settings_.compare);
     Json out;
     out["format"] = "asperity-texture-comparison";
@@ -111,6 +128,112 @@ class TextureCompareCommand : public Command {
   }
 
  private:
+  // Compared over frequency: a stroke, or a force in time.
+  static bool is_vibration(const std::string& file, const Observer& observer) {
+    if (is_stroke_folder(file)) return true;
+    return is_texture_file(file) && !is_height_field(read_texture(file, {}, observer).model);
+  }
+
+  struct Side {
+    ComparedVibration vibration;
+    std::vector<double> speed_mps, force_N;  // of its pieces; empty: not known
+    std::string text;
+  };
+
+  // A texture's vibration at the speeds and forces of the other side's stroke where it states them, else at those of
+  // the settings.
+  Side rendered_side(const std::string& file, const Side& other, const Observer& observer) const {
+    if (!is_texture_file(file))
+      throw Error(printable(file, 200) +
+                  ": heights of a file are not compared with vibrations; fit a texture to them first");
+    constexpr std::size_t kPieces = 1000;  // leave 1.4 % in the lowest octave, below what is noticed
+    constexpr double kPiece_s = 0.25, kRate_Hz = 8000.0;
+    Side out;
+    out.speed_mps = other.speed_mps;
+    if (out.speed_mps.empty()) out.speed_mps.assign(std::max(kPieces, other.force_N.size()), speed_mps());
+    out.force_N = other.force_N;
+    if (out.force_N.empty()) out.force_N.assign(out.speed_mps.size(), settings_.force_N);
+    out.speed_mps.resize(out.force_N.size(), speed_mps());
+    const double rate_Hz = other.vibration.rate_Hz > 0.0 ? other.vibration.rate_Hz : kRate_Hz;
+    out.vibration = vibration_of(read_texture(file, {}, observer), out.speed_mps, out.force_N, rate_Hz, kPiece_s);
+    out.text = fmt::format("{}: rendered at {}, {}\n", printable(file, 200),
+                           other.speed_mps.empty() ? fmt::format("{:.3g} mm/s", 1e3 * speed_mps())
+                                                   : std::string("the speeds of the other's stroke"),
+                           other.force_N.empty() ? fmt::format("{:.3g} N", settings_.force_N)
+                                                 : std::string("the forces of the other's stroke"));
+    return out;
+  }
+
+  double speed_mps() const { return settings_.compare.speed_mps; }
+
+  static Side recorded_side(const std::string& folder) {
+    const Stroke stroke = read_valid_stroke(folder);
+    StrokeVibration found = vibration_of_stroke(stroke);
+    Side out{std::move(found.vibration), std::move(found.speed_mps), std::move(found.force_N), ""};
+    out.text =
+        fmt::format("{}: {} windows of 0.25 s, {}, {}, {}\n", printable(folder, 200), out.vibration.pieces_mps2.size(),
+                    mean_text(out.speed_mps, 1e3, "mm/s", "speed"), mean_text(out.force_N, 1.0, "N", "force"),
+                    out.vibration.noise_mps2.empty() ? "noise not known" : "noise taken off");
+    return out;
+  }
+
+  static std::string mean_text(const std::vector<double>& values, double unit, const char* name, const char* quantity) {
+    if (values.empty()) return std::string(quantity) + " not known";
+    double mean = 0.0;
+    for (const double v : values) mean += v / static_cast<double>(values.size());
+    return fmt::format("{:.3g} {} in the mean", mean * unit, name);
+  }
+
+  static const char* word_of(VibrationVerdict verdict) {
+    return verdict == VibrationVerdict::kSame         ? kSame
+           : verdict == VibrationVerdict::kNoticeable ? kNoticeable
+                                                      : "not determined";
+  }
+
+  void report_vibrations(const Observer& observer) {
+    const bool a_recorded = is_stroke_folder(a_), b_recorded = is_stroke_folder(b_);
+    Side a, b;
+    if (a_recorded) a = recorded_side(a_);
+    if (b_recorded) b = recorded_side(b_);
+    if (!a_recorded) a = rendered_side(a_, b_recorded ? b : Side{}, observer);
+    if (!b_recorded) b = rendered_side(b_, a_recorded ? a : Side{}, observer);
+    const VibrationComparison c = compare_vibrations(a.vibration, b.vibration, settings_.vibration);
+    Json out;
+    out["format"] = "asperity-vibration-comparison";
+    out["version"] = 1;
+    out["a"] = a_;
+    out["b"] = b_;
+    out["verdict"] = word_of(c.verdict);
+    out["noticeable"] =
+        c.verdict == VibrationVerdict::kUndetermined ? Json(nullptr) : Json(c.verdict == VibrationVerdict::kNoticeable);
+    out["band_Hz"] = {c.low_Hz, c.high_Hz};
+    out["a_mps2"] = c.a_mps2;
+    out["b_mps2"] = c.b_mps2;
+    out["bands"] = Json::array();
+    std::string text =
+        a.text + b.text +
+        fmt::format("{:<22} {:>11} {:>11} {:>11} {:>9} {:>9}\n", "RMS, m/s²", "A", "B", "difference", "±", "noticed");
+    for (const VibrationBand& band : c.bands) {
+      out["bands"].push_back({{"low_Hz", band.low_Hz},
+                              {"high_Hz", band.high_Hz},
+                              {"a_mps2", band.a_mps2},
+                              {"b_mps2", band.b_mps2},
+                              {"percent", number_or_null(band.percent)},
+                              {"sigma_percent", number_or_null(band.sigma_percent)},
+                              {"jnd_percent", band.jnd_percent},
+                              {"felt", band.is_compared},
+                              {"verdict", word_of(band.verdict)}});
+      text += fmt::format("{:<22} {:>11.4g} {:>11.4g} {:>9.2f} % {:>7.2g} % {:>7.3g} %  {}\n",
+                          fmt::format("{:.4g}-{:.4g} Hz", band.low_Hz, band.high_Hz), band.a_mps2, band.b_mps2,
+                          band.percent, band.sigma_percent, band.jnd_percent,
+                          band.is_compared ? word_of(band.verdict) : "too weak to be felt");
+    }
+    out["config"] = config_json(fields());
+    out["asperity"] = kVersion;
+    print_json(out.dump_repaired(2));
+    say(text + word_of(c.verdict) + "\n");
+  }
+
   ComparedSurface surface_of(const std::string& file, const Observer& observer) const {
     ComparedSurface surface;
     std::vector<std::vector<double>> lines;
@@ -158,6 +281,7 @@ class TextureCompareCommand : public Command {
   std::string b_;
   std::string speed_;
   std::string spacing_;
+  std::string force_;
   CompareSettings settings_;
 };
 

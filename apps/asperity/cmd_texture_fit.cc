@@ -14,6 +14,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
+#include "asperity/import/stroke_file.h"
 #include "asperity/json/config_json.h"
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/recorded_series.h"
@@ -27,6 +28,7 @@
 #include "asperity/texture/texture_fit.h"
 #include "commands.h"
 #include "option_units.h"
+#include "stroke_input.h"
 #include "texture_input.h"
 
 namespace asperity::app {
@@ -119,9 +121,11 @@ class TextureFitCommand : public Command {
  public:
   explicit TextureFitCommand(Parser& root)
       : Command(root, "fit", "A haptic texture from profiles, strokes, an areal map or another texture") {
-    require(parser().add_option("PROFILE", files_,
-                                "profile.csv, heights, x,y,z or t_s,acceleration_mps2,speed_mps,force_N tables, a "
-                                "*.texture.json, a Penn *.xml, or (autoregressive) a recording"));
+    require(
+        parser().add_option("PROFILE", files_,
+                            "profile.csv, heights, x,y,z or t_s,acceleration_mps2,speed_mps,force_N tables, a "
+                            "*.texture.json, a Penn *.xml, a stroke's folder (import --stroke), or (autoregressive) a "
+                            "recording"));
     require(parser().add_option("-o,--output", output_, "The texture's file"))->type_name("X.texture.json");
     parser().add_option("--model", model_, model_names())->type_name("NAME");
     parser()
@@ -155,7 +159,10 @@ class TextureFitCommand : public Command {
   }
 
  private:
-  FittedTexture fit() const {
+  FittedTexture fit() {
+    // A stroke has no heights: of the models that are made of series this one takes speed and force from it.
+    if (model_.empty() && settings_.fit.model == FittedModelChoice{} && is_stroke_folder(files_.front()))
+      set_field(fields(), "fit.model", "autoregressive");
     TextureFitInput input;
     input.files = files_;
     input.whole_path = settings_.fit.whole_path;
@@ -173,15 +180,18 @@ class TextureFitCommand : public Command {
     };
     input.read_series = [](const std::string& file) { return asperity::app::read_series(file); };
     input.read_recording_or_series = [](const std::string& file) {
+      if (is_stroke_folder(file)) return series_of_stroke(file);
       return std::filesystem::is_directory(file) ? series_of_recording(file) : asperity::app::read_series(file);
     };
     input.is_texture_file = [](const std::string& file) { return asperity::app::is_texture_file(file); };
     input.roughness = [](const std::vector<std::vector<double>>& lines_m, double spacing_m) {
       return roughness_of(lines_m, spacing_m);
     };
+    if (is_stroke_folder(files_.front()) && chosen_model() != "autoregressive")
+      throw UsageError(printable(files_.front(), 200) +
+                       " is a stroke, which has no heights: fit it with --model autoregressive");
     // Another file than the default model reads: what it is, and what to do.
-    if (std::string_view(kFittedModelNames[static_cast<std::size_t>(settings_.fit.model)]) != "autoregressive" &&
-        files_.front().ends_with(".xml")) {
+    if (chosen_model() != "autoregressive" && files_.front().ends_with(".xml")) {
       throw UsageError(
           printable(files_.front(), 200) +
           " is an XML file: models of the Penn Haptic Texture Toolkit are read with --model autoregressive");
@@ -192,6 +202,8 @@ class TextureFitCommand : public Command {
       throw UsageError(error.what());
     }
   }
+
+  std::string_view chosen_model() const { return kFittedModelNames[static_cast<std::size_t>(settings_.fit.model)]; }
 
   // Files beside the texture's own are replaced if the texture that is there now names them.
   void refuse_other_payloads(const Texture& texture) const {

@@ -137,6 +137,23 @@ void fill_ros2(const DelimitedTable& table, FileRole, FilePreset& out) {
   }
 }
 
+// `rostopic echo -p -b FILE.bag TOPIC` of ROS 1: %time is when the bag got the message, the header's stamp when it was
+// measured. A driver that does not stamp leaves zeros.
+std::size_t ros1_stamp(const DelimitedTable& table) {
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    if (table.columns[i].name == "field.header.stamp") return i;
+  }
+  return table.columns.size();
+}
+
+bool is_ros1(const DelimitedTable& table) { return ros1_stamp(table) < table.columns.size(); }
+
+void fill_ros1(const DelimitedTable& table, FileRole, FilePreset& out) {
+  const std::size_t stamp = ros1_stamp(table);
+  const std::vector<double>& stamps = table.columns[stamp].values;
+  if (!stamps.empty() && stamps.front() != stamps.back()) add_number(out.map, "t", stamp, "ns");
+}
+
 // The app Sensor Logger: a file a sensor, its name says which; time in ns since 1970.
 bool is_sensor_logger(const DelimitedTable& table) { return has_name(table, "seconds_elapsed"); }
 
@@ -159,10 +176,15 @@ struct Preset {
 };
 
 constexpr Preset kPresets[] = {
-    {"motive", is_motive, fill_motive},    {"vicon-tracker", is_tracker, fill_vicon},
-    {"vicon-nexus", is_nexus, fill_vicon}, {"qualisys", is_qualisys, fill_qualisys},
-    {"euroc", is_euroc, fill_euroc},       {"tum", is_tum, fill_tum},
-    {"ros2", is_ros2, fill_ros2},          {"sensor-logger", is_sensor_logger, fill_sensor_logger},
+    {"motive", is_motive, fill_motive},
+    {"vicon-tracker", is_tracker, fill_vicon},
+    {"vicon-nexus", is_nexus, fill_vicon},
+    {"qualisys", is_qualisys, fill_qualisys},
+    {"euroc", is_euroc, fill_euroc},
+    {"tum", is_tum, fill_tum},
+    {"ros1", is_ros1, fill_ros1},
+    {"ros2", is_ros2, fill_ros2},
+    {"sensor-logger", is_sensor_logger, fill_sensor_logger},
     {"phyphox", is_phyphox, nullptr},
 };
 

@@ -103,6 +103,17 @@ TEST(Presets, AreFoundByContent) {
   EXPECT_EQ(read_vectors(ros, 'a', problems).t_ns[0], 12'500'000'000);
   EXPECT_EQ(mapped(pose + pose, FileRole::kPose).preset.name, "ros2");
 
+  // As rostopic 1.15.15 of Debian 12 printed it from a bag; the bag got the message 3 ms after its stamp.
+  const std::string wrench =
+      "%time,field.header.seq,field.header.stamp,field.header.frame_id,field.wrench.force.x,field.wrench.force.y,"
+      "field.wrench.force.z,field.wrench.torque.x,field.wrench.torque.y,field.wrench.torque.z\n"
+      "1700000000003000000,0,1700000000000000000,,0.0,0.0,1.0,0.0,0.0,0.0\n"
+      "1700000000007000000,1,1700000000004000000,,0.0,0.0,1.5,0.0,0.0,0.0\n";
+  const ImportTable ros1 = mapped(wrench, FileRole::kForce);
+  EXPECT_EQ(ros1.preset.name, "ros1");
+  EXPECT_EQ(columns_of(ros1), "t=#3ns fx=#5N fy=#6N fz=#7N");
+  EXPECT_EQ(read_vectors(ros1, 'f', problems).t_ns[1], 1'700'000'000'004'000'000);
+
   const std::string logger =
       "time,seconds_elapsed,z,y,x\n1727600000000000000,0.0,-9.7,0.1,0.2\n1727600000010000000,0.01,"
       "-9.7,0.1,0.2\n";

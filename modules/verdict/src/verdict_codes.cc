@@ -55,6 +55,12 @@ constexpr VerdictCode kCodes[] = {
     {"contact_unknown", kLimited, "use a probe with a force sensor, or mark the contact as a segment"},
     {"no_roughness", kLimited, "scan a longer stroke"},
     {"no_texture", kLimited, "scan a longer stroke"},
+    // A stroke without orientations (judge_stroke.h).
+    {"vibration_is_noise", kInvalid, "record a stroke in contact, faster, or with a sensor of less noise"},
+    {"contact_undetermined", kInvalid,
+     "record positions or force too, or a second of rest before the stroke, or state the sensor's noise"},
+    {"vibration_weak", kLimited, "stroke faster, or use a sensor of less noise"},
+    {"lengths_undetermined", kLimited, "record positions too, or state the speed"},
     // Strokes over one line (merge_results.h).
     {"no_common_line", kInvalid, "scan along a guide, and merge strokes over one line alone"},
     {"passes_dependent", kInvalid, "merge strokes that were measured one by one"},

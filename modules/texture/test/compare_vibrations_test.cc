@@ -1,0 +1,69 @@
+#include "asperity/texture/compare_vibrations.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "asperity/base/error.h"
+
+namespace asperity {
+namespace {
+
+constexpr double kRate_Hz = 2000.0;
+
+// Pieces of 0.25 s: a sine of 100 Hz in white noise.
+ComparedVibration vibration(double amplitude, double noise, std::size_t pieces, std::uint32_t seed,
+                            std::size_t noise_pieces = 0) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  ComparedVibration out;
+  out.rate_Hz = kRate_Hz;
+  const auto piece = [&](double a) {
+    std::vector<double> x(500);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] = a * std::sin(2.0 * std::numbers::pi * 100.0 * static_cast<double>(i) / kRate_Hz) + noise * normal(random);
+    return x;
+  };
+  for (std::size_t i = 0; i < pieces; ++i) out.pieces_mps2.push_back(piece(amplitude));
+  for (std::size_t i = 0; i < noise_pieces; ++i) out.noise_mps2.push_back(piece(0.0));
+  return out;
+}
+
+TEST(CompareVibrations, HasTheRatioOfKnownAmplitudes) {
+  const VibrationComparison c = compare_vibrations(vibration(1.0, 0.0, 400, 1), vibration(1.5, 0.0, 400, 2));
+  EXPECT_EQ(c.verdict, VibrationVerdict::kNoticeable);
+  EXPECT_NEAR(c.a_mps2, std::sqrt(0.5), 1e-3);
+  ASSERT_EQ(c.bands[2].low_Hz, 80.0);
+  EXPECT_NEAR(c.bands[2].percent, 50.0, 1e-6);
+  EXPECT_FALSE(c.bands.back().is_compared);
+  EXPECT_EQ(compare_vibrations(vibration(1.0, 0.0, 1, 1), vibration(1.0, 0.0, 1, 1)).verdict,
+            VibrationVerdict::kUndetermined);  // one piece shows neither
+}
+
+TEST(CompareVibrations, IsTheSameOnlyWhereTheNumberOfPiecesShowsIt) {
+  // White noise of one variance: an octave from 20 Hz has 5 lines a piece, so 40 pieces leave a standard deviation of
+  // 50 √(2/(0.5·40·5)) = 7 %, above what is noticed (3 %); 40,000 pieces leave 0.2 %.
+  EXPECT_EQ(compare_vibrations(vibration(0.0, 1.0, 40, 1), vibration(0.0, 1.0, 40, 2)).verdict,
+            VibrationVerdict::kUndetermined);
+  EXPECT_EQ(compare_vibrations(vibration(0.0, 1.0, 8000, 1), vibration(0.0, 1.0, 8000, 2)).verdict,
+            VibrationVerdict::kSame);
+}
+
+TEST(CompareVibrations, TakesOffTheNoiseThatIsKnown) {
+  // σ = 1 over 1000 Hz is √0.98 in 20–1000 Hz (up to 900: 0.45 of the rate).
+  const VibrationComparison c = compare_vibrations(vibration(1.0, 1.0, 2000, 1, 2000), vibration(1.0, 0.0, 2000, 2));
+  EXPECT_NEAR(c.a_mps2, std::sqrt(0.5), 0.02);
+  EXPECT_NEAR(c.b_mps2, std::sqrt(0.5), 1e-3);
+}
+
+TEST(CompareVibrations, ThrowsForWhatHasNoSpectrum) {
+  const ComparedVibration good = vibration(1.0, 0.1, 4, 1);
+  EXPECT_THROW(compare_vibrations({{}, {}, kRate_Hz}, good), Error);
+  EXPECT_THROW(compare_vibrations({{{1.0, 2.0}}, {}, kRate_Hz}, good), Error);
+  EXPECT_THROW(compare_vibrations(good, good, {.low_Hz = 950.0}), Error);
+}
+
+}  // namespace
+}  // namespace asperity

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+#include "asperity/verdict/verdict.h"
+
+namespace asperity {
+
+// What a stroke's acceleration is compared with.
+enum class StrokeQuiet : std::uint8_t { kNone, kRest, kAir, kQuietest, kStated };
+inline constexpr std::array<std::string_view, 5> kStrokeQuietNames{"none", "rest", "air", "quietest", "stated"};
+
+// A haptic recording without orientations: numbers that show whether it is of a surface, no judgement.
+struct StrokeEvidence {
+  bool has_speed = false;  // by positions, not stated
+  bool has_force = false;  // by a sensor that changes
+  double largest_speed_mps = 0.0;
+  double largest_force_N = 0.0;
+  double contact_N = 0.0;  // from here on the tip counts as touching
+  double contact_s = 0.0;  // with at least that force
+  double moving_s = 0.0;   // faster than 10 mm/s, in contact where the force is known
+  StrokeQuiet quiet = StrokeQuiet::kNone;
+  double active_s = 0.0, quiet_s = 0.0;
+  double active_mps2 = 0.0, quiet_mps2 = 0.0;  // RMS above 40 Hz
+  double power_ratio = std::numeric_limits<double>::quiet_NaN();
+  double power_ratio_sigma = std::numeric_limits<double>::quiet_NaN();
+  // The power of windows of 50 ms against their speed, as the exponent of a power law; nan: the speed hardly changes.
+  double speed_exponent = std::numeric_limits<double>::quiet_NaN();
+  double speed_exponent_sigma = std::numeric_limits<double>::quiet_NaN();
+};
+
+// The verdicts on a stroke, the worst first: whether anything was touched, whether it moved, whether the acceleration
+// is of the motion (a ratio of the powers above 1 by three standard errors and above 1.2; against the quietest part of
+// the same recording above 4, which stationary noise does not reach; else an exponent of the speed above 0.3 by three
+// standard errors), and what is not known without force or positions.
+Verdicts judge_stroke(const StrokeEvidence& evidence);
+
+}  // namespace asperity
