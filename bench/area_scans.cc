@@ -3,11 +3,15 @@
 // Prints a table in Markdown; docs/areas.md says what it means.
 //
 //   area_scans [--seeds N] [--lanes 10] [--pitch-mm 0.8] [--length-mm 16] [--calibration stated|exact] [--guess-mm 0.3]
-//              [--guess-sigma-mm 10]
+//              [--guess-sigma-mm 10] [--locators 0] [--placement auto|same]
 //              [--relief yes|no] [--positions measured|true|shifted] [--shift-mm 0] [--save FOLDER]
 //
 // `--positions true` maps the measured heights at the tips' true places, `shifted` at the measured places less each
 // stroke's mean error: what a fit of one shift a stroke could reach. `--shift-mm` is map.shift_mm.
+//
+// `--locators N` adds N bent strokes of some 90 mm over the smooth pebble, which are registered with the rest and are
+// no part of the map: they hold what the strokes over the patch leave open. `--placement same` states that the object
+// did not move, `auto` leaves that to be found.
 //
 // `--guess-sigma-mm` is refinement.guess_sigma_m, with as many degrees: how well the guess is said to be known.
 //
@@ -55,6 +59,8 @@ struct Options {
   double length_m = 16e-3;
   double guess_m = 0.3e-3;
   double guess_sigma_mm = 10.0;
+  int locators = 0;
+  bool found_placements = true;
   bool exact = false;
   bool relief = true;
   std::string positions = "measured";
@@ -107,6 +113,20 @@ std::string text_of(const Vector3d& p) {
   return out.str();
 }
 
+// Over the upper side of the bench's pebble, each in a direction of its own, bent to one side.
+std::string locator(int number) {
+  const double turn = 2.4 * number;
+  std::string out;
+  for (int k = -2; k <= 2; ++k) {
+    const double along = 0.45 * k, aside = 0.25 - 0.12 * k * k;
+    const double x = std::cos(turn) * along - std::sin(turn) * aside,
+                 y = std::sin(turn) * along + std::cos(turn) * aside;
+    const double z = std::sqrt(std::max(0.05, 1.0 - x * x - y * y));
+    out += (out.empty() ? "" : ";") + text_of(Vector3d(0.045 * x, 0.036 * y, 0.028 * z));
+  }
+  return out;
+}
+
 void run_seed(const Options& options, int seed) {
   asperity::PebbleConfig shape;
   shape.seed = seed;
@@ -140,6 +160,13 @@ void run_seed(const Options& options, int seed) {
   const std::clock_t begin = std::clock();
   std::vector<asperity::Scan> scans;
   const auto flat = asperity::make_surface(config.surface, 1);
+  const auto simulate = [&](const std::string& name, const asperity::TriangleMesh& over) {
+    asperity::Scan scan;
+    scan.name = name;
+    if (!options.found_placements) scan.placement = 1;
+    scan.recording = asperity::simulate_recording(config, *flat, over);
+    scans.push_back(std::move(scan));
+  };
   for (int k = 0; k < 2 * options.lanes; ++k) {
     const double lane = (k % options.lanes - 0.5 * (options.lanes - 1)) * options.pitch_m,
                  half = 0.5 * options.length_m;
@@ -147,10 +174,13 @@ void run_seed(const Options& options, int seed) {
     config.seed = 100 * seed + k;
     config.shape.through = across ? text_of(on_ground(lane, -half)) + ";" + text_of(on_ground(lane, half))
                                   : text_of(on_ground(-half, lane)) + ";" + text_of(on_ground(half, lane));
-    asperity::Scan scan;
-    scan.name = "scan" + std::to_string(k + 1);
-    scan.recording = asperity::simulate_recording(config, *flat, ground);
-    scans.push_back(std::move(scan));
+    simulate("scan" + std::to_string(k + 1), ground);
+  }
+  const std::size_t over_patch = scans.size();
+  for (int k = 0; k < options.locators; ++k) {
+    config.seed = 100 * seed + 2 * options.lanes + k;
+    config.shape.through = locator(k);
+    simulate("locator" + std::to_string(k + 1), mesh);
   }
   const std::clock_t simulated = std::clock();
   const asperity::Pose truth = asperity::true_pose(*scans.front().recording).value();
@@ -172,7 +202,7 @@ void run_seed(const Options& options, int seed) {
   }
   std::vector<asperity::AreaScan> strokes;
   std::vector<double> constant_mm, about_mm;
-  for (std::size_t k = 0; k < scans.size(); ++k) {
+  for (std::size_t k = 0; k < over_patch; ++k) {
     const asperity::RegisteredScan& scan = registered.scans[k];
     if (scan.path.size() < 2 || scan.process.profile.size() < 2) continue;
     strokes.push_back({scan.name, scan.path, scan.process.profile});
@@ -188,8 +218,8 @@ void run_seed(const Options& options, int seed) {
     return static_cast<double>(to - from) / CLOCKS_PER_SEC;
   };
   const asperity::StrokeMap& map = area.map;
-  std::printf("| %d | %d | %.3f | %.3f | %.2f ± %.2f | %.2f | ", seed, 2 * options.lanes,
-              constant_mm.empty() ? 0.0 : asperity::median(constant_mm),
+  std::printf("| %d | %d | %zu | %.3f | %.3f | %.2f ± %.2f | %.2f | ", seed, 2 * options.lanes,
+              registered.placements.size(), constant_mm.empty() ? 0.0 : asperity::median(constant_mm),
               about_mm.empty() ? 0.0 : asperity::median(about_mm), map.agreement, map.agreement_sigma, area.covered);
   if (map.texture.supported.empty() || area.triangle.empty()) {
     std::printf("| | | | | | ");
@@ -218,16 +248,19 @@ void run_seed(const Options& options, int seed) {
   std::printf("%.1f | %.2f | %.0f, %.0f, %.1f | %s |\n", 1e6 * map.sigma_rms_m, map.held_out.error_over_sigma,
               seconds(begin, simulated), seconds(simulated, laid), seconds(laid, mapped),
               area.verdict.empty() ? "valid" : area.verdict.c_str());
+  for (const asperity::Verdict& verdict : registered.verdicts)
+    std::fprintf(stderr, "%s: %s\n", verdict.code.c_str(), verdict.message.c_str());
   std::fflush(stdout);
 }
 
 void run(const Options& options) {
   std::printf(
-      "| seed | strokes | places of a stroke wrong by, mm | wander about that, mm | shared | covered | surface RMS, µm "
+      "| seed | strokes | placements | places of a stroke wrong by, mm | wander about that, mm | shared | covered | "
+      "surface RMS, µm "
       "| error RMS, µm | the same, moved | error over σ | "
       "correlation | moved "
       "by x, y, mm | σ, µm | left out: error over σ | s: simulate, register, map | verdict |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int seed = 1; seed <= options.seeds; ++seed) run_seed(options, seed);
 }
 
@@ -243,6 +276,8 @@ int main(int argc, char** argv) {
          {"--pitch-mm", [&](auto value) { options.pitch_m = 1e-3 * bench::number_within(value, 0.05, 20); }},
          {"--length-mm", [&](auto value) { options.length_m = 1e-3 * bench::number_within(value, 12, 40); }},
          {"--guess-sigma-mm", [&](auto value) { options.guess_sigma_mm = bench::number_within(value, 1e-3, 1e3); }},
+         {"--locators", bench::whole_into(options.locators, 0, 20)},
+         {"--placement", [&](auto value) { options.found_placements = bench::is_first(value, "auto", "same"); }},
          {"--guess-mm", [&](auto value) { options.guess_m = 1e-3 * bench::number_within(value, 0, 100); }},
          {"--calibration", [&](auto value) { options.exact = bench::is_first(value, "exact", "stated"); }},
          {"--relief", bench::yes_into(options.relief)},

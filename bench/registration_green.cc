@@ -3,25 +3,28 @@
 // Markdown; docs/accuracy.md says what it means.
 //
 //   registration_green [--cases 400] [--first 0] [--whole 0] [--seed 1] [--jobs 1] [--mesh FILE,…] [--each yes] [--only
-//   CLASS]
+//   CLASS] [--csv FILE]
 //
 // Wrong: more than 3 mm (RMS over the points) or 5° from the truth, modulo the motions that map the body onto itself
 // (on a mesh of another size in proportion), and each result on another body's mesh, a mirror image or a mesh that is
 // 10 % and more too large or small. Good: within 1 mm and 2°, where the least possible standard deviations (bound.h)
 // are below 0.3 mm and 0.7°. `--whole N` adds N cases whose points come from simulated recordings (whole_case.h), to
 // compare with. `--first N` begins with case N of the seed, so that a long run can be cut into pieces.
-// `--each yes` prints a line a case on standard error, `--only N` runs the cases of one class.
+// `--each yes` prints a line a case on standard error, `--only N` runs the cases of one class. `--csv FILE` appends a
+// row a case as soon as it is done: a run can be cut off, and `scripts/green_table FILE` makes the table of its rows.
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <mutex>
 #include <numbers>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "asperity/base/error.h"
 #include "asperity/pipeline/locate_scans.h"
 #include "asperity/pipeline/scan_evidence.h"
 #include "asperity/verdict/judge_registration.h"
@@ -45,6 +48,7 @@ struct Options {
   int jobs = 1;
   int only = -1;
   std::vector<std::string> meshes;
+  std::string csv;  // a file that gets a row a case; empty: none
   bool each = false;
 };
 
@@ -52,7 +56,27 @@ struct Outcome {
   bench::CaseClass kind = bench::CaseClass::kNear;
   bool done = false, wrong = false, good = false, trusted = false;
   double time_s = 0.0;
+  bench::PoseDifference off{1.0, std::numbers::pi}, bound;
+  std::string codes;  // of the verdicts
 };
+
+// One row; the file's first gets the names of the columns.
+void append_row(const std::string& name, int seed, int number, const bench::RegistrationCase& given,
+                const Outcome& out) {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  std::FILE* const file = std::fopen(name.c_str(), "a");
+  if (file == nullptr) throw asperity::Error("cannot write " + name);
+  if (std::ftell(file) == 0) {
+    std::fprintf(file,
+                 "seed,case,class,body,paths,off_mm,off_deg,bound_mm,bound_deg,wrong,good,trusted,codes,time_s\n");
+  }
+  std::fprintf(file, "%d,%d,%d,%s,%zu,%.3f,%.3f,%.4f,%.4f,%d,%d,%d,%s,%.2f\n", seed, number, static_cast<int>(out.kind),
+               given.body.c_str(), given.paths.size(), 1e3 * out.off.rms_m, out.off.rotation_rad / kDegree,
+               1e3 * out.bound.rms_m, out.bound.rotation_rad / kDegree, out.wrong ? 1 : 0, out.good ? 1 : 0,
+               out.trusted ? 1 : 0, out.codes.c_str(), out.time_s);
+  if (std::fclose(file) != 0) throw asperity::Error("cannot write " + name);
+}
 
 asperity::ScanPoints points_of(const bench::RegistrationCase& given) {
   asperity::ScanPoints scans;
@@ -74,7 +98,8 @@ Outcome run_case(const bench::RegistrationCase& given, const asperity::ScanPoint
   out.done = true;
   const asperity::Verdicts verdicts = asperity::judge_pose(result, given.guess.has_value());
   out.trusted = asperity::is_trustworthy(verdicts);
-  bench::PoseDifference off{1.0, std::numbers::pi}, bound;
+  bench::PoseDifference& off = out.off;
+  bench::PoseDifference& bound = out.bound;
   if (given.T_mesh_world) {
     std::vector<Eigen::Vector3d> p_m;
     for (const asperity::MeasuredPath& path : given.paths) {
@@ -91,16 +116,15 @@ Outcome run_case(const bench::RegistrationCase& given, const asperity::ScanPoint
   out.wrong = off.rms_m > kWrong_m || off.rotation_rad > kWrong_rad || given.kind == bench::CaseClass::kVeryWrongScale;
   out.good = given.T_mesh_world && given.scale == 1.0 && off.rms_m <= kGood_m && off.rotation_rad <= kGood_rad &&
              bound.rms_m < kBound_m && bound.rotation_rad < kBound_rad;
+  for (const asperity::Verdict& verdict : verdicts) out.codes += (out.codes.empty() ? "" : " ") + verdict.code;
   if (!each) return out;
   double length_m = 0.0;
   for (const auto& line : given.lines) length_m += bench::kPathSpacing_m * static_cast<double>(line.p_m.size());
-  std::string codes;
-  for (const asperity::Verdict& verdict : verdicts) codes += " " + verdict.code;
   std::fprintf(
       stderr,
       "%4d %-38s %-14s %zu paths %3.0f mm slow %.2f relief %.3f | off %7.3f mm %7.2f° bound %.3f mm %.2f° rms "
       "%.3f slow ratio %.2f e^%.2f odds %.1e sigma %.2f mm %.2f° scale %.3f: %.3f ± %.3f  gain %.1f chance %.2g mirror "
-      "%.1f | %s%s%s |%s "
+      "%.1f | %s%s%s | %s "
       "| %.2f s\n",
       number, std::string(bench::kCaseClassNames.at(static_cast<std::size_t>(given.kind))).c_str(), given.body.c_str(),
       given.lines.size(), 1e3 * length_m, 1e3 * given.errors.slow_m, 1e3 * given.errors.relief_m, 1e3 * off.rms_m,
@@ -109,7 +133,8 @@ Outcome run_case(const bench::RegistrationCase& given, const asperity::ScanPoint
       result.rivals.sigma_rad / kDegree, 1.0 / given.scale, result.rivals.scale.ratio,
       result.rivals.scale.ratio * result.rivals.scale.sigma, result.rivals.scale.gain, result.rivals.chance,
       result.rivals.mirror_log_odds, out.wrong ? "WRONG" : "", out.good ? "good" : "",
-      out.wrong && out.trusted ? " TRUSTED" : (out.good && !out.trusted ? " REFUSED" : ""), codes.c_str(), out.time_s);
+      out.wrong && out.trusted ? " TRUSTED" : (out.good && !out.trusted ? " REFUSED" : ""), out.codes.c_str(),
+      out.time_s);
   return out;
 }
 
@@ -141,7 +166,9 @@ void run(const Options& options) {
         const bench::RegistrationCase drawn =
             bench::draw_case(pool, seed, static_cast<std::uint64_t>(options.first + i));
         if (options.only >= 0 && static_cast<int>(drawn.kind) != options.only) continue;
-        outcomes[static_cast<std::size_t>(i)] = run_case(drawn, points_of(drawn), options.first + i, options.each);
+        Outcome& outcome = outcomes[static_cast<std::size_t>(i)];
+        outcome = run_case(drawn, points_of(drawn), options.first + i, options.each);
+        if (!options.csv.empty()) append_row(options.csv, options.seed, options.first + i, drawn, outcome);
       } catch (...) {
         if (!stop.exchange(true)) failed = std::current_exception();
       }
@@ -191,6 +218,7 @@ int main(int argc, char** argv) {
          {"--seed", [&](auto value) { options.seed = static_cast<int>(bench::number_within(value, 0, 1e6)); }},
          {"--jobs", [&](auto value) { options.jobs = static_cast<int>(bench::number_within(value, 1, 64)); }},
          {"--only", [&](auto value) { options.only = static_cast<int>(bench::number_within(value, 0, 10)); }},
+         {"--csv", [&](auto value) { options.csv = value; }},
          {"--mesh", [&](auto value) { options.meshes = bench::split_list(value); }},
          {"--each", [&](auto value) { options.each = bench::is_first(value, "yes", "no"); }}});
     run(options);

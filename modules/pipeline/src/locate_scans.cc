@@ -158,7 +158,7 @@ RefinedRegistration locate_together(const ScanPoints& scans, const std::vector<s
     if (out.registration.runner_up) near.push_back(out.registration.runner_up->T_mesh_world);
   }
   if (known) near.push_back(*known);
-  candidates = find_pose_candidates(points_of(scans, members), surface, guess, near, searched, observer);
+  candidates = find_pose_candidates(points_of(scans, members), ready, guess, near, searched, observer);
   const bool keeps_guess = guess && search.starts.when == OtherStarts::kNever && config.refinement.other_starts == 0;
   if (!keeps_guess) {
     RegistrationConfig local = search;
@@ -309,9 +309,9 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
     Placement& placement = out.placements[k];
     measure_misfit(scans, ready, groups.guesses[k], config, out, placement);
     const Pose& pose = placement.registration.T_mesh_world;
-    state_rivals(judge_candidate(points_of(scans, placement.scans), surface, pose, groups.guesses[k], out.candidates[k],
-                                 searched),
-                 placement.registration);
+    state_rivals(
+        judge_candidate(points_of(scans, placement.scans), ready, pose, groups.guesses[k], out.candidates[k], searched),
+        placement.registration);
   }
   return out;
 }

@@ -37,10 +37,9 @@ WeighConfig weigh_config(const ScanPoints& scans, const std::optional<Pose>& gue
 
 }  // namespace
 
-PoseCandidates find_pose_candidates(const ScanPoints& scans, const MeshSurface& surface,
+PoseCandidates find_pose_candidates(const ScanPoints& scans, const RegistrationSurface& ready,
                                     const std::optional<Pose>& guess, std::span<const Pose> near,
                                     const RegisterConfig& config, const RegistrationObserver& observer) {
-  const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
   const std::vector<MeasuredPath> paths = paths_of(scans);
   std::vector<Pose> candidates(near.begin(), near.end());
   PoseCandidates out;
@@ -59,10 +58,9 @@ PoseCandidates find_pose_candidates(const ScanPoints& scans, const MeshSurface& 
   return out;
 }
 
-PoseRivals judge_candidate(const ScanPoints& scans, const MeshSurface& surface, const Pose& T_mesh_world,
+PoseRivals judge_candidate(const ScanPoints& scans, const RegistrationSurface& ready, const Pose& T_mesh_world,
                            const std::optional<Pose>& guess, const PoseCandidates& candidates,
                            const RegisterConfig& config) {
-  const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
   const std::vector<MeasuredPath> paths = paths_of(scans);
   const WeighConfig weighing = weigh_config(scans, guess, config.refinement);
   const WeighedPose at = weigh_pose(paths, ready, T_mesh_world, guess, weighing, config.search.registration);
@@ -106,7 +104,7 @@ RegistrationResult judge_pose_by_hand(const ScanPoints& scans, const MeshSurface
   misfit.surface_error_m = config.search.registration.surface_error_m;
   out.misfit = measure_pose_misfit(paths, ready, {}, misfit, out);
   out.verdict = fmt::format("placed by hand. Residual {:.4f} mm RMS over {} points.", 1e3 * out.rms_m, out.points);
-  state_rivals(judge_candidate(scans, surface, T_mesh_world, {}, candidates, config), out);
+  state_rivals(judge_candidate(scans, ready, T_mesh_world, {}, candidates, config), out);
   return out;
 }
 

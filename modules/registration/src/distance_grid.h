@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <mutex>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -59,6 +61,20 @@ class DistanceGrid {
   std::array<std::size_t, 3> count_{};
   std::vector<float> distance_m_;
   double size_m_ = 0.0;
+};
+
+// The grid of a mesh, made when it is first asked for. A search that is cancelled while it is made leaves none.
+class SearchGrid {
+ public:
+  const DistanceGrid& of(const RegistrationSurface& surface, const Observer& observer) {
+    constexpr int kCells = 56;
+    std::call_once(once_, [&] { grid_.emplace(surface, kCells, observer); });
+    return *grid_;
+  }
+
+ private:
+  std::once_flag once_;
+  std::optional<DistanceGrid> grid_;
 };
 
 }  // namespace asperity::registration

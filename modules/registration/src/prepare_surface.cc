@@ -7,6 +7,7 @@
 #include "asperity/geometry/mesh_adjacency.h"
 #include "asperity/geometry/mesh_normals.h"
 #include "asperity/registration/registration_surface.h"
+#include "distance_grid.h"
 
 namespace asperity {
 RegistrationSurface prepare_surface(const TriangleMesh& mesh, const MeshBvh& bvh, double crease_deg) {
@@ -19,7 +20,8 @@ RegistrationSurface prepare_surface(const TriangleMesh& mesh, const MeshBvh& bvh
   const std::vector<Eigen::Vector3d> normals = facet_normals(welded);
   const auto corners = corner_normals(welded, adjacency, crease_deg * std::numbers::pi / 180.0);
 
-  RegistrationSurface out{&mesh, &bvh, std::vector<RegistrationFacet>(mesh.triangles.size())};
+  RegistrationSurface out{&mesh, &bvh, std::vector<RegistrationFacet>(mesh.triangles.size()),
+                          std::make_shared<registration::SearchGrid>()};
   for (std::uint32_t f = 0; f < out.facets.size(); ++f) {
     RegistrationFacet& facet = out.facets[f];
     facet.normal = normals[f].cast<float>();

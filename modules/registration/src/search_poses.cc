@@ -122,12 +122,11 @@ std::vector<GridRun> distinct_runs(std::vector<GridRun> runs, const PointSet& po
 std::vector<SearchEnd> search_poses(const RegistrationSurface& surface, const PointSet& points, bool use_outward,
                                     double facing_cos, const SearchConfig& config, std::size_t keep,
                                     const Observer& observer) {
-  constexpr int kCells = 56;
   constexpr double kLean = 0.5;     // of the probe from the normal: 60°
   constexpr float kScored = 0.06F;  // widths, of the mesh's diagonal
   constexpr float kNarrowest = 0.004F;
   constexpr double kSame = 0.012;
-  const DistanceGrid grid(surface, kCells, observer);
+  const DistanceGrid& grid = surface.search_grid->of(surface, observer);
   const auto size_m = static_cast<float>(grid.size_m());
   const FewPoints few = few_points(points, static_cast<std::size_t>(config.points), use_outward, facing_cos);
   const std::uint32_t anchor = static_cast<std::uint32_t>(points.size() / 2);

@@ -69,7 +69,9 @@ Json judge_by_hand(const AlignScene& scene, const AlignChoice& choice, const Pos
                    const std::optional<PoseCandidates>& candidates, const RegistrationObserver& observer) {
   const RegisterConfig config = config_of(choice);
   const PoseCandidates compared =
-      candidates ? *candidates : find_pose_candidates(scene.scans, scene.surface, std::nullopt, {}, config, observer);
+      candidates ? *candidates
+                 : find_pose_candidates(scene.scans, prepare_surface(scene.surface.mesh, scene.surface.bvh),
+                                        std::nullopt, {}, config, observer);
   const RegistrationResult result = judge_pose_by_hand(scene.scans, scene.surface, pose, compared, config);
   const Verdicts verdicts = judge_pose(result, true);
   Json out;

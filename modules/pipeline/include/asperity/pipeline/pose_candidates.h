@@ -10,6 +10,7 @@
 #include "asperity/pipeline/scan_points.h"
 #include "asperity/registration/registration_iteration.h"
 #include "asperity/registration/registration_result.h"
+#include "asperity/registration/registration_surface.h"
 #include "asperity/registration/weigh_poses.h"
 
 namespace asperity {
@@ -22,12 +23,12 @@ struct PoseCandidates {
 
 // Those in reach of `near` and, without a guess or where the settings ask for rivals, those anywhere on the mesh
 // (find_poses, weigh_poses). Throws Error as find_poses does, and for no pose at all; and Cancelled.
-PoseCandidates find_pose_candidates(const ScanPoints& scans, const MeshSurface& surface,
+PoseCandidates find_pose_candidates(const ScanPoints& scans, const RegistrationSurface& surface,
                                     const std::optional<Pose>& guess, std::span<const Pose> near,
                                     const RegisterConfig& config, const RegistrationObserver& observer = {});
 
 // What speaks against a pose, however it was come by, of all `candidates` of the same scans (find_rivals).
-PoseRivals judge_candidate(const ScanPoints& scans, const MeshSurface& surface, const Pose& T_mesh_world,
+PoseRivals judge_candidate(const ScanPoints& scans, const RegistrationSurface& surface, const Pose& T_mesh_world,
                            const std::optional<Pose>& guess, const PoseCandidates& candidates,
                            const RegisterConfig& config);
 

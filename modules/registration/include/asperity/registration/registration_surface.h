@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -10,6 +11,10 @@
 #include "asperity/geometry/triangle_mesh.h"
 
 namespace asperity {
+
+namespace registration {
+class SearchGrid;
+}
 
 // What registration asks of a triangle beside its closest point. Directions in float: they steer steps, the
 // distances stay double.
@@ -26,6 +31,8 @@ struct RegistrationSurface {
   const TriangleMesh* mesh = nullptr;
   const MeshBvh* bvh = nullptr;
   std::vector<RegistrationFacet> facets;  // one a triangle
+  // Distances for the search over the whole mesh, made by the first search and shared by copies; threads may share it.
+  std::shared_ptr<registration::SearchGrid> search_grid;
 };
 
 // Normals at the corners are those of geometry/corner_normals.h with edges sharper than `crease_deg` kept. Vertices at
