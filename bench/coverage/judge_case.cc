@@ -47,6 +47,8 @@ struct FigureKind {
   std::function<double(const ScanCase&, const TrueProfile&)> truth;
   bool is_height = false;
   bool needs_pitch = false;  // of the maker: an oracle may or may not be told it
+  // Of shape: what noise of a share 1 − `share` of the power has made of it is taken off (cumulants add).
+  std::function<double(double value, double share)> without_noise = nullptr;
 };
 
 Said roughness(const ProcessResult& r, double asperity::RoughnessParameters::*value) {
@@ -104,9 +106,11 @@ const std::vector<FigureKind>& figure_kinds() {
       {"Rt_m", [](const ProcessResult& r) { return roughness(r, &R::Rt_m); },
        [](const TextureView& v) { return plain(v, &P::Rt_m); }, nullptr, true},
       {"Rsk", [](const ProcessResult& r) { return roughness(r, &R::Rsk); },
-       [](const TextureView& v) { return plain(v, &P::Rsk); }, nullptr},
+       [](const TextureView& v) { return plain(v, &P::Rsk); }, nullptr, false, false,
+       [](double value, double share) { return value / std::pow(share, 1.5); }},
       {"Rku", [](const ProcessResult& r) { return roughness(r, &R::Rku); },
-       [](const TextureView& v) { return plain(v, &P::Rku); }, nullptr},
+       [](const TextureView& v) { return plain(v, &P::Rku); }, nullptr, false, false,
+       [](double value, double share) { return 3.0 + (value - 3.0) / (share * share); }},
       {"RSm_m", [](const ProcessResult& r) { return roughness(r, &R::RSm_m); },
        [](const TextureView& v) { return library(v, &R::RSm_m); }, nullptr},
       {"R10z_m", [](const ProcessResult& r) { return roughness(r, &R::R10z_m); },
@@ -178,23 +182,26 @@ constexpr double kSamePitch = 0.1;  // relative
 // The spread of the texture's figure over twins of the measured heights' actual error added to the truth: what one
 // would have to live with who knew that error's spectrum, and took its bias off. Of a pattern's figures, one who is
 // `told` the maker's pitch, or else looks for it in each twin (find_unknown_pitch.h); where that misses the pitch by
-// more than a tenth in one of them, it is not determined.
+// more than a tenth in one of them, it is not determined. Of the shape, one who takes the noise's cumulants off, or
+// `told` that the figure of the noisy heights is near the surface's, as it is where both are Gaussian.
 double oracle_sigma(const FigureKind& kind, const ScanCase& scan, const TrueProfile& truth, double spacing_m,
                     bool told) {
   constexpr int kTwins = 8;
   asperity::Random random(scan.seed, 0x7477696e);
   const NoiseTwin twin(truth.measured_error_m);
+  const double surface_m2 = std::pow(rms(truth.texture_m), 2), error_m2 = std::pow(rms(truth.measured_error_m), 2);
   std::vector<double> values;
   for (int k = 0; k < kTwins; ++k) {
     std::vector<double> disturbed = twin.draw(random);
     for (std::size_t i = 0; i < disturbed.size(); ++i) disturbed[i] += truth.texture_m[i];
     double pitch_m = scan.pitch_m;
-    if (!told) {
+    if (!told && kind.needs_pitch) {
       pitch_m = find_unknown_pitch_m(disturbed, truth.measured_error_m, spacing_m);
       if (!(std::abs(pitch_m / scan.pitch_m - 1.0) < kSamePitch)) return kMissing;
     }
     try {
-      const double value = kind.of_texture({disturbed, spacing_m, pitch_m});
+      double value = kind.of_texture({disturbed, spacing_m, pitch_m});
+      if (!told && kind.without_noise) value = kind.without_noise(value, surface_m2 / (surface_m2 + error_m2));
       if (std::isfinite(value)) values.push_back(value);
     } catch (const asperity::Error&) {
       return kMissing;
@@ -258,8 +265,9 @@ FigureOutcome judge_figure(const FigureKind& kind, const ScanCase& scan, const P
     // A tracker alone gives the length to a few per cent.
     if (out.name == "length_m") out.oracle_sigma = 0.0;
     if (kind.of_texture && std::isfinite(out.truth)) {
-      out.oracle_sigma = oracle_sigma(kind, scan, truth, result->profile.spacing_m, !kind.needs_pitch);
-      if (kind.needs_pitch) out.told_sigma = oracle_sigma(kind, scan, truth, result->profile.spacing_m, true);
+      out.oracle_sigma = oracle_sigma(kind, scan, truth, result->profile.spacing_m, false);
+      if (kind.needs_pitch || kind.without_noise)
+        out.told_sigma = oracle_sigma(kind, scan, truth, result->profile.spacing_m, true);
     }
   } catch (const asperity::Error&) {
     out.truth = kMissing;

@@ -25,18 +25,25 @@ double snr_after_removal(const TextureNoise& noise, double more, double error_ra
 void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise) {
   if (noise.added_psd_m2_mm.empty()) return;
   constexpr double kSure = 1.96;
-  const auto filter = [&](const std::vector<double>& psd_m2_mm) {
-    return apply_wiener_filter(profile.texture_m, profile.spacing_m, noise.frequency_cycles_per_mm, psd_m2_mm,
-                               bridge_m);
+  // What the normals' lean carries into the heights has an expected value of 0: it stays. The rest is known to a factor
+  // of two: as much of the lean's part as there is of the rest is removed with it.
+  const auto filter = [&](double more) {
+    std::vector<double> removed = noise.added_psd_m2_mm, kept = noise.carried_psd_m2_mm;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      kept[i] = std::max(0.0, 2.0 * kept[i] - removed[i]);
+      removed[i] -= kept[i];
+    }
+    for (double& density : removed) density *= more;
+    for (double& density : kept) density *= more;
+    return apply_wiener_filter(profile.texture_m, profile.spacing_m, noise.frequency_cycles_per_mm, removed, bridge_m,
+                               kept);
   };
-  const WienerTexture expected = filter(noise.added_psd_m2_mm);
+  const WienerTexture expected = filter(1.0);
   if (!std::isfinite(expected.error_ratio)) return;
   const double scale_m2 = square(noise.scale_sigma * noise.texture_rms_m);
   const double most = 1.0 + kSure * 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
-  std::vector<double> most_psd_m2_mm = noise.added_psd_m2_mm;
-  for (double& density : most_psd_m2_mm) density *= most;
   noise.snr = snr_after_removal(noise, 1.0, expected.error_ratio);
-  noise.snr_low = snr_after_removal(noise, most, filter(most_psd_m2_mm).error_ratio);
+  noise.snr_low = snr_after_removal(noise, most, filter(most).error_ratio);
 
   // The misplaced heights and their scale.
   const double kept_m2 = std::max(0.0, square(noise.noise_rms_m) - square(noise.added_rms_m));
@@ -59,7 +66,9 @@ void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise) {
     if (!noise.slow_sigma_m.empty()) profile.sigma_m[i] = std::hypot(noise.slow_sigma_m[i], profile.texture_sigma_m[i]);
   }
   if (points > 0.0) {
-    noise.expected_correlation = std::sqrt(expected_m2 / (expected_m2 + points * square(noise.noise_rms_m)));
+    const double surface_m2 = std::max(0.0, expected_m2 - points * square(expected.kept_rms_m));
+    const double all_m2 = surface_m2 + points * square(noise.noise_rms_m);
+    noise.expected_correlation = all_m2 > 0.0 ? std::sqrt(surface_m2 / all_m2) : 0.0;
   }
 }
 

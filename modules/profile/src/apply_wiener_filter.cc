@@ -37,6 +37,7 @@ class NoiseDensity {
 
   // At frequencies that do not fall from call to call.
   double at(double frequency) {
+    if (psd_.empty()) return 0.0;
     while (next_ + 1 < frequency_.size() && frequency_[next_] < frequency) ++next_;
     if (next_ == 0 || frequency >= frequency_[next_]) return psd_[next_];
     const double share = (frequency - frequency_[next_ - 1]) / (frequency_[next_] - frequency_[next_ - 1]);
@@ -50,10 +51,11 @@ class NoiseDensity {
 
 // Powers summed over the frequencies of all runs.
 struct Powers {
-  double surface = 0.0, surface_kept = 0.0, noise = 0.0, noise_kept = 0.0;
+  double surface = 0.0, covariance = 0.0, noise = 0.0, error = 0.0, kept = 0.0, out = 0.0;
 };
 
-std::vector<double> filter_run(std::span<const double> run, double spacing_mm, NoiseDensity noise, Powers& powers) {
+std::vector<double> filter_run(std::span<const double> run, double spacing_mm, NoiseDensity noise, NoiseDensity kept,
+                               Powers& powers) {
   const std::size_t n = run.size();
   std::vector<double> mirrored(run.begin(), run.end());
   mirrored.insert(mirrored.end(), run.rbegin(), run.rend());
@@ -65,14 +67,19 @@ std::vector<double> filter_run(std::span<const double> run, double spacing_mm, N
   const double step_cycles_per_mm = 1.0 / (spacing_mm * static_cast<double>(mirrored.size()));
   const double weight = step_cycles_per_mm * static_cast<double>(n);
   for (std::size_t i = 0; i < spectrum.size(); ++i) {
-    const double noise_here = noise.at(step_cycles_per_mm * static_cast<double>(i));
-    const double surface = std::max(0.0, density[i] - noise_here);
-    const double gain = density[i] > 0.0 ? surface / density[i] : 0.0;
+    const double frequency = step_cycles_per_mm * static_cast<double>(i);
+    const double noise_here = noise.at(frequency), kept_said = kept.at(frequency);
+    // What was measured is surface and both errors: the second is no larger than what the first leaves.
+    const double above = std::max(0.0, density[i] - noise_here), kept_here = std::min(kept_said, above);
+    const double surface = above - kept_here;
+    const double gain = density[i] > 0.0 ? above / density[i] : 0.0, lost = 1.0 - gain;
     spectrum[i] *= gain;
     powers.surface += weight * surface;
-    powers.surface_kept += weight * gain * surface;
-    powers.noise += weight * noise_here;
-    powers.noise_kept += weight * gain * noise_here;
+    powers.covariance += weight * gain * surface;
+    powers.noise += weight * (noise_here + kept_said);
+    powers.error += weight * (lost * lost * surface + gain * gain * (noise_here + kept_here));
+    powers.kept += weight * gain * gain * kept_here;
+    powers.out += weight * gain * gain * density[i];
   }
   std::vector<double> out = inverse_real_dft(spectrum, mirrored.size());
   out.resize(n);
@@ -83,9 +90,10 @@ std::vector<double> filter_run(std::span<const double> run, double spacing_mm, N
 
 WienerTexture apply_wiener_filter(std::span<const double> texture_m, double spacing_m,
                                   std::span<const double> frequency_cycles_per_mm,
-                                  std::span<const double> noise_psd_m2_mm, double bridge_m) {
+                                  std::span<const double> noise_psd_m2_mm, double bridge_m,
+                                  std::span<const double> kept_psd_m2_mm) {
   if (frequency_cycles_per_mm.empty() || frequency_cycles_per_mm.size() != noise_psd_m2_mm.size() ||
-      !(spacing_m > 0.0)) {
+      (!kept_psd_m2_mm.empty() && kept_psd_m2_mm.size() != noise_psd_m2_mm.size()) || !(spacing_m > 0.0)) {
     throw Error("Wiener's filter: " + std::to_string(frequency_cycles_per_mm.size()) + " frequencies, " +
                 std::to_string(noise_psd_m2_mm.size()) + " densities, a spacing that must be positive");
   }
@@ -94,21 +102,25 @@ WienerTexture apply_wiener_filter(std::span<const double> texture_m, double spac
   const auto bridge = static_cast<std::size_t>(std::lround(bridge_m / spacing_m));
   out.texture_m = filter_runs(texture_m, bridge, {}, kShortest_points, [&](std::span<const double> run) {
     return filter_run(run, 1e3 * spacing_m, NoiseDensity(frequency_cycles_per_mm, noise_psd_m2_mm),
-                      runs.emplace_back());
+                      NoiseDensity(frequency_cycles_per_mm, kept_psd_m2_mm), runs.emplace_back());
   });
 
   Powers all;
   for (const Powers& run : runs) {
     all.surface += run.surface;
-    all.surface_kept += run.surface_kept;
+    all.covariance += run.covariance;
     all.noise += run.noise;
-    all.noise_kept += run.noise_kept;
+    all.error += run.error;
+    all.kept += run.kept;
+    all.out += run.out;
   }
   double points = 0.0;
   for (const double h : out.texture_m) points += std::isfinite(h) ? 1.0 : 0.0;
-  out.error_ratio = all.noise > 0.0 ? std::sqrt(all.noise_kept / all.noise) : 0.0;
-  out.error_rms_m = points > 0.0 ? std::sqrt(all.noise_kept / points) : 0.0;
-  out.expected_correlation = all.surface > 0.0 ? std::sqrt(all.surface_kept / all.surface) : 0.0;
+  out.error_ratio = all.noise > 0.0 ? std::sqrt(all.error / all.noise) : 0.0;
+  out.error_rms_m = points > 0.0 ? std::sqrt(all.error / points) : 0.0;
+  out.kept_rms_m = points > 0.0 ? std::sqrt(all.kept / points) : 0.0;
+  const double powers = all.surface * all.out;
+  out.expected_correlation = powers > 0.0 ? all.covariance / std::sqrt(powers) : 0.0;
   return out;
 }
 

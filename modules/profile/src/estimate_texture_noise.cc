@@ -119,6 +119,9 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   own_errors.accel_psd_m2ps3 = errors.accel_own_psd_m2ps3;
   const std::vector<double> own = even_density(own_errors);
   const double own_power = integrate(k, [&](std::size_t i) { return own[i]; });
+  HeightErrors upright = errors;
+  upright.leaning_m2ps.clear();
+  const std::vector<double> without_lean = even_density(upright);
 
   // The powers, from draws: they know of rests, slow ends and gaps.
   std::vector<double> surface_m(profile.size());
@@ -144,7 +147,11 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   const double typical_added = 1e6 * mean_over(blocks, typical, added_errors.block_m2);
   const double typical_misplaced = 1e6 * mean_over(blocks, typical, misplaced_errors.block_m2);
   const double typical_measured = 1e6 * measured_m2;
-  for (double& density : added) density *= typical_added / even_power;
+  std::vector<double> carried(k.size());
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    carried[i] = std::max(0.0, added[i] - without_lean[i]) * typical_added / even_power;
+    added[i] *= typical_added / even_power;
+  }
 
   const PowerSpectrum measured = measure_spectrum(profile.texture_m, profile.spacing_m);
   const double shape_mm2 = 1e6 * drawn.shape_variance_m2;
@@ -179,6 +186,8 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   noise.frequency_cycles_per_mm = k;
   noise.added_psd_m2_mm.resize(k.size());
   noise.misplaced_psd_m2_mm.resize(k.size());
+  if (!errors.leaning_m2ps.empty()) noise.carried_psd_m2_mm.resize(k.size());
+  for (std::size_t i = 0; i < noise.carried_psd_m2_mm.size(); ++i) noise.carried_psd_m2_mm[i] = 1e-6 * carried[i];
   for (std::size_t i = 0; i < k.size(); ++i) {
     noise.added_psd_m2_mm[i] = 1e-6 * added[i];
     noise.misplaced_psd_m2_mm[i] = 1e-6 * misplaced[i];

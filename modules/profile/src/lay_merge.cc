@@ -42,7 +42,10 @@ void mix_noise(const TextureNoise& merged, double share, double texture_before_m
   for (std::size_t i = 0; i < noise.added_psd_m2_mm.size(); ++i) {
     const double of_merge =
         spectrum_at(merged.frequency_cycles_per_mm, merged.added_psd_m2_mm, noise.frequency_cycles_per_mm[i]);
-    noise.added_psd_m2_mm[i] += share * (of_merge - noise.added_psd_m2_mm[i]);
+    const double before = noise.added_psd_m2_mm[i];
+    noise.added_psd_m2_mm[i] += share * (of_merge - before);
+    if (!noise.carried_psd_m2_mm.empty() && before > 0.0)
+      noise.carried_psd_m2_mm[i] *= noise.added_psd_m2_mm[i] / before;
   }
   const double after_m2 = integral(noise.frequency_cycles_per_mm, noise.added_psd_m2_mm);
   const double less = before_m2 > 0.0 ? after_m2 / before_m2 : 1.0, root = std::sqrt(less);

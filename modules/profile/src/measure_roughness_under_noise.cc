@@ -17,7 +17,7 @@ namespace asperity {
 namespace {
 
 constexpr std::size_t kPlaceDraws = 8;
-constexpr double kLeastSnr = 1.0;  // below it the texture does not stand out: its parameters would be the noise's
+constexpr double kLeastSnr = 1.0;  // of added noise: below it the crossings that RSm counts would be the noise's
 constexpr std::size_t kParameters = kRoughnessParameters.size();
 
 struct Followed {
@@ -55,8 +55,12 @@ bool hangs_on_extremes(const RoughnessParameter& p) {
          p.value != &RoughnessParameters::RSm_m;
 }
 
+bool is_mean_of_powers(const RoughnessParameter& p) {
+  return p.value == &RoughnessParameters::Ra_m || p.value == &RoughnessParameters::Rq_m;
+}
+
 // What heights at a wrong place can do to each parameter: the spread over draws of noise of their spectrum, and half of
-// the mean change.
+// the mean change. To Ra and Rq they do what they do to the power (stretch_sigma).
 std::array<double, kParameters> doubt_by_place(std::span<const double> height_m, double spacing_m,
                                                const TextureNoise& noise, const RoughnessConfig& config,
                                                const RoughnessParameters& measured) {
@@ -73,7 +77,7 @@ std::array<double, kParameters> doubt_by_place(std::span<const double> height_m,
   std::array<double, kParameters> out{};
   for (std::size_t p = 0; p < kParameters; ++p) {
     const RoughnessParameter& parameter = kRoughnessParameters[p];
-    if (!hangs_on_extremes(parameter)) continue;
+    if (is_mean_of_powers(parameter)) continue;
     const double change = 0.5 * (spread[p].mean() - measured.*parameter.value);
     const double doubt = std::hypot(spread[p].deviation(), change);
     out[p] = std::isfinite(doubt) ? doubt : 0.0;
@@ -93,7 +97,8 @@ RoughnessResult measure_roughness_under_noise(std::span<const double> height_m, 
   const double relative = 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;  // of the power
   const double stretch = 0.5 * noise.stretch_sigma;
 
-  const bool stands_out = noise.measured_snr_low >= kLeastSnr && noise.snr >= kLeastSnr;
+  // Heights at a wrong place cross the mean line as often as others: only added noise makes crossings of its own.
+  const bool stands_out = noise.measured_snr_low >= kLeastSnr;
   const double contact = noise.contact_rms_m / std::numbers::sqrt3 / measured.Rq_m;
   Random random(kNoiseSeed, 2);
   const double noise_m2 = noise.added_rms_m * noise.added_rms_m;

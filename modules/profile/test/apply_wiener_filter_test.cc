@@ -78,6 +78,64 @@ TEST(WienerFilter, ComesNearTheBestThereIs) {
   EXPECT_NEAR(expected_r, r, 0.03);
 }
 
+// An unknown angle times a known motion: nothing of it is taken off, its power is in the error, and the surface keeps
+// its scale. The same density taken for noise shrinks the surface.
+TEST(WienerFilter, KeepsWhatHasNoExpectedValue) {
+  constexpr double kSurface_m = 20e-6, kNoise_m = 4e-6, kKept_m = 8e-6;
+  const std::vector<double> noise_psd = white_psd(kNoise_m), kept_psd = white_psd(kKept_m);
+  const std::vector<double> both_psd = white_psd(std::hypot(kNoise_m, kKept_m));
+  double error_m2 = 0.0, expected_m2 = 0.0, gain = 0.0, shrunk_gain = 0.0;
+  constexpr int kSeeds = 40;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const std::vector<double> truth = autoregressive(seed, 0.95, kSurface_m);
+    // The carried motion is one draw of the angle: its power differs from scan to scan.
+    const double angle = Random(seed, 9).normal();
+    const std::vector<double> sway = noise(seed + 300, kKept_m);
+    std::vector<double> measured = noise(seed + 100, kNoise_m);
+    for (std::size_t i = 0; i < kPoints; ++i) measured[i] += truth[i] + angle * sway[i];
+    const WienerTexture out = apply_wiener_filter(measured, kSpacing_m, kFrequency, noise_psd, kBridge_m, kept_psd);
+    const WienerTexture shrunk = apply_wiener_filter(measured, kSpacing_m, kFrequency, both_psd, kBridge_m);
+    error_m2 += std::pow(rms_difference(out.texture_m, truth), 2) / kSeeds;
+    expected_m2 += out.error_rms_m * out.error_rms_m / kSeeds;
+    const double spread = rms(truth);
+    gain += correlation(out.texture_m, truth) * rms(out.texture_m) / spread / kSeeds;
+    shrunk_gain += correlation(shrunk.texture_m, truth) * rms(shrunk.texture_m) / spread / kSeeds;
+    EXPECT_NEAR(out.error_ratio, out.error_rms_m / std::hypot(kNoise_m, kKept_m), 1e-3);
+    EXPECT_LT(out.kept_rms_m, kKept_m);
+    EXPECT_LE(out.kept_rms_m, out.error_rms_m * 1.001);
+  }
+  // Of the angle's square forty draws have a standard error of √(2/40), 22 %.
+  EXPECT_NEAR(expected_m2, error_m2, 0.5 * error_m2);
+  EXPECT_GT(gain, shrunk_gain + 0.03);
+  EXPECT_NEAR(gain, 1.0, 0.05);
+}
+
+// At the angle's own standard deviation the kept error has the stated power, and the correlation is the expected one.
+TEST(WienerFilter, ExpectsTheCorrelationThatTheKeptErrorLeaves) {
+  constexpr double kNoise_m = 4e-6, kKept_m = 8e-6;
+  double r = 0.0, expected_r = 0.0;
+  constexpr int kSeeds = 10;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const std::vector<double> truth = autoregressive(seed, 0.95, 20e-6), sway = noise(seed + 300, kKept_m);
+    std::vector<double> measured = noise(seed + 100, kNoise_m);
+    for (std::size_t i = 0; i < kPoints; ++i) measured[i] += truth[i] + sway[i];
+    const WienerTexture out =
+        apply_wiener_filter(measured, kSpacing_m, kFrequency, white_psd(kNoise_m), kBridge_m, white_psd(kKept_m));
+    r += correlation(out.texture_m, truth) / kSeeds;
+    expected_r += out.expected_correlation / kSeeds;
+  }
+  EXPECT_NEAR(expected_r, r, 0.03);
+}
+
+TEST(WienerFilter, WithNothingKeptIsTheSame) {
+  const std::vector<double> measured = autoregressive(11, 0.9, 20e-6), none(kFrequency.size(), 0.0);
+  const WienerTexture plain = apply_wiener_filter(measured, kSpacing_m, kFrequency, white_psd(5e-6), kBridge_m);
+  const WienerTexture kept = apply_wiener_filter(measured, kSpacing_m, kFrequency, white_psd(5e-6), kBridge_m, none);
+  EXPECT_EQ(plain.texture_m, kept.texture_m);
+  EXPECT_EQ(plain.error_rms_m, kept.error_rms_m);
+  EXPECT_EQ(kept.kept_rms_m, 0.0);
+}
+
 TEST(WienerFilter, TakesNoiseAloneAway) {
   const std::vector<double> measured = noise(7, 10e-6);
   const WienerTexture out = apply_wiener_filter(measured, kSpacing_m, kFrequency, white_psd(10e-6), kBridge_m);
@@ -107,6 +165,9 @@ TEST(WienerFilter, RefusesSpectraThatDoNotFit) {
   EXPECT_THROW(apply_wiener_filter(measured, kSpacing_m, kFrequency, std::vector<double>(3, 0.0), kBridge_m), Error);
   EXPECT_THROW(apply_wiener_filter(measured, 0.0, kFrequency, white_psd(1e-6), kBridge_m), Error);
   EXPECT_THROW(apply_wiener_filter(measured, kSpacing_m, {}, {}, kBridge_m), Error);
+  EXPECT_THROW(
+      apply_wiener_filter(measured, kSpacing_m, kFrequency, white_psd(1e-6), kBridge_m, std::vector<double>(3, 0.0)),
+      Error);
 }
 
 }  // namespace

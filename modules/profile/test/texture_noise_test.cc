@@ -126,6 +126,31 @@ TEST(TextureNoise, FollowsTheSpeedPointByPoint) {
   }
 }
 
+// What the normals' lean carries is a part of the added noise, at the frequencies where the tip sways.
+TEST(TextureNoise, SaysWhatTheLeanCarries) {
+  HeightErrors errors = errors_of(1e-6, 1e-9);
+  const TextureNoiseEstimate upright = many(errors);
+  EXPECT_TRUE(upright.noise.carried_psd_m2_mm.empty());
+  errors.crosstalk_Hz = {0.0, 8.0, 10.0, 12.0, 500.0};
+  errors.crosstalk_m2ps.assign(5, 0.0);
+  errors.leaning_m2ps = {0.0, 0.0, 4e-12, 0.0, 0.0};  // 8 µm² about 10 Hz, 0.4 cycles/mm
+  const TextureNoise noise = many(errors).noise;
+  ASSERT_EQ(noise.carried_psd_m2_mm.size(), noise.added_psd_m2_mm.size());
+  double carried_m2 = 0.0;
+  for (std::size_t i = 0; i < noise.carried_psd_m2_mm.size(); ++i) {
+    const double k = noise.frequency_cycles_per_mm[i];
+    EXPECT_LE(noise.carried_psd_m2_mm[i], noise.added_psd_m2_mm[i]);
+    if (k < 0.31 || k > 0.49) {
+      EXPECT_EQ(noise.carried_psd_m2_mm[i], 0.0) << k;
+    }
+    if (i == 0) continue;
+    carried_m2 += 0.5 * (noise.carried_psd_m2_mm[i] + noise.carried_psd_m2_mm[i - 1]) *
+                  (k - noise.frequency_cycles_per_mm[i - 1]);
+  }
+  // The high-pass of 0.1 cycles/mm takes 0.3 % at 0.4. The spectrum's points are 6 % apart, the triangle 40 % wide.
+  EXPECT_NEAR(carried_m2, 8e-12, 0.1 * 8e-12);
+}
+
 TEST(TextureNoise, SaysNothingWhereNoNoiseIsKnown) {
   Profile profile = even_stretch();
   profile.texture_m[5] = kNan;

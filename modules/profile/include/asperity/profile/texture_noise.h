@@ -59,6 +59,9 @@ struct TextureNoise {
   // the heights, and of heights at a wrong place along the path.
   std::vector<double> added_psd_m2_mm;
   std::vector<double> misplaced_psd_m2_mm;
+  // Of the first, what the normals' lean carries from the sway across the path: an unknown angle times a known motion.
+  // The angle's mean is 0 (estimate_lean), so this part is in the error but not expected in the heights. Empty: none.
+  std::vector<double> carried_psd_m2_mm;
   // The same two point by point, standard deviations; empty: the same everywhere.
   std::vector<double> added_sigma_m;
   std::vector<double> misplaced_sigma_m;
