@@ -113,23 +113,23 @@ FeelDemo demonstrate_feel(const fs::path& folder, const ProcessResult& protoboar
   write_scene(place / "scene.json", scene);
   const Felt felt = record_stroke(scene, place / "log.csv", observer);
 
-  constexpr double kSpacing_m = 0.05e-3, kHole_m = 1e-3;
+  constexpr double kPlotSpacing_m = 0.05e-3, kHole_m = 1e-3;
   const std::array<std::span<const double>, 2> channels{felt.force_N, felt.height_m};
-  const PathKnots knots = gather_knots(felt.x_m, channels, {}, 0.25 * kSpacing_m);
+  const PathKnots knots = gather_knots(felt.x_m, channels, {}, 0.25 * kPlotSpacing_m);
   const auto [low, high] = std::minmax_element(felt.x_m.begin(), felt.x_m.end());
   // A texture's worth from either end: there the hand is still coming to speed.
   constexpr double kEnd_m = 5e-3;
-  const auto first = std::llround((*low + kEnd_m) / kSpacing_m);
-  const std::size_t count = count_points(*high - *low - 2.0 * kEnd_m, kSpacing_m);
+  const auto first = std::llround((*low + kEnd_m) / kPlotSpacing_m);
+  const std::size_t count = count_points(*high - *low - 2.0 * kEnd_m, kPlotSpacing_m);
   ForcePlot plot;
-  plot.force_N = resample_linear(knots, 0, first, count, kSpacing_m, kHole_m);
-  const Periodicity pattern = find_periodicity(plot.force_N, kSpacing_m, PeriodicityConfig{});
+  plot.force_N = resample_linear(knots, 0, first, count, kPlotSpacing_m, kHole_m);
+  const Periodicity pattern = find_periodicity(plot.force_N, kPlotSpacing_m, PeriodicityConfig{});
 
   plot.title = fmt::format("protoboard, felt: force of a hand that presses with 1 N at 50 mm/s; pitch {:.3f} mm",
                            pattern.pitch_m * 1e3);
-  plot.height_m = resample_linear(knots, 1, first, count, kSpacing_m, kHole_m);
-  plot.from_m = static_cast<double>(first) * kSpacing_m;
-  plot.spacing_m = kSpacing_m;
+  plot.height_m = resample_linear(knots, 1, first, count, kPlotSpacing_m, kHole_m);
+  plot.from_m = static_cast<double>(first) * kPlotSpacing_m;
+  plot.spacing_m = kPlotSpacing_m;
   const std::size_t drawn = std::min<std::size_t>(count, 801);
   plot.force_N.resize(drawn);
   plot.height_m.resize(drawn);

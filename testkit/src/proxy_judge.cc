@@ -18,8 +18,7 @@ constexpr double kMoving =
 }  // namespace
 
 ProxyJudge::ProxyJudge(const TriangleMesh& mesh, const MeshBvh& bvh, const ProxyJudgeConfig& config)
-    : mesh_(mesh),
-      bvh_(bvh),
+    : bvh_(bvh),
       config_(config),
       point_(mesh),
       local_point_(mesh),

@@ -58,7 +58,6 @@ class ProxyJudge {
   // The local minimum that a descent from `centre_m` leads to.
   Eigen::Vector3d minimum_from(const Eigen::Vector3d& centre_m, const Eigen::Vector3d& device_m);
 
-  const TriangleMesh& mesh_;
   const MeshBvh& bvh_;
   ProxyJudgeConfig config_;
   TrackedMinimum point_, local_point_;
