@@ -30,9 +30,11 @@ class ExportCommand : public Command {
         parser().add_option("OUT", source_,
                             "What register, paint, process or area wrote, a scene.json, a mesh, a *.texture.json, or a "
                             "file of heights (x3p, sdf, gsf)"));
-    require(parser().add_option("--to", format_,
-                                "obj, gltf (.glb), png (16-bit height and normal maps), wav (the texture stroked), x3p "
-                                "(heights), sdf, sdf-binary, gsf (profile and areal map), stl (relief to print)"))
+    require(
+        parser().add_option(
+            "--to", format_,
+            "obj, gltf (.glb), png (16-bit height and normal maps), wav (the texture stroked), x3p "
+            "(heights), sdf, sdf-binary, gsf (profile and areal map), stl (relief to print), usda, ahap, haps, hjif"))
         ->type_name("FORMAT");
     parser().add_option("-o,--output", output_, "Folder of the files; default: OUT-FORMAT")->type_name("DIR");
     parser().add_option("--speed", speed_, "Of the stroke, for wav, ahap, haps and forces in time")->type_name("SPEED");

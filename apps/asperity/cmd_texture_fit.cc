@@ -235,6 +235,10 @@ class TextureFitCommand : public Command {
     texture.source = {printable(sources, kLongest_bytes), config_json(fields()), kVersion};
     std::vector<StrokeSource> made_from;
     for (const auto& file : files_) {
+      if (is_stroke_folder(file)) {
+        made_from.push_back({std::filesystem::path(file).filename().string(), "", {}});
+        continue;
+      }
       for (StrokeSource& source : sources_of_input(file)) made_from.push_back(std::move(source));
     }
     if (!made_from.empty()) note_sources(texture, made_from);

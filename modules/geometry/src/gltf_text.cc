@@ -35,6 +35,13 @@ void add_extras(Json& out, const Value& extras) {
   if (extras.Type() != tinygltf::NULL_TYPE) out["extras"] = json_of(extras);
 }
 
+void add_extensions(Json& out, const tinygltf::ExtensionMap& extensions) {
+  if (extensions.empty()) return;
+  Json all = Json::object();
+  for (const auto& [name, value] : extensions) all[name] = json_of(value);
+  out["extensions"] = std::move(all);
+}
+
 void add_name(Json& out, const std::string& name) {
   if (!name.empty()) out["name"] = name;
 }
@@ -104,6 +111,7 @@ Json json_of(const tinygltf::Mesh& mesh) {
   }
   Json out = Json::object();
   out["primitives"] = std::move(primitives);
+  add_extensions(out, mesh.extensions);
   add_extras(out, mesh.extras);
   return out;
 }
@@ -148,6 +156,8 @@ std::string gltf_text(const tinygltf::Model& model, GltfForm form) {
   Json buffers = Json::array();
   buffers.push_back(std::move(buffer));
   out["buffers"] = std::move(buffers);
+  add_extensions(out, model.extensions);
+  if (!model.extensionsUsed.empty()) out["extensionsUsed"] = model.extensionsUsed;
   add_extras(out, model.extras);
   add_all(out, "images", model.images);
   add_all(out, "materials", model.materials);

@@ -122,6 +122,12 @@ class Reader {
     const int photometric = field<std::uint16_t>(TIFFTAG_PHOTOMETRIC);
     if (photometric != PHOTOMETRIC_MINISBLACK)
       fail("is of kind " + std::to_string(photometric) + " (PhotometricInterpretation); 1, black is 0, is read");
+    // Lossy kinds are no heights, and libtiff fills damaged ones with nothing but a warning.
+    const int compression = field<std::uint16_t>(TIFFTAG_COMPRESSION);
+    if (compression == COMPRESSION_JPEG || compression == COMPRESSION_OJPEG)
+      fail("is compressed as JPEG, which changes the numbers; save it without loss");
+    if (const int turned = field<std::uint16_t>(TIFFTAG_ORIENTATION); turned != ORIENTATION_TOPLEFT)
+      fail("is stored turned or mirrored (Orientation " + std::to_string(turned) + "); save it upright");
     out.bits = field<std::uint16_t>(TIFFTAG_BITSPERSAMPLE);
     const int format = field<std::uint16_t>(TIFFTAG_SAMPLEFORMAT);
     out.is_float = format == SAMPLEFORMAT_IEEEFP;

@@ -316,8 +316,10 @@ StrokeReading read_stroke(const StrokeFiles& files, const MappingConfig& mapping
     stroke.force_is_measured = !never_changes(stroke.force_N);
     if (!stroke.force_is_measured)
       stroke.problems.push_back({"force_constant", "the force never changes: it does not count as measured", 1});
-  } else if (config.force_N > 0.0) {
-    stroke.force_N.assign(samples, config.force_N);
+  }
+  if (!stroke.force_is_measured) {
+    stroke.force_N.clear();
+    if (config.force_N > 0.0) stroke.force_N.assign(samples, config.force_N);
   }
   for (const ImportTable& table : out.tables) {
     for (const Problem& problem : table.table.problems) {

@@ -40,6 +40,8 @@ DeepGrayImage levels_of(const TiffImage& image, const std::string& name, std::st
     const auto [least, most] = std::minmax_element(image.values.begin(), image.values.end());
     low = *least;
     high = *most > low ? *most : low + 1.0;
+    if (!std::isfinite(high - low) || !(high > low))
+      throw Error(name + ": its numbers span more than a height map can");
     note = "numbers of " + std::to_string(image.bits) + " bits, of which " + number_text(low) + " is black and " +
            number_text(high) + " white";
   }

@@ -23,7 +23,7 @@ struct StrokeImportConfig {
             {0.1, 1e4});
     v.field("speed_mps", speed_mps, "of a stroke without positions, as it was held; 0: not known", {0.0, 10.0});
     v.field("force_N", force_N, "of a stroke without a force, as it was held; 0: not known", {0.0, 1e3});
-    v.field("contact_N", contact_N, "from this force on the tip touches", {0.0, 100.0});
+    v.field("contact_N", contact_N, "from this force on the tip touches", {1e-4, 100.0});
     v.field("noise_mps2", noise_mps2,
             "RMS of the sensor's noise above 40 Hz, where no part of the stroke is quiet; 0: "
             "not known",
