@@ -13,22 +13,8 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/testkit/count_allocations.h"
 #include "asperity/testkit/temp_dir.h"
-
-namespace {
-
-thread_local long allocations_until_failure = -1;  // negative: none fails
-
-}  // namespace
-
-// Not inline: g++ would see free() with memory of new.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  if (allocations_until_failure >= 0 && allocations_until_failure-- == 0) throw std::bad_alloc();
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace asperity {
 namespace {
@@ -56,16 +42,16 @@ bool commit_with_failure(const fs::path& dir, long at, int& status) {
       OutputFolder folder(dir / "out", [](const fs::path&) { return true; });
       fs::create_directories(folder.path() / "inner");
       write_file(folder.path() / "inner" / "mark", "new");
-      allocations_until_failure = at;
+      testkit::fail_allocation(at);
       try {
         folder.commit();
-        done = allocations_until_failure >= 0;
+        done = testkit::allocations_until_failure() >= 0;
       } catch (const Error& error) {
         said = error.what();
       } catch (const std::bad_alloc&) {
         said = "not enough memory";
       }
-      allocations_until_failure = -1;
+      testkit::fail_allocation(-1);
     }
     write_file(dir / "said", said);
     ::_exit(done ? 1 : 0);
