@@ -42,7 +42,7 @@ function write_scene() {
 }
 
 async function check_gltf() {
-  const bytes = new Uint8Array(readFileSync(join(folder, "to-gltf/plate.glb")));
+  const bytes = new Uint8Array(readFileSync(join(folder, "to-gltf/textured.glb")));
   const { default: validator } = await load("gltf-validator/index.js");
   const report = await validator.validateBytes(bytes);
   check(report.issues.numErrors === 0, `glTF validator: ${report.issues.numErrors} errors, ${report.issues.numWarnings} warnings`);
@@ -79,14 +79,14 @@ async function check_gltf() {
 async function check_obj() {
   const { OBJLoader } = await load("three/examples/jsm/loaders/OBJLoader.js");
   const { MTLLoader } = await load("three/examples/jsm/loaders/MTLLoader.js");
-  const library = new MTLLoader().parse(readFileSync(join(folder, "to-obj/plate.mtl"), "utf8"), "");
+  const library = new MTLLoader().parse(readFileSync(join(folder, "to-obj/textured.mtl"), "utf8"), "");
   const names = Object.keys(library.materialsInfo);
   const info = library.materialsInfo.wave;
   check(names.length === 2 && info.norm === "wave.normal.png" && info.disp === "wave.height.png",
     `three.js: the MTL has ${names.join(" ")} with its maps`);
   const warn = console.warn;
   console.warn = () => {};  // it names each h line as unknown, and passes over it
-  const object = new OBJLoader().parse(readFileSync(join(folder, "to-obj/plate.obj"), "utf8"));
+  const object = new OBJLoader().parse(readFileSync(join(folder, "to-obj/textured.obj"), "utf8"));
   console.warn = warn;
   let corners = 0;
   object.traverse((node) => { if (node.isMesh) corners += node.geometry.attributes.position.count; });
@@ -102,7 +102,7 @@ async function check_usda() {
   const { default: start } = await load("tinyusdz/tinyusdz.js");
   const usd = await start({ locateFile: () => "https://package/tinyusdz.wasm" });
   const loader = new usd.TinyUSDZLoaderNative();
-  const bytes = new Uint8Array(readFileSync(join(folder, "to-usda/plate.usda")));
+  const bytes = new Uint8Array(readFileSync(join(folder, "to-usda/textured.usda")));
   check(loader.loadFromBinary(bytes, "plate.usda"), `tinyusdz: reads the USDA ${loader.error()}`);
   const mesh = loader.getMesh(0);
   check(loader.numMeshes() === 1 && mesh.faceVertexCounts.length === 400, `tinyusdz: ${mesh.faceVertexCounts.length} triangles`);
