@@ -164,6 +164,7 @@ StrokeEvidence measure_stroke_evidence(const Stroke& stroke) {
     if (!out.has_force) continue;
     out.largest_force_N = std::max(out.largest_force_N, stroke.force_N[i]);
     if (stroke.force_N[i] >= stroke.contact_N) out.contact_s += 1.0 / stroke.rate_Hz;
+    if (stroke.force_N[i] < 0.5 * stroke.contact_N) out.free_s += 1.0 / stroke.rate_Hz;
   }
   const std::vector<double> x =
       zero_phase_highpass(stroke.acceleration_mps2, std::max(kJudgedFrom_Hz, stroke.high_pass_Hz), stroke.rate_Hz);

@@ -99,6 +99,9 @@ TEST_F(StrokeImport, IsNotGreenWithoutASurface) {
   MadeStroke air;
   air.force_N = 0.0;
   EXPECT_THAT(codes(read(air).stroke), ElementsAre("nothing_touched"));
+  MadeStroke offset;  // reads 1 N in the air, too
+  offset.free_N = 1.0;
+  EXPECT_THAT(codes(read(offset).stroke), ElementsAre("force_zero_unseen"));
   MadeStroke still;
   still.speed_mps = 1e-3;
   EXPECT_THAT(codes(read(still).stroke), ElementsAre("not_moved"));

@@ -13,6 +13,7 @@ namespace asperity {
 namespace {
 
 constexpr double kShortest_s = 0.25, kStrokeSigmas = 3.0;
+constexpr double kShortestFree_s = 0.05;  // that the zero of the force is seen
 constexpr double kLeastRatio = 1.2, kLeastRatioOfQuietest = 4.0, kWeakRatio = 2.0;
 constexpr double kLeastExponent = 0.3;
 
@@ -86,6 +87,13 @@ Verdicts judge_stroke(const StrokeEvidence& e) {
   }
   if (!e.has_force)
     out.push_back(make_verdict("contact_unknown", "no force was measured: that the tip touched is not shown"));
+  // A sensor that was not zeroed, or the weight of the tool, has a force in the air, too.
+  if (e.has_force && e.contact_s > 0.0 && e.free_s < kShortestFree_s) {
+    out.push_back(make_verdict("force_zero_unseen",
+                               fmt::format("the force is below {:g} N for {:.2g} s only: contact cannot be told from a "
+                                           "sensor that was not zeroed",
+                                           0.5 * e.contact_N, e.free_s)));
+  }
   if (!e.has_speed) {
     out.push_back(make_verdict("lengths_undetermined",
                                "no positions were measured, so there are no lengths but by the speed that is stated"));

@@ -60,6 +60,7 @@ constexpr VerdictCode kCodes[] = {
     {"contact_undetermined", kInvalid,
      "record positions or force too, or a second of rest before the stroke, or state the sensor's noise"},
     {"vibration_weak", kLimited, "stroke faster, or use a sensor of less noise"},
+    {"force_zero_unseen", kLimited, "record a moment with the tip lifted off the surface"},
     {"lengths_undetermined", kLimited, "record positions too, or state the speed"},
     // Strokes over one line (merge_results.h).
     {"no_common_line", kInvalid, "scan along a guide, and merge strokes over one line alone"},

@@ -17,6 +17,7 @@ StrokeEvidence good() {
   StrokeEvidence out;
   out.has_speed = out.has_force = true;
   out.contact_s = out.moving_s = out.active_s = out.quiet_s = 1.0;
+  out.free_s = 0.2;
   out.quiet = StrokeQuiet::kRest;
   out.power_ratio = 10.0;
   out.power_ratio_sigma = 0.5;
@@ -35,6 +36,9 @@ TEST(JudgeStroke, IsValidOnlyWithForceMotionAndVibration) {
   e = good();
   e.has_force = false;
   EXPECT_EQ(codes(e), Codes{"contact_unknown"});
+  e = good();
+  e.free_s = 0.02;  // a force that never falls may be an offset
+  EXPECT_EQ(codes(e), Codes{"force_zero_unseen"});
 }
 
 TEST(JudgeStroke, NeedsPowerAboveTheQuiet) {

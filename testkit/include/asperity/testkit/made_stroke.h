@@ -10,14 +10,16 @@
 
 namespace asperity::testkit {
 
-// A stroke over two waves in closed form, as recorders of several rates would write it. Rest and contact until 1 s,
-// then along x at a constant speed after a ramp of 0.2 s (v t²/2 / 0.2, so that the acceleration is known).
+// A stroke over two waves in closed form, as recorders of several rates would write it. Off the surface until 0.2 s, at
+// rest in contact until 1 s, then along x at a constant speed after a ramp of 0.2 s (v t²/2 / 0.2, so that the
+// acceleration is known).
 struct MadeStroke {
   double length_s = 5.0;
   double speed_mps = 0.05;
   double amplitude_m = 2e-6;  // of the wave of 2 cycles/mm; that of 5 cycles/mm has a quarter
   double noise_mps2 = 0.05;   // RMS of white noise of the sensor
   double force_N = 1.0;
+  double free_N = 0.0;  // what the sensor reads off the surface
   std::uint32_t seed = 1;
 
   double x(double t) const {
@@ -57,13 +59,14 @@ struct MadeStroke {
       out += fmt::format("{:.3f},{:.5f},1.5\n", i / rate_Hz, 1e3 * x(i / rate_Hz));
     return out;
   }
+  double force(double t) const { return t < 0.2 ? free_N : force_N; }
   std::string force_table(double rate_Hz, double unit_N, bool with_time = true) const {
     std::mt19937 random(seed + 1);
     std::normal_distribution<double> normal(0.0, 0.01);
     std::string out = with_time ? "t,f\n" : "";
     for (int i = 0; i < static_cast<int>(length_s * rate_Hz); ++i) {
       if (with_time) out += fmt::format("{:.6f},", i / rate_Hz);
-      out += fmt::format("{:.5f}\n", (force_N + normal(random)) / unit_N);
+      out += fmt::format("{:.5f}\n", (force(i / rate_Hz) + normal(random)) / unit_N);
     }
     return out;
   }

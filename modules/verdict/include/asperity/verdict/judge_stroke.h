@@ -21,6 +21,7 @@ struct StrokeEvidence {
   double largest_force_N = 0.0;
   double contact_N = 0.0;  // from here on the tip counts as touching
   double contact_s = 0.0;  // with at least that force
+  double free_s = 0.0;     // with less than half of it: the sensor's zero is in the data
   double moving_s = 0.0;   // faster than 10 mm/s, in contact where the force is known
   StrokeQuiet quiet = StrokeQuiet::kNone;
   double active_s = 0.0, quiet_s = 0.0;
