@@ -76,7 +76,7 @@ export default async function add({ page, context, step, folder, equal, ok, unti
       equal(await unit.inputValue(), "g", "the unit of the header");
       await unit.fill("m/s2");
       await unit.press("Tab");
-      await checks.getByText(/m\/s2/).first().waitFor();
+      await checks.locator(".warning", { hasText: "m/s2" }).first().waitFor();
       ok(await page.getByTestId("import-write").isDisabled(), "what is implausible is not imported");
       await unit.fill("g");
       await unit.press("Tab");

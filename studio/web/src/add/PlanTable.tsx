@@ -1,3 +1,4 @@
+import { useEffect, useRef, useState } from "preact/hooks";
 import { kMeanings, type PlanFile, type withMeaning } from "./importPlan";
 
 const kShownCells = 3;
@@ -50,16 +51,7 @@ export function PlanTable({ file, onChange }: PlanTableProps) {
                     </select>
                   </td>
                   <td>
-                    {meant && (
-                      <input
-                        type="text"
-                        class="import-unit"
-                        aria-label={`Unit of column ${title}`}
-                        value={meant.unit}
-                        spellcheck={false}
-                        onChange={(event) => onChange(number, { unit: event.currentTarget.value.trim() })}
-                      />
-                    )}
+                    {meant && <UnitField label={`Unit of column ${title}`} unit={meant.unit} onChange={(changed) => onChange(number, { unit: changed })} />}
                   </td>
                   <td>{meant ? (meant.negative ? `sign changed; ${meant.why}` : meant.why) : ""}</td>
                 </tr>
@@ -69,5 +61,26 @@ export function PlanTable({ file, onChange }: PlanTableProps) {
         </table>
       </div>
     </section>
+  );
+}
+
+/** A unit to type. An answer of the server that comes meanwhile does not replace what is being typed. */
+function UnitField({ label, unit, onChange }: { label: string; unit: string; onChange(unit: string): void }) {
+  const [typed, setTyped] = useState<string | null>(null);
+  const input = useRef<HTMLInputElement>(null);
+  useEffect(() => {
+    if (document.activeElement !== input.current) setTyped(null);
+  }, [unit]);
+  return (
+    <input
+      ref={input}
+      type="text"
+      class="import-unit"
+      aria-label={label}
+      value={typed ?? unit}
+      spellcheck={false}
+      onInput={(event) => setTyped(event.currentTarget.value)}
+      onChange={(event) => onChange(event.currentTarget.value.trim())}
+    />
   );
 }
