@@ -3,6 +3,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/geometry/unique_material_names.h"
 
 namespace asperity {
 
@@ -23,16 +24,18 @@ void append_line(std::string& out, const char* keyword, const std::string& text)
 
 std::string format_mtl(std::span<const MeshMaterial> materials) {
   std::string out;
-  for (const MeshMaterial& material : materials) {
+  const std::vector<std::string> names = unique_material_names(materials);
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    const MeshMaterial& material = materials[i];
     if (material.name.empty()) throw Error("MTL: a material without a name");
-    append_line(out, "newmtl", material.name);
+    append_line(out, "newmtl", names[i]);
     if (material.base_colour) {
       if (!material.base_colour->allFinite())
         throw Error("MTL: the colour of '" + printable(material.name) + "' is not finite");
       out += "Kd";
-      for (int i = 0; i < 3; ++i) {
+      for (int c = 0; c < 3; ++c) {
         out += ' ';
-        append_number(out, (*material.base_colour)[i]);
+        append_number(out, (*material.base_colour)[c]);
       }
       out += '\n';
     }

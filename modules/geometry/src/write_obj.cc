@@ -6,6 +6,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/geometry/unique_material_names.h"
 
 namespace asperity {
 
@@ -85,23 +86,19 @@ void append_name(std::string& out, const char* keyword, std::string_view name) {
   out += '\n';
 }
 
-template <class Table>
-std::string_view name_of(const Table& names, std::int32_t index) {
+std::string_view name_of(const std::vector<std::string>& names, std::int32_t index) {
   if (index < 0) return {};
   if (static_cast<std::size_t>(index) >= names.size())
     refuse_obj("a part names entry " + std::to_string(index) + " of " + std::to_string(names.size()));
-  if constexpr (std::is_same_v<typename Table::value_type, MeshMaterial>) {
-    return names[static_cast<std::size_t>(index)].name;
-  } else {
-    return names[static_cast<std::size_t>(index)];
-  }
+  return names[static_cast<std::size_t>(index)];
 }
 
 // The statements that lead from one part to the next.
-void append_part(std::string& out, const MeshFile& mesh, const MeshPart& before, const MeshPart& part) {
+void append_part(std::string& out, const MeshFile& mesh, const std::vector<std::string>& materials,
+                 const MeshPart& before, const MeshPart& part) {
   if (part.object != before.object) append_name(out, "o", name_of(mesh.objects, part.object));
   if (part.group != before.group) append_name(out, "g", name_of(mesh.groups, part.group));
-  if (part.material != before.material) append_name(out, "usemtl", name_of(mesh.materials, part.material));
+  if (part.material != before.material) append_name(out, "usemtl", name_of(materials, part.material));
   if (part.smoothing != before.smoothing) {
     append_name(out, "s", part.smoothing == 0 ? "off" : std::to_string(part.smoothing));
   }
@@ -140,11 +137,12 @@ void append_face(std::string& out, const MeshFile& mesh, std::size_t i) {
 
 void append_faces(std::string& out, const MeshFile& mesh) {
   out += "## faces\n";
+  const std::vector<std::string> materials = unique_material_names(mesh.materials);
   MeshPart now;
   auto part = mesh.parts.begin();
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     for (; part != mesh.parts.end() && part->first_triangle <= i; ++part) {
-      append_part(out, mesh, now, *part);
+      append_part(out, mesh, materials, now, *part);
       now = *part;
     }
     append_face(out, mesh, i);

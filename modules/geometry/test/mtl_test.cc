@@ -1,5 +1,6 @@
 #include "asperity/geometry/read_mtl.h"
 
+#include <array>
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -7,6 +8,7 @@
 #include "asperity/base/output.h"
 #include "asperity/geometry/read_mesh.h"
 #include "asperity/geometry/write_mtl.h"
+#include "asperity/geometry/write_obj.h"
 #include "asperity/testkit/temp_dir.h"
 #include "mesh_format_rig.h"
 
@@ -38,6 +40,31 @@ TEST(Mtl, KeepsColourAndMapsAndReportsTheRest) {
               Contains(testing::AllOf(Field(&Problem::kind, "material_line"), Field(&Problem::count, 2u))));
   const MaterialLibrary again = parse_mtl(format_mtl(library.materials), "again");
   EXPECT_EQ(format_mtl(again.materials), format_mtl(library.materials));
+}
+
+TEST(Mtl, TwoMaterialsOfOneNameStayTwo) {
+  MeshFile mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {1, 3, 2}, {0, 3, 2}, {0, 1, 3}};
+  const std::array<const char*, 4> names{"clay", "clay", "clay_2", "clay"};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    MeshMaterial& material = mesh.materials.emplace_back();
+    material.name = names[i];
+    material.base_colour = Eigen::Vector3d::Constant(0.125 * static_cast<double>(i));
+    MeshPart& part = mesh.parts.emplace_back();
+    part.first_triangle = static_cast<std::uint32_t>(i);
+    part.material = static_cast<std::int32_t>(i);
+  }
+  mesh.material_libraries = {"t.mtl"};
+  const testkit::TempDir folder;
+  write_file(folder / "t.mtl", format_mtl(mesh.materials));
+  write_file(folder / "t.obj", format_obj(mesh));
+  const MeshFile again = read_mesh(folder / "t.obj");
+  ASSERT_EQ(again.parts.size(), 4u);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const MeshMaterial& material = again.materials.at(static_cast<std::size_t>(again.parts[i].material));
+    EXPECT_EQ(material.base_colour, mesh.materials[i].base_colour) << i;
+  }
 }
 
 TEST(Mtl, LibrariesStayInTheFolder) {

@@ -35,6 +35,8 @@ class TiffMaker {
   int samples = 1;
   int photometric = 1;
   std::size_t tile = 0;  // side of a tile, of at least 16; 0: one strip
+  int copies = 0;        // further directories, of the same strip
+  int copy_kind = 0;     // NewSubfileType of these
 
   std::string make(const std::vector<double>& values) const {
     std::string pixels;
@@ -65,8 +67,10 @@ class TiffMaker {
       fields.push_back({322, 4, tile});
       fields.push_back({323, 4, tile});
     }
+    if (copies > 0) fields.push_back({254, 4, 0});
     const std::size_t count = fields.size() + 2;
-    const std::size_t lists = 8 + 2 + 12 * count + 4;
+    const std::size_t directory = 2 + 12 * count + 4;
+    const std::size_t lists = 8 + directory * static_cast<std::size_t>(1 + copies);
     const std::size_t begin = lists + (parts.size() > 1 ? 8 * parts.size() : 0);
     const std::size_t offsets_tag = tile == 0 ? 273 : 324, bytes_tag = tile == 0 ? 279 : 325;
     std::map<std::size_t, std::string> entries;
@@ -77,8 +81,14 @@ class TiffMaker {
     std::string out = order_ == Order::kLittle ? std::string("II*\0", 4) : std::string("MM\0*", 4);
     put(out, 8, 4);
     put(out, count, 2);
-    for (const auto& [tag, bytes] : entries) out += bytes;
-    put(out, 0, 4);
+    for (int i = 0; i <= copies; ++i) {
+      if (i > 0) {
+        put(out, count, 2);
+        entries[254] = entry(254, 4, 1, static_cast<std::size_t>(copy_kind));
+      }
+      for (const auto& [tag, bytes] : entries) out += bytes;
+      put(out, i < copies ? 8 + directory * static_cast<std::size_t>(1 + i) : 0, 4);
+    }
     if (!one) {
       for (const std::size_t part : parts) put(out, begin + part, 4);
       for (std::size_t i = 0; i < parts.size(); ++i) put(out, part_bytes, 4);
@@ -199,6 +209,16 @@ TEST(TiffImage, NamesWhatIsNotRead) {
       },
       ThrowsMessage<Error>(HasSubstr("do not fit")));
   EXPECT_THROW(parse_tiff("GIF89a", "t.tif"), Error);
+}
+
+TEST(TiffImage, FurtherPagesAreRefusedSmallerCopiesNot) {
+  const std::vector<double> values = numbers({16, 1});
+  TiffMaker pages(Order::kLittle, {16, 1}, 20, 18);
+  pages.copies = 1;
+  EXPECT_THAT([&] { parse_tiff(pages.make(values), "t.tif"); }, ThrowsMessage<Error>(HasSubstr("has further pages")));
+  pages.copies = 2;
+  pages.copy_kind = 1;  // a reduced copy
+  EXPECT_EQ(parse_tiff(pages.make(values), "t.tif").values, values);
 }
 
 TEST(TiffImage, IsNotReadCut) {

@@ -93,6 +93,7 @@ class Reader {
         fail("the number of pixel " + std::to_string(i % out.columns + 1) + " of row " +
              std::to_string(i / out.columns + 1) + " is infinite");
     }
+    refuse_further_pages();
     return out;
   }
 
@@ -108,6 +109,17 @@ class Reader {
     Number out = 0;
     if (TIFFGetFieldDefaulted(tiff_.get(), tag, &out) == 0) out = 0;
     return out;
+  }
+
+  // Which of several pages has the heights cannot be known. Smaller copies and masks of the first are no pages.
+  void refuse_further_pages() {
+    constexpr int kMostCopies = 100;
+    for (int i = 0; TIFFLastDirectory(tiff_.get()) == 0; ++i) {
+      if (TIFFReadDirectory(tiff_.get()) == 0 || i >= kMostCopies) broken();
+      const auto kind = field<std::uint32_t>(TIFFTAG_SUBFILETYPE);
+      if ((kind & (FILETYPE_REDUCEDIMAGE | FILETYPE_MASK)) == 0)
+        fail("has further pages; one is read: save the page with the heights by itself");
+    }
   }
 
   void header(TiffImage& out) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
@@ -39,9 +40,15 @@ void add_curves(Json& pattern, const char* name, std::span<const VibrationPoint>
 
 }  // namespace
 
-std::string format_ahap(std::span<const VibrationPoint> points, double duration_s, double full_scale,
+std::string format_ahap(std::span<const VibrationPoint> given, double duration_s, double full_scale,
                         const VibrationNote& note) {
-  if (points.empty() || !(duration_s > 0.0)) throw Error("AHAP: a vibration without samples");
+  if (given.empty() || !(duration_s > 0.0)) throw Error("AHAP: a vibration without samples");
+  // Before the first control point of its curves an event plays at its own, full intensity.
+  std::vector<VibrationPoint> points(given.begin(), given.end());
+  if (points.front().t_s > 0.0) {
+    points.insert(points.begin(), points.front());
+    points.front().t_s = 0.0;
+  }
   if (!(full_scale > 0.0) || !std::isfinite(full_scale))
     throw Error("AHAP: a full scale of " + number_text(full_scale));
   Json pattern = Json::array();

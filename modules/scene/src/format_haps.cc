@@ -28,11 +28,14 @@ std::string format_haps(std::span<const VibrationPoint> points, double duration_
   }
   Json amplitude = Json::array();
   Json pitch = Json::array();
-  for (const VibrationPoint& point : points) {
+  const auto add = [&](const VibrationPoint& point, double t_s) {
     const double part = (point.frequency_Hz - low_Hz) / (high_Hz - low_Hz);
-    amplitude.push_back({{"position", point.t_s}, {"value", std::min(1.0, point.amplitude / full_scale)}});
-    pitch.push_back({{"position", point.t_s}, {"value", std::clamp(part, 0.0, 1.0)}});
-  }
+    amplitude.push_back({{"position", t_s}, {"value", std::min(1.0, point.amplitude / full_scale)}});
+    pitch.push_back({{"position", t_s}, {"value", std::clamp(part, 0.0, 1.0)}});
+  };
+  // What plays before the first keyframe is not stated anywhere: there is none before it.
+  if (points.front().t_s > 0.0) add(points.front(), 0.0);
+  for (const VibrationPoint& point : points) add(point, point.t_s);
   Json notes = Json::array();
   notes.push_back({{"position", 0.0}, {"length", duration_s}, {"waveform", "Sine"}});
   notes.at(0)["amplitude"]["keyframes"] = std::move(amplitude);

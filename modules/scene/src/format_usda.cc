@@ -28,6 +28,22 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
+// A file's name as an asset path: between @, or between @@@ where it has an @ itself (then @@@ in it is \@@@).
+std::string asset_path(const std::string& file) {
+  const std::string name = printable(file, 300);
+  if (name.find('@') == std::string::npos) return "@" + name + "@";
+  std::string out = "@@@";
+  for (std::size_t i = 0; i < name.size();) {
+    if (name.compare(i, 3, "@@@") == 0) {
+      out += "\\@@@";
+      i += 3;
+    } else {
+      out += name[i++];
+    }
+  }
+  return out + "@@@";
+}
+
 // A name of letters, digits and _ that no other has.
 std::string identifier(const std::string& text, std::set<std::string>& used) {
   std::string out;
@@ -217,7 +233,7 @@ class UsdaWriter {
              const std::string& scale, const std::string& bias, const char* output) {
     add("            def Shader \"{}\"\n            {{\n                uniform token info:id = \"UsdUVTexture\"\n",
         name);
-    add("                asset inputs:file = @{}@\n", printable(file, 300));
+    add("                asset inputs:file = {}\n", asset_path(file));
     add("                float2 inputs:st.connect = <{}/{}.outputs:result>\n", path, reader);
     add("                token inputs:wrapS = \"repeat\"\n                token inputs:wrapT = \"repeat\"\n");
     if (!scale.empty()) {

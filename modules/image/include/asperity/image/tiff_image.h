@@ -7,7 +7,7 @@
 
 namespace asperity {
 
-// The first image of a TIFF, one number a pixel, row by row from the top, as it is stored: no unit, no scaling.
+// The image of a TIFF, one number a pixel, row by row from the top, as it is stored: no unit, no scaling.
 struct TiffImage {
   std::size_t columns = 0;
   std::size_t rows = 0;
@@ -25,7 +25,8 @@ bool is_tiff(std::string_view bytes);
 // Reads a TIFF of one sample a pixel: whole numbers of 8, 16 or 32 bits, signed or not, or floats of 32 or 64 bits, in
 // strips or tiles, with any compression that libtiff knows. libtiff is in a library of our own that is loaded at the
 // first call (ADR 17). Throws Error naming `name` for data that are damaged or cut off, colours, a palette, other kinds
-// of numbers, an infinite one, more than kMostTiffPixels, and where the library is missing.
+// of numbers, an infinite one, more than kMostTiffPixels, further pages (smaller copies and masks of the first are
+// passed over), and where the library is missing.
 TiffImage parse_tiff(std::string_view bytes, const std::string& name);
 
 }  // namespace asperity

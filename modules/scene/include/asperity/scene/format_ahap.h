@@ -19,8 +19,8 @@ struct VibrationNote {
 
 // A vibration as Apple Haptic and Audio Pattern 1.0: HapticContinuous events of at most 30 s at full intensity, and
 // curves of HapticIntensityControl (amplitude / full_scale, at most 1) and HapticSharpnessControl (frequency between
-// the two above, clamped), of at most 16 points each. Times in seconds. The same points give the same bytes. Throws
-// Error without points or for a full scale that is not positive.
+// the two above, clamped), of at most 16 points each, from time 0 on. Times in seconds. The same points give the same
+// bytes. Throws Error without points or for a full scale that is not positive.
 std::string format_ahap(std::span<const VibrationPoint> points, double duration_s, double full_scale,
                         const VibrationNote& note);
 
