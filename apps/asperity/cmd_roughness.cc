@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "area_heights.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
@@ -24,6 +25,7 @@
 #include "option_units.h"
 #include "roughness_tables.h"
 #include "stroke_input.h"
+#include "texture_input.h"
 
 namespace asperity::app {
 
@@ -32,12 +34,26 @@ namespace {
 enum class Filters { kAsGiven, kAuto, kSc1, kSc2, kSc3, kSc4, kSc5 };
 constexpr std::array<std::string_view, 7> kFiltersNames{"as_given", "auto", "Sc1", "Sc2", "Sc3", "Sc4", "Sc5"};
 
+// Of a map whose file states no errors.
+struct NoiseSettings {
+  double rms_um = 0.0;
+  double correlation_um = 0.0;
+
+  template <class V>
+  void visit(V& v) {
+    v.field("rms_um", rms_um, "of the heights of an areal map, one standard deviation; 0: not known", {0.0, 1e6});
+    v.field("correlation_um", correlation_um,
+            "distance at which that noise is correlated by 0.2; 0: each height has its own", {0.0, 1e6});
+  }
+};
+
 struct RoughnessSettings {
   ReadHeightsConfig input;
   Filters filters = Filters::kAsGiven;
   RoughnessConfig profile;
   MaterialRatioConfig material;
   ArealTextureConfig areal;
+  NoiseSettings noise;
 
   template <class V>
   void visit(V& v) {
@@ -47,6 +63,7 @@ struct RoughnessSettings {
     v.group("roughness", profile);
     v.group("material", material);
     v.group("areal", areal);
+    v.group("noise", noise);
   }
 };
 
@@ -57,7 +74,7 @@ class RoughnessCommand : public Command {
     require(parser().add_option(
         "FILE", file_,
         "profile.csv, heights one a line, x_mm,y_mm,z_um, a GSF, SDF, SUR or X3P file, or a stroke's "
-        "folder (import --stroke: its spectrum)"));
+        "folder (import --stroke: its spectrum), or an areal *.texture.json"));
     parser()
         .add_option("--spacing", spacing_, "Distance of the heights, for a file without positions")
         ->type_name("LENGTH");
@@ -69,6 +86,9 @@ class RoughnessCommand : public Command {
     parser()
         .add_option("--filter", filter_, "gaussian (ISO 16610-21), or robust (ISO 16610-31) for deep pits")
         ->type_name("NAME");
+    parser()
+        .add_option("--noise", noise_, "Standard deviation of a map's heights, by the instrument: gives intervals")
+        ->type_name("LENGTH");
     parser()
         .add_option("--class", class_, "Setting class: Sc1 to Sc5 (λc 0.08, 0.25, 0.8, 2.5, 8 mm), or auto")
         ->type_name("CLASS");
@@ -83,6 +103,7 @@ class RoughnessCommand : public Command {
     if (!lambda_c_.empty())
       settings_.profile.lambda_c_mm = settings_.areal.lambda_c_mm = 1e3 * length_option_m("--lambda-c", lambda_c_);
     if (!lambda_f_.empty()) settings_.profile.lambda_f_mm = 1e3 * length_option_m("--lambda-f", lambda_f_);
+    if (!noise_.empty()) settings_.noise.rms_um = 1e6 * length_option_m("--noise", noise_);
     set_choice("--filter", "roughness.filter", filter_);
     set_choice("--class", "setting_class", class_);
   }
@@ -93,18 +114,30 @@ class RoughnessCommand : public Command {
       report_stroke();
       return kDone;
     }
+    if (is_texture_file(file_)) {
+      refuse_class();
+      report_map(read_area_heights(file_, settings_.areal));
+      return kDone;
+    }
     const Heights heights = read_heights(file_, settings_.input);
     if (const auto* profile = std::get_if<HeightProfile>(&heights)) {
       report_profile(*profile);
     } else {
-      if (settings_.filters != Filters::kAsGiven)
-        throw UsageError("--class: " + printable(file_, 200) + " is an areal map; setting classes are of profiles");
-      report_map(std::get<ArealMap>(heights));
+      refuse_class();
+      ArealNoise noise;
+      noise.rms_m = 1e-6 * settings_.noise.rms_um;
+      noise.correlation_m = 1e-6 * settings_.noise.correlation_um;
+      report_map({std::get<ArealMap>(heights), noise});
     }
     return kDone;
   }
 
  private:
+  void refuse_class() const {
+    if (settings_.filters != Filters::kAsGiven)
+      throw UsageError("--class: " + printable(file_, 200) + " is an areal map; setting classes are of profiles");
+  }
+
   void set_choice(const char* option, const char* field, const std::string& value) {
     if (value.empty()) return;
     try {
@@ -187,9 +220,10 @@ class RoughnessCommand : public Command {
         to_table(parameters) + "\n" + to_table(texture));
   }
 
-  void report_map(const ArealMap& map) {
+  void report_map(const AreaHeights& heights) {
+    const ArealMap& map = heights.map;
     const ArealTextureConfig& config = settings_.areal;
-    const ArealTextureResult r = measure_areal_texture(map, config);
+    const ArealTextureResult r = measure_areal_texture(map, config, heights.noise);
     Json out = begin("areal");
     out["columns"] = map.columns;
     out["rows"] = map.rows;
@@ -199,6 +233,8 @@ class RoughnessCommand : public Command {
     out["filters"] = {{"form", kArealFormNames.at(static_cast<std::size_t>(config.form))},
                       {"lambda_s_mm", config.lambda_s_mm > 0.0 ? Json(config.lambda_s_mm) : Json(nullptr)},
                       {"lambda_c_mm", config.lambda_c_mm > 0.0 ? Json(config.lambda_c_mm) : Json(nullptr)}};
+    out["noise_rms_m"] = heights.noise.is_known() ? Json(heights.noise.rms_m) : Json(nullptr);
+    out["noise_correlation_m"] = heights.noise.is_known() ? Json(heights.noise.correlation_m) : Json(nullptr);
     out["slope_x"] = r.slope_x;
     out["slope_y"] = r.slope_y;
     out["roughness"] = to_json(r);
@@ -209,7 +245,15 @@ class RoughnessCommand : public Command {
                                         : std::string(", no L: waviness is included\n");
     say(fmt::format("{} x {} heights {:.6g} x {:.6g} µm apart, {} missing\n", map.columns, map.rows,
                     map.x_spacing_m * 1e6, map.y_spacing_m * 1e6, r.missing) +
-        filters + "intervals   not determined: the file does not state its noise\n" + to_table(r));
+        filters + noise_line(heights.noise) + to_table(r));
+  }
+
+  static std::string noise_line(const ArealNoise& noise) {
+    if (!noise.is_known()) return "intervals   not determined: the file does not state its noise; state it: --noise\n";
+    return fmt::format("noise       {:.3g} µm RMS, {}\n", 1e6 * noise.rms_m,
+                       noise.correlation_m > 0.0
+                           ? fmt::format("correlated by 0.2 at {:.3g} µm", 1e6 * noise.correlation_m)
+                           : std::string("independent from height to height"));
   }
 
   // Of an acceleration there are no heights along a line: the RMS height of each octave.
@@ -240,6 +284,7 @@ class RoughnessCommand : public Command {
   std::string file_;
   std::string spacing_;
   std::string class_;
+  std::string noise_;
   std::string lambda_s_;
   std::string lambda_c_;
   std::string lambda_f_;

@@ -28,6 +28,8 @@ ShownUnit shown(ProfileQuantity quantity) {
       return {"%", 100.0, ""};
     case ProfileQuantity::kPerLength:
       return {"1/cm", 1e-2, "_per_m"};
+    case ProfileQuantity::kCurvature:
+      return {"1/mm", 1e-3, "_per_m"};
     default:
       return {"", 1.0, ""};
   }
@@ -130,19 +132,26 @@ std::string to_table(const ProfileTexture& texture) {
   return out;
 }
 
-Json to_json(const ArealParameters& parameters) {
+Json to_json(const ArealTextureResult& result) {
   Json out;
-  for (const ArealParameter& p : kArealParameters) out[std::string(p.key)] = parameters.*p.value;
+  for (const ArealParameter& p : kArealParameters) {
+    const std::string key(p.key);
+    out[key] = result.*p.value;
+    const double error = result.standard_error.*p.value;
+    if (std::isfinite(error)) out[std::string(p.name) + "_stderr" + key.substr(p.name.size())] = error;
+  }
   return out;
 }
 
-std::string to_table(const ArealParameters& parameters) {
+std::string to_table(const ArealTextureResult& result) {
   std::string out;
   for (const ArealParameter& p : kArealParameters) {
     const ShownUnit unit = shown(p.quantity);
-    const double value = parameters.*p.value;
+    const double value = result.*p.value, error = result.standard_error.*p.value;
     out += fmt::format("{:<6} ", p.name);
-    out += std::isfinite(value) ? fmt::format("{:12.5g} {}", unit.factor * value, unit.name) : "not determined";
+    out += std::isfinite(value) ? fmt::format("{:12.5g}", unit.factor * value) : "not determined";
+    if (std::isfinite(value) && std::isfinite(error)) out += fmt::format(" ± {:.2g}", unit.factor * error);
+    if (std::isfinite(value)) out += std::string(" ") + unit.name;
     while (out.back() == ' ') out.pop_back();
     out += "\n";
   }

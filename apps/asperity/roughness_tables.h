@@ -5,7 +5,7 @@
 
 #include "asperity/base/nan.h"
 #include "asperity/json/json.h"
-#include "asperity/profile/areal_parameters.h"
+#include "asperity/profile/measure_areal_texture.h"
 #include "asperity/profile/measure_profile_texture.h"
 
 namespace asperity::app {
@@ -26,7 +26,8 @@ Json to_json(const ProfileTexture& texture);
 // A line a parameter: those of P, R and W beside each other.
 std::string to_table(const ProfileTexture& texture);
 
-Json to_json(const ArealParameters& parameters);
-std::string to_table(const ArealParameters& parameters);
+// With standard errors where they are known.
+Json to_json(const ArealTextureResult& result);
+std::string to_table(const ArealTextureResult& result);
 
 }  // namespace asperity::app

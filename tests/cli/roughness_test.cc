@@ -78,6 +78,14 @@ TEST(Roughness, OfAnArealMap) {
   const auto json = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(json["kind"], "areal");
   EXPECT_NEAR(json["roughness"]["Sz_m"].get<double>(), 6e-6, 0.2e-6);  // a plane fits a checkerboard's edges a little
+  EXPECT_FALSE(json["roughness"].contains("Sq_stderr_m"));
+  EXPECT_THAT(run({"roughness", file}).out, HasSubstr("intervals   not determined"));
+  const Outcome stated = run({"roughness", file, "--noise", "100nm", "--json"});
+  ASSERT_EQ(stated.code, 0) << stated.err;
+  // Of 64 independent heights: 0.1 µm / √64, to what 24 draws leave open.
+  EXPECT_NEAR(nlohmann::json::parse(stated.out)["roughness"]["Sq_stderr_m"].get<double>(), 0.0125e-6, 0.006e-6);
+  EXPECT_THAT(run({"roughness", file, "--noise", "100nm"}).out,
+              HasSubstr("noise       0.1 µm RMS, independent from height to height"));
   const Outcome filtered = run({"roughness", file, "--class", "auto"});
   EXPECT_EQ(filtered.code, 2) << "it has no effect on an areal map";
   EXPECT_THAT(filtered.err, HasSubstr("is an areal map"));

@@ -23,6 +23,8 @@ class MaterialCurve {
   // nan heights are left out. At least two must be present, finite.
   explicit MaterialCurve(std::span<const double> heights);
 
+  std::size_t count() const { return falling_.size(); }
+
   // Height at the part `ratio`, straight between the samples' middles and level outside of them.
   double level(double ratio) const;
   // The part of the samples above `level`; half of those that are equal to it.

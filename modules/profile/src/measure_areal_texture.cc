@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "areal_errors.h"
 #include "areal_gaussian_filter.h"
 #include "asperity/algebra/solve.h"
 #include "asperity/base/error.h"
@@ -174,13 +175,15 @@ ArealMap filter_surface(const ArealMap& map, const ArealTextureConfig& config) {
   return filtered(map, config, unused);
 }
 
-ArealTextureResult measure_areal_texture(const ArealMap& map, const ArealTextureConfig& config) {
+ArealTextureResult measure_areal_texture(const ArealMap& map, const ArealTextureConfig& config,
+                                         const ArealNoise& noise) {
   ArealTextureResult out;
   const ArealMap surface = filtered(map, config, out);
   measure_heights(surface, out);
   measure_slopes(surface, out);
   measure_material(surface, out);
   measure_direction(surface, out);
+  if (noise.is_known()) take_areal_errors(map, config, noise, out);
   return out;
 }
 

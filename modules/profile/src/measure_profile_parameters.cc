@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
@@ -8,6 +11,7 @@
 #include "asperity/signal/spectrum.h"
 #include "local_slopes.h"
 #include "material_curve.h"
+#include "probability_curve.h"
 #include "profile_features.h"
 
 namespace asperity {
@@ -76,17 +80,69 @@ void measure_elements(std::span<const double> z, double spacing_m, double sectio
   for (const auto stretch : gap_free_stretches(z)) {
     const auto more =
         element_widths(stretch, spacing_m, config.element_height * out.z_m, config.element_width * section_m);
-    all.sum_m += more.sum_m;
-    all.count += more.count;
-    all.sum_height_m += more.sum_height_m;
-    all.highest_m = std::max(all.highest_m, more.highest_m);
+    all.add(more);
   }
   out.elements = all.count;
   if (all.count == 0) return;
-  out.sm_m = all.sum_m / static_cast<double>(all.count);
+  const auto count = static_cast<double>(all.count);
+  out.sm_m = all.sum_m / count;
   out.pc_per_m = 1.0 / out.sm_m;
-  out.c_m = all.sum_height_m / static_cast<double>(all.count);
+  out.smx_m = all.widest_m;
+  out.smq_m = std::sqrt(std::max(0.0, all.sum_square_m2 / count - out.sm_m * out.sm_m));
+  out.c_m = all.sum_height_m / count;
   out.cx_m = all.highest_m;
+  out.cq_m = std::sqrt(std::max(0.0, all.sum_square_height_m2 / count - out.c_m * out.c_m));
+}
+
+// The second derivative, of sixth order where three heights are present on either side (Fornberg 1988).
+double curvature_at(std::span<const double> stretch, const double* at, double spacing_m) {
+  const double before = static_cast<double>(at - stretch.data());
+  const double behind = static_cast<double>(stretch.size()) - 1.0 - before;
+  if (before < 1.0 || behind < 1.0) return kNan;
+  if (before < 3.0 || behind < 3.0) return (at[-1] - 2.0 * at[0] + at[1]) / (spacing_m * spacing_m);
+  return (2.0 * (at[-3] + at[3]) - 27.0 * (at[-2] + at[2]) + 270.0 * (at[-1] + at[1]) - 490.0 * at[0]) /
+         (180.0 * spacing_m * spacing_m);
+}
+
+double mean_of_first(std::vector<double> values, std::size_t count) {
+  if (values.empty()) return kNan;
+  std::sort(values.begin(), values.end(), std::greater<>{});
+  count = std::min(count, values.size());
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i) sum += values[i];
+  return sum / static_cast<double>(count);
+}
+
+void measure_peaks(std::span<const double> z, double spacing_m, const RoughnessConfig& config,
+                   ProfileParametersResult& out) {
+  if (!(out.z_m > 0.0)) return;
+  std::vector<double> peaks, pits;
+  double peak_curvature = 0.0, pit_curvature = 0.0, curved_peaks = 0.0, curved_pits = 0.0;
+  for (const auto stretch : gap_free_stretches(z)) {
+    PeaksAndPits found;
+    append_peaks_and_pits(stretch, config.peak_prominence * out.z_m, found);
+    peaks.insert(peaks.end(), found.peak_m.begin(), found.peak_m.end());
+    for (const double pit : found.pit_m) pits.push_back(-pit);
+    const auto add = [&](const std::vector<const double*>& at, double sign, double& sum, double& count) {
+      for (const double* sample : at) {
+        const double curvature = curvature_at(stretch, sample, spacing_m);
+        if (std::isnan(curvature)) continue;
+        sum += sign * curvature;
+        count += 1.0;
+      }
+    };
+    add(found.peak, -1.0, peak_curvature, curved_peaks);
+    add(found.pit, 1.0, pit_curvature, curved_pits);
+  }
+  const double present_m = static_cast<double>(out.samples - out.missing) * spacing_m;
+  out.pd_per_m = static_cast<double>(peaks.size()) / present_m;
+  out.vd_per_m = static_cast<double>(pits.size()) / present_m;
+  if (curved_peaks > 0.0) out.mpc_per_m = peak_curvature / curved_peaks;
+  if (curved_pits > 0.0) out.mvc_per_m = pit_curvature / curved_pits;
+  constexpr std::size_t kFive = 5;
+  out.five_p_m = mean_of_first(std::move(peaks), kFive);
+  out.five_v_m = mean_of_first(std::move(pits), kFive);
+  out.ten_z_m = out.five_p_m + out.five_v_m;
 }
 
 void measure_slopes(std::span<const double> z, double spacing_m, ProfileParametersResult& out) {
@@ -105,6 +161,27 @@ void measure_slopes(std::span<const double> z, double spacing_m, ProfileParamete
   out.dq = std::sqrt(sum2 / count);
   out.dr = longer / count;
   out.dt = steepest;
+  out.dl_m = (1.0 + out.dr) * out.length_m;
+}
+
+// Of the largest line of the periodogram (Hann), between lines by the parabola through the logarithms of the three
+// largest. Missing heights are on the mean line.
+double dominant_wavelength_m(std::span<const double> z, double spacing_m) {
+  constexpr std::size_t kLeast = 8;
+  if (z.size() < kLeast) return kNan;
+  std::vector<double> filled(z.begin(), z.end());
+  for (double& v : filled)
+    if (std::isnan(v)) v = 0.0;
+  const PowerSpectrum spectrum = welch(filled, 1.0 / spacing_m, filled.size());
+  const std::vector<double>& density = spectrum.density;
+  const auto at = static_cast<std::size_t>(std::max_element(density.begin() + 1, density.end()) - density.begin());
+  if (!(density[at] > 0.0)) return kNan;
+  double line = static_cast<double>(at);
+  if (at > 1 && at + 1 < density.size() && density[at - 1] > 0.0 && density[at + 1] > 0.0) {
+    const double a = std::log(density[at - 1]), b = std::log(density[at]), c = std::log(density[at + 1]);
+    if (a - 2.0 * b + c < 0.0) line += 0.5 * (a - c) / (a - 2.0 * b + c);
+  }
+  return 1.0 / (line * (spectrum.frequency[1] - spectrum.frequency[0]));
 }
 
 // Where Σ z_i z_{i+k} over the pairs present, a pair, over the same at k = 0, first falls to 0.2; lags up to half of
@@ -151,6 +228,11 @@ void measure_material(std::span<const double> z, const MaterialRatioConfig& conf
   out.vmc_m = curve.material_volume(kPits) - out.vmp_m;
   out.vvv_m = curve.void_volume(kPits);
   out.vvc_m = curve.void_volume(kPeaks) - out.vvv_m;
+  if (const auto two = fit_probability_curve(curve)) {
+    out.pq_m = two->plateau;
+    out.vq_m = two->pits;
+    out.mq = two->ratio;
+  }
 }
 
 }  // namespace
@@ -169,7 +251,9 @@ ProfileParametersResult measure_profile_parameters(std::span<const double> z_m, 
   measure_moments(z_m, out);
   measure_sections(z_m, static_cast<std::size_t>(sections), config.max_missing, out);
   measure_elements(z_m, spacing_m, out.length_m / sections, config, out);
+  measure_peaks(z_m, spacing_m, config, out);
   measure_slopes(z_m, spacing_m, out);
+  out.sw_m = dominant_wavelength_m(z_m, spacing_m);
   out.al_m = autocorrelation_length_m(z_m, spacing_m);
   measure_material(z_m, material, out);
   return out;

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "asperity/base/nan.h"
+#include "error_by_draws.h"
 #include "follow_noise.h"
-#include "root_of_power.h"
 
 namespace asperity {
 namespace {
@@ -30,18 +30,19 @@ ProfileTexture measure(std::span<const double> height_m, double spacing_m, const
 
 // Heights and slopes grow evenly with the noise's power by their squares.
 bool follows_square(const ProfileParameter& p) {
-  return p.quantity == ProfileQuantity::kHeight || p.quantity == ProfileQuantity::kSlope;
+  return p.quantity == ProfileQuantity::kHeight || p.quantity == ProfileQuantity::kSlope ||
+         p.quantity == ProfileQuantity::kCurvature;
 }
 
 double along_power(const ProfileParameter& p, double value) { return follows_square(p) ? signed_square(value) : value; }
 
 struct FollowedProfile {
-  std::array<Spread, kOfProfile> once, twice;
+  std::array<FollowedValue, kOfProfile> values;
 
-  void add(const ProfileParameters& values, bool second) {
+  void add(const ProfileParameters& of, bool second) {
     for (std::size_t p = 0; p < kOfProfile; ++p) {
       const ProfileParameter& parameter = kProfileParameters[p];
-      (second ? twice : once)[p].add(along_power(parameter, values.*parameter.value));
+      (second ? values[p].twice : values[p].once).add(along_power(parameter, of.*parameter.value));
     }
   }
 };
@@ -50,24 +51,13 @@ struct FollowedProfile {
 void take_errors(const FollowedProfile& followed, const TextureNoise& noise, ProfileParametersResult& out) {
   const double relative = 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;  // of the power
   for (std::size_t i = 0; i < kOfProfile; ++i) {
-    const ProfileParameter& parameter = kProfileParameters[i];
-    const double value = out.*parameter.value;
-    double& error = out.standard_error.*parameter.value;
-    const double none = along_power(parameter, value);
-    const double once = followed.once[i].mean(), twice = followed.twice[i].mean();
-    const double line = 2.0 * none - once, parabola = 3.0 * none - 3.0 * once + twice;
-    const double doubt = 0.5 * (parameter.hangs_on_extremes ? parabola - none : parabola - line);
-    const double known = relative * (parabola - none);
-    const double spread = followed.once[i].deviation();
-    if (!follows_square(parameter)) {
-      const double along = parameter.quantity == ProfileQuantity::kAlong ? noise.along_sigma * value : 0.0;
-      error = std::hypot(std::hypot(spread, doubt), std::hypot(known, parabola - none, along));
-      continue;
-    }
-    const double scale = 2.0 * noise.scale_sigma * none;
-    const Root root = root_of_power(std::abs(none) + (none < 0.0 ? none - parabola : parabola - none),
-                                    std::hypot(std::hypot(spread, doubt), std::hypot(known, scale)));
-    error = std::hypot(root.standard_error, root.value - std::abs(value));
+    const ProfileParameter& p = kProfileParameters[i];
+    out.standard_error.*p.value =
+        error_by_draws(out.*p.value, followed.values[i], {follows_square(p), p.hangs_on_extremes}, relative,
+                       noise.scale_sigma, p.quantity == ProfileQuantity::kAlong ? noise.along_sigma : 0.0);
+    // A number of peaks is known to no less than one: draws that all count the same do not show that it is exact.
+    if (p.value == &ProfileParameters::pd_per_m || p.value == &ProfileParameters::vd_per_m)
+      out.standard_error.*p.value = std::hypot(out.standard_error.*p.value, 1.0 / (std::sqrt(12.0) * out.length_m));
   }
 }
 

@@ -82,6 +82,16 @@ std::vector<std::span<const double>> gap_free_stretches(std::span<const double> 
   return stretches;
 }
 
+void ElementWidths::add(const ElementWidths& more) {
+  sum_m += more.sum_m;
+  count += more.count;
+  sum_height_m += more.sum_height_m;
+  highest_m = std::max(highest_m, more.highest_m);
+  sum_square_m2 += more.sum_square_m2;
+  widest_m = std::max(widest_m, more.widest_m);
+  sum_square_height_m2 += more.sum_square_height_m2;
+}
+
 ElementWidths element_widths(std::span<const double> stretch_m, double spacing_m, double min_height_m,
                              double min_width_m) {
   ElementWidths widths;
@@ -91,10 +101,14 @@ ElementWidths element_widths(std::span<const double> stretch_m, double spacing_m
   // How wide a portion is that an end cuts off is not known: it stays, and closes no element.
   portions = join_over_dropped(portions, [&](const Portion& p) { return p.cut || p.width() >= min_width; });
   for (std::size_t i = 1; i + 2 < portions.size(); ++i) {
-    widths.sum_m += (portions[i + 1].end - portions[i].start) * spacing_m;
+    const double width_m = (portions[i + 1].end - portions[i].start) * spacing_m;
+    widths.sum_m += width_m;
+    widths.sum_square_m2 += width_m * width_m;
+    widths.widest_m = std::max(widths.widest_m, width_m);
     ++widths.count;
     const double height_m = portions[i].height_m + portions[i + 1].height_m;
     widths.sum_height_m += height_m;
+    widths.sum_square_height_m2 += height_m * height_m;
     widths.highest_m = std::max(widths.highest_m, height_m);
   }
   return widths;
@@ -102,21 +116,27 @@ ElementWidths element_widths(std::span<const double> stretch_m, double spacing_m
 
 void append_peaks_and_pits(std::span<const double> stretch_m, double prominence_m, PeaksAndPits& found) {
   if (stretch_m.empty()) return;
-  double lowest = stretch_m[0];
-  double highest = stretch_m[0];
+  const double* lowest = &stretch_m[0];
+  const double* highest = lowest;
   enum class Seeking { kEither, kPeak, kPit } seeking = Seeking::kEither;
-  for (const double z : stretch_m) {
-    lowest = std::min(lowest, z);
-    highest = std::max(highest, z);
-    if (seeking != Seeking::kPit && z < highest && highest - z >= prominence_m) {
+  for (const double& z : stretch_m) {
+    if (z < *lowest) lowest = &z;
+    if (z > *highest) highest = &z;
+    if (seeking != Seeking::kPit && z < *highest && *highest - z >= prominence_m) {
       // Found first, the peak had no rise before it that is known to be high enough.
-      if (seeking == Seeking::kPeak) found.peak_m.push_back(highest);
+      if (seeking == Seeking::kPeak) {
+        found.peak_m.push_back(*highest);
+        found.peak.push_back(highest);
+      }
       seeking = Seeking::kPit;
-      lowest = z;
-    } else if (seeking != Seeking::kPeak && z > lowest && z - lowest >= prominence_m) {
-      if (seeking == Seeking::kPit) found.pit_m.push_back(lowest);
+      lowest = &z;
+    } else if (seeking != Seeking::kPeak && z > *lowest && z - *lowest >= prominence_m) {
+      if (seeking == Seeking::kPit) {
+        found.pit_m.push_back(*lowest);
+        found.pit.push_back(lowest);
+      }
       seeking = Seeking::kPeak;
-      highest = z;
+      highest = &z;
     }
   }
 }

@@ -14,6 +14,11 @@ struct ElementWidths {
   std::size_t count = 0;
   double sum_height_m = 0.0;  // of each one's hill and pit together
   double highest_m = 0.0;
+  double sum_square_m2 = 0.0;  // of the widths
+  double widest_m = 0.0;
+  double sum_square_height_m2 = 0.0;  // of the heights
+
+  void add(const ElementWidths& more);
 };
 
 // Widths and heights of the profile elements of one gap-free stretch: from each significant crossing of the mean
@@ -25,7 +30,8 @@ ElementWidths element_widths(std::span<const double> stretch_m, double spacing_m
 
 struct PeaksAndPits {
   std::vector<double> peak_m;
-  std::vector<double> pit_m;  // heights, most of them negative
+  std::vector<double> pit_m;             // heights, most of them negative
+  std::vector<const double*> peak, pit;  // their samples in the stretch
 };
 
 // The peaks that stand out from the pits on both sides by at least `prominence_m`, and the pits that do

@@ -140,5 +140,54 @@ TEST(ArealGaussian, AgreesWithTheDefinitionAndKeepsPlanes) {
   for (std::size_t i = 60; i < 140; i += 7) EXPECT_NEAR(half.at(i, i + 3), 0.5 * wave.at(i, i + 3), 1e-4);
 }
 
+// Noise of a standard deviation and a correlation length that are known, drawn here as a sum of waves with random
+// phases (correlated) or by another seed (independent), is within the stated errors.
+TEST(ArealTexture, StandardErrorsCoverWhatNoiseDoes) {
+  const auto truth = map_of(120, 100, 4e-6, 4e-6, [](double x, double y) {
+    return kA_m * (std::sin(2 * pi * x / 60e-6) + std::sin(2 * pi * (0.8 * y + 0.3 * x) / 37e-6) +
+                   0.5 * std::sin(2 * pi * (y - x) / 91e-6));
+  });
+  const ArealTextureResult want = measure_areal_texture(truth);
+  EXPECT_TRUE(std::isnan(want.standard_error.Sq_m));
+  for (const double correlation_m : {0.0, 20e-6}) {
+    const ArealNoise noise{0.3e-6, {}, correlation_m, 0.0};
+    int covered = 0, all = 0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+      Random random(seed, 77);
+      ArealMap measured = truth;
+      if (correlation_m > 0.0) {
+        // The correlation exp(−π r²/2w²) has the spectrum of wave numbers that are normal with √π/w an axis.
+        const double w = correlation_m * std::sqrt(0.5 * pi / std::log(5.0)), k_sigma = std::sqrt(pi) / w;
+        constexpr int kWaves = 400;
+        for (int wave = 0; wave < kWaves; ++wave) {
+          const double kx = k_sigma * random.normal(), ky = k_sigma * random.normal(),
+                       phase = random.uniform(0, 2 * pi);
+          for (std::size_t i = 0; i < measured.height_m.size(); ++i)
+            measured.height_m[i] +=
+                noise.rms_m * std::sqrt(2.0 / kWaves) *
+                std::cos(kx * 4e-6 * static_cast<double>(i % 120) + ky * 4e-6 * static_cast<double>(i / 120) + phase);
+        }
+      } else {
+        for (double& z : measured.height_m) z += noise.rms_m * random.normal();
+      }
+      const ArealTextureResult got = measure_areal_texture(measured, {}, noise);
+      for (const ArealParameter& p : kArealParameters) {
+        if (std::isnan(want.*p.value)) continue;
+        const double error = got.standard_error.*p.value;
+        ASSERT_GT(error, 0.0) << p.name;
+        ++all;
+        covered += std::abs(got.*p.value - want.*p.value) <= 2.0 * error ? 1 : 0;
+      }
+    }
+    EXPECT_GE(covered, 0.9 * all) << "of " << all << ", correlation " << correlation_m;
+    EXPECT_GE(all, 100);
+  }
+}
+
+TEST(ArealTexture, ErrorsOfEachHeightMustBeAsMany) {
+  const ArealMap map = map_of(20, 20, 1e-6, 1e-6, [](double x, double) { return x * x; });
+  EXPECT_THROW(measure_areal_texture(map, {}, {1e-6, std::vector<double>(399, 1e-6), 0.0, 0.0}), Error);
+}
+
 }  // namespace
 }  // namespace asperity

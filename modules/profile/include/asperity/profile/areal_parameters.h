@@ -42,31 +42,32 @@ struct ArealParameter {
   std::string_view key;  // in files: with its unit
   double ArealParameters::*value;
   ArealQuantity quantity = ArealQuantity::kHeight;
+  bool hangs_on_extremes = false;  // on single heights, or high powers of them
 };
 
 inline constexpr std::array<ArealParameter, 22> kArealParameters{{
     {"Sa", "Sa_m", &ArealParameters::Sa_m},
     {"Sq", "Sq_m", &ArealParameters::Sq_m},
-    {"Sz", "Sz_m", &ArealParameters::Sz_m},
-    {"Sp", "Sp_m", &ArealParameters::Sp_m},
-    {"Sv", "Sv_m", &ArealParameters::Sv_m},
-    {"Ssk", "Ssk", &ArealParameters::Ssk, ArealQuantity::kNumber},
-    {"Sku", "Sku", &ArealParameters::Sku, ArealQuantity::kNumber},
+    {"Sz", "Sz_m", &ArealParameters::Sz_m, ArealQuantity::kHeight, true},
+    {"Sp", "Sp_m", &ArealParameters::Sp_m, ArealQuantity::kHeight, true},
+    {"Sv", "Sv_m", &ArealParameters::Sv_m, ArealQuantity::kHeight, true},
+    {"Ssk", "Ssk", &ArealParameters::Ssk, ArealQuantity::kNumber, true},
+    {"Sku", "Sku", &ArealParameters::Sku, ArealQuantity::kNumber, true},
     {"Sdq", "Sdq", &ArealParameters::Sdq, ArealQuantity::kSlope},
     {"Sdr", "Sdr", &ArealParameters::Sdr, ArealQuantity::kRatio},
     {"Sal", "Sal_m", &ArealParameters::Sal_m, ArealQuantity::kAlong},
     {"Str", "Str", &ArealParameters::Str, ArealQuantity::kNumber},
     {"Std", "Std_rad", &ArealParameters::Std_rad, ArealQuantity::kAngle},
     {"Sk", "Sk_m", &ArealParameters::Sk_m},
-    {"Spk", "Spk_m", &ArealParameters::Spk_m},
-    {"Svk", "Svk_m", &ArealParameters::Svk_m},
+    {"Spk", "Spk_m", &ArealParameters::Spk_m, ArealQuantity::kHeight, true},
+    {"Svk", "Svk_m", &ArealParameters::Svk_m, ArealQuantity::kHeight, true},
     {"Smrk1", "Smrk1", &ArealParameters::Smrk1, ArealQuantity::kRatio},
     {"Smrk2", "Smrk2", &ArealParameters::Smrk2, ArealQuantity::kRatio},
     {"Sxp", "Sxp_m", &ArealParameters::Sxp_m},
-    {"Vmp", "Vmp_m", &ArealParameters::Vmp_m},
+    {"Vmp", "Vmp_m", &ArealParameters::Vmp_m, ArealQuantity::kHeight, true},
     {"Vmc", "Vmc_m", &ArealParameters::Vmc_m},
     {"Vvc", "Vvc_m", &ArealParameters::Vvc_m},
-    {"Vvv", "Vvv_m", &ArealParameters::Vvv_m},
+    {"Vvv", "Vvv_m", &ArealParameters::Vvv_m, ArealQuantity::kHeight, true},
 }};
 
 }  // namespace asperity

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "asperity/base/areal_map.h"
+#include "asperity/profile/areal_noise.h"
 #include "asperity/profile/areal_parameters.h"
 
 namespace asperity {
@@ -30,7 +31,8 @@ struct ArealTextureConfig {
 };
 
 struct ArealTextureResult : ArealParameters {
-  double slope_x = 0.0;  // in the middle, of the form that was removed
+  ArealParameters standard_error;  // nan where not known
+  double slope_x = 0.0;            // in the middle, of the form that was removed
   double slope_y = 0.0;
   std::size_t samples = 0;
   std::size_t missing = 0;
@@ -40,9 +42,12 @@ struct ArealTextureResult : ArealParameters {
 // Throws Error as measure_areal_texture() does.
 ArealMap filter_surface(const ArealMap& map, const ArealTextureConfig& config = {});
 
-// The areal parameters of a map. Missing heights take part in nothing. Throws Error unless the map has at least 2×2
-// points and both spacings, every height is finite or nan, the missing part is small enough, and the present points fix
-// the form.
-ArealTextureResult measure_areal_texture(const ArealMap& map, const ArealTextureConfig& config = {});
+// The areal parameters of a map. Missing heights take part in nothing. With a noise that is known each value has its
+// standard error: the spread of draws of that noise added to the heights before the filters, together with what noise
+// has changed the value by, found by simulation and extrapolation (measure_roughness_under_noise.h). The values are
+// those of the heights as they are. Throws Error unless the map has at least 2×2 points and both spacings, every height
+// is finite or nan, the missing part is small enough, and the present points fix the form.
+ArealTextureResult measure_areal_texture(const ArealMap& map, const ArealTextureConfig& config = {},
+                                         const ArealNoise& noise = {});
 
 }  // namespace asperity
