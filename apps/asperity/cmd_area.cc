@@ -3,6 +3,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
@@ -22,6 +23,10 @@ class AreaCommand : public Command {
   explicit AreaCommand(Parser& root)
       : Command(root, "area", "Make one areal texture of many registered scans over a patch") {
     require(parser().add_option("REGISTERED", folder_, "A folder that `register` wrote, with several scans"));
+    parser()
+        .add_option("--leave-out", leave_out_, "A scan that only holds the pose of the rest; may be given again")
+        ->one_value_each()
+        ->type_name("SCAN");
     require(parser().add_option("-o,--output", output_, "Folder of the scene with the area"))->type_name("OUT");
   }
 
@@ -35,7 +40,7 @@ class AreaCommand : public Command {
     OutputFolder folder(output_, is_our_folder);
     observer.update("reading", 0.0);
     reads(folder_);
-    const AreaInput input = read_area_input(folder_, observer);
+    const AreaInput input = read_area_input(folder_, observer, leave_out_);
     const SceneObject& object = input.scene.objects.front();
     const AreaResult area =
         make_area(to_metres(object.mesh, object.unit_m), input.scans, input.registered, config_, observer);
@@ -44,7 +49,10 @@ class AreaCommand : public Command {
     const std::string json = write_area(folder.path(), input, area);
     commit_output(folder, output_);
     print_json(trim(json));
-    say(summary(area, input.scans.size()) + "scene in " + printable(output_, 200) + "\n");
+    std::string left_out;
+    for (const LeftOutScan& scan : input.left_out)
+      left_out += "left out      " + printable(scan.name, 200) + ": " + printable(scan.reason, 1000) + "\n";
+    say(left_out + summary(area, input.scans.size()) + "scene in " + printable(output_, 200) + "\n");
     for (const Verdict& verdict : area.verdicts)
       if (verdict.severity != Severity::kNote) print_error(verdict_line(verdict));
     return area.trustworthy ? kDone : kNotTrustworthy;
@@ -69,14 +77,16 @@ class AreaCommand : public Command {
         map.texture.surface.columns, map.texture.surface.rows, 1e3 * map.texture.surface.spacing_x_m, 1e6 * map.rms_m,
         1e6 * map.sigma_rms_m, map.correlation_mm);
     if (map.held_out.samples > 0.0) {
-      out += fmt::format("left out      {} strokes, error {:.1f} µm RMS, {:.2f} of its standard deviation\n",
-                         map.held_out.strokes, 1e6 * map.held_out.error_rms_m, map.held_out.error_over_sigma);
+      out += fmt::format(
+          "predicted     {} strokes from the others, error {:.1f} µm RMS, {:.2f} of its standard deviation\n",
+          map.held_out.strokes, 1e6 * map.held_out.error_rms_m, map.held_out.error_over_sigma);
     }
     for (const Problem& problem : area.problems) out += "note          " + problem.message + "\n";
     return out;
   }
 
   std::string folder_, output_;
+  std::vector<std::string> leave_out_;
   AreaConfig config_;
 };
 

@@ -112,6 +112,15 @@ TEST_F(Area, ManyStrokesBecomeOneTexture) {
   const Outcome info = run({"texture", "info", path("out/area.texture.json"), "--json"});
   ASSERT_EQ(info.code, 0) << info.err;
   EXPECT_THAT(info.out, HasSubstr("sigma_rms_m"));
+  // Its roughness has the errors that the map states: with what the errors change it by.
+  const Outcome roughness = run({"roughness", path("out/area.texture.json"), "--json"});
+  ASSERT_EQ(roughness.code, 0) << roughness.err;
+  const json measured = json::parse(roughness.out);
+  const double Sq_m = measured.at("roughness").at("Sq_m"), sigma_m = measured.at("noise_rms_m");
+  // An estimate between strokes leans towards the mean by what is not known of it: the two squares are the surface's.
+  EXPECT_NEAR(std::hypot(Sq_m, sigma_m), area.at("map").at("rms_m").get<double>(), 5e-6);
+  EXPECT_GT(measured.at("roughness").at("Sq_stderr_m").get<double>(), 0.02 * sigma_m);
+  EXPECT_LT(measured.at("roughness").at("Sq_stderr_m").get<double>(), 2.0 * sigma_m);
   for (const char* to : {"png", "gltf", "obj", "x3p", "stl"}) {
     const Outcome exported = run({"export", path("out"), "--to", to, "-o", path(std::string("as-") + to)});
     EXPECT_EQ(exported.code, 0) << to << ": " << exported.err;
@@ -205,6 +214,51 @@ TEST_F(Area, NamesWhatIsNoRegistration) {
               HasSubstr("registration.json: has no list 'scans'"));
   EXPECT_THAT(registration(R"({"format": "asperity-registration", "scans": [{"name": "a"}, {"name": 7}]})"),
               HasSubstr("registration.json: scans[1] has no name"));
+}
+
+// A long stroke over smooth ground holds the pose of the rest; it has no texture, which makes the registration invalid.
+TEST_F(Area, AStrokeThatOnlyHoldsThePoseIsLeftOut) {
+  write_registered("registered", false);
+  json registration = read_json(dir_ / "registered" / "registration.json");
+  const json below{{"code", "below_noise"}, {"severity", "invalid"}, {"message", "the texture is below its noise"}};
+  json placement{{"verdict", "valid"}, {"verdicts", json::array()}, {"scans", json::array({"locator"})}};
+  for (int k = 0; k < 16; ++k) placement["scans"].push_back("scan" + std::to_string(k));
+  json named = below;
+  named["message"] = "locator: the texture is below its noise";
+  registration["placements"] = json::array({placement});
+  registration["scans"].push_back({{"name", "locator"}, {"verdict", "invalid"}, {"verdicts", json::array({below})}});
+  registration["trustworthy"] = false;
+  registration["verdicts"] = json::array({named});
+  // Its path crosses the patch; its heights are none of the map's.
+  fs::copy(dir_ / "registered" / "scan15", dir_ / "registered" / "locator");
+  const auto area = [&](const std::vector<std::string>& more = {}) {
+    write_text(dir_ / "registered" / "registration.json", registration.dump());
+    std::vector<std::string> words{"area", path("registered"), "-o", path("out"), "--set", "map.held_out=4"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  };
+  const Outcome automatic = area();
+  EXPECT_EQ(automatic.code, 0) << automatic.err;
+  EXPECT_THAT(automatic.out, HasSubstr("left out      locator: the texture is below its noise"));
+  const json written = read_json(dir_ / "out" / "area.json");
+  EXPECT_EQ(written.at("scans").size(), 16U);
+  EXPECT_THAT(written.at("problems").dump(), HasSubstr("locator: the texture is below its noise"));
+  EXPECT_EQ(area({"--leave-out", "scan3"}).code, 0);
+  EXPECT_EQ(read_json(dir_ / "out" / "area.json").at("scans").size(), 15U);
+  const Outcome unknown = area({"--leave-out", "scan99"});
+  EXPECT_EQ(unknown.code, 1);
+  EXPECT_THAT(unknown.err, HasSubstr("has no scan 'scan99' to leave out"));
+
+  // Something else that is invalid stays so: the placement, another scan, the registration as a whole.
+  const json good = registration;
+  registration["placements"][0]["verdict"] = "invalid";
+  EXPECT_EQ(area().code, 3);
+  registration = good;
+  registration["verdicts"].push_back({{"code", "x"}, {"severity", "invalid"}, {"message", "there are no coordinates"}});
+  EXPECT_EQ(area().code, 3);
+  registration = good;
+  registration["placements"][0]["scans"].erase(0);  // a scan of no placement is not known to have a pose
+  EXPECT_EQ(area().code, 3);
 }
 
 // A registration that does not say that it can be trusted is not trusted.

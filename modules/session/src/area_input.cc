@@ -1,5 +1,6 @@
 #include "asperity/session/area_input.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "asperity/base/csv.h"
@@ -67,9 +68,77 @@ void check_registration(const Json& registration, const std::string& name) {
   }
 }
 
+bool is_invalid(const Json& verdict) { return verdict.value("verdict", "") == "invalid"; }
+
+// The placement that a scan is in; null where the file has none.
+const Json* placement_of(const Json& registration, const std::string& scan) {
+  const Json* placements = registration.find("placements");
+  if (placements == nullptr || !placements->is_array()) return nullptr;
+  for (const Json& placement : *placements) {
+    const Json* scans = placement.find("scans");
+    if (scans == nullptr || !scans->is_array()) continue;
+    for (const Json& name : *scans)
+      if (name == Json(scan)) return &placement;
+  }
+  return nullptr;
+}
+
+// The first sentence of what makes a scan invalid.
+std::string reason_of(const Json& scan) {
+  const Json* verdicts = scan.find("verdicts");
+  if (verdicts == nullptr || !verdicts->is_array()) return "its verdict is invalid";
+  for (const Json& verdict : *verdicts)
+    if (verdict.value("severity", "") == "invalid") return verdict.value("message", "its verdict is invalid");
+  return "its verdict is invalid";
+}
+
+// Those that are named, and those whose pose is known and whose heights are not.
+std::vector<LeftOutScan> left_out_of(const Json& registration, const std::vector<std::string>& leave_out,
+                                     const std::string& name) {
+  std::vector<LeftOutScan> out;
+  for (const Json& scan : registration.at("scans")) {
+    const std::string of_scan = scan.at("name").get<std::string>();
+    if (std::find(leave_out.begin(), leave_out.end(), of_scan) != leave_out.end()) {
+      out.push_back({of_scan, "as asked for"});
+      continue;
+    }
+    const Json* placement = placement_of(registration, of_scan);
+    if (is_invalid(scan) && placement != nullptr && !is_invalid(*placement)) out.push_back({of_scan, reason_of(scan)});
+  }
+  for (const std::string& asked : leave_out) {
+    if (std::none_of(out.begin(), out.end(), [&](const LeftOutScan& scan) { return scan.name == asked; }))
+      throw Error(name + ": has no scan '" + printable(asked, 200) + "' to leave out");
+  }
+  return out;
+}
+
+// Whether what remains is not invalid: the placements of the scans that are used, and all that was said of the
+// registration but of scans that are left out.
+bool is_registered(const Json& registration, const std::vector<std::string>& names,
+                   const std::vector<LeftOutScan>& left_out) {
+  const Json* trustworthy = registration.find("trustworthy");
+  if (trustworthy != nullptr && *trustworthy == Json(true)) return true;
+  const Json* verdicts = registration.find("verdicts");
+  if (left_out.empty() || verdicts == nullptr || !verdicts->is_array()) return false;
+  for (const Json& verdict : *verdicts) {
+    const std::string message = verdict.value("message", "");
+    const bool of_left_out = std::any_of(left_out.begin(), left_out.end(), [&](const LeftOutScan& scan) {
+      return message.starts_with(printable(scan.name, 200) + ": ");
+    });
+    if (verdict.value("severity", "") == "invalid" && !of_left_out) return false;
+  }
+  for (const Json& scan : registration.at("scans")) {
+    const std::string name = scan.at("name").get<std::string>();
+    const bool used =
+        std::none_of(left_out.begin(), left_out.end(), [&](const LeftOutScan& other) { return other.name == name; });
+    if (used && (is_invalid(scan) || placement_of(registration, name) == nullptr)) return false;
+  }
+  return !names.empty();
+}
+
 }  // namespace
 
-AreaInput read_area_input(const fs::path& folder, const Observer& observer) {
+AreaInput read_area_input(const fs::path& folder, const Observer& observer, const std::vector<std::string>& leave_out) {
   AreaInput out;
   const fs::path file = folder / "registration.json";
   const std::string name = printable(file.string(), 200);
@@ -77,8 +146,7 @@ AreaInput read_area_input(const fs::path& folder, const Observer& observer) {
     throw Error(printable(folder.string(), 200) + ": has no registration.json; give a folder that `register` wrote");
   const Json registration = parse_json(read_file(file, std::uint64_t{64} << 20), name, {}, observer);
   check_registration(registration, name);
-  const Json* trustworthy = registration.find("trustworthy");
-  out.registered = trustworthy != nullptr && *trustworthy == Json(true);
+  out.left_out = left_out_of(registration, leave_out, name);
   out.scene = read_scene(folder / "scene.json", observer);
   const std::size_t triangles = out.scene.objects.front().mesh.triangles.size();
   std::vector<std::string> names;
@@ -93,6 +161,7 @@ AreaInput read_area_input(const fs::path& folder, const Observer& observer) {
   } catch (const Error& error) {
     throw Error(name + ": " + error.what());
   }
+  out.registered = is_registered(registration, names, out.left_out);
   bool any_path = false;
   for (const std::string& scan : names) {
     if (!stays_inside(scan)) continue;  // its folder would not be in this one
@@ -100,12 +169,15 @@ AreaInput read_area_input(const fs::path& folder, const Observer& observer) {
     if (names.size() == 1 && !fs::is_directory(place)) place = folder;
     if (!fs::is_regular_file(place / "path.csv")) continue;
     any_path = true;
+    if (std::any_of(out.left_out.begin(), out.left_out.end(),
+                    [&](const LeftOutScan& other) { return other.name == scan; }))
+      continue;
     if (!fs::is_regular_file(place / "profile.csv")) continue;
     AreaScan one{scan, read_mesh_path(place / "path.csv", triangles), read_profile(place / "profile.csv")};
     if (one.path.size() > 1 && one.profile.size() > 1) out.scans.push_back(std::move(one));
   }
   if (out.scans.empty()) {
-    throw Error(name + (any_path ? ": none of its scans has a path and a profile"
+    throw Error(name + (any_path ? ": none of its scans has a path and a profile and is not left out"
                                  : ": none of its scans has a path.csv; register them again with this version"));
   }
   return out;

@@ -33,7 +33,10 @@ std::string write_area(const fs::path& folder, const AreaInput& input, const Are
   if (fs::path(object.mesh_file).extension() != ".obj")
     object.mesh_file = fs::path(object.mesh_file).replace_extension(".obj").string();
   write_scene(folder / "scene.json", scene);
-  std::string json = format_area(area, input.scans, name);
+  AreaResult noted = area;
+  for (const LeftOutScan& scan : input.left_out)
+    noted.problems.push_back({"scan_left_out", scan.name + ": " + scan.reason, 1});
+  std::string json = format_area(noted, input.scans, name);
   write_file(folder / "area.json", json);
   write_listing(folder);
   return json;
