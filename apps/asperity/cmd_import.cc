@@ -10,6 +10,7 @@
 #include "asperity/base/version.h"
 #include "asperity/import/format_import.h"
 #include "asperity/import/import_mapped.h"
+#include "asperity/import/measure_stroke_evidence.h"
 #include "asperity/import/read_stroke.h"
 #include "asperity/import/stroke_file.h"
 #include "asperity/json/config_json.h"
@@ -17,6 +18,7 @@
 #include "asperity/recording/read_recording.h"
 #include "asperity/recording/write_recording.h"
 #include "asperity/session/our_folder.h"
+#include "asperity/verdict/judge_stroke.h"
 #include "commands.h"
 #include "config_file.h"
 #include "option_units.h"
@@ -185,7 +187,8 @@ class ImportCommand : public Command {
       text += stroke_text(reading.stroke);
       for (const std::string& doubt : reading.doubts) text += "implausible " + doubt + "\n";
       say(text);
-      return reading.doubts.empty() || unchecked_ ? kDone : kBadInput;
+      if (!reading.doubts.empty() && !unchecked_) return kBadInput;
+      return is_trustworthy(judge_stroke(measure_stroke_evidence(reading.stroke))) ? kDone : kNotTrustworthy;
     }
     for (const std::string& doubt : reading.doubts) reading.stroke.problems.push_back({"implausible", doubt, 1});
     OutputFolder folder(output_, is_our_folder);

@@ -58,13 +58,14 @@ Json to_json(const Difference& d) {
           {"verdict", verdict_of(d.noticeable)}};
 }
 
+// Of nothing there is no percentage, and no mean.
+std::string cell(const char* form, double value, const char* unit_text, std::size_t width) {
+  std::string out = std::isfinite(value) ? fmt::format(fmt::runtime(form), value) + unit_text : "–";
+  const std::size_t letters = std::isfinite(value) ? out.size() : 1;
+  return letters < width ? std::string(width - letters, ' ') + out : out;
+}
+
 std::string format_row(const std::string& name, const Difference& d, double unit, const std::string& note) {
-  // Of nothing there is no percentage, and no mean.
-  const auto cell = [](const char* form, double value, const char* unit_text, std::size_t width) {
-    std::string out = std::isfinite(value) ? fmt::format(fmt::runtime(form), value) + unit_text : "–";
-    const std::size_t letters = std::isfinite(value) ? out.size() : 1;
-    return letters < width ? std::string(width - letters, ' ') + out : out;
-  };
   return fmt::format("{:<22} {} {} {} {}  {}\n", name, cell("{:.5g}", d.a * unit, "", 11),
                      cell("{:.5g}", d.b * unit, "", 11), cell("{:+.2f}", d.percent, " %", 11),
                      cell("{:.3g}", d.jnd_percent, " %", 9), note);
@@ -173,7 +174,9 @@ class TextureCompareCommand : public Command {
     out.text =
         fmt::format("{}: {} windows of 0.25 s, {}, {}, {}\n", printable(folder, 200), out.vibration.pieces_mps2.size(),
                     mean_text(out.speed_mps, 1e3, "mm/s", "speed"), mean_text(out.force_N, 1.0, "N", "force"),
-                    out.vibration.noise_mps2.empty() ? "noise not known" : "noise taken off");
+                    !out.vibration.noise_mps2.empty()              ? "noise taken off"
+                    : std::isfinite(out.vibration.most_noise_mps2) ? "noise as stated, in any of the bands"
+                                                                   : "noise not known");
     return out;
   }
 
@@ -219,14 +222,16 @@ class TextureCompareCommand : public Command {
                               {"a_mps2", band.a_mps2},
                               {"b_mps2", band.b_mps2},
                               {"percent", number_or_null(band.percent)},
+                              {"least_percent", number_or_null(band.least_percent)},
+                              {"most_percent", number_or_null(band.most_percent)},
                               {"sigma_percent", number_or_null(band.sigma_percent)},
                               {"jnd_percent", band.jnd_percent},
                               {"felt", band.is_compared},
                               {"verdict", word_of(band.verdict)}});
-      text += fmt::format("{:<22} {:>11.4g} {:>11.4g} {:>9.2f} % {:>7.2g} % {:>7.3g} %  {}\n",
-                          fmt::format("{:.4g}-{:.4g} Hz", band.low_Hz, band.high_Hz), band.a_mps2, band.b_mps2,
-                          band.percent, band.sigma_percent, band.jnd_percent,
-                          band.is_compared ? word_of(band.verdict) : "too weak to be felt");
+      text += fmt::format(
+          "{:<22} {:>11.4g} {:>11.4g} {} {} {}  {}\n", fmt::format("{:.4g}-{:.4g} Hz", band.low_Hz, band.high_Hz),
+          band.a_mps2, band.b_mps2, cell("{:.2f}", band.percent, " %", 11), cell("{:.2g}", band.sigma_percent, " %", 9),
+          cell("{:.3g}", band.jnd_percent, " %", 9), band.is_compared ? word_of(band.verdict) : "too weak to be felt");
     }
     out["config"] = config_json(fields());
     out["asperity"] = kVersion;

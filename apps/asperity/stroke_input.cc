@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
+#include "asperity/import/measure_stroke_evidence.h"
 #include "asperity/import/stroke_file.h"
 #include "asperity/import/stroke_spectra.h"
 #include "asperity/import/stroke_windows.h"
@@ -68,6 +70,7 @@ StrokeVibration vibration_of_stroke(const Stroke& stroke) {
   out.vibration.rate_Hz = stroke.rate_Hz;
   out.vibration.pieces_mps2 = pieces_of(stroke, windows.active, windows.length);
   out.vibration.noise_mps2 = pieces_of(stroke, windows.quiet, windows.length);
+  out.vibration.most_noise_mps2 = stroke.noise_mps2 > 0.0 ? stroke.noise_mps2 : std::numeric_limits<double>::infinity();
   out.speed_mps = means_of(stroke.speed_mps, windows.active, windows.length);
   out.force_N = means_of(stroke.force_N, windows.active, windows.length);
   return out;

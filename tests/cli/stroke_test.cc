@@ -65,6 +65,8 @@ TEST_F(ImportStroke, BecomesATextureSpectraAndAComparison) {
   const Outcome two = run({"texture", "compare", file("stroke"), file("other")});
   EXPECT_EQ(two.code, 0) << two.err;
   EXPECT_THAT(two.out, HasSubstr("noticeable"));
+  EXPECT_THAT(two.out, Not(HasSubstr("inf")));
+  EXPECT_THAT(run({"texture", "compare", file("other"), file("stroke")}).out, Not(HasSubstr("inf")));
   const Outcome rendered = run({"texture", "compare", file("other"), texture});
   EXPECT_EQ(rendered.code, 0) << rendered.err;
   EXPECT_THAT(rendered.out, HasSubstr("the speeds of the other's stroke"));
@@ -78,6 +80,9 @@ TEST_F(ImportStroke, EndsWith3WhereNothingWasTouched) {
   const Outcome imported = run(words(air, "air"));
   EXPECT_EQ(imported.code, 3);
   EXPECT_THAT(imported.out, HasSubstr("invalid: the force is"));
+  const Outcome looked = run(words(air, "unwritten", {"--dry-run"}));
+  EXPECT_EQ(looked.code, 3);
+  EXPECT_THAT(looked.out, HasSubstr("invalid: the force is"));
   for (const Words& more : {Words{"texture", "fit", file("air"), "-o", file("y.texture.json")},
                             Words{"roughness", file("air")}, Words{"texture", "compare", file("air"), file("air")}}) {
     const Outcome outcome = run(more);

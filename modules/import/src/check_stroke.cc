@@ -13,6 +13,7 @@ namespace asperity {
 namespace {
 
 constexpr double kLeastRms_mps2 = 1e-4, kMostRms_mps2 = 500.0;
+constexpr double kSilent_mps2 = 1e-12;  // an axis that never changes has rounding only, and is noted elsewhere
 constexpr double kMostSpeed_mps = 5.0, kMostForce_N = 100.0;
 
 double share_of(std::vector<double> values, double share) {
@@ -60,40 +61,62 @@ std::string state(const Read& read, const std::string& unit) {
                       : fmt::format("; if it is in {}, state {}=…[{}]", unit, read.column->meaning, unit);
 }
 
-void check_acceleration_unit(const Stroke& stroke, double mean_mps2, const Read& read, std::vector<std::string>& out) {
-  const bool guessed = read.column->unit_why == "by its values" || read.column->unit_why == "assumed";
+// The columns of the acceleration, in the order of the tables and of ax, ay, az.
+std::vector<Read> acceleration_columns(const std::vector<ImportTable>& tables) {
+  std::vector<Read> out;
+  for (const ImportTable& table : tables) {
+    if (table.role != FileRole::kImu) continue;
+    for (const char* meaning : {"ax", "ay", "az"})
+      if (const MappedColumn* column = find_meaning(table.map, meaning)) out.push_back({&table, column});
+  }
+  return out;
+}
+
+bool is_guessed(const Read& read) {
+  return read.column->unit_why == "by its values" || read.column->unit_why == "assumed";
+}
+
+std::string as_unit(const Read& read, const char* unit) { return fmt::format("{}=…[{}]", read.column->meaning, unit); }
+
+void check_acceleration_units(const Stroke& stroke, double mean_mps2, const std::vector<double>& axis_rms_mps2,
+                              const std::vector<Read>& axes, std::vector<std::string>& out) {
   constexpr double kNearGravity = 0.1;
   const auto is_gravity = [](double v) { return std::abs(v / kStandardGravity_mps2 - 1.0) < kNearGravity; };
-  if (stroke.axes == 3 && !is_gravity(mean_mps2)) {
+  const bool one_unit = std::all_of(axes.begin(), axes.end(),
+                                    [&](const Read& read) { return read.column->unit == axes.front().column->unit; });
+  if (stroke.axes == 3 && one_unit && !is_gravity(mean_mps2)) {
+    const Read& read = axes.front();
     for (const char* name : {"g", "m/s2", "mg", "gal", "mm/s2"}) {
       const double factor = find_import_unit(name, Quantity::kAcceleration)->factor;
       if (name == read.column->unit || !is_gravity(mean_mps2 / factor_of(*read.column) * factor)) continue;
       out.push_back(read.text() +
                     fmt::format("the mean of its axes has a length of {:.4g} m/s², and would be gravity in "
-                                "{}; state ax=…[{}]",
-                                mean_mps2, name, name));
+                                "{}; state {}",
+                                mean_mps2, name, as_unit(read, name)));
       return;
     }
   }
-  if (guessed && !(stroke.axes == 3 && is_gravity(mean_mps2))) {
-    out.push_back(read.text() + "this is a guess, and gravity is not in it to judge by; state ax=…[m/s2] or ax=…[g]");
-    return;
+  for (std::size_t i = 0; i < axes.size() && i < axis_rms_mps2.size(); ++i) {
+    const Read& read = axes[i];
+    const double rms = axis_rms_mps2[i];
+    if (is_guessed(read) && !(stroke.axes == 3 && is_gravity(mean_mps2))) {
+      out.push_back(read.text() + "this is a guess, and gravity is not in it to judge by; state " +
+                    as_unit(read, "m/s2") + " or " + as_unit(read, "g"));
+    } else if ((rms < kLeastRms_mps2 && rms > kSilent_mps2) || rms > kMostRms_mps2) {
+      out.push_back(read.text() +
+                    fmt::format("an RMS of {:.3g} m/s² above {:g} Hz is not that of a tool", rms, stroke.high_pass_Hz) +
+                    state(read, unit_within(read, rms, {"m/s2", "g", "mg"}, 1e-2, 50.0)));
+    }
   }
-  double squares = 0.0;
-  for (const double v : stroke.acceleration_mps2) squares += v * v;
-  const double rms = std::sqrt(squares / static_cast<double>(stroke.size()));
-  if (rms < kLeastRms_mps2 || rms > kMostRms_mps2)
-    out.push_back(read.text() +
-                  fmt::format("an RMS of {:.3g} m/s² above {:g} Hz is not that of a tool", rms, stroke.high_pass_Hz) +
-                  state(read, unit_within(read, rms, {"m/s2", "g", "mg"}, 1e-2, 50.0)));
 }
 
 }  // namespace
 
 std::vector<std::string> check_stroke(const Stroke& stroke, double acceleration_mean_mps2,
+                                      const std::vector<double>& axis_rms_mps2,
                                       const std::vector<ImportTable>& tables) {
   std::vector<std::string> out;
-  check_acceleration_unit(stroke, acceleration_mean_mps2, first_of(tables, ColumnGroup::kAcceleration), out);
+  check_acceleration_units(stroke, acceleration_mean_mps2, axis_rms_mps2, acceleration_columns(tables), out);
   constexpr double kMost = 0.99;
   if (stroke.speed_is_measured) {
     const Read read = first_of(tables, ColumnGroup::kPosition);

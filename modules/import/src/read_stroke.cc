@@ -9,41 +9,17 @@
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
-#include "asperity/import/file_streams.h"
 #include "asperity/import/read_delimited.h"
 #include "asperity/recording/read_limits.h"
 #include "asperity/signal/zero_phase.h"
 #include "join_axes.h"
+#include "stroke_streams.h"
 
 namespace asperity {
 
 namespace {
 
-constexpr double kLowestRate_Hz = 200.0, kShortestStroke_s = 0.5, kSpeedHalf_s = 0.04;
-constexpr double kLargestGap = 10.0;      // intervals
-constexpr double kMostDuplicates = 0.01;  // of the rows
-constexpr double kUneven = 0.1;           // of the interval, RMS
-
-// A stream on the acceleration's clock, by straight lines.
-struct Series {
-  std::vector<double> t_s, value;
-
-  double at(double t) const {
-    const auto next = std::upper_bound(t_s.begin(), t_s.end(), t);
-    if (next == t_s.end()) return value.back();
-    if (next == t_s.begin()) return value.front();
-    const auto i = static_cast<std::size_t>(next - t_s.begin());
-    const double share = (t - t_s[i - 1]) / (t_s[i] - t_s[i - 1]);
-    return value[i - 1] + share * (value[i] - value[i - 1]);
-  }
-};
-
-Series series_of(const std::vector<std::int64_t>& t_ns, std::vector<double> value, std::int64_t from_ns) {
-  Series out;
-  for (const std::int64_t t : t_ns) out.t_s.push_back(1e-9 * static_cast<double>(t - from_ns));
-  out.value = std::move(value);
-  return out;
-}
+constexpr double kShortestStroke_s = 0.5;
 
 ImportTable read_table(const std::filesystem::path& path, FileRole role, const MappingConfig& mapping) {
   // Each file has its own columns: what is stated for all may be in another.
@@ -77,113 +53,15 @@ MappingConfig with_rate(MappingConfig mapping, FileRole role, FileRole given) {
   return mapping;
 }
 
-struct Acceleration {
-  std::vector<Series> axes;
-  std::int64_t start_ns = 0;
-  double rate_Hz = 0.0;
-};
-
-void add_acceleration(const ImportTable& table, Acceleration& out, Problems& problems) {
-  const std::size_t before = out.axes.size();
-  for (const char* meaning : {"ax", "ay", "az"}) {
-    if (find_meaning(table.map, meaning) == nullptr) continue;
-    ScalarStream stream = read_scalars(table, meaning, problems);
-    if (out.axes.empty()) out.start_ns = stream.t_ns.front();
-    out.axes.push_back(series_of(stream.t_ns, std::move(stream.value), out.start_ns));
-  }
-  if (out.axes.size() == before)
-    throw Error(table.table.file + ": no column is an acceleration: name it, as ax=NAME[m/s2] or ax=#1[g]");
-  for (const Problem& problem : problems) {
-    if (problem.kind != "duplicate_time" ||
-        static_cast<double>(problem.count) <= kMostDuplicates * static_cast<double>(table.table.rows()))
-      continue;
-    throw Error(problem.message + ": its clock is too coarse for its rate; state the rate instead of the times");
-  }
-}
-
-// The mean rate; throws where there are gaps or too few samples, and where an axis never changes.
-void check_acceleration(const ImportTable& table, Acceleration& out, Problems& problems) {
-  const std::string& file = table.table.file;
-  const std::vector<double>& t_s = out.axes.front().t_s;
-  if (t_s.size() < 2) throw Error(file + ": fewer than two samples of the acceleration");
-  out.rate_Hz = static_cast<double>(t_s.size() - 1) / (t_s.back() - t_s.front());
-  if (out.rate_Hz < kLowestRate_Hz)
-    throw Error(fmt::format("{}: {:.4g} samples of the acceleration a second; textures need {:g} at least", file,
-                            out.rate_Hz, kLowestRate_Hz));
-  double squares = 0.0;
-  for (std::size_t i = 1; i < t_s.size(); ++i) {
-    const double intervals = (t_s[i] - t_s[i - 1]) * out.rate_Hz;
-    if (intervals > kLargestGap)
-      throw Error(fmt::format("{}: a gap of {:.3g} s in the acceleration at {:.6g} s; import the parts one by one",
-                              file, t_s[i] - t_s[i - 1], t_s[i - 1]));
-    squares += (intervals - 1.0) * (intervals - 1.0);
-  }
-  const double uneven = std::sqrt(squares / static_cast<double>(t_s.size() - 1));
-  if (uneven > kUneven)
-    problems.push_back({"uneven_times",
-                        fmt::format("{}: the acceleration's intervals scatter by {:.0f} %: straight lines between its "
-                                    "samples weaken high frequencies",
-                                    file, 100.0 * uneven),
-                        1});
-  std::size_t dead = 0;
-  for (const Series& axis : out.axes) {
-    const auto [low, high] = std::minmax_element(axis.value.begin(), axis.value.end());
-    dead += *low == *high ? 1 : 0;
-  }
-  if (dead == out.axes.size()) throw Error(file + ": the acceleration never changes");
-  if (dead > 0)
-    problems.push_back({"axis_constant",
-                        fmt::format("{}: {} of {} axes of the acceleration never change", file, dead, out.axes.size()),
-                        dead});
-}
-
-struct Path {
-  std::vector<Series> axes;
-  Series speed;
-};
-
-Path read_path(const ImportTable& table, std::int64_t start_ns, Problems& problems) {
-  Path out;
-  for (const char* meaning : {"px", "py", "pz"}) {
-    if (find_meaning(table.map, meaning) == nullptr) continue;
-    ScalarStream stream = read_scalars(table, meaning, problems);
-    out.axes.push_back(series_of(stream.t_ns, std::move(stream.value), start_ns));
-  }
-  if (out.axes.empty()) throw Error(table.table.file + ": no column is a position: name it, as px=NAME[mm]");
-  const std::vector<double>& t_s = out.axes.front().t_s;
-  if (t_s.size() < 3) throw Error(table.table.file + ": fewer than three positions");
-  const double interval_s = (t_s.back() - t_s.front()) / static_cast<double>(t_s.size() - 1);
-  const double half_s = std::max(kSpeedHalf_s, 2.0 * interval_s);
-  for (const double t : t_s) {
-    const double from = std::max(t_s.front(), t - half_s), to = std::min(t_s.back(), t + half_s);
-    double squares = 0.0;
-    for (const Series& axis : out.axes) squares += std::pow((axis.at(to) - axis.at(from)) / (to - from), 2);
-    out.speed.t_s.push_back(t);
-    out.speed.value.push_back(std::sqrt(squares));
-  }
-  return out;
-}
-
-Series read_force(const ImportTable& table, std::int64_t start_ns, Problems& problems) {
-  if (find_meaning(table.map, "f") != nullptr) {
-    ScalarStream stream = read_scalars(table, "f", problems);
-    return series_of(stream.t_ns, std::move(stream.value), start_ns);
-  }
-  const VectorStream stream = read_vectors(table, 'f', problems);
-  std::vector<double> length;
-  for (const auto& force : stream.value) length.push_back(force.norm());
-  return series_of(stream.t_ns, std::move(length), start_ns);
-}
-
 bool has_times(const ImportTable& table) { return find_meaning(table.map, "t") != nullptr; }
 
 // The part of time that all series have.
 class CommonTime {
  public:
-  CommonTime(const ImportTable& first, const Series& series)
+  CommonTime(const ImportTable& first, const StrokeSeries& series)
       : file_(first.table.file), timed_(has_times(first)), to_(series.t_s.back()) {}
 
-  void take(const ImportTable& table, const Series& series) {
+  void take(const ImportTable& table, const StrokeSeries& series) {
     if (has_times(table) != timed_)
       throw Error(fmt::format("{} has {}, {} {}: state times of both, or rates of both", table.table.file,
                               timed_ ? "no times" : "times", file_, timed_ ? "has" : "has none"));
@@ -215,11 +93,17 @@ void require_stated(const MappingConfig& mapping, const std::vector<ImportTable>
   }
 }
 
-std::vector<double> series_values(const Series& series, const std::vector<double>& t_s) {
+std::vector<double> series_values(const StrokeSeries& series, const std::vector<double>& t_s) {
   std::vector<double> out;
   out.reserve(t_s.size());
   for (const double t : t_s) out.push_back(series.at(t));
   return out;
+}
+
+double rms(const std::vector<double>& values) {
+  double squares = 0.0;
+  for (const double v : values) squares += v * v;
+  return std::sqrt(squares / static_cast<double>(values.size()));
 }
 
 bool never_changes(const std::vector<double>& values) {
@@ -233,33 +117,33 @@ StrokeReading read_stroke(const StrokeFiles& files, const MappingConfig& mapping
   Stroke& stroke = out.stroke;
   const std::vector<std::filesystem::path> imu = files.imu.empty() ? std::vector{files.pose} : files.imu;
   if (imu.size() > 3) throw Error("an acceleration has three axes: more than three files are given for it");
-  Acceleration acceleration;
+  StrokeAcceleration acceleration;
   for (const auto& path : imu) {
     const MappingConfig own = files.imu.empty() ? with_rate(mapping, FileRole::kImu, FileRole::kPose) : mapping;
     out.tables.push_back(read_table(path, FileRole::kImu, own));
     take_only_column(out.tables.back(), "ax", "m/s2");
-    add_acceleration(out.tables.back(), acceleration, stroke.problems);
+    add_stroke_acceleration(out.tables.back(), out.tables.size() - 1, acceleration, stroke.problems);
   }
   if (acceleration.axes.size() > 3)
     throw Error(out.tables.back().table.file + ": with it the acceleration has more than three axes");
-  check_acceleration(out.tables.front(), acceleration, stroke.problems);
+  check_stroke_acceleration(out.tables, acceleration, stroke.problems);
   stroke.axes = static_cast<int>(acceleration.axes.size());
   stroke.rate_Hz = acceleration.rate_Hz;
   CommonTime common(out.tables.front(), acceleration.axes.front());
   for (std::size_t i = 1; i < acceleration.axes.size(); ++i)
-    common.take(out.tables[std::min(i, out.tables.size() - 1)], acceleration.axes[i]);
+    common.take(out.tables[acceleration.table[i]], acceleration.axes[i]);
 
-  Path path;
+  StrokePath path;
   if (!files.pose.empty()) {
     ImportTable table = read_table(files.pose, FileRole::kPose,
                                    files.imu.empty() ? with_rate(mapping, FileRole::kPose, FileRole::kImu) : mapping);
     if (has_group(table.map, ColumnGroup::kPosition) || !files.imu.empty()) {
-      path = read_path(table, acceleration.start_ns, stroke.problems);
-      for (const Series& axis : path.axes) common.take(table, axis);
+      path = read_stroke_path(table, acceleration.start_ns, stroke.problems);
+      for (const StrokeSeries& axis : path.axes) common.take(table, axis);
       out.tables.push_back(std::move(table));
     }
   }
-  Series force;
+  StrokeSeries force;
   std::vector<std::filesystem::path> force_files{files.force};
   if (files.force.empty()) {
     force_files = {imu.front()};
@@ -275,7 +159,7 @@ StrokeReading read_stroke(const StrokeFiles& files, const MappingConfig& mapping
       if (files.force.empty()) continue;
       throw Error(table.table.file + ": no column is a force: name it, as f=NAME[N] or f=#1[gf]");
     }
-    force = read_force(table, acceleration.start_ns, stroke.problems);
+    force = read_stroke_force(table, acceleration.start_ns, stroke.problems);
     common.take(table, force);
     out.tables.push_back(std::move(table));
     break;
@@ -295,8 +179,10 @@ StrokeReading read_stroke(const StrokeFiles& files, const MappingConfig& mapping
     t_s.push_back(std::min(common.to(), common.from() + static_cast<double>(i) / stroke.rate_Hz));
   std::vector<std::vector<double>> axes;
   double mean_square = 0.0;
-  for (const Series& axis : acceleration.axes) {
+  std::vector<double> axis_rms_mps2;
+  for (const StrokeSeries& axis : acceleration.axes) {
     axes.push_back(series_values(axis, t_s));
+    axis_rms_mps2.push_back(rms(zero_phase_highpass(axes.back(), config.high_pass_Hz, stroke.rate_Hz)));
     double mean = 0.0;
     for (const double v : axes.back()) mean += v / static_cast<double>(samples);
     mean_square += mean * mean;
@@ -328,7 +214,7 @@ StrokeReading read_stroke(const StrokeFiles& files, const MappingConfig& mapping
       if (!known) stroke.problems.push_back(problem);
     }
   }
-  out.doubts = check_stroke(stroke, std::sqrt(mean_square), out.tables);
+  out.doubts = check_stroke(stroke, std::sqrt(mean_square), axis_rms_mps2, out.tables);
   return out;
 }
 

@@ -13,8 +13,8 @@
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
+#include "asperity/import/measure_stroke_evidence.h"
 #include "asperity/import/stroke_spectra.h"
-#include "asperity/import/stroke_windows.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/verdict/verdict_json.h"
 
@@ -59,8 +59,10 @@ Json evidence_json(const StrokeEvidence& e) {
           {"quiet_mps2", e.quiet_mps2},
           {"power_ratio", number_or_null(e.power_ratio)},
           {"power_ratio_sigma", number_or_null(e.power_ratio_sigma)},
+          {"power_ratio_chance", number_or_null(e.power_ratio_chance)},
           {"speed_exponent", number_or_null(e.speed_exponent)},
-          {"speed_exponent_sigma", number_or_null(e.speed_exponent_sigma)}};
+          {"speed_exponent_sigma", number_or_null(e.speed_exponent_sigma)},
+          {"speed_exponent_margin", number_or_null(e.speed_exponent_margin)}};
 }
 
 const char* known_by(const std::vector<double>& values, bool measured) {

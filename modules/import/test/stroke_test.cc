@@ -1,15 +1,17 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <map>
 #include <random>
+#include <utility>
 
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
 #include "asperity/base/output.h"
+#include "asperity/import/measure_stroke_evidence.h"
 #include "asperity/import/read_stroke.h"
 #include "asperity/import/stroke_file.h"
 #include "asperity/import/stroke_spectra.h"
-#include "asperity/import/stroke_windows.h"
 #include "asperity/testkit/made_stroke.h"
 #include "asperity/testkit/temp_dir.h"
 #include "join_axes.h"
@@ -164,6 +166,67 @@ TEST_F(StrokeImport, RefusesWhatIsNoStroke) {
   fails(constant, "never changes");
   fails(brief, "0.5 s at least");
   fails(words, "701");
+}
+
+// Rows between two times are left out of a table of times.
+std::string without(const std::string& table, double from_s, double to_s) {
+  std::string out;
+  for (std::size_t at = 0; at < table.size();) {
+    const std::size_t end = table.find('\n', at) + 1;
+    const std::string line = table.substr(at, end - at);
+    const double t = line[0] == 't' ? 0.0 : std::stod(line);
+    if (t <= from_s || t >= to_s) out += line;
+    at = end;
+  }
+  return out;
+}
+
+TEST_F(StrokeImport, RefusesAGapInAnyStream) {
+  const MadeStroke made;
+  MappingConfig mapping;
+  mapping.columns = kColumns;
+  const std::map<std::string, std::string> whole{{"a.csv", made.acceleration_table(2000.0, kG, true, true)},
+                                                 {"p.csv", made.position_table(100.0)},
+                                                 {"f.csv", made.force_table(2000.0, kGf)}};
+  for (const auto& [cut, what] :
+       {std::pair("a.csv", "gap of 0.5"), {"p.csv", "the positions"}, {"f.csv", "the force"}}) {
+    for (const auto& [name, table] : whole) write_file(dir_ / name, name == cut ? without(table, 2.0, 2.5) : table);
+    try {
+      read_stroke({{dir_ / "a.csv"}, dir_ / "p.csv", dir_ / "f.csv"}, mapping, {});
+      ADD_FAILURE() << cut;
+    } catch (const Error& error) {
+      EXPECT_THAT(error.what(), testing::AllOf(HasSubstr(cut), HasSubstr("a gap of 0.5"), HasSubstr(what)));
+    }
+  }
+}
+
+TEST_F(StrokeImport, ChecksEachAxisOfTheAcceleration) {
+  const MadeStroke made;
+  const auto axis = [&](double rate_Hz, double unit_mps2) {
+    return made.acceleration_table(rate_Hz, unit_mps2, true, false);
+  };
+  MappingConfig mapping;
+  mapping.columns = "t=#1[s], ax=#2[g]";
+  const auto read_two = [&](const std::string& second) {
+    write_file(dir_ / "x.csv", axis(2000.0, kG));
+    write_file(dir_ / "y.csv", second);
+    return read_stroke({{dir_ / "x.csv", dir_ / "y.csv"}, {}, {}}, mapping, {});
+  };
+  const auto refusal = [&](const std::string& second) -> std::string {
+    try {
+      read_two(second);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(read_two(axis(2000.0, kG)).doubts, IsEmpty());
+  EXPECT_THAT(refusal(axis(100.0, kG)), testing::AllOf(HasSubstr("y.csv: 100 samples"), HasSubstr("200 at least")));
+  EXPECT_THAT(refusal(axis(400.0, kG)), testing::AllOf(HasSubstr("y.csv"), HasSubstr("have one rate")));
+  EXPECT_THAT(refusal(without(axis(2000.0, kG), 2.0, 2.5)), testing::AllOf(HasSubstr("y.csv: a gap of 0.5")));
+  // In mg, read as g.
+  EXPECT_THAT(read_two(axis(2000.0, 1e-3 * kG)).doubts,
+              ElementsAre(testing::AllOf(HasSubstr("y.csv"), HasSubstr("is not that of a tool; if it is in mg"))));
 }
 
 TEST_F(StrokeImport, IsTheSameFromItsFolder) {

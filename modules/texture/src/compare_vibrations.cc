@@ -57,12 +57,19 @@ MeanSpectrum mean_spectrum(const std::vector<std::vector<double>>& pieces, doubl
 
 struct VibrationSide {
   MeanSpectrum all, noise;
+  double most_noise = 0.0;  // m²/s⁴ in any band
 
   explicit VibrationSide(const ComparedVibration& of) {
     if (of.pieces_mps2.empty()) throw Error("compare: a vibration without a piece");
     all = mean_spectrum(of.pieces_mps2, of.rate_Hz);
-    if (!of.noise_mps2.empty()) noise = mean_spectrum(of.noise_mps2, of.rate_Hz);
+    if (!of.noise_mps2.empty()) {
+      noise = mean_spectrum(of.noise_mps2, of.rate_Hz);
+    } else {
+      most_noise = of.most_noise_mps2 * of.most_noise_mps2;
+    }
   }
+  // The least that the power can be.
+  double least_power(double low_Hz, double high_Hz) const { return std::max(0.0, power(low_Hz, high_Hz) - most_noise); }
   double power(double low_Hz, double high_Hz) const {
     return std::max(0.0, all.power(low_Hz, high_Hz) - noise.power(low_Hz, high_Hz));
   }
@@ -77,12 +84,26 @@ struct VibrationSide {
   }
 };
 
+// The least and the most that b differs from a, percent of a, each between its least and its most.
+void bound_difference(const VibrationSide& a, const VibrationSide& b, VibrationBand& band) {
+  const double low_a = std::sqrt(a.least_power(band.low_Hz, band.high_Hz)), high_a = band.a_mps2;
+  const double low_b = std::sqrt(b.least_power(band.low_Hz, band.high_Hz)), high_b = band.b_mps2;
+  if (low_a == high_a && low_b == high_b) {
+    band.least_percent = band.most_percent = std::abs(band.percent);
+    return;
+  }
+  const bool may_be_equal = low_a <= high_b && low_b <= high_a;
+  const double below = 100.0 * (1.0 - high_b / low_a), above = 100.0 * (low_b / high_a - 1.0);
+  band.least_percent = may_be_equal ? 0.0 : std::max(below, above);
+  band.most_percent = low_a > 0.0 ? 100.0 * std::max(high_b / low_a - 1.0, 1.0 - low_b / high_a)
+                                  : std::numeric_limits<double>::infinity();
+}
+
 VibrationVerdict verdict_of(const VibrationBand& band) {
-  const double size = std::abs(band.percent);
   // What is nothing in both is the same.
   if (band.a_mps2 == band.b_mps2 && !std::isfinite(band.sigma_percent)) return VibrationVerdict::kUndetermined;
-  if (size - kSigmas * band.sigma_percent > band.jnd_percent) return VibrationVerdict::kNoticeable;
-  if (size + kSigmas * band.sigma_percent <= band.jnd_percent) return VibrationVerdict::kSame;
+  if (band.least_percent - kSigmas * band.sigma_percent > band.jnd_percent) return VibrationVerdict::kNoticeable;
+  if (band.most_percent + kSigmas * band.sigma_percent <= band.jnd_percent) return VibrationVerdict::kSame;
   return VibrationVerdict::kUndetermined;
 }
 
@@ -114,6 +135,7 @@ VibrationComparison compare_vibrations(const ComparedVibration& a, const Compare
     if (std::isnan(band.sigma_percent)) band.sigma_percent = std::numeric_limits<double>::infinity();
     band.jnd_percent = just_noticeable_percent(std::sqrt(from * to));
     band.is_compared = band.a_mps2 > config.least_part * out.a_mps2 || band.b_mps2 > config.least_part * out.b_mps2;
+    bound_difference(side_a, side_b, band);
     band.verdict = verdict_of(band);
     if (band.is_compared) {
       compared = true;

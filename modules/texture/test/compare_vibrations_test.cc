@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include "asperity/base/error.h"
 
@@ -56,6 +58,25 @@ TEST(CompareVibrations, TakesOffTheNoiseThatIsKnown) {
   const VibrationComparison c = compare_vibrations(vibration(1.0, 1.0, 2000, 1, 2000), vibration(1.0, 0.0, 2000, 2));
   EXPECT_NEAR(c.a_mps2, std::sqrt(0.5), 0.02);
   EXPECT_NEAR(c.b_mps2, std::sqrt(0.5), 1e-3);
+}
+
+// A recording whose noise is not known may have any part of its power from it: it can be shown to be weaker than
+// another vibration, never to be the same or stronger.
+TEST(CompareVibrations, IsUndeterminedWhereAnUnknownNoiseCouldBeTheDifference) {
+  ComparedVibration unknown = vibration(1.0, 0.3, 2000, 1);
+  unknown.most_noise_mps2 = std::numeric_limits<double>::infinity();
+  const ComparedVibration clean = vibration(1.0, 0.0, 2000, 2), strong = vibration(4.0, 0.0, 2000, 3);
+  using Pair = std::pair<const ComparedVibration*, const ComparedVibration*>;
+  for (const auto& [a, b] : {Pair(&unknown, &clean), Pair(&clean, &unknown), Pair(&unknown, &unknown)})
+    EXPECT_EQ(compare_vibrations(*a, *b).verdict, VibrationVerdict::kUndetermined);
+  EXPECT_EQ(compare_vibrations(unknown, strong).verdict, VibrationVerdict::kNoticeable);
+  EXPECT_EQ(compare_vibrations(strong, unknown).verdict, VibrationVerdict::kNoticeable);
+  // Stated: what is left of the power is at least 0.5 − 0.3² (m/s²)².
+  unknown.most_noise_mps2 = 0.3;
+  EXPECT_EQ(compare_vibrations(unknown, vibration(0.5, 0.0, 2000, 4)).verdict, VibrationVerdict::kNoticeable);
+  const VibrationComparison c = compare_vibrations(clean, unknown);
+  ASSERT_EQ(c.bands[2].low_Hz, 80.0);
+  EXPECT_NEAR(c.bands[2].most_percent, 100.0 * (1.0 - std::sqrt(0.5 + 0.09 * 0.08 - 0.09) / std::sqrt(0.5)), 0.5);
 }
 
 TEST(CompareVibrations, ThrowsForWhatHasNoSpectrum) {

@@ -12,7 +12,7 @@ namespace asperity {
 
 namespace {
 
-constexpr double kShortest_s = 0.25, kStrokeSigmas = 3.0;
+constexpr double kShortest_s = 0.25;
 constexpr double kShortestFree_s = 0.05;  // that the zero of the force is seen
 constexpr double kLeastRatio = 1.2, kLeastRatioOfQuietest = 4.0, kWeakRatio = 2.0;
 constexpr double kLeastExponent = 0.3;
@@ -23,6 +23,8 @@ const char* quiet_name(StrokeQuiet quiet) {
       return "at rest";
     case StrokeQuiet::kAir:
       return "without contact";
+    case StrokeQuiet::kAirMotion:
+      return "in motion without contact";
     case StrokeQuiet::kQuietest:
       return "of its quietest part";
     case StrokeQuiet::kStated:
@@ -35,15 +37,20 @@ const char* quiet_name(StrokeQuiet quiet) {
 
 // Whether the acceleration is of the stroke, by its power in motion beside that in quiet.
 void judge_power(const StrokeEvidence& e, Verdicts& out) {
-  const std::string found = fmt::format("above 40 Hz its power is {:.3g} ± {:.2g} times that {}", e.power_ratio,
-                                        e.power_ratio_sigma, quiet_name(e.quiet));
+  const std::string found = fmt::format(
+      "above 40 Hz its power is {:.3g} ± {:.2g} times that {}, which noise alone has with a chance of {:.1g}",
+      e.power_ratio, e.power_ratio_sigma, quiet_name(e.quiet), e.power_ratio_chance);
+  const bool by_chance = !(e.power_ratio_chance <= kStrokeFalseAlarm);
   if (e.quiet == StrokeQuiet::kQuietest) {
-    if (e.power_ratio < kLeastRatioOfQuietest) {
+    if (by_chance || e.power_ratio < kLeastRatioOfQuietest) {
       out.push_back(make_verdict("contact_undetermined",
                                  "without positions and force, vibration and noise cannot be told apart: " + found));
     }
-  } else if (e.power_ratio < std::max(kLeastRatio, 1.0 + kStrokeSigmas * e.power_ratio_sigma)) {
+  } else if (by_chance || e.power_ratio < kLeastRatio) {
     out.push_back(make_verdict("vibration_is_noise", "the acceleration is not of the stroke: " + found));
+  } else if (e.power_ratio < kWeakRatio && !e.has_force) {
+    out.push_back(make_verdict("contact_undetermined",
+                               "without a force, so weak a vibration may be the hand's own motion: " + found));
   } else if (e.power_ratio < kWeakRatio) {
     out.push_back(make_verdict("vibration_weak", "more than half of the acceleration is noise: " + found));
   }
@@ -51,7 +58,7 @@ void judge_power(const StrokeEvidence& e, Verdicts& out) {
 
 // The same where nothing is quiet: vibration grows with the speed, noise does not.
 void judge_growth(const StrokeEvidence& e, Verdicts& out) {
-  const double slack = kStrokeSigmas * e.speed_exponent_sigma;
+  const double slack = e.speed_exponent_margin;
   if (!std::isfinite(e.speed_exponent)) {
     out.push_back(make_verdict("contact_undetermined",
                                "no part of the recording is quiet: vibration and noise cannot be told apart"));
@@ -61,7 +68,7 @@ void judge_growth(const StrokeEvidence& e, Verdicts& out) {
                                         e.speed_exponent, e.speed_exponent_sigma);
   if (e.speed_exponent + slack < kLeastExponent) {
     out.push_back(make_verdict("vibration_is_noise", "the acceleration is not of the stroke: " + found));
-  } else if (e.speed_exponent - slack < kLeastExponent) {
+  } else if (!(e.speed_exponent - slack >= kLeastExponent)) {
     out.push_back(make_verdict("contact_undetermined", "vibration and noise cannot be told apart: " + found));
   }
 }
@@ -73,9 +80,9 @@ Verdicts judge_stroke(const StrokeEvidence& e) {
   const bool touches = !e.has_force || e.contact_s >= kShortest_s;
   const bool moves = !e.has_speed || e.moving_s >= kShortest_s;
   if (!touches) {
-    out.push_back(make_verdict("nothing_touched", fmt::format("the force is {:g} N or more for {:.2g} s only; the "
-                                                              "largest is {:.3g} N",
-                                                              e.contact_N, e.contact_s, e.largest_force_N)));
+    out.push_back(make_verdict(
+        "nothing_touched", fmt::format("the force is never {:g} N or more for {:g} s on end; the largest is {:.3g} N",
+                                       e.contact_N, kShortest_s, e.largest_force_N)));
   } else if (!moves) {
     out.push_back(make_verdict(
         "not_moved", fmt::format("the tip is faster than 10 mm/s {}for {:.2g} s only; the largest speed is {:.3g} mm/s",

@@ -21,6 +21,7 @@ StrokeEvidence good() {
   out.quiet = StrokeQuiet::kRest;
   out.power_ratio = 10.0;
   out.power_ratio_sigma = 0.5;
+  out.power_ratio_chance = 1e-6;
   return out;
 }
 
@@ -45,14 +46,23 @@ TEST(JudgeStroke, NeedsPowerAboveTheQuiet) {
   StrokeEvidence e = good();
   e.power_ratio = 1.19;
   EXPECT_EQ(codes(e), Codes{"vibration_is_noise"});
-  e.power_ratio = 2.4;  // 2.8 standard errors
+  e.power_ratio = 2.4;
+  e.power_ratio_chance = 1.1 * kStrokeFalseAlarm;
   EXPECT_EQ(codes(e), Codes{"vibration_is_noise"});
+  e.power_ratio_chance = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(codes(e), Codes{"vibration_is_noise"});
+  e.power_ratio_chance = 0.9 * kStrokeFalseAlarm;
+  EXPECT_EQ(codes(e), Codes{});
   e.power_ratio = 1.9;
-  e.power_ratio_sigma = 0.1;
   EXPECT_EQ(codes(e), Codes{"vibration_weak"});
-  e.has_speed = e.has_force = false;
+  e.has_force = false;  // BROAD's waves in the air have 1.21 and 1.25
+  EXPECT_EQ(codes(e), (Codes{"contact_undetermined", "contact_unknown"}));
+  e.has_speed = false;
   e.quiet = StrokeQuiet::kQuietest;
   e.power_ratio = 3.9;
+  EXPECT_EQ(codes(e), (Codes{"contact_undetermined", "contact_unknown", "lengths_undetermined"}));
+  e.power_ratio = 40.0;
+  e.power_ratio_chance = 0.01;
   EXPECT_EQ(codes(e), (Codes{"contact_undetermined", "contact_unknown", "lengths_undetermined"}));
 }
 
@@ -62,12 +72,12 @@ TEST(JudgeStroke, WithoutQuietNeedsPowerThatGrowsWithTheSpeed) {
   e.power_ratio = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(codes(e), Codes{"contact_undetermined"});
   e.speed_exponent = 2.0;
-  e.speed_exponent_sigma = 0.3;
+  e.speed_exponent_margin = 1.0;
   EXPECT_EQ(codes(e), Codes{});
   e.speed_exponent = 1.0;
   EXPECT_EQ(codes(e), Codes{"contact_undetermined"});
   e.speed_exponent = 0.0;
-  e.speed_exponent_sigma = 0.05;
+  e.speed_exponent_margin = 0.2;
   EXPECT_EQ(codes(e), Codes{"vibration_is_noise"});
 }
 

@@ -55,16 +55,19 @@ struct StrokeReading {
 //    and force are put on the same times by straight lines.
 // 3. The time that all series have is kept: half a second at least.
 //
-// Throws Error naming the file where one cannot be read, the acceleration's rate is below 200 Hz, it has a gap of more
-// than ten intervals, more than one time in a hundred is there twice (too coarse a clock), it never changes, and where
-// times do not overlap.
+// Throws Error naming the file where one cannot be read, the rate of an axis is below 200 Hz or differs from the first
+// one's by more than a hundredth, an axis, the positions or the force have a gap of more than ten intervals, more than
+// one time in a hundred is there twice (too coarse a clock), the acceleration never changes, and where times do not
+// overlap.
 StrokeReading read_stroke(const StrokeFiles& files, const MappingConfig& mapping, const StrokeImportConfig& config);
 
-// What cannot be right about the units: the mean of three axes that is gravity in another unit, an RMS that no tool has
-// (below 1e-4 or above 500 m/s²), a speed above 5 m/s, a force above 100 N, values that fit a thousand times larger.
-// `acceleration_mean_mps2` is the length of the axes' mean before the high-pass.
+// What cannot be right about the units: the mean of three axes that is gravity in another unit, an axis whose unit is a
+// guess without gravity to judge by, an axis with an RMS that no tool has (below 1e-4 or above 500 m/s²; one that never
+// changes is left out), a speed above 5 m/s, a force above 100 N, values that fit a thousand times larger.
+// `acceleration_mean_mps2` is the length of the axes' mean before the high-pass, `axis_rms_mps2` each one's RMS behind
+// it, in the order of the tables and of ax, ay, az in them.
 std::vector<std::string> check_stroke(const Stroke& stroke, double acceleration_mean_mps2,
-                                      const std::vector<ImportTable>& tables);
+                                      const std::vector<double>& axis_rms_mps2, const std::vector<ImportTable>& tables);
 
 // Files, columns and rates, as a stroke's folder keeps them.
 std::vector<StrokeOrigin> stroke_origins(const std::vector<ImportTable>& tables);

@@ -16,7 +16,7 @@ VibrationSpectrum vibration_spectrum(const Stroke& stroke);
 struct StrokeHeightBand {
   double low_cycles_per_mm = 0.0, high_cycles_per_mm = 0.0;
   double rms_m = 0.0;        // noise taken off
-  double rms_sigma_m = 0.0;  // its standard error, by the windows' scatter; nan of fewer than two
+  double rms_sigma_m = 0.0;  // its standard error, by the windows' scatter and the quiet's; nan of fewer than two
   double noise_rms_m = 0.0;  // what noise alone would make; 0 if it is not known
   std::size_t windows = 0;   // in which the octave was within the recording's band
 };

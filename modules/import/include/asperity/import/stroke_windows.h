@@ -17,17 +17,22 @@ struct StrokeWindows {
   StrokeQuiet quiet_is = StrokeQuiet::kNone;
 };
 
-// Active: faster than 10 mm/s where the speed is measured, and at least the stroke's contact_N where the force is; all
-// windows if neither is. Quiet: slower than 2 mm/s and 0.1 s away from any motion; without a quarter of a second of
-// that, below half of contact_N and 0.1 s away from any contact; if neither speed nor force is measured, the tenth of
-// the windows with the least power, a quarter of a second at least, and the louder half is active.
-StrokeWindows find_stroke_windows(const Stroke& stroke, std::span<const double> acceleration_mps2, double window_s);
+// The samples at which the tip touches: the force's mean over 50 ms is at least the stroke's contact_N for 0.25 s on
+// end, which the inertia and the weight of a tip that a hand shakes in the air do not reach. All samples without a
+// force.
+std::vector<char> contact_samples(const Stroke& stroke);
 
-// What shows that a stroke is of a surface (judge_stroke): the powers above 40 Hz of windows of 50 ms, 64 samples at
-// least. The powers' means have the standard errors that the windows' scatter gives, their ratio's follows by
-// propagation. The exponent of the speed is a straight line through the logarithms of power and speed (above 2 mm/s, in
-// contact where that is known), its standard error from the residuals, by √2 larger since windows side by side are
-// alike. Limits: a motor, or a hand that shakes only while it moves, is a texture to it.
-StrokeEvidence measure_stroke_evidence(const Stroke& stroke);
+// Those in contact and, where the speed is measured, faster than `speed_mps`.
+std::vector<char> active_samples(const Stroke& stroke, double speed_mps);
+
+// The first samples of whole windows in which all samples are marked.
+std::vector<std::size_t> marked_windows(const std::vector<char>& marked, std::size_t length);
+
+// Active: faster than 10 mm/s where the speed is measured, and in contact where the force is; all windows if neither
+// is. Quiet, what there is a quarter of a second of, in this order: faster than 10 mm/s, with a force below half of
+// contact_N and 0.05 s away from any other (the same hand, without the surface); slower than 2 mm/s and 0.1 s away from
+// any motion; below that force at any speed. If neither speed nor force is measured, the tenth of the windows with the
+// least power, a quarter of a second at least, and the louder half is active.
+StrokeWindows find_stroke_windows(const Stroke& stroke, std::span<const double> acceleration_mps2, double window_s);
 
 }  // namespace asperity

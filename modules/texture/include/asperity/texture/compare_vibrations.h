@@ -24,14 +24,19 @@ struct ComparedVibration {
   std::vector<std::vector<double>> pieces_mps2;
   std::vector<std::vector<double>> noise_mps2;  // taken off; empty: none is known
   double rate_Hz = 0.0;
+  // Of a vibration without noise pieces: the most that its noise can be, RMS in any band. 0: it has none, as what is
+  // rendered; infinite: not known.
+  double most_noise_mps2 = 0.0;
 };
 
 enum class VibrationVerdict { kSame, kNoticeable, kUndetermined };
 
 struct VibrationBand {
   double low_Hz = 0.0, high_Hz = 0.0;
-  double a_mps2 = 0.0, b_mps2 = 0.0;  // RMS, noise taken off
+  double a_mps2 = 0.0, b_mps2 = 0.0;  // RMS, noise taken off where it is known
   double percent = 0.0;               // 100 (b − a) / a; infinite if only a is zero
+  double least_percent = 0.0;         // its size if the noise that is not known is the one that makes it least
+  double most_percent = 0.0;          // and most; infinite if a may be zero
   double sigma_percent = 0.0;         // standard deviation that the pieces' number leaves
   double jnd_percent = 0.0;           // noticeable from here on
   bool is_compared = true;            // false: too weak in both to matter
@@ -48,10 +53,10 @@ struct VibrationComparison {
 
 // What a hand would notice between two vibrations, by octaves of frequency from the means of the pieces' periodograms
 // (Hann), against just_noticeable_percent (compare_textures.h). A band is noticeable, or the same, only if that holds
-// two standard deviations to either side, else it is undetermined. The power of a band has the relative standard
-// deviation √(2/n), n the number of independent bins in all pieces (half of them, by the window) times the noise's
-// share. Throws Error for a vibration without pieces, pieces of unequal length or fewer than 16 samples, and a band
-// without width.
+// two standard deviations to either side, and for every noise that a side may have, else it is undetermined. The power
+// of a band has the relative standard deviation √(2/n), n the number of independent bins in all pieces (half of them,
+// by the window) times the noise's share. Throws Error for a vibration without pieces, pieces of unequal length or
+// fewer than 16 samples, and a band without width.
 VibrationComparison compare_vibrations(const ComparedVibration& a, const ComparedVibration& b,
                                        const CompareVibrationsConfig& config = {});
 
