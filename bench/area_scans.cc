@@ -205,6 +205,7 @@ void run_seed(const Options& options, int seed) {
   for (std::size_t k = 0; k < over_patch; ++k) {
     const asperity::RegisteredScan& scan = registered.scans[k];
     if (scan.path.size() < 2 || scan.process.profile.size() < 2) continue;
+    if (!asperity::is_trustworthy(scan.process.verdicts)) continue;
     strokes.push_back({scan.name, scan.path, scan.process.profile});
     const PlaceError error = correct_places(scan, *scans[k].recording, pebble, options.positions, strokes.back().path);
     constant_mm.push_back(1e3 * error.mean_m.norm());
@@ -212,13 +213,17 @@ void run_seed(const Options& options, int seed) {
   }
   asperity::AreaConfig area_config;
   area_config.map.shift_mm = options.shift_mm;
-  const asperity::AreaResult area = asperity::make_area(mesh, strokes, registered.trustworthy, area_config);
+  // As `asperity area` judges it: what is invalid in a scan alone leaves that scan out.
+  bool held = true;
+  for (const asperity::Placement& placement : registered.placements)
+    held = held && asperity::is_trustworthy(placement.verdicts);
+  const asperity::AreaResult area = asperity::make_area(mesh, strokes, held, area_config);
   const std::clock_t mapped = std::clock();
   const auto seconds = [](std::clock_t from, std::clock_t to) {
     return static_cast<double>(to - from) / CLOCKS_PER_SEC;
   };
   const asperity::StrokeMap& map = area.map;
-  std::printf("| %d | %d | %zu | %.3f | %.3f | %.2f ± %.2f | %.2f | ", seed, 2 * options.lanes,
+  std::printf("| %d | %d | %zu | %.3f | %.3f | %.2f ± %.2f | %.2f | ", seed, static_cast<int>(strokes.size()),
               registered.placements.size(), constant_mm.empty() ? 0.0 : asperity::median(constant_mm),
               about_mm.empty() ? 0.0 : asperity::median(about_mm), map.agreement, map.agreement_sigma, area.covered);
   if (map.texture.supported.empty() || area.triangle.empty()) {
