@@ -271,7 +271,8 @@ void write_csv(const std::filesystem::path& path, const std::vector<ScanOutcome>
   out.precision(10);
   out << "seed,family,probe,trusted,failed,nothing,correlation,position_over_sigma,height_over_sigma,texture_over_"
          "sigma,"
-         "position_rms_m,texture_error_m,texture_rms_m,noise_rms_m,snr,snr_low,process_s,codes,conditions,figure,value,low,"
+         "position_rms_m,texture_error_m,texture_rms_m,noise_rms_m,snr,snr_low,process_s,codes,conditions,figure,value,"
+         "low,"
          "high,truth,"
          "oracle_sigma,told_sigma\n";
   for (const ScanOutcome& s : scans) {
