@@ -159,6 +159,58 @@ void print_arcs(int patterns) {
   }
 }
 
+// Holes on a square lattice under arcs of 80 mm, 8 mm high, and isotropic reliefs under arcs of 2 to 12 mm.
+void print_lattices(int profiles, int patterns) {
+  constexpr double kLength_mm = 80.0, kSagitta_mm = 8.0;
+  const auto points = static_cast<std::size_t>(kLength_mm / kSpacing_mm);
+  std::printf("\n| isotropic relief, on arcs of 2 to 12 mm | profiles | periodic | %% |\n|---|---|---|---|\n");
+  for (const double width : {0.05, 0.2, 1.0}) {
+    int found = 0;
+    for (int k = 0; k < profiles; ++k) {
+      Random random(static_cast<std::uint64_t>(k), 79);
+      const double length_mm = bench::log_uniform(random, 40.0, 140.0);
+      const std::vector<Eigen::Vector2d> path_m =
+          bench::draw_arc(random.uniform(2.0, 12.0), static_cast<std::size_t>(length_mm / kSpacing_mm));
+      found += find(bench::draw_relief(width, path_m, random), 0.02 * kRq_m, random, path_m).periodic ? 1 : 0;
+    }
+    std::printf("| waves within %g %% of a frequency | %d | %d | %.2f |\n", 100.0 * width, profiles, found,
+                100.0 * found / profiles);
+    std::fflush(stdout);
+  }
+  const std::vector<double> signals{80.0, 160.0, 320.0, 640.0, 1e4};
+  std::printf("\n| lattice on an arc | periods |");
+  for (const double signal : signals) std::printf(" %g |", signal);
+  std::printf(" period over its σ, RMS |\n|---|---|---|---|---|---|---|---|\n");
+  const std::vector<Eigen::Vector2d> path_m = bench::draw_arc(kSagitta_mm, points);
+  for (const double turned_deg : {0.0, 10.0, 25.0, 45.0}) {
+    for (const double periods : {15.0, 30.0, 60.0}) {
+      std::printf("| turned %g° | %g |", turned_deg, periods);
+      double square = 0.0, count = 0.0;
+      for (const double signal : signals) {
+        int right = 0;
+        for (int k = 0; k < patterns; ++k) {
+          Random random(static_cast<std::uint64_t>(k), 80);
+          const double pitch_mm = kLength_mm / periods * random.uniform(0.98, 1.02);
+          const std::vector<double> height_m =
+              bench::draw_holes(1e-3 * pitch_mm, turned_deg * kTwoPi / 360.0, path_m, random);
+          const double noise_m = kRq_m * std::sqrt(0.5 * static_cast<double>(points) / signal);
+          const asperity::Periodicity p = find(height_m, noise_m, random, path_m);
+          // Without the path, as by its rows of holes.
+          const double found_mm = 1e3 * (std::isfinite(p.across_pitch_m) ? p.across_pitch_m : p.pitch_m);
+          const bool is_right = p.periodic && std::abs(found_mm / pitch_mm - 1.0) < 0.05;
+          right += is_right ? 1 : 0;
+          if (!is_right || !std::isfinite(p.across_pitch_m)) continue;
+          square += std::pow((1e3 * p.across_pitch_m - pitch_mm) / (1e3 * p.across_pitch_stderr_m), 2.0);
+          count += 1.0;
+        }
+        std::printf(" %.0f |", 100.0 * right / patterns);
+      }
+      count > 0.0 ? std::printf(" %.2f |\n", std::sqrt(square / count)) : std::printf(" – |\n");
+      std::fflush(stdout);
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -172,6 +224,7 @@ int main(int argc, char** argv) {
          {"--paths", [&](auto value) { arcs = bench::is_first(value, "arcs", "straight"); }}});
     print_false_alarms(profiles, arcs);
     arcs ? print_arcs(patterns) : print_patterns(patterns);
+    if (arcs) print_lattices(profiles, patterns);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "periodicity: %s\n", error.what());

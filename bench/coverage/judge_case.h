@@ -41,8 +41,8 @@ struct ScanOutcome {
   double position_rms_m = kMissing, texture_error_m = kMissing, texture_rms_m = kMissing;  // RMS of error, and true
   std::array<double, kBands> error_m{}, said_m{}, surface_m{};  // RMS in each band: actual error, said noise, truth
   double process_s = 0.0;
-  double noise_rms_m = kMissing, snr = kMissing;  // what the product says of the texture
-  std::string codes;                              // of its verdicts but notes, "invalid:… limited:…"
+  double noise_rms_m = kMissing, snr = kMissing, snr_low = kMissing;  // what the product says of the texture
+  std::string codes;  // of its verdicts but notes, "invalid:… limited:…"
   std::vector<FigureOutcome> figures;
 };
 

@@ -190,4 +190,30 @@ std::vector<Eigen::Vector2d> draw_arc(double sagitta_mm, std::size_t points) {
   return out;
 }
 
+std::vector<double> draw_relief(double width, const std::vector<Eigen::Vector2d>& path_m, Random& random) {
+  constexpr int kReliefWaves = 300;
+  const double middle_per_m = 1e3 * log_uniform(random, 0.4, 2.0);
+  std::vector<double> out(path_m.size(), 0.0);
+  for (int w = 0; w < kReliefWaves; ++w) {
+    const double per_m = middle_per_m * std::exp(width * random.uniform(-1.0, 1.0));
+    const double way = kTwoPi * random.uniform(), phase = kTwoPi * random.uniform();
+    const Eigen::Vector2d g(per_m * std::cos(way), per_m * std::sin(way));
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] += std::cos(kTwoPi * g.dot(path_m[i]) + phase);
+  }
+  return scaled(std::move(out), kProfileRq_m);
+}
+
+std::vector<double> draw_holes(double pitch_m, double turned_rad, const std::vector<Eigen::Vector2d>& path_m,
+                               Random& random) {
+  const double c = std::cos(turned_rad), s = std::sin(turned_rad);
+  const double along_m = pitch_m * random.uniform(), across_m = pitch_m * random.uniform();
+  std::vector<double> out;
+  for (const Eigen::Vector2d& p_m : path_m) {
+    const double x_m = c * p_m.x() + s * p_m.y() + along_m, y_m = c * p_m.y() - s * p_m.x() + across_m;
+    const double r = std::hypot(std::remainder(x_m, pitch_m), std::remainder(y_m, pitch_m)) / (0.3 * pitch_m);
+    out.push_back(r < 1.0 ? r * r - 1.0 : 0.0);
+  }
+  return scaled(std::move(out), kProfileRq_m);
+}
+
 }  // namespace bench

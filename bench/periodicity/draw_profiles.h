@@ -37,4 +37,12 @@ std::vector<double> draw_pattern(const std::string& shape, double pitch_mm, doub
 // An arc of a circle of this height over its chord, points at kProfileSpacing_mm along it, m.
 std::vector<Eigen::Vector2d> draw_arc(double sagitta_mm, std::size_t points);
 
+// Heights over a path (m) of an isotropic relief: 300 plane waves in random directions, their frequencies within a
+// relative width of one.
+std::vector<double> draw_relief(double width, const std::vector<Eigen::Vector2d>& path_m, asperity::Random& random);
+
+// Heights over a path (m) of round holes of 0.6 of a pitch on a square lattice that is turned from the path's chord.
+std::vector<double> draw_holes(double pitch_m, double turned_rad, const std::vector<Eigen::Vector2d>& path_m,
+                               asperity::Random& random);
+
 }  // namespace bench

@@ -25,6 +25,10 @@ class BentPath {
   // RMS of what bends, about its straight line, m.
   double bend_rms_m() const { return bend_rms_m_; }
 
+  // The path's end from its beginning, and its points to the left of that line, m.
+  double chord_m() const { return x_m_.empty() ? 0.0 : x_m_.back() - x_m_.front(); }
+  const std::vector<double>& left_m() const { return y_m_; }
+
   // Whether ribs of this direction are crossed one way only, nowhere at less than 0.3 of their mean rate.
   bool crosses(double tangent) const;
 

@@ -3,21 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
 #include "asperity/profile/apply_wiener_filter.h"
-#include "asperity/signal/statistics.h"
 #include "bent_path.h"
-#include "draw_noise.h"
+#include "find_lattice.h"
 #include "find_rib_directions.h"
 #include "follow_pattern.h"
 #include "line_search.h"
-#include "period_depths.h"
-#include "root_of_power.h"
+#include "measure_depth_under_noise.h"
 
 namespace asperity {
 
@@ -27,32 +25,8 @@ constexpr double kNoiseBridge_m = 2e-3;  // gaps across which noise is taken out
 constexpr double kSurely = 1.96;
 constexpr int kHarmonicsSeen = 8;
 constexpr std::size_t kFewestPeriods = 3;
+constexpr double kThird = 1.0 / 3.0;
 constexpr double kMultipleReach = 0.06;  // the same of a multiple in noise
-constexpr std::size_t kDepthDraws = 16;
-constexpr std::uint64_t kDepthSeed = 20'260'102;
-
-// The standard error of the median over the periods, as far as unlike periods show it.
-double depth_scatter_m(std::span<const double> height_m, double period) {
-  const std::vector<double> depths = period_depths(height_m, period);
-  if (depths.empty()) return kNan;
-  return std::sqrt(0.5 * std::numbers::pi / static_cast<double>(depths.size())) * kSigmaPerMad *
-         median_absolute_deviation(depths);
-}
-
-double usual_depth_m(std::span<const double> height_m, double period) {
-  const std::vector<double> depths = period_depths(height_m, period);
-  return depths.empty() ? kNan : median(depths);
-}
-
-double root_mean_square(std::span<const double> x) {
-  double sum = 0.0, count = 0.0;
-  for (const double v : x) {
-    if (!std::isfinite(v)) continue;
-    sum += v * v;
-    count += 1.0;
-  }
-  return count > 0.0 ? std::sqrt(sum / count) : kNan;
-}
 
 // By how much the pitch is too long: 2 to 8 if none but every so many of its harmonics are lines; 1 if it is right,
 // 0 if there is no line at all.
@@ -121,40 +95,24 @@ Periodicity find_along(std::span<const double> height_m, double spacing_m, const
     out.pitch_stderr_m = out.depth_stderr_m = kNan;
     return out;
   }
-  out.depth_m = usual_depth_m(height_m, out.pitch_m / spacing_m);
   out.pitch_stderr_m = std::hypot(out.pitch_stderr_m, noise.along_sigma * out.pitch_m);
-  if (!std::isfinite(out.depth_m)) return out;
+  measure_depth_under_noise(height_m, spacing_m, noise, out);
+  return out;
+}
 
-  const double period = out.pitch_m / spacing_m;
-  Random random(kDepthSeed);
-  std::vector<double> heavier(height_m.size());
-  std::array<std::vector<double>, 2> squares;
-  for (std::size_t j = 0; j < kDepthDraws; ++j) {
-    const std::vector<double> more =
-        draw_noise(noise.frequency_cycles_per_mm, noise.added_psd_m2_mm, height_m.size(), 1e3 * spacing_m, random);
-    for (std::size_t power = 1; power <= 2; ++power) {
-      const double factor = std::sqrt(static_cast<double>(power));
-      for (std::size_t i = 0; i < heavier.size(); ++i) heavier[i] = height_m[i] + factor * more[i];
-      const double depth_m = usual_depth_m(heavier, period);
-      if (!std::isfinite(depth_m)) return out;
-      squares[power - 1].push_back(depth_m * depth_m);
-    }
-  }
-  const double before_m = out.depth_m;
-  const double none = before_m * before_m, with = mean(squares[0]), twice = mean(squares[1]);
-  const double parabola = 3.0 * none - 3.0 * with + twice;
-  const double relative = 2.0 * noise.added_rms_stderr_m / noise.added_rms_m;
-  // Of what noise adds to extremes the extrapolation finds about half: its curve is steepest where it cannot look.
-  const double doubt_m2 = 0.5 * (parabola - none);
-  // The draws know the noise that was found; what else there is, restored peaks and impacts, shows between the periods.
-  const double scatter_m = depth_scatter_m(height_m, period);
-  const double spread_m2 = std::max(standard_deviation(squares[0]), 2.0 * before_m * scatter_m);
-  const double height =
-      std::hypot(noise.scale_sigma, noise.contact_rms_m / std::numbers::sqrt3 / root_mean_square(height_m));
-  const Root depth = root_of_power(parabola, std::hypot(std::hypot(spread_m2, doubt_m2),
-                                                        std::hypot(relative * (parabola - none), 2.0 * height * none)));
-  out.depth_m = depth.value;
-  out.depth_stderr_m = depth.standard_error;
+// A lattice's pitch along the path is the mean distance of the rows of its first wave.
+Periodicity follow_lattice(const BentPath& path, const Lattice& lattice, std::span<const double> height_m,
+                           double spacing_m, const TextureNoise& noise, const PeriodicityConfig& config) {
+  const double tangent = lattice.wave_per_m.y() / lattice.wave_per_m.x();
+  const double across_m = 1.0 / lattice.wave_per_m.norm(), pitch_m = across_m / path.across_over_along(tangent);
+  Periodicity out = follow_pattern(path.straightened(height_m, tangent), spacing_m, pitch_m, config);
+  out.periodic = out.periods >= kFewestPeriods;
+  out.pitch_m = pitch_m;
+  const double relative = std::hypot(lattice.relative_sigma, noise.along_sigma);
+  out.across_pitch_m = across_m;
+  out.across_pitch_stderr_m = relative * across_m;
+  out.pitch_stderr_m = std::hypot(relative, path.spread_of_period(tangent)) * pitch_m;
+  measure_depth_under_noise(height_m, spacing_m, noise, out);
   return out;
 }
 
@@ -174,14 +132,13 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
   const BentPath path(unrolled_m, spacing_m);
   if (!path.bends()) return find_along(height_m, spacing_m, noise, config, {});
 
-  // Each of the two searches has half of the chance.
-  constexpr double kHalf = 0.5;
-  const Periodicity along = find_along(height_m, spacing_m, noise, config, {kHalf, 0.0});
+  // Each of the three searches has a third of the chance.
+  const Periodicity along = find_along(height_m, spacing_m, noise, config, {kThird, 0.0});
   if (along.periodic) return along;
   const RibDirections ribs = find_rib_directions(path, height_m, spacing_m, noise, config);
   for (const RibDirection& rib : ribs.best) {
     Periodicity out = find_along(path.straightened(height_m, rib.tangent), spacing_m, noise, config,
-                                 {kHalf, ribs.range * path.bend_rms_m()});
+                                 {kThird, ribs.range * path.bend_rms_m()});
     if (!out.periodic) continue;
     out.across_pitch_m = path.across_over_along(rib.tangent) * out.pitch_m;
     out.across_pitch_stderr_m = out.across_pitch_m * std::hypot(out.pitch_stderr_m / out.pitch_m,
@@ -189,7 +146,9 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
     out.pitch_stderr_m = std::hypot(out.pitch_stderr_m, path.spread_of_period(rib.tangent) * out.pitch_m);
     return out;
   }
-  return along;
+  const std::optional<Lattice> lattice =
+      find_lattice(path, height_m, spacing_m, noise, highest_noise(noise), config, kThird * LineSearch::kByChance);
+  return lattice ? follow_lattice(path, *lattice, height_m, spacing_m, noise, config) : along;
 }
 
 }  // namespace asperity

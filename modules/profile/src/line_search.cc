@@ -15,7 +15,6 @@ namespace asperity {
 namespace {
 
 constexpr std::size_t kLinePadding = 4;  // bins to an independent frequency
-constexpr double kLineByChance = 0.01;   // of finding a line in a random surface, or in noise
 constexpr int kHarmonicsAsked = 8;
 constexpr double kPitchReach = 0.02;        // relative: as far as a first pitch may be off
 constexpr double kLeastShare = 1.0 / 32.0;  // of the surface's power in a pattern's strongest line
@@ -77,7 +76,7 @@ LineSearch::LineSearch(std::span<const double> height_m, double spacing_m, std::
 bool LineSearch::is_rare(double rarity, double trials) const {
   const double directions = 1.0 + std::sqrt(4.0 * std::numbers::pi * std::max(1.0, rarity)) * cycles_by_range_;
   return rarity >
-         std::log(trials * directions / (hypotheses_.share * kLineByChance)) + 0.5 * std::log(std::max(1.0, rarity));
+         std::log(trials * directions / (hypotheses_.share * kByChance)) + 0.5 * std::log(std::max(1.0, rarity));
 }
 
 double LineSearch::power_at(std::span<const double> heights_m, double cycles) const {
@@ -198,7 +197,7 @@ double LineSearch::find_line_m(double shortest_m, double longest_m) const {
 }
 
 bool LineSearch::is_local_line(std::size_t bin, double near_trials) const {
-  if (!(power_[bin] > std::log(searched_ * near_trials / kLineByChance) * noise_[bin])) return false;
+  if (!(power_[bin] > std::log(searched_ * near_trials / kByChance) * noise_[bin])) return false;
   std::vector<double> below, above;
   for (std::size_t j = kNearestNeighbour; j <= kFarthestNeighbour; ++j) {
     if (bin > j * kLinePadding) below.push_back(power_[bin - j * kLinePadding]);
@@ -209,7 +208,7 @@ bool LineSearch::is_local_line(std::size_t bin, double near_trials) const {
   const double around = std::max(below.size() < kFewestOfOneSide ? 0.0 : median(below),
                                  above.size() < kFewestOfOneSide ? 0.0 : median(above));
   const auto m = static_cast<double>(below.size() + above.size());
-  const double clear = 0.5 * m * (std::pow(near_trials / kLineByChance, 2.0 / m) - 1.0);
+  const double clear = 0.5 * m * (std::pow(near_trials / kByChance, 2.0 / m) - 1.0);
   return power_[bin] > clear * around / std::numbers::ln2;
 }
 

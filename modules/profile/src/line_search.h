@@ -11,6 +11,8 @@ namespace asperity {
 // the test, its false-alarm rate and its limits.
 class LineSearch {
  public:
+  static constexpr double kByChance = 0.01;  // of finding a line in a random surface, or in noise
+
   // A search among others. It has `share` of the 1 % by which all of them may err. Over directions of ribs, which a
   // path of a bend of b (RMS about its straight line) crosses at the tangents t of a range, ordinates are a random
   // field of two dimensions; `bend_by_range_m` is b times that range, 0 for one direction.

@@ -85,6 +85,21 @@ std::array<double, kParameters> doubt_by_place(std::span<const double> height_m,
   return out;
 }
 
+// Elements lower than a tenth of Rz do not count: what one standard error of Rz, each way, changes RSm by, RMS.
+double doubt_by_threshold(std::span<const double> height_m, double spacing_m, const RoughnessConfig& config,
+                          const RoughnessParameters& measured, double Rz_m, double Rz_stderr_m) {
+  double square = 0.0, count = 0.0;
+  for (const double sign : {-1.0, 1.0}) {
+    RoughnessConfig other = config;
+    other.element_height *= std::max(0.0, Rz_m + sign * Rz_stderr_m) / measured.Rz_m;
+    const double change = measure_roughness(height_m, spacing_m, other).RSm_m - measured.RSm_m;
+    if (!std::isfinite(change)) continue;
+    square += change * change;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(square / count) : 0.0;
+}
+
 }  // namespace
 
 RoughnessResult measure_roughness_under_noise(std::span<const double> height_m, double spacing_m,
@@ -145,6 +160,11 @@ RoughnessResult measure_roughness_under_noise(std::span<const double> height_m, 
     const Root root = root_of_power(sign * parabola, error_m2);
     value = sign * root.value;
     error = root.standard_error;
+  }
+  if (std::isfinite(out.standard_error.RSm_m) && std::isfinite(out.standard_error.Rz_m)) {
+    out.standard_error.RSm_m =
+        std::hypot(out.standard_error.RSm_m,
+                   doubt_by_threshold(height_m, spacing_m, config, measured, out.Rz_m, out.standard_error.Rz_m));
   }
   if (!std::isfinite(out.Rq_m)) {
     static_cast<RoughnessParameters&>(out) = RoughnessParameters::unknown();

@@ -109,6 +109,60 @@ TEST(BentPathPeriodicity, NoiseOnAnArcHasNoPattern) {
   EXPECT_LE(found, 2);  // at 1 % each, three of forty have a probability of 0.8 %
 }
 
+// Round holes with a smooth rim on a square lattice, turned from the chord.
+std::vector<double> holes(const std::vector<Eigen::Vector2d>& path_m, double pitch_m, double turned_rad, double noise_m,
+                          std::uint64_t seed) {
+  Random random(seed, 3);
+  const double c = std::cos(turned_rad), s = std::sin(turned_rad);
+  const Eigen::Vector2d from_m(pitch_m * random.uniform(), pitch_m * random.uniform());
+  std::vector<double> out;
+  for (const Eigen::Vector2d& p_m : path_m) {
+    const Eigen::Vector2d at_m = Eigen::Vector2d(c * p_m.x() + s * p_m.y(), c * p_m.y() - s * p_m.x()) + from_m;
+    const double r = std::hypot(std::remainder(at_m.x(), pitch_m), std::remainder(at_m.y(), pitch_m)) / (0.3 * pitch_m);
+    out.push_back((r < 1.0 ? -100e-6 * (1.0 - r * r) : 0.0) + noise_m * random.normal());
+  }
+  return out;
+}
+
+TEST(BentPathPeriodicity, ALatticeUnderAnArcIsFound) {
+  constexpr double kNoise_m = 10e-6;
+  const std::vector<Eigen::Vector2d> path_m = arc(0.8);
+  double square = 0.0, count = 0.0;
+  int found = 0;
+  for (const double turned_rad : {0.0, 0.2, 0.6}) {
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      const double pitch_m = 2.1e-3 + 0.2e-3 * static_cast<double>(seed);
+      const std::vector<double> h = holes(path_m, pitch_m, turned_rad, kNoise_m, seed);
+      const Periodicity p = find_periodicity_under_noise(h, kSpacing_m, white_noise(kNoise_m), {}, path_m);
+      found += p.periodic ? 1 : 0;
+      if (!p.periodic || !std::isfinite(p.across_pitch_m)) continue;
+      square += std::pow((p.across_pitch_m - pitch_m) / p.across_pitch_stderr_m, 2.0);
+      count += 1.0;
+    }
+  }
+  EXPECT_EQ(found, 12);
+  ASSERT_GE(count, 9.0);
+  EXPECT_LT(std::sqrt(square / count), 2.0);
+}
+
+// Plane waves in all directions, of lengths of 0.7 to 4 mm: an isotropic surface, whose profile is random.
+TEST(BentPathPeriodicity, ARandomReliefUnderAnArcHasNoLattice) {
+  const std::vector<Eigen::Vector2d> path_m = arc(0.8);
+  int found = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Random random(seed, 4);
+    std::vector<double> h(kPoints, 0.0);
+    for (int wave = 0; wave < 400; ++wave) {
+      const double per_m = 250.0 * std::pow(6.0, random.uniform()), way = kTwoPi * random.uniform();
+      const double phase = kTwoPi * random.uniform();
+      const Eigen::Vector2d g(per_m * std::cos(way), per_m * std::sin(way));
+      for (std::size_t i = 0; i < kPoints; ++i) h[i] += 1e-6 * std::cos(kTwoPi * g.dot(path_m[i]) + phase);
+    }
+    found += find_periodicity_under_noise(h, kSpacing_m, white_noise(1e-7), {}, path_m).periodic ? 1 : 0;
+  }
+  EXPECT_LE(found, 2);
+}
+
 TEST(BentPathPeriodicity, NeedsAPointForEachHeight) {
   const std::vector<double> h(kPoints, 0.0);
   EXPECT_THROW(find_periodicity_under_noise(h, kSpacing_m, white_noise(1e-6), {}, std::vector<Eigen::Vector2d>(3)),

@@ -165,6 +165,25 @@ TEST(RoughnessUnderNoise, NoiseOfTheContactIsInTheError) {
               std::hypot(with.standard_error.Rq_m, 0.05 * with.Rq_m), 0.15e-6);
 }
 
+// Low elements count by a tenth of Rz. Where the highest points are too high by what is stated of their scale, the low
+// ones do not: the interval of RSm has to know.
+TEST(RoughnessUnderNoise, WhichElementsCountIsInTheErrorOfRSm) {
+  const auto high_and_low = [](double high_m) {
+    std::vector<double> out = sine(21e-6, 2e-3);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      if ((i / 80) % 2 == 0) out[i] *= high_m / 21e-6;
+    }
+    return out;
+  };
+  const double truth_m = measure_roughness(high_and_low(100e-6), kSpacing_m).RSm_m;
+  EXPECT_NEAR(truth_m, 2e-3, 0.02e-3);
+  TextureNoise noise = band_noise(0.1e-6);
+  noise.scale_sigma = 0.1;
+  const RoughnessResult r = measure_roughness_under_noise(high_and_low(110e-6), kSpacing_m, noise);
+  EXPECT_GT(r.RSm_m, 3e-3);
+  EXPECT_LT(r.RSm_m - 1.96 * r.standard_error.RSm_m, truth_m);
+}
+
 TEST(RoughnessUnderNoise, WithoutANoiseIsThePlainOne) {
   const std::vector<double> clean = sine(40e-6, 2e-3);
   const RoughnessResult r = measure_roughness_under_noise(clean, kSpacing_m, {});

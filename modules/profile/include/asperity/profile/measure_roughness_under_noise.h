@@ -25,7 +25,8 @@ namespace asperity {
 // power, for heights `contact_rms_m` over √3 as a relative error and for Ra and Rq half of
 // `stretch_sigma`, for parameters that hang on single heights what misplaced ones can do (`noise.misplaced_psd_m2_mm`:
 // the spread over draws and half of their mean change, which is not corrected), `scale_sigma` (relative, of all
-// heights) and, for RSm, `along_sigma` (relative, of lengths along the path). Without a noise (empty) the values are
+// heights) and, for RSm, `along_sigma` (relative, of lengths along the path) and what one standard error of Rz changes
+// about which elements count. Without a noise (empty) the values are
 // the measured ones, their errors nan. Throws Error as measure_roughness() does.
 RoughnessResult measure_roughness_under_noise(std::span<const double> height_m, double spacing_m,
                                               const TextureNoise& noise, const RoughnessConfig& config = {});
