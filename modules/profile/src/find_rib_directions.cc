@@ -19,6 +19,7 @@ constexpr double kLeastRibShare = 1.0 / 32.0;                    // as LineSearc
 constexpr std::size_t kRibCandidates = 4;
 constexpr double kSteepestRibs = 1.0;
 constexpr int kRibRefinements = 5;
+constexpr double kMostRibHeights = 33'554'432.0;  // 2^25: heights times directions, some seconds
 
 struct RibPeak {
   double tangent, ratio;
@@ -134,8 +135,12 @@ RibDirections find_rib_directions(const BentPath& path, std::span<const double> 
   RibDirections out;
   const double longest_m = std::min(config.max_pitch_m, spacing_m * static_cast<double>(height_m.size()) / 3.0);
   if (!(longest_m > config.min_pitch_m)) return out;
-  const RibSearch directions(path, height_m, spacing_m, noise, config.min_pitch_m, longest_m);
-  const double step = path.step_of_direction(config.min_pitch_m);
+  // The directions grow with the path's bend, and so with its length: of a wild path of 20 m there would be 80,000.
+  const double finest = path.step_of_direction(config.min_pitch_m);
+  const double step = std::max(finest, 2.0 * kSteepestRibs * static_cast<double>(height_m.size()) / kMostRibHeights);
+  const double shortest_m = config.min_pitch_m * step / finest;
+  if (!(longest_m > shortest_m)) return out;
+  const RibSearch directions(path, height_m, spacing_m, noise, shortest_m, longest_m);
   const int reach = static_cast<int>(kSteepestRibs / step);
   std::vector<RibPeak> peaks;
   double lowest = kSteepestRibs, highest = -kSteepestRibs;

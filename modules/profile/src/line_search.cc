@@ -67,6 +67,13 @@ LineSearch::LineSearch(std::span<const double> height_m, double spacing_m, std::
     noise_.push_back(most_noise * expected);
     if (power_.size() > 1) surface_ += (power_.back() - expected) / static_cast<double>(kLinePadding);
   }
+  // Ordinates that noise does not reach are the surface's. Where the noise is stated too large elsewhere, the sum over
+  // all of them may be near 0 or below it, and every one would hold its share.
+  double beyond_noise = 0.0;
+  for (std::size_t bin = 1; bin < power_.size(); ++bin) {
+    if (exceeds_noise(bin)) beyond_noise += (power_[bin] - noise_[bin]) / static_cast<double>(kLinePadding);
+  }
+  surface_ = std::max(surface_, beyond_noise);
 }
 
 // Of the highest ordinate of a continuous range of frequencies (Davies 1987), over a continuous range of directions
@@ -153,13 +160,26 @@ bool LineSearch::exceeds(const Wave& wave, const Neighbours& neighbours, std::sp
   return is_rare(rarity_of(wave.power / density, fit.variance), neighbours.trials);
 }
 
-bool LineSearch::is_line(std::size_t bin) const {
+bool LineSearch::exceeds_noise(std::size_t bin) const {
+  return power_[bin] > 0.0 && (!(noise_[bin] > 0.0) || is_rare(power_[bin] / noise_[bin], trials_));
+}
+
+bool LineSearch::may_be_line(std::size_t bin) const {
   const double power = power_[bin];
   const double gaps = static_cast<double>(x_m_.size()) / points_;
   if (!(power > 0.0) || !(gaps * power > kLeastShare * surface_)) return false;
   if (power < power_[bin - 1] || (bin + 1 < power_.size() && power < power_[bin + 1])) return false;
-  if (noise_[bin] > 0.0 && !is_rare(power / noise_[bin], trials_)) return false;
+  return exceeds_noise(bin);
+}
 
+std::size_t LineSearch::count_candidates() const {
+  std::size_t out = 0;
+  for (std::size_t bin = 1; bin < std::min(searched_bins_, power_.size()); ++bin) out += may_be_line(bin) ? 1 : 0;
+  return out;
+}
+
+bool LineSearch::is_line(std::size_t bin) const {
+  if (!may_be_line(bin)) return false;
   const Wave wave = find_wave(bin);
   const std::vector<double> rest_m = without_wave(wave.cycles);
   // Broad spectra by many neighbours, for all frequencies of the search; a narrow peak by few, for those of the peak,

@@ -43,6 +43,11 @@ class LineSearch {
   // Of a pattern that is there: whether this harmonic stands out of the noise and of its neighbours, at 1 % for itself.
   bool has_line(double pitch_m, int harmonic) const;
 
+  // How many waves down to the shortest pass what is asked of an ordinate by itself. Only these are compared with their
+  // neighbours, which takes a fixed number of passes over the heights: at most 158 times the heights with their gaps
+  // over those that are present (docs/periodicity.md), however long the profile is.
+  std::size_t count_candidates() const;
+
  private:
   struct Reach {
     std::size_t first, last;  // bins, the last excluded
@@ -58,6 +63,8 @@ class LineSearch {
 
   Reach reach_of(double pitch_m, int harmonic) const;
   bool is_rare(double rarity, double trials) const;
+  bool exceeds_noise(std::size_t bin) const;
+  bool may_be_line(std::size_t bin) const;
   bool is_line(std::size_t bin) const;
   bool is_local_line(std::size_t bin, double near_trials) const;
   double power_at(std::span<const double> heights_m, double cycles) const;

@@ -217,5 +217,37 @@ TEST(LineSearch, FewHeightsOfALongPathHaveNoLine) {
       5e-6);
 }
 
+// Where the stated noise exceeds the heights at high frequencies, the surface's power came out below 0, and every
+// ordinate of a long profile was compared with its neighbours. The bound is 128/(1 − 1/ln 200) waves a height, which
+// docs/periodicity.md derives.
+TEST(LineSearch, OverstatedNoiseDoesNotMakeTheSearchLonger) {
+  constexpr double kMostWaves = 158.0;
+  const std::vector<double> frequency{0.0, 3.4, 3.5, 20.0};
+  for (const std::size_t points : {4000u, 40'000u}) {
+    Random random(7);
+    std::vector<double> white(points);
+    for (double& h : white) h = 1e-6 * random.normal();
+    const double density = 2e3 * kSpacing_m * 1e-12;
+    const std::vector<double> noise{0.02 * density, 0.02 * density, 10.0 * density, 10.0 * density};
+    const auto search = [&](const std::vector<double>& height_m) {
+      return LineSearch(height_m, kSpacing_m, frequency, noise, 1.0, kShortest_m, kLongest_m);
+    };
+    EXPECT_LE(static_cast<double>(search(white).count_candidates()), kMostWaves) << points;
+    EXPECT_EQ(search(white).find_line_m(kShortest_m, kLongest_m), 0.0);
+
+    std::vector<double> sparse = white;
+    for (std::size_t i = 0; i < points; ++i) {
+      if (i % 5 != 0) sparse[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+    EXPECT_LE(static_cast<double>(search(sparse).count_candidates()), 5.0 * kMostWaves) << points;
+
+    // A line is still one.
+    std::vector<double> wavy = white;
+    for (std::size_t i = 0; i < points; ++i)
+      wavy[i] += 1e-6 * std::sin(kTwoPi * kSpacing_m * static_cast<double>(i) / 1e-3);
+    EXPECT_NEAR(search(wavy).find_line_m(kShortest_m, kLongest_m), 1e-3, 5e-6);
+  }
+}
+
 }  // namespace
 }  // namespace asperity
