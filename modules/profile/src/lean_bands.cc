@@ -1,9 +1,12 @@
 #include "lean_bands.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
+
+#include "asperity/signal/spectrum.h"
 
 namespace asperity {
 
@@ -63,17 +66,31 @@ std::vector<MotionRun> find_runs(const TipMotion& motion, const PathEvidence& ev
   return out;
 }
 
-// The sums of a window's bin.
-BandPower bin_power(const std::vector<double>& normal, const std::vector<double>& across, std::size_t begin,
-                    std::size_t bin) {
-  std::complex<double> n = 0.0, b = 0.0;
-  for (std::size_t i = 0; i < kCells; ++i) {
-    const double turn = 2.0 * kPi * static_cast<double>(i) / static_cast<double>(kCells);
-    const std::complex<double> wave = std::polar(1.0 - std::cos(turn), static_cast<double>(bin) * turn);
-    n += wave * normal[begin + i];
-    b += wave * across[begin + i];
-  }
-  return {std::norm(n), std::norm(b), std::real(n * std::conj(b))};
+// 1 − cos over a window.
+const std::array<double, kCells>& hann() {
+  static const std::array<double, kCells> window = [] {
+    std::array<double, kCells> w{};
+    for (std::size_t i = 0; i < kCells; ++i)
+      w[i] = 1.0 - std::cos(2.0 * kPi * static_cast<double>(i) / static_cast<double>(kCells));
+    return w;
+  }();
+  return window;
+}
+
+std::vector<std::complex<double>> window_spectrum(const std::vector<double>& signal, std::size_t begin) {
+  std::array<double, kCells> windowed{};
+  for (std::size_t i = 0; i < kCells; ++i) windowed[i] = hann()[i] * signal[begin + i];
+  return real_dft(windowed);
+}
+
+// The powers of a window's bins, from zero to half the rate.
+std::vector<BandPower> bin_powers(const std::vector<double>& normal, const std::vector<double>& across,
+                                  std::size_t begin) {
+  const std::vector<std::complex<double>> n = window_spectrum(normal, begin), b = window_spectrum(across, begin);
+  std::vector<BandPower> out(n.size());
+  for (std::size_t k = 0; k < n.size(); ++k)
+    out[k] = {std::norm(n[k]), std::norm(b[k]), std::real(n[k] * std::conj(b[k]))};
+  return out;
 }
 
 // Calls `use(run, begin)` for each window.
@@ -95,7 +112,8 @@ std::vector<BandPower> turning_floor(const std::vector<MotionRun>& runs, const L
       bins.last + 1, std::min(highest, static_cast<std::size_t>(kBandRatio * 2.0 * static_cast<double>(bins.last))));
   std::vector<BandPower> mean(end);
   const double windows = over_windows(runs, [&](const MotionRun& run, std::size_t begin) {
-    for (std::size_t k = bins.first; k < end; ++k) mean[k] += bin_power(run.turn_normal, run.turn_across, begin, k);
+    const std::vector<BandPower> power = bin_powers(run.turn_normal, run.turn_across, begin);
+    for (std::size_t k = bins.first; k < end; ++k) mean[k] += power[k];
   });
   for (BandPower& power : mean) power = power.times(windows > 0.0 ? 1.0 / windows : 0.0);
 
@@ -178,8 +196,8 @@ std::vector<LeanStretch> find_lean_stretches(const TipMotion& motion, std::span<
   over_windows(runs, [&](const MotionRun& run, std::size_t begin) {
     LeanStretch& stretch = out.emplace_back();
     for (std::size_t i = 0; i < kCells; ++i) stretch.change += run.change[begin + i] / static_cast<double>(kCells);
-    for (std::size_t k = bins.first; k <= bins.last; ++k)
-      stretch.bins.push_back({bin_power(run.normal, run.across, begin, k), noise[k], kOverlapping});
+    const std::vector<BandPower> power = bin_powers(run.normal, run.across, begin);
+    for (std::size_t k = bins.first; k <= bins.last; ++k) stretch.bins.push_back({power[k], noise[k], kOverlapping});
   });
   return out;
 }
