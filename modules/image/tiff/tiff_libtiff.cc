@@ -52,7 +52,8 @@ toff_t seek(thandle_t handle, toff_t offset, int whence) {
 int close_nothing(thandle_t) { return 0; }
 toff_t size_of(thandle_t handle) { return source_of(handle).bytes.size(); }
 
-int on_error(TIFF*, void* user, const char*, const char* format, va_list words) {
+// clang refuses a format that is not a literal elsewhere.
+__attribute__((format(printf, 4, 0))) int on_error(TIFF*, void* user, const char*, const char* format, va_list words) {
   auto* source = static_cast<Source*>(user);
   if (source->fault[0] == '\0') std::vsnprintf(source->fault, sizeof source->fault, format, words);
   return 1;
