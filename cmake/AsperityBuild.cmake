@@ -147,7 +147,12 @@ function(add_module name)
     target_link_libraries(${name}_test PRIVATE ${target} asperity_testkit ${M_PRIVATE})
     asperity_test_program(${name}_test)
     target_compile_definitions(${name}_test PRIVATE ASPERITY_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
-    gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT 300)
+    # A test's own limit counts before ctest's, and a sanitizer makes the longest ten times as long.
+    set(limit_s 300)
+    if(ASPERITY_SANITIZE)
+      set(limit_s 1500)
+    endif()
+    gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 120 PROPERTIES TIMEOUT ${limit_s})
   endif()
 endfunction()
 

@@ -31,7 +31,7 @@ enum class FaultKind {
   kDriverKilled,
 };
 inline constexpr std::array<std::string_view, 15> kFaultNames{"SIGSTOP",
-                                                              "suspended, as CLOCK_BOOTTIME tells",
+                                                              "suspended (CLOCK_BOOTTIME jumps)",
                                                               "does not answer",
                                                               "unplugged",
                                                               "connection cut",

@@ -51,6 +51,7 @@ void fit_growth(const Stroke& stroke, std::span<const double> x, std::size_t len
     if (!(p > 0.0)) continue;
     double mean = 0.0;
     for (std::size_t i = first; i < first + length; ++i) mean += stroke.speed_mps[i] / static_cast<double>(length);
+    if (!(mean > 0.0)) continue;
     speed.push_back(std::log(mean));
     power.push_back(std::log(p));
   }

@@ -56,8 +56,8 @@ std::optional<std::int64_t> take_time_of_day(std::string_view& text) {
 // "Z", "+02:00", "+0200", "+02" or nothing, as what is to be added to get UTC.
 std::optional<std::int64_t> zone_ns(std::string_view text) {
   if (text.empty() || text == "Z" || text == "z") return 0;
-  const bool east = text.front() == '+';
-  if (!east && text.front() != '-') return std::nullopt;
+  const bool east = text.starts_with('+');
+  if (!east && !text.starts_with('-')) return std::nullopt;
   text.remove_prefix(1);
   const auto hours = take_digits(text, 2);
   if (!hours || *hours > 18) return std::nullopt;

@@ -45,8 +45,9 @@ const SettingClass& choose_setting_class(std::span<const double> height_m, doubl
         measure_roughness(height_m, spacing_m, with_setting_class(one, height_m.size(), spacing_m, config)).Ra_m;
     if (Ra_m <= one.most_Ra_m) return one;
   }
-  if (longest == nullptr) with_setting_class(kSettingClasses.front(), height_m.size(), spacing_m, config);
-  return *longest;
+  if (longest != nullptr) return *longest;
+  with_setting_class(kSettingClasses.front(), height_m.size(), spacing_m, config);  // refuses: not one section
+  return kSettingClasses.front();
 }
 
 }  // namespace asperity

@@ -5,6 +5,8 @@
 #include <complex>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -77,9 +79,10 @@ std::vector<std::vector<double>> warp_shapes(std::size_t points, double knot_spa
   const auto knots = static_cast<std::size_t>(wanted);
   const double spacing = length / static_cast<double>(knots - 1);
   for (std::size_t k = 0; k < knots; ++k) {
-    std::vector<double>& hat = out.emplace_back(points, 0.0);
+    std::vector<double> hat(points, 0.0);
     for (std::size_t i = 0; i < points; ++i)
       hat[i] = std::max(0.0, 1.0 - std::abs(static_cast<double>(i) / spacing - static_cast<double>(k)));
+    out.push_back(std::move(hat));
   }
   return out;
 }
