@@ -24,6 +24,7 @@ constexpr double kPlacesOfOthers = 8.0;           // that the strongest leaves o
 constexpr double kTrialsOfPeak = 32.0;            // as LineSearch asks of a narrow peak
 constexpr double kFewestRows = 8.0;               // across the chord: of fewer, 16 neighbours are beyond the band
 constexpr double kFinestStep = 1e-2;              // of an independent frequency
+constexpr double kMostPlaces = 33'554'432.0;      // 2^25: ordinates of the table and places of b, some seconds
 
 // The lattice's waves by their orders.
 constexpr std::array<std::array<int, 2>, 4> kLatticeOrders{{{1, 0}, {0, 1}, {1, 1}, {1, -1}}};
@@ -179,6 +180,14 @@ Eigen::Vector2d refined(const PlaneWaves& waves, const RarityTable& table, Eigen
   return b;
 }
 
+// The shortest wave of the table: its ordinates, 16 x/λ by 4 y/λ over a path of x by y, and the places of b, 8 (x/λ)²,
+// grow with the square of a path's length; those of a wild path of 10 m would take hours.
+double shortest_wave_m(const BentPath& path, double min_pitch_m) {
+  const auto [low, high] = std::minmax_element(path.left_m().begin(), path.left_m().end());
+  const double x_m = path.chord_m(), y_m = *high - *low;
+  return std::max(min_pitch_m, std::sqrt((64.0 * x_m * y_m + 8.0 * x_m * x_m) / kMostPlaces));
+}
+
 }  // namespace
 
 std::optional<Lattice> find_lattice(const BentPath& path, std::span<const double> height_m, double spacing_m,
@@ -186,11 +195,12 @@ std::optional<Lattice> find_lattice(const BentPath& path, std::span<const double
                                     double chance) {
   if (!path.crosses(0.0)) return std::nullopt;
   const double lowest_per_m = 1.0 / std::min(config.max_pitch_m, path.chord_m() / kFewestRows);
-  const double highest_per_m = 1.0 / (std::numbers::sqrt2 * config.min_pitch_m);
+  const double shortest_m = shortest_wave_m(path, config.min_pitch_m);
+  const double highest_per_m = 1.0 / (std::numbers::sqrt2 * shortest_m);
   if (!(highest_per_m > lowest_per_m)) return std::nullopt;
-  const PlaneWaves waves(path, height_m, spacing_m, noise, most_noise, config.min_pitch_m);
+  const PlaneWaves waves(path, height_m, spacing_m, noise, most_noise, shortest_m);
   if (waves.points() < 0.5 * static_cast<double>(waves.size()) || waves.size() < 64) return std::nullopt;
-  const RarityTable table(waves, config.min_pitch_m);
+  const RarityTable table(waves, shortest_m);
   const double step_per_m = 1.0 / (static_cast<double>(kLatticePadding) * path.chord_m());
 
   const double both_m2 =

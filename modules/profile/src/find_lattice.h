@@ -21,7 +21,8 @@ struct Lattice {
 
 // The lattice whose waves (1,0), (0,1), (1,1) and (1,−1) stand out most of what is beside them, where a random surface
 // has such a one with a probability of at most `chance` anywhere in the search; none otherwise. Periods are looked for
-// from √2 times the shortest pitch, so that all four waves are in the band, to the longest or an eighth of the chord.
+// from √2 times the shortest pitch, so that all four waves are in the band, to the longest or an eighth of the chord;
+// the shortest rises with the length of paths beyond about 0.4 m, so that at most 2^25 places are searched.
 //
 // The statistic is T = Σ q, q the exponent of each wave's rarity (plane_waves.h). Of a random surface each is
 // exponential, so 2T is χ² with 2K = 8 degrees of freedom, a random field over b. The highest of it exceeds 2T with
