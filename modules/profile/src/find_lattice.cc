@@ -135,7 +135,7 @@ std::vector<Candidate> find_candidates(const RarityTable& table, double step_per
       if (b.norm() < lowest_per_m || b.norm() > highest_per_m) continue;
       double total = 0.0;
       for (const Eigen::Vector2d& wave : lattice_waves(b)) total += table.at(wave);
-      if (best.size() == kLatticeCandidates && total <= best.back().total) continue;
+      if (!(total > 0.0) || (best.size() == kLatticeCandidates && total <= best.back().total)) continue;
       const auto near = std::find_if(best.begin(), best.end(), [&](const Candidate& other) {
         return (other.wave_per_m - b).norm() < 2.0 * static_cast<double>(kLatticePadding) * step_per_m;
       });
@@ -155,7 +155,10 @@ std::vector<Candidate> find_candidates(const RarityTable& table, double step_per
 Eigen::Vector2d refined(const PlaneWaves& waves, const RarityTable& table, Eigen::Vector2d b, double step_per_m) {
   std::array<double, kLatticeOrders.size()> weight{};
   const auto first = lattice_waves(b);
-  for (std::size_t w = 0; w < weight.size(); ++w) weight[w] = table.at(first[w]) / waves.power_at(first[w]);
+  for (std::size_t w = 0; w < weight.size(); ++w) {
+    const double power = waves.power_at(first[w]);
+    weight[w] = power > 0.0 ? table.at(first[w]) / power : 0.0;
+  }
   const auto power_at = [&](const Eigen::Vector2d& at) {
     const auto vectors = lattice_waves(at);
     double sum = 0.0;
@@ -169,7 +172,7 @@ Eigen::Vector2d refined(const PlaneWaves& waves, const RarityTable& table, Eigen
     for (const Eigen::Vector2d& way :
          {Eigen::Vector2d(1, 0), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, -1)}) {
       const double power = power_at(b + step * way);
-      if (power <= most) continue;
+      if (!(power > most)) continue;
       most = power;
       b += step * way;
       moved = true;
@@ -200,6 +203,7 @@ std::optional<Lattice> find_lattice(const BentPath& path, std::span<const double
   if (!(highest_per_m > lowest_per_m)) return std::nullopt;
   const PlaneWaves waves(path, height_m, spacing_m, noise, most_noise, shortest_m);
   if (waves.points() < 0.5 * static_cast<double>(waves.size()) || waves.size() < 64) return std::nullopt;
+  if (!(waves.mean_square_m2() > 0.0)) return std::nullopt;
   const RarityTable table(waves, shortest_m);
   const double step_per_m = 1.0 / (static_cast<double>(kLatticePadding) * path.chord_m());
 

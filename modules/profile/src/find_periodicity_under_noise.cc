@@ -148,7 +148,9 @@ Periodicity find_periodicity_under_noise(std::span<const double> height_m, doubl
   }
   const std::optional<Lattice> lattice =
       find_lattice(path, height_m, spacing_m, noise, highest_noise(noise), config, kThird * LineSearch::kByChance);
-  return lattice ? follow_lattice(path, *lattice, height_m, spacing_m, noise, config) : along;
+  if (!lattice) return along;
+  const Periodicity followed = follow_lattice(path, *lattice, height_m, spacing_m, noise, config);
+  return followed.periodic ? followed : along;
 }
 
 }  // namespace asperity

@@ -181,6 +181,13 @@ TEST(BentPathPeriodicity, ALongPathIsSearchedInBoundedTime) {
   EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 120.0);
 }
 
+// A dead sensor: the climb to a lattice's highest power never ended where all powers are 0.
+TEST(BentPathPeriodicity, HeightsOfZeroHaveNone) {
+  const std::vector<double> flat(kPoints, 0.0), level(kPoints, 1e-3);
+  EXPECT_FALSE(find_periodicity_under_noise(flat, kSpacing_m, white_noise(5e-6), {}, arc(0.8)).periodic);
+  EXPECT_FALSE(find_periodicity_under_noise(level, kSpacing_m, white_noise(5e-6), {}, arc(0.8)).periodic);
+}
+
 TEST(BentPathPeriodicity, NeedsAPointForEachHeight) {
   const std::vector<double> h(kPoints, 0.0);
   EXPECT_THROW(find_periodicity_under_noise(h, kSpacing_m, white_noise(1e-6), {}, std::vector<Eigen::Vector2d>(3)),
