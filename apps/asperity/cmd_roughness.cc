@@ -111,28 +111,41 @@ class RoughnessCommand : public Command {
   int run(const Observer&) override {
     reads(file_);
     if (is_stroke_folder(file_)) {
+      refuse_noise("a stroke");
       report_stroke();
       return kDone;
     }
     if (is_texture_file(file_)) {
       refuse_class();
-      report_map(read_area_heights(file_, settings_.areal));
+      AreaHeights area = read_area_heights(file_, settings_.areal);
+      if (settings_.noise.rms_um > 0.0) area.noise = stated_noise();
+      report_map(std::move(area));
       return kDone;
     }
     const Heights heights = read_heights(file_, settings_.input);
     if (const auto* profile = std::get_if<HeightProfile>(&heights)) {
+      refuse_noise("a profile");
       report_profile(*profile);
     } else {
       refuse_class();
-      ArealNoise noise;
-      noise.rms_m = 1e-6 * settings_.noise.rms_um;
-      noise.correlation_m = 1e-6 * settings_.noise.correlation_um;
-      report_map({std::get<ArealMap>(heights), noise});
+      report_map({std::get<ArealMap>(heights), stated_noise()});
     }
     return kDone;
   }
 
  private:
+  ArealNoise stated_noise() const {
+    ArealNoise out;
+    out.rms_m = 1e-6 * settings_.noise.rms_um;
+    out.correlation_m = 1e-6 * settings_.noise.correlation_um;
+    return out;
+  }
+
+  void refuse_noise(const char* kind) const {
+    if (settings_.noise.rms_um > 0.0)
+      throw UsageError("--noise: " + printable(file_, 200) + " is " + kind + "; the noise is stated for areal maps");
+  }
+
   void refuse_class() const {
     if (settings_.filters != Filters::kAsGiven)
       throw UsageError("--class: " + printable(file_, 200) + " is an areal map; setting classes are of profiles");

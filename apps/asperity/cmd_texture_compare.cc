@@ -58,7 +58,7 @@ Json to_json(const Difference& d) {
           {"verdict", verdict_of(d.noticeable)}};
 }
 
-// Of nothing there is no percentage, and no mean.
+// A value that is not known, or a percentage of 0, is printed as a dash.
 std::string cell(const char* form, double value, const char* unit_text, std::size_t width) {
   std::string out = std::isfinite(value) ? fmt::format(fmt::runtime(form), value) + unit_text : "–";
   const std::size_t letters = std::isfinite(value) ? out.size() : 1;

@@ -100,7 +100,7 @@ void print_figures(const std::vector<ScanOutcome>& scans) {
   std::printf(
       "\nA pattern's figures by an oracle that knows the spectrum of the error alone and looks for the pitch (as "
       "above), "
-      "and by one that is told the maker's pitch within 8 %% as well; the scans between the two hold no pitch that "
+      "and by one that knows the maker's pitch within 8 %% as well; the scans between the two hold no pitch that "
       "could be found without being told. Rsk and Rku by an oracle that takes the noise's cumulants off (as above), "
       "and by "
       "one that leaves them in, whose value is near the surface's where both are Gaussian, whatever the noise:\n\n"

@@ -86,6 +86,11 @@ TEST(Roughness, OfAnArealMap) {
   EXPECT_NEAR(nlohmann::json::parse(stated.out)["roughness"]["Sq_stderr_m"].get<double>(), 0.0125e-6, 0.006e-6);
   EXPECT_THAT(run({"roughness", file, "--noise", "100nm"}).out,
               HasSubstr("noise       0.1 µm RMS, independent from height to height"));
+  const std::string profile = (dir / "profile.txt").string();
+  write_text(profile, "0\n1\n0\n1\n");
+  const Outcome of_profile = run({"roughness", profile, "--spacing", "1um", "--noise", "100nm"});
+  EXPECT_EQ(of_profile.code, 2);
+  EXPECT_THAT(of_profile.err, HasSubstr("is a profile; the noise is stated for areal maps"));
   const Outcome filtered = run({"roughness", file, "--class", "auto"});
   EXPECT_EQ(filtered.code, 2) << "it has no effect on an areal map";
   EXPECT_THAT(filtered.err, HasSubstr("is an areal map"));

@@ -12,19 +12,25 @@ namespace asperity {
 
 namespace {
 
-// Logarithms of powers: their mean, the sum of the squares about it, and what windows side by side have in common.
+// Logarithms of powers above 0: their mean, the sum of the squares about it, and what windows side by side have in
+// common.
 struct LogPowers {
   double count = 0.0, mean = 0.0, squares = 0.0;
   double neighbours = 0.0, products = 0.0;
 
   explicit LogPowers(const WindowPowers& of) {
     std::vector<double> logs;
-    for (const double p : of.power) logs.push_back(std::log(p));
+    std::vector<std::size_t> first;
+    for (std::size_t i = 0; i < of.power.size(); ++i) {
+      if (!(of.power[i] > 0.0)) continue;
+      logs.push_back(std::log(of.power[i]));
+      first.push_back(of.first[i]);
+    }
     count = static_cast<double>(logs.size());
     mean = std::accumulate(logs.begin(), logs.end(), 0.0) / count;
     for (const double l : logs) squares += (l - mean) * (l - mean);
     for (std::size_t i = 1; i < logs.size(); ++i) {
-      if (of.first[i] != of.first[i - 1] + of.length) continue;
+      if (first[i] != first[i - 1] + of.length) continue;
       neighbours += 1.0;
       products += (logs[i] - mean) * (logs[i - 1] - mean);
     }
@@ -44,9 +50,7 @@ double one_sided(double t, double freedom) {
   return 0.5 * student_two_sided(t, std::max(1.0, freedom));
 }
 
-bool is_silent(const WindowPowers& of) {
-  return std::any_of(of.power.begin(), of.power.end(), [](double p) { return !(p > 0.0); });
-}
+bool is_silent(double power) { return !(power > 0.0); }
 
 // Marsaglia and Tsang 2000; the mean is the shape.
 double gamma_deviate(double shape, Random& random) {
@@ -61,8 +65,9 @@ double gamma_deviate(double shape, Random& random) {
 }  // namespace
 
 double power_chance(const WindowPowers& active, const WindowPowers& quiet) {
-  if (is_silent(active)) return 1.0;
-  if (is_silent(quiet)) return 0.0;
+  if (std::any_of(active.power.begin(), active.power.end(), is_silent)) return 1.0;
+  // A sensor that repeats itself for a moment is silent in some quiet windows; the others show its noise.
+  if (std::all_of(quiet.power.begin(), quiet.power.end(), is_silent)) return 0.0;
   const LogPowers a(active), q(quiet);
   const double difference = a.mean - q.mean, each = 1.0 / a.count + 1.0 / q.count;
   const double windows = a.count + q.count, squares = a.squares + q.squares;
@@ -78,7 +83,7 @@ double power_chance(const WindowPowers& active, const WindowPowers& quiet) {
 }
 
 double power_chance(const WindowPowers& active, double noise_power) {
-  if (is_silent(active)) return 1.0;
+  if (std::any_of(active.power.begin(), active.power.end(), is_silent)) return 1.0;
   if (!(noise_power > 0.0)) return 0.0;
   const LogPowers a(active);
   const double share = share_of_windows(a.squares, a.count, a.products, a.neighbours);

@@ -218,6 +218,10 @@ std::optional<Lattice> find_lattice(const BentPath& path, std::span<const double
   double most = 0.0;
   for (const Candidate& candidate : find_candidates(table, step_per_m, lowest_per_m, highest_per_m)) {
     const Eigen::Vector2d b = refined(waves, table, candidate.wave_per_m, step_per_m);
+    // The climb may end beside what the chance is of: by a step it is still the candidate, further it is not.
+    if (b.norm() < lowest_per_m - step_per_m || b.norm() > highest_per_m + step_per_m ||
+        std::abs(b.y()) > b.x() + step_per_m)
+      continue;
     const auto vectors = lattice_waves(b);
     const PlaneWaves::Standing standing = waves.standing_of(vectors);
     if (standing.rarity.empty() || standing.power_share < kLeastLatticeShare * surface_share) continue;

@@ -22,17 +22,21 @@ std::size_t noise_draws(std::size_t count);
 class Spread {
  public:
   void add(double x) {
-    if (!std::isfinite(x)) return;
+    if (!std::isfinite(x)) {
+      ++missing_;
+      return;
+    }
     ++count_;
     const double step = x - mean_;
     mean_ += step / count_;
     square_ += step * (x - mean_);
   }
   double mean() const { return count_ > 0.0 ? mean_ : kNan; }
-  double deviation() const { return count_ > 1.0 ? std::sqrt(square_ / (count_ - 1.0)) : kNan; }
+  // nan where most draws do not have the value: the others are not a fair sample.
+  double deviation() const { return count_ > 1.0 && count_ >= missing_ ? std::sqrt(square_ / (count_ - 1.0)) : kNan; }
 
  private:
-  double count_ = 0.0, mean_ = 0.0, square_ = 0.0;
+  double count_ = 0.0, missing_ = 0.0, mean_ = 0.0, square_ = 0.0;
 };
 
 // Noise of the spectrum `psd_m2_mm` over the frequencies of `noise`, as large at each point as `sigma_m` says (empty:

@@ -88,16 +88,15 @@ std::array<double, kParameters> doubt_by_place(std::span<const double> height_m,
 // Elements lower than a tenth of Rz do not count: what one standard error of Rz, each way, changes RSm by, RMS.
 double doubt_by_threshold(std::span<const double> height_m, double spacing_m, const RoughnessConfig& config,
                           const RoughnessParameters& measured, double Rz_m, double Rz_stderr_m) {
-  double square = 0.0, count = 0.0;
+  double square = 0.0;
   for (const double sign : {-1.0, 1.0}) {
     RoughnessConfig other = config;
     other.element_height *= std::max(0.0, Rz_m + sign * Rz_stderr_m) / measured.Rz_m;
     const double change = measure_roughness(height_m, spacing_m, other).RSm_m - measured.RSm_m;
-    if (!std::isfinite(change)) continue;
-    square += change * change;
-    count += 1.0;
+    if (!std::isfinite(change)) return kNan;  // within its error no element is left
+    square += 0.5 * change * change;
   }
-  return count > 0.0 ? std::sqrt(square / count) : 0.0;
+  return std::sqrt(square);
 }
 
 }  // namespace

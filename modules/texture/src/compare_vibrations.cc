@@ -84,27 +84,45 @@ struct VibrationSide {
   }
 };
 
-// The least and the most that b differs from a, percent of a, each between its least and its most.
-void bound_difference(const VibrationSide& a, const VibrationSide& b, VibrationBand& band) {
-  const double low_a = std::sqrt(a.least_power(band.low_Hz, band.high_Hz)), high_a = band.a_mps2;
-  const double low_b = std::sqrt(b.least_power(band.low_Hz, band.high_Hz)), high_b = band.b_mps2;
-  if (low_a == high_a && low_b == high_b) {
-    band.least_percent = band.most_percent = std::abs(band.percent);
-    return;
-  }
-  const bool may_be_equal = low_a <= high_b && low_b <= high_a;
-  const double below = 100.0 * (1.0 - high_b / low_a), above = 100.0 * (low_b / high_a - 1.0);
-  band.least_percent = may_be_equal ? 0.0 : std::max(below, above);
-  band.most_percent = low_a > 0.0 ? 100.0 * std::max(high_b / low_a - 1.0, 1.0 - low_b / high_a)
-                                  : std::numeric_limits<double>::infinity();
+// The difference of b from a, percent of a, and its standard error, at one power of each. A side's power is known to
+// the same standard error whatever part of it is noise.
+struct Difference {
+  double percent = 0.0, sigma = 0.0;
+};
+
+Difference difference_at(const VibrationSide& a, double power_a, const VibrationSide& b, double power_b,
+                         const VibrationBand& band) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  const double low = band.low_Hz, high = band.high_Hz, ratio = std::sqrt(power_b / power_a);
+  // A variance is infinite where noise alone is left, and 0 where nothing was measured at all.
+  if (!(power_a > 0.0) && !(power_b > 0.0)) return {0.0, band.sigma_percent};
+  if (!(power_a > 0.0)) return {kInf, a.variance(low, high)};
+  if (!(power_b > 0.0)) return {-100.0, std::isinf(b.variance(low, high)) ? kInf : 0.0};
+  const double of_a = a.variance(low, high) * std::pow(a.power(low, high) / power_a, 2);
+  const double of_b = b.variance(low, high) * std::pow(b.power(low, high) / power_b, 2);
+  const double sigma = 50.0 * ratio * std::sqrt(of_a + of_b);
+  return {100.0 * (ratio - 1.0), std::isnan(sigma) ? kInf : sigma};
 }
 
-VibrationVerdict verdict_of(const VibrationBand& band) {
-  // What is nothing in both is the same.
-  if (band.a_mps2 == band.b_mps2 && !std::isfinite(band.sigma_percent)) return VibrationVerdict::kUndetermined;
-  if (band.least_percent - kSigmas * band.sigma_percent > band.jnd_percent) return VibrationVerdict::kNoticeable;
-  if (band.most_percent + kSigmas * band.sigma_percent <= band.jnd_percent) return VibrationVerdict::kSame;
-  return VibrationVerdict::kUndetermined;
+// The least and the most that b differs from a, percent of a, each between its least and its most; and the verdict,
+// which holds at both ends by two of the standard errors there.
+void bound_difference(const VibrationSide& a, const VibrationSide& b, VibrationBand& band) {
+  const double low_a = a.least_power(band.low_Hz, band.high_Hz), high_a = a.power(band.low_Hz, band.high_Hz);
+  const double low_b = b.least_power(band.low_Hz, band.high_Hz), high_b = b.power(band.low_Hz, band.high_Hz);
+  const Difference lowest = difference_at(a, high_a, b, low_b, band),
+                   highest = difference_at(a, low_a, b, high_b, band);
+  const double above = lowest.percent, below = -highest.percent;
+  band.least_percent = std::max({0.0, above, below});
+  band.most_percent = std::max(highest.percent, -lowest.percent);
+  band.verdict = VibrationVerdict::kUndetermined;
+  const auto least = [](double percent, double sigma) { return percent - kSigmas * sigma; };
+  const auto most = [](double percent, double sigma) { return percent + kSigmas * sigma; };
+  if (least(above, lowest.sigma) > band.jnd_percent || least(below, highest.sigma) > band.jnd_percent) {
+    band.verdict = VibrationVerdict::kNoticeable;
+  } else if (most(highest.percent, highest.sigma) <= band.jnd_percent &&
+             most(-lowest.percent, lowest.sigma) <= band.jnd_percent) {
+    band.verdict = VibrationVerdict::kSame;
+  }
 }
 
 }  // namespace
@@ -136,7 +154,6 @@ VibrationComparison compare_vibrations(const ComparedVibration& a, const Compare
     band.jnd_percent = just_noticeable_percent(std::sqrt(from * to));
     band.is_compared = band.a_mps2 > config.least_part * out.a_mps2 || band.b_mps2 > config.least_part * out.b_mps2;
     bound_difference(side_a, side_b, band);
-    band.verdict = verdict_of(band);
     if (band.is_compared) {
       compared = true;
       noticeable = noticeable || band.verdict == VibrationVerdict::kNoticeable;
