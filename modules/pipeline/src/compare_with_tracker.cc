@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include <Eigen/LU>
@@ -50,16 +49,6 @@ struct SmoothedPoses {
   }
 };
 
-// The standard deviation of Σ w x of a slow noise x of unit size.
-double slow_gain(std::span<const double> weights, std::span<const double> t_s, double time_s) {
-  double square = 0.0, before = 0.0;  // Σ_{j<i} w_j exp(−(t_i − t_j)/time)
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    if (i > 0) before = (before + weights[i - 1]) * std::exp(-(t_s[i] - t_s[i - 1]) / time_s);
-    square += weights[i] * (weights[i] + 2.0 * before);
-  }
-  return std::sqrt(std::max(0.0, square));
-}
-
 double metric_or(const TrajectoryResult& trajectory, const char* name, double otherwise) {
   const auto found = trajectory.metrics.find(name);
   return found == trajectory.metrics.end() || !std::isfinite(found->second) ? otherwise : found->second;
@@ -77,11 +66,34 @@ PosePath tip_by_poses(const Recording& recording, const TrajectoryResult& trajec
   return out;
 }
 
-SmoothedPoses smooth_poses(const PosePath& path, double half_width_s, double slow_time_s) {
+// How much of the slow noise each pose has in common with the one before.
+std::vector<double> decay_between(const std::vector<double>& t_s, double time_s) {
+  std::vector<double> out(t_s.size(), 0.0);
+  for (std::size_t i = 1; i < t_s.size(); ++i) out[i] = std::exp(-(t_s[i] - t_s[i - 1]) / time_s);
+  return out;
+}
+
+// What noise becomes in a weighted sum of poses, which are added in the order of time.
+struct NoiseGain {
+  double white_square = 0.0, slow_square = 0.0;
+  double before = 0.0;  // Σ_{j<i} w_j exp(−(t_i − t_j)/time)
+  double last = 0.0;
+
+  void add(double weight, double decay) {
+    before = (before + last) * decay;
+    last = weight;
+    white_square += weight * weight;
+    slow_square += weight * (weight + 2.0 * before);
+  }
+  double white() const { return std::sqrt(white_square); }
+  double slow() const { return std::sqrt(std::max(0.0, slow_square)); }
+};
+
+SmoothedPoses smooth_poses(const PosePath& path, double half_width_s, const std::vector<double>& decay) {
   const std::size_t n = path.t_s.size();
   SmoothedPoses out;
   std::size_t first = 0, last = 0;
-  std::vector<double> of_p, of_v;  // each pose's weight in p and in v
+  std::vector<double> weights, times;  // of the poses within reach; times from −1 to 1
   for (std::size_t i = 0; i < n; ++i) {
     double reach_s = half_width_s;
     // A parabola needs poses, three on the average on either side.
@@ -93,39 +105,46 @@ SmoothedPoses smooth_poses(const PosePath& path, double half_width_s, double slo
       reach_s *= 1.4;
     } while (last - first < std::min<std::size_t>(5, n));
     reach_s /= 1.4;
-    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();  // a row a power, a column an axis
-    const auto weight_at = [&](std::size_t j) {
-      const double u = (path.t_s[j] - path.t_s[i]) / reach_s;
-      return (1.0 - u * u) * (1.0 - u * u);
-    };
+    std::array<double, 5> moment{};           // Σ w u^k
+    std::array<Eigen::Vector3d, 3> products;  // Σ w u^k (q − q_i)
+    products.fill(Eigen::Vector3d::Zero());
+    weights.resize(last - first);
+    times.resize(last - first);
     for (std::size_t j = first; j < last; ++j) {
-      const double dt_s = (path.t_s[j] - path.t_s[i]) / reach_s;
-      const double w = weight_at(j);
-      const Eigen::Vector3d powers(1.0, dt_s, dt_s * dt_s);
-      moments += w * powers * powers.transpose();
-      products += w * powers * (path.p_world_tip_m[j] - path.p_world_tip_m[i]).transpose();
+      const double u = (path.t_s[j] - path.t_s[i]) / reach_s;
+      const double w = (1.0 - u * u) * (1.0 - u * u), wu = w * u, wuu = wu * u;
+      times[j - first] = u;
+      weights[j - first] = w;
+      moment[0] += w;
+      moment[1] += wu;
+      moment[2] += wuu;
+      moment[3] += wuu * u;
+      moment[4] += wuu * u * u;
+      const Eigen::Vector3d apart = path.p_world_tip_m[j] - path.p_world_tip_m[i];
+      products[0] += w * apart;
+      products[1] += wu * apart;
+      products[2] += wuu * apart;
+    }
+    Eigen::Matrix3d moments;
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) moments(row, column) = moment[static_cast<std::size_t>(row + column)];
     }
     const Eigen::Matrix3d inverse = moments.inverse();
-    const Eigen::Matrix3d fitted = inverse * products;
-    out.p_m.emplace_back(path.p_world_tip_m[i] + fitted.row(0).transpose());
-    out.v_mps.emplace_back(fitted.row(1).transpose() / reach_s);
-    of_p.clear();
-    of_v.clear();
-    double p_square = 0.0, v_square = 0.0;
+    const auto fitted = [&](int power) -> Eigen::Vector3d {
+      return inverse(power, 0) * products[0] + inverse(power, 1) * products[1] + inverse(power, 2) * products[2];
+    };
+    out.p_m.emplace_back(path.p_world_tip_m[i] + fitted(0));
+    out.v_mps.emplace_back(fitted(1) / reach_s);
+    NoiseGain of_p, of_v;
     for (std::size_t j = first; j < last; ++j) {
-      const double dt_s = (path.t_s[j] - path.t_s[i]) / reach_s;
-      const Eigen::Vector3d share = weight_at(j) * inverse * Eigen::Vector3d(1.0, dt_s, dt_s * dt_s);
-      of_p.push_back(share[0]);
-      of_v.push_back(share[1] / reach_s);
-      p_square += of_p.back() * of_p.back();
-      v_square += of_v.back() * of_v.back();
+      const double u = times[j - first], w = weights[j - first], shared = j > first ? decay[j] : 0.0;
+      of_p.add(w * (inverse(0, 0) + u * (inverse(0, 1) + u * inverse(0, 2))), shared);
+      of_v.add(w * (inverse(1, 0) + u * (inverse(1, 1) + u * inverse(1, 2))) / reach_s, shared);
     }
-    const std::span<const double> t_s(path.t_s.data() + first, last - first);
-    out.p_white.push_back(std::sqrt(p_square));
-    out.v_white_per_s.push_back(std::sqrt(v_square));
-    out.p_slow.push_back(slow_gain(of_p, t_s, slow_time_s));
-    out.v_slow_per_s.push_back(slow_gain(of_v, t_s, slow_time_s));
+    out.p_white.push_back(of_p.white());
+    out.v_white_per_s.push_back(of_v.white());
+    out.p_slow.push_back(of_p.slow());
+    out.v_slow_per_s.push_back(of_v.slow());
   }
   return out;
 }
@@ -265,11 +284,12 @@ void measure_own(const PosePath& path, const std::vector<ContactRun>& runs, cons
 // 2011): the difference from the next alone may happen to be small where all of them grow.
 void measure_tracker(const PosePath& path, const std::vector<ContactRun>& runs, const TipMotion& motion,
                      const BasePathResult& base, const PoseNoise& noise, TrackerComparison& out) {
+  const std::vector<double> decay = decay_between(path.t_s, noise.slow_time_s);
   SmoothedPoses narrower;
   double narrower_m = TrackerComparison::kUnknown;
   std::vector<PathLength> before;
   for (const double half_width_s : kHalfWidths_s) {
-    SmoothedPoses smoothed = smooth_poses(path, half_width_s, noise.slow_time_s);
+    SmoothedPoses smoothed = smooth_poses(path, half_width_s, decay);
     PathLength total;
     for (const ContactRun& run : runs) {
       const PathLength part = measure_run(path, run, smoothed, narrower.p_m.empty() ? smoothed : narrower, motion, base,
