@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "asperity/base/csv.h"
+#include "asperity/base/in_background.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
@@ -133,7 +134,7 @@ std::string format_spectrum_csv(const SurfaceSpectrum& spectrum) {
 
 void write_result(const fs::path& folder, const ProcessResult& result, const Recording& recording,
                   const std::string& name) {
-  write_trajectory(folder / "trajectory.csv", result.trajectory.motion);
+  auto trajectory = in_background([&] { write_trajectory(folder / "trajectory.csv", result.trajectory.motion); });
   write_file(folder / "profile.csv", format_profile_csv(result.profile, result.surface ? &*result.surface : nullptr));
   write_file(folder / "spectrum.csv", format_spectrum_csv(result.spectrum));
   if (result.texture) {
@@ -142,6 +143,7 @@ void write_result(const fs::path& folder, const ProcessResult& result, const Rec
     write_texture(folder / "texture.json", texture);
   }
   write_file(folder / "result.json", format_result(result, recording, name));
+  trajectory.get();
 }
 
 bool is_result_folder(const fs::path& folder) noexcept {

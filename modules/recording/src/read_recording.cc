@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/base/in_background.h"
 #include "asperity/base/inner_path.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/recording/parse_recording.h"
@@ -97,14 +99,21 @@ Recording read_probe_recording(const fs::path& folder, const ReadLimits& limits,
 }
 
 Recording read_recording(const fs::path& folder, const ReadLimits& limits, const Observer& observer) {
+  // A simulated recording's truth is the larger part of it: read beside the rest.
+  Problems problems_of_truth;
+  auto truth = in_background([&]() -> std::optional<Truth> {
+    const fs::path path = own_file(folder, "truth.csv");
+    std::error_code error;
+    if (!fs::exists(path, error)) return std::nullopt;
+    return read_truth(path, problems_of_truth, limits);
+  });
   Recording out = read_probe_recording(folder, limits, observer);
   observer.without_progress().update("read", 0.0);
   out.tracker = read_stream(folder, "tracker.csv", limits, out.problems, parse_tracker_csv);
   for (const TrackedBody& body : out.info.bodies)
     out.body_poses.push_back(read_stream(folder, body_file(body.name), limits, out.problems, parse_body_csv));
-  const fs::path truth = own_file(folder, "truth.csv");
-  std::error_code error;
-  if (fs::exists(truth, error)) out.truth = read_truth(truth, out.problems, limits);
+  out.truth = truth.get();
+  out.problems.insert(out.problems.end(), problems_of_truth.begin(), problems_of_truth.end());
   close_unfinished(out);
   return out;
 }
