@@ -10,6 +10,7 @@
 #include "asperity/pipeline/process_recording.h"
 #include "asperity/pipeline/result_json.h"
 #include "asperity/pipeline/write_result.h"
+#include "asperity/verdict/verdict.h"
 #include "interruptible.h"
 #include "parts.h"
 
