@@ -60,8 +60,8 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "measures fine surfaces with a hand-held
  compliance with their errors, haptic textures, and forces on a device.
  Everything also runs on a virtual bench.")
 set(CPACK_COMPONENT_FEEL_DESCRIPTION "haptic renderer of textured surfaces: library for C
- Forces of a textured scene, a step at a time, for programs in C and whatever
- calls C; nothing is allocated, locked or printed in a step.")
+ Forces of a textured scene, a step at a time, for programs in C and
+ languages that call C; nothing is allocated, locked or printed in a step.")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "haptic renderer and surface measurement: headers and libraries
  Header and link of libasperity_feel for C; headers, static libraries and
  CMake files of the C++ modules from recordings to rendering.")

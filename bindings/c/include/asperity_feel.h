@@ -1,4 +1,4 @@
-/* asperity_feel.h: textured surfaces felt by a point or a ball, for programs in C and whatever calls C.
+/* asperity_feel.h: textured surfaces felt by a point or a ball, for programs in C and in languages that call C.
  *
  *   asperity_scene *scene;
  *   asperity_feel *feel;
@@ -43,7 +43,7 @@ extern "C" {
  * asperity_last_error() says why. */
 typedef enum asperity_status {
   ASPERITY_OK = 0,
-  ASPERITY_BAD_ARGUMENT = 1, /* NULL, an index or number out of range, a name that there is not */
+  ASPERITY_BAD_ARGUMENT = 1, /* NULL, an index or number out of range, an unknown name */
   ASPERITY_BAD_FILE = 2,     /* cannot be read, or does not hold what it should; or the scene cannot be rendered */
   ASPERITY_NO_MEMORY = 3,
   ASPERITY_INTERNAL = 4 /* a fault of this library */
@@ -69,14 +69,14 @@ ASPERITY_FEEL_API asperity_status asperity_scene_read(const char *path, asperity
 ASPERITY_FEEL_API asperity_status asperity_scene_from_mesh(const double *vertices_m, size_t vertex_count,
                                                            const unsigned *triangles, size_t triangle_count,
                                                            asperity_scene **scene);
-/* NULL is nothing. */
+/* Does nothing with NULL. */
 ASPERITY_FEEL_API void asperity_scene_free(asperity_scene *scene);
 
 ASPERITY_FEEL_API size_t asperity_scene_object_count(const asperity_scene *scene);
 /* The file that an object's mesh was read from, "" for one of asperity_scene_from_mesh; NULL for an object that there
  * is not. Valid until the scene is changed. */
 ASPERITY_FEEL_API const char *asperity_scene_object_name(const asperity_scene *scene, size_t object);
-/* Where an object stands: its origin, and its orientation as a quaternion w, x, y, z (normalised here). */
+/* An object's pose: its origin, and its orientation as a quaternion w, x, y, z (normalised here). */
 ASPERITY_FEEL_API asperity_status asperity_scene_set_pose(asperity_scene *scene, size_t object,
                                                           const double position_m[3], const double rotation_wxyz[4]);
 /* Paints a *.texture.json along the shortest path over the surface through the points nearest to `points_m` (x, y, z
@@ -112,18 +112,19 @@ ASPERITY_FEEL_API const char *asperity_settings_help(size_t setting);
 
 /* --- Feeling ----------------------------------------------------------------------------------------------------- */
 
-/* One tip and what it remembers from step to step. */
+/* One tip with its state from step to step. */
 typedef struct asperity_feel asperity_feel;
 
 /* `settings` may be NULL: the defaults. */
 ASPERITY_FEEL_API asperity_status asperity_feel_create(const asperity_scene *scene, const asperity_settings *settings,
                                                        asperity_feel **feel);
 ASPERITY_FEEL_API void asperity_feel_free(asperity_feel *feel);
-/* From the next step on this is felt; the force fades over, it does not jump. */
+/* The next step renders this. Materials and textures fade over "texture.cross_fade_s"; meshes, poses and the tip's
+ * radius act at once, so that the force may jump where the tip is in contact. */
 ASPERITY_FEEL_API asperity_status asperity_feel_update(asperity_feel *feel, const asperity_scene *scene,
                                                        const asperity_settings *settings);
 
-/* What a step is told of the tip. */
+/* The tip's motion, the input of a step. */
 typedef struct asperity_motion {
   size_t size;             /* sizeof(asperity_motion) */
   double position_m[3];    /* of the tip's centre */
@@ -140,7 +141,7 @@ typedef struct asperity_touch {
   double friction_N[3];
   double proxy_m[3];         /* where the tip's centre would be on a rigid surface */
   double texture_height_m;   /* at the place that is touched; 0 where there is none */
-  double vibration_N;        /* what of the force trembles along the contact, for a voice coil or a motor */
+  double vibration_N;        /* the part of the force that vibrates, for a voice coil or a motor */
   double point_m[3];         /* on the surface, of the strongest contact; 0 where nothing is touched */
   double normal[3];          /* unit, from the surface towards the tip; 0 where nothing is touched */
   double barycentric[3];     /* of the point in its triangle */
@@ -163,13 +164,14 @@ ASPERITY_FEEL_API asperity_status asperity_feel_step(asperity_feel *feel, const 
 /* `count` steps one after the other: motions[i] gives touches[i], all with the size of the first of each. */
 ASPERITY_FEEL_API asperity_status asperity_feel_steps(asperity_feel *feel, const asperity_motion *motions,
                                                       asperity_touch *touches, size_t count);
-/* The tip was lifted and set elsewhere: it remembers nothing. Real time: yes. */
+/* Clears the state: the tip was lifted and set down elsewhere. Real time: yes. */
 ASPERITY_FEEL_API void asperity_feel_reset(asperity_feel *feel);
 
 /* --- Vibration --------------------------------------------------------------------------------------------------- */
 
-/* The samples of a sound of forces (vibration_N of steps at `force_rate_Hz`): `*written` of them, at most `capacity`,
- * from -1 to 1, filtered for a voice coil. `volume` is 0 to 1; `full_scale_N` is the force that is 1 at volume 1.
+/* The samples of a sound of forces (vibration_N of steps at `force_rate_Hz`, 100 to 4000): `*written` of them, at most
+ * `capacity`, from -1 to 1, filtered for a voice coil, at `sample_rate_Hz` (8000 to 192000). `volume` is 0 to 1;
+ * `full_scale_N` (0.001 to 1000) is the force that is 1 at volume 1. Of faster steps take the mean of each few.
  * With `samples` NULL only `*written` is set: how many there would be. Not real time. */
 ASPERITY_FEEL_API asperity_status asperity_vibration_samples(const double *force_N, size_t count, double force_rate_Hz,
                                                              double sample_rate_Hz, double volume, double full_scale_N,

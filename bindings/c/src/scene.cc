@@ -33,6 +33,16 @@ double within(double value, double from, double to, const char* name) {
   return value;
 }
 
+// What `work` refuses is the caller's argument, for the files have been read.
+template <class Work>
+void as_argument(const Work& work) {
+  try {
+    work();
+  } catch (const asperity::Error& fault) {
+    throw BadArgument(fault.what());
+  }
+}
+
 std::vector<Eigen::Vector3d> points_of(const double* numbers, std::size_t count, const char* name) {
   if (count > 0) there(numbers, name);
   std::vector<Eigen::Vector3d> out(count);
@@ -98,7 +108,8 @@ asperity_status asperity_scene_set_pose(asperity_scene* scene, size_t object, co
     const double* q = &there(rotation_wxyz, "rotation_wxyz");
     const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
     const double length = rotation.norm();
-    if (!std::isfinite(length) || !(length > 1e-6)) throw BadArgument("rotation_wxyz is no rotation");
+    if (!std::isfinite(length) || !(length > 1e-6))
+      throw BadArgument("rotation_wxyz has the length 0 or is not finite");
     of.T_world_mesh = {rotation.normalized(), points_of(position_m, 1, "position_m").front()};
   });
 }
@@ -117,7 +128,7 @@ asperity_status asperity_scene_paint(asperity_scene* scene, size_t object, const
     texture.texture = asperity::read_texture(texture.file);
     asperity::HapticCoordinatesConfig config;
     config.half_width_mm = 1e3 * within(half_width_m, 0.0, 1e3, "half_width_m");
-    asperity::paint(painted, points, std::move(texture), config);
+    as_argument([&] { asperity::paint(painted, points, std::move(texture), config); });
     object_of(scene, object) = std::move(painted);
   });
 }
@@ -126,7 +137,8 @@ asperity_status asperity_scene_set_texture(asperity_scene* scene, int index, con
   return guarded([&] {
     asperity::Scene& of = there(scene, "scene").scene;
     const std::string file = &there(texture_path, "texture_path");
-    asperity::swap_texture(of, index, asperity::read_texture(file), file);
+    asperity::Texture texture = asperity::read_texture(file);
+    as_argument([&] { asperity::swap_texture(of, index, std::move(texture), file); });
   });
 }
 

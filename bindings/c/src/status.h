@@ -32,6 +32,9 @@ asperity_status guarded(const Work& work) noexcept {
   } catch (const Error& fault) {
     set_last_error(fault.what());
     return ASPERITY_BAD_FILE;
+  } catch (const std::length_error&) {
+    set_last_error("a count is larger than any memory");
+    return ASPERITY_BAD_ARGUMENT;
   } catch (const std::bad_alloc&) {
     set_last_error("there is not enough memory");
     return ASPERITY_NO_MEMORY;

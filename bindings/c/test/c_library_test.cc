@@ -169,31 +169,36 @@ TEST_F(CLibrary, AStepAllocatesNothing) {
   EXPECT_GT(testkit::count_allocations(), before);
 }
 
-TEST_F(CLibrary, AnUpdateWhileSteppingIsFeltWithoutAJump) {
+// The stiffness goes from 500 to 790 N/m and back in steps of 290 under a tip 0.7 mm deep: 0.2 N at once, were it not
+// eased over the cross-fade of 50 ms.
+TEST_F(CLibrary, MaterialsAndTexturesFadeWhenUpdatedWhileStepping) {
   asperity_motion motion = stroke(1).front();
-  motion.position_m[2] = -0.7e-3;
-  motion.velocity_mps[2] = 0.0;
+  motion.velocity_mps[0] = motion.velocity_mps[2] = 0.0;
   std::atomic<bool> stop{false};
   std::atomic<std::size_t> steps{0};
+  double largest_N = 0.0, last_N = 0.0;
   std::thread servo([&] {
     asperity_touch touch;
     asperity_touch_init(&touch, sizeof touch);
-    while (!stop) {
-      motion.position_m[0] = 5e-3 + 30e-3 * std::fmod(static_cast<double>(steps) * 1e-5, 1.0);
+    for (; !stop; ++steps) {
+      motion.position_m[2] = std::max(-0.7e-3, 1e-3 - 1e-6 * static_cast<double>(steps));  // down, then still
       asperity_feel_step(feel_, &motion, &touch);
-      ++steps;
       EXPECT_TRUE(std::isfinite(touch.force_N[2]));
+      largest_N = std::max(largest_N, std::abs(touch.force_N[2] - last_N));
+      last_N = touch.force_N[2];
     }
   });
   for (int i = 0; i < 30; ++i) {
-    EXPECT_EQ(asperity_scene_set_stiffness(scene_, 500.0 + 10.0 * i), ASPERITY_OK);
+    EXPECT_EQ(asperity_scene_set_stiffness(scene_, i % 2 == 0 ? 500.0 : 790.0), ASPERITY_OK);
     EXPECT_EQ(asperity_scene_set_texture(scene_, 1, texture_file_.c_str()), ASPERITY_OK) << asperity_last_error();
     EXPECT_EQ(asperity_feel_update(feel_, scene_, settings_), ASPERITY_OK) << asperity_last_error();
-    const std::size_t until = steps + 100;
+    const std::size_t until = steps + 300;
     while (steps < until) std::this_thread::yield();
   }
   stop = true;
   servo.join();
+  EXPECT_GT(last_N, 0.2);
+  EXPECT_LT(largest_N, 0.05);
 }
 
 TEST_F(CLibrary, PosesMoveObjectsAndMaterialsCount) {
@@ -237,6 +242,16 @@ TEST_F(CLibrary, WrongArgumentsAreNamedAndChangeNothing) {
   EXPECT_EQ(asperity_scene_paint(scene_, 7, texture_file_.c_str(), points_m.data(), 1, 0.0, 1), ASPERITY_BAD_ARGUMENT);
   EXPECT_STREQ(asperity_last_error(), "object 7: the scene has 1");
   EXPECT_EQ(asperity_scene_paint(scene_, 0, "nothing.texture.json", vertices_m_.data(), 2, 0.0, 1), ASPERITY_BAD_FILE);
+  EXPECT_EQ(asperity_scene_set_texture(scene_, 77, texture_file_.c_str()), ASPERITY_BAD_ARGUMENT);
+  EXPECT_EQ(asperity_scene_set_texture(scene_, 1, "nothing.texture.json"), ASPERITY_BAD_FILE);
+  const std::array<double, 6> together_m{0.01, 0.01, 0.0, 0.01, 0.01, 0.0};
+  EXPECT_EQ(asperity_scene_paint(scene_, 0, texture_file_.c_str(), together_m.data(), 2, 0.0, 1),
+            ASPERITY_BAD_ARGUMENT);
+  EXPECT_EQ(
+      asperity_scene_from_mesh(vertices_m_.data(), std::numeric_limits<std::size_t>::max(), beyond.data(), 1, &scene),
+      ASPERITY_BAD_ARGUMENT);
+  EXPECT_EQ(asperity_scene_read("\xFF\xFE.scene.json", &scene), ASPERITY_BAD_FILE);
+  EXPECT_EQ(std::string(asperity_last_error()).find('\xFF'), std::string::npos);
   EXPECT_EQ(asperity_scene_set_stiffness(scene_, -5.0), ASPERITY_BAD_ARGUMENT);
   EXPECT_EQ(asperity_scene_set_friction(scene_, std::nan(""), 1.0), ASPERITY_BAD_ARGUMENT);
   const std::array<double, 4> none{};
@@ -250,7 +265,7 @@ TEST_F(CLibrary, WrongArgumentsAreNamedAndChangeNothing) {
   EXPECT_EQ(asperity_scene_object_name(scene_, 1), nullptr);
   EXPECT_STREQ(asperity_scene_object_name(scene_, 0), "");
   EXPECT_EQ(asperity_scene_object_count(nullptr), 0u);
-  EXPECT_STREQ(asperity_status_text(static_cast<asperity_status>(99)), "no status of this library");
+  EXPECT_STREQ(asperity_status_text(static_cast<asperity_status>(99)), "unknown status");
 
   asperity_motion motion = stroke(1).front();
   asperity_touch touch;

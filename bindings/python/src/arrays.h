@@ -55,22 +55,31 @@ inline std::span<const Eigen::Vector3d> points_of(const Doubles& array, const ch
   return {reinterpret_cast<const Eigen::Vector3d*>(array.data()), static_cast<std::size_t>(array.shape(0))};
 }
 
-using Indices = py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>;
-
-// (n, 3) indices below `vertices`. Throws ValueError and IndexError.
-inline std::vector<std::array<std::uint32_t, 3>> triangles_of(const Indices& array, std::size_t vertices) {
+// (n, 3) whole numbers below `vertices`. Throws ValueError and IndexError.
+inline std::vector<std::array<std::uint32_t, 3>> triangles_of(const py::array& array, std::size_t vertices) {
   if (array.ndim() != 2 || array.shape(1) != 3) throw py::value_error("triangles: an array of shape (n, 3) is wanted");
+  if (array.dtype().kind() != 'i' && array.dtype().kind() != 'u')
+    throw py::value_error("triangles: an array of whole numbers is wanted");
+  const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast> whole(array);
   std::vector<std::array<std::uint32_t, 3>> out(static_cast<std::size_t>(array.shape(0)));
   for (std::size_t i = 0; i < out.size(); ++i) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
-      out[i][corner] = *array.data(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(corner));
-      if (out[i][corner] >= vertices) {
-        throw py::index_error("triangles: triangle " + std::to_string(i) + " has the vertex " +
-                              std::to_string(out[i][corner]) + ", and there are " + std::to_string(vertices));
+      const std::int64_t index = *whole.data(static_cast<py::ssize_t>(i), static_cast<py::ssize_t>(corner));
+      if (index < 0 || static_cast<std::uint64_t>(index) >= vertices) {
+        throw py::index_error("triangles: triangle " + std::to_string(i) + " has the vertex " + std::to_string(index) +
+                              ", and there are " + std::to_string(vertices));
       }
+      out[i][corner] = static_cast<std::uint32_t>(index);
     }
   }
   return out;
+}
+
+// `value` if it is from `from` to `to`. Throws ValueError.
+inline double within(double value, double from, double to, const char* name) {
+  if (value >= from && value <= to) return value;
+  throw py::value_error(std::string(name) + " is " + std::to_string(value) + ", not from " + std::to_string(from) +
+                        " to " + std::to_string(to));
 }
 
 // Three numbers. Throws ValueError.

@@ -9,8 +9,8 @@ namespace asperity::python {
 namespace py = pybind11;
 
 std::string setting_text(py::handle value) {
-  if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
-  return py::str(value);
+  const std::string text = py::str(value);  // of a bool of NumPy, too
+  return text == "True" ? "true" : text == "False" ? "false" : text;
 }
 
 }  // namespace asperity::python

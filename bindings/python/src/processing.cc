@@ -127,7 +127,8 @@ void add_processing(py::module_& module) {
           "write", &write, py::arg("folder"),
           "Write trajectory.csv, profile.csv, spectrum.csv, texture.json and result.json into a folder; one that holds "
           "anything but a result is not replaced.");
-  module.def("process", &process, py::arg("recording"), py::arg("name") = "recording", py::arg("settings") = py::dict(),
+  module.def("process", &process, py::arg("recording").none(false), py::arg("name") = "recording",
+             py::arg("settings") = py::dict(),
              "From a recording to profile, roughness and texture. settings: those of `asperity process --set`.");
 }
 

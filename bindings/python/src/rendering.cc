@@ -15,7 +15,7 @@ namespace asperity::python {
 
 namespace {
 
-Scene scene_of_mesh(const Doubles& vertices_m, const Indices& triangles) {
+Scene scene_of_mesh(const Doubles& vertices_m, const py::array& triangles) {
   Scene out;
   SceneObject& object = out.objects.emplace_back();
   const std::span<const Eigen::Vector3d> vertices = points_of(vertices_m, "vertices_m");
@@ -33,7 +33,7 @@ void paint_scene(Scene& scene, const Texture& texture, const Doubles& points_m, 
   painted.texture = texture;
   painted.file = "painted.texture.json";
   HapticCoordinatesConfig config;
-  config.half_width_mm = 1e3 * half_width_m;
+  config.half_width_mm = 1e3 * within(half_width_m, 0.0, 1e3, "half_width_m");
   SceneObject changed = scene.objects[object];
   paint(changed, points_of(points_m, "points_m"), std::move(painted), config);
   scene.objects[object] = std::move(changed);
@@ -44,7 +44,7 @@ class Renderer {
  public:
   Renderer(const Scene& scene, double rate_Hz, const py::dict& settings) {
     RenderConfig config;
-    config.texture.rate_Hz = rate_Hz;
+    config.texture.rate_Hz = within(rate_Hz, 100.0, 20000.0, "rate_Hz");
     set_all(config, settings);
     model_ = make_render_model(scene, config);
   }
@@ -145,7 +145,8 @@ void add_rendering(py::module_& module) {
            py::arg("settings") = py::dict(),
            "settings: those of `asperity feel --set render.NAME=VALUE` without `render.`, such as tip_radius_m.")
       .def("step", &Renderer::step, py::arg("position_m"), py::arg("velocity_mps") = still, py::arg("dt_s") = 1e-3,
-           "One step to a position of the tip's centre (3,), m. The first is outside of all objects, or there is no force.")
+           "One step to a position of the tip's centre (3,), m. The first is outside of all objects, or there is no "
+           "force.")
       .def("steps", &Renderer::steps, py::arg("positions_m"), py::arg("velocities_mps") = py::none(),
            py::arg("dt_s") = 1e-3,
            "Steps to positions (n, 3) one after the other, without Python's lock. Velocities (n, 3), m/s; without them "

@@ -227,6 +227,11 @@ def test_ctrl_c_ends_a_long_simulation():
         (lambda: asperity.roughness(np.zeros(300), -1.0), asperity.Error, "spacing"),
         (lambda: asperity.Mesh([[0, 0, 0]], [[0, 0, 1]]), IndexError, "vertex 1"),
         (lambda: asperity.Mesh([[0, 0]], [[0, 0, 0]]), ValueError, "vertices_m"),
+        (lambda: asperity.Mesh([[0, 0, 0]], [[0, 0, -1]]), IndexError, "vertex -1"),
+        (lambda: asperity.Mesh(np.zeros((9, 3)), [[0, 1, 2**32 + 2]]), IndexError, "4294967298"),
+        (lambda: asperity.Mesh(np.zeros((9, 3)), [[0.0, 1.9, 2.0]]), ValueError, "whole"),
+        (lambda: asperity.process(None), TypeError, "process"),
+        (lambda: asperity.Renderer(asperity.Scene(*plate()), rate_Hz=float("nan")), ValueError, "rate_Hz"),
         (lambda: asperity.Scene(*plate()).paint(asperity.Texture, [[0, 0, 0]]), TypeError, "paint"),
         (lambda: asperity.Renderer(asperity.Scene(*plate()), settings={"friction": -1}), asperity.Error, "friction"),
         (lambda: asperity.Renderer(asperity.Scene(*plate())).step([0, 0]), ValueError, "position_m"),
@@ -237,6 +242,18 @@ def test_ctrl_c_ends_a_long_simulation():
 def test_what_cannot_be_used_is_named(call, kind, text):
     with pytest.raises(kind, match=text):
         call()
+
+
+@pytest.mark.parametrize("name, value", [("friction", -5.0), ("stiffness_N_per_m", -1e9), ("friction", float("nan"))])
+def test_a_material_that_cannot_be_is_refused(result, name, value):
+    texture = result.texture
+    setattr(texture, name, value)
+    scene = asperity.Scene(*plate())
+    with pytest.raises(ValueError, match="half_width_m"):
+        scene.paint(texture, [[0.005, 0.01, 0], [0.055, 0.01, 0]], half_width_m=-1.0)
+    scene.paint(texture, [[0.005, 0.01, 0], [0.055, 0.01, 0]])
+    with pytest.raises(asperity.Error, match=name.split("_")[0]):
+        asperity.Renderer(scene)
 
 
 def test_noise_is_not_trusted():

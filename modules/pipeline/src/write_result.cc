@@ -142,8 +142,8 @@ void write_result(const fs::path& folder, const ProcessResult& result, const Rec
     texture.source.recording = name;
     write_texture(folder / "texture.json", texture);
   }
-  write_file(folder / "result.json", format_result(result, recording, name));
   trajectory.get();
+  write_file(folder / "result.json", format_result(result, recording, name));  // last: by it a folder is a result
 }
 
 bool is_result_folder(const fs::path& folder) noexcept {

@@ -124,13 +124,20 @@ template <std::size_t R>
 }
 
 // Twice the numbers a register, the same operations: the same bytes.
-[[gnu::target("avx2")]] void run_avx2(const Pass& pass, const Roots& root, View x, View y) {
+#if defined(__x86_64__)
+[[gnu::target("avx2")]]
+#endif
+void run_avx2(const Pass& pass, const Roots& root, View x, View y) {
   dispatch(pass, root, x, y);
 }
 
 void run_sse2(const Pass& pass, const Roots& root, View x, View y) { dispatch(pass, root, x, y); }
 
+#if defined(__x86_64__)
 const bool kHasAvx2 = __builtin_cpu_supports("avx2") != 0;
+#else
+constexpr bool kHasAvx2 = false;
+#endif
 
 // The tables of one length: roots of `step` times as fine a division as the length needs.
 class Plan {
@@ -190,7 +197,7 @@ struct Kept {
 };
 thread_local Kept kept;
 
-// Of all that a thread keeps, what it used last. References of one call end here.
+// Of all that a thread keeps, what it used last.
 template <class Entry>
 void forget_oldest(std::list<Entry>& entries) {
   std::size_t total = 0;
@@ -202,10 +209,16 @@ void forget_oldest(std::list<Entry>& entries) {
   entries.erase(last, entries.end());
 }
 
-void forget_oldest() {
-  forget_oldest(kept.plans);
-  forget_oldest(kept.chirps);
-}
+// Its end is that of a call, and of the references that the call took.
+struct Call {
+  Call() = default;
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+  ~Call() {
+    forget_oldest(kept.plans);
+    forget_oldest(kept.chirps);
+  }
+};
 
 template <class Entry, class Is, class Make>
 Entry& find_or_make(std::list<Entry>& entries, const Is& is, const Make& make) {
@@ -293,7 +306,7 @@ std::size_t smooth_length(std::size_t n) {
 }
 
 std::vector<Complex> complex_dft(std::span<const Complex> x) {
-  forget_oldest();
+  const Call call;
   std::vector<Complex> out(x.begin(), x.end());
   if (x.size() < 2) return out;
   if (smooth_length(x.size()) != x.size()) return chirp_dft(x);
@@ -302,7 +315,7 @@ std::vector<Complex> complex_dft(std::span<const Complex> x) {
 }
 
 std::vector<Complex> even_real_dft(std::span<const double> x) {
-  forget_oldest();
+  const Call call;
   const std::size_t half = x.size() / 2;
   Plan& plan = plan_of(half, 2);
   for (std::size_t i = 0; i < half; ++i) {
@@ -326,7 +339,7 @@ std::vector<Complex> even_real_dft(std::span<const double> x) {
 }
 
 std::vector<double> even_inverse_real_dft(std::span<const Complex> spectrum) {
-  forget_oldest();
+  const Call call;
   const std::size_t half = spectrum.size() - 1;
   Plan& plan = plan_of(half, 2);
   // Z_k = E_k + iO_k, conjugated: the inverse is the conjugate of the transform of the conjugate.

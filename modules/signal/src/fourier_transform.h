@@ -11,7 +11,8 @@ namespace asperity {
 // self-sorting passes (Van Loan 1992, Computational Frameworks for the Fast Fourier Transform, §1.7): with N = r·m left
 // to do and s transforms done,
 //   y[q + s(r p + j)] = exp(−2πi j p / N) Σ_k exp(−2πi j k / r) x[q + s(p + m k)],   q < s, p < m, j < r.
-// Others by Bluestein's convolution with a chirp (1970). Tables are kept for the lengths that a thread used last.
+// Others by Bluestein's convolution with a chirp (1970). A thread keeps the tables
+// of the lengths that it used last, up to some 16 MB each of the two kinds.
 std::vector<std::complex<double>> complex_dft(std::span<const std::complex<double>> x);
 
 // X_k for k = 0 … n/2 of n real samples, n even and positive: their pairs are the samples of a complex transform Z of

@@ -7,7 +7,11 @@ namespace asperity::inertial_smoother {
 
 namespace {
 
+#if defined(__x86_64__)
 const bool kHasAvx2 = __builtin_cpu_supports("avx2") != 0;
+#else
+constexpr bool kHasAvx2 = false;
+#endif
 
 using Four [[gnu::vector_size(32)]] = double;
 
@@ -70,13 +74,19 @@ template <int R>
 }
 
 template <int F>
-[[gnu::target("avx2")]] void multiply_avx2(const Padded<F>& a, const double* s, int n, const FilledColumns& filled,
+#if defined(__x86_64__)
+[[gnu::target("avx2")]]
+#endif
+void multiply_avx2(const Padded<F>& a, const double* s, int n, const FilledColumns& filled,
                                            Padded<F>& out) {
   multiply<F>(a, s, n, filled, out);
 }
 
 template <int R>
-[[gnu::target("avx2")]] void add_upper_avx2(double sign, const double* across, const double* b, int n, double* S) {
+#if defined(__x86_64__)
+[[gnu::target("avx2")]]
+#endif
+void add_upper_avx2(double sign, const double* across, const double* b, int n, double* S) {
   add_upper<R>(sign, across, b, n, S);
 }
 
