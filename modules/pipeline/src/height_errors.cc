@@ -158,6 +158,8 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
       measure_length_error(motion, base, recording.calibration.tip_in_marker_m, recording.calibration.tip_radius_m,
                            round ? indentation_m(motion, base) : 0.0);
   out.along_scale_sigma = length.scale_sigma;
+  // On a mesh a position is that of the nearest point: the level at which the tip goes does not move it.
+  if (base.shape != PathShape::kMesh) out.stretch_sigma = length.scale_sigma;
   out.length_ends_m = length.ends_m;
   out.along_sigma_m = length.place_m;
   // What the smoother has learnt of the sensor's own noise, at one reading a period.

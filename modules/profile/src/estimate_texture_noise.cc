@@ -201,8 +201,8 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   const double ends_m2 =
       errors.length_ends_m > 0.0 ? errors.length_ends_m * errors.length_ends_m : 2.0 * place_variance_m2(errors);
   noise.length_stderr_m = std::sqrt(ends_m2 + std::pow(1e-3 * errors.along_scale_sigma * length_mm, 2));
-  noise.end_place_sigma_m = 0.5e-3 * errors.along_scale_sigma * length_mm;
-  noise.stretch_correlation = correlation_under_stretch(k, expected, errors.along_scale_sigma, length_mm);
+  noise.end_place_sigma_m = 0.5e-3 * errors.stretch_sigma * length_mm;
+  noise.stretch_correlation = correlation_under_stretch(k, expected, errors.stretch_sigma, length_mm);
   noise.scale_sigma = errors.scale_sigma;
   noise.along_sigma = noise.length_stderr_m / (1e-3 * length_mm);
   noise.added_rms_m = 1e-3 * std::sqrt(added_power);

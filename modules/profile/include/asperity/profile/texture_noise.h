@@ -25,6 +25,7 @@ struct HeightErrors {
   double along_tracker_psd_m2ps = 0.0;
   double scale_sigma = 0.0;        // relative, of all heights
   double along_scale_sigma = 0.0;  // relative, of the arc length
+  double stretch_sigma = 0.0;      // likewise, what of it moves heights from their positions
   double along_sigma_m = 0.0;      // of a place along the path, by the motion's covariance; 0: not known
   double length_ends_m = 0.0;      // of the arc length, by the places of its ends (measure_length_error.h)
   // What is not white (height_error_density.h).
