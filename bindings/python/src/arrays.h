@@ -56,8 +56,10 @@ inline std::span<const Eigen::Vector3d> points_of(const Doubles& array, const ch
 }
 
 // (n, 3) whole numbers below `vertices`. Throws ValueError and IndexError.
-inline std::vector<std::array<std::uint32_t, 3>> triangles_of(const py::array& array, std::size_t vertices) {
-  if (array.ndim() != 2 || array.shape(1) != 3) throw py::value_error("triangles: an array of shape (n, 3) is wanted");
+inline std::vector<std::array<std::uint32_t, 3>> triangles_of(const py::object& given, std::size_t vertices) {
+  const py::array array = py::array::ensure(given);
+  if (!array || array.ndim() != 2 || array.shape(1) != 3)
+    throw py::value_error("triangles: an array of shape (n, 3) is wanted");
   if (array.dtype().kind() != 'i' && array.dtype().kind() != 'u')
     throw py::value_error("triangles: an array of whole numbers is wanted");
   const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast> whole(array);

@@ -19,7 +19,7 @@ struct Mesh {
   explicit Mesh(TriangleMesh of) : mesh(std::move(of)), bvh(mesh) {}
 };
 
-Mesh mesh_of(const Doubles& vertices_m, const py::array& triangles) {
+Mesh mesh_of(const Doubles& vertices_m, const py::object& triangles) {
   TriangleMesh out;
   const std::span<const Eigen::Vector3d> vertices = points_of(vertices_m, "vertices_m");
   out.vertices_m.assign(vertices.begin(), vertices.end());

@@ -15,7 +15,7 @@ namespace asperity::python {
 
 namespace {
 
-Scene scene_of_mesh(const Doubles& vertices_m, const py::array& triangles) {
+Scene scene_of_mesh(const Doubles& vertices_m, const py::object& triangles) {
   Scene out;
   SceneObject& object = out.objects.emplace_back();
   const std::span<const Eigen::Vector3d> vertices = points_of(vertices_m, "vertices_m");
