@@ -42,8 +42,8 @@ void check_render_config(const RenderConfig& config) {
 // What files hold was checked when they were read; a program may have set anything.
 void check_material(const RenderMaterial& material) {
   const auto finite = [](double x) { return std::isfinite(x); };
-  require_value(finite(material.stiffness_N_per_m) && material.stiffness_N_per_m > 0.0,
-                "a material's stiffness is not above 0", material.stiffness_N_per_m);
+  require_value(finite(material.stiffness_N_per_m) && material.stiffness_N_per_m >= 0.0,
+                "a material's stiffness is below 0", material.stiffness_N_per_m);
   require_value(finite(material.compliance_kc) && material.compliance_kc >= 0.0, "a material's compliance is below 0",
                 material.compliance_kc);
   require_value(finite(material.friction) && material.friction >= 0.0, "a material's friction is below 0",
