@@ -16,15 +16,12 @@ constexpr std::size_t kApart = 100;  // samples: further apart than a batch is l
 constexpr double kTogether = 1.7;    // times as much do stamps so far apart scatter as neighbours; single ones as much
 constexpr double kJump = 0.2;        // of the period: a step so far from a whole number of periods is between batches
 constexpr double kSigmas = 4.0;      // and so many of the steps' own scatter
-constexpr double kFewestJumps = 8;   // of batches
-// And this share of the steps: where stamps scatter within a batch too, only the longest waits stand out of them. Steps
-// with a normal scatter and no batches are as long in 6 of 100 000.
-constexpr double kFewestJumps_share = 0.002;
-constexpr double kClump = 0.3;     // of the mean step: a median step below it is of samples stamped together
-constexpr double kLook_s = 0.4;    // to either side of a step, whether it was a loss
-constexpr double kLost = 0.6;      // of a period: shift of the least wait
-constexpr double kWaits = 5.0;     // mean waits over batches: the least of so many is not as far off by chance
-constexpr double kLongStep = 1.4;  // of a period: a shorter step has lost nothing
+constexpr double kFewestJumps = 8;   // of batches, and one step in a hundred
+constexpr double kClump = 0.3;       // of the mean step: a median step below it is of samples stamped together
+constexpr double kLook_s = 0.4;      // to either side of a step, whether it was a loss
+constexpr double kLost = 0.6;        // of a period: shift of the least wait
+constexpr double kWaits = 5.0;       // mean waits over batches: the least of so many is not as far off by chance
+constexpr double kLongStep = 1.4;    // of a period: a shorter step has lost nothing
 constexpr double kBatch_ns = 3e7;  // longest that a loss is looked for behind the step before which the stamps are late
 constexpr double kExact = 0.15;    // of a period: a step so near to a whole number of periods is one
 constexpr double kNode_s = 0.1;    // between the points at which the line is fitted
@@ -119,7 +116,7 @@ Batches find_batches(const std::vector<double>& t_ns, const std::vector<double>&
     out.ends[i] = 1;
     jumps += 1.0;
   }
-  if (jumps < std::max(kFewestJumps, kFewestJumps_share * static_cast<double>(step_ns.size()))) return out;
+  if (jumps < std::max(kFewestJumps, 0.01 * static_cast<double>(step_ns.size()))) return out;
   // The median over long stretches, which a loss here and there leaves as it is; within a batch the host may count back
   // by a nominal period.
   std::vector<std::size_t> last;
