@@ -285,7 +285,7 @@ class ProcessCommand : public Command {
     }
     observer.update("writing", 0.0);
     fs::create_directories(place);
-    source_.checksum = checksum_.get();  // a file that cannot be read is an error also where there is no texture
+    source_.checksum = checksum_.get();  // an unreadable file is an error without a texture, too
     if (result.texture) note_sources(*result.texture, {source_});
     write_result(place, result, recording, name);
     items_.push_back({name, studio::measured_block(result, recording, name).take()});
