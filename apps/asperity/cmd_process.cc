@@ -287,10 +287,11 @@ class ProcessCommand : public Command {
     fs::create_directories(place);
     source_.checksum = checksum_.get();  // an unreadable file is an error without a texture, too
     if (result.texture) note_sources(*result.texture, {source_});
-    write_result(place, result, recording, name);
-    items_.push_back({name, studio::measured_block(result, recording, name).take()});
+    const Json json = result_json(result, recording, name);
+    write_result(place, result, json);
+    items_.push_back({name, studio::measured_block(json, result, recording).take()});
     studio::write_report(place, {items_.back()});
-    results_.emplace_back(name, result_json(result, recording, name));
+    results_.emplace_back(name, json);
     text += printable(name, 200) + "\n" + result_summary(result);
     for (const Verdict& verdict : result.verdicts) {
       if (verdict.severity == Severity::kNote) continue;

@@ -1,6 +1,7 @@
 #include "asperity/base/csv.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 
@@ -134,9 +135,12 @@ bool CsvReader::next() {
 }
 
 double CsvReader::number(std::size_t column) const {
-  double whole = 0.0;
-  if (parse_short_integer(cells_[column], whole)) return whole;
-  const auto value = parse_double(cells_[column]);
+  const std::string_view cell = cells_[column];
+  double plain = 0.0;
+  if (parse_short_integer(cell, plain)) return plain;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), plain);
+  if (error == std::errc{} && end == cell.data() + cell.size()) return plain;
+  const auto value = parse_double(cell);  // with a sign or blanks before it
   if (!value) fail(column, "'" + printable(cells_[column]) + "' is not a number");
   return *value;
 }

@@ -1,8 +1,10 @@
 #include "asperity/base/text.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 
 namespace asperity {
 
@@ -49,31 +51,54 @@ void append_number(std::string& out, std::int64_t value) {
   out.append(buffer, end);
 }
 
-void append_decimals(std::string& out, double value) {
-  constexpr double kScale = 1e12, kLargest = 1000.0;  // their product is below 2^53
-  constexpr std::size_t kDecimals = 12;
-  if (!(std::abs(value) < kLargest)) return append_number(out, value);
-  auto left = static_cast<std::uint64_t>(std::llround(std::abs(value) * kScale));
-  char buffer[kDecimals + 5];
-  char* const end = buffer + sizeof buffer;
-  char* at = end;
-  const auto digit = [&] {
-    *--at = static_cast<char>('0' + left % 10);
-    left /= 10;
-  };
-  char* last = end;  // behind the last that is not 0
-  if (left % 1'000'000 == 0) {
-    left /= 1'000'000;
-    for (std::size_t i = 0; i < kDecimals / 2; ++i) digit();
-  } else {
-    for (std::size_t i = 0; i < kDecimals; ++i) digit();
+namespace {
+
+// "000102…99".
+constexpr auto kPairs = [] {
+  std::array<char, 200> out{};
+  for (std::size_t i = 0; i < 100; ++i) {
+    out[2 * i] = static_cast<char>('0' + i / 10);
+    out[2 * i + 1] = static_cast<char>('0' + i % 10);
   }
-  while (last > at && last[-1] == '0') --last;
-  if (last > at) *--at = '.';
-  do digit();
-  while (left > 0);
-  if (value < 0.0 && (last - at > 1 || *at != '0')) *--at = '-';
-  out.append(at, last);
+  return out;
+}();
+
+char* put_pair(char* at, std::uint32_t pair) {
+  std::memcpy(at, kPairs.data() + 2 * static_cast<std::size_t>(pair), 2);
+  return at + 2;
+}
+
+// Six digits of a number below a million.
+char* put_six(char* at, std::uint32_t number) {
+  at = put_pair(at, number / 10'000);
+  at = put_pair(at, number / 100 % 100);
+  return put_pair(at, number % 100);
+}
+
+}  // namespace
+
+char* put_decimals(char* at, double value) {
+  constexpr double kScale = 1e12, kLargest = 1000.0;  // their product is below 2^53
+  constexpr std::uint64_t kHalf = 1'000'000;          // of the decimals
+  if (std::isnan(value)) return std::copy_n("nan", 3, at);
+  if (!(std::abs(value) < kLargest)) return std::to_chars(at, at + kMostDecimalsLength, value).ptr;
+  const auto scaled = static_cast<std::uint64_t>(std::llround(std::abs(value) * kScale));
+  if (value < 0.0 && scaled > 0) *at++ = '-';
+  const std::uint64_t upper = scaled / kHalf;  // with the first six decimals
+  const auto lower = static_cast<std::uint32_t>(scaled % kHalf);
+  const auto whole = static_cast<std::uint32_t>(upper / kHalf), middle = static_cast<std::uint32_t>(upper % kHalf);
+  at = std::to_chars(at, at + 5, whole).ptr;
+  if (middle == 0 && lower == 0) return at;
+  *at++ = '.';
+  at = put_six(at, middle);
+  if (lower != 0) at = put_six(at, lower);
+  while (at[-1] == '0') --at;
+  return at;
+}
+
+void append_decimals(std::string& out, double value) {
+  char buffer[kMostDecimalsLength];
+  out.append(buffer, put_decimals(buffer, value));
 }
 
 void append_exact(std::string& out, double value) {

@@ -308,9 +308,12 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
 }
 
 std::string format_result(const ProcessResult& result, const Recording& recording, const std::string& name) {
-  const Json out = result_json(result, recording, name);
+  return result_text(result_json(result, recording, name));
+}
+
+std::string result_text(const Json& json) {
   // Names come from files; what is not UTF-8 in them must not stop the writing.
-  return out.dump_repaired(2) + "\n";
+  return json.dump_repaired(2) + "\n";
 }
 
 }  // namespace asperity

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/json/parse_json.h"
+#include "asperity/pipeline/result_json.h"
 #include "asperity/texture/texture_file.h"
 #include "json.h"
 
@@ -42,13 +44,16 @@ void append_trajectory_row(std::string& out, const TipMotion& motion, std::size_
                                           ? Eigen::Vector3d::Constant(kNan)
                                           : Eigen::Vector3d(motion.cov_world_tip_m2[i].diagonal());
   const Eigen::Vector3d sigma_m = variance_m2.cwiseSqrt();
-  append_number(out, motion.t_ns[i]);
+  constexpr std::size_t kCells = 14;
+  char row[24 + kCells * (1 + kMostDecimalsLength) + 1];
+  char* at = std::to_chars(row, row + 24, motion.t_ns[i]).ptr;
   for (const double cell : {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(), v.z(),
                             std::sqrt(variance_m2.mean()), sigma_m.x(), sigma_m.y(), sigma_m.z()}) {
-    out += ',';
-    append_decimals(out, cell);
+    *at++ = ',';
+    at = put_decimals(at, cell);
   }
-  out += '\n';
+  *at++ = '\n';
+  out.append(row, at);
 }
 
 // Piece by piece: the text of an hour does not fit into memory.
@@ -134,16 +139,20 @@ std::string format_spectrum_csv(const SurfaceSpectrum& spectrum) {
 
 void write_result(const fs::path& folder, const ProcessResult& result, const Recording& recording,
                   const std::string& name) {
+  write_result(folder, result, result_json(result, recording, name));
+}
+
+void write_result(const fs::path& folder, const ProcessResult& result, const Json& json) {
   auto trajectory = in_background([&] { write_trajectory(folder / "trajectory.csv", result.trajectory.motion); });
   write_file(folder / "profile.csv", format_profile_csv(result.profile, result.surface ? &*result.surface : nullptr));
   write_file(folder / "spectrum.csv", format_spectrum_csv(result.spectrum));
   if (result.texture) {
     Texture texture = *result.texture;
-    texture.source.recording = name;
+    texture.source.recording = json.at("recording").get<std::string>();
     write_texture(folder / "texture.json", texture);
   }
   trajectory.get();
-  write_file(folder / "result.json", format_result(result, recording, name));  // last: by it a folder is a result
+  write_file(folder / "result.json", result_text(json));  // last: by it a folder is a result
 }
 
 bool is_result_folder(const fs::path& folder) noexcept {

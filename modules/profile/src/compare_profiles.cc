@@ -109,15 +109,15 @@ struct Moments {
   }
 };
 
-// x true, y measured, the measured side moved by `lag` points.
-Moments overlap(const BandPassed& truth, const BandPassed& measured, std::ptrdiff_t lag) {
+// x true, y measured.
+Moments overlap(const BandPassed& truth, const BandPassed& measured) {
   Moments m;
-  const auto begin = std::max(truth.first, measured.first + lag);
+  const auto begin = std::max(truth.first, measured.first);
   const auto end = std::min(truth.first + static_cast<std::ptrdiff_t>(truth.height_m.size()),
-                            measured.first + lag + static_cast<std::ptrdiff_t>(measured.height_m.size()));
+                            measured.first + static_cast<std::ptrdiff_t>(measured.height_m.size()));
   for (auto k = begin; k < end; ++k) {
     const double x = truth.height_m[static_cast<std::size_t>(k - truth.first)];
-    const double y = measured.height_m[static_cast<std::size_t>(k - lag - measured.first)];
+    const double y = measured.height_m[static_cast<std::size_t>(k - measured.first)];
     if (!std::isfinite(x) || !std::isfinite(y)) continue;
     m.n += 1.0;
     m.x += x;
@@ -126,6 +126,88 @@ Moments overlap(const BandPassed& truth, const BandPassed& measured, std::ptrdif
     m.yy += y * y;
     m.xy += x * y;
     m.dd += (y - x) * (y - x);
+  }
+  return m;
+}
+
+// One side of a comparison at many lags: its heights, 0 where there is none, their sums up to each point, and the runs
+// of points that have one.
+class LaggedSide {
+ public:
+  struct Run {
+    std::ptrdiff_t begin = 0, end = 0;
+  };
+
+  explicit LaggedSide(const BandPassed& side) : height_m_(side.height_m), first_(side.first) {
+    const auto n = static_cast<std::ptrdiff_t>(height_m_.size());
+    sum_.reserve(height_m_.size() + 1);
+    square_.reserve(height_m_.size() + 1);
+    sum_.push_back(0.0);
+    square_.push_back(0.0);
+    for (std::ptrdiff_t k = 0; k < n; ++k) {
+      double& height_m = height_m_[static_cast<std::size_t>(k)];
+      if (!std::isfinite(height_m)) {
+        height_m = 0.0;
+      } else if (!runs_.empty() && runs_.back().end == first_ + k) {
+        ++runs_.back().end;
+      } else {
+        runs_.push_back({first_ + k, first_ + k + 1});
+      }
+      sum_.push_back(sum_.back() + height_m);
+      square_.push_back(square_.back() + height_m * height_m);
+    }
+  }
+
+  const std::vector<Run>& runs() const { return runs_; }
+  const double* at(std::ptrdiff_t k) const { return height_m_.data() + (k - first_); }
+  double sum(const Run& run) const { return difference(sum_, run); }
+  double square(const Run& run) const { return difference(square_, run); }
+
+ private:
+  double difference(const std::vector<double>& total, const Run& run) const {
+    return total[static_cast<std::size_t>(run.end - first_)] - total[static_cast<std::size_t>(run.begin - first_)];
+  }
+
+  std::vector<double> height_m_;
+  std::ptrdiff_t first_;
+  std::vector<double> sum_, square_;
+  std::vector<Run> runs_;
+};
+
+double dot(const double* a, const double* b, std::ptrdiff_t n) {
+  double s0 = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0;
+  std::ptrdiff_t k = 0;
+  for (; k + 4 <= n; k += 4) {
+    s0 += a[k] * b[k];
+    s1 += a[k + 1] * b[k + 1];
+    s2 += a[k + 2] * b[k + 2];
+    s3 += a[k + 3] * b[k + 3];
+  }
+  for (; k < n; ++k) s0 += a[k] * b[k];
+  return (s0 + s1) + (s2 + s3);
+}
+
+// x true, y measured, the measured side moved by `lag` points; without `dd`.
+Moments overlap_at(const LaggedSide& truth, const LaggedSide& measured, std::ptrdiff_t lag) {
+  Moments m;
+  auto one = truth.runs().begin();
+  auto other = measured.runs().begin();
+  while (one != truth.runs().end() && other != measured.runs().end()) {
+    const LaggedSide::Run both{std::max(one->begin, other->begin + lag), std::min(one->end, other->end + lag)};
+    if (both.begin < both.end) {
+      const LaggedSide::Run back{both.begin - lag, both.end - lag};
+      m.n += static_cast<double>(both.end - both.begin);
+      m.x += truth.sum(both);
+      m.xx += truth.square(both);
+      m.y += measured.sum(back);
+      m.yy += measured.square(back);
+      m.xy += dot(truth.at(both.begin), measured.at(back.begin), both.end - both.begin);
+    }
+    if (one->end < other->end + lag) {
+      ++one;
+    } else {
+      ++other;
+    }
   }
   return m;
 }
@@ -172,19 +254,20 @@ AlignedProfiles align_profiles(std::span<const double> measured_s_m, std::span<c
   out.length_error_percent = 100.0 * (span_m(measured_knots) / span_m(true_knots) - 1.0);
   const auto reach = static_cast<std::ptrdiff_t>(config.max_shift_m / config.spacing_m);
   // An overlap much shorter than the whole could fit by chance.
-  const double enough = std::max(10.0, 0.5 * overlap(truth, measured, 0).n);
+  const LaggedSide true_side(truth), measured_side(measured);
+  const double enough = std::max(10.0, 0.5 * overlap_at(true_side, measured_side, 0).n);
   std::ptrdiff_t best = 0;
   double highest = -2.0;
   for (std::ptrdiff_t lag = -reach; lag <= reach; ++lag) {
-    const Moments m = overlap(truth, measured, lag);
+    const Moments m = overlap_at(true_side, measured_side, lag);
     if (m.n >= enough && m.correlation() > highest) {
       highest = m.correlation();
       best = lag;
     }
   }
   if (highest < -1.5) return aligned;
-  const double before = overlap(truth, measured, best - 1).correlation(),
-               after = overlap(truth, measured, best + 1).correlation();
+  const double before = overlap_at(true_side, measured_side, best - 1).correlation(),
+               after = overlap_at(true_side, measured_side, best + 1).correlation();
   const double bend = before - 2.0 * highest + after;
   const double fraction = bend < 0.0 ? std::clamp(0.5 * (before - after) / bend, -0.5, 0.5) : 0.0;
   out.shift_m =
@@ -192,7 +275,7 @@ AlignedProfiles align_profiles(std::span<const double> measured_s_m, std::span<c
 
   const BandPassed moved = band_pass(measured_knots, out.shift_m, {}, config);
   const BandPassed beside = band_pass(true_knots, 0.0, gaps_of(measured_knots, out.shift_m, config), config);
-  const Moments m = overlap(beside, moved, 0);
+  const Moments m = overlap(beside, moved);
   if (m.n < 10.0) return aligned;
   out.correlation = m.correlation();
   const double true_variance = m.xx / m.n - m.x / m.n * (m.x / m.n);

@@ -94,28 +94,30 @@ class NoiseDraws {
   std::size_t part_ = kParts;
 };
 
-// Less the least-squares polynomial over the points that have a height.
-void subtract_polynomial(const std::vector<double>& like, int degree, std::vector<double>& y) {
-  const auto product = [](const std::vector<double>& a, const std::vector<double>& b) {
-    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-  };
-  const auto subtract = [](const std::vector<double>& from, double share, std::vector<double>& x) {
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] -= share * from[i];
-  };
-  std::vector<std::vector<double>> terms;  // orthonormal
+double product(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+void subtract(const std::vector<double>& from, double share, std::vector<double>& x) {
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] -= share * from[i];
+}
+
+// Orthonormal polynomials up to `degree` over the points of `like` that have a height.
+std::vector<std::vector<double>> orthonormal_polynomials(const std::vector<double>& like, int degree) {
+  std::vector<std::vector<double>> terms;
   for (int d = 0; d <= degree; ++d) {
-    std::vector<double> term(y.size());
-    for (std::size_t i = 0; i < y.size(); ++i) {
-      const double x = 2.0 * static_cast<double>(i) / static_cast<double>(y.size()) - 1.0;
+    std::vector<double> term(like.size());
+    for (std::size_t i = 0; i < like.size(); ++i) {
+      const double x = 2.0 * static_cast<double>(i) / static_cast<double>(like.size()) - 1.0;
       term[i] = std::isfinite(like[i]) ? std::pow(x, d) : 0.0;
     }
     for (const std::vector<double>& before : terms) subtract(before, product(before, term), term);
     const double norm = std::sqrt(product(term, term));
     if (!(norm > 1e-9)) continue;
     for (double& value : term) value /= norm;
-    subtract(term, product(term, y), y);
     terms.push_back(std::move(term));
   }
+  return terms;
 }
 
 void clear_gaps(const std::vector<double>& like, std::vector<double>& y) {
@@ -204,6 +206,7 @@ DrawnErrors draw_height_errors(const Profile& profile, const HeightErrors& error
   const std::vector<double> lean = draw_sizes(draws);
   Random random(kErrorSeed);
   NoiseDraws heights(height, t_s, random), places(along, t_s, random), leanings(leaning, t_s, random);
+  const std::vector<std::vector<double>> base = orthonormal_polynomials(profile.height_m, errors.base_degree);
   double shape = 0.0;
   std::vector<std::vector<double>> all_moved_m;
   for (std::size_t j = 0; j < draws; ++j) {
@@ -218,7 +221,7 @@ DrawnErrors draw_height_errors(const Profile& profile, const HeightErrors& error
     std::vector<double> added_m =
         extract_texture(error_m, profile.spacing_m, cutoff_cycles_per_mm, config.bridge_m, seams);
     clear_gaps(profile.height_m, error_m);
-    subtract_polynomial(profile.height_m, errors.base_degree, error_m);
+    for (const std::vector<double>& term : base) subtract(term, product(term, error_m), error_m);
     clear_gaps(profile.texture_m, added_m);
     out.height_m.push_back(std::move(error_m));
     out.added_m.push_back(std::move(added_m));

@@ -8,14 +8,23 @@ namespace asperity {
 
 namespace {
 
-double interpolated_density(const std::vector<double>& at, const std::vector<double>& density_m2ps,
-                            double frequency_Hz) {
-  if (density_m2ps.size() != at.size()) return 0.0;
+// A frequency between two points of a list: at `next` and the one before; next is 0 beyond them.
+struct Place {
+  std::size_t next = 0;
+  double share = 0.0;
+};
+
+Place find_place(const std::vector<double>& at, double frequency_Hz) {
   const auto next = std::upper_bound(at.begin(), at.end(), frequency_Hz);
-  if (next == at.begin() || next == at.end()) return 0.0;
+  if (next == at.begin() || next == at.end()) return {};
   const auto i = static_cast<std::size_t>(next - at.begin());
-  const double share = (frequency_Hz - at[i - 1]) / (at[i] - at[i - 1]);
-  return density_m2ps[i - 1] + share * (density_m2ps[i] - density_m2ps[i - 1]);
+  return {i, (frequency_Hz - at[i - 1]) / (at[i] - at[i - 1])};
+}
+
+double interpolated_density(const std::vector<double>& density_m2ps, const Place& place) {
+  if (place.next == 0 || place.next >= density_m2ps.size()) return 0.0;
+  const double before = density_m2ps[place.next - 1];
+  return before + place.share * (density_m2ps[place.next] - before);
 }
 
 double fourth(double x) { return x * x * x * x; }
@@ -51,10 +60,11 @@ double height_error_density_m2ps(const HeightErrors& errors, double frequency_Hz
   const double share = accel / (accel + tracker * fourth(omega));
   const double slow = 4.0 * std::pow(errors.tracker_slow_sigma_m, 2) * errors.tracker_slow_time_s /
                       (1.0 + std::pow(omega * errors.tracker_slow_time_s, 2));
-  const double crosstalk = interpolated_density(errors.crosstalk_Hz, errors.crosstalk_m2ps, frequency_Hz);
+  const Place place = find_place(errors.crosstalk_Hz, frequency_Hz);
+  const double crosstalk = interpolated_density(errors.crosstalk_m2ps, place);
   return share * tracker + share * share * slow + (1.0 - share) * (1.0 - share) * crosstalk +
          std::pow(errors.lever_m, 2) * rotation + object_density(errors.object, errors.object_slow_time_s, omega) +
-         interpolated_density(errors.crosstalk_Hz, errors.leaning_m2ps, frequency_Hz);
+         interpolated_density(errors.leaning_m2ps, place);
 }
 
 }  // namespace asperity

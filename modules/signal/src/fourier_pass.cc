@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "asperity/base/processor.h"
+
 namespace asperity {
 namespace {
 
@@ -77,25 +79,14 @@ template <std::size_t R>
   if (pass.radix == 5) pass_of_radix<5>(pass, root, x, y);
 }
 
-#if defined(__x86_64__)
-[[gnu::target("avx2")]]
-#endif
-void run_avx2(const Pass& pass, const Roots& root, View x, View y) {
-  dispatch(pass, root, x, y);
-}
+ASPERITY_TARGET_AVX2 void run_avx2(const Pass& pass, const Roots& root, View x, View y) { dispatch(pass, root, x, y); }
 
 void run_sse2(const Pass& pass, const Roots& root, View x, View y) { dispatch(pass, root, x, y); }
-
-#if defined(__x86_64__)
-const bool kHasAvx2 = __builtin_cpu_supports("avx2") != 0;
-#else
-constexpr bool kHasAvx2 = false;
-#endif
 
 }  // namespace
 
 void run_pass(const Pass& pass, const Roots& root, View x, View y) {
-  if (kHasAvx2) {
+  if (kProcessorHasAvx2) {
     run_avx2(pass, root, x, y);
   } else {
     run_sse2(pass, root, x, y);

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "asperity/base/processor.h"
+
 namespace asperity {
 namespace {
 
@@ -106,20 +108,14 @@ double total(const std::array<double, Count>& lanes) noexcept {
   return {height_m, total(derivative) * texture.omega_rad_per_mm() * 1e3};
 }
 
-#if defined(__x86_64__)
-[[gnu::target("avx2")]] HeightAndSlope sum_series_avx2(const Fourier1d& texture, double x_m) noexcept {
+ASPERITY_TARGET_AVX2 HeightAndSlope sum_series_avx2(const Fourier1d& texture, double x_m) noexcept {
   return sum_series(texture, x_m);
 }
-
-const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
-#endif
 
 }  // namespace
 
 HeightAndSlope evaluate_height(const Fourier1d& texture, double x_m) noexcept {
-#if defined(__x86_64__)
-  if (has_avx2) return sum_series_avx2(texture, x_m);
-#endif
+  if (kProcessorHasAvx2) return sum_series_avx2(texture, x_m);
   return sum_series(texture, x_m);
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "asperity/base/processor.h"
 #include "asperity/texture/evaluate_height_map.h"
 #include "asperity/texture/evaluate_spline_grid.h"
 
@@ -90,33 +91,25 @@ template <class Grid, class Value>
           scale.unit_m * scale.cells_y_per_m * h.slope_y};
 }
 
-#if defined(__x86_64__)
-const bool kHasAvx2 = __builtin_cpu_supports("avx2") != 0;
-
-[[gnu::target("avx2")]] HeightAndGradient map_height_avx2(const HeightMap& map, const GridScale& scale, double x_m,
-                                                          double y_m) noexcept {
+ASPERITY_TARGET_AVX2 HeightAndGradient map_height_avx2(const HeightMap& map, const GridScale& scale, double x_m,
+                                                       double y_m) noexcept {
   return grid_height(map, map.level.data(), kKeys, scale, x_m, y_m);
 }
 
-[[gnu::target("avx2")]] HeightAndGradient spline_height_avx2(const SplineGrid& grid, const GridScale& scale, double x_m,
-                                                             double y_m) noexcept {
+ASPERITY_TARGET_AVX2 HeightAndGradient spline_height_avx2(const SplineGrid& grid, const GridScale& scale, double x_m,
+                                                          double y_m) noexcept {
   return grid_height(grid, grid.coefficient_m.data(), kSpline, scale, x_m, y_m);
 }
-#endif
 
 }  // namespace
 
 HeightAndGradient map_height(const HeightMap& map, const GridScale& scale, double x_m, double y_m) noexcept {
-#if defined(__x86_64__)
-  if (kHasAvx2) return map_height_avx2(map, scale, x_m, y_m);
-#endif
+  if (kProcessorHasAvx2) return map_height_avx2(map, scale, x_m, y_m);
   return grid_height(map, map.level.data(), kKeys, scale, x_m, y_m);
 }
 
 HeightAndGradient spline_height(const SplineGrid& grid, const GridScale& scale, double x_m, double y_m) noexcept {
-#if defined(__x86_64__)
-  if (kHasAvx2) return spline_height_avx2(grid, scale, x_m, y_m);
-#endif
+  if (kProcessorHasAvx2) return spline_height_avx2(grid, scale, x_m, y_m);
   return grid_height(grid, grid.coefficient_m.data(), kSpline, scale, x_m, y_m);
 }
 

@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 
 #include "symmetric_products.h"
+#include "transition_sum.h"
 
 namespace asperity::inertial_smoother {
 
@@ -49,13 +50,14 @@ Forward run_forward(const Problem& problem, bool keep, const Observer& observer)
       refused_in_a_row = 0;
     } else if (e > 0) {
       const Mounting mounting = mounting_of(x, problem);
-      Transition transition;
+      TransitionSum sum(problem);
       for (std::size_t k = problem.epochs[e - 1].knot; k < problem.epochs[e].knot; ++k) {
         const Knot& k0 = problem.knots[k];
         const Knot& k1 = problem.knots[k + 1];
-        const Step step = advance_state(x, k0, k1, mounting, {});
-        transition.extend(step, k0, k1, mounting, problem);
+        const Step step = advance_state(x, k0, k1, mounting, nullptr);
+        sum.extend(step, k0, k1, mounting, problem.gyro_turns_too);
       }
+      const Transition transition = sum.transition();
       transition.propagate(problem, transition.rows(layout), x, P);
       if (keep_transitions) out.records[e - 1].transition.assign(1, transition);
     }
@@ -64,9 +66,8 @@ Forward run_forward(const Problem& problem, bool keep, const Observer& observer)
       const auto i = static_cast<std::size_t>(pose);
       const Vector3d omega = mounting_of(x, problem).gyro * problem.knots[problem.epochs[e].knot].w - x.bg;
       const Predicted predicted = predict_pose(x, omega, problem.poses[i]);
-      const Jacobian H = predicted.jacobian(layout);
       const Jacobian HP = predicted.times(P, layout);
-      Matrix6d S = HP * H.transpose();
+      Matrix6d S = predicted.times(HP.transpose(), layout);
       const MeasurementNoise noise = measurement_noise(problem, i, predicted.rate);
       double wp = problem.position_weight[i];
       double wr = problem.rotation_weight[i];
@@ -97,7 +98,7 @@ Forward run_forward(const Problem& problem, bool keep, const Observer& observer)
       } else if (by_innovation) {
         out.log_likelihood -= problem.gate_chi2 + diagonal.array().log().sum();
       }
-      apply_correction(HP.transpose() * (S_inverse * y), layout, x);
+      apply_correction(HP.transpose().lazyProduct(Vector6d(S_inverse * y)), layout, x);
       const Matrix6d root = factor.matrixL().solve(Matrix6d::Identity());
       Jacobian half(6, HP.cols());
       for (Eigen::Index c = 0; c < HP.cols(); ++c) half.col(c) = root * HP.col(c);

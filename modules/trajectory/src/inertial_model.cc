@@ -31,7 +31,7 @@ double gyro_density(const Knot& knot, const Problem& problem) {
 
 double rate_walk_density(const Problem& problem) { return problem.factors[kRateWalk] * problem.gyro_bias_psd; }
 
-Step advance_state(Nominal& x, const Knot& k0, const Knot& k1, const Mounting& mounting, const Noise& noise) {
+Step advance_state(Nominal& x, const Knot& k0, const Knot& k1, const Mounting& mounting, const Noise* noise) {
   const double dt = k1.t - k0.t;
   Step step;
   step.R0 = x.q.toRotationMatrix();
@@ -42,55 +42,14 @@ Step advance_state(Nominal& x, const Knot& k0, const Knot& k1, const Mounting& m
   const Vector3d A1 = x.q * (mounting.accel * k1.f - x.ba);
   step.A = 0.5 * (A0 + A1);
   step.a0 = A0 + mounting.gravity;
-  x.p += dt * x.v + dt * dt * ((2.0 * A0 + A1) / 6.0 + 0.5 * mounting.gravity) + 0.5 * dt * noise.dv;
-  x.v += dt * (step.A + mounting.gravity) + noise.dv;
-  x.q = exp_rotation(noise.dphi) * x.q;
-  x.bg += noise.dbg;
+  x.p += dt * x.v + dt * dt * ((2.0 * A0 + A1) / 6.0 + 0.5 * mounting.gravity);
+  x.v += dt * (step.A + mounting.gravity);
+  if (noise == nullptr) return step;
+  x.p += 0.5 * dt * noise->dv;
+  x.v += noise->dv;
+  x.q = exp_rotation(noise->dphi) * x.q;
+  x.bg += noise->dbg;
   return step;
-}
-
-void Transition::extend(const Step& s, const Knot& k0, const Knot& k1, const Mounting& mounting,
-                        const Problem& problem) {
-  const double dt = k1.t - k0.t;
-  const double half = 0.5 * dt * dt;
-  const Layout& layout = problem.layout;
-  const Matrix3d A = skew(s.A);
-  if (layout.misalignment >= 0) {
-    const Vector3d f_marker = mounting.accel * (0.5 * (k0.f + k1.f));
-    const Matrix3d force = -(s.R0 * skew(f_marker)) - A * phimu;
-    pmu += dt * vmu + half * force;
-    vmu += dt * force;
-    if (problem.gyro_turns_too) phimu -= dt * s.R0 * skew(s.w);
-  }
-  if (layout.accel_matrix >= 0) {
-    const Vector3d f_marker = mounting.accel * (0.5 * (k0.f + k1.f));
-    pEa += dt * vEa;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Matrix3d force = f_marker[axis] * s.R0;
-      pEa.middleCols<3>(3 * axis) += half * force;
-      vEa.middleCols<3>(3 * axis) += dt * force;
-    }
-  }
-  if (layout.gyro_matrix >= 0) {
-    Matrix39d turned;
-    for (int axis = 0; axis < 3; ++axis) turned.middleCols<3>(3 * axis) = (0.5 * dt * s.w[axis]) * s.R0;
-    const Matrix39d leak = -(A * (phiEg + turned));
-    pEg += dt * vEg + half * leak;
-    vEg += dt * leak;
-    phiEg += 2.0 * turned;
-  }
-  const Matrix3d leak = A * (g1 + 0.5 * dt * s.R0);
-  pbg += dt * vbg + half * leak;
-  vbg += dt * leak;
-  g2 += dt * g1 + half * s.R0;
-  g1 += dt * s.R0;
-  sp += dt * sv + half * s.A;
-  sv += dt * s.A;
-  for (std::size_t c = 0; c < accel.size(); ++c) accel[c].add(k0.accel_psd[c] * dt, dt);
-  fast.add(dt * k0.accel_fast.cast<double>(), dt);
-  marker_from_sensor = mounting.accel;
-  for (std::size_t c = 0; c < turn.size(); ++c) turn[c] += k0.gyro_psd[c] * dt;
-  T += dt;
 }
 
 TopRows Transition::rows(const Layout& layout) const {
@@ -126,17 +85,21 @@ TopRows Transition::rows(const Layout& layout) const {
 
 namespace {
 
-// U P; most columns of U that are zero are left out.
-TopRows times_covariance(const TopRows& U, const Layout& layout, const Square& P) {
+// The columns of U that may not be zero.
+FilledColumns filled_columns(const Layout& layout) {
   int last = layout.slow >= 0 ? layout.slow : layout.size;
   int first = last;
   for (const int at : {layout.misalignment, layout.accel_matrix, layout.gyro_matrix, layout.gravity}) {
     if (at >= 0) first = std::min(first, at);
   }
-  return times_symmetric<9>(U, P, {kV, kBase, first, last});
+  return {kV, kBase, first, last};
 }
 
 }  // namespace
+
+TopRows Transition::times(const TopRows& U, const Square& X, const Layout& layout) {
+  return rows_times<9>(U, X, filled_columns(layout));
+}
 
 double Transition::slow_decay(const Problem& problem) const { return std::exp(-T / problem.slow_time_s); }
 
@@ -159,8 +122,9 @@ Transition::Fast Transition::fast_noise(const Problem& problem) const {
 
 void Transition::propagate(const Problem& problem, const TopRows& U, Nominal& x, Square& P) const {
   const Layout& layout = problem.layout;
-  const TopRows UP = times_covariance(U, layout, P);
-  const Eigen::Matrix<double, 9, 9> UPU = UP * U.transpose();
+  const TopRows UP = times(U, P, layout);
+  const Square across = U.transpose();
+  const Eigen::Matrix<double, 9, 9> UPU = times(UP, across, layout);
   P.topRows(9) += UP;
   P.leftCols(9) += UP.transpose();
   P.topLeftCorner<9, 9>() += UPU;
@@ -199,7 +163,8 @@ void Transition::propagate(const Problem& problem, const TopRows& U, Nominal& x,
 }
 
 void Transition::propagate_back(const Problem& problem, const TopRows& U, State& lambda, Square& Lambda) const {
-  lambda += (U.transpose() * lambda.head(9)).eval();
+  const Eigen::Matrix<double, 9, 1> motion = lambda.head<9>();
+  lambda += U.transpose().lazyProduct(motion);
   // With W = (Λ + Λ₉₉ U / 2) of the upper rows both outer terms are Uᵀ W and its transpose.
   Rows<18> A(18, Lambda.cols()), B(18, Lambda.cols());
   const Eigen::Matrix<double, 9, 9> half = 0.5 * Lambda.topLeftCorner<9, 9>();
@@ -297,14 +262,24 @@ Jacobian Predicted::jacobian(const Layout& layout) const {
   return H;
 }
 
-Jacobian Predicted::times(const Square& P, const Layout& layout) const {
-  Jacobian out(6, P.cols());
+Jacobian Predicted::times(const Square& X, const Layout& layout) const {
+  Jacobian out(6, X.cols());
   const Matrix3d turn = skew(arm);
-  out.topRows<3>() = P.middleRows<3>(kP) + turn * P.middleRows<3>(kPhi);
-  out.bottomRows<3>() = P.middleRows<3>(kPhi);
-  if (layout.latency >= 0) out -= rate * P.row(layout.latency);
-  if (layout.lever >= 0) out.topRows<3>() -= R * P.middleRows<3>(layout.lever);
-  if (layout.slow >= 0) out += P.middleRows<6>(layout.slow);
+  for (Eigen::Index c = 0; c < X.cols(); ++c) {
+    const double* const x = X.data() + c * X.rows();
+    const Eigen::Map<const Vector3d> phi(x + kPhi);
+    Vector3d position = Eigen::Map<const Vector3d>(x + kP) + turn * phi, rotation = phi;
+    if (layout.latency >= 0) {
+      position -= x[layout.latency] * rate.head<3>();
+      rotation -= x[layout.latency] * rate.tail<3>();
+    }
+    if (layout.lever >= 0) position -= R * Eigen::Map<const Vector3d>(x + layout.lever);
+    if (layout.slow >= 0) {
+      position += Eigen::Map<const Vector3d>(x + layout.slow);
+      rotation += Eigen::Map<const Vector3d>(x + layout.slow + 3);
+    }
+    out.col(c) << position, rotation;
+  }
   return out;
 }
 

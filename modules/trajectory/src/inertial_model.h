@@ -17,7 +17,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// What a segment's noise adds to the nominal motion (zero in the filter, the smoothed value after it).
+// What a segment's noise adds to the nominal motion (none in the filter, the smoothed value after it).
 struct Noise {
   Vector3d dv = Vector3d::Zero();
   Vector3d dphi = Vector3d::Zero();
@@ -48,8 +48,8 @@ double fast_density_factor(const Problem& problem);              // of Knot::acc
 double gyro_density(const Knot& knot, const Problem& problem);
 double rate_walk_density(const Problem& problem);
 
-// Moves the nominal state from knot k0 to k1.
-Step advance_state(Nominal& x, const Knot& k0, const Knot& k1, const Mounting& mounting, const Noise& noise);
+// Moves the nominal state from knot k0 to k1; without `noise` as there was none.
+Step advance_state(Nominal& x, const Knot& k0, const Knot& k1, const Mounting& mounting, const Noise* noise);
 
 // Covariance of position and velocity that one component of the acceleration's noise leaves, the same for each axis.
 struct NoiseIntegral {
@@ -74,7 +74,8 @@ struct UnevenNoiseIntegral {
 
 Matrix3d symmetric(const Eigen::Matrix<double, 6, 1>& elements);
 
-// Φ of an interval, summed segment by segment: Φ − I has the rows of p, v and φ; the slow error decays besides.
+// Φ of an interval, summed segment by segment (transition_sum.h): Φ − I has the rows of p, v and φ; the slow error
+// decays besides.
 struct Transition {
   Vector3d sv = Vector3d::Zero(), sp = Vector3d::Zero();  // ∫A, ∬A: the effect of φ is −[s]×
   Matrix3d g1 = Matrix3d::Zero(), g2 = Matrix3d::Zero();  // ∫R, ∬R: of the accelerometer's bias
@@ -88,8 +89,9 @@ struct Transition {
   Matrix3d marker_from_sensor = Matrix3d::Identity();  // (1 + E) M of the accelerometer
   std::array<double, 2> turn{};
 
-  void extend(const Step& s, const Knot& k0, const Knot& k1, const Mounting& mounting, const Problem& problem);
   TopRows rows(const Layout& layout) const;
+  // U X with U of rows() and X with a row a state.
+  static TopRows times(const TopRows& U, const Square& X, const Layout& layout);
   double slow_decay(const Problem& problem) const;
   Vector6d slow_noise(const Problem& problem) const;  // variances that it gains
 
@@ -125,8 +127,8 @@ struct Predicted {
   Matrix3d R;
   Vector3d arm;
   Jacobian jacobian(const Layout& layout) const;
-  // H P of a symmetric P; most of H is zero.
-  Jacobian times(const Square& P, const Layout& layout) const;
+  // H X of a matrix X with a row a state; most of H is zero.
+  Jacobian times(const Square& X, const Layout& layout) const;
 };
 
 Predicted predict_pose(const Nominal& x, const Vector3d& omega, const Pose& pose);

@@ -9,12 +9,12 @@
 #include "inertial_model.h"
 #include "stream_agreement.h"
 #include "symmetric_products.h"
+#include "transition_sum.h"
 
 namespace asperity::inertial_smoother {
 
 namespace {
 
-using Gain = Eigen::Matrix<double, Eigen::Dynamic, 6, 0, kMax, 6>;
 using TipRows = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMax>;
 
 Matrix3d tip_covariance(const Problem& problem, const Nominal& smoothed, const Square& P, const Square& Lambda,
@@ -27,7 +27,7 @@ Matrix3d tip_covariance(const Problem& problem, const Nominal& smoothed, const S
   Matrix3d JPJ = JP.middleCols<3>(kP) + JP.middleCols<3>(kPhi) * turn.transpose();
   if (layout.lever >= 0) JPJ -= JP.middleCols<3>(layout.lever) * R.transpose();
   // The tip's own place in the marker shows nowhere in the data: considered, not estimated.
-  return JPJ - times_symmetric<3>(JP, Lambda) * JP.transpose() +
+  return JPJ - rows_times<3>(JP, Lambda) * JP.transpose() +
          R * problem.tip_sigma_m.cwiseAbs2().asDiagonal() * R.transpose();
 }
 
@@ -40,26 +40,18 @@ struct Adjoint {
   void pass_pose(const Problem& problem, const Record& record, std::size_t pose, const Square& P, NoiseScore& score) {
     const Layout& layout = problem.layout;
     const Jacobian H = record.predicted.jacobian(layout);
-    const Gain K = record.predicted.times(P, layout).transpose() * record.N_inverse;
-    const Vector6d u = record.S_inverse * record.predicted.residual + K.transpose() * lambda;
-    const Gain LK = times_symmetric<6>(K.transpose(), Lambda).transpose();
-    const Matrix6d D = K.transpose() * LK + record.S_inverse;
+    const Jacobian K = record.N_inverse.lazyProduct(record.predicted.times(P, layout));  // Kᵀ
+    const Vector6d u = record.S_inverse * record.predicted.residual + K.lazyProduct(lambda);
+    const Jacobian KL = rows_times<6>(K, Lambda);
+    const Matrix6d D = KL.lazyProduct(K.transpose()) + record.S_inverse;
     if (record.believed) add_pose_score(problem, record, pose, u, D, score);
-    lambda -= H.transpose() * u;
-    // Hᵀ D H − Λ K H − its transpose, H zero but for a few blocks of columns.
-    Gain W = -LK;
-    W.noalias() += 0.5 * H.transpose() * D;
-    const auto take = [&](int at, int size) {
-      if (at < 0) return;
-      const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMax, 6> WH = W * H.middleCols(at, size);
-      Lambda.middleCols(at, size) += WH;
-      Lambda.middleRows(at, size) += WH.transpose();
-    };
-    take(kP, 3);
-    take(kPhi, 3);
-    take(layout.latency, 1);
-    take(layout.lever, 3);
-    take(layout.slow, 6);
+    lambda -= H.transpose().lazyProduct(u);
+    // Hᵀ D H − Λ K H − its transpose, as Hᵀ W + Wᵀ H.
+    Rows<12> A(12, H.cols()), B(12, H.cols());
+    B.topRows<6>() = 0.5 * D.lazyProduct(H) - KL;
+    A.topRows<6>() = B.bottomRows<6>() = H;
+    A.bottomRows<6>() = B.topRows<6>();
+    add_transposed_product<12>(1.0, A, B, Lambda);
   }
 
   static void add_pose_score(const Problem& problem, const Record& record, std::size_t pose, const Vector6d& u,
@@ -97,14 +89,14 @@ struct Interval {
 };
 
 // Runs from the filtered start; sums the transition up where there is none.
-void sum_interval(const Problem& problem, Nominal x, Transition* transition, Interval& interval) {
+void sum_interval(const Problem& problem, Nominal x, TransitionSum* sum, Interval& interval) {
   const Mounting mounting = mounting_of(x, problem);
   interval.steps.clear();
   for (std::size_t k = interval.first; k < interval.last; ++k) {
     const Knot& k0 = problem.knots[k];
     const Knot& k1 = problem.knots[k + 1];
-    interval.steps.push_back(advance_state(x, k0, k1, mounting, {}));
-    if (transition != nullptr) transition->extend(interval.steps.back(), k0, k1, mounting, problem);
+    interval.steps.push_back(advance_state(x, k0, k1, mounting, nullptr));
+    if (sum != nullptr) sum->extend(interval.steps.back(), k0, k1, mounting, problem.gyro_turns_too);
   }
 }
 
@@ -140,7 +132,7 @@ void write_interval(const Problem& problem, const State& lambda_end, const Nomin
   interval.path.resize(steps.size());
   for (std::size_t k = 0; k < steps.size(); ++k) {
     interval.path[k] = x;
-    steps[k] = advance_state(x, problem.knots[first + k], problem.knots[first + k + 1], mounting, interval.noises[k]);
+    steps[k] = advance_state(x, problem.knots[first + k], problem.knots[first + k + 1], mounting, &interval.noises[k]);
   }
   Seam seam;
   seam.p = next.p - x.p;
@@ -234,9 +226,9 @@ Smoothed smooth_motion(const Problem& problem, const Vector3d& tip_in_marker, bo
       restart_back(problem, *restart++, adjoint.lambda, adjoint.Lambda, out.score);
     } else if (e + 1 < epochs) {
       const bool again = record.transition.empty();
-      Transition transition;
-      if (!again) transition = record.transition.front();
-      if (path || again) sum_interval(problem, record.x, again ? &transition : nullptr, interval);
+      TransitionSum sum(problem);
+      if (path || again) sum_interval(problem, record.x, again ? &sum : nullptr, interval);
+      const Transition transition = again ? sum.transition() : record.transition.front();
       transition.add_score(problem, adjoint.lambda, adjoint.Lambda, out.score);
       transition.propagate_back(problem, transition.rows(problem.layout), adjoint.lambda, adjoint.Lambda);
     }

@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 
 #include "axes_hypotheses.h"
+#include "symmetric_products.h"
 
 namespace asperity::inertial_smoother {
 
@@ -14,13 +15,11 @@ namespace {
 // The effects: the tracker's matrix with the smoothed and with the predicted positions, the latency, the
 // accelerometer's matrix.
 constexpr int kSmoothedMatrix = 0, kPredictedMatrix = 9, kLatency = 18, kAccel = 19, kEffects = 28;
-using Effects = Eigen::Matrix<double, Eigen::Dynamic, kEffects, 0, kMax, kEffects>;
-using PoseEffects = Eigen::Matrix<double, 6, kEffects>;
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
 using Vector9d = Eigen::Matrix<double, 9, 1>;
 
 struct NormalEquations {
-  Eigen::Matrix<double, kEffects, kEffects> information = Eigen::Matrix<double, kEffects, kEffects>::Zero();
+  Square information = Square::Zero(kEffects, kEffects);
   Eigen::Matrix<double, kEffects, 1> score = Eigen::Matrix<double, kEffects, 1>::Zero();
 };
 
@@ -53,19 +52,19 @@ NormalEquations sum_effects(const Problem& problem, const std::vector<Record>& r
   Vector3d middle_m = Vector3d::Zero();
   for (const Pose& pose : problem.poses) middle_m += pose.translation_m / static_cast<double>(problem.poses.size());
   // What one unit of each effect leaves in the filter's error state.
-  Effects X = Effects::Zero(layout.size, kEffects);
+  Square X = Square::Zero(layout.size, kEffects);
   if (layout.accel_matrix >= 0) X.block<9, 9>(layout.accel_matrix, kAccel).setIdentity();
   for (std::size_t e = 0; e < records.size(); ++e) {
     if (e > 0) {
       if (records[e - 1].transition.empty()) return {};
       const Transition& transition = records[e - 1].transition.front();
-      X.topRows<9>() += (transition.rows(layout) * X).eval();
+      X.topRows<9>() += Transition::times(transition.rows(layout), X, layout);
       if (layout.slow >= 0) X.middleRows<6>(layout.slow) *= transition.slow_decay(problem);
     }
     const Record& record = records[e];
     if (!record.updated) continue;
     const auto i = static_cast<std::size_t>(problem.epochs[e].pose);
-    PoseEffects D = record.predicted.jacobian(layout) * X;
+    Rows<6> D = record.predicted.times(X, layout);
     const Vector3d from_middle_m = problem.poses[i].translation_m - middle_m;
     const Vector3d smoothed_m = from_middle_m - smoothed.position_residual[i];
     const Vector3d predicted_m = from_middle_m - record.predicted.residual.head<3>();
@@ -75,11 +74,12 @@ NormalEquations sum_effects(const Problem& problem, const std::vector<Record>& r
     }
     D.col(kLatency) -= record.predicted.rate;
     if (record.believed) {
-      const PoseEffects weighted = record.S_inverse * D;
-      out.information.noalias() += D.transpose() * weighted;
-      out.score.noalias() += weighted.transpose() * record.predicted.residual;
+      const Rows<6> weighted = record.S_inverse.lazyProduct(D);
+      add_transposed_product<6>(1.0, D, weighted, out.information);
+      out.score += weighted.transpose().lazyProduct(record.predicted.residual);
     }
-    X.noalias() -= record.predicted.times(record.covariance(layout.size), layout).transpose() * (record.N_inverse * D);
+    const Rows<6> HP = record.predicted.times(record.covariance(layout.size), layout);
+    add_product<6>(-1.0, HP, record.N_inverse.lazyProduct(D), X);
   }
   return out;
 }

@@ -14,17 +14,21 @@ struct FilledColumns {
   int first = 0, skip = 0, resume = 0, last = 0;
 };
 
-// A S for a symmetric S. R is 3, 6 or 9.
+// A X with a column of A a row of X. R is 3, 6 or 9.
 template <int R>
-Rows<R> times_symmetric(const Rows<R>& A, const Square& S, const FilledColumns& filled);
+Rows<R> rows_times(const Rows<R>& A, const Square& X, const FilledColumns& filled);
 
 template <int R>
-Rows<R> times_symmetric(const Rows<R>& A, const Square& S) {
-  const auto n = static_cast<int>(S.cols());
-  return times_symmetric<R>(A, S, {0, n, n, n});
+Rows<R> rows_times(const Rows<R>& A, const Square& X) {
+  const auto n = static_cast<int>(X.rows());
+  return rows_times<R>(A, X, {0, n, n, n});
 }
 
-// S ← S + sign Aᵀ B, of which only the upper triangle is computed: the sum must be symmetric. R is 6 or 18.
+// X ← X + sign Aᵀ B with as many columns of A as X has rows, and of B as X has columns. R is 6.
+template <int R>
+void add_product(double sign, const Rows<R>& A, const Rows<R>& B, Square& X);
+
+// S ← S + sign Aᵀ B, of which only the upper triangle is computed: the sum must be symmetric. R is 6, 12 or 18.
 template <int R>
 void add_transposed_product(double sign, const Rows<R>& A, const Rows<R>& B, Square& S);
 

@@ -9,6 +9,7 @@
 #include "../src/fused_setup.h"
 #include "../src/inertial_model.h"
 #include "../src/learning_stretches.h"
+#include "../src/transition_sum.h"
 #include "hand_motion.h"
 
 namespace asperity {
@@ -20,7 +21,7 @@ using inertial_smoother::Mounting;
 using inertial_smoother::Nominal;
 using inertial_smoother::State;
 using inertial_smoother::Step;
-using inertial_smoother::Transition;
+using inertial_smoother::TransitionSum;
 using SmootherProblem = inertial_smoother::Problem;
 using Eigen::Vector3d;
 
@@ -57,20 +58,20 @@ TEST(InertialSmoother, TheTransitionIsTheDerivativeOfDeadReckoning) {
   Nominal start = problem.start;
   start.v = Vector3d(0.1, -0.05, 0.02);
   start.bg = Vector3d(0.3, -0.8, 0.5);
-  const auto run = [&](const State& error, Transition* transition) {
+  const auto run = [&](const State& error, TransitionSum* sum) {
     Nominal x = start;
     inertial_smoother::apply_correction(error, layout, x);
     const Mounting mounting = inertial_smoother::mounting_of(x, problem);
     for (std::size_t k = first; k < last; ++k) {
-      const Step step = inertial_smoother::advance_state(x, problem.knots[k], problem.knots[k + 1], mounting, {});
-      if (transition != nullptr) transition->extend(step, problem.knots[k], problem.knots[k + 1], mounting, problem);
+      const Step step = inertial_smoother::advance_state(x, problem.knots[k], problem.knots[k + 1], mounting, nullptr);
+      if (sum != nullptr) sum->extend(step, problem.knots[k], problem.knots[k + 1], mounting, problem.gyro_turns_too);
     }
     return x;
   };
-  Transition transition;
+  TransitionSum sum(problem);
   const State none = State::Zero(layout.size);
-  const Nominal end = run(none, &transition);
-  const auto U = transition.rows(layout);
+  const Nominal end = run(none, &sum);
+  const auto U = sum.transition().rows(layout);
   constexpr double kSmall = 1e-5;
   for (int i = 0; i < layout.size; ++i) {
     State error = none;

@@ -110,8 +110,13 @@ void add_dropped(const ProcessResult& result, std::size_t max_gaps, BlockWriter&
 
 BlockWriter measured_block(const ProcessResult& result, const Recording& recording, const std::string& name,
                            const MeasuredBlockConfig& config) {
+  return measured_block(result_json(result, recording, name), result, recording, config);
+}
+
+BlockWriter measured_block(const Json& json, const ProcessResult& result, const Recording& recording,
+                           const MeasuredBlockConfig& config) {
   BlockWriter block("measured");
-  block.head()["result"] = result_json(result, recording, name);
+  block.head()["result"] = json;
   block.head()["world"] = recording.info.world;
   block.head()["figures"] = measured_metrics(block.head()["result"]);
   add_dropped(result, config.max_gaps, block);

@@ -19,6 +19,9 @@ std::string number_text(double value);
 // Appends `value` rounded to 12 decimals, without the zeros at their end: a quarter of the time of the shortest exact
 // text and less than three quarters of its length, for what no measurement knows to a picometre. From 1000 on, exactly.
 void append_decimals(std::string& out, double value);
+// The same at `at`, where kMostDecimalsLength bytes are free; returns the place behind it.
+char* put_decimals(char* at, double value);
+inline constexpr std::size_t kMostDecimalsLength = 32;
 
 // A number as it is written in our text files: whole numbers without exponent or point, others as the
 // shortest text that reads back exactly.

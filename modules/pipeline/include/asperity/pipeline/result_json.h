@@ -12,4 +12,7 @@ namespace asperity {
 // recording's. nan is null. The same result gives the same bytes.
 Json result_json(const ProcessResult& result, const Recording& recording, const std::string& name);
 
+// The bytes of result.json.
+std::string result_text(const Json& json);
+
 }  // namespace asperity

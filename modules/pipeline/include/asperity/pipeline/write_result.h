@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "asperity/json/json.h"
 #include "asperity/pipeline/process_result.h"
 #include "asperity/recording/recording.h"
 
@@ -22,6 +23,8 @@ std::string format_spectrum_csv(const SurfaceSpectrum& spectrum);
 // which exists. Throws Error if a file cannot be written.
 void write_result(const std::filesystem::path& folder, const ProcessResult& result, const Recording& recording,
                   const std::string& name);
+// The same with the `json` that result_json gave.
+void write_result(const std::filesystem::path& folder, const ProcessResult& result, const Json& json);
 
 // True if `folder` holds a result.json of ours, or nothing but folders that do, or folders of such; a report.html may
 // be beside. Never throws.

@@ -35,5 +35,8 @@ struct MeasuredBlockConfig {
 //   compared_s_m f64, compared_measured_m, compared_true_m f32: with a truth, in the band of the comparison, aligned
 BlockWriter measured_block(const ProcessResult& result, const Recording& recording, const std::string& name,
                            const MeasuredBlockConfig& config = {});
+// The same with the `json` that result_json gave.
+BlockWriter measured_block(const Json& json, const ProcessResult& result, const Recording& recording,
+                           const MeasuredBlockConfig& config = {});
 
 }  // namespace asperity::studio
