@@ -169,7 +169,7 @@ void Transition::propagate_back(const Problem& problem, const TopRows& U, State&
   Rows<18> A(18, Lambda.cols()), B(18, Lambda.cols());
   const Eigen::Matrix<double, 9, 9> half = 0.5 * Lambda.topLeftCorner<9, 9>();
   for (Eigen::Index c = 0; c < Lambda.cols(); ++c) {
-    B.col(c).head<9>() = Lambda.col(c).head<9>() + half * U.col(c);
+    B.col(c).head<9>() = Lambda.col(c).head<9>() + half.lazyProduct(U.col(c));
   }
   A.topRows<9>() = U;
   A.bottomRows<9>() = B.topRows<9>();
