@@ -84,7 +84,8 @@ class RoughnessCommand : public Command {
         ->type_name("LENGTH");
     parser().add_option("--lambda-f", lambda_f_, "Longer waves are left out of W")->type_name("LENGTH");
     parser()
-        .add_option("--filter", filter_, "gaussian (ISO 16610-21), or robust (ISO 16610-31) for deep pits")
+        .add_option("--filter", filter_,
+                    "gaussian (ISO 16610-21, of maps 16610-61), or robust (16610-31, 16610-71) for deep pits")
         ->type_name("NAME");
     parser()
         .add_option("--noise", noise_, "Standard deviation of a map's heights, by the instrument: gives intervals")
@@ -105,6 +106,7 @@ class RoughnessCommand : public Command {
     if (!lambda_f_.empty()) settings_.profile.lambda_f_mm = 1e3 * length_option_m("--lambda-f", lambda_f_);
     if (!noise_.empty()) settings_.noise.rms_um = 1e6 * length_option_m("--noise", noise_);
     set_choice("--filter", "roughness.filter", filter_);
+    set_choice("--filter", "areal.filter", filter_);
     set_choice("--class", "setting_class", class_);
   }
 
@@ -245,7 +247,8 @@ class RoughnessCommand : public Command {
     out["missing"] = r.missing;
     out["filters"] = {{"form", kArealFormNames.at(static_cast<std::size_t>(config.form))},
                       {"lambda_s_mm", config.lambda_s_mm > 0.0 ? Json(config.lambda_s_mm) : Json(nullptr)},
-                      {"lambda_c_mm", config.lambda_c_mm > 0.0 ? Json(config.lambda_c_mm) : Json(nullptr)}};
+                      {"lambda_c_mm", config.lambda_c_mm > 0.0 ? Json(config.lambda_c_mm) : Json(nullptr)},
+                      {"l_filter", kArealFilterNames.at(static_cast<std::size_t>(config.filter))}};
     out["noise_rms_m"] = heights.noise.is_known() ? Json(heights.noise.rms_m) : Json(nullptr);
     out["noise_correlation_m"] = heights.noise.is_known() ? Json(heights.noise.correlation_m) : Json(nullptr);
     out["slope_x"] = r.slope_x;
@@ -254,7 +257,8 @@ class RoughnessCommand : public Command {
     finish(out);
     std::string filters = fmt::format("filters     F {}", kArealFormNames.at(static_cast<std::size_t>(config.form)));
     filters += config.lambda_s_mm > 0.0 ? fmt::format(", S {:g} µm", 1e3 * config.lambda_s_mm) : ", no S";
-    filters += config.lambda_c_mm > 0.0 ? fmt::format(", L {:g} mm, Gaussian\n", config.lambda_c_mm)
+    filters += config.lambda_c_mm > 0.0 ? fmt::format(", L {:g} mm, {}Gaussian\n", config.lambda_c_mm,
+                                                      config.filter == ArealFilter::kRobust ? "robust " : "")
                                         : std::string(", no L: waviness is included\n");
     say(fmt::format("{} x {} heights {:.6g} x {:.6g} µm apart, {} missing\n", map.columns, map.rows,
                     map.x_spacing_m * 1e6, map.y_spacing_m * 1e6, r.missing) +

@@ -1,9 +1,7 @@
 #include "areal_gaussian_filter.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -11,56 +9,10 @@
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
-#include "asperity/signal/spectrum.h"
+#include "gaussian_moments.h"
 
 namespace asperity {
 namespace {
-
-// Σ_k kernel[k + reach] x[i + k] of rows of one length: directly where the kernel is short, else by Fourier transforms.
-class GaussianMoments {
- public:
-  // Of the Gaussian weight times x^degree, x in cut-off lengths.
-  GaussianMoments(std::size_t count, double spacing_m, double cutoff_m, int degree) : count_(count) {
-    const double alpha = std::sqrt(std::numbers::ln2 / std::numbers::pi);
-    reach_ = static_cast<std::size_t>(std::min(std::ceil(cutoff_m / spacing_m), static_cast<double>(count)));
-    for (std::size_t k = 0; k <= 2 * reach_; ++k) {
-      const double x = (static_cast<double>(k) - static_cast<double>(reach_)) * spacing_m / cutoff_m;
-      kernel_.push_back(std::exp(-std::numbers::pi * x * x / (alpha * alpha)) * std::pow(x, degree));
-    }
-    constexpr std::size_t kShort = 64;
-    if (reach_ <= kShort) return;
-    padded_ = 1;
-    while (padded_ < count_ + reach_) padded_ *= 2;
-    std::vector<double> wrapped(padded_, 0.0);
-    // Correlation: the kernel is reversed. What wraps round meets the padding.
-    for (std::size_t k = 0; k <= 2 * reach_; ++k) wrapped[(padded_ + reach_ - k) % padded_] += kernel_[k];
-    spectrum_ = real_dft(wrapped);
-  }
-
-  std::vector<double> of(std::span<const double> x) const {
-    std::vector<double> out(count_, 0.0);
-    if (spectrum_.empty()) {
-      for (std::size_t i = 0; i < count_; ++i) {
-        const std::size_t first = i < reach_ ? reach_ - i : 0;
-        const std::size_t last = std::min(2 * reach_, count_ - 1 - i + reach_);
-        for (std::size_t k = first; k <= last; ++k) out[i] += kernel_[k] * x[i + k - reach_];
-      }
-      return out;
-    }
-    std::vector<double> padded(padded_, 0.0);
-    std::copy(x.begin(), x.end(), padded.begin());
-    auto half = real_dft(padded);
-    for (std::size_t k = 0; k < half.size(); ++k) half[k] *= spectrum_[k];
-    padded = inverse_real_dft(half, padded_);
-    std::copy_n(padded.begin(), count_, out.begin());
-    return out;
-  }
-
- private:
-  std::size_t count_, reach_ = 0, padded_ = 0;
-  std::vector<double> kernel_;
-  std::vector<std::complex<double>> spectrum_;
-};
 
 // At x = y = 0 the plane with the moments m_ab = Σ w x^a y^b and t_ab = Σ w x^a y^b z.
 double plane_at_zero(double m00, double m10, double m01, double m20, double m11, double m02, double t00, double t10,
@@ -77,12 +29,13 @@ ArealMap gaussian_mean_surface(const ArealMap& map, double cutoff_m) {
   if (!(cutoff_m > 0.0) || !std::isfinite(cutoff_m))
     throw Error("the cut-off " + number_text(cutoff_m) + " m is not a positive length");
   const std::size_t columns = map.columns, rows = map.rows;
-  std::array<GaussianMoments, 3> along_x{GaussianMoments(columns, map.x_spacing_m, cutoff_m, 0),
-                                         GaussianMoments(columns, map.x_spacing_m, cutoff_m, 1),
-                                         GaussianMoments(columns, map.x_spacing_m, cutoff_m, 2)};
-  std::array<GaussianMoments, 3> along_y{GaussianMoments(rows, map.y_spacing_m, cutoff_m, 0),
-                                         GaussianMoments(rows, map.y_spacing_m, cutoff_m, 1),
-                                         GaussianMoments(rows, map.y_spacing_m, cutoff_m, 2)};
+  const double width_m = std::sqrt(std::numbers::ln2 / std::numbers::pi) * cutoff_m;
+  std::array<GaussianMoments, 3> along_x{GaussianMoments(columns, map.x_spacing_m, width_m, 0),
+                                         GaussianMoments(columns, map.x_spacing_m, width_m, 1),
+                                         GaussianMoments(columns, map.x_spacing_m, width_m, 2)};
+  std::array<GaussianMoments, 3> along_y{GaussianMoments(rows, map.y_spacing_m, width_m, 0),
+                                         GaussianMoments(rows, map.y_spacing_m, width_m, 1),
+                                         GaussianMoments(rows, map.y_spacing_m, width_m, 2)};
   // Rows first: moments of degree 0, 1, 2 of what is present, and 0, 1 of the heights, column by column.
   std::array<std::vector<double>, 5> moments;
   for (auto& one : moments) one.resize(columns * rows);

@@ -14,6 +14,7 @@
 #include "asperity/base/text.h"
 #include "local_slopes.h"
 #include "material_curve.h"
+#include "robust_areal_filter.h"
 #include "surface_direction.h"
 
 namespace asperity {
@@ -93,7 +94,9 @@ ArealMap filtered(const ArealMap& map, const ArealTextureConfig& config, ArealTe
   }
   if (config.lambda_s_mm > 0.0) out = gaussian_mean_surface(out, 1e-3 * config.lambda_s_mm);
   if (config.lambda_c_mm > 0.0) {
-    const ArealMap waviness = gaussian_mean_surface(out, 1e-3 * config.lambda_c_mm);
+    const double cutoff_m = 1e-3 * config.lambda_c_mm;
+    const ArealMap waviness = config.filter == ArealFilter::kRobust ? robust_gaussian_mean_surface(out, cutoff_m)
+                                                                    : gaussian_mean_surface(out, cutoff_m);
     for (std::size_t i = 0; i < out.height_m.size(); ++i) out.height_m[i] -= waviness.height_m[i];
   }
   subtract_mean(out);

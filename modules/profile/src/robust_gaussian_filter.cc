@@ -8,6 +8,7 @@
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
+#include "biweight.h"
 
 namespace asperity {
 namespace {
@@ -23,13 +24,6 @@ double parabola_at_zero(const std::array<double, 5>& m, const std::array<double,
   return m[0] > 0.0 ? t[0] / m[0] : kNan;
 }
 
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 std::vector<double> robust_gaussian_mean_line_m(std::span<const double> height_m, double spacing_m, double cutoff_m) {
@@ -39,7 +33,7 @@ std::vector<double> robust_gaussian_mean_line_m(std::span<const double> height_m
     throw Error("the cut-off " + number_text(cutoff_m) + " m is not a positive length");
   constexpr double kAlpha = 0.7309134280946760;  // √((ln 2 / π) · 1.67834699 / ln 2), (1 + u) e^−u = 1/2
   constexpr int kMostIterations = 30;
-  constexpr double kTolerance = 1e-4, kOfMedian = 4.4478;
+  constexpr double kTolerance = 1e-4;
   const auto n = static_cast<std::ptrdiff_t>(height_m.size());
   // Where the weight has fallen to 1e-6.
   const double reach_m = kAlpha * cutoff_m * std::sqrt(std::log(1e6) / std::numbers::pi);
@@ -75,12 +69,11 @@ std::vector<double> robust_gaussian_mean_line_m(std::span<const double> height_m
       residual_m.push_back(std::abs(height_m[at] - line_m[at]));
     }
     const double before_m = scale_m;
-    scale_m = kOfMedian * median_of(std::move(residual_m));
+    scale_m = biweight_limit(std::move(residual_m));
     if (!(scale_m > 0.0) || std::abs(scale_m - before_m) <= kTolerance * scale_m) break;
     for (std::size_t i = 0; i < trust.size(); ++i) {
       if (std::isnan(height_m[i])) continue;
-      const double r = (height_m[i] - line_m[i]) / scale_m;
-      trust[i] = std::abs(r) < 1.0 ? (1.0 - r * r) * (1.0 - r * r) : 0.0;
+      trust[i] = biweight(height_m[i] - line_m[i], scale_m);
     }
   }
   return line_m;

@@ -13,8 +13,12 @@ namespace asperity {
 enum class ArealForm { kMean, kPlane, kQuadric };
 inline constexpr std::array<std::string_view, 3> kArealFormNames{"mean", "plane", "quadric"};
 
+enum class ArealFilter { kGaussian, kRobust };
+inline constexpr std::array<std::string_view, 2> kArealFilterNames{"gaussian", "robust"};
+
 struct ArealTextureConfig {
   ArealForm form = ArealForm::kPlane;
+  ArealFilter filter = ArealFilter::kGaussian;
   double lambda_s_mm = 0.0;
   double lambda_c_mm = 0.0;
   double max_missing = 0.5;
@@ -23,9 +27,11 @@ struct ArealTextureConfig {
   void visit(V& v) {
     v.choice("form", form, kArealFormNames,
              "F-operation: subtracts the mean, the least-squares plane, or the least-squares quadric");
+    v.choice("filter", filter, kArealFilterNames,
+             "L-filter: Gaussian (ISO 16610-61), or robust Gaussian regression (ISO 16610-71)");
     v.field("lambda_s_mm", lambda_s_mm, "S-filter: Gaussian low-pass (ISO 16610-61) that keeps noise out; 0: none",
             {0.0, 1000.0});
-    v.field("lambda_c_mm", lambda_c_mm, "L-filter: Gaussian high-pass that removes waviness; 0: none", {0.0, 1000.0});
+    v.field("lambda_c_mm", lambda_c_mm, "L-filter: high-pass that removes waviness; 0: none", {0.0, 1000.0});
     v.field("max_missing", max_missing, "largest part of the heights that may be nan", {0.0, 1.0});
   }
 };
