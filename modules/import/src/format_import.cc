@@ -95,7 +95,7 @@ std::string import_checks_text(const ImportedMotion& motion) {
     out += clocks.drift_sigma > 0.0
                ? fmt::format(", drift {:.2f} ± {:.2f} ppm", clocks.drift * 1e6, clocks.drift_sigma * 1e6)
                : std::string(", drift not determined (too short)");
-    out += fmt::format(", correlation {:.3f}\n", clocks.correlation);
+    out += fmt::format(", by the {}, correlation {:.3f}\n", clocks.by, clocks.correlation);
   }
   for (const std::string& note : checks.notes) out += "note        " + note + "\n";
   return out;
@@ -135,6 +135,7 @@ Json import_json(const ImportTables& tables, const ImportedMotion& motion) {
   for (const ImportDoubt& doubt : motion.checks.doubts) out["doubts"].push_back(doubt_text(doubt, tables));
   if (motion.clocks) {
     out["clocks"] = {{"determined", motion.clocks->is_determined},
+                     {"by", motion.clocks->by},
                      {"offset_s", motion.clocks->offset_s},
                      {"offset_sigma_s", motion.clocks->offset_sigma_s},
                      {"drift", motion.clocks->drift},

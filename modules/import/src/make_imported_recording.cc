@@ -128,7 +128,8 @@ Json import_origin(const ImportedMotion& motion, const ImportTables& tables, Map
   out["start_ns"] = motion.start_ns;
   if (motion.clocks) {
     const ClockFit& clocks = *motion.clocks;
-    out["clocks"] = {{"offset_s", clocks.offset_s},
+    out["clocks"] = {{"by", clocks.by},
+                     {"offset_s", clocks.offset_s},
                      {"offset_sigma_s", clocks.offset_sigma_s},
                      {"drift", clocks.drift},
                      {"drift_sigma", clocks.drift_sigma},

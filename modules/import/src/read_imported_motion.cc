@@ -108,7 +108,20 @@ void move_times(Stream& stream, const ClockFit& clocks) {
   for (auto& t_ns : stream.t_ns) t_ns = clocks.imu_time_ns(t_ns);
 }
 
-void put_on_one_clock(const ImportTables& tables, ClockChoice choice, ImportedMotion& motion) {
+std::string up_of(const ImportTables& tables, const MappingConfig& config) {
+  return config.up.empty() ? tables.pose->preset.up : config.up;
+}
+
+// The axis that points up, or all that may.
+std::vector<Eigen::Vector3d> possible_ups(const std::string& up) {
+  if (!up.empty()) return {axis_vector(up, "the world's axis that points up")};
+  std::vector<Eigen::Vector3d> out;
+  for (const char* axis : {"z", "-z", "y", "-y", "x", "-x"}) out.push_back(axis_vector(axis, "up"));
+  return out;
+}
+
+void put_on_one_clock(const ImportTables& tables, const MappingConfig& config, ImportedMotion& motion) {
+  const ClockChoice choice = config.clocks;
   ImportStreams& streams = motion.streams;
   const bool apart = overlap_s(streams.pose.t_ns, streams.specific_force.t_ns) <= 0.0;
   if (choice == ClockChoice::kOne || (choice == ClockChoice::kAuto && !apart)) {
@@ -118,7 +131,7 @@ void put_on_one_clock(const ImportTables& tables, ClockChoice choice, ImportedMo
     }
     return;
   }
-  motion.clocks = align_clocks(streams.pose, streams.rate);
+  motion.clocks = align_clocks(streams.pose, streams.rate, streams.specific_force, possible_ups(up_of(tables, config)));
   if (!motion.clocks->is_determined) {
     const std::string what = apart ? "their times do not overlap, and the" : "the";
     throw Error(fmt::format("{} and {}: {} offset of the clocks is not determined: {}", tables.pose->table.file,
@@ -148,10 +161,6 @@ void start_near_zero(ImportedMotion& motion) {
     for (auto& t_ns : *times) t_ns -= motion.start_ns;
   }
   if (motion.clocks) motion.clocks->middle_ns -= motion.start_ns;
-}
-
-std::string up_of(const ImportTables& tables, const MappingConfig& config) {
-  return config.up.empty() ? tables.pose->preset.up : config.up;
 }
 
 void find_up(const ImportTables& tables, const MappingConfig& config, ImportedMotion& motion) {
@@ -268,7 +277,7 @@ ImportedMotion read_motion_once(const ImportTables& tables, const MappingConfig&
   times.specific_force.t_ns = out.streams.specific_force.t_ns;
   out.checks = check_times_only(times, units_of_tables(tables, config));
   if (!out.checks.doubts.empty()) return out;
-  put_on_one_clock(tables, config.clocks, out);
+  put_on_one_clock(tables, config, out);
   start_near_zero(out);
   out.checks = check_streams(out.streams, units_of_tables(tables, config));
   check_euler_order(tables, config, out);

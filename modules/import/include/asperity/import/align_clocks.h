@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "asperity/import/file_streams.h"
 
@@ -9,6 +10,7 @@ namespace asperity {
 // How the poses' clock runs against the inertial sensor's: t_imu = t_pose + offset + drift (t_pose − t_middle).
 struct ClockFit {
   bool is_determined = false;
+  std::string by;         // what aligned them: "rotation" or "acceleration"
   std::string reason;     // why not
   double offset_s = 0.0;  // at t_middle
   double offset_sigma_s = 0.0;
@@ -28,6 +30,12 @@ struct ClockFit {
 // for one window. Interpolation between grid points adds 0.1 ms to the error of the offset, and as much over the
 // windows' spread to that of the drift. Not determined where the poses turn by less than 0.1 rad/s RMS, or the
 // correlation is below 0.8, or another peak, more than a second away, comes within 0.05 of it.
-ClockFit align_clocks(const PoseStream& pose, const VectorStream& rate);
+//
+// Where there is no gyroscope or that is not determined, by the acceleration, of which knocks on a table are enough
+// (one near the beginning and one near the end for the drift): likewise with the size of the specific force |a + g up|
+// (motion_curves.h), up being whichever of `ups` agrees best. Each window's offset has its own standard error, from
+// what is left of the difference of the two curves, and the line is fitted by these, from two windows on.
+ClockFit align_clocks(const PoseStream& pose, const VectorStream& rate, const VectorStream& specific_force,
+                      const std::vector<Eigen::Vector3d>& ups);
 
 }  // namespace asperity
