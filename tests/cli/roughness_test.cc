@@ -1,9 +1,12 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "asperity/base/csv.h"
 #include "asperity/testkit/temp_dir.h"
 #include "run_asperity.h"
 
@@ -94,6 +97,59 @@ TEST(Roughness, OfAnArealMap) {
   const Outcome filtered = run({"roughness", file, "--class", "auto"});
   EXPECT_EQ(filtered.code, 2) << "it has no effect on an areal map";
   EXPECT_THAT(filtered.err, HasSubstr("is an areal map"));
+}
+
+// Several files: each is measured as alone, and one that cannot be read does not stop the others.
+TEST(Roughness, OfManyFilesWithTableAndReport) {
+  const testkit::TempDir dir;
+  const std::string square = (dir / "square, one.csv").string(), map = (dir / "map.csv").string();
+  std::string heights = "x_mm,z_um\n";
+  for (int i = 0; i < 400; ++i) heights += fmt::format("{},{}\n", 0.001 * i, i / 25 % 2 == 0 ? 1 : -1);
+  write_text(square, heights);
+  std::string points = "x_mm,y_mm,z_um\n";
+  for (int row = 0; row < 20; ++row)
+    for (int column = 0; column < 20; ++column)
+      points += fmt::format("{},{},{}\n", 0.01 * column, 0.01 * row, (row + column) % 2);
+  write_text(map, points);
+  const std::string none = (dir / "none.csv").string(), table = (dir / "t.csv").string(),
+                    report = (dir / "r.html").string();
+  const Outcome outcome = run({"roughness", square, none, map, "--table", table, "--report", report, "--json"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("none.csv: no such file"));
+  const auto json = nlohmann::json::parse(outcome.out);
+  ASSERT_EQ(json["files"].size(), 2U);
+  EXPECT_EQ(json["files"][0]["roughness"],
+            nlohmann::json::parse(run({"roughness", square, "--json"}).out)["roughness"]);
+  EXPECT_EQ(json["failed"].size(), 1U);
+  const std::string rows = read_file(table, 1 << 20);
+  EXPECT_THAT(rows, testing::StartsWith("file,kind,Ra_m,"));
+  EXPECT_THAT(rows, HasSubstr("\n\"" + square + "\",profile,1.0000000"));
+  EXPECT_THAT(rows, HasSubstr("\n" + map + ",areal,,"));
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 3);
+  const std::string page = read_file(report, 1 << 24);
+  EXPECT_THAT(page, HasSubstr("<h2>" + square + "</h2>"));
+  EXPECT_THAT(page, HasSubstr("Material ratio of R"));
+  EXPECT_THAT(page, HasSubstr("<p class=\"failed\">" + none));
+  EXPECT_THAT(page, testing::Not(HasSubstr("<script")));
+  // Not over what is somebody else's.
+  const Outcome refused = run({"roughness", square, "--table", map});
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_EQ(read_file(map, 1 << 20), points);
+}
+
+TEST(Roughness, OfAResultsFolderAndOfStandardInput) {
+  const testkit::TempDir dir;
+  std::string heights = "s_m,height_m\n";
+  for (int i = 0; i < 400; ++i) heights += fmt::format("{},{}\n", 1e-6 * i, i / 25 % 2 == 0 ? 1e-6 : -1e-6);
+  write_text(dir / "profile.csv", heights);
+  const Outcome folder = run({"roughness", dir.path().string()});
+  EXPECT_EQ(folder.code, 0) << folder.err;
+  EXPECT_THAT(folder.out, HasSubstr("Ra                1 µm\n"));
+  EXPECT_EQ(run_from(dir / "profile.csv", {"roughness", "-"}).out, folder.out);
+  const Outcome empty = run({"roughness", (dir / "profile.csv").parent_path().parent_path().string()});
+  EXPECT_EQ(empty.code, 1);
+  EXPECT_THAT(empty.err, HasSubstr("a folder without a profile.csv"));
+  EXPECT_EQ(run_from(dir / "profile.csv", {"roughness", "-", "-"}).code, 2);
 }
 
 TEST(Roughness, BadFilesEndWith1AndSayWhere) {

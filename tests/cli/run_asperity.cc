@@ -31,7 +31,8 @@ std::string program() {
 
 class Process {
  public:
-  Process(const std::vector<std::string>& arguments, const std::string& out_path) {
+  Process(const std::vector<std::string>& arguments, const std::string& out_path,
+          const std::string& in_path = "/dev/null") {
     std::vector<char*> argv;
     std::vector<std::string> words{program()};
     words.insert(words.end(), arguments.begin(), arguments.end());
@@ -40,7 +41,7 @@ class Process {
     if (::pipe2(out_.data(), O_CLOEXEC) != 0 || ::pipe2(err_.data(), O_CLOEXEC) != 0) throw std::runtime_error("pipe");
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 0, in_path.c_str(), O_RDONLY, 0);
     if (out_path.empty()) {
       posix_spawn_file_actions_adddup2(&actions, out_[1], 1);
     } else {
@@ -104,6 +105,10 @@ void wait_until_caught(pid_t process, int signal) {
 }
 
 }  // namespace
+
+Outcome run_from(const std::filesystem::path& in, const std::vector<std::string>& arguments) {
+  return Process(arguments, {}, in.string()).wait();
+}
 
 Outcome run(const std::vector<std::string>& arguments) { return Process(arguments, "").wait(); }
 

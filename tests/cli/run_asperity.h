@@ -19,6 +19,9 @@ struct Outcome {
 // Runs the built program with `arguments` and waits for it. No shell, no standard input.
 Outcome run(const std::vector<std::string>& arguments);
 
+// The same with a file as its standard input.
+Outcome run_from(const std::filesystem::path& in, const std::vector<std::string>& arguments);
+
 // The same, but sends `signal` after `delay`.
 Outcome run_and_signal(const std::vector<std::string>& arguments, int signal, std::chrono::milliseconds delay);
 

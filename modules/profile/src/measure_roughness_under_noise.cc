@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "asperity/base/nan.h"
+#include "asperity/profile/filter_profile.h"
 #include "follow_noise.h"
 #include "root_of_power.h"
 #include "shape_without_noise.h"
@@ -99,6 +100,56 @@ double doubt_by_threshold(std::span<const double> height_m, double spacing_m, co
   return std::sqrt(square);
 }
 
+// The heights that the parameters are of, and what of the noise is in them: both after the filters.
+struct Filtered {
+  std::vector<double> height_m;
+  std::vector<double> sigma_m;  // at each of them, as far as it changes along the profile; may be empty
+  double noise_m2 = 0.0;
+};
+
+std::vector<double> roughness_profile(std::span<const double> height_m, double spacing_m,
+                                      const RoughnessConfig& config) {
+  return filter_profile(height_m, spacing_m, config).roughness_m;
+}
+
+// The filters' share of the noise is the mean square of filtered draws over that of the draws.
+Filtered filter_both(std::span<const double> height_m, double spacing_m, const TextureNoise& noise,
+                     const RoughnessConfig& config) {
+  Filtered out;
+  out.noise_m2 = noise.added_rms_m * noise.added_rms_m;
+  if (!(config.lambda_s_mm > 0.0) && !(config.lambda_c_mm > 0.0)) {
+    out.height_m.assign(height_m.begin(), height_m.end());
+    out.sigma_m = noise.added_sigma_m;
+    return out;
+  }
+  out.height_m = roughness_profile(height_m, spacing_m, config);
+  Random random(kNoiseSeed, 3);
+  const auto mean_square = [](const std::vector<double>& x) {
+    double sum = 0.0, count = 0.0;
+    for (const double value : x) {
+      if (!std::isfinite(value)) continue;
+      sum += value * value, count += 1.0;
+    }
+    return count > 0.0 ? sum / count : 0.0;
+  };
+  double before = 0.0, after = 0.0;
+  const std::size_t draws = noise_draws(height_m.size());
+  for (std::size_t j = 0; j < draws; ++j) {
+    const std::vector<double> drawn =
+        draw_shaped_noise(noise, noise.added_psd_m2_mm, noise.added_sigma_m, height_m.size(), spacing_m, random);
+    before += mean_square(drawn);
+    after += mean_square(roughness_profile(drawn, spacing_m, config));
+  }
+  const double share = before > 0.0 ? after / before : 0.0;
+  out.noise_m2 *= share;
+  if (noise.added_sigma_m.size() == height_m.size()) {
+    const std::size_t first = (height_m.size() - std::min(height_m.size(), out.height_m.size())) / 2;
+    for (std::size_t i = 0; i < out.height_m.size(); ++i)
+      out.sigma_m.push_back(std::sqrt(share) * noise.added_sigma_m[first + i]);
+  }
+  return out;
+}
+
 }  // namespace
 
 RoughnessResult measure_roughness_under_noise(std::span<const double> height_m, double spacing_m,
@@ -115,13 +166,17 @@ RoughnessResult measure_roughness_under_noise(std::span<const double> height_m, 
   const bool stands_out = noise.measured_snr_low >= kLeastSnr;
   const double contact = noise.contact_rms_m / std::numbers::sqrt3 / measured.Rq_m;
   Random random(kNoiseSeed, 2);
-  const double noise_m2 = noise.added_rms_m * noise.added_rms_m;
+  const Filtered filtered = filter_both(height_m, spacing_m, noise, config);
+  const double noise_m2 = filtered.noise_m2;
   const auto draw = [&] {
-    return draw_shaped_noise(noise, noise.added_psd_m2_mm, noise.added_sigma_m, height_m.size(), spacing_m, random);
+    std::vector<double> drawn =
+        draw_shaped_noise(noise, noise.added_psd_m2_mm, noise.added_sigma_m, height_m.size(), spacing_m, random);
+    const bool filters = config.lambda_s_mm > 0.0 || config.lambda_c_mm > 0.0;
+    return filters ? roughness_profile(drawn, spacing_m, config) : drawn;
   };
   const Shape shape =
-      shape_without_noise(height_m, measured.Rq_m * measured.Rq_m, measured.Rsk, measured.Rku,
-                          {noise_m2, relative * noise_m2, noise.added_sigma_m, draw}, noise_draws(height_m.size()));
+      shape_without_noise(filtered.height_m, measured.Rq_m * measured.Rq_m, measured.Rsk, measured.Rku,
+                          {noise_m2, relative * noise_m2, filtered.sigma_m, draw}, noise_draws(height_m.size()));
   for (std::size_t p = 0; p < kParameters; ++p) {
     const RoughnessParameter& parameter = kRoughnessParameters[p];
     double& value = out.*parameter.value;
@@ -130,7 +185,7 @@ RoughnessResult measure_roughness_under_noise(std::span<const double> height_m, 
     const double once = followed.once[p].mean(), twice = followed.twice[p].mean();
     const bool is_rq = parameter.value == &RoughnessParameters::Rq_m;
     const bool is_height = parameter.is_length && parameter.value != &RoughnessParameters::RSm_m;
-    const double line = is_rq ? none - noise.added_rms_m * noise.added_rms_m : 2.0 * none - once;
+    const double line = is_rq ? none - noise_m2 : 2.0 * none - once;
     const double parabola = is_rq ? line : 3.0 * none - 3.0 * once + twice;
     // Of what noise adds to extremes the extrapolation finds about half: its curve is steepest where it cannot look.
     const double doubt = 0.5 * (hangs_on_extremes(parameter) ? parabola - none : parabola - line);
@@ -140,7 +195,7 @@ RoughnessResult measure_roughness_under_noise(std::span<const double> height_m, 
                                         : parameter.value == &RoughnessParameters::Rku ? &shape.kurtosis
                                                                                        : nullptr) {
       // What misplaced heights do is measured beside the noise's power too.
-      const double share = 1.0 - noise.added_rms_m * noise.added_rms_m / (measured.Rq_m * measured.Rq_m);
+      const double share = 1.0 - noise_m2 / (measured.Rq_m * measured.Rq_m);
       value = without->value;
       error = std::isfinite(value) ? std::hypot(without->standard_error, place[p] / share) : kNan;
       continue;

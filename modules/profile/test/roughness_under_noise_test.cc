@@ -184,6 +184,43 @@ TEST(RoughnessUnderNoise, WhichElementsCountIsInTheErrorOfRSm) {
   EXPECT_LT(r.RSm_m - 1.96 * r.standard_error.RSm_m, truth_m);
 }
 
+// Long waves of noise, of which λc leaves a hundredth: by waves with random phases, of which the code knows the
+// spectrum alone.
+TEST(RoughnessUnderNoise, FiltersTakeTheirPartOfTheNoise) {
+  const std::vector<double> clean = sine(10e-6, 0.2e-3);
+  RoughnessConfig config;
+  config.lambda_c_mm = 0.8;
+  const RoughnessResult truth = measure_roughness(clean, kSpacing_m, config);
+  constexpr double kRms_m = 20e-6;
+  const TextureNoise noise = noise_of_sigma(clean, std::vector<double>(kPoints, kRms_m), kSpacing_m, 0.1);
+  Random random(11);
+  int holds = 0;
+  constexpr int kScans = 20;
+  for (int scan = 0; scan < kScans; ++scan) {
+    // Waves with random phases, as many between two points of the stated density.
+    std::vector<double> noisy = clean;
+    const std::vector<double>& at = noise.frequency_cycles_per_mm;
+    for (std::size_t j = 1; j < at.size(); ++j) {
+      constexpr int kWaves = 4;
+      const double power_m2 = 0.5 * (noise.added_psd_m2_mm[j] + noise.added_psd_m2_mm[j - 1]) * (at[j] - at[j - 1]);
+      for (int wave = 0; wave < kWaves; ++wave) {
+        const double k_per_m = 1e3 * random.uniform(at[j - 1], at[j]), phase = random.uniform(0.0, 6.2832);
+        for (std::size_t i = 0; i < kPoints; ++i) {
+          noisy[i] += std::sqrt(2.0 * power_m2 / kWaves) *
+                      std::cos(2.0 * std::numbers::pi * k_per_m * kSpacing_m * static_cast<double>(i) + phase);
+        }
+      }
+    }
+    const RoughnessResult r = measure_roughness_under_noise(noisy, kSpacing_m, noise, config);
+    ASSERT_TRUE(std::isfinite(r.Rq_m));
+    EXPECT_LT(r.standard_error.Rq_m, 0.3e-6) << "of the whole noise it would be 20 µm";
+    EXPECT_LT(r.standard_error.Rku, 0.2);
+    holds += std::abs(r.Rq_m - truth.Rq_m) < 1.96 * r.standard_error.Rq_m &&
+             std::abs(r.Rku - truth.Rku) < 1.96 * r.standard_error.Rku;
+  }
+  EXPECT_GE(holds, kScans - 3);
+}
+
 TEST(RoughnessUnderNoise, WithoutANoiseIsThePlainOne) {
   const std::vector<double> clean = sine(40e-6, 2e-3);
   const RoughnessResult r = measure_roughness_under_noise(clean, kSpacing_m, {});
