@@ -75,7 +75,7 @@ class RoughnessCommand : public Command {
                       static_cast<double>(found.size() + failed.size()) / static_cast<double>(files_.size()));
       reads(file == "-" ? "" : file);
       try {
-        found.push_back(measure_file(file, settings_, config));
+        found.push_back(measure_file(file, settings_, config, !report_.empty()));
       } catch (const UsageError&) {
         throw;
       } catch (const Error& error) {

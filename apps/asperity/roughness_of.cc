@@ -50,8 +50,8 @@ std::string read_standard_input() {
 
 class Measurement {
  public:
-  Measurement(std::string file, const RoughnessSettings& settings, const Json& config)
-      : file_(std::move(file)), settings_(settings), config_(config) {}
+  Measurement(std::string file, const RoughnessSettings& settings, const Json& config, bool with_figure)
+      : file_(std::move(file)), settings_(settings), config_(config), with_figure_(with_figure) {}
 
   RoughnessFound measure() const {
     if (file_ == "-") return of_heights(parse_heights(read_standard_input(), "standard input", settings_.input));
@@ -179,7 +179,7 @@ class Measurement {
             filter_line(profile, config, class_name) +
             (noise.added_rms_m > 0.0 ? "" : "intervals   not determined: the file does not state its noise\n") +
             to_table(parameters) + "\n" + to_table(texture),
-        profile_figure(profile, config));
+        with_figure_ ? profile_figure(profile, config) : Figure{});
   }
 
   RoughnessFound of_map(const AreaHeights& heights) const {
@@ -210,7 +210,7 @@ class Measurement {
                  fmt::format("{} x {} heights {:.6g} x {:.6g} µm apart, {} missing\n", map.columns, map.rows,
                              map.x_spacing_m * 1e6, map.y_spacing_m * 1e6, r.missing) +
                      filters + noise_line(heights.noise) + to_table(r),
-                 map_figure(map, config));
+                 with_figure_ ? map_figure(map, config) : Figure{});
   }
 
   // Of an acceleration there are no heights along a line: the RMS height of each octave.
@@ -241,12 +241,14 @@ class Measurement {
   std::string file_;
   const RoughnessSettings& settings_;
   const Json& config_;
+  bool with_figure_;
 };
 
 }  // namespace
 
-RoughnessFound measure_file(const std::string& file, const RoughnessSettings& settings, const Json& config) {
-  return Measurement(file, settings, config).measure();
+RoughnessFound measure_file(const std::string& file, const RoughnessSettings& settings, const Json& config,
+                            bool with_figure) {
+  return Measurement(file, settings, config, with_figure).measure();
 }
 
 }  // namespace asperity::app

@@ -38,7 +38,8 @@ double fitted_at_zero(const Matrix6d& normal, const Vector6d& right) {
 }
 
 double quadric_at_zero(const Matrix6d& normal, const Vector6d& right) {
-  if (!(normal(0, 0) > 0.0)) return kNan;
+  constexpr double kNothing = 1e-9;  // sum of weights: rounding of the transforms
+  if (!(normal(0, 0) > kNothing)) return kNan;
   const double quadric = fitted_at_zero<6>(normal, right);
   if (!std::isnan(quadric)) return quadric;
   const double plane = fitted_at_zero<3>(normal, right);

@@ -1,17 +1,20 @@
 #include "robust_gaussian_filter.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <utility>
+#include <vector>
 
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/text.h"
 #include "biweight.h"
+#include "gaussian_moments.h"
 
 namespace asperity {
 namespace {
+
+constexpr double kNothing = 1e-9;  // sum of weights, of which a sample of full trust has 1 at its place: rounding
 
 // Value at x = 0 of the weighted least-squares parabola with the moments m_k = Σ w x^k and t_k = Σ w x^k z; of lower
 // degree where the samples do not fix one.
@@ -21,7 +24,7 @@ double parabola_at_zero(const std::array<double, 5>& m, const std::array<double,
   if (determinant > 1e-9 * m[0] * m[2] * m[4]) return (a * t[0] + b * t[1] + c * t[2]) / determinant;
   const double line = m[0] * m[2] - m[1] * m[1];
   if (line > 1e-9 * m[0] * m[2]) return (m[2] * t[0] - m[1] * t[1]) / line;
-  return m[0] > 0.0 ? t[0] / m[0] : kNan;
+  return m[0] > kNothing ? t[0] / m[0] : kNan;
 }
 
 }  // namespace
@@ -34,39 +37,27 @@ std::vector<double> robust_gaussian_mean_line_m(std::span<const double> height_m
   constexpr double kAlpha = 0.7309134280946760;  // √((ln 2 / π) · 1.67834699 / ln 2), (1 + u) e^−u = 1/2
   constexpr int kMostIterations = 30;
   constexpr double kTolerance = 1e-4;
-  const auto n = static_cast<std::ptrdiff_t>(height_m.size());
-  // Where the weight has fallen to 1e-6.
-  const double reach_m = kAlpha * cutoff_m * std::sqrt(std::log(1e6) / std::numbers::pi);
-  const auto reach = static_cast<std::ptrdiff_t>(std::min(std::ceil(reach_m / spacing_m), static_cast<double>(n)));
-  std::vector<double> weight(static_cast<std::size_t>(reach) + 1);
-  for (std::size_t k = 0; k < weight.size(); ++k) {
-    const double x = static_cast<double>(k) * spacing_m / (kAlpha * cutoff_m);
-    weight[k] = std::exp(-std::numbers::pi * x * x);
-  }
+  const std::size_t n = height_m.size();
+  std::vector<GaussianMoments> moments;
+  for (int degree = 0; degree <= 4; ++degree) moments.emplace_back(n, spacing_m, kAlpha * cutoff_m, degree);
 
   std::vector<double> line_m(height_m.size(), kNan), trust(height_m.size());
   for (std::size_t i = 0; i < trust.size(); ++i) trust[i] = std::isnan(height_m[i]) ? 0.0 : 1.0;
   double scale_m = 0.0;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+    std::vector<double> weighted_m(n);
+    for (std::size_t i = 0; i < n; ++i) weighted_m[i] = trust[i] > 0.0 ? trust[i] * height_m[i] : 0.0;
+    std::array<std::vector<double>, 5> m;
+    std::array<std::vector<double>, 3> t;
+    for (std::size_t k = 0; k < m.size(); ++k) m[k] = moments[k].of(trust);
+    for (std::size_t k = 0; k < t.size(); ++k) t[k] = moments[k].of(weighted_m);
     std::vector<double> residual_m;
-    residual_m.reserve(height_m.size());
-    for (std::ptrdiff_t i = 0; i < n; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      if (std::isnan(height_m[at])) continue;
-      std::array<double, 5> m{};
-      std::array<double, 3> t{};
-      for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(0, i - reach); j <= std::min(n - 1, i + reach); ++j) {
-        const auto other = static_cast<std::size_t>(j);
-        if (trust[other] == 0.0) continue;
-        const double w = trust[other] * weight[static_cast<std::size_t>(std::abs(j - i))];
-        const double x = static_cast<double>(j - i) / static_cast<double>(reach + 1);
-        const double wx = w * x, wxx = wx * x, z = height_m[other];
-        m[0] += w, m[1] += wx, m[2] += wxx, m[3] += wxx * x, m[4] += wxx * x * x;
-        t[0] += w * z, t[1] += wx * z, t[2] += wxx * z;
-      }
-      const double value = parabola_at_zero(m, t);
-      if (!std::isnan(value)) line_m[at] = value;  // none left in reach: the line of the last iteration stays
-      residual_m.push_back(std::abs(height_m[at] - line_m[at]));
+    residual_m.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (std::isnan(height_m[i])) continue;
+      const double value = parabola_at_zero({m[0][i], m[1][i], m[2][i], m[3][i], m[4][i]}, {t[0][i], t[1][i], t[2][i]});
+      if (!std::isnan(value)) line_m[i] = value;  // none left in reach: the line of the last iteration stays
+      residual_m.push_back(std::abs(height_m[i] - line_m[i]));
     }
     const double before_m = scale_m;
     scale_m = biweight_limit(std::move(residual_m));

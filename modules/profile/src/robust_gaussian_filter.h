@@ -11,8 +11,8 @@ namespace asperity {
 // The weights δ = (1 − (r/c)²)² within |r| < c, else 0, r the distance from the last mean line and
 // c = 4.4478 times the median of |r| (Tukey's biweight), make deep pits and high peaks count for nothing. Iterated from
 // δ = 1 until c changes by less than 1e-4 of itself, 30 times at most. Ends need no other rule: a parabola is kept up
-// to the end. nan heights stay nan and count for nothing. Takes time in proportion to samples times cutoff / spacing
-// times iterations. Throws Error unless both lengths are positive.
+// to the end. nan heights stay nan and count for nothing. Takes time in proportion to samples times the logarithm of
+// their number times iterations. Throws Error unless both lengths are positive.
 //
 // Source: the method's publications, Seewig, J. Phys. Conf. Ser. 13, 254 (2005), and Brinkmann, Bodschwinna and Lemke,
 // Int. J. Mach. Tools Manuf. 41, 2153 (2001); the standard's own text was not read.

@@ -14,7 +14,7 @@ namespace {
 using Complex = std::complex<double>;
 using std::numbers::pi;
 
-constexpr std::size_t kMostKept = std::size_t{1} << 20;  // numbers in the tables that a thread keeps
+constexpr std::size_t kMostKept = std::size_t{1} << 22;  // numbers in the tables that a thread keeps
 
 // Complex numbers as two rows, so that neighbours are in one register.
 struct Rows {
