@@ -1,5 +1,6 @@
 #include "areal_gaussian_filter.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -40,30 +41,45 @@ ArealMap gaussian_mean_surface(const ArealMap& map, double cutoff_m) {
   std::array<std::vector<double>, 5> moments;
   for (auto& one : moments) one.resize(columns * rows);
   std::vector<double> present(columns), height(columns);
-  for (std::size_t row = 0; row < rows; ++row) {
-    for (std::size_t column = 0; column < columns; ++column) {
-      const double z = map.at(row, column);
-      present[column] = std::isnan(z) ? 0.0 : 1.0;
-      height[column] = std::isnan(z) ? 0.0 : z;
-    }
+  constexpr std::size_t kTogether = 16;  // rows, so that what is written of a column is written at once
+  std::array<std::vector<double>, kTogether> lines;
+  for (std::size_t first = 0; first < rows; first += kTogether) {
+    const std::size_t count = std::min(kTogether, rows - first);
     for (std::size_t k = 0; k < moments.size(); ++k) {
-      const auto line = k < 3 ? along_x[k].of(present) : along_x[k - 3].of(height);
-      for (std::size_t column = 0; column < columns; ++column) moments[k][column * rows + row] = line[column];
+      for (std::size_t r = 0; r < count; ++r) {
+        for (std::size_t column = 0; column < columns; ++column) {
+          const double z = map.at(first + r, column);
+          present[column] = std::isnan(z) ? 0.0 : 1.0;
+          height[column] = std::isnan(z) ? 0.0 : z;
+        }
+        lines[r] = k < 3 ? along_x[k].of(present) : along_x[k - 3].of(height);
+      }
+      for (std::size_t column = 0; column < columns; ++column)
+        for (std::size_t r = 0; r < count; ++r) moments[k][column * rows + first + r] = lines[r][column];
     }
   }
   ArealMap out = map;
-  for (std::size_t column = 0; column < columns; ++column) {
-    const auto of = [&](std::size_t x_degree, std::size_t y_degree, bool heights) {
-      const auto& all = moments[x_degree + (heights ? 3 : 0)];
-      return along_y[y_degree].of(std::span(all).subspan(column * rows, rows));
-    };
-    const auto m00 = of(0, 0, false), m10 = of(1, 0, false), m01 = of(0, 1, false), m20 = of(2, 0, false),
-               m11 = of(1, 1, false), m02 = of(0, 2, false), t00 = of(0, 0, true), t10 = of(1, 0, true),
-               t01 = of(0, 1, true);
+  std::array<std::vector<double>, kTogether> mean;  // of columns, which are written together too
+  for (std::size_t first = 0; first < columns; first += kTogether) {
+    const std::size_t count = std::min(kTogether, columns - first);
+    for (std::size_t c = 0; c < count; ++c) {
+      const auto of = [&](std::size_t x_degree, std::size_t y_degree, bool heights) {
+        const auto& all = moments[x_degree + (heights ? 3 : 0)];
+        return along_y[y_degree].of(std::span(all).subspan((first + c) * rows, rows));
+      };
+      const auto m00 = of(0, 0, false), m10 = of(1, 0, false), m01 = of(0, 1, false), m20 = of(2, 0, false),
+                 m11 = of(1, 1, false), m02 = of(0, 2, false), t00 = of(0, 0, true), t10 = of(1, 0, true),
+                 t01 = of(0, 1, true);
+      mean[c].resize(rows);
+      for (std::size_t row = 0; row < rows; ++row)
+        mean[c][row] =
+            plane_at_zero(m00[row], m10[row], m01[row], m20[row], m11[row], m02[row], t00[row], t10[row], t01[row]);
+    }
     for (std::size_t row = 0; row < rows; ++row) {
-      double& z = out.height_m[row * columns + column];
-      if (std::isnan(z)) continue;
-      z = plane_at_zero(m00[row], m10[row], m01[row], m20[row], m11[row], m02[row], t00[row], t10[row], t01[row]);
+      for (std::size_t c = 0; c < count; ++c) {
+        double& z = out.height_m[row * columns + first + c];
+        if (!std::isnan(z)) z = mean[c][row];
+      }
     }
   }
   return out;

@@ -1,6 +1,7 @@
 #include "asperity/profile/measure_areal_texture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -60,17 +61,20 @@ Eigen::VectorXd subtract_polynomial(ArealMap& map, Eigen::Index terms) {
   const auto basis = [&](std::size_t i) {
     const double x = 2.0 * static_cast<double>(i % map.columns) / static_cast<double>(map.columns - 1) - 1.0;
     const double y = 2.0 * static_cast<double>(i / map.columns) / static_cast<double>(map.rows - 1) - 1.0;
-    Eigen::Vector<double, 6> all;
-    all << 1.0, x, y, x * x, x * y, y * y;
-    return Eigen::VectorXd(all.head(terms));
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1> all(terms);
+    const std::array<double, 6> values{1.0, x, y, x * x, x * y, y * y};
+    for (Eigen::Index t = 0; t < terms; ++t) all[t] = values[static_cast<std::size_t>(t)];
+    return all;
   };
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(terms, terms);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(terms);
   for (std::size_t i = 0; i < map.height_m.size(); ++i) {
     if (std::isnan(map.height_m[i])) continue;
-    const Eigen::VectorXd b = basis(i);
-    normal += b * b.transpose();
-    right += b * map.height_m[i];
+    const auto b = basis(i);
+    for (Eigen::Index t = 0; t < terms; ++t) {
+      normal.col(t) += b[t] * b;
+      right[t] += b[t] * map.height_m[i];
+    }
   }
   const LeastSquares fit = least_squares(normal, right);
   if (fit.rank < terms)

@@ -17,20 +17,33 @@ namespace {
 using Complex = std::complex<double>;
 constexpr int kDirections = 360;  // half a degree apart, over half a turn
 
-// Two-dimensional transform in place, rows then columns; the inverse has its factor.
+// Two-dimensional transform in place, rows then columns; the inverse has its factor. Columns are taken out some at a
+// time, so that what is read of a row is read once.
 void transform(std::vector<Complex>& x, std::size_t columns, std::size_t rows, bool inverse) {
   Eigen::FFT<double> fft;
   std::vector<Complex> line, out;
-  const auto each = [&](std::size_t count, std::size_t length, std::size_t step, std::size_t stride) {
-    line.resize(length);
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t k = 0; k < length; ++k) line[k] = x[i * step + k * stride];
-      inverse ? fft.inv(out, line) : fft.fwd(out, line);
-      for (std::size_t k = 0; k < length; ++k) x[i * step + k * stride] = out[k];
+  const auto run = [&] { inverse ? fft.inv(out, line) : fft.fwd(out, line); };
+  for (std::size_t row = 0; row < rows; ++row) {
+    line.assign(&x[row * columns], &x[row * columns] + columns);
+    run();
+    std::copy(out.begin(), out.end(), &x[row * columns]);
+  }
+  constexpr std::size_t kTogether = 16;
+  std::vector<std::vector<Complex>> block(kTogether, std::vector<Complex>(rows));
+  for (std::size_t first = 0; first < columns; first += kTogether) {
+    const std::size_t count = std::min(kTogether, columns - first);
+    for (std::size_t row = 0; row < rows; ++row)
+      for (std::size_t c = 0; c < count; ++c) block[c][row] = x[row * columns + first + c];
+    for (std::size_t c = 0; c < count; ++c) {
+      line.swap(block[c]);
+      run();
+      line.swap(block[c]);
+      block[c].swap(out);
+      out.resize(rows);
     }
-  };
-  each(rows, columns, columns, 1);
-  each(columns, rows, 1, columns);
+    for (std::size_t row = 0; row < rows; ++row)
+      for (std::size_t c = 0; c < count; ++c) x[row * columns + first + c] = block[c][row];
+  }
 }
 
 std::size_t padded_size(std::size_t n) {
