@@ -8,6 +8,7 @@
 
 #include "asperity/registration/weigh_poses.h"
 #include "match_points.h"
+#include "relief_scale.h"
 
 namespace asperity::registration {
 
@@ -20,10 +21,10 @@ class PathLikelihood {
   PathLikelihood(std::span<const MeasuredPath> paths, const RegistrationSurface& surface, const PointSet& points,
                  const MatchRules& rules, const WeighConfig& config);
 
-  // The two scales that each pose has of its own.
+  // The scales that each pose has of its own.
   struct Scales {
-    double slow_ratio = 1.0;  // of the slow error's standard deviation over the stated one
-    double noise_m = 0.0;     // of a block's mean
+    double slow_ratio = 1.0;      // of the slow error's standard deviation over the stated one
+    std::vector<double> noise_m;  // of a block's mean, of each path
   };
   struct Evaluation {
     CentredPose pose;
@@ -56,8 +57,12 @@ class PathLikelihood {
   Scaled descend_with_size(const CentredPose& start, double log_size, int rounds, int steps);
 
  private:
+  struct Path {
+    Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  // of its slow error
+    ReliefScale relief;
+    std::size_t first = 0, count = 0;  // of the blocks
+  };
   struct Block {
-    std::uint32_t path = 0;
     double s_m = 0.0;
     std::size_t first = 0, count = 0;  // of the matcher's points
   };
@@ -82,6 +87,10 @@ class PathLikelihood {
   Prior<7> size_prior(const CentredPose& pose) const;
   template <int kRows>
   Evaluation evaluate_measured(const CentredPose& pose, const Prior<kRows>& prior) const;
+  std::vector<std::uint32_t> make_blocks(std::span<const MeasuredPath> paths);
+  std::vector<double> noise_of_bends() const;
+  template <int kRows>
+  void filter_path(const Path& path, double slow_ratio, double noise_m, Sums<kRows>& out) const;
   template <int kRows>
   Sums<kRows> filter(const Scales& scales) const;
   Scales likeliest_scales(const Scales& near) const;
@@ -89,12 +98,12 @@ class PathLikelihood {
   Scales restricted_scales(Scales scales, const Prior<kRows>& prior) const;
   template <int kRows>
   double restricted_cost(const Scales& scales, const Prior<kRows>& prior) const;
-  double scales_prior(const Scales& scales) const;
+  double scales_prior(double slow_ratio) const;
 
   const PointSet& points_;
   WeighConfig config_;
-  std::vector<Eigen::Matrix3d> covariance_m2_;  // of a path's slow error
-  bool stated_ = true;                          // it is known
+  bool stated_ = true;  // the slow errors' covariances are known
+  std::vector<Path> paths_;
   std::vector<Block> blocks_;
   std::vector<Eigen::Matrix3d> R_marker_world_;  // of the matcher's points; empty if the paths have no orientation
   Matcher matcher_;
