@@ -1,5 +1,6 @@
 #include "asperity/pipeline/find_placements.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "asperity/pipeline/pose_candidates.h"
@@ -25,6 +26,38 @@ std::vector<Pose> likely_poses(const std::vector<WeighedPose>& found) {
     if (out.size() < kMost && pose.log_mass > found.front().log_mass - kHopeless) out.push_back(pose.T_mesh_world);
   }
   return out;
+}
+
+// A scan that stayed alone joins a placement that later scans have shown better, if it belongs there.
+void unite_singles(const ScanPoints& scans, const RegistrationSurface& ready, const WeighConfig& weighing,
+                   const RegistrationConfig& search, std::vector<Group>& groups) {
+  for (std::size_t g = groups.size(); g-- > 0;) {
+    if (groups[g].scans.size() > 1) continue;
+    std::size_t best = groups.size();
+    double best_odds = 0.0;
+    PlacementFit best_fit;
+    for (std::size_t h = 0; h < groups.size(); ++h) {
+      if (h == g) continue;
+      std::vector<MeasuredPath> paths;
+      for (const std::size_t k : groups[h].scans) paths.push_back(scans.points[k].path);
+      paths.push_back(scans.points[groups[g].scans.front()].path);
+      const std::vector<Pose> starts{groups[h].fit.T_mesh_world};
+      const PlacementFit together = fit_placement(paths, ready, starts, weighing, search);
+      const double odds = together.log_evidence - groups[h].fit.log_evidence - groups[g].fit.log_evidence;
+      if (!(odds > best_odds)) continue;
+      best = h;
+      best_odds = odds;
+      best_fit = together;
+    }
+    if (best == groups.size()) continue;
+    std::vector<std::size_t>& members = groups[best].scans;
+    members.insert(std::upper_bound(members.begin(), members.end(), groups[g].scans.front()), groups[g].scans.front());
+    groups[best].fit = best_fit;
+    groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(g));
+  }
+  // In the order of their first scans.
+  std::sort(groups.begin(), groups.end(),
+            [](const Group& a, const Group& b) { return a.scans.front() < b.scans.front(); });
 }
 
 }  // namespace
@@ -86,6 +119,7 @@ FoundPlacements find_placements(const ScanPoints& scans, const RegistrationSurfa
       groups[best].fit = best_fit;
     }
   }
+  unite_singles(scans, ready, weighing, search, groups);
   FoundPlacements out;
   for (Group& group : groups) {
     out.groups.push_back(std::move(group.scans));
