@@ -43,14 +43,14 @@ struct WeighedPose {
 // block is memory_m long, or as long as a period of the path's relief, which the path shows by itself
 // (relief_scale.h): with shorter blocks a relief of holes would be a noise of the means, larger than what the mesh
 // shows, and smaller at a wrong pose where the path leans against the normal. Each path has its own noise, and its
-// relief's mean is known to twice that and the relief's RMS. The likelihood comes from a Kalman filter along the path
-// (Schweppe 1965). The ratio, which has a log-normal prior about one, and the noise are those of largest restricted
-// likelihood at each pose (Patterson and Thompson 1971): the pose has taken six degrees of freedom out of the heights,
-// and a short path would else seem to have nearly no slow error. A pose that lies badly needs a large ratio and pays
-// for it with the logarithm of it for each stretch of slow_length_m, and with the prior. Beyond four standard
-// deviations a block costs no more. Each candidate is descended (Gauss–Newton) to its own maximum; those that end at
-// the same place are one. Its mass is the likelihood times the prior times the volume (Laplace's approximation). The
-// prior is that of the guess, a normal distribution but for guess_lapse; without a guess all poses are alike. Comes
+// relief's mean is known to twice that and the RMS of a periodic relief. The likelihood comes from a Kalman filter
+// along the path (Schweppe 1965). The ratio, which has a log-normal prior about one, and the noise are those of largest
+// restricted likelihood at each pose (Patterson and Thompson 1971): the pose has taken six degrees of freedom out of
+// the heights, and a short path would else seem to have nearly no slow error. A pose that lies badly needs a large
+// ratio and pays for it with the logarithm of it for each stretch of slow_length_m, and with the prior. Beyond four
+// standard deviations a block costs no more. Each candidate is descended (Gauss–Newton) to its own maximum; those that
+// end at the same place are one. Its mass is the likelihood times the prior times the volume (Laplace's approximation).
+// The prior is that of the guess, a normal distribution but for guess_lapse; without a guess all poses are alike. Comes
 // back by mass, the best first. Throws Error as register_path does, and Cancelled.
 std::vector<WeighedPose> weigh_poses(std::span<const MeasuredPath> paths, const RegistrationSurface& surface,
                                      std::span<const Pose> candidates, const std::optional<Pose>& guess,
