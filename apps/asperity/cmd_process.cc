@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "asperity/base/in_background.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
 #include "asperity/pipeline/process_recording.h"
@@ -17,6 +19,7 @@
 #include "asperity/pipeline/write_result.h"
 #include "asperity/profile/stiffness_of_compliance.h"
 #include "asperity/recording/cut_recording.h"
+#include "asperity/recording/fingerprint.h"
 #include "asperity/recording/read_recording.h"
 #include "asperity/session/register_input.h"
 #include "asperity/session/rendered_input.h"
@@ -224,7 +227,9 @@ class ProcessCommand : public Command {
     observer.update("reading", 0.0);
     reads(path);
     const Recording recording = read_recording(path, {}, observer);
-    source_ = source_of(path, recording, name);
+    // Reads all files once more, while the processor has the recording.
+    checksum_ = in_background([path] { return recording_checksum(path); }).share();
+    source_ = {name, {}, fingerprint_of(recording)};
     const std::vector<Segment> pieces = chosen_segments(path, recording);
     alone_ = recordings_.size() == 1 && pieces.size() < 2;
     if (pieces.empty()) {
@@ -280,6 +285,7 @@ class ProcessCommand : public Command {
     }
     observer.update("writing", 0.0);
     fs::create_directories(place);
+    source_.checksum = checksum_.get();  // an unreadable file is an error without a texture, too
     if (result.texture) note_sources(*result.texture, {source_});
     write_result(place, result, recording, name);
     items_.push_back({name, studio::measured_block(result, recording, name).take()});
@@ -309,6 +315,7 @@ class ProcessCommand : public Command {
   std::string segment_;
   bool alone_ = true;    // one result, not several by name
   StrokeSource source_;  // the recording that is processed
+  std::shared_future<std::string> checksum_;
   ProcessConfig config_;
   std::vector<std::pair<std::string, Json>> results_;
   std::vector<studio::ReportItem> items_;

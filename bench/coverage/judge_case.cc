@@ -313,6 +313,8 @@ ScanOutcome judge_case(const ScanCase& scan) {
     out.noise_rms_m = result.noise.noise_rms_m;
     out.snr = result.noise.snr;
     out.snr_low = result.noise.snr_low;
+    out.expected_correlation = result.noise.expected_correlation;
+    out.stretch_correlation = result.noise.stretch_correlation;
     if (result.accuracy) {
       out.position_rms_m = result.accuracy->position_rms_m;
       if (result.accuracy->profile) out.correlation = result.accuracy->profile->correlation;

@@ -42,6 +42,7 @@ struct ScanOutcome {
   std::array<double, kBands> error_m{}, said_m{}, surface_m{};  // RMS in each band: actual error, said noise, truth
   double process_s = 0.0;
   double noise_rms_m = kMissing, snr = kMissing, snr_low = kMissing;  // what the product says of the texture
+  double expected_correlation = kMissing, stretch_correlation = kMissing;
   std::string codes;  // of its verdicts but notes, "invalid:… limited:…"
   std::vector<FigureOutcome> figures;
 };

@@ -271,7 +271,8 @@ void write_csv(const std::filesystem::path& path, const std::vector<ScanOutcome>
   out.precision(10);
   out << "seed,family,probe,trusted,failed,nothing,correlation,position_over_sigma,height_over_sigma,texture_over_"
          "sigma,"
-         "position_rms_m,texture_error_m,texture_rms_m,noise_rms_m,snr,snr_low,process_s,codes,conditions,figure,value,"
+         "position_rms_m,texture_error_m,texture_rms_m,noise_rms_m,snr,snr_low,expected_correlation,stretch_"
+         "correlation,process_s,codes,conditions,figure,value,"
          "low,"
          "high,truth,"
          "oracle_sigma,told_sigma\n";
@@ -280,7 +281,8 @@ void write_csv(const std::filesystem::path& path, const std::vector<ScanOutcome>
       out << s.seed << ',' << s.family << ',' << s.probe << ',' << s.trusted << ',' << s.failed << ',' << s.nothing
           << ',' << s.correlation << ',' << s.position_over_sigma << ',' << s.height_over_sigma << ','
           << s.texture_over_sigma << ',' << s.position_rms_m << ',' << s.texture_error_m << ',' << s.texture_rms_m
-          << ',' << s.noise_rms_m << ',' << s.snr << ',' << s.snr_low << ',' << s.process_s << ',' << s.codes << ','
+          << ',' << s.noise_rms_m << ',' << s.snr << ',' << s.snr_low << ',' << s.expected_correlation << ','
+          << s.stretch_correlation << ',' << s.process_s << ',' << s.codes << ','
           << fmt::format("{}", fmt::join(s.conditions, ";")) << ',' << f.name << ',' << f.value << ',' << f.low << ','
           << f.high << ',' << f.truth << ',' << f.oracle_sigma << ',' << f.told_sigma << '\n';
     }

@@ -49,6 +49,33 @@ void append_number(std::string& out, std::int64_t value) {
   out.append(buffer, end);
 }
 
+void append_decimals(std::string& out, double value) {
+  constexpr double kScale = 1e12, kLargest = 1000.0;  // their product is below 2^53
+  constexpr std::size_t kDecimals = 12;
+  if (!(std::abs(value) < kLargest)) return append_number(out, value);
+  auto left = static_cast<std::uint64_t>(std::llround(std::abs(value) * kScale));
+  char buffer[kDecimals + 5];
+  char* const end = buffer + sizeof buffer;
+  char* at = end;
+  const auto digit = [&] {
+    *--at = static_cast<char>('0' + left % 10);
+    left /= 10;
+  };
+  char* last = end;  // behind the last that is not 0
+  if (left % 1'000'000 == 0) {
+    left /= 1'000'000;
+    for (std::size_t i = 0; i < kDecimals / 2; ++i) digit();
+  } else {
+    for (std::size_t i = 0; i < kDecimals; ++i) digit();
+  }
+  while (last > at && last[-1] == '0') --last;
+  if (last > at) *--at = '.';
+  do digit();
+  while (left > 0);
+  if (value < 0.0 && (last - at > 1 || *at != '0')) *--at = '-';
+  out.append(at, last);
+}
+
 void append_exact(std::string& out, double value) {
   constexpr double kWholeNumbers = 9007199254740992.0;  // 2^53: all whole numbers below are exact
   if (std::abs(value) < kWholeNumbers && value == std::trunc(value) && !(value == 0.0 && std::signbit(value))) {

@@ -1,9 +1,13 @@
 #include "asperity/base/text.h"
 
-#include <gtest/gtest.h>
 #include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include <gtest/gtest.h>
 
 #include "asperity/base/error.h"
+#include "asperity/base/random.h"
 #include "asperity/base/units.h"
 
 namespace asperity {
@@ -58,6 +62,36 @@ TEST(Units, AColumnsNameEndsInItsUnitOfLength) {
   EXPECT_FALSE(split_length_name("height"));
   EXPECT_FALSE(split_length_name("force_N"));
   EXPECT_FALSE(split_length_name(""));
+}
+
+// printf rounds exactly; a hair beside a half, llround of the product may take the other side.
+TEST(Text, DecimalsAreThoseOfPrintf) {
+  const auto text = [](double value) {
+    std::string out;
+    append_decimals(out, value);
+    return out;
+  };
+  EXPECT_EQ(text(0.0), "0");
+  EXPECT_EQ(text(-0.0), "0");
+  EXPECT_EQ(text(-4e-13), "0");
+  EXPECT_EQ(text(-1.0), "-1");
+  EXPECT_EQ(text(0.1), "0.1");
+  EXPECT_EQ(text(-2.5e-6), "-0.0000025");
+  EXPECT_EQ(text(1e-12), "0.000000000001");
+  EXPECT_EQ(text(999.9999999999), "999.9999999999");
+  EXPECT_EQ(text(0.9999999999999), "1");
+  EXPECT_EQ(text(1e3), "1000");
+  EXPECT_EQ(text(1.5e300), "1.5e+300");
+  EXPECT_EQ(text(std::numeric_limits<double>::quiet_NaN()), "nan");
+  EXPECT_EQ(text(-std::numeric_limits<double>::infinity()), "-inf");
+  Random random(7);
+  for (int i = 0; i < 20000; ++i) {
+    const double value = random.normal() * std::pow(10.0, random.uniform(-12.0, 2.5));
+    char exact[64];
+    std::snprintf(exact, sizeof exact, "%.12f", value);
+    EXPECT_NEAR(*parse_double(text(value)), *parse_double(exact), 1.001e-12 + 1e-15 * std::abs(value)) << value;
+    EXPECT_NEAR(*parse_double(text(value)), value, 0.501e-12 + 2e-16 * std::abs(value)) << value;
+  }
 }
 
 }  // namespace

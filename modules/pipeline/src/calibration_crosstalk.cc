@@ -16,7 +16,7 @@ namespace asperity {
 
 namespace {
 
-constexpr double kStretch_s = 1.3;
+constexpr double kStretch_s = 1.3;  // at least: of a length whose transform is fast
 constexpr double kLongestStep_s = 0.05;
 
 struct Run {
@@ -79,38 +79,38 @@ void add_crosstalk(const TipMotion& motion, const BasePath& base, std::span<cons
   if (n < 3 || base.size() != n || moving.size() != n) return;
   const double rate_Hz =
       static_cast<double>(n - 1) / (static_cast<double>(motion.t_ns.back() - motion.t_ns.front()) * kNanosecond_s);
-  const auto stretch = static_cast<std::size_t>(std::lround(kStretch_s * rate_Hz));
+  const auto stretch = smooth_length(static_cast<std::size_t>(std::lround(kStretch_s * rate_Hz)));
   const std::vector<Run> runs = find_runs(motion, moving);
   if (stretch < 8) return;
 
   const OffBase off = off_base(motion, base);
-  add_density(
-      runs, rate_Hz, stretch, std::pow(std::tan(lean_rad), 2), false, [&](std::size_t k) { return off.sway_m[k]; },
-      errors);
+  const auto swaying = [&](std::size_t k) { return off.sway_m[k]; };
+  add_density(runs, rate_Hz, stretch, std::pow(std::tan(lean_rad), 2), false, swaying, errors);
   errors.leaning_m2ps = std::exchange(errors.crosstalk_m2ps, std::vector<double>(errors.crosstalk_m2ps.size(), 0.0));
 
-  const auto normal_in_marker = [&](std::size_t i) -> Eigen::Vector3d {
-    return motion.q_world_marker[i].conjugate() * base.n_world[i];
-  };
+  // In the marker's frame: the normals, and the specific force across them (what is along the normal itself is a gain
+  // of the heights, not another signal); and how the marker is turned from its middle orientation.
+  std::vector<Eigen::Vector3d> normal(n), across(n), turn(n);
+  const Eigen::Quaterniond from_middle = motion.q_world_marker[n / 2].conjugate();
+  for (std::size_t k = 0; k < n; ++k) {
+    if (moving[k] == 0 && k != n / 2) continue;
+    const Eigen::Matrix3d R_marker_world = motion.q_world_marker[k].conjugate().toRotationMatrix();
+    const Eigen::Vector3d force = motion.a_world_tip_mps2[k] - gravity_world_mps2;
+    normal[k] = R_marker_world * base.n_world[k];
+    across[k] = R_marker_world * (force - base.n_world[k] * base.n_world[k].dot(force));
+    turn[k] = log_rotation(from_middle * motion.q_world_marker[k]);
+  }
+  const double lever2 = calibration.tip_from_sensor_m.cross(normal[n / 2]).squaredNorm();
   const double accel2 = std::pow(calibration.accel_matrix, 2), gyro2 = std::pow(calibration.gyro_matrix, 2);
-  const Eigen::Quaterniond middle = motion.q_world_marker[n / 2];
+  const auto add = [&](double factor, bool integrate_twice, const auto& signal) {
+    add_density(runs, rate_Hz, stretch, factor, integrate_twice, signal, errors);
+  };
   for (Eigen::Index j = 0; j < 3; ++j) {
     for (Eigen::Index i = 0; i < 3; ++i) {
-      // What is along the normal itself is a gain of the heights, not another signal.
-      const auto carried = [&](std::size_t k) {
-        const Eigen::Vector3d force = motion.a_world_tip_mps2[k] - gravity_world_mps2;
-        const Eigen::Vector3d& normal = base.n_world[k];
-        const Eigen::Vector3d across = motion.q_world_marker[k].conjugate() * (force - normal * normal.dot(force));
-        return normal_in_marker(k)[i] * across[j];
-      };
-      add_density(runs, rate_Hz, stretch, accel2, true, carried, errors);
+      add(accel2, true, [&](std::size_t k) { return normal[k][i] * across[k][j]; });
     }
-    const auto turned = [&](std::size_t k) { return log_rotation(middle.conjugate() * motion.q_world_marker[k])[j]; };
-    const Eigen::Vector3d normal = normal_in_marker(n / 2);
-    const double lever2 = calibration.tip_from_sensor_m.cross(normal).squaredNorm();
-    add_density(runs, rate_Hz, stretch, gyro2 * lever2, false, turned, errors);
-    const auto leaning = [&](std::size_t k) { return normal_in_marker(k)[j]; };
-    add_density(runs, rate_Hz, stretch, calibration.tip_m[j] * calibration.tip_m[j], false, leaning, errors);
+    add(gyro2 * lever2, false, [&](std::size_t k) { return turn[k][j]; });
+    add(calibration.tip_m[j] * calibration.tip_m[j], false, [&](std::size_t k) { return normal[k][j]; });
   }
 }
 

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <vector>
-
-#include <Eigen/LU>
 
 #include "asperity/base/units.h"
 #include "pose_path.h"
+#include "smooth_poses.h"
 
 namespace asperity {
 
@@ -26,40 +24,6 @@ constexpr double kShapeError = 0.005;  // of the length
 // only the direction's noise is no small one: there it was 2.3 without it, and right scans were refused.
 constexpr double kWhiteMargin = 2.0;
 
-// The poses' noise at the tip: white, and a slow part whose correlation falls as exp(−Δt/time).
-struct PoseNoise {
-  Eigen::Vector3d white_m = Eigen::Vector3d::Zero(), slow_m = Eigen::Vector3d::Zero();
-  double slow_time_s = 1.0;
-};
-
-// A path smoothed by local parabolas: position, velocity, and what noise of unit size becomes in them: standard
-// deviation over that of a pose.
-struct SmoothedPoses {
-  std::vector<Eigen::Vector3d> p_m;
-  std::vector<Eigen::Vector3d> v_mps;
-  std::vector<double> p_white, p_slow;              // of p
-  std::vector<double> v_white_per_s, v_slow_per_s;  // of v
-
-  Eigen::Vector3d p_sigma_m(std::size_t i, const PoseNoise& noise) const {
-    return (p_white[i] * p_white[i] * noise.white_m.cwiseAbs2() + p_slow[i] * p_slow[i] * noise.slow_m.cwiseAbs2())
-        .cwiseSqrt();
-  }
-  // The mean of the axes.
-  double v_sigma_mps(std::size_t i, const PoseNoise& noise) const {
-    return std::hypot(v_white_per_s[i] * noise.white_m.norm(), v_slow_per_s[i] * noise.slow_m.norm()) / std::sqrt(3.0);
-  }
-};
-
-// The standard deviation of Σ w x of a slow noise x of unit size.
-double slow_gain(std::span<const double> weights, std::span<const double> t_s, double time_s) {
-  double square = 0.0, before = 0.0;  // Σ_{j<i} w_j exp(−(t_i − t_j)/time)
-  for (std::size_t i = 0; i < weights.size(); ++i) {
-    if (i > 0) before = (before + weights[i - 1]) * std::exp(-(t_s[i] - t_s[i - 1]) / time_s);
-    square += weights[i] * (weights[i] + 2.0 * before);
-  }
-  return std::sqrt(std::max(0.0, square));
-}
-
 double metric_or(const TrajectoryResult& trajectory, const char* name, double otherwise) {
   const auto found = trajectory.metrics.find(name);
   return found == trajectory.metrics.end() || !std::isfinite(found->second) ? otherwise : found->second;
@@ -73,59 +37,6 @@ PosePath tip_by_poses(const Recording& recording, const TrajectoryResult& trajec
     out.t_s.push_back(static_cast<double>(recording.tracker.t_ns[i] - trajectory.motion.t_ns.front()) * kNanosecond_s -
                       latency_s);
     out.p_world_tip_m.emplace_back(recording.tracker.T_world_marker[i] * calibration.tip_in_marker_m);
-  }
-  return out;
-}
-
-SmoothedPoses smooth_poses(const PosePath& path, double half_width_s, double slow_time_s) {
-  const std::size_t n = path.t_s.size();
-  SmoothedPoses out;
-  std::size_t first = 0, last = 0;
-  std::vector<double> of_p, of_v;  // each pose's weight in p and in v
-  for (std::size_t i = 0; i < n; ++i) {
-    double reach_s = half_width_s;
-    // A parabola needs poses, three on the average on either side.
-    do {
-      first = i;
-      last = i + 1;
-      while (first > 0 && path.t_s[i] - path.t_s[first - 1] < reach_s) --first;
-      while (last < n && path.t_s[last] - path.t_s[i] < reach_s) ++last;
-      reach_s *= 1.4;
-    } while (last - first < std::min<std::size_t>(5, n));
-    reach_s /= 1.4;
-    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-    Eigen::Matrix3d products = Eigen::Matrix3d::Zero();  // a row a power, a column an axis
-    const auto weight_at = [&](std::size_t j) {
-      const double u = (path.t_s[j] - path.t_s[i]) / reach_s;
-      return (1.0 - u * u) * (1.0 - u * u);
-    };
-    for (std::size_t j = first; j < last; ++j) {
-      const double dt_s = (path.t_s[j] - path.t_s[i]) / reach_s;
-      const double w = weight_at(j);
-      const Eigen::Vector3d powers(1.0, dt_s, dt_s * dt_s);
-      moments += w * powers * powers.transpose();
-      products += w * powers * (path.p_world_tip_m[j] - path.p_world_tip_m[i]).transpose();
-    }
-    const Eigen::Matrix3d inverse = moments.inverse();
-    const Eigen::Matrix3d fitted = inverse * products;
-    out.p_m.emplace_back(path.p_world_tip_m[i] + fitted.row(0).transpose());
-    out.v_mps.emplace_back(fitted.row(1).transpose() / reach_s);
-    of_p.clear();
-    of_v.clear();
-    double p_square = 0.0, v_square = 0.0;
-    for (std::size_t j = first; j < last; ++j) {
-      const double dt_s = (path.t_s[j] - path.t_s[i]) / reach_s;
-      const Eigen::Vector3d share = weight_at(j) * inverse * Eigen::Vector3d(1.0, dt_s, dt_s * dt_s);
-      of_p.push_back(share[0]);
-      of_v.push_back(share[1] / reach_s);
-      p_square += of_p.back() * of_p.back();
-      v_square += of_v.back() * of_v.back();
-    }
-    const std::span<const double> t_s(path.t_s.data() + first, last - first);
-    out.p_white.push_back(std::sqrt(p_square));
-    out.v_white_per_s.push_back(std::sqrt(v_square));
-    out.p_slow.push_back(slow_gain(of_p, t_s, slow_time_s));
-    out.v_slow_per_s.push_back(slow_gain(of_v, t_s, slow_time_s));
   }
   return out;
 }
@@ -265,11 +176,12 @@ void measure_own(const PosePath& path, const std::vector<ContactRun>& runs, cons
 // 2011): the difference from the next alone may happen to be small where all of them grow.
 void measure_tracker(const PosePath& path, const std::vector<ContactRun>& runs, const TipMotion& motion,
                      const BasePathResult& base, const PoseNoise& noise, TrackerComparison& out) {
+  const std::vector<double> decay = decay_between(path.t_s, noise.slow_time_s);
   SmoothedPoses narrower;
   double narrower_m = TrackerComparison::kUnknown;
   std::vector<PathLength> before;
   for (const double half_width_s : kHalfWidths_s) {
-    SmoothedPoses smoothed = smooth_poses(path, half_width_s, noise.slow_time_s);
+    SmoothedPoses smoothed = smooth_poses(path, half_width_s, decay);
     PathLength total;
     for (const ContactRun& run : runs) {
       const PathLength part = measure_run(path, run, smoothed, narrower.p_m.empty() ? smoothed : narrower, motion, base,

@@ -266,6 +266,8 @@ Json result_json(const ProcessResult& result, const Recording& recording, const 
                     {"noise_rms_stderr_m", result.noise.noise_rms_stderr_m},
                     {"added_noise_rms_m", result.noise.added_rms_m},
                     {"place_sigma_m", result.noise.place_sigma_m},
+                    {"end_place_sigma_m", result.noise.end_place_sigma_m},
+                    {"stretch_correlation", result.noise.stretch_correlation},
                     {"snr", result.noise.snr},
                     {"snr_low", result.noise.snr_low},
                     {"expected_correlation", result.noise.expected_correlation},

@@ -10,6 +10,7 @@
 
 #include "asperity/base/units.h"
 #include "asperity/profile/estimate_stiffness.h"
+#include "asperity/profile/likely_compliance.h"
 #include "asperity/profile/measure_error_floor.h"
 #include "asperity/profile/measure_length_error.h"
 #include "calibration_crosstalk.h"
@@ -39,8 +40,7 @@ double scale_sigma(const AccelerometerCalibration& accelerometer, const Eigen::V
   return std::isfinite(sigma) && sigma > 0.0 ? sigma : kUnstatedScale;
 }
 
-// How deep the tip may be, by the mean force and the compliance that the force's variation shows; where that is not
-// significant, by the highest possible one, evenly spread below it.
+// How deep the tip may be, by the mean force and the compliance that the force's variation shows, as far as it does.
 double indentation_m(const TipMotion& motion, const BasePathResult& base) {
   double sum_N = 0.0, count = 0.0;
   for (std::size_t i = 0; i < motion.force_N.size(); ++i) {
@@ -50,9 +50,8 @@ double indentation_m(const TipMotion& motion, const BasePathResult& base) {
   }
   if (count == 0.0) return 0.0;
   const StiffnessEstimate stiffness = estimate_stiffness(motion, base.path, base.contact, {});
-  const double mm_per_N = stiffness.measured
-                              ? std::hypot(stiffness.compliance_mm_per_N, stiffness.compliance_stderr_mm_per_N)
-                              : 1.0 / (std::numbers::sqrt3 * stiffness.lower_bound_N_per_mm);
+  const double mm_per_N =
+      likely_compliance_mm_per_N(stiffness.compliance_mm_per_N, stiffness.compliance_stderr_mm_per_N);
   const double out = 1e-3 * mm_per_N * std::abs(sum_N / count);
   return std::isfinite(out) ? std::min(out, kDeepest_m) : 0.0;
 }
@@ -159,6 +158,8 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
       measure_length_error(motion, base, recording.calibration.tip_in_marker_m, recording.calibration.tip_radius_m,
                            round ? indentation_m(motion, base) : 0.0);
   out.along_scale_sigma = length.scale_sigma;
+  // On a mesh a position is that of the nearest point: the level at which the tip goes does not move it.
+  if (base.shape != PathShape::kMesh) out.stretch_sigma = length.scale_sigma;
   out.length_ends_m = length.ends_m;
   out.along_sigma_m = length.place_m;
   // What the smoother has learnt of the sensor's own noise, at one reading a period.

@@ -68,7 +68,8 @@ void remove_noise(double bridge_m, Profile& profile, TextureNoise& noise) {
   if (points > 0.0) {
     const double surface_m2 = std::max(0.0, expected_m2 - points * square(expected.kept_rms_m));
     const double all_m2 = surface_m2 + points * square(noise.noise_rms_m);
-    noise.expected_correlation = all_m2 > 0.0 ? std::sqrt(surface_m2 / all_m2) : 0.0;
+    const double in_place = std::isfinite(noise.stretch_correlation) ? noise.stretch_correlation : 1.0;
+    noise.expected_correlation = all_m2 > 0.0 ? in_place * std::sqrt(surface_m2 / all_m2) : 0.0;
   }
 }
 

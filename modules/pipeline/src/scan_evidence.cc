@@ -249,6 +249,8 @@ void add_measured(const Recording& recording, const ProcessResult& result, ScanE
   out.noise_rms_m = result.noise.noise_rms_m;
   out.snr = result.noise.snr;
   out.expected_correlation = result.noise.expected_correlation;
+  out.stretch_correlation = result.noise.stretch_correlation;
+  out.end_place_sigma_m = result.noise.end_place_sigma_m;
   out.at_most_m = result.noise.at_most_m;
   for (const RepeatedLine& line : result.lines) {
     const MergedProfile& merged = line.merged;

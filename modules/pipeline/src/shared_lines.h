@@ -24,6 +24,11 @@ using SharedLine = std::vector<LinePass>;
 // bottle) is not found. `paths`: points of each scan in one frame, `spacing_m` apart along the path; points that are
 // not finite are on no line. No part is in two lines: the part that shares the most of its length takes those that
 // share it with it, then the next. The line is that part's, and its own place is the origin.
-std::vector<SharedLine> find_shared_lines(std::span<const std::vector<Eigen::Vector3d>> paths, double spacing_m);
+//
+// The work grows with the paths' length, not with its square: where more than 64 parts are within 0.6 mm, the part that
+// takes the others is the one that shares the most with a sample of 64, and of a part that comes through 0.6 mm more
+// than 32 times the first 32 count. `comparisons`: receives how many pairs of points were compared.
+std::vector<SharedLine> find_shared_lines(std::span<const std::vector<Eigen::Vector3d>> paths, double spacing_m,
+                                          std::size_t* comparisons = nullptr);
 
 }  // namespace asperity

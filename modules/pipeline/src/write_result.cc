@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "asperity/base/csv.h"
+#include "asperity/base/in_background.h"
 #include "asperity/base/nan.h"
 #include "asperity/base/output.h"
 #include "asperity/base/text.h"
@@ -21,12 +22,48 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kCell_bytes = 22;  // most shortest doubles with their comma; only reserves memory
+constexpr std::size_t kDecimalCell_bytes = 16;
 
 void append_cells(std::string& out, std::initializer_list<double> cells) {
   for (const double cell : cells) {
     out += ',';
     append_number(out, cell);
   }
+}
+
+constexpr const char* kTrajectoryHeader =
+    "t_ns,px_m,py_m,pz_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,sigma_m,sigma_x_m,sigma_y_m,sigma_z_m\n";
+
+void append_trajectory_row(std::string& out, const TipMotion& motion, std::size_t i) {
+  const Eigen::Vector3d& p = motion.p_world_tip_m[i];
+  const Eigen::Quaterniond& q = motion.q_world_marker[i];
+  const Eigen::Vector3d& v = motion.v_world_tip_mps[i];
+  const Eigen::Vector3d variance_m2 = motion.cov_world_tip_m2.empty()
+                                          ? Eigen::Vector3d::Constant(kNan)
+                                          : Eigen::Vector3d(motion.cov_world_tip_m2[i].diagonal());
+  const Eigen::Vector3d sigma_m = variance_m2.cwiseSqrt();
+  append_number(out, motion.t_ns[i]);
+  for (const double cell : {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(), v.z(),
+                            std::sqrt(variance_m2.mean()), sigma_m.x(), sigma_m.y(), sigma_m.z()}) {
+    out += ',';
+    append_decimals(out, cell);
+  }
+  out += '\n';
+}
+
+// Piece by piece: the text of an hour does not fit into memory.
+void write_trajectory(const fs::path& path, const TipMotion& motion) {
+  constexpr std::size_t kPiece_bytes = std::size_t{4} << 20;
+  OutputFile file(path);
+  std::string piece = kTrajectoryHeader;
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    append_trajectory_row(piece, motion, i);
+    if (piece.size() < kPiece_bytes) continue;
+    file.append(piece);
+    piece.clear();
+  }
+  file.append(piece);
+  file.commit();
 }
 
 bool is_result_file(const fs::path& file) {
@@ -61,21 +98,9 @@ bool holds_results(const fs::path& folder, int deepest) {
 }  // namespace
 
 std::string format_trajectory_csv(const TipMotion& motion) {
-  std::string out = "t_ns,px_m,py_m,pz_m,qw,qx,qy,qz,vx_mps,vy_mps,vz_mps,sigma_m,sigma_x_m,sigma_y_m,sigma_z_m\n";
-  out.reserve(out.size() + motion.size() * 15 * kCell_bytes);
-  for (std::size_t i = 0; i < motion.size(); ++i) {
-    const Eigen::Vector3d& p = motion.p_world_tip_m[i];
-    const Eigen::Quaterniond& q = motion.q_world_marker[i];
-    const Eigen::Vector3d& v = motion.v_world_tip_mps[i];
-    const Eigen::Vector3d variance_m2 = motion.cov_world_tip_m2.empty()
-                                            ? Eigen::Vector3d::Constant(kNan)
-                                            : Eigen::Vector3d(motion.cov_world_tip_m2[i].diagonal());
-    const Eigen::Vector3d sigma_m = variance_m2.cwiseSqrt();
-    append_number(out, motion.t_ns[i]);
-    append_cells(out, {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z(), v.x(), v.y(), v.z(),
-                       std::sqrt(variance_m2.mean()), sigma_m.x(), sigma_m.y(), sigma_m.z()});
-    out += '\n';
-  }
+  std::string out = kTrajectoryHeader;
+  out.reserve(out.size() + motion.size() * 15 * kDecimalCell_bytes);
+  for (std::size_t i = 0; i < motion.size(); ++i) append_trajectory_row(out, motion, i);
   return out;
 }
 
@@ -109,7 +134,7 @@ std::string format_spectrum_csv(const SurfaceSpectrum& spectrum) {
 
 void write_result(const fs::path& folder, const ProcessResult& result, const Recording& recording,
                   const std::string& name) {
-  write_file(folder / "trajectory.csv", format_trajectory_csv(result.trajectory.motion));
+  auto trajectory = in_background([&] { write_trajectory(folder / "trajectory.csv", result.trajectory.motion); });
   write_file(folder / "profile.csv", format_profile_csv(result.profile, result.surface ? &*result.surface : nullptr));
   write_file(folder / "spectrum.csv", format_spectrum_csv(result.spectrum));
   if (result.texture) {
@@ -117,7 +142,8 @@ void write_result(const fs::path& folder, const ProcessResult& result, const Rec
     texture.source.recording = name;
     write_texture(folder / "texture.json", texture);
   }
-  write_file(folder / "result.json", format_result(result, recording, name));
+  trajectory.get();
+  write_file(folder / "result.json", format_result(result, recording, name));  // last: by it a folder is a result
 }
 
 bool is_result_folder(const fs::path& folder) noexcept {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "asperity/base/nan.h"
+#include "asperity/profile/correlation_under_stretch.h"
 #include "asperity/profile/height_error_density.h"
 #include "asperity/profile/measure_spectrum.h"
 #include "draw_height_errors.h"
@@ -155,9 +156,10 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
 
   const PowerSpectrum measured = measure_spectrum(profile.texture_m, profile.spacing_m);
   const double shape_mm2 = 1e6 * drawn.shape_variance_m2;
-  std::vector<double> misplaced(k.size());
+  std::vector<double> misplaced(k.size()), expected(k.size());
   for (std::size_t i = 0; i < k.size(); ++i) {
-    const double surface = std::max(0.0, 1e6 * density_at(measured, k[i]) - added[i]);
+    const double all = 1e6 * density_at(measured, k[i]), surface = std::max(0.0, all - added[i]);
+    expected[i] = all > 0.0 ? surface * surface / all : 0.0;  // without noise (apply_wiener_filter.h)
     const double phase_variance = std::pow(2.0 * std::numbers::pi * k[i], 2) * shape_mm2;
     misplaced[i] = 2.0 * (1.0 - std::exp(-0.5 * phase_variance)) * surface;
   }
@@ -199,6 +201,8 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   const double ends_m2 =
       errors.length_ends_m > 0.0 ? errors.length_ends_m * errors.length_ends_m : 2.0 * place_variance_m2(errors);
   noise.length_stderr_m = std::sqrt(ends_m2 + std::pow(1e-3 * errors.along_scale_sigma * length_mm, 2));
+  noise.end_place_sigma_m = 0.5e-3 * errors.stretch_sigma * length_mm;
+  noise.stretch_correlation = correlation_under_stretch(k, expected, errors.stretch_sigma, length_mm);
   noise.scale_sigma = errors.scale_sigma;
   noise.along_sigma = noise.length_stderr_m / (1e-3 * length_mm);
   noise.added_rms_m = 1e-3 * std::sqrt(added_power);

@@ -38,14 +38,24 @@ double autocorrelation(std::span<const double> x, std::size_t lag) {
 // Sum of x exp(-2πi f k) over the points [from, to), with f in cycles a point.
 std::complex<double> transform_at(std::span<const double> x, double f, std::size_t from, std::size_t to) {
   const std::complex<double> step = std::polar(1.0, -kTwoPi * f);
-  std::complex<double> sum = 0.0, phasor = 1.0;
+  double re = 1.0, im = 0.0, sum_re = 0.0, sum_im = 0.0;
   for (std::size_t k = from; k < to; ++k) {
     // Renewed now and then: the product's rounding errors add up.
-    if ((k - from) % 256 == 0) phasor = std::polar(1.0, -kTwoPi * std::fmod(f * static_cast<double>(k), 1.0));
-    if (std::isfinite(x[k])) sum += x[k] * phasor;
-    phasor *= step;
+    if ((k - from) % 256 == 0) {
+      const std::complex<double> phasor = std::polar(1.0, -kTwoPi * std::fmod(f * static_cast<double>(k), 1.0));
+      re = phasor.real();
+      im = phasor.imag();
+    }
+    if (std::isfinite(x[k])) {
+      sum_re += x[k] * re;
+      sum_im += x[k] * im;
+    }
+    // Not by std::complex, whose product looks for infinities.
+    const double turned = re * step.real() - im * step.imag();
+    im = re * step.imag() + im * step.real();
+    re = turned;
   }
-  return sum;
+  return {sum_re, sum_im};
 }
 
 double harmonic_power(std::span<const double> x, double f) {

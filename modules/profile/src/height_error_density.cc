@@ -18,19 +18,21 @@ double interpolated_density(const std::vector<double>& at, const std::vector<dou
   return density_m2ps[i - 1] + share * (density_m2ps[i] - density_m2ps[i - 1]);
 }
 
+double fourth(double x) { return x * x * x * x; }
+
 double rotation_density(const HeightErrors& errors, double omega) {
   const double tracker = errors.rotation_tracker_psd_rad2ps;
   const double rate = errors.rotation_rate_psd_rad2ps3, accel = errors.rotation_accel_psd_rad2ps5;
   if (!(tracker > 0.0)) return 0.0;
   if (rate > 0.0) return rate * tracker / (rate + tracker * omega * omega);
-  return accel > 0.0 ? accel * tracker / (accel + tracker * std::pow(omega, 4)) : 0.0;
+  return accel > 0.0 ? accel * tracker / (accel + tracker * fourth(omega)) : 0.0;
 }
 
 double object_density(const std::vector<ObjectAxisError>& axes, double slow_time_s, double omega) {
   double out = 0.0;
   for (const ObjectAxisError& axis : axes) {
     if (!(axis.pose_psd > 0.0) || !(axis.motion_psd > 0.0)) continue;
-    const double share = axis.motion_psd / (axis.motion_psd + axis.pose_psd * std::pow(omega, 4));
+    const double share = axis.motion_psd / (axis.motion_psd + axis.pose_psd * fourth(omega));
     const double slow = 4.0 * std::pow(axis.slow_sigma, 2) * slow_time_s / (1.0 + std::pow(omega * slow_time_s, 2));
     out += axis.weight * (share * axis.pose_psd + share * share * slow);
   }
@@ -46,7 +48,7 @@ double height_error_density_m2ps(const HeightErrors& errors, double frequency_Hz
   const double accel = errors.accel_psd_m2ps3 * (1.0 + errors.accel_corner_Hz / frequency_Hz) +
                        errors.accel_walk_psd_m2ps5 / (omega * omega) + std::pow(errors.force_across_mps2, 2) * rotation;
   const double tracker = errors.tracker_psd_m2ps;
-  const double share = accel / (accel + tracker * std::pow(omega, 4));
+  const double share = accel / (accel + tracker * fourth(omega));
   const double slow = 4.0 * std::pow(errors.tracker_slow_sigma_m, 2) * errors.tracker_slow_time_s /
                       (1.0 + std::pow(omega * errors.tracker_slow_time_s, 2));
   const double crosstalk = interpolated_density(errors.crosstalk_Hz, errors.crosstalk_m2ps, frequency_Hz);

@@ -5,12 +5,14 @@
 #include <functional>
 #include <iterator>
 
+#include "asperity/base/radix_sort.h"
+
 namespace asperity {
 
 MaterialCurve::MaterialCurve(std::span<const double> heights) {
   falling_.reserve(heights.size());
   std::copy_if(heights.begin(), heights.end(), std::back_inserter(falling_), [](double z) { return !std::isnan(z); });
-  std::sort(falling_.begin(), falling_.end(), std::greater<>{});
+  sort_falling(falling_);
   const double n = static_cast<double>(falling_.size());
   for (const double z : falling_) mean_ += z / n;
   sum_.reserve(falling_.size() + 1);

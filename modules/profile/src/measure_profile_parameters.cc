@@ -106,8 +106,9 @@ double curvature_at(std::span<const double> stretch, const double* at, double sp
 
 double mean_of_first(std::vector<double> values, std::size_t count) {
   if (values.empty()) return kNan;
-  std::sort(values.begin(), values.end(), std::greater<>{});
   count = std::min(count, values.size());
+  std::partial_sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count), values.end(),
+                    std::greater<>{});
   double sum = 0.0;
   for (std::size_t i = 0; i < count; ++i) sum += values[i];
   return sum / static_cast<double>(count);

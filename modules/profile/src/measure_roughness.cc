@@ -9,6 +9,7 @@
 
 #include "asperity/base/error.h"
 #include "asperity/base/nan.h"
+#include "asperity/base/radix_sort.h"
 #include "asperity/base/text.h"
 #include "asperity/profile/filter_profile.h"
 #include "profile_features.h"
@@ -109,7 +110,7 @@ std::vector<double> descending(std::span<const double> height_m) {
   std::vector<double> sorted;
   sorted.reserve(height_m.size());
   std::copy_if(height_m.begin(), height_m.end(), std::back_inserter(sorted), [](double v) { return !std::isnan(v); });
-  std::sort(sorted.begin(), sorted.end(), std::greater<>{});
+  sort_falling(sorted);
   return sorted;
 }
 

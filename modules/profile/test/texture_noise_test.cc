@@ -75,6 +75,21 @@ TEST(TextureNoise, OfAnAccelerometerAloneHasAClosedForm) {
   EXPECT_NEAR(inner_rms_m(usual.noise.added_sigma_m), std::sqrt(power_m2), 0.2 * std::sqrt(power_m2));
 }
 
+// A sine of 1 cycle/mm over 80 mm, all of whose power is at its own frequency: g(πkσL) there.
+TEST(TextureNoise, AStretchLowersTheCorrelationOfTheTextureAlone) {
+  HeightErrors errors = errors_of(1e-8, 1e-12);
+  const TextureNoiseEstimate without = estimate_texture_noise(even_stretch(), errors, kCutoff_cycles_per_mm);
+  EXPECT_DOUBLE_EQ(without.noise.stretch_correlation, 1.0);
+  errors.stretch_sigma = 0.005;
+  const TextureNoiseEstimate with = estimate_texture_noise(even_stretch(), errors, kCutoff_cycles_per_mm);
+  const double a = std::numbers::pi * 0.005 * 80.0;
+  EXPECT_NEAR(with.noise.stretch_correlation, std::sqrt(0.5 * std::numbers::pi) * std::erf(a / std::numbers::sqrt2) / a,
+              0.01);
+  EXPECT_NEAR(with.noise.end_place_sigma_m, 0.2e-3, 1e-6);
+  EXPECT_DOUBLE_EQ(with.noise.noise_rms_m, without.noise.noise_rms_m);
+  EXPECT_DOUBLE_EQ(with.noise.snr, without.noise.snr);
+}
+
 // Single points beside a gap have no speed: their error is like that of their neighbours.
 TEST(TextureNoise, PointsWithoutASpeedHaveASigma) {
   Profile profile = even_stretch();

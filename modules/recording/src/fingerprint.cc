@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "asperity/base/error.h"
+#include "asperity/base/radix_sort.h"
 #include "asperity/base/text.h"
 
 namespace asperity {
@@ -57,7 +58,7 @@ SampleSketch sketch_rows(const std::vector<std::uint64_t>& rows, std::size_t win
     if (i >= window) rolling -= first_power * rows[i - window];
     if (i + 1 >= window && alike < window) out.hashes.push_back(mixed(rolling));
   }
-  std::sort(out.hashes.begin(), out.hashes.end());
+  radix_sort(out.hashes);
   out.hashes.erase(std::unique(out.hashes.begin(), out.hashes.end()), out.hashes.end());
   out.windows = out.hashes.size();
   return out;

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
 #include "asperity/base/csv.h"
 #include "asperity/base/error.h"
+#include "asperity/base/in_background.h"
 #include "asperity/base/inner_path.h"
 #include "asperity/json/parse_json.h"
 #include "asperity/recording/parse_recording.h"
@@ -79,7 +81,10 @@ Truth read_truth(const fs::path& path, Problems& problems, const ReadLimits& lim
   return parse_truth_csv(read_file(path, limits.csv_bytes), path.string(), problems, limits);
 }
 
-Recording read_probe_recording(const fs::path& folder, const ReadLimits& limits, const Observer& observer) {
+namespace {
+
+// recording.json and calibration.json: where they are not there, no table is read.
+Recording read_head(const fs::path& folder, const ReadLimits& limits, const Observer& observer) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) throw Error(folder.string() + ": not a recording folder");
   const fs::path info = own_file(folder, "recording.json");
@@ -91,20 +96,36 @@ Recording read_probe_recording(const fs::path& folder, const ReadLimits& limits,
     throw Error(folder.string() + ": calibration.json is missing; counts and poses mean nothing without it");
   }
   out.calibration = read_calibration(calibration, limits, observer);
+  return out;
+}
+
+}  // namespace
+
+Recording read_probe_recording(const fs::path& folder, const ReadLimits& limits, const Observer& observer) {
+  Recording out = read_head(folder, limits, observer);
   observer.without_progress().update("read", 0.0);
   out.probe = read_stream(folder, "probe.csv", limits, out.problems, parse_probe_csv);
   return out;
 }
 
 Recording read_recording(const fs::path& folder, const ReadLimits& limits, const Observer& observer) {
-  Recording out = read_probe_recording(folder, limits, observer);
+  Recording out = read_head(folder, limits, observer);
+  observer.without_progress().update("read", 0.0);
+  // A simulated recording's truth is the larger part of it: read beside the rest.
+  Problems problems_of_truth;
+  auto truth = in_background([&]() -> std::optional<Truth> {
+    const fs::path path = own_file(folder, "truth.csv");
+    std::error_code error;
+    if (!fs::exists(path, error)) return std::nullopt;
+    return read_truth(path, problems_of_truth, limits);
+  });
+  out.probe = read_stream(folder, "probe.csv", limits, out.problems, parse_probe_csv);
   observer.without_progress().update("read", 0.0);
   out.tracker = read_stream(folder, "tracker.csv", limits, out.problems, parse_tracker_csv);
   for (const TrackedBody& body : out.info.bodies)
     out.body_poses.push_back(read_stream(folder, body_file(body.name), limits, out.problems, parse_body_csv));
-  const fs::path truth = own_file(folder, "truth.csv");
-  std::error_code error;
-  if (fs::exists(truth, error)) out.truth = read_truth(truth, out.problems, limits);
+  out.truth = truth.get();
+  out.problems.insert(out.problems.end(), problems_of_truth.begin(), problems_of_truth.end());
   close_unfinished(out);
   return out;
 }

@@ -39,6 +39,19 @@ void check_render_config(const RenderConfig& config) {
                 config.border_fade_m);
 }
 
+// What files hold was checked when they were read; a program may have set anything.
+void check_material(const RenderMaterial& material) {
+  const auto finite = [](double x) { return std::isfinite(x); };
+  require_value(finite(material.stiffness_N_per_m) && material.stiffness_N_per_m >= 0.0,
+                "a material's stiffness is below 0", material.stiffness_N_per_m);
+  require_value(finite(material.compliance_kc) && material.compliance_kc >= 0.0, "a material's compliance is below 0",
+                material.compliance_kc);
+  require_value(finite(material.friction) && material.friction >= 0.0, "a material's friction is below 0",
+                material.friction);
+  require_value(finite(material.static_friction_ratio) && material.static_friction_ratio >= 1.0,
+                "a material's static over sliding friction is below 1", material.static_friction_ratio);
+}
+
 bool is_closed(const TriangleMesh& mesh) {
   const MeshAdjacency adjacency = make_adjacency(weld_vertices(mesh));
   for (std::size_t e = 0; e < adjacency.edge_vertices.size(); ++e)
@@ -175,6 +188,7 @@ class Materials {
   }
 
   std::uint32_t index_of(const RenderMaterial& material) {
+    check_material(material);
     const auto key = std::tuple(material.stiffness_N_per_m, material.compliance_kc, material.friction,
                                 material.static_friction_ratio);
     const auto [place, is_new] = indices_.try_emplace(key, static_cast<std::uint32_t>(out_.materials.size()));

@@ -133,7 +133,7 @@ TopRows times_covariance(const TopRows& U, const Layout& layout, const Square& P
   for (const int at : {layout.misalignment, layout.accel_matrix, layout.gyro_matrix, layout.gravity}) {
     if (at >= 0) first = std::min(first, at);
   }
-  return times_symmetric<9>(U, P, kV, kBase, first, last);
+  return times_symmetric<9>(U, P, {kV, kBase, first, last});
 }
 
 }  // namespace

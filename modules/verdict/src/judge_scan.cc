@@ -219,12 +219,26 @@ void judge_noise(const ScanEvidence& e, Verdicts& out) {
     out.push_back(make_verdict("error_unknown", "the noise of the texture is not known"));
     return;
   }
-  if (e.snr < kInvisible_snr && !(e.expected_correlation >= kSeen_correlation)) {
+  // What noise alone leaves of the correlation, and what the length's error leaves of that.
+  const double in_place = std::isfinite(e.stretch_correlation) ? e.stretch_correlation : 1.0;
+  const bool stands_out = e.snr >= kInvisible_snr || e.expected_correlation >= in_place * kSeen_correlation;
+  const double by_noise = std::sqrt(e.snr / (1.0 + e.snr)), limit = std::sqrt(kInvisible_snr / (1.0 + kInvisible_snr));
+  if (!stands_out) {
     out.push_back(make_verdict(
         "below_noise", fmt::format("the texture does not stand out of its noise: below what this probe can see, at "
                                    "most {:.3g} µm RMS in {:.3g} µm of expected noise",
                                    1e6 * e.at_most_m, 1e6 * e.noise_rms_m)));
-  } else if (e.snr < kNoisy_snr) {
+    return;
+  }
+  if (in_place * by_noise < limit && !(e.expected_correlation >= kSeen_correlation) && in_place < by_noise) {
+    out.push_back(make_verdict(
+        "positions_uncertain",
+        fmt::format("the path's length has an error that moves heights by up to {:.2g} mm (standard deviation) from "
+                    "their positions: the expected correlation with the surface is {:.2f}. Roughness and the ratio of "
+                    "lengths are not affected",
+                    1e3 * e.end_place_sigma_m, in_place * by_noise)));
+  }
+  if (e.snr < kNoisy_snr) {
     out.push_back(
         make_verdict("noisy_texture", fmt::format("of the texture's {:.3g} µm RMS {:.3g} µm are expected to be noise",
                                                   1e6 * e.texture_rms_m, 1e6 * e.noise_rms_m)));

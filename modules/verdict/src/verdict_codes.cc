@@ -49,6 +49,8 @@ constexpr VerdictCode kCodes[] = {
     {"little_coverage", kInvalid, "keep the tip in contact along the stroke"},
     {"below_noise", kInvalid, "scan slower, or use a probe with less noise"},
     {"length_disagrees", kInvalid, "check the calibration of the tip and of the latency, or use the method `fused`"},
+    {"positions_uncertain", kInvalid,
+     "scan a shorter stroke, press less, or let the force rise along the stroke, which shows how soft the object is"},
     {"error_unknown", kInvalid, "use the method `fused`"},
     {"noisy_texture", kLimited, "scan slower, or use a probe with less noise"},
     {"stick_slip", kLimited, "press more lightly, or move faster"},

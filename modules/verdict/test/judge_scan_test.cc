@@ -151,6 +151,15 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
          e.snr = 3.0;
          e.noise_rms_m = 19e-6;
        }},
+      {"positions_uncertain",
+       "by up to 0.61 mm (standard deviation) from their positions: the expected correlation with "
+       "the surface is 0.72",
+       [](ScanEvidence& e) {
+         e.snr = 25.0;
+         e.expected_correlation = 0.72;
+         e.stretch_correlation = 0.735;
+         e.end_place_sigma_m = 0.61e-3;
+       }},
       {"length_disagrees", "122.00 mm long, by the tracker's poses alone 80.30 ± 1.24 mm",
        [](ScanEvidence& e) { e.length_m = 0.122; }},
       {"error_unknown", "no error", [](ScanEvidence& e) { e.error_known = false; }},
@@ -167,6 +176,24 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
     EXPECT_EQ(verdicts[0].code, one.code);
     EXPECT_THAT(verdicts[0].message, HasSubstr(one.message));
   }
+}
+
+// Noise is not named as an error of the length, nor the other way about.
+TEST(JudgeScan, TheLargerOfNoiseAndMisplacementIsNamed) {
+  ScanEvidence evidence = good();
+  evidence.snr = 25.0;
+  evidence.stretch_correlation = 0.9;
+  evidence.expected_correlation = 0.88;
+  EXPECT_TRUE(judge_scan(evidence).empty());  // 0.9 · √(25/26) is above √(2/3)
+  evidence.snr = 2.1;                         // 0.82 by the noise
+  evidence.expected_correlation = 0.75;
+  ASSERT_EQ(judge_scan(evidence).size(), 1U);
+  EXPECT_EQ(judge_scan(evidence)[0].code, "noisy_texture");
+  evidence.snr = 1.0;
+  evidence.stretch_correlation = 0.7;
+  evidence.expected_correlation = 0.6;
+  ASSERT_EQ(judge_scan(evidence).size(), 1U);
+  EXPECT_EQ(judge_scan(evidence)[0].code, "below_noise");
 }
 
 TEST(JudgeScan, OfAMotionAloneTheSurfaceIsNotJudged) {

@@ -16,6 +16,10 @@ void append_number(std::string& out, double value);
 void append_number(std::string& out, std::int64_t value);
 std::string number_text(double value);
 
+// Appends `value` rounded to 12 decimals, without the zeros at their end: a quarter of the time of the shortest exact
+// text and less than three quarters of its length, for what no measurement knows to a picometre. From 1000 on, exactly.
+void append_decimals(std::string& out, double value);
+
 // A number as it is written in our text files: whole numbers without exponent or point, others as the
 // shortest text that reads back exactly.
 void append_exact(std::string& out, double value);

@@ -12,7 +12,7 @@ namespace asperity {
 // recording's. nan is null. The same result gives the same bytes.
 std::string format_result(const ProcessResult& result, const Recording& recording, const std::string& name);
 
-// trajectory.csv (sigma_m: the root of a third of the covariance's trace), profile.csv and spectrum.csv.
+// trajectory.csv (sigma_m: the root of a third of the covariance's trace; 12 decimals), profile.csv and spectrum.csv.
 std::string format_trajectory_csv(const TipMotion& motion);
 // `surface`, if it is given and determined, has its columns surface_m and touched (0 or 1).
 std::string format_profile_csv(const Profile& profile, const ErodedProfile* surface = nullptr);

@@ -25,6 +25,7 @@ struct HeightErrors {
   double along_tracker_psd_m2ps = 0.0;
   double scale_sigma = 0.0;        // relative, of all heights
   double along_scale_sigma = 0.0;  // relative, of the arc length
+  double stretch_sigma = 0.0;      // likewise, what of it moves heights from their positions
   double along_sigma_m = 0.0;      // of a place along the path, by the motion's covariance; 0: not known
   double length_ends_m = 0.0;      // of the arc length, by the places of its ends (measure_length_error.h)
   // What is not white (height_error_density.h).
@@ -82,6 +83,11 @@ struct TextureNoise {
   double stretch_sigma = 0.0;  // relative, of the texture's power: what heights at a wrong place do to it
   double scale_sigma = 0.0;    // relative error of all heights: calibration, the normal's direction
   double along_sigma = 0.0;    // relative error of lengths along the path
+  // Of that, the part that lasts along the path, which moves the ends against each other by `end_place_sigma_m` from
+  // their positions; and the correlation that it leaves of the expected texture with the true one
+  // (correlation_under_stretch.h).
+  double end_place_sigma_m = kNan;
+  double stretch_correlation = kNan;
   // Without the tenth of the path where the noise is largest, as at slow ends and rests; the two densities have these
   // powers: of the measured texture, of added noise, of misplaced heights.
   double typical_texture_rms_m = kNan;
@@ -94,8 +100,8 @@ struct TextureNoise {
   double snr_low = kNan;           // with the largest noise that is possible, 97.5 %
   double measured_snr_low = kNan;  // the same, none removed, the added noise alone
   // Where noise was removed: the correlation with the surface that the expected texture has by its own RMS t and its
-  // noise e, t/√(t² + e²). It counts frequency by frequency, so a line that stands out of noise which is as strong in
-  // all is seen.
+  // noise e, t/√(t² + e²), times `stretch_correlation`. It counts frequency by frequency, so a line that stands out of
+  // noise which is as strong in all is seen.
   double expected_correlation = kNan;
   // The RMS that the surface's texture has at most, with 97.5 % of the noises that are possible.
   double at_most_m = kNan;

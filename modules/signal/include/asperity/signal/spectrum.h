@@ -14,6 +14,9 @@ std::vector<std::complex<double>> real_dft(std::span<const double> x);
 // The n real samples whose real_dft is `half` (n/2 + 1 values). Throws Error if the size does not fit.
 std::vector<double> inverse_real_dft(std::span<const std::complex<double>> half, std::size_t n);
 
+// The smallest number from n on whose prime factors are 2, 3 and 5 only: such lengths are transformed fastest.
+std::size_t smooth_length(std::size_t n);
+
 struct PowerSpectrum {
   std::vector<double> frequency;  // cycles per unit of 1/rate, from 0 to rate/2
   std::vector<double> density;  // one-sided, unit of x² per unit of frequency: its sum times the step is the variance

@@ -1,0 +1,159 @@
+// asperity_scene of asperity_feel.h.
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "asperity/scene/paint.h"
+#include "asperity/scene/read_scene.h"
+#include "asperity/scene/swap_texture.h"
+#include "asperity/texture/texture_file.h"
+#include "handles.h"
+#include "status.h"
+
+namespace {
+
+using asperity::c_library::BadArgument;
+using asperity::c_library::guarded;
+using asperity::c_library::there;
+
+asperity::SceneObject& object_of(asperity_scene* scene, std::size_t object) {
+  asperity::Scene& of = there(scene, "scene").scene;
+  if (object >= of.objects.size()) {
+    throw BadArgument("object " + std::to_string(object) + ": the scene has " + std::to_string(of.objects.size()));
+  }
+  return of.objects[object];
+}
+
+double within(double value, double from, double to, const char* name) {
+  if (!(value >= from) || !(value <= to)) {
+    throw BadArgument(std::string(name) + " is " + std::to_string(value) + ", not from " + std::to_string(from) +
+                      " to " + std::to_string(to));
+  }
+  return value;
+}
+
+// What `work` refuses is the caller's argument, for the files have been read.
+template <class Work>
+void as_argument(const Work& work) {
+  try {
+    work();
+  } catch (const asperity::Error& fault) {
+    throw BadArgument(fault.what());
+  }
+}
+
+std::vector<Eigen::Vector3d> points_of(const double* numbers, std::size_t count, const char* name) {
+  if (count > 0) there(numbers, name);
+  std::vector<Eigen::Vector3d> out(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    out[i] = Eigen::Vector3d::Map(numbers + 3 * i);
+    if (!out[i].allFinite()) throw BadArgument(std::string(name) + ": point " + std::to_string(i) + " is not finite");
+  }
+  return out;
+}
+
+}  // namespace
+
+extern "C" {
+
+asperity_status asperity_scene_read(const char* path, asperity_scene** scene) {
+  if (scene != nullptr) *scene = nullptr;
+  return guarded([&] {
+    asperity_scene*& out = there(scene, "scene");
+    out = new asperity_scene{asperity::read_scene(&there(path, "path"))};
+  });
+}
+
+asperity_status asperity_scene_from_mesh(const double* vertices_m, size_t vertex_count, const unsigned* triangles,
+                                         size_t triangle_count, asperity_scene** scene) {
+  if (scene != nullptr) *scene = nullptr;
+  return guarded([&] {
+    asperity_scene*& out = there(scene, "scene");
+    if (triangle_count > 0) there(triangles, "triangles");
+    auto made = std::make_unique<asperity_scene>();
+    asperity::SceneObject& object = made->scene.objects.emplace_back();
+    object.mesh.vertices = points_of(vertices_m, vertex_count, "vertices_m");
+    object.mesh.triangles.resize(triangle_count);
+    for (std::size_t i = 0; i < triangle_count; ++i) {
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const unsigned index = triangles[3 * i + corner];
+        if (index >= vertex_count) {
+          throw BadArgument("triangles: triangle " + std::to_string(i) + " has the index " + std::to_string(index) +
+                            ", and there are " + std::to_string(vertex_count) + " vertices");
+        }
+        object.mesh.triangles[i][corner] = index;
+      }
+    }
+    if (triangle_count == 0) throw BadArgument("triangle_count is 0: nothing to feel");
+    out = made.release();
+  });
+}
+
+void asperity_scene_free(asperity_scene* scene) { delete scene; }
+
+size_t asperity_scene_object_count(const asperity_scene* scene) {
+  return scene == nullptr ? 0 : scene->scene.objects.size();
+}
+
+const char* asperity_scene_object_name(const asperity_scene* scene, size_t object) {
+  if (object >= asperity_scene_object_count(scene)) return nullptr;
+  return scene->scene.objects[object].mesh_file.c_str();
+}
+
+asperity_status asperity_scene_set_pose(asperity_scene* scene, size_t object, const double position_m[3],
+                                        const double rotation_wxyz[4]) {
+  return guarded([&] {
+    asperity::SceneObject& of = object_of(scene, object);
+    const double* q = &there(rotation_wxyz, "rotation_wxyz");
+    const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
+    const double length = rotation.norm();
+    if (!std::isfinite(length) || !(length > 1e-6))
+      throw BadArgument("rotation_wxyz has the length 0 or is not finite");
+    of.T_world_mesh = {rotation.normalized(), points_of(position_m, 1, "position_m").front()};
+  });
+}
+
+asperity_status asperity_scene_paint(asperity_scene* scene, size_t object, const char* texture_path,
+                                     const double* points_m, size_t point_count, double half_width_m, int index) {
+  return guarded([&] {
+    // A copy: what cannot be painted leaves the object as it was.
+    asperity::SceneObject painted = object_of(scene, object);
+    const std::vector<Eigen::Vector3d> points = points_of(points_m, point_count, "points_m");
+    if (points.size() < 2) throw BadArgument("point_count is " + std::to_string(point_count) + ", not at least 2");
+    if (index < 0) throw BadArgument("index is " + std::to_string(index) + ", not from 0");
+    asperity::SceneTexture texture;
+    texture.index = index;
+    texture.file = &there(texture_path, "texture_path");
+    texture.texture = asperity::read_texture(texture.file);
+    asperity::HapticCoordinatesConfig config;
+    config.half_width_mm = 1e3 * within(half_width_m, 0.0, 1e3, "half_width_m");
+    as_argument([&] { asperity::paint(painted, points, std::move(texture), config); });
+    object_of(scene, object) = std::move(painted);
+  });
+}
+
+asperity_status asperity_scene_set_texture(asperity_scene* scene, int index, const char* texture_path) {
+  return guarded([&] {
+    asperity::Scene& of = there(scene, "scene").scene;
+    const std::string file = &there(texture_path, "texture_path");
+    asperity::Texture texture = asperity::read_texture(file);
+    as_argument([&] { asperity::swap_texture(of, index, std::move(texture), file); });
+  });
+}
+
+asperity_status asperity_scene_set_stiffness(asperity_scene* scene, double stiffness_N_per_m) {
+  return guarded([&] {
+    there(scene, "scene").scene.stiffness_N_per_m = within(stiffness_N_per_m, 1.0, 1e6, "stiffness_N_per_m");
+  });
+}
+
+asperity_status asperity_scene_set_friction(asperity_scene* scene, double sliding, double static_ratio) {
+  return guarded([&] {
+    asperity::Scene& of = there(scene, "scene").scene;
+    const double friction = within(sliding, 0.0, 10.0, "sliding");
+    of.static_friction_ratio = within(static_ratio, 1.0, 10.0, "static_ratio");
+    of.friction = friction;
+  });
+}
+}

@@ -1,0 +1,52 @@
+"""Fine surfaces, measured with a hand-held probe and felt again.
+
+    import asperity
+    recording = asperity.simulate("protoboard", speed_mps=0.025, seed=1)
+    result = asperity.process(recording)
+    print(result.trustworthy, result.summary["roughness"]["Rq_m"], result.summary["roughness"]["Rq_stderr_m"])
+
+Lengths are metres, forces newtons, times seconds unless a name says otherwise. Arrays of recordings and results are
+read-only views without a copy. What cannot be used raises asperity.Error, a ValueError; Ctrl-C raises KeyboardInterrupt.
+"""
+
+from ._asperity import (
+    Error,
+    Mesh,
+    Recording,
+    Renderer,
+    Result,
+    Scene,
+    Texture,
+    Touch,
+    Truth,
+    __version__,
+    fit_texture,
+    process,
+    read_mesh,
+    read_recording,
+    read_scene,
+    read_texture,
+    roughness,
+    simulate,
+)
+
+__all__ = [
+    "Error",
+    "Mesh",
+    "Recording",
+    "Renderer",
+    "Result",
+    "Scene",
+    "Texture",
+    "Touch",
+    "Truth",
+    "__version__",
+    "fit_texture",
+    "process",
+    "read_mesh",
+    "read_recording",
+    "read_scene",
+    "read_texture",
+    "roughness",
+    "simulate",
+]

@@ -1,0 +1,135 @@
+#include <filesystem>
+#include <memory>
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "arrays.h"
+#include "asperity/base/config.h"
+#include "asperity/base/output.h"
+#include "asperity/pipeline/process_recording.h"
+#include "asperity/pipeline/result_json.h"
+#include "asperity/pipeline/write_result.h"
+#include "asperity/verdict/verdict.h"
+#include "interruptible.h"
+#include "parts.h"
+
+namespace asperity::python {
+
+namespace {
+
+// A result with the recording that it is of: what it writes names it.
+struct Result {
+  ProcessResult result;
+  std::shared_ptr<const Recording> recording;
+  std::string name;
+};
+
+std::shared_ptr<Result> process(std::shared_ptr<const Recording> recording, const std::string& name,
+                                const py::dict& settings) {
+  ProcessConfig config;
+  set_all(config, settings);
+  auto out = std::make_shared<Result>();
+  out->result =
+      interruptible([&](const Observer& observer) { return process_recording(*recording, config, observer); });
+  out->recording = std::move(recording);
+  out->name = name;
+  return out;
+}
+
+void write(const Result& of, const std::filesystem::path& folder) {
+  const py::gil_scoped_release unlocked;
+  OutputFolder out(folder, is_result_folder);
+  write_result(out.path(), of.result, *of.recording, of.name);
+  out.commit();
+}
+
+std::vector<py::dict> verdicts_of(const Result& of) {
+  std::vector<py::dict> out;
+  for (const Verdict& verdict : of.result.verdicts) {
+    py::dict one;
+    one["code"] = verdict.code;
+    one["severity"] = std::string(kSeverityNames[static_cast<std::size_t>(verdict.severity)]);
+    one["message"] = verdict.message;
+    one["remedy"] = verdict.remedy;
+    out.push_back(one);
+  }
+  return out;
+}
+
+// A property that is a view of a vector in the result.
+template <class Get>
+auto viewed(Get get) {
+  return [get](py::object self) { return view(get(self.cast<const Result&>().result), self); };
+}
+
+}  // namespace
+
+void add_processing(py::module_& module) {
+  using R = ProcessResult;
+  py::class_<Result, std::shared_ptr<Result>>(module, "Result",
+                                              "What `process` measures, each figure with its error; see `summary`.")
+      .def_property_readonly(
+          "trustworthy", [](const Result& of) { return of.result.trustworthy; }, "No verdict is invalid.")
+      .def_property_readonly(
+          "verdict", [](const Result& of) { return of.result.verdict; },
+          "The verdicts in a sentence; empty if none is invalid or limited.")
+      .def_property_readonly("verdicts", &verdicts_of, "The worst first: code, severity, message, remedy.")
+      .def_property_readonly("s_m", viewed([](const R& r) -> auto& { return r.profile.s_m; }),
+                             "(n,) arc length along the base path, m, evenly spaced")
+      .def_property_readonly("height_m", viewed([](const R& r) -> auto& { return r.profile.height_m; }),
+                             "(n,) height along the outward normal, m; nan in gaps")
+      .def_property_readonly("height_sigma_m", viewed([](const R& r) -> auto& { return r.profile.sigma_m; }),
+                             "(n,) its standard deviation, m")
+      .def_property_readonly("texture_m", viewed([](const R& r) -> auto& { return r.profile.texture_m; }),
+                             "(n,) height after the high-pass, m; nan in gaps")
+      .def_property_readonly("texture_sigma_m", viewed([](const R& r) -> auto& { return r.profile.texture_sigma_m; }),
+                             "(n,) its standard deviation, m")
+      .def_property_readonly("force_N", viewed([](const R& r) -> auto& { return r.profile.force_N; }),
+                             "(n,) contact force along the normal, N")
+      .def_property_readonly("speed_mps", viewed([](const R& r) -> auto& { return r.profile.speed_mps; }),
+                             "(n,) speed along the base path, m/s")
+      .def_property_readonly("spacing_m", [](const Result& of) { return of.result.profile.spacing_m; })
+      .def_property_readonly("spectrum_cycles_per_mm",
+                             viewed([](const R& r) -> auto& { return r.spectrum.frequency_cycles_per_mm; }),
+                             "(k,) wave numbers of the texture's power spectrum, cycles/mm")
+      .def_property_readonly("spectrum_m2_mm", viewed([](const R& r) -> auto& { return r.spectrum.density_m2_mm; }),
+                             "(k,) density of the surface, its noise taken off, m² mm")
+      .def_property_readonly("spectrum_low_m2_mm", viewed([](const R& r) -> auto& { return r.spectrum.low_m2_mm; }),
+                             "(k,) lower end of its interval of 95 %")
+      .def_property_readonly("spectrum_high_m2_mm", viewed([](const R& r) -> auto& { return r.spectrum.high_m2_mm; }),
+                             "(k,) upper end of it")
+      .def_property_readonly("spectrum_noise_m2_mm", viewed([](const R& r) -> auto& { return r.spectrum.noise_m2_mm; }),
+                             "(k,) what was taken off")
+      .def_property_readonly("t_ns", viewed([](const R& r) -> auto& { return r.trajectory.motion.t_ns; }),
+                             "(m,) int64, times of the tip's motion, ns")
+      .def_property_readonly("position_m",
+                             viewed([](const R& r) -> auto& { return r.trajectory.motion.p_world_tip_m; }),
+                             "(m, 3) the tip in the world frame, m")
+      .def_property_readonly("velocity_mps",
+                             viewed([](const R& r) -> auto& { return r.trajectory.motion.v_world_tip_mps; }),
+                             "(m, 3) its velocity, m/s")
+      .def_property_readonly("orientation_xyzw",
+                             viewed([](const R& r) -> auto& { return r.trajectory.motion.q_world_marker; }),
+                             "(m, 4) the marker's orientation, quaternions x y z w")
+      .def_property_readonly(
+          "texture",
+          [](const Result& of) -> py::object { return of.result.texture ? py::cast(*of.result.texture) : py::none(); },
+          "The Texture, or None where there is none.")
+      .def_property_readonly(
+          "summary",
+          [](const Result& of) {
+            return py::module_::import("json").attr("loads")(
+                result_json(of.result, *of.recording, of.name).dump_repaired());
+          },
+          "All of result.json as a dict: figures with their standard errors, verdicts, settings.")
+      .def(
+          "write", &write, py::arg("folder"),
+          "Write trajectory.csv, profile.csv, spectrum.csv, texture.json and result.json into a folder; one that holds "
+          "anything but a result is not replaced.");
+  module.def("process", &process, py::arg("recording").none(false), py::arg("name") = "recording",
+             py::arg("settings") = py::dict(),
+             "From a recording to profile, roughness and texture. settings: those of `asperity process --set`.");
+}
+
+}  // namespace asperity::python
