@@ -11,9 +11,6 @@ namespace asperity::registration {
 
 namespace {
 
-constexpr double kOutlier2 = 16.0;    // squared standard deviations that a block costs at most
-constexpr double kPerShortest = 4.0;  // points of a block as short as they come
-constexpr double kMostBlocks = 1500.0;
 constexpr double kLeastRatio = 0.3, kMostRatio = 100.0;  // of the slow error
 constexpr double kLargestSizeStep = 0.15;                // of a Gauss–Newton step
 
@@ -33,9 +30,12 @@ double log_determinant(const Eigen::Matrix<double, kRows, kRows>& positive) {
 
 PathLikelihood::PathLikelihood(std::span<const MeasuredPath> paths, const RegistrationSurface& surface,
                                const PointSet& points, const MatchRules& rules, const WeighConfig& config)
-    : points_(points), config_(config), matcher_(surface, points, make_blocks(paths), rules) {
+    : points_(points),
+      config_(config),
+      blocks_(divide_into_blocks(paths, points, config)),
+      matcher_(surface, points, blocks_.chosen, rules) {
   least_m_ = 1e-6 * points.radius_m;
-  heights_.resize(blocks_.size());
+  heights_.resize(blocks_.blocks.size());
   const bool oriented = std::all_of(paths.begin(), paths.end(), [](const MeasuredPath& path) {
     return path.q_world_marker.size() == path.p_world_m.size();
   });
@@ -49,50 +49,15 @@ PathLikelihood::PathLikelihood(std::span<const MeasuredPath> paths, const Regist
   for (std::size_t i = 0; i < matcher_.size(); ++i) R_marker_world_.push_back(of_points[matcher_.chosen(i)]);
 }
 
-// Divides each path into blocks, and returns the points of each that are matched, evenly spread over it, one block
-// after the other.
-std::vector<std::uint32_t> PathLikelihood::make_blocks(std::span<const MeasuredPath> paths) {
-  std::vector<std::uint32_t> chosen;
-  const double length_m = points_.size() == 0 ? 0.0 : points_.s_m.back();
-  const double shortest_m = std::max(config_.memory_m, length_m / kMostBlocks);
-  std::size_t begin = 0;
-  for (std::size_t p = 0; p < paths.size(); ++p) {
-    Path& path = paths_.emplace_back();
-    const Eigen::Matrix3d& C = paths[p].slow_covariance_world_m2;
-    const bool known = C.allFinite() && C.trace() > 0.0;
-    stated_ = stated_ && known;
-    const double usual_m = 2e-3 * points_.radius_m;
-    path.covariance_m2 = known ? C : Eigen::Matrix3d(usual_m * usual_m * Eigen::Matrix3d::Identity());
-    std::size_t end = begin;
-    while (end < points_.size() && points_.path[end] == p) ++end;
-    path.relief = measure_relief(std::span(points_.x_m).subspan(begin, end - begin),
-                                 std::span(points_.s_m).subspan(begin, end - begin), shortest_m);
-    path.first = blocks_.size();
-    const auto most = static_cast<std::size_t>(std::lround(kPerShortest * path.relief.block_m / shortest_m));
-    while (begin < end) {
-      std::size_t next = begin + 1;
-      while (next < end && points_.s_m[next] - points_.s_m[begin] < path.relief.block_m) ++next;
-      const std::size_t count = std::min(most, next - begin), first = chosen.size();
-      for (std::size_t k = 0; k < count; ++k) {
-        chosen.push_back(static_cast<std::uint32_t>(begin + (2 * k + 1) * (next - begin) / (2 * count)));
-      }
-      blocks_.push_back({points_.s_m[chosen[first]], first, count});
-      begin = next;
-    }
-    path.count = blocks_.size() - path.first;
-  }
-  return chosen;
-}
-
 void PathLikelihood::measure(const CentredPose& pose, double log_size) {
   const double size = std::exp(log_size);
   matcher_.match(pose, 1.0 / size);
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    Height& height = heights_[b];
+  for (std::size_t b = 0; b < blocks_.blocks.size(); ++b) {
+    BlockHeight& height = heights_[b];
     height = {};
     std::size_t count = 0;
     Eigen::Vector3d n = Eigen::Vector3d::Zero();
-    for (std::size_t i = blocks_[b].first; i < blocks_[b].first + blocks_[b].count; ++i) {
+    for (std::size_t i = blocks_.blocks[b].first; i < blocks_.blocks[b].first + blocks_.blocks[b].count; ++i) {
       const Match& m = matcher_.matches()[i];
       if (!m.usable) continue;
       ++count;
@@ -102,7 +67,7 @@ void PathLikelihood::measure(const CentredPose& pose, double log_size) {
       n += m.n;
       if (!R_marker_world_.empty()) height.row.tail<3>() += R_marker_world_[i] * (pose.rotation.conjugate() * m.n);
     }
-    height.usable = 2 * count >= blocks_[b].count;
+    height.usable = 2 * count >= blocks_.blocks[b].count;
     if (!height.usable) continue;
     const double share = 1.0 / static_cast<double>(count);
     height.d_m *= size * share;
@@ -114,68 +79,17 @@ void PathLikelihood::measure(const CentredPose& pose, double log_size) {
   }
 }
 
-// Kalman's filter along each path; its state is the slow error, a Gauss–Markov process along the path, and the mean of
-// the relief. The columns of the Jacobian go through the same filter as the heights, whose gains they share: what comes
-// out is whitened.
 template <int kRows>
-void PathLikelihood::filter_path(const Path& path, double slow_ratio, double noise_m, Sums<kRows>& out) const {
-  constexpr int kColumns = kRows + 1;
-  using Columns = Eigen::Matrix<double, kColumns, 1>;
-  const double noise_m2 = noise_m * noise_m;
-  const double mean_m2 = std::pow(config_.relief_mean_ratio * noise_m, 2) + std::pow(path.relief.rms_m, 2);
-  const Eigen::Matrix3d C_m2 = slow_ratio * slow_ratio * path.covariance_m2;
-  Eigen::Matrix4d P = Eigen::Matrix4d::Zero();
-  P.topLeftCorner<3, 3>() = C_m2;
-  P(3, 3) = mean_m2;
-  Eigen::Matrix<double, 4, kColumns> X = Eigen::Matrix<double, 4, kColumns>::Zero();
-  for (std::size_t b = path.first; b < path.first + path.count; ++b) {
-    const Height& height = heights_[b];
-    if (b > path.first) {
-      const double keep =
-          config_.slow_length_m > 0.0 ? std::exp(-(blocks_[b].s_m - blocks_[b - 1].s_m) / config_.slow_length_m) : 0.0;
-      P.topLeftCorner<3, 3>() = keep * keep * P.topLeftCorner<3, 3>() + (1.0 - keep * keep) * C_m2;
-      P.topRightCorner<3, 1>() *= keep;
-      P.bottomLeftCorner<1, 3>() *= keep;
-      X.template topRows<3>() *= keep;
-    }
-    if (!height.usable) {
-      out.cost += kOutlier2 + std::log(noise_m2 + C_m2.trace() / 3.0);
-      ++out.outlying;
-      continue;
-    }
-    const Eigen::Vector4d h(height.n_world.x(), height.n_world.y(), height.n_world.z(), 1.0);
-    const Eigen::Vector4d Ph = P * h;
-    const double S = h.dot(Ph) + noise_m2;
-    Columns z = -(X.transpose() * h);
-    z[0] += height.d_m;
-    const double square = z[0] * z[0] / S;
-    out.cost += std::min(square, kOutlier2) + std::log(S);
-    if (square > kOutlier2) {
-      ++out.outlying;
-      continue;
-    }
-    if constexpr (kRows > 0) {
-      z.template tail<kRows>() += height.row.template head<kRows>();
-      const Eigen::Matrix<double, kRows, 1> row = z.template tail<kRows>();
-      out.information += row * row.transpose() / S;
-      out.gradient += z[0] / S * row;
-    }
-    const Eigen::Vector4d gain = Ph / S;
-    X += gain * z.transpose();
-    P -= gain * Ph.transpose();
+FilterSums<kRows> PathLikelihood::filter(const Scales& scales) const {
+  FilterSums<kRows> out;
+  for (std::size_t p = 0; p < blocks_.paths.size(); ++p) {
+    filter_path<kRows>(blocks_, p, heights_, scales.slow_ratio, scales.noise_m[p], config_, out);
   }
-}
-
-template <int kRows>
-PathLikelihood::Sums<kRows> PathLikelihood::filter(const Scales& scales) const {
-  Sums<kRows> out;
-  for (std::size_t p = 0; p < paths_.size(); ++p)
-    filter_path<kRows>(paths_[p], scales.slow_ratio, scales.noise_m[p], out);
   return out;
 }
 
 double PathLikelihood::scales_prior(double slow_ratio) const {
-  const double away = std::log(slow_ratio) / (stated_ ? config_.slow_ratio_spread : 1.5);
+  const double away = std::log(slow_ratio) / (blocks_.stated ? config_.slow_ratio_spread : 1.5);
   return away * away;
 }
 
@@ -194,7 +108,7 @@ PathLikelihood::Prior<7> PathLikelihood::size_prior(const CentredPose& pose) con
 // −2 log of the likelihood of the scales, the pose (and size) integrated out.
 template <int kRows>
 double PathLikelihood::restricted_cost(const Scales& scales, const Prior<kRows>& prior) const {
-  const Sums<kRows> sums = filter<kRows>(scales);
+  const FilterSums<kRows> sums = filter<kRows>(scales);
   return sums.cost + log_determinant<kRows>(sums.information + prior);
 }
 
@@ -202,27 +116,27 @@ double PathLikelihood::restricted_cost(const Scales& scales, const Prior<kRows>&
 PathLikelihood::Scales PathLikelihood::likeliest_scales(const Scales& near) const {
   // Coordinate search on a logarithmic grid that is halved. A path's noise is its own.
   const auto cost_of = [&](std::size_t p, double slow_ratio, double noise_m) {
-    Sums<0> sums;
-    filter_path<0>(paths_[p], slow_ratio, noise_m, sums);
+    FilterSums<0> sums;
+    filter_path<0>(blocks_, p, heights_, slow_ratio, noise_m, config_, sums);
     return sums.cost;
   };
   Scales best = near;
-  std::vector<double> cost(paths_.size()), there(paths_.size());
+  std::vector<double> cost(blocks_.paths.size()), there(blocks_.paths.size());
   const auto total = [&](const std::vector<double>& costs, double slow_ratio) {
     return std::accumulate(costs.begin(), costs.end(), scales_prior(slow_ratio));
   };
-  for (std::size_t p = 0; p < paths_.size(); ++p) cost[p] = cost_of(p, best.slow_ratio, best.noise_m[p]);
+  for (std::size_t p = 0; p < blocks_.paths.size(); ++p) cost[p] = cost_of(p, best.slow_ratio, best.noise_m[p]);
   for (double factor = 2.0; factor > 1.1; factor = std::sqrt(factor)) {
     for (int round = 0; round < 4; ++round) {
       const double before = total(cost, best.slow_ratio);
       for (const double slow : {factor, 1.0 / factor}) {
         const double other = std::clamp(best.slow_ratio * slow, kLeastRatio, kMostRatio);
-        for (std::size_t p = 0; p < paths_.size(); ++p) there[p] = cost_of(p, other, best.noise_m[p]);
+        for (std::size_t p = 0; p < blocks_.paths.size(); ++p) there[p] = cost_of(p, other, best.noise_m[p]);
         if (!(total(there, other) < total(cost, best.slow_ratio))) continue;
         best.slow_ratio = other;
         cost = there;
       }
-      for (std::size_t p = 0; p < paths_.size(); ++p) {
+      for (std::size_t p = 0; p < blocks_.paths.size(); ++p) {
         for (const double noise : {factor, 1.0 / factor}) {
           const double other = std::max(best.noise_m[p] * noise, least_m_);
           const double then = cost_of(p, best.slow_ratio, other);
@@ -257,7 +171,7 @@ PathLikelihood::Scales PathLikelihood::restricted_scales(Scales scales, const Pr
 // A first estimate of each path's noise, by the bends from block to block.
 std::vector<double> PathLikelihood::noise_of_bends() const {
   std::vector<double> out;
-  for (const Path& path : paths_) {
+  for (const PathBlocks::Path& path : blocks_.paths) {
     std::vector<double> bends_m;
     for (std::size_t b = path.first + 1; b + 1 < path.first + path.count; ++b) {
       if (!heights_[b - 1].usable || !heights_[b].usable || !heights_[b + 1].usable) continue;
@@ -278,11 +192,12 @@ PathLikelihood::Evaluation PathLikelihood::evaluate_measured(const CentredPose& 
   Evaluation out;
   out.pose = pose;
   out.scales = restricted_scales<kRows>(likeliest_scales({1.0, noise_of_bends()}), prior);
-  const Sums<kRows> sums = filter<kRows>(out.scales);
+  const FilterSums<kRows> sums = filter<kRows>(out.scales);
   out.cost = sums.cost + scales_prior(out.scales.slow_ratio);
   out.log_precision = log_determinant<kRows>(sums.information + prior);
   out.information = sums.information.template topLeftCorner<6, 6>();
-  out.outlying = static_cast<double>(sums.outlying) / static_cast<double>(std::max<std::size_t>(1, blocks_.size()));
+  out.outlying =
+      static_cast<double>(sums.outlying) / static_cast<double>(std::max<std::size_t>(1, blocks_.blocks.size()));
   // Curvature of the restricted likelihood, in steps of the logarithm that are about its width.
   constexpr double kStep = 0.3, kMostSigma = 2.0;
   const auto cost_at = [&](double step) {
@@ -299,7 +214,7 @@ PathLikelihood::Evaluation PathLikelihood::descend(const CentredPose& start, int
   for (int round = 0; round < rounds; ++round) {
     CentredPose pose = best.pose;
     measure(pose);
-    Sums<6> sums = filter<6>(best.scales);
+    FilterSums<6> sums = filter<6>(best.scales);
     for (int k = 0; k < steps; ++k) {
       const Matrix6 hessian = sums.information + damping * motion_metric(points_, pose);
       const Vector6 step = -hessian.ldlt().solve(sums.gradient);
@@ -309,7 +224,7 @@ PathLikelihood::Evaluation PathLikelihood::descend(const CentredPose& start, int
       for (double share = 1.0; share > 0.1 && !fell; share *= 0.5) {
         const CentredPose next = moved(pose, share * step);
         measure(next);
-        const Sums<6> there = filter<6>(best.scales);
+        const FilterSums<6> there = filter<6>(best.scales);
         if (!(there.cost < sums.cost)) continue;
         fell = true;
         pose = next;
@@ -341,7 +256,7 @@ PathLikelihood::Scaled PathLikelihood::descend_with_size(const CentredPose& star
     CentredPose pose = best.at.pose;
     double size = best.log_size;
     measure(pose, size);
-    Sums<7> sums = filter<7>(best.at.scales);
+    FilterSums<7> sums = filter<7>(best.at.scales);
     sums.cost += prior(size);
     for (int k = 0; k < steps; ++k) {
       Eigen::Matrix<double, 7, 7> hessian = sums.information;
@@ -358,7 +273,7 @@ PathLikelihood::Scaled PathLikelihood::descend_with_size(const CentredPose& star
         const CentredPose next = moved(pose, share * step.head<6>());
         const double next_size = size + share * step[6];
         measure(next, next_size);
-        Sums<7> there = filter<7>(best.at.scales);
+        FilterSums<7> there = filter<7>(best.at.scales);
         there.cost += prior(next_size);
         if (!(there.cost < sums.cost)) continue;
         fell = true;
