@@ -90,8 +90,8 @@ asperity::ScanPoints points_of(const bench::RegistrationCase& given) {
 
 Outcome run_case(const bench::RegistrationCase& given, const asperity::ScanPoints& scans, int number, bool each) {
   const auto begin = std::chrono::steady_clock::now();
-  const asperity::RegistrationResult result =
-      asperity::locate_scans(scans, *given.surface, given.guess, given.config).placements.front().registration;
+  const asperity::LocatedScans located = asperity::locate_scans(scans, *given.surface, given.guess, given.config);
+  const asperity::RegistrationResult& result = located.placements.front().registration;
   Outcome out;
   out.time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   out.kind = given.kind;
@@ -122,17 +122,18 @@ Outcome run_case(const bench::RegistrationCase& given, const asperity::ScanPoint
   for (const auto& line : given.lines) length_m += bench::kPathSpacing_m * static_cast<double>(line.p_m.size());
   std::fprintf(
       stderr,
-      "%4d %-38s %-14s %zu paths %3.0f mm slow %.2f relief %.3f | off %7.3f mm %7.2f° bound %.3f mm %.2f° rms "
+      "%4d %-38s %-14s %zu paths in %zu placements %3.0f mm slow %.2f relief %.3f | off %7.3f mm %7.2f° bound %.3f mm "
+      "%.2f° rms "
       "%.3f slow ratio %.2f e^%.2f odds %.1e sigma %.2f mm %.2f° scale %.3f: %.3f ± %.3f  gain %.1f chance %.2g mirror "
       "%.1f | %s%s%s | %s "
       "| %.2f s\n",
       number, std::string(bench::kCaseClassNames.at(static_cast<std::size_t>(given.kind))).c_str(), given.body.c_str(),
-      given.lines.size(), 1e3 * length_m, 1e3 * given.errors.slow_m, 1e3 * given.errors.relief_m, 1e3 * off.rms_m,
-      off.rotation_rad / kDegree, 1e3 * bound.rms_m, bound.rotation_rad / kDegree, 1e3 * result.rms_m,
-      result.rivals.slow_ratio, result.rivals.slow_ratio_sigma, result.rivals.odds, 1e3 * result.rivals.sigma_m,
-      result.rivals.sigma_rad / kDegree, 1.0 / given.scale, result.rivals.scale.ratio,
-      result.rivals.scale.ratio * result.rivals.scale.sigma, result.rivals.scale.gain, result.rivals.chance,
-      result.rivals.mirror_log_odds, out.wrong ? "WRONG" : "", out.good ? "good" : "",
+      given.lines.size(), located.placements.size(), 1e3 * length_m, 1e3 * given.errors.slow_m,
+      1e3 * given.errors.relief_m, 1e3 * off.rms_m, off.rotation_rad / kDegree, 1e3 * bound.rms_m,
+      bound.rotation_rad / kDegree, 1e3 * result.rms_m, result.rivals.slow_ratio, result.rivals.slow_ratio_sigma,
+      result.rivals.odds, 1e3 * result.rivals.sigma_m, result.rivals.sigma_rad / kDegree, 1.0 / given.scale,
+      result.rivals.scale.ratio, result.rivals.scale.ratio * result.rivals.scale.sigma, result.rivals.scale.gain,
+      result.rivals.chance, result.rivals.mirror_log_odds, out.wrong ? "WRONG" : "", out.good ? "good" : "",
       out.wrong && out.trusted ? " TRUSTED" : (out.good && !out.trusted ? " REFUSED" : ""), out.codes.c_str(),
       out.time_s);
   return out;

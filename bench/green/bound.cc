@@ -1,8 +1,10 @@
 #include "bound.h"
 
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 namespace bench {
@@ -47,6 +49,7 @@ PoseDifference pose_bound(const std::vector<LineOnMesh>& lines, const PathErrors
     }
   }
   Eigen::Matrix<double, 6, 6> information = rows.transpose() * covariance_m2.llt().solve(rows);
+  const double along_axes = information.bottomRightCorner<3, 3>().trace();
   const double stiff = 1e9 * information.trace();
   const auto known = [&](const Vector3d& axis) {
     Eigen::Matrix<double, 6, 1> v;
@@ -57,6 +60,12 @@ PoseDifference pose_bound(const std::vector<LineOnMesh>& lines, const PathErrors
   if (!symmetry.axis.isZero()) known(symmetry.axis);
   if (symmetry.sphere) {
     for (int k = 0; k < 3; ++k) known(Vector3d::Unit(k));
+  }
+  // What is known a thousand times less well than the rest is not bounded: rounding alone may be what is left of it.
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> modes(
+      information, metric, Eigen::EigenvaluesOnly | Eigen::Ax_lBx);
+  if (!(modes.eigenvalues()[0] > 1e-6 * along_axes)) {
+    return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   }
   const Eigen::Matrix<double, 6, 6> inverse = information.inverse();
   return {std::sqrt(std::max(0.0, (metric * inverse).trace())),

@@ -199,9 +199,8 @@ bool fits_guess(const Pose& pose, const Pose& guess, const std::vector<std::size
          rotation_between_rad(pose, guess) <= kSigmas * misfit.guess_sigma_rad;
 }
 
-Groups group_scans(const ScanPoints& scans, const MeshSurface& surface, const RegistrationSurface& ready,
-                   const std::optional<Pose>& guess, const RegisterConfig& config,
-                   const RegistrationObserver& observer) {
+Groups group_scans(const ScanPoints& scans, const RegistrationSurface& ready, const std::optional<Pose>& guess,
+                   const RegisterConfig& config, const RegistrationObserver& observer) {
   const std::size_t count = scans.points.size();
   Groups out;
   const bool finds = scans.placement.empty() && config.placement.mode == PlacementMode::kAuto && count > 1 &&
@@ -216,12 +215,7 @@ Groups group_scans(const ScanPoints& scans, const MeshSurface& surface, const Re
     out.known.resize(out.scans.size());
     return out;
   }
-  std::vector<MeasuredPath> paths, smooth;
-  for (const PathPoints& points : scans.points) {
-    paths.push_back(points.path);
-    smooth.push_back(smooth_path(points.path, config.points.smoothing_m));
-  }
-  FoundPlacements found = find_placements(paths, smooth, surface, ready, guess, config, observer);
+  FoundPlacements found = find_placements(scans, ready, guess, config, observer);
   out.scans = std::move(found.groups);
   for (std::size_t k = 0; k < out.scans.size(); ++k) {
     // A guess is that of the placements that it fits; one placement is as if it had been stated.
@@ -278,7 +272,7 @@ LocatedScans locate_scans(const ScanPoints& scans, const MeshSurface& surface, c
   if (!scans.placement.empty() && scans.placement.size() != count)
     throw Error("registration: the placement is stated of some scans only");
   const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
-  const Groups groups = group_scans(scans, surface, ready, guess, config, observer);
+  const Groups groups = group_scans(scans, ready, guess, config, observer);
   LocatedScans out;
   out.placement_of.resize(count);
   out.slow_error_world_m.resize(count);

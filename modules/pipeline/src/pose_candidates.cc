@@ -23,6 +23,8 @@ std::vector<MeasuredPath> paths_of(const ScanPoints& scans) {
   return out;
 }
 
+}  // namespace
+
 WeighConfig weigh_config(const ScanPoints& scans, const std::optional<Pose>& guess, const RefineConfig& refine) {
   WeighConfig out;
   out.slow_length_m = scans.in_sequence ? refine.slow_length_m : 0.0;
@@ -34,8 +36,6 @@ WeighConfig weigh_config(const ScanPoints& scans, const std::optional<Pose>& gue
   if (guess && stated) out.guess_lapse = 1e-6;
   return out;
 }
-
-}  // namespace
 
 PoseCandidates find_pose_candidates(const ScanPoints& scans, const RegistrationSurface& ready,
                                     const std::optional<Pose>& guess, std::span<const Pose> near,

@@ -1,8 +1,8 @@
 #include "path_likelihood.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <numeric>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -11,9 +11,6 @@ namespace asperity::registration {
 
 namespace {
 
-constexpr double kOutlier2 = 16.0;  // squared standard deviations that a block costs at most
-constexpr std::size_t kPerBlock = 4;
-constexpr double kMostBlocks = 1500.0;
 constexpr double kLeastRatio = 0.3, kMostRatio = 100.0;  // of the slow error
 constexpr double kLargestSizeStep = 0.15;                // of a Gauss–Newton step
 
@@ -24,33 +21,9 @@ double median_of_values(std::vector<double> values) {
   return *half;
 }
 
-// The points of each block, evenly spread over it, one block after the other.
-std::vector<std::uint32_t> points_of_blocks(const PointSet& points, double block_m) {
-  std::vector<std::uint32_t> out;
-  std::size_t begin = 0;
-  while (begin < points.size()) {
-    std::size_t end = begin + 1;
-    while (end < points.size() && points.path[end] == points.path[begin] &&
-           points.s_m[end] - points.s_m[begin] < block_m) {
-      ++end;
-    }
-    const std::size_t count = std::min(kPerBlock, end - begin);
-    for (std::size_t k = 0; k < count; ++k) {
-      out.push_back(static_cast<std::uint32_t>(begin + (2 * k + 1) * (end - begin) / (2 * count)));
-    }
-    begin = end;
-  }
-  return out;
-}
-
 template <int kRows>
 double log_determinant(const Eigen::Matrix<double, kRows, kRows>& positive) {
   return positive.ldlt().vectorD().array().log().sum();
-}
-
-double block_length_m(const PointSet& points, double memory_m) {
-  const double length_m = points.size() == 0 ? 0.0 : points.s_m.back();
-  return std::max(memory_m, length_m / kMostBlocks);
 }
 
 }  // namespace
@@ -59,26 +32,10 @@ PathLikelihood::PathLikelihood(std::span<const MeasuredPath> paths, const Regist
                                const PointSet& points, const MatchRules& rules, const WeighConfig& config)
     : points_(points),
       config_(config),
-      matcher_(surface, points, points_of_blocks(points, block_length_m(points, config.memory_m)), rules) {
-  for (const MeasuredPath& path : paths) {
-    const Eigen::Matrix3d& C = path.slow_covariance_world_m2;
-    const bool known = C.allFinite() && C.trace() > 0.0;
-    stated_ = stated_ && known;
-    const double usual_m = 2e-3 * points.radius_m;
-    covariance_m2_.push_back(known ? C : Eigen::Matrix3d(usual_m * usual_m * Eigen::Matrix3d::Identity()));
-  }
+      blocks_(divide_into_blocks(paths, points, config)),
+      matcher_(surface, points, blocks_.chosen, rules) {
   least_m_ = 1e-6 * points.radius_m;
-  const double block_m = block_length_m(points, config.memory_m);
-  for (std::size_t i = 0; i < matcher_.size(); ++i) {
-    const std::uint32_t at = matcher_.chosen(i);
-    if (blocks_.empty() || blocks_.back().path != points.path[at] ||
-        points.s_m[at] - points.s_m[matcher_.chosen(blocks_.back().first)] >= block_m ||
-        blocks_.back().count == kPerBlock) {
-      blocks_.push_back({points.path[at], points.s_m[at], i, 0});
-    }
-    ++blocks_.back().count;
-  }
-  heights_.resize(blocks_.size());
+  heights_.resize(blocks_.blocks.size());
   const bool oriented = std::all_of(paths.begin(), paths.end(), [](const MeasuredPath& path) {
     return path.q_world_marker.size() == path.p_world_m.size();
   });
@@ -95,12 +52,12 @@ PathLikelihood::PathLikelihood(std::span<const MeasuredPath> paths, const Regist
 void PathLikelihood::measure(const CentredPose& pose, double log_size) {
   const double size = std::exp(log_size);
   matcher_.match(pose, 1.0 / size);
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    Height& height = heights_[b];
+  for (std::size_t b = 0; b < blocks_.blocks.size(); ++b) {
+    BlockHeight& height = heights_[b];
     height = {};
     std::size_t count = 0;
     Eigen::Vector3d n = Eigen::Vector3d::Zero();
-    for (std::size_t i = blocks_[b].first; i < blocks_[b].first + blocks_[b].count; ++i) {
+    for (std::size_t i = blocks_.blocks[b].first; i < blocks_.blocks[b].first + blocks_.blocks[b].count; ++i) {
       const Match& m = matcher_.matches()[i];
       if (!m.usable) continue;
       ++count;
@@ -110,7 +67,7 @@ void PathLikelihood::measure(const CentredPose& pose, double log_size) {
       n += m.n;
       if (!R_marker_world_.empty()) height.row.tail<3>() += R_marker_world_[i] * (pose.rotation.conjugate() * m.n);
     }
-    height.usable = 2 * count >= blocks_[b].count;
+    height.usable = 2 * count >= blocks_.blocks[b].count;
     if (!height.usable) continue;
     const double share = 1.0 / static_cast<double>(count);
     height.d_m *= size * share;
@@ -122,64 +79,17 @@ void PathLikelihood::measure(const CentredPose& pose, double log_size) {
   }
 }
 
-// Kalman's filter along each path; its state is the slow error, a Gauss–Markov process along the path, and the mean of
-// the relief. The columns of the Jacobian go through the same filter as the heights, whose gains they share: what comes
-// out is whitened.
 template <int kRows>
-PathLikelihood::Sums<kRows> PathLikelihood::filter(const Scales& scales) const {
-  constexpr int kColumns = kRows + 1;
-  using Columns = Eigen::Matrix<double, kColumns, 1>;
-  Sums<kRows> out;
-  Eigen::Matrix4d P = Eigen::Matrix4d::Zero();
-  Eigen::Matrix<double, 4, kColumns> X = Eigen::Matrix<double, 4, kColumns>::Zero();
-  const double noise_m2 = scales.noise_m * scales.noise_m;
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const Height& height = heights_[b];
-    const Eigen::Matrix3d C_m2 = scales.slow_ratio * scales.slow_ratio * covariance_m2_[blocks_[b].path];
-    if (b == 0 || blocks_[b].path != blocks_[b - 1].path) {
-      P.setZero();
-      P.topLeftCorner<3, 3>() = C_m2;
-      P(3, 3) = config_.relief_mean_ratio * config_.relief_mean_ratio * noise_m2;
-      X.setZero();
-    } else {
-      const double keep =
-          config_.slow_length_m > 0.0 ? std::exp(-(blocks_[b].s_m - blocks_[b - 1].s_m) / config_.slow_length_m) : 0.0;
-      P.topLeftCorner<3, 3>() = keep * keep * P.topLeftCorner<3, 3>() + (1.0 - keep * keep) * C_m2;
-      P.topRightCorner<3, 1>() *= keep;
-      P.bottomLeftCorner<1, 3>() *= keep;
-      X.template topRows<3>() *= keep;
-    }
-    if (!height.usable) {
-      out.cost += kOutlier2 + std::log(noise_m2 + C_m2.trace() / 3.0);
-      ++out.outlying;
-      continue;
-    }
-    const Eigen::Vector4d h(height.n_world.x(), height.n_world.y(), height.n_world.z(), 1.0);
-    const Eigen::Vector4d Ph = P * h;
-    const double S = h.dot(Ph) + noise_m2;
-    Columns z = -(X.transpose() * h);
-    z[0] += height.d_m;
-    const double square = z[0] * z[0] / S;
-    out.cost += std::min(square, kOutlier2) + std::log(S);
-    if (square > kOutlier2) {
-      ++out.outlying;
-      continue;
-    }
-    if constexpr (kRows > 0) {
-      z.template tail<kRows>() += height.row.template head<kRows>();
-      const Eigen::Matrix<double, kRows, 1> row = z.template tail<kRows>();
-      out.information += row * row.transpose() / S;
-      out.gradient += z[0] / S * row;
-    }
-    const Eigen::Vector4d gain = Ph / S;
-    X += gain * z.transpose();
-    P -= gain * Ph.transpose();
+FilterSums<kRows> PathLikelihood::filter(const Scales& scales) const {
+  FilterSums<kRows> out;
+  for (std::size_t p = 0; p < blocks_.paths.size(); ++p) {
+    filter_path<kRows>(blocks_, p, heights_, scales.slow_ratio, scales.noise_m[p], config_, out);
   }
   return out;
 }
 
-double PathLikelihood::scales_prior(const Scales& scales) const {
-  const double away = std::log(scales.slow_ratio) / (stated_ ? config_.slow_ratio_spread : 1.5);
+double PathLikelihood::scales_prior(double slow_ratio) const {
+  const double away = std::log(slow_ratio) / (blocks_.stated ? config_.slow_ratio_spread : 1.5);
   return away * away;
 }
 
@@ -198,29 +108,44 @@ PathLikelihood::Prior<7> PathLikelihood::size_prior(const CentredPose& pose) con
 // −2 log of the likelihood of the scales, the pose (and size) integrated out.
 template <int kRows>
 double PathLikelihood::restricted_cost(const Scales& scales, const Prior<kRows>& prior) const {
-  const Sums<kRows> sums = filter<kRows>(scales);
+  const FilterSums<kRows> sums = filter<kRows>(scales);
   return sums.cost + log_determinant<kRows>(sums.information + prior);
 }
 
 // Of largest likelihood at the pose as it is.
 PathLikelihood::Scales PathLikelihood::likeliest_scales(const Scales& near) const {
-  // Coordinate search on a logarithmic grid that is halved.
-  const auto cost_of = [&](const Scales& scales) { return filter<0>(scales).cost + scales_prior(scales); };
+  // Coordinate search on a logarithmic grid that is halved. A path's noise is its own.
+  const auto cost_of = [&](std::size_t p, double slow_ratio, double noise_m) {
+    FilterSums<0> sums;
+    filter_path<0>(blocks_, p, heights_, slow_ratio, noise_m, config_, sums);
+    return sums.cost;
+  };
   Scales best = near;
-  double cost = cost_of(best);
+  std::vector<double> cost(blocks_.paths.size()), there(blocks_.paths.size());
+  const auto total = [&](const std::vector<double>& costs, double slow_ratio) {
+    return std::accumulate(costs.begin(), costs.end(), scales_prior(slow_ratio));
+  };
+  for (std::size_t p = 0; p < blocks_.paths.size(); ++p) cost[p] = cost_of(p, best.slow_ratio, best.noise_m[p]);
   for (double factor = 2.0; factor > 1.1; factor = std::sqrt(factor)) {
     for (int round = 0; round < 4; ++round) {
-      const double before = cost;
-      for (const auto& [slow, noise] : std::array<std::array<double, 2>, 4>{
-               {{factor, 1.0}, {1.0 / factor, 1.0}, {1.0, factor}, {1.0, 1.0 / factor}}}) {
-        const Scales other{std::clamp(best.slow_ratio * slow, kLeastRatio, kMostRatio),
-                           std::max(best.noise_m * noise, least_m_)};
-        const double there = cost_of(other);
-        if (!(there < cost)) continue;
-        best = other;
+      const double before = total(cost, best.slow_ratio);
+      for (const double slow : {factor, 1.0 / factor}) {
+        const double other = std::clamp(best.slow_ratio * slow, kLeastRatio, kMostRatio);
+        for (std::size_t p = 0; p < blocks_.paths.size(); ++p) there[p] = cost_of(p, other, best.noise_m[p]);
+        if (!(total(there, other) < total(cost, best.slow_ratio))) continue;
+        best.slow_ratio = other;
         cost = there;
       }
-      if (!(cost < before - 0.5)) break;
+      for (std::size_t p = 0; p < blocks_.paths.size(); ++p) {
+        for (const double noise : {factor, 1.0 / factor}) {
+          const double other = std::max(best.noise_m[p] * noise, least_m_);
+          const double then = cost_of(p, best.slow_ratio, other);
+          if (!(then < cost[p])) continue;
+          best.noise_m[p] = other;
+          cost[p] = then;
+        }
+      }
+      if (!(total(cost, best.slow_ratio) < before - 0.5)) break;
     }
   }
   return best;
@@ -231,7 +156,7 @@ PathLikelihood::Scales PathLikelihood::likeliest_scales(const Scales& near) cons
 template <int kRows>
 PathLikelihood::Scales PathLikelihood::restricted_scales(Scales scales, const Prior<kRows>& prior) const {
   constexpr double kStep = 1.12;
-  const auto cost_of = [&](const Scales& at) { return restricted_cost(at, prior) + scales_prior(at); };
+  const auto cost_of = [&](const Scales& at) { return restricted_cost(at, prior) + scales_prior(at.slow_ratio); };
   double cost = cost_of(scales);
   for (Scales next = scales; next.slow_ratio * kStep < kMostRatio;) {
     next.slow_ratio *= kStep;
@@ -243,6 +168,20 @@ PathLikelihood::Scales PathLikelihood::restricted_scales(Scales scales, const Pr
   return scales;
 }
 
+// A first estimate of each path's noise, by the bends from block to block.
+std::vector<double> PathLikelihood::noise_of_bends() const {
+  std::vector<double> out;
+  for (const PathBlocks::Path& path : blocks_.paths) {
+    std::vector<double> bends_m;
+    for (std::size_t b = path.first + 1; b + 1 < path.first + path.count; ++b) {
+      if (!heights_[b - 1].usable || !heights_[b].usable || !heights_[b + 1].usable) continue;
+      bends_m.push_back(std::abs(heights_[b - 1].d_m - 2.0 * heights_[b].d_m + heights_[b + 1].d_m));
+    }
+    out.push_back(std::max(least_m_, median_of_values(std::move(bends_m)) / (0.6745 * std::sqrt(6.0))));
+  }
+  return out;
+}
+
 PathLikelihood::Evaluation PathLikelihood::evaluate(const CentredPose& pose) {
   measure(pose);
   return evaluate_measured<6>(pose, pose_prior(pose));
@@ -250,21 +189,15 @@ PathLikelihood::Evaluation PathLikelihood::evaluate(const CentredPose& pose) {
 
 template <int kRows>
 PathLikelihood::Evaluation PathLikelihood::evaluate_measured(const CentredPose& pose, const Prior<kRows>& prior) const {
-  std::vector<double> bends_m;
-  for (std::size_t b = 1; b + 1 < blocks_.size(); ++b) {
-    if (blocks_[b - 1].path != blocks_[b + 1].path) continue;
-    if (!heights_[b - 1].usable || !heights_[b].usable || !heights_[b + 1].usable) continue;
-    bends_m.push_back(std::abs(heights_[b - 1].d_m - 2.0 * heights_[b].d_m + heights_[b + 1].d_m));
-  }
-  const double noise_m = median_of_values(std::move(bends_m)) / (0.6745 * std::sqrt(6.0));
   Evaluation out;
   out.pose = pose;
-  out.scales = restricted_scales<kRows>(likeliest_scales({1.0, std::max(noise_m, least_m_)}), prior);
-  const Sums<kRows> sums = filter<kRows>(out.scales);
-  out.cost = sums.cost + scales_prior(out.scales);
+  out.scales = restricted_scales<kRows>(likeliest_scales({1.0, noise_of_bends()}), prior);
+  const FilterSums<kRows> sums = filter<kRows>(out.scales);
+  out.cost = sums.cost + scales_prior(out.scales.slow_ratio);
   out.log_precision = log_determinant<kRows>(sums.information + prior);
   out.information = sums.information.template topLeftCorner<6, 6>();
-  out.outlying = static_cast<double>(sums.outlying) / static_cast<double>(std::max<std::size_t>(1, blocks_.size()));
+  out.outlying =
+      static_cast<double>(sums.outlying) / static_cast<double>(std::max<std::size_t>(1, blocks_.blocks.size()));
   // Curvature of the restricted likelihood, in steps of the logarithm that are about its width.
   constexpr double kStep = 0.3, kMostSigma = 2.0;
   const auto cost_at = [&](double step) {
@@ -281,7 +214,7 @@ PathLikelihood::Evaluation PathLikelihood::descend(const CentredPose& start, int
   for (int round = 0; round < rounds; ++round) {
     CentredPose pose = best.pose;
     measure(pose);
-    Sums<6> sums = filter<6>(best.scales);
+    FilterSums<6> sums = filter<6>(best.scales);
     for (int k = 0; k < steps; ++k) {
       const Matrix6 hessian = sums.information + damping * motion_metric(points_, pose);
       const Vector6 step = -hessian.ldlt().solve(sums.gradient);
@@ -291,7 +224,7 @@ PathLikelihood::Evaluation PathLikelihood::descend(const CentredPose& start, int
       for (double share = 1.0; share > 0.1 && !fell; share *= 0.5) {
         const CentredPose next = moved(pose, share * step);
         measure(next);
-        const Sums<6> there = filter<6>(best.scales);
+        const FilterSums<6> there = filter<6>(best.scales);
         if (!(there.cost < sums.cost)) continue;
         fell = true;
         pose = next;
@@ -323,7 +256,7 @@ PathLikelihood::Scaled PathLikelihood::descend_with_size(const CentredPose& star
     CentredPose pose = best.at.pose;
     double size = best.log_size;
     measure(pose, size);
-    Sums<7> sums = filter<7>(best.at.scales);
+    FilterSums<7> sums = filter<7>(best.at.scales);
     sums.cost += prior(size);
     for (int k = 0; k < steps; ++k) {
       Eigen::Matrix<double, 7, 7> hessian = sums.information;
@@ -340,7 +273,7 @@ PathLikelihood::Scaled PathLikelihood::descend_with_size(const CentredPose& star
         const CentredPose next = moved(pose, share * step.head<6>());
         const double next_size = size + share * step[6];
         measure(next, next_size);
-        Sums<7> there = filter<7>(best.at.scales);
+        FilterSums<7> there = filter<7>(best.at.scales);
         there.cost += prior(next_size);
         if (!(there.cost < sums.cost)) continue;
         fell = true;

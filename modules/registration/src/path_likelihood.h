@@ -7,12 +7,11 @@
 #include <Eigen/Core>
 
 #include "asperity/registration/weigh_poses.h"
+#include "filter_path.h"
 #include "match_points.h"
+#include "path_blocks.h"
 
 namespace asperity::registration {
-
-using Vector10 = Eigen::Matrix<double, 10, 1>;
-using Matrix10 = Eigen::Matrix<double, 10, 10>;
 
 // The likelihood of poses, the errors along the paths allowed for (weigh_poses.h has the model).
 class PathLikelihood {
@@ -20,10 +19,10 @@ class PathLikelihood {
   PathLikelihood(std::span<const MeasuredPath> paths, const RegistrationSurface& surface, const PointSet& points,
                  const MatchRules& rules, const WeighConfig& config);
 
-  // The two scales that each pose has of its own.
+  // The scales that each pose has of its own.
   struct Scales {
-    double slow_ratio = 1.0;  // of the slow error's standard deviation over the stated one
-    double noise_m = 0.0;     // of a block's mean
+    double slow_ratio = 1.0;      // of the slow error's standard deviation over the stated one
+    std::vector<double> noise_m;  // of a block's mean, of each path
   };
   struct Evaluation {
     CentredPose pose;
@@ -56,25 +55,6 @@ class PathLikelihood {
   Scaled descend_with_size(const CentredPose& start, double log_size, int rounds, int steps);
 
  private:
-  struct Block {
-    std::uint32_t path = 0;
-    double s_m = 0.0;
-    std::size_t first = 0, count = 0;  // of the matcher's points
-  };
-  struct Height {
-    double d_m = 0.0;
-    Vector10 row = Vector10::Zero();  // by pose, log_size and the tip's position
-    Eigen::Vector3d n_world = Eigen::Vector3d::Zero();
-    bool usable = false;
-  };
-  template <int kRows>
-  struct Sums {
-    double cost = 0.0;
-    Eigen::Matrix<double, kRows, kRows> information = Eigen::Matrix<double, kRows, kRows>::Zero();
-    Eigen::Matrix<double, kRows, 1> gradient = Eigen::Matrix<double, kRows, 1>::Zero();
-    std::size_t outlying = 0;
-  };
-
   void measure(const CentredPose& pose, double log_size = 0.0);
   template <int kRows>
   using Prior = Eigen::Matrix<double, kRows, kRows>;  // what is known of the unknowns before, inverse covariance
@@ -82,24 +62,23 @@ class PathLikelihood {
   Prior<7> size_prior(const CentredPose& pose) const;
   template <int kRows>
   Evaluation evaluate_measured(const CentredPose& pose, const Prior<kRows>& prior) const;
+  std::vector<double> noise_of_bends() const;
   template <int kRows>
-  Sums<kRows> filter(const Scales& scales) const;
+  FilterSums<kRows> filter(const Scales& scales) const;
   Scales likeliest_scales(const Scales& near) const;
   template <int kRows>
   Scales restricted_scales(Scales scales, const Prior<kRows>& prior) const;
   template <int kRows>
   double restricted_cost(const Scales& scales, const Prior<kRows>& prior) const;
-  double scales_prior(const Scales& scales) const;
+  double scales_prior(double slow_ratio) const;
 
   const PointSet& points_;
   WeighConfig config_;
-  std::vector<Eigen::Matrix3d> covariance_m2_;  // of a path's slow error
-  bool stated_ = true;                          // it is known
-  std::vector<Block> blocks_;
+  PathBlocks blocks_;
   std::vector<Eigen::Matrix3d> R_marker_world_;  // of the matcher's points; empty if the paths have no orientation
   Matcher matcher_;
-  std::vector<Height> heights_;  // of the blocks
-  double least_m_ = 0.0;         // of the noise
+  std::vector<BlockHeight> heights_;  // of the blocks
+  double least_m_ = 0.0;              // of the noise
 };
 
 }  // namespace asperity::registration

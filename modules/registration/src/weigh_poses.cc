@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/Cholesky>
 
@@ -31,13 +32,14 @@ WeighedPose weighed(const PathLikelihood::Evaluation& at, const PointSet& points
   out.T_mesh_world = uncentred(at.pose, points);
   out.fit = at.cost;
   out.slow_ratio = at.scales.slow_ratio;
-  out.noise_m = at.scales.noise_m;
+  out.noise_m = *std::max_element(at.scales.noise_m.begin(), at.scales.noise_m.end());
   out.outlying = at.outlying;
   out.information = at.information;
   out.slow_ratio_sigma = at.slow_ratio_sigma;
   // Where the path says nothing, a valley is as wide as the path.
   const Matrix6 metric = motion_metric(points, at.pose) / std::pow(0.5 * points.radius_m, 2);
   const double log_volume = 0.5 * (metric.ldlt().vectorD().array().log().sum() - at.log_precision);
+  out.log_volume = 3.0 * std::log(2.0 * std::numbers::pi) - 0.5 * at.log_precision;
   out.log_mass = -0.5 * (at.cost + guess_cost(points, guess, at.pose, config)) + log_volume;
   return out;
 }

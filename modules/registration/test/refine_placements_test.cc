@@ -182,22 +182,18 @@ TEST(RefinePlacements, StrokesBesideEachOtherAreAlignedByTheirTexture) {
 
 TEST(PlacementLikelihood, StrokesOfOnePlacementShareItAndOfTwoDoNot) {
   const MeshSurface surface(bumpy_ball());
+  const RegistrationSurface ready = prepare_surface(surface.mesh, surface.bvh);
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     const Session scans = session(surface, 60 + seed);
-    PlacementLikelihood likelihood(scans.paths, surface, {});
-    std::vector<PlacementFit> alone;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::vector<Pose> starts{kPlaces[scans.placement_of[k]]};
-      alone.push_back(likelihood.learn(k, starts));
-    }
-    const std::vector<Pose> starts(kPlaces.begin(), kPlaces.end());
-    const auto excess = [&](std::size_t a, std::size_t b) {
-      const std::vector<std::size_t> both{a, b};
-      return likelihood.fit(both, starts).cost - alone[a].cost - alone[b].cost;
+    const auto fit = [&](std::initializer_list<std::size_t> members) {
+      std::vector<MeasuredPath> paths;
+      for (const std::size_t k : members) paths.push_back(scans.paths[k]);
+      return fit_placement(paths, ready, kPlaces, {}, {}).log_evidence;
     };
-    EXPECT_LT(excess(0, 1), placement_threshold(100.0)) << seed;
-    EXPECT_LT(excess(2, 3), placement_threshold(100.0)) << seed;
-    EXPECT_GT(excess(1, 2), 10.0 * placement_threshold(100.0)) << seed;
+    const auto log_odds = [&](std::size_t a, std::size_t b) { return fit({a, b}) - fit({a}) - fit({b}); };
+    EXPECT_GT(log_odds(0, 1), 5.0) << seed;
+    EXPECT_GT(log_odds(2, 3), 5.0) << seed;
+    EXPECT_LT(log_odds(1, 2), -50.0) << seed;
   }
 }
 

@@ -45,19 +45,34 @@ constexpr double kScaleError = 0.005;
 constexpr double kScaleSigmas = 3.5;    // one right scan in two thousand is farther off
 constexpr double kScaleUnknown = 0.05;  // known less well, nothing is said of the size
 
+// How far the size is from the mesh's own, as a logarithm.
+double size_off(const PoseEvidence& evidence) { return std::abs(std::log(evidence.mesh_scale)); }
+
+// What the scan allows for that, the two errors included.
+double size_limit(const PoseEvidence& evidence) {
+  return kScaleSigmas * std::hypot(evidence.mesh_scale_sigma, kScaleError);
+}
+
+// Both the curvature at the best size and the likelihood on the way from the stated one have to say it.
+bool size_shown(const PoseEvidence& evidence) {
+  return size_off(evidence) > kScaleSigmas * evidence.mesh_scale_sigma &&
+         evidence.mesh_scale_gain > kScaleSigmas * kScaleSigmas;
+}
+
+std::string fitting_size(const PoseEvidence& evidence) {
+  return fmt::format("the scan fits the mesh best at {:.3f} ± {:.3f} of its size", evidence.mesh_scale,
+                     evidence.mesh_scale * evidence.mesh_scale_sigma);
+}
+
 void judge_scale(const PoseEvidence& evidence, Verdicts& out) {
   if (!std::isfinite(evidence.mesh_scale) || !std::isfinite(evidence.mesh_scale_sigma)) {
     out.push_back(make_verdict("mesh_scale_unknown", "the scan does not show the size of the object"));
     return;
   }
-  const double off = std::abs(std::log(evidence.mesh_scale)), sigma = evidence.mesh_scale_sigma;
-  const std::string fits = fmt::format("the scan fits the mesh best at {:.3f} ± {:.3f} of its size",
-                                       evidence.mesh_scale, evidence.mesh_scale * sigma);
-  // Both the curvature at the best size and the likelihood on the way from the stated one have to say it.
-  const bool shown = off > kScaleSigmas * sigma && evidence.mesh_scale_gain > kScaleSigmas * kScaleSigmas;
-  if (shown) {
-    out.push_back(make_verdict(
-        off > kScaleSigmas * std::hypot(sigma, kScaleError) ? "mesh_scale_differs" : "mesh_scale_doubtful", fits));
+  const double off = size_off(evidence), sigma = evidence.mesh_scale_sigma;
+  const std::string fits = fitting_size(evidence);
+  if (size_shown(evidence)) {
+    out.push_back(make_verdict(off > size_limit(evidence) ? "mesh_scale_differs" : "mesh_scale_doubtful", fits));
   } else if (sigma > kScaleUnknown) {
     out.push_back(
         make_verdict("mesh_scale_unknown", fmt::format("the scan does not show the size of the object: {}", fits)));
@@ -134,6 +149,10 @@ Verdicts judge_registration(const PoseEvidence& evidence) {
         fmt::format("the mesh has no other poses to compare this one with, and the paths need a slow error {:.2g} "
                     "times as large as stated, {:.2g} at least",
                     evidence.slow_ratio, least_ratio)));
+  } else if (std::isnan(evidence.chance) && size_off(evidence) > size_limit(evidence) && !size_shown(evidence)) {
+    // It fits about as well at a size far from its own: two valleys, and nothing shows that this one is the object's.
+    out.push_back(make_verdict("shape_unproven",
+                               "the mesh has no other poses to compare this one with, and " + fitting_size(evidence)));
   } else if (evidence.searched && std::isnan(evidence.chance)) {
     out.push_back(make_verdict("shape_untested",
                                "too few other poses on this mesh can be compared: nothing shows that another object "

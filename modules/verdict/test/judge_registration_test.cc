@@ -159,6 +159,20 @@ TEST(JudgeRegistration, RefusesAMeshThatOnlyItsErrorCouldSpeakForAndOneWhoseImag
   evidence.slow_ratio = 1.8;
   evidence.slow_ratio_sigma = 0.2;
   EXPECT_THAT(codes(), testing::ElementsAre("shape_untested"));
+  // Nearly as good at another size, and nothing else speaks for this one.
+  const double scale = evidence.mesh_scale, sigma = evidence.mesh_scale_sigma, gain = evidence.mesh_scale_gain;
+  evidence.mesh_scale = 0.8;
+  evidence.mesh_scale_sigma = 0.02;
+  evidence.mesh_scale_gain = 5.0;
+  EXPECT_THAT(codes(), testing::ElementsAre("shape_unproven"));
+  evidence.mesh_scale_gain = 50.0;
+  EXPECT_THAT(codes(), testing::Contains("mesh_scale_differs"));
+  evidence.mesh_scale_gain = 5.0;
+  evidence.chance = 0.01;
+  EXPECT_THAT(codes(), testing::IsEmpty());
+  evidence.mesh_scale = scale;
+  evidence.mesh_scale_sigma = sigma;
+  evidence.mesh_scale_gain = gain;
   evidence.chance = 0.01;
   evidence.slow_ratio = 1.0;
   evidence.mirror_log_odds = -5.0;

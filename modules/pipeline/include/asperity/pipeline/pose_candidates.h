@@ -21,6 +21,9 @@ struct PoseCandidates {
   bool everywhere = false;         // poses anywhere on the mesh are among them
 };
 
+// How the poses of scans are compared.
+WeighConfig weigh_config(const ScanPoints& scans, const std::optional<Pose>& guess, const RefineConfig& refine);
+
 // Those in reach of `near` and, without a guess or where the settings ask for rivals, those anywhere on the mesh
 // (find_poses, weigh_poses). Throws Error as find_poses does, and for no pose at all; and Cancelled.
 PoseCandidates find_pose_candidates(const ScanPoints& scans, const RegistrationSurface& surface,

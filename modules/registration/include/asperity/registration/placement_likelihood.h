@@ -1,47 +1,35 @@
 #pragma once
 
-#include <cstddef>
-#include <memory>
 #include <span>
-#include <vector>
 
-#include "asperity/geometry/mesh_surface.h"
-#include "asperity/registration/refine_registration.h"
+#include "asperity/registration/registration_config.h"
+#include "asperity/registration/registration_result.h"
+#include "asperity/registration/registration_surface.h"
+#include "asperity/registration/weigh_poses.h"
 
 namespace asperity {
 
-// How well paths fit a mesh in one placement: −2 times the logarithm of the likelihood, up to a constant of the paths.
+// Paths in one placement: their likeliest pose, and the logarithm of their evidence, the mean of their likelihood over
+// all poses of the mesh.
 struct PlacementFit {
   Pose T_mesh_world;
-  double cost = 0.0;
+  double log_evidence = 0.0;
 };
 
-// Compares groupings of paths into placements (docs/registration.md, "Which scans share a placement"): costs with the
-// same filter of each path, learnt where the path fits best alone, the pose of each placement free (without a guess's
-// prior), slow errors, mean reliefs and the tip's position unknown as in refine_placements.h. The tip's position is
-// fitted in each group apart, which favours more placements a little.
-class PlacementLikelihood {
- public:
-  PlacementLikelihood(std::span<const MeasuredPath> paths, const MeshSurface& surface, const RefineConfig& config);
+// Whether paths share a placement is asked of the likelihood of weigh_poses.h: heights over blocks of path, each path
+// with a noise and a mean of its own, so that the relief, which says nothing of the pose, has no part in it. With
+// L(T) the likelihood of some paths at the pose T and p = 1/Ω before, Ω = 8π² (rotations, rad³) times the volume of the
+// box about the mesh (m³), their evidence is
+//   E = ∫ L(T) p dT ≈ L(T₁) Ω⁻¹ (2π)³ |H|^(−1/2)
+// at the deepest valley T₁, H the information there (Laplace). Paths a and b share a placement with the odds
+// E(a, b) : E(a) E(b). The factor Ω (2π)⁻³ |H|^(1/2) is what a pose of its own has to gain (some e³⁰): a path that
+// hardly determines its pose has to gain less. (Schwarz's 6 ln N is its large-sample form.)
+// The deepest valley is looked for from each start. Throws Error as weigh_poses does, and Cancelled.
+PlacementFit fit_placement(std::span<const MeasuredPath> paths, const RegistrationSurface& surface,
+                           std::span<const Pose> starts, const WeighConfig& config,
+                           const RegistrationConfig& registration);
 
-  // The fit of path `path` alone that is the best of those from each start; its filter is learnt there.
-  PlacementFit learn(std::size_t path, std::span<const Pose> starts);
-  // The best fit of some paths together, from each start.
-  PlacementFit fit(std::span<const std::size_t> paths, std::span<const Pose> starts) const;
-  // Of a path's points.
-  std::size_t points(std::size_t path) const { return paths_[path].p_world_m.size(); }
-
- private:
-  struct Filters;
-  std::span<const MeasuredPath> paths_;
-  const MeshSurface& surface_;
-  RefineConfig config_;
-  std::shared_ptr<Filters> filters_;
-};
-
-// The excess of cost from which paths that are taken to share a placement do not: a placement has six numbers, and
-// each pays the logarithm of the number of points (Schwarz 1978). Independent points are fewer than points: those that
-// one correlation length holds count once.
-double placement_threshold(double independent_points);
+// Of poses that have been weighed; at least one.
+PlacementFit best_placement(std::span<const WeighedPose> found, const RegistrationSurface& surface);
 
 }  // namespace asperity
