@@ -32,7 +32,9 @@ class SimulateCommand : public Command {
       if (name != "file") names += std::string(names.empty() ? "" : ", ") + std::string(name);
     }
     require(parser().add_option("--surface", surface_, names + ", or a file of heights"))->type_name("NAME|FILE");
-    parser().add_option("--probe", probe_, "what (8 bit, 400 Hz) or open (16 bit, 4 kHz); open")->type_name("NAME");
+    parser()
+        .add_option("--probe", probe_, "open (16 bit, 4 kHz), or what (8 bit, 400 Hz: the probe of the thesis); open")
+        ->type_name("NAME");
     parser()
         .add_option("--material", material_, "What the surface is made of: stiff, cork or soft_rubber; stiff")
         ->type_name("NAME");

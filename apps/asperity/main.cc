@@ -2,6 +2,7 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "asperity/base/error.h"
@@ -10,6 +11,7 @@
 #include "asperity/base/version.h"
 #include "asperity/session/interrupt.h"
 #include "command.h"
+#include "command_examples.h"
 #include "commands.h"
 #include "manual_page.h"
 #include "progress_line.h"
@@ -58,6 +60,8 @@ struct Program {
                             make_calibrate_tip, make_calibrate_imu, make_calibrate_latency}) {
       commands.push_back(make(calibrate));
     }
+    for (const auto& command : commands)
+      command->parser().set_examples(command_examples(command->parser().full_name()));
   }
 };
 
@@ -95,7 +99,34 @@ int run_command(Command& command) {
   return kBadInput;
 }
 
+// What is printed where no command is given.
+std::string welcome() {
+  return std::string("asperity ") + kVersion +
+         ": measures the fine surface of real objects, to be felt again\n\n"
+         "  asperity demo -o out     measure two simulated surfaces, and see how true the result is (seconds)\n"
+         "  asperity import --help   begin with own data: motion capture and an inertial sensor, or a table\n"
+         "  asperity studio          scan, process, align, paint and feel in a browser\n\n"
+         "All commands: asperity --help. One of them: asperity help COMMAND.\n";
+}
+
 int parse_and_run(Program& program, int argc, char** argv) {
+  if (argc == 1) return print_text(welcome()), kDone;
+  // "asperity help process" is "asperity process --help".
+  std::string help = "--help";
+  std::vector<char*> words(argv, argv + argc);
+  if (std::string_view(words[1]) == "help") {
+    words.erase(words.begin() + 1);
+    const Parser* parser = &program.parser;
+    for (std::size_t i = 1; i < words.size(); ++i) {
+      const Parser* below = parser->find(words[i]);
+      if (below == nullptr)
+        return usage(parser->unknown_word(words[i]), parser == &program.parser ? "" : parser->full_name());
+      parser = below;
+    }
+    words.push_back(help.data());
+    argc = static_cast<int>(words.size());
+    argv = words.data();
+  }
   const ParsedLine line = program.parser.parse(argc, argv);
   if (line.kind == ParsedLine::Kind::kFault) return usage(line.text, line.command);
   if (line.kind == ParsedLine::Kind::kText) return print_text(line.text), kDone;

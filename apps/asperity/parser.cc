@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <set>
 
+#include "asperity/base/nearest_word.h"
 #include "asperity/base/text.h"
 
 namespace asperity::app {
@@ -43,6 +44,12 @@ void Parser::require_subcommand(int least, int most) {
   app_->require_subcommand(static_cast<std::size_t>(least), static_cast<std::size_t>(most));
 }
 
+void Parser::set_examples(const std::vector<std::string>& lines) {
+  std::string text = lines.size() == 1 ? "Example:" : "Examples:";
+  for (const std::string& line : lines) text += "\n  " + line;
+  app_->footer(text);
+}
+
 void Parser::set_version_flag(const std::string& name, const std::string& version) {
   app_->set_version_flag(name, version);
 }
@@ -76,17 +83,8 @@ Option* Parser::add_flag(const std::string& names, bool& value, const std::strin
 
 ParsedLine Parser::parse(int argc, char** argv) {
   const auto chosen = [this] {
-    const Parser* parser = this;
-    for (bool deeper = true; deeper;) {
-      deeper = false;
-      for (const auto& below : parser->subcommands_) {
-        if (!below->is_parsed()) continue;
-        parser = below.get();
-        deeper = true;
-        break;
-      }
-    }
-    return parser == this ? std::string() : parser->full_name();
+    const Parser& parser = chosen_parser();
+    return &parser == this ? std::string() : parser.full_name();
   };
   try {
     app_->parse(argc, argv);
@@ -96,8 +94,34 @@ ParsedLine Parser::parse(int argc, char** argv) {
   } catch (const CLI::CallForVersion& version) {
     return {ParsedLine::Kind::kText, std::string(version.what()) + "\n", chosen()};
   } catch (const CLI::ParseError& error) {
-    return {ParsedLine::Kind::kFault, printable(error.what(), 300), chosen()};
+    const std::vector<std::string> left = app_->remaining(true);
+    const bool is_left_over = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+                              dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    if (left.empty() || !is_left_over) return {ParsedLine::Kind::kFault, printable(error.what(), 300), chosen()};
+    return {ParsedLine::Kind::kFault, chosen_parser().unknown_word(left.front()), chosen()};
   }
+}
+
+const Parser& Parser::chosen_parser() const {
+  for (const auto& below : subcommands_)
+    if (below->is_parsed()) return below->chosen_parser();
+  return *this;
+}
+
+std::string Parser::unknown_word(const std::string& word) const {
+  std::vector<std::string> known;
+  const bool is_option = word.starts_with('-');
+  if (is_option) {
+    for (const Option& option : options())
+      for (const std::string& name : option.long_names()) known.push_back("--" + name);
+  } else {
+    for (const auto& below : subcommands_) known.push_back(below->name());
+  }
+  const std::string typed = word.substr(0, word.find('='));
+  std::string out = "'" + printable(typed, 60) + "' is ";
+  out += is_option ? "not an option" : !known.empty() ? "not a command" : "one argument too many";
+  const std::string nearest = nearest_word(typed, known);
+  return nearest.empty() ? out : out + "; did you mean " + nearest + "?";
 }
 
 bool Parser::is_parsed() const { return app_->parsed(); }
@@ -107,6 +131,12 @@ std::string Parser::full_name() const {
   return parent_ && parent_->parent_ ? parent_->full_name() + " " + name() : name();
 }
 std::string Parser::description() const { return app_->get_description(); }
+
+const Parser* Parser::find(const std::string& name) const {
+  for (const auto& below : subcommands_)
+    if (below->name() == name) return below.get();
+  return nullptr;
+}
 
 std::vector<const Parser*> Parser::subcommands() const {
   std::vector<const Parser*> out;

@@ -64,6 +64,8 @@ class Parser {
   Parser& add_subcommand(const std::string& name, const std::string& description);
   // `most` = 0: any number.
   void require_subcommand(int least, int most);
+  // Printed below its options.
+  void set_examples(const std::vector<std::string>& lines);
   void set_version_flag(const std::string& name, const std::string& version);
 
   // `names` such as "-o,--output", or "FILE" for a positional argument. The value keeps what it has if the option is
@@ -81,6 +83,11 @@ class Parser {
   bool is_parsed() const;                            // this command is on the command line
   std::size_t count(const std::string& name) const;  // how often the option is there
 
+  // What is wrong with a word that is no option or command of this one, and what may have been meant.
+  std::string unknown_word(const std::string& word) const;
+  // The command below this one, or nullptr.
+  const Parser* find(const std::string& name) const;
+
   std::string name() const;
   std::string full_name() const;  // "process", "texture fit": as it is typed
   std::string description() const;
@@ -90,6 +97,7 @@ class Parser {
  private:
   Parser(CLI::App& app, const Parser* parent);
   Option* keep(CLI::Option* option);
+  const Parser& chosen_parser() const;  // the command that is on the command line, or the program
 
   std::unique_ptr<CLI::App> owned_;
   CLI::App* app_;

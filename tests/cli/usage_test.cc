@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sstream>
 
 #include <nlohmann/json.hpp>
 
@@ -54,8 +55,7 @@ TEST(Usage, NamesReachTheTerminalEscaped) {
 
 TEST(Usage, WrongCommandLinesEndWith2AndOneHint) {
   for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{},
-                                             {"no-such-command"},
+       std::vector<std::vector<std::string>>{{"no-such-command"},
                                              {"--no-such-option"},
                                              {"roughness"},
                                              {"roughness", "x", "--no-such-option"},
@@ -67,6 +67,82 @@ TEST(Usage, WrongCommandLinesEndWith2AndOneHint) {
     EXPECT_EQ(outcome.code, 2) << ::testing::PrintToString(arguments);
     EXPECT_THAT(outcome.out, IsEmpty());
     EXPECT_THAT(outcome.err, HasSubstr("--help"));
+  }
+}
+
+TEST(Usage, BareItSaysWhereToBegin) {
+  const Outcome outcome = run({});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("asperity demo"));
+  EXPECT_THAT(outcome.out, HasSubstr("asperity studio"));
+  EXPECT_THAT(outcome.out, HasSubstr("asperity help COMMAND"));
+}
+
+TEST(Usage, HelpOfACommandIsThatCommandsHelp) {
+  for (const char* command : {"process", "roughness"})
+    EXPECT_EQ(run({"help", command}).out, run({command, "--help"}).out);
+  EXPECT_EQ(run({"help", "texture", "fit"}).out, run({"texture", "fit", "--help"}).out);
+  EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
+  const Outcome unknown = run({"help", "proces"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean process?"));
+}
+
+TEST(Usage, AMistypedWordNamesTheNearest) {
+  const auto error = [](const std::vector<std::string>& arguments) {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.code, 2);
+    return outcome.err;
+  };
+  EXPECT_THAT(error({"proces", "rec"}), HasSubstr("'proces' is not a command; did you mean process?"));
+  EXPECT_THAT(error({"texture", "fitt"}), HasSubstr("did you mean fit?"));
+  EXPECT_THAT(error({"roughness", "x", "--lamda-c=0.8mm"}),
+              HasSubstr("'--lamda-c' is not an option; did you mean --lambda-c?"));
+  EXPECT_THAT(error({"inspect", "one", "two"}), HasSubstr("'two' is one argument too many"));
+  EXPECT_THAT(error({"wurst"}), testing::Not(HasSubstr("did you mean")));
+}
+
+// Each command's help has examples, and each is a command line that the program takes.
+TEST(Usage, ExamplesAreOfCommandsAsTheyAre) {
+  std::vector<std::string> commands;
+  const std::string root = run({"--help"}).out;
+  const auto listed = [](const std::string& help) {
+    std::vector<std::string> out;
+    std::istringstream lines(help.substr(help.find("Subcommands:")));
+    for (std::string line; std::getline(lines, line);)
+      if (line.starts_with("  ") && line[2] != ' ') out.push_back(line.substr(2, line.find(' ', 2) - 2));
+    return out;
+  };
+  for (const std::string& command : listed(root)) {
+    const std::string help = run({command, "--help"}).out;
+    if (help.find("Subcommands:") == std::string::npos) {
+      commands.push_back(command);
+    } else {
+      for (const std::string& below : listed(help)) commands.push_back(command + " " + below);
+    }
+  }
+  EXPECT_GT(commands.size(), 30U);
+  for (const std::string& command : commands) {
+    std::vector<std::string> words{"help"};
+    std::istringstream names(command);
+    for (std::string name; names >> name;) words.push_back(name);
+    const std::string help = run(words).out;
+    const std::size_t at = help.find("Example");
+    if (at == std::string::npos) {
+      ADD_FAILURE() << command << " has no example";
+      continue;
+    }
+    std::istringstream lines(help.substr(at));
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line) && line.starts_with("  asperity ")) {
+      EXPECT_TRUE(line.starts_with("  asperity " + command)) << line;
+      std::vector<std::string> arguments;
+      std::istringstream typed(line.substr(11));
+      for (std::string word; typed >> word;) arguments.push_back(word);
+      arguments.emplace_back("--print-config");
+      EXPECT_EQ(run(arguments).code, 0) << line;
+    }
   }
 }
 

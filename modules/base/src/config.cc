@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "asperity/base/error.h"
+#include "asperity/base/nearest_word.h"
 #include "asperity/base/text.h"
 
 namespace asperity {
@@ -127,21 +128,6 @@ std::optional<ConfigValue> parse_value(FieldType type, std::string_view text) {
   }
 }
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0u : 1u)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
-}
-
 }  // namespace
 
 ConfigField& ConfigLister::add(std::string_view name, FieldType type, std::string_view description, Range range) {
@@ -256,18 +242,18 @@ std::string toml_text(const ConfigValue& value) {
 }
 
 const ConfigField& find_field(const std::vector<ConfigField>& fields, std::string_view path) {
-  const ConfigField* nearest = nullptr;
-  std::size_t nearest_distance = std::numeric_limits<std::size_t>::max();
+  std::vector<std::string> known;
   for (const auto& field : fields) {
     if (field.path == path) return field;
-    const std::size_t distance = edit_distance(path.substr(0, 200), field.path);
-    if (distance < nearest_distance) nearest_distance = distance, nearest = &field;
+    known.push_back(field.path);
   }
   for (const auto& field : fields) {
     if (std::find(field.former.begin(), field.former.end(), path) != field.former.end()) return field;
   }
   std::string message = "unknown setting '" + printable(path) + "'";
-  if (nearest != nullptr) message += "; did you mean '" + nearest->path + "'?";
+  constexpr std::size_t kMost = 4;  // letters: names are long
+  const std::string nearest = nearest_word(path, known, kMost);
+  message += nearest.empty() ? "; --print-config lists them all" : "; did you mean '" + nearest + "'?";
   throw Error(message);
 }
 
