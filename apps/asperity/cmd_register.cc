@@ -129,7 +129,7 @@ class RegisterCommand : public Command {
     std::optional<OutputFolder> folder;
     if (into_.empty()) folder.emplace(output_, is_registration_folder);
     observer.update("reading", 0.0);
-    reads(into_.empty() ? files_.front() : into_);
+    reads(into_.empty() ? files_.front() : into_, into_.empty() ? mesh_path : into_);
     RegisterInput input = read(mesh_path, unit_m, observer);
     const std::optional<Pose> guess = first_pose(input.unit_m());
     std::optional<SceneFolder> scene_folder;

@@ -53,12 +53,16 @@ bool Command::resolve() {
 }
 
 std::string Command::with_input(const std::string& message) const {
-  const std::filesystem::path path(read_from_);
-  const std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
-  if (name.empty()) return message;
-  // As a file is named: at the end of a path, before a colon, or in quotes.
-  for (const std::string& named : {"/" + name, name + ":", "'" + name + "'"}) {
-    if (message.find(printable(named, 200)) != std::string::npos) return message;
+  for (const std::filesystem::path path : {read_from_, read_over_}) {
+    const std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
+    if (name.empty()) {
+      if (read_from_.empty()) return message;
+      continue;
+    }
+    // As a file is named: at the end of a path, before a colon, or in quotes.
+    for (const std::string& named : {"/" + name, name + ":", "'" + name + "'"}) {
+      if (message.find(printable(named, 200)) != std::string::npos) return message;
+    }
   }
   const std::string over = read_over_.empty() ? "" : " over " + printable(read_over_, 200);
   return printable(read_from_, 200) + over + ": " + message;

@@ -96,6 +96,31 @@ TEST_F(PaintCommands, AnExportSaysThatItsSourceIsInvalid) {
   EXPECT_THAT(content_of(path("to-hjif/texture.hjif")), testing::HasSubstr("the tip was in the air"));
 }
 
+TEST_F(PaintCommands, AnUnlikelyUnitIsAskedForBeforeAnythingIsDone) {
+  const std::vector<std::string> words{"paint",     path("plane.obj"),         "--through", "5,5,0;30,15,0",
+                                       "--texture", path("wave.texture.json"), "-o",        path("out")};
+  const Outcome outcome = run(words);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.err, testing::HasSubstr("plane.obj: the mesh is 44.7 m large if its unit is a metre; state its "
+                                              "unit: --mesh-unit mm makes it 44.7 mm"));
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+  std::vector<std::string> metres = words;
+  metres.insert(metres.end(), {"--mesh-unit", "m"});
+  EXPECT_EQ(run(metres).code, 0);
+  const Outcome scan = run({"register", path("plane.obj"), path("plane.obj"), "-o", path("reg")});
+  EXPECT_THAT(scan.err, testing::HasSubstr("state its unit"));
+}
+
+TEST_F(PaintCommands, APickOffTheSurfaceIsToldWithItsDistance) {
+  const Outcome outcome = paint(path("plane.obj"), "5,5,0;30,15,7");
+  EXPECT_EQ(outcome.code, 0);
+  const Json json = Json::parse(outcome.out);
+  ASSERT_EQ(json["problems"].size(), 1U) << json["problems"];
+  EXPECT_EQ(json["problems"][0]["kind"], "pick_off_surface");
+  EXPECT_THAT(json["problems"][0]["message"].get<std::string>(),
+              testing::HasSubstr("point 2 is 7 mm from the surface"));
+}
+
 TEST_F(PaintCommands, RefuseWhatCannotBeMeant) {
   EXPECT_EQ(paint(path("plane.obj"), "5,7;35,7").code, 2);
   EXPECT_EQ(paint(path("plane.obj"), "5,7,0").code, 2);

@@ -37,7 +37,7 @@ TEST_F(Register, BadInputIsNamed) {
     all.insert(all.end(), {"-o", path("out")});
     return run(all);
   };
-  const Outcome cell = outcome({path("bad.csv"), mesh()});
+  const Outcome cell = outcome({path("bad.csv"), mesh(), "--mesh-unit", "mm"});
   EXPECT_EQ(cell.code, 1);
   EXPECT_THAT(cell.err, HasSubstr("bad.csv:2: column 'pz_m'"));
   const Outcome vertex = outcome({path("path.csv"), path("bad.obj")});
@@ -48,7 +48,7 @@ TEST_F(Register, BadInputIsNamed) {
   EXPECT_EQ(points.code, 1);
   EXPECT_THAT(points.err, HasSubstr("points.obj: holds no faces"));
   EXPECT_EQ(outcome({path("path.csv")}).code, 2);
-  EXPECT_EQ(outcome({path("path.csv"), mesh(), "--guess", "1,2,3"}).code, 2);
+  EXPECT_EQ(outcome({path("path.csv"), mesh(), "--mesh-unit", "mm", "--guess", "1,2,3"}).code, 2);
   EXPECT_EQ(outcome({path("path.csv"), mesh(), "--mesh-unit", "kg"}).code, 2);
   EXPECT_FALSE(fs::exists(dir_ / "out"));
 }
@@ -88,7 +88,7 @@ TEST_F(Register, NamesAndNumbersThatLeadAstrayAreRefused) {
   EXPECT_EQ(name.code, 2);
   EXPECT_THAT(name.err, HasSubstr("'..' cannot be the name"));
   write_text(dir_ / "t.csv", "t_ns,px_m,py_m,pz_m\n-9000000000000000000,0,0,0\n9000000000000000000,1,0,0\n");
-  const Outcome time = run({"register", path("t.csv"), mesh(), "-o", path("out")});
+  const Outcome time = run({"register", path("t.csv"), mesh(), "--mesh-unit", "mm", "-o", path("out")});
   EXPECT_EQ(time.code, 1);
   EXPECT_THAT(time.err, HasSubstr("t.csv:2: column 't_ns'"));
 }

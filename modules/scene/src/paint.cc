@@ -4,7 +4,10 @@
 #include <cmath>
 #include <string>
 
+#include <Eigen/Geometry>
+
 #include "asperity/base/error.h"
+#include "asperity/base/rounded_text.h"
 #include "asperity/base/version.h"
 #include "asperity/geometry/connected_point.h"
 #include "asperity/geometry/geodesic_path.h"
@@ -52,6 +55,22 @@ VirtualPath path_through(const MeshSurface& surface, std::span<const Vector3d> p
   return out;
 }
 
+// A pick that was meant to be on the surface is within what rounding and a mouse do.
+void warn_of_distant_picks(const TriangleMesh& mesh, PaintResult& out) {
+  constexpr double kNear = 0.02;  // of the mesh's size
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& vertex : mesh.vertices_m) box.extend(vertex);
+  for (std::size_t i = 0; i < out.path.pick_distance_m.size(); ++i) {
+    const double distance_m = out.path.pick_distance_m[i];
+    if (distance_m <= kNear * box.diagonal().norm()) continue;
+    out.problems.push_back(
+        {"pick_off_surface",
+         "point " + std::to_string(i + 1) + " is " + rounded_text(1e3 * distance_m, 3) +
+             " mm from the surface: the path goes through the nearest point of it; check the points and their unit",
+         1});
+  }
+}
+
 // A further stroke with a texture that the object has is added to its strokes.
 void set_origin(const SceneObject& object, std::span<const Vector3d> picks_mesh_m, SceneTexture& texture) {
   TextureOrigin origin = texture.origin.value_or(TextureOrigin{});
@@ -81,6 +100,7 @@ PaintResult paint(SceneObject& object, std::span<const Vector3d> picks_mesh_m, S
   HapticCoordinates coordinates = assign_haptic_coordinates(surface.mesh, surface.adjacency, {out.path.path}, config);
   out.warp = std::move(coordinates.warps[0]);
   out.problems = std::move(coordinates.problems);
+  warn_of_distant_picks(surface.mesh, out);
   if (!out.path.locally_shortest)
     out.problems.push_back({"path_not_shortest", "the path between two points could still be shortened", 1});
 

@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <string>
+
+#include "asperity/base/text.h"
+
 namespace asperity {
 
 void set_mesh_unit(Scene& scene, const std::filesystem::path& file, double unit_m) {
@@ -10,6 +15,31 @@ void set_mesh_unit(Scene& scene, const std::filesystem::path& file, double unit_
     throw WrongUnit(fmt::format("the scene says {} m", object.unit_m));
   }
   object.unit_m = unit_m;
+}
+
+double size_of_mesh_m(const MeshFile& mesh, double unit_m) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& vertex : mesh.vertices) box.extend(vertex);
+  return box.isEmpty() ? 0.0 : box.diagonal().norm() * unit_m;
+}
+
+void refuse_unlikely_metres(const MeshFile& mesh, const std::filesystem::path& file) {
+  constexpr double kLargest_m = 5.0, kSmallest_m = 1e-3;
+  const std::string ending = file.extension().string();
+  if (ending == ".json" || ending == ".glb" || ending == ".gltf") return;
+  const double size_m = size_of_mesh_m(mesh, 1.0);
+  if (!(size_m > 0.0) || (size_m >= kSmallest_m && size_m <= kLargest_m)) return;
+  const std::string name = printable(file.string(), 200);
+  if (size_m < kSmallest_m) {
+    throw Error(
+        fmt::format("{}: the mesh is {:.3g} mm large if its unit is a metre; state its unit: --mesh-unit LENGTH, "
+                    "or --mesh-unit m if that is right",
+                    name, 1e3 * size_m));
+  }
+  throw Error(
+      fmt::format("{}: the mesh is {:.3g} m large if its unit is a metre; state its unit: --mesh-unit mm makes it "
+                  "{:.3g} mm, --mesh-unit m if a metre is right",
+                  name, size_m, size_m));
 }
 
 }  // namespace asperity

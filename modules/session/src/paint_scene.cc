@@ -13,7 +13,11 @@ namespace fs = std::filesystem;
 Scene read_painted_scene(const fs::path& file, std::optional<double> unit_m, const Observer& observer) {
   Scene scene = read_scene(file, observer);
   SceneObject& object = scene.objects.front();
-  if (unit_m) set_mesh_unit(scene, file, *unit_m);
+  if (unit_m) {
+    set_mesh_unit(scene, file, *unit_m);
+  } else {
+    refuse_unlikely_metres(object.mesh, file);
+  }
   for (SceneObject& each : scene.objects) {
     if (fs::path(each.mesh_file).extension() != ".obj")
       each.mesh_file = fs::path(each.mesh_file).replace_extension(".obj").string();

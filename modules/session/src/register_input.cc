@@ -59,12 +59,6 @@ void check_new(const RegisterInput& input, const std::vector<std::string>& names
   if (stored > 0) check_independent(scans);
 }
 
-double size_of_mesh_m(const MeshFile& mesh, double unit_m) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& vertex : mesh.vertices) box.extend(vertex);
-  return box.isEmpty() ? 0.0 : box.diagonal().norm() * unit_m;
-}
-
 // No object is as large as the Earth.
 constexpr double kAbsurd_m = 1e7;
 // Nothing that a hand scans is as large as a house: the unit was forgotten.
@@ -119,6 +113,7 @@ RegisterInput read_register_input(const std::vector<std::string>& scans, const s
     if (unit_m) set_mesh_unit(out.onto.scene, mesh, *unit_m);
   } else {
     out.onto = scene_of_mesh(read_mesh(mesh, {}, observer), unit_m.value_or(1.0));
+    if (!unit_m) refuse_unlikely_metres(out.mesh(), mesh);
   }
   if (out.mesh().triangles.empty()) throw Error(printable(mesh, 200) + ": holds no faces");
   if (const double size_m = size_of_mesh_m(out.mesh(), out.unit_m()); !(size_m <= kAbsurd_m)) {
