@@ -49,7 +49,9 @@ double indentation_m(const TipMotion& motion, const BasePathResult& base) {
     count += 1.0;
   }
   if (count == 0.0) return 0.0;
-  const StiffnessEstimate stiffness = estimate_stiffness(motion, base.path, base.contact, {});
+  const StiffnessEstimate stiffness =
+      estimate_stiffness(motion, base.path, base.contact, {},
+                         base.shape == PathShape::kCurve ? BasePathConfig{}.curve_cutoff_cycles_per_mm : 0.0);
   const double mm_per_N =
       likely_compliance_mm_per_N(stiffness.compliance_mm_per_N, stiffness.compliance_stderr_mm_per_N);
   const double out = 1e-3 * mm_per_N * std::abs(sum_N / count);
