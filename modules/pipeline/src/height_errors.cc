@@ -13,6 +13,7 @@
 #include "asperity/profile/likely_compliance.h"
 #include "asperity/profile/measure_error_floor.h"
 #include "asperity/profile/measure_length_error.h"
+#include "asperity/profile/noise_at_rest.h"
 #include "calibration_crosstalk.h"
 #include "normal_leak.h"
 
@@ -23,7 +24,6 @@ namespace {
 constexpr double kStandingStill_mps = 2e-3;
 constexpr double kDeepest_m = 1e-3;       // of an indentation of which nothing is known; tips are no longer
 constexpr double kLargestLean_rad = 0.7;  // its tangent is a normal error's no more
-constexpr double kCorner_Hz = 1.0;        // of an accelerometer's 1/f noise: such chips have a tenth to ten hertz
 constexpr double kUnstatedScale = 0.01;   // relative error of a calibration that states none
 
 double duration_s(const std::vector<std::int64_t>& t_ns) {
@@ -49,7 +49,9 @@ double indentation_m(const TipMotion& motion, const BasePathResult& base) {
     count += 1.0;
   }
   if (count == 0.0) return 0.0;
-  const StiffnessEstimate stiffness = estimate_stiffness(motion, base.path, base.contact, {});
+  const StiffnessEstimate stiffness =
+      estimate_stiffness(motion, base.path, base.contact, {},
+                         base.shape == PathShape::kCurve ? BasePathConfig{}.curve_cutoff_cycles_per_mm : 0.0);
   const double mm_per_N =
       likely_compliance_mm_per_N(stiffness.compliance_mm_per_N, stiffness.compliance_stderr_mm_per_N);
   const double out = 1e-3 * mm_per_N * std::abs(sum_N / count);
@@ -109,6 +111,26 @@ void add_object(const ObjectMotion& object, const TipMotion& motion, const BaseP
   out.object_slow_time_s = noise.slow_time_s;
 }
 
+// Along the normal, along the path and across it.
+std::vector<AccelerationAtRest> accelerations_at_rest(const TipMotion& motion, const std::vector<double>& normal_mps2,
+                                                      const Eigen::Vector3d& normal, const Eigen::Vector3d& along,
+                                                      const Eigen::Vector3d& gravity_mps2,
+                                                      const Eigen::Vector3d& tracker_m2ps,
+                                                      const Eigen::Vector3d& slow_sigma_m, double lever_m,
+                                                      const HeightErrors& of_height) {
+  std::vector<AccelerationAtRest> out{{normal_mps2, of_height}};
+  for (const Eigen::Vector3d& direction : {along, Eigen::Vector3d(normal.cross(along).normalized())}) {
+    AccelerationAtRest& one = out.emplace_back();
+    one.errors = of_height;
+    one.errors.tracker_psd_m2ps = direction.cwiseAbs2().dot(tracker_m2ps);
+    one.errors.tracker_slow_sigma_m = direction.cwiseProduct(slow_sigma_m).norm();
+    one.errors.force_across_mps2 = gravity_mps2.cross(direction).norm();
+    one.errors.lever_m = lever_m;
+    for (const Eigen::Vector3d& a_mps2 : motion.a_world_tip_mps2) one.accel_mps2.push_back(direction.dot(a_mps2));
+  }
+  return out;
+}
+
 }  // namespace
 
 HeightErrors height_errors(const Recording& recording, const TrajectoryResult& trajectory, const BasePathResult& base) {
@@ -130,7 +152,8 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
   std::vector<double> t_s(n), normal_mps2(n), along_mps2(n), height_m(n);
   Eigen::Vector3d normal_square = Eigen::Vector3d::Zero(), along_square = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal_marker = Eigen::Vector3d::Zero(), mean_normal = Eigen::Vector3d::Zero();
-  std::vector<char> moving(n, 0);
+  Eigen::Vector3d mean_along = Eigen::Vector3d::Zero();
+  std::vector<char> moving(n, 0), resting(n, 0);
   double samples = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Vector3d& normal = base.path.n_world[i];
@@ -140,11 +163,13 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
     normal_mps2[i] = normal.dot(motion.a_world_tip_mps2[i]);
     along_mps2[i] = along.dot(motion.a_world_tip_mps2[i]);
     height_m[i] = normal.dot(motion.p_world_tip_m[i] - base.path.p_world_m[i]);
+    resting[i] = base.contact[i] != 0 && base.speed_mps[i] < kStandingStill_mps ? 1 : 0;
     if (base.contact[i] == 0 || !(base.speed_mps[i] > kStandingStill_mps)) continue;
     moving[i] = 1;
     normal_square += normal.cwiseAbs2();
     mean_normal += normal;
     along_square += along.cwiseAbs2();
+    mean_along += along.dot(mean_along) < 0.0 ? -along : along;
     normal_marker += motion.q_world_marker[i].conjugate() * normal;
     samples += 1.0;
   }
@@ -177,7 +202,6 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
   out.accel_own_psd_m2ps3 = std::min(own_m2ps3, out.accel_psd_m2ps3);
   // Along the path the hand's own motion fills the low frequencies: nothing bounds the noise from above.
   out.along_accel_psd_m2ps3 = white_m2ps3(along_mps2, {}, 0.0);
-  out.accel_corner_Hz = kCorner_Hz;
   out.accel_walk_psd_m2ps5 = 2.0 * std::pow(figure("accel_bias_walk_mps2_rts"), 2);
   out.tracker_slow_sigma_m = std::sqrt(normal_square.dot(axes("tracker_slow_sigma_", "_m").cwiseAbs2()) / samples);
   out.tracker_slow_time_s = figure("tracker_slow_time_s");
@@ -202,6 +226,21 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
   // A normal that is off by φ makes heights too small by 1 − cos φ.
   const double turned = 0.5 * std::pow(base.normal_sigma_deg * std::numbers::pi / 180.0, 2);
   out.scale_sigma = std::hypot(scale_sigma(recording.calibration.accelerometer, normal_marker.normalized()), turned);
+  // The 1/f noise is the sensor's, whatever comes to the white noise with the contact.
+  const double quiet_m2ps3 = std::max(own_m2ps3, 2.0 * std::pow(figure("accel_noise_mps2"), 2) * period_s);
+  const NoiseAtRest at_rest =
+      noise_at_rest(t_s, motion.force_N, resting,
+                    accelerations_at_rest(motion, normal_mps2, mean_normal.normalized(), mean_along.normalized(),
+                                          recording.info.gravity_world_mps2, tracker_psd,
+                                          axes("tracker_slow_sigma_", "_m"), calibration.tip_from_sensor_m.norm(), out),
+                    quiet_m2ps3);
+  if (at_rest.rests_s > 0.0) {
+    const double of_white = quiet_m2ps3 / out.accel_psd_m2ps3;
+    out.accel_corner_Hz = of_white * at_rest.corner_Hz;
+    out.accel_corner_sigma_Hz = of_white * at_rest.corner_sigma_Hz;
+  } else {
+    out.accel_corner_Hz = at_rest.corner_Hz;
+  }
   return out;
 }
 

@@ -182,7 +182,9 @@ Outcome<Compliance> estimate_compliance(const Recording& recording, const Proces
 Outcome<StiffnessEstimate> estimate_stiffness(const ProcessConfig& config, const ProcessStages& before) {
   if (!before.profile.value) return {};
   const BasePathResult& base = *before.base.value;
-  return {asperity::estimate_stiffness(before.trajectory.value->motion, base.path, base.contact, config.stiffness), {}};
+  return {asperity::estimate_stiffness(before.trajectory.value->motion, base.path, base.contact, config.stiffness,
+                                       base.shape == PathShape::kCurve ? config.base.curve_cutoff_cycles_per_mm : 0.0),
+          {}};
 }
 
 Outcome<FrictionEstimate> estimate_friction(const ProcessConfig& config, const ProcessStages& before) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 
 #include "asperity/base/error.h"
 #include "asperity/base/text.h"
@@ -28,6 +29,8 @@ constexpr std::ptrdiff_t kSmoothing = 3;  // bins to either side in the residual
 constexpr double kTaperVariance = 1.0 + 2.0 * 4.0 / 9.0 + 2.0 / 36.0;
 
 constexpr double kBoundSigmas = 1.959963984540054;
+constexpr int kMostWaves = 12;  // polynomials
+constexpr double kSeen = 1e-9;  // of the largest eigenvalue: a movement of the base below it is not seen
 
 struct Bins {
   std::vector<std::complex<double>> height, force;
@@ -93,10 +96,73 @@ Slope regress_bins(const std::vector<Bins>& runs) {
   return out;
 }
 
+// What a base that is fitted to the path takes from a quantity of it: a rigid movement (n·δ and n·(ω × r)), another
+// radius (1), and waves up to `cycles_per_m` of the arc length, as polynomials. One row a sample in contact, of the
+// weight that the base's fit gives it, the way travelled.
+Eigen::MatrixXd base_functions(const BasePath& base, const std::vector<std::size_t>& samples, double cycles_per_m) {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const std::size_t i : samples) middle += base.p_world_m[i] / static_cast<double>(samples.size());
+  double reach_m = 0.0;
+  for (const std::size_t i : samples) reach_m = std::max(reach_m, (base.p_world_m[i] - middle).norm());
+  const double first_m = base.s_m[samples.front()], length_m = base.s_m[samples.back()] - first_m;
+  const int waves = std::min(kMostWaves, static_cast<int>(std::lround(2.0 * cycles_per_m * length_m)));
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(samples.size()), 7 + waves);
+  for (std::size_t row = 0; row < samples.size(); ++row) {
+    const auto r = static_cast<Eigen::Index>(row);
+    const std::size_t i = samples[row];
+    const Eigen::Vector3d& n = base.n_world[i];
+    out.block<1, 3>(r, 0) = n.transpose();
+    out.block<1, 3>(r, 3) = (base.p_world_m[i] - middle).cross(n).transpose() / std::max(reach_m, 1e-9);
+    out(r, 6) = 1.0;
+    // Legendre's, from the second on: the first are in the movement.
+    const double x = length_m > 0.0 ? 2.0 * (base.s_m[i] - first_m) / length_m - 1.0 : 0.0;
+    double before = 1.0, now = x;
+    for (int d = 0; d < waves; ++d) {
+      const double next = ((2.0 * d + 3.0) * x * now - (d + 1.0) * before) / (d + 2.0);
+      out(r, 7 + d) = next;
+      before = now, now = next;
+    }
+  }
+  return out;
+}
+
+// Takes from both what the base's fit takes, so that height and force have lost the same: of a force that rises along
+// the path a fitted base leaves next to nothing in the heights.
+void take_base(const BasePath& base, std::span<const char> contact, double cycles_per_m, std::vector<double>& height_m,
+               std::vector<double>& force_N) {
+  std::vector<std::size_t> samples;
+  for (std::size_t i = 0; i < contact.size(); ++i) {
+    if (contact[i] != 0) samples.push_back(i);
+  }
+  if (samples.size() < 2) return;
+  const Eigen::MatrixXd functions = base_functions(base, samples, cycles_per_m);
+  Eigen::VectorXd weight(functions.rows());
+  Eigen::MatrixXd values(functions.rows(), 2);
+  for (Eigen::Index r = 0; r < functions.rows(); ++r) {
+    const std::size_t i = samples[static_cast<std::size_t>(r)];
+    weight[r] = i > 0 ? std::max(0.0, base.s_m[i] - base.s_m[i - 1]) : 0.0;
+    values(r, 0) = height_m[i];
+    values(r, 1) = force_N[i];
+  }
+  if (!(weight.sum() > 0.0) || !values.allFinite()) return;
+  const Eigen::MatrixXd normal = functions.transpose() * weight.asDiagonal() * functions;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(normal);
+  // What the path does not show is in no fit: a straight stroke does not turn about itself.
+  const double least = kSeen * solver.eigenvalues().maxCoeff();
+  const Eigen::VectorXd inverse = solver.eigenvalues().unaryExpr([&](double e) { return e > least ? 1.0 / e : 0.0; });
+  const Eigen::MatrixXd fit = solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose() *
+                              (functions.transpose() * (weight.asDiagonal() * values));
+  const Eigen::MatrixXd taken = functions * fit;
+  for (std::size_t r = 0; r < samples.size(); ++r) {
+    height_m[samples[r]] -= taken(static_cast<Eigen::Index>(r), 0);
+    force_N[samples[r]] -= taken(static_cast<Eigen::Index>(r), 1);
+  }
+}
+
 }  // namespace
 
 StiffnessEstimate estimate_stiffness(const TipMotion& motion, const BasePath& base, std::span<const char> contact,
-                                     const StiffnessConfig& config) {
+                                     const StiffnessConfig& config, double base_cycles_per_mm) {
   const std::size_t n = motion.size();
   if (base.size() != n || base.s_m.size() != n || base.n_world.size() != n || contact.size() != n ||
       (!motion.force_N.empty() && motion.force_N.size() != n)) {
@@ -114,7 +180,8 @@ StiffnessEstimate estimate_stiffness(const TipMotion& motion, const BasePath& ba
     out.verdict = "no force was measured";
     return out;
   }
-  const std::vector<double> force_N = bridge_gaps(t_s, motion.force_N);
+  std::vector<double> force_N = bridge_gaps(t_s, motion.force_N);
+  take_base(base, contact, 1e3 * base_cycles_per_mm, height_m, force_N);
 
   std::vector<Bins> runs;
   double square = 0.0, travelled_m = 0.0;

@@ -118,6 +118,10 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
   // The same with the sensor's own noise alone.
   HeightErrors own_errors = errors;
   own_errors.accel_psd_m2ps3 = errors.accel_own_psd_m2ps3;
+  // What rests have shown of 1/f noise is the sensor's.
+  const bool slow_is_known = errors.accel_corner_sigma_Hz > 0.0;
+  if (slow_is_known && errors.accel_own_psd_m2ps3 > 0.0)
+    own_errors.accel_corner_Hz *= errors.accel_psd_m2ps3 / errors.accel_own_psd_m2ps3;
   const std::vector<double> own = even_density(own_errors);
   const double own_power = integrate(k, [&](std::size_t i) { return own[i]; });
   HeightErrors upright = errors;
@@ -195,7 +199,14 @@ TextureNoiseEstimate estimate_texture_noise(const Profile& profile, const Height
     noise.misplaced_psd_m2_mm[i] = 1e-6 * misplaced[i];
   }
   const double information = kFisher * duration_s * meeting_Hz(errors.accel_psd_m2ps3, errors.tracker_psd_m2ps);
-  const double relative = std::hypot(added_errors.spread, 1.0 / std::sqrt(std::max(information, kLeastInformation)));
+  double level = 1.0 / std::sqrt(std::max(information, kLeastInformation));
+  if (slow_is_known) {  // it may still be what is known worst
+    HeightErrors more_slow = errors;
+    more_slow.accel_corner_Hz += errors.accel_corner_sigma_Hz;
+    const std::vector<double> more = even_density(more_slow);
+    level = std::max(level, integrate(k, [&](std::size_t i) { return more[i]; }) / even_power - 1.0);
+  }
+  const double relative = std::hypot(added_errors.spread, level);
   const double noise_power = added_power + even_misplaced + measured_power * errors.scale_sigma * errors.scale_sigma;
   noise.place_sigma_m = std::sqrt(drawn.shape_variance_m2);
   const double ends_m2 =

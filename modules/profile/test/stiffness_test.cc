@@ -1,6 +1,12 @@
 #include "asperity/profile/estimate_stiffness.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include <Eigen/Cholesky>
 
 #include "asperity/base/error.h"
 #include "synthetic_path.h"
@@ -84,6 +90,60 @@ TEST(Stiffness, SaysWhatIsMissing) {
   EXPECT_EQ(estimate_stiffness(p.motion, p.base, p.contact, {}).verdict, "no force was measured");
   p.contact.pop_back();
   EXPECT_THROW(estimate_stiffness(p.motion, p.base, p.contact, {}), Error);
+}
+
+// A rest, a stroke of 80 mm over a cylinder of 60 mm radius under a force that rises from 0.5 to 2.5 N, a rest. The
+// base is the circle that fits the path best (Kåsa's fit), as who does not know the cylinder has it: most of the
+// sinking is in its centre and radius.
+Pressed press_round(double stiffness_N_per_m, std::uint64_t seed) {
+  constexpr double kRate_hz = 1000.0, kRadius_m = 0.06, kRest_s = 1.5, kStroke_s = 3.2;
+  SlowNoise drift(0.05e-3, 0.4, kRate_hz, seed), force(0.1, 0.8, kRate_hz, seed + 1000);
+  Pressed out;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (int i = 0; i < static_cast<int>((2.0 * kRest_s + kStroke_s) * kRate_hz); ++i) {
+    const double share = std::clamp((i / kRate_hz - kRest_s) / kStroke_s, 0.0, 1.0);
+    const double angle = 0.08 / kRadius_m * (share - 0.5);
+    const double f = 0.5 + 2.0 * share + force.next();
+    const double height_m = drift.next() - f / stiffness_N_per_m;
+    const Eigen::Vector3d n(std::sin(angle), 0.0, std::cos(angle));
+    out.motion.t_ns.push_back(i * 1'000'000LL);
+    out.motion.p_world_tip_m.push_back((kRadius_m + height_m) * n);
+    out.motion.q_world_marker.push_back(Eigen::Quaterniond::Identity());
+    out.motion.force_N.push_back(f);
+    out.contact.push_back(1);
+    if (share == 0.0 || share == 1.0) continue;
+    const Eigen::Vector3d& p = out.motion.p_world_tip_m.back();
+    const Eigen::Vector3d row(p.x(), p.z(), 1.0);
+    normal += row * row.transpose();
+    right += row * (p.x() * p.x() + p.z() * p.z());
+  }
+  const Eigen::Vector3d circle = normal.ldlt().solve(right);
+  const Eigen::Vector3d centre(0.5 * circle[0], 0.0, 0.5 * circle[1]);
+  const double radius_m = std::sqrt(circle[2] + centre.squaredNorm());
+  for (const Eigen::Vector3d& p : out.motion.p_world_tip_m) {
+    const Eigen::Vector3d n = (p - centre).normalized();
+    const Eigen::Vector3d at = centre + radius_m * n;
+    out.base.s_m.push_back(out.base.p_world_m.empty() ? 0.0
+                                                      : out.base.s_m.back() + (at - out.base.p_world_m.back()).norm());
+    out.base.p_world_m.push_back(at);
+    out.base.n_world.push_back(n);
+  }
+  return out;
+}
+
+TEST(Stiffness, AFittedRoundBaseTakesNoSinkingAway) {
+  constexpr int kRuns = 60;
+  double mean = 0.0, square = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    const Pressed p = press_round(2e3, 300 + static_cast<std::uint64_t>(run));
+    const StiffnessEstimate e = estimate_stiffness(p.motion, p.base, p.contact, {});
+    mean += e.compliance_mm_per_N / kRuns;
+    square += std::pow((e.compliance_mm_per_N - 0.5) / e.compliance_stderr_mm_per_N, 2) / kRuns;
+  }
+  std::printf("%.4f mm/N, error over standard error %.2f\n", mean, std::sqrt(square));
+  EXPECT_NEAR(mean, 0.5, 0.05);
+  EXPECT_LT(std::sqrt(square), 1.5);
 }
 
 }  // namespace

@@ -55,8 +55,13 @@ struct StiffnessEstimate {
 // that regression's with the taper's correlation between neighbours; it is honest for drift of any colour. What
 // the slope is below 0 by is in it too: no surface rises under the force, so that much error was seen. If the slope is
 // not significant, only the lower bound of the stiffness is to be used. A significantly negative one shows that
-// texture dominates the band: nothing is then given. Throws Error if the sizes differ.
+// texture dominates the band: nothing is then given.
+//
+// A base that is fitted to the same path takes part of the sinking with it: a force that rises along a round body is
+// all but in its centre and radius. What the fit can take, rigid movements of the base and its radius, and waves up to
+// `base_cycles_per_mm` where the base is a curve, is therefore taken from both height and force first, by least squares
+// over the way travelled. Throws Error if the sizes differ.
 StiffnessEstimate estimate_stiffness(const TipMotion& motion, const BasePath& base, std::span<const char> contact,
-                                     const StiffnessConfig& config);
+                                     const StiffnessConfig& config, double base_cycles_per_mm = 0.0);
 
 }  // namespace asperity

@@ -29,9 +29,10 @@ struct HeightErrors {
   double along_sigma_m = 0.0;      // of a place along the path, by the motion's covariance; 0: not known
   double length_ends_m = 0.0;      // of the arc length, by the places of its ends (measure_length_error.h)
   // What is not white (height_error_density.h).
-  double accel_corner_Hz = 0.0;       // below it the acceleration's noise grows as 1/f
-  double accel_walk_psd_m2ps5 = 0.0;  // of its offset's random walk: density of the offset's rate
-  double tracker_slow_sigma_m = 0.0;  // of the tracker's slow error along the normal, first order
+  double accel_corner_Hz = 0.0;        // below it the acceleration's noise grows as 1/f
+  double accel_corner_sigma_Hz = 0.0;  // where rests have shown it (noise_at_rest.h)
+  double accel_walk_psd_m2ps5 = 0.0;   // of its offset's random walk: density of the offset's rate
+  double tracker_slow_sigma_m = 0.0;   // of the tracker's slow error along the normal, first order
   double tracker_slow_time_s = 0.0;
   // Of the orientation, rad²/Hz: the tracker's, the gyroscope's (rad/s)²/Hz, or without one that of the angular
   // acceleration; with the specific force across the normal and the lever from sensor to tip, which it turns.
