@@ -2,15 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "feel_fixture.h"
+#include "wait_until_begun.h"
 
 namespace asperity::cli {
 namespace {
@@ -168,9 +171,12 @@ TEST_F(FeelCommands, TimingIsOptIn) {
 }
 
 TEST_F(FeelCommands, AnInterruptedRunLeavesNothing) {
-  const Outcome outcome =
-      run_and_signal({"feel", path("scene"), "--realtime", "--duration", "60s", "--log", path("log.csv")}, SIGINT,
-                     std::chrono::milliseconds(700));
+  const Outcome outcome = run_and_meddle(
+      {"feel", path("scene"), "--realtime", "--duration", "60s", "--log", path("log.csv")}, [&](pid_t process) {
+        EXPECT_TRUE(wait_until_begun(path("log.csv")));
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));  // into the loop
+        ::kill(process, SIGINT);
+      });
   EXPECT_EQ(outcome.code, 130);
   EXPECT_FALSE(fs::exists(path("log.csv")));
   for (const auto& entry : fs::directory_iterator(dir_.path())) {

@@ -80,6 +80,13 @@ LiveProbe::~LiveProbe() {
   ::close(master_);
 }
 
+bool LiveProbe::press(double force_N, int frames, const std::atomic<bool>& done) {
+  force_counts_ = 100.0 * force_N;
+  const std::int64_t last = frames_ + 1 + frames;  // the next one may have been made with the force of before
+  while (frames_ < last && !done) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  return !done;
+}
+
 void LiveProbe::run() {
   const Clock::time_point start = Clock::now();
   std::vector<std::uint8_t> bytes;  // that wait to be sent: the line of a busy host is full, and nothing is lost
@@ -94,6 +101,7 @@ void LiveProbe::run() {
     }
     if (sent % kFramesPerDescription == 0) append_description(bytes);
     add_frame(tick, sent++, std::lround(force_counts_.load()), bytes);
+    ++frames_;
     const ssize_t written = ::write(master_, bytes.data(), bytes.size());
     if (written > 0) {
       bytes.erase(bytes.begin(), bytes.begin() + written);

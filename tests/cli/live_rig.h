@@ -20,7 +20,9 @@ class LiveProbe {
   const std::string& port() const { return port_; }
   // When it last handed bytes to the line, by the host's clock; 0: never.
   std::int64_t delivered_ns() const { return delivered_ns_; }
-  void press(double force_N) { force_counts_ = 100.0 * force_N; }
+  // Returns when so many frames (of 10 ms) with this force are sent, or false when `done`: a busy machine sends them
+  // late.
+  bool press(double force_N, int frames, const std::atomic<bool>& done);
 
  private:
   void run();
@@ -29,6 +31,7 @@ class LiveProbe {
   std::string port_;
   std::atomic<double> force_counts_{0.0};
   std::atomic<std::int64_t> delivered_ns_{0};
+  std::atomic<std::int64_t> frames_{0};
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };

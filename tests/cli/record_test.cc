@@ -129,11 +129,7 @@ TEST(Record, AutoStoresTheTouches) {
   // For as long as it records: on a busy machine it takes seconds to begin.
   std::atomic<bool> done{false};
   std::thread hand([&] {
-    while (!done) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1200));
-      rig.probe.press(1.0);
-      std::this_thread::sleep_for(std::chrono::milliseconds(600));
-      rig.probe.press(0.0);
+    while (rig.probe.press(0.0, 120, done) && rig.probe.press(1.0, 60, done)) {
     }
   });
   const Outcome outcome = run(rig.words({"--auto", "--duration", "6s", "--json", "--set", "recorder.pre_roll_s=0.3",

@@ -2,13 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "asperity/testkit/temp_dir.h"
 #include "run_asperity.h"
+#include "wait_until_begun.h"
 
 namespace asperity::cli {
 namespace {
@@ -268,9 +271,13 @@ TEST_P(Interrupted, LeavesNothingHalfWritten) {
   const auto before = contents(dir / "rec");
   for (const char* target : {"rec", "new"}) {
     const Outcome outcome =
-        run_and_signal({"simulate", "--surface", "sandpaper", "--set", "hand.length_m=9.9", "--set",
+        run_and_meddle({"simulate", "--surface", "sandpaper", "--set", "hand.length_m=9.9", "--set",
                         "hand.path=back_and_forth", "--set", "hand.strokes=2", "-o", (dir / target).string()},
-                       GetParam(), std::chrono::milliseconds(300));
+                       [&](pid_t process) {
+                         EXPECT_TRUE(wait_until_begun(dir / target));
+                         std::this_thread::sleep_for(std::chrono::milliseconds(100));  // into the scan
+                         ::kill(process, GetParam());
+                       });
     EXPECT_EQ(outcome.code, 128 + GetParam());
     if (GetParam() != SIGKILL) {
       EXPECT_THAT(outcome.err, HasSubstr("nothing was written"));

@@ -64,11 +64,14 @@ TEST(RecorderKill, LosesAtMostTheLastFifthOfASecond) {
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0) record(dir / "rec", *witness);
-    while (!witness->ready) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    int status = 0;
+    while (!witness->ready) {
+      ASSERT_EQ(::waitpid(child, &status, WNOHANG), 0) << "it ended before it recorded";
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
     std::this_thread::sleep_for(std::chrono::milliseconds(200 + static_cast<int>(400.0 * random.uniform())));
     const std::int64_t killed_ns = host_now_ns();
     ASSERT_EQ(::kill(child, SIGKILL), 0);
-    int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     ASSERT_TRUE(WIFSIGNALED(status));
 

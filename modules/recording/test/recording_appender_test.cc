@@ -132,7 +132,7 @@ TEST(Append, KilledProcessLeavesAReadableRecording) {
         appender.add(probe_sample(i));
         if (i % 50 == 0) appender.add(tracker_sample(i / 50));
         if (i == 1000) appender.flush();
-        if (i == 1000 && ::write(ready[1], "x", 1) != 1) ::_exit(1);
+        if (i == 3000 && ::write(ready[1], "x", 1) != 1) ::_exit(1);
       }
     } catch (...) {
       ::_exit(1);
@@ -140,7 +140,6 @@ TEST(Append, KilledProcessLeavesAReadableRecording) {
   }
   char byte = 0;
   ASSERT_EQ(::read(ready[0], &byte, 1), 1);
-  ::usleep(20'000);
   ASSERT_EQ(::kill(child, SIGKILL), 0);
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kLongestMessage = 300;
 
-std::string with_message(std::string what, const std::string& message) {
+std::string with_message(const std::string& what, const std::string& message) {
   return message.empty() ? what : what + " (" + printable(message, kLongestMessage) + ")";
 }
 
