@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -64,6 +65,11 @@ class RoughnessCommand : public Command {
 
   int run(const Observer& observer) override {
     if (std::count(files_.begin(), files_.end(), "-") > 1) throw UsageError("standard input (-) can be read once");
+    std::error_code unknown;
+    if (!table_.empty() && !report_.empty() &&
+        std::filesystem::weakly_canonical(table_, unknown) == std::filesystem::weakly_canonical(report_, unknown)) {
+      throw UsageError("--table and --report are one file");
+    }
     if (!table_.empty()) refuse_stranger(table_, kRoughnessCsvBegin, files_);
     if (!report_.empty()) refuse_stranger(report_, kRoughnessHtmlBegin, files_);
     const Json config = config_json(fields());
@@ -76,9 +82,7 @@ class RoughnessCommand : public Command {
       reads(file == "-" ? "" : file);
       try {
         found.push_back(measure_file(file, settings_, config, !report_.empty()));
-      } catch (const UsageError&) {
-        throw;
-      } catch (const Error& error) {
+      } catch (const Error& error) {  // of several files also an option that is of another kind of file
         if (alone) throw;
         failed.push_back({file, with_input(error.what())});
         continue;

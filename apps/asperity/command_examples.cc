@@ -33,8 +33,9 @@ constexpr std::array kExamples{
     Example{"register", "asperity register rec object.obj --mesh-unit mm -o out"},
     Example{"register", "asperity register rec2 object.obj --mesh-unit mm --into out/scene.json"},
     Example{"area", "asperity area out -o patch"},
-    Example{"paint",
-            "asperity paint object.obj --mesh-unit mm --texture wood.texture.json --through 0,0,10;20,0,10 -o painted"},
+    Example{
+        "paint",
+        "asperity paint object.obj --mesh-unit mm --texture wood.texture.json --through \"0,0,10;20,0,10\" -o painted"},
     Example{"feel", "asperity feel out"},
     Example{"export", "asperity export out --to gltf"},
     Example{"export", "asperity export wood.texture.json --to wav"},

@@ -118,6 +118,10 @@ int parse_and_run(Program& program, int argc, char** argv) {
     words.erase(words.begin() + 1);
     const Parser* parser = &program.parser;
     for (std::size_t i = 1; i < words.size(); ++i) {
+      if (i == 1 && (std::string_view(words[i]) == "help" || words[i][0] == '-')) {
+        words.resize(1);  // of help itself: that of the program
+        break;
+      }
       const Parser* below = parser->find(words[i]);
       if (below == nullptr)
         return usage(parser->unknown_word(words[i]), parser == &program.parser ? "" : parser->full_name());

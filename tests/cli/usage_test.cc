@@ -139,7 +139,12 @@ TEST(Usage, ExamplesAreOfCommandsAsTheyAre) {
       EXPECT_TRUE(line.starts_with("  asperity " + command)) << line;
       std::vector<std::string> arguments;
       std::istringstream typed(line.substr(11));
-      for (std::string word; typed >> word;) arguments.push_back(word);
+      // As a shell takes it: what it would take for itself is in quotes.
+      for (std::string word; typed >> word;) {
+        const bool quoted = word.size() > 1 && word.front() == '"' && word.back() == '"';
+        EXPECT_TRUE(quoted || word.find_first_of(";&|<>()$`\\\"'*?[]~#") == std::string::npos) << line;
+        arguments.push_back(quoted ? word.substr(1, word.size() - 2) : word);
+      }
       arguments.emplace_back("--print-config");
       EXPECT_EQ(run(arguments).code, 0) << line;
     }

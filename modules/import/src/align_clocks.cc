@@ -86,6 +86,7 @@ Peak correlation_peak(const std::vector<double>& p, const std::vector<double>& g
     correlation.push_back(c);
   }
   Peak out;
+  if (correlation.empty()) return out;
   const auto best = std::max_element(correlation.begin(), correlation.end()) - correlation.begin();
   out.lag = first + static_cast<long>(best);
   out.correlation = correlation[static_cast<std::size_t>(best)];

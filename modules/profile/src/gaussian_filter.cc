@@ -84,7 +84,8 @@ std::vector<double> gaussian_mean_line_m(std::span<const double> height_m, doubl
   const double alpha = std::sqrt(std::numbers::ln2 / std::numbers::pi);
   // Beyond one cut-off length the weight is below 7e-7 of the centre's.
   const auto reach = static_cast<std::ptrdiff_t>(std::min(std::ceil(cutoff_m / spacing_m), static_cast<double>(n)));
-  if (static_cast<double>(n) * static_cast<double>(reach) > kLongWork)
+  constexpr std::ptrdiff_t kShort = 64;  // summed directly by GaussianMoments too
+  if (reach > kShort && static_cast<double>(n) * static_cast<double>(reach) > kLongWork)
     return mean_line_by_moments(height_m, spacing_m, alpha * cutoff_m);
   std::vector<double> weight(static_cast<std::size_t>(reach) + 1);
   double total = 0.0;

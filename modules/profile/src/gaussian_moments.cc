@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "asperity/signal/spectrum.h"
 
@@ -25,14 +26,20 @@ GaussianMoments::GaussianMoments(std::size_t count, double spacing_m, double wid
   spectrum_ = real_dft(wrapped);
 }
 
+double GaussianMoments::at(std::span<const double> v, std::size_t i) const {
+  const std::size_t first = i < reach_ ? reach_ - i : 0;
+  const std::size_t last = std::min(2 * reach_, count_ - 1 - i + reach_);
+  double sum = 0.0;
+  for (std::size_t k = first; k <= last; ++k) sum += kernel_[k] * v[i + k - reach_];
+  return sum;
+}
+
+double GaussianMoments::total() const { return std::accumulate(kernel_.begin(), kernel_.end(), 0.0); }
+
 std::vector<double> GaussianMoments::of(std::span<const double> v) const {
   std::vector<double> out(count_, 0.0);
   if (spectrum_.empty()) {
-    for (std::size_t i = 0; i < count_; ++i) {
-      const std::size_t first = i < reach_ ? reach_ - i : 0;
-      const std::size_t last = std::min(2 * reach_, count_ - 1 - i + reach_);
-      for (std::size_t k = first; k <= last; ++k) out[i] += kernel_[k] * v[i + k - reach_];
-    }
+    for (std::size_t i = 0; i < count_; ++i) out[i] = at(v, i);
     return out;
   }
   std::vector<double> padded(padded_, 0.0);

@@ -31,6 +31,8 @@ constexpr double kMotion_Hz = 3.0;
 constexpr double kMotionDecades = 3.0;                    // to either side of the white noise
 constexpr int kCorners = 25, kWhites = 7, kMotions = 13;  // of the grid
 
+constexpr double kLongestStep_s = 1.5 / kRate_Hz;
+
 struct Run {
   std::size_t first = 0, last = 0;
 };
@@ -43,7 +45,9 @@ std::vector<Run> find_rests(std::span<const double> t_s, std::span<const char> r
   };
   for (std::size_t first = 0; first < t_s.size();) {
     std::size_t last = first;
-    while (last < t_s.size() && resting[last] != 0) ++last;
+    // A hole in the data ends a rest: cells without a sample would take the next one's.
+    while (last < t_s.size() && resting[last] != 0 && (last == first || t_s[last] - t_s[last - 1] <= kLongestStep_s))
+      ++last;
     if (last > first + 1 && t_s[last - 1] - t_s[first] >= kShortest_s)
       out.push_back({place(t_s[first] + kEnds_s), place(t_s[last - 1] - kEnds_s)});
     first = std::max(last, first + 1);

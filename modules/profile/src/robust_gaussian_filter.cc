@@ -1,5 +1,6 @@
 #include "robust_gaussian_filter.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -14,7 +15,9 @@
 namespace asperity {
 namespace {
 
-constexpr double kNothing = 1e-9;  // sum of weights, of which a sample of full trust has 1 at its place: rounding
+// Part of a whole weight's sum below which the transforms' rounding, which is that of all heights in reach, could
+// decide.
+constexpr double kLittle = 0.05;
 
 // Value at x = 0 of the weighted least-squares parabola with the moments m_k = Σ w x^k and t_k = Σ w x^k z; of lower
 // degree where the samples do not fix one.
@@ -24,7 +27,7 @@ double parabola_at_zero(const std::array<double, 5>& m, const std::array<double,
   if (determinant > 1e-9 * m[0] * m[2] * m[4]) return (a * t[0] + b * t[1] + c * t[2]) / determinant;
   const double line = m[0] * m[2] - m[1] * m[1];
   if (line > 1e-9 * m[0] * m[2]) return (m[2] * t[0] - m[1] * t[1]) / line;
-  return m[0] > kNothing ? t[0] / m[0] : kNan;
+  return m[0] > 0.0 ? t[0] / m[0] : kNan;
 }
 
 }  // namespace
@@ -43,7 +46,9 @@ std::vector<double> robust_gaussian_mean_line_m(std::span<const double> height_m
 
   std::vector<double> line_m(height_m.size(), kNan), trust(height_m.size());
   for (std::size_t i = 0; i < trust.size(); ++i) trust[i] = std::isnan(height_m[i]) ? 0.0 : 1.0;
+  const double least_m = least_biweight_limit(height_m);
   double scale_m = 0.0;
+  std::size_t trusted = 0, trusted_before = 0;
   for (int iteration = 0; iteration < kMostIterations; ++iteration) {
     std::vector<double> weighted_m(n);
     for (std::size_t i = 0; i < n; ++i) weighted_m[i] = trust[i] > 0.0 ? trust[i] * height_m[i] : 0.0;
@@ -51,6 +56,14 @@ std::vector<double> robust_gaussian_mean_line_m(std::span<const double> height_m
     std::array<std::vector<double>, 3> t;
     for (std::size_t k = 0; k < m.size(); ++k) m[k] = moments[k].of(trust);
     for (std::size_t k = 0; k < t.size(); ++k) t[k] = moments[k].of(weighted_m);
+    if (moments[0].by_transforms()) {
+      const double little = kLittle * moments[0].total();
+      for (std::size_t i = 0; i < n; ++i) {
+        if (m[0][i] >= little || std::isnan(height_m[i])) continue;
+        for (std::size_t k = 0; k < m.size(); ++k) m[k][i] = moments[k].at(trust, i);
+        for (std::size_t k = 0; k < t.size(); ++k) t[k][i] = moments[k].at(weighted_m, i);
+      }
+    }
     std::vector<double> residual_m;
     residual_m.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -60,11 +73,15 @@ std::vector<double> robust_gaussian_mean_line_m(std::span<const double> height_m
       residual_m.push_back(std::abs(height_m[i] - line_m[i]));
     }
     const double before_m = scale_m;
-    scale_m = biweight_limit(std::move(residual_m));
-    if (!(scale_m > 0.0) || std::abs(scale_m - before_m) <= kTolerance * scale_m) break;
+    scale_m = std::max(biweight_limit(std::move(residual_m)), least_m);
+    const bool settled = std::abs(scale_m - before_m) <= kTolerance * scale_m;
+    if (!(scale_m > 0.0) || (settled && (scale_m > least_m || trusted == trusted_before))) break;
+    trusted_before = trusted;
+    trusted = 0;
     for (std::size_t i = 0; i < trust.size(); ++i) {
       if (std::isnan(height_m[i])) continue;
       trust[i] = biweight(height_m[i] - line_m[i], scale_m);
+      trusted += trust[i] > 0.0 ? 1 : 0;
     }
   }
   return line_m;

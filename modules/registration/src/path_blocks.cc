@@ -7,15 +7,13 @@ namespace asperity::registration {
 
 namespace {
 
-constexpr double kPerShortest = 4.0;  // points of a block as short as they come
-constexpr double kMostBlocks = 1500.0;
+constexpr double kPerShortest = 4.0;    // points of a block as short as they come
+constexpr double kMostBlocks = 1500.0;  // of a path
 
 }  // namespace
 
 PathBlocks divide_into_blocks(std::span<const MeasuredPath> paths, const PointSet& points, const WeighConfig& config) {
   PathBlocks out;
-  const double length_m = points.size() == 0 ? 0.0 : points.s_m.back();
-  const double shortest_m = std::max(config.memory_m, length_m / kMostBlocks);
   std::size_t begin = 0;
   for (std::size_t p = 0; p < paths.size(); ++p) {
     PathBlocks::Path& path = out.paths.emplace_back();
@@ -26,6 +24,9 @@ PathBlocks divide_into_blocks(std::span<const MeasuredPath> paths, const PointSe
     path.covariance_m2 = known ? C : Eigen::Matrix3d(usual_m * usual_m * Eigen::Matrix3d::Identity());
     std::size_t end = begin;
     while (end < points.size() && points.path[end] == p) ++end;
+    // By the path alone: evidences of several paths together and of each by itself are compared.
+    const double length_m = end > begin ? points.s_m[end - 1] - points.s_m[begin] : 0.0;
+    const double shortest_m = std::max(config.memory_m, length_m / kMostBlocks);
     path.relief = measure_relief(std::span(points.x_m).subspan(begin, end - begin),
                                  std::span(points.s_m).subspan(begin, end - begin), shortest_m);
     path.first = out.blocks.size();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <cctype>
 #include <string>
 
 #include "asperity/base/text.h"
@@ -25,7 +26,8 @@ double size_of_mesh_m(const MeshFile& mesh, double unit_m) {
 
 void refuse_unlikely_metres(const MeshFile& mesh, const std::filesystem::path& file) {
   constexpr double kLargest_m = 5.0, kSmallest_m = 1e-3;
-  const std::string ending = file.extension().string();
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (ending == ".json" || ending == ".glb" || ending == ".gltf") return;
   const double size_m = size_of_mesh_m(mesh, 1.0);
   if (!(size_m > 0.0) || (size_m >= kSmallest_m && size_m <= kLargest_m)) return;

@@ -9,9 +9,9 @@ namespace asperity {
 
 // The corner f₁ of an acceleration's 1/f noise, of A (1 + f₁/f), and what is known of it.
 struct NoiseAtRest {
-  double corner_Hz = 1.0;        // expected value
-  double corner_sigma_Hz = 1.0;  // standard deviation
-  double rests_s = 0.0;          // of the rests that were used; 0: the corner is the assumed one
+  double corner_Hz = 1.0;         // expected value
+  double corner_sigma_Hz = 1.72;  // standard deviation
+  double rests_s = 0.0;           // of the rests that were used; 0: the corner is the assumed one
 };
 
 // The tip's acceleration in one direction, one value a sample, and the errors of a position in it as height_errors.h
