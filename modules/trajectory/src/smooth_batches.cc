@@ -221,7 +221,8 @@ std::vector<double> fit_clock(const std::vector<double>& count, const std::vecto
   double node = 0.0, here = 0.0, next = 0.0;
   std::size_t first = 0, last = 0;
   const auto fit = [&](double x) {
-    while (last < at.size() && at[last] <= x + reach) ++last;
+    // Where no batch ends within reach, the next one counts.
+    while (last < at.size() && (last == first || at[last] <= x + reach)) ++last;
     while (first + 8 < last && at[first] < x - reach) ++first;
     return line_at(std::span(at).subspan(first, last - first), std::span(late).subspan(first, last - first), x);
   };

@@ -114,6 +114,17 @@ void expect_even_clock(const Stamps& stamps) {
 
 TEST(SmoothClock, FindsTheClockBehindBatchesAndKeepsLostSamples) { expect_even_clock(batch_stamps(true)); }
 
+// Eight seconds of even stamps, then batches: at the beginning none ends for long.
+TEST(SmoothClock, BatchesMayBeginLate) {
+  Stamps stamps = batch_stamps(true);
+  const std::int64_t begin_ns = stamps.t_ns.front();
+  std::vector<std::int64_t> even_ns;
+  for (int i = 0; i < 32000; ++i) even_ns.push_back(begin_ns - (32000 - i) * 249'988LL);
+  stamps.t_ns.insert(stamps.t_ns.begin(), even_ns.begin(), even_ns.end());
+  const SmoothClockResult result = smooth_clock(stamps.t_ns, {});
+  EXPECT_NEAR(result.period_s, 1.0 / 4000.2, 1e-3 / 4000.2);
+}
+
 TEST(SmoothClock, FindsTheClockBehindSamplesThatAreStampedTogether) { expect_even_clock(batch_stamps(false)); }
 
 }  // namespace
