@@ -16,7 +16,13 @@ constexpr std::size_t kApart = 100;  // samples: further apart than a batch is l
 constexpr double kTogether = 1.7;    // times as much do stamps so far apart scatter as neighbours; single ones as much
 constexpr double kJump = 0.2;        // of the period: a step so far from a whole number of periods is between batches
 constexpr double kSigmas = 4.0;      // and so many of the steps' own scatter
-constexpr double kFewestJumps = 8;   // of batches, and one step in a hundred
+constexpr double kFewestJumps = 8;   // of batches
+// And this share of the steps. Where stamps scatter within a batch too, only the longest waits stand out of them: one
+// jump in 500 steps is enough if it is not lost samples that are between the stamps. Single stamps with a normal
+// scatter jump in 6 of 100 000 steps.
+constexpr double kJumps_share = 0.01, kFewestJumps_share = 0.002;
+constexpr double kWaitShare = 0.05;  // of the period: smaller waits are no reason to look for batches
+constexpr double kFollow = 0.05;     // of its error, by which the count of periods follows a stamp
 constexpr double kClump = 0.3;       // of the mean step: a median step below it is of samples stamped together
 constexpr double kLook_s = 0.4;      // to either side of a step, whether it was a loss
 constexpr double kLost = 0.6;        // of a period: shift of the least wait
@@ -46,14 +52,32 @@ double common_tick(const std::vector<double>& step_ns) {
   return static_cast<double>(tick);
 }
 
-// The scatter of the steps over kApart samples.
-double scatter_apart(const std::vector<double>& t_ns, double period_ns) {
+// The scatter of the steps over kApart samples, `late_ns` the stamps less a period each.
+double scatter_apart(std::span<const double> late_ns) {
   std::vector<double> far;
-  for (std::size_t i = 0; i + kApart < t_ns.size(); ++i) {
-    far.push_back(t_ns[i + kApart] - t_ns[i] - period_ns * static_cast<double>(kApart));
-  }
+  for (std::size_t i = 0; i + kApart < late_ns.size(); ++i) far.push_back(late_ns[i + kApart] - late_ns[i]);
   if (far.empty()) return 0.0;
   return scatter_about(far, median(far));
+}
+
+std::vector<double> late_by_index(const std::vector<double>& t_ns, double period_ns) {
+  std::vector<double> out;
+  for (const double t : t_ns) out.push_back(t - period_ns * static_cast<double>(out.size()));
+  return out;
+}
+
+// Likewise, lost samples counted as whole periods, from a phase that follows the stamps.
+std::vector<double> late_by_count(const std::vector<double>& t_ns, double period_ns) {
+  std::vector<double> out;
+  double phase_ns = t_ns.front() - period_ns, count = -1.0;
+  for (const double t : t_ns) {
+    const double steps = std::max(1.0, std::round((t - phase_ns) / period_ns));
+    count += steps;
+    phase_ns += steps * period_ns;
+    phase_ns += kFollow * (t - phase_ns);
+    out.push_back(t - period_ns * count);
+  }
+  return out;
 }
 
 // The period by the least waits of stretches: they are far more alike than single ones. The median over neighbouring
@@ -100,7 +124,7 @@ Batches find_batches(const std::vector<double>& t_ns, const std::vector<double>&
   const bool clumped = typical < kClump * mean;
   const double scatter = scatter_about(step_ns, typical);
   if (!clumped && (scatter > kEven * typical || common_tick(step_ns) > kTick * typical ||
-                   scatter_apart(t_ns, typical) < kTogether * scatter)) {
+                   scatter_apart(late_by_index(t_ns, typical)) < kTogether * scatter)) {
     return out;
   }
 
@@ -116,7 +140,13 @@ Batches find_batches(const std::vector<double>& t_ns, const std::vector<double>&
     out.ends[i] = 1;
     jumps += 1.0;
   }
-  if (jumps < std::max(kFewestJumps, 0.01 * static_cast<double>(step_ns.size()))) return out;
+  const auto steps = static_cast<double>(step_ns.size());
+  if (jumps < std::max(kFewestJumps, kFewestJumps_share * steps)) return out;
+  // Lost samples let stamps scatter over many samples as waits do, but by whole periods. With these counted, single
+  // stamps are as far from each other as neighbours are, or by next to nothing if a decoder has made them even.
+  if (!clumped && jumps < kJumps_share * steps &&
+      scatter_apart(late_by_count(t_ns, typical)) < std::max(kTogether * scatter, kWaitShare * typical))
+    return out;
   // The median over long stretches, which a loss here and there leaves as it is; within a batch the host may count back
   // by a nominal period.
   std::vector<std::size_t> last;
@@ -221,7 +251,8 @@ std::vector<double> fit_clock(const std::vector<double>& count, const std::vecto
   double node = 0.0, here = 0.0, next = 0.0;
   std::size_t first = 0, last = 0;
   const auto fit = [&](double x) {
-    while (last < at.size() && at[last] <= x + reach) ++last;
+    // Where no batch ends within reach, the next one counts.
+    while (last < at.size() && (last == first || at[last] <= x + reach)) ++last;
     while (first + 8 < last && at[first] < x - reach) ++first;
     return line_at(std::span(at).subspan(first, last - first), std::span(late).subspan(first, last - first), x);
   };
