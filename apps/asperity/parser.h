@@ -83,7 +83,7 @@ class Parser {
   bool is_parsed() const;                            // this command is on the command line
   std::size_t count(const std::string& name) const;  // how often the option is there
 
-  // What is wrong with a word that is no option or command of this one, and what may have been meant.
+  // The fault of a word that is not an option or a command of this one, with the nearest one.
   std::string unknown_word(const std::string& word) const;
   // The command below this one, or nullptr.
   const Parser* find(const std::string& name) const;

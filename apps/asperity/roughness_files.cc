@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "asperity/base/html_text.h"
 #include "asperity/base/text.h"
 #include "asperity/base/version.h"
 #include "asperity/plot/format_drawing.h"
@@ -40,26 +41,6 @@ std::string text_cell(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";
-}
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
 }
 
 // The SVG element alone: an XML declaration has no place within a page.
@@ -104,9 +85,10 @@ std::string roughness_html(const std::vector<RoughnessFound>& found, const std::
   out += "<p>" + std::to_string(found.size()) + (found.size() == 1 ? " file" : " files") + ", asperity " +
          std::string(kVersion) + ". Values after ± are standard errors.</p>\n";
   for (const RoughnessFailure& failure : failed)
-    out += "<p class=\"failed\">" + escaped(printable(failure.file, 200)) + ": " + escaped(failure.message) + "</p>\n";
+    out +=
+        "<p class=\"failed\">" + html_text(printable(failure.file, 200)) + ": " + html_text(failure.message) + "</p>\n";
   for (const RoughnessFound& one : found) {
-    out += "<h2>" + escaped(printable(one.file, 200)) + "</h2>\n<pre>" + escaped(one.text) + "</pre>\n";
+    out += "<h2>" + html_text(printable(one.file, 200)) + "</h2>\n<pre>" + html_text(one.text) + "</pre>\n";
     if (!one.figure.panels.empty()) out += inline_svg(one.figure) + "\n";
   }
   return out + "</body></html>\n";
