@@ -157,10 +157,12 @@ PathLength measure_run(const PosePath& path, const ContactRun& run, const Smooth
 void measure_own(const PosePath& path, const std::vector<ContactRun>& runs, const TipMotion& motion,
                  const BasePathResult& base, TrackerComparison& out) {
   double variance_m2 = 0.0;
+  // The poses' path is that of the tip as well.
+  const std::vector<double>& s_m = base.tip_s_m.empty() ? base.path.s_m : base.tip_s_m;
   out.length_m = 0.0;
   for (const ContactRun& run : runs) {
     const std::size_t first = sample_at(motion, path.t_s[run.first]), last = sample_at(motion, path.t_s[run.last - 1]);
-    out.length_m += base.path.s_m[last] - base.path.s_m[first];
+    out.length_m += s_m[last] - s_m[first];
     if (motion.cov_world_tip_m2.empty()) continue;
     for (const std::size_t end : {first, last}) {
       const Eigen::Vector3d& n = base.path.n_world[end];

@@ -9,8 +9,6 @@
 #include <Eigen/LU>
 
 #include "asperity/base/units.h"
-#include "asperity/profile/estimate_stiffness.h"
-#include "asperity/profile/likely_compliance.h"
 #include "asperity/profile/measure_error_floor.h"
 #include "asperity/profile/measure_length_error.h"
 #include "asperity/profile/noise_at_rest.h"
@@ -22,7 +20,6 @@ namespace asperity {
 namespace {
 
 constexpr double kStandingStill_mps = 2e-3;
-constexpr double kDeepest_m = 1e-3;       // of an indentation of which nothing is known; tips are no longer
 constexpr double kLargestLean_rad = 0.7;  // its tangent is a normal error's no more
 constexpr double kUnstatedScale = 0.01;   // relative error of a calibration that states none
 
@@ -38,24 +35,6 @@ double scale_sigma(const AccelerometerCalibration& accelerometer, const Eigen::V
   const Eigen::Matrix3d weighted = w.asDiagonal() * accelerometer.standard_errors.leftCols<3>() * n.asDiagonal();
   const double sigma = weighted.norm();
   return std::isfinite(sigma) && sigma > 0.0 ? sigma : kUnstatedScale;
-}
-
-// How deep the tip may be, by the mean force and the compliance that the force's variation shows, as far as it does.
-double indentation_m(const TipMotion& motion, const BasePathResult& base) {
-  double sum_N = 0.0, count = 0.0;
-  for (std::size_t i = 0; i < motion.force_N.size(); ++i) {
-    if (base.contact[i] == 0 || !std::isfinite(motion.force_N[i])) continue;
-    sum_N += motion.force_N[i];
-    count += 1.0;
-  }
-  if (count == 0.0) return 0.0;
-  const StiffnessEstimate stiffness =
-      estimate_stiffness(motion, base.path, base.contact, {},
-                         base.shape == PathShape::kCurve ? BasePathConfig{}.curve_cutoff_cycles_per_mm : 0.0);
-  const double mm_per_N =
-      likely_compliance_mm_per_N(stiffness.compliance_mm_per_N, stiffness.compliance_stderr_mm_per_N);
-  const double out = 1e-3 * mm_per_N * std::abs(sum_N / count);
-  return std::isfinite(out) ? std::min(out, kDeepest_m) : 0.0;
 }
 
 // Samples whose value was replaced by their neighbours' mean.
@@ -178,10 +157,8 @@ HeightErrors height_errors(const Recording& recording, const TrajectoryResult& t
   const Eigen::Vector3d tracker_psd = 2.0 * frame_s * tracker_sigma_m.cwiseAbs2();
   out.tracker_psd_m2ps = normal_square.dot(tracker_psd) / samples;
   out.along_tracker_psd_m2ps = along_square.dot(tracker_psd) / samples;
-  const bool round = base.shape != PathShape::kPlane && base.shape != PathShape::kLine;
-  const LengthErrors length =
-      measure_length_error(motion, base, recording.calibration.tip_in_marker_m, recording.calibration.tip_radius_m,
-                           round ? indentation_m(motion, base) : 0.0);
+  const LengthErrors length = measure_length_error(motion, base, recording.calibration.tip_in_marker_m,
+                                                   recording.calibration.tip_radius_m, base.indentation_sigma_m);
   out.along_scale_sigma = length.scale_sigma;
   // On a mesh a position is that of the nearest point: the level at which the tip goes does not move it.
   if (base.shape != PathShape::kMesh) out.stretch_sigma = length.scale_sigma;

@@ -16,6 +16,7 @@
 #include "asperity/profile/measure_roughness_under_noise.h"
 #include "asperity/profile/measure_surface_spectrum.h"
 #include "asperity/profile/unroll_path.h"
+#include "measure_on_surface.h"
 #include "repeated_lines.h"
 
 namespace asperity::stage {
@@ -112,10 +113,11 @@ Outcome<BasePathResult> find_base_path(const Recording& recording, const Process
     };
     along_normal();
     // Where the contact is another by the force along the normal, so is the path.
-    if (base.force.source == ForceSource::kNone || find_contact(motion, config.base.contact) == base.contact)
-      return base;
-    base = find();
-    along_normal();
+    if (base.force.source != ForceSource::kNone && find_contact(motion, config.base.contact) != base.contact) {
+      base = find();
+      along_normal();
+    }
+    measure_on_surface(motion, config.base, base);
     return base;
   });
   if (out.value) out.problems = out.value->problems;

@@ -15,6 +15,10 @@ double biweight_limit(std::vector<double> distances);
 // none is added.
 double least_biweight_limit(std::span<const double> heights);
 
+// Part of a whole weight's sum below which the rounding of transforms, which is that of all heights in reach, could
+// decide.
+inline constexpr double kLittleTrust = 0.05;
+
 // (1 − (r/c)²)² within |r| < c, else 0.
 double biweight(double distance, double limit);
 

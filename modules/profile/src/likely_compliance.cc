@@ -13,7 +13,7 @@ constexpr int kSteps = 2000;  // 0.35 % each
 
 }  // namespace
 
-double likely_compliance_mm_per_N(double measured_mm_per_N, double stderr_mm_per_N) {
+LikelyCompliance likely_compliance(double measured_mm_per_N, double stderr_mm_per_N) {
   const bool measured = std::isfinite(measured_mm_per_N) && stderr_mm_per_N > 0.0 && std::isfinite(stderr_mm_per_N);
   const auto at = [](int i) {
     const double share = (static_cast<double>(i) + 0.5) / kSteps;
@@ -25,13 +25,15 @@ double likely_compliance_mm_per_N(double measured_mm_per_N, double stderr_mm_per
   // The likeliest has the weight 1: a measurement far beyond the limits is not lost in the smallest numbers.
   double least = half_square(at(0));
   for (int i = 1; i < kSteps; ++i) least = std::min(least, half_square(at(i)));
-  double sum = 0.0, weights = 0.0;
+  double sum = 0.0, squares = 0.0, weights = 0.0;
   for (int i = 0; i < kSteps; ++i) {
     const double c = at(i), weight = std::exp(least - half_square(c));
-    sum += weight * c * c;
+    sum += weight * c;
+    squares += weight * c * c;
     weights += weight;
   }
-  return std::sqrt(sum / weights);
+  const double mean = sum / weights;
+  return {mean, std::sqrt(std::max(0.0, squares / weights - mean * mean))};
 }
 
 }  // namespace asperity

@@ -70,7 +70,8 @@ double along_variance_m2(const TipMotion& motion, std::size_t i, const Eigen::Ve
 }  // namespace
 
 LengthErrors measure_length_error(const TipMotion& motion, const BasePathResult& base,
-                                  const Eigen::Vector3d& tip_in_marker_m, double tip_radius_m, double indentation_m) {
+                                  const Eigen::Vector3d& tip_in_marker_m, double tip_radius_m,
+                                  double indentation_sigma_m) {
   LengthErrors out;
   const std::size_t n = motion.size();
   if (n == 0 || motion.cov_world_tip_m2.size() != n || base.path.size() != n || base.contact.size() != n) return out;
@@ -99,7 +100,7 @@ LengthErrors measure_length_error(const TipMotion& motion, const BasePathResult&
     }
   }
   const double duration_s = static_cast<double>(motion.t_ns[ends.last] - motion.t_ns[ends.first]) * kNanosecond_s;
-  const double level_m = std::hypot(std::hypot(kLevel_m, indentation_m),
+  const double level_m = std::hypot(std::hypot(kLevel_m, indentation_sigma_m),
                                     std::sqrt(mean(normal_m2) / std::max(1.0, kIndependent_Hz * duration_s)));
   const double turned_probe = tip_in_marker_m.norm() > 0.0 ? -turned_marker.dot(tip_in_marker_m.normalized()) : 0.0;
   const double ball_m = tip_radius_m / std::numbers::sqrt3 * (turned_normal - turned_probe);

@@ -27,7 +27,6 @@ struct Power {
 // Of the quadric's terms: 1, x, y, x², xy, y².
 constexpr std::array<Power, 6> kTerms{{{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
 constexpr std::size_t kHighest = 4;  // of the moments: products of two terms
-constexpr double kLittle = 0.05;     // as of the profile's filter
 
 // Weighted least squares of the first `terms` at x = y = 0; nan where the heights do not fix them.
 template <int Terms>
@@ -65,7 +64,7 @@ class ArealMoments {
     for (std::size_t a = 0; a <= kHighest; ++a) of_weights[a] = along_rows(weight, a);
     for (std::size_t a = 0; a < kOfHeights; ++a) of_heights[a] = along_rows(weighted, a);
     const bool by_transforms = along_x_[0].by_transforms() || along_y_[0].by_transforms();
-    const double little = kLittle * along_x_[0].total() * along_y_[0].total();
+    const double little = kLittleTrust * along_x_[0].total() * along_y_[0].total();
     std::vector<double> out(weight.size(), kNan);
     for (std::size_t column = 0; column < columns_; ++column) {
       std::array<std::array<std::vector<double>, kHighest + 1>, kHighest + 1> moment;

@@ -15,10 +15,6 @@
 namespace asperity {
 namespace {
 
-// Part of a whole weight's sum below which the transforms' rounding, which is that of all heights in reach, could
-// decide.
-constexpr double kLittle = 0.05;
-
 // Value at x = 0 of the weighted least-squares parabola with the moments m_k = Σ w x^k and t_k = Σ w x^k z; of lower
 // degree where the samples do not fix one.
 double parabola_at_zero(const std::array<double, 5>& m, const std::array<double, 3>& t) {
@@ -57,7 +53,7 @@ std::vector<double> robust_gaussian_mean_line_m(std::span<const double> height_m
     for (std::size_t k = 0; k < m.size(); ++k) m[k] = moments[k].of(trust);
     for (std::size_t k = 0; k < t.size(); ++k) t[k] = moments[k].of(weighted_m);
     if (moments[0].by_transforms()) {
-      const double little = kLittle * moments[0].total();
+      const double little = kLittleTrust * moments[0].total();
       for (std::size_t i = 0; i < n; ++i) {
         if (m[0][i] >= little || std::isnan(height_m[i])) continue;
         for (std::size_t k = 0; k < m.size(); ++k) m[k][i] = moments[k].at(trust, i);

@@ -86,6 +86,11 @@ struct BasePathResult {
   double probe_tilt_deg = 0.0;    // mean angle between the probe's axis and the normal
   double base_rms_m = 0.0;        // of the path's 10 mm means from the base shape
   double length_m = 0.0;
+  // Of a base on which lengths are those of the unloaded surface, not of the tip's path below it: how deep the tip went
+  // on average, its standard deviation, and the arc length along its path (empty: path.s_m is that).
+  double indentation_m = 0.0;
+  double indentation_sigma_m = 0.0;
+  std::vector<double> tip_s_m;
   NormalForce force;  // along n_world, without the values, which the motion has; nothing if it was not asked for
   Problems problems;
 };

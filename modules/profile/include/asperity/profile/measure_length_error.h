@@ -17,10 +17,11 @@ struct LengthErrors {
 // `ends_m`: by the motion's covariance along the path at the ends of the rests, less the share of the tip's place in
 // the marker, which is one error of all samples. `scale_sigma`, over the length: that one error, δ in the marker, moves
 // the length by (Σ ΔRᵀt)·δ; the normals turn along the path by Θ (an arc's length over its radius), and what is not
-// known of the level at which the tip goes changes it by Θ times that: `indentation_m`, 0.1 mm of the relief's own
-// level, and the normal error of the path; and the ball's radius r over √3 times the angle by which the probe turns
+// known of the level at which the tip goes changes it by Θ times that: `indentation_sigma_m`, 0.1 mm of the relief's
+// own level, and the normal error of the path; and the ball's radius r over √3 times the angle by which the probe turns
 // less than the normals, for it rolls. Steps of 1 mm. Zeros without a covariance.
 LengthErrors measure_length_error(const TipMotion& motion, const BasePathResult& base,
-                                  const Eigen::Vector3d& tip_in_marker_m, double tip_radius_m, double indentation_m);
+                                  const Eigen::Vector3d& tip_in_marker_m, double tip_radius_m,
+                                  double indentation_sigma_m);
 
 }  // namespace asperity
