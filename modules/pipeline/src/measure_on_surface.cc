@@ -21,8 +21,8 @@ void measure_on_surface(const TipMotion& motion, const BasePathConfig& config, B
   if (motion.force_N.size() != base.path.size()) return;
   const StiffnessEstimate stiffness = estimate_stiffness(
       motion, base.path, base.contact, {}, base.shape == PathShape::kCurve ? config.curve_cutoff_cycles_per_mm : 0.0);
-  const LikelyCompliance compliance =
-      likely_compliance(stiffness.compliance_mm_per_N, stiffness.compliance_stderr_mm_per_N);
+  const LikelyCompliance compliance = likely_compliance(
+      stiffness.compliance_mm_per_N, stiffness.compliance_stderr_mm_per_N, stiffness.degrees_of_freedom);
 
   std::vector<double> indentation_m(motion.force_N.size(), 0.0);
   double sum_N = 0.0, sum_m = 0.0, count = 0.0;

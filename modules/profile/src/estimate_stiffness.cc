@@ -50,6 +50,7 @@ std::vector<double> without_line(std::vector<double> x) {
 struct Slope {
   double compliance = 0.0;  // m/N
   double variance = std::numeric_limits<double>::infinity();
+  double degrees_of_freedom = std::numeric_limits<double>::infinity();
 };
 
 // Weighted least squares of -height on force, the weights from the residual's spectrum, iterated.
@@ -90,6 +91,8 @@ Slope regress_bins(const std::vector<Bins>& runs) {
     if (!(power > 0.0)) return out;
     out.compliance = cross / power;
   }
+  // Each independent frequency has two parts, of which the weights, local means of the same residuals, take one.
+  out.degrees_of_freedom = static_cast<double>(bins) / kTaperVariance;
   // Half the noise power of a bin lies along the force's phase; one parameter was fitted to `bins` of them.
   const double lost = 1.0 + 1.0 / (static_cast<double>(bins) / kTaperVariance);
   out.variance = 0.5 * kTaperVariance * lost / power;
@@ -249,6 +252,7 @@ StiffnessEstimate estimate_stiffness(const TipMotion& motion, const BasePath& ba
   sigma = std::hypot(sigma, std::min(slope.compliance, 0.0));
   out.compliance_mm_per_N = 1e3 * slope.compliance;
   out.compliance_stderr_mm_per_N = 1e3 * sigma;
+  out.degrees_of_freedom = slope.degrees_of_freedom;
   out.lower_bound_N_per_mm = 1e-3 / (std::max(slope.compliance, 0.0) + kBoundSigmas * sigma);
   out.measured = slope.compliance > config.significance * sigma;
   if (out.measured) {

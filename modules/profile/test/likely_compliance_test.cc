@@ -39,6 +39,15 @@ TEST(LikelyCompliance, OfNoneSeenIsBelowItsStandardError) {
   EXPECT_NEAR(c.sigma_mm_per_N, std::sqrt(square - mean * mean), 0.005 * sigma);
 }
 
+// Values by another integration (SciPy's quad over ln c of stats.t.pdf).
+TEST(LikelyCompliance, AnUncertainStandardErrorHasLongTails) {
+  const LikelyCompliance seen = likely_compliance(0.3, 0.1, 4.0), unseen = likely_compliance(0.05, 0.08, 6.0);
+  EXPECT_NEAR(seen.mean_mm_per_N, 0.211902, 1e-4);
+  EXPECT_NEAR(seen.sigma_mm_per_N, 0.142493, 1e-4);
+  EXPECT_NEAR(unseen.mean_mm_per_N, 0.033701, 1e-4);
+  EXPECT_NEAR(unseen.sigma_mm_per_N, 0.045048, 1e-4);
+}
+
 TEST(LikelyCompliance, BeyondTheLimitsIsAtTheLimit) {
   EXPECT_NEAR(likely_compliance(-3.0, 0.01).mean_mm_per_N, 1e-3, 1e-3);
   EXPECT_NEAR(likely_compliance(50.0, 0.1).mean_mm_per_N, 1.0, 0.01);

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kTimes = 3;  // that the moving mean is taken off
 constexpr double kLongest = 2.5;   // block, and the moving mean, over the shortest block
+constexpr double kBlocks = 4.0;    // of the longest in what the moving means leave: fewer are alike by chance
 
 template <class T>
 std::vector<T> running_sums(const std::vector<T>& x, T zero) {
@@ -72,7 +73,9 @@ ReliefScale measure_relief(std::span<const Eigen::Vector3d> x_m, std::span<const
   const double shortest = shortest_m / spacing_m;
   if (!(shortest >= kFewest)) return out;
   const auto half = static_cast<std::size_t>(std::lround(0.5 * kLongest * shortest));
-  if (x_m.size() < (4 * kTimes + 2) * half) return out;
+  if (static_cast<double>(x_m.size()) < static_cast<double>(4 * kTimes * half) + kBlocks * kLongest * shortest) {
+    return out;
+  }
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
   const std::vector<Eigen::Vector3d> r_m =
       without_bends(std::vector<Eigen::Vector3d>(x_m.begin(), x_m.end()), half, zero);

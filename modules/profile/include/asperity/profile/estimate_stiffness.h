@@ -37,7 +37,8 @@ struct StiffnessEstimate {
       std::numeric_limits<double>::quiet_NaN();  // likewise, with the lower one 95 %; if measured
   double compliance_mm_per_N = std::numeric_limits<double>::quiet_NaN();
   double compliance_stderr_mm_per_N = std::numeric_limits<double>::quiet_NaN();
-  double force_rms_N = 0.0;  // of the force's variation in the band
+  double degrees_of_freedom = std::numeric_limits<double>::infinity();  // of that standard error
+  double force_rms_N = 0.0;                                             // of the force's variation in the band
   double band_high_hz = 0.0;
   double used_s = 0.0;
   std::string verdict;  // in words

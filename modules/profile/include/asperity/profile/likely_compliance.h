@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 namespace asperity {
 
 // A contact's compliance, mm/N: mean and standard deviation.
@@ -12,9 +14,11 @@ struct LikelyCompliance {
 // are known beforehand: c is positive, and its logarithm has a uniform prior (Jeffreys's for a scale) between the
 // hardest contact of a tip on an object, 1000 N/mm, and the softest, 1 N/mm:
 //
-//   E[cⁿ] = ∫ cⁿ exp(−(c − measured)²/(2 stderr²)) d(ln c) / ∫ exp(−(c − measured)²/(2 stderr²)) d(ln c).
+//   E[cⁿ] = ∫ cⁿ p((c − measured)/stderr) d(ln c) / ∫ p((c − measured)/stderr) d(ln c),
 //
+// p being Student's distribution with the degrees of freedom that the standard error has, infinity for a known one.
 // A precise measurement stays what it is; without one (not finite) it is the prior's 0.145 ± 0.227 mm/N.
-LikelyCompliance likely_compliance(double measured_mm_per_N, double stderr_mm_per_N);
+LikelyCompliance likely_compliance(double measured_mm_per_N, double stderr_mm_per_N,
+                                   double degrees_of_freedom = std::numeric_limits<double>::infinity());
 
 }  // namespace asperity
