@@ -22,8 +22,8 @@ struct ReliefScale {
 //   r = (1 − M²)³ x,  M the moving mean over 2.5 `shortest_m`:
 // waves of five times that length are left with 0.002 of their height, those of a period with 0.9 and more. Edges of
 // the object are left in r; so of a relief without a period the RMS is not stated. Points of one path, about evenly
-// spaced; with fewer than four a shortest block, or on a path of less than 25 shortest blocks, on which means are alike by
-// chance, nothing is concluded: the shortest, and a relief of 0.
+// spaced; with fewer than four a shortest block, or on a path of less than 25 shortest blocks, on which means are alike
+// by chance, nothing is concluded: the shortest, and a relief of 0.
 ReliefScale measure_relief(std::span<const Eigen::Vector3d> x_m, std::span<const double> s_m, double shortest_m);
 
 }  // namespace asperity::registration
