@@ -35,6 +35,10 @@ Json base_json(const BasePathResult& base) {
   if (base.shape == PathShape::kCircle || base.shape == PathShape::kCurve) {
     out["lean_deg"] = base.lean_rad * 180.0 / std::numbers::pi;
   }
+  if (!base.tip_s_m.empty()) {
+    out["indentation_m"] = base.indentation_m;
+    out["indentation_stderr_m"] = base.indentation_sigma_m;
+  }
   out["normal_sigma_deg"] = base.normal_sigma_deg;
   out["probe_tilt_deg"] = base.probe_tilt_deg;
   out["base_rms_m"] = base.base_rms_m;

@@ -140,6 +140,12 @@ TEST(JudgeScan, NamesEachFaultByItsCode) {
          e.expected_correlation = 0.89;
          e.at_most_m = 92e-6;
        }},
+      {"below_noise", "at most 92 µm RMS",
+       [](ScanEvidence& e) {
+         e.snr = 0.0;  // of a typical stretch
+         e.expected_correlation = 0.95;
+         e.at_most_m = 92e-6;
+       }},
       {"noisy_texture", "50 µm RMS 19 µm",
        [](ScanEvidence& e) {
          e.snr = 1.4;
